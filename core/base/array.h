@@ -1,0 +1,120 @@
+#pragma once
+/// Growing arrays for big models: elements start uninitialised, blocks above 4 MB come from the kernel with huge
+/// pages advised (first touch of memory, not arithmetic, bounds big models), and every byte is charged to the
+/// purse of the request before it is allocated. Move-only; not safe for use from two threads at once.
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+#include "core/base/job.h"
+
+namespace seedmesh {
+
+/// Raw storage charged to a purse. Grows in place where the kernel can (mremap).
+class Block {
+ public:
+  Block() = default;
+  explicit Block(std::shared_ptr<Purse> purse) : purse_(std::move(purse)) {}
+  Block(Block&& other) noexcept;
+  Block& operator=(Block&& other) noexcept;
+  Block(const Block&) = delete;
+  Block& operator=(const Block&) = delete;
+  ~Block();
+
+  /// Changes the size to `bytes`, keeping what fits. Throws Stop before the purse is passed.
+  void resize(std::size_t bytes);
+
+  std::byte* data() const { return data_; }
+  std::size_t size() const { return size_; }
+  const std::shared_ptr<Purse>& purse() const { return purse_; }
+
+ private:
+  std::shared_ptr<Purse> purse_;
+  std::byte* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+template <class T>
+class Array {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  using value_type = T;
+
+  Array() = default;  ///< empty and not charged to anybody; can only stay empty or be assigned to
+  explicit Array(const Job& job) : block_(job.purse()) {}
+  Array(const Job& job, std::size_t size) : block_(job.purse()) { resize(size); }
+  Array(const Job& job, std::size_t size, const T& value) : block_(job.purse()) {
+    resize(size);
+    for (T& each : *this) each = value;
+  }
+  Array(Array&& other) noexcept : block_(std::move(other.block_)), size_(std::exchange(other.size_, 0)) {}
+  Array& operator=(Array&& other) noexcept {
+    block_ = std::move(other.block_);
+    size_ = std::exchange(other.size_, 0);
+    return *this;
+  }
+
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  std::size_t capacity() const { return block_.size() / sizeof(T); }
+  std::size_t bytes() const { return size_ * sizeof(T); }
+
+  T* data() { return reinterpret_cast<T*>(block_.data()); }
+  const T* data() const { return reinterpret_cast<const T*>(block_.data()); }
+  T* begin() { return data(); }
+  T* end() { return data() + size_; }
+  const T* begin() const { return data(); }
+  const T* end() const { return data() + size_; }
+  T& operator[](std::size_t i) { return data()[i]; }
+  const T& operator[](std::size_t i) const { return data()[i]; }
+  T& back() { return data()[size_ - 1]; }
+  const T& back() const { return data()[size_ - 1]; }
+  std::span<T> span() { return {data(), size_}; }
+  std::span<const T> span() const { return {data(), size_}; }
+  operator std::span<const T>() const { return span(); }
+
+  /// Exact: no slack beyond what is asked for.
+  void reserve(std::size_t capacity) {
+    if (capacity > this->capacity()) block_.resize(capacity * sizeof(T));
+  }
+  /// New elements are uninitialised.
+  void resize(std::size_t size) {
+    reserve(size);
+    size_ = size;
+  }
+  /// Gives memory beyond size() back.
+  void shrink_to_fit() { block_.resize(size_ * sizeof(T)); }
+  void clear() { size_ = 0; }
+
+  void push_back(const T& value) {
+    const T copy = value;
+    if (size_ == capacity()) grow(size_ + 1);
+    data()[size_++] = copy;
+  }
+  void pop_back() { --size_; }
+  /// Appends `count` uninitialised elements and returns where they start.
+  T* extend(std::size_t count) {
+    if (size_ + count > capacity()) grow(size_ + count);
+    T* first = data() + size_;
+    size_ += count;
+    return first;
+  }
+  void append(std::span<const T> values) {
+    if (!values.empty()) std::memcpy(extend(values.size()), values.data(), values.size() * sizeof(T));
+  }
+
+ private:
+  void grow(std::size_t least) {
+    const std::size_t doubled = capacity() + capacity() / 2 + 16;
+    block_.resize((least > doubled ? least : doubled) * sizeof(T));
+  }
+
+  Block block_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace seedmesh

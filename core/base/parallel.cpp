@@ -1,0 +1,61 @@
+#include "core/base/parallel.h"
+
+#include <algorithm>
+
+#if defined(SEEDMESH_STD_THREADS)
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+#else
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#endif
+
+namespace seedmesh {
+namespace {
+
+#if defined(SEEDMESH_STD_THREADS)
+void run(int threads, std::size_t chunks, const std::function<void(std::size_t)>& each) {
+  std::atomic<std::size_t> next{0};
+  std::exception_ptr failure;
+  std::mutex mutex;
+  auto work = [&] {
+    for (std::size_t i = next++; i < chunks; i = next++) {
+      try {
+        each(i);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::current_exception();
+        next = chunks;
+      }
+    }
+  };
+  std::vector<std::jthread> pool;
+  for (int i = 1; i < threads; ++i) pool.emplace_back(work);
+  work();
+  pool.clear();
+  if (failure) std::rethrow_exception(failure);
+}
+#else
+void run(int threads, std::size_t chunks, const std::function<void(std::size_t)>& each) {
+  tbb::task_arena arena(threads);
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, chunks, each, tbb::simple_partitioner()); });
+}
+#endif
+
+}  // namespace
+
+void parallel_for(const Job& job, std::size_t count, std::size_t chunk,
+                  const std::function<void(std::size_t, std::size_t, std::size_t)>& body) {
+  const std::size_t chunks = chunk_count(count, chunk);
+  const auto each = [&](std::size_t i) { body(i * chunk, std::min(count, (i + 1) * chunk), i); };
+  if (job.threads() <= 1 || chunks <= 1) {
+    for (std::size_t i = 0; i < chunks; ++i) each(i);
+  } else {
+    run(job.threads(), chunks, each);
+  }
+}
+
+}  // namespace seedmesh

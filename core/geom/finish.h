@@ -1,0 +1,11 @@
+#pragma once
+/// The list of steps that every model goes through between its generator and the writer.
+#include "core/model/model.h"
+
+namespace seedmesh {
+
+/// In order: drops empty meshes, orders triangles for the vertex cache where the maker did not, narrows indices, sets
+/// bounds, replaces -0 by 0, names what has no name (unique names for nodes, meshes, materials).
+void finish(Model& model, Job& job);
+
+}  // namespace seedmesh

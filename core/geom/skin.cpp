@@ -1,0 +1,1 @@
+#include "core/geom/skin.h"

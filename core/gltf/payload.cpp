@@ -1,0 +1,1 @@
+#include "core/gltf/payload.h"

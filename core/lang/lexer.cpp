@@ -1,0 +1,1 @@
+#include "core/lang/lexer.h"

@@ -1,0 +1,94 @@
+#include "core/model/model.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+
+#include "core/base/math.h"
+
+namespace seedmesh {
+namespace {
+
+std::uint64_t bytes_of(const Mesh& mesh) {
+  std::uint64_t bytes = mesh.position.bytes() + mesh.normal.bytes() + mesh.color.bytes() + mesh.tangent.bytes() +
+                        mesh.joints.bytes() + mesh.weights.bytes() + mesh.index.wide.bytes() + mesh.index.small.bytes();
+  for (const auto& uv : mesh.uv) bytes += uv.bytes();
+  return bytes;
+}
+
+glm::mat4 matrix_of(const Transform& t) {
+  glm::mat4 matrix = glm::mat4_cast(t.rotation);
+  for (int axis = 0; axis < 3; ++axis) matrix[axis] *= t.scale[axis];
+  matrix[3] = glm::vec4(t.translation, 1);
+  return matrix;
+}
+
+void grow(Box& box, const glm::mat4& matrix, const Box& part) {
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 local{(corner & 1) ? part.max.x : part.min.x, (corner & 2) ? part.max.y : part.min.y,
+                          (corner & 4) ? part.max.z : part.min.z};
+    const glm::vec3 p = glm::vec3(matrix * glm::vec4(local, 1));
+    box.min = glm::min(box.min, p);
+    box.max = glm::max(box.max, p);
+  }
+}
+
+}  // namespace
+
+ModelCounts count(const Model& model) {
+  ModelCounts counts;
+  for (const MeshGroup& group : model.meshes) {
+    for (const Primitive& primitive : group.primitives) {
+      counts.vertices += primitive.mesh.position.size();
+      counts.bytes += bytes_of(primitive.mesh);
+    }
+  }
+  for (const Node& node : model.nodes) {
+    if (node.mesh < 0) continue;
+    const std::uint64_t times = std::max<std::size_t>(1, node.instances.transforms.size());
+    for (const Primitive& primitive : model.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+      const std::uint64_t elements = primitive.mesh.elements() * times;
+      switch (primitive.mesh.topology) {
+        case Topology::triangles: counts.triangles += elements; break;
+        case Topology::lines: counts.lines += elements; break;
+        case Topology::points: counts.points += elements; break;
+      }
+    }
+  }
+  return counts;
+}
+
+Box bounds_of(const Model& model) {
+  constexpr float huge = std::numeric_limits<float>::max();
+  Box box{glm::vec3(huge), glm::vec3(-huge)};
+  std::vector<glm::mat4> world(model.nodes.size());
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const Node& node = model.nodes[i];
+    world[i] = matrix_of(node.transform);
+    if (node.parent >= 0) world[i] = world[static_cast<std::size_t>(node.parent)] * world[i];
+    if (node.mesh < 0) continue;
+    for (const Primitive& primitive : model.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+      if (primitive.mesh.position.empty()) continue;
+      const Box part = bounds_of(primitive.mesh.position.span());
+      if (node.instances.transforms.empty()) grow(box, world[i], part);
+      for (const Transform& t : node.instances.transforms) grow(box, world[i] * matrix_of(t), part);
+    }
+  }
+  return box.min.x > box.max.x ? Box{} : box;
+}
+
+float linear_of_srgb(std::uint8_t value) {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> made{};
+    for (int i = 0; i < 256; ++i) {
+      const double c = i / 255.0;
+      made[static_cast<std::size_t>(i)] =
+          static_cast<float>(c <= 0.04045 ? c / 12.92 : math::pow((c + 0.055) / 1.055, 2.4));
+    }
+    return made;
+  }();
+  return table[value];
+}
+
+}  // namespace seedmesh
