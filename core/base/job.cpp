@@ -73,6 +73,8 @@ void Job::refuse(std::string message, std::string pointer) {
   throw Stop(Code::limit, {std::move(pointer), std::move(message)});
 }
 
+void Job::reject(Issue issue) { throw Stop(Code::invalid, std::move(issue)); }
+
 void Meter::refill(std::uint64_t amount) {
   // The last units before the limit are handed out one by one, so that a limit of N lets exactly N through.
   const std::uint64_t limit = limit_of(job_->limits(), resource_).value;

@@ -97,6 +97,9 @@ class Job {
   /// Refuses with a limit of the caller's own wording; for limits that are no Resource (depth, iterations).
   [[noreturn]] static void refuse(std::string message, std::string pointer = "");
 
+  /// Refuses the request itself (Code::invalid) for a fault that shows only while it runs, as a division by zero.
+  [[noreturn]] static void reject(Issue issue);
+
  private:
   struct State {
     State(Options given) : options(std::move(given)), purse(std::make_shared<Purse>(options.limits.memory_bytes)) {}

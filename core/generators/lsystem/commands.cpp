@@ -1,0 +1,52 @@
+#include "core/generators/lsystem/commands.h"
+
+namespace seedmesh::lsystem {
+namespace {
+
+constexpr CommandRow rows[] = {
+    {"F", Command::draw, "[(length)]", 0, 1,
+     "Moves forward and draws an internode; between braces sets a polygon vertex instead. Bare: by `step`.", "F(2)"},
+    {"f", Command::move, "[(length)]", 0, 1, "Moves forward without drawing; between braces sets a polygon vertex.",
+     "Ff(0.5)F"},
+    {"G", Command::draw_plain, "[(length)]", 0, 1,
+     "Moves forward and draws an internode; between braces moves only and sets no vertex.", "G(2)"},
+    {"g", Command::move_plain, "[(length)]", 0, 1, "Moves forward, draws nothing and sets no vertex.", "Fg(1)F"},
+    {"+", Command::left, "[(degrees)]", 0, 1, "Turns left, about up.", "F+(30)F"},
+    {"-", Command::right, "[(degrees)]", 0, 1, "Turns right, about up.", "F-(30)F"},
+    {"&", Command::down, "[(degrees)]", 0, 1, "Pitches down, about left.", "F&(30)F"},
+    {"^", Command::up, "[(degrees)]", 0, 1, "Pitches up, about left.", "F^(30)F"},
+    {"\\", Command::roll_left, "[(degrees)]", 0, 1, "Rolls left, about heading.", "F\\(30)+F"},
+    {"/", Command::roll_right, "[(degrees)]", 0, 1, "Rolls right, about heading.", "F/(30)+F"},
+    {"|", Command::turn_around, "", 0, 0, "Turns around by 180 degrees, about up.", "F+(20)|F"},
+    {"$", Command::upright, "", 0, 0, "Rolls about heading until left is horizontal and up points as high as it can.",
+     "&(30)/(40)$F"},
+    {"@v", Command::upright, "", 0, 0, "The same as $.", "&(30)/(40)@vF"},
+    {"[", Command::push, "", 0, 0, "Opens a branch: remembers the turtle.", "F[+F]F"},
+    {"]", Command::pop, "", 0, 0, "Closes a branch: the turtle goes back to where the branch opened.", "F[-F]F"},
+    {"{", Command::polygon_open, "", 0, 0, "Opens a filled polygon; polygons may nest and may cross branches.",
+     "{.f+(120)f+(120)f}"},
+    {"}", Command::polygon_close, "", 0, 0, "Closes the polygon opened last.", "{.f+(90)f+(90)f}"},
+    {".", Command::vertex, "", 0, 0, "Sets a vertex of the open polygon here.", "{.g.+(90)g.}"},
+    {"!", Command::width_down, "[(width)]", 0, 1, "Sets the width, or bare: takes `width_decrement` off it.", "!(0.2)F"},
+    {"#", Command::width_up, "[(width)]", 0, 1, "Sets the width, or bare: adds `width_decrement` to it.", "#(0.2)F"},
+    {"'", Command::color_next, "", 0, 0, "Goes to the next colour index.", "F'F"},
+    {";", Command::color_up, "[(index)]", 0, 1, "Sets the colour index, or bare: adds 1.", ";(2)F"},
+    {",", Command::color_down, "[(index)]", 0, 1, "Sets the colour index, or bare: takes 1 off.", ";(2)F,F"},
+    {"%", Command::cut, "", 0, 0, "Cuts the rest of its branch away in the step after it was written.", "F[+F%F]F"},
+    {"@M", Command::move_to, "(x,y,z)", 3, 3, "Moves to a point, in metres from the start, without drawing.",
+     "@M(1,0,0)F"},
+    {"@R", Command::set_heading, "(x,y,z)", 3, 3, "Sets the heading and rolls upright.", "@R(1,1,0)F"},
+};
+
+}  // namespace
+
+std::span<const CommandRow> commands() { return rows; }
+
+Command command_of(std::string_view symbol, std::uint32_t arity) {
+  for (const CommandRow& row : rows) {
+    if (row.symbol == symbol && arity >= row.least) return row.command;
+  }
+  return Command::none;
+}
+
+}  // namespace seedmesh::lsystem

@@ -1,0 +1,45 @@
+#pragma once
+/// Words -> turtle: every module moves the turtle, through the interpretation rules where it has some.
+#include <vector>
+
+#include "core/generators/lsystem/choose.h"
+#include "core/geom/turtle.h"
+#include "generated/params/lsystem.h"
+
+namespace seedmesh::lsystem {
+
+/// The sink of a derivation that draws. Spreads draw at the module's own place.
+class Drawing {
+ public:
+  /// `skeleton` null: measures only.
+  Drawing(const Grammar& grammar, const LsystemParams& params, Skeleton* skeleton, Job& job);
+
+  /// True when somebody draws at random by the modules' keys, so that the derivation must make them.
+  static bool needs_keys(const Grammar& grammar, const LsystemParams& params);
+
+  void module(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t step);
+
+  const Turtle& turtle() const { return turtle_; }
+
+ private:
+  struct Angle {
+    double degrees;
+    math::SinCos bare;  ///< of `degrees`
+  };
+  void interpret(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t depth);
+  void obey(const Kind& kind, const double* parameters, std::uint64_t key);
+  math::SinCos turn(const Kind& kind, const double* parameters, const Angle& angle, std::uint64_t key);
+  double length(const Kind& kind, const double* parameters, std::uint64_t key) const;
+  void set_width(const Kind& kind, const double* parameters, double change);
+
+  const Grammar& grammar_;
+  const LsystemParams& params_;
+  Job& job_;
+  Turtle turtle_;
+  Angle yaw_, pitch_, roll_;
+  double last_degrees_ = 0;        ///< angles given as arguments mostly repeat
+  math::SinCos last_{0, 1};
+  std::uint64_t interpreted_ = 0;
+};
+
+}  // namespace seedmesh::lsystem

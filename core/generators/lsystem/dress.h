@@ -1,0 +1,14 @@
+#pragma once
+/// Skeleton -> Model: bark or lines, surfaces, materials.
+#include "core/generators/appraisal.h"
+#include "core/geom/limbs.h"
+#include "generated/params/lsystem.h"
+
+namespace seedmesh::lsystem {
+
+Model dress(Skeleton skeleton, const LsystemParams& params, Job& job);
+
+/// Size of a model of so many drawn segments.
+Estimate estimate_of(std::uint64_t segments, const LsystemParams& params);
+
+}  // namespace seedmesh::lsystem

@@ -1,0 +1,83 @@
+#pragma once
+/// Derivation without the word: a context-free system is rewritten depth first, module by module, straight into whoever
+/// reads the result. Memory grows with the number of steps, not with the length of the word. Keys by place make the
+/// result equal to that of rewriting the whole word step by step.
+#include <vector>
+
+#include "core/generators/lsystem/choose.h"
+
+namespace seedmesh::lsystem {
+
+/// Sink: void module(KindId, const double* parameters, std::uint64_t key, std::uint32_t step): called in the order of the word;
+/// `step` is the derivation step that wrote the module (0: it stood in the axiom).
+template <class Sink>
+class FreeDerivation {
+ public:
+  /// `keyed` false leaves all keys 0 and saves their cost.
+  FreeDerivation(const Grammar& grammar, std::uint32_t steps, bool keyed, Job& job, Sink& sink)
+      : grammar_(grammar), rules_(grammar.productions), steps_(steps), keyed_(keyed), job_(job),
+        meter_(job, Resource::modules), sink_(sink), width_(grammar.widest),
+        parameters_((std::size_t{steps} + 2) * grammar.widest + 1) {}
+
+  void run() { write(grammar_.axiom, nullptr, job_.rng().key(), 0); }
+
+ private:
+  /// Writes a successor (or the axiom) that appears at `step`, rewriting each module up to the last step.
+  void write(Range successor, const double* slots, std::uint64_t parent, std::uint32_t step) {
+    double* own = parameters_.data() + std::size_t{step} * width_;
+    const Template* each = grammar_.templates.data() + successor.first;
+    for (const Template* end = each + successor.count; each != end; ++each) {
+      if (grammar_.cuts && skips(each->kind, step)) continue;
+      const std::uint64_t key = keyed_ ? child_key(parent, *each) : 0;
+      fill_arguments(grammar_, *each, slots, key, own);
+      if (step < steps_ && rules_.rewrites(each->kind)) {
+        rewrite(each->kind, own, key, step);
+      } else {
+        meter_.spend();
+        sink_.module(each->kind, own, key, step);
+      }
+    }
+  }
+
+  void rewrite(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t step) {
+    if ((++rewritten_ & 4095U) == 0) {
+      job_.check();
+      if (rewritten_ > 4 * job_.limits().modules) Job::refuse("rewrites more modules than " + std::to_string(rewritten_ - 1));
+    }
+    const Range range = rules_.of_kind[kind];
+    for (std::uint32_t now = step; now < steps_; ++now) {
+      const Production* production =
+          choose(grammar_, rules_, range, Draws(key, now), [&](const Production&) { return parameters; });
+      if (production) return write(production->successor, parameters, key, now + 1);
+      if (!rules_.redraws[kind]) break;  // what did not match now never will
+    }
+    meter_.spend();
+    sink_.module(kind, parameters, key, step);
+  }
+
+  /// The cut %: written at one step, it takes what follows in its branch away in the next.
+  bool skips(KindId kind, std::uint32_t step) {
+    if (kind == grammar_.open) ++depth_;
+    if (kind == grammar_.close && --depth_ < cut_depth_) cut_depth_ = no_cut;
+    if (cut_depth_ != no_cut) return true;
+    if (kind == grammar_.cut && step < steps_) cut_depth_ = depth_;
+    return cut_depth_ != no_cut;
+  }
+
+  static constexpr int no_cut = -1;
+
+  const Grammar& grammar_;
+  const Rules& rules_;
+  std::uint32_t steps_;
+  bool keyed_;
+  Job& job_;
+  Meter meter_;
+  Sink& sink_;
+  std::size_t width_;
+  std::vector<double> parameters_;  ///< one row a step
+  std::uint64_t rewritten_ = 0;
+  int depth_ = 0;
+  int cut_depth_ = no_cut;
+};
+
+}  // namespace seedmesh::lsystem

@@ -1,0 +1,165 @@
+#include "core/generators/lsystem/lsystem.h"
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/generators/lsystem/dress.h"
+#include "core/generators/lsystem/draw.h"
+#include "core/generators/lsystem/free.h"
+#include "core/generators/lsystem/growth.h"
+#include "core/generators/lsystem/text.h"
+#include "core/generators/lsystem/word.h"
+
+namespace seedmesh::lsystem {
+namespace {
+
+constexpr std::size_t longest_text = std::size_t{16} << 20U;  // of a word in the answer of derive
+
+Result<Grammar> compiled(const LsystemParams& params, std::uint64_t seed, const Limits& limits) {
+  std::vector<Issue> issues;
+  Grammar grammar = compile(params, seed, limits, issues);
+  if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
+  return grammar;
+}
+
+std::uint32_t steps_of(const LsystemParams& params) { return static_cast<std::uint32_t>(params.iterations); }
+
+/// Refuses early what is sure to be too long, before any memory is touched.
+void refuse_explosion(const Grammar& grammar, std::uint32_t steps, const Job& job) {
+  const std::uint64_t least = least_modules(grammar, steps);
+  if (least <= job.limits().modules) return;
+  const std::string amount = least >= saturated ? "more than 4 * 10^18" : std::to_string(least);
+  Job::refuse("the word has " + amount + " modules after " + std::to_string(steps) + " steps; the limit is " +
+                  std::to_string(job.limits().modules),
+              "/iterations");
+}
+
+/// Derives and hands every module of the last word to the sink, in order.
+template <class Sink>
+void run(const Grammar& grammar, const LsystemParams& params, Sink& sink, Job& job) {
+  const std::uint32_t steps = steps_of(params);
+  refuse_explosion(grammar, steps, job);
+  const bool keyed = Drawing::needs_keys(grammar, params);
+  if (!grammar.productions.context) {
+    FreeDerivation<Sink>(grammar, steps, keyed, job, sink).run();
+    return;
+  }
+  const Word word = derive_word(grammar, steps, keyed, job);
+  const double nothing = 0;
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    if (i % 4096 == 0) job.check();
+    sink.module(word.kind[i], word.at.empty() ? &nothing : word.parameter.data() + word.at[i],
+                word.key.empty() ? 0 : word.key[i], word.born.empty() ? 0 : word.born[i]);
+  }
+}
+
+/// Writes the text and draws, in one walk.
+struct TextAndDrawing {
+  TextWriter& text;
+  Drawing& drawing;
+  void module(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t step) {
+    text.module(kind, parameters);
+    drawing.module(kind, parameters, key, step);
+  }
+};
+
+Json vector(const glm::dvec3& v) { return Json::array({v.x + 0.0, v.y + 0.0, v.z + 0.0}); }
+
+Json described(const Turtle& turtle) {
+  const TurtleReport& report = turtle.report();
+  return {{"segments", report.segments},
+          {"total_length", report.total_length},
+          {"position", vector(turtle.position())},
+          {"heading", vector(turtle.frame().heading)},
+          {"left", vector(turtle.frame().left)},
+          {"up", vector(turtle.frame().up)},
+          {"bounds", {{"min", vector(report.min)}, {"max", vector(report.max)}}}};
+}
+
+Json described(const std::vector<Warning>& warnings) {
+  Json list = Json::array();
+  for (const Warning& each : warnings) {
+    list.push_back({{"pointer", "/parameters" + each.pointer}, {"message", each.message}});
+  }
+  return list;
+}
+
+std::uint64_t drawn(const Grammar& grammar, const std::vector<std::uint64_t>& counts) {
+  std::uint64_t segments = 0;
+  for (std::size_t kind = 0; kind < counts.size(); ++kind) {
+    const Command command = grammar.kinds[kind].command;
+    if (command == Command::draw || command == Command::draw_plain) segments += std::min(saturated, counts[kind]);
+  }
+  return segments;
+}
+
+}  // namespace
+
+std::vector<Issue> check(const LsystemParams& params, const Limits& limits) {
+  std::vector<Issue> issues;
+  compile(params, 0, limits, issues);
+  return issues;
+}
+
+Result<Model> generate(const LsystemParams& params, Job& job) {
+  Result<Grammar> grammar = compiled(params, job.seed(), job.limits());
+  if (!grammar) return std::move(grammar).error();
+  job.progress("derive", 0);
+  Skeleton skeleton(job);
+  {
+    Drawing drawing(*grammar, params, &skeleton, job);
+    run(*grammar, params, drawing, job);
+  }
+  job.progress("mesh", 0);
+  Model model = dress(std::move(skeleton), params, job);
+  for (Warning& warning : grammar->warnings) model.warnings.push_back(std::move(warning));
+  return model;
+}
+
+Result<Json> derive(const LsystemParams& params, Job& job) {
+  Result<Grammar> grammar = compiled(params, job.seed(), job.limits());
+  if (!grammar) return std::move(grammar).error();
+  Drawing drawing(*grammar, params, nullptr, job);
+  TextWriter writer(*grammar, longest_text);
+  std::vector<std::uint64_t> counts;
+  if (is_plain(*grammar)) {
+    run(*grammar, params, drawing, job);
+    const Array<char> text = plain_text(*grammar, steps_of(params), longest_text, job);
+    writer.text.assign(text.begin(), text.end());
+    counts = exact_counts(*grammar, steps_of(params));
+  } else {
+    TextAndDrawing both{writer, drawing};
+    run(*grammar, params, both, job);
+    counts = writer.counts();
+  }
+  std::map<std::string, std::uint64_t> by_symbol;
+  std::uint64_t length = 0, bytes = 0;
+  for (std::size_t kind = 0; kind < counts.size(); ++kind) {
+    if (counts[kind] == 0) continue;
+    by_symbol[grammar->kinds[kind].symbol] += counts[kind];
+    length += counts[kind];
+    bytes += counts[kind] * grammar->kinds[kind].symbol.size();
+  }
+  return Json{{"iterations", params.iterations},
+              {"length", length},
+              {"counts", by_symbol},
+              {"truncated", writer.truncated || (is_plain(*grammar) && bytes > writer.text.size())},
+              {"string", std::move(writer.text)},
+              {"turtle", described(drawing.turtle())},
+              {"warnings", described(grammar->warnings)}};
+}
+
+Result<Appraisal> appraise(const LsystemParams& params, const Job& job) {
+  Result<Grammar> grammar = compiled(params, job.seed(), job.limits());
+  if (!grammar) return std::move(grammar).error();
+  Appraisal appraisal;
+  appraisal.warnings = grammar->warnings;
+  refuse_explosion(*grammar, steps_of(params), job);
+  const std::vector<std::uint64_t> counts = exact_counts(*grammar, steps_of(params));
+  if (!counts.empty() && grammar->interpretation.productions.empty()) {
+    appraisal.estimate = estimate_of(drawn(*grammar, counts), params);
+  }
+  return appraisal;
+}
+
+}  // namespace seedmesh::lsystem

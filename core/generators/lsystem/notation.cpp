@@ -1,0 +1,189 @@
+#include "core/generators/lsystem/notation.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace seedmesh::lsystem {
+namespace {
+
+using lang::Fault;
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+std::size_t skip_spaces(std::string_view text, std::size_t at, std::size_t to) {
+  while (at < to && is_space(text[at])) ++at;
+  return at;
+}
+
+/// Bytes of the UTF-8 code point at `at`; the request's text is valid UTF-8 by now.
+std::size_t code_point_length(std::string_view text, std::size_t at) {
+  const auto byte = static_cast<unsigned char>(text[at]);
+  const std::size_t length = byte < 0x80 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
+  return std::min(length, text.size() - at);
+}
+
+/// The bracket that closes the one at `open`, or nothing.
+std::optional<std::size_t> closing(std::string_view text, std::size_t open, std::size_t to) {
+  int depth = 0;
+  for (std::size_t i = open; i < to; ++i) {
+    if (text[i] == '(') ++depth;
+    if (text[i] == ')' && --depth == 0) return i;
+  }
+  return std::nullopt;
+}
+
+/// Splits text(open, close) at the commas that stand in no inner parentheses.
+std::vector<Slice> arguments_between(std::string_view text, std::size_t open, std::size_t close,
+                                     std::vector<Fault>& faults) {
+  std::vector<Slice> found;
+  int depth = 0;
+  std::size_t from = open + 1;
+  for (std::size_t i = open + 1; i <= close; ++i) {
+    if (text[i] == '(') ++depth;
+    if (text[i] == ')' && i != close) --depth;
+    if (i == close || (text[i] == ',' && depth == 0)) {
+      if (skip_spaces(text, from, i) == i) faults.push_back({from, "found nothing; expected an argument here"});
+      found.push_back({from, i});
+      from = i + 1;
+    }
+  }
+  return found;
+}
+
+struct Arrow {
+  std::size_t from = 0, to = 0;
+};
+
+/// The first arrow outside parentheses. "-->" is one arrow, except where its first "-" is all that stands before "->".
+std::optional<Arrow> find_arrow(std::string_view text) {
+  int depth = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::string_view rest = text.substr(i);
+    if (text[i] == '(') ++depth;
+    if (text[i] == ')') --depth;
+    if (depth > 0) continue;
+    if (rest.substr(0, 3) == "→") return Arrow{i, i + 3};
+    if (rest.substr(0, 2) == "~>") return Arrow{i, i + 2};
+    if (rest.substr(0, 3) == "-->" && skip_spaces(text, 0, i) != i) return Arrow{i, i + 3};
+    if (rest.substr(0, 2) == "->") return Arrow{i, i + 2};
+  }
+  return std::nullopt;
+}
+
+/// Place of `mark` outside parentheses in text[slice], from `from` on; slice.to where it does not occur.
+std::size_t find_outside(std::string_view text, Slice slice, char mark) {
+  int depth = 0;
+  for (std::size_t i = slice.from; i < slice.to; ++i) {
+    if (text[i] == '(') ++depth;
+    if (text[i] == ')') --depth;
+    if (depth == 0 && text[i] == mark) return i;
+  }
+  return slice.to;
+}
+
+/// left "<" predecessor ">" right
+void read_head(std::string_view text, Slice head, WrittenProduction& out, std::vector<Fault>& faults) {
+  out.predecessor = head;
+  const std::size_t less = find_outside(text, head, '<');
+  if (less < head.to) {
+    out.has_left = true;
+    out.left = {head.from, less};
+    out.predecessor.from = less + 1;
+    const std::size_t second = find_outside(text, out.predecessor, '<');
+    if (second < head.to) {
+      faults.push_back({second, "found a second `<`; the right context is written after `>`, as in `a < b > c -> d`"});
+      out.predecessor.to = second;
+    }
+  }
+  const std::size_t greater = find_outside(text, out.predecessor, '>');
+  if (greater < out.predecessor.to) {
+    out.has_right = true;
+    out.right = {greater + 1, out.predecessor.to};
+    out.predecessor.to = greater;
+    const std::size_t second = find_outside(text, out.right, '>');
+    if (second < out.right.to) faults.push_back({second, "found a second `>`; expected one right context"});
+  }
+  if (out.has_left && skip_spaces(text, out.left.from, out.left.to) == out.left.to) {
+    faults.push_back({out.left.to, "found no left context before `<`"});
+  }
+  if (out.has_right && skip_spaces(text, out.right.from, out.right.to) == out.right.to) {
+    faults.push_back({out.right.from, "found no right context after `>`"});
+  }
+}
+
+}  // namespace
+
+std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, std::vector<Fault>& faults) {
+  std::vector<WrittenModule> modules;
+  for (std::size_t at = skip_spaces(text, slice.from, slice.to); at < slice.to; at = skip_spaces(text, at, slice.to)) {
+    WrittenModule module{{}, at, {}};
+    std::size_t length = code_point_length(text, at);
+    if (text[at] == '@') {
+      if (at + 1 >= slice.to || is_space(text[at + 1])) {
+        faults.push_back({at, "found `@` alone; expected a character after it, as in `@v`"});
+        ++at;
+        continue;
+      }
+      length = 1 + code_point_length(text, at + 1);
+    } else if (text[at] == '(' || text[at] == ')') {
+      faults.push_back({at, std::string("found `") + text[at] + "`; expected a symbol before its parameters"});
+      ++at;
+      continue;
+    } else if (text[at] == '*') {
+      faults.push_back({at, "found `*` beside other modules; it stands for the empty word and must stand alone"});
+      ++at;
+      continue;
+    }
+    module.symbol = text.substr(at, length);
+    at += length;
+    if (at < slice.to && text[at] == '(') {
+      const std::optional<std::size_t> close = closing(text, at, slice.to);
+      if (!close) {
+        faults.push_back({at, "found `(` without its `)`"});
+        modules.push_back(std::move(module));
+        break;
+      }
+      module.arguments = arguments_between(text, at, *close, faults);
+      at = *close + 1;
+    }
+    modules.push_back(std::move(module));
+  }
+  return modules;
+}
+
+WrittenProduction read_production(std::string_view text, std::vector<Fault>& faults) {
+  WrittenProduction out;
+  const std::optional<Arrow> arrow = find_arrow(text);
+  if (!arrow) {
+    faults.push_back({skip_spaces(text, 0, text.size()), "found no arrow; expected `predecessor -> successor`"});
+    return out;
+  }
+  Slice head{0, arrow->from};
+  const std::size_t colon = find_outside(text, head, ':');
+  if (colon < head.to) {
+    out.has_condition = true;
+    out.condition = {colon + 1, head.to};
+    head.to = colon;
+  }
+  read_head(text, head, out, faults);
+  if (skip_spaces(text, out.predecessor.from, out.predecessor.to) == out.predecessor.to) {
+    faults.push_back({out.predecessor.from, "found no predecessor; expected one module before the arrow"});
+  }
+  out.successor = {arrow->to, text.size()};
+  const std::size_t weight = find_outside(text, out.successor, ':');
+  if (weight < text.size()) {
+    out.has_weight = true;
+    out.weight = {weight + 1, text.size()};
+    out.successor.to = weight;
+  }
+  return out;
+}
+
+bool erases(std::string_view text, Slice slice) {
+  const std::size_t at = skip_spaces(text, slice.from, slice.to);
+  if (at == slice.to) return true;
+  const std::size_t length = text[at] == '*' ? 1 : text.substr(at, slice.to - at).substr(0, 2) == "ε" ? 2 : 0;
+  return length != 0 && skip_spaces(text, at + length, slice.to) == slice.to;
+}
+
+}  // namespace seedmesh::lsystem

@@ -1,0 +1,47 @@
+#pragma once
+/// The written form of modules and productions, taken apart but not yet understood:
+///
+///   production = [ left "<" ] predecessor [ ">" right ] [ ":" condition ] arrow successor [ ":" weight ] ;
+///   arrow      = "->" | "-->" | "~>" | "→" ;      word = { module } ;
+///   module     = symbol [ "(" expression { "," expression } ")" ] ;
+///   symbol     = one character | "@" character ;  white space separates and means nothing else.
+///
+/// An empty successor, or one of "*" or "ε" alone, erases; so does an empty right side.
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/lang/lexer.h"
+
+namespace seedmesh::lsystem {
+
+/// Bytes [from, to) of the text.
+struct Slice {
+  std::size_t from = 0, to = 0;
+  bool empty() const { return from >= to; }
+};
+
+/// A module as written.
+struct WrittenModule {
+  std::string_view symbol;
+  std::size_t offset = 0;
+  std::vector<Slice> arguments;
+};
+
+/// A production cut into its parts; parts that are not there are empty slices.
+struct WrittenProduction {
+  Slice left, predecessor, right, condition, successor, weight;
+  bool has_left = false, has_right = false, has_condition = false, has_weight = false;
+};
+
+/// The modules of text[slice]. Faults: an argument list that is not closed, an empty argument, characters that are no symbol.
+std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, std::vector<lang::Fault>& faults);
+
+/// Cuts a production at its arrow, context marks and colons. Faults: no arrow, no predecessor, two contexts of one side.
+WrittenProduction read_production(std::string_view text, std::vector<lang::Fault>& faults);
+
+/// True when the slice holds nothing, or "*" or "ε" alone.
+bool erases(std::string_view text, Slice slice);
+
+}  // namespace seedmesh::lsystem

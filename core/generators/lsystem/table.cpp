@@ -1,0 +1,137 @@
+#include "core/generators/lsystem/table.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace seedmesh::lsystem {
+namespace {
+
+constexpr std::size_t most_kinds = 96;  // the table has about the cube of this many entries: 7 MB
+constexpr std::size_t copied = 8;       // bytes moved at once; longer successors take more than one move
+constexpr std::size_t chunk = 4096;
+
+bool plain(const Grammar& grammar, const Production& production) {
+  const auto is_bracket = [&](KindId kind) { return kind == grammar.open || kind == grammar.close; };
+  return !production.conditional && !production.weighted && production.left.size() <= 1 &&
+         production.right.size() <= 1 && std::none_of(production.right.begin(), production.right.end(), is_bracket);
+}
+
+}  // namespace
+
+bool TableRewriter::fits(const Grammar& grammar) {
+  const Rules& rules = grammar.productions;
+  return grammar.widest == 0 && !grammar.cuts && !rules.chance && grammar.kinds.size() <= most_kinds &&
+         std::all_of(rules.productions.begin(), rules.productions.end(),
+                     [&](const Production& each) { return plain(grammar, each); });
+}
+
+TableRewriter::TableRewriter(const Grammar& grammar, Job& job)
+    : grammar_(grammar), job_(job), kinds_(grammar.kinds.size()), table_((kinds_ + 1) * kinds_ * (kinds_ + 1)),
+      right_(job) {
+  for (const Kind& kind : grammar.kinds) ignored_.push_back(kind.ignored ? 1 : 0);
+  for (std::size_t kind = 0; kind < kinds_; ++kind) {
+    // Identity first; then the productions from the last to the first, so that the first that matches stands.
+    const Entry self{static_cast<std::uint32_t>(successors_.size()), 1};
+    successors_.push_back(static_cast<std::uint8_t>(kind));
+    for (std::size_t left = 0; left <= kinds_; ++left) {
+      for (std::size_t right = 0; right <= kinds_; ++right) entry(left, kind, right) = self;
+    }
+    const Range range = grammar.productions.of_kind[kind];
+    for (std::uint32_t i = range.count; i-- > 0;) {
+      fill(grammar.productions.productions[range.first + i], static_cast<KindId>(kind));
+    }
+  }
+  successors_.resize(successors_.size() + copied, 0);
+}
+
+void TableRewriter::fill(const Production& production, KindId kind) {
+  const std::span<const Template> successor = grammar_.successor(production.successor);
+  const Entry made{static_cast<std::uint32_t>(successors_.size()), static_cast<std::uint32_t>(successor.size())};
+  for (const Template& each : successor) successors_.push_back(static_cast<std::uint8_t>(each.kind));
+  longest_ = std::max(longest_, successor.size());
+  for (std::size_t left = 0; left <= kinds_; ++left) {
+    if (!production.left.empty() && production.left[0] != left) continue;
+    for (std::size_t right = 0; right <= kinds_; ++right) {
+      if (production.right.empty() || production.right[0] == right) entry(left, kind, right) = made;
+    }
+  }
+}
+
+/// From the back: inside a branch there is nothing to the right of its last symbol; before a branch the neighbour stands behind it.
+void TableRewriter::find_right_neighbours(const Array<std::uint8_t>& in) {
+  right_.resize(in.size());
+  stack_.clear();
+  const auto none = static_cast<std::uint8_t>(kinds_);
+  std::uint8_t next = none;
+  for (std::size_t i = in.size(); i-- > 0;) {
+    const std::uint8_t kind = in[i];
+    right_[i] = next;
+    if (kind == grammar_.close) {
+      stack_.push_back(next);
+      next = none;
+    } else if (kind == grammar_.open) {
+      next = stack_.back();
+      stack_.pop_back();
+    } else if (!ignored_[kind]) {
+      next = kind;
+    }
+  }
+}
+
+void TableRewriter::step(const Array<std::uint8_t>& in, Array<std::uint8_t>& out) {
+  find_right_neighbours(in);
+  stack_.clear();
+  std::uint8_t left = static_cast<std::uint8_t>(kinds_);
+  std::size_t length = 0;
+  for (std::size_t from = 0; from < in.size(); from += chunk) {
+    job_.check();
+    const std::size_t to = std::min(in.size(), from + chunk);
+    const std::size_t room = length + (to - from) * longest_ + copied;
+    if (room > out.capacity()) out.reserve(std::max(room, 2 * out.capacity()));
+    std::uint8_t* write = out.data() + length;
+    for (std::size_t i = from; i < to; ++i) {
+      const std::uint8_t kind = in[i];
+      const Entry& found = entry(left, kind, right_[i]);
+      const std::uint8_t* successor = successors_.data() + found.first;
+      std::memcpy(write, successor, copied);
+      if (found.length > copied) std::memcpy(write + copied, successor + copied, found.length - copied);
+      write += found.length;
+      if (kind == grammar_.open) {
+        stack_.push_back(left);
+      } else if (kind == grammar_.close) {
+        left = stack_.back();
+        stack_.pop_back();
+      } else if (!ignored_[kind]) {
+        left = kind;
+      }
+    }
+    length = static_cast<std::size_t>(write - out.data());
+    if (length > job_.limits().modules) {
+      Job::refuse("needs more than " + std::to_string(job_.limits().modules) + " modules, which is the limit");
+    }
+  }
+  out.resize(length);
+}
+
+Array<std::uint8_t> TableRewriter::axiom() const {
+  Array<std::uint8_t> word(job_);
+  for (const Template& each : grammar_.successor(grammar_.axiom)) word.push_back(static_cast<std::uint8_t>(each.kind));
+  return word;
+}
+
+Word TableRewriter::derive(std::uint32_t steps) {
+  Array<std::uint8_t> word = axiom();
+  Array<std::uint8_t> next(job_);
+  for (std::uint32_t i = 0; i < steps; ++i) {
+    next.clear();
+    step(word, next);
+    std::swap(word, next);
+  }
+  job_.spend(Resource::modules, word.size());
+  Word made(job_);
+  made.kind.resize(word.size());
+  std::copy(word.begin(), word.end(), made.kind.begin());
+  return made;
+}
+
+}  // namespace seedmesh::lsystem

@@ -1,0 +1,45 @@
+#pragma once
+/// Fast derivation of words of plain symbols (no parameters, no chance) whose productions look at most at one neighbour on
+/// each side: what happens to a symbol is looked up by (left neighbour, symbol, right neighbour). Two passes a step over
+/// one byte a symbol.
+#include <vector>
+
+#include "core/generators/lsystem/word.h"
+
+namespace seedmesh::lsystem {
+
+class TableRewriter {
+ public:
+  /// True when the grammar is of this sort.
+  static bool fits(const Grammar& grammar);
+
+  TableRewriter(const Grammar& grammar, Job& job);
+  Word derive(std::uint32_t steps);
+
+  /// One step on plain bytes, kinds as values: what derive() repeats, and what the bench times.
+  void step(const Array<std::uint8_t>& in, Array<std::uint8_t>& out);
+  Array<std::uint8_t> axiom() const;
+
+ private:
+  struct Entry {
+    std::uint32_t first = 0;
+    std::uint32_t length = 0;
+  };
+  void fill(const Production& production, KindId kind);
+  void find_right_neighbours(const Array<std::uint8_t>& in);
+  Entry& entry(std::size_t left, std::size_t kind, std::size_t right) {
+    return table_[(left * kinds_ + kind) * (kinds_ + 1) + right];
+  }
+
+  const Grammar& grammar_;
+  Job& job_;
+  std::size_t kinds_;                   ///< also stands for "no neighbour"
+  std::size_t longest_ = 1;
+  std::vector<Entry> table_;
+  std::vector<std::uint8_t> successors_;  ///< padded, so that eight bytes may always be copied
+  std::vector<std::uint8_t> ignored_;
+  Array<std::uint8_t> right_;
+  std::vector<std::uint8_t> stack_;
+};
+
+}  // namespace seedmesh::lsystem

@@ -1,0 +1,136 @@
+#include "core/geom/turtle.h"
+
+#include <cmath>
+
+namespace seedmesh {
+namespace {
+
+// Beyond this, positions stored as float squared in later stages would overflow; no model of anything is so far away.
+constexpr double world = 1e15;
+
+glm::vec3 stored(const glm::dvec3& p) { return glm::vec3(p) + 0.0F; }  // -0 becomes 0
+
+}  // namespace
+
+Turtle::Turtle(Skeleton* skeleton, double width, Job& job) : skeleton_(skeleton), job_(job) { set_width(width); }
+
+void Turtle::advance(double length) {
+  state_.position += length * state_.frame.heading;
+  const glm::dvec3& p = state_.position;
+  if (!(std::abs(p.x) < world && std::abs(p.y) < world && std::abs(p.z) < world)) {
+    Job::reject({"", "the turtle went further than 1e15 metres from its start"});
+  }
+}
+
+void Turtle::draw(double length, std::uint64_t key) {
+  if (!polygons_.empty()) return walk(length);
+  draw_plain(length, key);
+}
+
+void Turtle::walk(double length) {
+  walk_plain(length);
+  if (!polygons_.empty()) set_vertex();
+}
+
+void Turtle::draw_plain(double length, std::uint64_t key) {
+  if (!polygons_.empty()) return walk_plain(length);
+  const glm::dvec3 from = state_.position;
+  advance(length);
+  add_segment(from, length, key);
+}
+
+void Turtle::walk_plain(double length) {
+  advance(length);
+  state_.joint = Limbs::none;
+}
+
+void Turtle::move_to(const glm::dvec3& position) {
+  state_.position = position;
+  walk_plain(0);  // checks the place
+}
+
+void Turtle::head(const glm::dvec3& direction) {
+  Frame frame = state_.frame;
+  frame.heading = math::unit(direction, frame.heading);
+  state_.frame = seedmesh::upright(reorthonormalise(frame));
+}
+
+void Turtle::add_segment(const glm::dvec3& from, double length, std::uint64_t key) {
+  const glm::dvec3& to = state_.position;
+  if (report_.segments++ == 0) report_.min = report_.max = from;
+  report_.total_length += std::abs(length);
+  report_.min = glm::min(report_.min, glm::min(from, to));
+  report_.max = glm::max(report_.max, glm::max(from, to));
+  if (!skeleton_) return;
+  std::uint32_t parent = state_.joint;
+  if (parent == Limbs::none) {
+    parent = add_joint(from, Limbs::none, key);
+    state_.begins_branch = false;
+  }
+  state_.joint = add_joint(to, parent, key);
+  state_.begins_branch = false;
+}
+
+std::uint32_t Turtle::add_joint(const glm::dvec3& at, std::uint32_t parent, std::uint64_t key) {
+  Limbs& limbs = skeleton_->limbs;
+  if (limbs.size() >= Limbs::none) Job::refuse("draws more segments than can be counted in 32 bits");
+  const auto own = static_cast<std::uint32_t>(limbs.size());
+  const double width = state_.width - thinner_;
+  const auto radius = static_cast<float>(width > 0 ? width / 2 : 0);
+  const bool goes_on = parent != Limbs::none && !state_.begins_branch;
+  limbs.position.push_back(stored(at));
+  limbs.radius.push_back(radius);
+  limbs.base_radius.push_back(goes_on ? limbs.radius[parent] : radius);
+  limbs.parent.push_back(parent);
+  limbs.starts_limb.push_back(parent != Limbs::none && state_.begins_branch ? 1 : 0);
+  limbs.color.push_back(state_.color);
+  limbs.order.push_back(state_.order);
+  if (key != 0) limbs.key.push_back(key);
+  return own;
+}
+
+void Turtle::set_color(std::int64_t color) {
+  constexpr std::int64_t most = 255;
+  state_.color = static_cast<std::int16_t>(color < 0 ? 0 : color > most ? most : color);
+}
+
+void Turtle::push() {
+  if (stack_.size() >= job_.limits().bracket_depth) {
+    Job::refuse("brackets nest deeper than " + std::to_string(job_.limits().bracket_depth));
+  }
+  stack_.push_back(state_);
+  state_.begins_branch = state_.joint != Limbs::none;
+  if (state_.order < 0xFFFF) ++state_.order;
+}
+
+void Turtle::pop() {
+  if (stack_.empty()) return;
+  state_ = stack_.back();
+  stack_.pop_back();
+}
+
+void Turtle::open_polygon() {
+  if (polygons_.size() >= job_.limits().bracket_depth) {
+    Job::refuse("polygons nest deeper than " + std::to_string(job_.limits().bracket_depth));
+  }
+  polygons_.emplace_back(job_);
+}
+
+void Turtle::set_vertex() {
+  if (polygons_.empty()) return;
+  ++report_.vertices;
+  polygons_.back().push_back(state_.position);
+}
+
+void Turtle::close_polygon(std::uint64_t key) {
+  if (polygons_.empty()) return;
+  const Array<glm::dvec3> vertices = std::move(polygons_.back());
+  polygons_.pop_back();
+  if (!skeleton_ || vertices.size() < 3) return;
+  Outlines& outlines = skeleton_->outlines;
+  outlines.outline.push_back({static_cast<std::uint32_t>(outlines.vertex.size()),
+                              static_cast<std::uint32_t>(vertices.size()), state_.color, key});
+  for (const glm::dvec3& vertex : vertices) outlines.vertex.push_back(stored(vertex));
+}
+
+}  // namespace seedmesh

@@ -1,0 +1,92 @@
+#pragma once
+/// The turtle of Prusinkiewicz and Lindenmayer (The Algorithmic Beauty of Plants, 1990, sections 1.3 and 1.5): a position, a
+/// frame, a width and a colour that move through space, with a stack for branches and another for polygons. Writes a Skeleton
+/// and measures what it drew; knows no grammar.
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "core/base/math.h"
+#include "core/geom/frame.h"
+#include "core/geom/limbs.h"
+
+namespace seedmesh {
+
+/// What a turtle drew, in its own frame: start at the origin, heading +Y, left -X, up +Z.
+struct TurtleReport {
+  std::uint64_t segments = 0;
+  double total_length = 0;
+  std::uint64_t vertices = 0;         ///< polygon vertices set
+  glm::dvec3 min{0}, max{0};          ///< of the centre lines of drawn segments; zero where there is none
+};
+
+class Turtle {
+ public:
+  /// Writes into `skeleton`; null: measures only.
+  Turtle(Skeleton* skeleton, double width, Job& job);
+
+  /// Moves by `length` along the heading, which may be negative. `draw` makes an internode of the present width, born at
+  /// `birth`; between braces the end point becomes a vertex instead. `walk` draws nothing; between braces it sets a vertex too.
+  void draw(double length, std::uint64_t key);
+  void walk(double length);
+  /// The same without vertices between braces.
+  void draw_plain(double length, std::uint64_t key);
+  void walk_plain(double length);
+  void move_to(const glm::dvec3& position);
+
+  void turn(math::SinCos angle) { face(seedmesh::turn(state_.frame, angle)); }    ///< left, about up
+  void pitch(math::SinCos angle) { face(seedmesh::pitch(state_.frame, angle)); }  ///< down, about left
+  void roll(math::SinCos angle) { face(seedmesh::roll(state_.frame, angle)); }    ///< left, about heading
+  void turn_around() { state_.frame = seedmesh::turn_around(state_.frame); }
+  void upright() { state_.frame = seedmesh::upright(state_.frame); }
+  void head(const glm::dvec3& direction);                        ///< heads along it and rolls upright
+
+  void push();  ///< throws Stop beyond limits.bracket_depth
+  void pop();   ///< without a matching push: nothing
+
+  void open_polygon();
+  void close_polygon(std::uint64_t key);
+  void set_vertex();
+
+  void set_width(double width) { state_.width = width > 0 ? width : 0; }
+  double width() const { return state_.width; }
+  /// Taken off the width of every internode drawn from now on, whatever branch it stands in; not part of the state.
+  void set_thinner(double by) { thinner_ = by; }
+  void set_color(std::int64_t color);
+  std::int16_t color() const { return state_.color; }
+
+  const glm::dvec3& position() const { return state_.position; }
+  const Frame& frame() const { return state_.frame; }
+  const TurtleReport& report() const { return report_; }
+
+ private:
+  static constexpr std::uint16_t rotations_until_drift = 256;
+
+  struct State {
+    glm::dvec3 position{0};
+    Frame frame;
+    double width = 0;
+    std::uint32_t joint = Limbs::none;  ///< where the next internode grows from; none after a move
+    std::uint16_t order = 0;
+    std::int16_t color = 0;
+    std::uint16_t rotations = 0;        ///< of `frame` since it was last made orthonormal, and more
+    bool begins_branch = false;         ///< the next internode starts a limb of its own
+  };
+
+  void face(const Frame& frame) {
+    state_.frame = ++state_.rotations % rotations_until_drift == 0 ? reorthonormalise(frame) : frame;
+  }
+  void advance(double length);
+  void add_segment(const glm::dvec3& from, double length, std::uint64_t key);
+  std::uint32_t add_joint(const glm::dvec3& at, std::uint32_t parent, std::uint64_t key);
+
+  Skeleton* skeleton_;
+  Job& job_;
+  State state_;
+  std::vector<State> stack_;
+  std::vector<Array<glm::dvec3>> polygons_;  ///< open ones, innermost last
+  TurtleReport report_;
+  double thinner_ = 0;
+};
+
+}  // namespace seedmesh
