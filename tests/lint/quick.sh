@@ -1,0 +1,8 @@
+#!/usr/bin/env bash
+# The lints that take seconds and need nothing but a build:  quick.sh build/release
+set -uo pipefail
+here=$(dirname "${BASH_SOURCE[0]}")
+status=0
+"$here/layers.mjs" . || status=1
+"$here/symbols.sh" "$1" || status=1
+exit $status
