@@ -75,7 +75,6 @@ class Array {
   const T& back() const { return data()[size_ - 1]; }
   std::span<T> span() { return {data(), size_}; }
   std::span<const T> span() const { return {data(), size_}; }
-  operator std::span<const T>() const { return span(); }
 
   /// Exact: no slack beyond what is asked for.
   void reserve(std::size_t capacity) {
