@@ -1,0 +1,71 @@
+#pragma once
+/// The one buffer of a document: where each array lies in it, and its bytes in that order.
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/base/job.h"
+#include "core/gltf/columns.h"
+#include "core/gltf/payload.h"
+
+namespace seedmesh::gltf {
+
+/// Arrays of one use and stride lie together, so that small ones share a bufferView (several vertex
+/// attributes in one view must agree on the stride). The buffer holds the pools in this order.
+enum class Pool { vertex4, vertex8, vertex12, vertex16, index2, index4, numbers, image };
+
+/// The pool of a vertex attribute, or of indices, by the stride.
+Pool vertex_pool(const Column& column);
+Pool index_pool(const Column& column);
+
+class Bin {
+ public:
+  /// A place in the buffer, for the accessor or the image that reads it.
+  struct Place {
+    int view = -1;
+    std::uint64_t offset = 0;  ///< within the view; below 1 MiB
+  };
+  struct View {
+    Pool pool = Pool::numbers;
+    std::uint64_t offset = 0, length = 0;
+    std::uint32_t stride = 0;  ///< 0 unless vertex attributes share the view
+  };
+
+  /// Adds an array and returns its number. Not after arrange().
+  int add(Pool pool, Slice slice);
+
+  /// Gives each array its place: starts at multiples of 4, views of at most 1 MiB unless one array alone is
+  /// larger.
+  void arrange();
+
+  Place place(int number) const { return places_[static_cast<std::size_t>(number)]; }
+  const std::vector<View>& views() const { return views_; }
+  std::uint64_t size() const { return size_; }  ///< a multiple of 4
+
+  /// Hands the bytes out in order, padding included, and lets go of each array when it has been handed out.
+  /// Arrays are shared, not copied; neighbours below 4 KiB come gathered in one block (charged to `job`),
+  /// because a socket wants few writes.
+  void drain(Job& job, const std::function<void(Slice)>& sink);
+
+ private:
+  struct Item {
+    Pool pool = Pool::numbers;
+    Slice slice;
+  };
+  std::vector<Item> items_;
+  std::vector<Place> places_;
+  std::vector<std::size_t> order_;  ///< items as they lie in the buffer
+  std::vector<View> views_;
+  std::uint64_t size_ = 0;
+};
+
+/// The buffer as it is.
+Payload raw(Bin bin, Job& job);
+
+/// The buffer in base64 (RFC 4648, padded), in blocks of 4 MiB charged to `job`.
+Payload base64(Bin bin, Job& job);
+
+constexpr std::uint64_t base64_size(std::uint64_t bytes) { return (bytes + 2) / 3 * 4; }
+
+}  // namespace seedmesh::gltf

@@ -1,0 +1,140 @@
+#include "core/gltf/columns.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace seedmesh::gltf {
+namespace {
+
+constexpr std::string_view uv_semantics[] = {"TEXCOORD_0", "TEXCOORD_1", "TEXCOORD_2", "TEXCOORD_3"};
+
+/// Moves a container to where payloads can share it.
+template <class Container>
+Slice keep(Container&& numbers) {
+  auto kept = std::make_shared<const std::decay_t<Container>>(std::move(numbers));
+  const auto bytes = std::as_bytes(std::span(kept->data(), kept->size()));
+  return {std::move(kept), bytes};
+}
+
+template <class T>
+Column column_of(Array<T>& array, Component component, Lanes lanes) {
+  const std::size_t count = array.size();
+  return {.slice = keep(std::move(array)), .component = component, .lanes = lanes, .count = count};
+}
+
+Column column_of(std::vector<float>& numbers, Lanes lanes) {
+  const std::size_t count = numbers.size() / static_cast<std::size_t>(lanes);
+  return {.slice = keep(std::move(numbers)), .lanes = lanes, .count = count};
+}
+
+bool same(const Box& a, const Box& b) { return a.min == b.min && a.max == b.max; }
+
+Column positions_of(Mesh& mesh) {
+  const Box box = same(mesh.bounds, Box{}) ? bounds_of(mesh.position.span()) : mesh.bounds;
+  assert(same(box, bounds_of(mesh.position.span())));
+  Column column = column_of(mesh.position, Component::f32, Lanes::vec3);
+  column.min = {box.min.x, box.min.y, box.min.z};
+  column.max = {box.max.x, box.max.y, box.max.z};
+  return column;
+}
+
+void name_column(Part& part, std::string_view semantic, Column column) {
+  part.attributes.push_back({semantic, part.columns.size()});
+  part.columns.push_back(std::move(column));
+}
+
+void take_uv(Part& part, Mesh& mesh) {
+  constexpr std::size_t none = static_cast<std::size_t>(-1);
+  std::size_t columns[4] = {none, none, none, none};
+  std::size_t sets = 0;
+  for (std::size_t set = 0; set < mesh.uv.size(); ++set) {
+    if (mesh.uv[set].empty()) continue;
+    sets = set + 1;
+    columns[set] = part.columns.size();
+    part.columns.push_back(column_of(mesh.uv[set], Component::f32, Lanes::vec2));
+  }
+  const auto* const first = std::find_if(columns, columns + sets, [](std::size_t c) { return c != none; });
+  for (std::size_t set = 0; set < sets; ++set) {
+    if (columns[set] == none) columns[set] = set > 0 ? columns[set - 1] : *first;
+    part.attributes.push_back({uv_semantics[set], columns[set]});
+  }
+}
+
+Part take_part(Primitive& primitive) {
+  Mesh& mesh = primitive.mesh;
+  Part part{.topology = mesh.topology,
+            .material = primitive.material,
+            .variant_materials = std::move(primitive.variant_materials)};
+  if (!mesh.index.small.empty()) part.index = column_of(mesh.index.small, Component::u16, Lanes::scalar);
+  if (!mesh.index.wide.empty()) part.index = column_of(mesh.index.wide, Component::u32, Lanes::scalar);
+  name_column(part, "POSITION", positions_of(mesh));
+  if (!mesh.normal.empty()) name_column(part, "NORMAL", column_of(mesh.normal, Component::f32, Lanes::vec3));
+  if (!mesh.tangent.empty())
+    name_column(part, "TANGENT", column_of(mesh.tangent, Component::f32, Lanes::vec4));
+  take_uv(part, mesh);
+  if (!mesh.color.empty()) {
+    name_column(part, "COLOR_0", column_of(mesh.color, Component::u8, Lanes::vec4));
+    part.columns.back().normalized = true;
+  }
+  if (!mesh.joints.empty())
+    name_column(part, "JOINTS_0", column_of(mesh.joints, Component::u16, Lanes::vec4));
+  if (!mesh.weights.empty())
+    name_column(part, "WEIGHTS_0", column_of(mesh.weights, Component::f32, Lanes::vec4));
+  return part;
+}
+
+Column take_inverse_binds(Skin& skin) {
+  for (glm::mat4& matrix :
+       skin.inverse_bind) {  // glTF wants the last row exact, and an inversion may leave crumbs
+    for (int column = 0; column < 4; ++column) matrix[column][3] = column < 3 ? 0.0F : 1.0F;
+  }
+  const std::size_t count = skin.inverse_bind.size();
+  return {.slice = keep(std::move(skin.inverse_bind)), .lanes = Lanes::mat4, .count = count};
+}
+
+Lanes lanes_of(Path path) {
+  switch (path) {
+    case Path::translation:
+    case Path::scale:
+      return Lanes::vec3;
+    case Path::rotation:
+      return Lanes::vec4;
+    case Path::weights:
+      return Lanes::scalar;
+  }
+  return Lanes::scalar;
+}
+
+Tracks take_tracks(Animation& animation) {
+  Tracks tracks;
+  for (std::vector<float>& times : animation.times) {
+    std::vector<float> range;
+    if (!times.empty()) range = {times.front(), times.back()};
+    Column& column = tracks.times.emplace_back(column_of(times, Lanes::scalar));
+    if (range.empty()) continue;
+    column.min = {range[0]};
+    column.max = {range[1]};
+  }
+  for (Channel& channel : animation.channels) {
+    tracks.values.push_back(column_of(channel.values, lanes_of(channel.path)));
+  }
+  return tracks;
+}
+
+}  // namespace
+
+Columns take_columns(Model& model) {
+  Columns columns;
+  for (MeshGroup& group : model.meshes) {
+    std::vector<Part>& parts = columns.meshes.emplace_back();
+    for (Primitive& primitive : group.primitives) {
+      if (primitive.mesh.elements() > 0) parts.push_back(take_part(primitive));
+    }
+  }
+  for (Skin& skin : model.skins) columns.inverse_binds.push_back(take_inverse_binds(skin));
+  for (Animation& animation : model.animations) columns.animations.push_back(take_tracks(animation));
+  return columns;
+}
+
+}  // namespace seedmesh::gltf

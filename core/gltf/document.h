@@ -1,0 +1,31 @@
+#pragma once
+/// One glTF document of a model: its JSON and the buffer that the JSON describes. tinygltf makes the JSON of
+/// all small lists; what it is slow at (nodes), drops (extensions of bufferViews) or writes wrongly (a buffer
+/// whose data are elsewhere, images, 64-bit numbers in extras) is added to its text here.
+#include <string>
+#include <vector>
+
+#include "core/gltf/bin.h"
+#include "core/gltf/columns.h"
+#include "core/model/model.h"
+
+namespace seedmesh::gltf {
+
+/// JSON in two pieces, with the gap where the buffer's address goes: either nothing or `,"uri":"..."`.
+struct Document {
+  std::string head, tail;
+  std::vector<std::size_t> images;  ///< which of Model::textures it uses
+  Bin bin;  ///< arranged; empty if nothing has to be stored, and then nothing may go between head and tail
+};
+
+struct DocumentOptions {
+  std::string generator = {};
+  std::size_t lod = 0;                       ///< nodes with fewer levels show their coarsest
+  std::vector<std::string> image_uris = {};  ///< as Model::textures; empty: the images go into the buffer
+};
+
+/// Describes what the scene of this level uses and nothing else: no mesh, material, texture, skin without a
+/// user. Spends the bytes of the JSON from `job`, not those of the buffer. `columns` are those of `model`.
+Document describe(const Model& model, const Columns& columns, const DocumentOptions& options, Job& job);
+
+}  // namespace seedmesh::gltf

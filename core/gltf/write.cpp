@@ -1,0 +1,163 @@
+#include "core/gltf/write.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+#include <string_view>
+
+#include "core/gltf/bin.h"
+#include "core/gltf/columns.h"
+#include "core/gltf/document.h"
+#include "core/gltf/zip.h"
+
+namespace seedmesh {
+namespace {
+
+using gltf::Columns;
+using gltf::Document;
+
+/// Sizes are 32-bit words in GLB and in zip archives of the plain kind.
+constexpr std::uint64_t file_limit = std::numeric_limits<std::uint32_t>::max();
+
+constexpr std::uint32_t glb_magic = 0x46546C67, glb_version = 2;
+constexpr std::uint32_t json_chunk = 0x4E4F534A, bin_chunk = 0x004E4942;
+
+constexpr std::string_view data_address = ",\"uri\":\"data:application/octet-stream;base64,";
+
+void refuse_beyond_4_gib(std::uint64_t bytes) {
+  if (bytes >= file_limit) {
+    Job::refuse("the file would have " + std::to_string(bytes) + " bytes; its format ends at 4 GiB");
+  }
+}
+
+void append_word(std::string& out, std::uint32_t word) {
+  for (int shift = 0; shift < 32; shift += 8) out += static_cast<char>(word >> shift & 0xFFU);
+}
+
+/// The name in characters that every file system and URL takes.
+std::string file_stem(std::string_view name) {
+  std::string stem;
+  for (const char c : name) {
+    const bool safe = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
+    stem += safe ? c : '_';
+  }
+  return stem.empty() ? "model" : stem;
+}
+
+Payload write_glb(Document document, Job& job) {
+  std::string& json = document.head;
+  json += document.tail;
+  json.append((4 - json.size() % 4) % 4, ' ');
+  const std::uint64_t bin_size = document.bin.size();
+  const std::uint64_t size = 12 + 8 + json.size() + (bin_size > 0 ? 8 + bin_size : 0);
+  refuse_beyond_4_gib(size);
+  job.spend(Resource::output_bytes, bin_size);
+
+  std::string header;
+  for (const std::uint32_t word : {glb_magic, glb_version, static_cast<std::uint32_t>(size),
+                                   static_cast<std::uint32_t>(json.size()), json_chunk}) {
+    append_word(header, word);
+  }
+  Payload payload;
+  payload.add(std::move(header));
+  payload.add(std::move(json));
+  if (bin_size > 0) {
+    std::string chunk;
+    append_word(chunk, static_cast<std::uint32_t>(bin_size));
+    append_word(chunk, bin_chunk);
+    payload.add(std::move(chunk));
+    payload.append(gltf::raw(std::move(document.bin), job));
+  }
+  return payload;
+}
+
+Payload write_gltf(Document document, Job& job) {
+  const std::uint64_t text_size = gltf::base64_size(document.bin.size());
+  refuse_beyond_4_gib(document.head.size() + document.tail.size() + text_size);
+  job.spend(Resource::output_bytes, text_size);
+  Payload payload;
+  payload.add(std::move(document.head));
+  if (document.bin.size() > 0) {
+    payload.add(std::string(data_address));
+    payload.append(gltf::base64(std::move(document.bin), job));
+    payload.add("\"");
+  }
+  payload.add(std::move(document.tail));
+  return payload;
+}
+
+std::vector<gltf::ZipEntry> separate_files(const std::string& stem, Document document, Job& job) {
+  job.spend(Resource::output_bytes, document.bin.size());
+  std::vector<gltf::ZipEntry> files(1);
+  files[0].name = stem + ".gltf";
+  Payload& json = files[0].payload;
+  json.add(std::move(document.head));
+  if (document.bin.size() > 0) {
+    json.add(",\"uri\":\"" + stem + ".bin\"");
+    files.push_back({stem + ".bin", gltf::raw(std::move(document.bin), job)});
+  }
+  json.add(std::move(document.tail));
+  return files;
+}
+
+/// A file name for each image of the model, unique, in the folder `textures`.
+std::vector<std::string> image_files(const Model& model) {
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  for (const auto& image : model.textures) {
+    const std::string stem = "textures/" + (image->name.empty() ? "texture" : file_stem(image->name));
+    const std::string extension = image->mime == "image/jpeg" ? ".jpg" : ".png";
+    std::string name = stem + extension;
+    for (int i = 2; !taken.insert(name).second; ++i) name = stem + '_' + std::to_string(i) + extension;
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+std::size_t lod_count(const Model& model) {
+  std::size_t coarser = 0;
+  for (const Node& node : model.nodes) coarser = std::max(coarser, node.lods.size());
+  return 1 + coarser;
+}
+
+Payload write_zip(const Model& model, Columns columns, const std::string& generator, Job& job) {
+  const std::string stem = file_stem(model.name);
+  gltf::DocumentOptions options{.generator = generator, .image_uris = image_files(model)};
+  std::vector<gltf::ZipEntry> files;
+  std::set<std::size_t> images;
+  const std::size_t lods = lod_count(model);
+  for (; options.lod < lods; ++options.lod) {
+    Document document = gltf::describe(model, columns, options, job);
+    images.insert(document.images.begin(), document.images.end());
+    const std::string suffix = options.lod == 0 ? "" : "_LOD" + std::to_string(options.lod);
+    for (gltf::ZipEntry& file : separate_files(stem + suffix, std::move(document), job)) {
+      files.push_back(std::move(file));
+    }
+  }
+  for (const std::size_t used : images) {
+    const std::shared_ptr<const Image>& image = model.textures[used];
+    job.spend(Resource::output_bytes, image->bytes.size());
+    Payload& payload = files.emplace_back(gltf::ZipEntry{options.image_uris[used], {}}).payload;
+    payload.add(image, std::as_bytes(std::span(image->bytes)));
+  }
+  constexpr std::uint64_t framing =
+      30 + 46 + 64;  // headers of an entry beside its name, which stands twice; a margin
+  std::uint64_t size = 22;
+  for (const gltf::ZipEntry& file : files) size += framing + 2 * file.name.size() + file.payload.size();
+  refuse_beyond_4_gib(size);
+  return gltf::zip(std::move(files));
+}
+
+}  // namespace
+
+Payload write(Model model, Container container, const std::string& generator, Job& job) {
+  Columns columns = gltf::take_columns(model);
+  if (container == Container::zip) return write_zip(model, std::move(columns), generator, job);
+  Document document = gltf::describe(model, columns, {.generator = generator}, job);
+  columns = {};  // now the document alone holds the arrays, and can give each back as soon as it is written
+  return container == Container::glb ? write_glb(std::move(document), job)
+                                     : write_gltf(std::move(document), job);
+}
+
+}  // namespace seedmesh
