@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 #else
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #endif
@@ -40,7 +41,8 @@ void run(int threads, std::size_t chunks, const std::function<void(std::size_t)>
 }
 #else
 void run(int threads, std::size_t chunks, const std::function<void(std::size_t)>& each) {
-  tbb::task_arena arena(threads);
+  const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  tbb::task_arena arena(std::min(threads, static_cast<int>(allowed)));  // more would only make oneTBB complain
   arena.execute([&] { tbb::parallel_for(std::size_t{0}, chunks, each, tbb::simple_partitioner()); });
 }
 #endif

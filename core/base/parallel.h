@@ -10,7 +10,8 @@
 namespace seedmesh {
 
 /// Calls body(begin, end, chunk_index) for every chunk [i*chunk, min((i+1)*chunk, count)). An exception of a body
-/// (Stop) ends the whole and is thrown on here. With job.threads() == 1 everything runs on the caller.
+/// (Stop) ends the whole and is thrown on here. With job.threads() == 1 everything runs on the caller;
+/// there are never more threads than oneTBB's max_allowed_parallelism, by default the number of cores.
 void parallel_for(const Job& job, std::size_t count, std::size_t chunk,
                   const std::function<void(std::size_t begin, std::size_t end, std::size_t index)>& body);
 
