@@ -7,7 +7,7 @@ namespace {
 
 class TurtleTest : public testing::Test {
  protected:
-  Job job{1, {}};
+  Job job{1, Job::Options{}};
   Skeleton skeleton{job};
   Turtle turtle{&skeleton, 0.2, job};
   const math::SinCos right_angle = math::sincos_degrees(90);
@@ -118,7 +118,8 @@ TEST_F(TurtleTest, StaysOrthonormalThroughAMillionTurns) {
 TEST_F(TurtleTest, RefusesToLeaveTheWorld) { EXPECT_THROW(turtle.draw(1e16, 0), Stop); }
 
 TEST_F(TurtleTest, RefusesBracketsDeeperThanTheLimit) {
-  EXPECT_THROW(for (int i = 0; i < 20'000; ++i) turtle.push(), Stop);
+  const auto nest = [&] { for (int i = 0; i < 20000; ++i) turtle.push(); };
+  EXPECT_THROW(nest(), Stop);
 }
 
 }  // namespace
