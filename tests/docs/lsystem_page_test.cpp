@@ -1,7 +1,6 @@
 /// docs/lsystem.md against what it describes: the turtle's table of symbols and the shipped presets.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -65,7 +64,7 @@ TEST(LsystemPage, HasOneRowForEveryPreset) {
     expected.insert(row + " |");
   }
   const std::vector<std::string> rows = table_rows("name");
-  EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end()));
+  EXPECT_EQ(rows.size(), expected.size());
   EXPECT_EQ(std::set<std::string>(rows.begin(), rows.end()), expected);
 }
 
