@@ -1,0 +1,100 @@
+#!/usr/bin/env node
+// Runs the benches of build/release and their peers, three times in turn, and prints a table of the medians. Figures also go to
+// build/bench.jsonl, one a line, for comparing two commits.   bench.mjs [words of a name]
+import { spawnSync } from 'node:child_process';
+import fs from 'node:fs';
+import path from 'node:path';
+
+const words = process.argv[2] ?? '';
+const build = 'build/release';
+const launches = 3;
+
+// What we aim at: figures of the best engine known, measured on a machine of this class.
+const aims = {
+  'D0L bush n=7': { rate: 430e6, over_peer: 5 },
+  'D0L bush n=8': { rate: 430e6, over_peer: 5 },
+  'parametric tree 2.6a n=19': { rate: 25e6 },
+  'context signal': { rate: 200e6 },
+};
+const nanoseconds_per_triangle = 30;
+const memory_ratio = 1.5;
+
+function output_of(command, ...args) {
+  if (!fs.existsSync(command) && command !== process.execPath) return '';
+  const result = spawnSync(command, args, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'inherit'], maxBuffer: 1 << 26 });
+  if (result.status !== 0) throw new Error(`${command} ended with ${result.status ?? result.signal}`);
+  return result.stdout;
+}
+
+const lines_of = (text) => text.split('\n').filter((line) => line.startsWith('{')).map((line) => JSON.parse(line));
+
+function median(values) {
+  return values.sort((a, b) => a - b)[Math.floor(values.length / 2)];
+}
+
+/** name -> one row whose seconds are the median of all launches. */
+function gathered(rows) {
+  const by_name = new Map();
+  for (const row of rows) by_name.set(row.name, [...(by_name.get(row.name) ?? []), row]);
+  return new Map([...by_name].map(([name, all]) => [name, { ...all[0], seconds: median(all.map((row) => row.seconds ?? 0)) }]));
+}
+
+function verdict(reached) {
+  return reached ? 'ok' : 'MISSED';
+}
+
+function print_rate(row, peer) {
+  const rate = row.amount / row.seconds;
+  const aim = aims[row.name];
+  const cells = [row.name.padEnd(44), `${(rate / 1e6).toFixed(1).padStart(9)} M ${row.unit}/s`];
+  if (row.unit === 'triangles') {
+    const each = (row.seconds / row.amount) * 1e9;
+    cells.push(`${each.toFixed(1)} ns a triangle (aim ${nanoseconds_per_triangle}): ${verdict(each <= nanoseconds_per_triangle)}`);
+  }
+  if (aim) cells.push(`aim ${aim.rate / 1e6} M: ${verdict(rate >= aim.rate)}`);
+  if (peer) {
+    const ratio = rate / (peer.amount / peer.seconds);
+    cells.push(`npm lindenmayer ${(peer.amount / peer.seconds / 1e6).toFixed(1)} M, ratio ${ratio.toFixed(1)}: ${verdict(ratio >= (aim?.over_peer ?? 0))}`);
+  }
+  console.log(cells.join('  '));
+  return { ...row, rate, peer_rate: peer && peer.amount / peer.seconds };
+}
+
+function print_memory(row) {
+  const ratio = row.peak_less_idle / row.amount;
+  console.log(`${row.name.padEnd(44)}  ${(row.amount / 1e6).toFixed(1)} MB out, peak less idle ${(row.peak_less_idle / 1e6).toFixed(1)} MB, ` +
+    `ratio ${ratio.toFixed(2)} (aim ${memory_ratio}): ${verdict(ratio <= memory_ratio)}`);
+  return { ...row, ratio };
+}
+
+function run_own() {
+  const own = [];
+  const peers = [];
+  for (let launch = 0; launch < launches; launch += 1) {
+    own.push(...lines_of(output_of(`${build}/bench/lsystem_bench`)), ...lines_of(output_of(`${build}/bench/request_bench`)));
+    peers.push(...lines_of(output_of(process.execPath, 'tests/bench/peer_lindenmayer.mjs')));
+  }
+  const peer_of = gathered(peers);
+  return [...gathered(own).values()].map((row) => (row.peak_less_idle === undefined ? print_rate(row, peer_of.get(row.name)) : print_memory(row)));
+}
+
+/** The programs over Google Benchmark print tables of their own. */
+function run_library_benches() {
+  const own = new Set(['lsystem_bench', 'request_bench']);
+  const folder = `${build}/bench`;
+  for (const name of fs.readdirSync(folder).filter((file) => file.endsWith('_bench') && !own.has(file) && file.includes(words)).sort()) {
+    console.log(`\n--- ${name}`);
+    process.stdout.write(output_of(path.join(folder, name), '--benchmark_min_time=0.2'));
+  }
+}
+
+console.log(`${new Date().toISOString()}, ${process.platform} ${process.arch}`);
+const rows = words === '' || 'lsystem request'.includes(words) ? run_own() : [];
+fs.mkdirSync('build', { recursive: true });
+fs.appendFileSync('build/bench.jsonl', rows.map((row) => `${JSON.stringify({ at: new Date().toISOString(), ...row })}\n`).join(''));
+run_library_benches();
+const http = ['tests/bench/http_bench.mjs', 'tests/bench/http_bench.sh'].find((file) => fs.existsSync(file));
+if (http && (words === '' || 'http'.includes(words))) {
+  console.log(`\n--- ${http}`);
+  process.stdout.write(http.endsWith('.mjs') ? output_of(process.execPath, http) : output_of('/bin/bash', http));
+}

@@ -1,0 +1,117 @@
+/// How fast words are derived: plain symbols, parameters, contexts. Whole derivations from the axiom; the
+/// word itself is made in memory for plain and context systems, and streamed module by module for parametric
+/// ones, as generate() does.
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/generators/lsystem/free.h"
+#include "core/generators/lsystem/grammar.h"
+#include "core/generators/lsystem/table.h"
+#include "generated/params/lsystem.h"
+#include "tests/bench/report.h"
+
+namespace {
+
+using namespace seedmesh;
+using namespace seedmesh::lsystem;
+
+constexpr int rounds = 7;
+
+Limits roomy() {
+  Limits limits;
+  limits.modules = std::uint64_t{1} << 40U;
+  limits.memory_bytes = std::uint64_t{8} << 30U;
+  return limits;
+}
+
+Grammar compiled(const LsystemParams& params) {
+  std::vector<Issue> issues;
+  Grammar grammar = compile(params, 0, roomy(), issues);
+  if (!issues.empty()) std::abort();
+  return grammar;
+}
+
+/// A system of plain symbols by table, into memory.
+void bench_table(const std::string& name, const LsystemParams& params, std::uint32_t steps) {
+  const Grammar grammar = compiled(params);
+  if (!TableRewriter::fits(grammar)) std::abort();
+  double modules = 0;
+  const double seconds = bench::median_seconds(rounds, [&] {
+    Job job(0, {.limits = roomy()});
+    modules = static_cast<double>(TableRewriter(grammar, job).derive(steps).size());
+  });
+  bench::report(name, "modules", modules, seconds);
+}
+
+/// One symbol travels through a long word: every module is looked at in every step.
+void bench_signal() {
+  constexpr std::uint32_t steps = 50;
+  constexpr std::size_t length = 1'000'000;
+  LsystemParams params;
+  params.axiom = "b" + std::string(length, 'a');
+  params.productions = {"b < a -> b", "b -> a"};
+  const Grammar grammar = compiled(params);
+  if (!TableRewriter::fits(grammar)) std::abort();
+  const double seconds = bench::median_seconds(rounds, [&] {
+    Job job(0, {.limits = roomy()});
+    if (TableRewriter(grammar, job).derive(steps).size() != length + 1) std::abort();
+  });
+  bench::report("context signal", "rewrites", static_cast<double>(length) * steps, seconds);
+}
+
+/// Counts modules and takes one bit of each parameter, so that no argument can be left out by the compiler.
+struct Counter {
+  std::uint64_t modules = 0;
+  double sum = 0;
+  void module(KindId, const double* parameters, std::uint64_t, std::uint32_t) {
+    ++modules;
+    sum += parameters[0];
+  }
+};
+
+/// A context-free system depth first into a reader, without the word.
+void bench_stream(const std::string& name, const LsystemParams& params, std::uint32_t steps) {
+  const Grammar grammar = compiled(params);
+  Counter counter;
+  const double seconds = bench::median_seconds(rounds, [&] {
+    Job job(0, {.limits = roomy()});
+    counter = {};
+    FreeDerivation<Counter>(grammar, steps, false, job, counter).run();
+  });
+  if (!(counter.sum < 1e300)) std::abort();
+  bench::report(name, "modules", static_cast<double>(counter.modules), seconds);
+}
+
+LsystemParams bush() {
+  LsystemParams params;
+  params.axiom = "F";
+  params.productions = {"F->FF-[-F+F+F]+[+F-F-F]"};
+  return params;
+}
+
+/// Figure 2.6a of The Algorithmic Beauty of Plants, a tree after Honda.
+LsystemParams honda_tree() {
+  LsystemParams params;
+  params.axiom = "A(1,10)";
+  params.productions = {"A(l,w) -> !(w)F(l)[&(a0)B(l*r2,w*wr)]/(d)A(l*r1,w*wr)",
+                        "B(l,w) -> !(w)F(l)[-(a2)$C(l*r2,w*wr)]C(l*r1,w*wr)",
+                        "C(l,w) -> !(w)F(l)[+(a2)$B(l*r2,w*wr)]B(l*r1,w*wr)"};
+  for (const auto& [key, value] : std::vector<std::pair<std::string, double>>{
+           {"r1", 0.9}, {"r2", 0.6}, {"a0", 45}, {"a2", 45}, {"d", 137.5}, {"wr", 0.707}}) {
+    params.constants[key] = value;
+  }
+  return params;
+}
+
+}  // namespace
+
+int main() {
+  bench_table("D0L bush n=7", bush(), 7);
+  bench_table("D0L bush n=8", bush(), 8);
+  bench_stream("D0L bush n=8, streamed", bush(), 8);
+  bench_stream("parametric tree 2.6a n=19", honda_tree(), 19);
+  bench_signal();
+}

@@ -1,0 +1,18 @@
+// The same derivation by npm lindenmayer, the peer: time of iterate() and of making the text one flat string, without start-up.
+import LSystem from 'lindenmayer';
+
+function seconds_of(steps) {
+  const lsystem = new LSystem({ axiom: 'F', productions: { F: 'FF-[-F+F+F]+[+F-F-F]' } });
+  const start = process.hrtime.bigint();
+  lsystem.iterate(steps);
+  const text = lsystem.getString();
+  text.charCodeAt(text.length - 1); // flattens the rope that the engine builds
+  return { length: text.length, seconds: Number(process.hrtime.bigint() - start) / 1e9 };
+}
+
+for (const steps of [7, 8]) {
+  const runs = [];
+  for (let round = 0; round < 6; round += 1) runs.push(seconds_of(steps));
+  const seconds = runs.slice(1).map((run) => run.seconds).sort((a, b) => a - b)[2];
+  console.log(JSON.stringify({ name: `D0L bush n=${steps}`, unit: 'modules', amount: runs[0].length, seconds }));
+}

@@ -1,0 +1,115 @@
+/// From the text of a request to the bytes of a GLB: time a triangle of the three biggest presets, and how
+/// much memory one big answer takes beside its own size.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/pipeline.h"
+#include "tests/bench/report.h"
+
+namespace {
+
+using namespace seedmesh;
+
+struct Sized {
+  std::string name;
+  std::uint64_t triangles = 0;
+  std::uint64_t bytes = 0;
+};
+
+Sized made(const std::string& name, const Request& request, int threads) {
+  Job job(request.seed(), {.threads = threads});
+  const Result<Product> product = produce(request, job);
+  if (!product) return {name, 0, 0};
+  return {name, product->statistics.triangles, product->payload.size()};
+}
+
+std::vector<Sized> biggest_presets(std::size_t count) {
+  std::vector<Sized> all;
+  for (const PresetInfo& preset : presets()) {
+    const auto request = read_preset(preset.name, {}, Limits{});
+    if (request && *request) all.push_back(made(preset.name, **request, 1));
+  }
+  std::sort(all.begin(), all.end(), [](const Sized& a, const Sized& b) {
+    return a.triangles != b.triangles ? a.triangles > b.triangles : a.name < b.name;
+  });
+  all.resize(std::min(all.size(), count));
+  return all;
+}
+
+void bench_preset(const Sized& preset, int threads) {
+  const std::string text = preset_json(preset.name).value();
+  const double seconds = bench::median_seconds(15, [&] {
+    const Result<Request> request = read_request(text, Limits{});
+    if (!request || made(preset.name, *request, threads).triangles != preset.triangles) std::abort();
+  });
+  bench::report("request to GLB: " + preset.name + ", " + std::to_string(threads) +
+                    (threads == 1 ? " thread" : " threads"),
+                "triangles", static_cast<double>(preset.triangles), seconds);
+}
+
+/// A figure of /proc/self/status in bytes.
+double status_bytes(const std::string& key) {
+  std::ifstream file("/proc/self/status");
+  for (std::string line; std::getline(file, line);) {
+    if (line.compare(0, key.size(), key) == 0)
+      return std::strtod(line.c_str() + key.size() + 1, nullptr) * 1024;
+  }
+  return 0;
+}
+
+/// Makes the preset with so many iterations in a process of its own and prints what it took; false when the
+/// answer has fewer bytes than asked for, or is refused.
+bool bench_memory(const std::string& name, int iterations, std::uint64_t least_bytes) {
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child == 0) {
+    const auto request = read_preset(name, {{"iterations", std::to_string(iterations)}}, Limits{});
+    if (!request || !*request) _exit(1);
+    Job job((*request)->seed(), {.threads = static_cast<int>(std::thread::hardware_concurrency())});
+    const double idle = status_bytes("VmRSS");
+    const Result<Product> product = produce(**request, job);
+    if (!product || product->payload.size() < least_bytes) _exit(1);
+    const double peak = status_bytes("VmHWM");
+    std::printf(
+        "{\"name\":\"memory: %s, %d "
+        "iterations\",\"unit\":\"bytes\",\"amount\":%llu,\"peak_less_idle\":%.0f}\n",
+        name.c_str(), iterations, static_cast<unsigned long long>(product->payload.size()), peak - idle);
+    std::fflush(stdout);
+    _exit(0);
+  }
+  int status = 1;
+  waitpid(child, &status, 0);
+  return status == 0;
+}
+
+int iterations_of(const std::string& name) {
+  const std::string text = preset_json(name).value();
+  const std::size_t at = text.find("\"iterations\":");
+  return at == std::string::npos ? 1 : std::atoi(text.c_str() + at + 13);
+}
+
+}  // namespace
+
+int main() {
+  const std::vector<Sized> biggest = biggest_presets(3);
+  // First, while this process is small: a child starts with its parent's memory.
+  for (const Sized& preset : biggest) {
+    constexpr std::uint64_t big = 50'000'000;
+    const int from = iterations_of(preset.name);
+    for (int more = 0; more < 8 && !bench_memory(preset.name, from + more, big); ++more) {
+    }
+  }
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  for (const Sized& preset : biggest) {
+    bench_preset(preset, 1);
+    if (cores > 1) bench_preset(preset, cores);
+  }
+}
