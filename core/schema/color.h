@@ -1,0 +1,22 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace seedmesh {
+
+/// A colour in sRGB, 8 bits a channel, as it stands in a request.
+struct Color {
+  std::uint8_t red = 0, green = 0, blue = 0;
+
+  friend bool operator==(const Color&, const Color&) = default;
+};
+
+/// "#rrggbb" in hexadecimal digits of either case; anything else is nullopt.
+std::optional<Color> color_of(std::string_view text);
+
+/// "#rrggbb" in small letters.
+std::string text_of(const Color& color);
+
+}  // namespace seedmesh

@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/schema/json.h"
+
+namespace seedmesh {
+namespace {
+
+constexpr int number_out_of_range = 406;  ///< nlohmann's id of "number overflow"
+
+/// Builds the value from the parser's events. Every event answers whether to go on; a fault stops the parser
+/// and stays in `error`.
+class Builder {
+ public:
+  Builder(std::string_view text, const JsonLimits& limits) : text_(text), limits_(limits) {}
+
+  std::optional<Error> error;
+  Json root;
+
+  bool null() { return add(nullptr); }
+  bool boolean(bool value) { return add(value); }
+  bool number_integer(std::int64_t value) { return add(value); }
+  bool number_unsigned(std::uint64_t value) { return add(value); }
+  bool number_float(double value, const std::string&) { return add(value == 0 ? 0.0 : value); }
+  bool string(std::string& value) { return add(std::move(value)); }
+  bool binary(Json::binary_t&) { return false; }
+
+  bool start_object(std::size_t) { return open(Json::object()); }
+  bool start_array(std::size_t) { return open(Json::array()); }
+  bool end_object() { return close(); }
+  bool end_array() { return close(); }
+
+  bool key(std::string& name) {
+    if (open_.back()->contains(name)) {
+      key_ = name;
+      return refuse(Code::malformed, {pointer(), "\"" + shortened(name, 40) + "\" stands here twice"});
+    }
+    key_ = std::move(name);
+    return true;
+  }
+
+  bool parse_error(std::size_t position, const std::string& token, const Json::exception& fault) {
+    if (fault.id == number_out_of_range) {
+      return refuse(Code::invalid,
+                    {pointer(), "found " + shortened(token, 40) + ", which is too large for a number"});
+    }
+    // `position` counts the characters read, the offending one included.
+    const std::size_t offset = std::min(position == 0 ? 0 : position - 1, text_.size());
+    return refuse(Code::malformed,
+                  issue_at("", text_, offset, "this is not JSON: " + unexpected(offset) + expected(fault)));
+  }
+
+ private:
+  bool add(Json value) { return put(std::move(value)) != nullptr; }
+
+  bool open(Json container) {
+    if (open_.size() == limits_.depth) {
+      return refuse(Code::malformed, {"", "nested deeper than " + std::to_string(limits_.depth) + " levels"});
+    }
+    Json* const place = put(std::move(container));
+    if (place) {
+      open_.push_back(place);
+      keys_.push_back(std::move(key_));
+    }
+    return place != nullptr;
+  }
+
+  bool close() {
+    key_ = std::move(keys_.back());
+    keys_.pop_back();
+    open_.pop_back();
+    return true;
+  }
+
+  /// Puts a value where it belongs and gives its address, which holds until its list gets the next entry.
+  Json* put(Json value) {
+    if (++values_ > limits_.values) {
+      refuse(Code::limit, {"", "more than " + std::to_string(limits_.values) + " JSON values"});
+      return nullptr;
+    }
+    if (open_.empty()) return &(root = std::move(value));
+    Json& parent = *open_.back();
+    if (parent.is_object()) return &(parent[key_] = std::move(value));
+    parent.push_back(std::move(value));
+    return &parent.back();
+  }
+
+  /// The way to the value that comes next.
+  std::string pointer() const {
+    std::string text;
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      const bool last = i + 1 == open_.size();
+      if (open_[i]->is_object()) {
+        text += pointer_token(last ? key_ : keys_[i + 1]);
+      } else {
+        text += "/" + std::to_string(open_[i]->size() - (last ? 0 : 1));
+      }
+    }
+    return text;
+  }
+
+  bool refuse(Code code, Issue issue) {
+    error = Error{code, {std::move(issue)}};
+    return false;
+  }
+
+  std::string unexpected(std::size_t offset) const {
+    if (offset == text_.size()) return "it ends too early";
+    return "unexpected \"" + shortened(text_.substr(offset), 1) + "\"";
+  }
+
+  /// What the parser would have taken instead; its own words, which are plain.
+  static std::string expected(const Json::exception& fault) {
+    const std::string_view words = fault.what();
+    const std::size_t at = words.rfind("; expected ");
+    return at == std::string_view::npos ? "" : std::string(words.substr(at));
+  }
+
+  std::string_view text_;
+  JsonLimits limits_;
+  std::vector<Json*> open_;  ///< the containers that are not closed yet, outermost first
+  std::vector<std::string>
+      keys_;         ///< for each open container the key it stands at in its parent, if that is an object
+  std::string key_;  ///< of the value that comes next
+  std::size_t values_ = 0;
+};
+
+}  // namespace
+
+Result<Json> parse_json(std::string_view text, const JsonLimits& limits) {
+  constexpr std::string_view blank = " \t\r\n";
+  if (text.find_first_not_of(blank) == std::string_view::npos) {
+    return Error{Code::malformed, {{"", "the body is empty, expected a JSON object"}}};
+  }
+  if (const std::size_t bad = find_bad_utf8(text); bad != std::string_view::npos) {
+    return Error{Code::malformed, {issue_at("", text, bad, "this is not UTF-8")}};
+  }
+  Builder builder(text, limits);
+  if (!Json::sax_parse(text.begin(), text.end(), &builder)) return *std::move(builder.error);
+  return std::move(builder.root);
+}
+
+}  // namespace seedmesh

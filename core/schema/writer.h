@@ -1,0 +1,30 @@
+#pragma once
+/// What the writers made from api_schema are built of. Includes the whole of nlohmann/json: for .cpp files
+/// only.
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/schema/json.h"
+
+namespace seedmesh::schema {
+
+/// A number where JavaScript reads it exactly, else its digits as a text.
+Json write_seed(std::uint64_t seed);
+
+template <class List, class Write>
+Json write_list(const List& list, const Write& write) {
+  Json json = Json::array();
+  for (const auto& entry : list) json.push_back(write(entry));
+  return json;
+}
+
+template <class Value, class Write>
+Json write_map(const std::map<std::string, Value>& map, const Write& write) {
+  Json json = Json::object();
+  for (const auto& [key, entry] : map) json[key] = write(entry);
+  return json;
+}
+
+}  // namespace seedmesh::schema
