@@ -1,1 +1,191 @@
 #include "core/geom/skin.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+#include "core/base/parallel.h"
+#include "core/geom/tube_count.h"
+#include "core/geom/tube_writer.h"
+
+namespace seedmesh {
+namespace {
+
+// Limbs a worker takes at once: small enough to share out a plant, large enough to be worth the door.
+constexpr std::size_t limbs_a_chunk = 256;
+// Bounds the table of counts, one row a chunk and one column a colour.
+constexpr std::size_t most_counts = std::size_t{1} << 20U;
+constexpr std::uint64_t most_vertices = 0xFFFFFFFEU;
+
+/// Looks at stop and deadline now and then, also inside one endless limb.
+template <class Sink>
+class Checked {
+ public:
+  Checked(Sink& sink, const Job& job) : sink_(sink), job_(job) {}
+  void open(const Internode& first, Opening opening) {
+    count();
+    sink_.open(first, opening);
+  }
+  void join(const Turn& turn, const Internode& next) {
+    count();
+    sink_.join(turn, next);
+  }
+  void close(Closing closing, float free) { sink_.close(closing, free); }
+
+ private:
+  void count() {
+    if (++steps_ % 4096 == 0) job_.check();
+  }
+  Sink& sink_;
+  const Job& job_;
+  unsigned steps_ = 0;
+};
+
+struct Plan {
+  Plan(const Limbs& limbs, Chains found, const Scale& the_scale)
+      : chains(std::move(found)),
+        scale(the_scale),
+        palette(limbs),
+        chunk(std::max(limbs_a_chunk, chains.head.size() * palette.size() / most_counts)),
+        chunks(chunk_count(chains.head.size(), chunk)),
+        counts(chunks * palette.size()) {}
+
+  TubeCount* row(std::size_t index) { return counts.data() + index * palette.size(); }
+
+  Chains chains;
+  Scale scale;
+  Palette palette;
+  std::size_t chunk, chunks;
+  std::vector<TubeCount> counts;  ///< of each chunk and colour; after `stack_up`, what stands before it
+};
+
+void count_tubes(Plan& plan, const Limbs& limbs, const SkinOptions& options, const Job& job) {
+  parallel_for(job, plan.chains.head.size(), plan.chunk,
+               [&](std::size_t begin, std::size_t end, std::size_t index) {
+                 TubeCounter counter(options, plan.scale, plan.palette, plan.row(index));
+                 Checked sink(counter, job);
+                 const TurnJudge judge(plan.scale, options.sides);
+                 for (std::size_t i = begin; i < end; ++i) {
+                   walk_limb({limbs, plan.chains, plan.scale, plan.chains.head[i]}, judge, plan.chains,
+                             plan.scale, sink);
+                 }
+               });
+}
+
+/// Turns counts into places; returns the totals of each colour.
+std::vector<TubeCount> stack_up(Plan& plan) {
+  std::vector<TubeCount> totals(plan.palette.size());
+  for (std::size_t index = 0; index < plan.chunks; ++index) {
+    for (std::size_t slot = 0; slot < totals.size(); ++slot) {
+      TubeCount& count = plan.row(index)[slot];
+      const TubeCount before = totals[slot];
+      totals[slot].vertices += count.vertices;
+      totals[slot].triangles += count.triangles;
+      count = before;
+    }
+  }
+  return totals;
+}
+
+Mesh room_for(const TubeCount& count, const SkinOptions& options, const Job& job) {
+  if (count.vertices > most_vertices) Job::refuse("The bark has more vertices than 32-bit indices can name.");
+  Mesh mesh;
+  mesh.position = Array<glm::vec3>(job, count.vertices);
+  mesh.normal = Array<glm::vec3>(job, count.vertices);
+  if (options.uv) mesh.uv[0] = Array<glm::vec2>(job, count.vertices);
+  mesh.index.wide = Array<std::uint32_t>(job, 3 * count.triangles);
+  mesh.cache_ordered = true;
+  return mesh;
+}
+
+std::vector<Bark> room_for_all(const std::vector<TubeCount>& totals, const Palette& palette,
+                               const SkinOptions& options, Job& job) {
+  std::uint64_t triangles = 0;
+  for (const TubeCount& total : totals) triangles += total.triangles;
+  job.spend(Resource::triangles, triangles);
+  std::vector<Bark> barks;
+  for (std::size_t slot = 0; slot < totals.size(); ++slot) {
+    barks.push_back({palette.color(slot), room_for(totals[slot], options, job)});
+  }
+  return barks;
+}
+
+TubeCursor cursor_at(Mesh& mesh, const TubeCount& place) {
+  return {mesh.position.data(),   mesh.normal.data(), mesh.uv[0].empty() ? nullptr : mesh.uv[0].data(),
+          mesh.index.wide.data(), place.vertices,     3 * place.triangles};
+}
+
+void write_tubes(Plan& plan, const Limbs& limbs, const SkinOptions& options, const Job& job,
+                 std::vector<Bark>& barks) {
+  const TubeTables tables(options);
+  parallel_for(
+      job, plan.chains.head.size(), plan.chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
+        std::vector<TubeCursor> cursors;
+        for (std::size_t slot = 0; slot < barks.size(); ++slot) {
+          cursors.push_back(cursor_at(barks[slot].mesh, plan.row(index)[slot]));
+        }
+        TubeWriter writer({limbs, plan.chains, plan.scale, plan.palette, options, tables}, cursors.data());
+        Checked sink(writer, job);
+        const TurnJudge judge(plan.scale, options.sides);
+        for (std::size_t i = begin; i < end; ++i) {
+          writer.begin_limb();
+          walk_limb({limbs, plan.chains, plan.scale, plan.chains.head[i]}, judge, plan.chains, plan.scale,
+                    sink);
+        }
+        for ([[maybe_unused]] std::size_t slot = 0; index + 1 < plan.chunks && slot < cursors.size();
+             ++slot) {
+          assert(cursors[slot].vertex == plan.row(index + 1)[slot].vertices);
+          assert(cursors[slot].corner == 3 * plan.row(index + 1)[slot].triangles);
+        }
+      });
+}
+
+}  // namespace
+
+Palette::Palette(const Limbs& limbs) {
+  if (limbs.color.empty()) {
+    slots_.push_back(0);
+    colors_.push_back(0);
+    return;
+  }
+  const auto [low, high] = std::minmax_element(limbs.color.begin(), limbs.color.end());
+  lowest_ = *low;
+  std::vector<std::uint8_t> is_used(static_cast<std::size_t>(*high - *low + 1));
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    if (limbs.parent[i] != Limbs::none) is_used[static_cast<std::size_t>(limbs.color[i] - lowest_)] = 1;
+  }
+  slots_.resize(is_used.size());
+  for (std::size_t i = 0; i < is_used.size(); ++i) {
+    if (!is_used[i]) continue;
+    slots_[i] = static_cast<std::uint16_t>(colors_.size());
+    colors_.push_back(static_cast<std::int16_t>(lowest_ + static_cast<int>(i)));
+  }
+}
+
+std::vector<Bark> skin(const Limbs& limbs, const SkinOptions& options, Job& job) {
+  assert(options.sides >= 3 && options.sides <= 64 && options.stacks >= 1);
+  if (limbs.size() == 0) return {};
+  const Scale scale = scale_of(limbs, options.sides);
+  Plan plan(limbs, find_chains(limbs, scale, job), scale);
+  count_tubes(plan, limbs, options, job);
+  const std::vector<TubeCount> totals = stack_up(plan);
+  std::vector<Bark> barks = room_for_all(totals, plan.palette, options, job);
+  write_tubes(plan, limbs, options, job, barks);
+  std::erase_if(barks, [](const Bark& bark) { return bark.mesh.position.empty(); });
+  return barks;
+}
+
+std::uint64_t skin_triangles(const Limbs& limbs, const SkinOptions& options) {
+  if (limbs.size() == 0) return 0;
+  Limits own;
+  own.memory_bytes = std::numeric_limits<std::uint64_t>::max();
+  Job job(0, {.limits = own});
+  const Scale scale = scale_of(limbs, options.sides);
+  Plan plan(limbs, link_chains(limbs, job), scale);
+  count_tubes(plan, limbs, options, job);
+  std::uint64_t triangles = 0;
+  for (const TubeCount& total : stack_up(plan)) triangles += total.triangles;
+  return triangles;
+}
+
+}  // namespace seedmesh

@@ -1,0 +1,134 @@
+#pragma once
+/// One walk along a limb, cut into tubes: the decisions of skin() in one place, taken twice (to count and to
+/// write).
+#include <algorithm>
+#include <cmath>
+
+#include "core/geom/chains.h"
+
+namespace seedmesh {
+
+/// A straight piece of bark to be skinned.
+struct Internode {
+  glm::vec3 from{0}, to{0};
+  glm::vec3 along{0};  ///< unit
+  float length = 0;
+  float base = 0, end = 0;  ///< radii
+  std::uint32_t joint = 0;  ///< its far end
+  std::int16_t color = 0;
+  bool follows = false;  ///< begins where the one before it ends
+  bool at_root = false;  ///< begins at a joint without parent
+};
+
+/// How two internodes meet in a mitred ring: in the plane across `tangent`.
+struct Turn {
+  glm::vec3 tangent{0};
+  float cosine = 1;  ///< of half the angle between the two
+  float reach = 0;   ///< how far the ring leans along either internode
+};
+
+enum class Opening { root, branch, point };
+enum class Closing { tip, cap, point };
+
+/// Reads the internodes of one limb, passing over what is not skinned: no length, no radius, drawn before.
+class InternodeReader {
+ public:
+  InternodeReader(const Limbs& limbs, const Chains& chains, const Scale& scale, std::uint32_t head)
+      : limbs_(limbs), chains_(chains), scale_(scale), joint_(head) {
+    at_root_ = limbs.parent[head] == Limbs::none;
+    here_ = limbs.position[at_root_ ? head : limbs.parent[head]];
+    if (at_root_) joint_ = chains.next[head];
+  }
+
+  bool read(Internode& out) {
+    bool follows = !first_;
+    for (; joint_ != Limbs::none; joint_ = chains_.next[joint_]) {
+      const glm::vec3 to = limbs_.position[joint_];
+      const glm::vec3 step = to - here_;
+      const float length = std::sqrt(glm::dot(step, step));
+      if (length <= scale_.shortest) continue;
+      const float base = limbs_.base_radius[joint_], end = limbs_.radius[joint_];
+      const bool is_skinned =
+          !(chains_.mark[joint_] & drawn_before) && std::max(base, end) >= scale_.thinnest;
+      if (is_skinned) {
+        out = {here_,   to,      step / length, length,
+               base,    end,     joint_,        limbs_.color.empty() ? std::int16_t{0} : limbs_.color[joint_],
+               follows, at_root_};
+      }
+      here_ = to;
+      at_root_ = false;
+      if (is_skinned) {
+        joint_ = chains_.next[joint_];
+        first_ = false;
+        return true;
+      }
+      follows = false;
+    }
+    return false;
+  }
+
+ private:
+  const Limbs& limbs_;
+  const Chains& chains_;
+  const Scale& scale_;
+  std::uint32_t joint_;
+  glm::vec3 here_{0};
+  bool first_ = true;
+  bool at_root_ = false;
+};
+
+/// Decides whether two internodes can meet in a mitred ring. Looks back on how the first of the two began.
+class TurnJudge {
+ public:
+  TurnJudge(const Scale& scale, int sides);
+
+  /// Forgets the past: the next internode opens a tube.
+  void open() {
+    lean_ = glm::vec3(0);
+    reach_ = 0;
+  }
+
+  /// True: `a` goes over into `b` through `turn`; `radius_before` is the ring's at the near end of `a`.
+  bool allows(const Internode& a, const Internode& b, float radius_before, Turn& turn);
+
+  /// What is free of the last internode, between the lean of the ring where it begins and its far end.
+  float free_of(const Internode& a) const { return a.length - reach_; }
+  float reach() const { return reach_; }
+
+ private:
+  bool keeps_faces_outside(const Internode& a, const Internode& b, float radius_before,
+                           const Turn& turn) const;
+
+  const Scale& scale_;
+  float side_cosine_;  ///< of half the angle between two corners of a cross-section
+  glm::vec3 lean_{0};  ///< of the ring where the current internode begins: offset along it is dot(lean, side)
+  float reach_ = 0;    ///< length of lean
+};
+
+/// Walks one limb and tells the sink of each tube in order: open(internode, Opening), then for each further
+/// internode join(turn, next), and close(Closing, free length of the last internode).
+template <class Sink>
+void walk_limb(InternodeReader reader, TurnJudge judge, const Chains& chains, const Scale& scale,
+               Sink& sink) {
+  Internode a, b;
+  bool more = reader.read(a);
+  while (more) {
+    judge.open();
+    float radius = a.base;
+    sink.open(a, radius < scale.thinnest ? Opening::point : a.at_root ? Opening::root : Opening::branch);
+    Turn turn;
+    while ((more = reader.read(b)) && b.follows && judge.allows(a, b, radius, turn)) {
+      sink.join(turn, b);
+      radius = b.base;
+      a = b;
+    }
+    const bool is_covered = (more && b.follows) || (chains.mark[a.joint] & fork);
+    sink.close(a.end < scale.thinnest ? Closing::point
+               : is_covered           ? Closing::cap
+                                      : Closing::tip,
+               judge.free_of(a));
+    a = b;
+  }
+}
+
+}  // namespace seedmesh

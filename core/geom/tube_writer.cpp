@@ -1,0 +1,304 @@
+#include "core/geom/tube_writer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "core/base/rng.h"
+
+namespace seedmesh {
+namespace {
+
+// A column of eight quads needs 10 of the 16 entries that the smallest vertex caches have.
+constexpr std::uint32_t widest_column = 8;
+constexpr int phase_count = 256;
+// The cone that closes a tube inside its parent or over an elbow, as a share of the radius.
+constexpr float cap_share = 0.5F;
+
+float fraction(std::uint64_t hash) { return static_cast<float>(hash >> 40U) * 0x1p-24F; }
+
+glm::vec2 slope_of(float radius, float next_radius, float length) {
+  const float drop = radius - next_radius;
+  if (drop == 0) return {1, 0};
+  const float flank = std::sqrt(length * length + drop * drop);
+  return {length / flank, drop / flank};
+}
+
+glm::vec2 circle_point(double angle) {
+  const math::SinCos at = math::sincos(angle);
+  return {static_cast<float>(at.cos), static_cast<float>(at.sin)};
+}
+
+}  // namespace
+
+TubeTables::TubeTables(const SkinOptions& options) {
+  const CrossSection section(options);
+  for (std::uint32_t i = 0; i < section.sides; ++i)
+    circle.push_back(circle_point(2 * math::pi * i / section.sides));
+  for (int i = 0; i < phase_count; ++i) {
+    phases.push_back(
+        circle_point(2 * math::pi * (i + 0.5) / (phase_count * static_cast<double>(section.sides))));
+  }
+  const std::uint32_t count = (section.sides + widest_column - 1) / widest_column;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t first = i * section.sides / count, end = (i + 1) * section.sides / count;
+    Column column{first, end - first, {}};
+    for (std::uint32_t k = first; k < end; ++k) {
+      const std::uint32_t low = k, low_next = (k + 1) % section.corners;
+      const std::uint32_t high = low + section.corners, high_next = low_next + section.corners;
+      for (std::uint32_t corner : {low, low_next, high, low_next, high_next, high})
+        column.corners.push_back(corner);
+    }
+    columns.push_back(std::move(column));
+  }
+}
+
+std::uint64_t TubeWriter::hash_of(std::uint32_t joint) const {
+  return key_at(context_.limbs.key.empty() ? joint : context_.limbs.key[joint], 0x70BE);
+}
+
+/// A small length, different for every joint, by which rings of tubes that begin at one place are kept apart.
+float TubeWriter::nudge(std::uint64_t hash, float radius) const {
+  return (1 + fraction(hash)) * std::max(0.05F * radius, context_.scale.apart);
+}
+
+void TubeWriter::start_frame(const glm::vec3& along, std::uint64_t hash) {
+  const float sign = along.z < 0 ? -1.0F : 1.0F;
+  const float a = -1 / (sign + along.z);
+  const float b = along.x * along.y * a;
+  const glm::vec3 u{1 + sign * along.x * along.x * a, sign * b, -sign * along.x};
+  const glm::vec2 phase = context_.tables.phases[hash % phase_count];
+  u_ = u * phase.x + glm::cross(along, u) * phase.y;
+}
+
+TubeWriter::Ring TubeWriter::plain_ring(const glm::vec3& centre, float radius, float v) const {
+  Ring ring;
+  ring.centre = centre;
+  ring.tangent = internode_.along;
+  ring.normal_u = u_;
+  ring.normal_v = glm::cross(internode_.along, u_);
+  ring.side_u = ring.normal_u * radius;
+  ring.side_v = ring.normal_v * radius;
+  ring.radius = radius;
+  ring.v = v;
+  ring.next_color = internode_.color;
+  return ring;
+}
+
+void TubeWriter::begin_piece(std::int16_t color) {
+  here_ = &cursors_[context_.palette.slot(color)];
+  piece_ = {here_->vertex, 0, Limbs::none, Limbs::none};
+}
+
+void TubeWriter::open(const Internode& first, Opening opening) {
+  internode_ = first;
+  radius_ = first.base;
+  reach_ = 0;
+  begin_piece(first.color);
+  const std::uint64_t hash = hash_of(first.joint);
+  start_frame(first.along, hash);
+  is_waiting_ = opening != Opening::point;
+  switch (opening) {
+    case Opening::point:
+      radius_ = 0;
+      piece_.start_apex = write_apex(first.from, -first.along, {0, length_so_far_});
+      break;
+    case Opening::root: {
+      const bool is_revisit = context_.chains.mark[context_.limbs.parent[first.joint]] & revisit;
+      const float up = is_revisit ? std::min(nudge(hash, radius_), 0.2F * first.length) : 0;
+      waiting_ = plain_ring(first.from + first.along * up, radius_, length_so_far_);
+      write_disc(waiting_);
+      break;
+    }
+    case Opening::branch: {
+      const float back = nudge(hash, radius_), cone = cap_share * radius_;
+      waiting_ = plain_ring(first.from - first.along * back, radius_, length_so_far_ - back);
+      waiting_.before = slope_of(0, radius_, cone);
+      piece_.start_apex = write_apex(waiting_.centre - first.along * cone, -first.along,
+                                     {static_cast<float>(math::pi) * radius_, waiting_.v - cone});
+      break;
+    }
+  }
+  piece_.first_ring = here_->vertex;
+}
+
+void TubeWriter::join(const Turn& turn, const Internode& next) {
+  const glm::vec3 &along = internode_.along, &tangent = turn.tangent;
+  const Slope slope = slope_of(radius_, next.base, internode_.length);
+  write_waiting(slope);
+  write_inner_rings(next.base, reach_, internode_.length - turn.reach);
+
+  length_so_far_ += internode_.length;
+  Ring ring;
+  ring.centre = internode_.to;
+  if (context_.chains.mark[internode_.joint] & revisit) {
+    const std::uint64_t hash = hash_of(internode_.joint);
+    ring.centre += tangent * std::min(nudge(hash, next.base), (0.004F + 0.004F * fraction(hash)) *
+                                                                  std::min(internode_.length, next.length));
+  }
+  const glm::vec3 v = glm::cross(along, u_);
+  const float mitre = 1 / turn.cosine, half = 1 / (1 + turn.cosine);
+  const float u_lean = glm::dot(u_, tangent), v_lean = glm::dot(v, tangent);
+  ring.side_u = (u_ - along * (u_lean * mitre)) * next.base;
+  ring.side_v = (v - along * (v_lean * mitre)) * next.base;
+  ring.normal_u = u_ - (along + tangent) * (u_lean * half);
+  ring.normal_v = v - (along + tangent) * (v_lean * half);
+  ring.tangent = tangent;
+  ring.radius = next.base;
+  ring.v = length_so_far_;
+  ring.before = slope;
+  ring.next_color = next.color;
+  waiting_ = ring;
+  is_waiting_ = true;
+
+  // The same least rotation once more, from the ring's plane to the next internode; then one step of Newton's
+  // method toward unit length, so that long limbs do not drift.
+  u_ = ring.normal_u - (tangent + next.along) * (glm::dot(ring.normal_u, next.along) * half);
+  u_ -= next.along * glm::dot(u_, next.along);
+  u_ *= 1.5F - 0.5F * glm::dot(u_, u_);
+
+  internode_ = next;
+  radius_ = next.base;
+  reach_ = turn.reach;
+}
+
+void TubeWriter::close(Closing closing, float free) {
+  const glm::vec3 along = internode_.along;
+  const float end = closing == Closing::point ? 0 : internode_.end;
+  const std::uint64_t hash = hash_of(internode_.joint);
+  const float cone = closing == Closing::tip ? tip_length(end, free) : cap_share * end;
+  const float ring_at = closing == Closing::tip ? internode_.length - cone : internode_.length;
+  const Slope slope = slope_of(radius_, end, ring_at);
+  write_waiting(slope);
+  write_inner_rings(end, reach_, ring_at);
+
+  length_so_far_ += internode_.length;
+  glm::vec3 apex = internode_.to;
+  if (closing != Closing::point) {
+    const float nudged = closing == Closing::cap ? nudge(hash, end) : -0.25F * cone * fraction(hash);
+    Ring ring = plain_ring(internode_.from + along * (ring_at + nudged), end,
+                           length_so_far_ - (internode_.length - ring_at));
+    ring.before = slope;
+    if (closing == Closing::cap) apex = ring.centre + along * cone;
+    write_ring(ring, slope_of(end, 0, cone));
+  }
+  const float v = closing == Closing::cap ? length_so_far_ + cone : length_so_far_;
+  piece_.end_apex = write_apex(apex, along, {static_cast<float>(math::pi) * end, v});
+  end_piece();
+}
+
+void TubeWriter::write_waiting(Slope after) {
+  if (!is_waiting_) return;
+  is_waiting_ = false;
+  write_ring(waiting_, after);
+  if (&cursors_[context_.palette.slot(waiting_.next_color)] == here_) return;
+  end_piece();
+  begin_piece(waiting_.next_color);
+  write_ring(waiting_, after);
+}
+
+void TubeWriter::write_inner_rings(float end_radius, float from, float to) {
+  const int count = inner_rings(context_.options, context_.scale, {radius_, end_radius}, to - from);
+  const Slope slope = slope_of(radius_, end_radius, internode_.length);
+  for (int i = 1; i <= count; ++i) {
+    const float share = static_cast<float>(i) / static_cast<float>(count + 1);
+    const float at = from + (to - from) * share;
+    Ring ring = plain_ring(internode_.from + internode_.along * at, radius_ + (end_radius - radius_) * share,
+                           length_so_far_ + at);
+    ring.before = slope;
+    write_ring(ring, slope);
+  }
+}
+
+/// A flat floor with an edge of its own, since bark and cut do not share normals.
+void TubeWriter::write_disc(const Ring& ring) {
+  const glm::vec3 normal = -ring.tangent + 0.0F;
+  const std::uint32_t centre = write_apex(ring.centre, normal, {0, 0});
+  const std::size_t rim = here_->vertex;
+  for (std::uint32_t k = 0; k < section_.sides; ++k) {
+    const glm::vec2 at = context_.tables.circle[k];
+    here_->position[rim + k] = (ring.centre + 0.0F) + ring.side_u * at.x + ring.side_v * at.y;
+    here_->normal[rim + k] = normal;
+    if (here_->uv) here_->uv[rim + k] = at * ring.radius;
+  }
+  here_->vertex += section_.sides;
+  std::uint32_t* out = here_->index + here_->corner;
+  for (std::uint32_t k = 0; k < section_.sides; ++k) {
+    *out++ = centre;
+    *out++ = static_cast<std::uint32_t>(rim) + (k + 1) % section_.sides;
+    *out++ = static_cast<std::uint32_t>(rim) + k;
+  }
+  here_->corner += std::size_t{3} * section_.sides;
+}
+
+void TubeWriter::write_ring(const Ring& ring, Slope after) {
+  Slope slope = ring.before + after;
+  if (ring.before != after)
+    slope = slope / std::sqrt(glm::dot(slope, slope));
+  else
+    slope = after;
+  // Adding 0 makes -0 a 0, here once for all corners: a sum that starts with anything but -0 never becomes
+  // -0.
+  const glm::vec3 centre = ring.centre + 0.0F;
+  const glm::vec3 lean = ring.tangent * slope.y + 0.0F;
+  const glm::vec3 normal_u = ring.normal_u * slope.x, normal_v = ring.normal_v * slope.x;
+  const std::size_t first = here_->vertex;
+  glm::vec3* position = here_->position + first;
+  glm::vec3* normal = here_->normal + first;
+  const glm::vec2* circle = context_.tables.circle.data();
+  for (std::uint32_t k = 0; k < section_.sides; ++k) {
+    const glm::vec2 at = circle[k];
+    position[k] = (centre + ring.side_u * at.x) + ring.side_v * at.y;
+    normal[k] = (lean + normal_u * at.x) + normal_v * at.y;
+  }
+  if (here_->uv) {
+    position[section_.sides] = position[0];
+    normal[section_.sides] = normal[0];
+    const float step = static_cast<float>(2 * math::pi) * ring.radius / static_cast<float>(section_.sides);
+    const float v = ring.v + 0.0F;
+    glm::vec2* uv = here_->uv + first;
+    for (std::uint32_t k = 0; k <= section_.sides; ++k) uv[k] = {step * static_cast<float>(k), v};
+  }
+  here_->vertex += section_.corners;
+  ++piece_.rings;
+}
+
+std::uint32_t TubeWriter::write_apex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv) {
+  const std::size_t at = here_->vertex++;
+  here_->position[at] = position + 0.0F;
+  here_->normal[at] = normal + 0.0F;
+  if (here_->uv) here_->uv[at] = uv + 0.0F;
+  return static_cast<std::uint32_t>(at);
+}
+
+void TubeWriter::end_piece() {
+  std::uint32_t* out = here_->index + here_->corner;
+  const std::size_t last_ring = piece_.first_ring + std::size_t{piece_.rings - 1} * section_.corners;
+  for (const TubeTables::Column& column : context_.tables.columns) {
+    const std::size_t size = column.corners.size();
+    const std::uint32_t* corners = column.corners.data();
+    if (piece_.start_apex != Limbs::none) {
+      for (std::size_t i = 0; i < size; i += 6) {
+        *out++ = piece_.start_apex;
+        *out++ = static_cast<std::uint32_t>(piece_.first_ring) + corners[i + 1];
+        *out++ = static_cast<std::uint32_t>(piece_.first_ring) + corners[i];
+      }
+    }
+    for (std::size_t ring = piece_.first_ring; ring != last_ring; ring += section_.corners) {
+      const auto base = static_cast<std::uint32_t>(ring);
+      for (std::size_t i = 0; i < size; ++i) out[i] = base + corners[i];
+      out += size;
+    }
+    if (piece_.end_apex != Limbs::none) {
+      for (std::size_t i = 0; i < size; i += 6) {
+        *out++ = static_cast<std::uint32_t>(last_ring) + corners[i];
+        *out++ = static_cast<std::uint32_t>(last_ring) + corners[i + 1];
+        *out++ = piece_.end_apex;
+      }
+    }
+  }
+  here_->corner = static_cast<std::size_t>(out - here_->index);
+}
+
+}  // namespace seedmesh

@@ -1,0 +1,108 @@
+#pragma once
+/// Sink of walk_limb that writes vertices and triangles straight into the arrays of the meshes.
+///
+/// Frames along the limb turn by the least rotation from one internode to the next, which for straight pieces
+/// is the rotation-minimising frame of Wang, Juettler, Zheng and Liu, "Computation of Rotation Minimizing
+/// Frames", 2008. A starting frame from one vector: Duff et al., "Building an Orthonormal Basis, Revisited",
+/// 2017.
+#include <vector>
+
+#include "core/geom/tube_count.h"
+
+namespace seedmesh {
+
+/// Tables that all tubes of one skin() share: no trigonometry per ring, no division per index.
+struct TubeTables {
+  explicit TubeTables(const SkinOptions& options);
+
+  /// Quads of a tube next to each other: their triangles run along the limb together, so that both rings stay
+  /// in a vertex cache of 16 entries.
+  struct Column {
+    std::uint32_t first_side = 0, sides = 0;
+    std::vector<std::uint32_t> corners;  ///< six for each quad, counted from the lower ring's first vertex
+  };
+  std::vector<glm::vec2> circle;  ///< cosine and sine of each corner
+  std::vector<glm::vec2> phases;  ///< the angles a tube may start with
+  std::vector<Column> columns;
+};
+
+/// Where a writer puts the tubes of one colour: the arrays and the next free vertex and index.
+struct TubeCursor {
+  glm::vec3* position = nullptr;
+  glm::vec3* normal = nullptr;
+  glm::vec2* uv = nullptr;  ///< null: no texture coordinates
+  std::uint32_t* index = nullptr;
+  std::size_t vertex = 0;
+  std::size_t corner = 0;
+};
+
+class TubeWriter {
+ public:
+  struct Context {
+    const Limbs& limbs;
+    const Chains& chains;
+    const Scale& scale;
+    const Palette& palette;
+    const SkinOptions& options;
+    const TubeTables& tables;
+  };
+
+  TubeWriter(const Context& context, TubeCursor* cursors)
+      : context_(context), section_(context.options), cursors_(cursors) {}
+
+  /// The next limb's v starts at 0 again.
+  void begin_limb() { length_so_far_ = 0; }
+
+  void open(const Internode& first, Opening opening);
+  void join(const Turn& turn, const Internode& next);
+  void close(Closing closing, float free);
+
+ private:
+  /// A cone's flank: cosine and sine of the angle by which its normals lean toward the limb's end.
+  using Slope = glm::vec2;
+
+  struct Ring {
+    glm::vec3 centre{0};
+    glm::vec3 side_u{0}, side_v{0};      ///< to the corners at 0 and 90 degrees, radius and mitre included
+    glm::vec3 normal_u{0}, normal_v{0};  ///< unit vectors in the ring's plane
+    glm::vec3 tangent{0};
+    float radius = 0;
+    float v = 0;
+    Slope before{0};  ///< 0: nothing before, a hard edge
+    std::int16_t next_color = 0;
+  };
+
+  /// The triangles of one colour between two ends.
+  struct Piece {
+    std::size_t first_ring = 0;  ///< vertex
+    std::uint32_t rings = 0;
+    std::uint32_t start_apex = Limbs::none, end_apex = Limbs::none;
+  };
+
+  Ring plain_ring(const glm::vec3& centre, float radius, float v) const;
+  void start_frame(const glm::vec3& along, std::uint64_t hash);
+  void begin_piece(std::int16_t color);
+  void end_piece();
+  void write_disc(const Ring& ring);
+  void write_ring(const Ring& ring, Slope after);
+  void write_waiting(Slope after);
+  void write_inner_rings(float end_radius, float from, float to);
+  std::uint32_t write_apex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv);
+  std::uint64_t hash_of(std::uint32_t joint) const;
+  float nudge(std::uint64_t hash, float radius) const;
+
+  Context context_;
+  CrossSection section_;
+  TubeCursor* cursors_;
+  TubeCursor* here_ = nullptr;
+  Piece piece_;
+  Ring waiting_;  ///< the last ring; its normals depend on what comes after it
+  bool is_waiting_ = false;
+  Internode internode_;  ///< the current one
+  float radius_ = 0;     ///< of the ring where it begins
+  float reach_ = 0;      ///< of that ring's mitre
+  glm::vec3 u_{0};       ///< of the current frame; v is along x u
+  float length_so_far_ = 0;
+};
+
+}  // namespace seedmesh

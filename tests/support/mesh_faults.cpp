@@ -1,0 +1,265 @@
+#include "tests/support/mesh_faults.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <set>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "core/base/rng.h"
+
+namespace seedmesh {
+namespace {
+
+using Face = std::array<std::uint32_t, 3>;
+
+template <class T>
+void count_floats(const Array<T>& values, MeshMeasures& m) {
+  const auto* numbers = reinterpret_cast<const float*>(values.data());
+  for (std::size_t i = 0; i < values.bytes() / sizeof(float); ++i) {
+    if (!std::isfinite(numbers[i])) ++m.not_finite;
+    if (numbers[i] == 0 && std::signbit(numbers[i])) ++m.negative_zeros;
+  }
+}
+
+template <class T>
+void append_bytes(std::string& row, const Array<T>& values, std::size_t i) {
+  if (values.empty()) return;
+  row.append(reinterpret_cast<const char*>(values.data() + i), sizeof(T));
+}
+
+std::uint64_t duplicates_of(const Mesh& mesh) {
+  std::unordered_set<std::string> seen;
+  for (std::size_t i = 0; i < mesh.position.size(); ++i) {
+    std::string row;
+    append_bytes(row, mesh.position, i);
+    append_bytes(row, mesh.normal, i);
+    for (const auto& uv : mesh.uv) append_bytes(row, uv, i);
+    append_bytes(row, mesh.color, i);
+    append_bytes(row, mesh.tangent, i);
+    append_bytes(row, mesh.joints, i);
+    append_bytes(row, mesh.weights, i);
+    seen.insert(std::move(row));
+  }
+  return mesh.position.size() - seen.size();
+}
+
+void simulate_cache(const Mesh& mesh, std::uint64_t& misses, std::uint64_t& used) {
+  constexpr std::int64_t entries = 16, never = -1;
+  std::vector<std::int64_t> loaded_at(mesh.position.size(), never);
+  std::int64_t loads = 0;
+  for (std::size_t i = 0; i < mesh.index.size(); ++i) {
+    std::int64_t& at = loaded_at[mesh.index.at(i)];
+    if (at == never) ++used;
+    if (at == never || loads - at > entries) at = loads++;
+  }
+  misses += static_cast<std::uint64_t>(loads);
+}
+
+double diagonal(const Box& box) { return glm::length(glm::dvec3(box.max) - glm::dvec3(box.min)); }
+
+void measure_triangles(const Mesh& mesh, MeshMeasures& m) {
+  const double size = diagonal(bounds_of(mesh.position.span()));
+  for (std::size_t t = 0; t < mesh.index.size() / 3; ++t) {
+    const Face f{mesh.index.at(3 * t), mesh.index.at(3 * t + 1), mesh.index.at(3 * t + 2)};
+    const glm::dvec3 a = mesh.position[f[0]], b = mesh.position[f[1]], c = mesh.position[f[2]];
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    if (!(0.5 * glm::length(normal) > 1e-12 * size * size)) {
+      ++m.zero_area;
+      continue;
+    }
+    m.area += 0.5 * glm::length(normal);
+    m.volume += glm::dot(a, glm::cross(b, c)) / 6;
+    for (std::uint32_t corner : f) {
+      if (!mesh.normal.empty() && glm::dot(normal, glm::dvec3(mesh.normal[corner])) < 0) ++m.flipped_corners;
+    }
+  }
+}
+
+void measure_one(const Mesh& mesh, MeshMeasures& m, std::uint64_t& misses, std::uint64_t& used) {
+  m.vertices += mesh.position.size();
+  count_floats(mesh.position, m);
+  count_floats(mesh.normal, m);
+  for (const auto& uv : mesh.uv) count_floats(uv, m);
+  count_floats(mesh.tangent, m);
+  count_floats(mesh.weights, m);
+  for (const glm::vec3& n : mesh.normal) {
+    if (!(std::abs(glm::length(glm::dvec3(n)) - 1) <= 0.001)) ++m.not_unit;
+  }
+  m.duplicates += duplicates_of(mesh);
+  if (!mesh.index.wide.empty() && mesh.position.size() <= 65'535) ++m.wide_indices;
+
+  std::vector<bool> is_used(mesh.position.size(), mesh.index.size() == 0);
+  std::uint64_t bad = 0;
+  for (std::size_t i = 0; i < mesh.index.size(); ++i) {
+    if (mesh.index.at(i) < is_used.size())
+      is_used[mesh.index.at(i)] = true;
+    else
+      ++bad;
+  }
+  m.bad_indices += bad;
+  m.unused += static_cast<std::uint64_t>(std::count(is_used.begin(), is_used.end(), false));
+  if (bad || mesh.topology != Topology::triangles) return;
+  m.triangles += mesh.elements();
+  simulate_cache(mesh, misses, used);
+  measure_triangles(mesh, m);
+}
+
+/// Gives points nearer than `reach` to an earlier one that one's number.
+class Weld {
+ public:
+  explicit Weld(double reach) : reach_(reach) {}
+  std::uint32_t number(const glm::vec3& point) {
+    const glm::dvec3 cell = glm::floor(glm::dvec3(point) / (2 * reach_));
+    for (int corner = 0; corner < 27; ++corner) {
+      const glm::dvec3 near = cell + glm::dvec3(corner % 3 - 1, corner / 3 % 3 - 1, corner / 9 - 1);
+      const auto found = cells_.find(key(near));
+      if (found == cells_.end()) continue;
+      for (std::uint32_t id : found->second) {
+        if (glm::length(glm::dvec3(points_[id]) - glm::dvec3(point)) <= reach_) return id;
+      }
+    }
+    points_.push_back(point);
+    const auto id = static_cast<std::uint32_t>(points_.size() - 1);
+    cells_[key(cell)].push_back(id);
+    return id;
+  }
+
+ private:
+  static std::uint64_t key(const glm::dvec3& cell) {
+    std::uint64_t k = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      k = key_at(k, static_cast<std::uint64_t>(static_cast<std::int64_t>(cell[axis])));
+    return k;
+  }
+  double reach_;
+  std::vector<glm::vec3> points_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+};
+
+void measure_topology(const std::vector<const Mesh*>& primitives, MeshMeasures& m) {
+  Box box{glm::vec3(1e30F), glm::vec3(-1e30F)};
+  for (const Mesh* mesh : primitives) {
+    if (mesh->topology != Topology::triangles || mesh->position.empty()) continue;
+    const Box part = bounds_of(mesh->position.span());
+    box = {glm::min(box.min, part.min), glm::max(box.max, part.max)};
+  }
+  if (box.min.x > box.max.x) return;
+  Weld weld(std::max(1e-6 * diagonal(box), 1e-30));
+  struct Use {
+    int times = 0, sum = 0;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Use> edges;
+  std::set<Face> faces;
+  for (const Mesh* mesh : primitives) {
+    if (mesh->topology != Topology::triangles) continue;
+    std::vector<std::uint32_t> ids;
+    for (const glm::vec3& p : mesh->position) ids.push_back(weld.number(p));
+    for (std::size_t t = 0; t < mesh->index.size() / 3; ++t) {
+      Face f{ids[mesh->index.at(3 * t)], ids[mesh->index.at(3 * t + 1)], ids[mesh->index.at(3 * t + 2)]};
+      if (f[0] == f[1] || f[1] == f[2] || f[0] == f[2]) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t p = f[k], q = f[(k + 1) % 3];
+        Use& use = edges[{std::min(p, q), std::max(p, q)}];
+        ++use.times;
+        use.sum += p < q ? 1 : -1;
+      }
+      std::sort(f.begin(), f.end());
+      if (!faces.insert(f).second) ++m.duplicate_faces;
+    }
+  }
+  for (const auto& [edge, use] : edges) {
+    if (use.times == 1) ++m.open_edges;
+    if (use.times > 2) ++m.over_used_edges;
+    if (use.times == 2 && use.sum != 0) ++m.inconsistent_edges;
+  }
+}
+
+void say(std::vector<std::string>& out, std::uint64_t count, const char* what) {
+  if (count) out.push_back(std::to_string(count) + " " + what);
+}
+
+std::vector<std::string> faults_of(const MeshMeasures& m, bool is_double_sided) {
+  std::vector<std::string> out;
+  say(out, m.bad_indices, "indices beyond the vertices");
+  say(out, m.not_finite, "numbers that are not finite");
+  say(out, m.negative_zeros, "negative zeros");
+  say(out, m.zero_area, "triangles without area");
+  say(out, is_double_sided ? 0 : m.flipped_corners, "corners turned against their triangle");
+  say(out, m.not_unit, "normals that are not of unit length");
+  say(out, m.unused, "unused vertices");
+  say(out, m.duplicates * 1000 > m.vertices ? m.duplicates : 0, "duplicate vertices");
+  say(out, m.duplicate_faces, "duplicate faces");
+  say(out, m.over_used_edges, "edges in more than two triangles");
+  say(out, m.inconsistent_edges, "edges whose two triangles disagree on the outside");
+  if (m.triangles > 500 && m.cache_misses_a_vertex > 1.35) {
+    out.push_back(std::to_string(m.cache_misses_a_vertex) + " cache misses a vertex");
+  }
+  return out;
+}
+
+template <class T>
+bool holds(const std::vector<T>& list, int index) {
+  return index >= 0 && static_cast<std::size_t>(index) < list.size();
+}
+
+void check_nodes(const Model& model, std::vector<std::string>& out) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const Node& node = model.nodes[i];
+    if (node.name.empty())
+      out.push_back("node " + std::to_string(i) + " has no name");
+    else if (!names.insert(node.name).second)
+      out.push_back("two nodes are called " + node.name);
+    if (node.parent >= static_cast<int>(i)) out.push_back("node " + node.name + " stands before its parent");
+    if (node.mesh != -1 && !holds(model.meshes, node.mesh))
+      out.push_back("node " + node.name + " names a mesh that is not there");
+    if (node.skin != -1 && !holds(model.skins, node.skin))
+      out.push_back("node " + node.name + " names a skin that is not there");
+    for (int lod : node.lods) {
+      if (!holds(model.meshes, lod)) out.push_back("node " + node.name + " names a mesh that is not there");
+    }
+  }
+}
+
+}  // namespace
+
+MeshMeasures measure(const std::vector<const Mesh*>& primitives) {
+  MeshMeasures m;
+  std::uint64_t misses = 0, used = 0;
+  for (const Mesh* mesh : primitives) measure_one(*mesh, m, misses, used);
+  if (used) m.cache_misses_a_vertex = static_cast<double>(misses) / static_cast<double>(used);
+  if (!m.bad_indices) measure_topology(primitives, m);
+  return m;
+}
+
+std::vector<std::string> faults(const Mesh& mesh) { return faults_of(measure({&mesh}), false); }
+
+std::vector<std::string> faults(const Model& model) {
+  std::vector<std::string> out;
+  check_nodes(model, out);
+  for (const MeshGroup& group : model.meshes) {
+    std::vector<const Mesh*> primitives;
+    bool is_double_sided = true;
+    std::uint64_t wide = 0;
+    for (const Primitive& primitive : group.primitives) {
+      primitives.push_back(&primitive.mesh);
+      if (primitive.material != -1 && !holds(model.materials, primitive.material)) {
+        out.push_back(group.name + ": a primitive names a material that is not there");
+      }
+      is_double_sided = is_double_sided && holds(model.materials, primitive.material) &&
+                        model.materials[static_cast<std::size_t>(primitive.material)].double_sided;
+      if (primitive.mesh.position.empty()) out.push_back(group.name + ": an empty primitive");
+      if (!primitive.mesh.index.wide.empty() && primitive.mesh.position.size() <= 65'535) ++wide;
+    }
+    say(out, wide, "primitives with indices wider than need be");
+    for (const std::string& fault : faults_of(measure(primitives), is_double_sided))
+      out.push_back(group.name + ": " + fault);
+  }
+  return out;
+}
+
+}  // namespace seedmesh
