@@ -1,0 +1,59 @@
+#include "core/generators/registry.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/generators/lsystem/lsystem.h"
+#include "generated/params/lsystem.h"
+
+namespace seedmesh {
+namespace {
+
+/// The functions of one generator as the compiler sees them, turned to those of a row.
+template <class Own, auto read_own, auto write_own, auto check_own, auto generate_own, auto derive_own,
+          auto appraise_own>
+struct Row {
+  using Params = Generator::Params;
+
+  static const Own& own(const Params& params) { return *static_cast<const Own*>(params.get()); }
+
+  static Params read(const Json& json, std::string_view pointer, Faults& faults) {
+    return std::make_shared<const Own>(read_own(json, pointer, faults));
+  }
+  static Json write(const Params& params) { return write_own(own(params)); }
+  static std::vector<Issue> check(const Params& params, const Limits& limits) {
+    return check_own(own(params), limits);
+  }
+  static Result<Model> generate(const Params& params, Job& job) { return generate_own(own(params), job); }
+  static Result<Json> derive(const Params& params, Job& job) { return derive_own(own(params), job); }
+  static Result<Appraisal> appraise(const Params& params, const Job& job) {
+    return appraise_own(own(params), job);
+  }
+
+  static constexpr Generator named(std::string_view name) {
+    return {.name = name,
+            .read = read,
+            .write = write,
+            .check = check,
+            .generate = generate,
+            .derive = derive,
+            .appraise = appraise};
+  }
+};
+
+constexpr Generator rows[] = {
+    Row<LsystemParams, read_lsystem, write_lsystem, lsystem::check, lsystem::generate, lsystem::derive,
+        lsystem::appraise>::named("lsystem"),
+};
+
+}  // namespace
+
+std::span<const Generator> generators() { return rows; }
+
+const Generator* find_generator(std::string_view name) {
+  for (const Generator& generator : rows) {
+    if (generator.name == name) return &generator;
+  }
+  return nullptr;
+}
+
+}  // namespace seedmesh

@@ -1,0 +1,42 @@
+#pragma once
+/// Every generator has one row here. Nothing else in core, server or tests knows a generator by name.
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/base/job.h"
+#include "core/generators/appraisal.h"
+#include "core/schema/faults.h"
+#include "core/schema/json.h"
+
+namespace seedmesh {
+
+/// The functions of one generator, with its parameters behind a pointer that only they know the type of.
+struct Generator {
+  /// Parameters as read, of the generator's own struct. Immutable and shared by the copies of a request.
+  using Params = std::shared_ptr<const void>;
+
+  std::string_view name;  ///< in a request; its schema and its folder of presets have the same name
+
+  /// From JSON that stands at `pointer`. Gives parameters even where there are faults: refused members have
+  /// defaults.
+  Params (*read)(const Json& json, std::string_view pointer, Faults& faults);
+  /// The canonical JSON of the parameters.
+  Json (*write)(const Params& params);
+  /// Faults that no schema can tell, such as those of a grammar; pointers are relative to the parameters.
+  std::vector<Issue> (*check)(const Params& params, const Limits& limits);
+
+  Result<Model> (*generate)(const Params& params, Job& job);
+  Result<Json> (*derive)(const Params& params, Job& job);
+  Result<Appraisal> (*appraise)(const Params& params, const Job& job);
+};
+
+/// In the order of the menu.
+std::span<const Generator> generators();
+
+/// Null: there is none of this name.
+const Generator* find_generator(std::string_view name);
+
+}  // namespace seedmesh

@@ -1,0 +1,141 @@
+/// Presets with the overrides of a query. Every value comes as text, so the schema decides what it is.
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "core/pipeline/body.h"
+#include "core/pipeline/catalog.h"
+
+namespace seedmesh {
+namespace {
+
+/// Where an override goes and the schema of what stands there.
+struct Target {
+  std::vector<std::string> tokens;
+  const Json* schema = nullptr;
+
+  std::string pointer() const {
+    std::string text;
+    for (const std::string& token : tokens) text += pointer_token(token);
+    return text;
+  }
+};
+
+const std::map<std::string_view, Json>& parsed_schemas() {
+  static const auto all = [] {
+    std::map<std::string_view, Json> schemas;
+    for (const std::string_view name : schema_names()) schemas.emplace(name, Json::parse(*schema_json(name)));
+    return schemas;
+  }();
+  return all;
+}
+
+const Json* property(const Json& schema, std::string_view name) {
+  const auto properties = schema.find("properties");
+  if (properties == schema.end()) return nullptr;
+  const auto found = properties->find(name);
+  return found == properties->end() ? nullptr : &*found;
+}
+
+/// `seed`, `output.x`, a parameter, or `x.name` where the parameter x is an object of free names.
+std::optional<Target> target_of(std::string_view key, std::string_view generator) {
+  const Json& request = parsed_schemas().at("request");
+  const Json& params = parsed_schemas().at(generator);
+  if (key == "seed") return Target{{"seed"}, property(request, "seed")};
+  if (const Json* parameter = property(params, key))
+    return Target{{"parameters", std::string(key)}, parameter};
+  const std::size_t dot = key.find('.');
+  if (dot == std::string_view::npos) return std::nullopt;
+  const std::string group(key.substr(0, dot));
+  const std::string name(key.substr(dot + 1));
+  if (group == "output") {
+    const Json* option = property(*property(request, "output"), name);
+    return option ? std::optional(Target{{"output", name}, option}) : std::nullopt;
+  }
+  const Json* map = property(params, group);
+  if (!map || !map->contains("additionalProperties") || !map->at("additionalProperties").is_object())
+    return std::nullopt;
+  return Target{{"parameters", group, name}, &map->at("additionalProperties")};
+}
+
+bool takes(const Json& schema, const Json& value) {
+  if (schema.contains("oneOf")) {
+    for (const Json& alternative : schema["oneOf"]) {
+      if (takes(alternative, value)) return true;
+    }
+    return false;
+  }
+  const std::string_view type = schema["type"].get_ref<const std::string&>();
+  if (type == "boolean") return value.is_boolean();
+  if (type == "number" || type == "integer") return value.is_number();
+  if (type == "array") return value.is_array();
+  return type == "object" && value.is_object();
+}
+
+/// JSON where the schema takes a value of that type, else the text itself, which the reader then judges.
+Json value_of(const Json& schema, const std::string& text) {
+  Result<Json> value = parse_json(text);
+  if (value && takes(schema, *value)) return *std::move(value);
+  return text;
+}
+
+void place(Json& request, const Target& target, Json value) {
+  Json* at = &request;
+  for (const std::string& token : target.tokens) at = &(*at)[token];
+  *at = std::move(value);
+}
+
+bool is_inside(std::string_view pointer, std::string_view outer) {
+  return pointer.starts_with(outer) && (pointer.size() == outer.size() || pointer[outer.size()] == '/');
+}
+
+/// A fault in what an override put there points at the override.
+void point_at_overrides(std::vector<Issue>& issues,
+                        const std::vector<std::pair<std::string, std::string>>& places) {
+  for (Issue& issue : issues) {
+    for (const auto& [pointer, key] : places) {
+      if (!is_inside(issue.pointer, pointer)) continue;
+      issue.pointer = pointer_token(key);
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<Result<Request>> read_preset(std::string_view name, const Overrides& overrides,
+                                           const Limits& limits) {
+  const auto preset = preset_requests().find(name);
+  if (preset == preset_requests().end()) return std::nullopt;
+  Json request = preset->second.request;
+  const std::string generator = request.at("generator");
+
+  Faults faults;
+  std::set<std::string_view> seen;
+  std::vector<std::pair<std::string, std::string>> places;
+  for (const auto& [key, value] : overrides) {
+    if (find_bad_utf8(key) != std::string_view::npos || find_bad_utf8(value) != std::string_view::npos) {
+      faults.add({"", "the query is not UTF-8"});
+    } else if (!seen.insert(key).second) {
+      faults.add({pointer_token(key), "\"" + shortened(key, 40) + "\" stands in the query twice"});
+    } else if (const auto target = target_of(key, generator)) {
+      place(request, *target, value_of(*target->schema, value));
+      places.emplace_back(target->pointer(), key);
+    } else {
+      faults.add(
+          {pointer_token(key),
+           "\"" + shortened(key, 40) + "\" is neither seed, nor output.…, nor a parameter of " + generator});
+    }
+  }
+  Result<Request> result = read_request_body(request, limits);
+  std::vector<Issue> issues = faults.take();
+  if (!result) {
+    std::vector<Issue> others = std::move(result).error().issues;
+    point_at_overrides(others, places);
+    issues.insert(issues.end(), others.begin(), others.end());
+  }
+  if (issues.empty()) return result;
+  return Error{Code::invalid, std::move(issues)};
+}
+
+}  // namespace seedmesh

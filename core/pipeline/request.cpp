@@ -1,0 +1,124 @@
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "core/pipeline/body.h"
+#include "core/pipeline/catalog.h"
+#include "core/schema/nearest.h"
+#include "generated/params/request.h"
+
+namespace seedmesh {
+namespace {
+
+std::string unknown(std::string_view what, std::string_view name, std::span<const std::string_view> known) {
+  std::string message = "there is no " + std::string(what) + " \"" + shortened(name, 40) + "\"";
+  const std::string_view nearest = schema::nearest_word(name, known);
+  return nearest.empty() ? message : message + "; did you mean \"" + std::string(nearest) + "\"?";
+}
+
+std::string canonical_request(const Request::Body& body) {
+  Json json = {{"generator", body.generator->name}};
+  RequestParams frame;
+  frame.seed = body.seed;
+  frame.output = body.output;
+  json.update(write_request(frame));  // seed and output, where they are no defaults
+  Json params = body.generator->write(body.params);
+  if (!params.empty()) json["parameters"] = std::move(params);
+  return canonical_text(json);
+}
+
+/// The body over its preset, or as it is where it names none that there is.
+Json with_preset(const Json& json, Faults& faults) {
+  if (!json.is_object() || !json.contains("preset") || !json["preset"].is_string()) return json;
+  const auto& name = json["preset"].get_ref<const std::string&>();
+  const auto preset = preset_requests().find(name);
+  if (preset == preset_requests().end()) {
+    faults.add({"/preset", unknown("preset", name, preset_names())});
+    return json;
+  }
+  Json patch = json;
+  patch.erase("preset");
+  Json merged = preset->second.request;
+  merge_patch(merged, patch);
+  return merged;
+}
+
+const Generator* named_generator(const Json& json, const RequestParams& frame, Faults& faults) {
+  if (!frame.generator) {
+    // A preset that is no preset would have told it; one fault is enough for that.
+    if (json.is_object() && !json.contains("preset") && !json.contains("generator")) {
+      faults.add_missing("", "generator", "\"generator\" is missing, and no \"preset\" tells it");
+    }
+    return nullptr;
+  }
+  const Generator* generator = find_generator(*frame.generator);
+  if (!generator && !faults.covers("/generator")) {
+    faults.add({"/generator", unknown("generator", *frame.generator, generator_names())});
+  }
+  return generator;
+}
+
+Generator::Params read_parameters(const Generator& generator, const Json& json, Faults& faults) {
+  if (json.contains("parameters")) return generator.read(json["parameters"], "/parameters", faults);
+  Faults lacking;
+  Generator::Params params = generator.read(Json::object(), "/parameters", lacking);
+  for (const Issue& issue : lacking.issues()) {
+    // There is no object yet that could lack the member: the body lacks the object.
+    faults.add_missing("", "parameters", "\"parameters\" is missing: in it, " + issue.message);
+  }
+  return params;
+}
+
+/// Schema faults and grammar faults come together, but not the second as an echo of the first.
+void add_grammar_faults(const Generator& generator, const Generator::Params& params, const Limits& limits,
+                        Faults& faults) {
+  std::vector<Issue> found = generator.check(params, limits);
+  std::erase_if(found,
+                [&faults](const Issue& issue) { return faults.covers("/parameters" + issue.pointer); });
+  for (Issue& issue : found) {
+    issue.pointer.insert(0, "/parameters");
+    faults.add(std::move(issue));
+  }
+}
+
+}  // namespace
+
+std::string_view Request::generator() const { return body_->generator->name; }
+std::string_view Request::format() const { return text_of(body_->output.format); }
+const std::string& Request::canonical() const { return body_->canonical; }
+std::uint64_t Request::seed() const { return body_->seed; }
+
+Result<Request> read_request_body(const Json& json, const Limits& limits) {
+  Faults faults;
+  const Json merged = with_preset(json, faults);
+  const RequestParams frame = read_request(merged, "", faults);
+  Request::Body body;
+  body.generator = named_generator(merged, frame, faults);
+  if (body.generator && (!merged.contains("parameters") || merged["parameters"].is_object())) {
+    body.params = read_parameters(*body.generator, merged, faults);
+    add_grammar_faults(*body.generator, body.params, limits, faults);
+  }
+  if (!faults.empty()) return Error{Code::invalid, faults.take()};
+  body.output = frame.output;
+  body.seed = frame.seed;
+  body.canonical = canonical_request(body);
+  return Request(std::make_shared<const Request::Body>(std::move(body)));
+}
+
+Result<Request> read_request(std::string_view json, const Limits& limits) {
+  Result<Json> body = parse_json(json);
+  if (!body) return std::move(body).error();
+  return read_request_body(*body, limits);
+}
+
+Result<Request> with_format(const Request& request, std::string_view format) {
+  Json output = write_output(request.body().output);
+  output["format"] = format;
+  Faults faults;
+  Request::Body body = request.body();
+  body.output = read_output(output, "/output", faults);
+  if (!faults.empty()) return Error{Code::invalid, faults.take()};
+  body.canonical = canonical_request(body);
+  return Request(std::make_shared<const Request::Body>(std::move(body)));
+}
+
+}  // namespace seedmesh
