@@ -32,7 +32,8 @@ std::uint32_t stride_of(Pool pool) {
       return 16;
     case Pool::index2:
     case Pool::index4:
-    case Pool::numbers:
+    case Pool::keys:
+    case Pool::binds:
     case Pool::image:
       return 0;
   }

@@ -13,7 +13,7 @@ namespace seedmesh::gltf {
 
 /// Arrays of one use and stride lie together, so that small ones share a bufferView (several vertex
 /// attributes in one view must agree on the stride). The buffer holds the pools in this order.
-enum class Pool { vertex4, vertex8, vertex12, vertex16, index2, index4, numbers, image };
+enum class Pool { vertex4, vertex8, vertex12, vertex16, index2, index4, keys, binds, image };
 
 /// The pool of a vertex attribute, or of indices, by the stride.
 Pool vertex_pool(const Column& column);
@@ -27,7 +27,7 @@ class Bin {
     std::uint64_t offset = 0;  ///< within the view; below 1 MiB
   };
   struct View {
-    Pool pool = Pool::numbers;
+    Pool pool = Pool::keys;
     std::uint64_t offset = 0, length = 0;
     std::uint32_t stride = 0;  ///< 0 unless vertex attributes share the view
   };
@@ -50,7 +50,7 @@ class Bin {
 
  private:
   struct Item {
-    Pool pool = Pool::numbers;
+    Pool pool = Pool::keys;
     Slice slice;
   };
   std::vector<Item> items_;

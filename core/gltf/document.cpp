@@ -148,7 +148,7 @@ class Describer {
       described.joints = skin.joints;
       described.skeleton = skin.skeleton;
       const Column& matrices = columns_.inverse_binds[used];
-      if (matrices.count > 0) described.inverseBindMatrices = add_accessor(Pool::numbers, matrices);
+      if (matrices.count > 0) described.inverseBindMatrices = add_accessor(Pool::binds, matrices);
     }
   }
 
@@ -164,11 +164,11 @@ class Describer {
         const auto [input, is_new] = inputs.try_emplace(channel.times, -1);
         const Tracks& tracks = columns_.animations[i];
         if (is_new) {
-          input->second = add_accessor(Pool::numbers, tracks.times[static_cast<std::size_t>(channel.times)]);
+          input->second = add_accessor(Pool::keys, tracks.times[static_cast<std::size_t>(channel.times)]);
         }
         tinygltf::AnimationSampler& sampler = described.samplers.emplace_back();
         sampler.input = input->second;
-        sampler.output = add_accessor(Pool::numbers, tracks.values[c]);
+        sampler.output = add_accessor(Pool::keys, tracks.values[c]);
         sampler.interpolation = channel.interpolation == Interpolation::step ? "STEP" : "LINEAR";
         tinygltf::AnimationChannel& target = described.channels.emplace_back();
         target.sampler = static_cast<int>(c);
@@ -262,7 +262,8 @@ class Describer {
       case Pool::index2:
       case Pool::index4:
         return element_array_buffer;
-      case Pool::numbers:
+      case Pool::keys:
+      case Pool::binds:
       case Pool::image:
         return 0;
     }

@@ -87,18 +87,15 @@ Payload write_gltf(Document document, Job& job) {
   return payload;
 }
 
-std::vector<gltf::ZipEntry> separate_files(const std::string& stem, Document document, Job& job) {
+/// Adds stem.gltf and, unless nothing is stored, stem.bin.
+void add_files(std::vector<gltf::ZipEntry>& files, const std::string& stem, Document document, Job& job) {
   job.spend(Resource::output_bytes, document.bin.size());
-  std::vector<gltf::ZipEntry> files(1);
-  files[0].name = stem + ".gltf";
-  Payload& json = files[0].payload;
+  Payload json;
   json.add(std::move(document.head));
-  if (document.bin.size() > 0) {
-    json.add(",\"uri\":\"" + stem + ".bin\"");
-    files.push_back({stem + ".bin", gltf::raw(std::move(document.bin), job)});
-  }
+  if (document.bin.size() > 0) json.add(",\"uri\":\"" + stem + ".bin\"");
   json.add(std::move(document.tail));
-  return files;
+  files.push_back({stem + ".gltf", std::move(json)});
+  if (document.bin.size() > 0) files.push_back({stem + ".bin", gltf::raw(std::move(document.bin), job)});
 }
 
 /// A file name for each image of the model, unique, in the folder `textures`.
@@ -131,15 +128,14 @@ Payload write_zip(const Model& model, Columns columns, const std::string& genera
     Document document = gltf::describe(model, columns, options, job);
     images.insert(document.images.begin(), document.images.end());
     const std::string suffix = options.lod == 0 ? "" : "_LOD" + std::to_string(options.lod);
-    for (gltf::ZipEntry& file : separate_files(stem + suffix, std::move(document), job)) {
-      files.push_back(std::move(file));
-    }
+    add_files(files, stem + suffix, std::move(document), job);
   }
   for (const std::size_t used : images) {
     const std::shared_ptr<const Image>& image = model.textures[used];
     job.spend(Resource::output_bytes, image->bytes.size());
-    Payload& payload = files.emplace_back(gltf::ZipEntry{options.image_uris[used], {}}).payload;
+    Payload payload;
     payload.add(image, std::as_bytes(std::span(image->bytes)));
+    files.push_back({options.image_uris[used], std::move(payload)});
   }
   constexpr std::uint64_t framing =
       30 + 46 + 64;  // headers of an entry beside its name, which stands twice; a margin

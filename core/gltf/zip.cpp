@@ -35,6 +35,7 @@ class Tape {
 
   void seek(std::uint64_t position) { position_ = position; }
   std::uint64_t position() const { return position_; }
+  std::uint64_t size() const { return size_; }
 
   /// The archive; `entries` own what the spans point at.
   Payload take(std::vector<ZipEntry> entries) {
@@ -211,7 +212,7 @@ class ArchiveSink {
 
   zip_int64_t seek(void* data, zip_uint64_t length) {
     const zip_int64_t target =
-        zip_source_seek_compute_offset(tape.position(), tape.position(), data, length, &error_);
+        zip_source_seek_compute_offset(tape.position(), tape.size(), data, length, &error_);
     if (target < 0) return -1;
     tape.seek(static_cast<std::uint64_t>(target));
     return 0;
@@ -252,7 +253,7 @@ Payload zip(std::vector<ZipEntry> entries) {
             "cannot date");
   }
   const bool closed = zip_close(archive.get()) == 0;
-  require(closed, sink.fault.empty() ? "cannot write" : sink.fault.c_str());
+  require(closed, sink.fault.empty() ? zip_strerror(archive.get()) : sink.fault.c_str());
   static_cast<void>(archive.release());  // zip_close has freed it
   return sink.tape.take(std::move(entries));
 }
