@@ -9,9 +9,14 @@ namespace {
 constexpr float sharpest = -0.5F;
 // What mitred rings must leave of an internode on its shorter side.
 constexpr float least_free = 0.02F;
-// Below these no corner of a tube of three sides can look inward; spares the full test for nearly all
-// internodes.
-constexpr float gentle_reach = 0.2F, gentle_taper = 0.1F;
+// A face whose normal is within this of a right angle to a corner's is given up: room for rounding and for
+// faces that taper and bend at once, which are not quite flat.
+constexpr float least_cosine = 0.05F;
+
+/// Sine of the angle between the flank of a cone and its axis.
+float slope_of(float taper, float length) {
+  return taper == 0 ? 0 : taper / std::sqrt(taper * taper + length * length);
+}
 
 }  // namespace
 
@@ -39,37 +44,33 @@ bool TurnJudge::allows(const Internode& a, const Internode& b, float radius_befo
     const glm::vec3 both = lean - lean_;
     if (glm::dot(both, both) > most_of_a * most_of_a) return false;
   }
-  if (!keeps_faces_outside(a, b, radius_before, turn)) return false;
 
-  const glm::vec3 across_b = turn.tangent - b.along * glm::dot(b.along, turn.tangent);
-  lean_ = across_b * (radius / turn.cosine);
+  const float sine = turn.reach / radius * turn.cosine;
+  const float free_a = std::max(a.length - turn.reach - reach_, least_free * a.length);
+  const float free_b = std::max(b.length - turn.reach, least_free * b.length);
+  const float slope_a = slope_of(std::abs(radius_before - radius), free_a);
+  if (!keeps_faces_outside(sine_, slope_before_, slope_a)) return false;
+  if (!keeps_faces_outside(sine, slope_a, slope_of(std::abs(radius - b.end), free_b))) return false;
+
+  lean_ = (turn.tangent - b.along * glm::dot(b.along, turn.tangent)) * (radius / turn.cosine);
   reach_ = turn.reach;
+  sine_ = sine;
+  slope_before_ = slope_a;
   return true;
 }
 
-/// A bound from below on the cosine between the normal of any face at the ring and the normal of any of its
-/// corners, times positive lengths: with half the turn h and the slopes of the tapering sides, see
-/// docs/skin.md.
-bool TurnJudge::keeps_faces_outside(const Internode& a, const Internode& b, float radius_before,
-                                    const Turn& turn) const {
-  const float radius = b.base;
-  const float free_a = std::max(a.length - turn.reach - reach_, least_free * a.length);
-  const float free_b = std::max(b.length - turn.reach, least_free * b.length);
-  const float taper_a = std::abs(radius_before - radius);
-  const float taper_b = std::max(std::abs(radius - b.end), std::abs(b.base - b.end));
-  if (turn.reach < gentle_reach * radius && taper_a < gentle_taper * free_a &&
-      taper_b < gentle_taper * free_b)
-    return true;
-
-  const float sine = turn.reach / radius * turn.cosine;
-  if (sine < 1e-3F)
-    return true;  // straight: a ring's normal lies between those of its two cones, whatever their slopes
-  const float face = 0.5F * (side_cosine_ * (1 + turn.cosine) - (1 - turn.cosine));
-  const float slope_a = taper_a / std::sqrt(taper_a * taper_a + free_a * free_a);
-  const float slope_b = taper_b / std::sqrt(taper_b * taper_b + free_b * free_b);
-  const float slope = std::max(slope_a, slope_b);
+/// Bounds from below the cosine between the normal of any face at a ring and the normal of any corner of the
+/// ring. With h half the turn and d half the angle of a side, a face's own direction is at least (cos d (1 +
+/// cos h) - (1 - cos h)) / 2 along that of its corner; the slopes tilt both, in the worst case away from each
+/// other.
+bool TurnJudge::keeps_faces_outside(float sine, float slope_before, float slope_after) const {
+  // Straight: a ring's normal lies between those of its two cones, whatever their slopes.
+  if (sine < 1e-3F) return true;
+  const float cosine = std::sqrt(1 - std::min(sine * sine, 1.0F));
+  const float face = 0.5F * (side_cosine_ * (1 + cosine) - (1 - cosine));
+  const float slope = std::max(slope_before, slope_after);
   const float flat = std::sqrt(1 - slope * slope);
-  return flat * (flat * face - slope * sine) - slope * flat * sine - slope * slope > 0.02F;
+  return flat * (flat * face - slope * sine) - slope * flat * sine - slope * slope > least_cosine;
 }
 
 }  // namespace seedmesh

@@ -86,6 +86,7 @@ class TurnJudge {
   void open() {
     lean_ = glm::vec3(0);
     reach_ = 0;
+    sine_ = 0;
   }
 
   /// True: `a` goes over into `b` through `turn`; `radius_before` is the ring's at the near end of `a`.
@@ -93,16 +94,17 @@ class TurnJudge {
 
   /// What is free of the last internode, between the lean of the ring where it begins and its far end.
   float free_of(const Internode& a) const { return a.length - reach_; }
-  float reach() const { return reach_; }
 
  private:
-  bool keeps_faces_outside(const Internode& a, const Internode& b, float radius_before,
-                           const Turn& turn) const;
+  bool keeps_faces_outside(float sine, float slope_before, float slope_after) const;
 
   const Scale& scale_;
   float side_cosine_;  ///< of half the angle between two corners of a cross-section
-  glm::vec3 lean_{0};  ///< of the ring where the current internode begins: offset along it is dot(lean, side)
+  glm::vec3 lean_{0};  ///< of the ring where the current internode begins: its offset along it at `side` is
+                       ///< dot(lean, side)
   float reach_ = 0;    ///< length of lean
+  float sine_ = 0;     ///< of half the turn at that ring
+  float slope_before_ = 0;  ///< of the bark before that ring
 };
 
 /// Walks one limb and tells the sink of each tube in order: open(internode, Opening), then for each further

@@ -117,7 +117,7 @@ TubeCursor cursor_at(Mesh& mesh, const TubeCount& place) {
 
 void write_tubes(Plan& plan, const Limbs& limbs, const SkinOptions& options, const Job& job,
                  std::vector<Bark>& barks) {
-  const TubeTables tables(options);
+  const TubeTables tables{CrossSection(options)};
   parallel_for(
       job, plan.chains.head.size(), plan.chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
         std::vector<TubeCursor> cursors;

@@ -10,8 +10,10 @@
 namespace seedmesh {
 namespace {
 
-// A column of eight quads needs 10 of the 16 entries that the smallest vertex caches have.
-constexpr std::uint32_t widest_column = 8;
+// Two rings of a column eight quads wide, one after the other, take 10 entries of the 16 that the smallest
+// vertex caches have. Where a column begins with nothing in the cache its first two rings come in by turns,
+// and only up to six fit well.
+constexpr std::uint32_t widest_column = 8, widest_cold_column = 6;
 constexpr int phase_count = 256;
 // The cone that closes a tube inside its parent or over an elbow, as a share of the radius.
 constexpr float cap_share = 0.5F;
@@ -30,27 +32,30 @@ glm::vec2 circle_point(double angle) {
   return {static_cast<float>(at.cos), static_cast<float>(at.sin)};
 }
 
+std::vector<TubeTables::Column> columns_of(const CrossSection& section, std::uint32_t widest) {
+  std::vector<TubeTables::Column> columns;
+  const std::uint32_t count = (section.sides + widest - 1) / widest;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    TubeTables::Column column;
+    for (std::uint32_t k = i * section.sides / count; k < (i + 1) * section.sides / count; ++k) {
+      const std::uint32_t low = k, low_next = (k + 1) % section.corners;
+      const std::uint32_t high = low + section.corners, high_next = low_next + section.corners;
+      for (std::uint32_t corner : {low, low_next, high, low_next, high_next, high}) column.push_back(corner);
+    }
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
 }  // namespace
 
-TubeTables::TubeTables(const SkinOptions& options) {
-  const CrossSection section(options);
+TubeTables::TubeTables(const CrossSection& section)
+    : columns(columns_of(section, widest_column)), narrow_columns(columns_of(section, widest_cold_column)) {
   for (std::uint32_t i = 0; i < section.sides; ++i)
     circle.push_back(circle_point(2 * math::pi * i / section.sides));
   for (int i = 0; i < phase_count; ++i) {
     phases.push_back(
         circle_point(2 * math::pi * (i + 0.5) / (phase_count * static_cast<double>(section.sides))));
-  }
-  const std::uint32_t count = (section.sides + widest_column - 1) / widest_column;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint32_t first = i * section.sides / count, end = (i + 1) * section.sides / count;
-    Column column{first, end - first, {}};
-    for (std::uint32_t k = first; k < end; ++k) {
-      const std::uint32_t low = k, low_next = (k + 1) % section.corners;
-      const std::uint32_t high = low + section.corners, high_next = low_next + section.corners;
-      for (std::uint32_t corner : {low, low_next, high, low_next, high_next, high})
-        column.corners.push_back(corner);
-    }
-    columns.push_back(std::move(column));
   }
 }
 
@@ -102,7 +107,9 @@ void TubeWriter::open(const Internode& first, Opening opening) {
   switch (opening) {
     case Opening::point:
       radius_ = 0;
-      piece_.start_apex = write_apex(first.from, -first.along, {0, length_so_far_});
+      // Points may share a place, but not all of a vertex: that would be a vertex twice in one mesh.
+      piece_.start_apex =
+          write_apex(first.from - first.along * nudge(hash, 0), -first.along, {0, length_so_far_});
       break;
     case Opening::root: {
       const bool is_revisit = context_.chains.mark[context_.limbs.parent[first.joint]] & revisit;
@@ -127,7 +134,7 @@ void TubeWriter::join(const Turn& turn, const Internode& next) {
   const glm::vec3 &along = internode_.along, &tangent = turn.tangent;
   const Slope slope = slope_of(radius_, next.base, internode_.length);
   write_waiting(slope);
-  write_inner_rings(next.base, reach_, internode_.length - turn.reach);
+  write_inner_rings({next.base, internode_.length, reach_, internode_.length - turn.reach});
 
   length_so_far_ += internode_.length;
   Ring ring;
@@ -171,12 +178,16 @@ void TubeWriter::close(Closing closing, float free) {
   const float ring_at = closing == Closing::tip ? internode_.length - cone : internode_.length;
   const Slope slope = slope_of(radius_, end, ring_at);
   write_waiting(slope);
-  write_inner_rings(end, reach_, ring_at);
+  write_inner_rings({end, ring_at, reach_, ring_at});
 
   length_so_far_ += internode_.length;
   glm::vec3 apex = internode_.to;
+  if (context_.chains.mark[internode_.joint] & revisit) apex += along * nudge(hash, 0);
   if (closing != Closing::point) {
-    const float nudged = closing == Closing::cap ? nudge(hash, end) : -0.25F * cone * fraction(hash);
+    const bool is_revisit = context_.chains.mark[internode_.joint] & revisit;
+    const float nudged = closing == Closing::cap ? nudge(hash, end)
+                         : is_revisit            ? -0.25F * cone * fraction(hash)
+                                                 : 0;
     Ring ring = plain_ring(internode_.from + along * (ring_at + nudged), end,
                            length_so_far_ - (internode_.length - ring_at));
     ring.before = slope;
@@ -198,14 +209,15 @@ void TubeWriter::write_waiting(Slope after) {
   write_ring(waiting_, after);
 }
 
-void TubeWriter::write_inner_rings(float end_radius, float from, float to) {
-  const int count = inner_rings(context_.options, context_.scale, {radius_, end_radius}, to - from);
-  const Slope slope = slope_of(radius_, end_radius, internode_.length);
+void TubeWriter::write_inner_rings(const Taper& taper) {
+  const int count =
+      inner_rings(context_.options, context_.scale, {radius_, taper.end}, taper.high - taper.low);
+  const Slope slope = slope_of(radius_, taper.end, taper.length);
   for (int i = 1; i <= count; ++i) {
-    const float share = static_cast<float>(i) / static_cast<float>(count + 1);
-    const float at = from + (to - from) * share;
-    Ring ring = plain_ring(internode_.from + internode_.along * at, radius_ + (end_radius - radius_) * share,
-                           length_so_far_ + at);
+    const float at =
+        taper.low + (taper.high - taper.low) * (static_cast<float>(i) / static_cast<float>(count + 1));
+    const float radius = radius_ + (taper.end - radius_) * (at / taper.length);
+    Ring ring = plain_ring(internode_.from + internode_.along * at, radius, length_so_far_ + at);
     ring.before = slope;
     write_ring(ring, slope);
   }
@@ -275,9 +287,11 @@ std::uint32_t TubeWriter::write_apex(const glm::vec3& position, const glm::vec3&
 void TubeWriter::end_piece() {
   std::uint32_t* out = here_->index + here_->corner;
   const std::size_t last_ring = piece_.first_ring + std::size_t{piece_.rings - 1} * section_.corners;
-  for (const TubeTables::Column& column : context_.tables.columns) {
-    const std::size_t size = column.corners.size();
-    const std::uint32_t* corners = column.corners.data();
+  const bool is_warm = piece_.start_apex != Limbs::none;
+  for (const TubeTables::Column& column :
+       is_warm ? context_.tables.columns : context_.tables.narrow_columns) {
+    const std::size_t size = column.size();
+    const std::uint32_t* corners = column.data();
     if (piece_.start_apex != Limbs::none) {
       for (std::size_t i = 0; i < size; i += 6) {
         *out++ = piece_.start_apex;

@@ -13,17 +13,16 @@ namespace seedmesh {
 
 /// Tables that all tubes of one skin() share: no trigonometry per ring, no division per index.
 struct TubeTables {
-  explicit TubeTables(const SkinOptions& options);
+  explicit TubeTables(const CrossSection& section);
 
-  /// Quads of a tube next to each other: their triangles run along the limb together, so that both rings stay
-  /// in a vertex cache of 16 entries.
-  struct Column {
-    std::uint32_t first_side = 0, sides = 0;
-    std::vector<std::uint32_t> corners;  ///< six for each quad, counted from the lower ring's first vertex
-  };
+  /// Quads of a tube next to each other, six corners each, counted from the lower ring's first vertex. Their
+  /// triangles run along the limb together, so that two rings at a time stay in the vertex cache.
+  using Column = std::vector<std::uint32_t>;
   std::vector<glm::vec2> circle;  ///< cosine and sine of each corner
   std::vector<glm::vec2> phases;  ///< the angles a tube may start with
-  std::vector<Column> columns;
+  std::vector<Column>
+      columns;  ///< for tubes that begin with a fan, which brings the first ring into the cache
+  std::vector<Column> narrow_columns;  ///< for those that do not
 };
 
 /// Where a writer puts the tubes of one colour: the arrays and the next free vertex and index.
@@ -72,6 +71,12 @@ class TubeWriter {
     std::int16_t next_color = 0;
   };
 
+  /// The flank of the current internode: from the ring where it begins to radius `end` at `length`; inner
+  /// rings stand between `low` and `high`.
+  struct Taper {
+    float end = 0, length = 0, low = 0, high = 0;
+  };
+
   /// The triangles of one colour between two ends.
   struct Piece {
     std::size_t first_ring = 0;  ///< vertex
@@ -86,7 +91,7 @@ class TubeWriter {
   void write_disc(const Ring& ring);
   void write_ring(const Ring& ring, Slope after);
   void write_waiting(Slope after);
-  void write_inner_rings(float end_radius, float from, float to);
+  void write_inner_rings(const Taper& taper);
   std::uint32_t write_apex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv);
   std::uint64_t hash_of(std::uint32_t joint) const;
   float nudge(std::uint64_t hash, float radius) const;
