@@ -10,7 +10,8 @@
 namespace seedmesh {
 namespace {
 
-// Below this the heap is faster than the kernel; above it page faults decide, and huge pages save most of them.
+// Below this the heap is faster than the kernel; above it page faults decide, and huge pages save most of
+// them.
 constexpr std::size_t mapped_from = std::size_t{4} << 20U;
 
 #if defined(__linux__)
@@ -65,7 +66,9 @@ std::byte* change(std::byte* old, std::size_t before, std::size_t after) {
 }  // namespace
 
 Block::Block(Block&& other) noexcept
-    : purse_(other.purse_), data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+    : purse_(other.purse_),
+      data_(std::exchange(other.data_, nullptr)),
+      size_(std::exchange(other.size_, 0)) {}
 
 Block& Block::operator=(Block&& other) noexcept {
   if (this != &other) {

@@ -1,7 +1,7 @@
 #pragma once
-/// Growing arrays for big models: elements start uninitialised, blocks above 4 MB come from the kernel with huge
-/// pages advised (first touch of memory, not arithmetic, bounds big models), and every byte is charged to the
-/// purse of the request before it is allocated. Move-only; not safe for use from two threads at once.
+/// Growing arrays for big models: elements start uninitialised, blocks above 4 MB come from the kernel with
+/// huge pages advised (first touch of memory, not arithmetic, bounds big models), and every byte is charged
+/// to the purse of the request before it is allocated. Move-only; not safe for use from two threads at once.
 #include <cstddef>
 #include <cstring>
 #include <memory>

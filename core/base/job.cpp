@@ -14,10 +14,14 @@ struct ResourceLimit {
 
 ResourceLimit limit_of(const Limits& limits, Resource resource) {
   switch (resource) {
-    case Resource::modules: return {"modules", limits.modules};
-    case Resource::shapes: return {"shapes", limits.shapes};
-    case Resource::triangles: return {"triangles", limits.triangles};
-    case Resource::output_bytes: return {"output bytes", limits.output_bytes};
+    case Resource::modules:
+      return {"modules", limits.modules};
+    case Resource::shapes:
+      return {"shapes", limits.shapes};
+    case Resource::triangles:
+      return {"triangles", limits.triangles};
+    case Resource::output_bytes:
+      return {"output bytes", limits.output_bytes};
   }
   return {"units", 0};
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// What every generator gets besides its parameters: seed, limits, stop, progress. One argument, from the first
-/// line to the last, so that cancellation and limits never have to be threaded in later.
+/// What every generator gets besides its parameters: seed, limits, stop, progress. One argument, from the
+/// first line to the last, so that cancellation and limits never have to be threaded in later.
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -30,8 +30,8 @@ struct Limits {
 /// What is counted while a request runs.
 enum class Resource { modules, shapes, triangles, output_bytes };
 
-/// "Stop now": over a limit, over time, or the caller has gone. Thrown by Job (and its Purse) alone, caught in
-/// the pipeline alone; no code between the two may swallow it.
+/// "Stop now": over a limit, over time, or the caller has gone. Thrown by Job (and its Purse) alone, caught
+/// in the pipeline alone; no code between the two may swallow it.
 class Stop : public std::exception {
  public:
   Stop(Code code, Issue issue) : code_(code), issue_(std::move(issue)) {}
@@ -65,10 +65,10 @@ class Job {
 
   struct Options {
     Limits limits = {};
-    int threads = 1;                                  ///< how many threads the work may use; never changes the result
-    std::stop_token stop = {};                        ///< set when the caller has gone or the service drains
+    int threads = 1;            ///< how many threads the work may use; never changes the result
+    std::stop_token stop = {};  ///< set when the caller has gone or the service drains
     Clock::time_point deadline = Clock::time_point::max();
-    Progress progress = {};                           ///< told of each stage and share 0..1; called from one thread at a time
+    Progress progress = {};  ///< told of each stage and share 0..1; called from one thread at a time
   };
 
   Job(std::uint64_t seed, Options options);
@@ -82,8 +82,8 @@ class Job {
   int threads() const { return state_->options.threads; }
   const std::shared_ptr<Purse>& purse() const { return state_->purse; }
 
-  /// Throws Stop when the caller has gone or the deadline has passed. Costs a clock reading (about 25 ns): call
-  /// it every 4,096 steps, or through Meter.
+  /// Throws Stop when the caller has gone or the deadline has passed. Costs a clock reading (about 25 ns):
+  /// call it every 4,096 steps, or through Meter.
   void check() const;
 
   /// Counts `amount` of a resource before it is made; throws Stop when the limit would be passed. Looks at
@@ -97,12 +97,14 @@ class Job {
   /// Refuses with a limit of the caller's own wording; for limits that are no Resource (depth, iterations).
   [[noreturn]] static void refuse(std::string message, std::string pointer = "");
 
-  /// Refuses the request itself (Code::invalid) for a fault that shows only while it runs, as a division by zero.
+  /// Refuses the request itself (Code::invalid) for a fault that shows only while it runs, as a division by
+  /// zero.
   [[noreturn]] static void reject(Issue issue);
 
  private:
   struct State {
-    State(Options given) : options(std::move(given)), purse(std::make_shared<Purse>(options.limits.memory_bytes)) {}
+    State(Options given)
+        : options(std::move(given)), purse(std::make_shared<Purse>(options.limits.memory_bytes)) {}
     Options options;
     std::shared_ptr<Purse> purse;
     std::atomic<std::uint64_t> spent[4] = {};
@@ -113,9 +115,9 @@ class Job {
   std::shared_ptr<State> state_;
 };
 
-/// Spends one unit at a time for an inner loop: takes leases of 4,096 from the Job and looks at stop and deadline
-/// with each lease. One per thread. What is left of the last lease is not given back, so a count may be high by 4,095
-/// a thread; a refusal therefore never comes late, and early by less than that.
+/// Spends one unit at a time for an inner loop: takes leases of 4,096 from the Job and looks at stop and
+/// deadline with each lease. One per thread. What is left of the last lease is not given back, so a count may
+/// be high by 4,095 a thread; a refusal therefore never comes late, and early by less than that.
 class Meter {
  public:
   Meter(Job& job, Resource resource) : job_(&job), resource_(resource) {}

@@ -31,10 +31,14 @@ SinCos sincos_degrees(double degrees) {
   const double rest = degrees - quarter * 90;
   const SinCos base = rest == 0 ? SinCos{0, 1} : sincos(radians(rest));
   switch (to_int64(quarter - 4 * std::floor(quarter / 4))) {
-    case 0: return base;
-    case 1: return {base.cos, -base.sin};
-    case 2: return {-base.sin, -base.cos};
-    default: return {-base.cos, base.sin};
+    case 0:
+      return base;
+    case 1:
+      return {base.cos, -base.sin};
+    case 2:
+      return {-base.sin, -base.cos};
+    default:
+      return {-base.cos, base.sin};
   }
 }
 

@@ -42,7 +42,8 @@ void run(int threads, std::size_t chunks, const std::function<void(std::size_t)>
 #else
 void run(int threads, std::size_t chunks, const std::function<void(std::size_t)>& each) {
   const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  tbb::task_arena arena(std::min(threads, static_cast<int>(allowed)));  // more would only make oneTBB complain
+  tbb::task_arena arena(
+      std::min(threads, static_cast<int>(allowed)));  // more would only make oneTBB complain
   arena.execute([&] { tbb::parallel_for(std::size_t{0}, chunks, each, tbb::simple_partitioner()); });
 }
 #endif

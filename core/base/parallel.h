@@ -1,7 +1,7 @@
 #pragma once
-/// The only door to more than one thread in core. The range is cut into fixed chunks that do not depend on the
-/// number of threads; whoever joins results joins them in chunk order. oneTBB behind it; std::thread in the
-/// tsan preset, where Debian's TBB gives false races.
+/// The only door to more than one thread in core. The range is cut into fixed chunks that do not depend on
+/// the number of threads; whoever joins results joins them in chunk order. oneTBB behind it; std::thread in
+/// the tsan preset, where Debian's TBB gives false races.
 #include <cstddef>
 #include <functional>
 
@@ -9,12 +9,14 @@
 
 namespace seedmesh {
 
-/// Calls body(begin, end, chunk_index) for every chunk [i*chunk, min((i+1)*chunk, count)). An exception of a body
-/// (Stop) ends the whole and is thrown on here. With job.threads() == 1 everything runs on the caller;
+/// Calls body(begin, end, chunk_index) for every chunk [i*chunk, min((i+1)*chunk, count)). An exception of a
+/// body (Stop) ends the whole and is thrown on here. With job.threads() == 1 everything runs on the caller;
 /// there are never more threads than oneTBB's max_allowed_parallelism, by default the number of cores.
 void parallel_for(const Job& job, std::size_t count, std::size_t chunk,
                   const std::function<void(std::size_t begin, std::size_t end, std::size_t index)>& body);
 
-constexpr std::size_t chunk_count(std::size_t count, std::size_t chunk) { return (count + chunk - 1) / chunk; }
+constexpr std::size_t chunk_count(std::size_t count, std::size_t chunk) {
+  return (count + chunk - 1) / chunk;
+}
 
 }  // namespace seedmesh

@@ -1,6 +1,7 @@
 #pragma once
-/// Random numbers by place: the n-th draw of a stream depends on nothing but (seed, path, n), so that a choice
-/// made in one place never moves the choices elsewhere. No <random> distributions: they differ by library.
+/// Random numbers by place: the n-th draw of a stream depends on nothing but (seed, path, n), so that a
+/// choice made in one place never moves the choices elsewhere. No <random> distributions: they differ by
+/// library.
 ///
 /// The mixing function is the finaliser of SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom
 /// number generators", 2014, variant 13 of Stafford's mixers).

@@ -5,14 +5,17 @@
 namespace seedmesh {
 namespace {
 
-// Beyond this, positions stored as float squared in later stages would overflow; no model of anything is so far away.
+// Beyond this, positions stored as float squared in later stages would overflow; no model of anything is so
+// far away.
 constexpr double world = 1e15;
 
 glm::vec3 stored(const glm::dvec3& p) { return glm::vec3(p) + 0.0F; }  // -0 becomes 0
 
 }  // namespace
 
-Turtle::Turtle(Skeleton* skeleton, double width, Job& job) : skeleton_(skeleton), job_(job) { set_width(width); }
+Turtle::Turtle(Skeleton* skeleton, double width, Job& job) : skeleton_(skeleton), job_(job) {
+  set_width(width);
+}
 
 void Turtle::advance(double length) {
   state_.position += length * state_.frame.heading;

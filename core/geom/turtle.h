@@ -1,7 +1,7 @@
 #pragma once
-/// The turtle of Prusinkiewicz and Lindenmayer (The Algorithmic Beauty of Plants, 1990, sections 1.3 and 1.5): a position, a
-/// frame, a width and a colour that move through space, with a stack for branches and another for polygons. Writes a Skeleton
-/// and measures what it drew; knows no grammar.
+/// The turtle of Prusinkiewicz and Lindenmayer (The Algorithmic Beauty of Plants, 1990, sections 1.3
+/// and 1.5): a position, a frame, a width and a colour that move through space, with a stack for branches and
+/// another for polygons. Writes a Skeleton and measures what it drew; knows no grammar.
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -16,8 +16,8 @@ namespace seedmesh {
 struct TurtleReport {
   std::uint64_t segments = 0;
   double total_length = 0;
-  std::uint64_t vertices = 0;         ///< polygon vertices set
-  glm::dvec3 min{0}, max{0};          ///< of the centre lines of drawn segments; zero where there is none
+  std::uint64_t vertices = 0;  ///< polygon vertices set
+  glm::dvec3 min{0}, max{0};   ///< of the centre lines of drawn segments; zero where there is none
 };
 
 class Turtle {
@@ -25,8 +25,9 @@ class Turtle {
   /// Writes into `skeleton`; null: measures only.
   Turtle(Skeleton* skeleton, double width, Job& job);
 
-  /// Moves by `length` along the heading, which may be negative. `draw` makes an internode of the present width, born at
-  /// `birth`; between braces the end point becomes a vertex instead. `walk` draws nothing; between braces it sets a vertex too.
+  /// Moves by `length` along the heading, which may be negative. `draw` makes an internode of the present
+  /// width, born at `birth`; between braces the end point becomes a vertex instead. `walk` draws nothing;
+  /// between braces it sets a vertex too.
   void draw(double length, std::uint64_t key);
   void walk(double length);
   /// The same without vertices between braces.
@@ -39,7 +40,7 @@ class Turtle {
   void roll(math::SinCos angle) { face(seedmesh::roll(state_.frame, angle)); }    ///< left, about heading
   void turn_around() { state_.frame = seedmesh::turn_around(state_.frame); }
   void upright() { state_.frame = seedmesh::upright(state_.frame); }
-  void head(const glm::dvec3& direction);                        ///< heads along it and rolls upright
+  void head(const glm::dvec3& direction);  ///< heads along it and rolls upright
 
   void push();  ///< throws Stop beyond limits.bracket_depth
   void pop();   ///< without a matching push: nothing
@@ -50,7 +51,8 @@ class Turtle {
 
   void set_width(double width) { state_.width = width > 0 ? width : 0; }
   double width() const { return state_.width; }
-  /// Taken off the width of every internode drawn from now on, whatever branch it stands in; not part of the state.
+  /// Taken off the width of every internode drawn from now on, whatever branch it stands in; not part of the
+  /// state.
   void set_thinner(double by) { thinner_ = by; }
   void set_color(std::int64_t color);
   std::int16_t color() const { return state_.color; }
@@ -69,8 +71,8 @@ class Turtle {
     std::uint32_t joint = Limbs::none;  ///< where the next internode grows from; none after a move
     std::uint16_t order = 0;
     std::int16_t color = 0;
-    std::uint16_t rotations = 0;        ///< of `frame` since it was last made orthonormal, and more
-    bool begins_branch = false;         ///< the next internode starts a limb of its own
+    std::uint16_t rotations = 0;  ///< of `frame` since it was last made orthonormal, and more
+    bool begins_branch = false;   ///< the next internode starts a limb of its own
   };
 
   void face(const Frame& frame) {

@@ -7,9 +7,12 @@ namespace seedmesh {
 std::size_t Mesh::elements() const {
   const std::size_t corners = index.size() ? index.size() : position.size();
   switch (topology) {
-    case Topology::triangles: return corners / 3;
-    case Topology::lines: return corners / 2;
-    case Topology::points: return corners;
+    case Topology::triangles:
+      return corners / 3;
+    case Topology::lines:
+      return corners / 2;
+    case Topology::points:
+      return corners;
   }
   return 0;
 }

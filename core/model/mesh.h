@@ -16,8 +16,8 @@ struct Box {
 
 enum class Topology { triangles, lines, points };
 
-/// Indices of a mesh: 32 bit while it is built; `narrow` turns them to 16 bit where the vertices allow. At most one
-/// of the two arrays is in use; both empty means "not indexed" (points only).
+/// Indices of a mesh: 32 bit while it is built; `narrow` turns them to 16 bit where the vertices allow. At
+/// most one of the two arrays is in use; both empty means "not indexed" (points only).
 struct Indices {
   Array<std::uint32_t> wide;
   Array<std::uint16_t> small;
@@ -29,17 +29,17 @@ struct Indices {
 struct Mesh {
   Topology topology = Topology::triangles;
   Array<glm::vec3> position;
-  Array<glm::vec3> normal;                      ///< unit length; none for lines and points
-  std::array<Array<glm::vec2>, 4> uv;           ///< 0: texture, in metres or 0..1; 1: lightmap; 2, 3: wind
-  Array<glm::u8vec4> color;                     ///< linear RGBA, multiplies the base colour
-  Array<glm::vec4> tangent;                     ///< w = handedness; only where a normal map is
-  Array<glm::u16vec4> joints;                   ///< with `weights`: up to four joints of the node's skin
+  Array<glm::vec3> normal;             ///< unit length; none for lines and points
+  std::array<Array<glm::vec2>, 4> uv;  ///< 0: texture, in metres or 0..1; 1: lightmap; 2, 3: wind
+  Array<glm::u8vec4> color;            ///< linear RGBA, multiplies the base colour
+  Array<glm::vec4> tangent;            ///< w = handedness; only where a normal map is
+  Array<glm::u16vec4> joints;          ///< with `weights`: up to four joints of the node's skin
   Array<glm::vec4> weights;
-  Indices index;                                ///< 3 a triangle, 2 a line
-  Box bounds;                                   ///< of `position`; set by finish
-  bool cache_ordered = false;                   ///< the maker emitted triangles in cache order already
+  Indices index;               ///< 3 a triangle, 2 a line
+  Box bounds;                  ///< of `position`; set by finish
+  bool cache_ordered = false;  ///< the maker emitted triangles in cache order already
 
-  std::size_t elements() const;                 ///< triangles, lines or points
+  std::size_t elements() const;  ///< triangles, lines or points
 };
 
 /// Smallest box that holds `position`; {0,0} where it is empty.

@@ -11,8 +11,9 @@ namespace seedmesh {
 namespace {
 
 std::uint64_t bytes_of(const Mesh& mesh) {
-  std::uint64_t bytes = mesh.position.bytes() + mesh.normal.bytes() + mesh.color.bytes() + mesh.tangent.bytes() +
-                        mesh.joints.bytes() + mesh.weights.bytes() + mesh.index.wide.bytes() + mesh.index.small.bytes();
+  std::uint64_t bytes = mesh.position.bytes() + mesh.normal.bytes() + mesh.color.bytes() +
+                        mesh.tangent.bytes() + mesh.joints.bytes() + mesh.weights.bytes() +
+                        mesh.index.wide.bytes() + mesh.index.small.bytes();
   for (const auto& uv : mesh.uv) bytes += uv.bytes();
   return bytes;
 }
@@ -50,9 +51,15 @@ ModelCounts count(const Model& model) {
     for (const Primitive& primitive : model.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
       const std::uint64_t elements = primitive.mesh.elements() * times;
       switch (primitive.mesh.topology) {
-        case Topology::triangles: counts.triangles += elements; break;
-        case Topology::lines: counts.lines += elements; break;
-        case Topology::points: counts.points += elements; break;
+        case Topology::triangles:
+          counts.triangles += elements;
+          break;
+        case Topology::lines:
+          counts.lines += elements;
+          break;
+        case Topology::points:
+          counts.points += elements;
+          break;
       }
     }
   }

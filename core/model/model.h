@@ -1,6 +1,7 @@
 #pragma once
-/// A whole answer before it becomes glTF: nodes, meshes, materials, textures, skins, animations. Everything refers
-/// by index into the vectors of the Model; -1 means none. Parents stand before their children in `nodes`.
+/// A whole answer before it becomes glTF: nodes, meshes, materials, textures, skins, animations. Everything
+/// refers by index into the vectors of the Model; -1 means none. Parents stand before their children in
+/// `nodes`.
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -33,7 +34,8 @@ struct Material {
   float metallic = 0;
   float roughness = 1;
   glm::vec3 emissive{0};
-  TextureUse base_color_texture, normal_texture, metallic_roughness_texture, occlusion_texture, emissive_texture;
+  TextureUse base_color_texture, normal_texture, metallic_roughness_texture, occlusion_texture,
+      emissive_texture;
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5F;
   bool double_sided = false;
@@ -75,10 +77,10 @@ struct Node {
   std::string name;
   int parent = -1;
   Transform transform;
-  int mesh = -1;                 ///< into Model::meshes
-  std::vector<int> lods;         ///< coarser meshes after `mesh`, finest first
+  int mesh = -1;          ///< into Model::meshes
+  std::vector<int> lods;  ///< coarser meshes after `mesh`, finest first
   int skin = -1;
-  Instances instances;           ///< empty: the node stands once
+  Instances instances;  ///< empty: the node stands once
   CollisionShape collision = CollisionShape::none;
   std::vector<Extra> extras;
 };

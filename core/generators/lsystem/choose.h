@@ -6,8 +6,11 @@
 
 namespace seedmesh::lsystem {
 
-/// The key of a module written by a module of key `parent`: a choice in one branch never moves one in another.
-constexpr std::uint64_t child_key(std::uint64_t parent, const Template& child) { return mix(parent ^ child.place); }
+/// The key of a module written by a module of key `parent`: a choice in one branch never moves one in
+/// another.
+constexpr std::uint64_t child_key(std::uint64_t parent, const Template& child) {
+  return mix(parent ^ child.place);
+}
 
 /// Streams of one rewriting: the condition, the choice and the arguments draw apart.
 struct Draws {
@@ -17,7 +20,8 @@ struct Draws {
   Rng choice() const { return place.at(2); }
 };
 
-inline bool holds(const Grammar& grammar, const Production& production, const double* slots, const Draws& draws) {
+inline bool holds(const Grammar& grammar, const Production& production, const double* slots,
+                  const Draws& draws) {
   if (!production.conditional) return true;
   if (production.condition.is_constant) return production.condition.value != 0;
   Rng rng = draws.condition();
@@ -32,10 +36,12 @@ inline double weight_of(const Grammar& grammar, const Production& production, co
   return weight > 0 && std::isfinite(weight) ? weight : 0;
 }
 
-/// Walks the productions `range` of `rules` in order. `match(production)` tells whether its contexts fit and returns its slots,
-/// or null. The first that matches wins if it has no weight, else one draw decides among all weighted ones that match.
+/// Walks the productions `range` of `rules` in order. `match(production)` tells whether its contexts fit and
+/// returns its slots, or null. The first that matches wins if it has no weight, else one draw decides among
+/// all weighted ones that match.
 template <class Match>
-const Production* choose(const Grammar& grammar, const Rules& rules, Range range, const Draws& draws, Match&& match) {
+const Production* choose(const Grammar& grammar, const Rules& rules, Range range, const Draws& draws,
+                         Match&& match) {
   const Production* last = nullptr;
   double total = 0;
   for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
@@ -65,16 +71,20 @@ const Production* choose(const Grammar& grammar, const Rules& rules, Range range
 }
 
 /// Throws Stop (Code::invalid) with the place of the argument.
-[[noreturn]] void refuse_argument(const Grammar& grammar, const Template& made, std::uint32_t index, double value);
+[[noreturn]] void refuse_argument(const Grammar& grammar, const Template& made, std::uint32_t index,
+                                  double value);
 
-/// Evaluates the arguments of a template into `out`; a value that is not finite refuses the request at the production.
-inline void fill_arguments(const Grammar& grammar, const Template& made, const double* slots, std::uint64_t key, double* out) {
+/// Evaluates the arguments of a template into `out`; a value that is not finite refuses the request at the
+/// production.
+inline void fill_arguments(const Grammar& grammar, const Template& made, const double* slots,
+                           std::uint64_t key, double* out) {
   const std::uint32_t arity = grammar.kinds[made.kind].arity;
   if (arity == 0) return;
   Rng rng = Rng(key).at(3);
   for (std::uint32_t i = 0; i < arity; ++i) {
     const lang::Expression& argument = grammar.arguments[made.first_argument + i];
-    const double value = argument.is_constant ? argument.value : grammar.program.evaluate(argument, slots, rng);
+    const double value =
+        argument.is_constant ? argument.value : grammar.program.evaluate(argument, slots, rng);
     if (!std::isfinite(value)) refuse_argument(grammar, made, i, value);
     out[i] = value + 0.0;  // -0 becomes 0
   }

@@ -31,11 +31,13 @@ class Resolver {
 
  private:
   Entry* find(std::string_view name) {
-    const auto at = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.written->name == name; });
+    const auto at = std::find_if(entries_.begin(), entries_.end(),
+                                 [&](const Entry& e) { return e.written->name == name; });
     return at == entries_.end() ? nullptr : &*at;
   }
 
-  /// Gives `entry` its value, after those that it needs. The depth of the calls is the length of a chain of constants.
+  /// Gives `entry` its value, after those that it needs. The depth of the calls is the length of a chain of
+  /// constants.
   void settle(Entry& entry) {
     if (entry.state != State::unknown) return;
     entry.state = State::in_progress;

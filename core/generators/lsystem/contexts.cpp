@@ -4,7 +4,8 @@ namespace seedmesh::lsystem {
 
 void pair_brackets(const Grammar& grammar, const Word& word, Array<std::uint32_t>& partner) {
   partner.resize(word.size());
-  std::uint32_t open = 0xFFFFFFFFU;  // innermost open bracket; the ones around it are chained through `partner`
+  std::uint32_t open =
+      0xFFFFFFFFU;  // innermost open bracket; the ones around it are chained through `partner`
   for (std::uint32_t i = 0; i < word.size(); ++i) {
     if (word.kind[i] == grammar.open) {
       partner[i] = open;

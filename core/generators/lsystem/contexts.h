@@ -6,8 +6,8 @@
 
 namespace seedmesh::lsystem {
 
-/// For every bracket of the word the place of its partner; other entries are unspecified. Words are balanced, since every axiom and
-/// successor is.
+/// For every bracket of the word the place of its partner; other entries are unspecified. Words are balanced,
+/// since every axiom and successor is.
 void pair_brackets(const Grammar& grammar, const Word& word, Array<std::uint32_t>& partner);
 
 /// Matches the contexts of productions at one place of one word after another.
@@ -16,8 +16,8 @@ class ContextMatcher {
   ContextMatcher(const Grammar& grammar, const Word& word, std::span<const std::uint32_t> partner)
       : grammar_(grammar), word_(word), partner_(partner) {}
 
-  /// The slots of `production` at `place` (parameters of the predecessor, left context, right context), or null when its contexts
-  /// do not match. Valid until the next call.
+  /// The slots of `production` at `place` (parameters of the predecessor, left context, right context), or
+  /// null when its contexts do not match. Valid until the next call.
   const double* match(const Production& production, std::size_t place);
 
  private:

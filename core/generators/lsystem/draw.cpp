@@ -22,17 +22,22 @@ math::SinCos opposite(math::SinCos angle) { return {-angle.sin, angle.cos}; }
 }  // namespace
 
 Drawing::Drawing(const Grammar& grammar, const LsystemParams& params, Skeleton* skeleton, Job& job)
-    : grammar_(grammar), params_(params), job_(job), turtle_(skeleton, first_width(params, job), job),
+    : grammar_(grammar),
+      params_(params),
+      job_(job),
+      turtle_(skeleton, first_width(params, job), job),
       yaw_{params.angle.yaw, math::sincos_degrees(params.angle.yaw)},
       pitch_{params.angle.pitch, math::sincos_degrees(params.angle.pitch)},
       roll_{params.angle.roll, math::sincos_degrees(params.angle.roll)} {}
 
 bool Drawing::needs_keys(const Grammar& grammar, const LsystemParams& params) {
-  return grammar.productions.chance || grammar.interpretation.chance || params.angle.spread > 0 || params.step.spread > 0;
+  return grammar.productions.chance || grammar.interpretation.chance || params.angle.spread > 0 ||
+         params.step.spread > 0;
 }
 
 void Drawing::module(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t step) {
-  turtle_.set_thinner(params_.width_rule == LsystemParams::WidthRule::decrement ? step * params_.width_decrement : 0);
+  turtle_.set_thinner(
+      params_.width_rule == LsystemParams::WidthRule::decrement ? step * params_.width_decrement : 0);
   interpret(kind, parameters, key, 0);
 }
 
@@ -55,7 +60,8 @@ void Drawing::interpret(KindId kind, const double* parameters, std::uint64_t key
   }
 }
 
-math::SinCos Drawing::turn(const Kind& kind, const double* parameters, const Angle& angle, std::uint64_t key) {
+math::SinCos Drawing::turn(const Kind& kind, const double* parameters, const Angle& angle,
+                           std::uint64_t key) {
   double degrees = angle.degrees;
   if (kind.arity > 0) {
     degrees = parameters[0];
@@ -87,31 +93,57 @@ void Drawing::obey(const Kind& kind, const double* parameters, std::uint64_t key
     return kind.arity > 0 ? math::to_int64(parameters[0]) : turtle_.color() + change;
   };
   switch (kind.command) {
-    case Command::none: case Command::cut: return;
-    case Command::draw: return turtle_.draw(length(kind, parameters, key), key);
-    case Command::move: return turtle_.walk(length(kind, parameters, key));
-    case Command::draw_plain: return turtle_.draw_plain(length(kind, parameters, key), key);
-    case Command::move_plain: return turtle_.walk_plain(length(kind, parameters, key));
-    case Command::left: return turtle_.turn(turn(kind, parameters, yaw_, key));
-    case Command::right: return turtle_.turn(opposite(turn(kind, parameters, yaw_, key)));
-    case Command::down: return turtle_.pitch(turn(kind, parameters, pitch_, key));
-    case Command::up: return turtle_.pitch(opposite(turn(kind, parameters, pitch_, key)));
-    case Command::roll_left: return turtle_.roll(turn(kind, parameters, roll_, key));
-    case Command::roll_right: return turtle_.roll(opposite(turn(kind, parameters, roll_, key)));
-    case Command::turn_around: return turtle_.turn_around();
-    case Command::upright: return turtle_.upright();
-    case Command::push: return turtle_.push();
-    case Command::pop: return turtle_.pop();
-    case Command::polygon_open: return turtle_.open_polygon();
-    case Command::polygon_close: return turtle_.close_polygon(key);
-    case Command::vertex: return turtle_.set_vertex();
-    case Command::width_down: return set_width(kind, parameters, -params_.width_decrement);
-    case Command::width_up: return set_width(kind, parameters, params_.width_decrement);
-    case Command::color_next: return turtle_.set_color(turtle_.color() + 1);
-    case Command::color_up: return turtle_.set_color(index(1));
-    case Command::color_down: return turtle_.set_color(index(-1));
-    case Command::move_to: return turtle_.move_to({parameters[0], parameters[1], parameters[2]});
-    case Command::set_heading: return turtle_.head({parameters[0], parameters[1], parameters[2]});
+    case Command::none:
+    case Command::cut:
+      return;
+    case Command::draw:
+      return turtle_.draw(length(kind, parameters, key), key);
+    case Command::move:
+      return turtle_.walk(length(kind, parameters, key));
+    case Command::draw_plain:
+      return turtle_.draw_plain(length(kind, parameters, key), key);
+    case Command::move_plain:
+      return turtle_.walk_plain(length(kind, parameters, key));
+    case Command::left:
+      return turtle_.turn(turn(kind, parameters, yaw_, key));
+    case Command::right:
+      return turtle_.turn(opposite(turn(kind, parameters, yaw_, key)));
+    case Command::down:
+      return turtle_.pitch(turn(kind, parameters, pitch_, key));
+    case Command::up:
+      return turtle_.pitch(opposite(turn(kind, parameters, pitch_, key)));
+    case Command::roll_left:
+      return turtle_.roll(turn(kind, parameters, roll_, key));
+    case Command::roll_right:
+      return turtle_.roll(opposite(turn(kind, parameters, roll_, key)));
+    case Command::turn_around:
+      return turtle_.turn_around();
+    case Command::upright:
+      return turtle_.upright();
+    case Command::push:
+      return turtle_.push();
+    case Command::pop:
+      return turtle_.pop();
+    case Command::polygon_open:
+      return turtle_.open_polygon();
+    case Command::polygon_close:
+      return turtle_.close_polygon(key);
+    case Command::vertex:
+      return turtle_.set_vertex();
+    case Command::width_down:
+      return set_width(kind, parameters, -params_.width_decrement);
+    case Command::width_up:
+      return set_width(kind, parameters, params_.width_decrement);
+    case Command::color_next:
+      return turtle_.set_color(turtle_.color() + 1);
+    case Command::color_up:
+      return turtle_.set_color(index(1));
+    case Command::color_down:
+      return turtle_.set_color(index(-1));
+    case Command::move_to:
+      return turtle_.move_to({parameters[0], parameters[1], parameters[2]});
+    case Command::set_heading:
+      return turtle_.head({parameters[0], parameters[1], parameters[2]});
   }
 }
 

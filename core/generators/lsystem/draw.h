@@ -37,7 +37,7 @@ class Drawing {
   Job& job_;
   Turtle turtle_;
   Angle yaw_, pitch_, roll_;
-  double last_degrees_ = 0;        ///< angles given as arguments mostly repeat
+  double last_degrees_ = 0;  ///< angles given as arguments mostly repeat
   math::SinCos last_{0, 1};
   std::uint64_t interpreted_ = 0;
 };

@@ -14,14 +14,15 @@ struct Look {
   double roughness;
 };
 
-// What the colour index chooses from when the request names no materials: bark, three greens, and colours for flowers.
+// What the colour index chooses from when the request names no materials: bark, three greens, and colours for
+// flowers.
 constexpr Look palette[] = {
-    {"bark", {107, 79, 53}, 0.9},    {"leaf", {79, 138, 60}, 0.6},   {"young_leaf", {142, 184, 82}, 0.6},
-    {"old_leaf", {53, 96, 48}, 0.7}, {"petal", {232, 160, 191}, 0.5}, {"stamen", {240, 200, 80}, 0.6},
+    {"bark", {107, 79, 53}, 0.9},    {"leaf", {79, 138, 60}, 0.6},     {"young_leaf", {142, 184, 82}, 0.6},
+    {"old_leaf", {53, 96, 48}, 0.7}, {"petal", {232, 160, 191}, 0.5},  {"stamen", {240, 200, 80}, 0.6},
     {"berry", {178, 34, 52}, 0.4},   {"stone", {136, 136, 132}, 0.95},
 };
 
-constexpr std::uint64_t bytes_a_vertex = 32;   // position, normal, uv
+constexpr std::uint64_t bytes_a_vertex = 32;  // position, normal, uv
 constexpr std::uint64_t bytes_a_triangle = 12;
 
 enum class Sides { one, both };
@@ -71,7 +72,8 @@ class Wardrobe {
   }
 
   static void paint(Material& material, const Color& color, double roughness, double metallic) {
-    material.base_color = {linear_of_srgb(color.red), linear_of_srgb(color.green), linear_of_srgb(color.blue), 1};
+    material.base_color = {linear_of_srgb(color.red), linear_of_srgb(color.green), linear_of_srgb(color.blue),
+                           1};
     material.roughness = static_cast<float>(roughness);
     material.metallic = static_cast<float>(metallic);
   }
@@ -114,12 +116,14 @@ Model dress(Skeleton skeleton, const LsystemParams& params, Job& job) {
   Wardrobe wardrobe(model, params);
   const bool tubes = params.style == LsystemParams::Style::tubes;
   const bool empty = skeleton.limbs.size() == 0 && skeleton.outlines.outline.empty();
-  std::vector<Bark> bark = tubes ? skin(skeleton.limbs, skin_options(params), job) : wires(skeleton.limbs, job);
+  std::vector<Bark> bark =
+      tubes ? skin(skeleton.limbs, skin_options(params), job) : wires(skeleton.limbs, job);
   skeleton.limbs = Limbs(job);  // its memory goes back before polygons and writer need theirs
   add_meshes(model, tubes ? "bark" : "lines", std::move(bark), Sides::one, wardrobe);
   add_meshes(model, "surfaces", polygons(skeleton.outlines, job), Sides::both, wardrobe);
   if (empty) {
-    model.warnings.push_back({"/axiom", "nothing was drawn: the last word has no F or G and no polygon", 0, 0});
+    model.warnings.push_back(
+        {"/axiom", "nothing was drawn: the last word has no F or G and no polygon", 0, 0});
   }
   return model;
 }

@@ -1,22 +1,28 @@
 #pragma once
-/// Derivation without the word: a context-free system is rewritten depth first, module by module, straight into whoever
-/// reads the result. Memory grows with the number of steps, not with the length of the word. Keys by place make the
-/// result equal to that of rewriting the whole word step by step.
+/// Derivation without the word: a context-free system is rewritten depth first, module by module, straight
+/// into whoever reads the result. Memory grows with the number of steps, not with the length of the word.
+/// Keys by place make the result equal to that of rewriting the whole word step by step.
 #include <vector>
 
 #include "core/generators/lsystem/choose.h"
 
 namespace seedmesh::lsystem {
 
-/// Sink: void module(KindId, const double* parameters, std::uint64_t key, std::uint32_t step): called in the order of the word;
-/// `step` is the derivation step that wrote the module (0: it stood in the axiom).
+/// Sink: void module(KindId, const double* parameters, std::uint64_t key, std::uint32_t step): called in the
+/// order of the word; `step` is the derivation step that wrote the module (0: it stood in the axiom).
 template <class Sink>
 class FreeDerivation {
  public:
   /// `keyed` false leaves all keys 0 and saves their cost.
   FreeDerivation(const Grammar& grammar, std::uint32_t steps, bool keyed, Job& job, Sink& sink)
-      : grammar_(grammar), rules_(grammar.productions), steps_(steps), keyed_(keyed), job_(job),
-        meter_(job, Resource::modules), sink_(sink), width_(grammar.widest),
+      : grammar_(grammar),
+        rules_(grammar.productions),
+        steps_(steps),
+        keyed_(keyed),
+        job_(job),
+        meter_(job, Resource::modules),
+        sink_(sink),
+        width_(grammar.widest),
         parameters_((std::size_t{steps} + 2) * grammar.widest + 1) {}
 
   void run() { write(grammar_.axiom, nullptr, job_.rng().key(), 0); }
@@ -42,7 +48,8 @@ class FreeDerivation {
   void rewrite(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t step) {
     if ((++rewritten_ & 4095U) == 0) {
       job_.check();
-      if (rewritten_ > 4 * job_.limits().modules) Job::refuse("rewrites more modules than " + std::to_string(rewritten_ - 1));
+      if (rewritten_ > 4 * job_.limits().modules)
+        Job::refuse("rewrites more modules than " + std::to_string(rewritten_ - 1));
     }
     const Range range = rules_.of_kind[kind];
     for (std::uint32_t now = step; now < steps_; ++now) {

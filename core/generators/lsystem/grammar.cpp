@@ -56,9 +56,11 @@ class Compiler {
   }
 
   KindId kind(std::string_view symbol, std::uint32_t arity) {
-    const auto [at, fresh] = ids_.try_emplace({std::string(symbol), arity}, static_cast<KindId>(grammar_.kinds.size()));
+    const auto [at, fresh] =
+        ids_.try_emplace({std::string(symbol), arity}, static_cast<KindId>(grammar_.kinds.size()));
     if (fresh) {
-      grammar_.kinds.push_back({std::string(symbol), arity, command_of(symbol, arity), ignored_.count(symbol) != 0});
+      grammar_.kinds.push_back(
+          {std::string(symbol), arity, command_of(symbol, arity), ignored_.count(symbol) != 0});
       grammar_.widest = std::max(grammar_.widest, arity);
     }
     return at->second;
@@ -81,7 +83,8 @@ class Compiler {
     Source variables{params_.alphabet->variables, "/alphabet/variables", {}};
     Source constants{params_.alphabet->constants, "/alphabet/constants", {}};
     for (Source* source : {&variables, &constants}) {
-      for (const WrittenModule& module : read_modules(source->text, {0, source->text.size()}, source->faults)) {
+      for (const WrittenModule& module :
+           read_modules(source->text, {0, source->text.size()}, source->faults)) {
         (source == &variables ? variables_ : alphabet_constants_).insert(std::string(module.symbol));
       }
       take_faults(*source);
@@ -89,8 +92,10 @@ class Compiler {
   }
 
   void check_symbol(const WrittenModule& module, Source& source) const {
-    if (!params_.alphabet || variables_.count(module.symbol) || alphabet_constants_.count(module.symbol)) return;
-    source.faults.push_back({module.offset, "found `" + std::string(module.symbol) + "`, which is not in the alphabet"});
+    if (!params_.alphabet || variables_.count(module.symbol) || alphabet_constants_.count(module.symbol))
+      return;
+    source.faults.push_back(
+        {module.offset, "found `" + std::string(module.symbol) + "`, which is not in the alphabet"});
   }
 
   void take_faults(Source& source) {
@@ -106,7 +111,8 @@ class Compiler {
     const std::vector<lang::Token> tokens = lang::tokenize(source.text, slice.from, slice.to, source.faults);
     if (source.faults.size() != before) return {};
     std::size_t at = 0;
-    const lang::Expression parsed = grammar_.program.parse(tokens, at, names_, source.faults, limits_.expression_depth);
+    const lang::Expression parsed =
+        grammar_.program.parse(tokens, at, names_, source.faults, limits_.expression_depth);
     if (source.faults.size() == before && tokens[at].kind != lang::TokenKind::end) {
       source.faults.push_back({tokens[at].offset, "found `" + std::string(tokens[at].text) +
                                                       "` after the end of the expression"});
@@ -142,7 +148,8 @@ class Compiler {
     return range;
   }
 
-  /// [ and ] must pair inside every word; { and } need not (leaves of the book open them in one branch and close in another).
+  /// [ and ] must pair inside every word; { and } need not (leaves of the book open them in one branch and
+  /// close in another).
   void check_brackets(Source& source, Slice slice) {
     std::vector<std::size_t> open;
     int depth = 0;
@@ -165,7 +172,8 @@ class Compiler {
     }
     if (!open.empty()) source.faults.push_back({open.back(), "found `[` without its `]`"});
     if (open.size() > limits_.bracket_depth) {
-      source.faults.push_back({open.back(), "brackets nest deeper than " + std::to_string(limits_.bracket_depth)});
+      source.faults.push_back(
+          {open.back(), "brackets nest deeper than " + std::to_string(limits_.bracket_depth)});
     }
   }
 
@@ -198,17 +206,20 @@ class Compiler {
       }
       made.predecessor = formal(source, heads[0], slots);
       if (made.predecessor == grammar_.open || made.predecessor == grammar_.close) {
-        source.faults.push_back({heads[0].offset, "found a bracket as predecessor; brackets cannot be rewritten"});
+        source.faults.push_back(
+            {heads[0].offset, "found a bracket as predecessor; brackets cannot be rewritten"});
       }
     } else if (source.faults.empty()) {
-      source.faults.push_back({heads.empty() ? written.predecessor.from : heads[1].offset,
-                               "found " + std::to_string(heads.size()) + " modules; expected one predecessor"});
+      source.faults.push_back(
+          {heads.empty() ? written.predecessor.from : heads[1].offset,
+           "found " + std::to_string(heads.size()) + " modules; expected one predecessor"});
     }
     made.left = context(source, written.left, slots);
     std::reverse(made.left.begin(), made.left.end());
     for (KindId id : made.left) {
       if (id == grammar_.open || id == grammar_.close) {
-        source.faults.push_back({written.left.from, "found a bracket in a left context, which is a path without branches"});
+        source.faults.push_back(
+            {written.left.from, "found a bracket in a left context, which is a path without branches"});
         break;
       }
     }
@@ -225,7 +236,8 @@ class Compiler {
   }
 
   static bool is_star(std::string_view text, Slice slice) {
-    return erases(text, slice) && text.substr(slice.from, slice.to - slice.from).find('*') != std::string_view::npos;
+    return erases(text, slice) &&
+           text.substr(slice.from, slice.to - slice.from).find('*') != std::string_view::npos;
   }
 
   void read_weight(Source& source, const WrittenProduction& written, Production& made) {
@@ -257,7 +269,8 @@ class Compiler {
       }
       const lang::Names::Binding* before = names_.find(tokens[0].text);
       if (before && !before->is_constant) {
-        source.faults.push_back({tokens[0].offset, "the parameter `" + std::string(tokens[0].text) + "` is named twice"});
+        source.faults.push_back(
+            {tokens[0].offset, "the parameter `" + std::string(tokens[0].text) + "` is named twice"});
       }
       names_.bind_slot(std::string(tokens[0].text), slots++);
     }
@@ -271,17 +284,19 @@ class Compiler {
   void check_interpretation() {
     for (const Production& each : grammar_.interpretation.productions) {
       if (each.has_context()) {
-        issues_.push_back({each.pointer, "an interpretation rule takes no context: it is used on one module alone"});
+        issues_.push_back(
+            {each.pointer, "an interpretation rule takes no context: it is used on one module alone"});
       }
     }
   }
 
   /// Side by side by predecessor, with context before without, then as written.
   void order(Rules& rules) {
-    std::stable_sort(rules.productions.begin(), rules.productions.end(), [](const Production& a, const Production& b) {
-      if (a.predecessor != b.predecessor) return a.predecessor < b.predecessor;
-      return a.has_context() && !b.has_context();
-    });
+    std::stable_sort(rules.productions.begin(), rules.productions.end(),
+                     [](const Production& a, const Production& b) {
+                       if (a.predecessor != b.predecessor) return a.predecessor < b.predecessor;
+                       return a.has_context() && !b.has_context();
+                     });
     rules.of_kind.assign(grammar_.kinds.size(), {});
     rules.redraws.assign(grammar_.kinds.size(), 0);
     for (std::uint32_t i = 0; i < rules.productions.size(); ++i) {
@@ -290,7 +305,8 @@ class Compiler {
       if (range.count++ == 0) range.first = i;
       rules.context = rules.context || each.has_context();
       if (each.conditional && grammar_.program.draws(each.condition)) rules.redraws[each.predecessor] = 1;
-      rules.chance = rules.chance || each.weighted || rules.redraws[each.predecessor] || draws(each.successor);
+      rules.chance =
+          rules.chance || each.weighted || rules.redraws[each.predecessor] || draws(each.successor);
     }
     if (&rules == &grammar_.productions) rules.chance = rules.chance || draws(grammar_.axiom);
     warn_of_weights(rules);
@@ -335,7 +351,8 @@ class Compiler {
 
 }  // namespace
 
-Grammar compile(const LsystemParams& params, std::uint64_t seed, const Limits& limits, std::vector<Issue>& issues) {
+Grammar compile(const LsystemParams& params, std::uint64_t seed, const Limits& limits,
+                std::vector<Issue>& issues) {
   if (params.iterations > static_cast<std::int64_t>(limits.iterations)) {
     issues.push_back({"/iterations", "found " + std::to_string(params.iterations) + "; the limit is " +
                                          std::to_string(limits.iterations)});

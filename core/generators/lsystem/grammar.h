@@ -1,8 +1,10 @@
 #pragma once
-/// An L-system ready to run: texts parsed, names bound to slots, productions sorted into the order of matching.
+/// An L-system ready to run: texts parsed, names bound to slots, productions sorted into the order of
+/// matching.
 ///
-/// A module is a symbol and its number of parameters; the two together are its kind. All kinds that a grammar can
-/// ever write stand in its text, so a word is a row of small numbers and (where kinds have them) a row of parameters.
+/// A module is a symbol and its number of parameters; the two together are its kind. All kinds that a grammar
+/// can ever write stand in its text, so a word is a row of small numbers and (where kinds have them) a row of
+/// parameters.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -30,19 +32,20 @@ struct Kind {
   bool ignored = false;             ///< passed over when contexts are matched
 };
 
-/// A module as written in an axiom or a successor: its arguments are expressions over the slots of the production.
+/// A module as written in an axiom or a successor: its arguments are expressions over the slots of the
+/// production.
 struct Template {
   KindId kind = 0;
   std::uint32_t first_argument = 0;  ///< into Grammar::arguments; as many as the kind's arity
-  std::uint64_t place = 0;           ///< hash of symbol and of which occurrence of it in the successor this is
+  std::uint64_t place = 0;  ///< hash of symbol and of which occurrence of it in the successor this is
 };
 
 struct Range {
   std::uint32_t first = 0, count = 0;
 };
 
-/// One production. Slots of its expressions: parameters of the predecessor, then of the left context from left to right,
-/// then of the right context.
+/// One production. Slots of its expressions: parameters of the predecessor, then of the left context from
+/// left to right, then of the right context.
 struct Production {
   KindId predecessor = 0;
   std::vector<KindId> left;   ///< nearest first
@@ -58,11 +61,12 @@ struct Production {
 
 /// Productions in the order in which they are tried: those with context first, then as written.
 struct Rules {
-  std::vector<Production> productions;     ///< of one predecessor side by side
-  std::vector<Range> of_kind;              ///< by kind
-  bool context = false;                    ///< some production has a context
-  bool chance = false;                     ///< weights, or random functions anywhere
-  std::vector<std::uint8_t> redraws;       ///< by kind: a condition draws, so that a failed match may hold in a later step
+  std::vector<Production> productions;  ///< of one predecessor side by side
+  std::vector<Range> of_kind;           ///< by kind
+  bool context = false;                 ///< some production has a context
+  bool chance = false;                  ///< weights, or random functions anywhere
+  std::vector<std::uint8_t>
+      redraws;  ///< by kind: a condition draws, so that a failed match may hold in a later step
   bool rewrites(KindId kind) const { return of_kind[kind].count != 0; }
 };
 
@@ -80,12 +84,15 @@ struct Grammar {
   std::uint32_t most_slots = 0;         ///< greatest number of slots of a production
   std::vector<Warning> warnings;
 
-  std::span<const Template> successor(Range range) const { return {templates.data() + range.first, range.count}; }
+  std::span<const Template> successor(Range range) const {
+    return {templates.data() + range.first, range.count};
+  }
 };
 
-/// Parses and checks everything textual of the parameters. Every fault goes to `issues`, with pointers relative to the
-/// parameters ("/productions/2") and line and column; the grammar may be run only when none came.
-/// `seed` feeds random functions in constants. Cost: linear in the text.
-Grammar compile(const LsystemParams& params, std::uint64_t seed, const Limits& limits, std::vector<Issue>& issues);
+/// Parses and checks everything textual of the parameters. Every fault goes to `issues`, with pointers
+/// relative to the parameters ("/productions/2") and line and column; the grammar may be run only when none
+/// came. `seed` feeds random functions in constants. Cost: linear in the text.
+Grammar compile(const LsystemParams& params, std::uint64_t seed, const Limits& limits,
+                std::vector<Issue>& issues);
 
 }  // namespace seedmesh::lsystem

@@ -5,8 +5,9 @@
 namespace seedmesh::lsystem {
 namespace {
 
-std::uint64_t add(std::uint64_t a, std::uint64_t b) { return std::min(saturated, a + std::min(saturated, b)); }
-
+std::uint64_t add(std::uint64_t a, std::uint64_t b) {
+  return std::min(saturated, a + std::min(saturated, b));
+}
 
 /// True when one of the productions surely applies, so that the module cannot stay as it is.
 bool always_rewritten(const Rules& rules, Range range) {

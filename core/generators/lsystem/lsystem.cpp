@@ -3,8 +3,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "core/generators/lsystem/dress.h"
 #include "core/generators/lsystem/draw.h"
+#include "core/generators/lsystem/dress.h"
 #include "core/generators/lsystem/free.h"
 #include "core/generators/lsystem/growth.h"
 #include "core/generators/lsystem/text.h"
@@ -88,7 +88,8 @@ std::uint64_t drawn(const Grammar& grammar, const std::vector<std::uint64_t>& co
   std::uint64_t segments = 0;
   for (std::size_t kind = 0; kind < counts.size(); ++kind) {
     const Command command = grammar.kinds[kind].command;
-    if (command == Command::draw || command == Command::draw_plain) segments += std::min(saturated, counts[kind]);
+    if (command == Command::draw || command == Command::draw_plain)
+      segments += std::min(saturated, counts[kind]);
   }
   return segments;
 }

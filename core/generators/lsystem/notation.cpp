@@ -42,7 +42,8 @@ std::vector<Slice> arguments_between(std::string_view text, std::size_t open, st
     if (text[i] == '(') ++depth;
     if (text[i] == ')' && i != close) --depth;
     if (i == close || (text[i] == ',' && depth == 0)) {
-      if (skip_spaces(text, from, i) == i) faults.push_back({from, "found nothing; expected an argument here"});
+      if (skip_spaces(text, from, i) == i)
+        faults.push_back({from, "found nothing; expected an argument here"});
       found.push_back({from, i});
       from = i + 1;
     }
@@ -54,7 +55,8 @@ struct Arrow {
   std::size_t from = 0, to = 0;
 };
 
-/// The first arrow outside parentheses. "-->" is one arrow, except where its first "-" is all that stands before "->".
+/// The first arrow outside parentheses. "-->" is one arrow, except where its first "-" is all that stands
+/// before "->".
 std::optional<Arrow> find_arrow(std::string_view text) {
   int depth = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -91,7 +93,8 @@ void read_head(std::string_view text, Slice head, WrittenProduction& out, std::v
     out.predecessor.from = less + 1;
     const std::size_t second = find_outside(text, out.predecessor, '<');
     if (second < head.to) {
-      faults.push_back({second, "found a second `<`; the right context is written after `>`, as in `a < b > c -> d`"});
+      faults.push_back(
+          {second, "found a second `<`; the right context is written after `>`, as in `a < b > c -> d`"});
       out.predecessor.to = second;
     }
   }
@@ -115,7 +118,8 @@ void read_head(std::string_view text, Slice head, WrittenProduction& out, std::v
 
 std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, std::vector<Fault>& faults) {
   std::vector<WrittenModule> modules;
-  for (std::size_t at = skip_spaces(text, slice.from, slice.to); at < slice.to; at = skip_spaces(text, at, slice.to)) {
+  for (std::size_t at = skip_spaces(text, slice.from, slice.to); at < slice.to;
+       at = skip_spaces(text, at, slice.to)) {
     WrittenModule module{{}, at, {}};
     std::size_t length = code_point_length(text, at);
     if (text[at] == '@') {
@@ -126,11 +130,13 @@ std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, std:
       }
       length = 1 + code_point_length(text, at + 1);
     } else if (text[at] == '(' || text[at] == ')') {
-      faults.push_back({at, std::string("found `") + text[at] + "`; expected a symbol before its parameters"});
+      faults.push_back(
+          {at, std::string("found `") + text[at] + "`; expected a symbol before its parameters"});
       ++at;
       continue;
     } else if (text[at] == '*') {
-      faults.push_back({at, "found `*` beside other modules; it stands for the empty word and must stand alone"});
+      faults.push_back(
+          {at, "found `*` beside other modules; it stands for the empty word and must stand alone"});
       ++at;
       continue;
     }
@@ -155,7 +161,8 @@ WrittenProduction read_production(std::string_view text, std::vector<Fault>& fau
   WrittenProduction out;
   const std::optional<Arrow> arrow = find_arrow(text);
   if (!arrow) {
-    faults.push_back({skip_spaces(text, 0, text.size()), "found no arrow; expected `predecessor -> successor`"});
+    faults.push_back(
+        {skip_spaces(text, 0, text.size()), "found no arrow; expected `predecessor -> successor`"});
     return out;
   }
   Slice head{0, arrow->from};

@@ -35,10 +35,12 @@ struct WrittenProduction {
   bool has_left = false, has_right = false, has_condition = false, has_weight = false;
 };
 
-/// The modules of text[slice]. Faults: an argument list that is not closed, an empty argument, characters that are no symbol.
+/// The modules of text[slice]. Faults: an argument list that is not closed, an empty argument, characters
+/// that are no symbol.
 std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, std::vector<lang::Fault>& faults);
 
-/// Cuts a production at its arrow, context marks and colons. Faults: no arrow, no predecessor, two contexts of one side.
+/// Cuts a production at its arrow, context marks and colons. Faults: no arrow, no predecessor, two contexts
+/// of one side.
 WrittenProduction read_production(std::string_view text, std::vector<lang::Fault>& faults);
 
 /// True when the slice holds nothing, or "*" or "ε" alone.

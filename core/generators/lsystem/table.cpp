@@ -13,7 +13,8 @@ constexpr std::size_t chunk = 4096;
 bool plain(const Grammar& grammar, const Production& production) {
   const auto is_bracket = [&](KindId kind) { return kind == grammar.open || kind == grammar.close; };
   return !production.conditional && !production.weighted && production.left.size() <= 1 &&
-         production.right.size() <= 1 && std::none_of(production.right.begin(), production.right.end(), is_bracket);
+         production.right.size() <= 1 &&
+         std::none_of(production.right.begin(), production.right.end(), is_bracket);
 }
 
 }  // namespace
@@ -26,7 +27,10 @@ bool TableRewriter::fits(const Grammar& grammar) {
 }
 
 TableRewriter::TableRewriter(const Grammar& grammar, Job& job)
-    : grammar_(grammar), job_(job), kinds_(grammar.kinds.size()), table_((kinds_ + 1) * kinds_ * (kinds_ + 1)),
+    : grammar_(grammar),
+      job_(job),
+      kinds_(grammar.kinds.size()),
+      table_((kinds_ + 1) * kinds_ * (kinds_ + 1)),
       right_(job) {
   for (const Kind& kind : grammar.kinds) ignored_.push_back(kind.ignored ? 1 : 0);
   for (std::size_t kind = 0; kind < kinds_; ++kind) {
@@ -46,7 +50,8 @@ TableRewriter::TableRewriter(const Grammar& grammar, Job& job)
 
 void TableRewriter::fill(const Production& production, KindId kind) {
   const std::span<const Template> successor = grammar_.successor(production.successor);
-  const Entry made{static_cast<std::uint32_t>(successors_.size()), static_cast<std::uint32_t>(successor.size())};
+  const Entry made{static_cast<std::uint32_t>(successors_.size()),
+                   static_cast<std::uint32_t>(successor.size())};
   for (const Template& each : successor) successors_.push_back(static_cast<std::uint8_t>(each.kind));
   longest_ = std::max(longest_, successor.size());
   for (std::size_t left = 0; left <= kinds_; ++left) {
@@ -57,7 +62,8 @@ void TableRewriter::fill(const Production& production, KindId kind) {
   }
 }
 
-/// From the back: inside a branch there is nothing to the right of its last symbol; before a branch the neighbour stands behind it.
+/// From the back: inside a branch there is nothing to the right of its last symbol; before a branch the
+/// neighbour stands behind it.
 void TableRewriter::find_right_neighbours(const Array<std::uint8_t>& in) {
   right_.resize(in.size());
   stack_.clear();
@@ -107,7 +113,8 @@ void TableRewriter::step(const Array<std::uint8_t>& in, Array<std::uint8_t>& out
     }
     length = static_cast<std::size_t>(write - out.data());
     if (length > job_.limits().modules) {
-      Job::refuse("needs more than " + std::to_string(job_.limits().modules) + " modules, which is the limit");
+      Job::refuse("needs more than " + std::to_string(job_.limits().modules) +
+                  " modules, which is the limit");
     }
   }
   out.resize(length);
@@ -115,7 +122,8 @@ void TableRewriter::step(const Array<std::uint8_t>& in, Array<std::uint8_t>& out
 
 Array<std::uint8_t> TableRewriter::axiom() const {
   Array<std::uint8_t> word(job_);
-  for (const Template& each : grammar_.successor(grammar_.axiom)) word.push_back(static_cast<std::uint8_t>(each.kind));
+  for (const Template& each : grammar_.successor(grammar_.axiom))
+    word.push_back(static_cast<std::uint8_t>(each.kind));
   return word;
 }
 

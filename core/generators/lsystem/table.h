@@ -1,7 +1,7 @@
 #pragma once
-/// Fast derivation of words of plain symbols (no parameters, no chance) whose productions look at most at one neighbour on
-/// each side: what happens to a symbol is looked up by (left neighbour, symbol, right neighbour). Two passes a step over
-/// one byte a symbol.
+/// Fast derivation of words of plain symbols (no parameters, no chance) whose productions look at most at one
+/// neighbour on each side: what happens to a symbol is looked up by (left neighbour, symbol, right
+/// neighbour). Two passes a step over one byte a symbol.
 #include <vector>
 
 #include "core/generators/lsystem/word.h"
@@ -33,7 +33,7 @@ class TableRewriter {
 
   const Grammar& grammar_;
   Job& job_;
-  std::size_t kinds_;                   ///< also stands for "no neighbour"
+  std::size_t kinds_;  ///< also stands for "no neighbour"
   std::size_t longest_ = 1;
   std::vector<Entry> table_;
   std::vector<std::uint8_t> successors_;  ///< padded, so that eight bytes may always be copied

@@ -9,7 +9,11 @@ namespace {
 class PlainText {
  public:
   PlainText(const Grammar& grammar, std::uint32_t steps, std::size_t most, const Job& job)
-      : grammar_(grammar), most_(most), job_(job), text_(job), known_((std::size_t{steps} + 1) * grammar.kinds.size()) {}
+      : grammar_(grammar),
+        most_(most),
+        job_(job),
+        text_(job),
+        known_((std::size_t{steps} + 1) * grammar.kinds.size()) {}
 
   Array<char> write(std::uint32_t steps) {
     for (const Template& each : grammar_.successor(grammar_.axiom)) write(each.kind, steps);
@@ -68,7 +72,8 @@ void TextWriter::module(KindId kind, const double* parameters) {
   text += written.symbol;
   for (std::uint32_t i = 0; i < written.arity; ++i) {
     char digits[32];
-    const auto end = std::to_chars(digits, digits + sizeof digits, parameters[i], std::chars_format::general, 6);
+    const auto end =
+        std::to_chars(digits, digits + sizeof digits, parameters[i], std::chars_format::general, 6);
     text += i == 0 ? '(' : ',';
     text.append(digits, end.ptr);
   }

@@ -15,11 +15,16 @@ constexpr std::size_t look_every = 4096;
 class Writer {
  public:
   Writer(const Grammar& grammar, bool keyed, Job& job)
-      : word(job), grammar_(grammar), parameters_(grammar.widest > 0), keyed_(keyed), limit_(job.limits().modules) {}
+      : word(job),
+        grammar_(grammar),
+        parameters_(grammar.widest > 0),
+        keyed_(keyed),
+        limit_(job.limits().modules) {}
 
   /// Room for a module: gives the place of its parameters.
   double* add(KindId kind, std::uint64_t key, std::uint32_t step) {
-    if (word.size() >= limit_) Job::refuse("needs more than " + std::to_string(limit_) + " modules, which is the limit");
+    if (word.size() >= limit_)
+      Job::refuse("needs more than " + std::to_string(limit_) + " modules, which is the limit");
     word.kind.push_back(kind);
     word.born.push_back(static_cast<std::uint16_t>(step));
     if (keyed_) word.key.push_back(key);
@@ -31,7 +36,8 @@ class Writer {
   void copy(const Word& from, std::size_t place) {
     const KindId kind = from.kind[place];
     double* parameters = add(kind, keyed_ ? from.key[place] : 0, from.born[place]);
-    for (std::uint32_t i = 0; i < grammar_.kinds[kind].arity; ++i) parameters[i] = from.parameter[from.at[place] + i];
+    for (std::uint32_t i = 0; i < grammar_.kinds[kind].arity; ++i)
+      parameters[i] = from.parameter[from.at[place] + i];
   }
 
   void write(Range successor, const double* slots, std::uint64_t parent, std::uint32_t step) {

@@ -118,7 +118,9 @@ TEST_F(TurtleTest, StaysOrthonormalThroughAMillionTurns) {
 TEST_F(TurtleTest, RefusesToLeaveTheWorld) { EXPECT_THROW(turtle.draw(1e16, 0), Stop); }
 
 TEST_F(TurtleTest, RefusesBracketsDeeperThanTheLimit) {
-  const auto nest = [&] { for (int i = 0; i < 20000; ++i) turtle.push(); };
+  const auto nest = [&] {
+    for (int i = 0; i < 20000; ++i) turtle.push();
+  };
   EXPECT_THROW(nest(), Stop);
 }
 
