@@ -1,0 +1,122 @@
+#include "server/commands.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "core/pipeline.h"
+#include "server/problem.h"
+
+namespace seedmesh {
+namespace {
+
+int refused(const Error& error) {
+  const std::string text = problem_json(problem_of(error), "", 2);
+  std::fprintf(stderr, "%s\n", text.c_str());
+  return 1;
+}
+
+int unusable(const std::string& name) {
+  std::fprintf(stderr, "seedmesh: %s: %s\n", name.c_str(), std::strerror(errno));
+  return 2;
+}
+
+std::optional<std::string> read_file(const std::string& name) {
+  if (name == "-") return std::string(std::istreambuf_iterator<char>(std::cin), {});
+  errno = 0;
+  std::ifstream file(name, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(file)), {});
+  if (!file.is_open() || file.bad() || errno == EISDIR) return std::nullopt;
+  return text;
+}
+
+bool write_all(std::FILE* file, const Payload& payload) {
+  for (const auto piece : payload.pieces()) {
+    if (std::fwrite(piece.data(), 1, piece.size(), file) != piece.size()) return false;
+  }
+  return std::fflush(file) == 0;
+}
+
+bool write_file(const std::string& name, const Payload& payload) {
+  if (name == "-") return write_all(stdout, payload);
+  std::FILE* file = std::fopen(name.c_str(), "wb");
+  if (!file) return false;
+  const bool written = write_all(file, payload);
+  return std::fclose(file) == 0 && written;
+}
+
+Job::Options options_of(const Config& config) {
+  Job::Options options;
+  options.limits = config.limits;
+  options.threads = config.threads;
+  options.deadline = Job::Clock::now() + std::chrono::duration_cast<Job::Clock::duration>(
+                                             std::chrono::duration<double>(config.time_limit));
+  return options;
+}
+
+/// A request in the format that the extension of a file's name asks for; names without a known one leave it
+/// as it is.
+Result<Request> in_form_of(const Request& request, const std::string& name) {
+  const std::string extension = std::filesystem::path(name).extension().string();
+  for (const std::string_view known : {"glb", "gltf", "zip", "png", "r16", "ply"}) {
+    if (extension != "." + std::string(known)) continue;
+    const std::string format(request.format());
+    if (known == format || (known == "png" && format.compare(0, 3, "png") == 0)) return request;
+    return with_format(request, known == "png" ? "png16" : known);
+  }
+  return request;
+}
+
+int print_result(const Config& config, const std::string& in,
+                 Result<std::string> (*work)(const Request&, Job&)) {
+  const auto text = read_file(in);
+  if (!text) return unusable(in);
+  Result<Request> request = read_request(*text, config.limits);
+  if (!request) return refused(request.error());
+  Job job(request->seed(), options_of(config));
+  const Result<std::string> result = work(*request, job);
+  if (!result) return refused(result.error());
+  std::printf("%s\n", result->c_str());
+  return 0;
+}
+
+}  // namespace
+
+int generate_command(const Config& config, const std::string& in, const std::string& out) {
+  const auto text = read_file(in);
+  if (!text) return unusable(in);
+  Result<Request> request = read_request(*text, config.limits);
+  if (request) request = in_form_of(*request, out);
+  if (!request) return refused(request.error());
+  Job job(request->seed(), options_of(config));
+  const Result<Product> product = produce(*request, job);
+  if (!product) return refused(product.error());
+  if (!write_file(out, product->payload)) return unusable(out);
+  return 0;
+}
+
+int validate_command(const Config& config, const std::string& in) {
+  return print_result(config, in, validate);
+}
+
+int derive_command(const Config& config, const std::string& in) { return print_result(config, in, derive); }
+
+int presets_command(const std::string& name) {
+  if (name.empty()) {
+    for (const PresetInfo& preset : presets())
+      std::printf("%-28s %s\n", preset.name.c_str(), preset.title.c_str());
+    return 0;
+  }
+  const auto text = preset_json(name);
+  if (!text) return refused({Code::invalid, {{"/preset", "There is no preset called \"" + name + "\"."}}});
+  std::printf("%s\n", text->c_str());
+  return 0;
+}
+
+}  // namespace seedmesh

@@ -1,0 +1,18 @@
+#pragma once
+/// The program's subcommands that work on files. Each gives the exit status: 0, 1 (refused: the problem as
+/// JSON on standard error) or 2 (a file cannot be read or written).
+#include <string>
+
+#include "server/config.h"
+
+namespace seedmesh {
+
+/// Both names may be "-" for standard input and output. The extension of `out` chooses the format, as in a
+/// URL.
+int generate_command(const Config& config, const std::string& in, const std::string& out);
+int validate_command(const Config& config, const std::string& in);
+int derive_command(const Config& config, const std::string& in);
+/// All names, one a line with title; or one preset's request.
+int presets_command(const std::string& name);
+
+}  // namespace seedmesh

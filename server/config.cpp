@@ -1,0 +1,239 @@
+#include "server/config.h"
+
+#include <sched.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+namespace seedmesh {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A row of the table. `set` gives "" or what is wrong with the text.
+struct Setting {
+  std::string name;
+  std::string text;
+  std::function<std::string(Config&, std::string_view)> set;
+  std::function<Json(const Config&)> get;
+};
+
+template <class Number>
+std::optional<Number> number(std::string_view text) {
+  Number value{};
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (fault != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+template <class Value>
+Value& at(Config& config, Value Config::*member) {
+  return config.*member;
+}
+template <class Value>
+Value& at(Config& config, Value Limits::*member) {
+  return config.limits.*member;
+}
+
+template <class Owner, class Value>
+std::function<Json(const Config&)> getter(Value Owner::*member) {
+  return [=](Config config) { return Json(at(config, member)); };
+}
+
+template <class Owner, class Value>
+Setting count(std::string name, std::string text, Value Owner::*member, std::uint64_t low,
+              std::uint64_t high) {
+  const auto set = [=](Config& config, std::string_view given) -> std::string {
+    const auto value = number<std::uint64_t>(given);
+    if (!value || *value < low || *value > high) {
+      return "must be a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+    }
+    at(config, member) = static_cast<Value>(*value);
+    return {};
+  };
+  return {std::move(name), std::move(text), set, getter(member)};
+}
+
+Setting seconds(std::string name, std::string text, double Config::*member, double low, double high) {
+  const auto set = [=](Config& config, std::string_view given) -> std::string {
+    const auto value = number<double>(given);
+    if (!value || !(*value >= low && *value <= high)) {
+      return "must be seconds from " + Json(low).dump() + " to " + Json(high).dump();
+    }
+    at(config, member) = *value;
+    return {};
+  };
+  return {std::move(name), std::move(text), set, getter(member)};
+}
+
+/// A number of bytes, also as "512KiB", "64MiB", "2GiB".
+template <class Owner>
+Setting bytes(std::string name, std::string text, std::uint64_t Owner::*member, std::uint64_t low) {
+  const std::uint64_t high = std::uint64_t{1} << 40U;
+  const auto set = [=](Config& config, std::string_view given) -> std::string {
+    unsigned shift = 0;
+    for (const auto& [suffix, bits] : {std::pair{"KiB", 10U}, std::pair{"MiB", 20U}, std::pair{"GiB", 30U}}) {
+      if (given.size() > 3 && given.substr(given.size() - 3) == suffix) {
+        shift = bits;
+        given.remove_suffix(3);
+        break;
+      }
+    }
+    const auto value = number<std::uint64_t>(given);
+    if (!value || *value > (high >> shift) || (*value << shift) < low) {
+      return "must be bytes from " + std::to_string(low) + " to 1024GiB, such as 64MiB";
+    }
+    at(config, member) = *value << shift;
+    return {};
+  };
+  return {std::move(name), std::move(text), set, getter(member)};
+}
+
+std::string set_host(Config& config, std::string_view given) {
+  const auto sound = [](char c) { return c > 0x20 && c < 0x7F && c != '/'; };
+  if (given.empty() || !std::all_of(given.begin(), given.end(), sound))
+    return "must be an address or a host name";
+  config.host = given;
+  return {};
+}
+
+std::string set_log_level(Config& config, std::string_view given) {
+  for (std::string_view level : {"debug", "info", "warn", "error", "off"}) {
+    if (given == level) {
+      config.log_level = given;
+      return {};
+    }
+  }
+  return "must be debug, info, warn, error or off";
+}
+
+const std::vector<Setting>& table() {
+  static const std::vector<Setting> rows = {
+      {"host", "Address to listen on.", set_host, [](const Config& c) { return Json(c.host); }},
+      count("port", "Port to listen on; 0 takes any that is free.", &Config::port, 0, 65'535),
+      count("threads", "Generations at once; also the most threads of one.", &Config::threads, 1, 1'024),
+      count("queue", "Requests that may wait for a worker; one more is answered 429.", &Config::queue, 0,
+            100'000),
+      count("connections", "Connections at once; one more is answered 503.", &Config::connections, 1,
+            100'000),
+      seconds("time-limit", "Seconds for one request, waiting included.", &Config::time_limit, 0.01, 86'400),
+      seconds("head-timeout", "Seconds for a request's head to arrive.", &Config::head_timeout, 1, 3'600),
+      seconds("body-timeout", "Seconds for a request's body to arrive.", &Config::body_timeout, 1, 3'600),
+      seconds("idle-timeout", "Seconds that a connection may stay unused.", &Config::idle_timeout, 1, 3'600),
+      seconds("write-timeout", "Seconds that a client may leave an answer unread.", &Config::write_timeout, 1,
+              3'600),
+      seconds("drain-delay", "Seconds from SIGTERM, with /readyz at 503, to the end of listening.",
+              &Config::drain_delay, 0, 3'600),
+      bytes("body-limit", "Largest request body.", &Config::body_limit, 1'024),
+      bytes("cache-bytes", "Memory for finished models; 0 keeps none.", &Config::cache_bytes, 0),
+      {"log-level", "debug, info, warn, error or off.", set_log_level,
+       [](const Config& c) { return Json(c.log_level); }},
+      count("max-modules", "Modules one request may derive.", &Limits::modules, 1, 1'000'000'000'000),
+      count("max-shapes", "Shapes one request may derive.", &Limits::shapes, 1, 1'000'000'000'000),
+      count("max-triangles", "Triangles one request may make.", &Limits::triangles, 1, 4'000'000'000),
+      bytes("max-output", "Bytes of one answer.", &Limits::output_bytes, 1'024),
+      bytes("max-memory", "Memory for the work of one request.", &Limits::memory_bytes, 1U << 20U),
+      count("max-iterations", "Iterations one request may ask for.", &Limits::iterations, 0, 1'000'000),
+      count("max-bracket-depth", "Depth of brackets in a derivation.", &Limits::bracket_depth, 1, 1'000'000),
+      count("max-expression-depth", "Depth of an expression.", &Limits::expression_depth, 1, 1'000),
+  };
+  return rows;
+}
+
+const Setting* find_setting(std::string_view name) {
+  const auto& rows = table();
+  const auto found =
+      std::find_if(rows.begin(), rows.end(), [&](const Setting& row) { return row.name == name; });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+/// The number of cores that a control group's quota is worth, in version 2 or 1; nothing where there is none.
+std::optional<double> quota() {
+  std::string most;
+  double period = 0;
+  if (std::ifstream file("/sys/fs/cgroup/cpu.max"); file >> most >> period) {
+    const auto value = number<double>(most);
+    if (value && period > 0) return *value / period;
+  }
+  double amount = -1;
+  std::ifstream amount_file("/sys/fs/cgroup/cpu/cpu.cfs_quota_us"),
+      period_file("/sys/fs/cgroup/cpu/cpu.cfs_period_us");
+  if (amount_file >> amount && period_file >> period && amount > 0 && period > 0) return amount / period;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<SettingInfo> settings() {
+  std::vector<SettingInfo> all;
+  const Config defaults;
+  for (const Setting& row : table()) {
+    const Json value = row.get(defaults);
+    all.push_back({row.name, row.text,
+                   row.name == "threads" ? "cores"
+                   : value.is_string()   ? value.get<std::string>()
+                                         : value.dump()});
+  }
+  return all;
+}
+
+ConfigResult load_config(const std::vector<std::string>& environment,
+                         const std::vector<std::pair<std::string, std::string>>& flags) {
+  ConfigResult result;
+  const std::string prefix = "SEEDMESH_";
+  for (const std::string& entry : environment) {
+    if (entry.compare(0, prefix.size(), prefix) != 0) continue;
+    const auto equals = entry.find('=');
+    if (equals == std::string::npos) continue;
+    const std::string variable = entry.substr(0, equals);
+    const std::string value = entry.substr(equals + 1);
+    // Kubernetes gives every pod of a namespace SEEDMESH_PORT=tcp://... when a Service is called seedmesh.
+    if (value.compare(0, 6, "tcp://") == 0) continue;
+    std::string name = variable.substr(prefix.size());
+    std::transform(name.begin(), name.end(), name.begin(), [](char c) {
+      return c == '_' ? '-' : c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    const Setting* setting = find_setting(name);
+    if (!setting) {
+      result.warnings.push_back(variable + " is no setting");
+    } else if (const std::string fault = setting->set(result.config, value); !fault.empty()) {
+      result.faults.push_back(variable + " is \"" + value + "\": it " + fault);
+    }
+  }
+  for (const auto& [name, value] : flags) {
+    const Setting* setting = find_setting(name);
+    const std::string fault = setting ? setting->set(result.config, value) : "is no setting";
+    if (!fault.empty()) result.faults.push_back("--" + name + " is \"" + value + "\": it " + fault);
+  }
+  if (result.config.threads == 0) result.config.threads = usable_cores();
+  return result;
+}
+
+std::vector<std::string> process_environment() {
+  std::vector<std::string> all;
+  for (char** entry = environ; *entry != nullptr; ++entry) all.emplace_back(*entry);
+  return all;
+}
+
+std::string config_json(const Config& config) {
+  Json object = Json::object();
+  for (const Setting& row : table()) object[row.name] = row.get(config);
+  return object.dump(2);
+}
+
+int usable_cores() {
+  int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  cpu_set_t set;
+  if (::sched_getaffinity(0, sizeof(set), &set) == 0) cores = std::min(cores, std::max(1, CPU_COUNT(&set)));
+  if (const auto limit = quota()) cores = std::min(cores, std::max(1, static_cast<int>(std::ceil(*limit))));
+  return cores;
+}
+
+}  // namespace seedmesh

@@ -1,0 +1,59 @@
+#pragma once
+/// Everything that can be set. One table (config.cpp) gives each setting its flag, its environment variable,
+/// its range and its text; defaults are overridden by the environment, and that by flags.
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/job.h"
+
+namespace seedmesh {
+
+struct Config {
+  std::string host = "127.0.0.1";
+  int port = 8080;
+  int threads = 0;  ///< generations at once; load_config replaces 0 by the number of usable cores
+  int queue = 64;   ///< requests that may wait for a worker
+  int connections = 512;
+  double time_limit = 30;     ///< seconds for one request, waiting included
+  double head_timeout = 10;   ///< seconds for a request's head to arrive
+  double body_timeout = 30;   ///< seconds for its body
+  double idle_timeout = 75;   ///< seconds that a connection may stay unused
+  double write_timeout = 30;  ///< seconds that a client may not read
+  double drain_delay = 0;     ///< seconds between SIGTERM and the end of listening
+  std::uint64_t body_limit = 16U << 20U;
+  std::uint64_t cache_bytes = 256U << 20U;
+  std::string log_level = "info";
+  Limits limits;
+};
+
+/// One setting as it stands in the help and in --print-config.
+struct SettingInfo {
+  std::string name;  ///< "time-limit": flag --time-limit, variable SEEDMESH_TIME_LIMIT
+  std::string text;
+  std::string fallback;  ///< the default as text
+};
+std::vector<SettingInfo> settings();
+
+struct ConfigResult {
+  Config config;
+  std::vector<std::string> faults;    ///< every one of them, in words for the operator
+  std::vector<std::string> warnings;  ///< e.g. a SEEDMESH_ variable that is none of ours
+};
+
+/// Reads `environment` ("NAME=value") and then `flags` (name, value).
+ConfigResult load_config(const std::vector<std::string>& environment,
+                         const std::vector<std::pair<std::string, std::string>>& flags);
+
+/// The process's own environment in that form.
+std::vector<std::string> process_environment();
+
+/// The effective configuration as a JSON object, keys as the flags.
+std::string config_json(const Config& config);
+
+/// Cores that this process may use: of the machine, of its affinity, of its control group's quota.
+int usable_cores();
+
+}  // namespace seedmesh

@@ -1,0 +1,87 @@
+/// The program: seedmesh serve | generate | validate | derive | presets | healthcheck.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <map>
+#include <string>
+
+#include "core/pipeline.h"
+#include "server/commands.h"
+#include "server/config.h"
+#include "server/serve.h"
+
+namespace {
+
+using namespace seedmesh;
+
+constexpr int usage_error = 2;
+
+/// Flags of every setting, kept as text: load_config judges all of them at once, with the environment's.
+using Texts = std::map<std::string, std::string>;
+
+void add_settings(CLI::App& command, Texts& texts) {
+  for (const SettingInfo& setting : settings()) {
+    command.add_option("--" + setting.name, texts[setting.name],
+                       setting.text + " [" + setting.fallback + "]");
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> given(const CLI::App& command, const Texts& texts) {
+  std::vector<std::pair<std::string, std::string>> flags;
+  for (const auto& [name, text] : texts) {
+    if (command.count("--" + name) > 0) flags.emplace_back(name, text);
+  }
+  return flags;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  CLI::App app("Seeded 3D models from grammars, as glTF over HTTP.", "seedmesh");
+  app.set_version_flag("--version", [] {
+    return "seedmesh " + std::string(program_version()) + "\nengine " + std::string(engine_version());
+  });
+  app.require_subcommand(1);
+  app.footer(
+      "Every flag is also a variable: --time-limit is SEEDMESH_TIME_LIMIT.\n"
+      "Exit status: 0, 1 (refused: the problem as JSON on standard error) or 2 (usage).");
+
+  Texts texts;
+  std::string in, out = "-", preset;
+  bool print_config = false;
+  const auto command = [&](const char* name, const char* text) { return app.add_subcommand(name, text); };
+  CLI::App* serving = command("serve", "Serve over HTTP.");
+  serving->add_flag("--print-config", print_config, "Print the effective configuration as JSON and end.");
+  CLI::App* generating = command("generate", "Make the model of a request.");
+  generating->add_option("request", in, "File with the request as JSON; - is standard input.")->required();
+  generating->add_option("-o,--out", out,
+                         "File for the model; its extension chooses the format; - is standard output.");
+  CLI::App* validating = command("validate", "Check a request and estimate its model.");
+  validating->add_option("request", in, "File with the request; - is standard input.")->required();
+  CLI::App* deriving = command("derive", "Print the generator's own result before geometry.");
+  deriving->add_option("request", in, "File with the request; - is standard input.")->required();
+  CLI::App* listing = command("presets", "List the presets, or print one.");
+  listing->add_option("name", preset, "The one to print.");
+  CLI::App* checking = command("healthcheck", "Ask a service on this machine whether it is alive.");
+  for (CLI::App* each : {serving, generating, validating, deriving, checking}) add_settings(*each, texts);
+
+  try {
+    app.parse(count, arguments);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : usage_error;
+  }
+  const CLI::App& chosen = *app.get_subcommands().front();
+  const ConfigResult loaded = load_config(process_environment(), given(chosen, texts));
+  for (const std::string& fault : loaded.faults) std::fprintf(stderr, "seedmesh: %s\n", fault.c_str());
+  if (!loaded.faults.empty()) return usage_error;
+  const Config& config = loaded.config;
+  if (serving->parsed()) {
+    if (!print_config) return serve(config, loaded.warnings);
+    std::printf("%s\n", config_json(config).c_str());
+    return 0;
+  }
+  if (generating->parsed()) return generate_command(config, in, out);
+  if (validating->parsed()) return validate_command(config, in);
+  if (deriving->parsed()) return derive_command(config, in);
+  if (checking->parsed()) return healthcheck(config);
+  return presets_command(preset);
+}

@@ -1,0 +1,40 @@
+#pragma once
+/// What a client's header fields ask for: content coding, event stream, media type of its body, validators.
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace seedmesh {
+
+enum class Coding { identity, gzip };
+
+/// The coding for an answer by Accept-Encoding (RFC 9110 section 12.5.3), gzip where it is welcome. Nothing
+/// where the client forbids both. An absent field means identity.
+std::optional<Coding> choose_coding(std::string_view accept_encoding);
+
+/// Whether Accept names text/event-stream itself; wildcards do not count, since every client sends them.
+bool wants_events(std::string_view accept);
+
+/// application/json or anything +json, in UTF-8. An absent field counts as JSON.
+bool is_json_type(std::string_view content_type);
+
+/// 32 hexadecimal digits for the answer to a canonical request by an engine.
+std::string tag_of(std::string_view canonical, std::string_view engine);
+
+/// The strong validator of the answer in a coding: `"<tag>"` or `"<tag>-gzip"`.
+std::string etag(std::string_view tag, Coding coding);
+
+/// Whether If-None-Match names the tag in any coding, or is `*`.
+bool matches(std::string_view if_none_match, std::string_view tag);
+
+/// One range of bytes, `first` to `last`, both inside a body of `size` bytes.
+struct ByteRange {
+  std::uint64_t first = 0, last = 0;
+};
+enum class RangeKind { none, one, unsatisfiable };
+
+/// Reads a Range field. Several ranges or another unit count as none: the whole is sent, as RFC 9110
+/// section 14.2 allows.
+RangeKind read_range(std::string_view range, std::uint64_t size, ByteRange& out);
+
+}  // namespace seedmesh

@@ -1,0 +1,98 @@
+#include "server/routes.h"
+
+#include <string_view>
+
+#include "server/http/head.h"
+#include "server/negotiate.h"
+
+namespace seedmesh {
+namespace {
+
+struct Route {
+  std::string_view method;   ///< GET rows answer HEAD too
+  std::string_view pattern;  ///< ends with "/{...}" where a last segment is free
+  http::Response (*answer)(Call&);
+};
+
+constexpr Route table[] = {
+    {"POST", "/v1/generate", post_generate},   {"GET", "/v1/models/{token}", get_model},
+    {"GET", "/v1/presets", get_presets},       {"GET", "/v1/presets/{name}", get_preset},
+    {"POST", "/v1/validate", post_validate},   {"POST", "/v1/derive", post_derive},
+    {"GET", "/v1/schemas/{name}", get_schema}, {"GET", "/v1/vocabulary", get_vocabulary},
+    {"GET", "/openapi.json", get_openapi},     {"GET", "/docs", get_docs},
+    {"GET", "/healthz", get_healthz},          {"GET", "/readyz", get_readyz},
+    {"GET", "/metrics", get_metrics},          {"GET", "/version", get_version},
+};
+constexpr Route asset_route = {"GET", "/", get_asset};
+
+/// The free segment where `path` fits the pattern.
+std::optional<std::string> fit(std::string_view pattern, std::string_view path) {
+  const auto brace = pattern.find('{');
+  if (brace == std::string_view::npos) {
+    if (path != pattern) return std::nullopt;
+    return std::string();
+  }
+  const std::string_view segment = path.substr(std::min(brace, path.size()));
+  if (path.substr(0, brace) != pattern.substr(0, brace) || segment.empty() ||
+      segment.find('/') != std::string_view::npos) {
+    return std::nullopt;
+  }
+  std::string name;
+  if (!http::percent_decode(segment, http::Plus::literal, name)) return std::nullopt;
+  return name;
+}
+
+bool allows(const Route& row, std::string_view method) {
+  return row.method == method || (row.method == "GET" && method == "HEAD");
+}
+
+http::Response run(const Route& row, Call& call) {
+  http::Response response = row.answer(call);
+  response.route = row.pattern;
+  return response;
+}
+
+/// A path that is here, asked with a method that is not.
+http::Response other_method(const Route& row, Call& call) {
+  const std::string allowed = row.method == "GET" ? "GET, HEAD, OPTIONS" : "POST, OPTIONS";
+  http::Response response;
+  if (call.request.method == "OPTIONS") {
+    response.status = 204;
+  } else {
+    response = refuse(call, problem(405, call.request.method + " is not allowed here; " + allowed + " are."));
+  }
+  response.set("Allow", allowed);
+  response.route = row.pattern;
+  return response;
+}
+
+}  // namespace
+
+http::Response route(Service& service, const http::Request& request) {
+  Call call{service, request, {}};
+  for (const Route& row : table) {
+    std::optional<std::string> name = fit(row.pattern, request.path);
+    if (!name) continue;
+    call.name = std::move(*name);
+    return allows(row, request.method) ? run(row, call) : other_method(row, call);
+  }
+  if (service.pages.find(request.path)) {
+    return allows(asset_route, request.method) ? run(asset_route, call) : other_method(asset_route, call);
+  }
+  http::Response response = refuse(call, problem(404, "There is nothing at this path."));
+  response.route = "none";
+  return response;
+}
+
+std::variant<Request, http::Response> read_body(Call& call) {
+  if (!is_json_type(call.request.header("Content-Type"))) {
+    http::Response response = refuse(call, problem(415, "Send the body as application/json in UTF-8."));
+    response.set("Accept", "application/json");
+    return response;
+  }
+  Result<Request> request = read_request(call.request.body, call.service.config.limits);
+  if (!request) return refuse(call, problem_of(request.error()));
+  return std::move(*request);
+}
+
+}  // namespace seedmesh

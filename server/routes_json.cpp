@@ -1,0 +1,61 @@
+/// Routes that answer with JSON about requests and about what is shipped.
+#include <nlohmann/json.hpp>
+
+#include "server/routes.h"
+
+namespace seedmesh {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Runs derive() or validate() with a worker.
+http::Response answer_with(Call& call, Result<std::string> (*work)(const Request&, Job&)) {
+  auto body = read_body(call);
+  if (auto* refusal = std::get_if<http::Response>(&body)) return std::move(*refusal);
+  const Request request = std::get<Request>(std::move(body));
+  std::optional<Result<std::string>> result;
+  const auto run = [&](Job::Options options) {
+    Job job(request.seed(), std::move(options));
+    result = work(request, job);
+  };
+  if (const auto refused = with_worker(call, call.request.gone(), run)) return refuse(call, *refused);
+  if (!*result) return refuse(call, problem_of(result->error()));
+  return json_answer(call, std::move(**result));
+}
+
+}  // namespace
+
+http::Response post_validate(Call& call) { return answer_with(call, validate); }
+
+http::Response post_derive(Call& call) { return answer_with(call, derive); }
+
+http::Response get_presets(Call& call) {
+  Json list = Json::array();
+  for (const PresetInfo& preset : presets()) {
+    list.push_back({{"name", preset.name},
+                    {"generator", preset.generator},
+                    {"title", preset.title},
+                    {"description", preset.description},
+                    {"tags", preset.tags}});
+  }
+  return json_answer(call, Json{{"presets", std::move(list)}}.dump());
+}
+
+http::Response get_schema(Call& call) {
+  std::string name = call.name;
+  for (std::string_view suffix : {".json", ".schema"}) {  // schemas refer to each other by file name
+    if (name.size() > suffix.size() &&
+        name.compare(name.size() - suffix.size(), suffix.size(), suffix) == 0) {
+      name.resize(name.size() - suffix.size());
+    }
+  }
+  const auto text = schema_json(name);
+  if (!text) return refuse(call, problem(404, "There is no schema of this name."));
+  return json_answer(call, std::string(*text), "application/schema+json");
+}
+
+http::Response get_vocabulary(Call& call) { return json_answer(call, vocabulary_json()); }
+
+http::Response get_openapi(Call& call) { return json_answer(call, std::string(openapi_json())); }
+
+}  // namespace seedmesh

@@ -1,0 +1,232 @@
+/// Routes that answer with a model: POST /v1/generate, GET /v1/models/{token}.{ext}, GET
+/// /v1/presets/{name}[.{ext}].
+#include <algorithm>
+#include <cstdio>
+
+#include "server/compress.h"
+#include "server/http/head.h"
+#include "server/negotiate.h"
+#include "server/permalink.h"
+#include "server/routes.h"
+
+namespace seedmesh {
+namespace {
+
+constexpr std::size_t longest_location = 2'048;
+constexpr std::uint64_t least_compressed = 1'024;
+constexpr std::uint64_t most_compressed = 64U << 20U;
+constexpr std::string_view immutable = "public, max-age=31536000, immutable";
+constexpr std::string_view revalidate = "no-cache";
+
+std::string milliseconds(std::string_view name, double duration) {
+  char text[96];
+  std::snprintf(text, sizeof(text), "%.*s;dur=%.3f", static_cast<int>(name.size()), name.data(), duration);
+  return text;
+}
+
+/// What this answer cost: spans of a model from the cache were paid for by an earlier one.
+std::string server_timing(const Call& call, const Cache::Answer& answer, const Made& made) {
+  double total = std::chrono::duration<double, std::milli>(Clock::now() - call.request.arrived).count();
+  std::string spans;
+  for (const Product::Span& span : made.product.timing) {
+    const double spent = answer.hit ? 0 : span.milliseconds;
+    spans += ", " + milliseconds(span.name, spent);
+    total -= spent;
+  }
+  return milliseconds("parse", std::max(0.0, total)) + spans + (answer.hit ? ", cache;desc=\"hit\"" : "");
+}
+
+/// The gzip form of a model. It is kept beside the model itself, so that it is made once.
+Cache::Entry compressed(const Call& call, const Known& known, const Cache::Entry& plain) {
+  const auto make = [&](const std::stop_token& stop) -> Cache::Outcome {
+    auto made = std::make_shared<Made>(*plain);
+    const auto work = [&](const Job::Options&) {
+      auto payload = std::make_shared<Payload>();
+      payload->add(gzip(plain->payload->pieces(), 1));
+      made->payload = std::move(payload);
+    };
+    if (auto refused = with_worker(call, stop, work)) return std::move(*refused);
+    return Cache::Entry(std::move(made));
+  };
+  const Cache::Answer answer =
+      call.service.cache.get("gzip " + known.request.canonical(), call.request.gone, make);
+  const Cache::Entry* entry = std::get_if<Cache::Entry>(&answer.outcome);
+  return entry ? *entry : nullptr;
+}
+
+/// Applies a Range to a whole answer (RFC 9110 section 14), for models only: they are what is worth resuming.
+void apply_range(const Call& call, http::Response& response, const std::string& validator) {
+  auto& slice = std::get<http::Slice>(response.body);
+  response.set("Accept-Ranges", "bytes");
+  const std::string condition = call.request.header("If-Range");
+  if (call.request.method != "GET" || (!condition.empty() && condition != validator)) return;
+  ByteRange range;
+  const std::string size = std::to_string(slice.length);
+  switch (read_range(call.request.header("Range"), slice.length, range)) {
+    case RangeKind::none:
+      return;
+    case RangeKind::unsatisfiable:
+      response = refuse(call, problem(416, "The answer has " + size + " bytes."));
+      response.set("Content-Range", "bytes */" + size);
+      return;
+    case RangeKind::one:
+      response.status = 206;
+      response.set("Content-Range",
+                   "bytes " + std::to_string(range.first) + "-" + std::to_string(range.last) + "/" + size);
+      slice.offset = range.first;
+      slice.length = range.last - range.first + 1;
+  }
+}
+
+void describe(http::Response& response, const Made& made) {
+  const Statistics& statistics = made.product.statistics;
+  response.set("Seedmesh-Triangles", std::to_string(statistics.triangles));
+  response.set("Seedmesh-Vertices", std::to_string(statistics.vertices));
+  response.set("Seedmesh-Warnings", std::to_string(statistics.warnings));
+  const std::string location = permalink(made.token, made.product.extension);
+  if (!made.token.empty() && location.size() <= longest_location) response.set("Content-Location", location);
+}
+
+http::Response model_answer(Call& call, const Known& known, std::string_view cache_control) {
+  const auto coding = choose_coding(call.request.header("Accept-Encoding"));
+  if (!coding)
+    return refuse(call, problem(406, "Neither gzip nor an unencoded answer is acceptable to the client."));
+  const bool post = call.request.method == "POST";
+  http::Response response;
+  response.set("Cache-Control", std::string(cache_control));
+  response.set("Vary", post ? "Accept, Accept-Encoding" : "Accept-Encoding");
+  if (!post && matches(call.request.header("If-None-Match"), known.tag)) {
+    response.status = 304;
+    response.set("ETag", etag(known.tag, *coding));
+    return response;
+  }
+
+  Cache::Answer answer = model_of(call, known, {});
+  if (const auto* refused = std::get_if<Problem>(&answer.outcome)) return refuse(call, *refused);
+  const Cache::Entry entry = std::get<Cache::Entry>(answer.outcome);
+  std::shared_ptr<const Payload> payload = entry->payload;
+  Coding used = Coding::identity;
+  if (*coding == Coding::gzip && payload->size() >= least_compressed && payload->size() <= most_compressed) {
+    if (const Cache::Entry packed = compressed(call, known, entry)) {
+      payload = packed->payload;
+      used = Coding::gzip;
+    }
+  }
+  response.cache_use = answer.hit ? "hit" : "miss";
+  response.type = entry->product.media_type;
+  response.set("ETag", etag(known.tag, used));
+  if (used == Coding::gzip) response.set("Content-Encoding", "gzip");
+  response.set("Server-Timing", server_timing(call, answer, *entry));
+  describe(response, *entry);
+  const std::uint64_t size = payload->size();
+  response.body = http::Slice{std::move(payload), 0, size};
+  apply_range(call, response, etag(known.tag, used));
+  return response;
+}
+
+/// "name.glb" -> "name", "glb".
+std::pair<std::string, std::string> split_extension(const std::string& name) {
+  const auto dot = name.rfind('.');
+  if (dot == std::string::npos) return {name, ""};
+  return {name.substr(0, dot), name.substr(dot + 1)};
+}
+
+bool is_extension(std::string_view text) {
+  static constexpr std::string_view all[] = {"glb", "gltf", "zip", "png", "r16", "ply", "json"};
+  return std::find(std::begin(all), std::end(all), text) != std::end(all);
+}
+
+/// The request in the form that a URL's extension names.
+Result<Request> in_form(const Request& request, std::string_view extension) {
+  if (extension == "json" || extension_of(request.format()) == extension) return request;
+  return with_format(request, extension == "png" ? "png16" : extension);
+}
+
+/// The query as pairs, or the place where it is malformed.
+std::optional<Overrides> read_query(std::string_view query) {
+  Overrides overrides;
+  while (!query.empty()) {
+    const auto end = std::min(query.find('&'), query.size());
+    const std::string_view pair = query.substr(0, end);
+    query.remove_prefix(std::min(end + 1, query.size()));
+    if (pair.empty()) continue;
+    const auto equals = std::min(pair.find('='), pair.size());
+    std::string key, value;
+    if (!http::percent_decode(pair.substr(0, equals), http::Plus::space, key) ||
+        !http::percent_decode(pair.substr(std::min(equals + 1, pair.size())), http::Plus::space, value)) {
+      return std::nullopt;
+    }
+    overrides.emplace_back(std::move(key), std::move(value));
+  }
+  return overrides;
+}
+
+http::Response redirect_to_own(const Request& request, const std::string& extension) {
+  http::Response response;
+  response.status = 307;
+  response.set("Location", permalink(write_token(request.canonical(), engine_version()), extension));
+  response.set("Cache-Control", "no-store");
+  response.set("Vary", "Accept-Encoding");
+  response.log_text = "token of another engine version";
+  return response;
+}
+
+}  // namespace
+
+http::Response post_generate(Call& call) {
+  auto body = read_body(call);
+  if (auto* refusal = std::get_if<http::Response>(&body)) return std::move(*refusal);
+  const Known wanted = known(std::get<Request>(std::move(body)));
+  // HTTP/1.0 has no body without a known length.
+  if (call.request.minor == 1 && wants_events(call.request.header("Accept")))
+    return generate_events(call, wanted);
+  return model_answer(call, wanted, revalidate);
+}
+
+http::Response get_model(Call& call) {
+  const auto& query = call.request.query;
+  if (!query.empty()) return refuse(call, problem_of({Code::invalid, {{"", "A permalink takes no query."}}}));
+  const auto [text, extension] = split_extension(call.name);
+  if (auto remembered = call.service.targets.find(call.request.target))
+    return model_answer(call, *remembered, immutable);
+  if (!is_extension(extension))
+    return refuse(call, problem(404, "A permalink ends with .glb, .gltf, .zip, .png, .r16, .ply or .json."));
+
+  Result<Token> token = read_token(text, call.service.config.body_limit);
+  if (!token) return refuse(call, problem_of(token.error()));
+  Result<Request> request = read_request(token->request, call.service.config.limits);
+  if (!request) return refuse(call, problem_of(request.error()));
+  if (token->engine && *token->engine != engine_version()) return redirect_to_own(*request, extension);
+  // A token without an engine may mean other bytes tomorrow.
+  const std::string_view cache_control = token->engine ? immutable : revalidate;
+  if (extension == "json") return json_answer(call, request->canonical(), "application/json", cache_control);
+  Result<Request> formed = in_form(*request, extension);
+  if (!formed) return refuse(call, problem_of(formed.error()));
+  const Known wanted = known(std::move(*formed));
+  if (token->engine) call.service.targets.keep(call.request.target, wanted);
+  return model_answer(call, wanted, cache_control);
+}
+
+http::Response get_preset(Call& call) {
+  const auto [name, extension] = split_extension(call.name);
+  if (auto remembered = call.service.targets.find(call.request.target))
+    return model_answer(call, *remembered, revalidate);
+  if (!extension.empty() && !is_extension(extension))
+    return refuse(call, problem(404, "There is no such form of a preset."));
+  const std::optional<Overrides> overrides = read_query(call.request.query);
+  if (!overrides)
+    return refuse(call, problem_of({Code::malformed, {{"", "The query has a malformed percent escape."}}}));
+  auto read = read_preset(name, *overrides, call.service.config.limits);
+  if (!read) return refuse(call, problem(404, "There is no preset of this name."));
+  if (!*read) return refuse(call, problem_of(read->error()));
+  if (extension.empty() || extension == "json") {
+    return json_answer(call, overrides->empty() ? *preset_json(name) : (*read)->canonical());
+  }
+  Result<Request> formed = in_form(**read, extension);
+  if (!formed) return refuse(call, problem_of(formed.error()));
+  const Known wanted = known(std::move(*formed));
+  call.service.targets.keep(call.request.target, wanted);
+  return model_answer(call, wanted, revalidate);
+}
+
+}  // namespace seedmesh

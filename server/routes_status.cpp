@@ -1,0 +1,97 @@
+/// Routes for operators and browsers. None of them waits for a worker.
+#include <nlohmann/json.hpp>
+
+#include "server/negotiate.h"
+#include "server/routes.h"
+
+namespace seedmesh {
+namespace {
+
+/// Scripts and data come from here alone; WebAssembly for the mesh decoder of the client. Styles may stand in
+/// elements, since pictures and charts place their parts so.
+constexpr const char* content_security =
+    "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' data: blob:; connect-src 'self' data: blob:; worker-src 'self' blob:; object-src 'none'; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'self'";
+
+http::Response status_answer(int status, std::string_view word) {
+  http::Response response;
+  response.status = status;
+  response.type = "application/json";
+  response.body = nlohmann::json{{"status", word}}.dump();
+  response.set("Cache-Control", "no-store");
+  return response;
+}
+
+void add_page_headers(http::Response& response) {
+  response.set("Content-Security-Policy", content_security);
+  response.set("X-Content-Type-Options", "nosniff");
+  response.set("Referrer-Policy", "no-referrer");
+}
+
+}  // namespace
+
+http::Response get_healthz(Call&) { return status_answer(200, "ok"); }
+
+http::Response get_readyz(Call& call) {
+  if (!call.service.draining) return status_answer(200, "ready");
+  http::Response response = refuse(call, problem(503, "The service is about to end."));
+  return response;
+}
+
+http::Response get_version(Call&) {
+  http::Response response;
+  response.type = "application/json";
+  response.body =
+      nlohmann::ordered_json{
+          {"name", "seedmesh"}, {"version", program_version()}, {"engine", engine_version()}}
+          .dump();
+  response.set("Cache-Control", "no-cache");
+  return response;
+}
+
+http::Response get_metrics(Call& call) {
+  Service& service = call.service;
+  Metrics::Levels levels;
+  levels.in_flight = service.in_flight;
+  levels.waiting = service.admission.waiting();
+  levels.workers = service.admission.workers();
+  levels.busy = service.admission.busy();
+  levels.cache = service.cache.figures();
+  http::Response response;
+  response.type = "text/plain; version=0.0.4; charset=utf-8";
+  response.body = service.metrics.text(levels);
+  response.set("Cache-Control", "no-store");
+  return response;
+}
+
+http::Response get_docs(Call& call) {
+  http::Response response = json_answer(call, call.service.pages.docs(), "text/html; charset=utf-8");
+  add_page_headers(response);
+  return response;
+}
+
+http::Response get_asset(Call& call) {
+  const Asset& asset = *call.service.pages.find(call.request.path);
+  const auto coding = choose_coding(call.request.header("Accept-Encoding"));
+  if (!coding)
+    return refuse(call, problem(406, "Neither gzip nor an unencoded answer is acceptable to the client."));
+  const Coding used = asset.gzip.empty() ? Coding::identity : *coding;
+  const std::string tag = tag_of(asset.bytes, asset.path);
+  http::Response response;
+  response.set("ETag", etag(tag, used));
+  response.set("Vary", "Accept-Encoding");
+  response.set("Cache-Control",
+               has_hashed_name(asset.path) ? "public, max-age=31536000, immutable" : "no-cache");
+  add_page_headers(response);
+  if (matches(call.request.header("If-None-Match"), tag)) {
+    response.status = 304;
+    return response;
+  }
+  response.type = asset.type;
+  if (used == Coding::gzip) response.set("Content-Encoding", "gzip");
+  response.body = std::string(used == Coding::gzip ? asset.gzip : asset.bytes);
+  return response;
+}
+
+}  // namespace seedmesh

@@ -1,0 +1,169 @@
+#include "server/serve.h"
+
+#include <arpa/inet.h>
+#include <netdb.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "server/http/listener.h"
+#include "server/routes.h"
+#include "server/service.h"
+
+namespace seedmesh {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::chrono::seconds whole_seconds(double seconds) {
+  return std::chrono::seconds(static_cast<long>(seconds + 0.5));
+}
+
+http::ListenerOptions listener_options(const Config& config) {
+  http::ListenerOptions options;
+  options.host = config.host;
+  options.port = config.port;
+  options.limits.body = config.body_limit;
+  options.connections = static_cast<std::size_t>(config.connections);
+  options.head_time = whole_seconds(config.head_timeout);
+  options.body_time = whole_seconds(config.body_timeout);
+  options.idle_time = whole_seconds(config.idle_timeout);
+  options.write_time = whole_seconds(config.write_timeout);
+  return options;
+}
+
+bool is_probe(std::string_view path) { return path == "/healthz" || path == "/readyz" || path == "/metrics"; }
+
+http::Response handle(Service& service, const http::Request& request) {
+  if (is_probe(request.path)) return route(service, request);
+  // Counts down when the answer is made; the bytes are on their way then.
+  struct InFlight {
+    explicit InFlight(std::atomic<std::int64_t>& given) : count(given) { ++count; }
+    ~InFlight() { --count; }
+    std::atomic<std::int64_t>& count;
+  } in_flight(service.in_flight);
+  return route(service, request);
+}
+
+http::Response refuse_unread(Service& service, const http::Request& request, const http::Refusal& refusal) {
+  if (refusal.status == 503) service.metrics.rejected("connections");
+  http::Response response = to_response(problem(refusal.status, refusal.detail), request.id);
+  response.route = "unread";
+  return response;
+}
+
+http::Response fail(const http::Request& request, const std::string& what) {
+  Problem fault = problem(500, "Something went wrong here. The instance names the request in the log.");
+  fault.log_text = what;
+  http::Response response = to_response(fault, request.id);
+  response.route = "failed";
+  return response;
+}
+
+void record(Service& service, const http::Exchange& exchange) {
+  const http::Request& request = exchange.request;
+  const http::Response& response = exchange.response;
+  service.metrics.answered(response.route, response.status, exchange.seconds, exchange.sent);
+  const auto level = response.status >= 500 && response.status != 503 ? Log::Level::error
+                     : is_probe(request.path)                         ? Log::Level::debug
+                                                                      : Log::Level::info;
+  if (!service.log.writes(level)) return;
+  constexpr std::size_t shown = 256;  // a permalink may have 8,000 characters
+  Json fields = {{"request_id", request.id},
+                 {"method", request.method},
+                 {"path", request.path.substr(0, shown)},
+                 {"route", response.route},
+                 {"status", response.status},
+                 {"bytes", exchange.sent},
+                 {"duration_ms", exchange.seconds * 1e3},
+                 {"remote", request.remote}};
+  if (!response.cache_use.empty()) fields["cache"] = response.cache_use;
+  if (!response.log_text.empty()) fields["reason"] = response.log_text;
+  if (!exchange.complete) fields["complete"] = false;
+  service.log.write(level, "request", fields);
+}
+
+std::string url_of(const Config& config, int port) {
+  const std::string host = config.host.find(':') == std::string::npos ? config.host : "[" + config.host + "]";
+  return "http://" + host + ":" + std::to_string(port);
+}
+
+}  // namespace
+
+int serve(const Config& config, const std::vector<std::string>& warnings) {
+  ::signal(SIGPIPE, SIG_IGN);
+  sigset_t ending;
+  ::sigemptyset(&ending);
+  ::sigaddset(&ending, SIGTERM);
+  ::sigaddset(&ending, SIGINT);
+  ::pthread_sigmask(SIG_BLOCK, &ending, nullptr);  // threads made from here on inherit it
+
+  const Log log(config.log_level);
+  for (const std::string& warning : warnings) log.write(Log::Level::warn, warning);
+  Service service(config, log);
+  http::Callbacks callbacks;
+  callbacks.handle = [&](const http::Request& request) { return handle(service, request); };
+  callbacks.refuse = [&](const auto& request, const auto& refusal) {
+    return refuse_unread(service, request, refusal);
+  };
+  callbacks.fail = fail;
+  callbacks.done = [&](const http::Exchange& exchange) { record(service, exchange); };
+  http::Listener listener(listener_options(config), std::move(callbacks));
+  const int port = listener.bind();
+  if (port == 0) {
+    log.write(Log::Level::error, "cannot listen",
+              {{"url", url_of(config, config.port)}, {"reason", std::strerror(errno)}});
+    return 1;
+  }
+  const std::string url = url_of(config, port);
+  std::printf("Listening on %s\n", url.c_str());
+  std::fflush(stdout);
+  log.write(Log::Level::info, "listening",
+            {{"url", url},
+             {"version", program_version()},
+             {"engine", engine_version()},
+             {"threads", config.threads}});
+
+  std::thread listening([&] { listener.run(); });
+  int signal = 0;
+  ::sigwait(&ending, &signal);
+  service.draining = true;
+  log.write(Log::Level::info, "draining", {{"in_flight", service.in_flight.load()}});
+  std::this_thread::sleep_for(std::chrono::duration<double>(config.drain_delay));
+  service.admission.drain();
+  listener.drain();
+  listening.join();
+  log.write(Log::Level::info, "ended");
+  return 0;
+}
+
+int healthcheck(const Config& config) {
+  const bool any = config.host == "0.0.0.0" || config.host == "::";
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  const std::string port = std::to_string(config.port);
+  if (::getaddrinfo(any ? "localhost" : config.host.c_str(), port.c_str(), &hints, &found) != 0) return 1;
+  bool healthy = false;
+  for (const addrinfo* address = found; address && !healthy; address = address->ai_next) {
+    const int socket = ::socket(address->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    const timeval patience{3, 0};
+    ::setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
+    ::setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof(patience));
+    const std::string_view request = "GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
+    char answer[16] = {};
+    healthy = ::connect(socket, address->ai_addr, address->ai_addrlen) == 0 &&
+              ::send(socket, request.data(), request.size(), MSG_NOSIGNAL) > 0 &&
+              ::recv(socket, answer, 12, MSG_WAITALL) == 12 && std::string_view(answer) == "HTTP/1.1 200";
+    ::close(socket);
+  }
+  ::freeaddrinfo(found);
+  return healthy ? 0 : 1;
+}
+
+}  // namespace seedmesh

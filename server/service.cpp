@@ -1,0 +1,138 @@
+#include "server/service.h"
+
+#include "server/compress.h"
+#include "server/negotiate.h"
+#include "server/permalink.h"
+
+namespace seedmesh {
+namespace {
+
+constexpr std::size_t worth_compressing = 1'024;
+constexpr std::size_t longest_token = 8'000;
+
+Problem turned_away(Service& service, Admission::Refused why) {
+  switch (why) {
+    case Admission::Refused::queue_full:
+      service.metrics.rejected("queue_full");
+      return problem(429, "All workers are busy and the queue is full.");
+    case Admission::Refused::deadline_passed:
+      service.metrics.rejected("deadline");
+      return problem(503, "The time limit passed while the request waited for a worker.");
+    case Admission::Refused::draining:
+      service.metrics.rejected("draining");
+      return problem(503, "The service is about to end.");
+    case Admission::Refused::client_gone:
+      return problem(499, "The client has gone.");
+  }
+  return problem(503, "The service cannot take the request.");
+}
+
+Cache::Outcome make(const Call& call, const Known& known, const std::stop_token& stop,
+                    const Job::Progress& progress) {
+  Cache::Outcome outcome;
+  const auto work = [&](Job::Options options) {
+    options.progress = progress;
+    Job job(known.request.seed(), std::move(options));
+    Result<Product> product = produce(known.request, job);
+    if (!product) {
+      outcome = problem_of(product.error());
+      return;
+    }
+    auto made = std::make_shared<Made>();
+    made->product = std::move(*product);
+    made->payload = std::make_shared<const Payload>(std::move(made->product.payload));
+    const std::string token = write_token(known.request.canonical(), engine_version());
+    if (token.size() <= longest_token) made->token = token;
+    call.service.metrics.made(made->product.statistics);
+    for (const Product::Span& span : made->product.timing)
+      call.service.metrics.spent(span.name, span.milliseconds / 1e3);
+    outcome = Cache::Entry(std::move(made));
+  };
+  if (auto refused = with_worker(call, stop, work)) return std::move(*refused);
+  return outcome;
+}
+
+}  // namespace
+
+Known known(Request request) {
+  std::string tag = tag_of(request.canonical(), engine_version());
+  return {std::move(request), std::move(tag)};
+}
+
+std::optional<Known> KnownTargets::find(const std::string& target) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = by_target_.find(target);
+  if (found == by_target_.end()) return std::nullopt;
+  return found->second;
+}
+
+void KnownTargets::keep(const std::string& target, const Known& known) {
+  // Twice: the request holds about as much again beside its canonical text.
+  const std::size_t bytes = target.size() + 2 * known.request.canonical().size() + 512;
+  if (bytes > most_bytes / 16) return;
+  const std::lock_guard lock(mutex_);
+  if (bytes_ + bytes > most_bytes) {
+    by_target_.clear();
+    bytes_ = 0;
+  }
+  if (by_target_.emplace(target, known).second) bytes_ += bytes;
+}
+
+Clock::time_point deadline_of(const Call& call) {
+  return call.request.arrived + std::chrono::duration_cast<Clock::duration>(
+                                    std::chrono::duration<double>(call.service.config.time_limit));
+}
+
+std::optional<Problem> with_worker(const Call& call, const std::stop_token& stop,
+                                   const std::function<void(Job::Options)>& work) {
+  Service& service = call.service;
+  const auto before = Clock::now();
+  auto entered = service.admission.enter(deadline_of(call), stop);
+  if (const auto* why = std::get_if<Admission::Refused>(&entered)) return turned_away(service, *why);
+  const auto& ticket = std::get<Admission::Ticket>(entered);
+  service.metrics.spent("queue", std::chrono::duration<double>(Clock::now() - before).count());
+  Job::Options options;
+  options.limits = service.config.limits;
+  options.threads = ticket.threads();
+  options.stop = stop;
+  options.deadline = deadline_of(call);
+  work(std::move(options));
+  return std::nullopt;
+}
+
+Cache::Answer model_of(const Call& call, const Known& known, const Job::Progress& progress) {
+  return call.service.cache.get(
+      known.request.canonical(), call.request.gone,
+      [&](const std::stop_token& stop) { return make(call, known, stop, progress); });
+}
+
+std::string extension_of(std::string_view format) {
+  return std::string(format == "png16" || format == "png8" ? "png" : format);
+}
+
+http::Response json_answer(const Call& call, std::string text, std::string_view type,
+                           std::string_view cache_control) {
+  http::Response response;
+  const std::string tag = tag_of(text, type);
+  const auto coding = choose_coding(call.request.header("Accept-Encoding"));
+  if (!coding)
+    return refuse(call, problem(406, "Neither gzip nor an unencoded answer is acceptable to the client."));
+  const Coding used = text.size() < worth_compressing ? Coding::identity : *coding;
+  response.set("ETag", etag(tag, used));
+  response.set("Cache-Control", std::string(cache_control));
+  response.set("Vary", "Accept-Encoding");
+  if (call.request.method != "POST" && matches(call.request.header("If-None-Match"), tag)) {
+    response.status = 304;
+    return response;
+  }
+  response.type = type;
+  if (used == Coding::gzip) response.set("Content-Encoding", "gzip");
+  response.body = used == Coding::gzip ? gzip(text) : std::move(text);
+  return response;
+}
+
+http::Response refuse(const Call& call, const Problem& problem) {
+  return to_response(problem, call.request.id);
+}
+
+}  // namespace seedmesh

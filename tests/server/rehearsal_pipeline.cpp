@@ -1,0 +1,162 @@
+/// A pipeline that makes no models: its requests say how long they take, how large the answer is and how they
+/// end, so that the tests of the server can ask for a slow, a large or a failing generation. Generator
+/// "rehearsal":
+///   {"generator": "rehearsal", "seed": 1, "parameters": {"milliseconds": 50, "bytes": 1000, "end":
+///   "product"}}
+/// `end` is product, limit, internal or throw; `progress` steps are told on the way.
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <thread>
+
+#include "core/pipeline.h"
+
+namespace seedmesh {
+
+struct Request::Body {
+  std::string canonical, format;
+  std::uint64_t seed = 0;
+  int milliseconds = 0, progress = 0;
+  std::size_t bytes = 1'000;
+  std::string end = "product";
+};
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::string_view preset_text = R"({"generator":"rehearsal","parameters":{"bytes":2000},"seed":5})";
+
+Request request_of(const Json& json) {
+  auto body = std::make_shared<Request::Body>();
+  const Json parameters = json.value("parameters", Json::object());
+  body->canonical = json.dump();
+  body->format = json.value("output", Json::object()).value("format", "glb");
+  body->seed = json.value("seed", std::uint64_t{0});
+  body->milliseconds = parameters.value("milliseconds", 0);
+  body->progress = parameters.value("progress", 0);
+  body->bytes = parameters.value("bytes", std::size_t{1'000});
+  body->end = parameters.value("end", "product");
+  return Request(std::move(body));
+}
+
+Error invalid(std::string pointer, std::string message) {
+  return {Code::invalid, {{std::move(pointer), std::move(message)}}};
+}
+
+/// Sleeps in small steps, looking at stop and deadline as real work does.
+void work(const Request::Body& body, const Job& job) {
+  const int steps = body.progress > 0 ? body.progress : 1;
+  for (int step = 0; step < steps; ++step) {
+    if (body.progress > 0) job.progress("mesh", static_cast<double>(step) / steps);
+    const auto until = Job::Clock::now() + std::chrono::milliseconds(body.milliseconds / steps);
+    while (Job::Clock::now() < until) {
+      job.check();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  if (body.end == "limit") Job::refuse("It would pass a limit.", "/parameters/bytes");
+  if (body.end == "throw") throw std::runtime_error("a secret of the inside");
+}
+
+}  // namespace
+
+std::string_view Request::generator() const { return "rehearsal"; }
+std::string_view Request::format() const { return body_->format; }
+const std::string& Request::canonical() const { return body_->canonical; }
+std::uint64_t Request::seed() const { return body_->seed; }
+
+Result<Request> read_request(std::string_view json, const Limits&) {
+  const Json object = Json::parse(json, nullptr, false);
+  if (object.is_discarded()) return Error{Code::malformed, {{"", "The body is not JSON."}}};
+  if (!object.is_object() || !object.contains("generator")) return invalid("", "generator is missing.");
+  if (object["generator"] != "rehearsal") return invalid("/generator", "There is no such generator.");
+  if (object.contains("engine")) return invalid("/engine", "There is no such field.");
+  return request_of(object);
+}
+
+std::optional<Result<Request>> read_preset(std::string_view name, const Overrides& overrides,
+                                           const Limits& limits) {
+  if (name != "small") return std::nullopt;
+  Json object = Json::parse(preset_text);
+  for (const auto& [key, value] : overrides) {
+    const Json parsed = Json::parse(value, nullptr, false);
+    if (key == "seed") {
+      object["seed"] = parsed;
+    } else if (key == "bytes" || key == "milliseconds") {
+      object["parameters"][key] = parsed;
+    } else {
+      return Result<Request>(invalid("/" + key, "There is no such parameter."));
+    }
+  }
+  return read_request(object.dump(), limits);
+}
+
+Result<Request> with_format(const Request& request, std::string_view format) {
+  if (format != "glb" && format != "gltf" && format != "zip")
+    return invalid("/output/format", "There is no such form.");
+  Json object = Json::parse(request.canonical());
+  object.erase("output");
+  if (format != "glb") object["output"] = {{"format", format}};
+  return request_of(object);
+}
+
+Result<Product> produce(const Request& request, Job& job, TextureStore*) {
+  const Request::Body& body = request.body();
+  try {
+    work(body, job);
+  } catch (const Stop& stop) {
+    return Error{stop.code(), {stop.issue()}};
+  }
+  if (body.end == "internal") return Error{Code::internal, {{"", "a secret of the inside"}}};
+  Product product;
+  std::string bytes(body.bytes, '\0');
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>('a' + (i * i + body.seed) % 23);
+  const std::size_t half = bytes.size() / 2;
+  product.payload.add(bytes.substr(0, half));
+  product.payload.add(bytes.substr(half));
+  product.extension = body.format;
+  product.media_type = body.format == "gltf"  ? "model/gltf+json"
+                       : body.format == "zip" ? "application/zip"
+                                              : "model/gltf-binary";
+  product.statistics = {12, 24, 0};
+  product.timing = {{"derive", 0.1}, {"mesh", 0.2}, {"encode", 0.3}};
+  return product;
+}
+
+Result<std::string> derive(const Request& request, Job& job) {
+  try {
+    work(request.body(), job);
+  } catch (const Stop& stop) {
+    return Error{stop.code(), {stop.issue()}};
+  }
+  return std::string(R"({"warnings":[]})");
+}
+
+Result<std::string> validate(const Request&, Job&) {
+  return std::string(R"({"valid":true,"warnings":[],"estimate":{"triangles":12,"bytes":1000,"exact":true}})");
+}
+
+const std::vector<PresetInfo>& presets() {
+  static const std::vector<PresetInfo> all = {
+      {"small", "rehearsal", "Small", "Two thousand letters.", {"test"}}};
+  return all;
+}
+std::optional<std::string> preset_json(std::string_view name) {
+  if (name != "small") return std::nullopt;
+  return std::string(preset_text);
+}
+std::optional<std::string_view> schema_json(std::string_view name) {
+  if (name != "request") return std::nullopt;
+  return R"({"title":"Request","type":"object","properties":{"seed":{"type":"integer","default":0,"description":"<seed>"}}})";
+}
+std::vector<std::string_view> schema_names() { return {"request"}; }
+std::string vocabulary_json() { return R"({"symbols":[]})"; }
+std::string_view openapi_json() {
+  return R"({"openapi":"3.1.0","info":{"title":"Rehearsal","version":"1"},"paths":{"/v1/generate":{"post":{"summary":"Makes."}}}})";
+}
+std::vector<std::string_view> generator_names() { return {"rehearsal"}; }
+std::string_view engine_version() { return "rehearsal-1"; }
+std::string_view program_version() { return "0.0.0"; }
+
+}  // namespace seedmesh
