@@ -7,30 +7,72 @@
 namespace seedmesh::lang {
 
 double Program::run(const Expression& expression, const double* slots, Rng& rng) const {
+  using enum Operation;
   double registers[register_count];  // not cleared: code reads no register that it has not written
   const double* const places[] = {numbers_.data(), slots, registers};
-  const Instruction* const code = code_.data() + expression.first;
-  for (std::uint32_t i = 0; i < expression.count; ++i) {
-    const Instruction& now = code[i];
-    const double* const left = places[static_cast<std::size_t>(now.left_place)] + now.left;
-    double& into = registers[now.into];
-    switch (now.operation) {
-      case Operation::copy:
+  const Instruction* const first = code_.data() + expression.first;
+  const Instruction* const end = first + expression.count;
+  for (const Instruction* now = first; now < end; ++now) {
+    const double* const left = places[static_cast<std::size_t>(now->left_place)] + now->left;
+    const double* const right = places[static_cast<std::size_t>(now->right_place)] + now->right;
+    double& into = registers[now->into];
+    switch (now->operation) {  // each case by itself, so that it becomes one jump
+      case add:
+        into = *left + *right;
+        break;
+      case subtract:
+        into = *left - *right;
+        break;
+      case multiply:
+        into = *left * *right;
+        break;
+      case divide:
+        into = *left / *right;
+        break;
+      case Operation::modulo:
+        into = lang::modulo(*left, *right);
+        break;
+      case Operation::power:
+        into = lang::power(*left, *right);
+        break;
+      case less:
+        into = *left < *right ? 1 : 0;
+        break;
+      case less_equal:
+        into = *left <= *right ? 1 : 0;
+        break;
+      case greater:
+        into = *left > *right ? 1 : 0;
+        break;
+      case greater_equal:
+        into = *left >= *right ? 1 : 0;
+        break;
+      case equal:
+        into = *left == *right ? 1 : 0;
+        break;
+      case not_equal:
+        into = *left != *right ? 1 : 0;
+        break;
+      case subtract_from:
+        into = *right - *left;
+        break;
+      case divide_into:
+        into = *right / *left;
+        break;
+      case copy:
         into = *left;
         break;
-      case Operation::call:
-        into = functions()[now.right].call(left, rng);
+      case call:
+        into = functions()[now->right].call(left, rng);
         break;
-      case Operation::stop_if_false:
+      case stop_if_false:
         into = *left != 0 ? 1 : 0;
-        if (into == 0) i = now.right - 1;
+        if (into == 0) now = first + now->right - 1;
         break;
-      case Operation::stop_if_true:
+      case stop_if_true:
         into = *left != 0 ? 1 : 0;
-        if (into != 0) i = now.right - 1;
+        if (into != 0) now = first + now->right - 1;
         break;
-      default:
-        into = apply(now.operation, *left, places[static_cast<std::size_t>(now.right_place)][now.right]);
     }
   }
   return registers[0];

@@ -27,19 +27,18 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Sines and cosines that are 1/2 and tangents that are 1 come out as such: grammars compare them. Adding 0
-// turns -0 into 0.
-double sine(double degrees) {
-  const double half_turn = modulo(degrees, 180);
-  const double value = math::sincos_degrees(degrees).sin + 0.0;
-  return half_turn == 30 || half_turn == 150 ? std::copysign(0.5, value) : value;
+/// Sines and cosines that should be 1/2 come out as such (grammars compare them): those whose angle is
+/// `special` or the same distance below a half turn. Adding 0 turns -0 into 0.
+double with_exact_half(double value, double degrees, double special) {
+  if (std::abs(std::abs(value) - 0.5) < 1e-15) {
+    const double half_turn = modulo(degrees, 180);
+    if (half_turn == special || half_turn == 180 - special) return std::copysign(0.5, value);
+  }
+  return value + 0.0;
 }
 
-double cosine(double degrees) {
-  const double half_turn = modulo(degrees, 180);
-  const double value = math::sincos_degrees(degrees).cos + 0.0;
-  return half_turn == 60 || half_turn == 120 ? std::copysign(0.5, value) : value;
-}
+double sine(double degrees) { return with_exact_half(math::sincos_degrees(degrees).sin, degrees, 30); }
+double cosine(double degrees) { return with_exact_half(math::sincos_degrees(degrees).cos, degrees, 60); }
 
 double tangent(double degrees) {
   const double half_turn = modulo(degrees, 180);
