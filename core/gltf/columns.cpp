@@ -34,8 +34,7 @@ Column positions_of(Mesh& mesh) {
   const Box box = same(mesh.bounds, Box{}) ? bounds_of(mesh.position.span()) : mesh.bounds;
   assert(same(box, bounds_of(mesh.position.span())));
   Column column = column_of(mesh.position, Component::f32, Lanes::vec3);
-  column.min = {box.min.x, box.min.y, box.min.z};
-  column.max = {box.max.x, box.max.y, box.max.z};
+  column.range = box;
   return column;
 }
 
@@ -109,12 +108,10 @@ Lanes lanes_of(Path path) {
 Tracks take_tracks(Animation& animation) {
   Tracks tracks;
   for (std::vector<float>& times : animation.times) {
-    std::vector<float> range;
-    if (!times.empty()) range = {times.front(), times.back()};
-    Column& column = tracks.times.emplace_back(column_of(times, Lanes::scalar));
-    if (range.empty()) continue;
-    column.min = {range[0]};
-    column.max = {range[1]};
+    std::optional<Box> range;
+    if (!times.empty()) range = Box{glm::vec3(times.front()), glm::vec3(times.back())};
+    tracks.times.push_back(column_of(times, Lanes::scalar));
+    tracks.times.back().range = range;
   }
   for (Channel& channel : animation.channels) {
     tracks.values.push_back(column_of(channel.values, lanes_of(channel.path)));

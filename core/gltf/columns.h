@@ -28,9 +28,9 @@ struct Column {
   Slice slice = {};
   Component component = Component::f32;
   Lanes lanes = Lanes::scalar;
-  std::size_t count = 0;                  ///< elements of `lanes` numbers each; never 0 in a document
-  bool normalized = false;                ///< integers stand for 0..1
-  std::vector<float> min = {}, max = {};  ///< where glTF wants them (positions, key times), else empty
+  std::size_t count = 0;          ///< elements of `lanes` numbers each; never 0 in a document
+  bool normalized = false;        ///< integers stand for 0..1
+  std::optional<Box> range = {};  ///< where glTF wants it (positions, key times: in x)
 
   std::uint32_t stride() const { return static_cast<std::uint32_t>(slice.bytes.size() / count); }
 };

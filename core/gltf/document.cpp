@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/gltf/json_text.h"
+#include "core/gltf/lists.h"
 #include "core/gltf/materials.h"
 #include "core/gltf/nodes.h"
 
@@ -17,81 +18,43 @@ namespace {
 
 constexpr int array_buffer = 34962, element_array_buffer = 34963;
 
-/// Numbers of a list that leaves out what nobody uses, given in order of first use.
-class Numbering {
- public:
-  explicit Numbering(std::size_t size) : numbers_(size, -1) {}
-  int use(int index) {
-    if (index < 0) return -1;
-    int& number = numbers_[static_cast<std::size_t>(index)];
-    if (number < 0) {
-      number = static_cast<int>(used_.size());
-      used_.push_back(static_cast<std::size_t>(index));
-    }
-    return number;
-  }
-  const std::vector<int>& numbers() const { return numbers_; }
-  const std::vector<std::size_t>& used() const { return used_; }
+/// Stands for a number that is not known yet. A control character is always escaped in JSON, so no name holds
+/// it.
+constexpr std::string_view view_mark = "\x01";
 
- private:
-  std::vector<int> numbers_;
-  std::vector<std::size_t> used_;
-};
-
-int type_of(Lanes lanes) {
-  switch (lanes) {
-    case Lanes::scalar:
-      return TINYGLTF_TYPE_SCALAR;
-    case Lanes::vec2:
-      return TINYGLTF_TYPE_VEC2;
-    case Lanes::vec3:
-      return TINYGLTF_TYPE_VEC3;
-    case Lanes::vec4:
-      return TINYGLTF_TYPE_VEC4;
-    case Lanes::mat4:
-      return TINYGLTF_TYPE_MAT4;
+int target_of(Pool pool) {
+  switch (pool) {
+    case Pool::vertex4:
+    case Pool::vertex8:
+    case Pool::vertex12:
+    case Pool::vertex16:
+      return array_buffer;
+    case Pool::index2:
+    case Pool::index4:
+      return element_array_buffer;
+    case Pool::keys:
+    case Pool::binds:
+    case Pool::image:
+      return 0;
   }
-  return TINYGLTF_TYPE_SCALAR;
+  return 0;
 }
 
-int mode_of(Topology topology) {
-  switch (topology) {
-    case Topology::triangles:
-      return TINYGLTF_MODE_TRIANGLES;
-    case Topology::lines:
-      return TINYGLTF_MODE_LINE;
-    case Topology::points:
-      return TINYGLTF_MODE_POINTS;
-  }
-  return TINYGLTF_MODE_TRIANGLES;
-}
+/// Opens a member that is an array of objects, or goes on with it.
+void open_entry(std::string& list) { list += list.empty() ? '[' : ','; }
 
-const char* name_of(Path path) {
-  switch (path) {
-    case Path::translation:
-      return "translation";
-    case Path::rotation:
-      return "rotation";
-    case Path::scale:
-      return "scale";
-    case Path::weights:
-      return "weights";
-  }
-  return "translation";
-}
-
-/// Fills a tinygltf model list by list. Accessors and images name their place in the buffer by the array's
-/// number until all arrays are known and `finish` has arranged them.
+/// Collects the document list by list: the long ones as text, the short ones in a tinygltf model.
 class Describer {
  public:
-  Describer(const Model& model, const Columns& columns, const DocumentOptions& options)
+  Describer(const Model& model, const Columns& columns, const DocumentOptions& options, Job& job)
       : model_(model),
         columns_(columns),
         options_(options),
+        job_(job),
         meshes_(model.meshes.size()),
-        materials_(model.materials.size()),
         images_(model.textures.size()),
-        skins_(model.skins.size()) {
+        skins_(model.skins.size()),
+        materials_{Numbering(model.materials.size())} {
     out_.asset.version = "2.0";
     out_.asset.generator = options.generator;
   }
@@ -115,29 +78,36 @@ class Describer {
   }
 
   void add_meshes() {
+    TextMeter meter(mesh_list_, job_);
     for (const std::size_t used : meshes_.used()) {
-      tinygltf::Mesh& mesh = out_.meshes.emplace_back();
-      mesh.name = model_.meshes[used].name;
-      for (const Part& part : columns_.meshes[used]) mesh.primitives.push_back(primitive_of(part));
+      open_entry(mesh_list_);
+      append_mesh(mesh_list_, model_.meshes[used].name, columns_.meshes[used], accessors_, materials_);
+      meter.step();
     }
-    if (!variants_used_) return;
-    tinygltf::Value::Array variants;
-    for (const std::string& name : model_.variants) {
-      variants.emplace_back(tinygltf::Value::Object{{"name", tinygltf::Value(name)}});
+    meter.settle();
+  }
+
+  void add_animations() {
+    TextMeter meter(animation_list_, job_);
+    for (std::size_t i = 0; i < model_.animations.size(); ++i) {
+      if (model_.animations[i].channels.empty()) continue;
+      open_entry(animation_list_);
+      append_animation(animation_list_, model_.animations[i], columns_.animations[i], accessors_);
+      meter.step();
     }
-    out_.extensions["KHR_materials_variants"] =
-        tinygltf::Value(tinygltf::Value::Object{{"variants", tinygltf::Value(std::move(variants))}});
-    out_.extensionsUsed.push_back("KHR_materials_variants");
+    meter.settle();
   }
 
   void add_materials() {
+    bool any_unlit = false;
     const TextureNumber texture_number = [this](const TextureUse& use) { return texture_of(use); };
-    for (const std::size_t used : materials_.used()) {
+    for (const std::size_t used : materials_.numbering.used()) {
       const Material& material = model_.materials[used];
       out_.materials.push_back(material_of(material, texture_number));
-      unlit_used_ = unlit_used_ || material.unlit;
+      any_unlit = any_unlit || material.unlit;
     }
-    if (unlit_used_) out_.extensionsUsed.push_back("KHR_materials_unlit");
+    if (any_unlit) out_.extensionsUsed.push_back("KHR_materials_unlit");
+    if (materials_.any_variants) add_variants();
   }
 
   void add_skins() {
@@ -148,72 +118,39 @@ class Describer {
       described.joints = skin.joints;
       described.skeleton = skin.skeleton;
       const Column& matrices = columns_.inverse_binds[used];
-      if (matrices.count > 0) described.inverseBindMatrices = add_accessor(Pool::binds, matrices);
+      if (matrices.count > 0) described.inverseBindMatrices = accessors_.add(Pool::binds, matrices);
     }
   }
 
-  void add_animations() {
-    for (std::size_t i = 0; i < model_.animations.size(); ++i) {
-      const Animation& animation = model_.animations[i];
-      if (animation.channels.empty()) continue;
-      tinygltf::Animation& described = out_.animations.emplace_back();
-      described.name = animation.name;
-      std::map<int, int> inputs;  // key times that channels share are one accessor
-      for (std::size_t c = 0; c < animation.channels.size(); ++c) {
-        const Channel& channel = animation.channels[c];
-        const auto [input, is_new] = inputs.try_emplace(channel.times, -1);
-        const Tracks& tracks = columns_.animations[i];
-        if (is_new) {
-          input->second = add_accessor(Pool::keys, tracks.times[static_cast<std::size_t>(channel.times)]);
-        }
-        tinygltf::AnimationSampler& sampler = described.samplers.emplace_back();
-        sampler.input = input->second;
-        sampler.output = add_accessor(Pool::keys, tracks.values[c]);
-        sampler.interpolation = channel.interpolation == Interpolation::step ? "STEP" : "LINEAR";
-        tinygltf::AnimationChannel& target = described.channels.emplace_back();
-        target.sampler = static_cast<int>(c);
-        target.target_node = channel.node;
-        target.target_path = name_of(channel.path);
-      }
-    }
-  }
-
-  /// The images as JSON text, empty where there are none. Adds their bytes to the buffer unless they have
-  /// uris.
-  std::string add_images() {
-    std::string text;
+  /// Adds the images, and their bytes to the buffer unless they have uris.
+  void add_images() {
     for (const std::size_t used : images_.used()) {
       const std::shared_ptr<const Image>& image = model_.textures[used];
-      text += text.empty() ? '[' : ',';
-      text += "{\"mimeType\":";
-      append_string(text, image->mime);
+      open_entry(image_list_);
+      image_list_ += "{\"mimeType\":";
+      append_string(image_list_, image->mime);
       if (!image->name.empty()) {
-        text += ",\"name\":";
-        append_string(text, image->name);
+        image_list_ += ",\"name\":";
+        append_string(image_list_, image->name);
       }
       if (options_.image_uris.empty()) {
-        // Images come last in the buffer, one view each, so the view's number is known only after arrange().
-        image_items_.push_back(bin_.add(Pool::image, {image, std::as_bytes(std::span(image->bytes))}));
-        text += ",\"bufferView\":" + std::string(view_mark);
+        const auto bytes = std::as_bytes(std::span(image->bytes));
+        image_items_.push_back(accessors_.bin().add(Pool::image, {image, bytes}));
+        image_list_ += ",\"bufferView\":";
+        image_list_ += view_mark;
       } else {
-        text += ",\"uri\":";
-        append_string(text, options_.image_uris[used]);
+        image_list_ += ",\"uri\":";
+        append_string(image_list_, options_.image_uris[used]);
       }
-      text += '}';
+      image_list_ += '}';
     }
-    if (!text.empty()) text += ']';
-    return text;
   }
 
-  /// Arranges the buffer and completes accessors, views and the text of the images.
-  Bin finish(std::string& images) {
-    bin_.arrange();
-    for (tinygltf::Accessor& accessor : out_.accessors) {
-      const Bin::Place place = bin_.place(accessor.bufferView);
-      accessor.bufferView = place.view;
-      accessor.byteOffset = static_cast<std::size_t>(place.offset);
-    }
-    for (const Bin::View& view : bin_.views()) {
+  /// Gives everything its place in the buffer; nothing can be added after this.
+  void arrange() {
+    Bin& bin = accessors_.bin();
+    bin.arrange();
+    for (const Bin::View& view : bin.views()) {
       tinygltf::BufferView& described = out_.bufferViews.emplace_back();
       described.buffer = 0;
       described.byteOffset = static_cast<std::size_t>(view.offset);
@@ -222,27 +159,42 @@ class Describer {
       described.target = target_of(view.pool);
     }
     for (const int item : image_items_) {
-      images.replace(images.find(view_mark), view_mark.size(), std::to_string(bin_.place(item).view));
+      image_list_.replace(image_list_.find(view_mark), view_mark.size(),
+                          std::to_string(bin.place(item).view));
     }
-    return std::move(bin_);
   }
 
-  const std::vector<std::size_t>& images() const { return images_.used(); }
-
-  /// The JSON that tinygltf makes of all this: one object on one line.
+  /// The JSON that tinygltf makes of the short lists: one object on one line.
   std::string text() const {
     std::ostringstream stream;
     stream.imbue(std::locale::classic());
     tinygltf::TinyGLTF().WriteGltfSceneToStream(&out_, stream, false, false);
     std::string text = std::move(stream).str();
-    while (!text.empty() && text.back() != '}') text.pop_back();
+    while (text.back() != '}') text.pop_back();
     return text;
   }
 
+  /// Appends the lists that are text, as further members of an object.
+  void append_lists(std::string& out) const {
+    if (!accessors_.empty()) {
+      out += ",\"accessors\":";
+      accessors_.append(out, job_);
+    }
+    append_list(out, ",\"animations\":", animation_list_);
+    append_list(out, ",\"images\":", image_list_);
+    append_list(out, ",\"meshes\":", mesh_list_);
+  }
+
+  Bin take_bin() { return std::move(accessors_.bin()); }
+  const std::vector<std::size_t>& images() const { return images_.used(); }
+
  private:
-  /// Stands for a number that is not known yet. A control character is always escaped in JSON, so no name
-  /// holds it.
-  static constexpr std::string_view view_mark = "\x01";
+  static void append_list(std::string& out, std::string_view key, const std::string& list) {
+    if (list.empty()) return;
+    out += key;
+    out += list;
+    out += ']';
+  }
 
   int mesh_of(const Node& node) const {
     int mesh = node.mesh;
@@ -252,66 +204,14 @@ class Describer {
     return mesh >= 0 && !columns_.meshes[static_cast<std::size_t>(mesh)].empty() ? mesh : -1;
   }
 
-  static int target_of(Pool pool) {
-    switch (pool) {
-      case Pool::vertex4:
-      case Pool::vertex8:
-      case Pool::vertex12:
-      case Pool::vertex16:
-        return array_buffer;
-      case Pool::index2:
-      case Pool::index4:
-        return element_array_buffer;
-      case Pool::keys:
-      case Pool::binds:
-      case Pool::image:
-        return 0;
+  void add_variants() {
+    tinygltf::Value::Array variants;
+    for (const std::string& name : model_.variants) {
+      variants.emplace_back(tinygltf::Value::Object{{"name", tinygltf::Value(name)}});
     }
-    return 0;
-  }
-
-  int add_accessor(Pool pool, const Column& column) {
-    tinygltf::Accessor& accessor = out_.accessors.emplace_back();
-    accessor.bufferView = bin_.add(pool, column.slice);
-    accessor.componentType = static_cast<int>(column.component);
-    accessor.type = type_of(column.lanes);
-    accessor.count = column.count;
-    accessor.normalized = column.normalized;
-    for (const float each : column.min) accessor.minValues.push_back(shortest(each));
-    for (const float each : column.max) accessor.maxValues.push_back(shortest(each));
-    return static_cast<int>(out_.accessors.size()) - 1;
-  }
-
-  tinygltf::Primitive primitive_of(const Part& part) {
-    tinygltf::Primitive primitive;
-    primitive.mode = mode_of(part.topology);
-    primitive.material = materials_.use(part.material);
-    std::vector<int> accessors;
-    for (const Column& column : part.columns) accessors.push_back(add_accessor(vertex_pool(column), column));
-    for (const Attribute& each : part.attributes) {
-      primitive.attributes[std::string(each.semantic)] = accessors[each.column];
-    }
-    if (part.index) primitive.indices = add_accessor(index_pool(*part.index), *part.index);
-    add_variants(primitive, part);
-    return primitive;
-  }
-
-  /// One mapping for each material, with all variants that show it.
-  void add_variants(tinygltf::Primitive& primitive, const Part& part) {
-    std::map<int, tinygltf::Value::Array> mappings;
-    for (std::size_t variant = 0; variant < part.variant_materials.size(); ++variant) {
-      const int material = materials_.use(part.variant_materials[variant]);
-      if (material >= 0) mappings[material].emplace_back(static_cast<int>(variant));
-    }
-    if (mappings.empty()) return;
-    tinygltf::Value::Array list;
-    for (auto& [material, variants] : mappings) {
-      list.emplace_back(tinygltf::Value::Object{{"material", tinygltf::Value(material)},
-                                                {"variants", tinygltf::Value(std::move(variants))}});
-    }
-    primitive.extensions["KHR_materials_variants"] =
-        tinygltf::Value(tinygltf::Value::Object{{"mappings", tinygltf::Value(std::move(list))}});
-    variants_used_ = true;
+    out_.extensions["KHR_materials_variants"] =
+        tinygltf::Value(tinygltf::Value::Object{{"variants", tinygltf::Value(std::move(variants))}});
+    out_.extensionsUsed.push_back("KHR_materials_variants");
   }
 
   /// A texture is an image with a way of wrapping; both kinds of wrapping have one sampler each.
@@ -338,14 +238,16 @@ class Describer {
   const Model& model_;
   const Columns& columns_;
   const DocumentOptions& options_;
+  Job& job_;
   tinygltf::Model out_;
-  Bin bin_;
-  Numbering meshes_, materials_, images_, skins_;
+  Accessors accessors_;
+  Numbering meshes_, images_, skins_;
+  MaterialUse materials_;
+  std::string mesh_list_, animation_list_,
+      image_list_;  ///< JSON arrays without the closing bracket, or empty
   std::map<std::pair<int, bool>, int> textures_;
   std::map<bool, int> samplers_;
   std::vector<int> image_items_;
-  bool variants_used_ = false;
-  bool unlit_used_ = false;
 };
 
 /// asset.extras as a JSON object, empty if there is nothing to say.
@@ -385,29 +287,29 @@ void add_to_asset(std::string& text, const std::string& extras) {
 }  // namespace
 
 Document describe(const Model& model, const Columns& columns, const DocumentOptions& options, Job& job) {
-  Document document;
-  Describer describer(model, columns, options);
+  Describer describer(model, columns, options, job);
   const Shown shown = describer.show_nodes();
   describer.add_meshes();
+  describer.add_animations();
   describer.add_materials();
   describer.add_skins();
-  describer.add_animations();
-  std::string images = describer.add_images();
-  document.bin = describer.finish(images);
-  document.images = describer.images();
-  job.check();
+  describer.add_images();
+  describer.arrange();
 
+  Document document;
   std::string& head = document.head;
   head = describer.text();
   add_to_asset(head, asset_extras(model));
   head.pop_back();  // the brace that closes the document goes to the tail
-  document.tail = "}";
-  if (!images.empty()) head += ",\"images\":" + images;
   job.spend(Resource::output_bytes, head.size());
+  describer.append_lists(head);
   if (!model.nodes.empty()) {
     head += ",\"nodes\":";
     append_nodes(head, model, shown, job);
   }
+  document.images = describer.images();
+  document.bin = describer.take_bin();
+  document.tail = "}";
   if (document.bin.size() > 0) {
     head += ",\"buffers\":[{\"byteLength\":" + std::to_string(document.bin.size());
     document.tail = "}]}";

@@ -38,6 +38,11 @@ void append_string(std::string& out, std::string_view text) {
   }
 }
 
+void TextMeter::settle() {
+  job_.spend(Resource::output_bytes, text_.size() - counted_);
+  counted_ = text_.size();
+}
+
 double shortest(float value) {
   assert(std::isfinite(value));
   char text[longest_number];

@@ -1,8 +1,10 @@
 #pragma once
-/// JSON written as text, for the parts of a document that are too long for a tree of values (100,000 nodes as
-/// a tree take ten times as long).
+/// JSON written as text, for the lists of a document that may be too long for a tree of values: the tree of a document
+/// with 100,000 meshes takes 900 MB.
 #include <string>
 #include <string_view>
+
+#include "core/base/job.h"
 
 namespace seedmesh::gltf {
 
@@ -14,6 +16,23 @@ void append_integer(std::string& out, long long value);
 
 /// In quotes, escaped. Bytes that are no UTF-8 become U+FFFD.
 void append_string(std::string& out, std::string_view text);
+
+/// Spends the bytes of a growing text from a job, in steps that keep limit, stop and deadline timely.
+class TextMeter {
+ public:
+  TextMeter(const std::string& text, Job& job) : text_(text), job_(job), counted_(text.size()) {}
+  /// To be called once for each small thing that has been appended.
+  void step() {
+    if (text_.size() - counted_ >= step_bytes) settle();
+  }
+  void settle();
+
+ private:
+  static constexpr std::size_t step_bytes = 65'536;
+  const std::string& text_;
+  Job& job_;
+  std::size_t counted_;
+};
 
 /// The double whose shortest decimal is that of `value`: for libraries that print doubles only.
 double shortest(float value);

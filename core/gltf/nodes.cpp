@@ -1,5 +1,6 @@
 #include "core/gltf/nodes.h"
 
+#include <algorithm>
 #include <string_view>
 #include <unordered_set>
 
@@ -7,25 +8,6 @@
 
 namespace seedmesh::gltf {
 namespace {
-
-/// Spends what has been appended to a text, in steps that keep a limit timely.
-class TextMeter {
- public:
-  TextMeter(const std::string& text, Job& job) : text_(text), job_(job), counted_(text.size()) {}
-  void step() {
-    if (text_.size() - counted_ >= step_bytes) settle();
-  }
-  void settle() {
-    job_.spend(Resource::output_bytes, text_.size() - counted_);
-    counted_ = text_.size();
-  }
-
- private:
-  static constexpr std::size_t step_bytes = 65'536;
-  const std::string& text_;
-  Job& job_;
-  std::size_t counted_;
-};
 
 template <int n, class Vector>
 void append_vector(std::string& out, std::string_view key, const Vector& vector) {
@@ -111,6 +93,8 @@ class NodeWriter {
  public:
   NodeWriter(std::string& out, const Model& model, const Shown& shown)
       : out_(out), model_(model), shown_(shown), family_(family_of(model)), next_copy_(model.nodes.size()) {
+    const auto is_copied = [](const Node& node) { return !node.instances.transforms.empty(); };
+    if (std::none_of(model.nodes.begin(), model.nodes.end(), is_copied)) return;
     for (const Node& node : model.nodes) names_.insert(node.name);
   }
 
@@ -181,7 +165,7 @@ class NodeWriter {
   const Shown& shown_;
   Family family_;
   std::size_t next_copy_;
-  std::unordered_set<std::string_view> names_;
+  std::unordered_set<std::string_view> names_;  ///< of the model's nodes, if any node is copied
 };
 
 }  // namespace

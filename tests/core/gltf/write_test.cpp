@@ -75,8 +75,8 @@ TEST(Glb, GivesPositionsTheirExactRange) {
   const json& accessor =
       document["accessors"]
               [document["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<std::size_t>()];
-  EXPECT_EQ(accessor["min"].dump(), "[0.0,0.0,0.0]");
-  EXPECT_EQ(accessor["max"].dump(), "[0.1,0.1,0.0]");
+  EXPECT_EQ(accessor["min"].dump(), "[0,0,0]");
+  EXPECT_EQ(accessor["max"].dump(), "[0.1,0.1,0]");
 }
 
 TEST(Glb, TakesIndicesOf16BitsAndPadsThem) {
