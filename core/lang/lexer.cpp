@@ -155,8 +155,8 @@ class Lexer {
       ++end;
     }
     const bool closed = end < text_.size() && text_[end] == '"';
-    if (bad_escape > 0) fault(bad_escape, R"(unknown escape in a string: there are \" \\ \n \t)");
     if (!closed) fault(open, "the string that opens here is not closed on its line");
+    if (bad_escape > 0) fault(bad_escape, R"(unknown escape in a string: there are \" \\ \n \t)");
     tokens_.push_back(
         {TokenKind::string, text_.substr(open + 1, end - open - 1), open, end + (closed ? 1 : 0) - open, 0});
     at_ = end + (closed ? 1 : 0);

@@ -1,7 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -65,6 +68,16 @@ TEST(Functions, HaveOneRowForEachNumberOfArguments) {
       EXPECT_TRUE(closed.insert(row.name).second) << row.name << " stands in two places";
     }
     last = row.name;
+  }
+}
+
+TEST(Functions, StandInTheDocs) {
+  std::ifstream file(SEEDMESH_SOURCE_DIR "/docs/expressions.md");
+  const std::string docs((std::istreambuf_iterator<char>(file)), {});
+  for (const Function& row : functions()) {
+    const std::string line = "| `" + std::string(row.name) + "(" + std::string(row.arguments) + ")` | " +
+                             std::string(row.text) + " | `" + std::string(row.example) + "` |\n";
+    EXPECT_NE(docs.find(line), std::string::npos) << "docs/expressions.md lacks the line\n" << line;
   }
 }
 

@@ -136,6 +136,7 @@ TEST(Lexer, TellsWhatIsWrongWithAString) {
   EXPECT_THAT(messages("\"abc\nx"), ElementsAre("0: the string that opens here is not closed on its line"));
   EXPECT_THAT(messages("\"abc\\"), ElementsAre("0: the string that opens here is not closed on its line"));
   EXPECT_THAT(messages(R"("a\qb")"), ElementsAre(HasSubstr("2: unknown escape")));
+  EXPECT_THAT(messages(R"("a\qb)"), ElementsAre(HasSubstr("0: the string"), HasSubstr("2: unknown escape")));
 }
 
 TEST(Lexer, NamesCharactersThatDoNotBelong) {
