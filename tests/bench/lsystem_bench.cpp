@@ -39,7 +39,7 @@ void bench_table(const std::string& name, const LsystemParams& params, std::uint
   const Grammar grammar = compiled(params);
   if (!TableRewriter::fits(grammar)) std::abort();
   double modules = 0;
-  const double seconds = bench::median_seconds(rounds, [&] {
+  const double seconds = bench::median_seconds<bench::CpuClock>(rounds, [&] {
     Job job(0, {.limits = roomy()});
     modules = static_cast<double>(TableRewriter(grammar, job).derive(steps).size());
   });
@@ -55,7 +55,7 @@ void bench_signal() {
   params.productions = {"b < a -> b", "b -> a"};
   const Grammar grammar = compiled(params);
   if (!TableRewriter::fits(grammar)) std::abort();
-  const double seconds = bench::median_seconds(rounds, [&] {
+  const double seconds = bench::median_seconds<bench::CpuClock>(rounds, [&] {
     Job job(0, {.limits = roomy()});
     if (TableRewriter(grammar, job).derive(steps).size() != length + 1) std::abort();
   });
@@ -76,7 +76,7 @@ struct Counter {
 void bench_stream(const std::string& name, const LsystemParams& params, std::uint32_t steps) {
   const Grammar grammar = compiled(params);
   Counter counter;
-  const double seconds = bench::median_seconds(rounds, [&] {
+  const double seconds = bench::median_seconds<bench::CpuClock>(rounds, [&] {
     Job job(0, {.limits = roomy()});
     counter = {};
     FreeDerivation<Counter>(grammar, steps, false, job, counter).run();

@@ -1,5 +1,7 @@
 #pragma once
 /// One figure a line, as JSON, for tests/bench/bench.mjs to gather.
+#include <time.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -15,17 +17,33 @@ inline void report(const std::string& name, const char* unit, double amount, dou
   std::fflush(stdout);
 }
 
+/// Time that the cores spent on this process, which other processes of a busy machine do not lengthen. For
+/// work on one thread.
+struct CpuClock {
+  static double seconds() {
+    timespec now = {};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+  }
+};
+
+/// Time on the wall, for work on several threads.
+struct WallClock {
+  static double seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  }
+};
+
 /// The median of `rounds` timings of `work`, in seconds. `work` runs once before, so that memory and caches
 /// are warm.
-template <class Work>
+template <class Clock, class Work>
 double median_seconds(int rounds, Work&& work) {
-  using Clock = std::chrono::steady_clock;
   work();
   std::vector<double> seconds;
   for (int round = 0; round < rounds; ++round) {
-    const auto start = Clock::now();
+    const double start = Clock::seconds();
     work();
-    seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    seconds.push_back(Clock::seconds() - start);
   }
   std::nth_element(seconds.begin(), seconds.begin() + rounds / 2, seconds.end());
   return seconds[static_cast<std::size_t>(rounds / 2)];

@@ -16,8 +16,12 @@ done
 dictionary=()
 [ ! -f "$here/${name%_fuzz}.dict" ] || dictionary=("-dict=$here/${name%_fuzz}.dict")
 
+status=0
 "$target" "-max_total_time=$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=16384 -print_final_stats=1 \
-  "-artifact_prefix=$findings/$name-" "${dictionary[@]}" "$corpus" "${seeds[@]}" 2>&1 |
-  grep -E 'ERROR|SUMMARY|runtime error|stat::number_of_executed_units|stat::peak_rss|Test unit written|^ +#[0-9]' || true
-status=${PIPESTATUS[0]}
-exit "$status"
+  "-artifact_prefix=$findings/$name-" "${dictionary[@]}" "$corpus" "${seeds[@]}" >"$findings/$name.log" 2>&1 || status=$?
+if [ $status = 0 ]; then
+  grep -E 'stat::number_of_executed_units|stat::peak_rss' "$findings/$name.log"
+else
+  tail -60 "$findings/$name.log"
+fi
+exit $status
