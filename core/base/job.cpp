@@ -70,6 +70,9 @@ std::uint64_t Job::spent(Resource resource) const {
 }
 
 void Job::progress(std::string_view stage, double share) const {
+  if (state_->stages.empty() || state_->stages.back().name != stage) {
+    state_->stages.push_back({std::string(stage), Clock::now()});
+  }
   if (state_->options.progress) state_->options.progress(stage, share);
 }
 

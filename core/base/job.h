@@ -91,8 +91,16 @@ class Job {
   void spend(Resource resource, std::uint64_t amount);
   std::uint64_t spent(Resource resource) const;
 
-  /// Names the stage that runs and how much of it is done, for the caller's progress bar.
+  /// Names the stage that runs and how much of it is done, for the caller's progress bar. From one thread at
+  /// a time.
   void progress(std::string_view stage, double share) const;
+
+  /// The stages named so far and when each began.
+  struct Stage {
+    std::string name;
+    Clock::time_point begun;
+  };
+  const std::vector<Stage>& stages() const { return state_->stages; }
 
   /// Refuses with a limit of the caller's own wording; for limits that are no Resource (depth, iterations).
   [[noreturn]] static void refuse(std::string message, std::string pointer = "");
@@ -108,6 +116,7 @@ class Job {
     Options options;
     std::shared_ptr<Purse> purse;
     std::atomic<std::uint64_t> spent[4] = {};
+    std::vector<Stage> stages;
   };
   Job(std::uint64_t seed, std::shared_ptr<State> state) : seed_(seed), state_(std::move(state)) {}
 

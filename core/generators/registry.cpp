@@ -10,7 +10,7 @@ namespace {
 
 /// The functions of one generator as the compiler sees them, turned to those of a row.
 template <class Own, auto read_own, auto write_own, auto check_own, auto generate_own, auto derive_own,
-          auto appraise_own>
+          auto appraise_own, auto vocabulary_own>
 struct Row {
   using Params = Generator::Params;
 
@@ -36,13 +36,14 @@ struct Row {
             .check = check,
             .generate = generate,
             .derive = derive,
-            .appraise = appraise};
+            .appraise = appraise,
+            .vocabulary = vocabulary_own};
   }
 };
 
 constexpr Generator rows[] = {
     Row<LsystemParams, read_lsystem, write_lsystem, lsystem::check, lsystem::generate, lsystem::derive,
-        lsystem::appraise>::named("lsystem"),
+        lsystem::appraise, lsystem::vocabulary>::named("lsystem"),
 };
 
 }  // namespace

@@ -31,6 +31,8 @@ struct Generator {
   Result<Model> (*generate)(const Params& params, Job& job);
   Result<Json> (*derive)(const Params& params, Job& job);
   Result<Appraisal> (*appraise)(const Params& params, const Job& job);
+  /// The words of its notation, by group: {"turtle": [{symbol, parameters, text, example}]}.
+  Json (*vocabulary)();
 };
 
 /// In the order of the menu.

@@ -163,4 +163,16 @@ Result<Appraisal> appraise(const LsystemParams& params, const Job& job) {
   return appraisal;
 }
 
+Json vocabulary() {
+  Json rows = Json::array();
+  for (const CommandRow& row : commands()) {
+    rows.push_back({{"symbol", row.symbol},
+                    {"parameters", row.parameters},
+                    {"arity", Json::array({row.least, row.most})},
+                    {"text", row.text},
+                    {"example", row.example}});
+  }
+  return {{"turtle", std::move(rows)}};
+}
+
 }  // namespace seedmesh::lsystem

@@ -32,4 +32,7 @@ Result<Json> derive(const LsystemParams& params, Job& job);
 /// Size and warnings, without making anything. The estimate is empty where chance or conditions decide.
 Result<Appraisal> appraise(const LsystemParams& params, const Job& job);
 
+/// {"turtle": [...]}: the rows of the table that the interpreter itself reads.
+Json vocabulary();
+
 }  // namespace seedmesh::lsystem
