@@ -105,6 +105,9 @@ Schema openapi_with_components(const fs::path& folder) {
     schema.erase("$schema");
     document["components"]["schemas"][schema_name(file)] = std::move(schema);
   }
+  // The request's own schema leaves the parameters open; the document names those of each generator.
+  Schema& schemas = document["components"]["schemas"];
+  schemas["request"]["properties"]["parameters"] = {{"$ref", "#/components/schemas/parameters"}};
   return document;
 }
 
