@@ -14,7 +14,7 @@ const seams = [
   [/^httplib\.h$/, /^server\/http\//],
   [/^tiny_?gltf\.h$/, /^core\/gltf\//],
   [/^spdlog\//, /^server\//],
-  [/^sleef\.h$/, /^core\/base\/math\.cpp$/],
+  [/^sleef\.h$/, /^core\/(base\/math|pipeline\/engine)\.cpp$/],
   [/^(oneapi\/)?tbb(\/|\.h)/, /^core\/base\/parallel\.cpp$/],
   [/^random$/, /^server\//],
 ];
