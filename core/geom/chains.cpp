@@ -51,15 +51,15 @@ class ChainFinder {
     stands_for_[joint] = joint;
     if (limbs_.parent[joint] == Limbs::none) {
       chains_.head.push_back(joint);
-      settle(joint, table_.find(key), key);
+      settle(joint, table_[key]);
       return;
     }
     const std::uint32_t from = stands_for_[limbs_.parent[joint]];
     const glm::vec3 step = limbs_.position[joint] - limbs_.position[from];
     if (glm::dot(step, step) > short_squared_) {
-      NumberTable::Slot& slot = table_.find(key);
-      if (slot.number != Limbs::none) {
-        const std::uint32_t same = internode_between(slot.number, limbs_.position[from], joint);
+      std::uint32_t& first = table_[key];
+      if (first != Limbs::none) {
+        const std::uint32_t same = internode_between(first, limbs_.position[from], joint);
         if (same != Limbs::none) {
           chains_.mark[joint] |= drawn_before;
           stands_for_[joint] = same;
@@ -67,7 +67,7 @@ class ChainFinder {
         }
         if (is_drawn_backwards(from, joint)) chains_.mark[joint] |= drawn_before;
       }
-      settle(joint, slot, key);
+      settle(joint, first);
     }
     if (!limbs_.starts_limb[joint] && chains_.next[from] == Limbs::none) {
       chains_.next[from] = joint;
@@ -77,14 +77,13 @@ class ChainFinder {
     }
   }
 
-  void settle(std::uint32_t joint, NumberTable::Slot& slot, std::uint64_t key) {
-    if (slot.number == Limbs::none) {
-      slot.key = key;
-      slot.number = joint;
+  void settle(std::uint32_t joint, std::uint32_t& first) {
+    if (first == Limbs::none) {
+      first = joint;
       same_place_[joint] = Limbs::none;
     } else {
-      same_place_[joint] = same_place_[slot.number];
-      same_place_[slot.number] = joint;
+      same_place_[joint] = same_place_[first];
+      same_place_[first] = joint;
       chains_.mark[joint] |= revisit;
     }
   }
@@ -102,7 +101,7 @@ class ChainFinder {
   }
 
   bool is_drawn_backwards(std::uint32_t from, std::uint32_t joint) {
-    std::uint32_t other = table_.find(grid_.key(limbs_.position[from])).number;
+    std::uint32_t other = table_.peek(grid_.key(limbs_.position[from]));
     for (int i = 0; i < most_compared && other != Limbs::none; ++i, other = same_place_[other]) {
       if (begins_at(other, limbs_.position[joint]) && limbs_.radius[other] == limbs_.base_radius[joint] &&
           limbs_.base_radius[other] == limbs_.radius[joint]) {

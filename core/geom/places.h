@@ -45,34 +45,100 @@ class PlaceGrid {
   float per_cell_;
 };
 
-/// From 64-bit keys to 32-bit numbers; 16 bytes a slot, at most two thirds full. A key, once in, stays. Fixed
-/// capacity.
+/// From 64-bit keys to 32-bit numbers; 16 bytes a slot, at most two thirds full. A key, once in, stays.
 class NumberTable {
  public:
   static constexpr std::uint32_t none = 0xFFFFFFFFU;
+
+  NumberTable(const Job& job, std::size_t expected)
+      : job_(&job), slots_(empty(std::bit_ceil(expected + expected / 2 + 16))) {}
+
+  /// The number of `key`, or none.
+  std::uint32_t peek(std::uint64_t key) { return find(key).number; }
+
+  /// The number of `key`, none where it is new: the caller then writes one. Valid until the next call.
+  std::uint32_t& operator[](std::uint64_t key) {
+    if (used_ * 3 >= slots_.size() * 2) grow();
+    Slot& slot = find(key);
+    if (slot.number == none) {
+      slot.key = key;
+      ++used_;
+    }
+    return slot.number;
+  }
+
+  /// Asks the memory for a slot that will be looked at soon.
+  void expect(std::uint64_t key) const {
+    __builtin_prefetch(slots_.data() + (mix(key) & (slots_.size() - 1)), 1);
+  }
+
+ private:
   struct Slot {
     std::uint64_t key;
     std::uint32_t number;
     std::uint32_t spare;
   };
 
-  NumberTable(const Job& job, std::size_t expected)
-      : slots_(job, std::bit_ceil(expected + expected / 2 + 16), Slot{0, none, 0}),
-        last_(slots_.size() - 1) {}
+  Array<Slot> empty(std::size_t size) const { return Array<Slot>(*job_, size, Slot{0, none, 0}); }
 
-  /// The slot of `key`, empty (number == none) where the key is new: the caller then fills both members.
   Slot& find(std::uint64_t key) {
-    std::size_t at = mix(key) & last_;
-    while (slots_[at].number != none && slots_[at].key != key) at = (at + 1) & last_;
+    std::size_t at = mix(key) & (slots_.size() - 1);
+    while (slots_[at].number != none && slots_[at].key != key) at = (at + 1) & (slots_.size() - 1);
     return slots_[at];
   }
 
-  /// Asks the memory for a slot that will be looked at soon.
-  void expect(std::uint64_t key) const { __builtin_prefetch(slots_.data() + (mix(key) & last_), 1); }
+  void grow() {
+    Array<Slot> old = std::exchange(slots_, empty(2 * slots_.size()));
+    used_ = 0;
+    for (const Slot& slot : old) {
+      if (slot.number == none) continue;
+      find(slot.key) = slot;
+      ++used_;
+    }
+  }
+
+  const Job* job_;
+  Array<Slot> slots_;
+  std::size_t used_ = 0;
+};
+
+/// Numbers points so that those nearer than `reach` to an earlier one share its number.
+class Weld {
+ public:
+  Weld(const Job& job, const Box& box, float reach, std::size_t expected)
+      : grid_(box, 4 * reach),
+        reach_squared_(reach * reach),
+        reach_(reach),
+        first_(job, expected),
+        next_(job),
+        point_(job) {}
+
+  std::uint32_t number(const glm::vec3& point) {
+    std::uint32_t found = NumberTable::none;
+    grid_.each_near(point, reach_, [&](std::uint64_t key) {
+      if (found != NumberTable::none) return;
+      for (std::uint32_t i = first_.peek(key); i != NumberTable::none && found == NumberTable::none;
+           i = next_[i]) {
+        const glm::vec3 apart = point_[i] - point;
+        if (glm::dot(apart, apart) <= reach_squared_) found = i;
+      }
+    });
+    if (found != NumberTable::none) return found;
+    const auto fresh = static_cast<std::uint32_t>(point_.size());
+    std::uint32_t& first = first_[grid_.key(point)];
+    next_.push_back(first);
+    point_.push_back(point);
+    first = fresh;
+    return fresh;
+  }
+  std::size_t size() const { return point_.size(); }
 
  private:
-  Array<Slot> slots_;
-  std::size_t last_;
+  PlaceGrid grid_;
+  float reach_squared_, reach_;
+  NumberTable first_;
+  Array<std::uint32_t> next_;  ///< a list of the points of each cell
+  Array<glm::vec3> point_;
 };
 
 }  // namespace seedmesh

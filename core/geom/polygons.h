@@ -7,9 +7,15 @@
 
 namespace seedmesh {
 
-/// Triangulates every outline in its best plane (Newell's normal). Both sides are seen through a double-sided material, so
-/// each polygon has one layer of triangles, with its own vertices and one normal. An outline with fewer than three
-/// different vertices, or without area, is passed over. UVs: the outline's own box to 0..1.
+/// Triangulates every outline in its best plane (Newell's normal). Both sides are seen through a double-sided
+/// material, so each polygon has one layer of triangles, with one normal. An outline with fewer than three
+/// different vertices, or without area, is passed over; an outline that coincides with an earlier one is made
+/// once. UVs: the outline's own box to 0..1, u along its first edge. Polygons that share an edge are turned
+/// so that they agree on the outside. Where an edge would be in more than two triangles of a mesh, or in two
+/// that cannot agree (a Moebius strip), the later polygon goes to the next layer; most drawings have one.
+/// Barks of one layer may become primitives of one mesh of the answer; each layer needs a mesh (and node) of
+/// its own. Out: by layer, then colour, both rising; none is empty. Spends Resource::triangles. One thread,
+/// about a microsecond a vertex.
 std::vector<Bark> polygons(const Outlines& outlines, Job& job);
 
 }  // namespace seedmesh

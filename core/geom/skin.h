@@ -8,8 +8,8 @@
 namespace seedmesh {
 
 struct SkinOptions {
-  int sides = 8;    ///< corners of a cross-section of the thickest limb, 3..64
-  int stacks = 1;   ///< rings an internode is cut into, 1..16; only where the radius changes along it
+  int sides = 8;   ///< corners of a cross-section of the thickest limb, 3..64
+  int stacks = 1;  ///< rings an internode is cut into, 1..16; only where the radius changes along it
   bool uv = true;
 };
 
@@ -17,19 +17,45 @@ struct SkinOptions {
 struct Bark {
   std::int16_t color = 0;
   Mesh mesh;
+  int layer =
+      0;  ///< of polygons() only: barks of different layers must not be joined into one mesh of the answer
 };
 
-/// Skins every limb as one closed tube: rings are mitred at joints and turn without twist along the limb, both ends
-/// are closed, u runs round the limb and v along it, both in metres, with one doubled seam. Triangles are counter-
-/// clockwise outside and come in cache order. Internodes of no length are passed over; an internode that lies exactly
-/// on another one (same ends, same radii) is skinned once; where a bend is so sharp that mitred rings would cross,
-/// the limb is closed and a new tube starts. Guarantees: unit normals, no unused vertex, no triangle of zero area, no
-/// triangle turned against its normals, no NaN.
-/// In: limbs with finite positions and radii >= 0 (a radius of 0 makes a point). Out: one Bark for each colour index in
-/// use, rising. Spends Resource::triangles before it allocates. Runs on job.threads(); the result does not depend on it.
+/// Skins every limb as one closed tube: rings are mitred at joints and turn without twist along the limb,
+/// both ends are closed, u runs round the limb and v along it, both in metres, with one doubled seam.
+/// Triangles are counter- clockwise outside and come in cache order (at most 1.2 misses a vertex with 16
+/// entries, first in first out).
+///
+/// What is decided here:
+/// - Where two internodes of a limb meet, the ring has the base radius of the later one: every internode
+/// begins as thick as it
+///   was drawn and tapers to the next. Where the later one begins in a point, both are closed.
+/// - A root begins with a flat floor; a side branch with a cone that lies inside its parent; a free tip ends
+/// in a cone within
+///   the drawn length; an end that branches grow from, or a bend, in a cone that stands out by half the
+///   radius.
+/// - A bend is mitred up to 120 degrees, unless the rings at both ends of an internode would then cross on
+/// its inner side or a
+///   face would look against a normal; else the limb is closed and a new tube starts.
+/// - Internodes of no length (a hundred-thousandth of the model's diagonal) or no radius (too thin to be told
+/// from a line when
+///   vertices are welded at a millionth of the diagonal) are passed over. An internode that lies exactly on
+///   another (same ends in either order, same radii) is skinned once; what grows from it grows from the
+///   first.
+/// - A limb that changes its colour goes on in the other mesh with the same ring: joined, the meshes are
+/// closed.
+/// - Rings that would lie on top of others' are moved apart by a few hundredths of the radius, by the hash of
+/// the joint's key.
+///
+/// Guarantees: unit normals, no unused vertex, no triangle of zero area, no NaN, no -0; welded at a millionth
+/// of the diagonal, every edge is in two triangles that agree on the outside. In: limbs with finite positions
+/// and radii >= 0. Out: one Bark for each colour index in use, rising. Spends Resource::triangles before it
+/// allocates. Runs on job.threads(); the result does not depend on it.
 std::vector<Bark> skin(const Limbs& limbs, const SkinOptions& options, Job& job);
 
-/// The same skeleton as line segments (two vertices a segment, shared along limbs), one mesh for each colour index.
+/// The same skeleton as line segments (two vertices a segment, shared along limbs), one mesh for each colour
+/// index. Joints at one place share a vertex, except in models of more than 131,072 joints where next to none
+/// do.
 std::vector<Bark> wires(const Limbs& limbs, Job& job);
 
 /// How many triangles `skin` would make, without making them; exact except for internodes drawn twice.

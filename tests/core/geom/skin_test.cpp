@@ -15,7 +15,7 @@ namespace {
 using testing::IsEmpty;
 using testing::SizeIs;
 
-Job job_of(int threads = 1) { return Job(1, {.threads = threads}); }
+Job job_of(int threads = 1) { return Job(1, Job::Options{.threads = threads}); }
 
 /// All barks as the primitives of one mesh, as they go into the file.
 MeshMeasures measure_all(const std::vector<Bark>& barks) {
@@ -282,7 +282,7 @@ TEST(Skin, GivesTheSameBytesOnAnyNumberOfThreads) {
 }
 
 TEST(Skin, RefusesMoreTrianglesThanAllowed) {
-  Job job(1, {.limits = {.triangles = 31}});
+  Job job(1, Job::Options{.limits = {.triangles = 31}});
   const Limbs limbs = limb_through(job, {{0, 0, 0}, {0, 2, 0}}, 0.1F);
   EXPECT_THROW(skin(limbs, {.sides = 8}, job), Stop);
 }

@@ -1,0 +1,177 @@
+#include "core/geom/finish.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstring>
+#include <set>
+#include <string_view>
+
+#include "core/base/parallel.h"
+
+namespace seedmesh {
+namespace {
+
+// Entries of the smallest vertex caches in use.
+constexpr unsigned cache_entries = 16;
+// Floats that are looked through at once for -0.
+constexpr std::size_t float_chunk = std::size_t{1} << 16U;
+
+// What Godot makes of a node whose name ends so after '-', '_' or '$': a collision body, a rigid body,
+// nothing at all.
+constexpr std::array<std::string_view, 13> meaningful_endings{
+    "col", "convcol", "colonly", "convcolonly", "noimp",   "loop", "vcol",
+    "occ", "occonly", "navmesh", "rigid",       "vehicle", "wheel"};
+
+bool is_empty(const Mesh& mesh) { return mesh.position.empty() || mesh.elements() == 0; }
+
+/// Meshes without primitives go, and every number that names a mesh follows.
+void drop_empty_meshes(Model& model) {
+  std::vector<int> new_place(model.meshes.size(), -1);
+  std::vector<MeshGroup> kept;
+  for (std::size_t i = 0; i < model.meshes.size(); ++i) {
+    std::erase_if(model.meshes[i].primitives,
+                  [](const Primitive& primitive) { return is_empty(primitive.mesh); });
+    if (model.meshes[i].primitives.empty()) continue;
+    new_place[i] = static_cast<int>(kept.size());
+    kept.push_back(std::move(model.meshes[i]));
+  }
+  model.meshes = std::move(kept);
+  for (Node& node : model.nodes) {
+    for (int& lod : node.lods) lod = new_place[static_cast<std::size_t>(lod)];
+    std::erase(node.lods, -1);
+    if (node.mesh >= 0) node.mesh = new_place[static_cast<std::size_t>(node.mesh)];
+    if (node.mesh < 0 && !node.lods.empty()) {
+      node.mesh = node.lods.front();
+      node.lods.erase(node.lods.begin());
+    }
+  }
+}
+
+template <class T>
+void reorder(Array<T>& values, const Array<std::uint32_t>& new_place, std::size_t used, const Job& job) {
+  if (values.empty()) return;
+  Array<T> moved(job, used);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (new_place[i] < used) moved[new_place[i]] = values[i];
+  }
+  values = std::move(moved);
+}
+
+/// Triangles in an order that a vertex cache likes, vertices in the order of their first use; unused ones go.
+void order_for_cache(Mesh& mesh, const Job& job) {
+  if (mesh.cache_ordered || mesh.topology != Topology::triangles || mesh.index.wide.empty()) return;
+  job.check();
+  Array<std::uint32_t>& index = mesh.index.wide;
+  const std::size_t vertices = mesh.position.size();
+  Array<std::uint32_t> ordered(job, index.size());
+  meshopt_optimizeVertexCacheFifo(ordered.data(), index.data(), index.size(), vertices, cache_entries);
+  Array<std::uint32_t> new_place(job, vertices);
+  const std::size_t used =
+      meshopt_optimizeVertexFetchRemap(new_place.data(), ordered.data(), ordered.size(), vertices);
+  for (std::size_t i = 0; i < ordered.size(); ++i) index[i] = new_place[ordered[i]];
+  reorder(mesh.position, new_place, used, job);
+  reorder(mesh.normal, new_place, used, job);
+  for (auto& uv : mesh.uv) reorder(uv, new_place, used, job);
+  reorder(mesh.color, new_place, used, job);
+  reorder(mesh.tangent, new_place, used, job);
+  reorder(mesh.joints, new_place, used, job);
+  reorder(mesh.weights, new_place, used, job);
+  mesh.cache_ordered = true;
+}
+
+/// Reads everything and, in the common case, writes nothing.
+template <class T>
+void clear_negative_zeros(Array<T>& values, const Job& job) {
+  constexpr std::uint32_t negative_zero = 0x80000000U;
+  static_assert(sizeof(T) % sizeof(float) == 0);
+  auto* bits = reinterpret_cast<std::byte*>(values.data());
+  parallel_for(job, values.bytes() / sizeof(float), float_chunk,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                 std::uint32_t found = 0;
+                 for (std::size_t i = begin; i < end; ++i) {
+                   std::uint32_t word;
+                   std::memcpy(&word, bits + i * sizeof(word), sizeof(word));
+                   found |= word == negative_zero ? 1U : 0U;
+                 }
+                 if (!found) return;
+                 for (std::size_t i = begin; i < end; ++i) {
+                   float value;
+                   std::memcpy(&value, bits + i * sizeof(value), sizeof(value));
+                   value += 0.0F;
+                   std::memcpy(bits + i * sizeof(value), &value, sizeof(value));
+                 }
+               });
+}
+
+void clear_negative_zeros(Mesh& mesh, const Job& job) {
+  clear_negative_zeros(mesh.position, job);
+  clear_negative_zeros(mesh.normal, job);
+  for (auto& uv : mesh.uv) clear_negative_zeros(uv, job);
+  clear_negative_zeros(mesh.tangent, job);
+  clear_negative_zeros(mesh.weights, job);
+}
+
+Box bounds_in_parallel(const Array<glm::vec3>& position, const Job& job) {
+  std::vector<Box> parts(chunk_count(position.size(), float_chunk));
+  parallel_for(job, position.size(), float_chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
+    parts[index] = bounds_of(position.span().subspan(begin, end - begin));
+  });
+  Box box = parts.front();
+  for (const Box& part : parts) box = {glm::min(box.min, part.min), glm::max(box.max, part.max)};
+  return box;
+}
+
+bool ends_with_meaning(const std::string& name) {
+  const std::size_t mark = name.find_last_of("-_$");
+  if (mark == std::string::npos) return false;
+  std::string ending = name.substr(mark + 1);
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return std::find(meaningful_endings.begin(), meaningful_endings.end(), ending) != meaningful_endings.end();
+}
+
+/// Gives out each name once: "leaf", "leaf_2", "leaf_3", ...
+class Names {
+ public:
+  std::string unique(const std::string& wanted, std::string_view otherwise) {
+    std::string name = wanted.empty() ? std::string(otherwise) : wanted;
+    if (ends_with_meaning(name)) name += "_part";
+    const std::string stem = name;
+    for (int number = 2; !taken_.insert(name).second; ++number) name = stem + "_" + std::to_string(number);
+    return name;
+  }
+
+ private:
+  std::set<std::string> taken_;
+};
+
+void name_everything(Model& model) {
+  Names nodes, meshes, materials;
+  for (Node& node : model.nodes) {
+    // A collision shape is called by the convention of the engine it is for, which an ending belongs to.
+    if (node.collision == CollisionShape::none || node.name.empty())
+      node.name = nodes.unique(node.name, "node");
+  }
+  for (MeshGroup& group : model.meshes) group.name = meshes.unique(group.name, "mesh");
+  for (Material& material : model.materials) material.name = materials.unique(material.name, "material");
+}
+
+}  // namespace
+
+void finish(Model& model, Job& job) {
+  drop_empty_meshes(model);
+  for (MeshGroup& group : model.meshes) {
+    for (Primitive& primitive : group.primitives) {
+      order_for_cache(primitive.mesh, job);
+      narrow(primitive.mesh, job);
+      clear_negative_zeros(primitive.mesh, job);
+      primitive.mesh.bounds = bounds_in_parallel(primitive.mesh.position, job);
+      job.check();
+    }
+  }
+  name_everything(model);
+}
+
+}  // namespace seedmesh

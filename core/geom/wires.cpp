@@ -1,0 +1,207 @@
+#include <algorithm>
+#include <bit>
+#include <optional>
+
+#include "core/base/parallel.h"
+#include "core/geom/skin.h"
+
+namespace seedmesh {
+namespace {
+
+constexpr std::uint32_t none = Limbs::none;
+constexpr std::size_t chunk = 1U << 16U;
+
+// Curves that come back to their own corners put vertices on top of each other. Looking for them costs more
+// than all the rest, so a share of the places is looked at first; below one repeated place in this many the
+// rest is left alone.
+constexpr std::uint64_t sampled_of = 64, tolerated_of = 2000;
+constexpr std::size_t always_merged = std::size_t{1} << 17U;
+
+/// 0 and -0 are one place.
+std::uint64_t place_hash(const glm::vec3& point) {
+  const glm::vec3 p = point + 0.0F;
+  const std::uint64_t xy =
+      std::uint64_t{std::bit_cast<std::uint32_t>(p.x)} << 32U | std::bit_cast<std::uint32_t>(p.y);
+  return mix(key_at(xy, std::bit_cast<std::uint32_t>(p.z)));
+}
+
+/// Numbers of points, found by exact position.
+class PointTable {
+ public:
+  PointTable(const Job& job, std::size_t expected)
+      : slots_(job, std::bit_ceil(expected + expected / 2 + 16), none), last_(slots_.size() - 1) {}
+
+  /// The number of an earlier point here, or `number`, which it then keeps for later ones.
+  template <class PointOf>
+  std::uint32_t find_or_add(const glm::vec3& point, std::uint32_t number, PointOf point_of) {
+    std::size_t at = place_hash(point) & last_;
+    while (slots_[at] != none && point_of(slots_[at]) != point) at = (at + 1) & last_;
+    if (slots_[at] == none) slots_[at] = number;
+    return slots_[at];
+  }
+
+ private:
+  Array<std::uint32_t> slots_;
+  std::size_t last_;
+};
+
+bool has_repeated_places(const Limbs& limbs, const Job& job) {
+  if (limbs.size() <= always_merged) return true;
+  Array<std::uint32_t> sample(job);
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    if (place_hash(limbs.position[i]) % sampled_of == 0) sample.push_back(static_cast<std::uint32_t>(i));
+  }
+  PointTable table(job, sample.size());
+  std::uint64_t repeated = 0;
+  for (std::uint32_t joint : sample) {
+    const auto at = [&](std::uint32_t other) { return limbs.position[other]; };
+    if (table.find_or_add(limbs.position[joint], joint, at) != joint) ++repeated;
+  }
+  return repeated * tolerated_of > sample.size();
+}
+
+/// Internodes by colour, in order within each; a counting sort.
+struct ColorLists {
+  ColorLists(const Limbs& limbs, const Job& job) : joint(job) {
+    const auto color_of = [&](std::size_t i) { return limbs.color.empty() ? 0 : limbs.color[i] + 32'768; };
+    std::vector<std::size_t> counts(65'537);
+    for (std::size_t i = 0; i < limbs.size(); ++i) {
+      if (limbs.parent[i] != none) ++counts[static_cast<std::size_t>(color_of(i)) + 1];
+    }
+    for (std::size_t c = 0; c + 1 < counts.size(); ++c) {
+      if (counts[c + 1]) {
+        color.push_back(static_cast<std::int16_t>(limbs.color.empty() ? 0 : static_cast<int>(c) - 32'768));
+        first.push_back(counts[c]);
+      }
+      counts[c + 1] += counts[c];
+    }
+    first.push_back(counts.back());
+    joint.resize(counts.back());
+    for (std::size_t i = 0; i < limbs.size(); ++i) {
+      if (limbs.parent[i] != none)
+        joint[counts[static_cast<std::size_t>(color_of(i))]++] = static_cast<std::uint32_t>(i);
+    }
+  }
+
+  std::vector<std::int16_t> color;
+  std::vector<std::size_t> first;  ///< into `joint`, one more than colours
+  Array<std::uint32_t> joint;
+};
+
+/// Names vertices of one colour's mesh by joint: a sparse set, so that nothing has to be cleared between
+/// colours.
+class VertexNames {
+ public:
+  VertexNames(const Limbs& limbs, const Job& job)
+      : limbs_(limbs), vertex_of_(job, limbs.size(), std::uint32_t{0}), joint_of_(job) {}
+
+  std::uint32_t name(std::uint32_t joint, Array<glm::vec3>& position, PointTable* table) {
+    const std::uint32_t known = vertex_of_[joint];
+    if (known < joint_of_.size() && joint_of_[known] == joint) return known;
+    const auto fresh = static_cast<std::uint32_t>(joint_of_.size());
+    const glm::vec3 point = limbs_.position[joint] + 0.0F;
+    if (table) {
+      const auto at = [&](std::uint32_t vertex) { return position[vertex]; };
+      const std::uint32_t found = table->find_or_add(point, fresh, at);
+      if (found != fresh) return found;
+    }
+    vertex_of_[joint] = fresh;
+    joint_of_.push_back(joint);
+    position.push_back(point);
+    return fresh;
+  }
+  void clear() { joint_of_.clear(); }
+
+ private:
+  const Limbs& limbs_;
+  Array<std::uint32_t> vertex_of_;
+  Array<std::uint32_t> joint_of_;
+};
+
+std::vector<Bark> named_wires(const Limbs& limbs, bool merges, const Job& job) {
+  const ColorLists lists(limbs, job);
+  VertexNames names(limbs, job);
+  std::vector<Bark> barks;
+  for (std::size_t c = 0; c < lists.color.size(); ++c) {
+    const std::size_t count = lists.first[c + 1] - lists.first[c];
+    Mesh mesh;
+    mesh.topology = Topology::lines;
+    mesh.position = Array<glm::vec3>(job);
+    mesh.position.reserve(count + 1);
+    mesh.index.wide = Array<std::uint32_t>(job, 2 * count);
+    std::optional<PointTable> table;
+    if (merges) table.emplace(job, count + count / 4 + 1);
+    names.clear();
+    std::uint32_t* out = mesh.index.wide.data();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i % 4096 == 0) job.check();
+      const std::uint32_t joint = lists.joint[lists.first[c] + i];
+      *out++ = names.name(limbs.parent[joint], mesh.position, table ? &*table : nullptr);
+      *out++ = names.name(joint, mesh.position, table ? &*table : nullptr);
+    }
+    mesh.position.shrink_to_fit();
+    barks.push_back({lists.color[c], std::move(mesh)});
+  }
+  return barks;
+}
+
+/// True where every joint is an end of an internode and all have one colour: joints then are vertices as they
+/// stand.
+bool is_plain(const Limbs& limbs, const Job& job) {
+  if (!limbs.color.empty()) {
+    const auto internode_color = [&](std::size_t i) {
+      return limbs.parent[i] == none ? limbs.color.back() : limbs.color[i];
+    };
+    for (std::size_t i = 0; i < limbs.size(); ++i) {
+      if (internode_color(i) != limbs.color.back()) return false;
+    }
+  }
+  Array<std::uint8_t> is_used(job, limbs.size(), std::uint8_t{0});
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    if (limbs.parent[i] == none) continue;
+    is_used[i] = 1;
+    is_used[limbs.parent[i]] = 1;
+  }
+  return std::find(is_used.begin(), is_used.end(), 0) == is_used.end();
+}
+
+Bark plain_wires(const Limbs& limbs, const Job& job) {
+  const auto roots = static_cast<std::size_t>(std::count(limbs.parent.begin(), limbs.parent.end(), none));
+  const std::size_t count = limbs.size();
+  Bark bark;
+  bark.color = limbs.color.empty() ? std::int16_t{0} : limbs.color.back();
+  bark.mesh.topology = Topology::lines;
+  bark.mesh.position = Array<glm::vec3>(job, count);
+  bark.mesh.index.wide = Array<std::uint32_t>(job, 2 * (count - roots));
+  std::vector<std::size_t> segments_before(chunk_count(count, chunk) + 1);
+  for (std::size_t i = 0; i < count; ++i) segments_before[i / chunk + 1] += limbs.parent[i] != none;
+  for (std::size_t i = 1; i < segments_before.size(); ++i) segments_before[i] += segments_before[i - 1];
+  parallel_for(job, count, chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
+    job.check();
+    std::uint32_t* out = bark.mesh.index.wide.data() + 2 * segments_before[index];
+    for (std::size_t i = begin; i < end; ++i) {
+      bark.mesh.position[i] = limbs.position[i] + 0.0F;
+      if (limbs.parent[i] == none) continue;
+      *out++ = limbs.parent[i];
+      *out++ = static_cast<std::uint32_t>(i);
+    }
+  });
+  return bark;
+}
+
+}  // namespace
+
+std::vector<Bark> wires(const Limbs& limbs, Job& job) {
+  if (std::all_of(limbs.parent.begin(), limbs.parent.end(), [](std::uint32_t p) { return p == none; }))
+    return {};
+  const bool merges = has_repeated_places(limbs, job);
+  std::vector<Bark> barks;
+  if (!merges && is_plain(limbs, job)) {
+    barks.push_back(plain_wires(limbs, job));
+  } else {
+    barks = named_wires(limbs, merges, job);
+  }
+  return barks;
+}
+
+}  // namespace seedmesh
