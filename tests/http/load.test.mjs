@@ -1,0 +1,218 @@
+// Admission, single flight, deadlines, clients that leave, event streams, draining.
+import assert from 'node:assert/strict';
+import net from 'node:net';
+import { test } from 'node:test';
+import { ask, events_of, metric, rehearsal, serve, sleep, until } from './support.mjs';
+
+const request = (parameters, seed = 0) => ({ generator: 'rehearsal', seed, parameters });
+
+async function with_server(flags, body) {
+  const server = await serve(rehearsal, flags);
+  try { await body(server); } finally { await server.stop(); }
+}
+
+test('as many generations run as there are workers, the queue waits, the rest is answered 429 at once', () =>
+  with_server(['--threads', '2', '--queue', '3'], async (server) => {
+    const all = [];
+    for (let seed = 0; seed < 5; ++seed) all.push(server.generate(request({ milliseconds: 600 }, seed)));
+    await until(async () => (await server.metric('seedmesh_queue_depth')) === 3);
+    assert.equal(await server.metric('seedmesh_workers_busy'), 2);
+    assert.equal(await server.metric('seedmesh_in_flight'), 5);
+    const begun = Date.now();
+    const surplus = await server.generate(request({ milliseconds: 600 }, 99));
+    assert.equal(surplus.status, 429);
+    assert.ok(Number(surplus.headers['retry-after']) >= 1);
+    assert.equal(surplus.json.type.split('#').pop(), 'queue-full');
+    assert.ok(Date.now() - begun < 300);
+    for (const answer of await Promise.all(all)) assert.equal(answer.status, 200);
+    const text = (await server.get('/metrics')).text;
+    assert.equal(metric(text, 'seedmesh_rejected_total{reason="queue_full"}'), 1);
+    assert.equal(metric(text, 'seedmesh_requests_total{route="/v1/generate",status="200"}'), 5);
+    assert.equal(metric(text, 'seedmesh_in_flight'), 0);
+  }));
+
+test('health, readiness, metrics and what is in memory never wait for a worker', () =>
+  with_server(['--threads', '1', '--queue', '0'], async (server) => {
+    const known = await server.generate(request({ bytes: 50 }));
+    const slow = server.generate(request({ milliseconds: 800 }, 1));
+    await until(async () => (await server.metric('seedmesh_workers_busy')) === 1);
+    for (const target of ['/healthz', '/readyz', '/metrics', '/version', '/v1/presets', '/docs', '/']) {
+      const begun = Date.now();
+      assert.equal((await server.get(target)).status, 200, target);
+      assert.ok(Date.now() - begun < 250, target);
+    }
+    assert.equal((await server.generate(request({ bytes: 50 }))).status, 200);
+    assert.equal((await server.get(known.headers['content-location'], { 'if-none-match': known.headers.etag })).status, 304);
+    assert.equal((await slow).status, 200);
+  }));
+
+test('a deadline that passes while waiting is answered 503', () =>
+  with_server(['--threads', '1', '--time-limit', '0.4'], async (server) => {
+    const first = server.generate(request({ milliseconds: 5000 }, 1));
+    await until(async () => (await server.metric('seedmesh_workers_busy')) === 1);
+    await sleep(150);
+    const second = server.generate(request({ milliseconds: 5000 }, 2));
+    const statuses = [(await first).status, (await second).status].sort();
+    // The second gets the worker for what is left of its time, or none: 504 or 503.
+    assert.equal(statuses[1], 504);
+    assert.ok([503, 504].includes(statuses[0]));
+  }));
+
+test('work over the time limit is stopped and answered 504', () =>
+  with_server(['--time-limit', '0.3'], async (server) => {
+    const begun = Date.now();
+    const answer = await server.generate(request({ milliseconds: 10000 }));
+    assert.equal(answer.status, 504);
+    assert.equal(answer.json.type.split('#').pop(), 'deadline-exceeded');
+    assert.ok(Date.now() - begun < 1500);
+    await until(async () => (await server.metric('seedmesh_workers_busy')) === 0);
+  }));
+
+test('equal requests at once are made once', () =>
+  with_server(['--threads', '1', '--queue', '0'], async (server) => {
+    const answers = await Promise.all(Array.from({ length: 12 }, () => server.generate(request({ milliseconds: 300 }))));
+    for (const answer of answers) assert.equal(answer.status, 200);
+    assert.equal(await server.metric('seedmesh_models_total'), 1);
+  }));
+
+test('work stops when the client has gone', () =>
+  with_server(['--threads', '1'], async (server) => {
+    const leaving = new AbortController();
+    const left = ask(server, 'POST', '/v1/generate', { body: request({ milliseconds: 20000 }), signal: leaving.signal }).catch((error) => error);
+    await until(async () => (await server.metric('seedmesh_workers_busy')) === 1);
+    leaving.abort();
+    await left;
+    const begun = Date.now();
+    await until(async () => (await server.metric('seedmesh_workers_busy')) === 0);
+    assert.ok(Date.now() - begun < 500);
+    await until(() => server.log_lines().some((line) => line.status === 499));
+  }));
+
+test('work goes on while one of two equal clients stays', () =>
+  with_server(['--threads', '1'], async (server) => {
+    const leaving = new AbortController();
+    const left = ask(server, 'POST', '/v1/generate', { body: request({ milliseconds: 700 }), signal: leaving.signal }).catch((error) => error);
+    await until(async () => (await server.metric('seedmesh_workers_busy')) === 1);
+    const staying = server.generate(request({ milliseconds: 700 }));
+    await until(async () => (await server.metric('seedmesh_cache_joins_total')) === 1);
+    leaving.abort();
+    await left;
+    assert.equal((await staying).status, 200);
+  }));
+
+test('the cache stays within its bytes', () =>
+  with_server(['--cache-bytes', '100KiB'], async (server) => {
+    for (let seed = 0; seed < 20; ++seed) assert.equal((await server.generate(request({ bytes: 30000 }, seed))).status, 200);
+    assert.ok((await server.metric('seedmesh_cache_bytes')) <= 100 * 1024);
+    assert.ok((await server.metric('seedmesh_cache_entries')) >= 2);
+  }));
+
+test('without a cache every answer is made anew, with the same bytes', () =>
+  with_server(['--cache-bytes', '0'], async (server) => {
+    const a = await server.generate(request({})), b = await server.generate(request({}));
+    assert.deepEqual(a.bytes, b.bytes);
+    assert.equal(await server.metric('seedmesh_models_total'), 2);
+  }));
+
+test('a large answer arrives whole', () =>
+  with_server([], async (server) => {
+    const answer = await server.generate(request({ bytes: 50_000_000 }));
+    assert.equal(answer.bytes.length, 50_000_000);
+    assert.equal(Number(answer.headers['content-length']), 50_000_000);
+  }));
+
+test('what fails inside is answered 500 with nothing but the request id, and logged', () =>
+  with_server([], async (server) => {
+    for (const end of ['internal', 'throw']) {
+      const answer = await server.generate(request({ end }), { 'x-request-id': `fail-${end}` });
+      assert.equal(answer.status, 500);
+      assert.doesNotMatch(answer.text + JSON.stringify(answer.headers), /secret/);
+      assert.equal(answer.json.instance, `fail-${end}`);
+      await until(() => server.log_lines().some((line) => line.request_id === `fail-${end}` && /secret/.test(line.reason) && line.level === 'error'));
+    }
+    assert.equal((await server.generate(request({ end: 'limit' }))).json.type.split('#').pop(), 'limit-exceeded');
+  }));
+
+const stream = (server, body, headers) => server.generate(body, { accept: 'text/event-stream', ...headers });
+
+test('an event stream tells progress and ends with the permalink, which is then in memory', () =>
+  with_server([], async (server) => {
+    const answer = await stream(server, request({ milliseconds: 400, progress: 4 }));
+    assert.equal(answer.status, 200);
+    assert.match(answer.type, /^text\/event-stream/);
+    assert.equal(answer.headers['cache-control'], 'no-store');
+    const events = events_of(answer.text);
+    const progress = events.filter((event) => event.name === 'progress');
+    assert.ok(progress.length >= 2);
+    for (const { data } of progress) assert.ok(data.stage === 'mesh' && data.share >= 0 && data.share <= 1);
+    const done = events.at(-1);
+    assert.equal(done.name, 'done');
+    assert.deepEqual(done.data.statistics, { triangles: 12, vertices: 24, warnings: 0, bytes: 1000 });
+    const linked = await server.get(done.data.permalink);
+    assert.equal(linked.status, 200);
+    assert.equal(linked.headers.etag, done.data.etag);
+    assert.equal(await server.metric('seedmesh_models_total'), 1);
+    const again = events_of((await stream(server, request({ milliseconds: 400, progress: 4 }))).text);
+    assert.deepEqual(again.map((event) => event.name), ['done']);
+  }));
+
+test('a refusal before the first event is an ordinary answer', () =>
+  with_server(['--threads', '1', '--queue', '0'], async (server) => {
+    assert.equal((await stream(server, { generator: 'nothing' })).status, 422);
+    assert.equal((await stream(server, request({ end: 'limit' }))).status, 422);
+    const slow = server.generate(request({ milliseconds: 500 }));
+    await until(async () => (await server.metric('seedmesh_workers_busy')) === 1);
+    assert.equal((await stream(server, request({}, 1))).status, 429);
+    await slow;
+  }));
+
+test('a refusal after the first event is an error event', () =>
+  with_server([], async (server) => {
+    const answer = await stream(server, request({ milliseconds: 300, progress: 3, end: 'limit' }));
+    assert.equal(answer.status, 200);
+    const last = events_of(answer.text).at(-1);
+    assert.equal(last.name, 'error');
+    assert.equal(last.data.status, 422);
+    assert.equal(last.data.errors[0].pointer, '/parameters/bytes');
+  }));
+
+test('a stream without news sends a comment every ten seconds', () =>
+  with_server([], async (server) => {
+    const events = events_of((await stream(server, request({ milliseconds: 10700 }))).text);
+    assert.ok(events[0].comment);
+    assert.equal(events.at(-1).name, 'done');
+  }));
+
+test('a stream whose client leaves stops its work', () =>
+  with_server(['--threads', '1'], async (server) => {
+    const leaving = new AbortController();
+    const left = ask(server, 'POST', '/v1/generate', { body: request({ milliseconds: 20000, progress: 200 }), headers: { accept: 'text/event-stream' }, signal: leaving.signal }).catch((error) => error);
+    await until(async () => (await server.metric('seedmesh_workers_busy')) === 1);
+    await sleep(250);
+    leaving.abort();
+    await left;
+    await until(async () => (await server.metric('seedmesh_workers_busy')) === 0);
+  }));
+
+for (const signal of ['SIGTERM', 'SIGINT']) {
+  test(`${signal} ends cleanly: readiness goes first, what is in flight is finished, status 0`, async () => {
+    const server = await serve(rehearsal, ['--threads', '1', '--drain-delay', '0.5', '--idle-timeout', '60']);
+    const idle = net.connect(server.port, '127.0.0.1');
+    const running = server.generate(request({ milliseconds: 1200, bytes: 3_000_000 }, 1));
+    const waiting = server.generate(request({ milliseconds: 300 }, 2));
+    await until(async () => (await server.metric('seedmesh_queue_depth')) === 1);
+    server.child.kill(signal);
+    await sleep(100);
+    const ready = await server.get('/readyz');
+    assert.equal(ready.status, 503);
+    assert.ok(ready.headers['retry-after']);
+    assert.equal((await server.get('/healthz')).status, 200);
+    const answer = await running;
+    assert.equal(answer.status, 200);
+    assert.equal(answer.bytes.length, 3_000_000);
+    assert.equal((await waiting).status, 200);
+    assert.deepEqual(await server.ended, { status: 0, signal: null });
+    idle.destroy();
+    await assert.rejects(server.get('/healthz'));
+  });
+}
