@@ -1,4 +1,4 @@
-// The Khronos validator over glTF files: node validate.mjs <file.glb | file.gltf> ...
+// The Khronos validator over glTF files: node validate.mjs <file.glb | file.gltf | folder of such> ...
 // Prints every message that is not accepted below and exits with status 1 if there is one, be it only a hint.
 import fs from 'node:fs';
 import path from 'node:path';
@@ -20,9 +20,16 @@ async function faults(file) {
   return report.issues.messages.filter((message) => !accepted(message));
 }
 
-const files = process.argv.slice(2);
+/** The file itself, or the glTF files of a folder. */
+function files_of(name) {
+  if (!fs.statSync(name).isDirectory()) return [name];
+  const inside = fs.readdirSync(name).filter((entry) => /\.(glb|gltf)$/.test(entry));
+  return inside.sort().map((entry) => path.join(name, entry));
+}
+
+const files = process.argv.slice(2).flatMap(files_of);
 if (files.length === 0) {
-  console.error('usage: node validate.mjs <file.glb | file.gltf> ...');
+  console.error('usage: node validate.mjs <file.glb | file.gltf | folder of such> ...');
   process.exit(2);
 }
 let failed = false;
@@ -33,4 +40,5 @@ for (const file of files) {
   }
   failed ||= found.length > 0;
 }
+if (!failed) console.log(`${files.length} files without a fault`);
 process.exit(failed ? 1 : 0);
