@@ -88,7 +88,10 @@ std::uint32_t Turtle::add_joint(const glm::dvec3& at, std::uint32_t parent, std:
   limbs.starts_limb.push_back(parent != Limbs::none && state_.begins_branch ? 1 : 0);
   limbs.color.push_back(state_.color);
   limbs.order.push_back(state_.order);
-  if (key != 0) limbs.key.push_back(key);
+  if (key != 0 && limbs.key.empty()) {  // the first key of all: joints so far have none
+    for (std::uint32_t joint = 0; joint < own; ++joint) limbs.key.push_back(0);
+  }
+  if (key != 0 || !limbs.key.empty()) limbs.key.push_back(key);
   return own;
 }
 

@@ -48,13 +48,13 @@ void Drawing::interpret(KindId kind, const double* parameters, std::uint64_t key
     return obey(grammar_.kinds[kind], parameters, key);
   }
   if ((++interpreted_ & 4095U) == 0) job_.check();
-  const std::uint64_t own = key_at(key, 20 + depth);
+  const std::uint64_t own = key == 0 ? 0 : key_at(key, 20 + depth);  // without keys: none here either
   const Production* production = choose(grammar_, rules, rules.of_kind[kind], Draws(own, depth),
                                         [&](const Production&) { return parameters; });
   if (!production) return obey(grammar_.kinds[kind], parameters, key);
   for (const Template& each : grammar_.successor(production->successor)) {
     std::array<double, 64> arguments;
-    const std::uint64_t child = child_key(own, each);
+    const std::uint64_t child = own == 0 ? 0 : child_key(own, each);
     fill_arguments(grammar_, each, parameters, child, arguments.data());
     interpret(each.kind, arguments.data(), child, depth + 1);
   }

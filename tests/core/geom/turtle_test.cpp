@@ -115,6 +115,14 @@ TEST_F(TurtleTest, StaysOrthonormalThroughAMillionTurns) {
   expect_at(glm::cross(f.heading, f.left), f.up);
 }
 
+TEST_F(TurtleTest, KeepsKeysBesideTheirJointsWhereOnlySomeHaveOne) {
+  turtle.draw(1, 0);
+  turtle.draw(1, 7);
+  turtle.draw(1, 0);
+  const auto keys = skeleton.limbs.key.span();
+  EXPECT_EQ(std::vector<std::uint64_t>(keys.begin(), keys.end()), (std::vector<std::uint64_t>{0, 0, 7, 0}));
+}
+
 TEST_F(TurtleTest, RefusesToLeaveTheWorld) { EXPECT_THROW(turtle.draw(1e16, 0), Stop); }
 
 TEST_F(TurtleTest, RefusesBracketsDeeperThanTheLimit) {
