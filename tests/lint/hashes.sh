@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # The bytes of every preset must not depend on who compiled the program, how, or on how many threads it ran.
-#   hashes.sh <preset> [preset...]   compares the tables that hash_presets of each build prints, with 1 and 8 threads
+#   hashes.sh <preset> [preset...]   compares the tables that hash_presets of each build prints, with 1 and 8 threads; fresh memory is
+#                                    filled with other bytes in each run, so that reading it unset would show
 set -euo pipefail
 folder=build/hashes
 mkdir -p "$folder"
 
 run() {  # <preset> <threads>
   local program=build/$1/hash_presets
+  export MALLOC_PERTURB_=$(($2 * 21 + 1))
   if [ "$1" = aarch64 ]; then
     local emulator
     emulator=$(command -v qemu-aarch64-static || command -v qemu-aarch64)
