@@ -108,6 +108,7 @@ Schema openapi_with_components(const fs::path& folder) {
   // The request's own schema leaves the parameters open; the document names those of each generator.
   Schema& schemas = document["components"]["schemas"];
   schemas["request"]["properties"]["parameters"] = {{"$ref", "#/components/schemas/parameters"}};
+  schemas["request"]["properties"]["output"] = {{"$ref", "#/components/schemas/output"}};
   return document;
 }
 

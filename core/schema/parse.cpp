@@ -109,7 +109,9 @@ class Builder {
 
   std::string unexpected(std::size_t offset) const {
     if (offset == text_.size()) return "it ends too early";
-    return "unexpected \"" + shortened(text_.substr(offset), 1) + "\"";
+    std::size_t end = offset + 1;
+    while (end < text_.size() && (static_cast<unsigned char>(text_[end]) & 0xC0U) == 0x80U) ++end;
+    return "unexpected \"" + std::string(text_.substr(offset, end - offset)) + "\"";
   }
 
   /// What the parser would have taken instead; its own words, which are plain.

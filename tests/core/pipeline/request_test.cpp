@@ -1,0 +1,177 @@
+/// From the text of a body to a Request: what is refused, where, and what is canonical.
+#include <gmock/gmock.h>
+
+#include <string>
+
+#include "core/pipeline.h"
+#include "core/pipeline/body.h"
+#include "generated/params/lsystem.h"
+
+namespace seedmesh {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::UnorderedElementsAre;
+
+constexpr const char* plant =
+    R"({"generator":"lsystem","seed":3,"parameters":{"axiom":"X","productions":["X -> F[+X]F[-X]+X","F -> FF"],"iterations":5,"angle":20}})";
+
+std::string canonical(std::string_view json) {
+  const Result<Request> request = read_request(json, Limits{});
+  if (request) return request->canonical();
+  ADD_FAILURE() << request.error().issues.front().pointer << ": " << request.error().issues.front().message;
+  return "";
+}
+
+Error error_of(std::string_view json) {
+  const Result<Request> request = read_request(json, Limits{});
+  if (!request) return request.error();
+  ADD_FAILURE() << json << " was taken";
+  return {};
+}
+
+std::vector<std::string> pointers(std::string_view json) {
+  std::vector<std::string> all;
+  const Error error = error_of(json);
+  EXPECT_EQ(error.code, Code::invalid);
+  for (const Issue& issue : error.issues) all.push_back(issue.pointer);
+  return all;
+}
+
+TEST(ReadRequest, TakesAWholeRequest) {
+  const Result<Request> request = read_request(plant, Limits{});
+  ASSERT_TRUE(request);
+  EXPECT_EQ(request->generator(), "lsystem");
+  EXPECT_EQ(request->seed(), 3U);
+  EXPECT_EQ(request->format(), "glb");
+  const auto& params = *static_cast<const LsystemParams*>(request->body().params.get());
+  EXPECT_EQ(params.angle.yaw, 20);
+  EXPECT_EQ(params.productions.size(), 2U);
+}
+
+TEST(ReadRequest, IsCanonicalWhateverTheOrder) {
+  EXPECT_EQ(
+      canonical(plant),
+      R"({"generator":"lsystem","parameters":{"angle":20,"axiom":"X","iterations":5,"productions":["X -> F[+X]F[-X]+X","F -> FF"]},"seed":3})");
+  EXPECT_EQ(
+      canonical(
+          R"({"output":{"format":"glb"},"parameters":{"angle":{"yaw":20.0,"pitch":20,"roll":20},"sides":8,"iterations":5,
+                          "productions":["X -> F[+X]F[-X]+X","F -> FF"],"axiom":"X"},"seed":"3","generator":"lsystem"})"),
+      canonical(plant));
+}
+
+TEST(ReadRequest, LeavesDefaultsOutOfTheCanonicalForm) {
+  EXPECT_EQ(canonical(R"({"generator":"lsystem","seed":0,"output":{},"parameters":{"axiom":"F"}})"),
+            R"({"generator":"lsystem","parameters":{"axiom":"F"}})");
+  EXPECT_EQ(
+      canonical(
+          R"({"generator":"lsystem","seed":"9007199254740993","output":{"format":"zip"},"parameters":{"axiom":"F"}})"),
+      R"({"generator":"lsystem","output":{"format":"zip"},"parameters":{"axiom":"F"},"seed":"9007199254740993"})");
+}
+
+TEST(ReadRequest, ReadsItsOwnCanonicalForm) { EXPECT_EQ(canonical(canonical(plant)), canonical(plant)); }
+
+TEST(ReadRequest, TellsMalformedFromInvalid) {
+  EXPECT_EQ(error_of("{").code, Code::malformed);
+  EXPECT_EQ(error_of("").code, Code::malformed);
+  EXPECT_EQ(error_of(R"({"generator":"lsystem","generator":"tree"})").code, Code::malformed);
+  EXPECT_EQ(error_of(std::string(100'000, '[')).code, Code::malformed);
+  EXPECT_EQ(error_of("[]").code, Code::invalid);
+}
+
+TEST(ReadRequest, MissesTheGenerator) {
+  EXPECT_THAT(pointers("{}"), ElementsAre(""));
+  EXPECT_THAT(error_of("{}").issues.front().message, HasSubstr("generator"));
+  EXPECT_THAT(pointers(R"({"generator":"nope"})"), ElementsAre("/generator"));
+  EXPECT_THAT(error_of(R"({"generator":"l-system"})").issues.front().message,
+              HasSubstr("did you mean \"lsystem\"?"));
+  EXPECT_THAT(pointers(R"({"generator":7})"), ElementsAre("/generator"));
+  EXPECT_THAT(pointers("[]"), ElementsAre(""));
+}
+
+TEST(ReadRequest, MissesTheParametersAtTheBody) {
+  EXPECT_THAT(pointers(R"({"generator":"lsystem"})"), ElementsAre(""));
+  EXPECT_THAT(error_of(R"({"generator":"lsystem"})").issues.front().message, HasSubstr("axiom"));
+  EXPECT_THAT(pointers(R"({"generator":"lsystem","parameters":{}})"), ElementsAre("/parameters"));
+  EXPECT_THAT(pointers(R"({"generator":"lsystem","parameters":[]})"), ElementsAre("/parameters"));
+}
+
+TEST(ReadRequest, PointsAtEachUnknownMember) {
+  EXPECT_THAT(
+      pointers(
+          R"({"generator":"lsystem","sed":1,"parameters":{"axiom":"F","angel":3},"output":{"fromat":"glb"}})"),
+      UnorderedElementsAre("/sed", "/parameters/angel", "/output/fromat"));
+}
+
+TEST(ReadRequest, FindsSchemaAndGrammarFaultsTogether) {
+  EXPECT_THAT(
+      pointers(
+          R"({"generator":"lsystem","seed":-1,"parameters":{"axiom":"F","productions":["F F"],"iterations":-3}})"),
+      UnorderedElementsAre("/seed", "/parameters/productions/0", "/parameters/iterations"));
+}
+
+TEST(ReadRequest, PlacesAGrammarFaultInItsLine) {
+  const Error error = error_of(
+      R"json({"generator":"lsystem","parameters":{"axiom":"A(1)","productions":["A(x) -> A(x+*2)"]}})json");
+  EXPECT_EQ(error.issues.front().pointer, "/parameters/productions/0");
+  EXPECT_EQ(error.issues.front().line, 1);
+  EXPECT_EQ(error.issues.front().column, 13);
+}
+
+TEST(ReadRequest, DoesNotEchoWhatTheSchemaSaid) {
+  EXPECT_THAT(pointers(R"({"generator":"lsystem","parameters":{"axiom":"F","productions":["F -> FF",7]}})"),
+              ElementsAre("/parameters/productions/1"));
+  EXPECT_THAT(pointers(R"({"generator":"lsystem","parameters":{"axiom":7}})"),
+              ElementsAre("/parameters/axiom"));
+}
+
+TEST(ReadRequest, HoldsTheLimitsOfTheService) {
+  Limits limits;
+  limits.iterations = 10;
+  const Result<Request> request =
+      read_request(R"({"generator":"lsystem","parameters":{"axiom":"F","iterations":11}})", limits);
+  ASSERT_FALSE(request);
+  EXPECT_EQ(request.error().issues.front().pointer, "/parameters/iterations");
+}
+
+TEST(Preset, IsTheBaseThatTheBodyIsMergedOver) {
+  const std::string plain = canonical(R"({"preset":"koch_island"})");
+  EXPECT_EQ(plain, canonical(*preset_json("koch_island")));
+  EXPECT_THAT(plain, testing::Not(HasSubstr("preset")));
+  EXPECT_THAT(
+      canonical(
+          R"({"preset":"koch_island","seed":5,"parameters":{"iterations":2},"output":{"format":"gltf"}})"),
+      testing::AllOf(HasSubstr(R"("iterations":2)"), HasSubstr(R"("seed":5)"),
+                     HasSubstr(R"("format":"gltf")")));
+}
+
+TEST(Preset, LosesAMemberToNull) {
+  EXPECT_THAT(canonical(R"({"preset":"koch_island","parameters":{"iterations":null}})"),
+              testing::Not(HasSubstr("iterations")));
+}
+
+TEST(Preset, IsRefusedWhereItIsUnknown) {
+  EXPECT_THAT(pointers(R"({"preset":"koch_ireland"})"), ElementsAre("/preset"));
+  EXPECT_THAT(error_of(R"({"preset":"koch_ireland"})").issues.front().message,
+              HasSubstr("did you mean \"koch_island\"?"));
+  EXPECT_THAT(pointers(R"({"preset":"none","seed":-1})"), UnorderedElementsAre("/preset", "/seed"));
+  EXPECT_THAT(pointers(R"({"preset":5})"), ElementsAre("/preset"));
+  EXPECT_THAT(pointers(R"({"preset":"Koch Island"})"), Contains("/preset"));
+}
+
+TEST(WithFormat, ChangesTheFormAlone) {
+  const Result<Request> request = read_request(plant, Limits{});
+  const Result<Request> zip = with_format(*request, "zip");
+  ASSERT_TRUE(zip);
+  EXPECT_EQ(zip->format(), "zip");
+  EXPECT_EQ(request->format(), "glb");
+  EXPECT_EQ(with_format(*zip, "glb")->canonical(), request->canonical());
+  const Result<Request> odd = with_format(*request, "png16");
+  ASSERT_FALSE(odd);
+  EXPECT_EQ(odd.error().issues.front().pointer, "/output/format");
+}
+
+}  // namespace
+}  // namespace seedmesh

@@ -1,0 +1,26 @@
+#include "core/schema/nearest.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace seedmesh::schema {
+namespace {
+
+constexpr std::string_view words[] = {"angle", "axiom", "iterations", "step", "style"};
+
+TEST(NearestWord, FindsWhatWasMeant) {
+  EXPECT_EQ(nearest_word("angel", words), "angle");
+  EXPECT_EQ(nearest_word("iteration", words), "iterations");
+  EXPECT_EQ(nearest_word("Axiom", words), "axiom");
+  EXPECT_EQ(nearest_word("stle", words), "style");
+}
+
+TEST(NearestWord, DoesNotGuessWildly) {
+  EXPECT_EQ(nearest_word("colour", words), "");
+  EXPECT_EQ(nearest_word("x", words), "");
+  EXPECT_EQ(nearest_word(std::string(1'000'000, 'a'), words), "");
+}
+
+}  // namespace
+}  // namespace seedmesh::schema

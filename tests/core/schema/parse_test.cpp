@@ -1,0 +1,124 @@
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/schema/json.h"
+
+namespace seedmesh {
+namespace {
+
+struct Refusal {
+  Code code = Code::internal;
+  Issue issue;
+};
+
+Refusal refusal_of(std::string_view text, const JsonLimits& limits = {}) {
+  const Result<Json> value = parse_json(text, limits);
+  if (value) {
+    ADD_FAILURE() << shortened(text, 80) << " was taken";
+    return {};
+  }
+  return {value.error().code, value.error().issues.front()};
+}
+
+Json parsed(std::string_view text) {
+  const Result<Json> value = parse_json(text);
+  if (!value) {
+    ADD_FAILURE() << value.error().issues.front().message;
+    return {};
+  }
+  return *value;
+}
+
+TEST(ParseJson, TakesEveryKindOfValue) {
+  const Json value = parsed(R"( {"a": [1, -2, 2.5, true, false, null, "x\u00e9\n"], "b": {}} )");
+  EXPECT_EQ(value, Json::parse(R"({"a":[1,-2,2.5,true,false,null,"xé\n"],"b":{}})"));
+  EXPECT_EQ(parsed("7"), 7);
+}
+
+TEST(ParseJson, RefusesWhatIsNotJson) {
+  for (const char* text : {"{",       "[1,]",     "{\"a\":1,}",  "{a:1}", "'x'",       "NaN",   "Infinity",
+                           "-",       "01",       "1.",          ".5",    "+1",        "[1] 2", "// x\n1",
+                           "\"\\x\"", "\"a\nb\"", "\"\\ud800\"", "tru",   "{\"a\" 1}", "\x01",  "1 1"}) {
+    EXPECT_EQ(refusal_of(text).code, Code::malformed) << text;
+  }
+}
+
+TEST(ParseJson, TellsWhereTheTextBreaks) {
+  const Issue issue = refusal_of("{\n  \"é\": x\n}").issue;
+  EXPECT_EQ(issue.pointer, "");
+  EXPECT_EQ(issue.line, 2);
+  EXPECT_EQ(issue.column, 8);
+  EXPECT_THAT(issue.message, testing::HasSubstr("unexpected \"x\""));
+}
+
+TEST(ParseJson, SaysThatATextEndsTooEarly) {
+  EXPECT_THAT(refusal_of("{\"a\":").issue.message, testing::HasSubstr("ends too early"));
+}
+
+TEST(ParseJson, RefusesAnEmptyBody) {
+  EXPECT_THAT(refusal_of("").issue.message, testing::HasSubstr("empty"));
+  EXPECT_EQ(refusal_of(" \n\t").code, Code::malformed);
+}
+
+TEST(ParseJson, RefusesADuplicateMemberAtItsPlace) {
+  EXPECT_EQ(refusal_of(R"({"a":1,"a":2})").issue.pointer, "/a");
+  EXPECT_EQ(refusal_of(R"({"x":[0,{"b/c":1,"b/c":2}]})").issue.pointer, "/x/1/b~1c");
+  EXPECT_EQ(parsed(R"([{"a":1},{"a":2}])").size(), 2U);
+}
+
+TEST(ParseJson, RefusesBadUtf8WhereverItStands) {
+  for (const char* bytes :
+       {"\xff", "\xc3", "\xc0\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xe2\x82", "\x80"}) {
+    EXPECT_EQ(refusal_of("\"" + std::string(bytes) + "\"").code, Code::malformed);
+    EXPECT_EQ(refusal_of("[" + std::string(bytes) + "]").code, Code::malformed);
+  }
+  EXPECT_EQ(parsed("\"\xf0\x9f\x8c\xb1\""), "🌱");
+}
+
+TEST(ParseJson, TakesSixtyFourLevelsAndNotOneMore) {
+  const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
+  EXPECT_TRUE(parse_json(nested(64)));
+  EXPECT_THAT(refusal_of(nested(65)).issue.message, testing::HasSubstr("64 levels"));
+}
+
+TEST(ParseJson, SurvivesAHundredThousandOpenBrackets) {
+  EXPECT_EQ(refusal_of(std::string(100'000, '[')).code, Code::malformed);
+  std::string objects;
+  for (int i = 0; i < 100'000; ++i) objects += "{\"a\":";
+  EXPECT_EQ(refusal_of(objects).code, Code::malformed);
+}
+
+TEST(ParseJson, BoundsTheNumberOfValues) {
+  EXPECT_EQ(refusal_of("[1,2,3]", {.values = 3}).code, Code::limit);
+  EXPECT_TRUE(parse_json("[1,2]", {.values = 3}));
+}
+
+TEST(ParseJson, KeepsAllBitsOfAnInteger) {
+  EXPECT_EQ(parsed("18446744073709551615").get<std::uint64_t>(), 18446744073709551615U);
+  EXPECT_EQ(parsed("-9223372036854775808").get<std::int64_t>(), std::numeric_limits<std::int64_t>::min());
+  EXPECT_TRUE(parsed("18446744073709551616").is_number_float());
+}
+
+TEST(ParseJson, RefusesANumberBeyondADoubleAtItsPlace) {
+  const Refusal refusal = refusal_of(R"({"parameters":{"angle":[0,1e999]}})");
+  EXPECT_EQ(refusal.code, Code::invalid);
+  EXPECT_EQ(refusal.issue.pointer, "/parameters/angle/1");
+  EXPECT_THAT(refusal.issue.message, testing::HasSubstr("1e999"));
+  EXPECT_EQ(parsed("1e-999"), 0.0);
+}
+
+TEST(ParseJson, HasNoNegativeZero) {
+  for (const char* text : {"-0", "-0.0", "-0e5", "-1e-999"}) {
+    EXPECT_FALSE(std::signbit(parsed(text).get<double>())) << text;
+  }
+}
+
+TEST(ParseJson, NamesTheMemberAfterAnObjectThatHasClosed) {
+  EXPECT_EQ(refusal_of(R"({"a":{"b":{}},"c":[[],1e999]})").issue.pointer, "/c/1");
+  EXPECT_EQ(refusal_of(R"([[{"k":[1e999]}]])").issue.pointer, "/0/0/k/0");
+}
+
+}  // namespace
+}  // namespace seedmesh
