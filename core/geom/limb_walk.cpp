@@ -13,64 +13,90 @@ constexpr float least_free = 0.02F;
 // faces that taper and bend at once, which are not quite flat.
 constexpr float least_cosine = 0.05F;
 
-/// Sine of the angle between the flank of a cone and its axis.
-float slope_of(float taper, float length) {
-  return taper == 0 ? 0 : taper / std::sqrt(taper * taper + length * length);
-}
-
-}  // namespace
-
-TurnJudge::TurnJudge(const Scale& scale, int sides)
-    : scale_(scale), side_cosine_(static_cast<float>(math::cos(math::pi / sides))) {}
-
-bool TurnJudge::allows(const Internode& a, const Internode& b, float radius_before, Turn& turn) {
-  const float radius = b.base;
-  if (radius < scale_.thinnest) return false;
-  const float cosine = glm::dot(a.along, b.along);
-  if (cosine < sharpest) return false;
-  const glm::vec3 sum = a.along + b.along;
-  const glm::vec3 difference = b.along - a.along;
-  const float twice_cosine = std::sqrt(glm::dot(sum, sum));
-  turn.tangent = sum / twice_cosine;
-  turn.cosine = 0.5F * twice_cosine;
-  turn.reach = radius * (std::sqrt(glm::dot(difference, difference)) / twice_cosine);
-
-  const float most_of_a = a.length - std::max(least_free * a.length, scale_.apart);
-  const float most_of_b = b.length - std::max(least_free * b.length, scale_.apart);
-  if (turn.reach > most_of_b) return false;
-  const glm::vec3 across = turn.tangent - a.along * glm::dot(a.along, turn.tangent);
-  const glm::vec3 lean = across * (radius / turn.cosine);
-  if (turn.reach + reach_ > most_of_a) {
-    const glm::vec3 both = lean - lean_;
-    if (glm::dot(both, both) > most_of_a * most_of_a) return false;
-  }
-
-  const float sine = turn.reach / radius * turn.cosine;
-  const float free_a = std::max(a.length - turn.reach - reach_, least_free * a.length);
-  const float free_b = std::max(b.length - turn.reach, least_free * b.length);
-  const float slope_a = slope_of(std::abs(radius_before - radius), free_a);
-  if (!keeps_faces_outside(sine_, slope_before_, slope_a)) return false;
-  if (!keeps_faces_outside(sine, slope_a, slope_of(std::abs(radius - b.end), free_b))) return false;
-
-  lean_ = (turn.tangent - b.along * glm::dot(b.along, turn.tangent)) * (radius / turn.cosine);
-  reach_ = turn.reach;
-  sine_ = sine;
-  slope_before_ = slope_a;
-  return true;
-}
+// The taper up to which a turn's gentleness is reckoned: bark seldom loses more than a tenth of its length in
+// radius.
+constexpr float gentle_taper = 0.1F;
 
 /// Bounds from below the cosine between the normal of any face at a ring and the normal of any corner of the
 /// ring. With h half the turn and d half the angle of a side, a face's own direction is at least (cos d (1 +
 /// cos h) - (1 - cos h)) / 2 along that of its corner; the slopes tilt both, in the worst case away from each
 /// other.
-bool TurnJudge::keeps_faces_outside(float sine, float slope_before, float slope_after) const {
+float least_face_cosine(float side_cosine, float turn_tangent, float taper) {
+  const float cosine = 1 / std::sqrt(1 + turn_tangent * turn_tangent);
+  const float sine = turn_tangent * cosine;
+  const float flat = 1 / std::sqrt(1 + taper * taper);
+  const float slope = taper * flat;
+  const float face = 0.5F * (side_cosine * (1 + cosine) - (1 - cosine));
+  return flat * (flat * face - slope * sine) - slope * flat * sine - slope * slope;
+}
+
+/// The greatest tangent of half a turn that no gentle taper can spoil.
+float gentle_reach_for(float side_cosine) {
+  float reach = 0;
+  while (reach < 1.7F && least_face_cosine(side_cosine, reach + 0.01F, gentle_taper) > least_cosine)
+    reach += 0.01F;
+  return reach;
+}
+
+/// How a ring leans along an internode: its offset there toward `side` is dot(lean, side).
+glm::vec3 lean_along(const glm::vec3& along, const Turn& turn, float radius) {
+  return (turn.tangent - along * glm::dot(along, turn.tangent)) * (radius / turn.cosine);
+}
+
+}  // namespace
+
+TurnJudge::TurnJudge(const Scale& scale, int sides)
+    : scale_(scale),
+      side_cosine_(static_cast<float>(math::cos(math::pi / sides))),
+      gentle_reach_(gentle_reach_for(side_cosine_)) {}
+
+bool TurnJudge::allows(const Internode& a, const Internode& b, float radius_before, Turn& turn) {
+  const float radius = b.base;
+  if (radius < scale_.thinnest) return false;
+  const glm::vec3 sum = a.along + b.along;
+  const glm::vec3 difference = b.along - a.along;
+  const float sum_squared = glm::dot(sum, sum);
+  if (sum_squared < 2 + 2 * sharpest) return false;
+  const float twice_cosine = std::sqrt(sum_squared);
+  const float inverse = 1 / twice_cosine;
+  const float turn_tangent = std::sqrt(glm::dot(difference, difference)) * inverse;
+  turn.tangent = sum * inverse;
+  turn.cosine = 0.5F * twice_cosine;
+  turn.reach = radius * turn_tangent;
+
+  const float most_of_a = a.length - std::max(least_free * a.length, scale_.apart);
+  const float most_of_b = b.length - std::max(least_free * b.length, scale_.apart);
+  Ring ring{turn, radius, gentle_taper, false};
+  if (turn.reach > most_of_b || !leaves_room(a, most_of_a, ring)) return false;
+
+  const float free_a = std::max(a.length - turn.reach - last_.turn.reach, least_free * a.length);
+  const float free_b = std::max(b.length - turn.reach, least_free * b.length);
+  const float fall_a = std::abs(radius_before - radius), fall_b = std::abs(radius - b.end);
+  const bool a_is_gentle = fall_a <= gentle_taper * free_a, b_is_gentle = fall_b <= gentle_taper * free_b;
+  ring.is_gentle = a_is_gentle && turn_tangent <= gentle_reach_;
+  if (!(ring.is_gentle && b_is_gentle && last_.is_gentle)) {
+    const float taper_a = fall_a / free_a;
+    if (!a_is_gentle) ring.taper = taper_a;
+    if (!keeps_faces_outside(last_, taper_a) || !keeps_faces_outside(ring, fall_b / free_b)) return false;
+  }
+  last_ = ring;
+  return true;
+}
+
+/// True where the rings at both ends of `a` do not cross: what they take of it together is at most `most`.
+bool TurnJudge::leaves_room(const Internode& a, float most, const Ring& ring) const {
+  if (ring.turn.reach + last_.turn.reach <= most) return true;
+  glm::vec3 both = lean_along(a.along, ring.turn, ring.radius);
+  if (last_.radius > 0) both -= lean_along(a.along, last_.turn, last_.radius);
+  return glm::dot(both, both) <= most * most;
+}
+
+bool TurnJudge::keeps_faces_outside(const Ring& ring, float taper_after) const {
+  if (ring.radius == 0) return true;
+  const float turn_tangent = ring.turn.reach / ring.radius;
   // Straight: a ring's normal lies between those of its two cones, whatever their slopes.
-  if (sine < 1e-3F) return true;
-  const float cosine = std::sqrt(1 - std::min(sine * sine, 1.0F));
-  const float face = 0.5F * (side_cosine_ * (1 + cosine) - (1 - cosine));
-  const float slope = std::max(slope_before, slope_after);
-  const float flat = std::sqrt(1 - slope * slope);
-  return flat * (flat * face - slope * sine) - slope * flat * sine - slope * slope > least_cosine;
+  if (turn_tangent < 1e-3F) return true;
+  return least_face_cosine(side_cosine_, turn_tangent, std::max(ring.taper, taper_after)) > least_cosine;
 }
 
 }  // namespace seedmesh

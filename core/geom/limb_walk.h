@@ -51,9 +51,16 @@ class InternodeReader {
       const bool is_skinned =
           !(chains_.mark[joint_] & drawn_before) && std::max(base, end) >= scale_.thinnest;
       if (is_skinned) {
-        out = {here_,   to,      step / length, length,
-               base,    end,     joint_,        limbs_.color.empty() ? std::int16_t{0} : limbs_.color[joint_],
-               follows, at_root_};
+        out = {here_,
+               to,
+               step * (1 / length),
+               length,
+               base,
+               end,
+               joint_,
+               limbs_.color.empty() ? std::int16_t{0} : limbs_.color[joint_],
+               follows,
+               at_root_};
       }
       here_ = to;
       at_root_ = false;
@@ -83,28 +90,30 @@ class TurnJudge {
   TurnJudge(const Scale& scale, int sides);
 
   /// Forgets the past: the next internode opens a tube.
-  void open() {
-    lean_ = glm::vec3(0);
-    reach_ = 0;
-    sine_ = 0;
-  }
+  void open() { last_ = {}; }
 
   /// True: `a` goes over into `b` through `turn`; `radius_before` is the ring's at the near end of `a`.
   bool allows(const Internode& a, const Internode& b, float radius_before, Turn& turn);
 
   /// What is free of the last internode, between the lean of the ring where it begins and its far end.
-  float free_of(const Internode& a) const { return a.length - reach_; }
+  float free_of(const Internode& a) const { return a.length - last_.turn.reach; }
 
  private:
-  bool keeps_faces_outside(float sine, float slope_before, float slope_after) const;
+  /// The ring where the current internode begins.
+  struct Ring {
+    Turn turn;
+    float radius = 0;
+    float taper = 0;        ///< of the bark before it: change of radius by free length
+    bool is_gentle = true;  ///< turn and taper are so small that no face there can look inward
+  };
+
+  bool leaves_room(const Internode& a, float most, const Ring& ring) const;
+  bool keeps_faces_outside(const Ring& ring, float taper_after) const;
 
   const Scale& scale_;
-  float side_cosine_;  ///< of half the angle between two corners of a cross-section
-  glm::vec3 lean_{0};  ///< of the ring where the current internode begins: its offset along it at `side` is
-                       ///< dot(lean, side)
-  float reach_ = 0;    ///< length of lean
-  float sine_ = 0;     ///< of half the turn at that ring
-  float slope_before_ = 0;  ///< of the bark before that ring
+  float side_cosine_;   ///< of half the angle between two corners of a cross-section
+  float gentle_reach_;  ///< of a radius: turns up to it are gentle
+  Ring last_;
 };
 
 /// Walks one limb and tells the sink of each tube in order: open(internode, Opening), then for each further

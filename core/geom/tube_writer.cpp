@@ -23,8 +23,8 @@ float fraction(std::uint64_t hash) { return static_cast<float>(hash >> 40U) * 0x
 glm::vec2 slope_of(float radius, float next_radius, float length) {
   const float drop = radius - next_radius;
   if (drop == 0) return {1, 0};
-  const float flank = std::sqrt(length * length + drop * drop);
-  return {length / flank, drop / flank};
+  const float by_flank = 1 / std::sqrt(length * length + drop * drop);
+  return {length * by_flank, drop * by_flank};
 }
 
 glm::vec2 circle_point(double angle) {
@@ -245,11 +245,11 @@ void TubeWriter::write_disc(const Ring& ring) {
 }
 
 void TubeWriter::write_ring(const Ring& ring, Slope after) {
-  Slope slope = ring.before + after;
-  if (ring.before != after)
-    slope = slope / std::sqrt(glm::dot(slope, slope));
-  else
-    slope = after;
+  Slope slope = after;
+  if (ring.before != after) {
+    const Slope both = ring.before + after;
+    slope = both * (1 / std::sqrt(glm::dot(both, both)));
+  }
   // Adding 0 makes -0 a 0, here once for all corners: a sum that starts with anything but -0 never becomes
   // -0.
   const glm::vec3 centre = ring.centre + 0.0F;
