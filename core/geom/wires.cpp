@@ -14,7 +14,8 @@ constexpr std::size_t chunk = 1U << 16U;
 // Curves that come back to their own corners put vertices on top of each other. Looking for them costs more
 // than all the rest, so a share of the places is looked at first; below one repeated place in this many the
 // rest is left alone.
-constexpr std::uint64_t sampled_of = 64, tolerated_of = 2000;
+constexpr unsigned sampled_bits = 6;
+constexpr std::uint64_t tolerated_of = 2000;
 constexpr std::size_t always_merged = std::size_t{1} << 17U;
 
 /// 0 and -0 are one place.
@@ -45,19 +46,65 @@ class PointTable {
   std::size_t last_;
 };
 
-bool has_repeated_places(const Limbs& limbs, const Job& job) {
-  if (limbs.size() <= always_merged) return true;
-  Array<std::uint32_t> sample(job);
-  for (std::size_t i = 0; i < limbs.size(); ++i) {
-    if (place_hash(limbs.position[i]) % sampled_of == 0) sample.push_back(static_cast<std::uint32_t>(i));
+/// One place in 2^sampled_bits, chosen by the place itself, so that of joints at one place all are chosen or
+/// none.
+bool is_sampled(const glm::vec3& point) {
+  const glm::vec3 p = point + 0.0F;
+  const std::uint64_t mixed = std::bit_cast<std::uint32_t>(p.x) * 0x9E3779B97F4A7C15U ^
+                              std::bit_cast<std::uint32_t>(p.y) * 0xC2B2AE3D27D4EB4FU ^
+                              std::bit_cast<std::uint32_t>(p.z) * 0x165667B19E3779F9U;
+  return mixed >> (64U - sampled_bits) == 0;
+}
+
+/// What one look at all joints tells.
+struct Survey {
+  std::size_t segments = 0;
+  bool has_one_color = true;
+  std::int16_t color = 0;                    ///< of the first internode
+  std::vector<std::uint32_t> sample;         ///< joints at the chosen places
+  std::vector<std::size_t> segments_before;  ///< of each chunk; joined surveys only
+};
+
+Survey survey_chunk(const Limbs& limbs, std::size_t begin, std::size_t end) {
+  Survey survey;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (is_sampled(limbs.position[i])) survey.sample.push_back(static_cast<std::uint32_t>(i));
+    if (limbs.parent[i] == none) continue;
+    const std::int16_t color = limbs.color.empty() ? std::int16_t{0} : limbs.color[i];
+    if (survey.segments++ == 0) survey.color = color;
+    survey.has_one_color = survey.has_one_color && color == survey.color;
   }
-  PointTable table(job, sample.size());
+  return survey;
+}
+
+Survey survey_all(const Limbs& limbs, const Job& job) {
+  std::vector<Survey> parts(chunk_count(limbs.size(), chunk));
+  parallel_for(job, limbs.size(), chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
+    job.check();
+    parts[index] = survey_chunk(limbs, begin, end);
+  });
+  Survey all;
+  for (const Survey& part : parts) {
+    all.segments_before.push_back(all.segments);
+    if (part.segments == 0) continue;
+    if (all.segments == 0) all.color = part.color;
+    all.segments += part.segments;
+    all.has_one_color = all.has_one_color && part.has_one_color && part.color == all.color;
+  }
+  for (const Survey& part : parts)
+    all.sample.insert(all.sample.end(), part.sample.begin(), part.sample.end());
+  return all;
+}
+
+bool has_repeated_places(const Limbs& limbs, const Survey& survey, const Job& job) {
+  if (limbs.size() <= always_merged) return true;
+  PointTable table(job, survey.sample.size());
   std::uint64_t repeated = 0;
-  for (std::uint32_t joint : sample) {
+  for (std::uint32_t joint : survey.sample) {
     const auto at = [&](std::uint32_t other) { return limbs.position[other]; };
     if (table.find_or_add(limbs.position[joint], joint, at) != joint) ++repeated;
   }
-  return repeated * tolerated_of > sample.size();
+  return repeated * tolerated_of > survey.sample.size();
 }
 
 /// Internodes by colour, in order within each; a counting sort.
@@ -147,15 +194,10 @@ std::vector<Bark> named_wires(const Limbs& limbs, bool merges, const Job& job) {
 
 /// True where every joint is an end of an internode and all have one colour: joints then are vertices as they
 /// stand.
-bool is_plain(const Limbs& limbs, const Job& job) {
-  if (!limbs.color.empty()) {
-    const auto internode_color = [&](std::size_t i) {
-      return limbs.parent[i] == none ? limbs.color.back() : limbs.color[i];
-    };
-    for (std::size_t i = 0; i < limbs.size(); ++i) {
-      if (internode_color(i) != limbs.color.back()) return false;
-    }
-  }
+bool is_plain(const Limbs& limbs, const Survey& survey, const Job& job) {
+  if (!survey.has_one_color) return false;
+  const std::size_t roots = limbs.size() - survey.segments;
+  if (roots == 1 && limbs.parent[0] == none) return true;
   Array<std::uint8_t> is_used(job, limbs.size(), std::uint8_t{0});
   for (std::size_t i = 0; i < limbs.size(); ++i) {
     if (limbs.parent[i] == none) continue;
@@ -165,20 +207,16 @@ bool is_plain(const Limbs& limbs, const Job& job) {
   return std::find(is_used.begin(), is_used.end(), 0) == is_used.end();
 }
 
-Bark plain_wires(const Limbs& limbs, const Job& job) {
-  const auto roots = static_cast<std::size_t>(std::count(limbs.parent.begin(), limbs.parent.end(), none));
+Bark plain_wires(const Limbs& limbs, const Survey& survey, const Job& job) {
   const std::size_t count = limbs.size();
   Bark bark;
-  bark.color = limbs.color.empty() ? std::int16_t{0} : limbs.color.back();
+  bark.color = survey.color;
   bark.mesh.topology = Topology::lines;
   bark.mesh.position = Array<glm::vec3>(job, count);
-  bark.mesh.index.wide = Array<std::uint32_t>(job, 2 * (count - roots));
-  std::vector<std::size_t> segments_before(chunk_count(count, chunk) + 1);
-  for (std::size_t i = 0; i < count; ++i) segments_before[i / chunk + 1] += limbs.parent[i] != none;
-  for (std::size_t i = 1; i < segments_before.size(); ++i) segments_before[i] += segments_before[i - 1];
+  bark.mesh.index.wide = Array<std::uint32_t>(job, 2 * survey.segments);
   parallel_for(job, count, chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
     job.check();
-    std::uint32_t* out = bark.mesh.index.wide.data() + 2 * segments_before[index];
+    std::uint32_t* out = bark.mesh.index.wide.data() + 2 * survey.segments_before[index];
     for (std::size_t i = begin; i < end; ++i) {
       bark.mesh.position[i] = limbs.position[i] + 0.0F;
       if (limbs.parent[i] == none) continue;
@@ -192,15 +230,13 @@ Bark plain_wires(const Limbs& limbs, const Job& job) {
 }  // namespace
 
 std::vector<Bark> wires(const Limbs& limbs, Job& job) {
-  if (std::all_of(limbs.parent.begin(), limbs.parent.end(), [](std::uint32_t p) { return p == none; }))
-    return {};
-  const bool merges = has_repeated_places(limbs, job);
+  if (limbs.size() == 0) return {};
+  const Survey survey = survey_all(limbs, job);
+  if (survey.segments == 0) return {};
+  const bool merges = has_repeated_places(limbs, survey, job);
+  if (merges || !is_plain(limbs, survey, job)) return named_wires(limbs, merges, job);
   std::vector<Bark> barks;
-  if (!merges && is_plain(limbs, job)) {
-    barks.push_back(plain_wires(limbs, job));
-  } else {
-    barks = named_wires(limbs, merges, job);
-  }
+  barks.push_back(plain_wires(limbs, survey, job));
   return barks;
 }
 
