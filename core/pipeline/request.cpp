@@ -26,15 +26,11 @@ std::string canonical_request(const Request::Body& body) {
   return canonical_text(json);
 }
 
-/// The body over its preset, or as it is where it names none that there is.
-Json with_preset(const Json& json, Faults& faults) {
+/// The body over its preset; or as it is, `preset` included, where it names none that there is.
+Json with_preset(const Json& json) {
   if (!json.is_object() || !json.contains("preset") || !json["preset"].is_string()) return json;
-  const auto& name = json["preset"].get_ref<const std::string&>();
-  const auto preset = preset_requests().find(name);
-  if (preset == preset_requests().end()) {
-    faults.add({"/preset", unknown("preset", name, preset_names())});
-    return json;
-  }
+  const auto preset = preset_requests().find(json["preset"].get_ref<const std::string&>());
+  if (preset == preset_requests().end()) return json;
   Json patch = json;
   patch.erase("preset");
   Json merged = preset->second.request;
@@ -89,8 +85,11 @@ std::uint64_t Request::seed() const { return body_->seed; }
 
 Result<Request> read_request_body(const Json& json, const Limits& limits) {
   Faults faults;
-  const Json merged = with_preset(json, faults);
+  const Json merged = with_preset(json);
   const RequestParams frame = read_request(merged, "", faults);
+  if (frame.preset && !faults.covers("/preset")) {
+    faults.add({"/preset", unknown("preset", *frame.preset, preset_names())});
+  }
   Request::Body body;
   body.generator = named_generator(merged, frame, faults);
   if (body.generator && (!merged.contains("parameters") || merged["parameters"].is_object())) {

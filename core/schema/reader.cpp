@@ -66,20 +66,36 @@ std::string words_for(const IntegerRule& rule) {
   return "an integer" + range_words(minimum, maximum);
 }
 
+/// What is counted, once and many times.
+struct Counted {
+  std::string_view one, many;
+};
+constexpr Counted characters = {"character", "characters"};
+constexpr Counted entries = {"entry", "entries"};
+constexpr Counted members = {"member", "members"};
+
 /// "1 to 3 entries", "at most 256 entries".
-std::string count_words(std::size_t least, std::size_t most, std::string_view what) {
+std::string count_words(std::size_t least, std::size_t most, const Counted& what) {
   constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
   std::string words;
-  if (least == most) {
-    words = std::to_string(least);
-  } else if (most == no_limit) {
+  if (most == no_limit) {
     words = "at least " + std::to_string(least);
+  } else if (least == most) {
+    words = std::to_string(least);
   } else if (least == 0) {
     words = "at most " + std::to_string(most);
   } else {
     words = std::to_string(least) + " to " + std::to_string(most);
   }
-  return words.append(" ").append(what);
+  const std::size_t last = most == no_limit ? least : most;
+  return words.append(" ").append(last == 1 ? what.one : what.many);
+}
+
+/// Adds a fault where there are too many or too few.
+void check_count(const Place& place, std::size_t count, std::size_t least, std::size_t most,
+                 const Counted& what) {
+  if (count >= least && count <= most) return;
+  place.fault("found " + count_words(count, count, what) + ", expected " + count_words(least, most, what));
 }
 
 /// Whole numbers come as 5 or as 5.0; JSON knows no difference. Nullopt: not whole, or beyond 64 bits.
@@ -182,21 +198,19 @@ void read_text(const Place& place, const TextRule& rule, std::string& out) {
   if (place.kind() != JsonKind::text) return place.expected(rule.form ? rule.form->expected : "a text");
   const auto& text = place.value().get_ref<const std::string&>();
   if (rule.form && !rule.form->accepts(text)) return place.expected(rule.form->expected);
-  if (const std::size_t length = count_characters(text); length < rule.least || length > rule.most) {
-    if (length == 0)
-      return place.fault("found an empty text, expected " + count_words(rule.least, rule.most, "characters"));
-    return place.fault("found " + std::to_string(length) + " characters, expected " +
-                       count_words(rule.least, rule.most, "characters"));
-  }
+  const std::size_t length = count_characters(text);
+  if (length < rule.least || length > rule.most)
+    return check_count(place, length, rule.least, rule.most, characters);
   out = text;
 }
 
 void read_color(const Place& place, Color& out) {
-  std::string text;
-  const std::size_t before = place.faults().issues().size();
-  read_text(place, {.form = &forms::color}, text);
-  if (place.faults().issues().size() != before) return;
-  if (const auto color = color_of(text)) out = *color;
+  const auto* const text = place.value().get_ptr<const std::string*>();
+  if (const auto color = text ? color_of(*text) : std::nullopt) {
+    out = *color;
+  } else {
+    place.expected(forms::color.expected);
+  }
 }
 
 void read_seed(const Place& place, std::uint64_t& out) {
@@ -268,11 +282,7 @@ bool check_list(const Place& place, const CountRule& rule) {
     place.expected("a list");
     return false;
   }
-  const std::size_t count = place.value().size();
-  if (count < rule.least || count > rule.most) {
-    place.fault("found " + std::to_string(count) + " entries, expected " +
-                count_words(rule.least, rule.most, "entries"));
-  }
+  check_count(place, place.value().size(), rule.least, rule.most, entries);
   return true;
 }
 
@@ -281,11 +291,7 @@ bool check_map(const Place& place, const CountRule& rule) {
     place.expected("an object");
     return false;
   }
-  const std::size_t count = place.value().size();
-  if (count < rule.least || count > rule.most) {
-    place.fault("found " + std::to_string(count) + " members, expected " +
-                count_words(rule.least, rule.most, "members"));
-  }
+  check_count(place, place.value().size(), rule.least, rule.most, members);
   return true;
 }
 

@@ -44,7 +44,7 @@ TEST(Reader, SaysWhatItFoundAndWhatItExpected) {
   EXPECT_EQ(message(R"({"axiom":"F","materials":[{"color":"red"}]})"),
             "found the text \"red\", expected a colour such as #8c6b4f");
   EXPECT_EQ(message(R"({"axiom":"F","productions":{}})"), "found an object, expected a list");
-  EXPECT_EQ(message(R"({"axiom":""})"), "found an empty text, expected at least 1 characters");
+  EXPECT_EQ(message(R"({"axiom":""})"), "found 0 characters, expected at least 1 character");
   EXPECT_EQ(message("{}"), "\"axiom\" is missing");
   EXPECT_EQ(message("[]"), "found an empty list, expected an object");
 }
