@@ -1,0 +1,130 @@
+/// Every shipped preset, of every generator: it is well described, makes a sound model, and means what its
+/// tags say.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geom/finish.h"
+#include "core/pipeline/body.h"
+#include "tests/support/mesh_faults.h"
+
+namespace seedmesh {
+namespace {
+
+constexpr std::uint64_t most_triangles =
+    300'000;  ///< of a preset as it is shipped: it must load at once on a phone
+
+class Presets : public testing::TestWithParam<PresetInfo> {
+ protected:
+  bool is(std::string_view tag) const {
+    const std::vector<std::string>& tags = GetParam().tags;
+    return std::find(tags.begin(), tags.end(), tag) != tags.end();
+  }
+
+  static std::optional<Request> request(const Overrides& overrides = {}) {
+    const auto read = read_preset(GetParam().name, overrides, Limits{});
+    if (!read || !*read) {
+      ADD_FAILURE() << (read ? read->error().issues.front().pointer + ": " +
+                                   read->error().issues.front().message
+                             : "there is no such preset");
+      return std::nullopt;
+    }
+    return **read;
+  }
+
+  static std::optional<Model> model_of(const Request& request) {
+    Job job(request.seed(), Job::Options{});
+    Result<Model> model = request.body().generator->generate(request.body().params, job);
+    if (!model) {
+      ADD_FAILURE() << model.error().issues.front().message;
+      return std::nullopt;
+    }
+    finish(*model, job);
+    return std::move(*model);
+  }
+
+  static Box bounds(const Model& model) {
+    std::optional<Box> all;
+    for (const MeshGroup& group : model.meshes) {
+      for (const Primitive& primitive : group.primitives) {
+        const Box& box = primitive.mesh.bounds;
+        all = all ? Box{glm::min(all->min, box.min), glm::max(all->max, box.max)} : box;
+      }
+    }
+    return all.value_or(Box{});
+  }
+};
+
+TEST_P(Presets, SayWhatTheyAre) {
+  const PresetInfo& preset = GetParam();
+  EXPECT_TRUE(std::all_of(preset.name.begin(), preset.name.end(), [](char c) {
+    return std::islower(static_cast<unsigned char>(c)) != 0 ||
+           std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+  }));
+  EXPECT_FALSE(preset.title.empty());
+  EXPECT_FALSE(preset.tags.empty());
+  ASSERT_FALSE(preset.description.empty());
+  EXPECT_TRUE(preset.description.back() == '.' || preset.description.back() == ')')
+      << "a description is made of sentences";
+}
+
+TEST_P(Presets, MakeSoundModels) {
+  const std::optional<Request> read = request();
+  ASSERT_TRUE(read);
+  const std::optional<Model> model = model_of(*read);
+  ASSERT_TRUE(model);
+  EXPECT_TRUE(model->warnings.empty());
+  for (const std::string& fault : faults(*model)) {
+    const bool crossing = is("curve") && fault.find("edge") != std::string::npos;
+    EXPECT_TRUE(crossing) << fault;
+  }
+  std::uint64_t elements = 0, triangles = 0;
+  for (const MeshGroup& group : model->meshes) {
+    for (const Primitive& primitive : group.primitives) {
+      elements += primitive.mesh.elements();
+      if (primitive.mesh.topology == Topology::triangles) triangles += primitive.mesh.elements();
+    }
+  }
+  EXPECT_GT(elements, 0U) << "the model is empty";
+  EXPECT_LE(triangles, most_triangles);
+}
+
+TEST_P(Presets, StandUprightOnTheGround) {
+  if (!is("tree") && !is("bush") && !is("plant")) GTEST_SKIP() << "not a standing plant";
+  const std::optional<Request> read = request();
+  ASSERT_TRUE(read);
+  const std::optional<Model> model = model_of(*read);
+  ASSERT_TRUE(model);
+  const Box box = bounds(*model);
+  const float height = box.max.y - box.min.y;
+  EXPECT_GE(box.min.y, -0.05F * height) << "it grows into the ground";
+  EXPECT_GT(height, 0.1F) << "lengths are in metres";
+  EXPECT_LT(height, 60.0F) << "lengths are in metres";
+}
+
+TEST_P(Presets, DifferFromSeedToSeedOnlyWhereTheyAreStochastic) {
+  std::vector<std::string> texts;
+  for (const char* seed : {"1", "2"}) {
+    const std::optional<Request> read = request({{"seed", seed}});
+    ASSERT_TRUE(read);
+    Job job(read->seed(), Job::Options{});
+    const Result<std::string> derived = derive(*read, job);
+    ASSERT_TRUE(derived);
+    texts.push_back(*derived);
+  }
+  EXPECT_EQ(texts[0] != texts[1], is("stochastic"));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Presets, testing::ValuesIn(presets()), [](const auto& preset) {
+  std::string name = preset.param.name;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace seedmesh
