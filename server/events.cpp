@@ -16,6 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr std::chrono::seconds heartbeat{10};
+constexpr std::string_view comment = ": still at work\n\n";
 
 struct Progress {
   std::string stage;
@@ -89,8 +90,8 @@ struct Generation {
   }
 
   void write(const http::Write& send) {
+    bool reading = !silent || send(comment);
     std::unique_lock lock(box.mutex);
-    bool reading = true;
     while (true) {
       const bool news = box.wait(lock);
       const std::optional<Progress> progress = std::exchange(box.progress, std::nullopt);
@@ -100,7 +101,7 @@ struct Generation {
         reading =
             send(event("progress", Json{{"stage", progress->stage}, {"share", progress->share}}.dump()));
       }
-      if (!news && reading) reading = send(": still at work\n\n");
+      if (!news && reading) reading = send(comment);
       if (ended) break;
       lock.lock();
     }
@@ -114,6 +115,7 @@ struct Generation {
   Call call;
   Known known;
   Box box;
+  bool silent = false;  ///< the first heartbeat is due already
   std::thread worker;
 };
 
@@ -124,7 +126,7 @@ http::Response generate_events(Call& call, const Known& known) {
   generation->start();
   {
     std::unique_lock lock(generation->box.mutex);
-    generation->box.wait(lock);
+    generation->silent = !generation->box.wait(lock);
     if (generation->box.end) {
       if (const auto* refused = std::get_if<Problem>(&generation->box.end->outcome))
         return refuse(call, *refused);
