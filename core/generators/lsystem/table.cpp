@@ -1,6 +1,7 @@
 #include "core/generators/lsystem/table.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 namespace seedmesh::lsystem {
@@ -30,15 +31,19 @@ TableRewriter::TableRewriter(const Grammar& grammar, Job& job)
     : grammar_(grammar),
       job_(job),
       kinds_(grammar.kinds.size()),
-      table_((kinds_ + 1) * kinds_ * (kinds_ + 1)),
+      bits_(static_cast<unsigned>(std::bit_width(kinds_))),
+      table_(std::size_t{1} << (3 * bits_)),
       right_(job) {
-  for (const Kind& kind : grammar.kinds) ignored_.push_back(kind.ignored ? 1 : 0);
+  for (const Kind& kind : grammar.kinds) role_.push_back(kind.ignored ? Role::ignored : Role::neighbour);
+  role_[grammar.open] = Role::open;
+  role_[grammar.close] = Role::close;
+  for (const Template& each : grammar.templates) row_ = row_ && role_[each.kind] == Role::neighbour;
   for (std::size_t kind = 0; kind < kinds_; ++kind) {
     // Identity first; then the productions from the last to the first, so that the first that matches stands.
     const Entry self{static_cast<std::uint32_t>(successors_.size()), 1};
     successors_.push_back(static_cast<std::uint8_t>(kind));
     for (std::size_t left = 0; left <= kinds_; ++left) {
-      for (std::size_t right = 0; right <= kinds_; ++right) entry(left, kind, right) = self;
+      for (std::size_t right = 0; right <= kinds_; ++right) table_[place(left, kind, right)] = self;
     }
     const Range range = grammar.productions.of_kind[kind];
     for (std::uint32_t i = range.count; i-- > 0;) {
@@ -57,7 +62,7 @@ void TableRewriter::fill(const Production& production, KindId kind) {
   for (std::size_t left = 0; left <= kinds_; ++left) {
     if (!production.left.empty() && production.left[0] != left) continue;
     for (std::size_t right = 0; right <= kinds_; ++right) {
-      if (production.right.empty() || production.right[0] == right) entry(left, kind, right) = made;
+      if (production.right.empty() || production.right[0] == right) table_[place(left, kind, right)] = made;
     }
   }
 }
@@ -72,22 +77,38 @@ void TableRewriter::find_right_neighbours(const Array<std::uint8_t>& in) {
   for (std::size_t i = in.size(); i-- > 0;) {
     const std::uint8_t kind = in[i];
     right_[i] = next;
-    if (kind == grammar_.close) {
-      stack_.push_back(next);
-      next = none;
-    } else if (kind == grammar_.open) {
-      next = stack_.back();
-      stack_.pop_back();
-    } else if (!ignored_[kind]) {
-      next = kind;
+    switch (role_[kind]) {
+      case Role::neighbour:
+        next = kind;
+        break;
+      case Role::ignored:
+        break;
+      case Role::open:
+        next = stack_.back();
+        stack_.pop_back();
+        break;
+      case Role::close:
+        stack_.push_back(next);
+        next = none;
+        break;
     }
   }
 }
 
 void TableRewriter::step(const Array<std::uint8_t>& in, Array<std::uint8_t>& out) {
+  if (row_) {
+    const std::size_t last = in.size() - 1;
+    const auto none = static_cast<std::uint8_t>(kinds_);
+    return rewrite(in, out, [&in, last, none](std::size_t i) { return i < last ? in[i + 1] : none; });
+  }
   find_right_neighbours(in);
+  rewrite(in, out, [this](std::size_t i) { return right_[i]; });
+}
+
+template <class RightOf>
+void TableRewriter::rewrite(const Array<std::uint8_t>& in, Array<std::uint8_t>& out, RightOf&& right_of) {
   stack_.clear();
-  std::uint8_t left = static_cast<std::uint8_t>(kinds_);
+  std::size_t left = kinds_;
   std::size_t length = 0;
   for (std::size_t from = 0; from < in.size(); from += chunk) {
     job_.check();
@@ -97,18 +118,18 @@ void TableRewriter::step(const Array<std::uint8_t>& in, Array<std::uint8_t>& out
     std::uint8_t* write = out.data() + length;
     for (std::size_t i = from; i < to; ++i) {
       const std::uint8_t kind = in[i];
-      const Entry& found = entry(left, kind, right_[i]);
+      const Entry found = table_[place(left, kind, right_of(i))];
       const std::uint8_t* successor = successors_.data() + found.first;
       std::memcpy(write, successor, copied);
       if (found.length > copied) std::memcpy(write + copied, successor + copied, found.length - copied);
       write += found.length;
-      if (kind == grammar_.open) {
-        stack_.push_back(left);
-      } else if (kind == grammar_.close) {
+      if (role_[kind] == Role::neighbour) {
+        left = kind;
+      } else if (role_[kind] == Role::open) {
+        stack_.push_back(static_cast<std::uint8_t>(left));
+      } else if (role_[kind] == Role::close) {
         left = stack_.back();
         stack_.pop_back();
-      } else if (!ignored_[kind]) {
-        left = kind;
       }
     }
     length = static_cast<std::size_t>(write - out.data());
