@@ -11,8 +11,8 @@ constexpr std::string_view uv_semantics[] = {"TEXCOORD_0", "TEXCOORD_1", "TEXCOO
 
 /// Moves a container to where payloads can share it.
 template <class Container>
-Slice keep(Container&& numbers) {
-  auto kept = std::make_shared<const std::decay_t<Container>>(std::move(numbers));
+Slice keep(Container numbers) {
+  auto kept = std::make_shared<const Container>(std::move(numbers));
   const auto bytes = std::as_bytes(std::span(kept->data(), kept->size()));
   return {std::move(kept), bytes};
 }

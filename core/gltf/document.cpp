@@ -106,7 +106,7 @@ class Describer {
       out_.materials.push_back(material_of(material, texture_number));
       any_unlit = any_unlit || material.unlit;
     }
-    if (any_unlit) out_.extensionsUsed.push_back("KHR_materials_unlit");
+    if (any_unlit) out_.extensionsUsed.emplace_back("KHR_materials_unlit");
     if (materials_.any_variants) add_variants();
   }
 
@@ -211,7 +211,7 @@ class Describer {
     }
     out_.extensions["KHR_materials_variants"] =
         tinygltf::Value(tinygltf::Value::Object{{"variants", tinygltf::Value(std::move(variants))}});
-    out_.extensionsUsed.push_back("KHR_materials_variants");
+    out_.extensionsUsed.emplace_back("KHR_materials_variants");
   }
 
   /// A texture is an image with a way of wrapping; both kinds of wrapping have one sampler each.

@@ -106,7 +106,10 @@ std::vector<std::string> image_files(const Model& model) {
     const std::string stem = "textures/" + (image->name.empty() ? "texture" : file_stem(image->name));
     const std::string extension = image->mime == "image/jpeg" ? ".jpg" : ".png";
     std::string name = stem + extension;
-    for (int i = 2; !taken.insert(name).second; ++i) name = stem + '_' + std::to_string(i) + extension;
+    for (int i = 2; !taken.insert(name).second; ++i) {
+      name = stem;
+      name += '_' + std::to_string(i) + extension;
+    }
     names.push_back(std::move(name));
   }
   return names;
@@ -118,7 +121,7 @@ std::size_t lod_count(const Model& model) {
   return 1 + coarser;
 }
 
-Payload write_zip(const Model& model, Columns columns, const std::string& generator, Job& job) {
+Payload write_zip(const Model& model, const Columns& columns, const std::string& generator, Job& job) {
   const std::string stem = file_stem(model.name);
   gltf::DocumentOptions options{.generator = generator, .image_uris = image_files(model)};
   std::vector<gltf::ZipEntry> files;
@@ -149,7 +152,7 @@ Payload write_zip(const Model& model, Columns columns, const std::string& genera
 
 Payload write(Model model, Container container, const std::string& generator, Job& job) {
   Columns columns = gltf::take_columns(model);
-  if (container == Container::zip) return write_zip(model, std::move(columns), generator, job);
+  if (container == Container::zip) return write_zip(model, columns, generator, job);
   Document document = gltf::describe(model, columns, {.generator = generator}, job);
   columns = {};  // now the document alone holds the arrays, and can give each back as soon as it is written
   return container == Container::glb ? write_glb(std::move(document), job)
