@@ -32,8 +32,16 @@ class Wardrobe {
  public:
   Wardrobe(Model& model, const LsystemParams& params) : model_(model), params_(params) {}
 
+  /// Indices past the end of the list keep its last look; what looks alike becomes one primitive.
+  void choose_looks(Skeleton& skeleton) const {
+    const std::size_t count = params_.materials.empty() ? std::size(palette) : params_.materials.size();
+    const auto last = static_cast<std::int16_t>(count - 1);
+    for (std::int16_t& color : skeleton.limbs.color) color = std::min(color, last);
+    for (Outline& outline : skeleton.outlines.outline) outline.color = std::min(outline.color, last);
+  }
+
   int material(std::int16_t color, Sides sides) {
-    const std::size_t index = look_index(color);
+    const auto index = static_cast<std::size_t>(color);
     for (const Made& each : made_) {
       if (each.index == index && each.sides == sides) return each.material;
     }
@@ -51,12 +59,6 @@ class Wardrobe {
     Sides sides;
     int material;
   };
-
-  /// Indices past the end of the list keep its last look.
-  std::size_t look_index(std::int16_t color) const {
-    const std::size_t count = params_.materials.empty() ? std::size(palette) : params_.materials.size();
-    return std::min(static_cast<std::size_t>(color), count - 1);
-  }
 
   Material look(std::size_t index) const {
     Material material;
@@ -114,6 +116,7 @@ Model dress(Skeleton skeleton, const LsystemParams& params, Job& job) {
   root.name = "lsystem";
   model.nodes.push_back(std::move(root));
   Wardrobe wardrobe(model, params);
+  wardrobe.choose_looks(skeleton);
   const bool tubes = params.style == LsystemParams::Style::tubes;
   const bool empty = skeleton.limbs.size() == 0 && skeleton.outlines.outline.empty();
   std::vector<Bark> bark =
