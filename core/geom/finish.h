@@ -4,8 +4,9 @@
 
 namespace seedmesh {
 
-/// In order: drops empty meshes, orders triangles for the vertex cache where the maker did not, narrows indices, sets
-/// bounds, replaces -0 by 0, names what has no name (unique names for nodes, meshes, materials).
+/// In order: drops empty meshes, orders triangles for the vertex cache where the maker did not, narrows
+/// indices, sets bounds, replaces -0 by 0, names what has no name (unique names for nodes, meshes,
+/// materials).
 void finish(Model& model, Job& job);
 
 }  // namespace seedmesh

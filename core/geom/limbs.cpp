@@ -3,7 +3,15 @@
 namespace seedmesh {
 
 Limbs::Limbs(const Job& job)
-    : position(job), radius(job), base_radius(job), parent(job), starts_limb(job), color(job), order(job), frame(job),
-      birth(job), key(job) {}
+    : position(job),
+      radius(job),
+      base_radius(job),
+      parent(job),
+      starts_limb(job),
+      color(job),
+      order(job),
+      frame(job),
+      birth(job),
+      key(job) {}
 
 }  // namespace seedmesh
