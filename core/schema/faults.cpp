@@ -7,17 +7,17 @@
 namespace seedmesh {
 
 void Faults::add(Issue issue) {
-  if (issues_.size() < most) refused_.insert(issue.pointer);
+  if (!full()) refused_.insert(issue.pointer);
   keep(std::move(issue));
 }
 
 void Faults::add_missing(const std::string& pointer, std::string_view member, std::string message) {
-  if (issues_.size() < most) refused_.insert(pointer + pointer_token(member));
+  if (!full()) refused_.insert(pointer + pointer_token(member));
   keep({pointer, std::move(message)});
 }
 
 void Faults::keep(Issue issue) {
-  if (issues_.size() < most) {
+  if (!full()) {
     issues_.push_back(std::move(issue));
   } else {
     ++uncounted_;

@@ -27,6 +27,10 @@ class Faults {
   /// with it is but an echo.
   bool covers(std::string_view pointer) const;
 
+  /// From here on faults are only counted: their messages need not be made.
+  bool full() const { return issues_.size() >= most; }
+  void count() { ++uncounted_; }
+
   bool empty() const { return issues_.empty(); }
   const std::vector<Issue>& issues() const { return issues_; }
 

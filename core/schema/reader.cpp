@@ -156,10 +156,14 @@ std::optional<Place> Place::member(std::string_view key) const {
 }
 
 void Place::expected(std::string_view what) const {
+  if (faults_->full()) return faults_->count();
   fault("found " + found(*value_) + ", expected " + std::string(what));
 }
 
-void Place::fault(std::string message) const { faults_->add({pointer(), std::move(message)}); }
+void Place::fault(std::string message) const {
+  if (faults_->full()) return faults_->count();
+  faults_->add({pointer(), std::move(message)});
+}
 
 void read_flag(const Place& place, bool& out) {
   if (place.kind() == JsonKind::flag) {
@@ -270,6 +274,10 @@ bool check_members(const Place& place, std::span<const std::string_view> known,
   }
   for (const auto& [key, value] : place.value().get_ref<const Json::object_t&>()) {
     if (std::ranges::find(known, std::string_view(key)) != known.end()) continue;
+    if (place.faults().full()) {
+      place.faults().count();
+      continue;
+    }
     std::string help = hint(key, known);
     if (help.empty()) help = "; known are " + listed(known);
     place.child(value, key).fault("\"" + shortened(key, quoted) + "\" is not known here" + help);
