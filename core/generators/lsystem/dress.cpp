@@ -85,19 +85,22 @@ class Wardrobe {
   std::vector<Made> made_;
 };
 
+/// One node and mesh for each layer, one primitive for each look.
 void add_meshes(Model& model, const char* name, std::vector<Bark> parts, Sides sides, Wardrobe& wardrobe) {
-  if (parts.empty()) return;
-  MeshGroup group;
-  group.name = name;
+  int layer = -1;
   for (Bark& part : parts) {
-    group.primitives.push_back({std::move(part.mesh), wardrobe.material(part.color, sides), {}});
+    if (part.layer != layer) {
+      layer = part.layer;
+      Node node;
+      node.name = layer == 0 ? name : name + ("_" + std::to_string(layer));
+      node.parent = 0;
+      node.mesh = static_cast<int>(model.meshes.size());
+      model.meshes.push_back({node.name, {}});
+      model.nodes.push_back(std::move(node));
+    }
+    model.meshes.back().primitives.push_back(
+        {std::move(part.mesh), wardrobe.material(part.color, sides), {}});
   }
-  Node node;
-  node.name = name;
-  node.parent = 0;
-  node.mesh = static_cast<int>(model.meshes.size());
-  model.meshes.push_back(std::move(group));
-  model.nodes.push_back(std::move(node));
 }
 
 SkinOptions skin_options(const LsystemParams& params) {

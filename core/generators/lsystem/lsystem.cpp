@@ -48,7 +48,7 @@ void run(const Grammar& grammar, const LsystemParams& params, Sink& sink, Job& j
   const double nothing = 0;
   for (std::size_t i = 0; i < word.size(); ++i) {
     if (i % 4096 == 0) job.check();
-    sink.module(word.kind[i], word.at.empty() ? &nothing : word.parameter.data() + word.at[i],
+    sink.module(word.kind[i], word.parameter.empty() ? &nothing : word.parameter.data() + word.at[i],
                 word.key.empty() ? 0 : word.key[i], word.born.empty() ? 0 : word.born[i]);
   }
 }

@@ -167,6 +167,15 @@ TEST(Interpretation, DrawsWithoutEnteringTheWord) {
   EXPECT_EQ(answer->at("turtle").at("segments"), 16);
 }
 
+TEST(Interpretation, GivesParametersToWordsThatHaveNone) {
+  LsystemParams params = grammar_of("J[+I]I", {"J < I -> J"});
+  params.interpretation = {"I -> ;(0)F", "J -> ;(1)F"};
+  Job job = job_of(0);
+  const Result<Json> answer = derive(params, job);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->at("turtle").at("segments"), 3);
+}
+
 TEST(Width, ThinsByTheStepInWhichASegmentWasWritten) {
   LsystemParams params = grammar_of("FA", {"A -> FA"}, 3);
   params.width.value = 1;
