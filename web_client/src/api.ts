@@ -1,0 +1,159 @@
+/** What the server offers, as api_schema/openapi.json describes it. Addresses are relative, so any path prefix works. */
+import type { Schema } from './form/schema';
+
+export interface Request {
+  generator: string;
+  seed: number | string;
+  parameters: Record<string, unknown>;
+  output?: Record<string, unknown>;
+}
+
+export interface Preset { name: string; generator: string; title: string; description: string; tags: string[] }
+
+/** One fault of a request: a JSON Pointer into it; line and column, from 1, point into a grammar's text. */
+export interface Fault { pointer: string; message: string; line?: number; column?: number }
+
+export interface Statistics { triangles: number; bytes: number; milliseconds: number; warnings: number }
+
+export interface Made { bytes: ArrayBuffer; statistics: Statistics }
+
+interface Problem { title?: string; detail?: string; errors?: Fault[] }
+
+/** The server understood and says no: trying again would not help. */
+export class Refusal extends Error {
+  readonly faults: Fault[];
+  constructor(problem: Problem) {
+    super(problem.detail ?? problem.title ?? 'The server refused the request.');
+    this.faults = problem.errors ?? [];
+  }
+}
+
+/** The server is full or about to end: to be asked again, after `seconds` where it said so. */
+export class Busy extends Error {
+  readonly seconds: number | null;
+  constructor(detail: string, seconds: number | null) {
+    super(detail);
+    this.seconds = seconds;
+  }
+}
+
+/** No answer at all, or one from something that is not the server. */
+export class Gone extends Error {}
+
+async function problem_of(response: Response): Promise<Problem> {
+  try {
+    return (await response.json()) as Problem;
+  } catch {
+    return { detail: `The server answered ${response.status} ${response.statusText}.` };
+  }
+}
+
+async function call(address: string, init: RequestInit = {}): Promise<Response> {
+  let response: Response;
+  try {
+    response = await fetch(address, init);
+  } catch (error) {
+    if (init.signal?.aborted) throw error;
+    throw new Gone('The server does not answer.');
+  }
+  if (response.ok) return response;
+  if (response.status === 429 || response.status === 503) {
+    const seconds = Number(response.headers.get('Retry-After') ?? NaN);
+    throw new Busy((await problem_of(response)).detail ?? '', Number.isFinite(seconds) ? seconds : null);
+  }
+  if (response.status === 502) throw new Gone('The server does not answer.');
+  throw new Refusal(await problem_of(response));
+}
+
+const read = async <T>(address: string, signal?: AbortSignal): Promise<T> =>
+  (await (await call(address, { signal: signal ?? null })).json()) as T;
+
+export const get_presets = async (signal?: AbortSignal): Promise<Preset[]> =>
+  (await read<{ presets: Preset[] }>('v1/presets', signal)).presets;
+
+export async function get_preset(name: string, signal?: AbortSignal): Promise<Request> {
+  const request = await read<Partial<Request>>(`v1/presets/${encodeURIComponent(name)}`, signal);
+  return complete(request);
+}
+
+export const get_schema = (name: string, signal?: AbortSignal): Promise<Schema> =>
+  read<Schema>(`v1/schemas/${encodeURIComponent(name)}`, signal);
+
+/** With the members that the page relies on. */
+export const complete = (request: Partial<Request>): Request =>
+  ({ ...request, generator: request.generator ?? '', seed: request.seed ?? 0, parameters: request.parameters ?? {} });
+
+const post = (request: Request, accept: string, signal?: AbortSignal): Promise<Response> =>
+  call('v1/generate', {
+    method: 'POST',
+    headers: { 'Content-Type': 'application/json', Accept: accept },
+    body: JSON.stringify(request),
+    signal: signal ?? null,
+  });
+
+export const in_format = (request: Request, format: string): Request =>
+  ({ ...request, output: { ...request.output, format } });
+
+/** A body that breaks off counts as no answer. */
+async function whole_body(response: Response, signal?: AbortSignal): Promise<ArrayBuffer> {
+  try {
+    return await response.arrayBuffer();
+  } catch (error) {
+    if (signal?.aborted) throw error;
+    throw new Gone('The answer broke off.');
+  }
+}
+
+export async function generate(request: Request, signal?: AbortSignal): Promise<Made> {
+  const response = await post(request, '*/*', signal);
+  const bytes = await whole_body(response, signal);
+  const number = (name: string): number => Number(response.headers.get(name) ?? 0);
+  return {
+    bytes,
+    statistics: {
+      triangles: number('Seedmesh-Triangles'),
+      warnings: number('Seedmesh-Warnings'),
+      // Content-Length counts what travelled, which may be compressed; the file is what counts here.
+      bytes: bytes.byteLength,
+      milliseconds: total_duration(response.headers.get('Server-Timing') ?? ''),
+    },
+  };
+}
+
+export function total_duration(server_timing: string): number {
+  let sum = 0;
+  for (const [, duration] of server_timing.matchAll(/;\s*dur=([\d.]+)/g)) sum += Number(duration);
+  return sum;
+}
+
+/**
+ * Lets the server make the model and tell how far it is; the model itself is asked for afterwards, from the server's
+ * cache. `tell` gets a share from 0 to 1.
+ */
+export async function follow(request: Request, tell: (share: number) => void, signal: AbortSignal): Promise<void> {
+  const response = await post(request, 'text/event-stream', signal);
+  const reader = response.body!.pipeThrough(new TextDecoderStream()).getReader();
+  const stages: string[] = [];
+  let text = '';
+  for (;;) {
+    const chunk = await reader.read().catch(() => {
+      signal.throwIfAborted();
+      throw new Gone('The answer broke off.');
+    });
+    if (chunk.done) return;
+    text += chunk.value;
+    const events = text.split('\n\n');
+    text = events.pop() ?? '';
+    for (const event of events) {
+      const name = /^event: (.*)$/m.exec(event)?.[1];
+      const data = /^data: (.*)$/m.exec(event)?.[1] ?? '{}';
+      if (name === 'error') throw new Refusal(JSON.parse(data) as Problem);
+      if (name !== 'progress') continue;
+      const progress = JSON.parse(data) as { stage: string; share: number };
+      if (!stages.includes(progress.stage)) stages.push(progress.stage);
+      // Nobody knows beforehand how many stages there are: each takes half of what is left.
+      const before = 1 - 0.5 ** (stages.length - 1);
+      tell(before + (1 - before) * 0.5 * progress.share);
+    }
+  }
+}

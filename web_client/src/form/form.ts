@@ -1,0 +1,71 @@
+/** The form of a generator, drawn from its schema alone: groups, fields by type, faults at their fields. */
+import type { Fault } from '../api';
+import { el } from '../dom';
+import { Board, type Draw, type Place } from './field';
+import { list_field, map_field, member_fields, object_field, variant_field } from './group_fields';
+import { is_members, type Members, type Schema } from './schema';
+import { choice_field, color_field, json_field, number_field, switch_field, word_field } from './simple_fields';
+import { text_field } from './text_field';
+
+/** The field that can show what the schema describes. */
+function field_for(schema: Schema): Draw {
+  if (schema.enum) return choice_field;
+  if (schema.oneOf) {
+    const types = schema.oneOf.map((one) => one.type);
+    return types.every((type) => type === 'number' || type === 'integer' || type === 'string') ? word_field : variant_field;
+  }
+  switch (schema.type) {
+    case 'number':
+    case 'integer': return number_field;
+    case 'boolean': return switch_field;
+    case 'string':
+      if (schema['x-widget'] === 'color') return color_field;
+      return schema['x-grammar'] && schema['x-grammar'] !== 'expression' ? text_field : word_field;
+    case 'array': return schema.items?.type === 'string' ? text_field : schema.items ? list_field : json_field;
+    case 'object':
+      if (schema.properties) return object_field;
+      return is_members(schema.additionalProperties) ? map_field : json_field;
+    default: return json_field;
+  }
+}
+
+export const draw_field: Draw = (place) => field_for(place.schema)(place);
+
+export interface Form {
+  element: HTMLElement;
+  /** Shows faults at their fields and returns those that belong to none. */
+  show_faults(faults: Fault[]): Fault[];
+}
+
+/** `pointer` is where the value stands in the request; `change` gets the whole new value. */
+export function draw_form(schema: Schema, value: Members, base: Members, pointer: string, change: (value: Members) => void): Form {
+  const board = new Board();
+  const place: Place = {
+    schema, pointer, label: schema.title ?? '', value, base, board,
+    change: (next) => change(next as Members),
+  };
+  const groups = new Map<string, { first: HTMLElement[]; more: HTMLElement[] }>();
+  for (const member of member_fields(place)) {
+    const name = member.schema['x-group'] ?? 'General';
+    const group = groups.get(name) ?? { first: [], more: [] };
+    groups.set(name, group);
+    // A member that is folded away but set by the request would be overlooked.
+    const folded = member.schema['x-advanced'] && !(member.name in value);
+    group[folded ? 'more' : 'first'].push(member.element);
+  }
+  const element = el('div', { class: 'form' }, ...[...groups].map(([name, group]) =>
+    el('details', { class: 'group', open: true },
+      el('summary', {}, el('h3', {}, name)),
+      ...group.first,
+      group.more.length > 0 && el('details', { class: 'more' }, el('summary', {}, 'More'), ...group.more))));
+  return {
+    element,
+    show_faults(faults) {
+      const homeless = board.show(faults);
+      // What is faulty is not left folded away.
+      for (const faulty of element.querySelectorAll('.faulty'))
+        for (let up = faulty.closest('details'); up; up = up.parentElement?.closest('details') ?? null) up.open = true;
+      return homeless;
+    },
+  };
+}

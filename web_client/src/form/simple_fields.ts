@@ -1,0 +1,134 @@
+/** Fields with one small value: numbers, choices, switches, colours, words. */
+import { el } from '../dom';
+import { frame, type Draw, type Place, type Redraw } from './field';
+import type { Schema } from './schema';
+
+const shown = (place: Place): unknown => place.value ?? place.schema.default;
+
+/** A field whose whole drawing can be made anew. */
+export function redrawable(make: (redraw: Redraw) => HTMLElement): HTMLElement {
+  let element: HTMLElement;
+  const redraw: Redraw = (focus = 'input, select, textarea') => {
+    const next = make(redraw);
+    element.replaceWith(next);
+    element = next;
+    [...next.querySelectorAll<HTMLElement>(focus)].at(-1)?.focus();
+  };
+  element = make(redraw);
+  return element;
+}
+
+/** What a slider spans. A range too wide to aim in is cut to the neighbourhood of the value. */
+export function slider_span(schema: Schema, value: number): { low: number; high: number; step: number } {
+  const { minimum = -Infinity, maximum = Infinity } = schema;
+  const whole = schema.type === 'integer';
+  const usual = typeof schema.default === 'number' ? schema.default : 0;
+  const near = Math.max(Math.abs(value), Math.abs(usual)) || 1;
+  const step = schema['x-step'] ?? (whole ? 1 : 10 ** Math.floor(Math.log10(near / 20)));
+  if (schema['x-steps']) return { low: Math.max(minimum, 0), high: Math.min(maximum, Math.max(value + 2, 4)), step };
+  if ((maximum - minimum) / step <= 2000) return { low: minimum, high: maximum, step };
+  const reach = Math.ceil((near * 3) / step) * step;
+  return { low: Math.max(minimum, minimum < 0 ? -reach : 0), high: Math.min(maximum, reach), step };
+}
+
+export const number_field: Draw = (place) =>
+  redrawable((redraw) => {
+    const value = shown(place);
+    const known = typeof value === 'number' ? value : 0;
+    const { low, high, step } = slider_span(place.schema, known);
+    const box = el('input', { type: 'number', step, value: typeof value === 'number' ? value : '', inputmode: 'decimal' });
+    const slider = el('input', { type: 'range', min: low, max: high, step, value: known, 'aria-label': `${place.label}, slider` });
+    const unit = place.schema['x-unit'];
+    const body = el('div', { class: 'number' }, slider, el('span', { class: 'box' }, box, unit ? el('span', { class: 'unit' }, unit) : null));
+    const drawn = frame(place, box, body, redraw);
+    const take = (next: number): void => {
+      place.value = next;
+      place.change(next);
+      drawn.now(next);
+    };
+    slider.addEventListener('input', () => { box.value = slider.value; take(slider.valueAsNumber); });
+    box.addEventListener('input', () => {
+      if (Number.isNaN(box.valueAsNumber)) return;
+      slider.value = box.value;
+      take(box.valueAsNumber);
+    });
+    // An emptied box says nothing: it shows the value that counts again.
+    box.addEventListener('change', () => { if (Number.isNaN(box.valueAsNumber)) box.value = String(shown(place) ?? ''); });
+    return drawn.element;
+  });
+
+export const choice_field: Draw = (place) =>
+  redrawable((redraw) => {
+    const values = place.schema.enum ?? [];
+    const readable = (value: unknown): string => String(value).replaceAll('_', ' ');
+    const select = el('select', {}, ...values.map((value, index) =>
+      el('option', { value: index, selected: value === shown(place) }, readable(value))));
+    const drawn = frame(place, select, select, redraw);
+    select.addEventListener('change', () => {
+      const value = values[select.selectedIndex];
+      place.change(value);
+      drawn.now(value);
+    });
+    return drawn.element;
+  });
+
+export const switch_field: Draw = (place) =>
+  redrawable((redraw) => {
+    const box = el('input', { type: 'checkbox', class: 'switch', checked: shown(place) === true });
+    const drawn = frame(place, box, box, redraw);
+    drawn.element.classList.add('field-inline');
+    box.addEventListener('change', () => { place.change(box.checked); drawn.now(box.checked); });
+    return drawn.element;
+  });
+
+export const color_field: Draw = (place) =>
+  redrawable((redraw) => {
+    const value = String(shown(place) ?? '#808080');
+    const well = el('input', { type: 'color', value, 'aria-label': `${place.label}, picker` });
+    const text = el('input', { type: 'text', value, size: 8, spellcheck: 'false', autocomplete: 'off' });
+    const drawn = frame(place, text, el('div', { class: 'color' }, well, text), redraw);
+    const take = (next: string): void => { place.change(next); drawn.now(next); };
+    well.addEventListener('input', () => { text.value = well.value; take(well.value); });
+    text.addEventListener('input', () => {
+      if (/^#[0-9a-f]{6}$/i.test(text.value)) well.value = text.value;
+      take(text.value);
+    });
+    return drawn.element;
+  });
+
+/** Text; where the schema takes a number too, text that reads as a number is one. */
+export const word_field: Draw = (place) =>
+  redrawable((redraw) => {
+    const takes_number = place.schema.oneOf?.some((one) => one.type === 'number' || one.type === 'integer') ?? false;
+    const example = place.schema.examples?.[0];
+    const input = el('input', { type: 'text', value: String(shown(place) ?? ''), spellcheck: 'false', autocomplete: 'off', autocapitalize: 'off', placeholder: typeof example === 'string' ? example : undefined, maxlength: place.schema.maxLength });
+    const drawn = frame(place, input, input, redraw);
+    input.addEventListener('input', () => {
+      const number = Number(input.value);
+      const value = takes_number && input.value.trim() !== '' && Number.isFinite(number) ? number : input.value;
+      place.change(value);
+      drawn.now(value);
+    });
+    return drawn.element;
+  });
+
+/** What no other field can show: the JSON itself. */
+export const json_field: Draw = (place) =>
+  redrawable((redraw) => {
+    const area = el('textarea', { rows: 4, class: 'code', spellcheck: 'false' });
+    area.value = shown(place) === undefined ? '' : JSON.stringify(shown(place), null, 2);
+    const drawn = frame(place, area, area, redraw);
+    area.addEventListener('input', () => {
+      let value: unknown;
+      try {
+        value = area.value.trim() === '' ? undefined : JSON.parse(area.value);
+      } catch {
+        area.setAttribute('aria-invalid', 'true');
+        return;
+      }
+      area.setAttribute('aria-invalid', 'false');
+      place.change(value);
+      drawn.now(value);
+    });
+    return drawn.element;
+  });

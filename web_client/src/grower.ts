@@ -1,0 +1,129 @@
+/** Live update: keeps the picture in step with the request, whatever the server does meanwhile. */
+import { Busy, Gone, Refusal, follow, generate, in_format, type Made, type Request } from './api';
+
+export type Phase =
+  | { kind: 'growing'; share: number | null }
+  | { kind: 'ready' }
+  | { kind: 'refused'; refusal: Refusal }
+  | { kind: 'waiting'; reason: 'full' | 'gone'; until: number }
+  | { kind: 'stopped' };
+
+/** A hand that moves a slider rests this long before the server is asked. */
+const debounce = 150;
+/** A model that took longer is made under the event stream, which tells the progress at the cost of a second request. */
+const slow = 400;
+const longest_wait = 30_000;
+
+/**
+ * Runs `task` until it gives something other than "full" or "gone", waiting longer each time. A nudge ends a wait.
+ * Refusals and the signal's reason are thrown.
+ */
+export class Patience {
+  private readonly wakes = new Set<() => void>();
+
+  async persist<T>(task: () => Promise<T>, wait: (reason: 'full' | 'gone', until: number) => void, signal: AbortSignal): Promise<T> {
+    for (let attempt = 0; ; attempt += 1) {
+      try {
+        return await task();
+      } catch (error) {
+        signal.throwIfAborted();
+        if (!(error instanceof Busy) && !(error instanceof Gone)) throw error;
+        const asked = error instanceof Busy ? (error.seconds ?? 0) * 1000 : 0;
+        const backed_off = Math.min(1000 * 2 ** attempt, longest_wait) * (0.8 + 0.4 * Math.random());
+        const pause = Math.max(asked, backed_off);
+        wait(error instanceof Busy ? 'full' : 'gone', Date.now() + pause);
+        await this.sleep(pause, signal);
+      }
+    }
+  }
+
+  nudge(): void {
+    for (const wake of this.wakes) wake();
+  }
+
+  private sleep(milliseconds: number, signal: AbortSignal): Promise<void> {
+    return new Promise((resolve, reject) => {
+      const end = (settle: () => void): void => {
+        clearTimeout(timer);
+        signal.removeEventListener('abort', stop);
+        this.wakes.delete(wake);
+        settle();
+      };
+      const stop = (): void => end(() => reject(signal.reason));
+      const wake = (): void => end(resolve);
+      const timer = setTimeout(wake, milliseconds);
+      signal.addEventListener('abort', stop, { once: true });
+      this.wakes.add(wake);
+    });
+  }
+}
+
+export class Grower {
+  private running: AbortController | null = null;
+  private timer = 0;
+  private last: Request | null = null;
+  private last_took = 0;
+  private readonly patience = new Patience();
+  private readonly tell: (phase: Phase) => void;
+  private readonly show: (made: Made, request: Request) => Promise<void>;
+
+  constructor(tell: (phase: Phase) => void, show: (made: Made, request: Request) => Promise<void>) {
+    this.tell = tell;
+    this.show = show;
+  }
+
+  /** The last request wins: what runs for an earlier one is broken off, in the server too. */
+  ask(request: Request, when: 'now' | 'soon'): void {
+    this.last = request;
+    this.abort();
+    this.tell({ kind: 'growing', share: null });
+    this.timer = window.setTimeout(() => void this.run(request), when === 'now' ? 0 : debounce);
+  }
+
+  cancel(): void {
+    this.abort();
+    this.tell({ kind: 'stopped' });
+  }
+
+  /** Ends a wait, or starts over after a cancel. */
+  again(): void {
+    if (this.running) this.patience.nudge();
+    else if (this.last) this.ask(this.last, 'now');
+  }
+
+  private abort(): void {
+    clearTimeout(this.timer);
+    this.running?.abort();
+    this.running = null;
+  }
+
+  private async run(request: Request): Promise<void> {
+    const controller = new AbortController();
+    const { signal } = controller;
+    this.running = controller;
+    try {
+      const made = await this.patience.persist(
+        () => this.fetch(in_format(request, 'glb'), signal),
+        (reason, until) => this.tell({ kind: 'waiting', reason, until }),
+        signal,
+      );
+      await this.show(made, request);
+      signal.throwIfAborted();
+      this.tell({ kind: 'ready' });
+    } catch (error) {
+      if (signal.aborted) return;
+      this.tell({ kind: 'refused', refusal: error instanceof Refusal ? error : new Refusal({ detail: String(error) }) });
+    } finally {
+      if (this.running === controller) this.running = null;
+    }
+  }
+
+  private async fetch(request: Request, signal: AbortSignal): Promise<Made> {
+    const begin = performance.now();
+    this.tell({ kind: 'growing', share: null });
+    if (this.last_took > slow) await follow(request, (share) => this.tell({ kind: 'growing', share }), signal);
+    const made = await generate(request, signal);
+    this.last_took = performance.now() - begin;
+    return made;
+  }
+}

@@ -1,0 +1,40 @@
+/** A request as text: in the page's own address, and as a command. The link carries all; no server keeps it. */
+import { complete, in_format, type Request } from './api';
+
+async function through(bytes: Uint8Array<ArrayBuffer>, stream: CompressionStream | DecompressionStream): Promise<ArrayBuffer> {
+  return new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer();
+}
+
+/** Deflated JSON in base64url, as in the server's permalinks; 250 to 1,000 characters for most requests. */
+export async function pack(request: Request): Promise<string> {
+  const json = new TextEncoder().encode(JSON.stringify(request));
+  const packed = new Uint8Array(await through(json, new CompressionStream('deflate-raw')));
+  let binary = '';
+  for (const byte of packed) binary += String.fromCharCode(byte);
+  return btoa(binary).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
+}
+
+/** Throws where the text is no request. */
+export async function unpack(text: string): Promise<Request> {
+  const binary = atob(text.replaceAll('-', '+').replaceAll('_', '/'));
+  const bytes = Uint8Array.from(binary, (character) => character.charCodeAt(0));
+  const json: unknown = JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream('deflate-raw'))));
+  const given = json as Partial<Request> | null;
+  if (typeof given !== 'object' || given === null || typeof given.generator !== 'string') throw new Error('no request');
+  return complete(given);
+}
+
+export async function link_to(request: Request): Promise<string> {
+  const address = new URL(location.href);
+  address.search = '';
+  address.hash = await pack(request);
+  return address.href;
+}
+
+/** A command for a POSIX shell that saves the same model. */
+export function curl_of(request: Request): string {
+  const quote = (text: string): string => `'${text.replaceAll("'", `'\\''`)}'`;
+  const address = new URL('v1/generate', location.href.split(/[?#]/)[0]);
+  const body = JSON.stringify(in_format(request, 'glb'));
+  return `curl --fail-with-body -o model.glb -H 'Content-Type: application/json' -d ${quote(body)} ${quote(address.href)}`;
+}

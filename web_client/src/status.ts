@@ -1,0 +1,125 @@
+/** What is going on, in words, for eyes, for assistive tools (status, alert) and for tests (data-state on the body). */
+import type { Fault, Statistics } from './api';
+import { el, grouped, part, rounded } from './dom';
+import type { Phase } from './grower';
+
+/** A wait that is shorter is not worth a word. */
+const bar_after = 300;
+const slow_after = 4000;
+
+export interface Status {
+  phase(phase: Phase): void;
+  /** The statistics of a model, and what its canvas is called. */
+  shown(statistics: Statistics): void;
+  /** A word that goes away by itself. */
+  say(text: string): void;
+  /** Faults that no field shows, and how many the fields show; none takes the alert away. */
+  faults(detail: string, homeless: Fault[], in_fields: number, lead: () => void): void;
+  lost(lost: boolean): void;
+}
+
+export function wire_status(): Status {
+  const notice = part('notice'), text = part('status'), countdown = part('countdown');
+  const cancel = part('cancel'), again = part('again'), alert = part('alert');
+  const progress = part<HTMLProgressElement>('progress');
+  let timers: number[] = [];
+  let is_growing = false;
+  let was_waiting = false;
+
+  const clear = (): void => {
+    for (const timer of timers) clearTimeout(timer), clearInterval(timer);
+    timers = [];
+  };
+  const show = (message: string, buttons: HTMLElement[] = []): void => {
+    if (text.textContent !== message) text.textContent = message;
+    countdown.textContent = '';
+    cancel.hidden = !buttons.includes(cancel);
+    again.hidden = !buttons.includes(again);
+    notice.hidden = message === '';
+  };
+  const say = (message: string): void => {
+    show(message);
+    timers.push(window.setTimeout(() => show(''), 4000));
+  };
+
+  function growing(share: number | null): void {
+    if (share === null) progress.removeAttribute('value');
+    else progress.value = share;
+    if (is_growing) return;
+    clear();
+    is_growing = true;
+    const begin = Date.now();
+    timers = [
+      window.setTimeout(() => { progress.hidden = false; show('Growing the model', [cancel]); }, bar_after),
+      window.setTimeout(() => show('The server is slow. Still growing the model', [cancel]), slow_after),
+      window.setInterval(() => { if (Date.now() - begin > slow_after) countdown.textContent = `${Math.round((Date.now() - begin) / 1000)} s`; }, 1000),
+    ];
+  }
+
+  function waiting(reason: 'full' | 'gone', until: number): void {
+    was_waiting = true;
+    show(reason === 'full' ? 'The server is full. Trying again soon' : 'The server cannot be reached. Trying again soon', [again, cancel]);
+    again.textContent = 'Try now';
+    const tick = (): void => { countdown.textContent = `in ${Math.max(0, Math.ceil((until - Date.now()) / 1000))} s`; };
+    tick();
+    timers = [window.setInterval(tick, 250)];
+  }
+
+  return {
+    say,
+    phase(phase) {
+      document.body.dataset['state'] = phase.kind === 'waiting' ? phase.reason : phase.kind;
+      if (phase.kind === 'growing') {
+        growing(phase.share);
+        return;
+      }
+      clear();
+      is_growing = false;
+      progress.hidden = true;
+      switch (phase.kind) {
+        case 'waiting': waiting(phase.reason, phase.until); break;
+        case 'stopped':
+          again.textContent = 'Grow again';
+          show('Stopped. The last model stays', [again]);
+          break;
+        case 'ready':
+          if (was_waiting) say('The server is back');
+          else show('');
+          was_waiting = false;
+          break;
+        case 'refused':
+          show('');
+          was_waiting = false;
+      }
+    },
+    shown(statistics) {
+      part('statistics').hidden = false;
+      part('triangles').textContent = grouped(statistics.triangles);
+      part('bytes').textContent = size_of(statistics.bytes);
+      part('bytes').title = `${grouped(statistics.bytes)} bytes`;
+      part('bytes').dataset['bytes'] = String(statistics.bytes);
+      part('milliseconds').textContent = `${statistics.milliseconds < 10 ? statistics.milliseconds.toFixed(1) : grouped(Math.round(statistics.milliseconds))} ms`;
+    },
+    faults(detail, homeless, in_fields, lead) {
+      if (detail === '') {
+        alert.replaceChildren();
+        return;
+      }
+      const go = el('button', { type: 'button', onclick: lead }, 'Show');
+      alert.replaceChildren(
+        el('p', {}, detail),
+        ...homeless.map((fault) => el('p', {}, fault.pointer ? `${fault.pointer}: ${fault.message}` : fault.message)),
+        ...(in_fields > 0 ? [go] : []),
+      );
+    },
+    lost(lost) {
+      if (lost) show('The browser has lost the picture. It comes back when the graphics card answers');
+      else say('The picture is back');
+    },
+  };
+}
+
+export function size_of(bytes: number): string {
+  if (bytes < 1000) return `${bytes} B`;
+  return bytes < 1e6 ? `${rounded(bytes / 1e3)} KB` : `${rounded(bytes / 1e6)} MB`;
+}

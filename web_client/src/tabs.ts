@@ -1,0 +1,35 @@
+/** The two pages of the panel, and on a narrow screen the panel as a sheet that folds. */
+import { part } from './dom';
+
+const names = ['gallery', 'parameters'] as const;
+export type Page = (typeof names)[number];
+
+export function wire_tabs(): { open(page: Page): void } {
+  const tabs = names.map((name) => part(`tab-${name}`));
+  const fold = part('fold'), panel = part('panel');
+  const fold_to = (open: boolean): void => {
+    panel.classList.toggle('folded', !open);
+    fold.setAttribute('aria-expanded', String(open));
+    fold.setAttribute('aria-label', open ? 'Fold the panel' : 'Unfold the panel');
+  };
+  const open = (page: Page): void => {
+    names.forEach((name, index) => {
+      part(name).hidden = name !== page;
+      tabs[index]?.setAttribute('aria-selected', String(name === page));
+      tabs[index]?.setAttribute('tabindex', name === page ? '0' : '-1');
+    });
+    fold_to(true);
+  };
+  names.forEach((name, index) => {
+    tabs[index]?.addEventListener('click', () => open(name));
+    tabs[index]?.addEventListener('keydown', (event) => {
+      const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+      if (step === undefined) return;
+      const next = (index + step + names.length) % names.length;
+      open(names[next] ?? 'gallery');
+      tabs[next]?.focus();
+    });
+  });
+  fold.addEventListener('click', () => fold_to(panel.classList.contains('folded')));
+  return { open };
+}

@@ -1,0 +1,138 @@
+/** What stands round the model: light, the ground with its grid in metres, and a person of 1.8 m for scale. */
+import {
+  Box3, CapsuleGeometry, Color, DirectionalLight, Group, HemisphereLight, Mesh, MeshStandardMaterial, PlaneGeometry,
+  ShaderMaterial, ShadowMaterial, SphereGeometry, Vector3, type Material,
+} from 'three';
+
+const grid_vertex = `
+  varying vec2 ground;
+  void main() {
+    vec4 place = modelMatrix * vec4(position, 1.0);
+    ground = place.xz;
+    gl_Position = projectionMatrix * viewMatrix * place;
+  }`;
+
+// Lines about one pixel wide at any distance, every tenth one stronger, fading out towards the rim.
+const grid_fragment = `
+  uniform vec3 color;
+  uniform float cell;
+  uniform float reach;
+  uniform vec2 centre;
+  varying vec2 ground;
+  float lines(float size) {
+    vec2 at = ground / size;
+    vec2 width = fwidth(at);
+    vec2 near_line = abs(fract(at - 0.5) - 0.5) / max(width, vec2(1e-6));
+    float line = 1.0 - min(min(near_line.x, near_line.y), 1.0);
+    return line * (1.0 - smoothstep(0.2, 0.6, max(width.x, width.y)));
+  }
+  void main() {
+    float fade = 1.0 - smoothstep(0.25, 1.0, length(ground - centre) / reach);
+    float strength = max(0.35 * lines(cell), 0.75 * lines(cell * 10.0)) * fade;
+    gl_FragColor = vec4(color, strength);
+  }`;
+
+/** 1.8 m from sole to crown, in the pose of a lay figure. */
+function person(material: Material, shadows: boolean): Group {
+  const group = new Group();
+  const limb = (radius: number, length: number, x: number, y: number, lean: number): void => {
+    const mesh = new Mesh(new CapsuleGeometry(radius, length, 6, 16), material);
+    mesh.position.set(x, y, 0);
+    mesh.rotation.z = lean;
+    group.add(mesh);
+  };
+  const head = new Mesh(new SphereGeometry(0.11, 24, 18), material);
+  head.position.y = 1.69;
+  head.scale.set(0.85, 1, 0.95);
+  group.add(head);
+  limb(0.15, 0.3, 0, 1.28, 0);
+  limb(0.135, 0.08, 0, 0.98, 0);
+  for (const side of [-1, 1]) {
+    limb(0.08, 0.8, side * 0.09, 0.48, side * 0.02);
+    limb(0.05, 0.58, side * 0.24, 1.12, side * 0.12);
+  }
+  group.traverse((part) => { part.castShadow = shadows; });
+  return group;
+}
+
+export class Stage {
+  readonly group = new Group();
+  /** Side of a grid cell, in metres: a power of ten. */
+  cell = 1;
+  private readonly sky = new HemisphereLight(0xffffff, 0x9a958a, 1.9);
+  private readonly sun = new DirectionalLight(0xfff3e0, 2.6);
+  private readonly rim = new DirectionalLight(0xdfeaff, 0.7);
+  private readonly grid: Mesh<PlaneGeometry, ShaderMaterial>;
+  private readonly shade: Mesh<PlaneGeometry, ShadowMaterial>;
+  private readonly figure: Group;
+  private readonly skin = new MeshStandardMaterial({ roughness: 0.95 });
+  private wants_figure = true;
+
+  constructor(shadows: boolean) {
+    const uniforms = { color: { value: new Color() }, cell: { value: 1 }, reach: { value: 10 }, centre: { value: new Vector3() } };
+    this.grid = new Mesh(new PlaneGeometry(1, 1), new ShaderMaterial({
+      uniforms, vertexShader: grid_vertex, fragmentShader: grid_fragment, transparent: true, depthWrite: false, side: 2,
+    }));
+    this.grid.rotation.x = -Math.PI / 2;
+    this.shade = new Mesh(new PlaneGeometry(1, 1), new ShadowMaterial({ opacity: 0.22, depthWrite: false }));
+    this.shade.rotation.x = -Math.PI / 2;
+    this.shade.receiveShadow = true;
+    this.shade.visible = shadows;
+    this.sun.castShadow = shadows;
+    this.sun.shadow.mapSize.set(2048, 2048);
+    this.sun.shadow.radius = 3;
+    this.sun.shadow.bias = -0.0005;
+    this.figure = person(this.skin, shadows);
+    this.group.add(this.sky, this.sun, this.sun.target, this.rim, this.grid, this.shade, this.figure);
+  }
+
+  /** Puts ground, light and person round a model. */
+  surround(box: Box3): void {
+    const size = box.getSize(new Vector3());
+    const centre = box.getCenter(new Vector3());
+    const largest = Math.max(size.x, size.y, size.z, 1e-3);
+    // Roots go below the ground; a drawing that hangs far below it stands on its lowest point instead.
+    const floor = box.min.y < -0.2 * size.y ? box.min.y : 0;
+    this.cell = 10 ** Math.round(Math.log10(largest / 4));
+    const reach = largest * 3 + this.cell * 2;
+    const uniforms = this.grid.material.uniforms;
+    uniforms['cell']!.value = this.cell;
+    uniforms['reach']!.value = reach;
+    uniforms['centre']!.value = { x: centre.x, y: centre.z };
+    for (const plane of [this.grid, this.shade]) {
+      plane.scale.setScalar(reach * 2);
+      plane.position.set(centre.x, floor, centre.z);
+    }
+    this.shade.position.y -= largest * 1e-4;
+    this.figure.position.set(box.min.x - Math.max(0.5, size.x * 0.08), floor, centre.z);
+    // Beside a model of a few centimetres, or of a hundred metres, a person shows nothing.
+    this.figure.visible = this.wants_figure && size.y > 0.6 && size.y < 60;
+
+    this.sun.target.position.copy(centre);
+    this.sun.position.copy(centre).add(new Vector3(0.55, 1.1, 0.7).multiplyScalar(largest * 2));
+    this.rim.position.copy(centre).add(new Vector3(-0.7, 0.4, -0.9).multiplyScalar(largest));
+    const camera = this.sun.shadow.camera;
+    const half = size.length() * 0.75 + 1;
+    Object.assign(camera, { left: -half, right: half, top: half, bottom: -half, near: largest * 0.05, far: largest * 6 + 4 });
+    camera.updateProjectionMatrix();
+  }
+
+  /** The figure too has to be in the picture where the model is about its size. */
+  sight(box: Box3): Box3 {
+    return this.figure.visible && box.max.y - box.min.y < 12 ? box.clone().union(new Box3().setFromObject(this.figure)) : box;
+  }
+
+  set grid_visible(visible: boolean) { this.grid.visible = visible; }
+
+  show_figure(wanted: boolean, box: Box3): void {
+    this.wants_figure = wanted;
+    this.surround(box);
+  }
+
+  set_theme(dark: boolean): void {
+    (this.grid.material.uniforms['color']!.value as Color).set(dark ? 0x8fa398 : 0x6d7f74);
+    this.skin.color.set(dark ? 0x7d8a83 : 0xb9b4a8);
+    this.shade.material.opacity = dark ? 0.4 : 0.2;
+    this.sky.intensity = dark ? 1.7 : 1.9;
+  }
+}
