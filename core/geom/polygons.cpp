@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/base/math.h"
+#include "core/geom/edge_book.h"
 #include "core/geom/places.h"
 #include "core/geom/triangulate.h"
 
@@ -17,25 +18,33 @@ namespace {
 constexpr float weld_share = 2e-6F;
 // Of its square. Triangles of half this area count as degenerate.
 constexpr double area_share = 2e-12;
+// Outlines of no more points than this keep a vertex cache of 16 entries warm in whatever order their
+// triangles come.
+constexpr std::size_t most_in_cache = 14;
+constexpr std::size_t most_vertices = 0xF0000000U;
 
-/// An outline without repeated points, in the plane that fits it best.
+/// The points of one outline without repeated ones, in the plane that fits it best. Kept from outline to
+/// outline for its memory.
 struct Polygon {
-  std::vector<glm::vec3> point;
-  std::vector<std::uint32_t> place;  ///< of each point, shared with points of other outlines
-  std::vector<glm::dvec2> flat;      ///< in the plane
-  std::vector<std::uint32_t> triangle;
-  glm::vec3 normal{0};
+  std::vector<std::uint32_t> vertex;  ///< numbers of the outlines' vertices
+  std::vector<std::uint32_t> place;   ///< of each
+  std::vector<glm::dvec2> flat;
+  glm::dvec3 normal{0}, u{0};
+
+  void clear() {
+    vertex.clear();
+    place.clear();
+    flat.clear();
+  }
 };
 
-/// Newell's normal: its length is twice the area of the outline.
-glm::dvec3 newell(const std::vector<glm::vec3>& points) {
-  glm::dvec3 sum{0};
-  const glm::dvec3 origin = points[0];
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    sum += glm::cross(glm::dvec3(points[i]) - origin, glm::dvec3(points[(i + 1) % points.size()]) - origin);
-  }
-  return sum;
-}
+/// Triangles of one outline that go to one mesh.
+struct Piece {
+  std::uint32_t outline = 0;
+  std::uint32_t first_corner = 0, corners = 0;
+  int layer = 0;
+  glm::vec3 normal{0}, u{0};
+};
 
 /// The places of an outline in an order that depends neither on where it starts nor on its direction.
 std::uint64_t cycle_key(const std::vector<std::uint32_t>& places) {
@@ -50,253 +59,286 @@ std::uint64_t cycle_key(const std::vector<std::uint32_t>& places) {
   return key;
 }
 
-/// The directed edges in use in each layer. An edge may be used once in each direction.
-class Edges {
+/// First look: what becomes of each outline.
+class PolygonCutter {
  public:
-  explicit Edges(const Job& job) : used_(job, 64) {}
-
-  bool is_free(int layer, std::uint32_t from, std::uint32_t to) {
-    return !(use(layer, from, to) & direction(from, to));
-  }
-  void take(int layer, std::uint32_t from, std::uint32_t to) {
-    std::uint32_t& bits = used_[key(layer, from, to)];
-    bits = (bits == NumberTable::none ? 0 : bits) | direction(from, to);
-  }
-
- private:
-  static std::uint32_t direction(std::uint32_t from, std::uint32_t to) { return from < to ? 1 : 2; }
-  static std::uint64_t key(int layer, std::uint32_t from, std::uint32_t to) {
-    const std::uint64_t both = std::uint64_t{std::min(from, to)} << 32U | std::max(from, to);
-    return key_at(both, static_cast<std::uint64_t>(layer));
-  }
-  std::uint32_t use(int layer, std::uint32_t from, std::uint32_t to) {
-    const std::uint32_t bits = used_.peek(key(layer, from, to));
-    return bits == NumberTable::none ? 0 : bits;
-  }
-
-  NumberTable used_;
-};
-
-enum class Side { front, back };
-
-class PolygonMaker {
- public:
-  PolygonMaker(const Outlines& outlines, Job& job)
-      : outlines_(outlines),
+  PolygonCutter(const Outlines& outlines, Job& job)
+      : corner(job),
+        piece(job),
+        is_shared(job),
+        place(job, outlines.vertex.size()),
+        book(job),
+        outlines_(outlines),
         job_(job),
-        place_(job, outlines.vertex.size()),
-        is_shared_(job),
-        edges_(job),
         seen_(job, 64),
         faces_(job, 64),
-        vertices_(job, 64),
         budget_(job, Resource::triangles) {
     const Box box = bounds_of(outlines.vertex.span());
     const glm::vec3 extent = box.max - box.min;
     size_ = std::sqrt(glm::dot(extent, extent));
     find_places(box);
+    for (std::uint32_t i = 0; i < outlines.outline.size(); ++i) {
+      if (i % 256 == 0) job.check();
+      add(i);
+    }
   }
 
-  std::vector<Bark> run() {
-    for (std::size_t i = 0; i < outlines_.outline.size(); ++i) {
-      if (i % 256 == 0) job_.check();
-      add(outlines_.outline[i]);
-    }
-    std::vector<Bark> all;
-    for (auto& [where, mesh] : meshes_) {
-      finish(mesh);
-      all.push_back({where.second, std::move(mesh), where.first});
-    }
-    return all;
-  }
+  Array<std::uint32_t> corner;  ///< three a triangle, numbers of the outlines' vertices
+  Array<Piece> piece;
+  Array<std::uint8_t>
+      is_shared;  ///< of each place: outlines pass it more than once. Only there can triangles meet.
+  Array<std::uint32_t> place;  ///< of each vertex of the outlines
+  EdgeBook book;
 
  private:
-  /// Welds all points and finds out which places outlines pass more than once; only those can bring trouble.
   void find_places(const Box& box) {
     Weld weld(job_, box, std::max(weld_share * size_, 1e-30F), outlines_.vertex.size());
     for (std::uint32_t i = 0; i < outlines_.outline.size(); ++i) {
       const Outline& outline = outlines_.outline[i];
       if (i % 256 == 0) job_.check();
       for (std::uint32_t k = outline.first; k < outline.first + outline.count; ++k) {
-        const std::uint32_t place = weld.number(outlines_.vertex[k]);
-        place_[k] = place;
-        if (k > outline.first && place_[k - 1] == place) continue;
-        if (place == is_shared_.size()) {
-          is_shared_.push_back(0);
+        place[k] = weld.number(outlines_.vertex[k]);
+        if (k > outline.first && place[k - 1] == place[k]) continue;
+        if (place[k] == is_shared.size()) {
+          is_shared.push_back(0);
         } else {
-          is_shared_[place] = 1;
+          is_shared[place[k]] = 1;
         }
       }
     }
   }
 
-  void add(const Outline& outline) {
-    Polygon polygon;
-    for (std::uint32_t k = outline.first; k < outline.first + outline.count; ++k) {
-      if (!polygon.place.empty() && polygon.place.back() == place_[k]) continue;
-      polygon.point.push_back(outlines_.vertex[k]);
-      polygon.place.push_back(place_[k]);
-    }
-    while (polygon.place.size() > 1 && polygon.place.front() == polygon.place.back()) {
-      polygon.place.pop_back();
-      polygon.point.pop_back();
-    }
-    if (polygon.place.size() < 3 || !flatten(polygon)) return;
-    if (touches_itself(polygon)) {
+  void add(std::uint32_t number) {
+    if (!read(outlines_.outline[number])) return;
+    if (touches_itself()) {
       // Its own triangles may be in each other's way, so they are looked at like those of neighbours.
-      for (std::uint32_t place : polygon.place) is_shared_[place] = 1;
+      for (std::uint32_t each : polygon_.place) is_shared[each] = 1;
     }
-    const bool may_coincide =
-        std::all_of(polygon.place.begin(), polygon.place.end(), [&](auto p) { return is_shared_[p]; });
-    if (may_coincide) {
-      std::uint32_t& seen = seen_[cycle_key(polygon.place)];
+    if (std::all_of(polygon_.place.begin(), polygon_.place.end(), [&](auto p) { return is_shared[p]; })) {
+      std::uint32_t& seen = seen_[cycle_key(polygon_.place)];
       if (seen != NumberTable::none) return;
-      seen = 1;
+      seen = number;
     }
-    polygon.triangle = triangulate(polygon.flat, area_share * size_ * size_);
-    drop_triangles_made_before(polygon);
-    budget_.spend(polygon.triangle.size() / 3);
-    if (crosses_itself(polygon.triangle, polygon)) {
-      for (std::size_t t = 0; t < polygon.triangle.size(); t += 3)
-        place(outline, polygon, {&polygon.triangle[t], 3});
-    } else if (!polygon.triangle.empty()) {
-      place(outline, polygon, polygon.triangle);
+    if (corner.size() > most_vertices)
+      Job::refuse("The polygons have more corners than 32-bit indices can name.");
+    const auto first = static_cast<std::uint32_t>(corner.size());
+    const std::span<const std::uint32_t> triangles =
+        triangulator_.run(polygon_.flat, area_share * size_ * size_);
+    for (std::size_t t = 0; t < triangles.size(); t += 3) {
+      if (is_made_before(triangles.subspan(t, 3))) continue;
+      for (std::size_t k = 0; k < 3; ++k) corner.push_back(polygon_.vertex[triangles[t + k]]);
     }
+    const auto count = static_cast<std::uint32_t>(corner.size()) - first;
+    budget_.spend(count / 3);
+    const std::uint32_t step = count > 0 && crosses_itself(first, count) ? 3 : count;
+    for (std::uint32_t done = 0; done < count; done += step) enter(number, first + done, step);
   }
 
-  /// Triangles of outlines that coincide in part; they would fight over the same pixels.
-  void drop_triangles_made_before(Polygon& polygon) {
-    std::vector<std::uint32_t> fresh;
-    for (std::size_t t = 0; t < polygon.triangle.size(); t += 3) {
-      const std::span<const std::uint32_t> corners{&polygon.triangle[t], 3};
-      std::array<std::uint32_t, 3> places{};
-      std::transform(corners.begin(), corners.end(), places.begin(),
-                     [&](auto corner) { return polygon.place[corner]; });
-      if (std::all_of(places.begin(), places.end(), [&](auto place) { return is_shared_[place]; })) {
-        std::sort(places.begin(), places.end());
-        std::uint32_t& seen = faces_[key_at(std::uint64_t{places[0]} << 32U | places[1], places[2])];
-        if (seen != NumberTable::none) continue;
-        seen = 1;
-      }
-      fresh.insert(fresh.end(), corners.begin(), corners.end());
+  /// Fills in the polygon; false where the outline has no area.
+  bool read(const Outline& outline) {
+    polygon_.clear();
+    for (std::uint32_t k = outline.first; k < outline.first + outline.count; ++k) {
+      if (!polygon_.place.empty() && polygon_.place.back() == place[k]) continue;
+      polygon_.vertex.push_back(k);
+      polygon_.place.push_back(place[k]);
     }
-    polygon.triangle = std::move(fresh);
+    while (polygon_.place.size() > 1 && polygon_.place.front() == polygon_.place.back()) {
+      polygon_.place.pop_back();
+      polygon_.vertex.pop_back();
+    }
+    return polygon_.place.size() >= 3 && flatten();
   }
 
-  /// Fills in the plane; false where the outline has no area.
-  bool flatten(Polygon& polygon) const {
-    const glm::dvec3 sum = newell(polygon.point);
-    if (!(std::sqrt(glm::dot(sum, sum)) > 4 * area_share * size_ * size_)) return false;
-    const glm::dvec3 normal = math::unit(sum, {0, 1, 0});
-    glm::dvec3 u{0};
-    for (std::size_t i = 0; i + 1 < polygon.point.size() && u == glm::dvec3(0); ++i) {
-      const glm::dvec3 edge = glm::dvec3(polygon.point[i + 1]) - glm::dvec3(polygon.point[0]);
-      u = math::unit(edge - normal * glm::dot(edge, normal), {0, 0, 0});
+  glm::dvec3 from_first(std::size_t i) const {
+    return glm::dvec3(outlines_.vertex[polygon_.vertex[i]]) -
+           glm::dvec3(outlines_.vertex[polygon_.vertex[0]]);
+  }
+
+  bool flatten() {
+    const std::size_t count = polygon_.vertex.size();
+    glm::dvec3 sum{0};  // Newell's normal: its length is twice the area
+    for (std::size_t i = 1; i + 1 < count; ++i) sum += glm::cross(from_first(i), from_first(i + 1));
+    const double length = std::sqrt(glm::dot(sum, sum));
+    if (!(length > 4 * area_share * size_ * size_)) return false;
+    polygon_.normal = sum / length;
+    glm::dvec3 along{0};
+    double best = 0;
+    for (std::size_t i = 1; i < count && best == 0; ++i) {
+      along = from_first(i) - polygon_.normal * glm::dot(from_first(i), polygon_.normal);
+      best = glm::dot(along, along);
     }
-    const glm::dvec3 v = glm::cross(normal, u);
-    for (const glm::vec3& p : polygon.point) {
-      const glm::dvec3 from_first = glm::dvec3(p) - glm::dvec3(polygon.point[0]);
-      polygon.flat.emplace_back(glm::dot(from_first, u), glm::dot(from_first, v));
+    polygon_.u = along / std::sqrt(best);
+    const glm::dvec3 v = glm::cross(polygon_.normal, polygon_.u);
+    for (std::size_t i = 0; i < count; ++i) {
+      polygon_.flat.emplace_back(glm::dot(from_first(i), polygon_.u), glm::dot(from_first(i), v));
     }
-    polygon.normal = glm::vec3(normal);
     return true;
   }
 
-  static bool touches_itself(const Polygon& polygon) {
-    std::vector<std::uint32_t> places = polygon.place;
+  bool touches_itself() {
+    const auto shared =
+        std::count_if(polygon_.place.begin(), polygon_.place.end(), [&](auto p) { return is_shared[p]; });
+    if (shared < 2) return false;
+    sorted_ = polygon_.place;
+    std::sort(sorted_.begin(), sorted_.end());
+    return std::adjacent_find(sorted_.begin(), sorted_.end()) != sorted_.end();
+  }
+
+  /// A triangle of outlines that coincide in part: two would fight over the same pixels.
+  bool is_made_before(std::span<const std::uint32_t> triangle) {
+    std::array<std::uint32_t, 3> places{polygon_.place[triangle[0]], polygon_.place[triangle[1]],
+                                        polygon_.place[triangle[2]]};
+    if (!is_shared[places[0]] || !is_shared[places[1]] || !is_shared[places[2]]) return false;
     std::sort(places.begin(), places.end());
-    return std::adjacent_find(places.begin(), places.end()) != places.end();
+    std::uint32_t& seen = faces_[key_at(std::uint64_t{places[0]} << 32U | places[1], places[2])];
+    return std::exchange(seen, 1) != NumberTable::none;
   }
 
-  /// True where the outline runs along one of its own edges twice in the same direction.
-  static bool crosses_itself(std::span<const std::uint32_t> triangles, const Polygon& polygon) {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-    for (std::size_t t = 0; t < triangles.size(); t += 3) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        edges.emplace_back(polygon.place[triangles[t + k]], polygon.place[triangles[t + (k + 1) % 3]]);
-      }
-    }
-    std::sort(edges.begin(), edges.end());
-    return std::adjacent_find(edges.begin(), edges.end()) != edges.end();
-  }
-
-  /// Puts triangles into the first layer that has their edges free, turned over if need be.
-  void place(const Outline& outline, const Polygon& polygon, std::span<const std::uint32_t> triangles) {
-    for (int layer = 0;; ++layer) {
-      for (const Side side : {Side::front, Side::back}) {
-        if (!fits(layer, side, polygon, triangles)) continue;
-        write(outline, layer, side, polygon, triangles);
-        return;
+  /// Fills edges_ with those that others may share.
+  void list_edges(std::uint32_t first, std::uint32_t count) {
+    edges_.clear();
+    for (std::uint32_t t = first; t < first + count; t += 3) {
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const EdgeBook::Edge edge{place[corner[t + k]], place[corner[t + (k + 1) % 3]]};
+        if (is_shared[edge.from] && is_shared[edge.to]) edges_.push_back(edge);
       }
     }
   }
 
-  template <class Visit>
-  void each_edge(Side side, const Polygon& polygon, std::span<const std::uint32_t> triangles,
-                 Visit visit) const {
-    for (std::size_t t = 0; t < triangles.size(); t += 3) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        std::uint32_t from = polygon.place[triangles[t + k]], to = polygon.place[triangles[t + (k + 1) % 3]];
-        if (!is_shared_[from] || !is_shared_[to]) continue;
-        if (side == Side::back) std::swap(from, to);
-        visit(from, to);
-      }
-    }
+  /// True where two triangles run along an edge in the same direction.
+  bool crosses_itself(std::uint32_t first, std::uint32_t count) {
+    list_edges(first, count);
+    if (edges_.size() < 2) return false;
+    const auto key = [](const EdgeBook::Edge& e) { return std::uint64_t{e.from} << 32U | e.to; };
+    std::sort(edges_.begin(), edges_.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+    return std::adjacent_find(edges_.begin(), edges_.end(),
+                              [&](const auto& a, const auto& b) { return key(a) == key(b); }) != edges_.end();
   }
 
-  bool fits(int layer, Side side, const Polygon& polygon, std::span<const std::uint32_t> triangles) {
-    bool is_free = true;
-    each_edge(side, polygon, triangles, [&](std::uint32_t from, std::uint32_t to) {
-      is_free = is_free && edges_.is_free(layer, from, to);
-    });
-    return is_free;
+  void enter(std::uint32_t outline, std::uint32_t first, std::uint32_t count) {
+    list_edges(first, count);
+    piece.push_back(
+        {outline, first, count, book.add(edges_), glm::vec3(polygon_.normal), glm::vec3(polygon_.u)});
   }
 
-  void write(const Outline& outline, int layer, Side side, const Polygon& polygon,
-             std::span<const std::uint32_t> triangles) {
-    each_edge(side, polygon, triangles,
-              [&](std::uint32_t from, std::uint32_t to) { edges_.take(layer, from, to); });
-    Mesh& mesh = mesh_of(layer, outline.color);
-    if (mesh.position.size() + triangles.size() > 0xFFFFFFFEU)
-      Job::refuse("The polygons have more vertices than 32-bit indices can name.");
-    const glm::vec3 normal = (side == Side::front ? polygon.normal : -polygon.normal) + 0.0F;
-    glm::dvec2 low = polygon.flat[0], high = low;
-    for (const glm::dvec2& p : polygon.flat) {
-      low = glm::min(low, p);
-      high = glm::max(high, p);
+  const Outlines& outlines_;
+  Job& job_;
+  float size_ = 0;
+  NumberTable seen_;   ///< outlines made, by their places
+  NumberTable faces_;  ///< triangles made, by their places
+  Meter budget_;
+  Polygon polygon_;
+  Triangulator triangulator_;
+  std::vector<std::uint32_t> sorted_;
+  std::vector<EdgeBook::Edge> edges_;
+};
+
+/// Second look: writes the pieces, which now know their side.
+class PieceWriter {
+ public:
+  PieceWriter(const Outlines& outlines, PolygonCutter& cut, Job& job)
+      : outlines_(outlines), cut_(cut), job_(job), vertices_(job, 64) {}
+
+  std::vector<Bark> run() {
+    make_room();
+    for (std::uint32_t i = 0; i < cut_.piece.size(); ++i) {
+      if (i % 256 == 0) job_.check();
+      write(cut_.piece[i], cut_.book.is_turned(i));
     }
-    std::vector<std::uint8_t> is_used(polygon.point.size());
-    for (std::uint32_t point : triangles) is_used[point] = 1;
-    std::vector<std::uint32_t> vertex(polygon.point.size());
-    for (std::size_t i = 0; i < vertex.size(); ++i) {
-      if (!is_used[i]) continue;
-      const glm::vec2 uv = glm::vec2((polygon.flat[i] - low) / (high - low)) + 0.0F;
-      vertex[i] =
-          find_vertex(mesh, {layer, outline.color}, polygon.place[i], {polygon.point[i] + 0.0F, normal, uv});
+    std::vector<Bark> all;
+    for (auto& [where, mesh] : meshes_) {
+      mesh.position.shrink_to_fit();
+      mesh.normal.shrink_to_fit();
+      mesh.uv[0].shrink_to_fit();
+      all.push_back({where.second, std::move(mesh), where.first});
     }
-    for (std::size_t t = 0; t < triangles.size(); t += 3) {
-      const std::size_t second = side == Side::front ? 1 : 2;
-      for (std::size_t k : {std::size_t{0}, second, 3 - second})
-        mesh.index.wide.push_back(vertex[triangles[t + k]]);
-    }
+    return all;
   }
 
+ private:
+  using Where = std::pair<int, std::int16_t>;  ///< layer and colour
   struct Vertex {
     glm::vec3 position, normal;
     glm::vec2 uv;
   };
-  using Where = std::pair<int, std::int16_t>;  ///< layer and colour
+
+  Where where(const Piece& piece) const { return {piece.layer, outlines_.outline[piece.outline].color}; }
+
+  /// Room for the most that each mesh can need.
+  void make_room() {
+    struct Need {
+      std::size_t vertices = 0, corners = 0;
+      bool fits_cache = true;
+    };
+    std::map<Where, Need> needs;
+    for (const Piece& piece : cut_.piece) {
+      Need& need = needs[where(piece)];
+      const std::size_t points = std::min(outlines_.outline[piece.outline].count, piece.corners);
+      need.vertices += points;
+      need.corners += piece.corners;
+      need.fits_cache = need.fits_cache && points <= most_in_cache;
+    }
+    for (const auto& [at, need] : needs) {
+      if (need.vertices > most_vertices)
+        Job::refuse("The polygons have more vertices than 32-bit indices can name.");
+      Mesh& mesh = meshes_[at];
+      mesh.position = Array<glm::vec3>(job_);
+      mesh.normal = Array<glm::vec3>(job_);
+      mesh.uv[0] = Array<glm::vec2>(job_);
+      mesh.index.wide = Array<std::uint32_t>(job_);
+      mesh.position.reserve(need.vertices);
+      mesh.normal.reserve(need.vertices);
+      mesh.uv[0].reserve(need.vertices);
+      mesh.index.wide.reserve(need.corners);
+      mesh.cache_ordered = need.fits_cache;
+    }
+  }
+
+  void write(const Piece& piece, bool is_turned) {
+    const Outline& outline = outlines_.outline[piece.outline];
+    const std::span<const std::uint32_t> corners =
+        cut_.corner.span().subspan(piece.first_corner, piece.corners);
+    Mesh& mesh = mesh_at(where(piece));
+    const glm::vec3 origin = outlines_.vertex[outline.first];
+    const glm::vec3 v = glm::cross(piece.normal, piece.u);
+    flat_.resize(outline.count);
+    glm::vec2 low{0}, high{0};
+    for (std::uint32_t i = 0; i < outline.count; ++i) {
+      const glm::vec3 offset = outlines_.vertex[outline.first + i] - origin;
+      flat_[i] = {glm::dot(offset, piece.u), glm::dot(offset, v)};
+      low = glm::min(low, flat_[i]);
+      high = glm::max(high, flat_[i]);
+    }
+    const glm::vec2 extent = high - low;
+    const glm::vec2 scale{extent.x > 0 ? 1 / extent.x : 0, extent.y > 0 ? 1 / extent.y : 0};
+    const glm::vec3 normal = (is_turned ? -piece.normal : piece.normal) + 0.0F;
+
+    vertex_.assign(outline.count, unused);
+    for (std::uint32_t corner : corners) vertex_[corner - outline.first] = used;
+    for (std::uint32_t i = 0; i < outline.count; ++i) {
+      if (vertex_[i] == unused) continue;
+      const glm::vec2 uv = glm::min((flat_[i] - low) * scale, glm::vec2(1)) + 0.0F;
+      vertex_[i] = find_vertex(mesh, where(piece), cut_.place[outline.first + i],
+                               {outlines_.vertex[outline.first + i] + 0.0F, normal, uv});
+    }
+    std::uint32_t* out = mesh.index.wide.extend(corners.size());
+    for (std::size_t t = 0; t < corners.size(); t += 3) {
+      const std::size_t second = is_turned ? 2 : 1;
+      for (std::size_t k : {std::size_t{0}, second, 3 - second})
+        *out++ = vertex_[corners[t + k] - outline.first];
+    }
+  }
 
   /// The number of an equal vertex of another outline, or of a new one.
   std::uint32_t find_vertex(Mesh& mesh, const Where& where, std::uint32_t place, const Vertex& vertex) {
     const auto fresh = static_cast<std::uint32_t>(mesh.position.size());
-    std::uint64_t key =
-        key_at(static_cast<std::uint64_t>(where.first), static_cast<std::uint16_t>(where.second));
-    for (float value : {vertex.position.x, vertex.position.y, vertex.position.z, vertex.normal.x,
-                        vertex.normal.y, vertex.normal.z, vertex.uv.x, vertex.uv.y}) {
-      key = key_at(key, std::bit_cast<std::uint32_t>(value));
-    }
-    if (is_shared_[place]) {
+    if (cut_.is_shared[place]) {
+      std::uint64_t key =
+          key_at(static_cast<std::uint64_t>(where.first), static_cast<std::uint16_t>(where.second));
+      for (float value : {vertex.position.x, vertex.position.y, vertex.position.z, vertex.normal.x,
+                          vertex.normal.y, vertex.normal.z, vertex.uv.x, vertex.uv.y}) {
+        key = key_at(key, std::bit_cast<std::uint32_t>(value));
+      }
       std::uint32_t& number = vertices_[key];
       if (number != NumberTable::none) return number;
       number = fresh;
@@ -307,42 +349,33 @@ class PolygonMaker {
     return fresh;
   }
 
-  Mesh& mesh_of(int layer, std::int16_t color) {
-    const auto [at, is_new] = meshes_.try_emplace(Where{layer, color});
-    if (is_new) {
-      at->second.position = Array<glm::vec3>(job_);
-      at->second.normal = Array<glm::vec3>(job_);
-      at->second.uv[0] = Array<glm::vec2>(job_);
-      at->second.index.wide = Array<std::uint32_t>(job_);
+  Mesh& mesh_at(const Where& at) {
+    if (!last_ || last_at_ != at) {
+      last_ = &meshes_.at(at);
+      last_at_ = at;
     }
-    return at->second;
+    return *last_;
   }
 
-  static void finish(Mesh& mesh) {
-    mesh.position.shrink_to_fit();
-    mesh.normal.shrink_to_fit();
-    mesh.uv[0].shrink_to_fit();
-    mesh.index.wide.shrink_to_fit();
-  }
+  static constexpr std::uint32_t unused = 0xFFFFFFFFU, used = 0xFFFFFFFEU;
 
   const Outlines& outlines_;
+  PolygonCutter& cut_;
   Job& job_;
-  float size_ = 0;
-  Array<std::uint32_t> place_;     ///< of each vertex of the outlines
-  Array<std::uint8_t> is_shared_;  ///< of each place
-  Edges edges_;
-  NumberTable seen_;      ///< outlines made, by their places
-  NumberTable faces_;     ///< triangles made, by their places
-  NumberTable vertices_;  ///< vertices made, by everything they hold
-  Meter budget_;
+  NumberTable vertices_;  ///< vertices at shared places, by everything they hold
   std::map<Where, Mesh> meshes_;
+  Mesh* last_ = nullptr;
+  Where last_at_;
+  std::vector<glm::vec2> flat_;
+  std::vector<std::uint32_t> vertex_;
 };
 
 }  // namespace
 
 std::vector<Bark> polygons(const Outlines& outlines, Job& job) {
   if (outlines.outline.empty()) return {};
-  return PolygonMaker(outlines, job).run();
+  PolygonCutter cut(outlines, job);
+  return PieceWriter(outlines, cut, job).run();
 }
 
 }  // namespace seedmesh

@@ -148,6 +148,39 @@ TEST(Polygons, TurnNeighboursSoThatTheyAgreeOnTheOutside) {
   EXPECT_EQ(measure({&barks[0].mesh}).open_edges, 5U);
 }
 
+TEST(Polygons, TurnWholeGroupsThatALaterPolygonJoins) {
+  Job job = job_of();
+  Drawing drawing(job);
+  drawing.add({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  drawing.add({{3, 0, 0}, {2, 0, 0}, {2, 1, 0}, {3, 1, 0}});
+  drawing.add({{3, 0, 0}, {3, 1, 0}, {4, 0, 0}});
+  drawing.add({{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}});
+  const auto barks = polygons(drawing.outlines, job);
+  ASSERT_THAT(barks, SizeIs(1));
+  EXPECT_THAT(faults_of(barks), IsEmpty());
+  EXPECT_NEAR(area_of(barks), 3.5, 1e-6);
+}
+
+TEST(Polygons, TakeAnotherLayerToCloseAMoebiusStrip) {
+  Job job = job_of();
+  Drawing drawing(job);
+  const auto rung = [](int i) {
+    const math::SinCos round = math::sincos(2 * math::pi * i / 12), twist = math::sincos(math::pi * i / 12);
+    const glm::dvec3 middle{round.cos, 0, round.sin};
+    const glm::dvec3 across = glm::dvec3{round.cos * twist.cos, twist.sin, round.sin * twist.cos} * 0.3;
+    return std::pair{glm::vec3(middle - across), glm::vec3(middle + across)};
+  };
+  for (int i = 0; i < 12; ++i) {
+    const auto [a, b] = rung(i);
+    const auto [c, d] = rung(i + 1);
+    drawing.add({a, b, d});
+    drawing.add({a, d, c});
+  }
+  const auto barks = polygons(drawing.outlines, job);
+  EXPECT_THAT(barks, SizeIs(2));
+  EXPECT_THAT(faults_of(barks), IsEmpty());
+}
+
 TEST(Polygons, TakeAnotherLayerWhereAnEdgeIsUsedUp) {
   Job job = job_of();
   Drawing drawing(job);
@@ -211,7 +244,8 @@ TEST(Triangulate, FillsTenThousandCornersQuickly) {
                      b = star[static_cast<std::size_t>((i + 1) % corners)];
     twice_area += a.x * b.y - a.y * b.x;
   }
-  const auto triangles = triangulate(star, 1e-15);
+  Triangulator triangulator;
+  const auto triangles = triangulator.run(star, 1e-15);
   double filled = 0;
   for (std::size_t t = 0; t < triangles.size(); t += 3) {
     const glm::dvec2 a = star[triangles[t]], b = star[triangles[t + 1]], c = star[triangles[t + 2]];
