@@ -4,9 +4,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -28,11 +25,16 @@ int unusable(const std::string& name) {
 }
 
 std::optional<std::string> read_file(const std::string& name) {
-  if (name == "-") return std::string(std::istreambuf_iterator<char>(std::cin), {});
-  errno = 0;
-  std::ifstream file(name, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(file)), {});
-  if (!file.is_open() || file.bad() || errno == EISDIR) return std::nullopt;
+  std::FILE* file = name == "-" ? stdin : std::fopen(name.c_str(), "rb");
+  if (!file) return std::nullopt;
+  std::string text;
+  char part[64 * 1'024];
+  while (const std::size_t count = std::fread(part, 1, sizeof(part), file)) text.append(part, count);
+  const bool failed = std::ferror(file) != 0;  // a folder opens, but cannot be read
+  const int reason = errno;
+  if (file != stdin) std::fclose(file);
+  errno = reason;
+  if (failed) return std::nullopt;
   return text;
 }
 

@@ -28,7 +28,8 @@ void add_settings(CLI::App& command, Texts& texts) {
 std::vector<std::pair<std::string, std::string>> given(const CLI::App& command, const Texts& texts) {
   std::vector<std::pair<std::string, std::string>> flags;
   for (const auto& [name, text] : texts) {
-    if (command.count("--" + name) > 0) flags.emplace_back(name, text);
+    const CLI::Option* option = command.get_option_no_throw("--" + name);
+    if (option && option->count() > 0) flags.emplace_back(name, text);
   }
   return flags;
 }

@@ -127,6 +127,12 @@ class Listener::Server : public httplib::Server {
     std::random_device entropy;
     next_id_ = (std::uint64_t{entropy()} << 32U) | entropy();
     set_tcp_nodelay(true);
+    // The library's own choice, SO_REUSEPORT, would let a second program take half of our connections without
+    // a word.
+    set_socket_options([](socket_t socket) {
+      const int on = 1;
+      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
+    });
     set_write_timeout(options_.write_time.count());
     set_keep_alive_timeout(options_.idle_time.count());
     set_pre_routing_handler([](const httplib::Request& from, httplib::Response& to) {
