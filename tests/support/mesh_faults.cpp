@@ -4,10 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <map>
 #include <set>
 #include <unordered_map>
-#include <unordered_set>
+#include <utility>
 
 #include "core/base/rng.h"
 
@@ -26,25 +25,30 @@ void count_floats(const Array<T>& values, MeshMeasures& m) {
 }
 
 template <class T>
-void append_bytes(std::string& row, const Array<T>& values, std::size_t i) {
+void hash_bytes(std::uint64_t& hash, const Array<T>& values, std::size_t i) {
   if (values.empty()) return;
-  row.append(reinterpret_cast<const char*>(values.data() + i), sizeof(T));
+  const auto* bytes = reinterpret_cast<const unsigned char*>(values.data() + i);
+  for (std::size_t k = 0; k < sizeof(T); k += 4) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, bytes + k, std::min<std::size_t>(4, sizeof(T) - k));
+    hash = key_at(hash, word);
+  }
 }
 
+/// By hashes of 64 bits: two different vertices have the same once in some 10^19 pairs.
 std::uint64_t duplicates_of(const Mesh& mesh) {
-  std::unordered_set<std::string> seen;
-  for (std::size_t i = 0; i < mesh.position.size(); ++i) {
-    std::string row;
-    append_bytes(row, mesh.position, i);
-    append_bytes(row, mesh.normal, i);
-    for (const auto& uv : mesh.uv) append_bytes(row, uv, i);
-    append_bytes(row, mesh.color, i);
-    append_bytes(row, mesh.tangent, i);
-    append_bytes(row, mesh.joints, i);
-    append_bytes(row, mesh.weights, i);
-    seen.insert(std::move(row));
+  std::vector<std::uint64_t> rows(mesh.position.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    hash_bytes(rows[i], mesh.position, i);
+    hash_bytes(rows[i], mesh.normal, i);
+    for (const auto& uv : mesh.uv) hash_bytes(rows[i], uv, i);
+    hash_bytes(rows[i], mesh.color, i);
+    hash_bytes(rows[i], mesh.tangent, i);
+    hash_bytes(rows[i], mesh.joints, i);
+    hash_bytes(rows[i], mesh.weights, i);
   }
-  return mesh.position.size() - seen.size();
+  std::sort(rows.begin(), rows.end());
+  return static_cast<std::uint64_t>(rows.end() - std::unique(rows.begin(), rows.end()));
 }
 
 void simulate_cache(const Mesh& mesh, std::uint64_t& misses, std::uint64_t& used) {
@@ -109,26 +113,32 @@ void measure_one(const Mesh& mesh, MeshMeasures& m, std::uint64_t& misses, std::
 }
 
 /// Gives points nearer than `reach` to an earlier one that one's number.
-class Weld {
+class Welder {
  public:
-  explicit Weld(double reach) : reach_(reach) {}
+  explicit Welder(double reach) : reach_(reach) {}
   std::uint32_t number(const glm::vec3& point) {
-    const glm::dvec3 cell = glm::floor(glm::dvec3(point) / (2 * reach_));
-    for (int corner = 0; corner < 27; ++corner) {
-      const glm::dvec3 near = cell + glm::dvec3(corner % 3 - 1, corner / 3 % 3 - 1, corner / 9 - 1);
-      const auto found = cells_.find(key(near));
-      if (found == cells_.end()) continue;
-      for (std::uint32_t id : found->second) {
-        if (glm::length(glm::dvec3(points_[id]) - glm::dvec3(point)) <= reach_) return id;
+    const glm::dvec3 in_cells = glm::dvec3(point) / (8 * reach_);
+    const glm::dvec3 cell = glm::floor(in_cells);
+    const glm::dvec3 low = glm::floor(in_cells - 0.125), high = glm::floor(in_cells + 0.125);
+    for (double z = low.z; z <= high.z; ++z) {
+      for (double y = low.y; y <= high.y; ++y) {
+        for (double x = low.x; x <= high.x; ++x) {
+          const auto found = cells_.find(key({x, y, z}));
+          for (std::uint32_t id = found == cells_.end() ? none : found->second; id != none; id = next_[id]) {
+            if (glm::length(glm::dvec3(points_[id]) - glm::dvec3(point)) <= reach_) return id;
+          }
+        }
       }
     }
+    const auto id = static_cast<std::uint32_t>(points_.size());
     points_.push_back(point);
-    const auto id = static_cast<std::uint32_t>(points_.size() - 1);
-    cells_[key(cell)].push_back(id);
+    const auto [first, is_new] = cells_.try_emplace(key(cell), id);
+    next_.push_back(is_new ? none : std::exchange(first->second, id));
     return id;
   }
 
  private:
+  static constexpr std::uint32_t none = 0xFFFFFFFFU;
   static std::uint64_t key(const glm::dvec3& cell) {
     std::uint64_t k = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -137,7 +147,8 @@ class Weld {
   }
   double reach_;
   std::vector<glm::vec3> points_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+  std::vector<std::uint32_t> next_;
+  std::unordered_map<std::uint64_t, std::uint32_t> cells_;
 };
 
 void measure_topology(const std::vector<const Mesh*>& primitives, MeshMeasures& m) {
@@ -148,12 +159,9 @@ void measure_topology(const std::vector<const Mesh*>& primitives, MeshMeasures& 
     box = {glm::min(box.min, part.min), glm::max(box.max, part.max)};
   }
   if (box.min.x > box.max.x) return;
-  Weld weld(std::max(1e-6 * diagonal(box), 1e-30));
-  struct Use {
-    int times = 0, sum = 0;
-  };
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Use> edges;
-  std::set<Face> faces;
+  Welder weld(std::max(1e-6 * diagonal(box), 1e-30));
+  std::vector<std::uint64_t> edges;  // the lower place, the higher, and in the last bit the direction
+  std::vector<Face> faces;
   for (const Mesh* mesh : primitives) {
     if (mesh->topology != Topology::triangles) continue;
     std::vector<std::uint32_t> ids;
@@ -162,19 +170,23 @@ void measure_topology(const std::vector<const Mesh*>& primitives, MeshMeasures& 
       Face f{ids[mesh->index.at(3 * t)], ids[mesh->index.at(3 * t + 1)], ids[mesh->index.at(3 * t + 2)]};
       if (f[0] == f[1] || f[1] == f[2] || f[0] == f[2]) continue;
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t p = f[k], q = f[(k + 1) % 3];
-        Use& use = edges[{std::min(p, q), std::max(p, q)}];
-        ++use.times;
-        use.sum += p < q ? 1 : -1;
+        const std::uint64_t p = f[k], q = f[(k + 1) % 3];
+        edges.push_back(std::min(p, q) << 33U | std::max(p, q) << 1U | (p < q ? 1U : 0U));
       }
       std::sort(f.begin(), f.end());
-      if (!faces.insert(f).second) ++m.duplicate_faces;
+      faces.push_back(f);
     }
   }
-  for (const auto& [edge, use] : edges) {
-    if (use.times == 1) ++m.open_edges;
-    if (use.times > 2) ++m.over_used_edges;
-    if (use.times == 2 && use.sum != 0) ++m.inconsistent_edges;
+  std::sort(faces.begin(), faces.end());
+  m.duplicate_faces += static_cast<std::uint64_t>(faces.end() - std::unique(faces.begin(), faces.end()));
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t times = 0, upward = 0;
+    for (const std::uint64_t edge = edges[i] >> 1U; i < edges.size() && edges[i] >> 1U == edge; ++i, ++times)
+      upward += edges[i] & 1U;
+    if (times == 1) ++m.open_edges;
+    if (times > 2) ++m.over_used_edges;
+    if (times == 2 && upward != 1) ++m.inconsistent_edges;
   }
 }
 
