@@ -7,12 +7,17 @@
 namespace seedmesh {
 namespace {
 
-/// Scripts and data come from here alone; WebAssembly for the mesh decoder of the client. Styles may stand in
-/// elements, since pictures and charts place their parts so.
-constexpr const char* content_security =
-    "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
-    "img-src 'self' data: blob:; connect-src 'self' data: blob:; worker-src 'self' blob:; object-src 'none'; "
+/// The client's page: everything comes from here, and nothing stands inside the page itself. The viewer reads
+/// the textures that a model carries through blob addresses.
+constexpr const char* client_security =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self' "
+    "blob:; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'self'";
+
+/// The reference is one file with its style inside; it runs no script.
+constexpr const char* docs_security =
+    "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'; frame-ancestors "
+    "'self'";
 
 http::Response status_answer(int status, std::string_view word) {
   http::Response response;
@@ -23,8 +28,8 @@ http::Response status_answer(int status, std::string_view word) {
   return response;
 }
 
-void add_page_headers(http::Response& response) {
-  response.set("Content-Security-Policy", content_security);
+void add_page_headers(http::Response& response, const char* security) {
+  response.set("Content-Security-Policy", security);
   response.set("X-Content-Type-Options", "nosniff");
   response.set("Referrer-Policy", "no-referrer");
 }
@@ -67,7 +72,7 @@ http::Response get_metrics(Call& call) {
 
 http::Response get_docs(Call& call) {
   http::Response response = json_answer(call, call.service.pages.docs(), "text/html; charset=utf-8");
-  add_page_headers(response);
+  add_page_headers(response, docs_security);
   return response;
 }
 
@@ -83,7 +88,7 @@ http::Response get_asset(Call& call) {
   response.set("Vary", "Accept-Encoding");
   response.set("Cache-Control",
                has_hashed_name(asset.path) ? "public, max-age=31536000, immutable" : "no-cache");
-  add_page_headers(response);
+  add_page_headers(response, client_security);
   if (matches(call.request.header("If-None-Match"), tag)) {
     response.status = 304;
     return response;
