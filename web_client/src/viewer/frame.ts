@@ -1,8 +1,10 @@
-/** Where the camera has to stand to see a box whole. */
-import { Box3, Vector3, type PerspectiveCamera } from 'three';
+/** Where the camera has to stand to see a model whole. */
+import { Box3, Mesh, Vector3, type Object3D, type PerspectiveCamera } from 'three';
 
-/** Part of the picture that the box may fill. */
-const fill = 0.86;
+/** Part of the picture that the model may fill. */
+const fill = 0.84;
+/** So many points stand for a mesh; the outline of a plant needs no more. */
+const most_points = 3000;
 
 /** Flat drawings are looked at from the front, bodies from a corner, both from a little above. */
 export function usual_direction(box: Box3): Vector3 {
@@ -11,20 +13,52 @@ export function usual_direction(box: Box3): Vector3 {
   return (flat ? new Vector3(0.16, 0.06, 1) : new Vector3(0.55, 0.22, 1)).normalize();
 }
 
-/** Moves the camera along `direction` (from the target to it) until all corners are in sight. Returns the target. */
-export function stand_back(camera: PerspectiveCamera, box: Box3, direction: Vector3): Vector3 {
-  const target = box.getCenter(new Vector3());
+export function corners_of(box: Box3): Vector3[] {
+  return Array.from({ length: 8 }, (_, corner) => new Vector3(
+    corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z));
+}
+
+/** Vertices of the model, evenly taken: the corners of its box would leave much of the picture empty. */
+export function points_of(model: Object3D): Vector3[] {
+  const points: Vector3[] = [];
+  model.updateWorldMatrix(true, true);
+  model.traverse((part) => {
+    const positions = (part as Mesh).geometry?.getAttribute('position');
+    if (!positions) return;
+    const stride = Math.max(1, Math.floor(positions.count / most_points));
+    for (let index = 0; index < positions.count; index += stride)
+      points.push(new Vector3().fromBufferAttribute(positions, index).applyMatrix4(part.matrixWorld));
+  });
+  return points;
+}
+
+/** Moves the camera along `direction` (from the target to it) until all points are in sight. Returns the target. */
+export function stand_back(camera: PerspectiveCamera, points: Vector3[], direction: Vector3): Vector3 {
+  const target = new Box3().setFromPoints(points).getCenter(new Vector3());
   const right = new Vector3(0, 1, 0).cross(direction).normalize();
   const up = direction.clone().cross(right);
   const tan_up = Math.tan((camera.fov * Math.PI) / 360) * fill;
   const tan_right = tan_up * camera.aspect;
   let distance = 0.01;
-  for (let corner = 0; corner < 8; corner += 1) {
-    const point = new Vector3(
-      corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z,
-    ).sub(target);
-    const needed = Math.max(Math.abs(point.dot(right)) / tan_right, Math.abs(point.dot(up)) / tan_up);
-    distance = Math.max(distance, point.dot(direction) + needed);
+  // What is near looks larger, so that the middle of the box is not the middle of the picture: each round moves
+  // the target into the middle and asks again for the distance.
+  for (let round = 0; round < 4; round += 1) {
+    distance = 0.01;
+    let left = 0, rightmost = 0, low = 0, high = 0;
+    for (const point of points) {
+      const seen = point.clone().sub(target);
+      const near = seen.dot(direction);
+      distance = Math.max(distance, near + Math.max(Math.abs(seen.dot(right)) / tan_right, Math.abs(seen.dot(up)) / tan_up));
+    }
+    for (const point of points) {
+      const seen = point.clone().sub(target);
+      const scale = distance / (distance - seen.dot(direction));
+      left = Math.min(left, seen.dot(right) * scale);
+      rightmost = Math.max(rightmost, seen.dot(right) * scale);
+      low = Math.min(low, seen.dot(up) * scale);
+      high = Math.max(high, seen.dot(up) * scale);
+    }
+    if (round < 3) target.addScaledVector(right, (left + rightmost) / 2).addScaledVector(up, (low + high) / 2);
   }
   camera.position.copy(target).addScaledVector(direction, distance);
   camera.near = distance / 200;

@@ -3,6 +3,7 @@ import {
   Box3, CapsuleGeometry, Color, DirectionalLight, Group, HemisphereLight, Mesh, MeshStandardMaterial, PlaneGeometry,
   ShaderMaterial, ShadowMaterial, SphereGeometry, Vector3, type Material,
 } from 'three';
+import { corners_of } from './frame';
 
 const grid_vertex = `
   varying vec2 ground;
@@ -32,24 +33,27 @@ const grid_fragment = `
     gl_FragColor = vec4(color, strength);
   }`;
 
-/** 1.8 m from sole to crown, in the pose of a lay figure. */
+/** 1.8 m from sole to crown: a lay figure, flat enough not to draw the eye. */
 function person(material: Material, shadows: boolean): Group {
   const group = new Group();
-  const limb = (radius: number, length: number, x: number, y: number, lean: number): void => {
-    const mesh = new Mesh(new CapsuleGeometry(radius, length, 6, 16), material);
-    mesh.position.set(x, y, 0);
-    mesh.rotation.z = lean;
+  const limb = (radius: number, foot: [number, number], top: [number, number], depth: number): void => {
+    const across = top[0] - foot[0], along = top[1] - foot[1];
+    const mesh = new Mesh(new CapsuleGeometry(radius, Math.hypot(across, along) - 2 * radius, 8, 20), material);
+    mesh.position.set((foot[0] + top[0]) / 2, (foot[1] + top[1]) / 2, 0);
+    mesh.rotation.z = Math.atan2(-across, along);
+    mesh.scale.z = depth;
     group.add(mesh);
   };
-  const head = new Mesh(new SphereGeometry(0.11, 24, 18), material);
-  head.position.y = 1.69;
-  head.scale.set(0.85, 1, 0.95);
+  const head = new Mesh(new SphereGeometry(0.115, 28, 20), material);
+  head.position.y = 1.685;
+  head.scale.set(0.8, 1, 0.9);
   group.add(head);
-  limb(0.15, 0.3, 0, 1.28, 0);
-  limb(0.135, 0.08, 0, 0.98, 0);
+  limb(0.05, [0, 1.4], [0, 1.64], 1);
+  limb(0.165, [0, 0.98], [0, 1.52], 0.62);
+  limb(0.15, [0, 0.82], [0, 1.22], 0.66);
   for (const side of [-1, 1]) {
-    limb(0.08, 0.8, side * 0.09, 0.48, side * 0.02);
-    limb(0.05, 0.58, side * 0.24, 1.12, side * 0.12);
+    limb(0.075, [side * 0.1, 0], [side * 0.085, 0.98], 0.95);
+    limb(0.047, [side * 0.25, 0.76], [side * 0.165, 1.47], 0.95);
   }
   group.traverse((part) => { part.castShadow = shadows; });
   return group;
@@ -59,8 +63,8 @@ export class Stage {
   readonly group = new Group();
   /** Side of a grid cell, in metres: a power of ten. */
   cell = 1;
-  private readonly sky = new HemisphereLight(0xffffff, 0x9a958a, 1.9);
-  private readonly sun = new DirectionalLight(0xfff3e0, 2.6);
+  private readonly sky = new HemisphereLight(0xffffff, 0x9a958a, 2.3);
+  private readonly sun = new DirectionalLight(0xfff3e0, 3.1);
   private readonly rim = new DirectionalLight(0xdfeaff, 0.7);
   private readonly grid: Mesh<PlaneGeometry, ShaderMaterial>;
   private readonly shade: Mesh<PlaneGeometry, ShadowMaterial>;
@@ -118,8 +122,9 @@ export class Stage {
   }
 
   /** The figure too has to be in the picture where the model is about its size. */
-  sight(box: Box3): Box3 {
-    return this.figure.visible && box.max.y - box.min.y < 12 ? box.clone().union(new Box3().setFromObject(this.figure)) : box;
+  sight(box: Box3): Vector3[] {
+    const matters = this.figure.visible && box.max.y - box.min.y < 12;
+    return matters ? corners_of(new Box3().setFromObject(this.figure)) : [];
   }
 
   set grid_visible(visible: boolean) { this.grid.visible = visible; }
@@ -133,6 +138,6 @@ export class Stage {
     (this.grid.material.uniforms['color']!.value as Color).set(dark ? 0x8fa398 : 0x6d7f74);
     this.skin.color.set(dark ? 0x7d8a83 : 0xb9b4a8);
     this.shade.material.opacity = dark ? 0.4 : 0.2;
-    this.sky.intensity = dark ? 1.7 : 1.9;
+    this.sky.intensity = dark ? 2.0 : 2.3;
   }
 }

@@ -5,7 +5,7 @@ import {
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import { stand_back, usual_direction } from './frame';
+import { corners_of, points_of, stand_back, usual_direction } from './frame';
 import { Stage } from './stage';
 
 export interface Look {
@@ -29,6 +29,7 @@ export class Viewer {
   private model: Object3D | null = null;
   private wires: Object3D[] = [];
   private box = new Box3(new Vector3(-1, 0, -1), new Vector3(1, 2, 1));
+  private points = corners_of(this.box);
   private wireframe = false;
   private touched = false;
   private frame = 0;
@@ -75,6 +76,8 @@ export class Viewer {
     if (box.isEmpty()) box.set(new Vector3(-0.5, 0, -0.5), new Vector3(0.5, 1, 0.5));
     const grown = box.getSize(new Vector3()).length() / this.box.getSize(new Vector3()).length();
     this.box = box;
+    this.points = points_of(model);
+    if (this.points.length === 0) this.points = corners_of(box);
     this.stage.surround(box);
     this.set_wireframe(this.wireframe);
     this.renderer.shadowMap.needsUpdate = true;
@@ -84,7 +87,7 @@ export class Viewer {
 
   fit(): void {
     this.touched = false;
-    this.controls.target.copy(stand_back(this.camera, this.stage.sight(this.box), usual_direction(this.box)));
+    this.controls.target.copy(stand_back(this.camera, [...this.points, ...this.stage.sight(this.box)], usual_direction(this.box)));
     this.controls.minDistance = this.camera.near * 4;
     this.controls.maxDistance = this.camera.far / 4;
     this.controls.update();

@@ -1,0 +1,92 @@
+// axe-core on every panel and state in both themes, and the page by keyboard alone.
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import { createRequire } from 'node:module';
+import { after, before, test } from 'node:test';
+import { field, fragment_of, launch, open, open_parameters, program, serve, small_tree, until_shown, until_state } from './support.mjs';
+
+const axe = fs.readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+const tags = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
+
+let server, browser, address;
+before(async () => {
+  server = await serve(program);
+  browser = await launch();
+  address = `${server.url}/${fragment_of(small_tree)}`;
+});
+after(async () => { await browser?.close(); await server?.stop(); });
+
+/** Evaluated by the debugger, which the page's policy does not bind. */
+async function passes(page, words) {
+  await page.evaluate(axe);
+  const { violations, passes } = await page.evaluate((tags) => axe.run(document, { runOnly: tags }), tags);
+  const told = violations.map((each) => `${each.id}: ${each.nodes.map((node) => `${node.html} ${node.failureSummary}`).join('; ')}`);
+  assert.deepEqual(told, [], words);
+  assert.ok(passes.length > 20);
+}
+
+for (const colorScheme of ['light', 'dark']) {
+  test(`axe finds nothing in any panel and state, ${colorScheme}`, { timeout: 600_000 }, async () => {
+    const page = await open(browser, address, { colorScheme, viewport: { width: 1000, height: 600 } });
+    await passes(page, 'gallery');
+    await open_parameters(page);
+    for (const more of await page.locator('details.more > summary').all()) await more.click();
+    await field(page, '/parameters/axiom').getByRole('button', { name: 'About' }).click();
+    for (const add of await page.locator('.add').all()) await add.click();
+    await until_state(page, 'ready', 'refused');
+    await passes(page, 'parameters');
+    await field(page, '/parameters/productions').locator('textarea').fill('F -> [');
+    await until_state(page, 'refused');
+    await passes(page, 'a refusal');
+    await page.route('**/v1/generate', (route) => route.fulfill({ status: 503, headers: { 'Retry-After': '60' }, json: {} }));
+    await page.fill('#seed', '2');
+    await until_state(page, 'full');
+    await passes(page, 'a full server');
+    await page.click('#cancel');
+    await until_state(page, 'stopped');
+    await passes(page, 'stopped');
+  });
+}
+
+test('axe finds nothing on a narrow screen', { timeout: 300_000 }, async () => {
+  const page = await open(browser, address, { viewport: { width: 360, height: 640 }, hasTouch: true, isMobile: true });
+  await passes(page, 'gallery');
+  await page.click('#fold');
+  assert.equal(await page.getAttribute('#fold', 'aria-expanded'), 'false');
+  assert.ok(await page.isHidden('#gallery'));
+  await passes(page, 'folded');
+  await open_parameters(page);
+  await passes(page, 'parameters');
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+  assert.ok(wide <= 360, `the page is ${wide} px wide`);
+});
+
+test('the page can be used by keyboard alone', { timeout: 300_000 }, async () => {
+  const page = await open(browser, address);
+  const focused = () => page.evaluate(() => document.activeElement.id);
+  await page.keyboard.press('Tab');
+  await page.keyboard.press('Enter');
+  assert.equal(await focused(), 'picture');
+  await until_shown(page, () => page.keyboard.press('r'));
+  assert.notEqual(await page.inputValue('#seed'), '3');
+  await page.keyboard.press('w');
+  assert.equal(await page.getAttribute('#wireframe', 'aria-pressed'), 'true');
+  await page.focus('#tab-gallery');
+  await page.keyboard.press('ArrowRight');
+  assert.equal(await focused(), 'tab-parameters');
+  assert.ok(await page.isVisible('#parameters'));
+  await page.keyboard.press('Tab');
+  assert.notEqual(await focused(), 'tab-gallery');
+  await page.focus('#seed');
+  await page.keyboard.press('w');
+  assert.equal(await page.getAttribute('#wireframe', 'aria-pressed'), 'true', 'letters typed into a field are no commands');
+});
+
+test('what happens is told to assistive tools', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  assert.equal(await page.getByRole('img', { name: /seed 3: [\d,]+ triangles, .* m high/ }).count(), 1);
+  await until_shown(page, () => page.click('#dice'));
+  assert.equal(await page.getByRole('img', { name: new RegExp(`seed ${await page.inputValue('#seed')}:`) }).count(), 1);
+  assert.equal(await page.locator('#status[role=status]').count(), 1);
+  assert.equal(await page.locator('#alert[role=alert]').count(), 1);
+});

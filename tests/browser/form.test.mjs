@@ -1,0 +1,180 @@
+// The form knows JSON Schema and the x- words, and no generator. So most of these tests give it a made-up one.
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { field, fragment_of, launch, open, open_parameters, program, request_of, serve, small_tree, until_shown, until_state } from './support.mjs';
+
+let server, browser;
+before(async () => { server = await serve(program); browser = await launch(); });
+after(async () => { await browser?.close(); await server?.stop(); });
+
+const root = path.resolve(import.meta.dirname, '../..');
+
+const kiln_schema = {
+  title: 'Kiln', type: 'object', description: 'A made-up generator.',
+  properties: {
+    heat: { title: 'Heat', description: 'How hot it gets.', type: 'number', minimum: 0, maximum: 40, default: 20, 'x-unit': '°C', 'x-step': 0.5, 'x-group': 'Fire' },
+    bricks: { type: 'integer', minimum: 1, maximum: 12, default: 4, 'x-group': 'Fire' },
+    vast: { type: 'number', minimum: 0, maximum: 1000000, default: 2, 'x-group': 'Fire' },
+    lid: { title: 'Lid', type: 'boolean', default: false, 'x-group': 'Fire' },
+    wood: { title: 'Wood', type: 'string', enum: ['dry_oak', 'pine'], default: 'pine', 'x-group': 'Fire' },
+    glaze: { title: 'Glaze', type: 'string', 'x-widget': 'color', default: '#112233', 'x-group': 'Clay' },
+    label: { title: 'Label', type: 'string', default: '', 'x-group': 'Clay' },
+    marks: { title: 'Marks', type: 'array', items: { type: 'string' }, default: [], 'x-group': 'Clay' },
+    script: { title: 'Script', type: 'string', 'x-grammar': 'cga', default: '', 'x-group': 'Clay' },
+    names: { title: 'Names', type: 'object', default: {}, additionalProperties: { title: 'Name', oneOf: [{ type: 'number' }, { type: 'string' }] }, 'x-group': 'Clay' },
+    tilt: {
+      title: 'Tilt', default: 5, 'x-short': ['left', 'right'], 'x-group': 'Clay',
+      oneOf: [{ type: 'number', minimum: 0, maximum: 90 }, { type: 'object', properties: { left: { type: 'number', default: 5 }, right: { type: 'number', default: 5 } } }],
+    },
+    pots: { title: 'Pots', type: 'array', default: [], items: { title: 'Pot', type: 'object', required: ['size'], properties: { size: { title: 'Size', type: 'number', default: 3 } } }, 'x-group': 'Clay' },
+    odd: { title: 'Odd', 'x-group': 'Clay', 'x-advanced': true },
+  },
+};
+
+/** The page with the made-up generator; `asked()` is the last request that it sent to the server. */
+async function open_kiln(parameters = {}) {
+  let last = null;
+  const page = await open(browser, `${server.url}/${fragment_of({ generator: 'kiln', seed: 1, parameters })}`, {
+    before: async (page) => {
+      await page.route('**/v1/schemas/kiln', (route) => route.fulfill({ json: kiln_schema }));
+      await page.route('**/v1/generate', async (route) => {
+        last = JSON.parse(route.request().postData());
+        await route.continue({ postData: JSON.stringify(small_tree) });
+      });
+    },
+  });
+  await open_parameters(page);
+  const sends = async (act) => { await until_shown(page, act); return last.parameters; };
+  return { page, sends, at: (name) => field(page, `/parameters/${name}`) };
+}
+
+test('every kind of value has its control, in groups, with unit, range and help', { timeout: 300_000 }, async () => {
+  const { page, at } = await open_kiln();
+  assert.deepEqual(await page.locator('#parameters h3').allTextContents(), ['Fire', 'Clay']);
+  const slider = at('heat').locator('input[type=range]');
+  assert.deepEqual(await slider.evaluate((each) => [each.min, each.max, each.step, each.value]), ['0', '40', '0.5', '20']);
+  assert.equal(await at('heat').locator('.unit').textContent(), '°C');
+  assert.equal(await at('heat').locator('input[type=number]').inputValue(), '20');
+  assert.equal(await at('bricks').locator('input[type=range]').getAttribute('step'), '1');
+  assert.ok(Number(await at('vast').locator('input[type=range]').getAttribute('max')) <= 10, 'a vast range is cut to where the value is');
+  assert.ok(await at('heat').locator('.help').isHidden());
+  await at('heat').getByRole('button', { name: 'About Heat' }).click();
+  assert.equal(await at('heat').locator('.help').textContent(), 'How hot it gets.');
+  assert.ok(await at('heat').locator('.help').isVisible());
+  assert.deepEqual(await at('wood').locator('option').allTextContents(), ['dry oak', 'pine']);
+  assert.equal(await at('glaze').locator('input[type=color]').inputValue(), '#112233');
+  assert.ok(await at('odd').isHidden(), 'what is advanced is folded away');
+  assert.deepEqual(page.faults, []);
+});
+
+test('a change reaches the server as the type that the schema asks for', { timeout: 300_000 }, async () => {
+  const { page, sends, at } = await open_kiln();
+  assert.deepEqual(await sends(() => at('heat').locator('input[type=number]').fill('21.5')), { heat: 21.5 });
+  assert.equal(await at('heat').locator('input[type=range]').inputValue(), '21.5');
+  assert.equal((await sends(() => at('lid').locator('input').check())).lid, true);
+  assert.equal((await sends(() => at('wood').locator('select').selectOption({ label: 'dry oak' }))).wood, 'dry_oak');
+  assert.equal((await sends(() => at('glaze').locator('input[type=text]').fill('#abcdef'))).glaze, '#abcdef');
+  assert.equal((await sends(() => at('label').locator('input').fill('a b'))).label, 'a b');
+  assert.deepEqual((await sends(() => at('marks').locator('textarea').fill('one\n\n  two'))).marks, ['one', 'two']);
+  assert.equal((await sends(() => at('script').locator('textarea').fill('a\nb'))).script, 'a\nb');
+  await at('heat').locator('input[type=number]').fill('');
+  await at('heat').locator('input[type=number]').blur();
+  assert.equal(await at('heat').locator('input[type=number]').inputValue(), '21.5', 'an emptied box says nothing');
+  assert.deepEqual(page.faults, []);
+});
+
+test('maps, lists and two forms of one value can be changed and taken back', { timeout: 300_000 }, async () => {
+  const { sends, at } = await open_kiln({ names: { k: 1 }, tilt: 7 });
+  assert.deepEqual((await sends(() => at('names/k').locator('input').fill('2 * 3'))).names, { k: '2 * 3' });
+  assert.deepEqual((await sends(() => at('names/k').locator('input').fill('6'))).names, { k: 6 });
+  assert.deepEqual((await sends(() => at('names').getByRole('button', { name: 'Add name' }).click())).names, { k: 6, c2: 1 });
+  assert.deepEqual((await sends(() => at('names').getByRole('button', { name: 'Remove k' }).click())).names, { c2: 1 });
+  assert.deepEqual((await sends(() => at('tilt').getByRole('combobox').selectOption({ label: 'In detail' }))).tilt, { left: 7, right: 7 });
+  assert.deepEqual((await sends(() => at('tilt/right').locator('input[type=number]').fill('9'))).tilt, { left: 7, right: 9 });
+  assert.equal((await sends(() => at('tilt').getByRole('button', { name: 'Reset Tilt' }).click())).tilt, 7);
+  assert.equal(await at('tilt').locator('input[type=number]').inputValue(), '7');
+  assert.deepEqual((await sends(() => at('pots').getByRole('button', { name: 'Add pot' }).click())).pots, [{ size: 3 }]);
+  await at('pots').locator('summary').click();
+  assert.deepEqual((await sends(() => at('pots/0/size').locator('input[type=number]').fill('4'))).pots, [{ size: 4 }]);
+  assert.deepEqual((await sends(() => at('pots').getByRole('button', { name: 'Remove Pot 0' }).click())).pots, []);
+});
+
+test('reset returns one field to what the request was opened with', { timeout: 300_000 }, async () => {
+  const { sends, at } = await open_kiln({ heat: 30 });
+  const reset = at('heat').getByRole('button', { name: 'Reset Heat' });
+  assert.ok(await reset.isHidden());
+  assert.equal((await sends(() => at('heat').locator('input[type=number]').fill('31'))).heat, 31);
+  assert.equal((await sends(() => reset.click())).heat, 30);
+  assert.equal((await sends(() => at('lid').locator('input').check())).lid, true);
+  assert.ok(!('lid' in (await sends(() => at('lid').getByRole('button', { name: 'Reset Lid' }).click()))));
+});
+
+test('all faults stand at their fields at once; columns count characters', { timeout: 300_000 }, async () => {
+  const broken = { ...small_tree, parameters: { ...small_tree.parameters, productions: ['F -> F', 'Ф -> 🌲 [', 'X -> ('], iterations: -1, sides: 1000 } };
+  const page = await open(browser, `${server.url}/${fragment_of(broken)}`, { states: ['refused'] });
+  await page.locator('#alert button').click();
+  const spots = field(page, '/parameters/productions').locator('.spot');
+  await spots.nth(1).waitFor();
+  const answer = await server.generate(broken);
+  const told = answer.json.errors.filter((fault) => fault.pointer.startsWith('/parameters/productions/'));
+  assert.equal(await spots.count(), told.length);
+  assert.ok(told.length >= 2);
+  for (const [index, fault] of told.entries()) {
+    const line = Number(fault.pointer.split('/').at(-1)) + 1;
+    assert.equal(await spots.nth(index).textContent(), `Line ${line}, column ${fault.column}: ${fault.message}`);
+  }
+  assert.equal(await field(page, '/parameters/iterations').locator('input[type=number]').getAttribute('aria-invalid'), 'true');
+  assert.ok((await field(page, '/parameters/sides').locator('.fault').textContent()).length > 0);
+  await field(page, '/parameters/productions').locator('.spot', { hasText: 'Line 2' }).first().click();
+  const selected = await field(page, '/parameters/productions').locator('textarea').evaluate((area) => area.value.slice(area.selectionStart, area.selectionEnd));
+  assert.equal(selected, '[');
+});
+
+test('a fault without a field is told in the alert', { timeout: 300_000 }, async () => {
+  const strange = { ...small_tree, parameters: { ...small_tree.parameters, unheard_of: 1 } };
+  const page = await open(browser, `${server.url}/${fragment_of(strange)}`, { states: ['refused'] });
+  assert.match(await page.textContent('#alert'), /unheard_of/);
+});
+
+test('the address keeps what is edited, and Back returns to the preset before', { timeout: 300_000 }, async () => {
+  const page = await open(browser, `${server.url}/`);
+  await until_shown(page, () => page.click('[data-preset="koch_snowflake"]'));
+  const preset_hash = new URL(page.url()).hash;
+  await until_shown(page, () => page.fill('#seed', '77'));
+  const title = await page.textContent('#title');
+  // The address follows a moment after the picture.
+  await page.waitForFunction((hash) => location.hash !== hash, preset_hash);
+  assert.equal(request_of(new URL(page.url()).hash).seed, 77);
+  await until_shown(page, () => page.click('[data-preset="dragon_curve"]'));
+  await until_shown(page, () => page.goBack());
+  assert.equal(await page.inputValue('#seed'), '77');
+  assert.equal(await page.textContent('#title'), title);
+  await page.reload();
+  await until_state(page, 'ready');
+  assert.equal(await page.inputValue('#seed'), '77');
+  assert.equal(await page.textContent('#title'), title);
+});
+
+test('no name of a parameter occurs in the source of the client', () => {
+  const folder = path.join(root, 'web_client/src');
+  const source = fs.readdirSync(folder, { recursive: true }).filter((file) => file.endsWith('.ts'))
+    .map((file) => fs.readFileSync(path.join(folder, file), 'utf8')).join('\n');
+  const names = new Set();
+  const collect = (schema) => {
+    for (const [name, member] of Object.entries(schema.properties ?? {})) { names.add(name); collect(member); }
+    for (const part of [schema.items, ...(schema.oneOf ?? [])]) if (part) collect(part);
+  };
+  for (const file of fs.readdirSync(path.join(root, 'api_schema')).filter((name) => name.endsWith('.schema.json'))) {
+    if (/^(common|output|problem|request)\./.test(file)) continue;
+    collect(JSON.parse(fs.readFileSync(path.join(root, 'api_schema', file), 'utf8')));
+  }
+  // Words that HTML and three.js have too; they count only where they are looked up among the parameters.
+  const common = new Set(['width', 'style', 'step', 'value', 'name', 'color', 'roughness']);
+  assert.ok(names.has('productions'));
+  for (const name of names) {
+    assert.doesNotMatch(source, new RegExp(`parameters(\\.|\\[['"])${name}\\b`), name);
+    if (!common.has(name)) assert.doesNotMatch(source, new RegExp(`['"\`.]${name}\\b['"\`]?`), name);
+  }
+});

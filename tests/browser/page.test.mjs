@@ -1,0 +1,232 @@
+// The parts of the page beside form and walk: view, files, link, command, gallery, size of the first load.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import fs from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { validateBytes } from 'gltf-validator';
+import { PNG } from 'pngjs';
+import { fragment_of, launch, open, picture, program, request_of, serve, small_tree, statistics, until_shown, until_state } from './support.mjs';
+
+let server, browser, address;
+before(async () => {
+  server = await serve(program);
+  browser = await launch();
+  address = `${server.url}/${fragment_of(small_tree)}`;
+});
+after(async () => { await browser?.close(); await server?.stop(); });
+
+const with_lines = { ...small_tree, parameters: { ...small_tree.parameters, style: 'lines' } };
+
+/** How many colours a picture has: a blank one has a handful, from the shading behind the model. */
+function colours(png) {
+  const { data } = PNG.sync.read(png);
+  const seen = new Set();
+  for (let at = 0; at < data.length; at += 4) seen.add((data[at] << 16) | (data[at + 1] << 8) | data[at + 2]);
+  return seen.size;
+}
+const differs = (a, b) => !PNG.sync.read(a).data.equals(PNG.sync.read(b).data);
+
+test('the first load is at most 185 KB compressed, all from the server itself', { timeout: 200_000 }, async () => {
+  let bytes = 0;
+  const hosts = new Set();
+  const page = await open(browser, address, {
+    before: async (page) => {
+      page.on('request', (request) => { if (!request.url().startsWith('blob:')) hosts.add(new URL(request.url()).host); });
+    },
+  });
+  const start = await server.get('/', { 'accept-encoding': 'gzip' });
+  bytes += start.bytes.length;
+  const html = (await server.get('/')).text;
+  const files = [...html.matchAll(/(?:src|href)="\.?(\/[^"]+\.(?:js|css|svg))"/g)].map(([, file]) => file);
+  assert.ok(files.some((file) => file.endsWith('.js')));
+  for (const file of new Set(files)) {
+    const answer = await server.get(file, { 'accept-encoding': 'gzip' });
+    assert.equal(answer.status, 200, file);
+    if (/assets/.test(file)) assert.match(answer.headers['cache-control'], /immutable/);
+    bytes += answer.bytes.length;
+  }
+  assert.ok(bytes <= 185 * 1024, `${bytes} bytes`);
+  assert.deepEqual([...hosts], [new URL(server.url).host]);
+  assert.deepEqual(page.faults, []);
+});
+
+test('the policy allows nothing inline and nothing foreign', async () => {
+  const policy = (await server.get('/')).headers['content-security-policy'];
+  assert.match(policy, /default-src 'none'/);
+  assert.doesNotMatch(policy, /unsafe|https?:|\*/);
+});
+
+test('triangles, bytes and milliseconds are those of the answer', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  const answer = await server.generate({ ...small_tree, output: { format: 'glb' } });
+  const shown = await statistics(page);
+  assert.equal(Number(shown.triangles.replaceAll(',', '')), Number(answer.headers['seedmesh-triangles']));
+  assert.equal(shown.bytes, answer.bytes.length);
+  assert.match(await page.textContent('#milliseconds'), /^[\d.,]+ ms$/);
+});
+
+test('the view turns, fits, and shows wires, grid and a person', { timeout: 300_000 }, async () => {
+  const page = await open(browser, address);
+  const first = await picture(page);
+  assert.ok(colours(first) > 100, `${colours(first)} colours`);
+  const changes = async (words, act) => {
+    const before = await picture(page);
+    await act();
+    assert.ok(differs(before, await picture(page)), words);
+  };
+  await changes('wireframe', () => page.click('#wireframe'));
+  assert.equal(await page.getAttribute('#wireframe', 'aria-pressed'), 'true');
+  await changes('no wireframe', () => page.click('#wireframe'));
+  await changes('grid', () => page.click('#grid'));
+  assert.doesNotMatch(await page.textContent('#measures'), /grid/);
+  await changes('grid back', () => page.click('#grid'));
+  assert.match(await page.textContent('#measures'), /grid of [\d.]+ m/);
+  await changes('no figure', () => page.click('#figure'));
+  await changes('figure back', () => page.click('#figure'));
+  await page.focus('#picture');
+  await changes('arrow keys', () => page.keyboard.press('ArrowLeft'));
+  await changes('zoom', () => page.keyboard.press('+'));
+  const box = await page.locator('#picture').boundingBox();
+  await changes('dragging', async () => {
+    await page.mouse.move(box.x + box.width / 2, box.y + 60);
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width / 2 + 80, box.y + 70, { steps: 4 });
+    await page.mouse.up();
+  });
+  await page.click('#fit');
+  await page.waitForTimeout(300);
+  assert.ok(!differs(first, await picture(page)), 'fit returns to the first view');
+  assert.deepEqual(page.faults, []);
+});
+
+test('a model of lines is drawn too', { timeout: 200_000 }, async () => {
+  const empty = { ...small_tree, parameters: { axiom: 'X' } };
+  const page = await open(browser, `${server.url}/?stage${fragment_of(empty)}`);
+  const blank = await picture(page);
+  await until_shown(page, () => page.evaluate((hash) => { location.hash = hash; }, fragment_of(with_lines)));
+  assert.ok(differs(blank, await picture(page)));
+});
+
+test('nothing is drawn while nothing changes', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  const frames = () => page.evaluate(() => new Promise((resolve) => {
+    let count = 0;
+    const draw = WebGL2RenderingContext.prototype.drawElements;
+    WebGL2RenderingContext.prototype.drawElements = function (...args) { count += 1; return draw.apply(this, args); };
+    setTimeout(() => { WebGL2RenderingContext.prototype.drawElements = draw; resolve(count); }, 1000);
+  }));
+  await page.waitForTimeout(500);
+  assert.equal(await frames(), 0);
+});
+
+test('a lost picture is told and comes back', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  const before = await picture(page);
+  const lose = await page.evaluateHandle(() => {
+    const extension = document.getElementById('picture').getContext('webgl2').getExtension('WEBGL_lose_context');
+    extension.loseContext();
+    return extension;
+  });
+  await page.waitForFunction(() => document.getElementById('status').textContent.includes('lost the picture'));
+  await lose.evaluate((extension) => extension.restoreContext());
+  await page.waitForFunction(() => document.getElementById('status').textContent.includes('The picture is back'));
+  await page.waitForTimeout(500);
+  assert.ok(!differs(before, await picture(page)));
+});
+
+test('GLB and glTF are downloaded whole and valid', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  for (const format of ['glb', 'gltf']) {
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click(`[data-format=${format}]`)]);
+    assert.equal(download.suggestedFilename(), `model-${small_tree.seed}.${format}`);
+    const bytes = fs.readFileSync(await download.path());
+    const answer = await server.generate({ ...small_tree, output: { format } });
+    assert.ok(bytes.equals(answer.bytes), format);
+    const report = await validateBytes(new Uint8Array(bytes));
+    assert.equal(report.issues.numErrors, 0, format);
+  }
+});
+
+test('the copied curl command saves the same model', { timeout: 200_000 }, async () => {
+  const quoted = { ...small_tree, parameters: { ...small_tree.parameters, interpretation: ["F -> 'F"] } };
+  const page = await open(browser, `${server.url}/${fragment_of(quoted)}`, { permissions: ['clipboard-read', 'clipboard-write'] });
+  await page.click('#copy-curl');
+  await page.waitForFunction(() => document.getElementById('status').textContent === 'The command is copied');
+  const command = await page.evaluate(() => navigator.clipboard.readText());
+  assert.match(command, /^curl .*-o model\.glb /);
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'seedmesh-'));
+  // What curl would get is checked without needing curl: the shell takes the words apart, as it would for curl.
+  const words = execFileSync('sh', ['-c', command.replace(/^curl/, "printf '%s\\n'")], { cwd: folder }).toString().split('\n');
+  const body = JSON.parse(words[words.indexOf('-d') + 1]);
+  assert.deepEqual(body.parameters, quoted.parameters);
+  assert.ok(words.includes(`${server.url}/v1/generate`));
+  assert.equal((await server.generate(body)).bytes.length, (await statistics(page)).bytes);
+  fs.rmSync(folder, { recursive: true });
+});
+
+test('where the page may not copy, the text is there to be copied by hand', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address, {
+    before: (page) => page.addInitScript(() => { Object.defineProperty(navigator, 'clipboard', { value: undefined }); }),
+  });
+  await page.click('#copy-link');
+  const text = await page.inputValue('#by-hand-text');
+  assert.deepEqual(request_of(new URL(text).hash), small_tree);
+});
+
+test('a damaged link is told, and a model is shown nevertheless', { timeout: 200_000 }, async () => {
+  const page = await open(browser, `${server.url}/#not-a-request`);
+  assert.match(await page.textContent('#alert'), /link is damaged|^$/);
+  assert.ok((await statistics(page)).bytes > 0);
+});
+
+test('another link in the same tab is opened', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  await until_shown(page, () => page.evaluate((hash) => { location.hash = hash; }, fragment_of({ ...small_tree, seed: '18446744073709551615' })));
+  assert.equal(await page.inputValue('#seed'), '18446744073709551615');
+});
+
+test('a seed of 64 bits is kept exactly, and no seed is said to be none', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  const bodies = [];
+  page.on('request', (request) => { if (request.url().endsWith('/v1/generate')) bodies.push(JSON.parse(request.postData())); });
+  await until_shown(page, () => page.fill('#seed', '18446744073709551615'));
+  assert.equal(bodies.at(-1).seed, '18446744073709551615');
+  await page.fill('#seed', '18446744073709551616');
+  assert.equal(await page.getAttribute('#seed', 'aria-invalid'), 'true');
+  await until_shown(page, () => page.fill('#seed', '12'));
+  assert.equal(bodies.at(-1).seed, 12);
+  assert.equal(bodies.length, 2);
+});
+
+test('the gallery has all presets with pictures, and is narrowed by words and tags', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  const { presets } = (await server.get('/v1/presets')).json;
+  assert.equal(await page.locator('.card').count(), presets.length);
+  for (const preset of presets) {
+    const thumbnail = await server.get(`/thumbnails/${preset.name}.webp`);
+    assert.equal(thumbnail.status, 200, `${preset.name} has no thumbnail: ./dev pictures ${preset.name}`);
+    assert.ok(thumbnail.bytes.length < 20_000, preset.name);
+  }
+  await page.fill('#gallery input[type=search]', 'koch');
+  const found = presets.filter((preset) => JSON.stringify(preset).toLowerCase().includes('koch'));
+  assert.equal(await page.locator('.card:visible').count(), found.length);
+  await page.fill('#gallery input[type=search]', '');
+  const tag = await page.locator('.chip').first().textContent();
+  await page.locator('.chip').first().click();
+  assert.equal(await page.locator('.card:visible').count(), presets.filter((preset) => preset.tags.includes(tag)).length);
+  await page.fill('#gallery input[type=search]', 'no such words');
+  assert.ok(await page.getByText('Nothing here').isVisible());
+});
+
+test('cards from all over the gallery open their presets', { timeout: 600_000 }, async () => {
+  const page = await open(browser, address);
+  const { presets } = (await server.get('/v1/presets')).json;
+  for (const preset of presets.filter((_, index) => index % 6 === 0)) {
+    await until_shown(page, () => page.click(`[data-preset="${preset.name}"]`));
+    assert.equal(await page.textContent('#title'), preset.title);
+    await until_state(page, 'ready');
+  }
+  assert.deepEqual(page.faults, []);
+});

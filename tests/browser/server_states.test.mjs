@@ -1,0 +1,150 @@
+// The server slow, full, gone and back: the page says so, keeps the last model, and goes on by itself.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { field, fragment_of, launch, open, open_parameters, program, serve, small_tree, until_shown, until_state } from './support.mjs';
+
+let server, browser, address;
+before(async () => {
+  server = await serve(program);
+  browser = await launch();
+  address = `${server.url}/${fragment_of(small_tree)}`;
+});
+after(async () => { await browser?.close(); await server?.stop(); });
+
+const says = (page, words) =>
+  page.waitForFunction((words) => document.getElementById('status').textContent.includes(words), words);
+const set_seed = (page, seed) => page.fill('#seed', String(seed));
+
+test('a full server is asked again after the time that it named', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  const asked = [];
+  await page.route('**/v1/generate', async (route) => {
+    asked.push(Date.now());
+    if (asked.length > 2) return route.continue();
+    return route.fulfill({
+      status: asked.length === 1 ? 429 : 503, headers: { 'Retry-After': '2' },
+      contentType: 'application/problem+json', body: '{"title":"The queue is full"}',
+    });
+  });
+  await until_shown(page, async () => {
+    await set_seed(page, 4);
+    await until_state(page, 'full');
+    await says(page, 'The server is full');
+    assert.ok(await page.isVisible('#statistics'), 'the last model stays');
+  });
+  assert.equal(asked.length, 3);
+  assert.ok(asked[1] - asked[0] >= 2000, `${asked[1] - asked[0]} ms`);
+  await says(page, 'The server is back');
+});
+
+test('a server that is gone is named, and the page goes on when it is back', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  await until_shown(page, async () => {
+    await page.context().setOffline(true);
+    await set_seed(page, 5);
+    await until_state(page, 'gone');
+    await says(page, 'cannot be reached');
+    assert.ok(await page.isVisible('#again'));
+    await page.context().setOffline(false);
+  });
+  assert.match(await page.getAttribute('#picture', 'aria-label'), /seed 5/);
+});
+
+test('a server that has ended is tried again on demand', { timeout: 200_000 }, async () => {
+  const mortal = await serve(program);
+  const page = await open(browser, `${mortal.url}/${fragment_of(small_tree)}`);
+  await mortal.stop('SIGKILL');
+  await set_seed(page, 6);
+  await until_state(page, 'gone');
+  const asked = page.waitForEvent('request', (request) => request.url().endsWith('/v1/generate'));
+  await page.click('#again');
+  await asked;
+  await until_state(page, 'gone');
+});
+
+test('a slow server shows a bar after 300 ms, and cancel ends the request', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  let held;
+  await page.route('**/v1/generate', (route) => { held = route; });
+  assert.ok(await page.isHidden('#progress'));
+  await set_seed(page, 7);
+  await page.waitForSelector('#progress:not([hidden])');
+  await says(page, 'slow');
+  const failed = page.waitForEvent('requestfailed');
+  await page.click('#cancel');
+  assert.match((await failed).failure().errorText, /ABORTED/);
+  await until_state(page, 'stopped');
+  await says(page, 'Stopped');
+  assert.ok(held);
+  await page.unroute('**/v1/generate');
+  await until_shown(page, () => page.click('#again'));
+  assert.match(await page.getAttribute('#picture', 'aria-label'), /seed 7/);
+});
+
+test('after a slow model the next one is followed by events', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  const accepted = [];
+  await page.route('**/v1/generate', async (route) => {
+    accepted.push(await route.request().headerValue('accept'));
+    if (accepted.length === 1) await new Promise((resolve) => setTimeout(resolve, 800));
+    await route.continue();
+  });
+  await until_shown(page, () => set_seed(page, 8));
+  await until_shown(page, () => set_seed(page, 9));
+  assert.equal(accepted[1], 'text/event-stream');
+  assert.equal(accepted[2], '*/*');
+});
+
+test('events that tell of progress move the bar, and an error among them is shown', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  let calls = 0;
+  await page.route('**/v1/generate', async (route) => {
+    calls += 1;
+    if (calls === 1) {
+      await new Promise((resolve) => setTimeout(resolve, 800));
+      return route.continue();
+    }
+    return route.fulfill({
+      contentType: 'text/event-stream',
+      body: 'event: progress\ndata: {"stage":"derive","share":1.0}\n\nevent: error\ndata: {"detail":"The time limit is reached."}\n\n',
+    });
+  });
+  await until_shown(page, () => set_seed(page, 10));
+  await set_seed(page, 11);
+  await until_state(page, 'refused');
+  assert.match(await page.textContent('#alert'), /The time limit is reached/);
+  assert.equal(await page.evaluate(() => document.getElementById('progress').value), 0.5);
+});
+
+test('a slider in motion asks once it rests, and only the last answer counts', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  await open_parameters(page);
+  const bodies = [];
+  await page.route('**/v1/generate', async (route) => { bodies.push(JSON.parse(route.request().postData())); await route.continue(); });
+  await until_shown(page, () => field(page, '/parameters/angle').locator('input[type=range]').evaluate((slider) => {
+    for (let value = 30; value <= 60; value += 1) {
+      slider.value = value;
+      slider.dispatchEvent(new Event('input'));
+    }
+  }));
+  assert.equal(bodies.length, 1);
+  assert.equal(bodies[0].parameters.angle, 60);
+});
+
+test('an answer that is overtaken by the next request is dropped', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  const aborted = page.waitForEvent('requestfailed');
+  let count = 0;
+  await page.route('**/v1/generate', async (route) => {
+    count += 1;
+    if (count > 1) await route.continue();
+  });
+  await until_shown(page, async () => {
+    const first = page.waitForRequest('**/v1/generate');
+    await set_seed(page, 20);
+    await first;
+    await set_seed(page, 21);
+  });
+  await aborted;
+  assert.match(await page.getAttribute('#picture', 'aria-label'), /seed 21/);
+});

@@ -1,0 +1,51 @@
+// What the tests of the page share: the real server, a browser, and the page opened in it.
+import zlib from 'node:zlib';
+import { program, serve } from '../http/support.mjs';
+import { launch, until_shown, until_state } from './chromium.mjs';
+
+export { launch, program, serve, until_shown, until_state };
+
+export const fragment_of = (request) => `#${zlib.deflateRawSync(JSON.stringify(request)).toString('base64url')}`;
+export const request_of = (fragment) => JSON.parse(zlib.inflateRawSync(Buffer.from(fragment.replace('#', ''), 'base64url')));
+
+/** A tree of a few hundred triangles, so that the software renderer is not what is waited for. */
+export const small_tree = {
+  generator: 'lsystem', seed: 3,
+  parameters: { axiom: 'F', productions: ['F -> F[+F]', 'X -> Y'], iterations: 3, angle: 25, step: 0.4 },
+};
+
+/** The page in a context of its own: nothing is shared with other tests. Whatever breaks the policy is an error. */
+export async function open(browser, address, { states = ['ready'], before = async () => {}, ...options } = {}) {
+  const context = await browser.newContext({ viewport: { width: 800, height: 450 }, ...options });
+  const page = await context.newPage();
+  page.setDefaultTimeout(90_000);
+  page.faults = [];
+  page.on('pageerror', (error) => page.faults.push(error.message));
+  page.on('console', (message) => { if (/Content Security Policy/.test(message.text())) page.faults.push(message.text()); });
+  await before(page);
+  await page.goto(address);
+  await until_state(page, ...states);
+  return page;
+}
+
+export const field = (page, pointer) => page.locator(`[data-pointer="${pointer}"]`);
+
+/** Opens the form. */
+export async function open_parameters(page) {
+  await page.click('#tab-parameters');
+  await page.waitForSelector('#parameters .form');
+}
+
+export const statistics = (page) => page.evaluate(() => ({
+  triangles: document.getElementById('triangles').textContent,
+  bytes: Number(document.getElementById('bytes').dataset.bytes),
+}));
+
+/** The model as it is drawn, without what lies over it. */
+export async function picture(page) {
+  const flip = (hidden) => page.evaluate((hidden) => { for (const each of document.querySelectorAll('.overlay')) each.hidden = hidden; }, hidden);
+  await flip(true);
+  const png = await page.locator('#picture').screenshot();
+  await flip(false);
+  return png;
+}

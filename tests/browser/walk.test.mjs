@@ -1,0 +1,94 @@
+// A newcomer's walk through the page, from the first sight to a link that somebody else opens.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import pixelmatch from 'pixelmatch';
+import { PNG } from 'pngjs';
+import { field, launch, open, open_parameters, picture, program, serve, statistics, until_shown, until_state } from './support.mjs';
+
+let server, browser;
+before(async () => { server = await serve(program); browser = await launch(); });
+after(async () => { await browser?.close(); await server?.stop(); });
+
+/** Share of pixels that differ visibly. */
+function difference(a, b) {
+  const [first, second] = [PNG.sync.read(a), PNG.sync.read(b)];
+  assert.deepEqual([first.width, first.height], [second.width, second.height]);
+  return pixelmatch(first.data, second.data, null, first.width, first.height, { threshold: 0.2 }) / (first.width * first.height);
+}
+
+test('a newcomer grows a tree, mends a production and shares the result', { timeout: 600_000 }, async (t) => {
+  const page = await open(browser, server.url, { permissions: ['clipboard-read', 'clipboard-write'] });
+  const productions = field(page, '/parameters/productions').locator('textarea');
+  let whole, link, shown, drawing;
+
+  await t.test('the page shows a model without a click', async () => {
+    assert.match(await page.getAttribute('#picture', 'aria-label'), /[1-9][\d,]* triangles/);
+    assert.ok((await statistics(page)).bytes > 1000);
+  });
+  await t.test('a preset is chosen from the gallery', async () => {
+    await until_shown(page, () => page.click('[data-preset="kogovsek_willow_random"]'));
+    assert.equal(await page.getAttribute('[data-preset="kogovsek_willow_random"]', 'aria-pressed'), 'true');
+    assert.match(new URL(page.url()).hash, /^#[\w-]{50,}$/);
+  });
+  await t.test('a number is changed, and the picture follows', async () => {
+    await open_parameters(page);
+    const before = await statistics(page);
+    const box = field(page, '/parameters/iterations').locator('input[type=number]');
+    const value = Number(await box.inputValue());
+    await until_shown(page, () => box.fill(String(value - 1)));
+    assert.notDeepEqual(await statistics(page), before);
+  });
+  await t.test('a broken production is read at its line and column', async () => {
+    whole = await productions.inputValue();
+    const lines = whole.split('\n');
+    const last = lines.length - 1;
+    await productions.fill([...lines.slice(0, last), `${lines[last]}[`].join('\n'));
+    await until_state(page, 'refused');
+    const spot = field(page, '/parameters/productions').locator('.spot');
+    const column = lines[last].length + 1;
+    assert.match(await spot.first().textContent(), new RegExp(`^Line ${last + 1}, column ${column}: .*\\[`));
+    await spot.first().click();
+    const selected = await productions.evaluate((area) => [area.selectionStart, area.value.slice(area.selectionStart, area.selectionEnd)]);
+    assert.deepEqual(selected, [whole.length, '[']);
+    assert.equal(await field(page, '/parameters/productions').locator('mark').textContent(), '[');
+    assert.ok((await page.textContent('#alert')).length > 0);
+  });
+  await t.test('it is mended, and the fault goes away', async () => {
+    await until_shown(page, () => productions.fill(whole));
+    assert.equal(await field(page, '/parameters/productions').locator('.spot').count(), 0);
+    assert.equal(await page.textContent('#alert'), '');
+  });
+  await t.test('the seed is rolled', async () => {
+    const seed = await page.inputValue('#seed');
+    const before = await statistics(page);
+    await until_shown(page, () => page.click('#dice'));
+    assert.notEqual(await page.inputValue('#seed'), seed);
+    assert.notDeepEqual(await statistics(page), before);
+  });
+  await t.test('the link is copied', async () => {
+    await page.click('#copy-link');
+    await page.waitForFunction(() => document.getElementById('status').textContent === 'The link is copied');
+    link = await page.evaluate(() => navigator.clipboard.readText());
+    assert.ok(link.startsWith(`${server.url}/#`), link);
+    shown = await statistics(page);
+    drawing = await picture(page);
+  });
+  await t.test('a fresh browser opens it: the same picture, the same statistics, the same fields', async () => {
+    const other_browser = await launch();
+    try {
+      const other = await open(other_browser, link);
+      assert.deepEqual(await statistics(other), shown);
+      assert.equal(await other.inputValue('#seed'), await page.inputValue('#seed'));
+      await open_parameters(other);
+      assert.equal(await field(other, '/parameters/productions').locator('textarea').inputValue(), whole);
+      const differs = difference(drawing, await picture(other));
+      assert.ok(differs < 0.002, `${differs} of the picture differs`);
+      // The measure itself can tell pictures apart.
+      await until_shown(other, () => other.fill('#seed', '12345'));
+      assert.ok(difference(drawing, await picture(other)) > 0.002);
+    } finally {
+      await other_browser.close();
+    }
+  });
+  assert.deepEqual(page.faults, []);
+});
