@@ -129,12 +129,12 @@ std::optional<Result<Request>> read_preset(std::string_view name, const Override
   }
   Result<Request> result = read_request_body(request, limits);
   std::vector<Issue> issues = faults.take();
+  if (result && issues.empty()) return result;
   if (!result) {
-    std::vector<Issue> others = std::move(result).error().issues;
+    std::vector<Issue> others = result.error().issues;
     point_at_overrides(others, places);
     issues.insert(issues.end(), others.begin(), others.end());
   }
-  if (issues.empty()) return result;
   return Error{Code::invalid, std::move(issues)};
 }
 
