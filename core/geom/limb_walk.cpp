@@ -11,7 +11,7 @@ constexpr float sharpest = -0.5F;
 constexpr float least_free = 0.02F;
 // A face whose normal is within this of a right angle to a corner's is given up: room for rounding and for
 // faces that taper and bend at once, which are not quite flat.
-constexpr float least_cosine = 0.05F;
+constexpr float least_cosine = 0.15F;
 
 // The taper up to which a turn's gentleness is reckoned: bark seldom loses more than a tenth of its length in
 // radius.
@@ -76,7 +76,7 @@ bool TurnJudge::allows(const Internode& a, const Internode& b, float radius_befo
   ring.is_gentle = a_is_gentle && turn_tangent <= gentle_reach_;
   if (!(ring.is_gentle && b_is_gentle && last_.is_gentle)) {
     const float taper_a = fall_a / free_a;
-    if (!a_is_gentle) ring.taper = taper_a;
+    ring.taper = taper_a;
     if (!keeps_faces_outside(last_, taper_a) || !keeps_faces_outside(ring, fall_b / free_b)) return false;
   }
   last_ = ring;

@@ -14,7 +14,8 @@ namespace {
 // vertex caches have. Where a column begins with nothing in the cache its first two rings come in by turns,
 // and only up to six fit well.
 constexpr std::uint32_t widest_column = 8, widest_cold_column = 6;
-constexpr int phase_count = 256;
+// A tube starts with one of their squares of angles: a coarse one turned by a fine one.
+constexpr std::uint32_t phase_count = 64;
 // The cone that closes a tube inside its parent or over an elbow, as a share of the radius.
 constexpr float cap_share = 0.5F;
 
@@ -53,19 +54,20 @@ TubeTables::TubeTables(const CrossSection& section)
     : columns(columns_of(section, widest_column)), narrow_columns(columns_of(section, widest_cold_column)) {
   for (std::uint32_t i = 0; i < section.sides; ++i)
     circle.push_back(circle_point(2 * math::pi * i / section.sides));
-  for (int i = 0; i < phase_count; ++i) {
-    phases.push_back(
-        circle_point(2 * math::pi * (i + 0.5) / (phase_count * static_cast<double>(section.sides))));
+  const double side = 2 * math::pi / section.sides;
+  for (std::uint32_t i = 0; i < phase_count; ++i) {
+    coarse_phases.push_back(circle_point(side * (i + 0.5) / phase_count));
+    fine_phases.push_back(circle_point(side * i / (phase_count * phase_count)));
   }
 }
 
 std::uint64_t TubeWriter::hash_of(std::uint32_t joint) const {
-  return key_at(context_.limbs.key.empty() ? joint : context_.limbs.key[joint], 0x70BE);
+  return key_at(context_.limbs.key.empty() ? joint : context_.limbs.key[joint], 0x5EA3);
 }
 
 /// A small length, different for every joint, by which rings of tubes that begin at one place are kept apart.
 float TubeWriter::nudge(std::uint64_t hash, float radius) const {
-  return (1 + fraction(hash)) * std::max(0.05F * radius, context_.scale.apart);
+  return (1 + 8 * fraction(hash)) * std::max(0.05F * radius, context_.scale.apart);
 }
 
 void TubeWriter::start_frame(const glm::vec3& along, std::uint64_t hash) {
@@ -73,7 +75,9 @@ void TubeWriter::start_frame(const glm::vec3& along, std::uint64_t hash) {
   const float a = -1 / (sign + along.z);
   const float b = along.x * along.y * a;
   const glm::vec3 u{1 + sign * along.x * along.x * a, sign * b, -sign * along.x};
-  const glm::vec2 phase = context_.tables.phases[hash % phase_count];
+  const glm::vec2 coarse = context_.tables.coarse_phases[hash % phase_count];
+  const glm::vec2 fine = context_.tables.fine_phases[hash / phase_count % phase_count];
+  const glm::vec2 phase{coarse.x * fine.x - coarse.y * fine.y, coarse.x * fine.y + coarse.y * fine.x};
   u_ = u * phase.x + glm::cross(along, u) * phase.y;
 }
 

@@ -18,8 +18,8 @@ struct TubeTables {
   /// Quads of a tube next to each other, six corners each, counted from the lower ring's first vertex. Their
   /// triangles run along the limb together, so that two rings at a time stay in the vertex cache.
   using Column = std::vector<std::uint32_t>;
-  std::vector<glm::vec2> circle;  ///< cosine and sine of each corner
-  std::vector<glm::vec2> phases;  ///< the angles a tube may start with
+  std::vector<glm::vec2> circle;                      ///< cosine and sine of each corner
+  std::vector<glm::vec2> coarse_phases, fine_phases;  ///< the angles a tube may start with
   std::vector<Column>
       columns;  ///< for tubes that begin with a fan, which brings the first ring into the cache
   std::vector<Column> narrow_columns;  ///< for those that do not
