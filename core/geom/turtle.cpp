@@ -60,6 +60,10 @@ void Turtle::head(const glm::dvec3& direction) {
 
 void Turtle::add_segment(const glm::dvec3& from, double length, std::uint64_t key) {
   const glm::dvec3& to = state_.position;
+  if (report_.segments == most_segments_) {
+    Job::refuse("draws more than " + std::to_string(most_segments_) + " segments, which pass the limit of " +
+                std::to_string(job_.limits().triangles) + " triangles");
+  }
   if (report_.segments++ == 0) report_.min = report_.max = from;
   report_.total_length += std::abs(length);
   report_.min = glm::min(report_.min, glm::min(from, to));

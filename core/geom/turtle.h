@@ -42,6 +42,9 @@ class Turtle {
   void upright() { state_.frame = seedmesh::upright(state_.frame); }
   void head(const glm::dvec3& direction);  ///< heads along it and rolls upright
 
+  /// Refuses to draw more segments than this; without a call there is no such limit.
+  void set_most_segments(std::uint64_t most) { most_segments_ = most; }
+
   void push();  ///< throws Stop beyond limits.bracket_depth
   void pop();   ///< without a matching push: nothing
 
@@ -89,6 +92,7 @@ class Turtle {
   std::vector<Array<glm::dvec3>> polygons_;  ///< open ones, innermost last
   TurtleReport report_;
   double thinner_ = 0;
+  std::uint64_t most_segments_ = ~std::uint64_t{0};
 };
 
 }  // namespace seedmesh

@@ -20,6 +20,7 @@ class Drawing {
   void module(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t step);
 
   const Turtle& turtle() const { return turtle_; }
+  void set_most_segments(std::uint64_t most) { turtle_.set_most_segments(most); }
 
  private:
   struct Angle {

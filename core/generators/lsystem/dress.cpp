@@ -134,6 +134,12 @@ Model dress(Skeleton skeleton, const LsystemParams& params, Job& job) {
   return model;
 }
 
+std::uint64_t most_segments(const LsystemParams& params, const Limits& limits) {
+  if (params.style == LsystemParams::Style::lines) return limits.triangles;
+  return limits.triangles /
+         (2 * static_cast<std::uint64_t>(params.sides) * static_cast<std::uint64_t>(params.stacks));
+}
+
 Estimate estimate_of(std::uint64_t segments, const LsystemParams& params) {
   constexpr std::uint64_t document = 1500;  // the JSON part of a small model
   if (params.style == LsystemParams::Style::lines) return {segments, document + segments * 20, false};

@@ -8,6 +8,9 @@ namespace seedmesh::lsystem {
 
 Model dress(Skeleton skeleton, const LsystemParams& params, Job& job);
 
+/// How many segments may be drawn within limits.triangles; a segment drawn on top of another counts too.
+std::uint64_t most_segments(const LsystemParams& params, const Limits& limits);
+
 /// Size of a model of so many drawn segments.
 Estimate estimate_of(std::uint64_t segments, const LsystemParams& params);
 

@@ -127,6 +127,10 @@ class Compiler {
     std::map<std::string, std::uint64_t, std::less<>> occurrences;
     for (const WrittenModule& module : read_modules(source.text, slice, source.faults)) {
       check_symbol(module, source);
+      if (grammar_.templates.size() == most_modules) {
+        source.faults.push_back({module.offset, "found more than 1,000,000 modules in one grammar"});
+        break;
+      }
       if (module.arguments.size() > most_parameters || grammar_.kinds.size() > most_kinds) {
         source.faults.push_back({module.offset, "found too many parameters; expected at most 64"});
         continue;

@@ -1,5 +1,6 @@
 #include "core/generators/lsystem/lsystem.h"
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -63,6 +64,34 @@ struct TextAndDrawing {
   }
 };
 
+std::uint64_t drawn(const Grammar& grammar, const std::vector<std::uint64_t>& counts) {
+  std::uint64_t segments = 0;
+  for (std::size_t kind = 0; kind < counts.size(); ++kind) {
+    const Command command = grammar.kinds[kind].command;
+    if (command == Command::draw || command == Command::draw_plain)
+      segments += std::min(saturated, counts[kind]);
+  }
+  return segments;
+}
+
+/// Refuses what is sure to draw too much before it is drawn; what only shows on the way is refused there.
+void refuse_too_many_segments(const Grammar& grammar, const LsystemParams& params, Drawing& drawing,
+                              const Job& job) {
+  const std::uint64_t most = most_segments(params, job.limits());
+  drawing.set_most_segments(most);
+  const bool polygons = std::any_of(grammar.kinds.begin(), grammar.kinds.end(),
+                                    [](const Kind& kind) { return kind.command == Command::polygon_open; });
+  if (polygons || !grammar.interpretation.productions.empty())
+    return;  // F may be a vertex or not drawn at all
+  const std::uint64_t segments = drawn(grammar, exact_counts(grammar, steps_of(params)));
+  if (segments > most) {
+    Job::refuse("draws " + std::to_string(segments) + " segments, which pass the limit of " +
+                    std::to_string(job.limits().triangles) +
+                    " triangles; fewer sides or style lines allow more",
+                "/iterations");
+  }
+}
+
 Json vector(const glm::dvec3& v) { return Json::array({v.x + 0.0, v.y + 0.0, v.z + 0.0}); }
 
 Json described(const Turtle& turtle) {
@@ -84,16 +113,6 @@ Json described(const std::vector<Warning>& warnings) {
   return list;
 }
 
-std::uint64_t drawn(const Grammar& grammar, const std::vector<std::uint64_t>& counts) {
-  std::uint64_t segments = 0;
-  for (std::size_t kind = 0; kind < counts.size(); ++kind) {
-    const Command command = grammar.kinds[kind].command;
-    if (command == Command::draw || command == Command::draw_plain)
-      segments += std::min(saturated, counts[kind]);
-  }
-  return segments;
-}
-
 }  // namespace
 
 std::vector<Issue> check(const LsystemParams& params, const Limits& limits) {
@@ -109,6 +128,7 @@ Result<Model> generate(const LsystemParams& params, Job& job) {
   Skeleton skeleton(job);
   {
     Drawing drawing(*grammar, params, &skeleton, job);
+    refuse_too_many_segments(*grammar, params, drawing, job);
     run(*grammar, params, drawing, job);
   }
   job.progress("mesh", 0);

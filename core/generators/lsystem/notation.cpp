@@ -120,6 +120,10 @@ std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, std:
   std::vector<WrittenModule> modules;
   for (std::size_t at = skip_spaces(text, slice.from, slice.to); at < slice.to;
        at = skip_spaces(text, at, slice.to)) {
+    if (modules.size() == most_modules) {
+      faults.push_back({at, "found more than 1,000,000 modules in one grammar"});
+      break;
+    }
     WrittenModule module{{}, at, {}};
     std::size_t length = code_point_length(text, at);
     if (text[at] == '@') {

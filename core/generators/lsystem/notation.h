@@ -35,6 +35,10 @@ struct WrittenProduction {
   bool has_left = false, has_right = false, has_condition = false, has_weight = false;
 };
 
+/// A text longer than this is refused: what is written by hand or by a program for people is far shorter, and
+/// a grammar costs about a hundred bytes a module while it is read.
+constexpr std::size_t most_modules = 1'000'000;
+
 /// The modules of text[slice]. Faults: an argument list that is not closed, an empty argument, characters
 /// that are no symbol.
 std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, std::vector<lang::Fault>& faults);

@@ -145,6 +145,20 @@ TEST(Growth, StopsAnExplosionThatChanceHid) {
   EXPECT_THROW((void)derive(grammar_of("AF", {"A < F -> FFFFFFFFFF", "F -> FFFFFFFF"}, 30), other), Stop);
 }
 
+TEST(Growth, RefusesMoreSegmentsThanTrianglesAllowBeforeItDraws) {
+  Job job = job_of(0);
+  EXPECT_THROW((void)generate(grammar_of("F", {"F -> F+F-F+F"}, 12), job), Stop);
+  EXPECT_EQ(job.purse()->used(), 0U);
+  Limits limits;
+  limits.triangles = 16 * 100;
+  Job chance = job_of(0, limits);
+  EXPECT_THROW((void)generate(grammar_of("F", {"F -> FF : 1", "F -> FFF : 1"}, 9), chance), Stop);
+}
+
+TEST(Growth, RefusesGrammarsOfMillionsOfModulesWhileTheyAreRead) {
+  EXPECT_EQ(faults_of(grammar_of(std::string(3'000'000, 'F'), {})).size(), 1U);
+}
+
 TEST(Numbers, ThatAreNotFiniteAreRefusedAtTheirProduction) {
   for (const char* axiom : {"F(0/0)", "F(1/0)", "F(1e308)F(1e308)F(1e308)"}) {
     Job job = job_of(0);
