@@ -218,9 +218,10 @@ void TubeWriter::write_inner_rings(const Taper& taper) {
       inner_rings(context_.options, context_.scale, {radius_, taper.end}, taper.high - taper.low);
   const Slope slope = slope_of(radius_, taper.end, taper.length);
   for (int i = 1; i <= count; ++i) {
-    const float at =
-        taper.low + (taper.high - taper.low) * (static_cast<float>(i) / static_cast<float>(count + 1));
-    const float radius = radius_ + (taper.end - radius_) * (at / taper.length);
+    const float share = static_cast<float>(i) / static_cast<float>(count + 1);
+    const float at = taper.low + (taper.high - taper.low) * share;
+    // Along the free length alone: on the inner side of a bend that is all there is for the change of radius.
+    const float radius = radius_ + (taper.end - radius_) * share;
     Ring ring = plain_ring(internode_.from + internode_.along * at, radius, length_so_far_ + at);
     ring.before = slope;
     write_ring(ring, slope);
