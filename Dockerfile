@@ -25,7 +25,8 @@ COPY api_schema api_schema
 COPY tests/bench tests/bench
 COPY core core
 COPY server server
-RUN cmake --preset release -DSEEDMESH_TESTS=OFF && cmake --build build/release --target seedmesh
+RUN --mount=type=cache,target=/root/.cache/ccache \
+  cmake --preset release -DSEEDMESH_TESTS=OFF && cmake --build build/release --target seedmesh
 COPY deploy/rootfs.sh deploy/rootfs.sh
 RUN deploy/rootfs.sh build/release/seedmesh /rootfs
 

@@ -11,8 +11,9 @@ strip "$root/usr/bin/$(basename "$program")"
 mapfile -t libraries < <(ldd "$program" | grep -o '/[^ ]*')
 for library in "${libraries[@]}"; do
   install -D -m 755 "$library" "$root$library"
-  # A library is owned under the name of the file itself, which may be in /usr/lib where the loader says /lib.
-  package=$(dpkg-query -S "$(readlink -f "$library")" | head -1 | cut -d: -f1)
+  # The package manager knows the file itself, in /lib or in /usr/lib as its package has it.
+  file=$(readlink -f "$library")
+  package=$({ dpkg-query -S "$file" || dpkg-query -S "${file#/usr}"; } 2>/dev/null | head -1 | cut -d: -f1)
   cp -L "/usr/share/doc/$package/copyright" "$root/licences/$package"
 done
 cp LICENSE "$root/licences/seedmesh"

@@ -10,9 +10,10 @@ fail() { printf 'image: %s\n' "$*" >&2; sed 's/^/  /' "$work/run.log" >&2; exit 
 now_ms() { echo $(($(date +%s%N) / 1000000)); }
 
 # --- Running, entering, ending --------------------------------------------------------------------------------------
-# start sets `container`, `port`, and `process`: the number of the service's process here, empty where the engine runs elsewhere.
+# start sets `container`, `port`, `begun`, and `process`: the number of the service's process here, empty where the engine runs elsewhere.
 
 start_engine() {
+  begun=$(now_ms)
   container=$("$engine" run --detach --read-only --cap-drop ALL --security-opt no-new-privileges --user $uid \
     --publish 127.0.0.1::8080 "$image")
   port=$("$engine" port "$container" 8080 | head -1)
@@ -33,6 +34,7 @@ start_buildah() {
   mapfile -t command < <(configured Entrypoint; configured Cmd)
   root=$(buildah mount "$container") user=$(buildah inspect --format '{{.OCIv1.Config.User}}' "$container")
   export root user
+  begun=$(now_ms)
   unshare --mount bash -c '
     mount --bind "$root" "$root" && mount --bind /proc "$root/proc" && mount --rbind /dev "$root/dev" &&
       mount -o remount,bind,ro "$root" || exit 125
@@ -72,7 +74,7 @@ end() {
 clean() {
   [ -n "${container:-}" ] || return 0
   if [ "$engine" != buildah ]; then "$engine" rm --force "$container" >/dev/null; return; fi
-  kill -KILL "${process:-}" 2>/dev/null || true
+  if kill -KILL "${process:-}" 2>/dev/null; then wait "$process" 2>/dev/null || true; fi
   buildah rm "$container" >/dev/null
 }
 trap clean EXIT
@@ -94,14 +96,15 @@ has_sound_model() {  # <preset>: a GLB whose header tells its length
   length=$(od -An -tu4 -j8 -N4 "$file" | tr -d ' ')
   [ "$(head -c 4 "$file")" = glTF ] && [ "$length" = "$(wc -c <"$file" | tr -d ' ')" ]
 }
-serves_the_page() { curl -fsS "http://127.0.0.1:$port/" | grep -q '<script'; }
+serves_the_page() { curl -fsS "http://127.0.0.1:$port/" | grep '<script' >/dev/null; }
 cannot_write() {  # as root, so that nothing but the file system can be what refuses
-  echo "{\"preset\":\"$1\"}" | inside 0 generate - -o /model.glb 2>&1 | grep -q 'Read-only file system'
+  local said
+  said=$(echo "{\"preset\":\"$1\"}" | inside 0 generate - -o /model.glb 2>&1) || true
+  [[ $said == *"Read-only file system"* ]]
 }
 ends_well() { end; [ "$(cat "$work/exit_status")" = 0 ]; }
 
 : >"$work/run.log"
-begun=$(now_ms)
 if [ "$engine" = buildah ]; then start_buildah; else start_engine; fi
 until healthy; do
   [ $(($(now_ms) - begun)) -lt 30000 ] || fail "no healthy answer in 30 s"
