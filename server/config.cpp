@@ -132,6 +132,8 @@ const std::vector<Setting>& table() {
       seconds("drain-delay", "Seconds from SIGTERM, with /readyz at 503, to the end of listening.",
               &Config::drain_delay, 0, 3'600),
       bytes("body-limit", "Largest request body.", &Config::body_limit, 1'024),
+      bytes("body-memory", "Memory for the bodies of all requests together; one more is answered 503.",
+            &Config::body_memory, 1'024),
       bytes("cache-bytes", "Memory for finished models; 0 keeps none.", &Config::cache_bytes, 0),
       {"log-level", "debug, info, warn, error or off.", set_log_level,
        [](const Config& c) { return Json(c.log_level); }},
@@ -211,6 +213,9 @@ ConfigResult load_config(const std::vector<std::string>& environment,
     const Setting* setting = find_setting(name);
     const std::string fault = setting ? setting->set(result.config, value) : "is no setting";
     if (!fault.empty()) result.faults.push_back("--" + name + " is \"" + value + "\": it " + fault);
+  }
+  if (result.config.body_limit > result.config.body_memory) {
+    result.faults.push_back("body-limit is larger than body-memory: no such body could ever be taken");
   }
   if (result.config.threads == 0) result.config.threads = usable_cores();
   return result;

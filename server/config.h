@@ -24,6 +24,7 @@ struct Config {
   double write_timeout = 30;  ///< seconds that a client may not read
   double drain_delay = 0;     ///< seconds between SIGTERM and the end of listening
   std::uint64_t body_limit = 16U << 20U;
+  std::uint64_t body_memory = 256U << 20U;
   std::uint64_t cache_bytes = 256U << 20U;
   std::string log_level = "info";
   Limits limits;

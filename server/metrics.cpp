@@ -124,7 +124,7 @@ Metrics::Metrics() : series_(std::make_unique<Series>()) {
       .Register(series_->registry)
       .Add({{"version", std::string(program_version())}, {"engine", std::string(engine_version())}})
       .Set(1);
-  for (const char* reason : {"queue_full", "deadline", "draining", "connections"})
+  for (const char* reason : {"queue_full", "deadline", "draining", "connections", "bodies"})
     series_->rejected.Add({{"reason", reason}});
 }
 

@@ -16,7 +16,8 @@ class Metrics {
 
   /// A request has been answered. `route` is a pattern, so that the number of series stays bounded.
   void answered(std::string_view route, int status, double seconds, std::uint64_t bytes);
-  /// A request has been turned away by admission: "queue_full", "deadline", "draining", "connections".
+  /// A request has been turned away by admission: "queue_full", "deadline", "draining", "connections",
+  /// "bodies".
   void rejected(std::string_view reason);
   /// A part of a generation: "queue", "derive", "mesh", "encode".
   void spent(std::string_view span, double seconds);

@@ -23,6 +23,9 @@ constexpr Route table[] = {
     {"GET", "/healthz", get_healthz},          {"GET", "/readyz", get_readyz},
     {"GET", "/metrics", get_metrics},          {"GET", "/version", get_version},
 };
+/// Reading a larger body takes long enough to count as work.
+constexpr std::size_t quickly_read = 256 * 1'024;
+
 constexpr Route asset_route = {"GET", "/", get_asset};
 
 /// The free segment where `path` fits the pattern.
@@ -90,9 +93,16 @@ std::variant<Request, http::Response> read_body(Call& call) {
     response.set("Accept", "application/json");
     return response;
   }
-  Result<Request> request = read_request(call.request.body, call.service.config.limits);
-  if (!request) return refuse(call, problem_of(request.error()));
-  return std::move(*request);
+  std::optional<Result<Request>> request;
+  const auto read = [&] { request = read_request(call.request.body, call.service.config.limits); };
+  if (call.request.body.size() <= quickly_read) {
+    read();
+  } else if (const auto refused =
+                 with_worker(call, call.request.gone(), [&](const Job::Options&) { read(); })) {
+    return refuse(call, *refused);
+  }
+  if (!*request) return refuse(call, problem_of(request->error()));
+  return std::move(**request);
 }
 
 }  // namespace seedmesh

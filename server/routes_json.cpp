@@ -23,13 +23,7 @@ http::Response answer_with(Call& call, Result<std::string> (*work)(const Request
   return json_answer(call, std::move(**result));
 }
 
-}  // namespace
-
-http::Response post_validate(Call& call) { return answer_with(call, validate); }
-
-http::Response post_derive(Call& call) { return answer_with(call, derive); }
-
-http::Response get_presets(Call& call) {
+std::string preset_list() {
   Json list = Json::array();
   for (const PresetInfo& preset : presets()) {
     list.push_back({{"name", preset.name},
@@ -38,7 +32,17 @@ http::Response get_presets(Call& call) {
                     {"description", preset.description},
                     {"tags", preset.tags}});
   }
-  return json_answer(call, Json{{"presets", std::move(list)}}.dump());
+  return Json{{"presets", std::move(list)}}.dump();
+}
+
+}  // namespace
+
+http::Response post_validate(Call& call) { return answer_with(call, validate); }
+
+http::Response post_derive(Call& call) { return answer_with(call, derive); }
+
+http::Response get_presets(Call& call) {
+  return fixed_answer(call, "/v1/presets", "application/json", preset_list);
 }
 
 http::Response get_schema(Call& call) {
@@ -51,11 +55,16 @@ http::Response get_schema(Call& call) {
   }
   const auto text = schema_json(name);
   if (!text) return refuse(call, problem(404, "There is no schema of this name."));
-  return json_answer(call, std::string(*text), "application/schema+json");
+  return fixed_answer(call, "/v1/schemas/" + name, "application/schema+json",
+                      [&] { return std::string(*text); });
 }
 
-http::Response get_vocabulary(Call& call) { return json_answer(call, vocabulary_json()); }
+http::Response get_vocabulary(Call& call) {
+  return fixed_answer(call, "/v1/vocabulary", "application/json", vocabulary_json);
+}
 
-http::Response get_openapi(Call& call) { return json_answer(call, std::string(openapi_json())); }
+http::Response get_openapi(Call& call) {
+  return fixed_answer(call, "/openapi.json", "application/json", [] { return std::string(openapi_json()); });
+}
 
 }  // namespace seedmesh

@@ -89,8 +89,7 @@ void describe(http::Response& response, const Made& made) {
 
 http::Response model_answer(Call& call, const Known& known, std::string_view cache_control) {
   const auto coding = choose_coding(call.request.header("Accept-Encoding"));
-  if (!coding)
-    return refuse(call, problem(406, "Neither gzip nor an unencoded answer is acceptable to the client."));
+  if (!coding) return refuse(call, not_acceptable());
   const bool post = call.request.method == "POST";
   http::Response response;
   response.set("Cache-Control", std::string(cache_control));

@@ -71,7 +71,8 @@ http::Response get_metrics(Call& call) {
 }
 
 http::Response get_docs(Call& call) {
-  http::Response response = json_answer(call, call.service.pages.docs(), "text/html; charset=utf-8");
+  http::Response response =
+      fixed_answer(call, "/docs", "text/html; charset=utf-8", [&] { return call.service.pages.docs(); });
   add_page_headers(response, docs_security);
   return response;
 }
@@ -79,8 +80,7 @@ http::Response get_docs(Call& call) {
 http::Response get_asset(Call& call) {
   const Asset& asset = *call.service.pages.find(call.request.path);
   const auto coding = choose_coding(call.request.header("Accept-Encoding"));
-  if (!coding)
-    return refuse(call, problem(406, "Neither gzip nor an unencoded answer is acceptable to the client."));
+  if (!coding) return refuse(call, not_acceptable());
   const Coding used = asset.gzip.empty() ? Coding::identity : *coding;
   const std::string tag = tag_of(asset.bytes, asset.path);
   http::Response response;

@@ -29,6 +29,7 @@ http::ListenerOptions listener_options(const Config& config) {
   options.host = config.host;
   options.port = config.port;
   options.limits.body = config.body_limit;
+  options.body_memory = config.body_memory;
   options.connections = static_cast<std::size_t>(config.connections);
   options.head_time = whole_seconds(config.head_timeout);
   options.body_time = whole_seconds(config.body_timeout);
@@ -51,7 +52,7 @@ http::Response handle(Service& service, const http::Request& request) {
 }
 
 http::Response refuse_unread(Service& service, const http::Request& request, const http::Refusal& refusal) {
-  if (refusal.status == 503) service.metrics.rejected("connections");
+  if (refusal.status == 503) service.metrics.rejected(refusal.reason);
   http::Response response = to_response(problem(refusal.status, refusal.detail), request.id);
   response.route = "unread";
   return response;

@@ -52,6 +52,21 @@ Cache::Outcome make(const Call& call, const Known& known, const std::stop_token&
   return outcome;
 }
 
+/// An answer with its validator; 304 where the client has it already.
+http::Response validated(const Call& call, const std::string& tag, Coding used,
+                         std::string_view cache_control) {
+  http::Response response;
+  response.set("ETag", etag(tag, used));
+  response.set("Cache-Control", std::string(cache_control));
+  response.set("Vary", "Accept-Encoding");
+  if (call.request.method != "POST" && matches(call.request.header("If-None-Match"), tag)) {
+    response.status = 304;
+  } else if (used == Coding::gzip) {
+    response.set("Content-Encoding", "gzip");
+  }
+  return response;
+}
+
 }  // namespace
 
 Known known(Request request) {
@@ -110,25 +125,47 @@ std::string extension_of(std::string_view format) {
   return std::string(format == "png16" || format == "png8" ? "png" : format);
 }
 
+std::shared_ptr<const FixedText> FixedTexts::get(const std::string& path,
+                                                 const std::function<std::string()>& make) {
+  const std::lock_guard lock(mutex_);
+  auto& text = by_path_[path];
+  if (!text) {
+    FixedText made{make(), {}, {}};
+    made.tag = tag_of(made.text, path);
+    if (made.text.size() >= worth_compressing) made.packed = gzip(made.text, 9);
+    text = std::make_shared<const FixedText>(std::move(made));
+  }
+  return text;
+}
+
 http::Response json_answer(const Call& call, std::string text, std::string_view type,
                            std::string_view cache_control) {
-  http::Response response;
-  const std::string tag = tag_of(text, type);
   const auto coding = choose_coding(call.request.header("Accept-Encoding"));
-  if (!coding)
-    return refuse(call, problem(406, "Neither gzip nor an unencoded answer is acceptable to the client."));
-  const Coding used = text.size() < worth_compressing ? Coding::identity : *coding;
-  response.set("ETag", etag(tag, used));
-  response.set("Cache-Control", std::string(cache_control));
-  response.set("Vary", "Accept-Encoding");
-  if (call.request.method != "POST" && matches(call.request.header("If-None-Match"), tag)) {
-    response.status = 304;
-    return response;
-  }
+  if (!coding) return refuse(call, not_acceptable());
+  const bool pack = *coding == Coding::gzip && text.size() >= worth_compressing;
+  http::Response response =
+      validated(call, tag_of(text, type), pack ? Coding::gzip : Coding::identity, cache_control);
+  if (response.status == 304) return response;
   response.type = type;
-  if (used == Coding::gzip) response.set("Content-Encoding", "gzip");
-  response.body = used == Coding::gzip ? gzip(text) : std::move(text);
+  response.body = pack ? gzip(text) : std::move(text);
   return response;
+}
+
+http::Response fixed_answer(const Call& call, const std::string& path, std::string_view type,
+                            const std::function<std::string()>& make) {
+  const auto coding = choose_coding(call.request.header("Accept-Encoding"));
+  if (!coding) return refuse(call, not_acceptable());
+  const auto fixed = call.service.texts.get(path, make);
+  const bool pack = *coding == Coding::gzip && !fixed->packed.empty();
+  http::Response response = validated(call, fixed->tag, pack ? Coding::gzip : Coding::identity, "no-cache");
+  if (response.status == 304) return response;
+  response.type = type;
+  response.body = pack ? fixed->packed : fixed->text;
+  return response;
+}
+
+Problem not_acceptable() {
+  return problem(406, "Neither gzip nor an unencoded answer is acceptable to the client.");
 }
 
 http::Response refuse(const Call& call, const Problem& problem) {

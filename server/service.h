@@ -43,6 +43,22 @@ class KnownTargets {
   std::size_t bytes_ = 0;
 };
 
+/// A text that never changes while the program runs, with everything that answering with it takes.
+struct FixedText {
+  std::string text, packed, tag;
+};
+
+/// Fixed texts by path, made when they are first asked for: compressing the OpenAPI document for each client
+/// would cost more than many a model.
+class FixedTexts {
+ public:
+  std::shared_ptr<const FixedText> get(const std::string& path, const std::function<std::string()>& make);
+
+ private:
+  std::mutex mutex_;
+  std::unordered_map<std::string, std::shared_ptr<const FixedText>> by_path_;
+};
+
 struct Service {
   Service(const Config& given, const Log& given_log)
       : config(given),
@@ -56,6 +72,7 @@ struct Service {
   Cache cache;
   Metrics metrics;
   KnownTargets targets;
+  FixedTexts texts;
   const Pages pages;
   std::atomic<std::int64_t> in_flight{0};
   std::atomic<bool> draining{false};
@@ -85,6 +102,13 @@ std::string extension_of(std::string_view format);
 /// An answer with a validator of its own: 304 where the client has it, gzip where it likes it.
 http::Response json_answer(const Call& call, std::string text, std::string_view type = "application/json",
                            std::string_view cache_control = "no-cache");
+
+/// The same for a text that is fixed at `path`; `make` is called at most once.
+http::Response fixed_answer(const Call& call, const std::string& path, std::string_view type,
+                            const std::function<std::string()>& make);
+
+/// 406: the client takes neither of the two codings there are.
+Problem not_acceptable();
 
 http::Response refuse(const Call& call, const Problem& problem);
 

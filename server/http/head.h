@@ -23,6 +23,7 @@ struct HeadLimits {
 struct Refusal {
   int status = 400;
   std::string detail;
+  std::string_view reason = "malformed";  ///< one word for the metrics, of a bounded set
 };
 
 struct Head {

@@ -197,6 +197,18 @@ class Listener::Server : public httplib::Server {
     return full;
   }
 
+  /// A request's part of a sum, for as long as it is being served.
+  struct Share {
+    Share(std::atomic<std::uint64_t>& given, std::uint64_t amount)
+        : total(given), part(amount), sum(total.fetch_add(amount) + amount) {}
+    Share(const Share&) = delete;
+    Share& operator=(const Share&) = delete;
+    ~Share() { total.fetch_sub(part); }
+    std::atomic<std::uint64_t>& total;
+    const std::uint64_t part;
+    const std::uint64_t sum;
+  };
+
   // The two forms that the protected function has in 0.11 and in 0.18.
   using Setup = std::function<void(httplib::Request&)>;
   template <class Base>
@@ -237,12 +249,10 @@ class Listener::Server : public httplib::Server {
     const std::string id = request.header("X-Request-Id");
     request.id = is_sane_id(id) ? id : make_id();
     if (refusal && refusal->status == 0) return false;
-    if (refusal) {
-      Response response = callbacks_.refuse(request, *refusal);
-      response.close = true;
-      send(connection, request, response);
-      connection.linger();
-      return false;
+    if (refusal) return turn_down(connection, request, *refusal);
+    const Share body_share(body_bytes_, head->length);
+    if (body_share.sum > options_.body_memory) {
+      return turn_down(connection, request, {503, "Too many large requests at once.", "bodies"});
     }
     if (!receive_body(connection, *head)) return false;
 
@@ -256,6 +266,14 @@ class Listener::Server : public httplib::Server {
     send(connection, request, response);
     if (watched) watch_.remove(connection.socket());
     return !response.close && !connection.broken();
+  }
+
+  bool turn_down(Connection& connection, const Request& request, const Refusal& refusal) {
+    Response response = callbacks_.refuse(request, refusal);
+    response.close = true;
+    send(connection, request, response);
+    connection.linger();
+    return false;
   }
 
   /// Status 0: the client left or was too slow, and gets no answer.
@@ -320,7 +338,7 @@ class Listener::Server : public httplib::Server {
     Request request;
     request.id = make_id();
     request.arrived = Connection::Clock::now();
-    Response response = callbacks_.refuse(request, {503, "Too many connections."});
+    Response response = callbacks_.refuse(request, {503, "Too many connections.", "connections"});
     response.close = true;
     send(connection, request, response);
   }
@@ -342,6 +360,7 @@ class Listener::Server : public httplib::Server {
   Watch watch_;
   int drain_;
   std::atomic<bool> draining_{false};
+  std::atomic<std::uint64_t> body_bytes_{0};
   std::atomic<std::uint64_t> next_id_{0};
 };
 

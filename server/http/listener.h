@@ -20,6 +20,8 @@ struct ListenerOptions {
   int port = 8080;  ///< 0 = any that is free
   HeadLimits limits;
   std::size_t connections = 512;  ///< at once; one more is answered 503 at once
+  std::uint64_t body_memory =
+      256U << 20U;  ///< for the bodies of all requests together; one more is answered 503
   std::chrono::seconds head_time{10};
   std::chrono::seconds body_time{30};
   std::chrono::seconds idle_time{75};   ///< how long a connection may wait for its next request

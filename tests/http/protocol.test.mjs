@@ -114,6 +114,20 @@ test('an idle connection is given up', async () => {
   assert.ok(answer.closed && Date.now() - begun >= 1500 && Date.now() - begun < 5000);
 });
 
+test('bodies that together need too much memory are answered 503', async () => {
+  const small = await serve(rehearsal, ['--body-memory', '50KiB', '--body-limit', '40KiB']);
+  const first = raw(small, post('Content-Length: 30000\r\n', '{'), { wait: 1000 });
+  await sleep(200);
+  const second = await raw(small, post('Content-Length: 30000\r\n'));
+  assert.equal(status_of(second.text), 503);
+  assert.match(second.text, /Retry-After: /);
+  await first;
+  await sleep(100);
+  assert.equal((await small.generate(wanted)).status, 200);
+  assert.equal(await small.metric('seedmesh_rejected_total{reason="bodies"}'), 1);
+  await small.stop();
+});
+
 test('HEAD is answered like GET without the body', async () => {
   for (const target of ['/healthz', '/v1/presets/small.glb', '/', '/v1/presets']) {
     const get = await server.get(target), head = await ask(server, 'HEAD', target);

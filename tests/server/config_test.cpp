@@ -45,6 +45,11 @@ TEST(Config, ListsEveryFault) {
                           HasSubstr("--time-limit"), HasSubstr("--colour")));
 }
 
+TEST(Config, RefusesLimitsThatContradictEachOther) {
+  const auto loaded = load_config({}, {{"body-limit", "1GiB"}, {"body-memory", "1MiB"}});
+  EXPECT_THAT(loaded.faults, ElementsAre(HasSubstr("body-memory")));
+}
+
 TEST(Config, WarnsOfVariablesThatAreNoSetting) {
   const auto loaded = load_config({"SEEDMESH_PROT=1"}, {});
   EXPECT_TRUE(loaded.faults.empty());
