@@ -42,6 +42,7 @@ Limbs synthetic_tree(const Job& job, std::size_t internodes) {
 void skin_of_a_million_internodes(benchmark::State& state) {
   Limits limits;
   limits.memory_bytes = std::uint64_t{8} << 30U;
+  limits.triangles = limits.memory_bytes;
   Job maker(1, Job::Options{.limits = limits});
   const Limbs limbs = synthetic_tree(maker, 1'000'000);
   std::uint64_t triangles = 0;
@@ -66,6 +67,7 @@ BENCHMARK(skin_of_a_million_internodes)
 void wires_of_seven_million_segments(benchmark::State& state) {
   Limits limits;
   limits.memory_bytes = std::uint64_t{8} << 30U;
+  limits.triangles = limits.memory_bytes;
   Job maker(1, Job::Options{.limits = limits});
   const Limbs limbs = synthetic_tree(maker, 7'200'000);
   std::uint64_t segments = 0;
@@ -86,5 +88,3 @@ BENCHMARK(wires_of_seven_million_segments)
 
 }  // namespace
 }  // namespace seedmesh
-
-BENCHMARK_MAIN();
