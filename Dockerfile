@@ -11,11 +11,11 @@ WORKDIR /seedmesh
 # Packages first, so that a change of the code installs nothing anew. A network that signs traffic with a certificate of its own
 # hands it in as the secret "certificates"; it stays out of the image.
 COPY dev ./
-RUN ./dev setup build
+RUN --mount=type=secret,id=certificates \
+  if [ -s /run/secrets/certificates ]; then export NODE_EXTRA_CA_CERTS=/run/secrets/certificates; fi; ./dev setup build
 COPY web_client/package.json web_client/package-lock.json web_client/
-RUN --mount=type=secret,id=certificates,target=/run/secrets/certificates \
-  if [ -s /run/secrets/certificates ]; then export NODE_EXTRA_CA_CERTS=/run/secrets/certificates; fi; \
-  ./dev setup build
+RUN --mount=type=secret,id=certificates \
+  if [ -s /run/secrets/certificates ]; then export NODE_EXTRA_CA_CERTS=/run/secrets/certificates; fi; ./dev setup build
 
 # The page, then the program that carries it. Of the tests only the folder that CMake asks for.
 COPY web_client web_client
