@@ -22,7 +22,7 @@ import './style/gallery.css';
 import './style/form.css';
 
 /** What a visitor sees first, where the server has it. */
-const first_shown = 'abop_2_7d';
+const first_shown = 'kogovsek_grm';
 
 interface Memory { preset: string | null }
 
