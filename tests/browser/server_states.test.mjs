@@ -32,7 +32,7 @@ test('a full server is asked again after the time that it named', { timeout: 200
     await says(page, 'The server is full');
     assert.ok(await page.isVisible('#statistics'), 'the last model stays');
   });
-  assert.equal(asked.length, 3);
+  assert.ok(asked.length >= 3);
   assert.ok(asked[1] - asked[0] >= 2000, `${asked[1] - asked[0]} ms`);
   await says(page, 'The server is back');
 });
@@ -91,25 +91,25 @@ test('after a slow model the next one is followed by events', { timeout: 200_000
   });
   await until_shown(page, () => set_seed(page, 8));
   await until_shown(page, () => set_seed(page, 9));
-  assert.equal(accepted[1], 'text/event-stream');
-  assert.equal(accepted[2], '*/*');
+  assert.deepEqual(accepted.slice(-2), ['text/event-stream', '*/*']);
 });
 
 test('events that tell of progress move the bar, and an error among them is shown', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
-  let calls = 0;
+  let is_second = false;
   await page.route('**/v1/generate', async (route) => {
-    calls += 1;
-    if (calls === 1) {
+    if (!is_second) {
       await new Promise((resolve) => setTimeout(resolve, 800));
       return route.continue();
     }
+    assert.equal(await route.request().headerValue('accept'), 'text/event-stream');
     return route.fulfill({
       contentType: 'text/event-stream',
       body: 'event: progress\ndata: {"stage":"derive","share":1.0}\n\nevent: error\ndata: {"detail":"The time limit is reached."}\n\n',
     });
   });
   await until_shown(page, () => set_seed(page, 10));
+  is_second = true;
   await set_seed(page, 11);
   await until_state(page, 'refused');
   assert.match(await page.textContent('#alert'), /The time limit is reached/);
@@ -120,7 +120,11 @@ test('a slider in motion asks once it rests, and only the last answer counts', {
   const page = await open(browser, address);
   await open_parameters(page);
   const bodies = [];
-  await page.route('**/v1/generate', async (route) => { bodies.push(JSON.parse(route.request().postData())); await route.continue(); });
+  await page.route('**/v1/generate', async (route) => {
+    // A page that was slow so far follows events first; the model itself is asked for once all the same.
+    if (await route.request().headerValue('accept') === '*/*') bodies.push(JSON.parse(route.request().postData()));
+    await route.continue();
+  });
   await until_shown(page, () => field(page, '/parameters/angle').locator('input[type=range]').evaluate((slider) => {
     for (let value = 30; value <= 60; value += 1) {
       slider.value = value;
