@@ -6,7 +6,12 @@ engine=$1 image=$2
 work=$PWD/build/image
 uid=10001
 
-fail() { printf 'image: %s\n' "$*" >&2; sed 's/^/  /' "$work/run.log" >&2; exit 1; }
+fail() {
+  printf 'image: %s\n' "$*" >&2
+  if [ "$engine" != buildah ]; then "$engine" logs "$container" >"$work/run.log" 2>&1 || true; fi
+  sed 's/^/  /' "$work/run.log" >&2
+  exit 1
+}
 now_ms() { echo $(($(date +%s%N) / 1000000)); }
 
 # --- Running, entering, ending --------------------------------------------------------------------------------------
@@ -124,6 +129,8 @@ fi
 holds "cannot write to its root" cannot_write "$preset"
 holds "ends with 0 when told to" ends_well
 
-if [ "$engine" = buildah ]; then size=$(buildah images --format '{{.Size}}' "localhost/$image")
-else size=$("$engine" image inspect --format '{{.Size}}' "$image"); fi
-printf 'size %s, first healthy answer after %d ms\n%d passed, 0 failed\n' "$size" "$first" "$passed"
+size_of() {
+  if [ "$engine" = buildah ]; then buildah images --format '{{.Size}}' "localhost/$image"
+  else "$engine" image inspect --format '{{.Size}}' "$image" | awk '{ printf "%.1f MB\n", $1 / 1e6 }'; fi
+}
+printf 'size %s, first healthy answer after %d ms\n%d passed, 0 failed\n' "$(size_of)" "$first" "$passed"
