@@ -87,6 +87,11 @@ export class Viewer {
 
   fit(): void {
     this.touched = false;
+    // What is left of a hand's motion would carry the camera on.
+    const damping = this.controls.enableDamping;
+    this.controls.enableDamping = false;
+    this.controls.update();
+    this.controls.enableDamping = damping;
     this.controls.target.copy(stand_back(this.camera, [...this.points, ...this.stage.sight(this.box)], usual_direction(this.box)));
     this.controls.minDistance = this.camera.near * 4;
     this.controls.maxDistance = this.camera.far / 4;
