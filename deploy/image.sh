@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Builds the image with docker, podman or buildah, runs it as the README says, asks it for a model, and ends it. Where no base image can
-# be pulled, debootstrap makes one (Debian 13, or else 12) from the package mirror of this machine. All it makes is in build/image.
+# Builds the image with docker, podman or buildah, runs it as the README says, asks it for a model, and ends it. Where no base
+# image can be pulled, debootstrap makes one (Debian 13, or else 12) from the package mirror of this machine. Its files are in
+# build/image.
 #   SEEDMESH_ENGINE   docker, podman or buildah (default: the first that works)
 #   SEEDMESH_BASE     the base image (default: debian:trixie-slim)
 set -euo pipefail
@@ -23,7 +24,10 @@ find_engine() {
 # --- The base image -------------------------------------------------------------------------------------------------
 
 # The mirror that this machine's apt has for a release, from whatever files say so.
-mirror_of() { apt-get indextargets --format '$(SITE) $(RELEASE)' 'Created-By: Packages' | awk -v release="$1" '$2 == release { print $1; exit }'; }
+mirror_of() {
+  apt-get indextargets --format '$(SITE) $(RELEASE)' 'Created-By: Packages' |
+    awk -v release="$1" '$2 == release && !found { print $1; found = 1 }'
+}
 
 make_base() {  # <release>: a minimal Debian in $work/<release>
   local release=$1 here root=$work/$1 mirror security
@@ -57,7 +61,10 @@ import_base() {  # <release>: prints the name of the image
 }
 
 there() {  # <image>
-  if [ "$engine" = docker ]; then docker image inspect "$1" >/dev/null 2>&1; else "$engine" images -q "$1" 2>/dev/null | grep -q .; fi
+  case $engine in
+    docker) docker image inspect "$1" >/dev/null 2>&1 ;;
+    *) [ -n "$("$engine" images -q "$1" 2>/dev/null)" ] ;;
+  esac
 }
 
 choose_base() {  # sets base
@@ -87,7 +94,9 @@ build_image() {
     buildah) buildah bud --layers --format docker --isolation chroot --pull-never "${options[@]}" ;;
     podman) podman build --layers --format docker --pull=never "${options[@]}" ;;
     docker) DOCKER_BUILDKIT=1 docker build "${options[@]}" ;;
-  esac </dev/null >"$work/build.log" 2>&1 || { tail -40 "$work/build.log"; fail "the build failed; all of it is in build/image/build.log"; }
+  esac </dev/null >"$work/build.log" 2>&1 && return
+  tail -40 "$work/build.log"
+  fail "the build failed; all it said is in build/image/build.log"
 }
 
 engine=${SEEDMESH_ENGINE:-$(find_engine)}

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes the root file system of the image: a program, the shared libraries that it loads, their licences, one user, and the folders
-# over which a container runtime mounts. No shell, no package manager, nothing to write to.   rootfs.sh <program> <folder>
+# Makes the root file system of the image: a program, the shared libraries that it loads, their licences, one user, and the
+# folders over which a container runtime mounts. No shell, no package manager.   rootfs.sh <program> <folder>
 set -euo pipefail
 program=$1 root=$2
 

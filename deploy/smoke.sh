@@ -15,7 +15,7 @@ fail() {
 now_ms() { echo $(($(date +%s%N) / 1000000)); }
 
 # --- Running, entering, ending --------------------------------------------------------------------------------------
-# start sets `container`, `port`, `begun`, and `process`: the number of the service's process here, empty where the engine runs elsewhere.
+# start sets `container`, `port`, `begun`, and `process`: the service's number here, empty where the engine runs elsewhere.
 
 start_engine() {
   begun=$(now_ms)
@@ -30,8 +30,8 @@ start_engine() {
 # Of the image's configuration: Env, Entrypoint, Cmd; one a line.
 configured() { buildah inspect --format "{{range .OCIv1.Config.$1}}{{println .}}{{end}}" "$container" | grep . || true; }
 
-# As near as it gets without a runtime: the image's root mounted read-only in a mount namespace of its own, its variables, its command,
-# its user, and no capability. The port is any, since the network is that of the machine.
+# As near as it gets without a runtime: the image's root mounted read-only in a mount namespace of its own, its variables, its
+# command, its user, and no capability. The port is any, since the network is that of the machine.
 start_buildah() {
   container=$(buildah from --pull-never "localhost/$image")
   local variables command
@@ -57,7 +57,8 @@ start_buildah() {
 inside() {
   local as=$1; shift
   case $engine in
-    buildah) SEEDMESH_PORT=$port nsenter --target "$process" --mount --root --setuid "$as" --setgid "$as" /usr/bin/seedmesh "$@" ;;
+    buildah)
+      SEEDMESH_PORT=$port nsenter --target "$process" --mount --root --setuid "$as" --setgid "$as" /usr/bin/seedmesh "$@" ;;
     *) "$engine" exec --interactive --user "$as" "$container" /usr/bin/seedmesh "$@" ;;
   esac
 }
