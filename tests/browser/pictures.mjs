@@ -2,7 +2,7 @@
 //
 // The page is opened as `/?stage&quality=high`: nothing but the model, on a transparent ground, with shadows and
 // smoothing. Which model is said by the fragment, as in any link. All presets get a thumbnail of 192 x 144; those
-// named below get a large picture as well.
+// named below get a large picture as well, and page.webp shows the page itself.
 import fs from 'node:fs';
 import path from 'node:path';
 import zlib from 'node:zlib';
@@ -63,6 +63,13 @@ try {
   await take(browser, server, shown, { width: 960, height: 640 }, async (name, png) => {
     fs.writeFileSync(path.join(pictures, `${name}.webp`), await to_webp(scaler, png, { width: 960, height: 640, quality: 0.82 }));
   });
+  if (wanted.length === 0) {
+    const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, colorScheme: 'light' });
+    await page.goto(`${server.url}/?quality=high`);
+    await until_state(page, 'ready');
+    await page.waitForFunction(() => [...document.images].slice(0, 8).every((image) => image.complete));
+    fs.writeFileSync(path.join(pictures, 'page.webp'), await to_webp(scaler, await page.screenshot(), { width: 1280, height: 800, quality: 0.85 }));
+  }
   process.stdout.write(`${shown.length} pictures in docs/pictures\n`);
 } finally {
   await browser.close();

@@ -57,7 +57,7 @@ function make_viewer(): Viewer | null {
   document.body.classList.toggle('stage', query.has('stage'));
   try {
     const made = new Viewer(part<HTMLCanvasElement>('picture'), {
-      quality: asked === 'low' || (asked !== 'high' && soft) ? 'low' : 'high', dark: dark.matches, still: still.matches,
+      quality: asked === 'low' || (asked !== 'high' && soft) ? 'low' : 'high', dark: dark.matches, still: still.matches, covered: query.has('stage') ? 0 : 72,
     });
     if (query.has('stage')) { made.set_grid(false); made.set_figure(false); }
     made.on_context = (lost) => status.lost(lost);

@@ -2,7 +2,7 @@
 import { Box3, Mesh, Vector3, type Object3D, type PerspectiveCamera } from 'three';
 
 /** Part of the picture that the model may fill. */
-const fill = 0.84;
+const fill = 0.8;
 /** So many points stand for a mesh; the outline of a plant needs no more. */
 const most_points = 3000;
 
@@ -32,13 +32,17 @@ export function points_of(model: Object3D): Vector3[] {
   return points;
 }
 
-/** Moves the camera along `direction` (from the target to it) until all points are in sight. Returns the target. */
-export function stand_back(camera: PerspectiveCamera, points: Vector3[], direction: Vector3): Vector3 {
+/**
+ * Moves the camera along `direction` (from the target to it) until all points are in sight, within the part `free` of
+ * the height. Returns the target.
+ */
+export function stand_back(camera: PerspectiveCamera, points: Vector3[], direction: Vector3, free: number): Vector3 {
   const target = new Box3().setFromPoints(points).getCenter(new Vector3());
   const right = new Vector3(0, 1, 0).cross(direction).normalize();
   const up = direction.clone().cross(right);
-  const tan_up = Math.tan((camera.fov * Math.PI) / 360) * fill;
-  const tan_right = tan_up * camera.aspect;
+  const tan = Math.tan((camera.fov * Math.PI) / 360) * fill;
+  const tan_up = tan * free;
+  const tan_right = tan * camera.aspect;
   let distance = 0.01;
   // What is near looks larger, so that the middle of the box is not the middle of the picture: each round moves
   // the target into the middle and asks again for the distance.

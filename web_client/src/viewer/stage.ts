@@ -1,6 +1,6 @@
 /** What stands round the model: light, the ground with its grid in metres, and a person of 1.8 m for scale. */
 import {
-  Box3, CapsuleGeometry, Color, DirectionalLight, Group, HemisphereLight, Mesh, MeshStandardMaterial, PlaneGeometry,
+  Box3, CapsuleGeometry, Color, DirectionalLight, Group, HemisphereLight, Mesh, MeshBasicMaterial, PlaneGeometry,
   ShaderMaterial, ShadowMaterial, SphereGeometry, Vector3, type Material,
 } from 'three';
 import { corners_of } from './frame';
@@ -33,8 +33,8 @@ const grid_fragment = `
     gl_FragColor = vec4(color, strength);
   }`;
 
-/** 1.8 m from sole to crown: a lay figure, flat enough not to draw the eye. */
-function person(material: Material, shadows: boolean): Group {
+/** 1.8 m from sole to crown: a figure without light and shade, so that it does not draw the eye. */
+function person(material: Material): Group {
   const group = new Group();
   const limb = (radius: number, foot: [number, number], top: [number, number], depth: number): void => {
     const across = top[0] - foot[0], along = top[1] - foot[1];
@@ -55,7 +55,6 @@ function person(material: Material, shadows: boolean): Group {
     limb(0.075, [side * 0.1, 0], [side * 0.085, 0.98], 0.95);
     limb(0.047, [side * 0.25, 0.76], [side * 0.165, 1.47], 0.95);
   }
-  group.traverse((part) => { part.castShadow = shadows; });
   return group;
 }
 
@@ -69,7 +68,7 @@ export class Stage {
   private readonly grid: Mesh<PlaneGeometry, ShaderMaterial>;
   private readonly shade: Mesh<PlaneGeometry, ShadowMaterial>;
   private readonly figure: Group;
-  private readonly skin = new MeshStandardMaterial({ roughness: 0.95 });
+  private readonly skin = new MeshBasicMaterial({ toneMapped: false });
   private wants_figure = true;
 
   constructor(shadows: boolean) {
@@ -86,7 +85,7 @@ export class Stage {
     this.sun.shadow.mapSize.set(2048, 2048);
     this.sun.shadow.radius = 3;
     this.sun.shadow.bias = -0.0005;
-    this.figure = person(this.skin, shadows);
+    this.figure = person(this.skin);
     this.group.add(this.sky, this.sun, this.sun.target, this.rim, this.grid, this.shade, this.figure);
   }
 
@@ -136,7 +135,7 @@ export class Stage {
 
   set_theme(dark: boolean): void {
     (this.grid.material.uniforms['color']!.value as Color).set(dark ? 0x8fa398 : 0x6d7f74);
-    this.skin.color.set(dark ? 0x7d8a83 : 0xb9b4a8);
+    this.skin.color.set(dark ? 0x3c4942 : 0xcdd3ca);
     this.shade.material.opacity = dark ? 0.4 : 0.2;
     this.sky.intensity = dark ? 2.0 : 2.3;
   }

@@ -13,6 +13,8 @@ export interface Look {
   quality: 'high' | 'low';
   dark: boolean;
   still: boolean;
+  /** Pixels at the lower rim that something else covers: a model that is fitted stays above. */
+  covered: number;
 }
 
 export class Viewer {
@@ -32,11 +34,15 @@ export class Viewer {
   private points = corners_of(this.box);
   private wireframe = false;
   private touched = false;
+  private readonly covered: number;
   private frame = 0;
+  /** Part of the height that nothing covers. */
+  private free = 1;
 
   constructor(canvas: HTMLCanvasElement, look: Look) {
     const high = look.quality === 'high';
     this.canvas = canvas;
+    this.covered = look.covered;
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: high, powerPreference: 'high-performance' });
     this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.toneMappingExposure = 1;
@@ -92,7 +98,7 @@ export class Viewer {
     this.controls.enableDamping = false;
     this.controls.update();
     this.controls.enableDamping = damping;
-    this.controls.target.copy(stand_back(this.camera, [...this.points, ...this.stage.sight(this.box)], usual_direction(this.box)));
+    this.controls.target.copy(stand_back(this.camera, [...this.points, ...this.stage.sight(this.box)], usual_direction(this.box), this.free));
     this.controls.minDistance = this.camera.near * 4;
     this.controls.maxDistance = this.camera.far / 4;
     this.controls.update();
@@ -163,7 +169,8 @@ export class Viewer {
     if (clientWidth === 0 || clientHeight === 0) return;
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
-    this.camera.updateProjectionMatrix();
+    this.camera.setViewOffset(clientWidth, clientHeight, 0, this.covered / 2, clientWidth, clientHeight);
+    this.free = Math.max(0.3, 1 - this.covered / clientHeight);
     if (this.touched) this.render();
     else { this.fit(); this.render(); }
   }
