@@ -171,6 +171,7 @@ test('where the page may not copy, the text is there to be copied by hand', { ti
     before: (page) => page.addInitScript(() => { Object.defineProperty(navigator, 'clipboard', { value: undefined }); }),
   });
   await page.click('#copy-link');
+  await page.waitForFunction(() => document.querySelector('#by-hand-text')?.value);  // the link is packed first
   const text = await page.inputValue('#by-hand-text');
   assert.deepEqual(request_of(new URL(text).hash), small_tree);
 });

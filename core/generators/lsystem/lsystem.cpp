@@ -39,7 +39,6 @@ void refuse_explosion(const Grammar& grammar, std::uint32_t steps, const Job& jo
 template <class Sink>
 void run(const Grammar& grammar, const LsystemParams& params, Sink& sink, Job& job) {
   const std::uint32_t steps = steps_of(params);
-  refuse_explosion(grammar, steps, job);
   const bool keyed = Drawing::needs_keys(grammar, params);
   if (!grammar.productions.context) {
     FreeDerivation<Sink>(grammar, steps, keyed, job, sink).run();
@@ -124,6 +123,7 @@ std::vector<Issue> check(const LsystemParams& params, const Limits& limits) {
 Result<Model> generate(const LsystemParams& params, Job& job) {
   Result<Grammar> grammar = compiled(params, job.seed(), job.limits());
   if (!grammar) return std::move(grammar).error();
+  refuse_explosion(*grammar, steps_of(params), job);
   job.progress("derive", 0);
   Skeleton skeleton(job);
   {
@@ -140,6 +140,7 @@ Result<Model> generate(const LsystemParams& params, Job& job) {
 Result<Json> derive(const LsystemParams& params, Job& job) {
   Result<Grammar> grammar = compiled(params, job.seed(), job.limits());
   if (!grammar) return std::move(grammar).error();
+  refuse_explosion(*grammar, steps_of(params), job);
   Drawing drawing(*grammar, params, nullptr, job);
   TextWriter writer(*grammar, longest_text);
   std::vector<std::uint64_t> counts;
