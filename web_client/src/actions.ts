@@ -14,10 +14,13 @@ interface Context {
 const written: Record<string, string> = { gltf: 'glTF' };
 
 /** One button for each format that the output schema names. */
-export function wire_actions(formats: string[], context: Context): void {
+export function wire_downloads(formats: string[], context: Context): void {
   part('downloads').replaceChildren(...formats.map((format) =>
     el('button', { type: 'button', 'data-format': format, title: `Download as .${format}`, onclick: () => void download(format, context) },
       written[format] ?? format.toUpperCase())));
+}
+
+export function wire_copies(context: Context): void {
   part('copy-link').addEventListener('click', async () => {
     const request = context.request();
     if (request) await copy(await link_to(request), 'The link is copied', context);

@@ -3,7 +3,7 @@
  * `quality=high` chooses how it is drawn, and `stage` leaves only the picture, for making pictures.
  */
 import { Refusal, get_preset, get_presets, get_schema, type Fault, type Made, type Preset, type Request } from './api';
-import { wire_actions } from './actions';
+import { wire_copies, wire_downloads } from './actions';
 import { el, grouped, part, rounded } from './dom';
 import { draw_form, type Form } from './form/form';
 import { is_members } from './form/schema';
@@ -49,6 +49,8 @@ let opening = new AbortController();
 let keep_camera = false;
 let address_timer = 0;
 let last_refusal: Refusal | null = null;
+/** The model that is shown is not the one that the link meant: that has to stay readable. */
+let link_is_damaged = false;
 
 /** A machine without a graphics card says so in the name of its renderer. */
 function make_viewer(): Viewer | null {
@@ -82,7 +84,8 @@ async function show(made: Made, request: Request): Promise<void> {
   keep_camera = true;
   last_refusal = null;
   form?.show_faults([]);
-  if (viewer) { status.faults('', [], 0, () => {}); show_measures(viewer); }
+  if (viewer && !link_is_damaged) status.faults('', [], 0, () => {});
+  if (viewer) show_measures(viewer);
   status.shown(made.statistics);
   const size = viewer?.measures.size;
   const measure = size ? `, ${rounded(size.x)} m wide, ${rounded(size.y)} m high, ${rounded(size.z)} m deep` : '';
@@ -140,6 +143,7 @@ store.subscribe((state, cause) => {
     last_refusal = null;
     quietly(draw_parameters(state, signal));
   } else {
+    link_is_damaged = false;
     // Browsers refuse to change the address as fast as a slider moves.
     clearTimeout(address_timer);
     address_timer = window.setTimeout(() => quietly(write_address(state, 'replace')), 300);
@@ -150,6 +154,7 @@ store.subscribe((state, cause) => {
 function begin_opening(): AbortSignal {
   opening.abort();
   opening = new AbortController();
+  link_is_damaged = false;
   return opening.signal;
 }
 
@@ -168,8 +173,9 @@ async function open_link(fragment: string): Promise<void> {
     const from = presets.find((preset) => preset.name === (history.state as Memory | null)?.preset);
     store.open(request, { preset: from?.name ?? null, title: from?.title ?? 'From a link', description: from?.description ?? '' });
   } catch {
-    status.faults('This link is damaged: it holds no whole request. Ask for it once more, or choose from the gallery.', [], 0, () => {});
     if (!store.current) await open_first();
+    link_is_damaged = true;
+    status.faults('This link is damaged: it holds no whole request. Ask for it once more, or choose from the gallery.', [], 0, () => {});
   }
 }
 
@@ -192,7 +198,15 @@ const quietly = (task: Promise<void>): void => {
   task.catch((error: unknown) => { if (error instanceof Refusal) refuse(error); });
 };
 
+const actions = {
+  request: (): Request | null => store.current?.request ?? null,
+  name: (): string => `${store.current?.preset ?? 'model'}-${store.current?.request.seed ?? 0}`,
+  say: status.say,
+  fail: (text: string): void => status.faults(text, [], 0, () => {}),
+};
+
 async function start(): Promise<void> {
+  wire_copies(actions);
   if (viewer) wire_view(viewer, seed.roll);
   part('cancel').addEventListener('click', () => grower.cancel());
   const again = (): void => { patience.nudge(); grower.again(); };
@@ -207,12 +221,7 @@ async function start(): Promise<void> {
 
   const output = await persist(() => get_schema('output', signal), signal);
   const formats = is_members(output.properties) ? output.properties['format']?.enum : undefined;
-  wire_actions((formats ?? ['glb']).map(String), {
-    request: () => store.current?.request ?? null,
-    name: () => `${store.current?.preset ?? 'model'}-${store.current?.request.seed ?? 0}`,
-    say: status.say,
-    fail: (text) => status.faults(text, [], 0, () => {}),
-  });
+  wire_downloads((formats ?? ['glb']).map(String), actions);
 }
 
 quietly(start());
