@@ -26,7 +26,12 @@ int milliseconds_until(Connection::Clock::time_point until) {
 
 Connection::Connection(int socket, int drain) : socket_(socket), drain_(drain) {}
 
-Connection::~Connection() { ::close(socket_); }
+Connection::~Connection() {
+  // The watch may still hold the socket in its poll for a moment; a close alone would leave the client
+  // waiting until then.
+  ::shutdown(socket_, SHUT_WR);
+  ::close(socket_);
+}
 
 std::string Connection::remote() const {
   sockaddr_storage address{};
