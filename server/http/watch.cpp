@@ -32,8 +32,11 @@ std::stop_token Watch::add(int socket) {
 }
 
 void Watch::remove(int socket) {
-  const std::lock_guard lock(mutex_);
-  watched_.erase(socket);
+  {
+    const std::lock_guard lock(mutex_);
+    watched_.erase(socket);
+  }
+  wake();  // lets go of the socket, which a poll keeps open
 }
 
 void Watch::wake() {
