@@ -1,5 +1,8 @@
 // What the tests of the page share: the real server, a browser, and the page opened in it.
+import assert from 'node:assert/strict';
 import zlib from 'node:zlib';
+import pixelmatch from 'pixelmatch';
+import { PNG } from 'pngjs';
 import { program, serve } from '../http/support.mjs';
 import { launch, until_shown, until_state } from './chromium.mjs';
 
@@ -48,4 +51,11 @@ export async function picture(page) {
   const png = await page.locator('#picture').screenshot();
   await flip(false);
   return png;
+}
+
+/** Share of pixels that differ visibly. */
+export function difference(a, b) {
+  const [first, second] = [PNG.sync.read(a), PNG.sync.read(b)];
+  assert.deepEqual([first.width, first.height], [second.width, second.height]);
+  return pixelmatch(first.data, second.data, null, first.width, first.height, { threshold: 0.2 }) / (first.width * first.height);
 }

@@ -1,20 +1,11 @@
 // A newcomer's walk through the page, from the first sight to a link that somebody else opens.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import pixelmatch from 'pixelmatch';
-import { PNG } from 'pngjs';
-import { field, launch, open, open_parameters, picture, program, serve, statistics, until_shown, until_state } from './support.mjs';
+import { difference, field, launch, open, open_parameters, picture, program, serve, statistics, until_shown, until_state } from './support.mjs';
 
 let server, browser;
 before(async () => { server = await serve(program); browser = await launch(); });
 after(async () => { await browser?.close(); await server?.stop(); });
-
-/** Share of pixels that differ visibly. */
-function difference(a, b) {
-  const [first, second] = [PNG.sync.read(a), PNG.sync.read(b)];
-  assert.deepEqual([first.width, first.height], [second.width, second.height]);
-  return pixelmatch(first.data, second.data, null, first.width, first.height, { threshold: 0.2 }) / (first.width * first.height);
-}
 
 test('a newcomer grows a tree, mends a production and shares the result', { timeout: 600_000 }, async (t) => {
   const page = await open(browser, server.url, { permissions: ['clipboard-read', 'clipboard-write'] });
