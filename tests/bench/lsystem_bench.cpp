@@ -50,7 +50,7 @@ void bench_plain(const std::string& name, const LsystemParams& params, std::uint
 /// One symbol travels through a long word: every module is looked at in every step.
 void bench_signal() {
   constexpr std::uint32_t steps = 50;
-  constexpr std::size_t length = 1'000'000;
+  constexpr std::size_t length = 900'000;
   LsystemParams params;
   params.axiom = "b" + std::string(length, 'a');
   params.productions = {"b < a -> b", "b -> a"};
