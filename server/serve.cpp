@@ -70,9 +70,9 @@ void record(Service& service, const http::Exchange& exchange) {
   const http::Request& request = exchange.request;
   const http::Response& response = exchange.response;
   service.metrics.answered(response.route, response.status, exchange.seconds, exchange.sent);
-  const auto level = response.status >= 500 && response.status != 503 ? Log::Level::error
-                     : is_probe(request.path)                         ? Log::Level::debug
-                                                                      : Log::Level::info;
+  const auto level = response.status == 500   ? Log::Level::error
+                     : is_probe(request.path) ? Log::Level::debug
+                                              : Log::Level::info;
   if (!service.log.writes(level)) return;
   constexpr std::size_t shown = 256;  // a permalink may have 8,000 characters
   Json fields = {{"request_id", request.id},

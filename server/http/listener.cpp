@@ -372,9 +372,3 @@ void Listener::run() { server_->run(); }
 void Listener::drain() { server_->drain(); }
 
 }  // namespace seedmesh::http
-
-#ifdef __SANITIZE_THREAD__
-/// The library as Debian ships it is not instrumented, so that the sanitizer does not see how it guards the
-/// table of methods that it makes at its first request.
-extern "C" const char* __tsan_default_suppressions() { return "called_from_lib:libcpp-httplib.so\n"; }
-#endif
