@@ -1,6 +1,7 @@
 /// Which engine made a file: our own number, raised by hand whenever a seed yields something else, and a
 /// fingerprint of the libraries that touch bytes.
 #include <meshoptimizer.h>
+#include <png.h>
 #include <sleef.h>
 #include <zip.h>
 #include <zlib.h>
@@ -28,6 +29,7 @@ std::string made_version() {
       part("sleef", SLEEF_VERSION_MAJOR, SLEEF_VERSION_MINOR, SLEEF_VERSION_PATCHLEVEL) +
       part("meshoptimizer", MESHOPTIMIZER_VERSION) +
       part("zlib", ZLIB_VER_MAJOR, ZLIB_VER_MINOR, ZLIB_VER_REVISION) +
+      part("libpng", PNG_LIBPNG_VER_MAJOR, PNG_LIBPNG_VER_MINOR, PNG_LIBPNG_VER_RELEASE) +
       part("libzip", LIBZIP_VERSION_MAJOR, LIBZIP_VERSION_MINOR, LIBZIP_VERSION_MICRO) +
       part("json", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH);
   std::array<char, 16> digits{};

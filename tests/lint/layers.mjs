@@ -16,6 +16,7 @@ const seams = [
   [/^spdlog\//, /^server\//],
   [/^sleef\.h$/, /^core\/(base\/math|pipeline\/engine)\.cpp$/],
   [/^(oneapi\/)?tbb(\/|\.h)/, /^core\/base\/parallel\.cpp$/],
+  [/^png\.h$/, /^core\/(texture\/|pipeline\/engine\.cpp)/],
   [/^random$/, /^server\//],
 ];
 
