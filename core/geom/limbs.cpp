@@ -12,6 +12,7 @@ Limbs::Limbs(const Job& job)
       order(job),
       frame(job),
       birth(job),
-      key(job) {}
+      key(job),
+      anchor(job) {}
 
 }  // namespace seedmesh

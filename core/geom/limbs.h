@@ -1,6 +1,6 @@
 #pragma once
-/// The skeleton of a plant as data: what the turtle and the growth models write, and what skin() turns into a mesh.
-/// Flat arrays, parents before children. Only skin() knows tubes.
+/// The skeleton of a plant as data: what the turtle and the growth models write, and what skin() turns into a
+/// mesh. Flat arrays, parents before children. Only skin() knows tubes.
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -9,23 +9,25 @@
 
 namespace seedmesh {
 
-/// A joint is a point of the skeleton; a joint with a parent is also the internode (a straight piece of bark) that
-/// runs from its parent to itself. A limb is a chain of internodes: a joint continues the limb of its parent unless
-/// `starts_limb` is set (a side branch) or it has no parent (a root). At most one child continues a limb.
-/// All arrays that are not empty have size() elements.
+/// A joint is a point of the skeleton; a joint with a parent is also the internode (a straight piece of bark)
+/// that runs from its parent to itself. A limb is a chain of internodes: a joint continues the limb of its
+/// parent unless `starts_limb` is set (a side branch) or it has no parent (a root). At most one child
+/// continues a limb. All arrays that are not empty have size() elements.
 struct Limbs {
   static constexpr std::uint32_t none = 0xFFFFFFFFU;
 
   Array<glm::vec3> position;
-  Array<float> radius;               ///< of the internode at this joint, its far end
-  Array<float> base_radius;          ///< of the internode at its near end (at the parent); unused at roots
-  Array<std::uint32_t> parent;       ///< `none` at a root; always less than the joint's own index
-  Array<std::uint8_t> starts_limb;   ///< 1: begins a side branch at its parent
-  Array<std::int16_t> color;         ///< the turtle's colour index; material of the internode
-  Array<std::uint16_t> order;        ///< 0 trunk, 1 its branches, ... (Gravelius)
-  Array<glm::quat> frame;            ///< rotation that takes +Y to heading, -X to left, +Z to up; optional (empty)
-  Array<float> birth;                ///< age in iterations at which the internode appears; optional (empty)
-  Array<std::uint64_t> key;          ///< identity for randomness by place; optional (empty)
+  Array<float> radius;              ///< of the internode at this joint, its far end
+  Array<float> base_radius;         ///< of the internode at its near end (at the parent); unused at roots
+  Array<std::uint32_t> parent;      ///< `none` at a root; always less than the joint's own index
+  Array<std::uint8_t> starts_limb;  ///< 1: begins a side branch at its parent
+  Array<std::int16_t> color;        ///< the turtle's colour index; material of the internode
+  Array<std::uint16_t> order;       ///< 0 trunk, 1 its branches, ... (Gravelius)
+  Array<glm::quat> frame;    ///< rotation that takes +Y to heading, -X to left, +Z to up; optional (empty)
+  Array<float> birth;        ///< age in iterations at which the internode appears; optional (empty)
+  Array<std::uint64_t> key;  ///< identity for randomness by place; optional (empty)
+  Array<std::uint32_t>
+      anchor;  ///< of a root: the earlier joint that it moves with, or `none`; optional (empty)
 
   Limbs() = default;
   explicit Limbs(const Job& job);
@@ -53,6 +55,7 @@ struct Outline {
   std::uint32_t first = 0, count = 0;  ///< into Outlines::vertex
   std::int16_t color = 0;
   std::uint64_t key = 0;
+  std::uint32_t limb_joint = Limbs::none;  ///< the joint that it moves with
 };
 struct Outlines {
   Array<glm::vec3> vertex;

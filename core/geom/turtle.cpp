@@ -40,6 +40,7 @@ void Turtle::draw_plain(double length, std::uint64_t key) {
   const glm::dvec3 from = state_.position;
   advance(length);
   add_segment(from, length, key);
+  if (tropisms_) state_.frame = tropisms_->turned(state_.frame);
 }
 
 void Turtle::walk_plain(double length) {
@@ -75,6 +76,7 @@ void Turtle::add_segment(const glm::dvec3& from, double length, std::uint64_t ke
     state_.begins_branch = false;
   }
   state_.joint = add_joint(to, parent, key);
+  state_.last = state_.joint;
   state_.begins_branch = false;
 }
 
@@ -92,6 +94,7 @@ std::uint32_t Turtle::add_joint(const glm::dvec3& at, std::uint32_t parent, std:
   limbs.starts_limb.push_back(parent != Limbs::none && state_.begins_branch ? 1 : 0);
   limbs.color.push_back(state_.color);
   limbs.order.push_back(state_.order);
+  if (tracks_anchors_) limbs.anchor.push_back(parent == Limbs::none ? state_.last : Limbs::none);
   if (key != 0 && limbs.key.empty()) {  // the first key of all: joints so far have none
     for (std::uint32_t joint = 0; joint < own; ++joint) limbs.key.push_back(0);
   }
@@ -104,11 +107,20 @@ void Turtle::set_color(std::int64_t color) {
   state_.color = static_cast<std::int16_t>(color < 0 ? 0 : color > most ? most : color);
 }
 
+void Turtle::set_elasticity(std::int64_t tropism, double elasticity) {
+  if (tropisms_ && tropism >= 0) tropisms_->set(static_cast<std::size_t>(tropism), elasticity);
+}
+
+void Turtle::change_elasticity(std::int64_t tropism, double steps) {
+  if (tropisms_ && tropism >= 0) tropisms_->change(static_cast<std::size_t>(tropism), steps);
+}
+
 void Turtle::push() {
   if (stack_.size() >= job_.limits().bracket_depth) {
     Job::refuse("brackets nest deeper than " + std::to_string(job_.limits().bracket_depth));
   }
   stack_.push_back(state_);
+  if (tropisms_) tropisms_->push();
   state_.begins_branch = state_.joint != Limbs::none;
   if (state_.order < 0xFFFF) ++state_.order;
 }
@@ -117,29 +129,31 @@ void Turtle::pop() {
   if (stack_.empty()) return;
   state_ = stack_.back();
   stack_.pop_back();
+  if (tropisms_) tropisms_->pop();
 }
 
 void Turtle::open_polygon() {
   if (polygons_.size() >= job_.limits().bracket_depth) {
     Job::refuse("polygons nest deeper than " + std::to_string(job_.limits().bracket_depth));
   }
-  polygons_.emplace_back(job_);
+  polygons_.push_back({Array<glm::dvec3>(job_), state_.last});
 }
 
 void Turtle::set_vertex() {
   if (polygons_.empty()) return;
   ++report_.vertices;
-  polygons_.back().push_back(state_.position);
+  polygons_.back().vertices.push_back(state_.position);
 }
 
 void Turtle::close_polygon(std::uint64_t key) {
   if (polygons_.empty()) return;
-  const Array<glm::dvec3> vertices = std::move(polygons_.back());
+  const Array<glm::dvec3> vertices = std::move(polygons_.back().vertices);
+  const std::uint32_t joint = polygons_.back().joint;
   polygons_.pop_back();
   if (!skeleton_ || vertices.size() < 3) return;
   Outlines& outlines = skeleton_->outlines;
   outlines.outline.push_back({static_cast<std::uint32_t>(outlines.vertex.size()),
-                              static_cast<std::uint32_t>(vertices.size()), state_.color, key});
+                              static_cast<std::uint32_t>(vertices.size()), state_.color, key, joint});
   for (const glm::dvec3& vertex : vertices) outlines.vertex.push_back(stored(vertex));
 }
 

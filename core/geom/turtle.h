@@ -4,11 +4,13 @@
 /// another for polygons. Writes a Skeleton and measures what it drew; knows no grammar.
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "core/base/math.h"
 #include "core/geom/frame.h"
 #include "core/geom/limbs.h"
+#include "core/geom/tropism.h"
 
 namespace seedmesh {
 
@@ -45,6 +47,15 @@ class Turtle {
   /// Refuses to draw more segments than this; without a call there is no such limit.
   void set_most_segments(std::uint64_t most) { most_segments_ = most; }
 
+  /// Turns the heading by these after every segment drawn from now on.
+  void set_tropisms(std::vector<Tropism> tropisms) { tropisms_.emplace(std::move(tropisms)); }
+  /// Sets the elasticity of one of them, or changes it by so many of its steps; part of the state.
+  void set_elasticity(std::int64_t tropism, double elasticity);
+  void change_elasticity(std::int64_t tropism, double steps);
+
+  /// Writes Limbs::anchor from now on, for whoever moves limbs afterwards. Before the first segment.
+  void track_anchors() { tracks_anchors_ = true; }
+
   void push();  ///< throws Stop beyond limits.bracket_depth
   void pop();   ///< without a matching push: nothing
 
@@ -72,6 +83,7 @@ class Turtle {
     Frame frame;
     double width = 0;
     std::uint32_t joint = Limbs::none;  ///< where the next internode grows from; none after a move
+    std::uint32_t last = Limbs::none;   ///< the last joint of this branch, moves or not
     std::uint16_t order = 0;
     std::int16_t color = 0;
     std::uint16_t rotations = 0;  ///< of `frame` since it was last made orthonormal, and more
@@ -89,10 +101,16 @@ class Turtle {
   Job& job_;
   State state_;
   std::vector<State> stack_;
-  std::vector<Array<glm::dvec3>> polygons_;  ///< open ones, innermost last
+  struct Polygon {
+    Array<glm::dvec3> vertices;
+    std::uint32_t joint;  ///< the turtle's last one when it was opened
+  };
+  std::vector<Polygon> polygons_;  ///< open ones, innermost last
   TurtleReport report_;
   double thinner_ = 0;
   std::uint64_t most_segments_ = ~std::uint64_t{0};
+  std::optional<Tropisms> tropisms_;
+  bool tracks_anchors_ = false;
 };
 
 }  // namespace seedmesh

@@ -1,5 +1,7 @@
 #include "core/generators/lsystem/commands.h"
 
+#include <algorithm>
+
 namespace seedmesh::lsystem {
 namespace {
 
@@ -42,11 +44,28 @@ constexpr CommandRow rows[] = {
     {"@M", Command::move_to, "(x,y,z)", 3, 3, "Moves to a point, in metres from the start, without drawing.",
      "@M(1,0,0)F"},
     {"@R", Command::set_heading, "(x,y,z)", 3, 3, "Sets the heading and rolls upright.", "@R(1,1,0)F"},
+    {"@Ts", Command::elasticity_set, "([tropism,]elasticity)", 1, 2,
+     "Sets how strongly a tropism bends this branch; tropisms count from 0, and the first is meant where "
+     "none is named.",
+     "@Ts(0.3)F+FF"},
+    {"@T", Command::elasticity_up, "[(tropism)]", 0, 1,
+     "Adds the tropism's `step` to its elasticity; bare: that of the first.", "@TF+F@TF"},
+    {"@Td", Command::elasticity_down, "[(tropism)]", 0, 1,
+     "Takes the tropism's `step` off its elasticity; bare: that of the first.", "@TF+F@TdF"},
 };
 
 }  // namespace
 
 std::span<const CommandRow> commands() { return rows; }
+
+std::size_t long_symbol(std::string_view text) {
+  std::size_t longest = 0;
+  for (const CommandRow& row : rows) {
+    if (row.symbol.size() > 2 && text.substr(0, row.symbol.size()) == row.symbol)
+      longest = std::max(longest, row.symbol.size());
+  }
+  return longest;
+}
 
 Command command_of(std::string_view symbol, std::uint32_t arity) {
   for (const CommandRow& row : rows) {

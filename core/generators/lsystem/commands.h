@@ -36,6 +36,9 @@ enum class Command : std::uint8_t {
   cut,
   move_to,
   set_heading,
+  elasticity_set,
+  elasticity_up,
+  elasticity_down,
 };
 
 struct CommandRow {
@@ -49,6 +52,10 @@ struct CommandRow {
 };
 
 std::span<const CommandRow> commands();
+
+/// The length in bytes of the longest symbol of more than two characters, as @Ts, that `text` starts with; 0:
+/// none.
+std::size_t long_symbol(std::string_view text);
 
 /// The command of a symbol with so many parameters; Command::none where the turtle has no such symbol.
 /// Parameters beyond those it understands are left to the grammar.

@@ -28,7 +28,15 @@ Drawing::Drawing(const Grammar& grammar, const LsystemParams& params, Skeleton* 
       turtle_(skeleton, first_width(params, job), job),
       yaw_{params.angle.yaw, math::sincos_degrees(params.angle.yaw)},
       pitch_{params.angle.pitch, math::sincos_degrees(params.angle.pitch)},
-      roll_{params.angle.roll, math::sincos_degrees(params.angle.roll)} {}
+      roll_{params.angle.roll, math::sincos_degrees(params.angle.roll)} {
+  std::vector<Tropism> tropisms;
+  for (const auto& each : params.tropism) {
+    const auto& to = each.direction;
+    tropisms.push_back({{to[0], to[1], to[2]}, each.elasticity, each.step});
+  }
+  if (!tropisms.empty()) turtle_.set_tropisms(std::move(tropisms));
+  if (params.weather) turtle_.track_anchors();
+}
 
 bool Drawing::needs_keys(const Grammar& grammar, const LsystemParams& params) {
   return grammar.productions.chance || grammar.interpretation.chance || params.angle.spread > 0 ||
@@ -144,6 +152,13 @@ void Drawing::obey(const Kind& kind, const double* parameters, std::uint64_t key
       return turtle_.move_to({parameters[0], parameters[1], parameters[2]});
     case Command::set_heading:
       return turtle_.head({parameters[0], parameters[1], parameters[2]});
+    case Command::elasticity_set:
+      return turtle_.set_elasticity(kind.arity > 1 ? math::to_int64(parameters[0]) : 0,
+                                    parameters[kind.arity > 1 ? 1 : 0]);
+    case Command::elasticity_up:
+      return turtle_.change_elasticity(kind.arity > 0 ? math::to_int64(parameters[0]) : 0, 1);
+    case Command::elasticity_down:
+      return turtle_.change_elasticity(kind.arity > 0 ? math::to_int64(parameters[0]) : 0, -1);
   }
 }
 

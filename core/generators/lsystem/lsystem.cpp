@@ -8,6 +8,7 @@
 #include "core/generators/lsystem/dress.h"
 #include "core/generators/lsystem/free.h"
 #include "core/generators/lsystem/growth.h"
+#include "core/generators/lsystem/shape.h"
 #include "core/generators/lsystem/text.h"
 #include "core/generators/lsystem/word.h"
 
@@ -131,6 +132,7 @@ Result<Model> generate(const LsystemParams& params, Job& job) {
     refuse_too_many_segments(*grammar, params, drawing, job);
     run(*grammar, params, drawing, job);
   }
+  shape(skeleton, params, job);
   job.progress("mesh", 0);
   Model model = dress(std::move(skeleton), params, job);
   for (Warning& warning : grammar->warnings) model.warnings.push_back(std::move(warning));

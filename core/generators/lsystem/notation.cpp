@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/generators/lsystem/commands.h"
+
 namespace seedmesh::lsystem {
 namespace {
 
@@ -132,7 +134,8 @@ std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, std:
         ++at;
         continue;
       }
-      length = 1 + code_point_length(text, at + 1);
+      const std::size_t named = long_symbol(text.substr(at, slice.to - at));
+      length = named > 0 ? named : 1 + code_point_length(text, at + 1);
     } else if (text[at] == '(' || text[at] == ')') {
       faults.push_back(
           {at, std::string("found `") + text[at] + "`; expected a symbol before its parameters"});

@@ -4,7 +4,8 @@
 ///   production = [ left "<" ] predecessor [ ">" right ] [ ":" condition ] arrow successor [ ":" weight ] ;
 ///   arrow      = "->" | "-->" | "~>" | "→" ;      word = { module } ;
 ///   module     = symbol [ "(" expression { "," expression } ")" ] ;
-///   symbol     = one character | "@" character ;  white space separates and means nothing else.
+///   symbol     = one character | "@" character | a symbol of commands.h, as "@Ts" ;  white space separates
+///   and means nothing else.
 ///
 /// An empty successor, or one of "*" or "ε" alone, erases; so does an empty right side.
 #include <cstdint>

@@ -1,0 +1,42 @@
+#include "core/generators/lsystem/shape.h"
+
+#include "core/base/math.h"
+#include "core/geom/weather.h"
+#include "core/geom/widths.h"
+
+namespace seedmesh::lsystem {
+namespace {
+
+void set_widths(Limbs& limbs, const LsystemParams& params, Job& job) {
+  switch (params.width_rule) {
+    case LsystemParams::WidthRule::symbols:
+    case LsystemParams::WidthRule::decrement:
+      return;  // the turtle's own
+    case LsystemParams::WidthRule::branch_factor:
+      return narrow_by_order(limbs, params.width_factor, job);
+    case LsystemParams::WidthRule::longest_chain:
+      return widen_by_longest_chain(limbs, {0.5 * params.width.value, 0.5 * params.tip_width}, job);
+    case LsystemParams::WidthRule::pipe_model:
+      return widen_by_pipes(limbs, {0.5 * params.tip_width, params.pipe_exponent}, job);
+  }
+}
+
+Weather weather_of(const LsystemParams::Weather& given) {
+  constexpr double pascals_a_gigapascal = 1e9;
+  const math::SinCos to = math::sincos_degrees(given.direction);
+  Weather weather;
+  weather.wind = glm::dvec3{to.cos, 0, -to.sin} * given.wind;
+  weather.snow = given.snow;
+  weather.rain = given.rain;
+  weather.stiffness = given.stiffness * pascals_a_gigapascal;
+  return weather;
+}
+
+}  // namespace
+
+void shape(Skeleton& skeleton, const LsystemParams& params, Job& job) {
+  set_widths(skeleton.limbs, params, job);
+  if (params.weather) bend(skeleton, weather_of(*params.weather), job);
+}
+
+}  // namespace seedmesh::lsystem
