@@ -2,8 +2,8 @@
 /// Points by place: a hash table from small cells of space to numbers, for finding what lies on top of what.
 /// Two points that should be one but were reached along different paths differ by rounding, about 1e-7 of the
 /// model's size.
-#include <bit>
 #include <cstdint>
+#include <span>
 
 #include "core/base/array.h"
 #include "core/base/rng.h"
@@ -45,13 +45,13 @@ class PlaceGrid {
   float per_cell_;
 };
 
-/// From 64-bit keys to 32-bit numbers; 16 bytes a slot, at most two thirds full. A key, once in, stays.
+/// From 64-bit keys to 32-bit numbers; 12 bytes a slot, at most two thirds full. A key, once in, stays.
 class NumberTable {
  public:
   static constexpr std::uint32_t none = 0xFFFFFFFFU;
 
   NumberTable(const Job& job, std::size_t expected)
-      : job_(&job), slots_(empty(std::bit_ceil(expected + expected / 2 + 16))) {}
+      : job_(&job), slots_(empty(expected + expected / 2 + 16)) {}
 
   /// The number of `key`, or none.
   std::uint32_t peek(std::uint64_t key) { return find(key).number; }
@@ -61,29 +61,35 @@ class NumberTable {
     if (used_ * 3 >= slots_.size() * 2) grow();
     Slot& slot = find(key);
     if (slot.number == none) {
-      slot.key = key;
+      slot.low = static_cast<std::uint32_t>(key);
+      slot.high = static_cast<std::uint32_t>(key >> 32U);
       ++used_;
     }
     return slot.number;
   }
 
   /// Asks the memory for a slot that will be looked at soon.
-  void expect(std::uint64_t key) const {
-    __builtin_prefetch(slots_.data() + (mix(key) & (slots_.size() - 1)), 1);
-  }
+  void expect(std::uint64_t key) const { __builtin_prefetch(slots_.data() + home(key), 1); }
 
  private:
   struct Slot {
-    std::uint64_t key;
+    std::uint32_t low, high;  ///< halves of the key: a whole one would make it 16 bytes
     std::uint32_t number;
-    std::uint32_t spare;
+    std::uint64_t key() const { return std::uint64_t{high} << 32U | low; }
   };
 
-  Array<Slot> empty(std::size_t size) const { return Array<Slot>(*job_, size, Slot{0, none, 0}); }
+  Array<Slot> empty(std::size_t size) const { return Array<Slot>(*job_, size, Slot{0, 0, none}); }
+
+  /// Where a key is looked for first: its hash as a share of the table (Lemire, "Fast random integer
+  /// generation in an interval", 2019).
+  std::size_t home(std::uint64_t key) const {
+    __extension__ using Wide = unsigned __int128;
+    return static_cast<std::size_t>(Wide{mix(key)} * slots_.size() >> 64U);
+  }
 
   Slot& find(std::uint64_t key) {
-    std::size_t at = mix(key) & (slots_.size() - 1);
-    while (slots_[at].number != none && slots_[at].key != key) at = (at + 1) & (slots_.size() - 1);
+    std::size_t at = home(key);
+    while (slots_[at].number != none && slots_[at].key() != key) at = at + 1 < slots_.size() ? at + 1 : 0;
     return slots_[at];
   }
 
@@ -92,7 +98,7 @@ class NumberTable {
     used_ = 0;
     for (const Slot& slot : old) {
       if (slot.number == none) continue;
-      find(slot.key) = slot;
+      find(slot.key()) = slot;
       ++used_;
     }
   }
@@ -102,43 +108,51 @@ class NumberTable {
   std::size_t used_ = 0;
 };
 
-/// Numbers points so that those nearer than `reach` to an earlier one share its number.
+/// Numbers points so that those nearer than `reach` to an earlier one share its number. Does not own the
+/// points.
 class Weld {
  public:
-  Weld(const Job& job, const Box& box, float reach, std::size_t expected)
-      : grid_(box, 4 * reach),
+  Weld(const Job& job, const Box& box, float reach, std::span<const glm::vec3> points)
+      : points_(points),
+        grid_(box, 4 * reach),
         reach_squared_(reach * reach),
         reach_(reach),
-        first_(job, expected),
+        first_(job, points.size()),
         next_(job),
-        point_(job) {}
+        point_(job) {
+    next_.reserve(points.size());
+    point_.reserve(points.size());
+  }
 
-  std::uint32_t number(const glm::vec3& point) {
+  /// The number of points[i].
+  std::uint32_t number(std::uint32_t i) {
+    const glm::vec3& point = points_[i];
     std::uint32_t found = NumberTable::none;
     grid_.each_near(point, reach_, [&](std::uint64_t key) {
       if (found != NumberTable::none) return;
-      for (std::uint32_t i = first_.peek(key); i != NumberTable::none && found == NumberTable::none;
-           i = next_[i]) {
-        const glm::vec3 apart = point_[i] - point;
-        if (glm::dot(apart, apart) <= reach_squared_) found = i;
+      for (std::uint32_t k = first_.peek(key); k != NumberTable::none && found == NumberTable::none;
+           k = next_[k]) {
+        const glm::vec3 apart = points_[point_[k]] - point;
+        if (glm::dot(apart, apart) <= reach_squared_) found = k;
       }
     });
     if (found != NumberTable::none) return found;
     const auto fresh = static_cast<std::uint32_t>(point_.size());
     std::uint32_t& first = first_[grid_.key(point)];
     next_.push_back(first);
-    point_.push_back(point);
+    point_.push_back(i);
     first = fresh;
     return fresh;
   }
   std::size_t size() const { return point_.size(); }
 
  private:
+  std::span<const glm::vec3> points_;
   PlaceGrid grid_;
   float reach_squared_, reach_;
   NumberTable first_;
-  Array<std::uint32_t> next_;  ///< a list of the points of each cell
-  Array<glm::vec3> point_;
+  Array<std::uint32_t> next_;   ///< a list of the numbers of each cell
+  Array<std::uint32_t> point_;  ///< of each number: the first point that has it
 };
 
 }  // namespace seedmesh

@@ -8,6 +8,7 @@
 
 #include "core/base/math.h"
 #include "core/geom/edge_book.h"
+#include "core/geom/outline_plane.h"
 #include "core/geom/places.h"
 #include "core/geom/triangulate.h"
 
@@ -22,21 +23,6 @@ constexpr double area_share = 2e-12;
 // triangles come.
 constexpr std::size_t most_in_cache = 14;
 constexpr std::size_t most_vertices = 0xF0000000U;
-
-/// The points of one outline without repeated ones, in the plane that fits it best. Kept from outline to
-/// outline for its memory.
-struct Polygon {
-  std::vector<std::uint32_t> vertex;  ///< numbers of the outlines' vertices
-  std::vector<std::uint32_t> place;   ///< of each
-  std::vector<glm::dvec2> flat;
-  glm::dvec3 normal{0}, u{0};
-
-  void clear() {
-    vertex.clear();
-    place.clear();
-    flat.clear();
-  }
-};
 
 /// Triangles of one outline that go to one mesh.
 struct Piece {
@@ -59,45 +45,21 @@ std::uint64_t cycle_key(const std::vector<std::uint32_t>& places) {
   return key;
 }
 
-/// First look: what becomes of each outline.
-class PolygonCutter {
- public:
-  PolygonCutter(const Outlines& outlines, Job& job)
-      : corner(job),
-        piece(job),
-        is_shared(job),
-        place(job, outlines.vertex.size()),
-        book(job),
-        outlines_(outlines),
-        job_(job),
-        seen_(job, 64),
-        faces_(job, 64),
-        budget_(job, Resource::triangles) {
+/// Which vertices lie on one another. Outlines none of whose places another one passes, most leaves for
+/// example, have nothing to agree on with anybody.
+struct Neighbourhood {
+  Neighbourhood(const Outlines& outlines, Job& job)
+      : is_shared(job), place(job, outlines.vertex.size()), outlines_(outlines) {
     const Box box = bounds_of(outlines.vertex.span());
     const glm::vec3 extent = box.max - box.min;
     size_ = std::sqrt(glm::dot(extent, extent));
-    find_places(box);
+    Weld weld(job, box, std::max(weld_share * size_, 1e-30F), outlines.vertex.span());
+    is_shared.reserve(outlines.vertex.size());
     for (std::uint32_t i = 0; i < outlines.outline.size(); ++i) {
+      const Outline& outline = outlines.outline[i];
       if (i % 256 == 0) job.check();
-      add(i);
-    }
-  }
-
-  Array<std::uint32_t> corner;  ///< three a triangle, numbers of the outlines' vertices
-  Array<Piece> piece;
-  Array<std::uint8_t>
-      is_shared;  ///< of each place: outlines pass it more than once. Only there can triangles meet.
-  Array<std::uint32_t> place;  ///< of each vertex of the outlines
-  EdgeBook book;
-
- private:
-  void find_places(const Box& box) {
-    Weld weld(job_, box, std::max(weld_share * size_, 1e-30F), outlines_.vertex.size());
-    for (std::uint32_t i = 0; i < outlines_.outline.size(); ++i) {
-      const Outline& outline = outlines_.outline[i];
-      if (i % 256 == 0) job_.check();
       for (std::uint32_t k = outline.first; k < outline.first + outline.count; ++k) {
-        place[k] = weld.number(outlines_.vertex[k]);
+        place[k] = weld.number(k);
         if (k > outline.first && place[k - 1] == place[k]) continue;
         if (place[k] == is_shared.size()) {
           is_shared.push_back(0);
@@ -108,13 +70,57 @@ class PolygonCutter {
     }
   }
 
+  bool is_alone(const Outline& outline) const {
+    const std::span<const std::uint32_t> places = place.span().subspan(outline.first, outline.count);
+    return std::none_of(places.begin(), places.end(), [&](auto p) { return is_shared[p]; });
+  }
+
+  /// Fills in the polygon; false where the outline has no area.
+  bool read(const Outline& outline, FlatOutline& polygon) const {
+    return polygon.read(outlines_, outline, place.span(), 4 * least_area());
+  }
+  double least_area() const { return area_share * size_ * size_; }
+
+  Array<std::uint8_t>
+      is_shared;  ///< of each place: outlines pass it more than once. Only there can triangles meet.
+  Array<std::uint32_t> place;  ///< of each vertex of the outlines
+
+ private:
+  const Outlines& outlines_;
+  float size_ = 0;
+};
+
+/// First look: what becomes of each outline that is not alone.
+class PolygonCutter {
+ public:
+  PolygonCutter(const Outlines& outlines, Neighbourhood& near, Job& job)
+      : corner(job),
+        piece(job),
+        book(job),
+        outlines_(outlines),
+        near_(near),
+        seen_(job, 64),
+        faces_(job, 64),
+        budget_(job, Resource::triangles) {
+    for (std::uint32_t i = 0; i < outlines.outline.size(); ++i) {
+      if (i % 256 == 0) job.check();
+      if (!near.is_alone(outlines.outline[i])) add(i);
+    }
+  }
+
+  Array<std::uint32_t> corner;  ///< three a triangle, numbers of the outlines' vertices
+  Array<Piece> piece;
+  EdgeBook book;
+
+ private:
   void add(std::uint32_t number) {
-    if (!read(outlines_.outline[number])) return;
+    if (!near_.read(outlines_.outline[number], polygon_)) return;
     if (touches_itself()) {
       // Its own triangles may be in each other's way, so they are looked at like those of neighbours.
-      for (std::uint32_t each : polygon_.place) is_shared[each] = 1;
+      for (std::uint32_t each : polygon_.place) near_.is_shared[each] = 1;
     }
-    if (std::all_of(polygon_.place.begin(), polygon_.place.end(), [&](auto p) { return is_shared[p]; })) {
+    if (std::all_of(polygon_.place.begin(), polygon_.place.end(),
+                    [&](auto p) { return near_.is_shared[p]; })) {
       std::uint32_t& seen = seen_[cycle_key(polygon_.place)];
       if (seen != NumberTable::none) return;
       seen = number;
@@ -122,8 +128,7 @@ class PolygonCutter {
     if (corner.size() > most_vertices)
       Job::refuse("The polygons have more corners than 32-bit indices can name.");
     const auto first = static_cast<std::uint32_t>(corner.size());
-    const std::span<const std::uint32_t> triangles =
-        triangulator_.run(polygon_.flat, area_share * size_ * size_);
+    const std::span<const std::uint32_t> triangles = triangulator_.run(polygon_.flat, near_.least_area());
     for (std::size_t t = 0; t < triangles.size(); t += 3) {
       if (is_made_before(triangles.subspan(t, 3))) continue;
       for (std::size_t k = 0; k < 3; ++k) corner.push_back(polygon_.vertex[triangles[t + k]]);
@@ -134,50 +139,9 @@ class PolygonCutter {
     for (std::uint32_t done = 0; done < count; done += step) enter(number, first + done, step);
   }
 
-  /// Fills in the polygon; false where the outline has no area.
-  bool read(const Outline& outline) {
-    polygon_.clear();
-    for (std::uint32_t k = outline.first; k < outline.first + outline.count; ++k) {
-      if (!polygon_.place.empty() && polygon_.place.back() == place[k]) continue;
-      polygon_.vertex.push_back(k);
-      polygon_.place.push_back(place[k]);
-    }
-    while (polygon_.place.size() > 1 && polygon_.place.front() == polygon_.place.back()) {
-      polygon_.place.pop_back();
-      polygon_.vertex.pop_back();
-    }
-    return polygon_.place.size() >= 3 && flatten();
-  }
-
-  glm::dvec3 from_first(std::size_t i) const {
-    return glm::dvec3(outlines_.vertex[polygon_.vertex[i]]) -
-           glm::dvec3(outlines_.vertex[polygon_.vertex[0]]);
-  }
-
-  bool flatten() {
-    const std::size_t count = polygon_.vertex.size();
-    glm::dvec3 sum{0};  // Newell's normal: its length is twice the area
-    for (std::size_t i = 1; i + 1 < count; ++i) sum += glm::cross(from_first(i), from_first(i + 1));
-    const double length = std::sqrt(glm::dot(sum, sum));
-    if (!(length > 4 * area_share * size_ * size_)) return false;
-    polygon_.normal = sum / length;
-    glm::dvec3 along{0};
-    double best = 0;
-    for (std::size_t i = 1; i < count && best == 0; ++i) {
-      along = from_first(i) - polygon_.normal * glm::dot(from_first(i), polygon_.normal);
-      best = glm::dot(along, along);
-    }
-    polygon_.u = along / std::sqrt(best);
-    const glm::dvec3 v = glm::cross(polygon_.normal, polygon_.u);
-    for (std::size_t i = 0; i < count; ++i) {
-      polygon_.flat.emplace_back(glm::dot(from_first(i), polygon_.u), glm::dot(from_first(i), v));
-    }
-    return true;
-  }
-
   bool touches_itself() {
-    const auto shared =
-        std::count_if(polygon_.place.begin(), polygon_.place.end(), [&](auto p) { return is_shared[p]; });
+    const auto shared = std::count_if(polygon_.place.begin(), polygon_.place.end(),
+                                      [&](auto p) { return near_.is_shared[p]; });
     if (shared < 2) return false;
     sorted_ = polygon_.place;
     std::sort(sorted_.begin(), sorted_.end());
@@ -188,7 +152,8 @@ class PolygonCutter {
   bool is_made_before(std::span<const std::uint32_t> triangle) {
     std::array<std::uint32_t, 3> places{polygon_.place[triangle[0]], polygon_.place[triangle[1]],
                                         polygon_.place[triangle[2]]};
-    if (!is_shared[places[0]] || !is_shared[places[1]] || !is_shared[places[2]]) return false;
+    if (!near_.is_shared[places[0]] || !near_.is_shared[places[1]] || !near_.is_shared[places[2]])
+      return false;
     std::sort(places.begin(), places.end());
     std::uint32_t& seen = faces_[key_at(std::uint64_t{places[0]} << 32U | places[1], places[2])];
     return std::exchange(seen, 1) != NumberTable::none;
@@ -199,8 +164,8 @@ class PolygonCutter {
     edges_.clear();
     for (std::uint32_t t = first; t < first + count; t += 3) {
       for (std::uint32_t k = 0; k < 3; ++k) {
-        const EdgeBook::Edge edge{place[corner[t + k]], place[corner[t + (k + 1) % 3]]};
-        if (is_shared[edge.from] && is_shared[edge.to]) edges_.push_back(edge);
+        const EdgeBook::Edge edge{near_.place[corner[t + k]], near_.place[corner[t + (k + 1) % 3]]};
+        if (near_.is_shared[edge.from] && near_.is_shared[edge.to]) edges_.push_back(edge);
       }
     }
   }
@@ -222,31 +187,46 @@ class PolygonCutter {
   }
 
   const Outlines& outlines_;
-  Job& job_;
-  float size_ = 0;
+  Neighbourhood& near_;
   NumberTable seen_;   ///< outlines made, by their places
   NumberTable faces_;  ///< triangles made, by their places
   Meter budget_;
-  Polygon polygon_;
+  FlatOutline polygon_;
   Triangulator triangulator_;
   std::vector<std::uint32_t> sorted_;
   std::vector<EdgeBook::Edge> edges_;
 };
 
-/// Second look: writes the pieces, which now know their side.
+/// Second look: writes the outlines in their order, those that are alone as they are, the others by their
+/// pieces, which now know their side.
 class PieceWriter {
  public:
-  PieceWriter(const Outlines& outlines, PolygonCutter& cut, Job& job)
-      : outlines_(outlines), cut_(cut), job_(job), vertices_(job, 64) {}
+  PieceWriter(const Outlines& outlines, const Neighbourhood& near, PolygonCutter& cut, Job& job)
+      : outlines_(outlines),
+        near_(near),
+        cut_(cut),
+        job_(job),
+        budget_(job, Resource::triangles),
+        vertices_(job, 64) {}
 
   std::vector<Bark> run() {
     make_room();
-    for (std::uint32_t i = 0; i < cut_.piece.size(); ++i) {
+    std::uint32_t next = 0;
+    for (std::uint32_t i = 0; i < outlines_.outline.size(); ++i) {
       if (i % 256 == 0) job_.check();
-      write(cut_.piece[i], cut_.book.is_turned(i));
+      if (near_.is_alone(outlines_.outline[i])) {
+        cut_alone(i);
+        continue;
+      }
+      for (; next < cut_.piece.size() && cut_.piece[next].outline == i; ++next) {
+        const Piece& piece = cut_.piece[next];
+        write(piece, cut_.corner.span().subspan(piece.first_corner, piece.corners),
+              cut_.book.is_turned(next));
+      }
     }
     std::vector<Bark> all;
     for (auto& [where, mesh] : meshes_) {
+      if (mesh.index.wide.empty()) continue;
       mesh.position.shrink_to_fit();
       mesh.normal.shrink_to_fit();
       mesh.uv[0].shrink_to_fit();
@@ -271,12 +251,18 @@ class PieceWriter {
       bool fits_cache = true;
     };
     std::map<Where, Need> needs;
-    for (const Piece& piece : cut_.piece) {
-      Need& need = needs[where(piece)];
-      const std::size_t points = std::min(outlines_.outline[piece.outline].count, piece.corners);
+    const auto add = [&](const Where& at, std::size_t points, std::size_t corners) {
+      Need& need = needs[at];
       need.vertices += points;
-      need.corners += piece.corners;
+      need.corners += corners;
       need.fits_cache = need.fits_cache && points <= most_in_cache;
+    };
+    for (const Piece& piece : cut_.piece) {
+      add(where(piece), std::min(outlines_.outline[piece.outline].count, piece.corners), piece.corners);
+    }
+    for (const Outline& outline : outlines_.outline) {
+      if (outline.count >= 3 && near_.is_alone(outline))
+        add({0, outline.color}, outline.count, 3 * (std::size_t{outline.count} - 2));
     }
     for (const auto& [at, need] : needs) {
       if (need.vertices > most_vertices)
@@ -294,10 +280,18 @@ class PieceWriter {
     }
   }
 
-  void write(const Piece& piece, bool is_turned) {
+  void cut_alone(std::uint32_t number) {
+    if (!near_.read(outlines_.outline[number], polygon_)) return;
+    const std::span<const std::uint32_t> triangles = triangulator_.run(polygon_.flat, near_.least_area());
+    if (triangles.empty()) return;
+    budget_.spend(triangles.size() / 3);
+    corners_.clear();
+    for (std::uint32_t each : triangles) corners_.push_back(polygon_.vertex[each]);
+    write({number, 0, 0, 0, glm::vec3(polygon_.normal), glm::vec3(polygon_.u)}, corners_, false);
+  }
+
+  void write(const Piece& piece, std::span<const std::uint32_t> corners, bool is_turned) {
     const Outline& outline = outlines_.outline[piece.outline];
-    const std::span<const std::uint32_t> corners =
-        cut_.corner.span().subspan(piece.first_corner, piece.corners);
     Mesh& mesh = mesh_at(where(piece));
     const glm::vec3 origin = outlines_.vertex[outline.first];
     const glm::vec3 v = glm::cross(piece.normal, piece.u);
@@ -318,7 +312,7 @@ class PieceWriter {
     for (std::uint32_t i = 0; i < outline.count; ++i) {
       if (vertex_[i] == unused) continue;
       const glm::vec2 uv = glm::min((flat_[i] - low) * scale, glm::vec2(1)) + 0.0F;
-      vertex_[i] = find_vertex(mesh, where(piece), cut_.place[outline.first + i],
+      vertex_[i] = find_vertex(mesh, where(piece), near_.place[outline.first + i],
                                {outlines_.vertex[outline.first + i] + 0.0F, normal, uv});
     }
     std::uint32_t* out = mesh.index.wide.extend(corners.size());
@@ -332,7 +326,7 @@ class PieceWriter {
   /// The number of an equal vertex of another outline, or of a new one.
   std::uint32_t find_vertex(Mesh& mesh, const Where& where, std::uint32_t place, const Vertex& vertex) {
     const auto fresh = static_cast<std::uint32_t>(mesh.position.size());
-    if (cut_.is_shared[place]) {
+    if (near_.is_shared[place]) {
       std::uint64_t key =
           key_at(static_cast<std::uint64_t>(where.first), static_cast<std::uint16_t>(where.second));
       for (float value : {vertex.position.x, vertex.position.y, vertex.position.z, vertex.normal.x,
@@ -360,8 +354,13 @@ class PieceWriter {
   static constexpr std::uint32_t unused = 0xFFFFFFFFU, used = 0xFFFFFFFEU;
 
   const Outlines& outlines_;
+  const Neighbourhood& near_;
   PolygonCutter& cut_;
   Job& job_;
+  Meter budget_;
+  FlatOutline polygon_;
+  Triangulator triangulator_;
+  std::vector<std::uint32_t> corners_;
   NumberTable vertices_;  ///< vertices at shared places, by everything they hold
   std::map<Where, Mesh> meshes_;
   Mesh* last_ = nullptr;
@@ -374,8 +373,9 @@ class PieceWriter {
 
 std::vector<Bark> polygons(const Outlines& outlines, Job& job) {
   if (outlines.outline.empty()) return {};
-  PolygonCutter cut(outlines, job);
-  return PieceWriter(outlines, cut, job).run();
+  Neighbourhood near(outlines, job);
+  PolygonCutter cut(outlines, near, job);
+  return PieceWriter(outlines, near, cut, job).run();
 }
 
 }  // namespace seedmesh
