@@ -10,9 +10,12 @@
 namespace seedmesh {
 namespace {
 
-// Below this the heap is faster than the kernel; above it page faults decide, and huge pages save most of
-// them.
-constexpr std::size_t mapped_from = std::size_t{4} << 20U;
+// Page faults, not arithmetic, decide what big arrays cost, and huge pages save most of them. A block takes
+// whole huge pages from the first size on always; from the second on while the room that the rounding up
+// leaves empty stays below the third in the whole request. Smaller blocks are the heap's.
+constexpr std::size_t always_mapped = std::size_t{4} << 20U;
+constexpr std::size_t mapped_at_best = std::size_t{256} << 10U;
+constexpr std::uint64_t most_slack = std::uint64_t{6} << 20U;
 
 #if defined(__linux__)
 constexpr std::size_t page = std::size_t{2} << 20U;  // of a huge page
@@ -31,21 +34,13 @@ std::byte* remap(std::byte* old, std::size_t before, std::size_t after) {
   return static_cast<std::byte*>(memory);
 }
 void unmap(std::byte* memory, std::size_t bytes) { munmap(memory, pages(bytes)); }
-bool is_mapped(std::size_t bytes) { return bytes >= mapped_from; }
 #else
+constexpr std::size_t page = 1;
+std::size_t pages(std::size_t bytes) { return bytes; }
 std::byte* map(std::size_t) { return nullptr; }
 std::byte* remap(std::byte*, std::size_t, std::size_t) { return nullptr; }
 void unmap(std::byte*, std::size_t) {}
-bool is_mapped(std::size_t) { return false; }
 #endif
-
-void release(std::byte* memory, std::size_t bytes) {
-  if (is_mapped(bytes)) {
-    unmap(memory, bytes);
-  } else {
-    std::free(memory);
-  }
-}
 
 std::byte* heap(std::byte* old, std::size_t bytes) {
   auto* memory = static_cast<std::byte*>(std::realloc(old, bytes));
@@ -53,22 +48,15 @@ std::byte* heap(std::byte* old, std::size_t bytes) {
   return memory;
 }
 
-/// Memory of `after` bytes that starts with what `old` (of `before` bytes) held; takes over `old`.
-std::byte* change(std::byte* old, std::size_t before, std::size_t after) {
-  if (is_mapped(before) && is_mapped(after)) return remap(old, before, after);
-  if (!is_mapped(before) && !is_mapped(after)) return heap(old, after);
-  std::byte* fresh = is_mapped(after) ? map(after) : heap(nullptr, after);
-  if (before) std::memcpy(fresh, old, before < after ? before : after);
-  release(old, before);
-  return fresh;
-}
+std::uint64_t slack_of(std::size_t bytes) { return pages(bytes) - bytes; }
 
 }  // namespace
 
 Block::Block(Block&& other) noexcept
     : purse_(other.purse_),
       data_(std::exchange(other.data_, nullptr)),
-      size_(std::exchange(other.size_, 0)) {}
+      size_(std::exchange(other.size_, 0)),
+      is_mapped_(std::exchange(other.is_mapped_, false)) {}
 
 Block& Block::operator=(Block&& other) noexcept {
   if (this != &other) {
@@ -80,20 +68,53 @@ Block& Block::operator=(Block&& other) noexcept {
 
 Block::~Block() {
   if (size_ == 0) return;
-  release(data_, size_);
+  release();
   if (purse_) purse_->give_back(size_);
+}
+
+void Block::release() {
+  if (is_mapped_) {
+    unmap(data_, size_);
+    if (purse_) purse_->give_back_slack(slack_of(size_));
+  } else {
+    std::free(data_);
+  }
+  is_mapped_ = false;
+}
+
+bool Block::is_worth_mapping(std::size_t bytes) const {
+  if (page == 1 || bytes < mapped_at_best) return false;
+  return bytes >= always_mapped || (purse_ && purse_->slack() + slack_of(bytes) <= most_slack);
+}
+
+void Block::change(std::size_t bytes) {
+  const bool map_it = is_worth_mapping(bytes);
+  if (is_mapped_ && map_it) {
+    data_ = remap(data_, size_, bytes);
+    if (purse_) purse_->give_back_slack(slack_of(size_));
+  } else if (!is_mapped_ && !map_it) {
+    data_ = heap(data_, bytes);
+  } else {
+    std::byte* fresh = map_it ? map(bytes) : heap(nullptr, bytes);
+    if (size_) std::memcpy(fresh, data_, size_ < bytes ? size_ : bytes);
+    release();
+    data_ = fresh;
+  }
+  is_mapped_ = map_it;
+  if (is_mapped_ && purse_) purse_->take_slack(slack_of(bytes));
 }
 
 void Block::resize(std::size_t bytes) {
   if (bytes == size_) return;
   if (bytes > size_ && purse_) purse_->take(bytes - size_);
+  const std::size_t before = size_;
   if (bytes == 0) {
-    release(data_, size_);
+    release();
     data_ = nullptr;
   } else {
-    data_ = change(data_, size_, bytes);
+    change(bytes);
   }
-  if (bytes < size_ && purse_) purse_->give_back(size_ - bytes);
+  if (bytes < before && purse_) purse_->give_back(before - bytes);
   size_ = bytes;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-/// Growing arrays for big models: elements start uninitialised, blocks above 4 MB come from the kernel with
-/// huge pages advised (first touch of memory, not arithmetic, bounds big models), and every byte is charged
-/// to the purse of the request before it is allocated. Move-only; not safe for use from two threads at once.
+/// Growing arrays for big models: elements start uninitialised, big blocks come from the kernel with huge
+/// pages advised (first touch of memory, not arithmetic, bounds big models), and every byte is charged to the
+/// purse of the request before it is allocated. Move-only; not safe for use from two threads at once.
 #include <cstddef>
 #include <cstring>
 #include <memory>
@@ -32,9 +32,14 @@ class Block {
   const std::shared_ptr<Purse>& purse() const { return purse_; }
 
  private:
+  bool is_worth_mapping(std::size_t bytes) const;
+  void change(std::size_t bytes);
+  void release();
+
   std::shared_ptr<Purse> purse_;
   std::byte* data_ = nullptr;
   std::size_t size_ = 0;
+  bool is_mapped_ = false;  ///< from the kernel, else from the heap
 };
 
 template <class T>

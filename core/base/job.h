@@ -52,8 +52,14 @@ class Purse {
   void give_back(std::uint64_t bytes) { used_.fetch_sub(bytes, std::memory_order_relaxed); }
   std::uint64_t used() const { return used_.load(std::memory_order_relaxed); }
 
+  /// Bytes that blocks leave empty at the ends of their last pages. Not counted as used.
+  std::uint64_t slack() const { return slack_.load(std::memory_order_relaxed); }
+  void take_slack(std::uint64_t bytes) { slack_.fetch_add(bytes, std::memory_order_relaxed); }
+  void give_back_slack(std::uint64_t bytes) { slack_.fetch_sub(bytes, std::memory_order_relaxed); }
+
  private:
   std::atomic<std::uint64_t> used_{0};
+  std::atomic<std::uint64_t> slack_{0};
   std::uint64_t limit_;
 };
 

@@ -114,7 +114,7 @@ class Weld {
  public:
   Weld(const Job& job, const Box& box, float reach, std::span<const glm::vec3> points)
       : points_(points),
-        grid_(box, 4 * reach),
+        grid_(box, cell_reaches * reach),
         reach_squared_(reach * reach),
         reach_(reach),
         first_(job, points.size()),
@@ -146,7 +146,13 @@ class Weld {
   }
   std::size_t size() const { return point_.size(); }
 
+  /// Asks the memory for what the number of points[i] will need soon.
+  void expect(std::uint32_t i) const { first_.expect(grid_.key(points_[i])); }
+
  private:
+  /// So wide that few points lie near a wall between cells, so narrow that few have company.
+  static constexpr float cell_reaches = 16;
+
   std::span<const glm::vec3> points_;
   PlaceGrid grid_;
   float reach_squared_, reach_;

@@ -23,6 +23,8 @@ constexpr double area_share = 2e-12;
 // triangles come.
 constexpr std::size_t most_in_cache = 14;
 constexpr std::size_t most_vertices = 0xF0000000U;
+// Vertices between asking the memory for a slot and looking into it.
+constexpr std::uint32_t look_ahead = 12;
 
 /// Triangles of one outline that go to one mesh.
 struct Piece {
@@ -59,6 +61,7 @@ struct Neighbourhood {
       const Outline& outline = outlines.outline[i];
       if (i % 256 == 0) job.check();
       for (std::uint32_t k = outline.first; k < outline.first + outline.count; ++k) {
+        if (k + look_ahead < outlines.vertex.size()) weld.expect(k + look_ahead);
         place[k] = weld.number(k);
         if (k > outline.first && place[k - 1] == place[k]) continue;
         if (place[k] == is_shared.size()) {
