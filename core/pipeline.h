@@ -12,6 +12,7 @@
 #include "core/base/job.h"
 #include "core/base/result.h"
 #include "core/gltf/payload.h"
+#include "core/model/model.h"
 
 namespace seedmesh {
 
@@ -63,6 +64,19 @@ Result<std::string> derive(const Request& request, Job& job);
 
 /// `{valid, warnings, estimate}` as JSON text; makes no geometry.
 Result<std::string> validate(const Request& request, Job& job);
+
+/// A foreign file, and what became of it. `entry` names the system of a file that holds several; empty: the only one.
+struct ImportQuestion { std::string_view format, entry, text; };
+struct ImportedRequest {
+  Request request;
+  std::string answer;             ///< {request, warnings} as JSON text
+  std::vector<Warning> warnings;  ///< what the file says and a request cannot; line and column of the file
+};
+/// Reads a file of another program as a request of ours. Bytes that are no UTF-8 give Code::malformed; an unknown format points
+/// at "/format"; what the format's reader does not understand is Code::invalid with pointer "" at its line and column.
+Result<ImportedRequest> import_request(const ImportQuestion& question, const Limits& limits);
+struct ImportFormatInfo { std::string name, title, text; };
+std::vector<ImportFormatInfo> import_format_list();
 
 /// What is shipped inside: presets, schemas, vocabulary, OpenAPI. All JSON text, made once.
 struct PresetInfo { std::string name, generator, title, description; std::vector<std::string> tags; };

@@ -109,6 +109,21 @@ int validate_command(const Config& config, const std::string& in) {
 
 int derive_command(const Config& config, const std::string& in) { return print_result(config, in, derive); }
 
+int import_command(const Config& config, const ImportFiles& files) {
+  const auto text = read_file(files.in);
+  if (!text) return unusable(files.in);
+  const Result<ImportedRequest> imported = import_request({files.format, files.entry, *text}, config.limits);
+  if (!imported) return refused(imported.error());
+  for (const Warning& warning : imported->warnings) {
+    std::fprintf(stderr, "%s:%d:%d: warning: %s\n", files.in.c_str(), warning.line, warning.column,
+                 warning.message.c_str());
+  }
+  const auto request = nlohmann::ordered_json::parse(imported->request.canonical());
+  Payload payload;
+  payload.add(request.dump(2) + "\n");
+  return write_file(files.out, payload) ? 0 : unusable(files.out);
+}
+
 int presets_command(const std::string& name) {
   if (name.empty()) {
     for (const PresetInfo& preset : presets())

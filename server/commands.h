@@ -12,6 +12,11 @@ namespace seedmesh {
 int generate_command(const Config& config, const std::string& in, const std::string& out);
 int validate_command(const Config& config, const std::string& in);
 int derive_command(const Config& config, const std::string& in);
+/// The request that a foreign file becomes, on standard output or in `out`; warnings on standard error.
+struct ImportFiles {
+  std::string in, out, format, entry;
+};
+int import_command(const Config& config, const ImportFiles& files);
 /// All names, one a line with title; or one preset's request.
 int presets_command(const std::string& name);
 

@@ -1,4 +1,4 @@
-/// The program: seedmesh serve | generate | validate | derive | presets | healthcheck.
+/// The program: seedmesh serve | generate | validate | derive | import | presets | healthcheck.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
@@ -34,6 +34,17 @@ std::vector<std::pair<std::string, std::string>> given(const CLI::App& command, 
   return flags;
 }
 
+/// The formats of an import, for its flag.
+std::string formats_text() {
+  std::string text = "Whose file it is: ";
+  bool first = true;
+  for (const ImportFormatInfo& format : import_format_list()) {
+    text += (first ? "" : ", ") + format.name + " (" + format.title + ")";
+    first = false;
+  }
+  return text + ".";
+}
+
 }  // namespace
 
 #ifdef __SANITIZE_THREAD__
@@ -57,6 +68,7 @@ int main(int count, char** arguments) {
 
   Texts texts;
   std::string in, out = "-", preset;
+  ImportFiles files{"", "-", "", ""};
   bool print_config = false;
   const auto command = [&](const char* name, const char* text) { return app.add_subcommand(name, text); };
   CLI::App* serving = command("serve", "Serve over HTTP.");
@@ -69,10 +81,16 @@ int main(int count, char** arguments) {
   validating->add_option("request", in, "File with the request; - is standard input.")->required();
   CLI::App* deriving = command("derive", "Print the generator's own result before geometry.");
   deriving->add_option("request", in, "File with the request; - is standard input.")->required();
+  CLI::App* importing = command("import", "Turn a file of another program into a request.");
+  importing->add_option("file", files.in, "The file; - is standard input.")->required();
+  importing->add_option("-f,--format", files.format, formats_text())->required();
+  importing->add_option("-e,--entry", files.entry, "The system to take from a file that holds several.");
+  importing->add_option("-o,--out", files.out, "File for the request; - is standard output.");
   CLI::App* listing = command("presets", "List the presets, or print one.");
   listing->add_option("name", preset, "The one to print.");
   CLI::App* checking = command("healthcheck", "Ask a service on this machine whether it is alive.");
-  for (CLI::App* each : {serving, generating, validating, deriving, checking}) add_settings(*each, texts);
+  for (CLI::App* each : {serving, generating, validating, deriving, importing, checking})
+    add_settings(*each, texts);
 
   try {
     app.parse(count, arguments);
@@ -92,6 +110,7 @@ int main(int count, char** arguments) {
   if (generating->parsed()) return generate_command(config, in, out);
   if (validating->parsed()) return validate_command(config, in);
   if (deriving->parsed()) return derive_command(config, in);
+  if (importing->parsed()) return import_command(config, files);
   if (checking->parsed()) return healthcheck(config);
   return presets_command(preset);
 }

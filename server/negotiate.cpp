@@ -72,6 +72,16 @@ bool wants_events(std::string_view accept) {
   return false;
 }
 
+/// Everything behind the type: where a charset is told, it is UTF-8.
+static bool says_utf8(std::string_view parameters) {
+  while (!parameters.empty()) {
+    std::string_view parameter = take(parameters, ';');
+    if (!same_name(take(parameter, '='), "charset")) continue;
+    if (!same_name(parameter, "utf-8") && !same_name(parameter, "\"utf-8\"")) return false;
+  }
+  return true;
+}
+
 bool is_json_type(std::string_view content_type) {
   std::string_view rest = content_type;
   const std::string_view type = take(rest, ';');
@@ -80,12 +90,14 @@ bool is_json_type(std::string_view content_type) {
   const bool json =
       same_name(type, "application/json") ||
       (type.size() > suffix.size() && same_name(type.substr(type.size() - suffix.size()), suffix));
-  while (json && !rest.empty()) {
-    std::string_view parameter = take(rest, ';');
-    if (!same_name(take(parameter, '='), "charset")) continue;
-    if (!same_name(parameter, "utf-8") && !same_name(parameter, "\"utf-8\"")) return false;
-  }
-  return json;
+  return json && says_utf8(rest);
+}
+
+bool is_text_or_json_type(std::string_view content_type) {
+  if (is_json_type(content_type)) return true;
+  std::string_view rest = content_type;
+  const std::string_view type = take(rest, ';');
+  return (same_name(type, "text/plain") || same_name(type, "application/octet-stream")) && says_utf8(rest);
 }
 
 std::string tag_of(std::string_view canonical, std::string_view engine) {

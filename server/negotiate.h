@@ -18,6 +18,9 @@ bool wants_events(std::string_view accept);
 /// application/json or anything +json, in UTF-8. An absent field counts as JSON.
 bool is_json_type(std::string_view content_type);
 
+/// The same or plain text, in UTF-8; bytes of no said kind too, since the query tells what a file is.
+bool is_text_or_json_type(std::string_view content_type);
+
 /// 32 hexadecimal digits for the answer to a canonical request by an engine.
 std::string tag_of(std::string_view canonical, std::string_view engine);
 

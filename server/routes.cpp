@@ -15,13 +15,21 @@ struct Route {
 };
 
 constexpr Route table[] = {
-    {"POST", "/v1/generate", post_generate},   {"GET", "/v1/models/{token}", get_model},
-    {"GET", "/v1/presets", get_presets},       {"GET", "/v1/presets/{name}", get_preset},
-    {"POST", "/v1/validate", post_validate},   {"POST", "/v1/derive", post_derive},
-    {"GET", "/v1/schemas/{name}", get_schema}, {"GET", "/v1/vocabulary", get_vocabulary},
-    {"GET", "/openapi.json", get_openapi},     {"GET", "/docs", get_docs},
-    {"GET", "/healthz", get_healthz},          {"GET", "/readyz", get_readyz},
-    {"GET", "/metrics", get_metrics},          {"GET", "/version", get_version},
+    {"POST", "/v1/generate", post_generate},
+    {"GET", "/v1/models/{token}", get_model},
+    {"GET", "/v1/presets", get_presets},
+    {"GET", "/v1/presets/{name}", get_preset},
+    {"POST", "/v1/validate", post_validate},
+    {"POST", "/v1/derive", post_derive},
+    {"POST", "/v1/import", post_import},
+    {"GET", "/v1/schemas/{name}", get_schema},
+    {"GET", "/v1/vocabulary", get_vocabulary},
+    {"GET", "/openapi.json", get_openapi},
+    {"GET", "/docs", get_docs},
+    {"GET", "/healthz", get_healthz},
+    {"GET", "/readyz", get_readyz},
+    {"GET", "/metrics", get_metrics},
+    {"GET", "/version", get_version},
 };
 /// Reading a larger body takes long enough to count as work.
 constexpr std::size_t quickly_read = 256 * 1'024;
@@ -85,6 +93,24 @@ http::Response route(Service& service, const http::Request& request) {
   http::Response response = refuse(call, problem(404, "There is nothing at this path."));
   response.route = "none";
   return response;
+}
+
+std::optional<Overrides> read_query(std::string_view query) {
+  Overrides overrides;
+  while (!query.empty()) {
+    const auto end = std::min(query.find('&'), query.size());
+    const std::string_view pair = query.substr(0, end);
+    query.remove_prefix(std::min(end + 1, query.size()));
+    if (pair.empty()) continue;
+    const auto equals = std::min(pair.find('='), pair.size());
+    std::string key, value;
+    if (!http::percent_decode(pair.substr(0, equals), http::Plus::space, key) ||
+        !http::percent_decode(pair.substr(std::min(equals + 1, pair.size())), http::Plus::space, value)) {
+      return std::nullopt;
+    }
+    overrides.emplace_back(std::move(key), std::move(value));
+  }
+  return overrides;
 }
 
 std::variant<Request, http::Response> read_body(Call& call) {

@@ -14,6 +14,7 @@ http::Response get_preset(Call& call);
 
 http::Response post_validate(Call& call);  // routes_json.cpp
 http::Response post_derive(Call& call);
+http::Response post_import(Call& call);
 http::Response get_presets(Call& call);
 http::Response get_schema(Call& call);
 http::Response get_vocabulary(Call& call);
@@ -28,6 +29,9 @@ http::Response get_asset(Call& call);
 
 /// Progress, heartbeats and the end of a generation as server-sent events (events.cpp).
 http::Response generate_events(Call& call, const Known& known);
+
+/// The query as pairs, or nothing where an escape is malformed.
+std::optional<Overrides> read_query(std::string_view query);
 
 /// Reads the body of a POST as a request, or gives the refusal: 415, 400, 422.
 std::variant<Request, http::Response> read_body(Call& call);

@@ -1,6 +1,7 @@
 /// Routes that answer with JSON about requests and about what is shipped.
 #include <nlohmann/json.hpp>
 
+#include "server/negotiate.h"
 #include "server/routes.h"
 
 namespace seedmesh {
@@ -23,6 +24,23 @@ http::Response answer_with(Call& call, Result<std::string> (*work)(const Request
   return json_answer(call, std::move(**result));
 }
 
+/// format and entry of an import's query; the refusal where it says anything else.
+std::variant<ImportQuestion, http::Response> import_question(Call& call, const Overrides& query) {
+  ImportQuestion question{{}, {}, call.request.body};
+  std::vector<Issue> issues;
+  for (const auto& [key, value] : query) {
+    if (key == "format") {
+      question.format = value;
+    } else if (key == "entry") {
+      question.entry = value;
+    } else {
+      issues.push_back({"/" + key, "an import takes format and entry alone"});
+    }
+  }
+  if (!issues.empty()) return refuse(call, problem_of({Code::invalid, std::move(issues)}));
+  return question;
+}
+
 std::string preset_list() {
   Json list = Json::array();
   for (const PresetInfo& preset : presets()) {
@@ -40,6 +58,25 @@ std::string preset_list() {
 http::Response post_validate(Call& call) { return answer_with(call, validate); }
 
 http::Response post_derive(Call& call) { return answer_with(call, derive); }
+
+http::Response post_import(Call& call) {
+  const std::optional<Overrides> query = read_query(call.request.query);
+  if (!query)
+    return refuse(call, problem_of({Code::malformed, {{"", "The query has a malformed percent escape."}}}));
+  if (!is_text_or_json_type(call.request.header("Content-Type"))) {
+    http::Response response = refuse(call, problem(415, "Send the file as text/plain or application/json."));
+    response.set("Accept", "text/plain, application/json");
+    return response;
+  }
+  auto asked = import_question(call, *query);
+  if (auto* refusal = std::get_if<http::Response>(&asked)) return std::move(*refusal);
+  const auto question = std::get<ImportQuestion>(asked);
+  std::optional<Result<ImportedRequest>> imported;
+  const auto read = [&](const Job::Options& options) { imported = import_request(question, options.limits); };
+  if (const auto refused = with_worker(call, call.request.gone(), read)) return refuse(call, *refused);
+  if (!*imported) return refuse(call, problem_of(imported->error()));
+  return json_answer(call, std::move((*imported)->answer));
+}
 
 http::Response get_presets(Call& call) {
   return fixed_answer(call, "/v1/presets", "application/json", preset_list);

@@ -141,25 +141,6 @@ Result<Request> in_form(const Request& request, std::string_view extension) {
   return with_format(request, extension == "png" ? "png16" : extension);
 }
 
-/// The query as pairs, or the place where it is malformed.
-std::optional<Overrides> read_query(std::string_view query) {
-  Overrides overrides;
-  while (!query.empty()) {
-    const auto end = std::min(query.find('&'), query.size());
-    const std::string_view pair = query.substr(0, end);
-    query.remove_prefix(std::min(end + 1, query.size()));
-    if (pair.empty()) continue;
-    const auto equals = std::min(pair.find('='), pair.size());
-    std::string key, value;
-    if (!http::percent_decode(pair.substr(0, equals), http::Plus::space, key) ||
-        !http::percent_decode(pair.substr(std::min(equals + 1, pair.size())), http::Plus::space, value)) {
-      return std::nullopt;
-    }
-    overrides.emplace_back(std::move(key), std::move(value));
-  }
-  return overrides;
-}
-
 http::Response redirect_to_own(const Request& request, const std::string& extension) {
   http::Response response;
   response.status = 307;

@@ -59,6 +59,11 @@ void Turtle::head(const glm::dvec3& direction) {
   state_.frame = seedmesh::upright(reorthonormalise(frame));
 }
 
+void Turtle::stand_up() {
+  state_.frame = Frame{};
+  state_.rotations = 0;
+}
+
 void Turtle::add_segment(const glm::dvec3& from, double length, std::uint64_t key) {
   const glm::dvec3& to = state_.position;
   if (report_.segments == most_segments_) {

@@ -43,6 +43,7 @@ class Turtle {
   void turn_around() { state_.frame = seedmesh::turn_around(state_.frame); }
   void upright() { state_.frame = seedmesh::upright(state_.frame); }
   void head(const glm::dvec3& direction);  ///< heads along it and rolls upright
+  void stand_up();                         ///< the frame of the start: heading +Y, left -X, up +Z
 
   /// Refuses to draw more segments than this; without a call there is no such limit.
   void set_most_segments(std::uint64_t most) { most_segments_ = most; }
@@ -68,6 +69,15 @@ class Turtle {
   /// Taken off the width of every internode drawn from now on, whatever branch it stands in; not part of the
   /// state.
   void set_thinner(double by) { thinner_ = by; }
+  /// What the lengths that a caller reads off its symbols are multiplied by, the turns of bare symbols too,
+  /// and whether turns go to the other side: kept here because ] restores them.
+  double scale() const { return state_.scale; }
+  void set_scale(double scale) { state_.scale = scale; }
+  double turn_scale() const { return state_.turn_scale; }
+  void set_turn_scale(double scale) { state_.turn_scale = scale; }
+  bool mirrored() const { return state_.mirrored; }
+  void mirror() { state_.mirrored = !state_.mirrored; }
+
   void set_color(std::int64_t color);
   std::int16_t color() const { return state_.color; }
 
@@ -82,12 +92,14 @@ class Turtle {
     glm::dvec3 position{0};
     Frame frame;
     double width = 0;
+    double scale = 1, turn_scale = 1;
     std::uint32_t joint = Limbs::none;  ///< where the next internode grows from; none after a move
     std::uint32_t last = Limbs::none;   ///< the last joint of this branch, moves or not
     std::uint16_t order = 0;
     std::int16_t color = 0;
     std::uint16_t rotations = 0;  ///< of `frame` since it was last made orthonormal, and more
-    bool begins_branch = false;   ///< the next internode starts a limb of its own
+    bool mirrored = false;
+    bool begins_branch = false;  ///< the next internode starts a limb of its own
   };
 
   void face(const Frame& frame) {

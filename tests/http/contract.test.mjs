@@ -319,6 +319,34 @@ test('a query that is no setting of the preset is 422 at its place', async () =>
   is_problem(await server.get(`/v1/presets/${name}.obj`), 404, 'not-found');
 });
 
+// --- import --------------------------------------------------------------------------------------------------------
+
+const koch = 'Koch {\n  Angle 6\n  Axiom F--F--F\n  F=F+F--F+F\n}\n';
+const import_file = (format, text, type = 'text/plain') => server.post(`/v1/import?format=${format}`, text, { 'content-type': type });
+
+test('import answers a request that generates as it is', async () => {
+  const answer = await import_file('fractint', koch);
+  assert.equal(answer.status, 200, answer.text.slice(0, 300));
+  assert.equal(answer.json.request.generator, 'lsystem');
+  assert.ok(Array.isArray(answer.json.warnings));
+  assert.equal((await server.generate(answer.json.request)).status, 200);
+  assert.equal((await import_file('fractint', koch, null)).status, 200);
+});
+
+test('import tells line and column of what it does not understand', async () => {
+  const answer = await import_file('fractint', koch.replace('F=F+F', 'F=F?F'));
+  is_problem(answer, 422, 'invalid-request');
+  assert.deepEqual({ pointer: answer.json.errors[0].pointer, line: answer.json.errors[0].line, column: answer.json.errors[0].column }, { pointer: '', line: 4, column: 6 });
+  const unknown = await import_file('fractin', koch);
+  is_problem(unknown, 422, 'invalid-request');
+  assert.equal(unknown.json.errors[0].pointer, '/format');
+  is_problem(await server.post('/v1/import', koch, { 'content-type': 'text/plain' }), 422, 'invalid-request');
+  is_problem(await server.post('/v1/import?format=fractint&colour=red', koch, { 'content-type': 'text/plain' }), 422, 'invalid-request');
+  is_problem(await server.post('/v1/import?format=%zz', koch, { 'content-type': 'text/plain' }), 400, 'malformed-request');
+  is_problem(await import_file('fractint', koch, 'text/html'), 415);
+  is_problem(await import_file('fractint', Buffer.from([0xff, 0xfe])), 400, 'malformed-request');
+});
+
 // --- validate, derive ----------------------------------------------------------------------------------------------
 
 test('validate estimates without making anything, and lists every fault', async () => {
@@ -374,7 +402,7 @@ test('every path of the OpenAPI document is served, and nothing answers with a s
     const name = pattern.includes('schemas') ? 'lsystem' : preset;
     const target = pattern.replace(/\{(\w+)\}/g, (_, key) => values[key] ?? name);
     const method = item.post ? 'POST' : 'GET';
-    const answer = method === 'POST' ? await server.post(target, plant) : await server.get(target);
+    const answer = pattern === '/v1/import' ? await import_file('fractint', koch) : method === 'POST' ? await server.post(target, plant) : await server.get(target);
     assert.equal(answer.status, 200, `${method} ${target}: ${answer.text.slice(0, 200)}`);
     const described = item[method.toLowerCase()].responses;
     assert.ok(described['200'], pattern);

@@ -61,6 +61,20 @@ test('a refusal is the problem as JSON on standard error and status 1', async ()
   assert.equal((await run(program, ['generate', '-'], { input: '{' })).status, 1);
 });
 
+test('import prints a request, and its warnings apart', async () => {
+  const foreign = path.join(folder, 'koch.l');
+  fs.writeFileSync(foreign, 'Koch {\n  Angle 6\n  Axiom F--F--F\n  F=F+F--F+F\n}\n');
+  const { status, out, err } = await run(program, ['import', foreign, '--format', 'fractint']);
+  assert.equal(status, 0, err);
+  assert.match(err, /koch\.l:1:1: warning: /);
+  const made = await run(program, ['generate', '-', '-o', '-'], { input: out });
+  assert.equal(made.status, 0);
+  assert.equal(made.out.subarray(0, 4).toString(), 'glTF');
+  assert.equal((await run(program, ['import', foreign, '--format', 'nothing'])).status, 1);
+  assert.equal((await run(program, ['import', path.join(folder, 'missing.l'), '--format', 'fractint'])).status, 2);
+  assert.equal((await run(program, ['import', foreign])).status, 2);
+});
+
 test('validate and derive print JSON', async () => {
   const valid = await run(program, ['validate', file]);
   assert.equal(valid.status, 0);

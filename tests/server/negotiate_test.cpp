@@ -47,6 +47,13 @@ TEST(ContentType, TakesJsonInUtf8) {
   EXPECT_FALSE(is_json_type("application/x-www-form-urlencoded"));
   EXPECT_FALSE(is_json_type(";charset=utf-8"));
   EXPECT_FALSE(is_json_type("+json"));
+  for (const char* type :
+       {"", "text/plain", "TEXT/PLAIN; charset=utf-8", "application/octet-stream", "application/json"}) {
+    EXPECT_TRUE(is_text_or_json_type(type)) << type;
+  }
+  for (const char* type : {"text/html", "text/plain; charset=latin1", "application/x-www-form-urlencoded"}) {
+    EXPECT_FALSE(is_text_or_json_type(type)) << type;
+  }
 }
 
 TEST(Tag, ChangesWithRequestAndEngine) {

@@ -137,6 +137,11 @@ Result<std::string> validate(const Request&, Job&) {
   return std::string(R"({"valid":true,"warnings":[],"estimate":{"triangles":12,"bytes":1000,"exact":true}})");
 }
 
+Result<ImportedRequest> import_request(const ImportQuestion&, const Limits&) {
+  return invalid("/format", "There is no such format.");
+}
+std::vector<ImportFormatInfo> import_format_list() { return {}; }
+
 const std::vector<PresetInfo>& presets() {
   static const std::vector<PresetInfo> all = {
       {"small", "rehearsal", "Small", "Two thousand letters.", {"test"}}};

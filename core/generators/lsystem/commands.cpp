@@ -1,7 +1,5 @@
 #include "core/generators/lsystem/commands.h"
 
-#include <algorithm>
-
 namespace seedmesh::lsystem {
 namespace {
 
@@ -52,20 +50,21 @@ constexpr CommandRow rows[] = {
      "Adds the tropism's `step` to its elasticity; bare: that of the first.", "@TF+F@TF"},
     {"@Td", Command::elasticity_down, "[(tropism)]", 0, 1,
      "Takes the tropism's `step` off its elasticity; bare: that of the first.", "@TF+F@TdF"},
+    {"@V", Command::stand_up, "", 0, 0,
+     "Sets the turtle upright: heading, left and up are those of the start.", "F&(70)/(40)F@VF"},
+    {"@D", Command::set_scale, "(scale)", 1, 1, "Sets the scale of all lengths that follow.", "F@D(0.5)F"},
+    {"@Di", Command::multiply_scale, "(factor)", 1, 1, "Multiplies the scale of lengths.", "F@Di(0.5)F"},
+    {"@Dd", Command::divide_scale, "(divisor)", 1, 1, "Divides the scale of lengths.", "F@Dd(2)F"},
+    {"@w", Command::multiply_width, "(factor)", 1, 1, "Multiplies the width.", "F@w(0.7)F"},
+    {"@a", Command::multiply_turns, "(factor)", 1, 1, "Multiplies the turns of bare symbols that follow.",
+     "F+F@a(0.5)+F"},
+    {"@-", Command::mirror, "", 0, 0, "Exchanges left and right: + and -, \\ and /, until the next one.",
+     "[+F]@-+F"},
 };
 
 }  // namespace
 
 std::span<const CommandRow> commands() { return rows; }
-
-std::size_t long_symbol(std::string_view text) {
-  std::size_t longest = 0;
-  for (const CommandRow& row : rows) {
-    if (row.symbol.size() > 2 && text.substr(0, row.symbol.size()) == row.symbol)
-      longest = std::max(longest, row.symbol.size());
-  }
-  return longest;
-}
 
 Command command_of(std::string_view symbol, std::uint32_t arity) {
   for (const CommandRow& row : rows) {

@@ -39,6 +39,13 @@ enum class Command : std::uint8_t {
   elasticity_set,
   elasticity_up,
   elasticity_down,
+  stand_up,
+  set_scale,
+  multiply_scale,
+  divide_scale,
+  multiply_width,
+  multiply_turns,
+  mirror,
 };
 
 struct CommandRow {
@@ -52,10 +59,6 @@ struct CommandRow {
 };
 
 std::span<const CommandRow> commands();
-
-/// The length in bytes of the longest symbol of more than two characters, as @Ts, that `text` starts with; 0:
-/// none.
-std::size_t long_symbol(std::string_view text);
 
 /// The command of a symbol with so many parameters; Command::none where the turtle has no such symbol.
 /// Parameters beyond those it understands are left to the grammar.

@@ -1,6 +1,7 @@
 #include "core/generators/lsystem/draw.h"
 
 #include <array>
+#include <cmath>
 
 namespace seedmesh::lsystem {
 namespace {
@@ -15,6 +16,12 @@ double spread(std::uint64_t key, Spread of, double amount) {
 
 double first_width(const LsystemParams& params, const Job& job) {
   return params.width.value + spread(job.rng().at("width").key(), Spread::width, params.width.spread);
+}
+
+/// A scale or width that is no number would only show far from here.
+double finite(double value, const Kind& kind) {
+  if (!std::isfinite(value)) Job::reject({"", "`" + kind.symbol + "` made a scale or width infinite"});
+  return value;
 }
 
 math::SinCos opposite(math::SinCos angle) { return {-angle.sin, angle.cos}; }
@@ -74,7 +81,9 @@ math::SinCos Drawing::turn(const Kind& kind, const double* parameters, const Ang
   if (kind.arity > 0) {
     degrees = parameters[0];
   } else if (params_.angle.spread > 0) {
-    degrees += spread(key, Spread::angle, params_.angle.spread);
+    degrees = (degrees + spread(key, Spread::angle, params_.angle.spread)) * turtle_.turn_scale();
+  } else if (turtle_.turn_scale() != 1) {
+    degrees *= turtle_.turn_scale();
   } else {
     return angle.bare;
   }
@@ -86,10 +95,16 @@ math::SinCos Drawing::turn(const Kind& kind, const double* parameters, const Ang
 }
 
 double Drawing::length(const Kind& kind, const double* parameters, std::uint64_t key) const {
-  if (kind.arity > 0) return parameters[0];
-  if (params_.step.spread == 0) return params_.step.value;
+  const double scale = turtle_.scale();
+  if (kind.arity > 0) return scale * parameters[0];
+  if (params_.step.spread == 0) return scale * params_.step.value;
   const double length = params_.step.value + spread(key, Spread::step, params_.step.spread);
-  return length > 0 ? length : 0;
+  return length > 0 ? scale * length : 0;
+}
+
+/// To the left, or to the right where the turtle is mirrored.
+math::SinCos Drawing::leftward(math::SinCos angle) const {
+  return turtle_.mirrored() ? opposite(angle) : angle;
 }
 
 void Drawing::set_width(const Kind& kind, const double* parameters, double change) {
@@ -113,17 +128,17 @@ void Drawing::obey(const Kind& kind, const double* parameters, std::uint64_t key
     case Command::move_plain:
       return turtle_.walk_plain(length(kind, parameters, key));
     case Command::left:
-      return turtle_.turn(turn(kind, parameters, yaw_, key));
+      return turtle_.turn(leftward(turn(kind, parameters, yaw_, key)));
     case Command::right:
-      return turtle_.turn(opposite(turn(kind, parameters, yaw_, key)));
+      return turtle_.turn(leftward(opposite(turn(kind, parameters, yaw_, key))));
     case Command::down:
       return turtle_.pitch(turn(kind, parameters, pitch_, key));
     case Command::up:
       return turtle_.pitch(opposite(turn(kind, parameters, pitch_, key)));
     case Command::roll_left:
-      return turtle_.roll(turn(kind, parameters, roll_, key));
+      return turtle_.roll(leftward(turn(kind, parameters, roll_, key)));
     case Command::roll_right:
-      return turtle_.roll(opposite(turn(kind, parameters, roll_, key)));
+      return turtle_.roll(leftward(opposite(turn(kind, parameters, roll_, key))));
     case Command::turn_around:
       return turtle_.turn_around();
     case Command::upright:
@@ -159,6 +174,20 @@ void Drawing::obey(const Kind& kind, const double* parameters, std::uint64_t key
       return turtle_.change_elasticity(kind.arity > 0 ? math::to_int64(parameters[0]) : 0, 1);
     case Command::elasticity_down:
       return turtle_.change_elasticity(kind.arity > 0 ? math::to_int64(parameters[0]) : 0, -1);
+    case Command::stand_up:
+      return turtle_.stand_up();
+    case Command::set_scale:
+      return turtle_.set_scale(parameters[0]);
+    case Command::multiply_scale:
+      return turtle_.set_scale(finite(turtle_.scale() * parameters[0], kind));
+    case Command::divide_scale:
+      return turtle_.set_scale(finite(turtle_.scale() / parameters[0], kind));
+    case Command::multiply_width:
+      return turtle_.set_width(finite(turtle_.width() * parameters[0], kind));
+    case Command::multiply_turns:
+      return turtle_.set_turn_scale(finite(turtle_.turn_scale() * parameters[0], kind));
+    case Command::mirror:
+      return turtle_.mirror();
   }
 }
 

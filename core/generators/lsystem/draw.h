@@ -30,6 +30,7 @@ class Drawing {
   void interpret(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t depth);
   void obey(const Kind& kind, const double* parameters, std::uint64_t key);
   math::SinCos turn(const Kind& kind, const double* parameters, const Angle& angle, std::uint64_t key);
+  math::SinCos leftward(math::SinCos angle) const;
   double length(const Kind& kind, const double* parameters, std::uint64_t key) const;
   void set_width(const Kind& kind, const double* parameters, double change);
 

@@ -68,7 +68,8 @@ class Compiler {
 
   void mark_ignored() {
     Source source{params_.ignore, "/ignore", {}};
-    for (const WrittenModule& module : read_modules(source.text, {0, source.text.size()}, source.faults)) {
+    for (const WrittenModule& module :
+         read_modules(source.text, {0, source.text.size()}, symbols_, source.faults)) {
       ignored_.insert(std::string(module.symbol));
     }
     ignored_.erase("[");  // brackets always count, as in the book
@@ -84,7 +85,7 @@ class Compiler {
     Source constants{params_.alphabet->constants, "/alphabet/constants", {}};
     for (Source* source : {&variables, &constants}) {
       for (const WrittenModule& module :
-           read_modules(source->text, {0, source->text.size()}, source->faults)) {
+           read_modules(source->text, {0, source->text.size()}, symbols_, source->faults)) {
         (source == &variables ? variables_ : alphabet_constants_).insert(std::string(module.symbol));
       }
       take_faults(*source);
@@ -125,7 +126,7 @@ class Compiler {
     Range range{static_cast<std::uint32_t>(grammar_.templates.size()), 0};
     if (erases(source.text, slice)) return range;
     std::map<std::string, std::uint64_t, std::less<>> occurrences;
-    for (const WrittenModule& module : read_modules(source.text, slice, source.faults)) {
+    for (const WrittenModule& module : read_modules(source.text, slice, symbols_, source.faults)) {
       check_symbol(module, source);
       if (grammar_.templates.size() == most_modules) {
         source.faults.push_back({module.offset, "found more than 1,000,000 modules in one grammar"});
@@ -201,7 +202,8 @@ class Compiler {
     Production made;
     made.pointer = source.pointer;
     std::uint32_t slots = 0;
-    const std::vector<WrittenModule> heads = read_modules(source.text, written.predecessor, source.faults);
+    const std::vector<WrittenModule> heads =
+        read_modules(source.text, written.predecessor, symbols_, source.faults);
     if (heads.size() == 1) {
       check_symbol(heads[0], source);
       if (alphabet_constants_.count(heads[0].symbol)) {
@@ -254,7 +256,7 @@ class Compiler {
 
   std::vector<KindId> context(Source& source, Slice slice, std::uint32_t& slots) {
     std::vector<KindId> kinds;
-    for (const WrittenModule& module : read_modules(source.text, slice, source.faults)) {
+    for (const WrittenModule& module : read_modules(source.text, slice, symbols_, source.faults)) {
       check_symbol(module, source);
       kinds.push_back(formal(source, module, slots));
     }
@@ -349,6 +351,7 @@ class Compiler {
   lang::Names names_;  ///< the constants, and behind them the parameters of the production that is read
   std::size_t constant_count_ = 0;
   std::set<std::string, std::less<>> ignored_, variables_, alphabet_constants_;
+  Symbols symbols_;
   std::map<std::pair<std::string, std::uint32_t>, KindId> ids_;
   Grammar grammar_;
 };

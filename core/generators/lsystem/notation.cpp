@@ -118,7 +118,31 @@ void read_head(std::string_view text, Slice head, WrittenProduction& out, std::v
 
 }  // namespace
 
-std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, std::vector<Fault>& faults) {
+Symbols::Symbols() {
+  for (const CommandRow& row : commands()) {
+    if (row.symbol.size() > 1) declare(row.symbol);
+  }
+}
+
+void Symbols::declare(std::string_view name) {
+  const auto shorter = [&](const std::string& other) { return other.size() < name.size(); };
+  names_.insert(std::find_if(names_.begin(), names_.end(), shorter), std::string(name));
+  begins_[static_cast<unsigned char>(name[0])] = true;
+}
+
+std::size_t Symbols::length_at(std::string_view text, std::size_t at, std::size_t to) const {
+  if (begins_[static_cast<unsigned char>(text[at])]) {
+    const std::string_view rest = text.substr(at, to - at);
+    for (const std::string& name : names_) {
+      if (rest.substr(0, name.size()) == name) return name.size();
+    }
+  }
+  if (text[at] != '@') return code_point_length(text, at);
+  return at + 1 >= to || is_space(text[at + 1]) ? 0 : 1 + code_point_length(text, at + 1);
+}
+
+std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, const Symbols& symbols,
+                                        std::vector<Fault>& faults) {
   std::vector<WrittenModule> modules;
   for (std::size_t at = skip_spaces(text, slice.from, slice.to); at < slice.to;
        at = skip_spaces(text, at, slice.to)) {
@@ -127,15 +151,11 @@ std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, std:
       break;
     }
     WrittenModule module{{}, at, {}};
-    std::size_t length = code_point_length(text, at);
-    if (text[at] == '@') {
-      if (at + 1 >= slice.to || is_space(text[at + 1])) {
-        faults.push_back({at, "found `@` alone; expected a character after it, as in `@v`"});
-        ++at;
-        continue;
-      }
-      const std::size_t named = long_symbol(text.substr(at, slice.to - at));
-      length = named > 0 ? named : 1 + code_point_length(text, at + 1);
+    const std::size_t length = symbols.length_at(text, at, slice.to);
+    if (length == 0) {
+      faults.push_back({at, "found `@` alone; expected a character after it, as in `@v`"});
+      ++at;
+      continue;
     } else if (text[at] == '(' || text[at] == ')') {
       faults.push_back(
           {at, std::string("found `") + text[at] + "`; expected a symbol before its parameters"});

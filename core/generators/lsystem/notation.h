@@ -4,8 +4,8 @@
 ///   production = [ left "<" ] predecessor [ ">" right ] [ ":" condition ] arrow successor [ ":" weight ] ;
 ///   arrow      = "->" | "-->" | "~>" | "→" ;      word = { module } ;
 ///   module     = symbol [ "(" expression { "," expression } ")" ] ;
-///   symbol     = one character | "@" character | a symbol of commands.h, as "@Ts" ;  white space separates
-///   and means nothing else.
+///   symbol     = one character | "@" character | a longer name that is declared or the turtle's own ;
+///   white space separates and means nothing else.
 ///
 /// An empty successor, or one of "*" or "ε" alone, erases; so does an empty right side.
 #include <cstdint>
@@ -40,9 +40,23 @@ struct WrittenProduction {
 /// a grammar costs about a hundred bytes a module while it is read.
 constexpr std::size_t most_modules = 1'000'000;
 
+/// The symbols of more than one character. The longest that stands at a place is read there.
+class Symbols {
+ public:
+  Symbols();  ///< those of the turtle, such as @Di
+  void declare(std::string_view name);
+  /// Bytes of the symbol at text[at, to), which is not empty; 0 for an "@" alone.
+  std::size_t length_at(std::string_view text, std::size_t at, std::size_t to) const;
+
+ private:
+  std::vector<std::string> names_;  ///< longest first
+  bool begins_[256] = {};           ///< by first byte: some name begins so
+};
+
 /// The modules of text[slice]. Faults: an argument list that is not closed, an empty argument, characters
 /// that are no symbol.
-std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, std::vector<lang::Fault>& faults);
+std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, const Symbols& symbols,
+                                        std::vector<lang::Fault>& faults);
 
 /// Cuts a production at its arrow, context marks and colons. Faults: no arrow, no predecessor, two contexts
 /// of one side.

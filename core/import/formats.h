@@ -1,0 +1,9 @@
+#pragma once
+/// The readers of the formats, one a file; import.cpp has their rows.
+#include "core/import/import.h"
+
+namespace seedmesh {
+
+Result<Imported> import_fractint(std::string_view text, const ImportOptions& options);  // fractint.cpp
+
+}  // namespace seedmesh

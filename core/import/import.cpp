@@ -1,0 +1,23 @@
+#include "core/import/import.h"
+
+#include "core/import/formats.h"
+
+namespace seedmesh {
+namespace {
+
+constexpr ImportFormat rows[] = {
+    {"fractint", "Fractint .l", "An entry becomes an L-system in the plane.", "text/plain", import_fractint},
+};
+
+}  // namespace
+
+std::span<const ImportFormat> import_formats() { return rows; }
+
+const ImportFormat* find_import_format(std::string_view name) {
+  for (const ImportFormat& row : rows) {
+    if (row.name == name) return &row;
+  }
+  return nullptr;
+}
+
+}  // namespace seedmesh

@@ -1,0 +1,96 @@
+#include <gmock/gmock.h>
+
+#include "tests/core/import/support.h"
+
+namespace seedmesh {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr std::string_view koch = R"(Koch1 { ; a curve
+  ; of von Koch
+  angle 6
+  axiom f--f--f
+  f=f+f--f+f
+}
+)";
+
+TEST(Fractint, ReadsAnEntryInEitherCase) {
+  const auto result = imported("fractint", koch);
+  EXPECT_EQ(parameters_of(result), nlohmann::json::parse(R"({
+    "axiom": "-(90)F--F--F", "productions": ["F -> F+F--F+F"], "angle": 60, "iterations": 4, "style": "lines"
+  })"));
+  EXPECT_THAT(told(result), ElementsAre(StartsWith("1:1 an entry does not say how many steps")));
+}
+
+TEST(Fractint, JoinsTheRulesOfOneSymbol) {
+  const auto result = imported("fractint", "E{Angle 4 \n Axiom X\n X=FX\n X=+F\n}");
+  EXPECT_EQ(parameters_of(result)["productions"], nlohmann::json({"X -> FX+F"}));
+}
+
+TEST(Fractint, TurnsItsCommandsIntoOurs) {
+  const auto result = imported("fractint", R"(E {
+  axiom \30F/1.5D|M!F@2F@I4F@Q9F@IQ4F
+  angle 4
+})");
+  EXPECT_EQ(parameters_of(result)["axiom"], "-(90)+(30)F-(1.5)D|M@-F@Di(2)F@Di(0.25)F@Di(3)F@Di(0.5)F");
+  EXPECT_EQ(parameters_of(result)["interpretation"], nlohmann::json({"D -> F", "M -> f"}));
+}
+
+TEST(Fractint, TurnsAsFarAsTheAngleAllows) {
+  EXPECT_EQ(parameters_of(imported("fractint", "E{\nAngle 5\nAxiom F|F\n}"))["axiom"], "-(90)F+(144)F");
+}
+
+TEST(Fractint, CountsColours) {
+  const auto result = imported("fractint", "E{\nAngle 4\nAxiom C3F>F>2F<F\n}");
+  EXPECT_EQ(parameters_of(result)["axiom"], "-(90);(3)F;F;;F,F");
+  EXPECT_THAT(told(result), testing::Contains(HasSubstr("palette")));
+}
+
+TEST(Fractint, DrawsWhatFractintDraws) {
+  // The third order of the Koch curve is as wide as its axiom is long after scaling: 3^4 steps.
+  const auto result = imported("fractint", koch);
+  Job job(0, Job::Options{});
+  const auto answer = nlohmann::json::parse(*derive(result->request, job));
+  EXPECT_EQ(answer["turtle"]["segments"], 3 * 256);
+  EXPECT_NEAR(answer["turtle"]["bounds"]["max"][0].get<double>(), 81, 1e-9);
+}
+
+TEST(Fractint, TakesTheEntryThatIsNamed) {
+  constexpr std::string_view two = "A {\nAngle 4\nAxiom F\n}\nB {\nAngle 8\nAxiom FF\n}\n";
+  EXPECT_EQ(parameters_of(imported("fractint", two, "b"))["axiom"], "-(90)FF");
+  const auto unnamed = imported("fractint", two);
+  ASSERT_FALSE(unnamed);
+  EXPECT_EQ(unnamed.error().issues[0].pointer, "/entry");
+  EXPECT_THAT(unnamed.error().issues[0].message, HasSubstr("A, B"));
+  EXPECT_FALSE(imported("fractint", two, "C"));
+}
+
+TEST(Fractint, RefusesWhatItDoesNotUnderstandAtItsPlace) {
+  EXPECT_THAT(told(imported("fractint", "E {\n  Angle 4\n  Axiom F$F\n  Blah\n}")),
+              ElementsAre(StartsWith("3:10 found `$`"), StartsWith("4:3 found no command")));
+  EXPECT_THAT(told(imported("fractint", "E {\n Angle 4.5\n Axiom F@\n")),
+              ElementsAre(StartsWith("1:1 found an entry without"), StartsWith("2:8 found no angle"),
+                          StartsWith("3:9 found `@` without its number")));
+  EXPECT_THAT(told(imported("fractint", "nothing here")), testing::Contains(HasSubstr("outside an entry")));
+  EXPECT_FALSE(imported("fractint", ""));
+}
+
+TEST(Import, NamesTheFormatsThatThereAre) {
+  const auto result = imported("fractal_int", koch);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().issues[0].pointer, "/format");
+  EXPECT_THAT(result.error().issues[0].message, HasSubstr("fractint"));
+  EXPECT_FALSE(imported("", koch));
+}
+
+TEST(Import, RefusesBytesThatAreNoText) {
+  const auto result = imported("fractint", "Koch\xFF {}");
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, Code::malformed);
+}
+
+}  // namespace
+}  // namespace seedmesh
