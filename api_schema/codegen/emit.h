@@ -12,6 +12,10 @@ std::string emit_header(
 std::string emit_source(const Unit& unit);     ///< generated/params/<name>.cpp
 std::string emit_reference(const Unit& unit);  ///< docs/reference/<name>.md
 
+/// Do the parameters hold requests (x-widget: request)? Then the body of children_of(params), else "".
+bool has_children(const Unit& unit);
+std::string emit_children(const Unit& unit);
+
 /// generated/embedded.cpp: the bodies of core/schema/embedded.h. `folder` is api_schema.
 std::string emit_embedded(const std::filesystem::path& folder);
 

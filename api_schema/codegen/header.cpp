@@ -69,6 +69,7 @@ void add_includes(const Type& type, std::set<std::string>& standard, std::set<st
   if (type.kind == Kind::text) standard.insert("string");
   if (type.kind == Kind::integer || type.kind == Kind::seed) standard.insert("cstdint");
   if (type.kind == Kind::color) own.insert("core/schema/color.h");
+  if (type.kind == Kind::child) own.insert("core/schema/child.h");
   if (type.kind == Kind::params) own.insert("generated/params/" + type.json_name + ".h");
   for (const Type& part : type.parts) add_includes(part, standard, own);
   for (const Member& member : type.members) {
@@ -83,6 +84,7 @@ std::string emit_header(const Unit& unit) {
   std::set<std::string> standard = {"string_view"};
   std::set<std::string> own = {"core/schema/faults.h", "core/schema/json.h"};
   add_includes(unit.root, standard, own);
+  if (has_children(unit)) standard.insert("vector");
 
   std::string text =
       "#pragma once\n// Made from api_schema/" + unit.name + ".schema.json. Do not edit: edit the schema.\n";
@@ -103,6 +105,10 @@ std::string emit_header(const Unit& unit) {
       "/// The canonical form: defaults left out, one form for equal meaning. Reading it gives equal "
       "params.\n";
   text += "Json write_" + unit.name + "(const " + params + "& params);\n\n";
+  if (has_children(unit)) {
+    text += "/// The requests inside, each with its pointer, in the order of the schema.\n";
+    text += "std::vector<ChildPlace> children_of(" + params + "& params);\n\n";
+  }
   return text + "}  // namespace seedmesh\n";
 }
 

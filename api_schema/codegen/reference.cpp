@@ -34,6 +34,8 @@ std::string type_text(const Type& type) {
       return "[" + type.json_name + "](" + type.json_name + ".md)";
     case Kind::shorthand:
       return "number or object";
+    case Kind::child:
+      return "request";
     case Kind::free:
       return "object";
     case Kind::choice: {

@@ -41,6 +41,7 @@ enum class Kind {
   params,     ///< the struct of another schema, for a $ref to a whole file
   shorthand,  ///< a structure that may also be written as one number (x-short)
   variant,    ///< std::variant of the alternatives
+  child,      ///< Child: a request inside the request; an object with x-widget "request"
   free,       ///< an object left to others: no member
 };
 

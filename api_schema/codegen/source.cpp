@@ -74,6 +74,8 @@ std::string read_statement(const Type& type, const std::string& place, const std
       return "read" + both;
     case Kind::free:
       return "read_free_object(" + place + ");";
+    case Kind::child:
+      return "read_child" + both;
     case Kind::params:
       return target + " = read_" + type.json_name + "(" + place + ".value(), " + place + ".pointer(), " +
              place + ".faults());";
@@ -91,9 +93,11 @@ std::string read_statement(const Type& type, const std::string& place, const std
 std::string read_entries(const Type& type, const std::string& place, const std::string& target, int depth) {
   const Type& entry = type.parts[0];
   const std::string name = type.kind == Kind::list ? "read_list" : "read_map";
-  return name + "(" + place + ", " + rule_of(type) + ", " + target + ", [](const Place& entry, " + entry.cpp +
-         "& value) {\n" + indented(depth + 1) + read_statement(entry, "entry", "value", depth + 1) + "\n" +
-         indented(depth) + "});";
+  const bool nested = place.starts_with("entry");  // its names must not hide those around it
+  const std::string at = nested ? place + "_in" : "entry", value = nested ? target + "_in" : "value";
+  return name + "(" + place + ", " + rule_of(type) + ", " + target + ", [](const Place& " + at + ", " +
+         entry.cpp + "& " + value + ") {\n" + indented(depth + 1) +
+         read_statement(entry, at, value, depth + 1) + "\n" + indented(depth) + "});";
 }
 
 struct JsonType {
@@ -113,6 +117,7 @@ JsonType json_type(const Type& type) {
     case Kind::map:
     case Kind::structure:
     case Kind::params:
+    case Kind::child:
     case Kind::free:
       return {"object", "an object"};
     default:
@@ -170,15 +175,20 @@ std::string write_expression(const Type& type, const std::string& value) {
       return "Json(std::string(text_of(" + value + ")))";
     case Kind::seed:
       return "write_seed(" + value + ")";
+    case Kind::child:
+      return "write_child(" + value + ")";
     case Kind::structure:
     case Kind::shorthand:
       return "write(" + value + ")";
     case Kind::params:
       return "write_" + type.json_name + "(" + value + ")";
     case Kind::list:
-    case Kind::map:
+    case Kind::map: {
+      const std::string entry = value.starts_with("entry") ? value + "_in" : "entry";
       return std::string(type.kind == Kind::list ? "write_list(" : "write_map(") + value + ", [](const " +
-             type.parts[0].cpp + "& entry) { return " + write_expression(type.parts[0], "entry") + "; })";
+             type.parts[0].cpp + "& " + entry + ") { return " + write_expression(type.parts[0], entry) +
+             "; })";
+    }
     case Kind::variant: {
       std::string text;
       for (std::size_t i = 0; i + 1 < type.parts.size(); ++i) {
@@ -266,7 +276,8 @@ std::string emit_source(const Unit& unit) {
   text += params + " read_" + unit.name +
           "(const Json& json, std::string_view pointer, Faults& faults) {\n  " + params +
           " params;\n  read(Place(json, pointer, faults), params);\n  return params;\n}\n\n";
-  text += "Json write_" + unit.name + "(const " + params + "& params) { return write(params); }\n\n";
+  text += "Json write_" + unit.name + "(const " + params + "& params) { return write(params); }\n\n" +
+          emit_children(unit);
   return text + "}  // namespace seedmesh\n";
 }
 

@@ -109,6 +109,7 @@ std::string initializer(const Type& type, const Schema& value) {
     case Kind::structure:
     case Kind::params:
     case Kind::shorthand:
+    case Kind::child:
     case Kind::free:
       break;
   }

@@ -75,6 +75,7 @@ class Typing {
   }
 
   void object(Type& type, const std::string& name) {
+    if (type.schema.value("x-widget", "") == "request") return set(type, Kind::child, "Child");
     const Schema& others = type.schema["additionalProperties"];
     if (others == true) return set(type, Kind::free, "");
     if (others.is_object()) {

@@ -43,7 +43,7 @@ void Purse::take(std::uint64_t bytes) {
 Job::Job(std::uint64_t seed, Options options)
     : seed_(seed), state_(std::make_shared<State>(std::move(options))) {}
 
-Job Job::with_seed(std::uint64_t seed) const { return Job(seed, state_); }
+Job Job::for_child(std::uint64_t seed) const { return Job(seed, state_); }
 
 void Job::check() const {
   const Options& options = state_->options;
@@ -70,6 +70,7 @@ std::uint64_t Job::spent(Resource resource) const {
 }
 
 void Job::progress(std::string_view stage, double share) const {
+  if (is_child_) return;
   if (state_->stages.empty() || state_->stages.back().name != stage) {
     state_->stages.push_back({std::string(stage), Clock::now()});
   }

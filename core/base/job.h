@@ -31,7 +31,8 @@ struct Limits {
 enum class Resource { modules, shapes, triangles, output_bytes };
 
 /// "Stop now": over a limit, over time, or the caller has gone. Thrown by Job (and its Purse) alone, caught
-/// in the pipeline alone; no code between the two may swallow it.
+/// in the pipeline alone; no code between the two may swallow it (core/generators/child throws it on with the
+/// place that it belongs to).
 class Stop : public std::exception {
  public:
   Stop(Code code, Issue issue) : code_(code), issue_(std::move(issue)) {}
@@ -79,8 +80,9 @@ class Job {
 
   Job(std::uint64_t seed, Options options);
 
-  /// The same purse, limits, stop and deadline with another seed: for a child request inside a scene.
-  Job with_seed(std::uint64_t seed) const;
+  /// The same purse, limits, stop and deadline with another seed, for a request inside this one. Its stages
+  /// are part of a stage of this one: it tells no progress.
+  Job for_child(std::uint64_t seed) const;
 
   Rng rng() const { return Rng::of_seed(seed_); }
   std::uint64_t seed() const { return seed_; }
@@ -124,9 +126,11 @@ class Job {
     std::atomic<std::uint64_t> spent[4] = {};
     std::vector<Stage> stages;
   };
-  Job(std::uint64_t seed, std::shared_ptr<State> state) : seed_(seed), state_(std::move(state)) {}
+  Job(std::uint64_t seed, std::shared_ptr<State> state)
+      : seed_(seed), is_child_(true), state_(std::move(state)) {}
 
   std::uint64_t seed_;
+  bool is_child_ = false;
   std::shared_ptr<State> state_;
 };
 

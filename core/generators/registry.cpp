@@ -1,5 +1,6 @@
 #include "core/generators/registry.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/generators/lsystem/lsystem.h"
@@ -16,8 +17,13 @@ struct Row {
 
   static const Own& own(const Params& params) { return *static_cast<const Own*>(params.get()); }
 
-  static Params read(const Json& json, std::string_view pointer, Faults& faults) {
-    return std::make_shared<const Own>(read_own(json, pointer, faults));
+  static Params read(const Json& json, std::string_view pointer, Faults& faults,
+                     const Generator::Settle& settle) {
+    auto params = std::make_shared<Own>(read_own(json, pointer, faults));
+    if constexpr (requires { children_of(*params); }) {
+      if (settle) std::ranges::for_each(children_of(*params), settle);
+    }
+    return params;
   }
   static Json write(const Params& params) { return write_own(own(params)); }
   static std::vector<Issue> check(const Params& params, const Limits& limits) {

@@ -1,5 +1,6 @@
 #pragma once
 /// Every generator has one row here. Nothing else in core, server or tests knows a generator by name.
+#include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
@@ -8,6 +9,7 @@
 
 #include "core/base/job.h"
 #include "core/generators/appraisal.h"
+#include "core/schema/child.h"
 #include "core/schema/faults.h"
 #include "core/schema/json.h"
 
@@ -18,11 +20,14 @@ struct Generator {
   /// Parameters as read, of the generator's own struct. Immutable and shared by the copies of a request.
   using Params = std::shared_ptr<const void>;
 
+  /// What is done with each request inside the parameters when they are read: see child.h.
+  using Settle = std::function<void(const ChildPlace&)>;
+
   std::string_view name;  ///< in a request; its schema and its folder of presets have the same name
 
   /// From JSON that stands at `pointer`. Gives parameters even where there are faults: refused members have
-  /// defaults.
-  Params (*read)(const Json& json, std::string_view pointer, Faults& faults);
+  /// defaults. An empty `settle` leaves requests inside as they are. Callers use read_parameters of child.h.
+  Params (*read)(const Json& json, std::string_view pointer, Faults& faults, const Settle& settle);
   /// The canonical JSON of the parameters.
   Json (*write)(const Params& params);
   /// Faults that no schema can tell, such as those of a grammar; pointers are relative to the parameters.

@@ -1,15 +1,13 @@
-#include "core/pipeline/catalog.h"
-
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "core/generators/registry.h"
+#include "core/pipeline.h"
 #include "core/schema/embedded.h"
+#include "core/schema/presets.h"
 
 namespace seedmesh {
 namespace {
-
-/// What a preset file has beside the request.
-constexpr std::string_view gallery_members[] = {"title", "description", "tags"};
 
 PresetInfo info_of(const EmbeddedText& row) {
   const Json file = Json::parse(row.text);
@@ -20,28 +18,7 @@ PresetInfo info_of(const EmbeddedText& row) {
           .tags = file.at("tags")};
 }
 
-Preset preset_of(const EmbeddedText& row) {
-  auto file = nlohmann::ordered_json::parse(row.text);
-  for (const std::string_view member : gallery_members) file.erase(std::string(member));
-  return {.request = Json::parse(file.dump()), .request_text = file.dump(2) + "\n"};
-}
-
 }  // namespace
-
-const std::map<std::string, Preset, std::less<>>& preset_requests() {
-  static const auto all = [] {
-    std::map<std::string, Preset, std::less<>> presets;
-    for (const EmbeddedText& row : embedded_presets()) presets.emplace(row.name, preset_of(row));
-    return presets;
-  }();
-  return all;
-}
-
-std::vector<std::string_view> preset_names() {
-  std::vector<std::string_view> names;
-  for (const EmbeddedText& row : embedded_presets()) names.push_back(row.name);
-  return names;
-}
 
 const std::vector<PresetInfo>& presets() {
   static const auto all = [] {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/pipeline/body.h"
-#include "core/pipeline/catalog.h"
+#include "core/schema/presets.h"
 
 namespace seedmesh {
 namespace {

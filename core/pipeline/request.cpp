@@ -1,19 +1,14 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/generators/child.h"
 #include "core/pipeline/body.h"
-#include "core/pipeline/catalog.h"
 #include "core/schema/nearest.h"
+#include "core/schema/presets.h"
 #include "generated/params/request.h"
 
 namespace seedmesh {
 namespace {
-
-std::string unknown(std::string_view what, std::string_view name, std::span<const std::string_view> known) {
-  std::string message = "there is no " + std::string(what) + " \"" + shortened(name, 40) + "\"";
-  const std::string_view nearest = schema::nearest_word(name, known);
-  return nearest.empty() ? message : message + "; did you mean \"" + std::string(nearest) + "\"?";
-}
 
 std::string canonical_request(const Request::Body& body) {
   Json json = {{"generator", body.generator->name}};
@@ -26,18 +21,6 @@ std::string canonical_request(const Request::Body& body) {
   return canonical_text(json);
 }
 
-/// The body over its preset; or as it is, `preset` included, where it names none that there is.
-Json with_preset(const Json& json) {
-  if (!json.is_object() || !json.contains("preset") || !json["preset"].is_string()) return json;
-  const auto preset = preset_requests().find(json["preset"].get_ref<const std::string&>());
-  if (preset == preset_requests().end()) return json;
-  Json patch = json;
-  patch.erase("preset");
-  Json merged = preset->second.request;
-  merge_patch(merged, patch);
-  return merged;
-}
-
 const Generator* named_generator(const Json& json, const RequestParams& frame, Faults& faults) {
   if (!frame.generator) {
     // A preset that is no preset would have told it; one fault is enough for that.
@@ -48,32 +31,22 @@ const Generator* named_generator(const Json& json, const RequestParams& frame, F
   }
   const Generator* generator = find_generator(*frame.generator);
   if (!generator && !faults.covers("/generator")) {
-    faults.add({"/generator", unknown("generator", *frame.generator, generator_names())});
+    faults.add({"/generator", unknown_generator(*frame.generator)});
   }
   return generator;
 }
 
-Generator::Params read_parameters(const Generator& generator, const Json& json, Faults& faults) {
-  if (json.contains("parameters")) return generator.read(json["parameters"], "/parameters", faults);
+Generator::Params parameters_of(const Json& body, const Generator& generator, const Limits& limits,
+                                Faults& faults) {
+  if (body.contains("parameters"))
+    return read_parameters(generator, body["parameters"], "/parameters", limits, faults);
   Faults lacking;
-  Generator::Params params = generator.read(Json::object(), "/parameters", lacking);
+  Generator::Params params = read_parameters(generator, Json::object(), "/parameters", limits, lacking);
   for (const Issue& issue : lacking.issues()) {
     // There is no object yet that could lack the member: the body lacks the object.
     faults.add_missing("", "parameters", "\"parameters\" is missing: in it, " + issue.message);
   }
   return params;
-}
-
-/// Schema faults and grammar faults come together, but not the second as an echo of the first.
-void add_grammar_faults(const Generator& generator, const Generator::Params& params, const Limits& limits,
-                        Faults& faults) {
-  std::vector<Issue> found = generator.check(params, limits);
-  std::erase_if(found,
-                [&faults](const Issue& issue) { return faults.covers("/parameters" + issue.pointer); });
-  for (Issue& issue : found) {
-    issue.pointer.insert(0, "/parameters");
-    faults.add(std::move(issue));
-  }
 }
 
 }  // namespace
@@ -88,13 +61,12 @@ Result<Request> read_request_body(const Json& json, const Limits& limits) {
   const Json merged = with_preset(json);
   const RequestParams frame = read_request(merged, "", faults);
   if (frame.preset && !faults.covers("/preset")) {
-    faults.add({"/preset", unknown("preset", *frame.preset, preset_names())});
+    faults.add({"/preset", schema::unknown_word("preset", *frame.preset, preset_names())});
   }
   Request::Body body;
   body.generator = named_generator(merged, frame, faults);
   if (body.generator && (!merged.contains("parameters") || merged["parameters"].is_object())) {
-    body.params = read_parameters(*body.generator, merged, faults);
-    add_grammar_faults(*body.generator, body.params, limits, faults);
+    body.params = parameters_of(merged, *body.generator, limits, faults);
   }
   if (!faults.empty()) return Error{Code::invalid, faults.take()};
   body.output = frame.output;

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/schema/json.h"
+
 namespace seedmesh::schema {
 namespace {
 
@@ -43,6 +45,13 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
     }
   }
   return nearest;
+}
+
+std::string unknown_word(std::string_view what, std::string_view word,
+                         std::span<const std::string_view> known) {
+  std::string message = "there is no " + std::string(what) + " \"" + shortened(word, 40) + "\"";
+  const std::string_view nearest = nearest_word(word, known);
+  return nearest.empty() ? message : message + "; did you mean \"" + std::string(nearest) + "\"?";
 }
 
 }  // namespace seedmesh::schema

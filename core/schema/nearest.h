@@ -1,5 +1,6 @@
 #pragma once
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace seedmesh::schema {
@@ -9,5 +10,9 @@ namespace seedmesh::schema {
 /// for computer detection and correction of spelling errors", 1964). The first of equals. Words beyond 64
 /// bytes have no neighbours.
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> words);
+
+/// "there is no preset "ferm"; did you mean "fern"?"
+std::string unknown_word(std::string_view what, std::string_view word,
+                         std::span<const std::string_view> known);
 
 }  // namespace seedmesh::schema

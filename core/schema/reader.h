@@ -17,6 +17,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/schema/child.h"
 #include "core/schema/color.h"
 #include "core/schema/faults.h"
 #include "core/schema/json.h"
@@ -94,6 +95,7 @@ void read_text(const Place& place, const TextRule& rule, std::string& out);
 void read_color(const Place& place, Color& out);
 void read_seed(const Place& place,
                std::uint64_t& out);         ///< 0 to 2^64 - 1, as an integer or as decimal digits
+void read_child(const Place& place, Child& out);  ///< its parameters are JSON until read_parameters
 void read_free_object(const Place& place);  ///< only that it is an object: others read what is in it
 
 /// The index of a word in a list, or nullopt after adding a fault.

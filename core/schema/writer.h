@@ -6,12 +6,15 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/schema/child.h"
 #include "core/schema/json.h"
 
 namespace seedmesh::schema {
 
 /// A number where JavaScript reads it exactly, else its digits as a text.
 Json write_seed(std::uint64_t seed);
+
+Json write_child(const Child& child);
 
 template <class List, class Write>
 Json write_list(const List& list, const Write& write) {

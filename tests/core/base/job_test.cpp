@@ -58,7 +58,7 @@ TEST(Job, StopsAtItsDeadline) {
 
 TEST(Job, SharesItsPurseWithTheJobsOfChildren) {
   Job job = job_with_modules(100);
-  Job child = job.with_seed(9);
+  Job child = job.for_child(9);
   child.spend(Resource::modules, 60);
   EXPECT_THROW(job.spend(Resource::modules, 60), Stop);
   EXPECT_NE(child.rng().key(), job.rng().key());

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/pipeline.h"
 #include "core/schema/json.h"
 
 namespace seedmesh {
@@ -21,5 +20,9 @@ const std::map<std::string, Preset, std::less<>>& preset_requests();
 
 /// The names of all presets, sorted.
 std::vector<std::string_view> preset_names();
+
+/// `json` merged over the preset that it names; or as it is, `preset` included, where it names none that
+/// there is.
+Json with_preset(const Json& json);
 
 }  // namespace seedmesh
