@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/generators/lsystem/lsystem.h"
+#include "core/generators/tree/tree.h"
 #include "generated/params/lsystem.h"
+#include "generated/params/tree.h"
 
 namespace seedmesh {
 namespace {
@@ -50,6 +52,8 @@ struct Row {
 constexpr Generator rows[] = {
     Row<LsystemParams, read_lsystem, write_lsystem, lsystem::check, lsystem::generate, lsystem::derive,
         lsystem::appraise, lsystem::vocabulary>::named("lsystem"),
+    Row<TreeParams, read_tree, write_tree, tree::check, tree::generate, tree::derive, tree::appraise,
+        tree::vocabulary>::named("tree"),
 };
 
 }  // namespace

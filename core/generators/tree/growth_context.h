@@ -1,0 +1,65 @@
+#pragma once
+/// What every model of a tree writes with: limbs and leaves of one Skeleton, counted before they are made.
+#include "core/base/job.h"
+#include "core/geom/frame.h"
+#include "core/geom/limbs.h"
+#include "generated/params/tree.h"
+
+namespace seedmesh::tree {
+
+/// Streams of chance of the three parts, which may have seeds of their own.
+struct Chances {
+  Chances(const TreeSeeds& seeds, std::uint64_t seed)
+      : trunk(Rng::of_seed(seeds.trunk.value_or(seed)).at("trunk")),
+        branches(Rng::of_seed(seeds.branches.value_or(seed)).at("branches")),
+        leaves(Rng::of_seed(seeds.leaves.value_or(seed)).at("leaves")) {}
+  Rng trunk, branches, leaves;
+};
+
+/// Uniform in [-spread, spread).
+inline double spread(Rng rng, double range) { return range == 0 ? 0 : rng.uniform(-range, range); }
+
+/// The frame turned about a unit axis.
+Frame rotated(const Frame& frame, const glm::dvec3& axis, const math::SinCos& angle);
+
+/// A frame whose heading is `heading`, turned the least from `frame`.
+Frame headed(const Frame& frame, const glm::dvec3& heading);
+
+/// Appends to a skeleton. Every joint is spent as a module, and refused where its bark would pass the limit
+/// of triangles, so that a hostile request ends early and small.
+class SkeletonWriter {
+ public:
+  SkeletonWriter(Skeleton& skeleton, Job& job);
+
+  struct Joint {
+    std::uint32_t parent = Limbs::none;
+    glm::dvec3 position{0};
+    double base_radius = 0, radius = 0;
+    bool starts_limb = false;
+    int order = 0;
+    std::uint64_t key = 0;
+  };
+  std::uint32_t add(const Joint& joint);
+
+  struct Leaf {
+    Frame frame;  ///< heading along the leaf, up out of its upper side
+    glm::dvec3 position{0};
+    double length = 0, width = 0;
+    std::uint32_t joint = Limbs::none;
+    std::uint64_t key = 0;
+  };
+  void add(const Leaf& leaf);
+
+  /// The radius at the far end of a joint's internode.
+  double radius(std::uint32_t joint) const { return static_cast<double>(limbs_.radius[joint]); }
+  Job& job() { return job_; }
+
+ private:
+  Limbs& limbs_;
+  Organs& organs_;
+  Job& job_;
+  Meter modules_, shapes_;
+  std::uint64_t most_joints_, most_leaves_;
+};
+
+}  // namespace seedmesh::tree

@@ -1,0 +1,237 @@
+#include "core/generators/tree/sculpt.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace seedmesh::tree {
+namespace {
+
+// Whorls of one limb: gaps of a fiftieth that halve would go on for ever.
+constexpr int most_whorls = 2000;
+// Steps in which a ray looks for the border of a lathed shape, and halvings of the last step.
+constexpr int ray_steps = 64, halvings = 20;
+// A child is never thicker than this share of its parent where it leaves it.
+constexpr double thickest_child = 0.8;
+
+double half_width(const TreeLevel& level, double share) {
+  switch (level.shape) {
+    case TreeShape::sphere:
+      return 2 * std::sqrt(std::max(0.0, share * (1 - share)));
+    case TreeShape::cone:
+      return 1 - share;
+    case TreeShape::lathe: {
+      if (level.profile.empty()) return 1;
+      const double at = share * static_cast<double>(level.profile.size() - 1);
+      const auto low = static_cast<std::size_t>(math::to_int64(std::floor(at)));
+      const std::size_t high = std::min(low + 1, level.profile.size() - 1);
+      return level.profile[low] + (level.profile[high] - level.profile[low]) * (at - std::floor(at));
+    }
+    default:
+      return 1;
+  }
+}
+
+struct Limb {
+  Frame frame;
+  glm::dvec3 position{0};
+  std::uint32_t joint = Limbs::none;
+  int level = 0;
+  double length = 0, radius = 0;
+  Rng rng{0};
+};
+
+class Sculptor {
+ public:
+  Sculptor(const TreeParams& params, const Chances& chances, SkeletonWriter& writer)
+      : p_(params), s_(params.sculpt), chances_(chances), writer_(writer) {}
+
+  void run() {
+    Limb trunk;
+    trunk.rng = chances_.trunk;
+    trunk.length = s_.height * (1 + spread(trunk.rng.at("height"), s_.height_spread));
+    trunk.frame = pitch(roll(Frame{}, math::sincos_degrees(trunk.rng.at("roll").uniform(0, 360))),
+                        math::sincos_degrees(s_.lean));
+    trunk.radius = radius_of(trunk, 1e9);
+    SkeletonWriter::Joint foot;
+    foot.radius = foot.base_radius = radius_at(trunk, 0);
+    foot.key = trunk.rng.key();
+    trunk.joint = writer_.add(foot);
+    waiting_.push_back(trunk);
+    while (!waiting_.empty()) {
+      const Limb limb = waiting_.back();
+      waiting_.pop_back();
+      carve(limb);
+    }
+  }
+
+ private:
+  const TreeLevel& level(int n) const {
+    static const TreeLevel usual;
+    if (s_.level.empty()) return usual;
+    return s_.level[std::min(static_cast<std::size_t>(n), s_.level.size() - 1)];
+  }
+  bool branches(const Limb& limb) const { return limb.level + 1 < s_.levels && limb.length > s_.shortest; }
+
+  /// The radius at the foot, from the taper angle.
+  double radius_of(const Limb& limb, double most) const {
+    const double wanted = s_.tip_radius + limb.length * math::tan(math::radians(level(limb.level).taper));
+    return std::min(wanted, most);
+  }
+  double radius_at(const Limb& limb, double share) const {
+    const double end = std::min(s_.tip_radius, limb.radius);
+    const double radius = limb.radius + (end - limb.radius) * share;
+    const double low = std::max(0.0, 1 - 8 * share);
+    return limb.level == 0 ? radius * (1 + p_.trunk_flare * low * low * low) : radius;
+  }
+
+  void carve(const Limb& limb);
+  std::vector<double> whorls(const Limb& limb) const;
+  Frame turned(const Limb& limb, const Frame& frame, int segment, double share) const;
+  void whorl(const Limb& limb, const Limb& here, int number, double share);
+  void leaves(const Limb& limb, const std::vector<Limb>& stations, const std::vector<double>& shares);
+
+  const TreeParams& p_;
+  const TreeSculpt& s_;
+  const Chances& chances_;
+  SkeletonWriter& writer_;
+  std::vector<Limb> waiting_;
+};
+
+/// Shares of the limb at which it is cut: whorls, and its tip.
+std::vector<double> Sculptor::whorls(const Limb& limb) const {
+  const TreeLevel& l = level(limb.level);
+  std::vector<double> shares;
+  double at = 0, gap = l.gap;
+  for (int i = 0; i < most_whorls && at + gap < 1 && gap > 1e-3; ++i) {
+    at += gap;
+    gap *= l.gap_ratio;
+    shares.push_back(at);
+  }
+  if (!shares.empty() && 1 - shares.back() < 0.25 * l.gap) shares.pop_back();
+  shares.push_back(1);
+  return shares;
+}
+
+Frame Sculptor::turned(const Limb& limb, const Frame& frame, int segment, double share) const {
+  const TreeLevel& l = level(limb.level);
+  const Rng rng = limb.rng.at("segment").at(static_cast<std::uint64_t>(segment));
+  const double bend = l.bend + spread(rng.at("bend"), l.bend_spread);
+  Frame next = pitch(roll(frame, math::sincos_degrees(l.spin)), math::sincos_degrees(bend));
+  if (l.rise == 0) return next;
+  const glm::dvec3 axis = glm::cross(next.heading, glm::dvec3{0, 1, 0});
+  const double size = std::sqrt(glm::dot(axis, axis));
+  if (size < 1e-6) return next;
+  const double to_sky = math::degrees(math::acos(std::clamp(next.heading.y, -1.0, 1.0)));
+  const double rise = std::clamp(l.rise * share, to_sky - 180, to_sky);
+  return rotated(next, axis / size, math::sincos_degrees(rise));
+}
+
+void Sculptor::carve(const Limb& limb) {
+  const TreeLevel& l = level(limb.level);
+  const std::vector<double> shares = whorls(limb);
+  Limb here = limb;
+  std::vector<Limb> stations;
+  double before = 0;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    if (i > 0) here.frame = turned(limb, here.frame, static_cast<int>(i), shares[i] - before);
+    SkeletonWriter::Joint joint;
+    joint.parent = here.joint;
+    here.position += here.frame.heading * ((shares[i] - before) * limb.length);
+    joint.position = here.position;
+    joint.base_radius = radius_at(limb, before);
+    joint.radius = radius_at(limb, shares[i]);
+    joint.starts_limb = i == 0 && limb.level > 0;
+    joint.order = limb.level;
+    joint.key = limb.rng.at("joint").at(i).key();
+    here.joint = writer_.add(joint);
+    before = shares[i];
+    stations.push_back(here);
+    if (branches(limb) && shares[i] >= l.start && shares[i] < 1)
+      whorl(limb, here, static_cast<int>(i), shares[i]);
+  }
+  if (!branches(limb)) leaves(limb, stations, shares);
+}
+
+void Sculptor::whorl(const Limb& limb, const Limb& here, int number, double share) {
+  const TreeLevel& l = level(limb.level);
+  const Rng own = limb.level == 0 ? chances_.branches : limb.rng;
+  const Rng rng = own.at("whorl").at(static_cast<std::uint64_t>(number));
+  for (int i = 0; i < l.whorl; ++i) {
+    const Rng chance = rng.at(static_cast<std::uint64_t>(i));
+    if (l.chance < 1 && Rng(chance.at("there")).unit() >= l.chance) continue;
+    const double around = l.phase * number + 360.0 * i / l.whorl + spread(chance.at("phase"), l.phase_spread);
+    const double angle =
+        l.angle + (l.angle_tip - l.angle) * share + spread(chance.at("angle"), l.angle_spread);
+    Limb child;
+    child.frame = pitch(roll(here.frame, math::sincos_degrees(around)), math::sincos_degrees(angle));
+    child.position = here.position;
+    child.joint = here.joint;
+    child.level = limb.level + 1;
+    const math::SinCos lean = math::sincos_degrees(angle), about = math::sincos_degrees(around);
+    const double room = room_in_shape(l, limb.length, share * limb.length,
+                                      {lean.sin * about.sin, lean.cos, lean.sin * about.cos});
+    child.length = room * l.fill * (1 - l.fill_spread * Rng(chance.at("fill")).unit());
+    if (child.length < s_.shortest) continue;
+    child.rng = chance.at("limb");
+    child.radius = radius_of(child, thickest_child * radius_at(limb, share));
+    waiting_.push_back(child);
+  }
+}
+
+void Sculptor::leaves(const Limb& limb, const std::vector<Limb>& stations,
+                      const std::vector<double>& shares) {
+  const Rng rng = chances_.leaves.at(limb.rng.key());
+  for (int i = 0; i < s_.leaves; ++i) {
+    const double share = 0.15 + 0.85 * (i + 1.0) / s_.leaves;
+    std::size_t at = 0;
+    while (at + 1 < shares.size() && shares[at] < share - 1e-9) ++at;
+    const Rng own = rng.at(static_cast<std::uint64_t>(i));
+    const double around = 137.5 * i + spread(own.at("around"), 20);
+    SkeletonWriter::Leaf leaf;
+    leaf.frame = pitch(roll(stations[at].frame, math::sincos_degrees(around)),
+                       math::sincos_degrees(s_.leaf_angle + spread(own.at("angle"), 15)));
+    if (leaf.frame.up.y < 0) leaf.frame = {leaf.frame.heading, -leaf.frame.left, -leaf.frame.up};
+    leaf.position = stations[at].position - stations[at].frame.heading * ((shares[at] - share) * limb.length);
+    leaf.length = s_.leaf_length;
+    leaf.width = s_.leaf_length * s_.leaf_width;
+    leaf.joint = stations[at].joint;
+    leaf.key = own.key();
+    writer_.add(leaf);
+  }
+}
+
+}  // namespace
+
+double room_in_shape(const TreeLevel& level, double length, double from, const glm::dvec3& direction) {
+  const double width = level.width * length;
+  const double aside = level.shape == TreeShape::box
+                           ? std::max(std::abs(direction.x), std::abs(direction.z))
+                           : std::sqrt(direction.x * direction.x + direction.z * direction.z);
+  const auto is_inside = [&](double t) {
+    const double along = (from + direction.y * t) / length;
+    if (along < 0 || along > 1) return false;
+    return aside * t <= width * half_width(level, along);
+  };
+  const double farthest = length + width;
+  double inside = 0, outside = farthest;
+  for (int i = 1; i <= ray_steps; ++i) {
+    const double t = farthest * i / ray_steps;
+    if (!is_inside(t)) {
+      outside = t;
+      break;
+    }
+    inside = t;
+  }
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    (is_inside(middle) ? inside : outside) = middle;
+  }
+  return inside;
+}
+
+void grow_sculpt(const TreeParams& params, const Chances& chances, SkeletonWriter& writer) {
+  Sculptor(params, chances, writer).run();
+}
+
+}  // namespace seedmesh::tree

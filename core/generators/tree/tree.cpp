@@ -1,0 +1,148 @@
+#include "core/generators/tree/tree.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/generators/tree/dress.h"
+#include "core/generators/tree/proctree.h"
+#include "core/generators/tree/roots.h"
+#include "core/generators/tree/sculpt.h"
+#include "core/generators/tree/weber_penn.h"
+
+namespace seedmesh::tree {
+namespace {
+
+/// The request's seed; where it is 0, that of a saved proctree file.
+std::uint64_t seed_of(const TreeParams& params, std::uint64_t seed) {
+  if (params.model != TreeModel::proctree || seed != 0) return seed;
+  return static_cast<std::uint64_t>(params.mSeed);
+}
+
+Skeleton grow(const TreeParams& params, Job& job) {
+  job.progress("derive", 0);
+  Skeleton skeleton(job);
+  SkeletonWriter writer(skeleton, job);
+  const Chances chances(params.seeds, seed_of(params, job.seed()));
+  switch (params.model) {
+    case TreeModel::weber_penn:
+      grow_weber_penn(params, chances, writer);
+      break;
+    case TreeModel::proctree:
+      grow_proctree(params, chances, writer);
+      break;
+    case TreeModel::sculpt:
+      grow_sculpt(params, chances, writer);
+      break;
+  }
+  grow_roots(params.roots, chances, 0, writer);
+  return skeleton;
+}
+
+/// The model that a parameter belongs to, or all.
+enum class Owner { all, weber_penn, proctree, sculpt };
+
+Owner owner_of(const std::string& name) {
+  if (name == "sculpt") return Owner::sculpt;
+  const auto first = static_cast<unsigned char>(name[0]);
+  if (first == 'm' && name.size() > 1 && name[1] >= 'A' && name[1] <= 'Z') return Owner::proctree;
+  const bool is_published = (first >= '0' && first <= '9') || (first >= 'A' && first <= 'Z');
+  return is_published ? Owner::weber_penn : Owner::all;
+}
+
+/// A parameter that the model does not read is never passed over without a word.
+std::vector<Warning> warnings_of(const TreeParams& params) {
+  static constexpr const char* names[] = {"weber_penn", "proctree", "sculpt"};
+  const auto model = static_cast<std::size_t>(params.model);
+  std::vector<Warning> warnings;
+  const Json given = write_tree(params);
+  for (const auto& [name, value] : given.items()) {
+    const Owner owner = owner_of(name);
+    if (owner != Owner::all && static_cast<std::size_t>(owner) != model + 1) {
+      warnings.push_back({"/" + name,
+                          "has no effect: it belongs to the model " +
+                              std::string(names[static_cast<std::size_t>(owner) - 1]) +
+                              ", and the model is " + names[model],
+                          0, 0});
+    }
+    if (name == "sides" && params.model == TreeModel::proctree)
+      warnings.push_back({"/sides", "has no effect: the model proctree takes mSegments", 0, 0});
+  }
+  return warnings;
+}
+
+struct LevelFigures {
+  std::uint64_t count = 0;
+  double length = 0, radius = 0;
+};
+
+std::vector<LevelFigures> figures_of(const Limbs& limbs) {
+  std::vector<LevelFigures> levels;
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    const std::uint32_t parent = limbs.parent[i];
+    if (parent == Limbs::none) continue;
+    const std::size_t order = limbs.order[i];
+    if (order >= levels.size()) levels.resize(order + 1);
+    LevelFigures& level = levels[order];
+    level.length += static_cast<double>(glm::distance(limbs.position[i], limbs.position[parent]));
+    if (limbs.starts_limb[i] || limbs.parent[parent] == Limbs::none) {
+      ++level.count;
+      level.radius += static_cast<double>(limbs.base_radius[i]);
+    }
+  }
+  return levels;
+}
+
+Json vector(const glm::vec3& v) { return Json::array({v.x + 0.0F, v.y + 0.0F, v.z + 0.0F}); }
+
+}  // namespace
+
+std::vector<Issue> check(const TreeParams& params, const Limits&) {
+  std::vector<Issue> issues;
+  if (params.mSegments % 2 != 0) {
+    issues.push_back({"/mSegments",
+                      "found " + std::to_string(params.mSegments) + ", expected an even number of corners", 0,
+                      0});
+  }
+  return issues;
+}
+
+Result<Model> generate(const TreeParams& params, Job& job) {
+  Skeleton skeleton = grow(params, job);
+  job.progress("mesh", 0);
+  Model model = dress(std::move(skeleton), params, job);
+  model.warnings = warnings_of(params);
+  return model;
+}
+
+Result<Json> derive(const TreeParams& params, Job& job) {
+  const Skeleton skeleton = grow(params, job);
+  const Limbs& limbs = skeleton.limbs;
+  Json levels = Json::array();
+  std::uint64_t count = 0;
+  for (const LevelFigures& level : figures_of(limbs)) {
+    const double share = level.count ? 1.0 / static_cast<double>(level.count) : 0;
+    levels.push_back(
+        {{"count", level.count}, {"length", level.length * share}, {"radius", level.radius * share}});
+    count += level.count;
+  }
+  const Box box = bounds_of(limbs.position.span());
+  Json warnings = Json::array();
+  for (const Warning& each : warnings_of(params))
+    warnings.push_back({{"pointer", "/parameters" + each.pointer}, {"message", each.message}});
+  return Json{{"limbs", count},
+              {"levels", std::move(levels)},
+              {"leaves", skeleton.organs.organ.size()},
+              {"height", box.max.y + 0.0F},
+              {"bounds", {{"min", vector(box.min)}, {"max", vector(box.max)}}},
+              {"warnings", std::move(warnings)}};
+}
+
+Result<Appraisal> appraise(const TreeParams& params, const Job&) {
+  Appraisal appraisal;
+  appraisal.warnings = warnings_of(params);
+  return appraisal;
+}
+
+Json vocabulary() { return Json::object(); }
+
+}  // namespace seedmesh::tree

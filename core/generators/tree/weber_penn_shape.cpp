@@ -1,0 +1,79 @@
+#include "core/generators/tree/weber_penn_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+
+namespace seedmesh::tree {
+
+std::array<WeberPennLevel, 4> weber_penn_levels(const TreeParams& p) {
+  return {{
+      {0, 0, 0, 0, 0, p.length_0, p.length_v_0, p.taper_0, p.seg_splits_0, p.split_angle_0, p.split_angle_v_0,
+       p.curve_res_0, p.curve_0, p.curve_back_0, p.curve_v_0},
+      {p.down_angle_1, p.down_angle_v_1, p.rotate_1, p.rotate_v_1, p.branches_1, p.length_1, p.length_v_1,
+       p.taper_1, p.seg_splits_1, p.split_angle_1, p.split_angle_v_1, p.curve_res_1, p.curve_1,
+       p.curve_back_1, p.curve_v_1},
+      {p.down_angle_2, p.down_angle_v_2, p.rotate_2, p.rotate_v_2, p.branches_2, p.length_2, p.length_v_2,
+       p.taper_2, p.seg_splits_2, p.split_angle_2, p.split_angle_v_2, p.curve_res_2, p.curve_2,
+       p.curve_back_2, p.curve_v_2},
+      {p.down_angle_3, p.down_angle_v_3, p.rotate_3, p.rotate_v_3, p.branches_3, p.length_3, p.length_v_3,
+       p.taper_3, p.seg_splits_3, p.split_angle_3, p.split_angle_v_3, p.curve_res_3, p.curve_3,
+       p.curve_back_3, p.curve_v_3},
+  }};
+}
+
+double shape_ratio(const TreeParams& params, int shape, double ratio) {
+  const double r = std::clamp(ratio, 0.0, 1.0);
+  switch (shape) {
+    case 0:
+      return 0.2 + 0.8 * r;
+    case 1:
+      return 0.2 + 0.8 * math::sin(math::pi * r);
+    case 2:
+      return 0.2 + 0.8 * math::sin(0.5 * math::pi * r);
+    case 3:
+      return 1;
+    case 4:
+      return 0.5 + 0.5 * r;
+    case 5:
+      return r <= 0.7 ? r / 0.7 : (1 - r) / 0.3;
+    case 6:
+      return 1 - 0.8 * r;
+    case 7:
+      return r <= 0.7 ? 0.5 + 0.5 * r / 0.7 : 0.5 + 0.5 * (1 - r) / 0.3;
+    default:
+      break;
+  }
+  // The paper divides both halves by 1 - peak, which leaves a step at the peak unless it is in the middle;
+  // the lower half is as long as the peak is high.
+  if (ratio < 0 || ratio > 1) return 0;
+  const double peak = 1 - params.PruneWidthPeak;
+  if (r < peak) return math::pow(r / peak, params.PrunePowerHigh);
+  return peak >= 1 ? 1 : math::pow((1 - r) / (1 - peak), params.PrunePowerLow);
+}
+
+double tapered(double taper, double radius, double length, double z) {
+  const double unit = taper < 1 ? taper : taper < 2 ? 2 - taper : 0;
+  const double cone = radius * (1 - unit * z);
+  if (taper < 1 || cone <= 0) return std::max(0.0, cone);
+  const double to_end = (1 - z) * length;
+  const double depth = taper < 2 || to_end < cone ? 1 : taper - 2;
+  const double aside =
+      taper < 2 ? to_end : std::abs(to_end - 2 * cone * std::floor(to_end / (2 * cone) + 0.5));
+  if (taper < 2 && aside >= cone) return cone;
+  const double round = cone * cone - (aside - cone) * (aside - cone);
+  return (1 - depth) * cone + depth * std::sqrt(std::max(0.0, round));
+}
+
+double flared(double flare, double z) {
+  const double y = std::max(0.0, 1 - 8 * z);
+  return 1 + flare * (math::pow(100, y) - 1) / 100;
+}
+
+bool is_in_envelope(const TreeParams& params, double scale, double aside, double height) {
+  const double ratio = (scale - height) / (scale * (1 - params.BaseSize));
+  return aside / scale < params.PruneWidth * shape_ratio(params, 8, ratio);
+}
+
+}  // namespace seedmesh::tree

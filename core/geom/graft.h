@@ -1,0 +1,39 @@
+#pragma once
+/// Limbs -> Mesh as a tree grows it: one surface that goes over from limb to limb.
+///
+/// skin() makes every limb a closed tube; graft() opens the parent where a limb leaves it. Three ways to
+/// begin:
+/// - A collar: the child's first ring lies on the parent's surface, as the intersection of the two tubes, and
+/// the
+///   parent's triangles end at it. For limbs thinner than their parent.
+/// - A fork of limbs of like thickness: three half rings that share two points, across the incoming limb, the
+///   outgoing one and the crotch between (after P. Brunt's proctree, 2012).
+/// - Closed, as skin() does it: where there is no room for either, or a face would look against a normal.
+///
+/// Cross-sections have corners by their radius, between the rings of a limb too, and joints on a straight
+/// piece have no ring of their own: a twig takes a tenth of the triangles of its trunk.
+#include "core/geom/limbs.h"
+#include "core/model/mesh.h"
+
+namespace seedmesh {
+
+struct GraftOptions {
+  int sides = 8;         ///< corners of the thickest limb, 3..64; thinner ones have fewer, down to 3
+  bool weld = true;      ///< false: all limbs are closed tubes
+  float thinnest = 0;    ///< limbs of a smaller radius where they begin are left out
+  int lobes = 0;         ///< ribs around every limb of order 0
+  float lobe_depth = 0;  ///< as a share of the radius, below 1
+  float v_scale = 1;     ///< texture lengths a metre along the limb; u is in metres round it
+};
+
+struct GraftCounts {
+  std::uint32_t limbs = 0, collars = 0, forks = 0, closed = 0, fallen_back = 0;
+};
+
+/// The bark of all limbs, whatever their colour. Guarantees as skin(): closed, welded by position every edge
+/// in two triangles; unit normals that no face looks against; no unused vertex; u and v in metres, one seam.
+/// `counts` may be null. Limbs that would break a guarantee are skinned by skin() instead. Spends
+/// Resource::triangles as it goes. One thread; about 40 bytes a vertex beside the mesh.
+Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCounts* counts = nullptr);
+
+}  // namespace seedmesh

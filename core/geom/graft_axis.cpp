@@ -1,0 +1,65 @@
+#include "core/geom/graft_axis.h"
+
+#include <cmath>
+
+#include "core/base/math.h"
+
+namespace seedmesh {
+
+std::size_t GraftAxis::piece_at(float s, std::size_t from) const {
+  std::size_t piece = std::min(from, pieces() - 1);
+  while (piece + 1 < pieces() && s > at[piece + 1]) ++piece;
+  while (piece > 0 && s < at[piece]) --piece;
+  return piece;
+}
+
+bool GraftAxis::read(const Limbs& limbs, const Chains& chains, std::uint32_t head, float shortest) {
+  point.clear();
+  at.clear();
+  radius.clear();
+  joint.clear();
+  along.clear();
+  u.clear();
+  const bool is_root = limbs.parent[head] == Limbs::none;
+  std::uint32_t next = is_root ? chains.next[head] : head;
+  const std::uint32_t start = is_root ? head : limbs.parent[head];
+  if (next == Limbs::none) return false;
+  order = limbs.order.empty() ? 0 : limbs.order[next];
+  point.push_back(limbs.position[start]);
+  at.push_back(0);
+  radius.push_back(limbs.base_radius[next]);
+  joint.push_back(start);
+  for (; next != Limbs::none; next = chains.next[next]) {
+    const glm::vec3 step = limbs.position[next] - point.back();
+    const float length = std::sqrt(glm::dot(step, step));
+    if (length <= shortest) continue;
+    if (radius.size() > 1) radius.back() = std::max(radius.back(), limbs.base_radius[next]);
+    along.push_back(step * (1 / length));
+    point.push_back(limbs.position[next]);
+    at.push_back(at.back() + length);
+    radius.push_back(limbs.radius[next]);
+    joint.push_back(next);
+  }
+  return !along.empty();
+}
+
+void GraftAxis::carry(const glm::vec3& first) {
+  u.resize(along.size());
+  u[0] = first;
+  for (std::size_t i = 1; i < along.size(); ++i) {
+    const glm::vec3 &a = along[i - 1], &b = along[i];
+    const float cosine = glm::dot(a, b);
+    glm::vec3 turned = u[i - 1];
+    if (cosine > -0.999F) turned -= (a + b) * (glm::dot(u[i - 1], b) / (1 + cosine));
+    turned -= b * glm::dot(turned, b);
+    u[i] = math::unit(turned, any_aside(b));
+  }
+}
+
+glm::vec3 any_aside(const glm::vec3& along) {
+  const float sign = along.z < 0 ? -1.0F : 1.0F;
+  const float a = -1 / (sign + along.z);
+  return {1 + sign * along.x * along.x * a, sign * along.x * along.y * a, -sign * along.x};
+}
+
+}  // namespace seedmesh

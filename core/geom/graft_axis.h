@@ -1,0 +1,38 @@
+#pragma once
+/// The centre line of one limb for graft(): points, lengths, radii, and frames that turn the least.
+#include <vector>
+
+#include "core/geom/chains.h"
+
+namespace seedmesh {
+
+struct GraftAxis {
+  std::vector<glm::vec3> point;
+  std::vector<float> at;      ///< length along the limb up to each point
+  std::vector<float> radius;  ///< at each point
+  std::vector<std::uint32_t> joint;
+  std::vector<glm::vec3> along, u;  ///< of the piece after each point but the last: unit, at right angles
+  int order = 0;
+
+  std::size_t pieces() const { return along.size(); }
+  float length() const { return at.back(); }
+  glm::vec3 v(std::size_t piece) const { return glm::cross(along[piece], u[piece]); }
+
+  /// The piece that holds `s`, looked for from piece `from`.
+  std::size_t piece_at(float s, std::size_t from) const;
+  float radius_at(float s, std::size_t piece) const {
+    const float share = (s - at[piece]) / (at[piece + 1] - at[piece]);
+    return radius[piece] + (radius[piece + 1] - radius[piece]) * share;
+  }
+
+  /// Reads the limb that begins with `head`; pieces shorter than `shortest` are passed over. False: there is
+  /// nothing of it.
+  bool read(const Limbs& limbs, const Chains& chains, std::uint32_t head, float shortest);
+  /// Frames from a first direction at right angles to the first piece.
+  void carry(const glm::vec3& first);
+};
+
+/// A unit vector at right angles to the unit vector `along`.
+glm::vec3 any_aside(const glm::vec3& along);
+
+}  // namespace seedmesh

@@ -1,0 +1,189 @@
+#include "core/geom/graft_opening.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+
+namespace seedmesh {
+namespace {
+
+// A collar is wider than its limb by this share, less where the limb is thick.
+constexpr float collar_flare = 0.3F;
+// The widest collar, as a share of the parent's radius: beyond, the tubes meet too flat.
+constexpr float widest_collar = 0.86F;
+// Limbs that leave at a smaller angle would open their parent over too long a way; sine.
+constexpr float flattest_sine = 0.3F;
+// How far the crotch of a fork may stand above its joint, in radii, and as a share of the way to the next
+// ring.
+constexpr float highest_crotch = 5, crotch_share = 0.7F, least_parting = 0.75F;
+constexpr float pi = static_cast<float>(math::pi);
+
+/// The inverse sine up to 0.9, to half a degree: angles along a loop need to be in order, not exact.
+float inverse_sine(float x) {
+  const float s = x * x;
+  return x * (1 + s * (1.0F / 6 + s * (3.0F / 40 + s * (15.0F / 336 + s * (105.0F / 3456)))));
+}
+
+struct Cross {
+  glm::vec3 top{0};    ///< at right angles to the child, toward the parent's tip
+  glm::vec3 aside{0};  ///< at right angles to both
+  glm::vec3 out{0};    ///< at right angles to the parent, toward the child
+  float cosine = 0, sine = 0;
+};
+
+Cross cross_of(const glm::vec3& parent, const glm::vec3& child) {
+  Cross c;
+  c.cosine = glm::dot(parent, child);
+  c.sine = std::sqrt(std::max(0.0F, 1 - c.cosine * c.cosine));
+  if (c.sine < 1e-3F) return c;
+  c.out = math::unit((child - parent * c.cosine) * (1 / c.sine), any_aside(parent));
+  c.top = math::unit((parent - child * c.cosine) * (1 / c.sine), any_aside(child));
+  c.aside = glm::cross(parent, c.out);
+  return c;
+}
+
+/// Sorts the corners of the loop: two ends on the ring, those below and those above it.
+void place(Opening& opening, std::vector<LoopPoint>& points) {
+  std::size_t first = 0, last = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i].angle < points[first].angle) first = i;
+    if (points[i].angle > points[last].angle) last = i;
+  }
+  opening.first = points[first];
+  opening.last = points[last];
+  const float ends = std::abs(points[first].phase);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i == first || i == last) continue;
+    (std::abs(points[i].phase) < ends ? opening.upper : opening.lower).push_back(points[i]);
+  }
+  const auto by_angle = [](const LoopPoint& a, const LoopPoint& b) { return a.angle < b.angle; };
+  std::sort(opening.lower.begin(), opening.lower.end(), by_angle);
+  std::sort(opening.upper.begin(), opening.upper.end(), by_angle);
+  opening.at = 0.5F * (opening.first.height + opening.last.height);
+  opening.half = std::max(-opening.first.angle, opening.last.angle);
+  opening.low = std::min(opening.first.height, opening.last.height);
+  opening.high = std::max(opening.first.height, opening.last.height);
+  opening.child_reach = 0;
+  for (const LoopPoint& point : points) {
+    opening.low = std::min(opening.low, point.height);
+    opening.high = std::max(opening.high, point.height);
+    opening.child_reach = std::max(opening.child_reach, point.reach);
+  }
+}
+
+float angle_about(const GraftAxis& parent, std::size_t piece, const glm::vec3& out) {
+  return static_cast<float>(math::atan2(static_cast<double>(glm::dot(out, parent.v(piece))),
+                                        static_cast<double>(glm::dot(out, parent.u[piece]))));
+}
+
+}  // namespace
+
+float corner_phase(int sides, int corner) {
+  const float step = 2 * pi / static_cast<float>(sides);
+  const float first = sides % 4 == 2 ? 0.5F * step : 0;
+  float phase = first + step * static_cast<float>(corner);
+  if (phase > pi + 1e-4F) phase -= 2 * pi;
+  return phase;
+}
+
+std::optional<Opening> collar(const GraftAxis& parent, std::size_t at_point, const Bud& bud) {
+  const std::size_t inside = std::min(at_point, parent.pieces() - 1);
+  Cross cross = cross_of(parent.along[inside], bud.along);
+  std::size_t piece = inside;
+  if (cross.cosine < 0 && at_point > 0) {
+    piece = at_point - 1;
+    cross = cross_of(parent.along[piece], bud.along);
+  }
+  if (cross.sine < flattest_sine) return std::nullopt;
+  const float around = parent.radius[at_point];
+  const float share = bud.radius / around;
+  const float wide = bud.radius * (1 + collar_flare * std::max(0.0F, 1 - share));
+  if (!(wide < widest_collar * around)) return std::nullopt;
+
+  Opening opening;
+  opening.limb = bud.limb;
+  opening.piece = piece;
+  opening.radius = wide;
+  const glm::vec3 joint = parent.point[at_point];
+  const glm::vec3 axis = parent.along[piece];
+  const float taper =
+      (parent.radius[piece + 1] - parent.radius[piece]) / (parent.at[piece + 1] - parent.at[piece]);
+  const float out_of_top = glm::dot(cross.top, cross.out);
+  std::vector<LoopPoint> points;
+  for (int i = 0; i < bud.sides; ++i) {
+    LoopPoint point;
+    point.phase = corner_phase(bud.sides, i);
+    const math::SinCos at = math::sincos(static_cast<double>(point.phase));
+    const float cosine = static_cast<float>(at.cos), sine = static_cast<float>(at.sin);
+    const float beside = wide * sine, before = wide * cosine * out_of_top;
+    float radius = around;
+    for (int step = 0; step < 3; ++step) {
+      const float distance = std::sqrt(std::max(0.0F, radius * radius - beside * beside));
+      point.reach = (distance - before) / cross.sine;
+      point.position = joint + cross.top * (wide * cosine) + cross.aside * beside + bud.along * point.reach;
+      point.height = glm::dot(point.position - joint, axis);
+      radius = std::max(0.5F * around, around + taper * point.height);
+    }
+    point.angle = inverse_sine(std::clamp(beside / radius, -0.95F, 0.95F));
+    point.height += parent.at[at_point];
+    points.push_back(point);
+  }
+  place(opening, points);
+  if (opening.child_reach + 0.5F * bud.radius > 0.85F * bud.length) return std::nullopt;
+  opening.middle = angle_about(parent, piece, cross.out);
+  opening.child_u = cross.top;
+  return opening;
+}
+
+std::optional<Opening> fork_at(const GraftAxis& parent, std::size_t at_point, const Bud& bud) {
+  if (at_point == 0 || at_point >= parent.pieces()) return std::nullopt;
+  const glm::vec3 &before = parent.along[at_point - 1], &after = parent.along[at_point];
+  const Cross cross = cross_of(after, bud.along);
+  if (cross.sine < 0.12F || cross.cosine < -0.4F) return std::nullopt;
+  const float radius = parent.radius[at_point];
+  if (bud.radius > 1.15F * radius || bud.radius < 0.4F * radius) return std::nullopt;
+
+  Opening opening;
+  opening.limb = bud.limb;
+  opening.piece = at_point;
+  opening.radius = radius;
+  opening.is_fork = true;
+  const glm::vec3 joint = parent.point[at_point];
+  const glm::vec3 middle = math::unit(before + bud.along, before);
+  const glm::vec3 outer = math::unit(cross.out - middle * glm::dot(middle, cross.out), cross.out);
+  const glm::vec3 outward = math::unit(cross.out - before * glm::dot(before, cross.out), cross.out);
+  const float mitre = 1 / std::max(0.7F, glm::dot(outer, outward));
+  const glm::vec3 crotch = math::unit(after + bud.along, after);
+  const float cosine_half = glm::dot(crotch, after);
+  const float sine_half = std::sqrt(std::max(1e-4F, 1 - cosine_half * cosine_half));
+  const float next = parent.at[at_point + 1] - parent.at[at_point];
+  // Where the two tubes part; a lower crotch would lie inside both.
+  const float parting = 0.9F * std::min(bud.radius, radius) / sine_half;
+  const float rise = std::min({parting, highest_crotch * radius, crotch_share * next / cosine_half,
+                               crotch_share * bud.length / cosine_half});
+  if (rise < least_parting * parting) return std::nullopt;
+  std::vector<LoopPoint> points;
+  for (int i = 0; i < bud.sides; ++i) {
+    LoopPoint point;
+    point.phase = corner_phase(bud.sides, i);
+    const math::SinCos at = math::sincos(static_cast<double>(point.phase));
+    const float cosine = static_cast<float>(at.cos), sine = static_cast<float>(at.sin);
+    const glm::vec3 lean = cosine > 0 ? crotch * (rise * cosine) : outer * (-radius * mitre * cosine);
+    const glm::vec3 off = cross.aside * (radius * sine) + lean;
+    point.position = joint + off;
+    point.height = parent.at[at_point] + glm::dot(off, cosine > 0 ? after : before);
+    point.reach = glm::dot(off, bud.along);
+    point.angle = cosine > 0 || std::abs(cosine) < 1e-4F ? point.phase
+                                                         : std::copysign(pi - std::abs(point.phase), sine);
+    if (std::abs(std::abs(point.phase) - pi) < 1e-3F) point.angle = 0;
+    points.push_back(point);
+  }
+  place(opening, points);
+  opening.at = parent.at[at_point];
+  opening.middle = angle_about(parent, at_point, cross.out);
+  opening.child_u = cross.top;
+  return opening;
+}
+
+}  // namespace seedmesh

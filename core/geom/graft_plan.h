@@ -1,0 +1,40 @@
+#pragma once
+/// Which rings one limb has, and where others leave it.
+#include <vector>
+
+#include "core/geom/graft_opening.h"
+
+namespace seedmesh {
+
+/// A ring of a limb: at a point of its axis or between two, with the openings that lie on it.
+struct Band {
+  float at = 0, low = 0, high = 0;
+  std::size_t piece = 0;
+  bool is_bend = false;                 ///< stands at the point where `piece` begins, across both pieces
+  std::vector<std::uint32_t> openings;  ///< into GraftPlan::opening
+};
+
+struct GraftPlan {
+  std::vector<Opening> opening;
+  std::vector<Band> band;              ///< by rising `at`; the last is the ring at the tip
+  std::vector<std::uint32_t> refused;  ///< limbs that found no room
+
+  /// `start`: the length up to which the limb's own beginning reaches; `tip`: where the last ring stands;
+  /// `bulge`: how far the circle is outside the sides of a cross-section, as a share of the radius. Loops lie
+  /// on the circle, so that rings of straight sides need that much distance from them.
+  void begin(float start, float tip, float apart, float bulge);
+  /// Asks for a way out of the axis' point for a child. False: it must be closed.
+  bool open(const GraftAxis& axis, std::size_t at_point, Bud bud);
+  /// Adds the rings that bends and changes of radius need, one beside the beginning where asked, and the
+  /// last.
+  void complete(const GraftAxis& axis, bool has_first);
+
+ private:
+  bool fits(const GraftAxis& axis, const Opening& opening, std::size_t place) const;
+  float margin(const GraftAxis& axis, float at) const;
+  bool joins(const Opening& opening, const Band& band) const;
+
+  float start_ = 0, tip_ = 0, apart_ = 0, bulge_ = 0;
+};
+
+}  // namespace seedmesh

@@ -1,0 +1,123 @@
+#pragma once
+/// Writes the limbs of graft() in order, parents first: rings, the triangles between them, loops for the
+/// children.
+#include <vector>
+
+#include "core/geom/graft.h"
+#include "core/geom/graft_plan.h"
+
+namespace seedmesh {
+
+/// How a limb may be made: grown together with its parent; closed where it begins, but with limbs of its own
+/// grown to it; closed all over; by skin().
+enum class Trust : std::uint8_t { full, detached, closed, none };
+
+class GraftWriter {
+ public:
+  struct Context {
+    const Limbs& limbs;
+    const Chains& chains;
+    const Scale& scale;
+    const GraftOptions& options;
+    const std::vector<Trust>& trust;
+  };
+  GraftWriter(const Context& context, Job& job);
+
+  void write_all();
+
+  /// Makes the normals of loops, then looks at every triangle. Lowers the trust in limbs with faces that look
+  /// against a normal or have no area, at once to none where `is_late`; returns how many.
+  std::size_t settle(std::vector<Trust>& trust, bool is_late);
+
+  const GraftCounts& counts() const { return counts_; }
+  Mesh take() { return std::move(mesh_); }
+
+ private:
+  static constexpr std::uint32_t none = Limbs::none;
+
+  struct Corner {
+    float angle = 0;
+    std::uint32_t vertex = 0;
+  };
+  using Corners = std::vector<Corner>;
+
+  /// The plane of a ring.
+  struct Plane {
+    glm::vec3 centre{0}, u{0}, v{0}, tangent{0};
+    float radius = 0, at = 0;
+    float slope = 0;  ///< how much the radius falls along the limb
+  };
+
+  /// A corner of an open ring before it is a vertex: of the ring itself, or a point of a loop.
+  struct Mark {
+    float angle = 0;
+    glm::vec2 direction{0};
+    const LoopPoint* point = nullptr;
+    std::uint32_t group = none;
+    std::uint32_t vertex[2] = {none, none};  ///< before the seam and beyond it
+  };
+
+  struct LoopVertex {
+    glm::vec3 position{0};
+    float angle = 0, reach = 0;
+    std::uint32_t group = none;
+  };
+  struct Loop {
+    std::uint32_t first = none, count = 0;
+    float radius = 0, reach = 0;
+    glm::vec3 u{0};
+    bool is_fork = false;
+  };
+
+  void write_limb(std::uint32_t limb);
+  void plan_children(float start);
+  Bud bud_of(std::uint32_t child) const;
+  void begin_closed(bool is_root, std::uint32_t limb);
+  void begin_loop(const Loop& loop);
+  void write_band(const Band& band);
+  void write_tip(float end_radius);
+  Plane plane_of(const Band& band) const;
+  Plane plane_at(float at, std::size_t piece) const;
+  int corners_for(float radius) const;
+  int sides_for(float radius) const;
+  float ribbed(float angle) const;
+  std::uint32_t ring_corner(const Plane& plane, float angle, glm::vec2 direction);
+  float by_seam(float angle) const;
+  void set_seam(float angle);
+  std::uint32_t group_for(const LoopPoint& point, std::uint32_t child);
+  std::uint32_t vertex_of(Mark& mark, const Plane& plane, bool is_beyond);
+  void go_round(std::vector<std::uint32_t>& order, const Plane& plane, Corners& out);
+  void plain_ring(const Plane& plane, Corners& out);
+  void open_ring(const Plane& plane, const Band& band);
+  void strip(const Corners& below, const Corners& above);
+  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+  std::uint32_t vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv, std::uint32_t group);
+
+  Context context_;
+  Job& job_;
+  Meter triangles_;
+  Mesh mesh_;
+  Array<std::uint32_t>
+      group_;  ///< of each vertex; those on a loop share a normal: even the parent's, odd the child's
+  Array<glm::vec3> group_normal_;
+  std::vector<std::uint32_t> group_limb_;      ///< the child of each pair of groups
+  std::vector<std::uint32_t> first_triangle_;  ///< of each limb
+  std::vector<std::uint32_t> first_child_, next_sibling_;
+  std::vector<Loop> loops_;
+  std::vector<LoopVertex> loop_vertices_;
+  std::vector<std::vector<glm::vec2>> circles_;  ///< corners by number
+  float thickest_ = 0;
+  GraftCounts counts_;
+
+  // Of the limb being written.
+  GraftAxis axis_;
+  GraftPlan plan_;
+  Corners below_, lower_, upper_;
+  std::vector<Mark> marks_;
+  std::vector<std::uint32_t> lower_order_, upper_order_;
+  float seam_ = 0;
+  glm::vec2 seam_turn_{1, 0};  ///< its cosine and sine
+  int least_sides_ = 3, loop_sides_ = 0;
+};
+
+}  // namespace seedmesh

@@ -1,0 +1,104 @@
+#include "core/generators/tree/weber_penn.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "core/generators/tree/weber_penn_shape.h"
+#include "tests/core/tree/support.h"
+
+namespace seedmesh::tree {
+namespace {
+
+TEST(WeberPennShape, GivesTheOutlinesOfThePaper) {
+  const TreeParams p;
+  const std::array<double, 8> at_half = {
+      0.6, 1.0, 0.2 + 0.8 * std::sqrt(0.5), 1.0, 0.75, 0.5 / 0.7, 0.6, 0.5 + 0.25 / 0.7};
+  for (int shape = 0; shape < 8; ++shape)
+    EXPECT_NEAR(shape_ratio(p, shape, 0.5), at_half[static_cast<std::size_t>(shape)], 1e-12) << shape;
+  EXPECT_NEAR(shape_ratio(p, 5, 0.7), 1, 1e-12);
+  EXPECT_NEAR(shape_ratio(p, 7, 1), 0.5, 1e-12);
+}
+
+TEST(WeberPennShape, HasAnEnvelopeWithoutAStepAtItsPeak) {
+  TreeParams p;
+  p.PruneWidthPeak = 0.6;
+  EXPECT_NEAR(shape_ratio(p, 8, 0.4 - 1e-9), 1, 1e-6);
+  EXPECT_NEAR(shape_ratio(p, 8, 0.4 + 1e-9), 1, 1e-6);
+  EXPECT_EQ(shape_ratio(p, 8, 1.2), 0);
+  EXPECT_TRUE(is_in_envelope(p, 10, 0.1, 5));
+  EXPECT_FALSE(is_in_envelope(p, 10, 5.1, 5));
+}
+
+TEST(WeberPennShape, TapersFromACylinderToBeads) {
+  EXPECT_EQ(tapered(0, 1, 10, 0.9), 1);
+  EXPECT_NEAR(tapered(1, 1, 10, 0.5), 0.5, 1e-12);
+  EXPECT_NEAR(tapered(0.5, 1, 10, 1), 0.5, 1e-12);
+  // A cone cut by a half ball at its end.
+  EXPECT_NEAR(tapered(2, 1, 10, 0.95), std::sqrt(1 - 0.5 * 0.5), 1e-12);
+  EXPECT_NEAR(tapered(2, 1, 10, 1), 0, 1e-6);
+  // Balls on a string: nothing between two, the whole radius in the middle of one.
+  EXPECT_NEAR(tapered(3, 1, 10, 0.9), 1, 1e-12);
+  EXPECT_NEAR(tapered(2.999999, 1, 10, 0.8), 0, 1e-2);
+}
+
+TEST(WeberPennShape, FlaresBelowAnEighthOfTheHeight) {
+  EXPECT_NEAR(flared(0.6, 0), 1 + 0.6 * 0.99, 1e-12);
+  EXPECT_EQ(flared(0.6, 0.125), 1);
+  EXPECT_EQ(flared(0.6, 0.5), 1);
+}
+
+TEST(WeberPenn, GrowsTheAspenOfThePaper) {
+  const TreeParams params;  // the defaults are the aspen
+  const Grown tree = grown(params, 7);
+  ASSERT_EQ(tree.levels.size(), 3U);
+  EXPECT_EQ(tree.levels[0].count, 1U);
+  EXPECT_EQ(tree.levels[1].count, 50U);
+  EXPECT_GE(tree.trunk_length, 10.0);
+  EXPECT_LE(tree.trunk_length, 16.0);
+  // 30 (0.2 + 0.8 l / (trunk 0.3)) of each limb of length l; rounded for each of the fifty.
+  EXPECT_NEAR(static_cast<double>(tree.levels[2].count), tree.expected_second, 50 * 0.5);
+  // 25 (0.5 + 0.5 offset / length), on average three quarters of 25.
+  EXPECT_NEAR(static_cast<double>(tree.leaves) / static_cast<double>(tree.levels[2].count), 0.75 * 25, 1.0);
+  // Radius = length x Ratio, without the flare, and a child's by the ratio of lengths to the power.
+  EXPECT_NEAR(tree.trunk_radius, tree.trunk_length * 0.015 * flared(0.6, 0), 1e-4);
+}
+
+TEST(WeberPenn, KeepsItsTrunkWhenBranchesHaveASeedOfTheirOwn) {
+  TreeParams params;
+  params.seeds.trunk = 5;
+  Skeletons one(params, 1), other(params, 2);
+  EXPECT_EQ(one.trunk(), other.trunk());
+  EXPECT_NE(one.tips(), other.tips());
+}
+
+TEST(WeberPenn, KeepsItsLimbsWhenLeavesHaveASeedOfTheirOwn) {
+  TreeParams params;
+  params.seeds.trunk = 5;
+  params.seeds.branches = 6;
+  Skeletons one(params, 1), other(params, 2);
+  EXPECT_EQ(one.tips(), other.tips());
+}
+
+TEST(WeberPenn, EndsInsideTheEnvelopeWhereItIsPruned) {
+  TreeParams params;
+  params.PruneRatio = 1;
+  params.PruneWidth = 0.15;
+  Skeletons pruned(params, 3);
+  params.PruneRatio = 0;
+  Skeletons free(params, 3);
+  EXPECT_LT(pruned.widest(), 0.7F * free.widest());
+}
+
+TEST(WeberPenn, LetsTheTrunkAloneWhenItsBranchesChange) {
+  TreeParams params;
+  Skeletons before(params, 9);
+  params.branches_2 = 3;
+  params.curve_1 = 20;
+  Skeletons after(params, 9);
+  EXPECT_EQ(before.trunk_ends(), after.trunk_ends());
+}
+
+}  // namespace
+}  // namespace seedmesh::tree
