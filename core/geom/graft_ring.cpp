@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "core/geom/graft_writer.h"
+
+namespace seedmesh {
+namespace {
+
+constexpr float pi = static_cast<float>(math::pi);
+
+}  // namespace
+
+GraftWriter::Plane GraftWriter::plane_at(float at, std::size_t piece) const {
+  Plane plane;
+  plane.at = at;
+  plane.tangent = axis_.along[piece];
+  plane.centre = axis_.point[piece] + plane.tangent * (at - axis_.at[piece]);
+  plane.u = axis_.u[piece];
+  plane.v = axis_.v(piece);
+  const float length = axis_.at[piece + 1] - axis_.at[piece];
+  plane.radius = axis_.radius_at(std::clamp(at, axis_.at[piece], axis_.at[piece + 1]), piece);
+  plane.slope = (axis_.radius[piece] - axis_.radius[piece + 1]) / length;
+  return plane;
+}
+
+GraftWriter::Plane GraftWriter::plane_of(const Band& band) const {
+  Plane plane = plane_at(band.at, band.piece);
+  if (!band.is_bend || band.piece == 0) return plane;
+  const glm::vec3 &before = axis_.along[band.piece - 1], &after = axis_.along[band.piece];
+  plane.tangent = math::unit(before + after, after);
+  // Halfway back from the frame of the later piece: the least turn that takes its axis to the tangent.
+  const float cosine = glm::dot(after, plane.tangent);
+  glm::vec3 u = axis_.u[band.piece];
+  u -= (after + plane.tangent) * (glm::dot(u, plane.tangent) / (1 + cosine));
+  u -= plane.tangent * glm::dot(u, plane.tangent);
+  plane.u = math::unit(u, any_aside(plane.tangent));
+  plane.v = glm::cross(plane.tangent, plane.u);
+  const float length = axis_.at[band.piece] - axis_.at[band.piece - 1];
+  plane.slope = 0.5F * (plane.slope + (axis_.radius[band.piece - 1] - axis_.radius[band.piece]) / length);
+  return plane;
+}
+
+/// The factor of the radius that ribs make.
+float GraftWriter::ribbed(float angle) const {
+  if (axis_.order != 0 || context_.options.lobes == 0) return 1;
+  const double at = static_cast<double>(angle) * context_.options.lobes;
+  return 1 + context_.options.lobe_depth * static_cast<float>(math::sin(at));
+}
+
+std::uint32_t GraftWriter::vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv,
+                                  std::uint32_t group) {
+  const auto index = static_cast<std::uint32_t>(mesh_.position.size());
+  mesh_.position.push_back(position + 0.0F);
+  mesh_.normal.push_back(normal + 0.0F);
+  mesh_.uv[0].push_back(glm::vec2(uv.x, uv.y * context_.options.v_scale) + 0.0F);
+  group_.push_back(group);
+  return index;
+}
+
+std::uint32_t GraftWriter::ring_corner(const Plane& plane, float angle, glm::vec2 direction) {
+  const float factor = ribbed(angle);
+  const glm::vec3 out = plane.u * direction.x + plane.v * direction.y;
+  glm::vec3 normal = out + plane.tangent * plane.slope;
+  if (factor != 1) {
+    const double at = static_cast<double>(angle) * context_.options.lobes;
+    const float fall = context_.options.lobe_depth * static_cast<float>(context_.options.lobes) *
+                       static_cast<float>(math::cos(at)) / factor;
+    normal -= (plane.v * direction.x - plane.u * direction.y) * fall;
+  }
+  return vertex(plane.centre + out * (plane.radius * factor), math::unit(normal, out),
+                {plane.radius * angle, plane.at}, none);
+}
+
+/// The angle within half a turn of the seam.
+float GraftWriter::by_seam(float angle) const {
+  while (angle >= seam_ + pi) angle -= 2 * pi;
+  while (angle < seam_ - pi) angle += 2 * pi;
+  return angle;
+}
+
+std::uint32_t GraftWriter::group_for(const LoopPoint& point, std::uint32_t child) {
+  const auto group = static_cast<std::uint32_t>(group_normal_.size());
+  group_normal_.push_back(glm::vec3(0));  // of the parent's faces
+  group_normal_.push_back(glm::vec3(0));  // of the child's
+  group_limb_.push_back(child);
+  loop_vertices_.push_back({point.position, point.phase, point.reach, group + 1});
+  return group;
+}
+
+/// The vertex of a corner, beyond the seam or before it.
+std::uint32_t GraftWriter::vertex_of(Mark& mark, const Plane& plane, bool is_beyond) {
+  std::uint32_t& made = mark.vertex[is_beyond ? 1 : 0];
+  if (made != none) return made;
+  const float angle = mark.angle + (is_beyond ? 2 * pi : 0);
+  if (mark.point) {
+    const float height = std::clamp(mark.point->height, 0.0F, axis_.length());
+    const float radius = axis_.radius_at(height, axis_.piece_at(height, 0));
+    made = vertex(mark.point->position, {0, 0, 0}, {radius * angle, mark.point->height}, mark.group);
+  } else {
+    made = ring_corner(plane, angle, mark.direction);
+  }
+  return made;
+}
+
+/// One side of a ring in order, from the corner that is nearest to the seam all round to it again.
+void GraftWriter::go_round(std::vector<std::uint32_t>& order, const Plane& plane, Corners& out) {
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return marks_[a].angle != marks_[b].angle ? marks_[a].angle < marks_[b].angle : a < b;
+  });
+  std::size_t start = 0;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (std::abs(marks_[order[i]].angle - seam_) < std::abs(marks_[order[start]].angle - seam_)) start = i;
+  }
+  out.clear();
+  for (std::size_t i = 0; i <= order.size(); ++i) {
+    const std::size_t at = (start + i) % order.size();
+    const bool is_beyond = at < start || i == order.size();
+    Mark& mark = marks_[order[at]];
+    out.push_back({mark.angle + (is_beyond ? 2 * pi : 0), vertex_of(mark, plane, is_beyond)});
+  }
+}
+
+/// The corners of a ring that nothing leaves.
+void GraftWriter::plain_ring(const Plane& plane, Corners& out) {
+  const int sides = sides_for(plane.radius);
+  const float step = 2 * pi / static_cast<float>(sides);
+  const auto& circle = circles_[static_cast<std::size_t>(sides)];
+  out.clear();
+  for (int i = 0; i <= sides; ++i) {
+    const glm::vec2 c = circle[static_cast<std::size_t>(i % sides)];
+    const glm::vec2 direction{c.x * seam_turn_.x - c.y * seam_turn_.y,
+                              c.x * seam_turn_.y + c.y * seam_turn_.x};
+    const float angle = seam_ + step * static_cast<float>(i);
+    out.push_back({angle, ring_corner(plane, angle, direction)});
+  }
+}
+
+/// A ring that others leave: `lower_` for the strip below, `upper_` for the one above, which differ there.
+void GraftWriter::open_ring(const Plane& plane, const Band& band) {
+  marks_.clear();
+  lower_order_.clear();
+  upper_order_.clear();
+  const int sides = sides_for(plane.radius);
+  const float step = 2 * pi / static_cast<float>(sides);
+  const auto& circle = circles_[static_cast<std::size_t>(sides)];
+  const auto add = [&](const Mark& mark, bool below, bool above) {
+    if (below) lower_order_.push_back(static_cast<std::uint32_t>(marks_.size()));
+    if (above) upper_order_.push_back(static_cast<std::uint32_t>(marks_.size()));
+    marks_.push_back(mark);
+  };
+  for (int i = 0; i < sides; ++i) {
+    const float angle = by_seam(seam_ + step * static_cast<float>(i));
+    const bool is_taken = std::any_of(band.openings.begin(), band.openings.end(), [&](std::uint32_t number) {
+      const Opening& opening = plan_.opening[number];
+      const float off = std::abs(by_seam(angle - opening.middle + seam_) - seam_);
+      return off < opening.half + std::min(0.35F * step, 0.25F);
+    });
+    if (is_taken) continue;
+    const glm::vec2 c = circle[static_cast<std::size_t>(i)];
+    Mark mark;
+    mark.angle = angle;
+    mark.direction = {c.x * seam_turn_.x - c.y * seam_turn_.y, c.x * seam_turn_.y + c.y * seam_turn_.x};
+    add(mark, true, true);
+  }
+  for (const std::uint32_t number : band.openings) {
+    const Opening& opening = plan_.opening[number];
+    Loop& loop = loops_[opening.limb];
+    loop = {static_cast<std::uint32_t>(loop_vertices_.size()),
+            0,
+            opening.radius,
+            opening.child_reach,
+            opening.child_u,
+            opening.is_fork};
+    const auto put = [&](const LoopPoint& point, bool below, bool above) {
+      Mark mark;
+      mark.angle = by_seam(opening.middle + point.angle);
+      mark.point = &point;
+      mark.group = group_for(point, opening.limb);
+      add(mark, below, above);
+    };
+    put(opening.first, true, true);
+    put(opening.last, true, true);
+    for (const LoopPoint& point : opening.lower) put(point, true, false);
+    for (const LoopPoint& point : opening.upper) put(point, false, true);
+    loop.count = static_cast<std::uint32_t>(loop_vertices_.size()) - loop.first;
+  }
+  go_round(lower_order_, plane, lower_);
+  go_round(upper_order_, plane, upper_);
+}
+
+void GraftWriter::set_seam(float angle) {
+  seam_ = angle;
+  const math::SinCos turn = math::sincos(static_cast<double>(angle));
+  seam_turn_ = {static_cast<float>(turn.cos), static_cast<float>(turn.sin)};
+}
+
+}  // namespace seedmesh
