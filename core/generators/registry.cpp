@@ -4,8 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/generators/lsystem/lsystem.h"
+#include "core/generators/terrain/terrain.h"
 #include "core/generators/tree/tree.h"
 #include "generated/params/lsystem.h"
+#include "generated/params/terrain.h"
 #include "generated/params/tree.h"
 
 namespace seedmesh {
@@ -47,6 +49,23 @@ struct Row {
             .appraise = appraise,
             .vocabulary = vocabulary_own};
   }
+
+  /// For those that have forms of their own.
+  template <auto encode_own>
+  static constexpr Generator named(std::string_view name, std::span<const OwnForm> forms) {
+    Generator generator = named(name);
+    generator.forms = forms;
+    generator.encode = [](const Params& params, std::string_view format, Job& job) {
+      return encode_own(own(params), format, job);
+    };
+    return generator;
+  }
+};
+
+constexpr OwnForm terrain_forms[] = {
+    {"png16", "image/png", "png"},  {"png8", "image/png", "png"},
+    {"rgb24", "image/png", "png"},  {"rgba32", "image/png", "png"},
+    {"r16", "application/octet-stream", "r16"},
 };
 
 constexpr Generator rows[] = {
@@ -54,6 +73,8 @@ constexpr Generator rows[] = {
         lsystem::appraise, lsystem::vocabulary>::named("lsystem"),
     Row<TreeParams, read_tree, write_tree, tree::check, tree::generate, tree::derive, tree::appraise,
         tree::vocabulary>::named("tree"),
+    Row<TerrainParams, read_terrain, write_terrain, terrain::check, terrain::generate, terrain::derive,
+        terrain::appraise, terrain::vocabulary>::named<terrain::encode>("terrain", terrain_forms),
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/array.h"
 #include "core/base/job.h"
 #include "core/generators/appraisal.h"
 #include "core/schema/child.h"
@@ -14,6 +15,13 @@
 #include "core/schema/json.h"
 
 namespace seedmesh {
+
+/// A form of an answer that is no model: a height map, a cloud of points.
+struct OwnForm {
+  std::string_view format;  ///< as output.format names it
+  std::string_view media_type;
+  std::string_view extension;
+};
 
 /// The functions of one generator, with its parameters behind a pointer that only they know the type of.
 struct Generator {
@@ -38,6 +46,10 @@ struct Generator {
   Result<Appraisal> (*appraise)(const Params& params, const Job& job);
   /// The words of its notation, by group: {"turtle": [{symbol, parameters, text, example}]}.
   Json (*vocabulary)();
+
+  /// Forms beside those of models, and what makes one of them; null where there are none.
+  std::span<const OwnForm> forms = {};
+  Result<Array<std::uint8_t>> (*encode)(const Params& params, std::string_view format, Job& job) = nullptr;
 };
 
 /// In the order of the menu.

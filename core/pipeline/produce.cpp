@@ -27,6 +27,14 @@ const Form& form_of(const Request& request) {
   return forms[0];
 }
 
+/// The generator's own form that the request asks for; null where it asks for a model.
+const OwnForm* own_form_of(const Request& request) {
+  for (const OwnForm& form : request.body().generator->forms) {
+    if (form.format == request.format()) return &form;
+  }
+  return nullptr;
+}
+
 /// Generators point into their parameters; a request holds these under "/parameters".
 std::string in_request(std::string pointer) { return pointer.empty() ? pointer : "/parameters" + pointer; }
 
@@ -89,10 +97,27 @@ std::vector<Product::Span> timing_of(const Job& job) {
   return spans;
 }
 
+/// What is no model comes from its generator as one file.
+Result<Product> produce_own(const Request& request, const OwnForm& form, Job& job) {
+  Result<Array<std::uint8_t>> file =
+      request.body().generator->encode(request.body().params, form.format, job);
+  if (!file) return std::move(file).error();
+  job.spend(Resource::output_bytes, file->size());
+  Product product;
+  product.media_type = form.media_type;
+  product.extension = form.extension;
+  auto kept = std::make_shared<const Array<std::uint8_t>>(*std::move(file));
+  const auto bytes = std::as_bytes(kept->span());
+  product.payload.add(std::move(kept), bytes);
+  product.timing = timing_of(job);
+  return product;
+}
+
 }  // namespace
 
 Result<Product> produce(const Request& request, Job& job, TextureStore* /*texture_store*/) {
   return guarded<Product>([&]() -> Result<Product> {
+    if (const OwnForm* form = own_form_of(request)) return produce_own(request, *form, job);
     Result<Model> model = request.body().generator->generate(request.body().params, job);
     if (!model) return std::move(model).error();
     finish(*model, job);

@@ -49,6 +49,23 @@ Generator::Params parameters_of(const Json& body, const Generator& generator, co
   return params;
 }
 
+/// A form that only other generators have is refused.
+void add_form_fault(const Generator& generator, const OutputParams& output, Faults& faults) {
+  constexpr std::string_view of_models[] = {"glb", "gltf", "zip"};
+  const std::string_view format = text_of(output.format);
+  std::string known;
+  for (const std::string_view each : of_models) {
+    if (each == format) return;
+    known += std::string(known.empty() ? "" : ", ") + std::string(each);
+  }
+  for (const OwnForm& form : generator.forms) {
+    if (form.format == format) return;
+    known += ", " + std::string(form.format);
+  }
+  faults.add({"/output/format", "found \"" + std::string(format) + "\"; the forms of " +
+                                    std::string(generator.name) + " are " + known});
+}
+
 }  // namespace
 
 std::string_view Request::generator() const { return body_->generator->name; }
@@ -68,6 +85,7 @@ Result<Request> read_request_body(const Json& json, const Limits& limits) {
   if (body.generator && (!merged.contains("parameters") || merged["parameters"].is_object())) {
     body.params = parameters_of(merged, *body.generator, limits, faults);
   }
+  if (body.generator) add_form_fault(*body.generator, frame.output, faults);
   if (!faults.empty()) return Error{Code::invalid, faults.take()};
   body.output = frame.output;
   body.seed = frame.seed;
@@ -87,6 +105,7 @@ Result<Request> with_format(const Request& request, std::string_view format) {
   Faults faults;
   Request::Body body = request.body();
   body.output = read_output(output, "/output", faults);
+  if (faults.empty()) add_form_fault(*body.generator, body.output, faults);
   if (!faults.empty()) return Error{Code::invalid, faults.take()};
   body.canonical = canonical_request(body);
   return Request(std::make_shared<const Request::Body>(std::move(body)));

@@ -1,0 +1,233 @@
+#include "core/generators/terrain/colors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "core/base/parallel.h"
+#include "core/generators/terrain/noise.h"
+#include "core/model/model.h"
+
+namespace seedmesh::terrain {
+namespace {
+
+constexpr std::size_t rows_a_chunk = 32;
+
+struct Srgb {
+  std::uint8_t r, g, b;
+};
+
+/// Colours and the heights (shares of the range above water) and slopes at which they begin.
+struct Ramp {
+  Srgb bed, shore, low, high, cliff, peak;
+  float high_line, peak_line;  ///< above 1: never
+  float cliff_from, cliff_to;  ///< rise in a run of one
+};
+
+// In the order of PaletteName; `grey` and `none` have no ramp.
+constexpr std::array<Ramp, 6> ramps{{
+    {{70, 84, 84},
+     {178, 166, 132},
+     {84, 106, 52},
+     {116, 116, 78},
+     {112, 106, 100},
+     {240, 243, 248},
+     0.42F,
+     0.72F,
+     0.55F,
+     1.0F},
+    {{120, 104, 84},
+     {214, 186, 140},
+     {206, 168, 114},
+     {182, 124, 78},
+     {150, 88, 58},
+     {206, 156, 110},
+     0.45F,
+     0.85F,
+     0.5F,
+     0.9F},
+    {{52, 110, 112},
+     {232, 216, 172},
+     {62, 116, 46},
+     {42, 84, 40},
+     {104, 96, 86},
+     {128, 122, 110},
+     0.35F,
+     0.92F,
+     0.75F,
+     1.25F},
+    {{92, 116, 132},
+     {186, 196, 204},
+     {206, 214, 222},
+     {232, 238, 244},
+     {96, 102, 112},
+     {250, 252, 255},
+     0.3F,
+     0.55F,
+     0.6F,
+     1.0F},
+    {{52, 50, 52},
+     {84, 78, 74},
+     {70, 66, 62},
+     {52, 48, 48},
+     {38, 35, 36},
+     {128, 62, 44},
+     0.4F,
+     0.93F,
+     0.7F,
+     1.2F},
+    {{84, 83, 82},
+     {110, 108, 106},
+     {122, 120, 118},
+     {150, 148, 145},
+     {98, 96, 95},
+     {172, 170, 167},
+     0.5F,
+     0.85F,
+     0.45F,
+     0.9F},
+}};
+
+glm::vec3 linear(const Srgb& color) {
+  return {linear_of_srgb(color.r), linear_of_srgb(color.g), linear_of_srgb(color.b)};
+}
+
+float ease(float from, float to, float value) {
+  const float t = std::clamp((value - from) / (to - from), 0.0F, 1.0F);
+  return t * t * (3 - 2 * t);
+}
+
+glm::vec3 blend(const glm::vec3& a, const glm::vec3& b, float share) { return a + (b - a) * share; }
+
+}  // namespace
+
+Looks::Looks(PaletteName palette, const Range& range, float level)
+    : palette_(palette), range_(range), level_(level) {
+  water_ = level > range.low;
+  const float ground = water_ ? std::min(level, range.high) : range.low;
+  span_ = std::max(range.high - ground, 1e-6F);
+}
+
+Looks::Shares Looks::shares(const Site& site) const {
+  const Ramp& ramp = ramps[std::min(static_cast<std::size_t>(palette_), ramps.size() - 1)];
+  const float share = (site.height - (range_.high - span_)) / span_ + site.patch * 0.045F;
+  Shares all{};
+  all.high = ease(ramp.high_line - 0.22F, ramp.high_line + 0.22F, share);
+  all.cliff = ease(ramp.cliff_from, ramp.cliff_to, site.slope + site.patch * 0.08F);
+  // Snow stays in hollows and not on cliffs.
+  all.peak = ease(ramp.peak_line - 0.08F, ramp.peak_line + 0.08F, share + site.hollow * 0.15F) *
+             (1 - 0.85F * all.cliff);
+  if (water_) {
+    const float above = (site.height - level_) / span_ + site.patch * 0.008F;
+    all.shore = (1 - ease(0.012F, 0.035F, above)) * (1 - 0.7F * all.cliff);
+    all.bed = 1 - ease(-0.06F, 0.0F, above);
+  }
+  return all;
+}
+
+Cover Looks::cover(const Site& site) const {
+  const Shares all = shares(site);
+  Cover cover{.rock = 0, .grass = 1, .sand = 0, .snow = 0};
+  const auto lay = [&cover](float share, float Cover::*kind) {
+    for (float Cover::*each : {&Cover::rock, &Cover::grass, &Cover::sand, &Cover::snow})
+      cover.*each *= 1 - share;
+    cover.*kind += share;
+  };
+  lay(0.35F * all.high, &Cover::rock);
+  lay(all.cliff, &Cover::rock);
+  lay(all.peak, &Cover::snow);
+  lay(std::max(all.shore, all.bed), &Cover::sand);
+  return cover;
+}
+
+glm::vec3 Looks::color(const Site& site) const {
+  if (palette_ == PaletteName::none) return glm::vec3(1);
+  if (palette_ == PaletteName::grey) {
+    const float share = (site.height - range_.low) / std::max(range_.high - range_.low, 1e-6F);
+    return glm::vec3(0.05F + 0.85F * std::clamp(share, 0.0F, 1.0F));
+  }
+  const Ramp& ramp = ramps[static_cast<std::size_t>(palette_)];
+  const Shares all = shares(site);
+  glm::vec3 color = blend(linear(ramp.low), linear(ramp.high), all.high);
+  color = blend(color, linear(ramp.cliff), all.cliff);
+  color = blend(color, linear(ramp.peak), all.peak);
+  color = blend(color, linear(ramp.shore), all.shore);
+  color = blend(color, linear(ramp.bed), all.bed);
+  // Hollows get less of the sky, ridges more; patches are uneven.
+  const float light = std::clamp(1 - site.hollow * 0.9F, 0.55F, 1.25F) * (1 + site.patch * 0.08F);
+  return glm::clamp(color * light, glm::vec3(0), glm::vec3(1));
+}
+
+Sites::Sites(const Field& field, const Window& world, Rng rng, const Job& job)
+    : field_(field), reach_(std::max(1, field.width / 96)), per_cell_(static_cast<float>(1 / field.cell)) {
+  NoisePlan plan;
+  plan.octaves = 4;
+  plan.gain = 0.7;
+  plan.amplitude = 0.7;
+  plan.wavelength = std::max(8.0, field.width / 10.0) * field.cell;
+  patches_ = noisy(plan, {world.x, world.z, field.width, field.depth}, field.cell, rng.at("patches"), job);
+}
+
+glm::vec2 Sites::gradient(std::int32_t x, std::int32_t z) const {
+  const std::int32_t m = field_.margin;
+  const std::int32_t west = std::max(x - 1, -m), east = std::min(x + 1, field_.width - 1 + m);
+  const std::int32_t north = std::max(z - 1, -m), south = std::min(z + 1, field_.depth - 1 + m);
+  return {(field_.at(east, z) - field_.at(west, z)) * per_cell_ / static_cast<float>(east - west),
+          (field_.at(x, south) - field_.at(x, north)) * per_cell_ / static_cast<float>(south - north)};
+}
+
+Site Sites::at(std::int32_t x, std::int32_t z) const {
+  const glm::vec2 slope = gradient(x, z);
+  const std::int32_t west = std::max(x - reach_, 0), east = std::min(x + reach_, field_.width - 1);
+  const std::int32_t north = std::max(z - reach_, 0), south = std::min(z + reach_, field_.depth - 1);
+  const float here = field_.at(x, z);
+  const float around =
+      ((field_.at(west, z) + field_.at(east, z)) + (field_.at(x, north) + field_.at(x, south))) * 0.25F;
+  Site site;
+  site.height = here;
+  site.slope = std::sqrt(slope.x * slope.x + slope.y * slope.y);
+  site.hollow = (around - here) * per_cell_ / static_cast<float>(reach_);
+  site.patch = patches_.at(x, z);
+  return site;
+}
+
+Array<glm::u8vec4> vertex_colors(const Field& field, const Sites& sites, const Looks& looks, const Job& job) {
+  Array<glm::u8vec4> colors(job,
+                            static_cast<std::size_t>(field.width) * static_cast<std::size_t>(field.depth));
+  parallel_for(job, static_cast<std::size_t>(field.depth), rows_a_chunk,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                 job.check();
+                 for (std::size_t z = begin; z < end; ++z) {
+                   glm::u8vec4* row = colors.data() + z * static_cast<std::size_t>(field.width);
+                   for (std::int32_t x = 0; x < field.width; ++x) {
+                     const glm::vec3 color =
+                         looks.color(sites.at(x, static_cast<std::int32_t>(z))) * 255.0F + 0.5F;
+                     row[x] = {math::to_int32(static_cast<double>(color.x)),
+                               math::to_int32(static_cast<double>(color.y)),
+                               math::to_int32(static_cast<double>(color.z)), 255};
+                   }
+                 }
+               });
+  return colors;
+}
+
+glm::u8vec3 srgb_of(const glm::vec3& linear_color) {
+  constexpr std::size_t steps = 4096;
+  static const auto table = [] {
+    std::array<std::uint8_t, steps + 1> all{};
+    for (std::size_t i = 0; i <= steps; ++i) {
+      const double value = static_cast<double>(i) / steps;
+      const double encoded = value <= 0.0031308 ? value * 12.92 : 1.055 * math::pow(value, 1 / 2.4) - 0.055;
+      all[i] = static_cast<std::uint8_t>(math::to_int32(encoded * 255 + 0.5));
+    }
+    return all;
+  }();
+  const auto encode = [&](float value) {
+    return table[static_cast<std::size_t>(
+        math::to_int32(static_cast<double>(std::clamp(value, 0.0F, 1.0F)) * steps + 0.5))];
+  };
+  return {encode(linear_color.x), encode(linear_color.y), encode(linear_color.z)};
+}
+
+}  // namespace seedmesh::terrain

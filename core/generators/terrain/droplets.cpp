@@ -1,0 +1,193 @@
+/// Hydraulic erosion by drops; see filters.h.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/base/math.h"
+#include "core/base/parallel.h"
+#include "core/generators/terrain/filters.h"
+
+namespace seedmesh::terrain {
+namespace {
+
+// Drops of one chunk share a list of what they did.
+constexpr std::size_t drops_a_chunk = 64;
+// A batch has one drop for so many samples, so that drops of a batch seldom meet.
+constexpr std::size_t samples_a_drop = 256;
+constexpr std::size_t least_batch = 64, most_batch = 8192;
+// Bands of rows that take up what drops did, side by side.
+constexpr std::int32_t bands = 4;
+
+// Beyer's constants: gravity in samples a step squared, and a slope that even flat water carries on.
+constexpr float gravity = 4;
+constexpr float least_slope = 0.01F;
+
+/// Ground taken (negative) or laid down at a place, in units of a sample's width.
+struct Change {
+  float x, z, amount;
+};
+
+struct BrushCell {
+  std::int32_t dx, dz;
+  float weight;
+};
+
+/// Weights that fall from the middle to `radius` and sum to 1.
+std::vector<BrushCell> brush_of(double radius) {
+  const std::int32_t reach = math::to_int32(std::ceil(radius));
+  std::vector<BrushCell> cells;
+  double sum = 0;
+  for (std::int32_t dz = -reach; dz <= reach; ++dz) {
+    for (std::int32_t dx = -reach; dx <= reach; ++dx) {
+      const double weight = radius - std::sqrt(static_cast<double>(dx * dx + dz * dz));
+      if (weight <= 0 && (dx != 0 || dz != 0)) continue;
+      cells.push_back({dx, dz, static_cast<float>(std::max(weight, 1e-3))});
+      sum += std::max(weight, 1e-3);
+    }
+  }
+  for (BrushCell& cell : cells) cell.weight /= static_cast<float>(sum);
+  return cells;
+}
+
+/// Height and slope at a place between samples.
+struct Ground {
+  float height, east, south;
+};
+
+class Drops {
+ public:
+  Drops(const Field& field, const DropletPlan& plan, Rng rng)
+      : field_(field), plan_(plan), rng_(rng), scale_(static_cast<float>(1 / field.cell)) {}
+
+  void run(std::size_t drop, std::vector<Change>& changes) const {
+    Rng rng = rng_.at(drop);
+    const auto wide = static_cast<float>(field_.width - 1), deep = static_cast<float>(field_.depth - 1);
+    float x = static_cast<float>(rng.unit()) * wide, z = static_cast<float>(rng.unit()) * deep;
+    x = std::min(x, wide - 1e-3F);
+    z = std::min(z, deep - 1e-3F);
+    float dx = 0, dz = 0, speed = 1, water = 1, load = 0;
+    const auto inertia = static_cast<float>(plan_.inertia);
+    Ground here = ground(x, z);
+    const int steps = static_cast<int>(math::to_int32(plan_.lifetime));
+    for (int step = 0; step < steps; ++step) {
+      dx = dx * inertia - here.east * (1 - inertia);
+      dz = dz * inertia - here.south * (1 - inertia);
+      const float length = std::sqrt(dx * dx + dz * dz);
+      if (!(length > 1e-9F)) return;
+      dx /= length;
+      dz /= length;
+      const float to_x = x + dx, to_z = z + dz;
+      if (!(to_x >= 0 && to_x < wide && to_z >= 0 && to_z < deep)) return;
+      const Ground there = ground(to_x, to_z);
+      const float rise = there.height - here.height;
+      const float bearable =
+          std::max(-rise, least_slope) * speed * water * static_cast<float>(plan_.capacity);
+      if (rise > 0 || load > bearable) {
+        const float laid =
+            rise > 0 ? std::min(rise, load) : (load - bearable) * static_cast<float>(plan_.deposition);
+        load -= laid;
+        changes.push_back({x, z, laid});
+      } else {
+        const float taken = std::min((bearable - load) * static_cast<float>(plan_.erosion), -rise);
+        load += taken;
+        changes.push_back({x, z, -taken});
+      }
+      speed = std::sqrt(std::max(0.0F, speed * speed - rise * gravity));
+      water *= 1 - static_cast<float>(plan_.evaporation);
+      x = to_x;
+      z = to_z;
+      here = there;
+    }
+  }
+
+ private:
+  Ground ground(float x, float z) const {
+    const auto i = static_cast<std::int32_t>(x), j = static_cast<std::int32_t>(z);
+    const float u = x - static_cast<float>(i), v = z - static_cast<float>(j);
+    const float* north = field_.row(j) + i;
+    const float* south = field_.row(j + 1) + i;
+    const float nw = north[0] * scale_, ne = north[1] * scale_, sw = south[0] * scale_,
+                se = south[1] * scale_;
+    const float west = nw + (sw - nw) * v, east = ne + (se - ne) * v;
+    return {west + (east - west) * u, east - west, (sw - nw) + ((se - ne) - (sw - nw)) * u};
+  }
+
+  const Field& field_;
+  const DropletPlan& plan_;
+  Rng rng_;
+  float scale_;
+};
+
+/// Adds changes, in their order, to the rows [begin, end).
+class Spread {
+ public:
+  /// Nothing is dug below the lowest nor piled above the highest height that there was: where many drops of a
+  /// batch meet on little ground, what they do adds up to more than any of them saw.
+  Spread(Field& field, const Range& range, const std::vector<BrushCell>& brush, std::int32_t reach)
+      : field_(field), range_(range), brush_(brush), reach_(reach), scale_(static_cast<float>(field.cell)) {}
+
+  void add(const Change& change, std::int32_t begin, std::int32_t end) const {
+    const auto i = static_cast<std::int32_t>(change.x), j = static_cast<std::int32_t>(change.z);
+    const float amount = change.amount * scale_;
+    if (change.amount < 0) {
+      if (j + reach_ < begin || j - reach_ >= end) return;
+      for (const BrushCell& cell : brush_) {
+        const std::int32_t x = i + cell.dx, z = j + cell.dz;
+        if (z >= begin && z < end && x >= 0 && x < field_.width)
+          change_by(field_.at(x, z), amount * cell.weight);
+      }
+      return;
+    }
+    const float u = change.x - static_cast<float>(i), v = change.z - static_cast<float>(j);
+    const float weights[2] = {1 - v, v};
+    for (std::int32_t k = 0; k < 2; ++k) {
+      const std::int32_t z = j + k;
+      if (z < begin || z >= end) continue;
+      float* row = field_.row(z) + i;
+      change_by(row[0], amount * weights[k] * (1 - u));
+      change_by(row[1], amount * weights[k] * u);
+    }
+  }
+
+ private:
+  void change_by(float& height, float amount) const {
+    height = std::clamp(height + amount, range_.low, range_.high);
+  }
+
+  Field& field_;
+  Range range_;
+  const std::vector<BrushCell>& brush_;
+  std::int32_t reach_;
+  float scale_;
+};
+
+}  // namespace
+
+void erode(Field& field, const DropletPlan& plan, Rng rng, const Job& job) {
+  const double radius = std::clamp(plan.radius, 1.0, 8.0);
+  const std::vector<BrushCell> brush = brush_of(radius);
+  const std::size_t samples = static_cast<std::size_t>(field.width) * static_cast<std::size_t>(field.depth);
+  const std::size_t batch = std::clamp(samples / samples_a_drop, least_batch, most_batch);
+  const auto total = static_cast<std::size_t>(plan.droplets);
+  const std::int32_t band = (field.depth + bands - 1) / bands;
+  const Range range = range_of(field, job);
+  std::vector<std::vector<Change>> changes(chunk_count(batch, drops_a_chunk));
+  for (std::size_t first = 0; first < total; first += batch) {
+    job.check();
+    const std::size_t count = std::min(batch, total - first);
+    for (std::vector<Change>& list : changes) list.clear();
+    const Drops drops(field, plan, rng.at("drops"));
+    parallel_for(job, count, drops_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
+      for (std::size_t drop = begin; drop < end; ++drop) drops.run(first + drop, changes[index]);
+    });
+    const Spread spread(field, range, brush, math::to_int32(std::ceil(radius)));
+    parallel_for(job, static_cast<std::size_t>(bands), 1, [&](std::size_t begin, std::size_t, std::size_t) {
+      const std::int32_t top = static_cast<std::int32_t>(begin) * band;
+      for (const std::vector<Change>& list : changes) {
+        for (const Change& change : list) spread.add(change, top, std::min(field.depth, top + band));
+      }
+    });
+  }
+}
+
+}  // namespace seedmesh::terrain

@@ -1,0 +1,284 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/generators/terrain/scan.h"
+#include "core/generators/terrain/triangulation.h"
+
+namespace seedmesh::terrain {
+namespace {
+
+constexpr std::uint32_t nobody = 0xFFFFFFFFU;
+// Insertions between two looks at the clock.
+constexpr std::size_t look = 256;
+
+/// Is d inside the circle through a, b, c (counter-clockwise)? Exact: sides are below 2^15.
+bool in_circle(Place a, Place b, Place c, Place d) {
+  const auto from = [&](Place p) { return std::pair{std::int64_t{p.x} - d.x, std::int64_t{p.z} - d.z}; };
+  const auto [ax, az] = from(a);
+  const auto [bx, bz] = from(b);
+  const auto [cx, cz] = from(c);
+  const std::int64_t aa = ax * ax + az * az, bb = bx * bx + bz * bz, cc = cx * cx + cz * cz;
+  // In x east, z south, counter-clockwise from above is clockwise on paper: hence "< 0".
+  return aa * (bx * cz - bz * cx) - bb * (ax * cz - az * cx) + cc * (ax * bz - az * bx) < 0;
+}
+
+/// A Delaunay triangulation that samples are put into. Edge 3 t + k runs from corner k of triangle t to the
+/// next.
+class Network {
+ public:
+  Network(const Field& field, Job& job)
+      : field_(field),
+        meter_(job, Resource::triangles),
+        samples_(job),
+        corners_(job),
+        twins_(job),
+        worst_(job),
+        errors_(job) {
+    const std::int32_t east = field.width - 1, south = field.depth - 1;
+    for (const Place at : {Place{0, 0}, Place{0, south}, Place{east, south}, Place{east, 0}}) add_sample(at);
+    meter_.spend(2);
+    add_triangle({0, 1, 2}, {nobody, nobody, nobody});
+    add_triangle({0, 2, 3}, {nobody, nobody, nobody});
+    link(2, 3);
+    changed_ = {0, 1};
+  }
+
+  /// Puts a sample in that lies in or on the border of triangle t and is no corner of it.
+  void insert(std::uint32_t t, Place at) {
+    const std::uint32_t added = add_sample(at);
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      if (turn(corner(3 * t + k), corner(next(3 * t + k)), at) == 0) return split_edge(3 * t + k, added);
+    }
+    split_triangle(t, added);
+  }
+
+  /// The triangle that a place lies in or on the border of, walked to from the one made last.
+  std::uint32_t triangle_at(Place at) const {
+    auto t = static_cast<std::uint32_t>(errors_.size() - 1);
+    for (std::uint32_t k = 0; k < 3;) {
+      const std::uint32_t edge = 3 * t + k;
+      if (turn(corner(edge), corner(next(edge)), at) < 0 && twins_[edge] != nobody) {
+        t = twins_[edge] / 3;
+        k = 0;
+      } else {
+        ++k;
+      }
+    }
+    return t;
+  }
+
+  /// Triangles that changed since the last call; each once.
+  std::vector<std::uint32_t> take_changed() {
+    std::sort(changed_.begin(), changed_.end());
+    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    return std::exchange(changed_, {});
+  }
+
+  /// Finds the sample of triangle t that is off most. Samples of the border count where `with_border`.
+  void scan(std::uint32_t t, double max_error, bool with_border) {
+    const Place a = corner(3 * t), b = corner(3 * t + 1), c = corner(3 * t + 2);
+    errors_[t] = 0;
+    if (turn(a, b, c) <= 1) return;
+    const auto height = [&](Place p) { return static_cast<double>(field_.at(p.x, p.z)); };
+    const Plane plane = Plane::through(a, b, c, height(a), height(b), height(c));
+    double most = max_error;
+    Place worst;
+    const std::int32_t east = field_.width - 1, south = field_.depth - 1;
+    each_row_inside(a, b, c, [&](std::int32_t z, std::int32_t first, std::int32_t last) {
+      if (!with_border) {
+        if (z == 0 || z == south) return;
+        first = std::max(first, 1);
+        last = std::min(last, east - 1);
+      }
+      const float* row = field_.row(z);
+      const double start = plane.base + plane.south * z;
+      for (std::int32_t x = first; x <= last; ++x) {
+        const double off = std::abs(static_cast<double>(row[x]) - (start + plane.east * x));
+        if (off > most && !(Place{x, z} == a) && !(Place{x, z} == b) && !(Place{x, z} == c)) {
+          most = off;
+          worst = {x, z};
+        }
+      }
+    });
+    if (most > max_error) {
+      errors_[t] = static_cast<float>(most);
+      worst_[t] = worst;
+    }
+  }
+  float error(std::uint32_t t) const { return errors_[t]; }
+  Place worst(std::uint32_t t) const { return worst_[t]; }
+
+  Triangulation take() {
+    samples_.shrink_to_fit();
+    corners_.shrink_to_fit();
+    return {std::move(samples_), std::move(corners_)};
+  }
+
+ private:
+  static std::uint32_t next(std::uint32_t edge) { return edge % 3 == 2 ? edge - 2 : edge + 1; }
+  static std::uint32_t before(std::uint32_t edge) { return edge % 3 == 0 ? edge + 2 : edge - 1; }
+  Place corner(std::uint32_t edge) const { return place_of(samples_[corners_[edge]], field_.width); }
+
+  std::uint32_t add_sample(Place at) {
+    samples_.push_back(static_cast<std::uint32_t>(at.z * field_.width + at.x));
+    return static_cast<std::uint32_t>(samples_.size() - 1);
+  }
+  std::uint32_t add_triangle(const std::array<std::uint32_t, 3>& vertices,
+                             const std::array<std::uint32_t, 3>& twins) {
+    const auto t = static_cast<std::uint32_t>(errors_.size());
+    corners_.extend(3);
+    twins_.extend(3);
+    errors_.push_back(0);
+    worst_.push_back({});
+    set(t, vertices, twins);
+    return t;
+  }
+  void set(std::uint32_t t, const std::array<std::uint32_t, 3>& vertices,
+           const std::array<std::uint32_t, 3>& twins) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      corners_[3 * t + k] = vertices[k];
+      link(3 * t + k, twins[k]);
+    }
+    changed_.push_back(t);
+  }
+  void link(std::uint32_t edge, std::uint32_t twin) {
+    twins_[edge] = twin;
+    if (twin != nobody) twins_[twin] = edge;
+  }
+
+  void split_triangle(std::uint32_t t, std::uint32_t added) {
+    const std::uint32_t a = corners_[3 * t], b = corners_[3 * t + 1], c = corners_[3 * t + 2];
+    const std::uint32_t ab = twins_[3 * t], bc = twins_[3 * t + 1], ca = twins_[3 * t + 2];
+    meter_.spend(2);
+    set(t, {a, b, added}, {ab, nobody, nobody});
+    const std::uint32_t second = add_triangle({b, c, added}, {bc, nobody, 3 * t + 1});
+    const std::uint32_t third = add_triangle({c, a, added}, {ca, 3 * t + 2, 3 * second + 1});
+    legalize({3 * t, 3 * second, 3 * third});
+  }
+
+  /// Edge a-b of triangle (a, b, c), with (b, a, d) on its other side where there is one.
+  void split_edge(std::uint32_t edge, std::uint32_t added) {
+    const std::uint32_t t = edge / 3, twin = twins_[edge];
+    const std::uint32_t a = corners_[edge], b = corners_[next(edge)], c = corners_[before(edge)];
+    const std::uint32_t bc = twins_[next(edge)], ca = twins_[before(edge)];
+    meter_.spend(twin == nobody ? 1 : 2);
+    if (twin == nobody) {
+      set(t, {c, a, added}, {ca, nobody, nobody});
+      const std::uint32_t other = add_triangle({b, c, added}, {bc, 3 * t + 2, nobody});
+      return legalize({3 * t, 3 * other});
+    }
+    const std::uint32_t u = twin / 3, d = corners_[before(twin)];
+    const std::uint32_t ad = twins_[next(twin)], db = twins_[before(twin)];
+    set(t, {c, a, added}, {ca, nobody, nobody});
+    set(u, {d, b, added}, {db, nobody, nobody});
+    const std::uint32_t second = add_triangle({b, c, added}, {bc, 3 * t + 2, 3 * u + 1});
+    const std::uint32_t third = add_triangle({a, d, added}, {ad, 3 * u + 2, 3 * t + 1});
+    legalize({3 * t, 3 * u, 3 * second, 3 * third});
+  }
+
+  /// Flips edges opposite to the vertex just added until the circle of every triangle is empty.
+  void legalize(std::initializer_list<std::uint32_t> edges) {
+    left_.assign(edges);
+    while (!left_.empty()) {
+      const std::uint32_t edge = left_.back();
+      left_.pop_back();
+      const std::uint32_t twin = twins_[edge];
+      if (twin == nobody) continue;
+      const std::uint32_t t = edge / 3, u = twin / 3;
+      const std::uint32_t a = corners_[edge], b = corners_[next(edge)], added = corners_[before(edge)],
+                          d = corners_[before(twin)];
+      if (!in_circle(corner(edge), corner(next(edge)), corner(before(edge)), corner(before(twin)))) continue;
+      const std::uint32_t b_added = twins_[next(edge)], added_a = twins_[before(edge)];
+      const std::uint32_t a_d = twins_[next(twin)], d_b = twins_[before(twin)];
+      set(t, {a, d, added}, {a_d, nobody, added_a});
+      set(u, {d, b, added}, {d_b, b_added, 3 * t + 1});
+      left_.push_back(3 * t);
+      left_.push_back(3 * u);
+    }
+  }
+
+  const Field& field_;
+  Meter meter_;
+  Array<std::uint32_t> samples_, corners_, twins_;
+  Array<Place> worst_;
+  Array<float> errors_;
+  std::vector<std::uint32_t> changed_, left_;
+};
+
+/// The samples of one side of the border that a greedy line along it needs, ends left out.
+void refine_side(const Field& field, Place a, Place b, double max_error, std::vector<Place>& out) {
+  const std::int32_t steps = std::max(std::abs(b.x - a.x), std::abs(b.z - a.z));
+  if (steps < 2) return;
+  const Place step{(b.x - a.x) / steps, (b.z - a.z) / steps};
+  const double from = static_cast<double>(field.at(a.x, a.z)), to = static_cast<double>(field.at(b.x, b.z));
+  double most = max_error;
+  std::int32_t worst = 0;
+  for (std::int32_t i = 1; i < steps; ++i) {
+    const double line = from + (to - from) * i / steps;
+    const double off = std::abs(static_cast<double>(field.at(a.x + i * step.x, a.z + i * step.z)) - line);
+    if (off > most) {
+      most = off;
+      worst = i;
+    }
+  }
+  if (worst == 0) return;
+  const Place middle{a.x + worst * step.x, a.z + worst * step.z};
+  refine_side(field, a, middle, max_error, out);
+  out.push_back(middle);
+  refine_side(field, middle, b, max_error, out);
+}
+
+void insert_border(Network& network, const Field& field, double max_error) {
+  const std::int32_t east = field.width - 1, south = field.depth - 1;
+  // Each side from its western or northern end, as the neighbour beyond it runs too.
+  const std::array<std::pair<Place, Place>, 4> sides{
+      {{{0, 0}, {east, 0}}, {{0, south}, {east, south}}, {{0, 0}, {0, south}}, {{east, 0}, {east, south}}}};
+  for (const auto& [from, to] : sides) {
+    std::vector<Place> needed;
+    refine_side(field, from, to, max_error, needed);
+    for (const Place at : needed) network.insert(network.triangle_at(at), at);
+  }
+}
+
+struct Candidate {
+  float error;
+  std::uint32_t triangle;
+  /// The largest error first; of equal ones the lower triangle.
+  bool operator<(const Candidate& other) const {
+    return error != other.error ? error < other.error : triangle > other.triangle;
+  }
+};
+
+}  // namespace
+
+Triangulation greedy(const Field& field, double max_error, Border border, Job& job) {
+  Network network(field, job);
+  const bool with_border = border == Border::by_error;
+  if (!with_border) insert_border(network, field, max_error);
+  std::vector<Candidate> heap;
+  for (std::size_t count = 0;; ++count) {
+    if (count % look == 0) job.check();
+    for (const std::uint32_t t : network.take_changed()) {
+      network.scan(t, max_error, with_border);
+      if (network.error(t) > 0) {
+        heap.push_back({network.error(t), t});
+        std::push_heap(heap.begin(), heap.end());
+      }
+    }
+    // What a triangle was off when it was entered may be out of date: then it stands in the heap again.
+    while (!heap.empty() && heap.front().error != network.error(heap.front().triangle)) {
+      std::pop_heap(heap.begin(), heap.end());
+      heap.pop_back();
+    }
+    if (heap.empty()) return network.take();
+    const std::uint32_t t = heap.front().triangle;
+    std::pop_heap(heap.begin(), heap.end());
+    heap.pop_back();
+    network.insert(t, network.worst(t));
+  }
+}
+
+}  // namespace seedmesh::terrain

@@ -1,0 +1,318 @@
+#include "core/generators/terrain/noise.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/base/math.h"
+#include "core/base/parallel.h"
+
+namespace seedmesh::terrain {
+namespace {
+
+constexpr std::size_t rows_a_chunk = 32;
+constexpr std::size_t directions = 64;
+// Octaves of the two fields that warp the ground.
+constexpr int warp_octaves = 3;
+// Plane gradient noise with unit gradients lies within this of 0; its inverse brings it to -1 .. 1.
+constexpr float plane_scale = 1.41421356F;
+constexpr double space_scale = 1.1547;
+// Musgrave's constants of the ridged multifractal.
+constexpr float ridge_gain = 2;
+
+struct Gradient {
+  float x = 0, z = 0;
+};
+
+const std::array<Gradient, directions>& gradients() {
+  static const auto all = [] {
+    std::array<Gradient, directions> table;
+    for (std::size_t i = 0; i < directions; ++i) {
+      const math::SinCos turn = math::sincos(2 * math::pi * (static_cast<double>(i) + 0.5) / directions);
+      table[i] = {static_cast<float>(turn.cos), static_cast<float>(turn.sin)};
+    }
+    return table;
+  }();
+  return all;
+}
+
+constexpr float fade(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
+
+std::int64_t folded(std::int64_t i, std::int64_t period) {
+  if (period == 0) return i;
+  const std::int64_t rest = i % period;
+  return rest < 0 ? rest + period : rest;
+}
+
+/// One octave on its lattice.
+struct Octave {
+  std::uint64_t key = 0;
+  double frequency = 1;  ///< lattice cells a metre
+  std::int64_t period = 0;
+
+  std::uint64_t row_key(std::int64_t z) const {
+    return key_at(key, static_cast<std::uint64_t>(folded(z, period)));
+  }
+  Gradient at(std::uint64_t row, std::int64_t x) const {
+    const std::uint64_t bits = mix(row + 0x9E3779B97F4A7C15U * static_cast<std::uint64_t>(folded(x, period)));
+    return gradients()[bits % directions];
+  }
+
+  float value(double x, double z) const {
+    const double left = std::floor(x), top = std::floor(z);
+    const std::int64_t i = math::to_int64(left), j = math::to_int64(top);
+    const auto fx = static_cast<float>(x - left), fz = static_cast<float>(z - top);
+    const std::uint64_t north = row_key(j), south = row_key(j + 1);
+    const auto dot = [](Gradient g, float dx, float dz) { return g.x * dx + g.z * dz; };
+    const float nw = dot(at(north, i), fx, fz), ne = dot(at(north, i + 1), fx - 1, fz);
+    const float sw = dot(at(south, i), fx, fz - 1), se = dot(at(south, i + 1), fx - 1, fz - 1);
+    const float u = fade(fx), v = fade(fz);
+    const float n = nw + u * (ne - nw), s = sw + u * (se - sw);
+    return (n + v * (s - n)) * plane_scale;
+  }
+};
+
+std::vector<Octave> octaves_of(const NoisePlan& plan, int count, Rng rng) {
+  std::vector<Octave> octaves(static_cast<std::size_t>(count));
+  double frequency = 1 / plan.wavelength;
+  auto period = static_cast<double>(plan.repeat);
+  for (std::size_t i = 0; i < octaves.size(); ++i) {
+    octaves[i] = {rng.at(i).key(), frequency, math::to_int64(period)};
+    frequency *= plan.lacunarity;
+    period *= plan.lacunarity;
+  }
+  return octaves;
+}
+
+/// Evaluates one octave along rows. In a row, the fade and gradients of the rows of the lattice above and
+/// below are blended once for each lattice column; samples of a column then are a straight sum.
+class OctaveRow {
+ public:
+  OctaveRow(const Octave& octave, const Window& window, double cell)
+      : octave_(octave), step_(cell * octave.frequency) {
+    const auto width = static_cast<std::size_t>(window.width);
+    inside_.resize(width);
+    faded_.resize(width);
+    starts_.reserve(64);
+    for (std::size_t i = 0; i < width; ++i) {
+      const double place = static_cast<double>(window.x + static_cast<std::int64_t>(i)) * step_;
+      const double whole = std::floor(place);
+      const std::int64_t column = math::to_int64(whole);
+      if (i == 0) first_ = column;
+      while (starts_.size() <= static_cast<std::size_t>(column - first_)) starts_.push_back(i);
+      inside_[i] = static_cast<float>(place - whole);
+      faded_[i] = fade(inside_[i]);
+    }
+    starts_.push_back(width);
+    north_.resize(starts_.size());
+    south_.resize(starts_.size());
+    slope_.resize(starts_.size());
+    level_.resize(starts_.size());
+  }
+
+  /// Lattices much finer than the samples have no columns worth sharing.
+  static bool fits(const Octave& octave, double cell) { return cell * octave.frequency <= 2; }
+
+  void evaluate(std::int64_t row, float* out) {
+    const double place = static_cast<double>(row) * step_;
+    const double whole = std::floor(place);
+    const std::int64_t line = math::to_int64(whole);
+    if (!any_ || line != line_) take_lattice_rows(line);
+    const auto fz = static_cast<float>(place - whole);
+    const float v = fade(fz);
+    for (std::size_t i = 0; i < slope_.size(); ++i) {
+      const float n = north_[i].z * fz, s = south_[i].z * (fz - 1);
+      level_[i] = (n + v * (s - n)) * plane_scale;
+      slope_[i] = (north_[i].x + v * (south_[i].x - north_[i].x)) * plane_scale;
+    }
+    for (std::size_t column = 0; column + 1 < starts_.size(); ++column) {
+      const float level = level_[column], slope = slope_[column];
+      const float next_level = level_[column + 1], next_slope = slope_[column + 1];
+      for (std::size_t i = starts_[column]; i < starts_[column + 1]; ++i) {
+        const float west = level + slope * inside_[i];
+        const float east = next_level + next_slope * (inside_[i] - 1);
+        out[i] = west + faded_[i] * (east - west);
+      }
+    }
+  }
+
+ private:
+  void take_lattice_rows(std::int64_t line) {
+    const std::uint64_t north = octave_.row_key(line), south = octave_.row_key(line + 1);
+    for (std::size_t i = 0; i < north_.size(); ++i) {
+      const std::int64_t x = first_ + static_cast<std::int64_t>(i);
+      north_[i] = octave_.at(north, x);
+      south_[i] = octave_.at(south, x);
+    }
+    line_ = line;
+    any_ = true;
+  }
+
+  const Octave& octave_;
+  double step_;
+  std::int64_t first_ = 0, line_ = 0;
+  bool any_ = false;
+  std::vector<float> inside_, faded_;
+  std::vector<std::size_t> starts_;  ///< first sample of each lattice column
+  std::vector<Gradient> north_, south_;
+  std::vector<float> level_, slope_;
+};
+
+/// Adds octaves up, of one kind; `weight` is what ridged carries from octave to octave.
+struct Sum {
+  NoiseKind kind;
+  float amplitude;
+  void add(const float* noise, std::size_t count, float* height, float* weight) const {
+    switch (kind) {
+      case NoiseKind::rolling:
+        for (std::size_t i = 0; i < count; ++i) height[i] += noise[i] * amplitude;
+        return;
+      case NoiseKind::billow:
+        for (std::size_t i = 0; i < count; ++i) height[i] += (std::abs(noise[i]) * 2 - 1) * amplitude;
+        return;
+      case NoiseKind::ridged:
+        for (std::size_t i = 0; i < count; ++i) {
+          const float ridge = 1 - std::abs(noise[i]);
+          const float signal = ridge * ridge * weight[i];
+          weight[i] = std::min(1.0F, signal * ridge_gain);
+          height[i] += signal * amplitude;
+        }
+    }
+  }
+};
+
+/// Heights where every place is looked up by itself, since the ground is moved.
+void warped_rows(const NoisePlan& plan, const Window& window, double cell, Rng rng, Field& field,
+                 std::size_t begin, std::size_t end) {
+  const std::vector<Octave> octaves = octaves_of(plan, plan.octaves, rng);
+  const std::vector<Octave> east = octaves_of(plan, warp_octaves, rng.at("east"));
+  const std::vector<Octave> south = octaves_of(plan, warp_octaves, rng.at("south"));
+  const auto shift = [&](const std::vector<Octave>& field_octaves, double x, double z) {
+    double sum = 0, weight = plan.warp;
+    for (const Octave& octave : field_octaves) {
+      sum += static_cast<double>(octave.value(x * octave.frequency, z * octave.frequency)) * weight;
+      weight *= 0.5;
+    }
+    return sum;
+  };
+  for (std::size_t row = begin; row < end; ++row) {
+    float* out = field.row(static_cast<std::int32_t>(row));
+    const double z = static_cast<double>(window.z + static_cast<std::int64_t>(row)) * cell;
+    for (std::int32_t i = 0; i < window.width; ++i) {
+      const double x = static_cast<double>(window.x + i) * cell;
+      const double wx = x + shift(east, x, z), wz = z + shift(south, x, z);
+      float weight = 1;
+      auto amplitude = static_cast<float>(plan.amplitude);
+      out[i] = 0;
+      for (const Octave& octave : octaves) {
+        const float noise = octave.value(wx * octave.frequency, wz * octave.frequency);
+        Sum{plan.kind, amplitude}.add(&noise, 1, out + i, &weight);
+        amplitude *= static_cast<float>(plan.gain);
+      }
+    }
+  }
+}
+
+void plain_rows(const NoisePlan& plan, const Window& window, double cell, Rng rng, Field& field,
+                std::size_t begin, std::size_t end) {
+  const std::vector<Octave> octaves = octaves_of(plan, plan.octaves, rng);
+  std::vector<OctaveRow> rows;
+  rows.reserve(octaves.size());
+  for (const Octave& octave : octaves) {
+    if (OctaveRow::fits(octave, cell)) rows.emplace_back(octave, window, cell);
+  }
+  const auto width = static_cast<std::size_t>(window.width);
+  std::vector<float> noise(width), weight(width);
+  for (std::size_t row = begin; row < end; ++row) {
+    float* out = field.row(static_cast<std::int32_t>(row));
+    std::fill(out, out + width, 0.0F);
+    std::fill(weight.begin(), weight.end(), 1.0F);
+    auto amplitude = static_cast<float>(plan.amplitude);
+    const std::int64_t z = window.z + static_cast<std::int64_t>(row);
+    for (std::size_t octave = 0; octave < octaves.size(); ++octave) {
+      if (octave < rows.size()) {
+        rows[octave].evaluate(z, noise.data());
+      } else {
+        const double step = cell * octaves[octave].frequency;
+        for (std::int32_t i = 0; i < window.width; ++i)
+          noise[static_cast<std::size_t>(i)] =
+              octaves[octave].value(static_cast<double>(window.x + i) * step, static_cast<double>(z) * step);
+      }
+      Sum{plan.kind, amplitude}.add(noise.data(), width, out, weight.data());
+      amplitude *= static_cast<float>(plan.gain);
+    }
+  }
+}
+
+/// A direction of a lattice point in space, evenly spread over the sphere.
+glm::dvec3 direction(std::uint64_t bits) {
+  const double z = static_cast<double>(bits >> 40U) * 0x1p-23 - 1;
+  const double flat = std::sqrt(std::max(0.0, 1 - z * z));
+  const Gradient turn = gradients()[bits % directions];
+  return {flat * static_cast<double>(turn.x), flat * static_cast<double>(turn.z), z};
+}
+
+double value_in_space(std::uint64_t key, const glm::dvec3& place) {
+  const glm::dvec3 whole(std::floor(place.x), std::floor(place.y), std::floor(place.z));
+  const glm::dvec3 in = place - whole;
+  const auto ease = [](double t) { return t * t * t * (t * (t * 6 - 15) + 10); };
+  const glm::dvec3 u(ease(in.x), ease(in.y), ease(in.z));
+  double corners[8];
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 step(corner & 1U, corner >> 1U & 1U, corner >> 2U);
+    std::uint64_t at = key;
+    for (int axis = 0; axis < 3; ++axis)
+      at = key_at(at, static_cast<std::uint64_t>(math::to_int64(whole[axis] + step[axis])));
+    const glm::dvec3 g = direction(at), d = in - step;
+    corners[corner] = g.x * d.x + g.y * d.y + g.z * d.z;
+  }
+  for (unsigned axis = 0, left = 4; axis < 3; ++axis, left /= 2) {
+    for (unsigned i = 0; i < left; ++i)
+      corners[i] = corners[2 * i] + u[static_cast<int>(axis)] * (corners[2 * i + 1] - corners[2 * i]);
+  }
+  return corners[0] * space_scale;
+}
+
+}  // namespace
+
+Field noisy(const NoisePlan& plan, const Window& window, double cell, Rng rng, const Job& job) {
+  Field field(job, window.width, window.depth, 0);
+  parallel_for(job, static_cast<std::size_t>(window.depth), rows_a_chunk,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                 for (std::size_t row = begin; row < end; row += 8) {
+                   job.check();
+                   if (plan.warp > 0)
+                     warped_rows(plan, window, cell, rng, field, row, std::min(end, row + 8));
+                 }
+                 if (plan.warp <= 0) plain_rows(plan, window, cell, rng, field, begin, end);
+               });
+  return field;
+}
+
+double noise_in_space(const NoisePlan& plan, const glm::dvec3& place, Rng rng) {
+  glm::dvec3 at = place;
+  if (plan.warp > 0) {
+    NoisePlan mild = plan;
+    mild.kind = NoiseKind::rolling;
+    mild.octaves = warp_octaves;
+    mild.amplitude = plan.warp;
+    mild.gain = 0.5;
+    mild.warp = 0;
+    at += glm::dvec3(noise_in_space(mild, place, rng.at("east")), noise_in_space(mild, place, rng.at("up")),
+                     noise_in_space(mild, place, rng.at("south")));
+  }
+  double frequency = 1 / plan.wavelength;
+  auto amplitude = static_cast<float>(plan.amplitude);
+  float height = 0, weight = 1;
+  for (int i = 0; i < plan.octaves; ++i) {
+    const auto noise =
+        static_cast<float>(value_in_space(rng.at(static_cast<std::uint64_t>(i)).key(), at * frequency));
+    Sum{plan.kind, amplitude}.add(&noise, 1, &height, &weight);
+    frequency *= plan.lacunarity;
+    amplitude *= static_cast<float>(plan.gain);
+  }
+  return static_cast<double>(height);
+}
+
+}  // namespace seedmesh::terrain

@@ -1,0 +1,246 @@
+#include "core/generators/terrain/plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "core/generators/terrain/image.h"
+#include "generated/params/terrain.h"
+
+namespace seedmesh::terrain {
+namespace {
+
+constexpr double default_hurst = 0.8;
+constexpr int plane_side = 257, sphere_side = 65;
+
+using Algorithm = TerrainAlgorithm;
+
+bool is_fault(const TerrainParams& params) {
+  return params.algorithm == Algorithm::fault_formation || params.algorithm == Algorithm::poisson_faulting;
+}
+bool is_sphere(const TerrainParams& params) { return params.shape == TerrainShape::sphere; }
+
+double falloff_of(const TerrainParams& params) { return math::pow(2, -params.hurst.value_or(default_hurst)); }
+
+/// Samples from the corner of one tile to that of the next.
+std::int64_t tile_step(const TerrainParams& params) {
+  switch (params.algorithm) {
+    case Algorithm::triangular_edge:
+    case Algorithm::diamond_square:
+    case Algorithm::square_square:
+      return std::int64_t{1} << all_iterations(params);
+    default:
+      return made_side(params) - 1;
+  }
+}
+
+/// The samples asked for and `margin` around them.
+Window window_of(const TerrainParams& params, std::int32_t margin) {
+  Window window;
+  const std::int32_t side =
+      params.tile ? static_cast<std::int32_t>(tile_step(params)) + 1 : made_side(params);
+  if (params.tile) {
+    window.x = params.tile->x * tile_step(params);
+    window.z = params.tile->z * tile_step(params);
+  }
+  window.x -= margin;
+  window.z -= margin;
+  window.width = window.depth = side + 2 * margin;
+  return window;
+}
+
+Field raw_field(const TerrainParams& params, std::int32_t margin, Rng rng, const Job& job) {
+  const Window window = window_of(params, margin);
+  const double cell = params.size / static_cast<double>(window.width - 2 * margin - 1);
+  switch (params.algorithm) {
+    case Algorithm::triangular_edge:
+    case Algorithm::diamond_square:
+      return subdivide(square_plan(params), params.tile ? World::unbounded : World::bounded, window, rng,
+                       job);
+    case Algorithm::square_square:
+      return subdivide_nested(nested_plan(params), window, rng, job);
+    case Algorithm::fbm:
+      return noisy(noise_plan(params), window, cell, rng, job);
+    default: {
+      const std::int64_t across = params.tile ? params.tile->across.value_or(1) : 1;
+      const auto side = static_cast<std::int32_t>(across * (made_side(params) - 1) + 1);
+      return faulted(fault_plan(params), {0, 0, side, side}, window, cell, rng, job);
+    }
+  }
+}
+
+DropletPlan droplet_plan(const TerrainParams& params, const Field& field) {
+  const TerrainHydraulic& given = *params.hydraulic;
+  DropletPlan plan;
+  plan.droplets = given.droplets.value_or(plan.droplets);
+  plan.lifetime = given.lifetime.value_or(params.size / 8) / field.cell;
+  plan.inertia = given.inertia.value_or(plan.inertia);
+  plan.capacity = given.capacity.value_or(plan.capacity);
+  plan.erosion = given.erosion.value_or(plan.erosion);
+  plan.deposition = given.deposition.value_or(plan.deposition);
+  plan.evaporation = given.evaporation.value_or(plan.evaporation);
+  plan.radius = given.radius ? *given.radius / field.cell : plan.radius;
+  return plan;
+}
+
+void filter(const TerrainParams& params, Field& field, Rng rng, const Job& job) {
+  smooth(field, params.smooth, job);
+  if (params.normalise) normalise(field, params.normalise->low, params.normalise->high, job);
+  if (params.island)
+    sink_rim(field, {params.island->reach, params.island->depth, params.island->roughness}, rng.at("island"),
+             job);
+  if (params.terraces) terrace(field, params.terraces->count, params.terraces->sharpness, job);
+  if (params.thermal)
+    slip(field,
+         {params.thermal->iterations, math::tan(math::radians(params.thermal->talus)), params.thermal->rate},
+         job);
+  if (params.hydraulic && params.hydraulic->method == TerrainMethod::droplets)
+    erode(field, droplet_plan(params, field), rng.at("droplets"), job);
+  if (params.hydraulic && params.hydraulic->method == TerrainMethod::stream_power) {
+    const StreamPlan defaults;
+    cut_rivers(field,
+               {params.hydraulic->iterations.value_or(defaults.iterations),
+                params.hydraulic->strength.value_or(defaults.strength),
+                params.hydraulic->area_exponent.value_or(defaults.area_exponent)},
+               job);
+  }
+}
+
+}  // namespace
+
+int planned_iterations(const TerrainParams& params) {
+  return params.iterations.value_or(is_fault(params) ? 64 : 8);
+}
+int all_iterations(const TerrainParams& params) {
+  return planned_iterations(params) + params.extra_iterations;
+}
+
+double amplitude_of(const TerrainParams& params) {
+  return params.amplitude.value_or(params.size / (is_sphere(params) ? 20 : 10));
+}
+
+SquareSubdivision square_plan(const TerrainParams& params) {
+  SquareSubdivision plan;
+  if (params.algorithm == Algorithm::triangular_edge) {
+    plan.rule = params.mode.value_or(TerrainMode::random) == TerrainMode::random
+                    ? SquareRule::triangle_random
+                    : SquareRule::triangle_midpoint;
+  }
+  plan.border = static_cast<BorderRule>(params.edge.value_or(TerrainEdge::two_neighbours));
+  plan.rounds = all_iterations(params);
+  plan.amplitude = amplitude_of(params);
+  plan.falloff = falloff_of(params);
+  plan.corners = params.corners;
+  return plan;
+}
+static_assert(static_cast<int>(BorderRule::wrap) == static_cast<int>(TerrainEdge::wrap) &&
+              static_cast<int>(BorderRule::three) == static_cast<int>(TerrainEdge::avg3));
+
+NestedSubdivision nested_plan(const TerrainParams& params) {
+  NestedSubdivision plan;
+  plan.rounds = all_iterations(params);
+  plan.amplitude = amplitude_of(params);
+  plan.falloff = falloff_of(params);
+  plan.grid = params.grid;
+  return plan;
+}
+
+FaultPlan fault_plan(const TerrainParams& params) {
+  FaultPlan plan;
+  plan.kind = params.algorithm == Algorithm::fault_formation ? FaultKind::one_sided : FaultKind::normal;
+  plan.planned = planned_iterations(params);
+  plan.extra = params.extra_iterations;
+  plan.greatest = params.fault_max.value_or(params.size / 50);
+  plan.least = params.fault_min.value_or(0);
+  plan.step = static_cast<FaultStep>(params.fault_step.value_or(TerrainFaultStep::hard));
+  plan.width = params.fault_width.value_or(params.size / 8);
+  return plan;
+}
+
+NoisePlan noise_plan(const TerrainParams& params) {
+  NoisePlan plan;
+  plan.kind = static_cast<NoiseKind>(params.noise.value_or(TerrainNoise::rolling));
+  plan.octaves = all_iterations(params);
+  plan.amplitude = amplitude_of(params);
+  plan.lacunarity = params.lacunarity.value_or(2);
+  plan.gain = math::pow(plan.lacunarity, -params.hurst.value_or(default_hurst));
+  plan.wavelength = params.wavelength.value_or(params.size / 3);
+  plan.warp = params.warp.value_or(0);
+  return plan;
+}
+
+Window place_of(const TerrainParams& params) { return window_of(params, 0); }
+
+int made_side(const TerrainParams& params) {
+  switch (params.algorithm) {
+    case Algorithm::triangular_edge:
+    case Algorithm::diamond_square:
+      return (1 << all_iterations(params)) + 1;
+    case Algorithm::square_square:
+      // One sample more than the others, but for the grid it starts from; a tile leaves its neighbour's out.
+      return (1 << all_iterations(params)) + 2;
+    case Algorithm::image:
+      return 0;
+    default:
+      return params.resolution.value_or(is_sphere(params) ? sphere_side : plane_side);
+  }
+}
+
+int finished_side(const TerrainParams& params) {
+  if (params.resample) return *params.resample;
+  return params.tile && params.algorithm == Algorithm::square_square ? made_side(params) - 1
+                                                                     : made_side(params);
+}
+
+Range nominal_range(const TerrainParams& params) {
+  const auto amplitude = static_cast<float>(amplitude_of(params));
+  if (is_fault(params)) {
+    const FaultPlan plan = fault_plan(params);
+    const double sum = (plan.greatest + plan.least) / 2 * plan.planned + plan.greatest * plan.extra;
+    const auto typical = static_cast<float>(
+        plan.kind == FaultKind::one_sided ? sum / 2 : sum / std::sqrt(all_iterations(params) + 1.0));
+    return plan.kind == FaultKind::one_sided ? Range{0, typical} : Range{-typical, typical};
+  }
+  if (params.algorithm == Algorithm::fbm &&
+      params.noise.value_or(TerrainNoise::rolling) == TerrainNoise::ridged)
+    return {0, 1.8F * amplitude};
+  return {-1.2F * amplitude, 1.2F * amplitude};
+}
+
+PaletteName palette_of(const TerrainParams& params) { return static_cast<PaletteName>(params.palette); }
+static_assert(static_cast<int>(PaletteName::none) == static_cast<int>(TerrainPalette::none) &&
+              static_cast<int>(PaletteName::moon) == static_cast<int>(TerrainPalette::moon));
+
+Result<Field> field_of(const TerrainParams& params, Job& job) {
+  const Rng rng = job.rng().at("terrain");
+  if (params.algorithm == Algorithm::image) {
+    Result<Field> field = field_of_image(*params.image, job);
+    if (!field) return field;
+    field->cell = params.size / (field->width - 1);
+    filter(params, *field, rng, job);
+    return params.resample ? resampled(*field, *params.resample, job) : std::move(*field);
+  }
+  // A tile sees as far into its neighbours as loose rock comes from, and one sample more for normals.
+  const std::int32_t margin = params.tile ? 1 + (params.thermal ? params.thermal->iterations : 0) : 0;
+  Field field = raw_field(params, margin, rng, job);
+  field.margin = margin;
+  field.width -= 2 * margin;
+  field.depth -= 2 * margin;
+  field.cell = params.size / (field.width - 1);
+  filter(params, field, rng, job);
+  if (params.tile) return cropped(std::move(field), 1, job);
+  return params.resample ? resampled(field, *params.resample, job) : std::move(field);
+}
+
+Planet planet_of(const TerrainParams& params, Job& job) {
+  const Rng rng = job.rng().at("terrain");
+  Planet planet = sphere_of(made_side(params), params.size / 2, job);
+  if (params.algorithm == Algorithm::fbm) {
+    noise_sphere(planet, noise_plan(params), rng, job);
+  } else {
+    fault_sphere(planet, fault_plan(params), rng, job);
+  }
+  return planet;
+}
+
+}  // namespace seedmesh::terrain

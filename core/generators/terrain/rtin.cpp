@@ -1,0 +1,273 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/generators/terrain/scan.h"
+#include "core/generators/terrain/triangulation.h"
+
+namespace seedmesh::terrain {
+namespace {
+
+constexpr std::size_t rows_a_chunk = 64;
+constexpr std::size_t triangles_a_chunk = 4096;
+constexpr std::uint32_t unnamed = 0xFFFFFFFFU;
+constexpr float needed = std::numeric_limits<float>::infinity();
+
+/// Rows of a pass over the samples (first + i * step), in parallel where there are many.
+template <class Body>
+void each_step(const Job& job, std::int32_t first, std::int32_t last, std::int32_t step, const Body& body) {
+  if (last < first) return;
+  const auto count = static_cast<std::size_t>((last - first) / step) + 1;
+  parallel_for(job, count, rows_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    job.check();
+    for (std::size_t i = begin; i < end; ++i) body(first + static_cast<std::int32_t>(i) * step);
+  });
+}
+
+/// For every sample how far off the mesh may be where the triangles that it halves are left whole: of the
+/// sample itself and of all below it.
+class Errors {
+ public:
+  Errors(const Field& field, const Job& job)
+      : field_(field), job_(job), side_(field.width), errors_(job, field.heights.size(), 0.0F) {
+    for (std::int32_t step = 1; step < side_ - 1; step *= 2) {
+      sides(step);
+      centres(step);
+    }
+  }
+
+  float at(std::int32_t x, std::int32_t z) const { return errors_[place(x, z)]; }
+
+  /// Puts a sample into every mesh, and with it all whose triangles must be halved before.
+  void need(Place sample) {
+    std::vector<Place> left{sample};
+    while (!left.empty()) {
+      const Place at = left.back();
+      left.pop_back();
+      if (errors_[place(at.x, at.z)] == needed) continue;
+      errors_[place(at.x, at.z)] = needed;
+      parents(at, left);
+    }
+  }
+
+ private:
+  std::size_t place(std::int32_t x, std::int32_t z) const {
+    return static_cast<std::size_t>(z) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(x);
+  }
+  float height(std::int32_t x, std::int32_t z) const { return field_.at(x, z); }
+
+  /// Midpoints of the sides of squares of 2 * step: below them are the centres of squares of `step`.
+  void sides(std::int32_t step) {
+    each_step(job_, 0, side_ - 1, step, [&](std::int32_t z) {
+      const bool along = z / step % 2 == 0;  // a side from west to east
+      const std::int32_t half = step / 2;
+      float* row = errors_.data() + place(0, z);
+      const float* here = field_.row(z);
+      const auto worst = [&](std::int32_t x, float own) {
+        if (half == 0) return own;
+        if (z > 0) {
+          const float* above = errors_.data() + place(0, z - half);
+          if (x > 0) own = std::max(own, above[x - half]);
+          if (x < side_ - 1) own = std::max(own, above[x + half]);
+        }
+        if (z < side_ - 1) {
+          const float* below = errors_.data() + place(0, z + half);
+          if (x > 0) own = std::max(own, below[x - half]);
+          if (x < side_ - 1) own = std::max(own, below[x + half]);
+        }
+        return own;
+      };
+      if (along) {
+        for (std::int32_t x = step; x < side_; x += 2 * step)
+          row[x] = worst(x, std::abs((here[x - step] + here[x + step]) * 0.5F - here[x]));
+      } else {
+        const float* above = field_.row(z - step);
+        const float* below = field_.row(z + step);
+        for (std::int32_t x = 0; x < side_; x += 2 * step)
+          row[x] = worst(x, std::abs((above[x] + below[x]) * 0.5F - here[x]));
+      }
+    });
+  }
+
+  /// Is the long side of the square around (x, z) that from north-west to south-east?
+  static bool runs_south_east(std::int32_t x, std::int32_t z, std::int32_t step) {
+    return (x / step / 2 + z / step / 2) % 2 == 0;
+  }
+
+  void centres(std::int32_t step) {
+    each_step(job_, step, side_ - 1, 2 * step, [&](std::int32_t z) {
+      float* row = errors_.data() + place(0, z);
+      const float* above = errors_.data() + place(0, z - step);
+      const float* below = errors_.data() + place(0, z + step);
+      const float* north = field_.row(z - step);
+      const float* here = field_.row(z);
+      const float* south = field_.row(z + step);
+      for (std::int32_t x = step; x < side_; x += 2 * step) {
+        const float ends = runs_south_east(x, z, step) ? north[x - step] + south[x + step]
+                                                       : north[x + step] + south[x - step];
+        const float own = std::abs(ends * 0.5F - here[x]);
+        row[x] =
+            std::max(std::max(own, std::max(row[x - step], row[x + step])), std::max(above[x], below[x]));
+      }
+    });
+  }
+
+  /// The samples that must be in the mesh before this one can be.
+  void parents(Place at, std::vector<Place>& out) const {
+    std::int32_t step = 1;
+    while (((at.x | at.z) & step) == 0 && step < side_) step *= 2;
+    if (step >= side_ - 1) return;  // a corner, which every mesh has
+    const auto add = [&](std::int32_t x, std::int32_t z) {
+      if (x >= 0 && z >= 0 && x < side_ && z < side_) out.push_back({x, z});
+    };
+    const bool odd_x = (at.x & step) != 0, odd_z = (at.z & step) != 0;
+    if (odd_x && odd_z) {
+      // A centre: the corners off its long side, themselves midpoints of sides of squares twice as large.
+      if (2 * step >= side_ - 1) return;
+      if (runs_south_east(at.x, at.z, step)) {
+        add(at.x + step, at.z - step);
+        add(at.x - step, at.z + step);
+      } else {
+        add(at.x - step, at.z - step);
+        add(at.x + step, at.z + step);
+      }
+    } else if (odd_x) {
+      add(at.x, at.z - step);
+      add(at.x, at.z + step);
+    } else {
+      add(at.x - step, at.z);
+      add(at.x + step, at.z);
+    }
+  }
+
+  const Field& field_;
+  const Job& job_;
+  std::int32_t side_;
+  Array<float> errors_;
+};
+
+/// The triangles at an error.
+class Extraction {
+ public:
+  /// `paid` triangles were spent by an earlier attempt.
+  Extraction(const Field& field, const Errors& errors, float max_error, std::size_t paid, Job& job)
+      : errors_(errors),
+        max_error_(max_error),
+        paid_(3 * paid),
+        width_(field.width),
+        meter_(job, Resource::triangles),
+        names_(job, field.heights.size(), unnamed),
+        mesh_{Array<std::uint32_t>(job), Array<std::uint32_t>(job)} {
+    const std::int32_t last = field.width - 1;
+    halve({0, 0}, {last, last}, {last, 0});
+    halve({last, last}, {0, 0}, {0, last});
+  }
+  Triangulation take() { return std::move(mesh_); }
+
+ private:
+  /// The triangle whose long side is a-b and whose right angle is at c, clockwise seen from above.
+  void halve(Place a, Place b, Place c) {
+    const Place middle{(a.x + b.x) / 2, (a.z + b.z) / 2};
+    const bool divisible = std::abs(a.x - c.x) + std::abs(a.z - c.z) > 1;
+    if (divisible && errors_.at(middle.x, middle.z) > max_error_) {
+      halve(c, a, middle);
+      halve(b, c, middle);
+      return;
+    }
+    if (mesh_.index.size() >= paid_) meter_.spend();
+    std::uint32_t* index = mesh_.index.extend(3);
+    index[0] = name(a);
+    index[1] = name(c);
+    index[2] = name(b);
+    if (turn(a, c, b) < 0) std::swap(index[1], index[2]);
+  }
+  std::uint32_t name(Place at) {
+    const auto sample = static_cast<std::uint32_t>(at.z * width_ + at.x);
+    if (names_[sample] == unnamed) {
+      names_[sample] = static_cast<std::uint32_t>(mesh_.samples.size());
+      mesh_.samples.push_back(sample);
+    }
+    return names_[sample];
+  }
+
+  const Errors& errors_;
+  float max_error_;
+  std::size_t paid_;
+  std::int32_t width_;
+  Meter meter_;
+  Array<std::uint32_t> names_;
+  Triangulation mesh_;
+};
+
+/// visit(chunk, x, z, distance from the mesh) for the samples of every triangle, in parallel by chunks.
+template <class Visit>
+void each_distance(const Field& field, const Triangulation& mesh, const Job& job, const Visit& visit) {
+  parallel_for(
+      job, mesh.index.size() / 3, triangles_a_chunk,
+      [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+        job.check();
+        for (std::size_t t = begin; t < end; ++t) {
+          Place corner[3];
+          double height[3];
+          for (std::size_t k = 0; k < 3; ++k) {
+            corner[k] = place_of(mesh.samples[mesh.index[3 * t + k]], field.width);
+            height[k] = static_cast<double>(field.at(corner[k].x, corner[k].z));
+          }
+          if (turn(corner[0], corner[1], corner[2]) <= 1) continue;  // half a square: corners alone
+          const Plane plane =
+              Plane::through(corner[0], corner[1], corner[2], height[0], height[1], height[2]);
+          each_row_inside(
+              corner[0], corner[1], corner[2], [&](std::int32_t z, std::int32_t first, std::int32_t last) {
+                const float* row = field.row(z);
+                const double start = plane.base + plane.south * z;
+                for (std::int32_t x = first; x <= last; ++x)
+                  visit(chunk, x, z, std::abs(static_cast<double>(row[x]) - (start + plane.east * x)));
+              });
+        }
+      });
+}
+
+}  // namespace
+
+bool fits_rtin(std::int32_t width, std::int32_t depth) {
+  return width == depth && width >= 2 && ((width - 1) & (width - 2)) == 0;
+}
+
+Triangulation rtin(const Field& field, double max_error, Border border, Job& job) {
+  Errors errors(field, job);
+  const std::int32_t last = field.width - 1;
+  if (border == Border::whole) {
+    for (std::int32_t i = 0; i <= last; ++i) {
+      for (const Place at : {Place{i, 0}, Place{i, last}, Place{0, i}, Place{last, i}}) errors.need(at);
+    }
+  }
+  for (std::size_t paid = 0;;) {
+    Triangulation mesh = Extraction(field, errors, static_cast<float>(max_error), paid, job).take();
+    paid = std::max(paid, mesh.index.size() / 3);
+    std::vector<std::vector<Place>> off(chunk_count(mesh.index.size() / 3, triangles_a_chunk));
+    each_distance(field, mesh, job, [&](std::size_t chunk, std::int32_t x, std::int32_t z, double distance) {
+      if (distance > max_error) off[chunk].push_back({x, z});
+    });
+    bool holds = true;
+    for (const std::vector<Place>& list : off) {
+      for (const Place at : list) {
+        if (errors.at(at.x, at.z) == needed) continue;  // a corner, off by rounding alone
+        errors.need(at);
+        holds = false;
+      }
+    }
+    if (holds) return mesh;
+  }
+}
+
+double measured_error(const Field& field, const Triangulation& mesh, const Job& job) {
+  std::vector<double> worst(chunk_count(mesh.index.size() / 3, triangles_a_chunk));
+  each_distance(field, mesh, job, [&](std::size_t chunk, std::int32_t, std::int32_t, double distance) {
+    worst[chunk] = std::max(worst[chunk], distance);
+  });
+  return worst.empty() ? 0 : *std::max_element(worst.begin(), worst.end());
+}
+
+}  // namespace seedmesh::terrain

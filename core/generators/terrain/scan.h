@@ -1,0 +1,91 @@
+#pragma once
+/// The samples inside a triangle, edges included, row by row, by whole numbers only: no sample is missed.
+#include <algorithm>
+#include <cstdint>
+
+#include "core/generators/terrain/field.h"
+
+namespace seedmesh::terrain {
+
+struct Place {
+  std::int32_t x = 0, z = 0;
+  friend bool operator==(const Place&, const Place&) = default;
+};
+
+inline Place place_of(std::uint32_t sample, std::int32_t width) {
+  const auto wide = static_cast<std::uint32_t>(width);
+  return {static_cast<std::int32_t>(sample % wide), static_cast<std::int32_t>(sample / wide)};
+}
+
+/// Twice the area of a triangle; positive where it runs counter-clockwise seen from above (x east, z south).
+inline std::int64_t turn(Place a, Place b, Place c) {
+  return std::int64_t{b.z - a.z} * (c.x - a.x) - std::int64_t{b.x - a.x} * (c.z - a.z);
+}
+
+/// A height for every place, from three: that of the plane through them.
+struct Plane {
+  double base = 0, east = 0, south = 0;
+  static Plane through(Place a, Place b, Place c, double ha, double hb, double hc) {
+    const double area = static_cast<double>(turn(a, b, c));
+    const double bx = b.x - a.x, bz = b.z - a.z, cx = c.x - a.x, cz = c.z - a.z;
+    Plane plane;
+    plane.east = ((hc - ha) * bz - (hb - ha) * cz) / area;
+    plane.south = ((hb - ha) * cx - (hc - ha) * bx) / area;
+    plane.base = ha - plane.east * a.x - plane.south * a.z;
+    return plane;
+  }
+};
+
+/// Walks down an edge: the sample right of it (rounded up) and left of it (rounded down) in each row.
+class EdgeWalk {
+ public:
+  EdgeWalk(Place top, Place bottom) : x_(top.x), height_(bottom.z - top.z) {
+    if (height_ == 0) return;
+    const std::int32_t dx = bottom.x - top.x;
+    whole_ = dx / height_;
+    rest_ = dx % height_;
+    if (rest_ < 0) {
+      rest_ += height_;
+      --whole_;
+    }
+  }
+  void down() {
+    x_ += whole_;
+    carried_ += rest_;
+    if (carried_ >= height_) {
+      carried_ -= height_;
+      ++x_;
+    }
+  }
+  std::int32_t floor() const { return x_; }
+  std::int32_t ceil() const { return x_ + (carried_ > 0 ? 1 : 0); }
+
+ private:
+  std::int32_t x_, height_, whole_ = 0, rest_ = 0, carried_ = 0;
+};
+
+/// visit(z, first x, last x) for each row of the triangle, whose corners come in any order.
+template <class Visit>
+void each_row_inside(Place a, Place b, Place c, const Visit& visit) {
+  if (b.z < a.z) std::swap(a, b);
+  if (c.z < a.z) std::swap(a, c);
+  if (c.z < b.z) std::swap(b, c);
+  if (a.z == c.z) return;  // no area
+  EdgeWalk longest(a, c);
+  // Where the middle corner lies decides which edge is on which side.
+  const bool middle_is_east = std::int64_t{b.x - a.x} * (c.z - a.z) > std::int64_t{c.x - a.x} * (b.z - a.z);
+  std::int32_t z = a.z;
+  const auto half = [&](EdgeWalk side, std::int32_t end) {
+    for (; z < end; ++z, longest.down(), side.down()) {
+      if (middle_is_east) {
+        visit(z, longest.ceil(), side.floor());
+      } else {
+        visit(z, side.ceil(), longest.floor());
+      }
+    }
+  };
+  half(EdgeWalk(a, b), b.z);
+  half(EdgeWalk(b, c), c.z + 1);
+}
+
+}  // namespace seedmesh::terrain

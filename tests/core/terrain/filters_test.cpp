@@ -1,0 +1,223 @@
+#include "core/generators/terrain/filters.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "core/generators/terrain/flow.h"
+#include "core/generators/terrain/noise.h"
+#include "tests/core/terrain/support.h"
+
+namespace seedmesh::terrain {
+namespace {
+
+using ::testing::DoubleNear;
+using ::testing::Each;
+using ::testing::FloatEq;
+using ::testing::Pointwise;
+
+Field hills(std::int32_t side, int threads = 1) {
+  NoisePlan plan;
+  plan.amplitude = 20;
+  plan.gain = 0.55;
+  plan.wavelength = 40;
+  return noisy(plan, {0, 0, side, side}, 1, Rng(9), any_job(threads));
+}
+
+double sum_of(const Field& field) { return std::accumulate(field.heights.begin(), field.heights.end(), 0.0); }
+
+TEST(Smooth, IsTheRecursiveLowPassOfTheThesis) {
+  // One row: eastwards .6 .24 .096 after the impulse, then the same filter westwards over that.
+  Field field = field_from(6, 2, [](int x, int) { return x == 3 ? 1 : 0; });
+  smooth(field, 40, any_job());
+  const double east[6] = {0, 0, 0, 0.6, 0.24, 0.096};
+  std::vector<double> expected(6);
+  double last = east[5];
+  expected[5] = last;
+  for (int x = 4; x >= 0; --x) expected[static_cast<std::size_t>(x)] = last = 0.4 * last + 0.6 * east[x];
+  for (std::size_t x = 0; x < 6; ++x) EXPECT_NEAR(field.heights[x], expected[x], 1e-6);
+}
+
+TEST(Smooth, ChangesNothingAtZeroAndFlattensAtAHundred) {
+  Field field = field_from(5, 4, [](int x, int z) { return x + 10 * z + 7; });
+  const std::vector<double> before = values(field);
+  smooth(field, 0, any_job());
+  EXPECT_EQ(values(field), before);
+  smooth(field, 100, any_job());
+  EXPECT_THAT(field.heights, Each(FloatEq(7)));
+}
+
+TEST(Smooth, LeavesAnEvenFieldAsItIs) {
+  Field field = field_from(40, 30, [](int, int) { return 5; });
+  smooth(field, 40, any_job());
+  EXPECT_THAT(values(field), Each(DoubleNear(5, 1e-5)));
+}
+
+TEST(Normalise, StretchesToTheRange) {
+  Field field = hills(33);
+  normalise(field, -3, 12, any_job());
+  const Range range = range_of(field, any_job());
+  EXPECT_FLOAT_EQ(range.low, -3);
+  EXPECT_FLOAT_EQ(range.high, 12);
+  Field even = field_from(3, 3, [](int, int) { return 4; });
+  normalise(even, 1, 2, any_job());
+  EXPECT_THAT(even.heights, Each(FloatEq(1)));
+}
+
+TEST(Terraces, AreStepsWhereTheyAreSharp) {
+  Field field = field_from(101, 2, [](int x, int) { return x; });
+  terrace(field, 4, 1, any_job());
+  for (int x = 0; x < 100; ++x) ASSERT_FLOAT_EQ(field.at(x, 0), static_cast<float>(x / 25 * 25)) << x;
+  EXPECT_FLOAT_EQ(field.at(100, 0), 100);
+}
+
+TEST(Terraces, LeaveTheFieldWhereTheyAreNot) {
+  Field field = hills(33);
+  const std::vector<double> before = values(field);
+  terrace(field, 5, 0, any_job());
+  EXPECT_THAT(values(field), Pointwise(DoubleNear(1e-4), before));
+}
+
+TEST(Island, SinksTheRimBelowAllThatWas) {
+  Field field = hills(65);
+  const Range before = range_of(field, any_job());
+  sink_rim(field, {.reach = 0.8, .depth = 5, .roughness = 0.4}, Rng(2), any_job());
+  for (int i = 0; i < 65; ++i) {
+    for (const float h : {field.at(i, 0), field.at(i, 64), field.at(0, i), field.at(64, i)})
+      ASSERT_NEAR(h, before.low - 5, 1e-3);
+  }
+  EXPECT_GT(field.at(32, 32), before.low);
+}
+
+TEST(ThermalErosion, MovesGroundButLosesNone) {
+  Field field = hills(65);
+  const double before = sum_of(field);
+  slip(field, {.iterations = 200, .talus = 0.3, .rate = 0.5}, any_job());
+  EXPECT_NEAR(sum_of(field), before, 1e-3 * std::abs(before) + 1);
+}
+
+TEST(ThermalErosion, BringsSlopesToTheTalus) {
+  Field field = field_from(65, 65, [](int x, int z) { return x == 32 && z == 32 ? 300 : 0; });
+  slip(field, {.iterations = 1000, .talus = 0.5, .rate = 1}, any_job());
+  for (int z = 0; z < 65; ++z) {
+    for (int x = 1; x < 65; ++x) ASSERT_LE(std::abs(field.at(x, z) - field.at(x - 1, z)), 0.75F);
+  }
+}
+
+TEST(HydraulicErosion, IsTheSameWithAnyNumberOfThreads) {
+  Field one = hills(129), eight = hills(129);
+  const DropletPlan plan{.droplets = 5000};
+  erode(one, plan, Rng(3), any_job(1));
+  erode(eight, plan, Rng(3), any_job(8));
+  EXPECT_EQ(values(one), values(eight));
+}
+
+TEST(HydraulicErosion, WearsGroundDownWithinTheHeightsThereWere) {
+  Field field = hills(129);
+  const Field before = hills(129);
+  erode(field, {.droplets = 20'000}, Rng(3), any_job());
+  const Range old = range_of(before, any_job()), now = range_of(field, any_job());
+  EXPECT_GE(now.low, old.low);
+  EXPECT_LE(now.high, old.high);
+  EXPECT_LT(sum_of(field), sum_of(before));
+  EXPECT_NE(values(field), values(before));
+}
+
+TEST(Drainage, LeavesEveryHollowByItsRim) {
+  // A basin inside a wall that is lower in one place.
+  const Field field = field_from(9, 9, [](int x, int z) {
+    const int ring = std::max(std::abs(x - 4), std::abs(z - 4));
+    if (ring == 3) return x == 7 && z == 4 ? 6.0 : 10.0;
+    return ring < 3 ? 1.0 + ring : 0.0;
+  });
+  const Drainage drainage = drainage_of(field, any_job());
+  EXPECT_EQ(drainage.order.size(), 81U);
+  EXPECT_FLOAT_EQ(drainage.filled[4 * 9 + 4], 6);
+  const Array<float> area = gathered(field, drainage, any_job());
+  // All 25 samples of the basin leave by the gap.
+  EXPECT_GE(area[4 * 9 + 7], 25.0F);
+}
+
+TEST(Drainage, GathersEverySampleAtTheBorder) {
+  const Field field = hills(65);
+  const Array<float> area = gathered(field, drainage_of(field, any_job()), any_job());
+  double out = 0;
+  // What is at the border may still run along it, so that samples there count more than once; none is lost.
+  for (std::size_t i = 0; i < 65 * 65; ++i) {
+    if (i % 65 == 0 || i % 65 == 64 || i / 65 == 0 || i / 65 == 64) out += static_cast<double>(area[i]);
+  }
+  EXPECT_GE(out, 65 * 65 * 0.999);
+}
+
+TEST(StreamPower, CutsTheInsideAndLeavesTheBorder) {
+  Field field = hills(65);
+  const Field before = hills(65);
+  cut_rivers(field, {.iterations = 5}, any_job());
+  for (int z = 0; z < 65; ++z) {
+    for (int x = 0; x < 65; ++x) {
+      const bool border = x == 0 || z == 0 || x == 64 || z == 64;
+      ASSERT_TRUE(!border || field.at(x, z) == before.at(x, z));
+      ASSERT_LE(field.at(x, z), before.at(x, z));
+    }
+  }
+  EXPECT_LT(sum_of(field), sum_of(before));
+}
+
+TEST(Noise, IsTheSameInEveryWindowAndWithAnyNumberOfThreads) {
+  for (const NoiseKind kind : {NoiseKind::rolling, NoiseKind::ridged, NoiseKind::billow}) {
+    for (const double warp : {0.0, 12.0}) {
+      NoisePlan plan;
+      plan.kind = kind;
+      plan.amplitude = 10;
+      plan.wavelength = 37;
+      plan.warp = warp;
+      const Field all = noisy(plan, {-50, -60, 120, 120}, 1.5, Rng(4), any_job(1));
+      const Field part = noisy(plan, {-7, 3, 50, 40}, 1.5, Rng(4), any_job(8));
+      for (int z = 0; z < 40; ++z) {
+        for (int x = 0; x < 50; ++x) ASSERT_EQ(part.at(x, z), all.at(x + 43, z + 63));
+      }
+    }
+  }
+}
+
+TEST(Noise, StaysWithinItsOctavesAndFollowsTheHurstExponent) {
+  NoisePlan plan;
+  plan.amplitude = 10;
+  plan.wavelength = 128;
+  plan.gain = 0.5743;  // 2^-0.8
+  const Field field = noisy(plan, {0, 0, 513, 513}, 1, Rng(4), any_job());
+  const Range range = range_of(field, any_job());
+  EXPECT_LT(std::max(-range.low, range.high), 10 / (1 - 0.5743));
+  EXPECT_NEAR(measured_hurst(field), 0.8, 0.1);
+}
+
+TEST(Noise, RepeatsWhereItIsToldTo) {
+  NoisePlan plan;
+  plan.amplitude = 10;
+  plan.wavelength = 16;
+  plan.repeat = 4;
+  const Field field = noisy(plan, {-3, -5, 140, 140}, 1, Rng(4), any_job());
+  for (int z = 0; z < 70; ++z) {
+    for (int x = 0; x < 70; ++x) {
+      ASSERT_NEAR(field.at(x, z), field.at(x + 64, z), 1e-4);
+      ASSERT_NEAR(field.at(x, z), field.at(x, z + 64), 1e-4);
+    }
+  }
+}
+
+TEST(Resampling, KeepsSamplesThatFallTogetherAndPlanes) {
+  const Field field = hills(33);
+  const Field finer = resampled(field, 65, any_job());
+  for (int z = 0; z < 33; ++z) {
+    for (int x = 0; x < 33; ++x) ASSERT_FLOAT_EQ(finer.at(2 * x, 2 * z), field.at(x, z));
+  }
+  const Field plane = resampled(field_from(10, 7, [](int x, int z) { return 3 * x - 2 * z; }), 19, any_job());
+  EXPECT_EQ(plane.depth, 13);
+  for (int z = 0; z < 13; ++z) {
+    for (int x = 0; x < 19; ++x) ASSERT_NEAR(plane.at(x, z), 1.5 * x - z, 1e-4);
+  }
+}
+
+}  // namespace
+}  // namespace seedmesh::terrain
