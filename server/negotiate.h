@@ -1,5 +1,6 @@
 #pragma once
 /// What a client's header fields ask for: content coding, event stream, media type of its body, validators.
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -11,6 +11,7 @@
 ///
 /// Annotations of our own: x-unit, x-group, x-step, x-order, x-advanced, x-grammar, x-cpp-name, x-widget,
 /// x-steps, and x-short: beside a oneOf of number and object, the members that the number stands for.
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
