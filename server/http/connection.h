@@ -1,9 +1,9 @@
 #pragma once
 /// One client's socket: reading with absolute deadlines, writing that joins small pieces, and an end that
 /// lets the client read the last answer. Owns the socket. One thread.
-#include <cstdint>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
