@@ -105,15 +105,30 @@ bool refuse_image(tinygltf::Image*, int, std::string*, std::string*, int, int, c
   return false;
 }
 
+/// No file may be looked at. Later versions of the library ask for a file's size, too.
+template <class Callbacks>
+Callbacks without_files() {
+  Callbacks callbacks = {};
+  callbacks.FileExists = [](const std::string&, void*) { return false; };
+  callbacks.ExpandFilePath = [](const std::string&, void*) { return std::string(); };
+  callbacks.ReadWholeFile = [](std::vector<unsigned char>*, std::string*, const std::string&, void*) {
+    return false;
+  };
+  callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+    return false;
+  };
+  if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
+    callbacks.GetFileSizeInBytes = [](std::size_t*, std::string*, const std::string&, void*) {
+      return false;
+    };
+  }
+  return callbacks;
+}
+
 tinygltf::Model parsed(std::span<const std::byte> glb) {
   tinygltf::TinyGLTF parser;
   parser.SetImageLoader(refuse_image, nullptr);
-  parser.SetFsCallbacks(
-      {[](const std::string&, void*) { return false; },
-       [](const std::string&, void*) { return std::string(); },
-       [](std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; },
-       [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; },
-       nullptr});
+  parser.SetFsCallbacks(without_files<tinygltf::FsCallbacks>());
   tinygltf::Model model;
   std::string error, warning;
   bool read = false;
