@@ -26,7 +26,7 @@ COPY tests/bench tests/bench
 COPY core core
 COPY server server
 RUN --mount=type=cache,target=/root/.cache/ccache \
-  cmake --preset release -DSEEDMESH_TESTS=OFF && cmake --build build/release --target seedmesh
+  cmake --preset release -DSEEDMESH_TESTS=OFF && cmake --build build/release --target seedmesh -- -k 0
 COPY deploy/rootfs.sh deploy/rootfs.sh
 RUN deploy/rootfs.sh build/release/seedmesh /rootfs
 
