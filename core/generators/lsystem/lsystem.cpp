@@ -1,6 +1,7 @@
 #include "core/generators/lsystem/lsystem.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,7 @@
 #include "core/generators/lsystem/free.h"
 #include "core/generators/lsystem/growth.h"
 #include "core/generators/lsystem/shape.h"
+#include "core/generators/lsystem/sprout.h"
 #include "core/generators/lsystem/text.h"
 #include "core/generators/lsystem/word.h"
 
@@ -24,7 +26,17 @@ Result<Grammar> compiled(const LsystemParams& params, std::uint64_t seed, const 
   return grammar;
 }
 
-std::uint32_t steps_of(const LsystemParams& params) { return static_cast<std::uint32_t>(params.iterations); }
+/// Steps of the derivation: all of them, or up to the age of the plant.
+std::uint32_t steps_of(const LsystemParams& params) {
+  if (!params.age || params.timed) return static_cast<std::uint32_t>(params.iterations);
+  return math::to_uint32(std::ceil(*params.age));
+}
+
+/// How much of the last step has happened.
+double share_of(const LsystemParams& params) {
+  if (!params.age || params.timed) return 1;
+  return 1 - (std::ceil(*params.age) - *params.age);
+}
 
 /// Refuses early what is sure to be too long, before any memory is touched.
 void refuse_explosion(const Grammar& grammar, std::uint32_t steps, const Job& job) {
@@ -36,10 +48,9 @@ void refuse_explosion(const Grammar& grammar, std::uint32_t steps, const Job& jo
               "/iterations");
 }
 
-/// Derives and hands every module of the last word to the sink, in order.
+/// Derives so many steps and hands every module of the last word to the sink, in order.
 template <class Sink>
-void run(const Grammar& grammar, const LsystemParams& params, Sink& sink, Job& job) {
-  const std::uint32_t steps = steps_of(params);
+void run(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps, Sink& sink, Job& job) {
   const bool keyed = Drawing::needs_keys(grammar, params);
   if (!grammar.productions.context) {
     FreeDerivation<Sink>(grammar, steps, keyed, job, sink).run();
@@ -53,6 +64,28 @@ void run(const Grammar& grammar, const LsystemParams& params, Sink& sink, Job& j
                 word.key.empty() ? 0 : word.key[i], word.born.empty() ? 0 : word.born[i]);
   }
 }
+
+template <class Sink>
+void run(const Grammar& grammar, const LsystemParams& params, Sink& sink, Job& job) {
+  run(grammar, params, steps_of(params), sink, job);
+}
+
+/// Draws the plant at its age.
+void draw(const Grammar& grammar, const LsystemParams& params, Drawing& drawing, Job& job) {
+  const double share = share_of(params);
+  if (share == 1) return run(grammar, params, drawing, job);
+  const std::uint32_t whole = steps_of(params) - 1;
+  Sprouting sprouting(grammar, drawing, whole, share);
+  if (!grammar.productions.context) return run(grammar, params, whole, sprouting, job);
+  sprouting.word(derive_word(grammar, whole, Drawing::needs_keys(grammar, params), job), job);
+}
+
+struct TextOnly {
+  TextWriter& text;
+  void module(KindId kind, const double* parameters, std::uint64_t /*key*/, std::uint32_t /*step*/) {
+    text.module(kind, parameters);
+  }
+};
 
 /// Writes the text and draws, in one walk.
 struct TextAndDrawing {
@@ -130,7 +163,7 @@ Result<Model> generate(const LsystemParams& params, Job& job) {
   {
     Drawing drawing(*grammar, params, &skeleton, job);
     refuse_too_many_segments(*grammar, params, drawing, job);
-    run(*grammar, params, drawing, job);
+    draw(*grammar, params, drawing, job);
   }
   shape(skeleton, params, job);
   job.progress("mesh", 0);
@@ -147,10 +180,15 @@ Result<Json> derive(const LsystemParams& params, Job& job) {
   TextWriter writer(*grammar, longest_text);
   std::vector<std::uint64_t> counts;
   if (is_plain(*grammar)) {
-    run(*grammar, params, drawing, job);
+    draw(*grammar, params, drawing, job);
     const Array<char> text = plain_text(*grammar, steps_of(params), longest_text, job);
     writer.text.assign(text.begin(), text.end());
     counts = exact_counts(*grammar, steps_of(params));
+  } else if (share_of(params) != 1) {
+    TextOnly text{writer};
+    run(*grammar, params, text, job);
+    draw(*grammar, params, drawing, job);
+    counts = writer.counts();
   } else {
     TextAndDrawing both{writer, drawing};
     run(*grammar, params, both, job);
