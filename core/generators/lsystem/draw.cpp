@@ -42,7 +42,7 @@ Drawing::Drawing(const Grammar& grammar, const LsystemParams& params, Skeleton* 
     tropisms.push_back({{to[0], to[1], to[2]}, each.elasticity, each.step});
   }
   if (!tropisms.empty()) turtle_.set_tropisms(std::move(tropisms));
-  if (params.weather) turtle_.track_anchors();
+  if (params.weather || job.wanted().growth) turtle_.track_anchors();
 }
 
 bool Drawing::needs_keys(const Grammar& grammar, const LsystemParams& params) {
