@@ -8,8 +8,8 @@ namespace seedmesh {
 namespace {
 
 constexpr std::size_t look_every = 4096;
-// The last pieces need time to grow, too.
-constexpr double last_birth = 0.9;
+// The last pieces need time to grow, too; and a trunk should not stand bare for long.
+constexpr double last_birth = 0.6;
 // Of a bone that is not born yet. Not 0: players turn matrices round.
 constexpr float seed_size = 0.001F;
 // Keys of a scale between birth and end; what is between them is within a hundredth of the curve.
@@ -19,9 +19,9 @@ constexpr int keys_a_bone = 9;
 struct Measures {
   explicit Measures(const Limbs& limbs, Job& job)
       : path(job, limbs.size(), 0.0F), carried(job, limbs.size(), 0.0F), born(job, limbs.size()) {}
-  Array<float> path;          ///< length along the limbs from the root to the joint
-  Array<float> carried;       ///< length of the internode and of all beyond
-  Array<std::uint8_t> born;   ///< class of birth of the internode
+  Array<float> path;         ///< length along the limbs from the root to the joint
+  Array<float> carried;      ///< length of the internode and of all beyond
+  Array<std::uint8_t> born;  ///< class of birth of the internode
 };
 
 std::uint32_t carrier_of(const Limbs& limbs, std::size_t joint) {
@@ -73,12 +73,13 @@ Measures measure(const Limbs& limbs, Job& job) {
   return measures;
 }
 
-/// True where a bone may begin with the internode of `joint`: at roots and side branches, and where a limb goes
-/// on in a later class of birth.
+/// True where a bone may begin with the internode of `joint`: at roots and side branches, and where a limb
+/// goes on in a later class of birth.
 bool may_begin(const Limbs& limbs, const Measures& measures, std::uint32_t joint) {
   const std::uint32_t parent = limbs.parent[joint];
   if (parent == Limbs::none) return true;
-  if (limbs.parent[parent] == Limbs::none) return false;  // the first internode of a root: its bone is the root's
+  if (limbs.parent[parent] == Limbs::none)
+    return false;  // the first internode of a root: its bone is the root's
   return limbs.starts_limb[joint] || measures.born[joint] != measures.born[parent];
 }
 
@@ -146,8 +147,7 @@ GrowthPlan plan_growth(const Limbs& limbs, const GrowthOptions& options, Job& jo
   plan.ground_grows = plants == 0 || plants + 1 > options.most_bones;
   if (plan.ground_grows) return plan;
 
-  const std::vector<std::uint32_t> begins =
-      chosen_joints(limbs, measures, options.most_bones - 1, job);
+  const std::vector<std::uint32_t> begins = chosen_joints(limbs, measures, options.most_bones - 1, job);
   auto next = begins.begin();
   for (std::size_t i = 0; i < limbs.size(); ++i) {
     if (i % look_every == 0) job.check();
@@ -189,7 +189,8 @@ void add_growth(Model& model, const GrowthPlan& plan) {
     Node node;
     node.name = is_ground ? "ground" : "limb_" + std::to_string(i);
     node.parent = is_ground ? 0 : first + bone.parent;
-    if (!is_ground) node.transform.translation = bone.position - plan.bones[static_cast<std::size_t>(bone.parent)].position;
+    if (!is_ground)
+      node.transform.translation = bone.position - plan.bones[static_cast<std::size_t>(bone.parent)].position;
     model.nodes.push_back(std::move(node));
     skin.joints.push_back(first + static_cast<int>(i));
     glm::mat4 bind(1);

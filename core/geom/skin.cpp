@@ -112,8 +112,12 @@ std::vector<Bark> room_for_all(const std::vector<TubeCount>& totals, const Palet
 }
 
 TubeCursor cursor_at(Mesh& mesh, const TubeCount& place) {
-  return {mesh.position.data(),   mesh.normal.data(), mesh.uv[0].empty() ? nullptr : mesh.uv[0].data(),
-          mesh.index.wide.data(), place.vertices,     3 * place.triangles,
+  return {mesh.position.data(),
+          mesh.normal.data(),
+          mesh.uv[0].empty() ? nullptr : mesh.uv[0].data(),
+          mesh.index.wide.data(),
+          place.vertices,
+          3 * place.triangles,
           mesh.bone.empty() ? nullptr : mesh.bone.data()};
 }
 

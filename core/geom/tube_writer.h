@@ -69,7 +69,7 @@ class TubeWriter {
     float radius = 0;
     float v = 0;
     std::uint32_t joint = 0;  ///< the internode that it moves with
-    Slope before{0};  ///< 0: nothing before, a hard edge
+    Slope before{0};          ///< 0: nothing before, a hard edge
     std::int16_t next_color = 0;
   };
 

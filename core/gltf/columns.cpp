@@ -147,9 +147,9 @@ Tracks take_tracks(Animation& animation) {
   std::map<Same, int> samplers;
   for (std::size_t i = 0; i < animation.channels.size(); ++i) {
     Channel& channel = animation.channels[i];
-    const auto [known, is_new] = samplers.try_emplace(
-        {channel.times, channel.interpolation, lanes_of(channel.path), channel.values},
-        static_cast<int>(tracks.values.size()));
+    const auto [known, is_new] =
+        samplers.try_emplace({channel.times, channel.interpolation, lanes_of(channel.path), channel.values},
+                             static_cast<int>(tracks.values.size()));
     tracks.sampler.push_back(known->second);
     if (!is_new) continue;
     tracks.channel.push_back(static_cast<int>(i));
