@@ -42,7 +42,7 @@ Drawing::Drawing(const Grammar& grammar, const LsystemParams& params, Skeleton* 
     tropisms.push_back({{to[0], to[1], to[2]}, each.elasticity, each.step});
   }
   if (!tropisms.empty()) turtle_.set_tropisms(std::move(tropisms));
-  if (params.weather || job.wanted().growth) turtle_.track_anchors();
+  if (params.weather || params.environment || job.wanted().growth) turtle_.track_anchors();
 }
 
 bool Drawing::needs_keys(const Grammar& grammar, const LsystemParams& params) {
@@ -129,6 +129,11 @@ void Drawing::obey(const Kind& kind, const double* parameters, std::uint64_t key
   switch (kind.command) {
     case Command::none:
     case Command::cut:
+    case Command::ask_position:
+    case Command::ask_heading:
+    case Command::ask_left:
+    case Command::ask_up:
+    case Command::ask_surroundings:
       return;
     case Command::draw:
       return turtle_.draw(length(kind, parameters, key), key);

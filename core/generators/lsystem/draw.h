@@ -33,6 +33,8 @@ class Drawing {
   /// A module that is not whole. `step` counts for the width rule decrement.
   void grow(const Module& module, double step, Grown grown);
 
+  /// Where it starts, before anything is drawn.
+  void start_at(const glm::dvec3& position) { turtle_.move_to(position); }
   const Turtle& turtle() const { return turtle_; }
   void set_most_segments(std::uint64_t most) { turtle_.set_most_segments(most); }
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "core/generators/lsystem/draw.h"
 #include "core/generators/lsystem/dress.h"
 #include "core/generators/lsystem/free.h"
+#include "core/generators/lsystem/garden.h"
 #include "core/generators/lsystem/growth.h"
 #include "core/generators/lsystem/shape.h"
 #include "core/generators/lsystem/sprout.h"
@@ -78,6 +80,12 @@ void draw(const Grammar& grammar, const LsystemParams& params, Drawing& drawing,
   Sprouting sprouting(grammar, drawing, whole, share);
   if (!grammar.productions.context) return run(grammar, params, whole, sprouting, job);
   sprouting.word(derive_word(grammar, whole, Drawing::needs_keys(grammar, params), job), job);
+}
+
+void write(const Word& word, TextWriter& writer) {
+  const double nothing = 0;
+  for (std::size_t i = 0; i < word.size(); ++i)
+    writer.module(word.kind[i], word.parameter.empty() ? &nothing : word.parameter.data() + word.at[i]);
 }
 
 struct TextOnly {
@@ -151,6 +159,7 @@ Json described(const std::vector<Warning>& warnings) {
 std::vector<Issue> check(const LsystemParams& params, const Limits& limits) {
   std::vector<Issue> issues;
   compile(params, 0, limits, issues);
+  check_environment(params, issues);
   return issues;
 }
 
@@ -160,7 +169,16 @@ Result<Model> generate(const LsystemParams& params, Job& job) {
   refuse_explosion(*grammar, steps_of(params), job);
   job.progress("derive", 0);
   Skeleton skeleton(job);
-  {
+  std::unique_ptr<Garden> garden;
+  if (Garden::needed(*grammar, params)) {
+    garden = std::make_unique<Garden>(params, job);
+    const double share = share_of(params);
+    garden->grow(*grammar, share == 1 ? steps_of(params) : steps_of(params) - 1);
+    Drawing drawing(*grammar, params, &skeleton, job);
+    drawing.set_most_segments(most_segments(params, job.limits()));
+    garden->draw(*grammar, drawing, share);
+    garden->cut(skeleton);
+  } else {
     Drawing drawing(*grammar, params, &skeleton, job);
     refuse_too_many_segments(*grammar, params, drawing, job);
     draw(*grammar, params, drawing, job);
@@ -168,6 +186,7 @@ Result<Model> generate(const LsystemParams& params, Job& job) {
   shape(skeleton, params, job);
   job.progress("mesh", 0);
   Model model = dress(std::move(skeleton), params, job);
+  if (garden) garden->add_others(model);
   for (Warning& warning : grammar->warnings) model.warnings.push_back(std::move(warning));
   return model;
 }
@@ -179,7 +198,13 @@ Result<Json> derive(const LsystemParams& params, Job& job) {
   Drawing drawing(*grammar, params, nullptr, job);
   TextWriter writer(*grammar, longest_text);
   std::vector<std::uint64_t> counts;
-  if (is_plain(*grammar)) {
+  if (Garden::needed(*grammar, params)) {
+    Garden garden(params, job);
+    garden.grow(*grammar, steps_of(params));
+    write(garden.word(), writer);
+    garden.draw(*grammar, drawing, 1);
+    counts = writer.counts();
+  } else if (is_plain(*grammar)) {
     draw(*grammar, params, drawing, job);
     const Array<char> text = plain_text(*grammar, steps_of(params), longest_text, job);
     writer.text.assign(text.begin(), text.end());
@@ -217,6 +242,7 @@ Result<Appraisal> appraise(const LsystemParams& params, const Job& job) {
   Appraisal appraisal;
   appraisal.warnings = grammar->warnings;
   refuse_explosion(*grammar, steps_of(params), job);
+  if (Garden::needed(*grammar, params)) return appraisal;
   const std::vector<std::uint64_t> counts = exact_counts(*grammar, steps_of(params));
   if (!counts.empty() && grammar->interpretation.productions.empty()) {
     appraisal.estimate = estimate_of(drawn(*grammar, counts), params);
