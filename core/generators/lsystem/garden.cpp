@@ -97,6 +97,9 @@ void check_environment(const LsystemParams& params, std::vector<Issue>& issues) 
     }
     Faults faults;
     const LsystemParams system = read_lsystem(Json::parse(child.parameters), "", faults);
+    if (faults.empty() && system.age && !system.timed && *system.age != std::floor(*system.age)) {
+      issues.push_back({pointer + "/parameters/age", "a companion grows by whole iterations"});
+    }
     if (faults.empty() && system.environment) {
       issues.push_back({pointer + "/parameters/environment",
                         "a companion grows in this environment and has none of its own"});
@@ -306,7 +309,10 @@ void Garden::add_others(Model& model) {
     draw_word(plant.derivation->word, drawing, job_);
     cut(skeleton);
     shape(skeleton, plant.params, plant.job);
-    append(model, dress(std::move(skeleton), plant.params, plant.job), 0, {});
+    Model own = dress(std::move(skeleton), plant.params, plant.job);
+    for (Warning& warning : own.warnings)
+      warning.pointer.insert(0, "/environment/companions/" + std::to_string(i - 1) + "/system/parameters");
+    append(model, std::move(own), 0, {});
   }
   for (Host& host : hosts_) append(model, std::move(host.model), 0, host.at);
   hosts_.clear();
