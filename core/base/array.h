@@ -56,11 +56,18 @@ class Array {
     resize(size);
     for (T& each : *this) each = value;
   }
+  explicit Array(std::shared_ptr<Purse> purse) : block_(std::move(purse)) {}
   Array(Array&& other) noexcept : block_(std::move(other.block_)), size_(std::exchange(other.size_, 0)) {}
   Array& operator=(Array&& other) noexcept {
     block_ = std::move(other.block_);
     size_ = std::exchange(other.size_, 0);
     return *this;
+  }
+
+  /// An empty array of other elements, charged to the same purse.
+  template <class Other>
+  Array<Other> like() const {
+    return Array<Other>(block_.purse());
   }
 
   std::size_t size() const { return size_; }

@@ -64,6 +64,12 @@ class Purse {
   std::uint64_t limit_;
 };
 
+/// What the answer shall hold beside the shape. Whoever is asked for what it cannot make is not called: the
+/// pipeline refuses the request.
+struct Wanted {
+  bool growth = false;  ///< the animation "growth"
+};
+
 /// The context of one request. Safe to use from the worker threads of that request.
 class Job {
  public:
@@ -83,6 +89,10 @@ class Job {
   /// The same purse, limits, stop and deadline with another seed, for a request inside this one. Its stages
   /// are part of a stage of this one: it tells no progress.
   Job for_child(std::uint64_t seed) const;
+
+  /// Wishes are of this job alone, not of the children that it makes with for_child().
+  const Wanted& wanted() const { return wanted_; }
+  void want(const Wanted& wanted) { wanted_ = wanted; }
 
   Rng rng() const { return Rng::of_seed(seed_); }
   std::uint64_t seed() const { return seed_; }
@@ -131,6 +141,7 @@ class Job {
 
   std::uint64_t seed_;
   bool is_child_ = false;
+  Wanted wanted_;
   std::shared_ptr<State> state_;
 };
 

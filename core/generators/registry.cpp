@@ -13,6 +13,11 @@
 namespace seedmesh {
 namespace {
 
+/// What a generator can do beyond making a still model.
+struct Traits {
+  bool grows = false;
+};
+
 /// The functions of one generator as the compiler sees them, turned to those of a row.
 template <class Own, auto read_own, auto write_own, auto check_own, auto generate_own, auto derive_own,
           auto appraise_own, auto vocabulary_own>
@@ -39,8 +44,9 @@ struct Row {
     return appraise_own(own(params), job);
   }
 
-  static constexpr Generator named(std::string_view name) {
+  static constexpr Generator named(std::string_view name, Traits traits = {}) {
     return {.name = name,
+            .grows = traits.grows,
             .read = read,
             .write = write,
             .check = check,
@@ -70,7 +76,7 @@ constexpr OwnForm terrain_forms[] = {
 
 constexpr Generator rows[] = {
     Row<LsystemParams, read_lsystem, write_lsystem, lsystem::check, lsystem::generate, lsystem::derive,
-        lsystem::appraise, lsystem::vocabulary>::named("lsystem"),
+        lsystem::appraise, lsystem::vocabulary>::named("lsystem", {.grows = true}),
     Row<TreeParams, read_tree, write_tree, tree::check, tree::generate, tree::derive, tree::appraise,
         tree::vocabulary>::named("tree"),
     Row<TerrainParams, read_terrain, write_terrain, terrain::check, terrain::generate, terrain::derive,

@@ -79,6 +79,7 @@ void order_for_cache(Mesh& mesh, const Job& job) {
   reorder(mesh.tangent, new_place, used, job);
   reorder(mesh.joints, new_place, used, job);
   reorder(mesh.weights, new_place, used, job);
+  reorder(mesh.bone, new_place, used, job);
   mesh.cache_ordered = true;
 }
 

@@ -204,10 +204,17 @@ class PolygonCutter {
 /// pieces, which now know their side.
 class PieceWriter {
  public:
-  PieceWriter(const Outlines& outlines, const Neighbourhood& near, PolygonCutter& cut, Job& job)
-      : outlines_(outlines),
-        near_(near),
+  struct Inputs {
+    const Outlines& outlines;
+    const Neighbourhood& near;
+    std::span<const std::uint16_t> bones;
+  };
+
+  PieceWriter(const Inputs& inputs, PolygonCutter& cut, Job& job)
+      : outlines_(inputs.outlines),
+        near_(inputs.near),
         cut_(cut),
+        bones_(inputs.bones),
         job_(job),
         budget_(job, Resource::triangles),
         vertices_(job, 64) {}
@@ -233,6 +240,7 @@ class PieceWriter {
       mesh.position.shrink_to_fit();
       mesh.normal.shrink_to_fit();
       mesh.uv[0].shrink_to_fit();
+      mesh.bone.shrink_to_fit();
       all.push_back({where.second, std::move(mesh), where.first});
     }
     return all;
@@ -243,6 +251,7 @@ class PieceWriter {
   struct Vertex {
     glm::vec3 position, normal;
     glm::vec2 uv;
+    std::uint16_t bone;
   };
 
   Where where(const Piece& piece) const { return {piece.layer, outlines_.outline[piece.outline].color}; }
@@ -275,9 +284,11 @@ class PieceWriter {
       mesh.normal = Array<glm::vec3>(job_);
       mesh.uv[0] = Array<glm::vec2>(job_);
       mesh.index.wide = Array<std::uint32_t>(job_);
+      mesh.bone = Array<std::uint16_t>(job_);
       mesh.position.reserve(need.vertices);
       mesh.normal.reserve(need.vertices);
       mesh.uv[0].reserve(need.vertices);
+      if (!bones_.empty()) mesh.bone.reserve(need.vertices);
       mesh.index.wide.reserve(need.corners);
       mesh.cache_ordered = need.fits_cache;
     }
@@ -297,6 +308,8 @@ class PieceWriter {
     const Outline& outline = outlines_.outline[piece.outline];
     Mesh& mesh = mesh_at(where(piece));
     const glm::vec3 origin = outlines_.vertex[outline.first];
+    const std::uint16_t bone =
+        bones_.empty() || outline.limb_joint == Limbs::none ? std::uint16_t{0} : bones_[outline.limb_joint];
     const glm::vec3 v = glm::cross(piece.normal, piece.u);
     flat_.resize(outline.count);
     glm::vec2 low{0}, high{0};
@@ -316,7 +329,7 @@ class PieceWriter {
       if (vertex_[i] == unused) continue;
       const glm::vec2 uv = glm::min((flat_[i] - low) * scale, glm::vec2(1)) + 0.0F;
       vertex_[i] = find_vertex(mesh, where(piece), near_.place[outline.first + i],
-                               {outlines_.vertex[outline.first + i] + 0.0F, normal, uv});
+                               {outlines_.vertex[outline.first + i] + 0.0F, normal, uv, bone});
     }
     std::uint32_t* out = mesh.index.wide.extend(corners.size());
     for (std::size_t t = 0; t < corners.size(); t += 3) {
@@ -336,6 +349,7 @@ class PieceWriter {
                           vertex.normal.y, vertex.normal.z, vertex.uv.x, vertex.uv.y}) {
         key = key_at(key, std::bit_cast<std::uint32_t>(value));
       }
+      if (vertex.bone != 0) key = key_at(key, vertex.bone);
       std::uint32_t& number = vertices_[key];
       if (number != NumberTable::none) return number;
       number = fresh;
@@ -343,6 +357,7 @@ class PieceWriter {
     mesh.position.push_back(vertex.position);
     mesh.normal.push_back(vertex.normal);
     mesh.uv[0].push_back(vertex.uv);
+    if (!bones_.empty()) mesh.bone.push_back(vertex.bone);
     return fresh;
   }
 
@@ -359,6 +374,7 @@ class PieceWriter {
   const Outlines& outlines_;
   const Neighbourhood& near_;
   PolygonCutter& cut_;
+  std::span<const std::uint16_t> bones_;
   Job& job_;
   Meter budget_;
   FlatOutline polygon_;
@@ -374,11 +390,11 @@ class PieceWriter {
 
 }  // namespace
 
-std::vector<Bark> polygons(const Outlines& outlines, Job& job) {
+std::vector<Bark> polygons(const Outlines& outlines, Job& job, std::span<const std::uint16_t> bones) {
   if (outlines.outline.empty()) return {};
   Neighbourhood near(outlines, job);
   PolygonCutter cut(outlines, near, job);
-  return PieceWriter(outlines, near, cut, job).run();
+  return PieceWriter({outlines, near, bones}, cut, job).run();
 }
 
 }  // namespace seedmesh

@@ -17,6 +17,7 @@ namespace seedmesh {
 /// become primitives of one mesh of the answer; each layer needs a mesh (and node) of its own.
 /// Out: by layer, then colour, both rising; none is empty. Spends Resource::triangles. One thread; linear but
 /// for big outlines (triangulate.h) and for many polygons on one edge (their square).
-std::vector<Bark> polygons(const Outlines& outlines, Job& job);
+/// `bones`, where it is not empty: of each joint that outlines are on, what moves it; fills Mesh::bone.
+std::vector<Bark> polygons(const Outlines& outlines, Job& job, std::span<const std::uint16_t> bones = {});
 
 }  // namespace seedmesh

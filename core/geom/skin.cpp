@@ -93,6 +93,7 @@ Mesh room_for(const TubeCount& count, const SkinOptions& options, const Job& job
   mesh.position = Array<glm::vec3>(job, count.vertices);
   mesh.normal = Array<glm::vec3>(job, count.vertices);
   if (options.uv) mesh.uv[0] = Array<glm::vec2>(job, count.vertices);
+  if (!options.bones.empty()) mesh.bone = Array<std::uint16_t>(job, count.vertices);
   mesh.index.wide = Array<std::uint32_t>(job, 3 * count.triangles);
   mesh.cache_ordered = true;
   return mesh;
@@ -111,8 +112,13 @@ std::vector<Bark> room_for_all(const std::vector<TubeCount>& totals, const Palet
 }
 
 TubeCursor cursor_at(Mesh& mesh, const TubeCount& place) {
-  return {mesh.position.data(),   mesh.normal.data(), mesh.uv[0].empty() ? nullptr : mesh.uv[0].data(),
-          mesh.index.wide.data(), place.vertices,     3 * place.triangles};
+  return {mesh.position.data(),
+          mesh.normal.data(),
+          mesh.uv[0].empty() ? nullptr : mesh.uv[0].data(),
+          mesh.index.wide.data(),
+          place.vertices,
+          3 * place.triangles,
+          mesh.bone.empty() ? nullptr : mesh.bone.data()};
 }
 
 void write_tubes(Plan& plan, const Limbs& limbs, const SkinOptions& options, const Job& job,

@@ -1,5 +1,6 @@
 #pragma once
 /// Limbs -> Mesh: tubes that follow limbs.
+#include <span>
 #include <vector>
 
 #include "core/geom/limbs.h"
@@ -11,6 +12,7 @@ struct SkinOptions {
   int sides = 8;   ///< corners of a cross-section of the thickest limb, 3..64
   int stacks = 1;  ///< rings an internode is cut into, 1..16; only where the radius changes along it
   bool uv = true;
+  std::span<const std::uint16_t> bones = {};  ///< of each joint: what moves its internode; fills Mesh::bone
 };
 
 /// The bark of one colour index, as one mesh.

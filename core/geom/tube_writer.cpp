@@ -91,6 +91,7 @@ TubeWriter::Ring TubeWriter::plain_ring(const glm::vec3& centre, float radius, f
   ring.side_v = ring.normal_v * radius;
   ring.radius = radius;
   ring.v = v;
+  ring.joint = internode_.joint;
   ring.next_color = internode_.color;
   return ring;
 }
@@ -158,6 +159,7 @@ void TubeWriter::join(const Turn& turn, const Internode& next) {
   ring.tangent = tangent;
   ring.radius = next.base;
   ring.v = length_so_far_;
+  ring.joint = internode_.joint;  // the older one: the younger is a point there before it grows
   ring.before = slope;
   ring.next_color = next.color;
   waiting_ = ring;
@@ -239,6 +241,7 @@ void TubeWriter::write_disc(const Ring& ring) {
     here_->normal[rim + k] = normal;
     if (here_->uv) here_->uv[rim + k] = at * ring.radius;
   }
+  write_bones(rim, section_.sides, ring.joint);
   here_->vertex += section_.sides;
   std::uint32_t* out = here_->index + here_->corner;
   for (std::uint32_t k = 0; k < section_.sides; ++k) {
@@ -277,6 +280,7 @@ void TubeWriter::write_ring(const Ring& ring, Slope after) {
     glm::vec2* uv = here_->uv + first;
     for (std::uint32_t k = 0; k <= section_.sides; ++k) uv[k] = {step * static_cast<float>(k), v};
   }
+  write_bones(first, section_.corners, ring.joint);
   here_->vertex += section_.corners;
   ++piece_.rings;
 }
@@ -286,7 +290,12 @@ std::uint32_t TubeWriter::write_apex(const glm::vec3& position, const glm::vec3&
   here_->position[at] = position + 0.0F;
   here_->normal[at] = normal + 0.0F;
   if (here_->uv) here_->uv[at] = uv + 0.0F;
+  write_bones(at, 1, internode_.joint);
   return static_cast<std::uint32_t>(at);
+}
+
+void TubeWriter::write_bones(std::size_t first, std::size_t count, std::uint32_t joint) {
+  if (here_->bone) std::fill_n(here_->bone + first, count, context_.options.bones[joint]);
 }
 
 void TubeWriter::end_piece() {

@@ -33,6 +33,7 @@ struct TubeCursor {
   std::uint32_t* index = nullptr;
   std::size_t vertex = 0;
   std::size_t corner = 0;
+  std::uint16_t* bone = nullptr;  ///< null: no bones
 };
 
 class TubeWriter {
@@ -67,7 +68,8 @@ class TubeWriter {
     glm::vec3 tangent{0};
     float radius = 0;
     float v = 0;
-    Slope before{0};  ///< 0: nothing before, a hard edge
+    std::uint32_t joint = 0;  ///< the internode that it moves with
+    Slope before{0};          ///< 0: nothing before, a hard edge
     std::int16_t next_color = 0;
   };
 
@@ -93,6 +95,7 @@ class TubeWriter {
   void write_waiting(Slope after);
   void write_inner_rings(const Taper& taper);
   std::uint32_t write_apex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv);
+  void write_bones(std::size_t first, std::size_t count, std::uint32_t joint);
   std::uint64_t hash_of(std::uint32_t joint) const;
   float nudge(std::uint64_t hash, float radius) const;
 

@@ -81,6 +81,7 @@ class Turtle {
   void set_color(std::int64_t color);
   std::int16_t color() const { return state_.color; }
 
+  std::uint32_t last_joint() const { return state_.last; }  ///< of this branch; none before its first segment
   const glm::dvec3& position() const { return state_.position; }
   const Frame& frame() const { return state_.frame; }
   const TurtleReport& report() const { return report_; }

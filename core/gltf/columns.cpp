@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <map>
+#include <tuple>
 #include <utility>
 
 namespace seedmesh::gltf {
@@ -60,6 +62,33 @@ void take_uv(Part& part, Mesh& mesh) {
   }
 }
 
+/// JOINTS_0 and WEIGHTS_0 of vertices that one joint each moves: four numbers of which the first counts.
+template <class Number>
+void name_bones(Part& part, Array<std::uint16_t>& bone, Component component) {
+  using Four = glm::vec<4, Number>;
+  Array<Four> joints = bone.like<Four>();
+  Array<glm::u8vec4> weights = bone.like<glm::u8vec4>();
+  joints.resize(bone.size());
+  weights.resize(bone.size());
+  for (std::size_t i = 0; i < bone.size(); ++i) {
+    joints[i] = Four(static_cast<Number>(bone[i]), 0, 0, 0);
+    weights[i] = glm::u8vec4(255, 0, 0, 0);
+  }
+  bone = {};
+  name_column(part, "JOINTS_0", column_of(joints, component, Lanes::vec4));
+  name_column(part, "WEIGHTS_0", column_of(weights, Component::u8, Lanes::vec4));
+  part.columns.back().normalized = true;
+}
+
+void take_bones(Part& part, Mesh& mesh) {
+  if (mesh.bone.empty()) return;
+  if (*std::max_element(mesh.bone.begin(), mesh.bone.end()) <= 255) {
+    name_bones<std::uint8_t>(part, mesh.bone, Component::u8);
+  } else {
+    name_bones<std::uint16_t>(part, mesh.bone, Component::u16);
+  }
+}
+
 Part take_part(Primitive& primitive) {
   Mesh& mesh = primitive.mesh;
   Part part{.topology = mesh.topology,
@@ -80,6 +109,7 @@ Part take_part(Primitive& primitive) {
     name_column(part, "JOINTS_0", column_of(mesh.joints, Component::u16, Lanes::vec4));
   if (!mesh.weights.empty())
     name_column(part, "WEIGHTS_0", column_of(mesh.weights, Component::f32, Lanes::vec4));
+  take_bones(part, mesh);
   return part;
 }
 
@@ -113,7 +143,16 @@ Tracks take_tracks(Animation& animation) {
     tracks.times.push_back(column_of(times, Lanes::scalar));
     tracks.times.back().range = range;
   }
-  for (Channel& channel : animation.channels) {
+  using Same = std::tuple<int, Interpolation, Lanes, std::vector<float>>;
+  std::map<Same, int> samplers;
+  for (std::size_t i = 0; i < animation.channels.size(); ++i) {
+    Channel& channel = animation.channels[i];
+    const auto [known, is_new] =
+        samplers.try_emplace({channel.times, channel.interpolation, lanes_of(channel.path), channel.values},
+                             static_cast<int>(tracks.values.size()));
+    tracks.sampler.push_back(known->second);
+    if (!is_new) continue;
+    tracks.channel.push_back(static_cast<int>(i));
     tracks.values.push_back(column_of(channel.values, lanes_of(channel.path)));
   }
   return tracks;

@@ -53,7 +53,9 @@ struct Part {
 
 struct Tracks {
   std::vector<Column> times;   ///< as Animation::times
-  std::vector<Column> values;  ///< as Animation::channels
+  std::vector<Column> values;  ///< of each sampler; channels with equal values at equal times share one
+  std::vector<int> sampler;    ///< of each channel of the animation
+  std::vector<int> channel;    ///< of each sampler, the first channel that uses it
 };
 
 /// Everything of a model that is stored as numbers in a buffer; the vectors run beside those of the model.

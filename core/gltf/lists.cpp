@@ -185,6 +185,14 @@ void append_animation(std::string& out, const Animation& animation, const Tracks
   out += ",\"channels\":[";
   for (std::size_t i = 0; i < animation.channels.size(); ++i) {
     const Channel& channel = animation.channels[i];
+    append_member(out, i == 0 ? "{\"sampler\":" : ",{\"sampler\":", tracks.sampler[i]);
+    append_member(out, ",\"target\":{\"node\":", channel.node);
+    out += ",\"path\":";
+    append_string(out, name_of(channel.path));
+    out += "}}";
+  }
+  for (std::size_t i = 0; i < tracks.values.size(); ++i) {
+    const Channel& channel = animation.channels[static_cast<std::size_t>(tracks.channel[i])];
     const auto [input, is_new] = inputs.try_emplace(channel.times, -1);
     if (is_new)
       input->second = accessors.add(Pool::keys, tracks.times[static_cast<std::size_t>(channel.times)]);
@@ -193,11 +201,6 @@ void append_animation(std::string& out, const Animation& animation, const Tracks
     samplers += ",\"interpolation\":";
     append_string(samplers, name_of(channel.interpolation));
     samplers += '}';
-    append_member(out, i == 0 ? "{\"sampler\":" : ",{\"sampler\":", std::uint64_t{i});
-    append_member(out, ",\"target\":{\"node\":", channel.node);
-    out += ",\"path\":";
-    append_string(out, name_of(channel.path));
-    out += "}}";
   }
   out += "],\"samplers\":[" + samplers + "]}";
 }

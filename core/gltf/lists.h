@@ -54,8 +54,7 @@ struct MaterialUse {
 void append_mesh(std::string& out, const std::string& name, const std::vector<Part>& parts,
                  Accessors& accessors, MaterialUse& materials);
 
-/// Appends one animation object with a sampler for each channel; channels with the same key times share the
-/// accessor.
+/// Appends one animation object; samplers with the same key times share the accessor.
 void append_animation(std::string& out, const Animation& animation, const Tracks& tracks,
                       Accessors& accessors);
 

@@ -35,6 +35,7 @@ struct Mesh {
   Array<glm::vec4> tangent;            ///< w = handedness; only where a normal map is
   Array<glm::u16vec4> joints;          ///< with `weights`: up to four joints of the node's skin
   Array<glm::vec4> weights;
+  Array<std::uint16_t> bone;   ///< instead of the two: the one joint that moves the vertex whole
   Indices index;               ///< 3 a triangle, 2 a line
   Box bounds;                  ///< of `position`; set by finish
   bool cache_ordered = false;  ///< the maker emitted triangles in cache order already

@@ -118,6 +118,7 @@ Result<Product> produce_own(const Request& request, const OwnForm& form, Job& jo
 Result<Product> produce(const Request& request, Job& job, TextureStore* /*texture_store*/) {
   return guarded<Product>([&]() -> Result<Product> {
     if (const OwnForm* form = own_form_of(request)) return produce_own(request, *form, job);
+    job.want({.growth = request.body().output.animation == OutputParams::Animation::growth});
     Result<Model> model = request.body().generator->generate(request.body().params, job);
     if (!model) return std::move(model).error();
     finish(*model, job);

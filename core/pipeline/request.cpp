@@ -86,6 +86,10 @@ Result<Request> read_request_body(const Json& json, const Limits& limits) {
     body.params = parameters_of(merged, *body.generator, limits, faults);
   }
   if (body.generator) add_form_fault(*body.generator, frame.output, faults);
+  if (body.generator && !body.generator->grows && frame.output.animation == OutputParams::Animation::growth) {
+    faults.add({"/output/animation",
+                "the generator " + std::string(body.generator->name) + " makes no growth animation"});
+  }
   if (!faults.empty()) return Error{Code::invalid, faults.take()};
   body.output = frame.output;
   body.seed = frame.seed;

@@ -46,6 +46,7 @@ std::uint64_t duplicates_of(const Mesh& mesh) {
     hash_bytes(rows[i], mesh.tangent, i);
     hash_bytes(rows[i], mesh.joints, i);
     hash_bytes(rows[i], mesh.weights, i);
+    hash_bytes(rows[i], mesh.bone, i);
   }
   std::sort(rows.begin(), rows.end());
   return static_cast<std::uint64_t>(rows.end() - std::unique(rows.begin(), rows.end()));

@@ -60,6 +60,16 @@ constexpr CommandRow rows[] = {
      "F+F@a(0.5)+F"},
     {"@-", Command::mirror, "", 0, 0, "Exchanges left and right: + and -, \\ and /, until the next one.",
      "[+F]@-+F"},
+    {"?P", Command::ask_position, "(x,y,z)", 3, 3,
+     "Asks where the turtle is: between two steps its parameters become the position.", "F?P(0,0,0)F"},
+    {"?H", Command::ask_heading, "(x,y,z)", 3, 3, "Asks for the turtle's heading.", "+F?H(0,0,0)F"},
+    {"?L", Command::ask_left, "(x,y,z)", 3, 3, "Asks for the turtle's left.", "+F?L(0,0,0)F"},
+    {"?U", Command::ask_up, "(x,y,z)", 3, 3, "Asks for the turtle's up.", "&F?U(0,0,0)F"},
+    {"?E", Command::ask_surroundings, "(step[,now[,then[,light[,x,y,z]]]])", 1, 7,
+     "Asks the environment: `step` becomes 1 where a step of that length along the heading is free, else 0; "
+     "`now` and `then` the room to the surface here and after the step, negative past it; `light` 0 to 1; x, y, "
+     "z the direction to the surface.",
+     "F?E(1)F"},
 };
 
 }  // namespace

@@ -46,7 +46,17 @@ enum class Command : std::uint8_t {
   multiply_width,
   multiply_turns,
   mirror,
+  ask_position,
+  ask_heading,
+  ask_left,
+  ask_up,
+  ask_surroundings,
 };
+
+/// True for modules that ask and are answered between two steps.
+constexpr bool asks(Command command) {
+  return command >= Command::ask_position && command <= Command::ask_surroundings;
+}
 
 struct CommandRow {
   std::string_view symbol;

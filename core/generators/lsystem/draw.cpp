@@ -42,7 +42,7 @@ Drawing::Drawing(const Grammar& grammar, const LsystemParams& params, Skeleton* 
     tropisms.push_back({{to[0], to[1], to[2]}, each.elasticity, each.step});
   }
   if (!tropisms.empty()) turtle_.set_tropisms(std::move(tropisms));
-  if (params.weather) turtle_.track_anchors();
+  if (params.weather || params.environment || job.wanted().growth) turtle_.track_anchors();
 }
 
 bool Drawing::needs_keys(const Grammar& grammar, const LsystemParams& params) {
@@ -54,6 +54,14 @@ void Drawing::module(KindId kind, const double* parameters, std::uint64_t key, s
   turtle_.set_thinner(
       params_.width_rule == LsystemParams::WidthRule::decrement ? step * params_.width_decrement : 0);
   interpret(kind, parameters, key, 0);
+}
+
+void Drawing::grow(const Module& module, double step, Grown grown) {
+  turtle_.set_thinner(
+      params_.width_rule == LsystemParams::WidthRule::decrement ? step * params_.width_decrement : 0);
+  grown_ = grown;
+  interpret(module.kind, module.parameters, module.key, 0);
+  grown_ = {};
 }
 
 /// Draws a module, or what the interpretation rules make of it; that never enters the word.
@@ -84,9 +92,10 @@ math::SinCos Drawing::turn(const Kind& kind, const double* parameters, const Ang
     degrees = (degrees + spread(key, Spread::angle, params_.angle.spread)) * turtle_.turn_scale();
   } else if (turtle_.turn_scale() != 1) {
     degrees *= turtle_.turn_scale();
-  } else {
+  } else if (grown_.share == 1) {
     return angle.bare;
   }
+  if (grown_.share != 1 && grown_.brackets == 0) degrees *= grown_.share;
   if (degrees != last_degrees_) {
     last_degrees_ = degrees;
     last_ = math::sincos_degrees(degrees);
@@ -95,7 +104,7 @@ math::SinCos Drawing::turn(const Kind& kind, const double* parameters, const Ang
 }
 
 double Drawing::length(const Kind& kind, const double* parameters, std::uint64_t key) const {
-  const double scale = turtle_.scale();
+  const double scale = grown_.share * turtle_.scale();
   if (kind.arity > 0) return scale * parameters[0];
   if (params_.step.spread == 0) return scale * params_.step.value;
   const double length = params_.step.value + spread(key, Spread::step, params_.step.spread);
@@ -108,7 +117,9 @@ math::SinCos Drawing::leftward(math::SinCos angle) const {
 }
 
 void Drawing::set_width(const Kind& kind, const double* parameters, double change) {
-  turtle_.set_width(kind.arity > 0 ? parameters[0] : turtle_.width() + change);
+  const double width = turtle_.width();
+  const double wanted = kind.arity > 0 ? parameters[0] : width + change;
+  turtle_.set_width(grown_.share == 1 ? wanted : width + grown_.share * (wanted - width));
 }
 
 void Drawing::obey(const Kind& kind, const double* parameters, std::uint64_t key) {
@@ -118,6 +129,11 @@ void Drawing::obey(const Kind& kind, const double* parameters, std::uint64_t key
   switch (kind.command) {
     case Command::none:
     case Command::cut:
+    case Command::ask_position:
+    case Command::ask_heading:
+    case Command::ask_left:
+    case Command::ask_up:
+    case Command::ask_surroundings:
       return;
     case Command::draw:
       return turtle_.draw(length(kind, parameters, key), key);
@@ -140,12 +156,16 @@ void Drawing::obey(const Kind& kind, const double* parameters, std::uint64_t key
     case Command::roll_right:
       return turtle_.roll(leftward(opposite(turn(kind, parameters, roll_, key))));
     case Command::turn_around:
+      if (grown_.share != 1 && grown_.brackets == 0)
+        return turtle_.turn(math::sincos_degrees(180 * grown_.share));
       return turtle_.turn_around();
     case Command::upright:
       return turtle_.upright();
     case Command::push:
+      if (grown_.share != 1) ++grown_.brackets;
       return turtle_.push();
     case Command::pop:
+      if (grown_.share != 1) --grown_.brackets;
       return turtle_.pop();
     case Command::polygon_open:
       return turtle_.open_polygon();

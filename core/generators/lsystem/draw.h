@@ -19,6 +19,22 @@ class Drawing {
 
   void module(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t step);
 
+  struct Module {
+    KindId kind;
+    const double* parameters;
+    std::uint64_t key;
+  };
+  /// How much of a module there is yet: lengths and turns have this share of themselves, turns only outside
+  /// brackets that grow too; a width leaves by it from the turtle's own.
+  struct Grown {
+    double share = 1;
+    int brackets = 0;  ///< growing ones around the module
+  };
+  /// A module that is not whole. `step` counts for the width rule decrement.
+  void grow(const Module& module, double step, Grown grown);
+
+  /// Where it starts, before anything is drawn.
+  void start_at(const glm::dvec3& position) { turtle_.move_to(position); }
   const Turtle& turtle() const { return turtle_; }
   void set_most_segments(std::uint64_t most) { turtle_.set_most_segments(most); }
 
@@ -38,6 +54,7 @@ class Drawing {
   const LsystemParams& params_;
   Job& job_;
   Turtle turtle_;
+  Grown grown_;
   Angle yaw_, pitch_, roll_;
   double last_degrees_ = 0;  ///< angles given as arguments mostly repeat
   math::SinCos last_{0, 1};

@@ -1,7 +1,9 @@
 #include "core/generators/lsystem/dress.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "core/geom/grow.h"
 #include "core/geom/polygons.h"
 #include "core/geom/skin.h"
 
@@ -110,6 +112,15 @@ SkinOptions skin_options(const LsystemParams& params) {
   return options;
 }
 
+/// Lines have no bark that bones could move.
+std::optional<GrowthPlan> growth_of(const Limbs& limbs, const LsystemParams& params, Job& job) {
+  if (!job.wanted().growth) return std::nullopt;
+  if (params.style == LsystemParams::Style::lines) {
+    Job::reject({"/style", "found lines, which do not grow; the growth animation needs tubes"});
+  }
+  return plan_growth(limbs, {}, job);
+}
+
 }  // namespace
 
 Model dress(Skeleton skeleton, const LsystemParams& params, Job& job) {
@@ -122,11 +133,14 @@ Model dress(Skeleton skeleton, const LsystemParams& params, Job& job) {
   wardrobe.choose_looks(skeleton);
   const bool tubes = params.style == LsystemParams::Style::tubes;
   const bool empty = skeleton.limbs.size() == 0 && skeleton.outlines.outline.empty();
-  std::vector<Bark> bark =
-      tubes ? skin(skeleton.limbs, skin_options(params), job) : wires(skeleton.limbs, job);
+  const std::optional<GrowthPlan> growth = growth_of(skeleton.limbs, params, job);
+  SkinOptions options = skin_options(params);
+  if (growth) options.bones = growth->bone.span();
+  std::vector<Bark> bark = tubes ? skin(skeleton.limbs, options, job) : wires(skeleton.limbs, job);
   skeleton.limbs = Limbs(job);  // its memory goes back before polygons and writer need theirs
   add_meshes(model, tubes ? "bark" : "lines", std::move(bark), Sides::one, wardrobe);
-  add_meshes(model, "surfaces", polygons(skeleton.outlines, job), Sides::both, wardrobe);
+  add_meshes(model, "surfaces", polygons(skeleton.outlines, job, options.bones), Sides::both, wardrobe);
+  if (growth) add_growth(model, *growth);
   if (empty) {
     model.warnings.push_back(
         {"/axiom", "nothing was drawn: the last word has no F or G and no polygon", 0, 0});

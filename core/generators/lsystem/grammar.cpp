@@ -52,6 +52,9 @@ class Compiler {
   std::vector<WrittenConstant> written_constants() const {
     std::vector<WrittenConstant> written;
     for (const auto& [name, value] : params_.constants) written.push_back({name, value});
+    if (params_.timed && !params_.constants.contains("age")) {
+      written.push_back({"age", params_.age.value_or(static_cast<double>(params_.iterations))});
+    }
     return written;
   }
 
@@ -356,6 +359,15 @@ class Compiler {
   Grammar grammar_;
 };
 
+void check_age(const LsystemParams& params, std::vector<Issue>& issues) {
+  if (params.timed && params.constants.contains("age")) {
+    issues.push_back({"/constants/age", "`age` is the age of the plant where `timed` is set"});
+  }
+  if (!params.age || params.timed || *params.age <= static_cast<double>(params.iterations)) return;
+  issues.push_back({"/age", "found an age of " + std::to_string(*params.age) + "; the plant is derived for " +
+                                std::to_string(params.iterations) + " iterations"});
+}
+
 }  // namespace
 
 Grammar compile(const LsystemParams& params, std::uint64_t seed, const Limits& limits,
@@ -364,6 +376,7 @@ Grammar compile(const LsystemParams& params, std::uint64_t seed, const Limits& l
     issues.push_back({"/iterations", "found " + std::to_string(params.iterations) + "; the limit is " +
                                          std::to_string(limits.iterations)});
   }
+  check_age(params, issues);
   return Compiler(params, seed, limits, issues).compile();
 }
 

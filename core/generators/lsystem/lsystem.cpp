@@ -1,14 +1,18 @@
 #include "core/generators/lsystem/lsystem.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "core/generators/lsystem/draw.h"
 #include "core/generators/lsystem/dress.h"
 #include "core/generators/lsystem/free.h"
+#include "core/generators/lsystem/garden.h"
 #include "core/generators/lsystem/growth.h"
 #include "core/generators/lsystem/shape.h"
+#include "core/generators/lsystem/sprout.h"
 #include "core/generators/lsystem/text.h"
 #include "core/generators/lsystem/word.h"
 
@@ -24,7 +28,17 @@ Result<Grammar> compiled(const LsystemParams& params, std::uint64_t seed, const 
   return grammar;
 }
 
-std::uint32_t steps_of(const LsystemParams& params) { return static_cast<std::uint32_t>(params.iterations); }
+/// Steps of the derivation: all of them, or up to the age of the plant.
+std::uint32_t steps_of(const LsystemParams& params) {
+  if (!params.age || params.timed) return static_cast<std::uint32_t>(params.iterations);
+  return math::to_uint32(std::ceil(*params.age));
+}
+
+/// How much of the last step has happened.
+double share_of(const LsystemParams& params) {
+  if (!params.age || params.timed) return 1;
+  return 1 - (std::ceil(*params.age) - *params.age);
+}
 
 /// Refuses early what is sure to be too long, before any memory is touched.
 void refuse_explosion(const Grammar& grammar, std::uint32_t steps, const Job& job) {
@@ -36,10 +50,9 @@ void refuse_explosion(const Grammar& grammar, std::uint32_t steps, const Job& jo
               "/iterations");
 }
 
-/// Derives and hands every module of the last word to the sink, in order.
+/// Derives so many steps and hands every module of the last word to the sink, in order.
 template <class Sink>
-void run(const Grammar& grammar, const LsystemParams& params, Sink& sink, Job& job) {
-  const std::uint32_t steps = steps_of(params);
+void run(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps, Sink& sink, Job& job) {
   const bool keyed = Drawing::needs_keys(grammar, params);
   if (!grammar.productions.context) {
     FreeDerivation<Sink>(grammar, steps, keyed, job, sink).run();
@@ -53,6 +66,34 @@ void run(const Grammar& grammar, const LsystemParams& params, Sink& sink, Job& j
                 word.key.empty() ? 0 : word.key[i], word.born.empty() ? 0 : word.born[i]);
   }
 }
+
+template <class Sink>
+void run(const Grammar& grammar, const LsystemParams& params, Sink& sink, Job& job) {
+  run(grammar, params, steps_of(params), sink, job);
+}
+
+/// Draws the plant at its age.
+void draw(const Grammar& grammar, const LsystemParams& params, Drawing& drawing, Job& job) {
+  const double share = share_of(params);
+  if (share == 1) return run(grammar, params, drawing, job);
+  const std::uint32_t whole = steps_of(params) - 1;
+  Sprouting sprouting(grammar, drawing, whole, share);
+  if (!grammar.productions.context) return run(grammar, params, whole, sprouting, job);
+  sprouting.word(derive_word(grammar, whole, Drawing::needs_keys(grammar, params), job), job);
+}
+
+void write(const Word& word, TextWriter& writer) {
+  const double nothing = 0;
+  for (std::size_t i = 0; i < word.size(); ++i)
+    writer.module(word.kind[i], word.parameter.empty() ? &nothing : word.parameter.data() + word.at[i]);
+}
+
+struct TextOnly {
+  TextWriter& text;
+  void module(KindId kind, const double* parameters, std::uint64_t /*key*/, std::uint32_t /*step*/) {
+    text.module(kind, parameters);
+  }
+};
 
 /// Writes the text and draws, in one walk.
 struct TextAndDrawing {
@@ -118,6 +159,7 @@ Json described(const std::vector<Warning>& warnings) {
 std::vector<Issue> check(const LsystemParams& params, const Limits& limits) {
   std::vector<Issue> issues;
   compile(params, 0, limits, issues);
+  check_environment(params, issues);
   return issues;
 }
 
@@ -127,14 +169,24 @@ Result<Model> generate(const LsystemParams& params, Job& job) {
   refuse_explosion(*grammar, steps_of(params), job);
   job.progress("derive", 0);
   Skeleton skeleton(job);
-  {
+  std::unique_ptr<Garden> garden;
+  if (Garden::needed(*grammar, params)) {
+    garden = std::make_unique<Garden>(params, job);
+    const double share = share_of(params);
+    garden->grow(*grammar, share == 1 ? steps_of(params) : steps_of(params) - 1);
+    Drawing drawing(*grammar, params, &skeleton, job);
+    drawing.set_most_segments(most_segments(params, job.limits()));
+    garden->draw(*grammar, drawing, share);
+    garden->cut(skeleton);
+  } else {
     Drawing drawing(*grammar, params, &skeleton, job);
     refuse_too_many_segments(*grammar, params, drawing, job);
-    run(*grammar, params, drawing, job);
+    draw(*grammar, params, drawing, job);
   }
   shape(skeleton, params, job);
   job.progress("mesh", 0);
   Model model = dress(std::move(skeleton), params, job);
+  if (garden) garden->add_others(model);
   for (Warning& warning : grammar->warnings) model.warnings.push_back(std::move(warning));
   return model;
 }
@@ -146,11 +198,22 @@ Result<Json> derive(const LsystemParams& params, Job& job) {
   Drawing drawing(*grammar, params, nullptr, job);
   TextWriter writer(*grammar, longest_text);
   std::vector<std::uint64_t> counts;
-  if (is_plain(*grammar)) {
-    run(*grammar, params, drawing, job);
+  if (Garden::needed(*grammar, params)) {
+    Garden garden(params, job);
+    garden.grow(*grammar, steps_of(params));
+    write(garden.word(), writer);
+    garden.draw(*grammar, drawing, 1);
+    counts = writer.counts();
+  } else if (is_plain(*grammar)) {
+    draw(*grammar, params, drawing, job);
     const Array<char> text = plain_text(*grammar, steps_of(params), longest_text, job);
     writer.text.assign(text.begin(), text.end());
     counts = exact_counts(*grammar, steps_of(params));
+  } else if (share_of(params) != 1) {
+    TextOnly text{writer};
+    run(*grammar, params, text, job);
+    draw(*grammar, params, drawing, job);
+    counts = writer.counts();
   } else {
     TextAndDrawing both{writer, drawing};
     run(*grammar, params, both, job);
@@ -179,6 +242,7 @@ Result<Appraisal> appraise(const LsystemParams& params, const Job& job) {
   Appraisal appraisal;
   appraisal.warnings = grammar->warnings;
   refuse_explosion(*grammar, steps_of(params), job);
+  if (Garden::needed(*grammar, params)) return appraisal;
   const std::vector<std::uint64_t> counts = exact_counts(*grammar, steps_of(params));
   if (!counts.empty() && grammar->interpretation.productions.empty()) {
     appraisal.estimate = estimate_of(drawn(*grammar, counts), params);

@@ -89,14 +89,21 @@ Word rewrite(const Grammar& grammar, const Word& in, std::uint32_t step, bool ke
 
 }  // namespace
 
-Word derive_word(const Grammar& grammar, std::uint32_t steps, bool keyed, Job& job) {
-  if (!keyed && TableRewriter::fits(grammar)) return TableRewriter(grammar, job).derive(steps);
+Derivation::Derivation(const Grammar& grammar, bool keyed, Job& job)
+    : word(job), grammar_(grammar), keyed_(keyed), job_(job) {
   Writer axiom(grammar, keyed, job);
   axiom.write(grammar.axiom, nullptr, job.rng().key(), 0);
-  Word word = std::move(axiom.word);
-  for (std::uint32_t step = 0; step < steps; ++step) word = rewrite(grammar, word, step, keyed, job);
-  job.spend(Resource::modules, word.size());
-  return word;
+  word = std::move(axiom.word);
+}
+
+void Derivation::step() { word = rewrite(grammar_, word, step_++, keyed_, job_); }
+
+Word derive_word(const Grammar& grammar, std::uint32_t steps, bool keyed, Job& job) {
+  if (!keyed && TableRewriter::fits(grammar)) return TableRewriter(grammar, job).derive(steps);
+  Derivation derivation(grammar, keyed, job);
+  for (std::uint32_t step = 0; step < steps; ++step) derivation.step();
+  job.spend(Resource::modules, derivation.word.size());
+  return std::move(derivation.word);
 }
 
 }  // namespace seedmesh::lsystem

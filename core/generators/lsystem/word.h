@@ -16,6 +16,21 @@ struct Word {
   std::size_t size() const { return kind.size(); }
 };
 
+/// A derivation that is looked at, or written into, between its steps.
+class Derivation {
+ public:
+  Derivation(const Grammar& grammar, bool keyed, Job& job);
+  void step();
+
+  Word word;
+
+ private:
+  const Grammar& grammar_;
+  bool keyed_;
+  Job& job_;
+  std::uint32_t step_ = 0;
+};
+
 /// The word after `steps` steps from the axiom. Refuses a word longer than limits.modules before it is
 /// stored. Contexts follow the book: a left context leads up through [ past sibling branches; a right context
 /// passes branches it does not name and never leaves through ]; a [ ] group in it matches the beginning of a

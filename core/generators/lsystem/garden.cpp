@@ -1,0 +1,321 @@
+#include "core/generators/lsystem/garden.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/generators/child.h"
+#include "core/generators/lsystem/dress.h"
+#include "core/generators/lsystem/shape.h"
+#include "core/generators/lsystem/sprout.h"
+#include "core/gltf/read.h"
+#include "core/model/append.h"
+
+namespace seedmesh::lsystem {
+namespace {
+
+using SolidParams = LsystemParams::Solid;
+
+constexpr std::string_view own_name = "lsystem";
+
+glm::dvec3 vector_of(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+SolidShape shape_of(SolidParams const& given) {
+  switch (given.shape) {
+    case LsystemParams::Shape::box:
+      return SolidShape::box;
+    case LsystemParams::Shape::sphere:
+      return SolidShape::sphere;
+    case LsystemParams::Shape::cylinder:
+      return SolidShape::cylinder;
+    case LsystemParams::Shape::cone:
+      return SolidShape::cone;
+    case LsystemParams::Shape::mesh:
+      return SolidShape::mesh;
+  }
+  return SolidShape::box;
+}
+
+Model model_of(const SolidParams& given, const std::string& pointer, Rng place, Job& job) {
+  Result<Model> model = given.model ? generate_child(*given.model, pointer + "/model", place, job)
+                                    : read_glb(*given.glb, pointer + "/glb", job);
+  if (!model) Job::reject(model.error().issues.front());
+  return std::move(*model);
+}
+
+void draw_module(const Word& word, std::size_t i, Drawing& drawing) {
+  constexpr double nothing = 0;
+  drawing.module(word.kind[i], word.parameter.empty() ? &nothing : word.parameter.data() + word.at[i],
+                 word.key.empty() ? 0 : word.key[i], word.born.empty() ? 0U : std::uint32_t{word.born[i]});
+}
+
+void draw_word(const Word& word, Drawing& drawing, const Job& job) {
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    if (i % 4096 == 0) job.check();
+    draw_module(word, i, drawing);
+  }
+}
+
+Membership membership_of(LsystemParams::Membership given) {
+  switch (given) {
+    case LsystemParams::Membership::centre:
+      return Membership::centre;
+    case LsystemParams::Membership::whole:
+      return Membership::whole;
+    case LsystemParams::Membership::clipped:
+      return Membership::clipped;
+  }
+  return Membership::centre;
+}
+
+}  // namespace
+
+void check_environment(const LsystemParams& params, std::vector<Issue>& issues) {
+  if (!params.environment) return;
+  for (std::size_t i = 0; i < params.environment->solids.size(); ++i) {
+    const SolidParams& solid = params.environment->solids[i];
+    const std::string pointer = "/environment/solids/" + std::to_string(i);
+    const bool is_mesh = solid.shape == LsystemParams::Shape::mesh;
+    if (is_mesh && solid.model.has_value() == solid.glb.has_value()) {
+      issues.push_back({pointer, "a mesh has either `model` or `glb`"});
+    } else if (!is_mesh && (solid.model || solid.glb)) {
+      issues.push_back({pointer, "found a model; only the shape mesh has one"});
+    }
+    if (solid.glb && !is_glb_uri(*solid.glb)) {
+      issues.push_back({pointer + "/glb", "found no data URI of a GLB; expected data:model/gltf-binary;base64,..."});
+    }
+    if (solid.role == LsystemParams::Role::host && !is_mesh)
+      issues.push_back({pointer + "/shape", "a host is part of the model, so it is a mesh"});
+  }
+  for (std::size_t i = 0; i < params.environment->companions.size(); ++i) {
+    const std::string pointer = "/environment/companions/" + std::to_string(i) + "/system";
+    const Child& child = params.environment->companions[i].system;
+    if (child.generator.empty()) continue;
+    if (child.generator != own_name) {
+      issues.push_back({pointer + "/generator", "found " + child.generator + "; a companion is an lsystem"});
+      continue;
+    }
+    Faults faults;
+    const LsystemParams system = read_lsystem(Json::parse(child.parameters), "", faults);
+    if (faults.empty() && system.age && !system.timed && *system.age != std::floor(*system.age)) {
+      issues.push_back({pointer + "/parameters/age", "a companion grows by whole iterations"});
+    }
+    if (faults.empty() && system.environment) {
+      issues.push_back({pointer + "/parameters/environment",
+                        "a companion grows in this environment and has none of its own"});
+    }
+  }
+}
+
+struct Garden::Host {
+  Model model;
+  Transform at;
+};
+
+/// One of the L-systems. The first has neither parameters nor grammar of its own here.
+struct Garden::Plant {
+  struct Question {
+    std::size_t module;
+    Prober prober;
+    Frame frame;
+  };
+
+  Plant(const LsystemParams& given, Job own_job) : params(given), job(std::move(own_job)) {}
+
+  LsystemParams params;
+  Job job;
+  glm::dvec3 position{0};
+  std::uint32_t number = 0;
+  std::unique_ptr<Grammar> own_grammar;
+  const Grammar* grammar = nullptr;
+  std::unique_ptr<Derivation> derivation;
+  std::uint32_t steps = 0;
+  std::vector<Question> questions;
+  std::vector<std::uint32_t> alive;  ///< joints of the last drawing that stand, rising
+};
+
+Garden::~Garden() = default;
+
+Garden::Garden(const LsystemParams& params, Job& job) : params_(params), job_(job) {
+  Surroundings::Options options;
+  const auto environment = params.environment.value_or(LsystemParams::Environment{});
+  for (std::size_t i = 0; i < environment.solids.size(); ++i) {
+    const SolidParams& given = environment.solids[i];
+    const std::string pointer = "/environment/solids/" + std::to_string(i);
+    Solid solid{shape_of(given), vector_of(given.position), vector_of(given.size), nullptr};
+    if (solid.shape == SolidShape::mesh) {
+      Model model = model_of(given, pointer, job.rng().at("solid").at(i), job);
+      solid.mesh = std::make_shared<MeshField>(model, solid.size, solid.position, job);
+      if (solid.mesh->triangles() == 0) Job::reject({pointer, "the model has no triangles"});
+      if (given.role == LsystemParams::Role::host) {
+        Transform at;
+        at.translation = glm::vec3(solid.position);
+        at.scale = glm::vec3(solid.size);
+        hosts_.push_back({std::move(model), at});
+      }
+    }
+    (given.role == LsystemParams::Role::guide ? options.guides : options.obstacles).push_back(std::move(solid));
+  }
+  options.clearance = environment.clearance;
+  if (environment.light) {
+    const auto& light = *environment.light;
+    options.shadow = {light.cell, light.shade, light.falloff, light.layers};
+  }
+  surroundings_ = std::make_unique<Surroundings>(std::move(options), job);
+
+  plants_.push_back(std::make_unique<Plant>(params, job));
+  for (std::size_t i = 0; i < environment.companions.size(); ++i) {
+    const auto& companion = environment.companions[i];
+    Faults faults;
+    LsystemParams own = read_lsystem(Json::parse(companion.system.parameters), "", faults);
+    const std::uint64_t seed = companion.system.seed.value_or(job.rng().at("companion").at(i).key());
+    auto plant = std::make_unique<Plant>(own, job.for_child(seed));
+    plant->job.want(job.wanted());
+    plant->position = vector_of(companion.position);
+    plant->number = static_cast<std::uint32_t>(i + 1);
+    plant->steps = static_cast<std::uint32_t>(own.age && !own.timed ? std::ceil(*own.age) : double(own.iterations));
+    std::vector<Issue> issues;
+    plant->own_grammar = std::make_unique<Grammar>(compile(plant->params, seed, job.limits(), issues));
+    plant->grammar = plant->own_grammar.get();
+    plants_.push_back(std::move(plant));
+  }
+}
+
+bool Garden::needed(const Grammar& grammar, const LsystemParams& params) {
+  if (params.environment) return true;
+  return std::any_of(grammar.kinds.begin(), grammar.kinds.end(),
+                     [](const Kind& kind) { return asks(kind.command); });
+}
+
+void Garden::grow(const Grammar& grammar, std::uint32_t steps) {
+  plants_[0]->grammar = &grammar;
+  plants_[0]->steps = steps;
+  std::uint32_t most = 0;
+  for (auto& plant : plants_) {
+    plant->derivation = std::make_unique<Derivation>(*plant->grammar, true, plant->job);
+    most = std::max(most, plant->steps);
+  }
+  answer();
+  for (std::uint32_t step = 0; step < most; ++step) {
+    for (auto& plant : plants_) {
+      if (step < plant->steps) plant->derivation->step();
+    }
+    answer();
+  }
+  for (auto& plant : plants_) job_.spend(Resource::modules, plant->derivation->word.size());
+}
+
+void Garden::answer() {
+  std::vector<Stretch> grown;
+  for (auto& plant : plants_) look(*plant, grown);
+  surroundings_->settle(grown);
+  for (auto& plant : plants_) reply(*plant);
+}
+
+/// Draws a plant, cuts it, and takes down who asks.
+void Garden::look(Plant& plant, std::vector<Stretch>& grown) {
+  Skeleton skeleton(plant.job);
+  Drawing drawing(*plant.grammar, plant.params, &skeleton, plant.job);
+  drawing.start_at(plant.position);
+  const Word& word = plant.derivation->word;
+  plant.questions.clear();
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    if (i % 4096 == 0) job_.check();
+    const Kind& kind = plant.grammar->kinds[word.kind[i]];
+    if (asks(kind.command)) {
+      const Turtle& turtle = drawing.turtle();
+      plant.questions.push_back({i,
+                                 {turtle.position(), turtle.frame().heading, 0.5 * turtle.width(), plant.number,
+                                  turtle.last_joint()},
+                                 turtle.frame()});
+      continue;
+    }
+    draw_module(word, i, drawing);
+  }
+  Limbs& limbs = skeleton.limbs;
+  limbs.key.resize(limbs.size());  // which joint it was before the cut
+  for (std::size_t i = 0; i < limbs.size(); ++i) limbs.key[i] = i;
+  cut(skeleton);
+  plant.alive.clear();
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    const auto joint = static_cast<std::uint32_t>(limbs.key[i]);
+    plant.alive.push_back(joint);
+    if (limbs.parent[i] == Limbs::none) continue;
+    const auto parent = static_cast<std::uint32_t>(limbs.key[limbs.parent[i]]);
+    grown.push_back({limbs.position[limbs.parent[i]], limbs.position[i], limbs.radius[i], plant.number, joint, parent});
+  }
+}
+
+void Garden::reply(Plant& plant) {
+  Word& word = plant.derivation->word;
+  for (const Plant::Question& each : plant.questions) {
+    const Kind& kind = plant.grammar->kinds[word.kind[each.module]];
+    double* answer = word.parameter.data() + word.at[each.module];
+    const Prober& prober = each.prober;
+    const auto fill = [&](std::uint32_t from, const glm::dvec3& v) {
+      for (std::uint32_t k = 0; k < 3 && from + k < kind.arity; ++k) answer[from + k] = v[static_cast<int>(k)] + 0.0;
+    };
+    switch (kind.command) {
+      case Command::ask_position:
+        fill(0, prober.position);
+        break;
+      case Command::ask_heading:
+        fill(0, each.frame.heading);
+        break;
+      case Command::ask_left:
+        fill(0, each.frame.left);
+        break;
+      case Command::ask_up:
+        fill(0, each.frame.up);
+        break;
+      default: {
+        const bool stands = prober.joint == Limbs::none ||
+                            std::binary_search(plant.alive.begin(), plant.alive.end(), prober.joint);
+        const double length = answer[0];
+        answer[0] = stands && surroundings_->is_free(prober, length) ? 1 : 0;
+        if (kind.arity > 1) answer[1] = surroundings_->room_at(prober.position);
+        if (kind.arity > 2) answer[2] = surroundings_->room_at(prober.position + prober.heading * length);
+        if (kind.arity > 3) answer[3] = stands ? surroundings_->light_at(prober.position) : 0;
+        if (kind.arity > 4) fill(4, surroundings_->toward_surface(prober.position));
+      }
+    }
+  }
+}
+
+const Word& Garden::word() const { return plants_[0]->derivation->word; }
+
+void Garden::draw(const Grammar& grammar, Drawing& drawing, double share) const {
+  const Plant& plant = *plants_[0];
+  const Word& word = plant.derivation->word;
+  if (share < 1) {
+    Sprouting(grammar, drawing, plant.steps, share).word(word, job_);
+    return;
+  }
+  draw_word(word, drawing, job_);
+}
+
+void Garden::cut(Skeleton& skeleton) const {
+  const auto membership =
+      params_.environment ? membership_of(params_.environment->membership) : Membership::centre;
+  prune(skeleton, *surroundings_, membership, job_);
+}
+
+void Garden::add_others(Model& model) {
+  for (std::size_t i = 1; i < plants_.size(); ++i) {
+    Plant& plant = *plants_[i];
+    Skeleton skeleton(plant.job);
+    Drawing drawing(*plant.grammar, plant.params, &skeleton, plant.job);
+    drawing.start_at(plant.position);
+    draw_word(plant.derivation->word, drawing, job_);
+    cut(skeleton);
+    shape(skeleton, plant.params, plant.job);
+    Model own = dress(std::move(skeleton), plant.params, plant.job);
+    for (Warning& warning : own.warnings)
+      warning.pointer.insert(0, "/environment/companions/" + std::to_string(i - 1) + "/system/parameters");
+    append(model, std::move(own), 0, {});
+  }
+  for (Host& host : hosts_) append(model, std::move(host.model), 0, host.at);
+  hosts_.clear();
+}
+
+}  // namespace seedmesh::lsystem

@@ -1,0 +1,112 @@
+#include "core/generators/lsystem/sprout.h"
+
+#include <algorithm>
+
+namespace seedmesh::lsystem {
+namespace {
+
+constexpr std::size_t look_every = 4096;
+
+double between(double from, double to, double share) { return from + (to - from) * share; }
+
+}  // namespace
+
+void Sprouting::module(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t born) {
+  const Module each{kind, parameters, key, born};
+  const Rules& rules = grammar_.productions;
+  if (kind == grammar_.cut) cut_depth_ = std::max(cut_depth_, 1);
+  if (cut_depth_ > 0 || !rules.rewrites(kind)) return stay(each);
+  const Production* chosen = choose(grammar_, rules, rules.of_kind[kind], Draws(key, step_),
+                                    [&](const Production&) { return parameters; });
+  return chosen ? sprout(each, *chosen, parameters) : stay(each);
+}
+
+void Sprouting::word(const Word& word, Job& job) {
+  Array<std::uint32_t> partner(job);
+  pair_brackets(grammar_, word, partner);
+  ContextMatcher contexts(grammar_, word, partner);
+  const Rules& rules = grammar_.productions;
+  const double nothing = 0;
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    if (i % look_every == 0) job.check();
+    const Module each{word.kind[i], word.parameter.empty() ? &nothing : word.parameter.data() + word.at[i],
+                      word.key.empty() ? 0 : word.key[i],
+                      word.born.empty() ? 0U : std::uint32_t{word.born[i]}};
+    if (each.kind == grammar_.cut) cut_depth_ = std::max(cut_depth_, 1);
+    const Production* chosen = nullptr;
+    if (cut_depth_ == 0 && rules.rewrites(each.kind)) {
+      chosen = choose(grammar_, rules, rules.of_kind[each.kind], Draws(each.key, step_),
+                      [&](const Production& production) { return contexts.match(production, i); });
+    }
+    if (chosen) {
+      sprout(each, *chosen, contexts.match(*chosen, i));
+    } else {
+      stay(each);
+    }
+  }
+}
+
+/// What the step leaves as it is, or cuts away.
+void Sprouting::stay(const Module& module) {
+  if (cut_depth_ > 0) {
+    if (module.kind == grammar_.open) ++cut_depth_;
+    if (module.kind == grammar_.close) --cut_depth_;
+  }
+  const double share = cut_depth_ > 0 ? 1 - share_ : 1;
+  drawing_.grow({module.kind, module.parameters, module.key}, module.born, {share, 0});
+}
+
+bool Sprouting::draws(KindId kind) const {
+  if (grammar_.interpretation.rewrites(kind)) return true;
+  switch (grammar_.kinds[kind].command) {
+    case Command::draw:
+    case Command::move:
+    case Command::draw_plain:
+    case Command::move_plain:
+    case Command::left:
+    case Command::right:
+    case Command::down:
+    case Command::up:
+    case Command::roll_left:
+    case Command::roll_right:
+    case Command::turn_around:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool Sprouting::may_take_over(KindId kind) const {
+  return !(grammar_.interpretation.rewrites(kind) && grammar_.interpretation.chance);
+}
+
+void Sprouting::sprout(const Module& module, const Production& production, const double* slots) {
+  const std::span<const Template> successor = grammar_.successor(production.successor);
+  const Template* heir = nullptr;
+  int depth = 0;
+  for (const Template& each : successor) {
+    if (each.kind == grammar_.open) ++depth;
+    if (each.kind == grammar_.close) --depth;
+    if (depth == 0 && each.kind == module.kind && !heir && may_take_over(each.kind)) heir = &each;
+  }
+  if (!heir && draws(module.kind)) {
+    drawing_.grow({module.kind, module.parameters, module.key}, module.born, {1 - share_, 0});
+  }
+  depth = 0;
+  for (const Template& each : successor) {
+    if (each.kind == grammar_.open) ++depth;
+    if (each.kind == grammar_.close) --depth;
+    const std::uint64_t key = module.key == 0 ? 0 : child_key(module.key, each);
+    double* own = parameters_.data();
+    fill_arguments(grammar_, each, slots, key, own);
+    if (&each != heir) {
+      drawing_.grow({each.kind, own, key}, step_ + share_, {share_, depth});
+      continue;
+    }
+    for (std::uint32_t i = 0; i < grammar_.kinds[each.kind].arity; ++i)
+      own[i] = between(module.parameters[i], own[i], share_);
+    drawing_.grow({each.kind, own, key}, between(module.born, step_ + 1.0, share_), {1, 0});
+  }
+}
+
+}  // namespace seedmesh::lsystem

@@ -1,0 +1,125 @@
+/// Open L-systems: what modules learn of their environment, and what the environment lets stand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/core/lsystem/support.h"
+
+namespace seedmesh::lsystem {
+namespace {
+
+LsystemParams::Environment inside(LsystemParams::Shape shape, std::array<double, 3> size) {
+  LsystemParams::Environment environment;
+  LsystemParams::Solid guide;
+  guide.shape = shape;
+  guide.size = size;
+  environment.solids.push_back(guide);
+  return environment;
+}
+
+Box bounds_of_drawing(LsystemParams params) {
+  params.style = LsystemParams::Style::lines;
+  Job job = job_of(1);
+  const Result<Model> model = generate(params, job);
+  EXPECT_TRUE(model) << model.error().issues[0].message;
+  return bounds_of(*model);
+}
+
+TEST(Garden, TellsWhereTheTurtleIs) {
+  EXPECT_EQ(derived(grammar_of("F(2)+(90)F?P(0,0,0)?H(0,0,0)?L(0,0,0)?U(0,0,0)", {}, 0)),
+            "F(2)+(90)F?P(-1,2,0)?H(-1,0,0)?L(0,-1,0)?U(0,0,1)");
+}
+
+TEST(Garden, AnswersInTheNextStep) {
+  LsystemParams params = grammar_of("?E(1)A", {"?E(x) < A : x == 1 -> F?E(1)A", "?E(x) -> "}, 5);
+  params.environment = inside(LsystemParams::Shape::box, {4, 3.5, 4});
+  EXPECT_EQ(derived(params), "FFFA") << "three steps of one metre fit into three and a half";
+}
+
+TEST(Garden, RunsRulesThreeNineAndThreeTenOfKogovsek) {
+  LsystemParams params = grammar_of(
+      "F(1)?E(r2)A(1)",
+      {"?E(x) < A(v) : x == 1 -> [+(a2)F(v*r2)?E(r2)A(v*r2)]-(a2)", "?E(x) -> "}, 2);
+  params.constants = {{"r2", 0.5}, {"a2", 30.0}};
+  EXPECT_EQ(derived(params).substr(0, 30), "F(1)[+(30)F(0.5)[+(30)F(0.25)?");
+}
+
+TEST(Garden, TellsTheRoomNowAndAfterTheStep) {
+  LsystemParams params = grammar_of("F(0.5)?E(1,0,0)", {}, 0);
+  params.environment = inside(LsystemParams::Shape::box, {10, 1, 10});
+  EXPECT_EQ(derived(params), "F(0.5)?E(0,0.5,-0.5)");
+}
+
+TEST(Garden, TellsTheDirectionToTheSurface) {
+  LsystemParams params = grammar_of("F(0.5)?E(1,0,0,0,0,0,0)", {}, 0);
+  params.environment.emplace();
+  LsystemParams::Solid post;
+  post.role = LsystemParams::Role::obstacle;
+  post.shape = LsystemParams::Shape::cylinder;
+  post.position = {3, 0, 0};
+  post.size = {2, 10, 2};
+  params.environment->solids.push_back(post);
+  EXPECT_EQ(derived(params), "F(0.5)?E(1,2,2.16228,1,1,0,0)");
+}
+
+TEST(Garden, SeesWhatHasGrownButNotItsOwnStem) {
+  const auto asks = [](const char* axiom) { return derived(grammar_of(axiom, {}, 0)); };
+  EXPECT_EQ(asks("F(1)?E(1)"), "F(1)?E(1)");
+  EXPECT_EQ(asks("F(1)[+(90)F(1)]-(90)?E(1)F(1)").substr(18, 5), "?E(1)") << "siblings do not count";
+  EXPECT_EQ(asks("[F(2)]@M(-1,1,0)@R(1,0,0)F(0.5)?E(1)").substr(30), "?E(0)") << "a stem stands in the way";
+  EXPECT_EQ(asks("[F(2)]@M(-1,1,0)@R(1,0,0)F(0.5)?E(0.3)").substr(30), "?E(1)");
+}
+
+TEST(Garden, LeavesLessLightBelowOthers) {
+  const std::string lit = derived(grammar_of("F(0.1)?E(1,0,0,0)", {}, 0));
+  EXPECT_EQ(lit, "F(0.1)?E(1,1e+09,1e+09,1)");
+  const std::string shaded = derived(grammar_of("[f(2)F(0.1)]F(0.1)?E(1,0,0,0)", {}, 0));
+  EXPECT_NE(shaded.substr(shaded.size() - 3), ",1)");
+}
+
+TEST(Garden, CutsWhatLeavesTheGuide) {
+  LsystemParams params = grammar_of("FFFF[+(90)F]", {}, 0);
+  params.environment = inside(LsystemParams::Shape::box, {10, 2.6, 10});
+  EXPECT_FLOAT_EQ(bounds_of_drawing(params).max.y, 3) << "the centre of the third is at 2.5";
+  params.environment->membership = LsystemParams::Membership::whole;
+  EXPECT_FLOAT_EQ(bounds_of_drawing(params).max.y, 2);
+  params.environment->membership = LsystemParams::Membership::clipped;
+  EXPECT_NEAR(bounds_of_drawing(params).max.y, 2.6, 1e-4);
+}
+
+TEST(Garden, GrowsCompanionsStepByStep) {
+  // Each asks whether the way is free; the two meet in the middle.
+  LsystemParams params = grammar_of("@R(1,0,0)F(0.5)?E(1)A", {"?E(x) < A : x == 1 -> F(1)?E(1)A", "?E(x) -> "}, 9);
+  params.environment.emplace();
+  LsystemParams::Companion other;
+  other.position = {8, 0, 0};
+  other.system.generator = "lsystem";
+  other.system.parameters =
+      R"({"axiom":"@R(-1,0,0)F(0.5)?E(1)A","productions":["?E(x) < A : x == 1 -> F(1)?E(1)A","?E(x) -> "],"iterations":9})";
+  params.environment->companions.push_back(other);
+  EXPECT_EQ(derived(params), "@R(1,0,0)F(0.5)F(1)F(1)F(1)A");
+  const Box box = bounds_of_drawing(params);
+  EXPECT_FLOAT_EQ(box.min.x, 0);
+  EXPECT_FLOAT_EQ(box.max.x, 8);
+}
+
+TEST(Garden, TellsWhatTheSchemaCannot) {
+  LsystemParams params = grammar_of("F", {}, 0);
+  params.environment = inside(LsystemParams::Shape::mesh, {1, 1, 1});
+  params.environment->solids.push_back(params.environment->solids[0]);
+  params.environment->solids[1].glb = "no uri";
+  params.environment->solids.push_back(inside(LsystemParams::Shape::box, {1, 1, 1}).solids[0]);
+  params.environment->solids[2].role = LsystemParams::Role::host;
+  LsystemParams::Companion other;
+  other.system.generator = "tree";
+  params.environment->companions.push_back(other);
+  std::vector<std::string> pointers;
+  for (const Issue& issue : check(params, Limits{})) pointers.push_back(issue.pointer);
+  EXPECT_EQ(pointers, (std::vector<std::string>{"/environment/solids/0", "/environment/solids/1/glb",
+                                                "/environment/solids/2/shape",
+                                                "/environment/companions/0/system/generator"}));
+}
+
+}  // namespace
+}  // namespace seedmesh::lsystem
