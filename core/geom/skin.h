@@ -11,6 +11,9 @@ struct SkinOptions {
   int sides = 8;   ///< corners of a cross-section of the thickest limb, 3..64
   int stacks = 1;  ///< rings an internode is cut into, 1..16; only where the radius changes along it
   bool uv = true;
+  /// For pictures that repeat: u goes a whole number of times from 0 to 1 round each limb, once a metre of
+  /// circumference where it begins and at least once, and v keeps the picture's proportions as the limb grows thinner.
+  bool wrap = false;
 };
 
 /// The bark of one colour index, as one mesh.

@@ -50,7 +50,10 @@ class TubeWriter {
       : context_(context), section_(context.options), cursors_(cursors) {}
 
   /// The next limb's v starts at 0 again.
-  void begin_limb() { length_so_far_ = 0; }
+  void begin_limb() {
+    v_so_far_ = 0;
+    turns_ = 0;
+  }
 
   void open(const Internode& first, Opening opening);
   void join(const Turn& turn, const Internode& next);
@@ -86,6 +89,7 @@ class TubeWriter {
 
   Ring plain_ring(const glm::vec3& centre, float radius, float v) const;
   void start_frame(const glm::vec3& along, std::uint64_t hash);
+  void pace_picture(const Internode& internode);
   void begin_piece(std::int16_t color);
   void end_piece();
   void write_disc(const Ring& ring);
@@ -93,6 +97,7 @@ class TubeWriter {
   void write_waiting(Slope after);
   void write_inner_rings(const Taper& taper);
   std::uint32_t write_apex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv);
+  float half_round(float radius) const;
   std::uint64_t hash_of(std::uint32_t joint) const;
   float nudge(std::uint64_t hash, float radius) const;
 
@@ -107,7 +112,10 @@ class TubeWriter {
   float radius_ = 0;     ///< of the ring where it begins
   float reach_ = 0;      ///< of that ring's mitre
   glm::vec3 u_{0};       ///< of the current frame; v is along x u
-  float length_so_far_ = 0;
+  float v_so_far_ = 0;   ///< of the limb up to where the current internode begins
+  float by_length_ = 1;  ///< v of the current internode for each metre
+  float slowest_ = 1;    ///< v for each metre where the limb began
+  float turns_ = 0;      ///< of a wrapped picture round the limb; 0: not chosen yet
 };
 
 }  // namespace seedmesh

@@ -1,3 +1,4 @@
+#include <bit>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -49,6 +50,7 @@ Generator::Params parameters_of(const Json& body, const Generator& generator, co
   return params;
 }
 
+<<<<<<< HEAD
 /// A form that only other generators have is refused.
 void add_form_fault(const Generator& generator, const OutputParams& output, Faults& faults) {
   constexpr std::string_view of_models[] = {"glb", "gltf", "zip"};
@@ -64,6 +66,14 @@ void add_form_fault(const Generator& generator, const OutputParams& output, Faul
   }
   faults.add({"/output/format", "found \"" + std::string(format) + "\"; the forms of " +
                                     std::string(generator.name) + " are " + known});
+=======
+/// What the schema cannot say of the output.
+void check_output(const OutputParams& output, Faults& faults) {
+  const auto* size = std::get_if<std::int32_t>(&output.textures);
+  if (size && !std::has_single_bit(static_cast<std::uint32_t>(*size)) && !faults.covers("/output/textures")) {
+    faults.add({"/output/textures", "found " + std::to_string(*size) + "; expected a power of two, as 512"});
+  }
+>>>>>>> 162410d (texture: paint barks and leaves by seed)
 }
 
 }  // namespace
@@ -80,6 +90,7 @@ Result<Request> read_request_body(const Json& json, const Limits& limits) {
   if (frame.preset && !faults.covers("/preset")) {
     faults.add({"/preset", schema::unknown_word("preset", *frame.preset, preset_names())});
   }
+  check_output(frame.output, faults);
   Request::Body body;
   body.generator = named_generator(merged, frame, faults);
   if (body.generator && (!merged.contains("parameters") || merged["parameters"].is_object())) {

@@ -8,6 +8,7 @@
 #include "core/generators/lsystem/dress.h"
 #include "core/generators/lsystem/free.h"
 #include "core/generators/lsystem/growth.h"
+#include "core/generators/lsystem/looks.h"
 #include "core/generators/lsystem/shape.h"
 #include "core/generators/lsystem/text.h"
 #include "core/generators/lsystem/word.h"
@@ -118,6 +119,7 @@ Json described(const std::vector<Warning>& warnings) {
 std::vector<Issue> check(const LsystemParams& params, const Limits& limits) {
   std::vector<Issue> issues;
   compile(params, 0, limits, issues);
+  check_looks(params, issues);
   return issues;
 }
 
