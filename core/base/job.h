@@ -64,6 +64,12 @@ class Purse {
   std::uint64_t limit_;
 };
 
+/// What of the wanted output bears on how a model is made.
+struct Demand {
+  int lods = 1;               ///< levels of detail, 1 to 5
+  bool share_organs = false;  ///< organs as nodes that share a mesh, instead of one mesh of all
+};
+
 /// The context of one request. Safe to use from the worker threads of that request.
 class Job {
  public:
@@ -93,6 +99,10 @@ class Job {
   /// Throws Stop when the caller has gone or the deadline has passed. Costs a clock reading (about 25 ns):
   /// call it every 4,096 steps, or through Meter.
   void check() const;
+
+  /// Set by the pipeline before a generator runs. A request inside another is made plainly.
+  void set_demand(const Demand& demand) { state_->demand = demand; }
+  Demand demand() const { return is_child_ ? Demand{} : state_->demand; }
 
   /// Counts `amount` of a resource before it is made; throws Stop when the limit would be passed. Looks at
   /// stop and deadline too, so call it in batches (Meter does).
@@ -125,6 +135,7 @@ class Job {
     std::shared_ptr<Purse> purse;
     std::atomic<std::uint64_t> spent[4] = {};
     std::vector<Stage> stages;
+    Demand demand;
   };
   Job(std::uint64_t seed, std::shared_ptr<State> state)
       : seed_(seed), is_child_(true), state_(std::move(state)) {}

@@ -82,8 +82,8 @@ void TubeWriter::start_frame(const glm::vec3& along, std::uint64_t hash) {
   const float a = -1 / (sign + along.z);
   const float b = along.x * along.y * a;
   const glm::vec3 u{1 + sign * along.x * along.x * a, sign * b, -sign * along.x};
-  const glm::vec2 coarse = context_.tables.coarse_phases[hash % phase_count];
-  const glm::vec2 fine = context_.tables.fine_phases[hash / phase_count % phase_count];
+  const glm::vec2 coarse = tables().coarse_phases[hash % phase_count];
+  const glm::vec2 fine = tables().fine_phases[hash / phase_count % phase_count];
   const glm::vec2 phase{coarse.x * fine.x - coarse.y * fine.y, coarse.x * fine.y + coarse.y * fine.x};
   u_ = u * phase.x + glm::cross(along, u) * phase.y;
 }
@@ -132,8 +132,7 @@ void TubeWriter::open(const Internode& first, Opening opening) {
     case Opening::point:
       radius_ = 0;
       // Points may share a place, but not all of a vertex: that would be a vertex twice in one mesh.
-      piece_.start_apex =
-          write_apex(first.from - first.along * nudge(hash, 0), -first.along, {0, v_so_far_});
+      piece_.start_apex = write_apex(first.from - first.along * nudge(hash, 0), -first.along, {0, v_so_far_});
       break;
     case Opening::root: {
       const bool is_revisit = context_.chains.mark[context_.limbs.parent[first.joint]] & revisit;
@@ -255,7 +254,7 @@ void TubeWriter::write_disc(const Ring& ring) {
   const std::uint32_t centre = write_apex(ring.centre, normal, {0, 0});
   const std::size_t rim = here_->vertex;
   for (std::uint32_t k = 0; k < section_.sides; ++k) {
-    const glm::vec2 at = context_.tables.circle[k];
+    const glm::vec2 at = tables().circle[k];
     here_->position[rim + k] = (ring.centre + 0.0F) + ring.side_u * at.x + ring.side_v * at.y;
     here_->normal[rim + k] = normal;
     if (here_->uv) here_->uv[rim + k] = at * ring.radius;
@@ -284,7 +283,7 @@ void TubeWriter::write_ring(const Ring& ring, Slope after) {
   const std::size_t first = here_->vertex;
   glm::vec3* position = here_->position + first;
   glm::vec3* normal = here_->normal + first;
-  const glm::vec2* circle = context_.tables.circle.data();
+  const glm::vec2* circle = tables().circle.data();
   for (std::uint32_t k = 0; k < section_.sides; ++k) {
     const glm::vec2 at = circle[k];
     position[k] = (centre + ring.side_u * at.x) + ring.side_v * at.y;
@@ -315,8 +314,7 @@ void TubeWriter::end_piece() {
   std::uint32_t* out = here_->index + here_->corner;
   const std::size_t last_ring = piece_.first_ring + std::size_t{piece_.rings - 1} * section_.corners;
   const bool is_warm = piece_.start_apex != Limbs::none;
-  for (const TubeTables::Column& column :
-       is_warm ? context_.tables.columns : context_.tables.narrow_columns) {
+  for (const TubeTables::Column& column : is_warm ? tables().columns : tables().narrow_columns) {
     const std::size_t size = column.size();
     const std::uint32_t* corners = column.data();
     if (piece_.start_apex != Limbs::none) {

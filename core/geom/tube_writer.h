@@ -13,6 +13,7 @@ namespace seedmesh {
 
 /// Tables that all tubes of one skin() share: no trigonometry per ring, no division per index.
 struct TubeTables {
+  TubeTables() = default;
   explicit TubeTables(const CrossSection& section);
 
   /// Quads of a tube next to each other, six corners each, counted from the lower ring's first vertex. Their
@@ -43,14 +44,15 @@ class TubeWriter {
     const Scale& scale;
     const Palette& palette;
     const SkinOptions& options;
-    const TubeTables& tables;
+    const std::vector<TubeTables>& tables;  ///< by sides; empty ones for numbers that no limb has
   };
 
   TubeWriter(const Context& context, TubeCursor* cursors)
-      : context_(context), section_(context.options), cursors_(cursors) {}
+      : context_(context), section_(context.options, context.options.sides), cursors_(cursors) {}
 
   /// The next limb's v starts at 0 again.
-  void begin_limb() {
+  void begin_limb(int sides) {
+    section_ = CrossSection(context_.options, sides);
     v_so_far_ = 0;
     turns_ = 0;
   }
@@ -89,6 +91,7 @@ class TubeWriter {
 
   Ring plain_ring(const glm::vec3& centre, float radius, float v) const;
   void start_frame(const glm::vec3& along, std::uint64_t hash);
+  const TubeTables& tables() const { return context_.tables[section_.sides]; }
   void pace_picture(const Internode& internode);
   void begin_piece(std::int16_t color);
   void end_piece();

@@ -125,10 +125,12 @@ Result<Product> produce_own(const Request& request, const OwnForm& form, Job& jo
 Result<Product> produce(const Request& request, Job& job, TextureStore* texture_store) {
   return guarded<Product>([&]() -> Result<Product> {
     if (const OwnForm* form = own_form_of(request)) return produce_own(request, *form, job);
+    const OutputParams& output = request.body().output;
+    job.set_demand({output.lods, output.instancing == OutputInstancing::nodes});
     Result<Model> model = request.body().generator->generate(request.body().params, job);
     if (!model) return std::move(model).error();
-    texture::paint(*model, texture_size(request.body().output), texture_store, job);
-    if (request.body().output.tangents == OutputTangents::auto_) add_tangents(*model, job);
+    texture::paint(*model, texture_size(output), texture_store, job);
+    if (output.tangents == OutputTangents::auto_) add_tangents(*model, job);
     finish(*model, job);
     sign(*model, request);
     const ModelCounts counts = count(*model);

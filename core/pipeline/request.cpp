@@ -50,7 +50,6 @@ Generator::Params parameters_of(const Json& body, const Generator& generator, co
   return params;
 }
 
-<<<<<<< HEAD
 /// A form that only other generators have is refused.
 void add_form_fault(const Generator& generator, const OutputParams& output, Faults& faults) {
   constexpr std::string_view of_models[] = {"glb", "gltf", "zip"};
@@ -66,14 +65,19 @@ void add_form_fault(const Generator& generator, const OutputParams& output, Faul
   }
   faults.add({"/output/format", "found \"" + std::string(format) + "\"; the forms of " +
                                     std::string(generator.name) + " are " + known});
-=======
+}
+
 /// What the schema cannot say of the output.
 void check_output(const OutputParams& output, Faults& faults) {
   const auto* size = std::get_if<std::int32_t>(&output.textures);
   if (size && !std::has_single_bit(static_cast<std::uint32_t>(*size)) && !faults.covers("/output/textures")) {
     faults.add({"/output/textures", "found " + std::to_string(*size) + "; expected a power of two, as 512"});
   }
->>>>>>> 162410d (texture: paint barks and leaves by seed)
+  if (output.lods > 1 && output.format != OutputFormat::zip) {
+    faults.add({"/output/lods", "found " + std::to_string(output.lods) + " levels of detail in the format " +
+                                    std::string(text_of(output.format)) +
+                                    ", which holds one; expected the format zip"});
+  }
 }
 
 }  // namespace
@@ -117,6 +121,7 @@ Result<Request> with_format(const Request& request, std::string_view format) {
   Request::Body body = request.body();
   body.output = read_output(output, "/output", faults);
   if (faults.empty()) add_form_fault(*body.generator, body.output, faults);
+  if (faults.empty()) check_output(body.output, faults);
   if (!faults.empty()) return Error{Code::invalid, faults.take()};
   body.canonical = canonical_request(body);
   return Request(std::make_shared<const Request::Body>(std::move(body)));

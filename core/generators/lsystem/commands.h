@@ -46,6 +46,10 @@ enum class Command : std::uint8_t {
   multiply_width,
   multiply_turns,
   mirror,
+  organ,
+  sweep_begin,
+  sweep_control,
+  sweep_end,
 };
 
 struct CommandRow {

@@ -36,6 +36,7 @@ Drawing::Drawing(const Grammar& grammar, const LsystemParams& params, Skeleton* 
       yaw_{params.angle.yaw, math::sincos_degrees(params.angle.yaw)},
       pitch_{params.angle.pitch, math::sincos_degrees(params.angle.pitch)},
       roll_{params.angle.roll, math::sincos_degrees(params.angle.roll)} {
+  for (const auto& [name, surface] : params.surfaces) surfaces_.push_back(&surface);
   std::vector<Tropism> tropisms;
   for (const auto& each : params.tropism) {
     const auto& to = each.direction;
@@ -109,6 +110,17 @@ math::SinCos Drawing::leftward(math::SinCos angle) const {
 
 void Drawing::set_width(const Kind& kind, const double* parameters, double change) {
   turtle_.set_width(kind.arity > 0 ? parameters[0] : turtle_.width() + change);
+}
+
+/// A scale for all three directions, or one for each: across, along and above the organ.
+void Drawing::place(const Kind& kind, const double* parameters, std::uint64_t key) {
+  if (kind.surface == Kind::none) return;
+  const LsystemSurface& surface = *surfaces_[kind.surface];
+  glm::dvec3 scale(kind.arity > 0 ? parameters[0] : 1);
+  if (kind.arity > 2) scale = {parameters[0], parameters[1], parameters[2]};
+  scale *= surface.size * turtle_.scale();
+  scale.x *= surface.width;
+  if (scale.x > 0 && scale.y > 0 && scale.z > 0) turtle_.place_organ(kind.surface, scale, surface.color, key);
 }
 
 void Drawing::obey(const Kind& kind, const double* parameters, std::uint64_t key) {
@@ -188,6 +200,14 @@ void Drawing::obey(const Kind& kind, const double* parameters, std::uint64_t key
       return turtle_.set_turn_scale(finite(turtle_.turn_scale() * parameters[0], kind));
     case Command::mirror:
       return turtle_.mirror();
+    case Command::sweep_begin:
+      return turtle_.begin_sweep();
+    case Command::sweep_control:
+      return turtle_.set_control(kind.arity > 0 ? math::to_int64(parameters[0]) : 8, key);
+    case Command::sweep_end:
+      return turtle_.end_sweep(key);
+    case Command::organ:
+      return place(kind, parameters, key);
   }
 }
 

@@ -1,8 +1,12 @@
 #include "core/generators/lsystem/dress.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 
-#include "core/generators/lsystem/looks.h"
+#include "core/generators/lsystem/surfaces.h"
+#include "core/geom/detail.h"
 #include "core/geom/polygons.h"
 #include "core/geom/skin.h"
 
@@ -36,12 +40,48 @@ void add_meshes(Model& model, const char* name, std::vector<Bark> parts, Sides s
   }
 }
 
-SkinOptions skin_options(const LsystemParams& params) {
+SkinOptions skin_options(const LsystemParams& params, const Detail& detail) {
   SkinOptions options;
-  options.sides = static_cast<int>(params.sides);
-  options.stacks = static_cast<int>(params.stacks);
+  options.sides = detail.sides(params.sides);
+  options.stacks = detail.stacks(params.stacks);
   options.wrap = wraps_pictures(params);
+  options.adapt = params.adapt || detail.level() > 0;
   return options;
+}
+
+/// The bark with its coarser levels. Takes the limbs: their memory goes back before polygons and writer need
+/// theirs.
+void add_bark(Model& model, Limbs limbs, const LsystemParams& params, Wardrobe& wardrobe, Job& job) {
+  const int finest = static_cast<int>(model.nodes.size());
+  add_meshes(model, "bark", skin(limbs, skin_options(params, Detail(0)), job), Sides::one, wardrobe);
+  if (static_cast<int>(model.nodes.size()) == finest) return;
+  const float most = thickest(limbs);
+  for (int level = 1; level < job.demand().lods; ++level) {
+    const Detail detail(level);
+    limbs = prune(limbs, detail.thinnest() * most, job);
+    MeshGroup group{"bark_LOD" + std::to_string(level), {}};
+    for (Bark& part : skin(limbs, skin_options(params, detail), job)) {
+      group.primitives.push_back({std::move(part.mesh), wardrobe.material(part.color, Sides::one), {}});
+    }
+    if (group.primitives.empty()) return;
+    model.nodes.back().lods.push_back(static_cast<int>(model.meshes.size()));
+    model.meshes.push_back(std::move(group));
+  }
+}
+
+/// The diagonal of everything.
+float size_of(const Skeleton& skeleton) {
+  constexpr float far = std::numeric_limits<float>::max();
+  Box box{glm::vec3(far), glm::vec3(-far)};
+  const auto grow = [&box](const glm::vec3& p) { box = {glm::min(box.min, p), glm::max(box.max, p)}; };
+  for (const glm::vec3& p : skeleton.limbs.position) grow(p);
+  for (const glm::vec3& p : skeleton.outlines.vertex) grow(p);
+  for (const Organ& organ : skeleton.organs.organ) {
+    grow(organ.position);
+    grow(organ.position + glm::mat3_cast(organ.frame)[1] * organ.scale.y);
+  }
+  const glm::vec3 extent = box.max - box.min;
+  return box.min.x > box.max.x ? 0 : std::sqrt(glm::dot(extent, extent));
 }
 
 }  // namespace
@@ -55,15 +95,20 @@ Model dress(Skeleton skeleton, const LsystemParams& params, Job& job) {
   Wardrobe wardrobe(model, params, job);
   choose_looks(skeleton, wardrobe);
   const bool tubes = params.style == LsystemParams::Style::tubes;
-  const bool empty = skeleton.limbs.size() == 0 && skeleton.outlines.outline.empty();
-  std::vector<Bark> bark =
-      tubes ? skin(skeleton.limbs, skin_options(params), job) : wires(skeleton.limbs, job);
-  skeleton.limbs = Limbs(job);  // its memory goes back before polygons and writer need theirs
-  add_meshes(model, tubes ? "bark" : "lines", std::move(bark), Sides::one, wardrobe);
+  const bool empty =
+      skeleton.limbs.size() == 0 && skeleton.outlines.outline.empty() && skeleton.organs.organ.empty();
+  const float size = skeleton.organs.organ.empty() ? 0 : size_of(skeleton);
+  if (tubes) {
+    add_bark(model, std::exchange(skeleton.limbs, Limbs(job)), params, wardrobe, job);
+  } else {
+    add_meshes(model, "lines", wires(skeleton.limbs, job), Sides::one, wardrobe);
+    skeleton.limbs = Limbs(job);
+  }
   add_meshes(model, "surfaces", polygons(skeleton.outlines, job), Sides::both, wardrobe);
+  add_organs(model, skeleton.organs, params, size, wardrobe, job);
   if (empty) {
     model.warnings.push_back(
-        {"/axiom", "nothing was drawn: the last word has no F or G and no polygon", 0, 0});
+        {"/axiom", "nothing was drawn: the last word has no F or G, no polygon and no organ", 0, 0});
   }
   return model;
 }

@@ -116,6 +116,10 @@ Material Wardrobe::look(std::size_t index) const {
   const Given& given = params_.materials[index];
   material.name = given.name.empty() ? "color_" + std::to_string(index) : given.name;
   paint(material, given.color.value_or(Color{255, 255, 255}), given.roughness, given.metallic);
+  if (given.opacity < 1) {
+    material.base_color.w = static_cast<float>(given.opacity);
+    material.alpha_mode = AlphaMode::blend;
+  }
   if (has_texture(given)) {
     material.recipe = {std::string(text_of(given.texture)), static_cast<std::uint64_t>(given.texture_seed),
                        main_color(given.color)};
