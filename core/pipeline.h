@@ -11,6 +11,7 @@
 
 #include "core/base/job.h"
 #include "core/base/result.h"
+#include "core/base/texture_store.h"
 #include "core/gltf/payload.h"
 #include "core/model/model.h"
 
@@ -44,7 +45,6 @@ std::optional<Result<Request>> read_preset(std::string_view name, const Override
 Result<Request> with_format(const Request& request, std::string_view format);
 
 /// The model that a request describes. `texture_store` is the caller's; may be null.
-class TextureStore;
 struct Statistics {
   std::uint64_t triangles = 0, vertices = 0;
   std::uint32_t warnings = 0;

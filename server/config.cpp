@@ -135,6 +135,7 @@ const std::vector<Setting>& table() {
       bytes("body-memory", "Memory for the bodies of all requests together; one more is answered 503.",
             &Config::body_memory, 1'024),
       bytes("cache-bytes", "Memory for finished models; 0 keeps none.", &Config::cache_bytes, 0),
+      bytes("texture-bytes", "Memory for made textures; 0 keeps none.", &Config::texture_bytes, 0),
       {"log-level", "debug, info, warn, error or off.", set_log_level,
        [](const Config& c) { return Json(c.log_level); }},
       count("max-modules", "Modules one request may derive.", &Limits::modules, 1, 1'000'000'000'000),

@@ -26,6 +26,7 @@ struct Config {
   std::uint64_t body_limit = 16U << 20U;
   std::uint64_t body_memory = 256U << 20U;
   std::uint64_t cache_bytes = 256U << 20U;
+  std::uint64_t texture_bytes = 64U << 20U;
   std::string log_level = "info";
   Limits limits;
 };

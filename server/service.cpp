@@ -33,7 +33,7 @@ Cache::Outcome make(const Call& call, const Known& known, const std::stop_token&
   const auto work = [&](Job::Options options) {
     options.progress = progress;
     Job job(known.request.seed(), std::move(options));
-    Result<Product> product = produce(known.request, job);
+    Result<Product> product = produce(known.request, job, &call.service.textures);
     if (!product) {
       outcome = problem_of(product.error());
       return;

@@ -12,6 +12,7 @@
 #include "core/pipeline.h"
 #include "server/admission.h"
 #include "server/cache.h"
+#include "server/texture_cache.h"
 #include "server/config.h"
 #include "server/http/message.h"
 #include "server/log.h"
@@ -64,12 +65,14 @@ struct Service {
       : config(given),
         log(given_log),
         admission(given.threads, static_cast<std::size_t>(given.queue)),
-        cache(given.cache_bytes) {}
+        cache(given.cache_bytes),
+        textures(given.texture_bytes) {}
 
   const Config config;
   const Log& log;
   Admission admission;
   Cache cache;
+  TextureCache textures;
   Metrics metrics;
   KnownTargets targets;
   FixedTexts texts;

@@ -34,6 +34,9 @@ std::string range_text(const Schema& schema);
 /// Breaks a paragraph into lines that begin with `lead`.
 std::string wrapped(const std::string& text, const std::string& lead);
 
+/// What C++ calls a word of a choice: the word, with an underscore where the language has taken it ("auto_").
+std::string enumerator(const std::string& word);
+
 /// The name of a choice's words: "lsystem_style_words".
 std::string words_name(const Type& choice);
 

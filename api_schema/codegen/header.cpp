@@ -21,7 +21,7 @@ std::string comment(const Schema& schema, const std::string& lead) {
 std::string declare_choice(const Type& type) {
   std::string words;
   for (const Schema& word : type.schema["enum"])
-    words += (words.empty() ? "" : ", ") + word.get<std::string>();
+    words += (words.empty() ? "" : ", ") + enumerator(word.get<std::string>());
   return comment(type.schema, "") + "enum class " + type.cpp + " { " + words + " };\n" +
          "std::string_view text_of(" + type.cpp + " choice);\n\n";
 }

@@ -1,3 +1,4 @@
+#include <set>
 #include <sstream>
 
 #include "api_schema/codegen/emit.h"
@@ -66,10 +67,17 @@ std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
+std::string enumerator(const std::string& word) {
+  static const std::set<std::string> taken{"auto",  "bool",   "char", "default", "delete", "do",    "double", "else",
+                                           "float", "for",    "if",   "int",     "long",   "new",   "not",    "or",
+                                           "short", "static", "this", "true",    "false",  "union", "while",  "xor"};
+  return taken.contains(word) ? word + "_" : word;
+}
+
 std::string initializer(const Type& type, const Schema& value) {
   switch (type.kind) {
     case Kind::choice:
-      return type.cpp + "::" + value.get<std::string>();
+      return type.cpp + "::" + enumerator(value.get<std::string>());
     case Kind::text:
       return quoted(value.get<std::string>());
     case Kind::color: {

@@ -64,10 +64,12 @@ class Purse {
   std::uint64_t limit_;
 };
 
-/// What the answer shall hold beside the shape. Whoever is asked for what it cannot make is not called: the
-/// pipeline refuses the request.
-struct Wanted {
-  bool growth = false;  ///< the animation "growth"
+/// What of the wanted output bears on how a model is made. Whoever is asked for what it cannot make is not
+/// called: the pipeline refuses the request.
+struct Demand {
+  int lods = 1;               ///< levels of detail, 1 to 5
+  bool share_organs = false;  ///< organs as nodes that share a mesh, instead of one mesh of all
+  bool growth = false;        ///< the animation "growth"
 };
 
 /// The context of one request. Safe to use from the worker threads of that request.
@@ -90,10 +92,6 @@ class Job {
   /// are part of a stage of this one: it tells no progress.
   Job for_child(std::uint64_t seed) const;
 
-  /// Wishes are of this job alone, not of the children that it makes with for_child().
-  const Wanted& wanted() const { return wanted_; }
-  void want(const Wanted& wanted) { wanted_ = wanted; }
-
   Rng rng() const { return Rng::of_seed(seed_); }
   std::uint64_t seed() const { return seed_; }
   const Limits& limits() const { return state_->options.limits; }
@@ -103,6 +101,11 @@ class Job {
   /// Throws Stop when the caller has gone or the deadline has passed. Costs a clock reading (about 25 ns):
   /// call it every 4,096 steps, or through Meter.
   void check() const;
+
+  /// Set by the pipeline before a generator runs. Of this job alone: a request inside another is made
+  /// plainly.
+  void set_demand(const Demand& demand) { demand_ = demand; }
+  const Demand& demand() const { return demand_; }
 
   /// Counts `amount` of a resource before it is made; throws Stop when the limit would be passed. Looks at
   /// stop and deadline too, so call it in batches (Meter does).
@@ -141,7 +144,7 @@ class Job {
 
   std::uint64_t seed_;
   bool is_child_ = false;
-  Wanted wanted_;
+  Demand demand_;
   std::shared_ptr<State> state_;
 };
 

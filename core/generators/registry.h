@@ -32,7 +32,7 @@ struct Generator {
   using Settle = std::function<void(const ChildPlace&)>;
 
   std::string_view name;  ///< in a request; its schema and its folder of presets have the same name
-  bool grows = false;     ///< makes the animation "growth" where Job::wanted() asks for it
+  bool grows = false;     ///< makes the animation "growth" where Job::demand() asks for it
 
   /// From JSON that stands at `pointer`. Gives parameters even where there are faults: refused members have
   /// defaults. An empty `settle` leaves requests inside as they are. Callers use read_parameters of child.h.

@@ -46,13 +46,13 @@ glm::vec3 lean_along(const glm::vec3& along, const Turn& turn, float radius) {
 }  // namespace
 
 TurnJudge::TurnJudge(const Scale& scale, int sides)
-    : scale_(scale),
+    : scale_(&scale),
       side_cosine_(static_cast<float>(math::cos(math::pi / sides))),
       gentle_reach_(gentle_reach_for(side_cosine_)) {}
 
 bool TurnJudge::allows(const Internode& a, const Internode& b, float radius_before, Turn& turn) {
   const float radius = b.base;
-  if (radius < scale_.thinnest) return false;
+  if (radius < scale_->thinnest) return false;
   const glm::vec3 sum = a.along + b.along;
   const glm::vec3 difference = b.along - a.along;
   const float sum_squared = glm::dot(sum, sum);
@@ -64,8 +64,8 @@ bool TurnJudge::allows(const Internode& a, const Internode& b, float radius_befo
   turn.cosine = 0.5F * twice_cosine;
   turn.reach = radius * turn_tangent;
 
-  const float most_of_a = a.length - std::max(least_free * a.length, scale_.apart);
-  const float most_of_b = b.length - std::max(least_free * b.length, scale_.apart);
+  const float most_of_a = a.length - std::max(least_free * a.length, scale_->apart);
+  const float most_of_b = b.length - std::max(least_free * b.length, scale_->apart);
   Ring ring{turn, radius, gentle_taper, false};
   if (turn.reach > most_of_b || !leaves_room(a, most_of_a, ring)) return false;
 

@@ -110,7 +110,7 @@ class TurnJudge {
   bool leaves_room(const Internode& a, float most, const Ring& ring) const;
   bool keeps_faces_outside(const Ring& ring, float taper_after) const;
 
-  const Scale& scale_;
+  const Scale* scale_;
   float side_cosine_;   ///< of half the angle between two corners of a cross-section
   float gentle_reach_;  ///< of a radius: turns up to it are gentle
   Ring last_;

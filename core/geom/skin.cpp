@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 
 #include "core/base/parallel.h"
@@ -41,6 +42,12 @@ class Checked {
   unsigned steps_ = 0;
 };
 
+/// The radius that a limb begins with.
+float first_radius(const Limbs& limbs, const Chains& chains, std::uint32_t head) {
+  const std::uint32_t joint = limbs.parent[head] == Limbs::none ? chains.next[head] : head;
+  return joint == Limbs::none ? 0 : limbs.base_radius[joint];
+}
+
 struct Plan {
   Plan(const Limbs& limbs, Chains found, const Scale& the_scale)
       : chains(std::move(found)),
@@ -50,11 +57,17 @@ struct Plan {
         chunks(chunk_count(chains.head.size(), chunk)),
         counts(chunks * palette.size()) {}
 
+  int sides(const Limbs& limbs, const SkinOptions& options, std::uint32_t head) const {
+    return options.adapt ? sides_of_limb(options, first_radius(limbs, chains, head), thickest)
+                         : options.sides;
+  }
+
   TubeCount* row(std::size_t index) { return counts.data() + index * palette.size(); }
 
   Chains chains;
   Scale scale;
   Palette palette;
+  float thickest = 0;  ///< beginning of a limb, where sides depend on it
   std::size_t chunk, chunks;
   std::vector<TubeCount> counts;  ///< of each chunk and colour; after `stack_up`, what stands before it
 };
@@ -64,8 +77,13 @@ void count_tubes(Plan& plan, const Limbs& limbs, const SkinOptions& options, con
                [&](std::size_t begin, std::size_t end, std::size_t index) {
                  TubeCounter counter(options, plan.scale, plan.palette, plan.row(index));
                  Checked sink(counter, job);
-                 const TurnJudge judge(plan.scale, options.sides);
+                 TurnJudge judge(plan.scale, options.sides);
+                 int sides = options.sides;
                  for (std::size_t i = begin; i < end; ++i) {
+                   if (const int own = plan.sides(limbs, options, plan.chains.head[i]); own != sides) {
+                     judge = TurnJudge(plan.scale, sides = own);
+                     counter.begin_limb(sides);
+                   }
                    walk_limb({limbs, plan.chains, plan.scale, plan.chains.head[i]}, judge, plan.chains,
                              plan.scale, sink);
                  }
@@ -123,7 +141,10 @@ TubeCursor cursor_at(Mesh& mesh, const TubeCount& place) {
 
 void write_tubes(Plan& plan, const Limbs& limbs, const SkinOptions& options, const Job& job,
                  std::vector<Bark>& barks) {
-  const TubeTables tables{CrossSection(options)};
+  std::vector<TubeTables> tables(static_cast<std::size_t>(options.sides) + 1);
+  for (int sides = options.adapt ? 3 : options.sides; sides <= options.sides; ++sides) {
+    tables[static_cast<std::size_t>(sides)] = TubeTables(CrossSection(options, sides));
+  }
   parallel_for(
       job, plan.chains.head.size(), plan.chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
         std::vector<TubeCursor> cursors;
@@ -132,9 +153,13 @@ void write_tubes(Plan& plan, const Limbs& limbs, const SkinOptions& options, con
         }
         TubeWriter writer({limbs, plan.chains, plan.scale, plan.palette, options, tables}, cursors.data());
         Checked sink(writer, job);
-        const TurnJudge judge(plan.scale, options.sides);
+        TurnJudge judge(plan.scale, options.sides);
+        int sides = options.sides;
         for (std::size_t i = begin; i < end; ++i) {
-          writer.begin_limb();
+          if (const int own = plan.sides(limbs, options, plan.chains.head[i]); own != sides) {
+            judge = TurnJudge(plan.scale, sides = own);
+          }
+          writer.begin_limb(sides);
           walk_limb({limbs, plan.chains, plan.scale, plan.chains.head[i]}, judge, plan.chains, plan.scale,
                     sink);
         }
@@ -168,11 +193,19 @@ Palette::Palette(const Limbs& limbs) {
   }
 }
 
+int sides_of_limb(const SkinOptions& options, float radius, float most) {
+  const float share = most > 0 ? std::sqrt(std::min(1.0F, radius / most)) : 1.0F;
+  return std::max(3, static_cast<int>(share * static_cast<float>(options.sides) + 0.5F));
+}
+
 std::vector<Bark> skin(const Limbs& limbs, const SkinOptions& options, Job& job) {
   assert(options.sides >= 3 && options.sides <= 64 && options.stacks >= 1);
   if (limbs.size() == 0) return {};
   const Scale scale = scale_of(limbs, options.sides);
   Plan plan(limbs, find_chains(limbs, scale, job), scale);
+  for (const std::uint32_t head : plan.chains.head) {
+    if (options.adapt) plan.thickest = std::max(plan.thickest, first_radius(limbs, plan.chains, head));
+  }
   count_tubes(plan, limbs, options, job);
   const std::vector<TubeCount> totals = stack_up(plan);
   std::vector<Bark> barks = room_for_all(totals, plan.palette, options, job);
@@ -188,6 +221,9 @@ std::uint64_t skin_triangles(const Limbs& limbs, const SkinOptions& options) {
   Job job(0, {.limits = own});
   const Scale scale = scale_of(limbs, options.sides);
   Plan plan(limbs, link_chains(limbs, job), scale);
+  for (const std::uint32_t head : plan.chains.head) {
+    if (options.adapt) plan.thickest = std::max(plan.thickest, first_radius(limbs, plan.chains, head));
+  }
   count_tubes(plan, limbs, options, job);
   std::uint64_t triangles = 0;
   for (const TubeCount& total : stack_up(plan)) triangles += total.triangles;

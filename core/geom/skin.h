@@ -13,7 +13,17 @@ struct SkinOptions {
   int stacks = 1;  ///< rings an internode is cut into, 1..16; only where the radius changes along it
   bool uv = true;
   std::span<const std::uint16_t> bones = {};  ///< of each joint: what moves its internode; fills Mesh::bone
+  /// For pictures that repeat: u goes a whole number of times from 0 to 1 round each limb, once a metre of
+  /// circumference where it begins and at least once, and v keeps the picture's proportions as the limb grows
+  /// thinner.
+  bool wrap = false;
+  /// Fewer sides for limbs that begin thinner than the thickest (by the root of the ratio), fewer rings for
+  /// internodes shorter than a tenth of the model.
+  bool adapt = false;
 };
+
+/// Sides of a limb that begins with `radius`, the thickest of the model beginning with `most`.
+int sides_of_limb(const SkinOptions& options, float radius, float most);
 
 /// The bark of one colour index, as one mesh.
 struct Bark {

@@ -29,8 +29,8 @@ struct TubeCount {
 
 /// What the options make of every cross-section.
 struct CrossSection {
-  explicit CrossSection(const SkinOptions& options)
-      : sides(static_cast<std::uint32_t>(options.sides)), corners(sides + (options.uv ? 1U : 0U)) {}
+  CrossSection(const SkinOptions& options, int side_count)
+      : sides(static_cast<std::uint32_t>(side_count)), corners(sides + (options.uv ? 1U : 0U)) {}
   std::uint32_t sides;
   std::uint32_t corners;  ///< vertices of a ring: one more than sides where the seam is doubled
 };
@@ -38,7 +38,12 @@ struct CrossSection {
 /// How many rings stand between the two that bound an internode; `free` is the length between the two.
 inline int inner_rings(const SkinOptions& options, const Scale& scale, glm::vec2 radii, float free) {
   if (options.stacks <= 1 || radii.x == radii.y) return 0;
-  const int wanted = options.stacks - 1;
+  int wanted = options.stacks - 1;
+  if (options.adapt) {
+    const float share = free / (0.1F * scale.size);
+    wanted = std::min(wanted, static_cast<int>(std::min(share, 1.0F) * static_cast<float>(options.stacks)));
+    if (wanted < 1) return 0;
+  }
   const bool is_room = free >= scale.apart * static_cast<float>(options.stacks);
   const bool is_thick = std::max(radii.x, radii.y) >= scale.thinnest * static_cast<float>(options.stacks) ||
                         std::min(radii.x, radii.y) >= scale.thinnest;
@@ -52,7 +57,13 @@ inline float tip_length(float radius, float free) { return std::min(radius, 0.3F
 class TubeCounter {
  public:
   TubeCounter(const SkinOptions& options, const Scale& scale, const Palette& palette, TubeCount* counts)
-      : options_(options), section_(options), scale_(scale), palette_(palette), counts_(counts) {}
+      : options_(options),
+        section_(options, options.sides),
+        scale_(scale),
+        palette_(palette),
+        counts_(counts) {}
+
+  void begin_limb(int sides) { section_ = CrossSection(options_, sides); }
 
   void open(const Internode& first, Opening opening) {
     here_ = &counts_[palette_.slot(first.color)];

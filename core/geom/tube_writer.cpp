@@ -18,6 +18,8 @@ constexpr std::uint32_t widest_column = 8, widest_cold_column = 6;
 constexpr std::uint32_t phase_count = 64;
 // The cone that closes a tube inside its parent or over an elbow, as a share of the radius.
 constexpr float cap_share = 0.5F;
+// How much faster than where the limb begins v may run: at a tip the picture would shrink to nothing.
+constexpr float most_hurry = 4;
 
 float fraction(std::uint64_t hash) { return static_cast<float>(hash >> 40U) * 0x1p-24F; }
 
@@ -61,6 +63,11 @@ TubeTables::TubeTables(const CrossSection& section)
   }
 }
 
+/// u half way round a ring.
+float TubeWriter::half_round(float radius) const {
+  return context_.options.wrap ? 0.5F * turns_ : static_cast<float>(math::pi) * radius;
+}
+
 std::uint64_t TubeWriter::hash_of(std::uint32_t joint) const {
   return key_at(context_.limbs.key.empty() ? joint : context_.limbs.key[joint], 0x5EA3);
 }
@@ -75,8 +82,8 @@ void TubeWriter::start_frame(const glm::vec3& along, std::uint64_t hash) {
   const float a = -1 / (sign + along.z);
   const float b = along.x * along.y * a;
   const glm::vec3 u{1 + sign * along.x * along.x * a, sign * b, -sign * along.x};
-  const glm::vec2 coarse = context_.tables.coarse_phases[hash % phase_count];
-  const glm::vec2 fine = context_.tables.fine_phases[hash / phase_count % phase_count];
+  const glm::vec2 coarse = tables().coarse_phases[hash % phase_count];
+  const glm::vec2 fine = tables().fine_phases[hash / phase_count % phase_count];
   const glm::vec2 phase{coarse.x * fine.x - coarse.y * fine.y, coarse.x * fine.y + coarse.y * fine.x};
   u_ = u * phase.x + glm::cross(along, u) * phase.y;
 }
@@ -101,10 +108,23 @@ void TubeWriter::begin_piece(std::int16_t color) {
   piece_ = {here_->vertex, 0, Limbs::none, Limbs::none};
 }
 
+/// How fast v runs along an internode that comes now.
+void TubeWriter::pace_picture(const Internode& internode) {
+  if (!context_.options.wrap) return;
+  const auto round = static_cast<float>(2 * math::pi);
+  if (turns_ == 0) {
+    turns_ = std::max(1.0F, std::floor(round * internode.base + 0.5F));
+    slowest_ = turns_ / (round * std::max(internode.base, context_.scale.thinnest));
+  }
+  const float radius = std::max(0.5F * (internode.base + internode.end), context_.scale.thinnest);
+  by_length_ = std::min(turns_ / (round * radius), most_hurry * slowest_);
+}
+
 void TubeWriter::open(const Internode& first, Opening opening) {
   internode_ = first;
   radius_ = first.base;
   reach_ = 0;
+  pace_picture(first);
   begin_piece(first.color);
   const std::uint64_t hash = hash_of(first.joint);
   start_frame(first.along, hash);
@@ -113,22 +133,21 @@ void TubeWriter::open(const Internode& first, Opening opening) {
     case Opening::point:
       radius_ = 0;
       // Points may share a place, but not all of a vertex: that would be a vertex twice in one mesh.
-      piece_.start_apex =
-          write_apex(first.from - first.along * nudge(hash, 0), -first.along, {0, length_so_far_});
+      piece_.start_apex = write_apex(first.from - first.along * nudge(hash, 0), -first.along, {0, v_so_far_});
       break;
     case Opening::root: {
       const bool is_revisit = context_.chains.mark[context_.limbs.parent[first.joint]] & revisit;
       const float up = is_revisit ? std::min(nudge(hash, radius_), 0.2F * first.length) : 0;
-      waiting_ = plain_ring(first.from + first.along * up, radius_, length_so_far_);
+      waiting_ = plain_ring(first.from + first.along * up, radius_, v_so_far_);
       write_disc(waiting_);
       break;
     }
     case Opening::branch: {
       const float back = nudge(hash, radius_), cone = cap_share * radius_;
-      waiting_ = plain_ring(first.from - first.along * back, radius_, length_so_far_ - back);
+      waiting_ = plain_ring(first.from - first.along * back, radius_, v_so_far_ - back * by_length_);
       waiting_.before = slope_of(0, radius_, cone);
       piece_.start_apex = write_apex(waiting_.centre - first.along * cone, -first.along,
-                                     {static_cast<float>(math::pi) * radius_, waiting_.v - cone});
+                                     {half_round(radius_), waiting_.v - cone * by_length_});
       break;
     }
   }
@@ -141,7 +160,7 @@ void TubeWriter::join(const Turn& turn, const Internode& next) {
   write_waiting(slope);
   write_inner_rings({next.base, internode_.length, reach_, internode_.length - turn.reach});
 
-  length_so_far_ += internode_.length;
+  v_so_far_ += internode_.length * by_length_;
   Ring ring;
   ring.centre = internode_.to;
   if (context_.chains.mark[internode_.joint] & revisit) {
@@ -158,7 +177,7 @@ void TubeWriter::join(const Turn& turn, const Internode& next) {
   ring.normal_v = v - (along + tangent) * (v_lean * half);
   ring.tangent = tangent;
   ring.radius = next.base;
-  ring.v = length_so_far_;
+  ring.v = v_so_far_;
   ring.joint = internode_.joint;  // the older one: the younger is a point there before it grows
   ring.before = slope;
   ring.next_color = next.color;
@@ -174,6 +193,7 @@ void TubeWriter::join(const Turn& turn, const Internode& next) {
   internode_ = next;
   radius_ = next.base;
   reach_ = turn.reach;
+  pace_picture(next);
 }
 
 void TubeWriter::close(Closing closing, float free) {
@@ -186,7 +206,7 @@ void TubeWriter::close(Closing closing, float free) {
   write_waiting(slope);
   write_inner_rings({end, ring_at, reach_, ring_at});
 
-  length_so_far_ += internode_.length;
+  v_so_far_ += internode_.length * by_length_;
   glm::vec3 apex = internode_.to;
   if (context_.chains.mark[internode_.joint] & revisit) apex += along * nudge(hash, 0);
   if (closing != Closing::point) {
@@ -195,13 +215,13 @@ void TubeWriter::close(Closing closing, float free) {
                          : is_revisit            ? -0.25F * cone * fraction(hash)
                                                  : 0;
     Ring ring = plain_ring(internode_.from + along * (ring_at + nudged), end,
-                           length_so_far_ - (internode_.length - ring_at));
+                           v_so_far_ - (internode_.length - ring_at) * by_length_);
     ring.before = slope;
     if (closing == Closing::cap) apex = ring.centre + along * cone;
     write_ring(ring, slope_of(end, 0, cone));
   }
-  const float v = closing == Closing::cap ? length_so_far_ + cone : length_so_far_;
-  piece_.end_apex = write_apex(apex, along, {static_cast<float>(math::pi) * end, v});
+  const float v = closing == Closing::cap ? v_so_far_ + cone * by_length_ : v_so_far_;
+  piece_.end_apex = write_apex(apex, along, {half_round(end), v});
   end_piece();
 }
 
@@ -224,7 +244,7 @@ void TubeWriter::write_inner_rings(const Taper& taper) {
     const float at = taper.low + (taper.high - taper.low) * share;
     // Along the free length alone: on the inner side of a bend that is all there is for the change of radius.
     const float radius = radius_ + (taper.end - radius_) * share;
-    Ring ring = plain_ring(internode_.from + internode_.along * at, radius, length_so_far_ + at);
+    Ring ring = plain_ring(internode_.from + internode_.along * at, radius, v_so_far_ + at * by_length_);
     ring.before = slope;
     write_ring(ring, slope);
   }
@@ -236,7 +256,7 @@ void TubeWriter::write_disc(const Ring& ring) {
   const std::uint32_t centre = write_apex(ring.centre, normal, {0, 0});
   const std::size_t rim = here_->vertex;
   for (std::uint32_t k = 0; k < section_.sides; ++k) {
-    const glm::vec2 at = context_.tables.circle[k];
+    const glm::vec2 at = tables().circle[k];
     here_->position[rim + k] = (ring.centre + 0.0F) + ring.side_u * at.x + ring.side_v * at.y;
     here_->normal[rim + k] = normal;
     if (here_->uv) here_->uv[rim + k] = at * ring.radius;
@@ -266,7 +286,7 @@ void TubeWriter::write_ring(const Ring& ring, Slope after) {
   const std::size_t first = here_->vertex;
   glm::vec3* position = here_->position + first;
   glm::vec3* normal = here_->normal + first;
-  const glm::vec2* circle = context_.tables.circle.data();
+  const glm::vec2* circle = tables().circle.data();
   for (std::uint32_t k = 0; k < section_.sides; ++k) {
     const glm::vec2 at = circle[k];
     position[k] = (centre + ring.side_u * at.x) + ring.side_v * at.y;
@@ -275,7 +295,8 @@ void TubeWriter::write_ring(const Ring& ring, Slope after) {
   if (here_->uv) {
     position[section_.sides] = position[0];
     normal[section_.sides] = normal[0];
-    const float step = static_cast<float>(2 * math::pi) * ring.radius / static_cast<float>(section_.sides);
+    const float step = (context_.options.wrap ? turns_ : static_cast<float>(2 * math::pi) * ring.radius) /
+                       static_cast<float>(section_.sides);
     const float v = ring.v + 0.0F;
     glm::vec2* uv = here_->uv + first;
     for (std::uint32_t k = 0; k <= section_.sides; ++k) uv[k] = {step * static_cast<float>(k), v};
@@ -302,8 +323,7 @@ void TubeWriter::end_piece() {
   std::uint32_t* out = here_->index + here_->corner;
   const std::size_t last_ring = piece_.first_ring + std::size_t{piece_.rings - 1} * section_.corners;
   const bool is_warm = piece_.start_apex != Limbs::none;
-  for (const TubeTables::Column& column :
-       is_warm ? context_.tables.columns : context_.tables.narrow_columns) {
+  for (const TubeTables::Column& column : is_warm ? tables().columns : tables().narrow_columns) {
     const std::size_t size = column.size();
     const std::uint32_t* corners = column.data();
     if (piece_.start_apex != Limbs::none) {

@@ -13,6 +13,7 @@ namespace seedmesh {
 
 /// Tables that all tubes of one skin() share: no trigonometry per ring, no division per index.
 struct TubeTables {
+  TubeTables() = default;
   explicit TubeTables(const CrossSection& section);
 
   /// Quads of a tube next to each other, six corners each, counted from the lower ring's first vertex. Their
@@ -44,14 +45,18 @@ class TubeWriter {
     const Scale& scale;
     const Palette& palette;
     const SkinOptions& options;
-    const TubeTables& tables;
+    const std::vector<TubeTables>& tables;  ///< by sides; empty ones for numbers that no limb has
   };
 
   TubeWriter(const Context& context, TubeCursor* cursors)
-      : context_(context), section_(context.options), cursors_(cursors) {}
+      : context_(context), section_(context.options, context.options.sides), cursors_(cursors) {}
 
   /// The next limb's v starts at 0 again.
-  void begin_limb() { length_so_far_ = 0; }
+  void begin_limb(int sides) {
+    section_ = CrossSection(context_.options, sides);
+    v_so_far_ = 0;
+    turns_ = 0;
+  }
 
   void open(const Internode& first, Opening opening);
   void join(const Turn& turn, const Internode& next);
@@ -88,6 +93,8 @@ class TubeWriter {
 
   Ring plain_ring(const glm::vec3& centre, float radius, float v) const;
   void start_frame(const glm::vec3& along, std::uint64_t hash);
+  const TubeTables& tables() const { return context_.tables[section_.sides]; }
+  void pace_picture(const Internode& internode);
   void begin_piece(std::int16_t color);
   void end_piece();
   void write_disc(const Ring& ring);
@@ -96,6 +103,7 @@ class TubeWriter {
   void write_inner_rings(const Taper& taper);
   std::uint32_t write_apex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv);
   void write_bones(std::size_t first, std::size_t count, std::uint32_t joint);
+  float half_round(float radius) const;
   std::uint64_t hash_of(std::uint32_t joint) const;
   float nudge(std::uint64_t hash, float radius) const;
 
@@ -110,7 +118,10 @@ class TubeWriter {
   float radius_ = 0;     ///< of the ring where it begins
   float reach_ = 0;      ///< of that ring's mitre
   glm::vec3 u_{0};       ///< of the current frame; v is along x u
-  float length_so_far_ = 0;
+  float v_so_far_ = 0;   ///< of the limb up to where the current internode begins
+  float by_length_ = 1;  ///< v of the current internode for each metre
+  float slowest_ = 1;    ///< v for each metre where the limb began
+  float turns_ = 0;      ///< of a wrapped picture round the limb; 0: not chosen yet
 };
 
 }  // namespace seedmesh

@@ -11,6 +11,9 @@ constexpr double world = 1e15;
 
 glm::vec3 stored(const glm::dvec3& p) { return glm::vec3(p) + 0.0F; }  // -0 becomes 0
 
+// Internodes of a piece of a generalized cylinder where nothing else is said, and at most.
+constexpr std::int64_t default_strips = 8, most_strips = 1000;
+
 }  // namespace
 
 Turtle::Turtle(Skeleton* skeleton, double width, Job& job) : skeleton_(skeleton), job_(job) {
@@ -39,13 +42,14 @@ void Turtle::draw_plain(double length, std::uint64_t key) {
   if (!polygons_.empty()) return walk_plain(length);
   const glm::dvec3 from = state_.position;
   advance(length);
+  if (state_.is_sweeping) return set_control(default_strips, key);
   add_segment(from, length, key);
   if (tropisms_) state_.frame = tropisms_->turned(state_.frame);
 }
 
 void Turtle::walk_plain(double length) {
   advance(length);
-  state_.joint = Limbs::none;
+  if (!state_.is_sweeping) state_.joint = Limbs::none;
 }
 
 void Turtle::move_to(const glm::dvec3& position) {
@@ -126,6 +130,7 @@ void Turtle::push() {
   }
   stack_.push_back(state_);
   if (tropisms_) tropisms_->push();
+  state_.is_sweeping = false;
   state_.begins_branch = state_.joint != Limbs::none;
   if (state_.order < 0xFFFF) ++state_.order;
 }
@@ -135,6 +140,56 @@ void Turtle::pop() {
   state_ = stack_.back();
   stack_.pop_back();
   if (tropisms_) tropisms_->pop();
+}
+
+void Turtle::place_organ(std::uint32_t surface, const glm::dvec3& scale, std::int32_t color,
+                         std::uint64_t key) {
+  if (!skeleton_) return;
+  if (skeleton_->organs.organ.size() % 4096 == 0) job_.check();
+  skeleton_->organs.organ.push_back({surface, quaternion(reorthonormalise(state_.frame)),
+                                     stored(state_.position), glm::vec3(scale), state_.last,
+                                     color < 0 ? state_.color : static_cast<std::int16_t>(color), key});
+}
+
+void Turtle::begin_sweep() {
+  state_.is_sweeping = true;
+  state_.control = state_.position;
+  state_.control_heading = state_.frame.heading;
+  state_.control_width = state_.width;
+}
+
+void Turtle::set_control(std::int64_t strips, std::uint64_t key) {
+  if (!state_.is_sweeping) return;
+  const State here = state_;
+  const glm::dvec3 span = here.position - here.control;
+  const double reach = std::sqrt(glm::dot(span, span));
+  if (reach > 0) {
+    const glm::dvec3 leave = here.control_heading * reach, arrive = here.frame.heading * reach;
+    const auto count = std::clamp<std::int64_t>(strips, 1, most_strips);
+    glm::dvec3 from = here.control;
+    for (std::int64_t i = 1; i <= count; ++i) {
+      const double t = static_cast<double>(i) / static_cast<double>(count), t2 = t * t, t3 = t2 * t;
+      const double rise = 3 * t2 - 2 * t3;
+      state_.position =
+          here.control * (1 - rise) + here.position * rise + leave * (t3 - 2 * t2 + t) + arrive * (t3 - t2);
+      if (i == count) state_.position = here.position;
+      state_.width = here.control_width + (here.width - here.control_width) * rise;
+      const glm::dvec3 step = state_.position - from;
+      add_segment(from, std::sqrt(glm::dot(step, step)),
+                  key == 0 ? 0 : key_at(key, static_cast<std::uint64_t>(i)));
+      from = state_.position;
+    }
+    state_.position = here.position;
+    state_.width = here.width;
+  }
+  state_.control = here.position;
+  state_.control_heading = here.frame.heading;
+  state_.control_width = here.width;
+}
+
+void Turtle::end_sweep(std::uint64_t key) {
+  set_control(default_strips, key);
+  state_.is_sweeping = false;
 }
 
 void Turtle::open_polygon() {

@@ -60,9 +60,21 @@ class Turtle {
   void push();  ///< throws Stop beyond limits.bracket_depth
   void pop();   ///< without a matching push: nothing
 
+  /// A generalized cylinder: a limb along a smooth curve (Hermite's, its slopes the headings) through control
+  /// points, the first of which is here; the width changes smoothly too. Until it ends draw() sets a control
+  /// point at its end instead of an internode. Branches begun meanwhile are drawn as ever; ] ends what is
+  /// open.
+  void begin_sweep();
+  /// Draws the piece up to here in `strips` internodes; outside a sweep nothing.
+  void set_control(std::int64_t strips, std::uint64_t key);
+  void end_sweep(std::uint64_t key);
+
   void open_polygon();
   void close_polygon(std::uint64_t key);
   void set_vertex();
+
+  /// Sets an organ here; its colour is the turtle's where `color` is below 0.
+  void place_organ(std::uint32_t surface, const glm::dvec3& scale, std::int32_t color, std::uint64_t key);
 
   void set_width(double width) { state_.width = width > 0 ? width : 0; }
   double width() const { return state_.width; }
@@ -100,6 +112,9 @@ class Turtle {
     std::int16_t color = 0;
     std::uint16_t rotations = 0;  ///< of `frame` since it was last made orthonormal, and more
     bool mirrored = false;
+    bool is_sweeping = false;
+    glm::dvec3 control{0}, control_heading{0};  ///< the last control point
+    double control_width = 0;
     bool begins_branch = false;  ///< the next internode starts a limb of its own
   };
 

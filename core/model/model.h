@@ -2,10 +2,12 @@
 /// A whole answer before it becomes glTF: nodes, meshes, materials, textures, skins, animations. Everything
 /// refers by index into the vectors of the Model; -1 means none. Parents stand before their children in
 /// `nodes`.
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,14 @@ struct TextureUse {
   bool repeat = true;
 };
 
+/// Textures that are made by seed once it is known how large they are wanted (core/texture/paint.h). They take
+/// the place of the material's colour, roughness, alpha and side.
+struct TextureRecipe {
+  std::string kind;  ///< of texture_kinds(), as "oak_bark"; empty: none
+  std::uint64_t seed = 0;
+  std::optional<std::array<std::uint8_t, 3>> color;  ///< sRGB of the main colour; none: the kind's own
+};
+
 enum class AlphaMode { opaque, mask, blend };
 
 struct Material {
@@ -40,6 +50,7 @@ struct Material {
   float alpha_cutoff = 0.5F;
   bool double_sided = false;
   bool unlit = false;  ///< KHR_materials_unlit, never required
+  TextureRecipe recipe;  ///< used up by paint()
 };
 
 struct Primitive {

@@ -2,9 +2,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/geom/finish.h"
+#include "core/geom/tangents.h"
 #include "core/gltf/write.h"
 #include "core/lang/expression.h"
 #include "core/pipeline/body.h"
+#include "core/texture/paint.h"
 
 namespace seedmesh {
 namespace {
@@ -82,6 +84,11 @@ void sign(Model& model, const Request& request) {
   for (Warning& warning : model.warnings) warning.pointer = in_request(std::move(warning.pointer));
 }
 
+int texture_size(const OutputParams& output) {
+  const auto* size = std::get_if<std::int32_t>(&output.textures);
+  return size ? *size : 0;
+}
+
 double milliseconds(Job::Clock::duration span) {
   return std::chrono::duration<double, std::milli>(span).count();
 }
@@ -115,12 +122,16 @@ Result<Product> produce_own(const Request& request, const OwnForm& form, Job& jo
 
 }  // namespace
 
-Result<Product> produce(const Request& request, Job& job, TextureStore* /*texture_store*/) {
+Result<Product> produce(const Request& request, Job& job, TextureStore* texture_store) {
   return guarded<Product>([&]() -> Result<Product> {
     if (const OwnForm* form = own_form_of(request)) return produce_own(request, *form, job);
-    job.want({.growth = request.body().output.animation == OutputParams::Animation::growth});
+    const OutputParams& output = request.body().output;
+    job.set_demand({output.lods, output.instancing == OutputInstancing::nodes,
+                    output.animation == OutputParams::Animation::growth});
     Result<Model> model = request.body().generator->generate(request.body().params, job);
     if (!model) return std::move(model).error();
+    texture::paint(*model, texture_size(output), texture_store, job);
+    if (output.tangents == OutputTangents::auto_) add_tangents(*model, job);
     finish(*model, job);
     sign(*model, request);
     const ModelCounts counts = count(*model);

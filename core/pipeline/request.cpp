@@ -1,3 +1,4 @@
+#include <bit>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -66,6 +67,19 @@ void add_form_fault(const Generator& generator, const OutputParams& output, Faul
                                     std::string(generator.name) + " are " + known});
 }
 
+/// What the schema cannot say of the output.
+void check_output(const OutputParams& output, Faults& faults) {
+  const auto* size = std::get_if<std::int32_t>(&output.textures);
+  if (size && !std::has_single_bit(static_cast<std::uint32_t>(*size)) && !faults.covers("/output/textures")) {
+    faults.add({"/output/textures", "found " + std::to_string(*size) + "; expected a power of two, as 512"});
+  }
+  if (output.lods > 1 && output.format != OutputFormat::zip) {
+    faults.add({"/output/lods", "found " + std::to_string(output.lods) + " levels of detail in the format " +
+                                    std::string(text_of(output.format)) +
+                                    ", which holds one; expected the format zip"});
+  }
+}
+
 }  // namespace
 
 std::string_view Request::generator() const { return body_->generator->name; }
@@ -80,6 +94,7 @@ Result<Request> read_request_body(const Json& json, const Limits& limits) {
   if (frame.preset && !faults.covers("/preset")) {
     faults.add({"/preset", schema::unknown_word("preset", *frame.preset, preset_names())});
   }
+  check_output(frame.output, faults);
   Request::Body body;
   body.generator = named_generator(merged, frame, faults);
   if (body.generator && (!merged.contains("parameters") || merged["parameters"].is_object())) {
@@ -110,6 +125,7 @@ Result<Request> with_format(const Request& request, std::string_view format) {
   Request::Body body = request.body();
   body.output = read_output(output, "/output", faults);
   if (faults.empty()) add_form_fault(*body.generator, body.output, faults);
+  if (faults.empty()) check_output(body.output, faults);
   if (!faults.empty()) return Error{Code::invalid, faults.take()};
   body.canonical = canonical_request(body);
   return Request(std::make_shared<const Request::Body>(std::move(body)));

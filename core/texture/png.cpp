@@ -88,9 +88,9 @@ bool write_head(Writer& writer, const PictureView& picture, PngEffort effort) {
                color_type(picture.channels), PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                PNG_FILTER_TYPE_DEFAULT);
   png_set_compression_buffer_size(writer.png, std::size_t{1} << 16U);
-  png_set_compression_level(writer.png, effort == PngEffort::fast ? 1 : 6);
+  png_set_compression_level(writer.png, effort == PngEffort::small ? 6 : 1);
   png_set_compression_mem_level(writer.png, 8);
-  png_set_compression_strategy(writer.png, 1);  // Z_FILTERED
+  png_set_compression_strategy(writer.png, effort == PngEffort::quick ? 3 : 1);  // Z_RLE, Z_FILTERED
   png_set_filter(writer.png, PNG_FILTER_TYPE_BASE,
                  effort == PngEffort::fast ? PNG_FILTER_UP : PNG_FILTER_PAETH);
   png_write_info(writer.png, writer.info);

@@ -51,6 +51,10 @@ enum class Command : std::uint8_t {
   ask_left,
   ask_up,
   ask_surroundings,
+  organ,
+  sweep_begin,
+  sweep_control,
+  sweep_end,
 };
 
 /// True for modules that ask and are answered between two steps.

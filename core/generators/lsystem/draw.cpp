@@ -36,13 +36,14 @@ Drawing::Drawing(const Grammar& grammar, const LsystemParams& params, Skeleton* 
       yaw_{params.angle.yaw, math::sincos_degrees(params.angle.yaw)},
       pitch_{params.angle.pitch, math::sincos_degrees(params.angle.pitch)},
       roll_{params.angle.roll, math::sincos_degrees(params.angle.roll)} {
+  for (const auto& [name, surface] : params.surfaces) surfaces_.push_back(&surface);
   std::vector<Tropism> tropisms;
   for (const auto& each : params.tropism) {
     const auto& to = each.direction;
     tropisms.push_back({{to[0], to[1], to[2]}, each.elasticity, each.step});
   }
   if (!tropisms.empty()) turtle_.set_tropisms(std::move(tropisms));
-  if (params.weather || params.environment || job.wanted().growth) turtle_.track_anchors();
+  if (params.weather || params.environment || job.demand().growth) turtle_.track_anchors();
 }
 
 bool Drawing::needs_keys(const Grammar& grammar, const LsystemParams& params) {
@@ -120,6 +121,17 @@ void Drawing::set_width(const Kind& kind, const double* parameters, double chang
   const double width = turtle_.width();
   const double wanted = kind.arity > 0 ? parameters[0] : width + change;
   turtle_.set_width(grown_.share == 1 ? wanted : width + grown_.share * (wanted - width));
+}
+
+/// A scale for all three directions, or one for each: across, along and above the organ.
+void Drawing::place(const Kind& kind, const double* parameters, std::uint64_t key) {
+  if (kind.surface == Kind::none) return;
+  const LsystemSurface& surface = *surfaces_[kind.surface];
+  glm::dvec3 scale(kind.arity > 0 ? parameters[0] : 1);
+  if (kind.arity > 2) scale = {parameters[0], parameters[1], parameters[2]};
+  scale *= surface.size * turtle_.scale();
+  scale.x *= surface.width;
+  if (scale.x > 0 && scale.y > 0 && scale.z > 0) turtle_.place_organ(kind.surface, scale, surface.color, key);
 }
 
 void Drawing::obey(const Kind& kind, const double* parameters, std::uint64_t key) {
@@ -208,6 +220,14 @@ void Drawing::obey(const Kind& kind, const double* parameters, std::uint64_t key
       return turtle_.set_turn_scale(finite(turtle_.turn_scale() * parameters[0], kind));
     case Command::mirror:
       return turtle_.mirror();
+    case Command::sweep_begin:
+      return turtle_.begin_sweep();
+    case Command::sweep_control:
+      return turtle_.set_control(kind.arity > 0 ? math::to_int64(parameters[0]) : 8, key);
+    case Command::sweep_end:
+      return turtle_.end_sweep(key);
+    case Command::organ:
+      return place(kind, parameters, key);
   }
 }
 

@@ -48,6 +48,7 @@ class Drawing {
   math::SinCos turn(const Kind& kind, const double* parameters, const Angle& angle, std::uint64_t key);
   math::SinCos leftward(math::SinCos angle) const;
   double length(const Kind& kind, const double* parameters, std::uint64_t key) const;
+  void place(const Kind& kind, const double* parameters, std::uint64_t key);
   void set_width(const Kind& kind, const double* parameters, double change);
 
   const Grammar& grammar_;
@@ -55,6 +56,7 @@ class Drawing {
   Job& job_;
   Turtle turtle_;
   Grown grown_;
+  std::vector<const LsystemSurface*> surfaces_;  ///< in the order of their names
   Angle yaw_, pitch_, roll_;
   double last_degrees_ = 0;  ///< angles given as arguments mostly repeat
   math::SinCos last_{0, 1};

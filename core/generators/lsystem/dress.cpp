@@ -1,8 +1,13 @@
 #include "core/generators/lsystem/dress.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
 
+#include "core/generators/lsystem/surfaces.h"
+#include "core/geom/detail.h"
 #include "core/geom/grow.h"
 #include "core/geom/polygons.h"
 #include "core/geom/skin.h"
@@ -10,82 +15,14 @@
 namespace seedmesh::lsystem {
 namespace {
 
-struct Look {
-  const char* name;
-  Color color;
-  double roughness;
-};
-
-// What the colour index chooses from when the request names no materials: bark, three greens, and colours for
-// flowers.
-constexpr Look palette[] = {
-    {"bark", {107, 79, 53}, 0.9},    {"leaf", {79, 138, 60}, 0.6},     {"young_leaf", {142, 184, 82}, 0.6},
-    {"old_leaf", {53, 96, 48}, 0.7}, {"petal", {232, 160, 191}, 0.5},  {"stamen", {240, 200, 80}, 0.6},
-    {"berry", {178, 34, 52}, 0.4},   {"stone", {136, 136, 132}, 0.95},
-};
-
 constexpr std::uint64_t bytes_a_vertex = 32;  // position, normal, uv
 constexpr std::uint64_t bytes_a_triangle = 12;
 
-enum class Sides { one, both };
-
-/// Materials made as they are asked for: one for each colour index and for whether both sides are seen.
-class Wardrobe {
- public:
-  Wardrobe(Model& model, const LsystemParams& params) : model_(model), params_(params) {}
-
-  /// Indices past the end of the list keep its last look; what looks alike becomes one primitive.
-  void choose_looks(Skeleton& skeleton) const {
-    const std::size_t count = params_.materials.empty() ? std::size(palette) : params_.materials.size();
-    const auto last = static_cast<std::int16_t>(count - 1);
-    for (std::int16_t& color : skeleton.limbs.color) color = std::min(color, last);
-    for (Outline& outline : skeleton.outlines.outline) outline.color = std::min(outline.color, last);
-  }
-
-  int material(std::int16_t color, Sides sides) {
-    const auto index = static_cast<std::size_t>(color);
-    for (const Made& each : made_) {
-      if (each.index == index && each.sides == sides) return each.material;
-    }
-    Material material = look(index);
-    material.double_sided = sides == Sides::both;
-    if (sides == Sides::both) material.name += "_surface";
-    model_.materials.push_back(std::move(material));
-    made_.push_back({index, sides, static_cast<int>(model_.materials.size()) - 1});
-    return made_.back().material;
-  }
-
- private:
-  struct Made {
-    std::size_t index;
-    Sides sides;
-    int material;
-  };
-
-  Material look(std::size_t index) const {
-    Material material;
-    if (params_.materials.empty()) {
-      material.name = palette[index].name;
-      paint(material, palette[index].color, palette[index].roughness, 0);
-    } else {
-      const auto& given = params_.materials[index];
-      material.name = given.name.empty() ? "color_" + std::to_string(index) : given.name;
-      paint(material, given.color, given.roughness, given.metallic);
-    }
-    return material;
-  }
-
-  static void paint(Material& material, const Color& color, double roughness, double metallic) {
-    material.base_color = {linear_of_srgb(color.red), linear_of_srgb(color.green), linear_of_srgb(color.blue),
-                           1};
-    material.roughness = static_cast<float>(roughness);
-    material.metallic = static_cast<float>(metallic);
-  }
-
-  Model& model_;
-  const LsystemParams& params_;
-  std::vector<Made> made_;
-};
+/// What looks alike becomes one primitive.
+void choose_looks(Skeleton& skeleton, const Wardrobe& wardrobe) {
+  for (std::int16_t& color : skeleton.limbs.color) color = wardrobe.look_of(color);
+  for (Outline& outline : skeleton.outlines.outline) outline.color = wardrobe.look_of(outline.color);
+}
 
 /// One node and mesh for each layer, one primitive for each look.
 void add_meshes(Model& model, const char* name, std::vector<Bark> parts, Sides sides, Wardrobe& wardrobe) {
@@ -105,20 +42,68 @@ void add_meshes(Model& model, const char* name, std::vector<Bark> parts, Sides s
   }
 }
 
-SkinOptions skin_options(const LsystemParams& params) {
+SkinOptions skin_options(const LsystemParams& params, const Detail& detail) {
   SkinOptions options;
-  options.sides = static_cast<int>(params.sides);
-  options.stacks = static_cast<int>(params.stacks);
+  options.sides = detail.sides(params.sides);
+  options.stacks = detail.stacks(params.stacks);
+  options.wrap = wraps_pictures(params);
+  options.adapt = params.adapt || detail.level() > 0;
   return options;
 }
 
-/// Lines have no bark that bones could move.
-std::optional<GrowthPlan> growth_of(const Limbs& limbs, const LsystemParams& params, Job& job) {
-  if (!job.wanted().growth) return std::nullopt;
+/// Lines have no bark that bones could move; organs and coarser levels have no bones.
+std::optional<GrowthPlan> growth_of(const Skeleton& skeleton, const LsystemParams& params, Job& job) {
+  if (!job.demand().growth) return std::nullopt;
   if (params.style == LsystemParams::Style::lines) {
     Job::reject({"/style", "found lines, which do not grow; the growth animation needs tubes"});
   }
-  return plan_growth(limbs, {}, job);
+  if (!skeleton.organs.organ.empty()) {
+    Job::reject(
+        {"/surfaces",
+         "found organs, which no bone moves; the growth animation needs a plant of limbs and polygons"});
+  }
+  if (job.demand().lods > 1) {
+    Job::reject({"", "found several levels of detail; the growth animation needs one"});
+  }
+  return plan_growth(skeleton.limbs, {}, job);
+}
+
+/// The bark with its coarser levels. Takes the limbs: their memory goes back before polygons and writer need
+/// theirs.
+void add_bark(Model& model, Limbs limbs, std::span<const std::uint16_t> bones, const LsystemParams& params,
+              Wardrobe& wardrobe, Job& job) {
+  const int finest = static_cast<int>(model.nodes.size());
+  SkinOptions options = skin_options(params, Detail(0));
+  options.bones = bones;
+  add_meshes(model, "bark", skin(limbs, options, job), Sides::one, wardrobe);
+  if (static_cast<int>(model.nodes.size()) == finest) return;
+  const float most = thickest(limbs);
+  for (int level = 1; level < job.demand().lods; ++level) {
+    const Detail detail(level);
+    limbs = prune(limbs, detail.thinnest() * most, job);
+    MeshGroup group{"bark_LOD" + std::to_string(level), {}};
+    for (Bark& part : skin(limbs, skin_options(params, detail), job)) {
+      group.primitives.push_back({std::move(part.mesh), wardrobe.material(part.color, Sides::one), {}});
+    }
+    if (group.primitives.empty()) return;
+    model.nodes.back().lods.push_back(static_cast<int>(model.meshes.size()));
+    model.meshes.push_back(std::move(group));
+  }
+}
+
+/// The diagonal of everything.
+float size_of(const Skeleton& skeleton) {
+  constexpr float far = std::numeric_limits<float>::max();
+  Box box{glm::vec3(far), glm::vec3(-far)};
+  const auto grow = [&box](const glm::vec3& p) { box = {glm::min(box.min, p), glm::max(box.max, p)}; };
+  for (const glm::vec3& p : skeleton.limbs.position) grow(p);
+  for (const glm::vec3& p : skeleton.outlines.vertex) grow(p);
+  for (const Organ& organ : skeleton.organs.organ) {
+    grow(organ.position);
+    grow(organ.position + glm::mat3_cast(organ.frame)[1] * organ.scale.y);
+  }
+  const glm::vec3 extent = box.max - box.min;
+  return box.min.x > box.max.x ? 0 : std::sqrt(glm::dot(extent, extent));
 }
 
 }  // namespace
@@ -129,21 +114,26 @@ Model dress(Skeleton skeleton, const LsystemParams& params, Job& job) {
   Node root;
   root.name = "lsystem";
   model.nodes.push_back(std::move(root));
-  Wardrobe wardrobe(model, params);
-  wardrobe.choose_looks(skeleton);
+  Wardrobe wardrobe(model, params, job);
+  choose_looks(skeleton, wardrobe);
   const bool tubes = params.style == LsystemParams::Style::tubes;
-  const bool empty = skeleton.limbs.size() == 0 && skeleton.outlines.outline.empty();
-  const std::optional<GrowthPlan> growth = growth_of(skeleton.limbs, params, job);
-  SkinOptions options = skin_options(params);
-  if (growth) options.bones = growth->bone.span();
-  std::vector<Bark> bark = tubes ? skin(skeleton.limbs, options, job) : wires(skeleton.limbs, job);
-  skeleton.limbs = Limbs(job);  // its memory goes back before polygons and writer need theirs
-  add_meshes(model, tubes ? "bark" : "lines", std::move(bark), Sides::one, wardrobe);
-  add_meshes(model, "surfaces", polygons(skeleton.outlines, job, options.bones), Sides::both, wardrobe);
+  const bool empty =
+      skeleton.limbs.size() == 0 && skeleton.outlines.outline.empty() && skeleton.organs.organ.empty();
+  const float size = skeleton.organs.organ.empty() ? 0 : size_of(skeleton);
+  const std::optional<GrowthPlan> growth = growth_of(skeleton, params, job);
+  const auto bones = growth ? growth->bone.span() : std::span<const std::uint16_t>{};
+  if (tubes) {
+    add_bark(model, std::exchange(skeleton.limbs, Limbs(job)), bones, params, wardrobe, job);
+  } else {
+    add_meshes(model, "lines", wires(skeleton.limbs, job), Sides::one, wardrobe);
+    skeleton.limbs = Limbs(job);
+  }
+  add_meshes(model, "surfaces", polygons(skeleton.outlines, job, bones), Sides::both, wardrobe);
+  add_organs(model, skeleton.organs, params, size, wardrobe, job);
   if (growth) add_growth(model, *growth);
   if (empty) {
     model.warnings.push_back(
-        {"/axiom", "nothing was drawn: the last word has no F or G and no polygon", 0, 0});
+        {"/axiom", "nothing was drawn: the last word has no F or G, no polygon and no organ", 0, 0});
   }
   return model;
 }

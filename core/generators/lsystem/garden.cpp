@@ -170,7 +170,7 @@ Garden::Garden(const LsystemParams& params, Job& job) : params_(params), job_(jo
     LsystemParams own = read_lsystem(Json::parse(companion.system.parameters), "", faults);
     const std::uint64_t seed = companion.system.seed.value_or(job.rng().at("companion").at(i).key());
     auto plant = std::make_unique<Plant>(own, job.for_child(seed));
-    plant->job.want(job.wanted());
+    plant->job.set_demand(job.demand());
     plant->position = vector_of(companion.position);
     plant->number = static_cast<std::uint32_t>(i + 1);
     plant->steps = static_cast<std::uint32_t>(own.age && !own.timed ? std::ceil(*own.age) : double(own.iterations));

@@ -30,6 +30,7 @@ class Compiler {
  public:
   Compiler(const LsystemParams& params, std::uint64_t seed, const Limits& limits, std::vector<Issue>& issues)
       : params_(params), limits_(limits), issues_(issues) {
+    for (const auto& [name, surface] : params_.surfaces) symbols_.declare("~" + name);
     names_ = resolve_constants(written_constants(), Rng::of_seed(seed).at("constants"), issues_);
     constant_count_ = names_.size();
   }
@@ -63,10 +64,26 @@ class Compiler {
         ids_.try_emplace({std::string(symbol), arity}, static_cast<KindId>(grammar_.kinds.size()));
     if (fresh) {
       grammar_.kinds.push_back(
-          {std::string(symbol), arity, command_of(symbol, arity), ignored_.count(symbol) != 0});
+          {std::string(symbol), arity, command_of(symbol.substr(0, symbol[0] == '~' ? 1 : symbol.size()), arity),
+           ignored_.count(symbol) != 0, surface_of(symbol)});
       grammar_.widest = std::max(grammar_.widest, arity);
     }
     return at->second;
+  }
+
+  std::uint32_t surface_of(std::string_view symbol) const {
+    if (symbol.size() < 2 || symbol[0] != '~') return Kind::none;
+    const auto found = params_.surfaces.find(std::string(symbol.substr(1)));
+    if (found == params_.surfaces.end()) return Kind::none;
+    return static_cast<std::uint32_t>(std::distance(params_.surfaces.begin(), found));
+  }
+
+  /// A ~ of no surface is a slip wherever there are surfaces.
+  void check_surface(const WrittenModule& module, Source& source) const {
+    if (module.symbol != "~" || params_.surfaces.empty()) return;
+    std::string known;
+    for (const auto& [name, surface] : params_.surfaces) known += (known.empty() ? "~" : ", ~") + name;
+    source.faults.push_back({module.offset, "found `~` without the name of a surface; there are " + known});
   }
 
   void mark_ignored() {
@@ -131,6 +148,7 @@ class Compiler {
     std::map<std::string, std::uint64_t, std::less<>> occurrences;
     for (const WrittenModule& module : read_modules(source.text, slice, symbols_, source.faults)) {
       check_symbol(module, source);
+      check_surface(module, source);
       if (grammar_.templates.size() == most_modules) {
         source.faults.push_back({module.offset, "found more than 1,000,000 modules in one grammar"});
         break;

@@ -30,6 +30,8 @@ struct Kind {
   std::uint32_t arity = 0;
   Command command = Command::none;  ///< what the turtle does on it
   bool ignored = false;             ///< passed over when contexts are matched
+  std::uint32_t surface = none;     ///< of Command::organ: which of the surfaces, in the order of their names
+  static constexpr std::uint32_t none = 0xFFFFFFFFU;
 };
 
 /// A module as written in an axiom or a successor: its arguments are expressions over the slots of the

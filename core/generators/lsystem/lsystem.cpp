@@ -11,8 +11,10 @@
 #include "core/generators/lsystem/free.h"
 #include "core/generators/lsystem/garden.h"
 #include "core/generators/lsystem/growth.h"
+#include "core/generators/lsystem/looks.h"
 #include "core/generators/lsystem/shape.h"
 #include "core/generators/lsystem/sprout.h"
+#include "core/generators/lsystem/surfaces.h"
 #include "core/generators/lsystem/text.h"
 #include "core/generators/lsystem/word.h"
 
@@ -160,6 +162,8 @@ std::vector<Issue> check(const LsystemParams& params, const Limits& limits) {
   std::vector<Issue> issues;
   compile(params, 0, limits, issues);
   check_environment(params, issues);
+  check_looks(params, issues);
+  check_surfaces(params, issues);
   return issues;
 }
 

@@ -29,7 +29,7 @@ TEST(Reader, FindsEveryFaultAtOnce) {
           "materials":[{"color":"red"},{"colour":"#ffffff"}],"constants":{"1x":2,"y":[]},"alphabet":{}})");
   EXPECT_THAT(read.pointers(), testing::UnorderedElementsAre(
                                    "", "/productions", "/iterations", "/angel", "/sides", "/angle", "/style",
-                                   "/width", "/materials/0/color", "/materials/1", "/materials/1/colour",
+                                   "/width", "/materials/0/color", "/materials/1/colour",
                                    "/constants/1x", "/constants/y", "/alphabet"));
 }
 

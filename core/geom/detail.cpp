@@ -1,0 +1,77 @@
+#include "core/geom/detail.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seedmesh {
+namespace {
+
+/// most / sqrt(level + 1), rounded down exactly.
+int shared_out(int most, int level) {
+  int count = 0;
+  while ((count + 1) * (count + 1) * (level + 1) <= most * most) ++count;
+  return count;
+}
+
+template <class T>
+Array<T> chosen(const Array<T>& values, const Array<std::uint32_t>& new_place, std::uint32_t count,
+                const Job& job) {
+  Array<T> kept(job);
+  if (values.empty()) return kept;
+  kept.resize(count);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (new_place[i] != Limbs::none) kept[new_place[i]] = values[i];
+  }
+  return kept;
+}
+
+}  // namespace
+
+int Detail::sides(int most) const { return std::max(3, shared_out(most, level_)); }
+int Detail::stacks(int most) const { return std::max(1, shared_out(most, level_)); }
+
+double Detail::every() const {
+  double every = 1;
+  for (int i = 0; i < level_; ++i) every *= 1.4;
+  return every;
+}
+
+float thickest(const Limbs& limbs) {
+  float most = 0;
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    if (limbs.parent[i] != Limbs::none) most = std::max({most, limbs.radius[i], limbs.base_radius[i]});
+  }
+  return most;
+}
+
+Limbs prune(const Limbs& limbs, float thinnest, Job& job) {
+  const std::size_t size = limbs.size();
+  Array<std::uint8_t> stays(job, size, std::uint8_t{0});
+  for (std::size_t i = size; i-- > 0;) {  // children before parents
+    if (i % 4096 == 0) job.check();
+    if (limbs.parent[i] == Limbs::none) continue;
+    if (std::max(limbs.radius[i], limbs.base_radius[i]) >= thinnest) stays[i] = 1;
+    if (stays[i]) stays[limbs.parent[i]] = 1;
+  }
+  Array<std::uint32_t> new_place(job, size);
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < size; ++i) new_place[i] = stays[i] ? count++ : Limbs::none;
+  Limbs kept(job);
+  kept.position = chosen(limbs.position, new_place, count, job);
+  kept.radius = chosen(limbs.radius, new_place, count, job);
+  kept.base_radius = chosen(limbs.base_radius, new_place, count, job);
+  kept.parent = chosen(limbs.parent, new_place, count, job);
+  kept.starts_limb = chosen(limbs.starts_limb, new_place, count, job);
+  kept.color = chosen(limbs.color, new_place, count, job);
+  kept.order = chosen(limbs.order, new_place, count, job);
+  kept.frame = chosen(limbs.frame, new_place, count, job);
+  kept.birth = chosen(limbs.birth, new_place, count, job);
+  kept.key = chosen(limbs.key, new_place, count, job);
+  const auto moved = [&](std::uint32_t& joint) { joint = joint == Limbs::none ? joint : new_place[joint]; };
+  for (std::uint32_t& parent : kept.parent) moved(parent);
+  kept.anchor = chosen(limbs.anchor, new_place, count, job);
+  for (std::uint32_t& anchor : kept.anchor) moved(anchor);
+  return kept;
+}
+
+}  // namespace seedmesh

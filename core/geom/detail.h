@@ -1,0 +1,39 @@
+#pragma once
+/// Levels of detail of a plant: the same skeleton skinned again with less, never a mesh made simpler, so that
+/// all levels have one silhouette and all their promises. After Tunnel, "Puude genereerimine L-süsteemidega",
+/// 2012, section 3.4.2: level i has the quality 1 / sqrt(i + 1), so that 32 sides and 6 stacks become 32, 22,
+/// 18, 16, 14 and 6, 4, 3, 3, 2.
+#include "core/base/job.h"
+#include "core/geom/limbs.h"
+
+namespace seedmesh {
+
+constexpr int most_levels = 5;
+
+class Detail {
+ public:
+  explicit Detail(int level) : level_(level) {}
+
+  int level() const { return level_; }
+  /// Of `most` at level 0, rounded down; at least 3 and 1.
+  int sides(int most) const;
+  int stacks(int most) const;
+  /// Twigs thinner than this share of the thickest limb are left out.
+  float thinnest() const { return 0.015F * static_cast<float>(level_); }
+  /// One organ of so many stays, larger, for thin_out(): 1, 1.4, 1.96, 2.74, 3.84.
+  double every() const;
+  /// For LeafForm::coarseness.
+  int coarseness() const { return level_; }
+
+ private:
+  int level_;
+};
+
+/// Limbs without internodes that are thinner than `thinnest` at both ends and carry none that is not. What is
+/// left keeps its order.
+Limbs prune(const Limbs& limbs, float thinnest, Job& job);
+
+/// The greatest radius of an internode.
+float thickest(const Limbs& limbs);
+
+}  // namespace seedmesh

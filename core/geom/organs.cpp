@@ -1,0 +1,173 @@
+#include "core/geom/organs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <unordered_set>
+
+#include "core/base/math.h"
+#include "core/base/parallel.h"
+#include "core/base/rng.h"
+
+namespace seedmesh {
+namespace {
+
+constexpr std::size_t organs_a_chunk = 512;
+constexpr float least_share = 2e-4F;  // of the model's size
+
+/// Organs of one surface and colour, in their order.
+struct Group {
+  std::uint32_t surface;
+  std::int16_t color;
+  std::vector<std::uint32_t> organs;
+};
+
+std::uint64_t hash_of(const Organ& organ) {
+  const float numbers[] = {organ.frame.x,    organ.frame.y,    organ.frame.z, organ.frame.w, organ.position.x,
+                           organ.position.y, organ.position.z, organ.scale.x, organ.scale.y, organ.scale.z};
+  std::uint64_t hash = organ.surface;
+  for (const float number : numbers) {
+    std::uint32_t word;
+    std::memcpy(&word, &number, sizeof(word));
+    hash = key_at(hash, word);
+  }
+  return hash;
+}
+
+std::vector<Group> groups_of(const Organs& organs, const FoliageOptions& options, const Job& job) {
+  std::map<std::pair<std::uint32_t, std::int16_t>, std::vector<std::uint32_t>> by_look;
+  std::unordered_set<std::uint64_t> seen;
+  std::vector<float> extents;
+  for (const Mesh& surface : options.surfaces) {
+    const Box box = bounds_of(surface.position.span());
+    const glm::vec3 extent = box.max - box.min;
+    extents.push_back(std::max({extent.x, extent.y, extent.z}));
+  }
+  for (std::uint32_t i = 0; i < organs.organ.size(); ++i) {
+    if (i % 4096 == 0) job.check();
+    const Organ& organ = organs.organ[i];
+    const float smallest = std::min({organ.scale.x, organ.scale.y, organ.scale.z}) * extents[organ.surface];
+    if (!(smallest > least_share * options.model_size)) continue;
+    if (seen.insert(hash_of(organ)).second) by_look[{organ.surface, organ.color}].push_back(i);
+  }
+  std::vector<Group> groups;
+  for (auto& [look, members] : by_look) groups.push_back({look.first, look.second, std::move(members)});
+  return groups;
+}
+
+/// Writes one organ's vertices and triangles at their places.
+class Placer {
+ public:
+  Placer(const Mesh& surface, const FoliageOptions& options, Mesh& out)
+      : surface_(surface), options_(options), out_(out) {}
+
+  void place(const Organ& organ, std::size_t number) const {
+    const std::size_t vertices = surface_.position.size(), first = number * vertices;
+    const glm::mat3 turn = glm::mat3_cast(organ.frame);
+    const glm::mat3 stretch{turn[0] * organ.scale.x, turn[1] * organ.scale.y, turn[2] * organ.scale.z};
+    const bool is_even = organ.scale.x == organ.scale.y && organ.scale.y == organ.scale.z;
+    const glm::vec3 inverse = 1.0F / organ.scale;
+    for (std::size_t i = 0; i < vertices; ++i) {
+      out_.position[first + i] = organ.position + stretch * surface_.position[i];
+      const glm::vec3 normal =
+          is_even ? surface_.normal[i] : math::unit(surface_.normal[i] * inverse, {0, 0, 1});
+      out_.normal[first + i] = math::unit(turn * normal, {0, 1, 0});
+    }
+    if (!out_.uv[0].empty())
+      std::memcpy(out_.uv[0].data() + first, surface_.uv[0].data(), surface_.uv[0].bytes());
+    const std::size_t corners = surface_.index.wide.size(), first_corner = number * corners;
+    const auto shift = static_cast<std::uint32_t>(first);
+    for (std::size_t i = 0; i < corners; ++i)
+      out_.index.wide[first_corner + i] = surface_.index.wide[i] + shift;
+    if (options_.crown) follow_crown(first, first_corner);
+  }
+
+ private:
+  /// Vertices keep to the side of all their faces: the mean of an organ's own normal and the crown's is taken
+  /// on the side where the organ's is, and only as far as no face would look away from it.
+  void follow_crown(std::size_t first, std::size_t first_corner) const {
+    for (std::size_t i = 0; i < surface_.position.size(); ++i) {
+      const glm::vec3 own = out_.normal[first + i];
+      glm::vec3 outward = math::unit(out_.position[first + i] - *options_.crown, own);
+      if (glm::dot(outward, own) < 0) outward = -outward;
+      out_.normal[first + i] = math::unit(own + (outward - own) * options_.crown_share, own);
+    }
+    for (std::size_t i = 0; i < surface_.index.wide.size(); i += 3) {
+      const std::uint32_t* corner = out_.index.wide.data() + first_corner + i;
+      const glm::vec3 a = out_.position[corner[0]];
+      const glm::vec3 face =
+          math::unit(glm::cross(out_.position[corner[1]] - a, out_.position[corner[2]] - a), {0, 1, 0});
+      for (int k = 0; k < 3; ++k) {
+        glm::vec3& normal = out_.normal[corner[k]];
+        const float over = glm::dot(normal, face);
+        if (over < 0.1F) normal = math::unit(normal + face * (0.15F - over), face);
+      }
+    }
+  }
+
+  const Mesh& surface_;
+  const FoliageOptions& options_;
+  Mesh& out_;
+};
+
+Mesh room_for(const Mesh& surface, std::size_t count, Job& job) {
+  const std::uint64_t vertices = std::uint64_t{surface.position.size()} * count;
+  if (vertices > 0xFFFFFFFEU) Job::refuse("the organs have more vertices than 32-bit indices can name");
+  job.spend(Resource::triangles, surface.index.wide.size() / 3 * count);
+  Mesh mesh;
+  mesh.position = Array<glm::vec3>(job, vertices);
+  mesh.normal = Array<glm::vec3>(job, vertices);
+  if (!surface.uv[0].empty()) mesh.uv[0] = Array<glm::vec2>(job, vertices);
+  mesh.index.wide = Array<std::uint32_t>(job, surface.index.wide.size() * count);
+  mesh.cache_ordered = surface.cache_ordered;
+  return mesh;
+}
+
+}  // namespace
+
+std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& options, Job& job) {
+  std::vector<Foliage> foliage;
+  for (const Group& group : groups_of(organs, options, job)) {
+    const Mesh& surface = options.surfaces[group.surface];
+    foliage.push_back({group.surface, group.color, room_for(surface, group.organs.size(), job)});
+    const Placer placer(surface, options, foliage.back().mesh);
+    parallel_for(job, group.organs.size(), organs_a_chunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                   job.check();
+                   for (std::size_t i = begin; i < end; ++i) placer.place(organs.organ[group.organs[i]], i);
+                 });
+  }
+  return foliage;
+}
+
+std::vector<FoliagePlaces> organ_places(const Organs& organs, const FoliageOptions& options, Job& job) {
+  std::vector<FoliagePlaces> all;
+  for (const Group& group : groups_of(organs, options, job)) {
+    const Mesh& surface = options.surfaces[group.surface];
+    job.spend(Resource::triangles, surface.index.wide.size() / 3 * group.organs.size());
+    FoliagePlaces places{group.surface, group.color, {}};
+    for (const std::uint32_t i : group.organs) {
+      const Organ& organ = organs.organ[i];
+      places.places.push_back({organ.position, organ.frame, organ.scale});
+    }
+    all.push_back(std::move(places));
+  }
+  return all;
+}
+
+void thin_out(Organs& organs, double every) {
+  if (every <= 1) return;
+  const auto grow = static_cast<float>(std::min(std::sqrt(every), 2.0));
+  std::size_t kept = 0;
+  for (const Organ& organ : organs.organ) {
+    // By its place alone: what stays at one level is part of what stays at the finer ones.
+    if (Rng(hash_of(organ)).unit() * every >= 1) continue;
+    Organ& larger = organs.organ[kept++];
+    larger = organ;
+    larger.scale *= grow;
+  }
+  organs.organ.resize(kept);
+}
+
+}  // namespace seedmesh

@@ -1,0 +1,80 @@
+#include "core/texture/data_uri.h"
+
+#include <array>
+#include <optional>
+
+#include "core/texture/png.h"
+
+namespace seedmesh::texture {
+namespace {
+
+constexpr std::string_view png_head = "data:image/png;base64,", jpeg_head = "data:image/jpeg;base64,";
+constexpr std::uint32_t longest_side = 8'192;
+
+constexpr std::uint8_t no_digit = 64;
+
+constexpr auto values = [] {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::array<std::uint8_t, 256> table{};
+  table.fill(no_digit);
+  for (std::size_t i = 0; i < digits.size(); ++i)
+    table[static_cast<unsigned char>(digits[i])] = static_cast<std::uint8_t>(i);
+  return table;
+}();
+
+/// Nothing where the text is no base64. Padding may be left out; bits that stand for nothing are 0.
+std::optional<std::vector<std::uint8_t>> decoded(std::string_view text) {
+  while (!text.empty() && text.back() == '=' && text.size() % 4 != 1) text.remove_suffix(1);
+  if (text.size() % 4 == 1) return std::nullopt;
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(text.size() / 4 * 3 + 3);
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    const std::uint8_t value = values[static_cast<unsigned char>(c)];
+    if (value == no_digit) return std::nullopt;
+    bits = (bits << 6U | value) & 0xFFFFU;
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    bytes.push_back(static_cast<std::uint8_t>(bits >> count & 0xFFU));
+  }
+  if ((bits & ((1U << count) - 1)) != 0) return std::nullopt;
+  return bytes;
+}
+
+Error fault(std::string message) { return {Code::invalid, {{"", std::move(message)}}}; }
+
+bool is_jpeg(const std::vector<std::uint8_t>& bytes) {
+  const std::size_t size = bytes.size();
+  return size > 4 && bytes[0] == 0xFF && bytes[1] == 0xD8 && bytes[2] == 0xFF && bytes[size - 2] == 0xFF &&
+         bytes[size - 1] == 0xD9;
+}
+
+}  // namespace
+
+std::string fault_of_image_uri(std::string_view text) {
+  if (text.starts_with(png_head) || text.starts_with(jpeg_head)) return "";
+  return "found no image; expected \"" + std::string(png_head) + "…\" or \"" + std::string(jpeg_head) + "…\"";
+}
+
+Result<std::shared_ptr<const Image>> image_of_data_uri(std::string_view text, const std::string& name,
+                                                       const Job& job) {
+  if (std::string wrong = fault_of_image_uri(text); !wrong.empty()) return fault(std::move(wrong));
+  const bool is_png = text.starts_with(png_head);
+  auto bytes = decoded(text.substr(is_png ? png_head.size() : jpeg_head.size()));
+  if (!bytes) return fault("found characters that are no base64");
+  if (is_png) {
+    if (auto picture = decode_png(std::as_bytes(std::span(*bytes)), {longest_side}, job); !picture)
+      return std::move(picture).error();
+  } else if (!is_jpeg(*bytes)) {
+    return fault("found no JPEG file, or only a part of one");
+  }
+  auto image = std::make_shared<Image>();
+  image->name = name;
+  image->mime = is_png ? "image/png" : "image/jpeg";
+  image->bytes = std::move(*bytes);
+  return std::shared_ptr<const Image>(std::move(image));
+}
+
+}  // namespace seedmesh::texture

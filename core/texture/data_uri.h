@@ -1,0 +1,21 @@
+#pragma once
+/// Pictures that come inside a request, as data URIs (RFC 2397) in base64 (RFC 4648).
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "core/base/job.h"
+#include "core/model/model.h"
+
+namespace seedmesh::texture {
+
+/// Cheap: does it begin as the data URI of a PNG or JPEG file? Empty where it does, else what is wrong.
+std::string fault_of_image_uri(std::string_view text);
+
+/// The file, byte for byte. A PNG file is read through (png.h), so that none that is damaged or larger than
+/// 8,192 texels goes out again; of a JPEG file only the first and last bytes are looked at. The text is
+/// hostile until shown otherwise; an Issue with an empty pointer says what is wrong.
+Result<std::shared_ptr<const Image>> image_of_data_uri(std::string_view text, const std::string& name,
+                                                       const Job& job);
+
+}  // namespace seedmesh::texture

@@ -1,0 +1,356 @@
+#include "core/texture/leaf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+#include <vector>
+
+namespace seedmesh::texture {
+namespace {
+
+using glm::dvec2;
+using glm::vec2;
+
+constexpr int leaves_of_a_twig = 9;
+
+float clamp(float x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
+
+/// Pixels [x0, x1) x [y0, y1).
+struct Window {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  int width() const { return x1 - x0; }
+  bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+
+/// From the leaf's frame to texels: y turns round, since pictures begin at their top.
+class View {
+ public:
+  View(const LeafDrawing& drawing, int size) : low_(drawing.low), high_(drawing.high), size_(size) {
+    scale_ = static_cast<double>(size) / (high_ - low_);
+  }
+  dvec2 texel(dvec2 p) const { return {(p.x - low_.x) * scale_.x, (high_.y - p.y) * scale_.y}; }
+  vec2 leaf(int x, int y) const {
+    return vec2(low_.x + (x + 0.5) / scale_.x, high_.y - (y + 0.5) / scale_.y);
+  }
+  /// The longer side of a texel, in the leaf's frame.
+  float texel_size() const { return static_cast<float>(1 / std::min(scale_.x, scale_.y)); }
+  Window around(dvec2 low, dvec2 high) const {
+    const dvec2 a = texel({low.x, high.y}), b = texel({high.x, low.y});
+    const auto bound = [&](double v) {
+      return static_cast<int>(std::clamp(std::floor(v), 0.0, double(size_)));
+    };
+    return {bound(a.x - 1), bound(a.y - 1), bound(b.x + 2), bound(b.y + 2)};
+  }
+
+ private:
+  dvec2 low_, high_;
+  dvec2 scale_{1};
+  int size_;
+};
+
+/// How much of each texel a polygon covers, exactly: every edge leaves in each row what it closes off to its
+/// right, and a running sum along the row turns that to cover.
+class Coverage {
+ public:
+  Coverage(const std::vector<dvec2>& outline, const Window& window) : window_(window) {
+    change_.resize(static_cast<std::size_t>(window.width() + 2) *
+                   static_cast<std::size_t>(window.y1 - window.y0));
+    for (std::size_t i = 0; i < outline.size(); ++i) add(outline[i], outline[(i + 1) % outline.size()]);
+  }
+
+  /// Of one row, from the left of the window on.
+  void read(int y, std::vector<float>& out) const {
+    double sum = 0;
+    const double* change = change_.data() + row(y);
+    for (int x = 0; x < window_.width(); ++x) {
+      sum += change[x];
+      out[static_cast<std::size_t>(x)] = static_cast<float>(std::min(1.0, std::abs(sum)));
+    }
+  }
+
+ private:
+  std::size_t row(int y) const {
+    return static_cast<std::size_t>(y - window_.y0) * static_cast<std::size_t>(window_.width() + 2);
+  }
+
+  void add(dvec2 a, dvec2 b) {
+    if (a.y == b.y) return;
+    const double sign = a.y < b.y ? 1 : -1;
+    if (a.y > b.y) std::swap(a, b);
+    const double slope = (b.x - a.x) / (b.y - a.y);
+    const int first = std::max(window_.y0, static_cast<int>(std::floor(a.y)));
+    const int last = std::min(window_.y1 - 1, static_cast<int>(std::floor(b.y)));
+    for (int y = first; y <= last; ++y) {
+      const double top = std::max<double>(a.y, y), bottom = std::min<double>(b.y, y + 1.0);
+      if (bottom <= top) continue;
+      add_piece(y, a.x + (top - a.y) * slope, a.x + (bottom - a.y) * slope, sign * (bottom - top));
+    }
+  }
+
+  /// A piece of an edge inside one row, from x `from` to `to`, of signed height `height`: spread over the
+  /// texels that it crosses.
+  void add_piece(int y, double from, double to, double height) {
+    double* change = change_.data() + row(y);
+    const double low = std::clamp<double>(std::min(from, to) - window_.x0, 0, window_.width());
+    const double high = std::clamp<double>(std::max(from, to) - window_.x0, 0, window_.width());
+    const int first = static_cast<int>(low), last = static_cast<int>(high);
+    if (first == last) {
+      const double right = 1 - (0.5 * (low + high) - first);
+      change[first] += height * right;
+      change[first + 1] += height * (1 - right);
+      return;
+    }
+    const double by_x = height / (high - low);
+    for (int x = first; x <= last; ++x) {
+      const double l = std::max<double>(low, x), r = std::min<double>(high, x + 1.0);
+      const double share = (r - l) * by_x, right = 1 - (0.5 * (l + r) - x);
+      change[x] += share * right;
+      change[x + 1] += share * (1 - right);
+    }
+  }
+
+  Window window_;
+  std::vector<double> change_;
+};
+
+class Painter {
+ public:
+  Painter(const LeafDrawing& drawing, Relief& relief, Rng rng, const Job& job)
+      : drawing_(drawing), view_(drawing, relief.height.size()), relief_(relief), rng_(rng), job_(job) {}
+
+  /// `woody` lines have the accent's colour.
+  void paint_line(const LeafLine& line, std::uint64_t number, float woody) {
+    Rng own = rng_.at("line").at(number);
+    const auto tone = static_cast<float>(own.uniform(0.35, 0.65));
+    each_texel_of(line, 1, [&](int x, int y, float cover, float across) {
+      float& there = relief_.cover.at(x, y);
+      const float height = 0.8F - 0.5F * across * across;
+      if (height > relief_.height.at(x, y) || there < 0.5F) {
+        mix(relief_.height.at(x, y), height, cover);
+        mix(relief_.tone.at(x, y), tone + 0.15F * (1 - across), cover);
+        mix(relief_.accent.at(x, y), woody, cover);
+      }
+      there = std::max(there, cover);
+    });
+  }
+
+  void paint_blade(const LeafBlade& blade, std::uint64_t number) {
+    job_.check();
+    std::vector<dvec2> outline;
+    dvec2 low = blade.base, high = blade.base;
+    const auto add = [&](dvec2 p) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+      outline.push_back(view_.texel(p));
+    };
+    for (const dvec2& p : blade.right) add(p);
+    for (std::size_t i = blade.left.size(); i-- > 0;) add(blade.left[i]);
+    const Window window = view_.around(low, high);
+    if (window.empty()) return;
+    fill(blade, Coverage(outline, window), window, number);
+    for (const LeafLine& vein : blade.veins) {
+      // Wide enough to be seen in the distance, however small the picture.
+      const float least = std::max(1.0F, 1.2F * view_.texel_size() / static_cast<float>(vein.width));
+      each_texel_of(vein, least, [&](int x, int y, float cover, float) {
+        const float strength = cover * relief_.cover.at(x, y) / least;
+        float& tone = relief_.tone.at(x, y);
+        tone += (0.95F - tone) * 0.6F * strength;
+        relief_.height.at(x, y) += 0.16F * strength;
+      });
+    }
+  }
+
+ private:
+  static void mix(float& value, float to, float share) { value += (to - value) * share; }
+
+  void fill(const LeafBlade& blade, const Coverage& coverage, const Window& window, std::uint64_t number) {
+    Rng own = rng_.at("blade").at(number);
+    const auto own_tone = static_cast<float>(own.uniform(-0.1, 0.1));
+    const vec2 base(blade.base), along = vec2(blade.tip - blade.base);
+    const float by_length = 1 / glm::dot(along, along);
+    const vec2 across =
+        vec2(along.y, -along.x) * std::sqrt(by_length) / static_cast<float>(std::max(blade.half_width, 1e-6));
+    std::vector<float> covers(static_cast<std::size_t>(window.width()));
+    for (int y = window.y0; y < window.y1; ++y) {
+      coverage.read(y, covers);
+      for (int x = window.x0; x < window.x1; ++x) {
+        const float cover = covers[static_cast<std::size_t>(x - window.x0)];
+        if (cover <= 0) continue;
+        const vec2 p = view_.leaf(x, y) - base;
+        const float t = clamp(glm::dot(p, along) * by_length), side = glm::dot(p, across);
+        const float tone = 0.42F + own_tone + 0.05F * (side > 0 ? 1.0F : -1.0F) + 0.1F * t;
+        mix(relief_.tone.at(x, y), tone, cover);
+        mix(relief_.height.at(x, y), 0.62F - 0.25F * side * side, cover);
+        mix(relief_.accent.at(x, y), 0, cover);
+        relief_.cover.at(x, y) = std::max(relief_.cover.at(x, y), cover);
+      }
+    }
+  }
+
+  /// Calls body(x, y, cover, |across| 0..1) for the texels of a line, `widen` times as wide as it is.
+  template <class Body>
+  void each_texel_of(const LeafLine& line, float widen, Body&& body) {
+    const double reach = 0.5 * std::max(line.width, line.end_width) * widen + view_.texel_size();
+    const dvec2 low{std::min(line.from.x, line.to.x), std::min(line.from.y, line.to.y)};
+    const dvec2 high{std::max(line.from.x, line.to.x), std::max(line.from.y, line.to.y)};
+    const Window window = view_.around(low - reach, high + reach);
+    const vec2 from(line.from), along = vec2(line.to - line.from);
+    const float squared = glm::dot(along, along);
+    if (squared <= 0) return;
+    const float by_texel = 1 / view_.texel_size();
+    for (int y = window.y0; y < window.y1; ++y) {
+      for (int x = window.x0; x < window.x1; ++x) {
+        const vec2 p = view_.leaf(x, y) - from;
+        const float t = clamp(glm::dot(p, along) / squared);
+        const vec2 off = p - along * t;
+        const float distance = std::sqrt(glm::dot(off, off));
+        const auto width = static_cast<float>(line.width + (line.end_width - line.width) * t);
+        const float half = std::max(0.5F * width * widen, 0.35F * view_.texel_size());
+        const float cover = clamp((half - distance) * by_texel + 0.5F);
+        if (cover > 0) body(x, y, cover, std::min(1.0F, distance / half));
+      }
+    }
+  }
+
+  const LeafDrawing& drawing_;
+  View view_;
+  Relief& relief_;
+  Rng rng_;
+  const Job& job_;
+};
+
+struct Colors {
+  glm::vec3 main;    ///< sRGB bytes
+  glm::vec3 accent;  ///< of woody stalks, or of the base of a petal
+};
+
+Colors colors_of(LeafShape shape) {
+  switch (shape) {
+    case LeafShape::willow:
+      return {{122, 146, 86}, {120, 104, 62}};
+    case LeafShape::birch:
+      return {{106, 146, 62}, {96, 66, 48}};
+    case LeafShape::cordate:
+      return {{98, 144, 70}, {104, 96, 60}};
+    case LeafShape::lobed:
+      return {{86, 122, 52}, {100, 84, 62}};
+    case LeafShape::maple:
+      return {{104, 140, 60}, {130, 70, 56}};
+    case LeafShape::ginkgo:
+      return {{138, 162, 74}, {128, 112, 80}};
+    case LeafShape::compound:
+      return {{92, 132, 62}, {108, 110, 66}};
+    case LeafShape::palmate:
+      return {{80, 122, 56}, {106, 108, 62}};
+    case LeafShape::needles:
+      return {{62, 96, 62}, {104, 78, 54}};
+    case LeafShape::palm:
+      return {{98, 136, 66}, {138, 140, 84}};
+    case LeafShape::petal:
+      return {{238, 178, 200}, {240, 214, 110}};
+    case LeafShape::simple:
+    case LeafShape::kite:
+      return {{92, 134, 60}, {104, 92, 58}};
+  }
+  return {{92, 134, 60}, {104, 92, 58}};
+}
+
+constexpr bool makes_twigs(LeafShape shape) {
+  return shape != LeafShape::palm && shape != LeafShape::kite && shape != LeafShape::petal &&
+         shape != LeafShape::compound && shape != LeafShape::palmate;
+}
+
+struct Kind {
+  std::string name;
+  LeafPicture picture;
+};
+
+/// One leaf of each shape, then the twigs.
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> made = [] {
+    std::vector<Kind> list;
+    for (int i = 0; i < leaf_shape_count; ++i) {
+      const auto shape = static_cast<LeafShape>(i);
+      const std::string name(leaf_shape_names()[static_cast<std::size_t>(i)]);
+      const bool is_whole = shape == LeafShape::petal || shape == LeafShape::needles;
+      list.push_back({is_whole ? name : name + "_leaf", {shape, 1}});
+    }
+    for (int i = 0; i < leaf_shape_count; ++i) {
+      const auto shape = static_cast<LeafShape>(i);
+      const std::string name(leaf_shape_names()[static_cast<std::size_t>(i)]);
+      if (makes_twigs(shape)) list.push_back({name + "_twig", {shape, leaves_of_a_twig}});
+    }
+    return list;
+  }();
+  return made;
+}
+
+const Kind& kind_named(std::string_view name) {
+  const auto found =
+      std::find_if(kinds().begin(), kinds().end(), [&](const Kind& kind) { return kind.name == name; });
+  return found == kinds().end() ? kinds().front() : *found;
+}
+
+void add_grain(Relief& relief, LeafShape shape, Rng rng, const Job& job) {
+  Field blotches(job, relief.tone.size());
+  add_noise(blotches, {5, 5}, {5, 0.6F}, 0.5F, rng.at("blotches"), job);
+  const bool is_petal = shape == LeafShape::petal;
+  const auto size = static_cast<float>(relief.tone.size());
+  relief.tone.each(job, [&](float tone, int x, int y) { return clamp(tone + 0.22F * blotches.row(y)[x]); });
+  relief.height.each(job,
+                     [&](float height, int x, int y) { return clamp(height + 0.05F * blotches.row(y)[x]); });
+  if (is_petal) {
+    relief.accent.each(
+        job, [&](float, int, int y) { return 0.9F * step_between(0.68F, 1, static_cast<float>(y) / size); });
+  }
+}
+
+}  // namespace
+
+std::span<const std::string_view> leaf_kinds() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> list;
+    for (const Kind& kind : kinds()) list.push_back(kind.name);
+    return list;
+  }();
+  return names;
+}
+
+LeafPicture leaf_picture(std::string_view kind) { return kind_named(kind).picture; }
+
+std::string_view leaf_kind(LeafShape shape, bool is_twig) {
+  std::string_view leaf;
+  for (const Kind& kind : kinds()) {
+    if (kind.picture.shape != shape) continue;
+    if ((kind.picture.count > 1) == is_twig) return kind.name;
+    leaf = kind.name;
+  }
+  return leaf;
+}
+
+Painting paint_leaf(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job) {
+  const LeafPicture picture = leaf_picture(kind);
+  const Rng rng = Rng::of_seed(seed).at(kind);
+  Relief relief{Field(job, size, 0.4F), Field(job, size, 0.45F), Field(job, size), Field(job, size)};
+  const LeafDrawing drawing = draw_leaf(picture.shape, {}, picture.count);
+  Painter painter(drawing, relief, rng, job);
+  const bool is_woody = picture.count > 1 || picture.shape == LeafShape::needles;
+  for (std::size_t i = 0; i < drawing.stalks.size(); ++i) {
+    painter.paint_line(drawing.stalks[i], i, i == 0 && is_woody ? 0.9F : 0.15F);
+  }
+  for (std::size_t i = 0; i < drawing.blades.size(); ++i) painter.paint_blade(drawing.blades[i], i);
+  add_grain(relief, picture.shape, rng, job);
+
+  const Colors colors = colors_of(picture.shape);
+  Finish finish;
+  finish.ramp = ramp_round(colors.main * (1 / 255.0F), 0.45F, 1.45F, colors.accent * (1 / 255.0F), tint);
+  finish.depth = 0.05F;
+  finish.rough_low = 0.75F;
+  finish.rough_high = 0.55F;
+  finish.rough_accent = 0.85F;
+  finish.shade = 0.25F;
+  return {std::move(relief), finish};
+}
+
+}  // namespace seedmesh::texture

@@ -1,0 +1,107 @@
+#include "core/texture/paint.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/texture/leaf.h"
+
+namespace seedmesh::texture {
+namespace {
+
+// Opaque to half a texel beyond the middle of the edge, so that leaves do not thin out in the distance.
+constexpr float leaf_cutoff = 0.4F;
+
+std::string key_of(const TextureRecipe& recipe, int size) {
+  std::string key = recipe.kind + ' ' + std::to_string(recipe.seed) + ' ' + std::to_string(size);
+  if (recipe.color) {
+    for (const std::uint8_t channel : *recipe.color) key += ' ' + std::to_string(channel);
+  }
+  return key;
+}
+
+std::shared_ptr<const Maps> make(const TextureRecipe& recipe, int size, const Job& job) {
+  const Painting painting = is_bark_kind(recipe.kind)
+                                ? paint_bark(recipe.kind, size, recipe.seed, recipe.color, job)
+                                : paint_leaf(recipe.kind, size, recipe.seed, recipe.color, job);
+  return std::make_shared<const Maps>(make_maps(painting.relief, painting.finish, recipe.kind, job));
+}
+
+std::shared_ptr<const Maps> find_or_make(const std::string& key, const TextureRecipe& recipe, int size,
+                                         TextureStore* store, const Job& job) {
+  if (store) {
+    if (const std::shared_ptr<const void> kept = store->find(key))
+      return std::static_pointer_cast<const Maps>(kept);
+  }
+  std::shared_ptr<const Maps> maps = make(recipe, size, job);
+  if (store) store->keep(key, maps, maps->bytes());
+  return maps;
+}
+
+void strip(Model& model) {
+  for (Material& material : model.materials) {
+    material.recipe = {};
+    for (TextureUse* use :
+         {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
+          &material.occlusion_texture, &material.emissive_texture}) {
+      use->texture = -1;
+    }
+  }
+  model.textures.clear();
+}
+
+/// Pictures that the material has already stay.
+void put(TextureUse& use, int texture, bool repeats) {
+  if (use.texture < 0) use = {texture, 0, repeats};
+}
+
+void dress(Material& material, int first, bool is_bark) {
+  put(material.base_color_texture, first, is_bark);
+  put(material.normal_texture, first + 1, is_bark);
+  put(material.occlusion_texture, first + 2, is_bark);
+  put(material.metallic_roughness_texture, first + 2, is_bark);
+  material.base_color = {1, 1, 1, material.base_color.w};
+  material.roughness = 1;
+  if (is_bark) return;
+  material.alpha_mode = AlphaMode::mask;
+  material.alpha_cutoff = leaf_cutoff;
+  material.double_sided = true;
+}
+
+}  // namespace
+
+std::span<const std::string_view> texture_kinds() {
+  static const std::vector<std::string_view> all = [] {
+    std::vector<std::string_view> list(bark_kinds().begin(), bark_kinds().end());
+    list.insert(list.end(), leaf_kinds().begin(), leaf_kinds().end());
+    return list;
+  }();
+  return all;
+}
+
+bool is_texture_kind(std::string_view name) {
+  return std::find(texture_kinds().begin(), texture_kinds().end(), name) != texture_kinds().end();
+}
+
+bool is_bark_kind(std::string_view name) {
+  return std::find(bark_kinds().begin(), bark_kinds().end(), name) != bark_kinds().end();
+}
+
+void paint(Model& model, int size, TextureStore* store, const Job& job) {
+  if (size == 0) return strip(model);
+  std::map<std::string, int> made;
+  for (Material& material : model.materials) {
+    if (material.recipe.kind.empty()) continue;
+    const std::string key = key_of(material.recipe, size);
+    const auto [place, is_new] = made.try_emplace(key, static_cast<int>(model.textures.size()));
+    if (is_new) {
+      const std::shared_ptr<const Maps> maps = find_or_make(key, material.recipe, size, store, job);
+      for (const auto& image : {maps->color, maps->normal, maps->surface}) model.textures.push_back(image);
+    }
+    dress(material, place->second, is_bark_kind(material.recipe.kind));
+    material.recipe = {};
+  }
+}
+
+}  // namespace seedmesh::texture

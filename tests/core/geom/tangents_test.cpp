@@ -1,0 +1,93 @@
+#include "core/geom/tangents.h"
+
+#include <gtest/gtest.h>
+
+#include "core/geom/skin.h"
+#include "tests/core/geom/skeletons.h"
+#include "tests/support/mesh_faults.h"
+
+namespace seedmesh {
+namespace {
+
+Job job_of() { return Job(1, Job::Options{}); }
+
+Model model_of(Mesh mesh) {
+  Model model;
+  model.textures.push_back(std::make_shared<Image>());
+  model.materials.resize(1);
+  model.materials[0].normal_texture.texture = 0;
+  model.meshes.resize(1);
+  model.meshes[0].primitives.push_back({std::move(mesh), 0, {}});
+  return model;
+}
+
+/// A square in the xy plane, seen from +z, with its picture upright: v grows down.
+Mesh square(const Job& job) {
+  Mesh mesh;
+  mesh.position = Array<glm::vec3>(job);
+  mesh.normal = Array<glm::vec3>(job, 4, glm::vec3(0, 0, 1));
+  mesh.uv[0] = Array<glm::vec2>(job);
+  mesh.index.wide = Array<std::uint32_t>(job);
+  for (const glm::vec2 at : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)}) {
+    mesh.position.push_back({at, 0});
+    mesh.uv[0].push_back({at.x, 1 - at.y});
+  }
+  for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.index.wide.push_back(i);
+  return mesh;
+}
+
+TEST(Tangents, FollowUWithTheBitangentUpThePicture) {
+  const Job job = job_of();
+  Model model = model_of(square(job));
+  add_tangents(model, job);
+  for (const glm::vec4& tangent : model.meshes[0].primitives[0].mesh.tangent)
+    EXPECT_EQ(tangent, glm::vec4(1, 0, 0, 1));
+}
+
+TEST(Tangents, AreMirroredWhereThePictureIs) {
+  const Job job = job_of();
+  Model model = model_of(square(job));
+  for (glm::vec2& uv : model.meshes[0].primitives[0].mesh.uv[0]) uv.x = 1 - uv.x;
+  add_tangents(model, job);
+  for (const glm::vec4& tangent : model.meshes[0].primitives[0].mesh.tangent)
+    EXPECT_EQ(tangent, glm::vec4(-1, 0, 0, -1));
+}
+
+TEST(Tangents, AreMadeOnlyWhereANormalMapIs) {
+  const Job job = job_of();
+  Model model = model_of(square(job));
+  model.materials[0].normal_texture.texture = -1;
+  add_tangents(model, job);
+  EXPECT_TRUE(model.meshes[0].primitives[0].mesh.tangent.empty());
+}
+
+TEST(Tangents, AreUnitAndAcrossTheNormalsOfATube) {
+  Job job = job_of();
+  SkeletonMaker maker(job);
+  std::uint32_t joint = maker.root({0, 0, 0});
+  for (const glm::vec3 at : {glm::vec3(0, 1, 0), glm::vec3(0.3F, 2, 0), glm::vec3(0.9F, 2.5F, 0.4F)}) {
+    joint = maker.grow(joint, at, {0.2F, 0.1F});
+  }
+  Model model = model_of(std::move(skin(maker.limbs, {.sides = 12, .wrap = true}, job)[0].mesh));
+  add_tangents(model, job);
+  const Mesh& mesh = model.meshes[0].primitives[0].mesh;
+  for (std::size_t i = 0; i < mesh.position.size(); ++i) {
+    const glm::vec3 tangent(mesh.tangent[i]);
+    EXPECT_NEAR(glm::dot(tangent, tangent), 1, 1e-5);
+    EXPECT_NEAR(glm::dot(tangent, mesh.normal[i]), 0, 1e-5);
+    EXPECT_EQ(std::abs(mesh.tangent[i].w), 1);
+  }
+}
+
+TEST(Skin, WrapsPicturesAWholeNumberOfTimesRound) {
+  Job job = job_of();
+  SkeletonMaker maker(job);
+  maker.grow(maker.root({0, 0, 0}), {0, 4, 0}, {0.5F, 0.25F});
+  const auto barks = skin(maker.limbs, {.sides = 12, .wrap = true}, job);
+  float most = 0;
+  for (const glm::vec2& uv : barks[0].mesh.uv[0]) most = std::max(most, uv.x);
+  EXPECT_EQ(most, 3) << "the circumference is 3.14 m";
+}
+
+}  // namespace
+}  // namespace seedmesh

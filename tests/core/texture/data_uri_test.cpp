@@ -1,0 +1,43 @@
+#include "core/texture/data_uri.h"
+
+#include <gtest/gtest.h>
+
+namespace seedmesh::texture {
+namespace {
+
+// One red texel.
+constexpr std::string_view red =
+    "data:image/png;base64,"
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC";
+
+std::string fault_of(std::string_view text) {
+  const Job job(1, Job::Options{});
+  const auto image = image_of_data_uri(text, "x", job);
+  return image ? "" : image.error().issues.front().message;
+}
+
+TEST(DataUri, GivesTheFileByteForByte) {
+  const Job job(1, Job::Options{});
+  const auto image = image_of_data_uri(red, "red", job);
+  ASSERT_TRUE(image) << image.error().issues.front().message;
+  EXPECT_EQ((*image)->mime, "image/png");
+  EXPECT_EQ((*image)->bytes.size(), 69U);
+  EXPECT_EQ((*image)->bytes[1], 'P');
+}
+
+TEST(DataUri, RefusesWhatIsNoPicture) {
+  EXPECT_NE(fault_of("https://example.org/a.png").find("expected \"data:image/png;base64,"),
+            std::string::npos);
+  EXPECT_EQ(fault_of("data:image/png;base64,!!!!"), "found characters that are no base64");
+  EXPECT_EQ(fault_of("data:image/jpeg;base64,AAAA"), "found no JPEG file, or only a part of one");
+  EXPECT_FALSE(fault_of("data:image/png;base64,AAAA").empty());
+  EXPECT_FALSE(fault_of("data:image/png;base64,").empty());
+}
+
+TEST(DataUri, RefusesAPictureThatIsCutShort) {
+  for (std::size_t length = 30; length + 4 < red.size(); length += 4)
+    EXPECT_FALSE(fault_of(red.substr(0, length)).empty());
+}
+
+}  // namespace
+}  // namespace seedmesh::texture

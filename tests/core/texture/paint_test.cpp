@@ -1,0 +1,195 @@
+#include "core/texture/paint.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/texture/leaf.h"
+#include "core/texture/png.h"
+
+namespace seedmesh::texture {
+namespace {
+
+Job job_of(int threads = 1) { return Job(1, Job::Options{.threads = threads}); }
+
+Picture decoded(const Image& image) {
+  const Job job = job_of();
+  Result<Picture> picture = decode_png(std::as_bytes(std::span(image.bytes)), {}, job);
+  EXPECT_TRUE(picture);
+  return *std::move(picture);
+}
+
+Maps maps_of(std::string_view kind, int size, std::uint64_t seed, int threads = 1) {
+  const Job job = job_of(threads);
+  const Painting painting =
+      is_bark_kind(kind) ? paint_bark(kind, size, seed, {}, job) : paint_leaf(kind, size, seed, {}, job);
+  return make_maps(painting.relief, painting.finish, std::string(kind), job);
+}
+
+int at(const Picture& picture, std::size_t x, std::size_t y, std::size_t channel) {
+  const auto channels = static_cast<std::size_t>(picture.channels);
+  return picture.bytes[(y * picture.width + x) * channels + channel];
+}
+
+/// Mean difference of neighbouring columns `x` and `x + 1`, the picture being a ring.
+double step_over(const Picture& picture, std::size_t x) {
+  double sum = 0;
+  for (std::size_t y = 0; y < picture.height; ++y) {
+    for (std::size_t c = 0; c < 3; ++c)
+      sum += std::abs(at(picture, x, y, c) - at(picture, (x + 1) % picture.width, y, c));
+  }
+  return sum / picture.height;
+}
+
+class Kinds : public testing::TestWithParam<std::string_view> {};
+
+TEST_P(Kinds, AreTheSameWithAnyNumberOfThreadsAndDifferBySeed) {
+  const Maps one = maps_of(GetParam(), 64, 7, 1), more = maps_of(GetParam(), 64, 7, 4),
+             other = maps_of(GetParam(), 64, 8);
+  EXPECT_EQ(one.color->bytes, more.color->bytes);
+  EXPECT_EQ(one.normal->bytes, more.normal->bytes);
+  EXPECT_EQ(one.surface->bytes, more.surface->bytes);
+  EXPECT_NE(one.color->bytes, other.color->bytes);
+}
+
+TEST_P(Kinds, HaveNormalsOfUnitLengthThatLookOutward) {
+  const Picture normals = decoded(*maps_of(GetParam(), 128, 3).normal);
+  for (std::size_t y = 0; y < normals.height; ++y) {
+    for (std::size_t x = 0; x < normals.width; ++x) {
+      double squared = 0;
+      for (std::size_t c = 0; c < 3; ++c) squared += std::pow(at(normals, x, y, c) / 127.5 - 1, 2);
+      ASSERT_NEAR(std::sqrt(squared), 1, 0.02);
+      ASSERT_GT(at(normals, x, y, 2), 127);
+    }
+  }
+}
+
+TEST_P(Kinds, AreNoMetalAndNeverAMirror) {
+  const Picture surface = decoded(*maps_of(GetParam(), 128, 3).surface);
+  for (std::size_t y = 0; y < surface.height; ++y) {
+    for (std::size_t x = 0; x < surface.width; ++x) {
+      ASSERT_GT(at(surface, x, y, 1), 60);
+      ASSERT_EQ(at(surface, x, y, 2), 0);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Kinds, testing::ValuesIn(texture_kinds().begin(), texture_kinds().end()),
+                         [](const auto& kind) { return std::string(kind.param); });
+
+TEST(Bark, RepeatsWithoutASeam) {
+  for (const std::string_view kind : bark_kinds()) {
+    const Picture color = decoded(*maps_of(kind, 256, 5).color);
+    double most = 0;
+    for (std::size_t x = 0; x + 1 < color.width; ++x) most = std::max(most, step_over(color, x));
+    EXPECT_LE(step_over(color, color.width - 1), 1.05 * most) << kind;
+  }
+}
+
+TEST(Bark, TakesTheColourOfTheRequest) {
+  const Job job = job_of();
+  const Painting painting = paint_bark("oak_bark", 64, 1, Tint{{10, 20, 200}}, job);
+  const Picture color = decoded(*make_maps(painting.relief, painting.finish, "x", job).color);
+  double red = 0, blue = 0;
+  for (std::size_t y = 0; y < 64; ++y) {
+    for (std::size_t x = 0; x < 64; ++x) {
+      red += at(color, x, y, 0);
+      blue += at(color, x, y, 2);
+    }
+  }
+  EXPECT_GT(blue, 8 * red);
+}
+
+TEST(Leaf, IsCutOutWithNothingAtTheBorderOfThePicture) {
+  for (const std::string_view kind : leaf_kinds()) {
+    const Picture color = decoded(*maps_of(kind, 128, 5).color);
+    ASSERT_EQ(color.channels, 4);
+    std::size_t opaque = 0, on_border = 0;
+    for (std::size_t y = 0; y < 128; ++y) {
+      for (std::size_t x = 0; x < 128; ++x) {
+        const bool is_there = at(color, x, y, 3) > 102;
+        opaque += is_there ? 1U : 0U;
+        on_border += is_there && (x == 0 || y == 0 || x == 127 || y == 127) ? 1U : 0U;
+      }
+    }
+    EXPECT_GT(opaque, 128U * 128U / 6) << kind << " wastes its picture";
+    EXPECT_EQ(on_border, 0U) << kind;
+  }
+}
+
+TEST(Leaf, CoversWhatItsOutlineEncloses) {
+  const Picture color = decoded(*maps_of("kite_leaf", 256, 1).color);
+  double covered = 0;
+  for (std::size_t y = 0; y < 256; ++y) {
+    for (std::size_t x = 0; x < 256; ++x) covered += at(color, x, y, 3) / 255.0;
+  }
+  // A kite is half of its box, and the box has 2 % of room on each side.
+  EXPECT_NEAR(covered / (256 * 256), 0.5 / (1.04 * 1.04), 0.002);
+}
+
+TEST(Paint, GivesEqualRecipesOnePicture) {
+  Model model;
+  model.materials.resize(3);
+  model.materials[0].recipe = {"oak_bark", 1, {}};
+  model.materials[1].recipe = {"oak_bark", 1, {}};
+  model.materials[2].recipe = {"birch_leaf", 1, {}};
+  const Job job = job_of();
+  paint(model, 32, nullptr, job);
+  EXPECT_EQ(model.textures.size(), 6U);
+  EXPECT_EQ(model.materials[0].base_color_texture.texture, model.materials[1].base_color_texture.texture);
+  EXPECT_EQ(model.materials[0].alpha_mode, AlphaMode::opaque);
+  EXPECT_EQ(model.materials[2].alpha_mode, AlphaMode::mask);
+  EXPECT_TRUE(model.materials[2].double_sided);
+}
+
+TEST(Paint, LeavesAllTexturesOutOnRequest) {
+  Model model;
+  model.materials.resize(1);
+  model.materials[0].recipe = {"oak_bark", 1, {}};
+  model.textures.push_back(std::make_shared<Image>());
+  model.materials[0].normal_texture.texture = 0;
+  const Job job = job_of();
+  paint(model, 0, nullptr, job);
+  EXPECT_TRUE(model.textures.empty());
+  EXPECT_EQ(model.materials[0].normal_texture.texture, -1);
+}
+
+/// Keeps everything and counts.
+struct Store : TextureStore {
+  std::shared_ptr<const void> find(const std::string& key) override {
+    const auto found = kept.find(key);
+    hits += found == kept.end() ? 0 : 1;
+    return found == kept.end() ? nullptr : found->second;
+  }
+  void keep(const std::string& key, std::shared_ptr<const void> value, std::uint64_t bytes) override {
+    EXPECT_GT(bytes, 0U);
+    kept.emplace(key, std::move(value));
+  }
+  std::map<std::string, std::shared_ptr<const void>> kept;
+  int hits = 0;
+};
+
+TEST(Paint, TakesFromTheStoreWhatItHasPutThere) {
+  Store store;
+  const Job job = job_of();
+  std::vector<std::shared_ptr<const Image>> first;
+  for (int i = 0; i < 2; ++i) {
+    Model model;
+    model.materials.resize(1);
+    model.materials[0].recipe = {"pine_bark", 4, {}};
+    paint(model, 32, &store, job);
+    if (i == 0) first = model.textures;
+    EXPECT_EQ(model.textures, first);
+  }
+  EXPECT_EQ(store.hits, 1);
+  Model model;
+  model.materials.resize(1);
+  model.materials[0].recipe = {"pine_bark", 4, std::array<std::uint8_t, 3>{1, 2, 3}};
+  paint(model, 32, &store, job);
+  EXPECT_EQ(store.hits, 1) << "another colour is another picture";
+}
+
+}  // namespace
+}  // namespace seedmesh::texture
