@@ -60,6 +60,13 @@ constexpr CommandRow rows[] = {
      "F+F@a(0.5)+F"},
     {"@-", Command::mirror, "", 0, 0, "Exchanges left and right: + and -, \\ and /, until the next one.",
      "[+F]@-+F"},
+    {"@A", Command::enter_frame, "(frame)", 12, 12,
+     "Goes to a frame: its origin, its y as heading, and the length of y as scale.",
+     "@A(translate(frame(), 1, 0, 0))F"},
+    {"@F", Command::draw_frame, "(frame)", 12, 12,
+     "Draws an internode from a frame's origin along its y, as long as y and as thick as x, and stays where "
+     "it is.",
+     "@F(scale(frame(), 0.2, 1, 0.2))"},
 };
 
 }  // namespace

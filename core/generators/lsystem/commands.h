@@ -46,14 +46,16 @@ enum class Command : std::uint8_t {
   multiply_width,
   multiply_turns,
   mirror,
+  enter_frame,
+  draw_frame,
 };
 
 struct CommandRow {
   std::string_view symbol;
   Command command;
-  std::string_view
-      parameters;  ///< as a reader would write them: "", "(length)", ...; square brackets: optional
-  std::uint32_t least, most;  ///< number of parameters understood
+  std::string_view parameters;  ///< "(frame)", which is twelve numbers; or as a reader would write them: "",
+                                ///< "(length)", ...; square brackets: optional
+  std::uint32_t least, most;    ///< number of parameters understood
   std::string_view text;
   std::string_view example;  ///< an axiom that the tests draw
 };
