@@ -63,6 +63,11 @@ void Turtle::head(const glm::dvec3& direction) {
   state_.frame = seedmesh::upright(reorthonormalise(frame));
 }
 
+void Turtle::face_as(const Frame& frame) {
+  state_.frame = reorthonormalise(frame);
+  state_.rotations = 0;
+}
+
 void Turtle::stand_up() {
   state_.frame = Frame{};
   state_.rotations = 0;

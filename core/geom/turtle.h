@@ -43,6 +43,7 @@ class Turtle {
   void turn_around() { state_.frame = seedmesh::turn_around(state_.frame); }
   void upright() { state_.frame = seedmesh::upright(state_.frame); }
   void head(const glm::dvec3& direction);  ///< heads along it and rolls upright
+  void face_as(const Frame& frame);        ///< any axes; heading counts first, then left
   void stand_up();                         ///< the frame of the start: heading +Y, left -X, up +Z
 
   /// Refuses to draw more segments than this; without a call there is no such limit.

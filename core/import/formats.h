@@ -4,6 +4,8 @@
 
 namespace seedmesh {
 
+Result<Imported> import_cpfg(std::string_view text, const ImportOptions& options);      // cpfg.cpp
 Result<Imported> import_fractint(std::string_view text, const ImportOptions& options);  // fractint.cpp
+Result<Imported> import_houdini(std::string_view text, const ImportOptions& options);   // houdini.cpp
 
 }  // namespace seedmesh

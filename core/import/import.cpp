@@ -6,7 +6,11 @@ namespace seedmesh {
 namespace {
 
 constexpr ImportFormat rows[] = {
+    {"cpfg", "cpfg .l", "An L-system with its decomposition, homomorphism and macros.", "text/plain",
+     import_cpfg},
     {"fractint", "Fractint .l", "An entry becomes an L-system in the plane.", "text/plain", import_fractint},
+    {"houdini", "Houdini L-System node", "Parameters and rules, with what Houdini flips flipped back.",
+     "text/plain", import_houdini},
 };
 
 }  // namespace

@@ -68,13 +68,24 @@ Program::Emitter::Operand Program::Emitter::call(const Function& row, const Oper
     first = arguments[0];  // read where it lies
   } else {
     for (std::uint32_t i = 0; i < arity; ++i) {
-      assert(arguments[i].place != Place::registers || arguments[i].index == mark + i);
-      if (arguments[i].place != Place::registers) emit(instruction(Operation::copy, arguments[i]), mark + i);
+      // A register is its own, or that of a parameter below.
+      const bool in_place = arguments[i].place == Place::registers && arguments[i].index == mark + i;
+      if (!in_place) emit(instruction(Operation::copy, arguments[i]), mark + i);
     }
   }
   Instruction calling = instruction(Operation::call, first);
   calling.right = static_cast<std::uint32_t>(&row - functions().data());
   return emit(calling, mark);
+}
+
+Program::Emitter::Operand Program::Emitter::settle(const Operand& operand, std::uint32_t mark) {
+  next_register_ = mark;
+  if (operand.place != Place::registers) return operand;
+  next_register_ = mark + 1;
+  if (operand.index == mark) return operand;
+  Operand moved = emit(instruction(Operation::copy, operand), mark);
+  moved.is_truth = operand.is_truth;
+  return moved;
 }
 
 Program::Emitter::Operand Program::Emitter::truth(const Operand& operand, std::uint32_t mark) {

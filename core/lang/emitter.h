@@ -41,7 +41,8 @@ class Program::Emitter {
 
   Operand combine(Operation operation, const Operand& left, const Operand& right, std::uint32_t mark);
   Operand call(const Function& row, const Operands& arguments, std::uint32_t mark);
-  Operand truth(const Operand& operand, std::uint32_t mark);  ///< 1 where the operand is not 0, else 0
+  Operand settle(const Operand& operand, std::uint32_t mark);  ///< a register's value moves to `mark`
+  Operand truth(const Operand& operand, std::uint32_t mark);   ///< 1 where the operand is not 0, else 0
 
   /// The end of the code so far, to go back to.
   struct Position {

@@ -5,8 +5,8 @@
 ///
 ///   expression = or ;                         or  = and { ("||"|"|") and } ;    and = comparison {
 ///   ("&&"|"&") comparison } ; comparison = sum [ ("<"|"<="|">"|">="|"=="|"!="|"=") sum ] ; sum = product {
-///   ("+"|"-") product } ;     product = unary { ("*"|"/"|"%") unary } ; unary = { "-"|"+"|"!" } power ;
-///   power = primary [ ("^"|"**") unary ] ;  right associative primary = number | dotted | name "(" [
+///   ("+"|"-") product } ;     product = unary { ("*"|"/"|"%"|"mod") unary } ; unary = { "-"|"+"|"!" } power
+///   ; power = primary [ ("^"|"**") unary ] ;  right associative primary = number | dotted | name "(" [
 ///   expression { "," expression } ] ")" | "(" expression ")" ; dotted = name { "." name } ; without space
 ///   around the points: one name, as in Scope.sx
 ///
@@ -44,6 +44,19 @@ class Names {
     double value = 0;
   };
   const Binding* find(std::string_view name) const;  ///< null: unknown; valid until the next change
+  /// The constant of this name though a slot hides it; null: there is none.
+  const Binding* find_constant(std::string_view name) const;
+
+  /// A function of the user's, written out where it is called. Its body knows its parameters and constants.
+  struct Defined {
+    std::vector<std::string> parameters;  ///< at most most_parameters
+    std::vector<Token> body;              ///< ended by TokenKind::end; the text must outlive the Names
+    bool is_sound = true;                 ///< false: its own text has a fault, so calls are not judged
+  };
+  static constexpr std::size_t most_parameters = 8;
+  void define(std::string name, Defined function);  ///< takes the place of an earlier one of the same name
+  void spoil(std::string_view name);                ///< is_sound becomes false
+  const Defined* find_function(std::string_view name) const;
   /// The bound name most like `name` for a hint, or empty. Looks at the latest 256 bindings.
   std::string_view nearest(std::string_view name) const;
 
@@ -53,10 +66,16 @@ class Names {
   std::vector<Binding> bindings_;
   std::map<std::string, std::vector<std::uint32_t>, std::less<>>
       places_;  ///< of each name in bindings_, the latest last
+  std::map<std::string, Defined, std::less<>> functions_;
 };
 
-/// How alike two names are for a hint: 0 = equal, 1 = equal but for case; else 1 for each letter of another case, 2 for each
-/// letter put in, left out, exchanged or swapped with its neighbour. Names longer than 64 bytes are like nothing.
+/// Reads `name ( parameter, ... ) = body` and returns the name; the body is only cut into tokens. Faults: at
+/// the token that is wrong, a name that a built-in function has, a parameter twice, too many of them.
+std::string read_definition(std::string_view text, Names::Defined& function, std::vector<Fault>& faults);
+
+/// How alike two names are for a hint: 0 = equal, 1 = equal but for case; else 1 for each letter of another
+/// case, 2 for each letter put in, left out, exchanged or swapped with its neighbour. Names longer than 64
+/// bytes are like nothing.
 std::uint32_t name_distance(std::string_view a, std::string_view b);
 /// The greatest distance at which a hint for a name of that length is of use.
 std::uint32_t hint_distance(std::string_view name);
@@ -132,9 +151,9 @@ class Program {
                    std::vector<Fault>& faults, std::uint32_t max_depth = 200);
 
   /// `slots` as bound when it was parsed; at least slots_used() of them. Draws only from `rng`, in the order
-  /// of evaluation: left to right, nothing where && or || stopped before. Allocates nothing. About 2 ns for a constant, a slot or one
-  /// operation on slots and constants; otherwise about 5 ns, 3 ns for each operation and up to 100 ns for a transcendental
-  /// function.
+  /// of evaluation: left to right, nothing where && or || stopped before. Allocates nothing. About 2 ns for a
+  /// constant, a slot or one operation on slots and constants; otherwise about 5 ns, 3 ns for each operation
+  /// and up to 100 ns for a transcendental function.
   double evaluate(const Expression& expression, const double* slots, Rng& rng) const;
 
   /// The highest slot that the expression reads plus one, 0 when none.

@@ -123,6 +123,8 @@ constexpr Function table[] = {
      [](Arguments a, Rng&) { return least(greatest(a[0], a[1]), a[2]); }, false},
     {"lerp", 3, "a, b, t", "The value at share t of the way from a to b.", "lerp(10, 20, 0.25)",
      [](Arguments a, Rng&) { return a[0] + (a[1] - a[0]) * a[2]; }, false},
+    {"select", 3, "condition, a, b", "a where the condition holds, else b; both are worked out.",
+     "select(2 > 1, 10, 20)", [](Arguments a, Rng&) { return a[0] != 0 ? a[1] : a[2]; }, false},
     {"isnan", 1, "x", "1 when x is not a number (0/0), else 0.", "isnan(0/0)",
      [](Arguments a, Rng&) { return std::isnan(a[0]) ? 1.0 : 0.0; }, false},
     {"isinf", 1, "x", "1 when x is infinite (1/0), else 0.", "isinf(1/0)",

@@ -28,6 +28,29 @@ const Names::Binding* Names::find(std::string_view name) const {
   return place == places_.end() ? nullptr : &bindings_[place->second.back()];
 }
 
+const Names::Binding* Names::find_constant(std::string_view name) const {
+  const auto place = places_.find(name);
+  if (place == places_.end()) return nullptr;
+  for (auto each = place->second.rbegin(); each != place->second.rend(); ++each) {
+    if (bindings_[*each].is_constant) return &bindings_[*each];
+  }
+  return nullptr;
+}
+
+void Names::define(std::string name, Defined function) {
+  functions_.insert_or_assign(std::move(name), std::move(function));
+}
+
+void Names::spoil(std::string_view name) {
+  const auto place = functions_.find(name);
+  if (place != functions_.end()) place->second.is_sound = false;
+}
+
+const Names::Defined* Names::find_function(std::string_view name) const {
+  const auto place = functions_.find(name);
+  return place == functions_.end() ? nullptr : &place->second;
+}
+
 std::string_view Names::nearest(std::string_view name) const {
   constexpr std::size_t looked_at = 256;  // a hint is not worth a search through a hostile list
   const std::size_t first = bindings_.size() > looked_at ? bindings_.size() - looked_at : 0;
@@ -40,6 +63,49 @@ std::string_view Names::nearest(std::string_view name) const {
     best = bindings_[i].name;
   }
   return best;
+}
+
+std::string read_definition(std::string_view text, Names::Defined& function, std::vector<Fault>& faults) {
+  const std::vector<Token> tokens = tokenize(text, 0, text.size(), faults);
+  std::size_t at = 0;
+  const auto expect = [&](bool found, const char* what) {
+    if (!found) {
+      faults.push_back(
+          {tokens[at].offset, "expected " + std::string(what) + ", found " + in_quotes(tokens[at])});
+    }
+    return found;
+  };
+  if (!expect(tokens[at].kind == TokenKind::name, "the name of the function")) return {};
+  const std::string name(tokens[at].text);
+  const auto same = [&](const Function& row) { return row.name == name; };
+  if (std::any_of(functions().begin(), functions().end(), same)) {
+    faults.push_back({tokens[at].offset, in_quotes(name) + " is a function that there is already"});
+  }
+  ++at;
+  if (!expect(is_symbol(tokens[at], "("), "`(`")) return name;
+  ++at;
+  while (!is_symbol(tokens[at], ")")) {
+    if (!function.parameters.empty()) {
+      if (!expect(is_symbol(tokens[at], ","), "`,` or `)`")) return name;
+      ++at;
+    }
+    if (!expect(tokens[at].kind == TokenKind::name, "the name of a parameter")) return name;
+    const std::string parameter(tokens[at].text);
+    if (std::find(function.parameters.begin(), function.parameters.end(), parameter) !=
+        function.parameters.end()) {
+      faults.push_back({tokens[at].offset, "the parameter " + in_quotes(parameter) + " is named twice"});
+    }
+    if (function.parameters.size() == Names::most_parameters) {
+      faults.push_back({tokens[at].offset, "found more than 8 parameters"});
+      return name;
+    }
+    function.parameters.push_back(parameter);
+    ++at;
+  }
+  ++at;
+  if (!expect(is_symbol(tokens[at], "="), "`=` and what the function gives")) return name;
+  function.body.assign(tokens.begin() + static_cast<std::ptrdiff_t>(at) + 1, tokens.end());
+  return name;
 }
 
 std::uint32_t hint_distance(std::string_view name) {

@@ -43,6 +43,7 @@ class Reader {
   /// False, and the end, where it goes too deep at this token. After true comes leave().
   bool enter();
   void leave() { --depth_; }
+  std::uint32_t room() const { return max_depth_ - depth_; }  ///< how much deeper it may go
 
   enum class Until { bracket, bracket_or_comma };
   /// After local damage: goes to the `)` (or comma) of the brackets that are open now; if there is one, all

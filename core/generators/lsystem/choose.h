@@ -18,6 +18,7 @@ struct Draws {
   Draws(std::uint64_t key, std::uint32_t step) : place(key_at(key, step)) {}
   Rng condition() const { return place.at(1); }
   Rng choice() const { return place.at(2); }
+  Rng code() const { return place.at(4); }
 };
 
 inline bool holds(const Grammar& grammar, const Production& production, const double* slots,
@@ -74,6 +75,10 @@ const Production* choose(const Grammar& grammar, const Rules& rules, Range range
 [[noreturn]] void refuse_argument(const Grammar& grammar, const Template& made, std::uint32_t index,
                                   double value);
 
+/// The arguments of a kind that carries frames.
+void fill_framed_arguments(const Grammar& grammar, const Template& made, const double* slots, Rng& rng,
+                           double* out);
+
 /// Evaluates the arguments of a template into `out`; a value that is not finite refuses the request at the
 /// production.
 inline void fill_arguments(const Grammar& grammar, const Template& made, const double* slots,
@@ -81,6 +86,8 @@ inline void fill_arguments(const Grammar& grammar, const Template& made, const d
   const std::uint32_t arity = grammar.kinds[made.kind].arity;
   if (arity == 0) return;
   Rng rng = Rng(key).at(3);
+  if (!grammar.frames.empty() && !grammar.kinds[made.kind].frames.empty())
+    return fill_framed_arguments(grammar, made, slots, rng, out);
   for (std::uint32_t i = 0; i < arity; ++i) {
     const lang::Expression& argument = grammar.arguments[made.first_argument + i];
     const double value =

@@ -38,17 +38,19 @@ constexpr CommandRow rows[] = {
     {";", Command::color_up, "[(index)]", 0, 1, "Sets the colour index, or bare: adds 1.", ";(2)F"},
     {",", Command::color_down, "[(index)]", 0, 1, "Sets the colour index, or bare: takes 1 off.", ";(2)F,F"},
     {"~", Command::organ, "name[(scale)]", 0, 3,
-     "Places the organ that `surfaces` calls so, `scale` times as large; or (across, along, up) three scales.",
+     "Places the organ that `surfaces` calls so, `scale` times as large; or (across, along, up) three "
+     "scales.",
      "F~leaf(2)"},
     {"@Gs", Command::sweep_begin, "", 0, 0,
      "Begins a generalized cylinder, a limb along a smooth curve, whose first control point is here.",
      "@GsF+(40)F@Ge"},
     {"@Gc", Command::sweep_control, "[(strips)]", 0, 1,
-     "Sets a control point of the generalized cylinder here and draws up to it, in so many internodes (8); F sets "
+     "Sets a control point of the generalized cylinder here and draws up to it, in so many internodes (8); F "
+     "sets "
      "one too.",
      "@Gsf&(30)f@Gc(5)@Ge"},
-    {"@Ge", Command::sweep_end, "", 0, 0, "Sets the last control point of the generalized cylinder here and ends it.",
-     "@Gsf(2)@Ge"},
+    {"@Ge", Command::sweep_end, "", 0, 0,
+     "Sets the last control point of the generalized cylinder here and ends it.", "@Gsf(2)@Ge"},
     {"%", Command::cut, "", 0, 0, "Cuts the rest of its branch away in the step after it was written.",
      "F[+F%F]F"},
     {"@M", Command::move_to, "(x,y,z)", 3, 3, "Moves to a point, in metres from the start, without drawing.",
@@ -79,9 +81,17 @@ constexpr CommandRow rows[] = {
     {"?U", Command::ask_up, "(x,y,z)", 3, 3, "Asks for the turtle's up.", "&F?U(0,0,0)F"},
     {"?E", Command::ask_surroundings, "(step[,now[,then[,light[,x,y,z]]]])", 1, 7,
      "Asks the environment: `step` becomes 1 where a step of that length along the heading is free, else 0; "
-     "`now` and `then` the room to the surface here and after the step, negative past it; `light` 0 to 1; x, y, "
+     "`now` and `then` the room to the surface here and after the step, negative past it; `light` 0 to 1; x, "
+     "y, "
      "z the direction to the surface.",
      "F?E(1)F"},
+    {"@A", Command::enter_frame, "(frame)", 12, 12,
+     "Goes to a frame: its origin, its y as heading, and the length of y as scale.",
+     "@A(translate(frame(), 1, 0, 0))F"},
+    {"@F", Command::draw_frame, "(frame)", 12, 12,
+     "Draws an internode from a frame's origin along its y, as long as y and as thick as x, and stays where "
+     "it is.",
+     "@F(scale(frame(), 0.2, 1, 0.2))"},
 };
 
 }  // namespace

@@ -55,6 +55,8 @@ enum class Command : std::uint8_t {
   sweep_begin,
   sweep_control,
   sweep_end,
+  enter_frame,
+  draw_frame,
 };
 
 /// True for modules that ask and are answered between two steps.
@@ -65,9 +67,9 @@ constexpr bool asks(Command command) {
 struct CommandRow {
   std::string_view symbol;
   Command command;
-  std::string_view
-      parameters;  ///< as a reader would write them: "", "(length)", ...; square brackets: optional
-  std::uint32_t least, most;  ///< number of parameters understood
+  std::string_view parameters;  ///< "(frame)", which is twelve numbers; or as a reader would write them: "",
+                                ///< "(length)", ...; square brackets: optional
+  std::uint32_t least, most;    ///< number of parameters understood
   std::string_view text;
   std::string_view example;  ///< an axiom that the tests draw
 };

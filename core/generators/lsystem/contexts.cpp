@@ -1,5 +1,7 @@
 #include "core/generators/lsystem/contexts.h"
 
+#include <algorithm>
+
 namespace seedmesh::lsystem {
 
 void pair_brackets(const Grammar& grammar, const Word& word, Array<std::uint32_t>& partner) {
@@ -19,24 +21,38 @@ void pair_brackets(const Grammar& grammar, const Word& word, Array<std::uint32_t
   }
 }
 
-const double* ContextMatcher::match(const Production& production, std::size_t place) {
+double* ContextMatcher::match(const Production& production, std::size_t place) {
+  place_ = place;
+  round_ = false;
   right_.clear();
   if (!match_left(production, place) || !match_right(production.right, place + 1)) return nullptr;
-  slots_.clear();
-  take_parameters(place);
-  for (auto each = left_.rbegin(); each != left_.rend(); ++each) take_parameters(*each);
-  for (const std::size_t each : right_) take_parameters(each);
-  slots_.push_back(0);  // never empty: a null pointer means no match
+  new_right_.clear();
+  if (!match_new_left(production)) return nullptr;
+  if (!production.new_right.empty() && !match_new_right(production.new_right, pieces_.size(), 0))
+    return nullptr;
+  double* to = take_parameters(word_, place, slots_.data());
+  for (auto each = left_.rbegin(); each != left_.rend(); ++each) to = take_parameters(word_, *each, to);
+  for (const std::size_t each : right_) to = take_parameters(word_, each, to);
+  for (auto each = new_left_.rbegin(); each != new_left_.rend(); ++each)
+    to = take_parameters(written_, *each, to);
+  for (const std::size_t each : new_right_) to = take_parameters(written_, each, to);
   return slots_.data();
 }
 
 bool ContextMatcher::match_left(const Production& production, std::size_t place) {
   left_.clear();
   std::size_t at = place;
+  bool round = false;  // a ring has been left at its beginning and entered at its end
   for (const KindId wanted : production.left) {
     for (;;) {
-      if (at == 0) return false;
+      if (at == 0) {
+        if (!grammar_.ring || round) return false;
+        round = true;
+        at = word_.size();
+      }
+      walk();
       --at;
+      if (round && at <= place) return false;
       const KindId kind = word_.kind[at];
       if (kind == grammar_.close) {
         at = partner_[at];  // a sibling branch: past it
@@ -58,13 +74,18 @@ bool ContextMatcher::match_right(std::span<const KindId> pattern, std::size_t at
         if (pattern[close] == grammar_.open) ++depth;
         if (pattern[close] == grammar_.close) --depth;
       }
+      close_ring(at);
       if (!match_branch(pattern.subspan(1, close - 2), at)) return false;
       pattern = pattern.subspan(close);
       continue;
     }
+    close_ring(at);
     while (at < word_.size() && (word_.kind[at] == grammar_.open || passed_over(at))) {
+      walk();
       at = word_.kind[at] == grammar_.open ? partner_[at] + 1 : at + 1;
+      close_ring(at);
     }
+    if (round_ && at >= place_) return false;
     if (at >= word_.size() || word_.kind[at] != pattern[0]) return false;  // a ] is no kind of a pattern here
     right_.push_back(at++);
     pattern = pattern.subspan(1);
@@ -75,6 +96,7 @@ bool ContextMatcher::match_right(std::span<const KindId> pattern, std::size_t at
 /// The first of the branches that start at `at` whose beginning matches; `at` moves behind it.
 bool ContextMatcher::match_branch(std::span<const KindId> pattern, std::size_t& at) {
   while (at < word_.size() && (word_.kind[at] == grammar_.open || passed_over(at))) {
+    walk();
     if (word_.kind[at] != grammar_.open) {
       ++at;
       continue;
@@ -91,11 +113,91 @@ bool ContextMatcher::match_branch(std::span<const KindId> pattern, std::size_t& 
   return false;
 }
 
-void ContextMatcher::take_parameters(std::size_t place) {
-  const std::uint32_t arity = grammar_.kinds[word_.kind[place]].arity;
-  if (arity == 0) return;
-  const double* first = word_.parameter.data() + word_.at[place];
-  slots_.insert(slots_.end(), first, first + arity);
+/// Going left in the word that is being written: like the old one, but its brackets are counted.
+bool ContextMatcher::match_new_left(const Production& production) {
+  new_left_.clear();
+  std::size_t at = written_.size();
+  for (const KindId wanted : production.new_left) {
+    for (int depth = 0;;) {
+      if (at == 0) return false;
+      walk();
+      const KindId kind = written_.kind[--at];
+      if (kind == grammar_.close) {
+        ++depth;
+      } else if (kind == grammar_.open) {
+        if (depth > 0) --depth;
+      } else if (depth == 0 && !grammar_.kinds[kind].ignored) {
+        break;
+      }
+    }
+    if (written_.kind[at] != wanted) return false;
+    new_left_.push_back(at);
+  }
+  return true;
+}
+
+/// Moves to a module of the word that is written from its end; false behind its last.
+bool ContextMatcher::step_right(std::size_t& piece, std::size_t& at) const {
+  while (piece == pieces_.size() ||
+         at == (piece + 1 < pieces_.size() ? pieces_[piece + 1] : written_.size())) {
+    if (piece == 0) return false;
+    at = pieces_[--piece];
+  }
+  return true;
+}
+
+/// From an opening bracket to behind its partner.
+bool ContextMatcher::skip_branch(std::size_t& piece, std::size_t& at) {
+  int depth = 0;
+  do {
+    if (!step_right(piece, at)) return false;
+    walk();
+    if (written_.kind[at] == grammar_.open) ++depth;
+    if (written_.kind[at] == grammar_.close) --depth;
+    ++at;
+  } while (depth > 0);
+  return true;
+}
+
+/// As match_right; a branch that the pattern names is the first that begins like it.
+bool ContextMatcher::match_new_right(std::span<const KindId> pattern, std::size_t piece, std::size_t at) {
+  while (!pattern.empty()) {
+    if (!step_right(piece, at)) return false;
+    walk();
+    const KindId kind = written_.kind[at];
+    if (kind != grammar_.open) {
+      if (grammar_.kinds[kind].ignored) {
+        ++at;
+        continue;
+      }
+      if (kind != pattern[0]) return false;  // a ] is no kind of a pattern here
+      new_right_.push_back(at++);
+      pattern = pattern.subspan(1);
+      continue;
+    }
+    if (pattern[0] == grammar_.open) {
+      std::size_t close = 1;
+      for (int depth = 1; depth > 0; ++close) {
+        if (pattern[close] == grammar_.open) ++depth;
+        if (pattern[close] == grammar_.close) --depth;
+      }
+      const std::size_t taken = new_right_.size();
+      if (match_new_right(pattern.subspan(1, close - 2), piece, at + 1)) {
+        pattern = pattern.subspan(close);
+      } else {
+        new_right_.resize(taken);
+      }
+    }
+    if (!skip_branch(piece, at)) return false;
+  }
+  return true;
+}
+
+double* ContextMatcher::take_parameters(const Word& word, std::size_t place, double* to) const {
+  const std::uint32_t arity = grammar_.kinds[word.kind[place]].arity;
+  if (arity == 0) return to;
+  const double* first = word.parameter.data() + word.at[place];
+  return std::copy(first, first + arity, to);
 }
 
 }  // namespace seedmesh::lsystem

@@ -1,5 +1,6 @@
 #include "core/generators/lsystem/draw.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -20,8 +21,12 @@ double first_width(const LsystemParams& params, const Job& job) {
 
 /// A scale or width that is no number would only show far from here.
 double finite(double value, const Kind& kind) {
-  if (!std::isfinite(value)) Job::reject({"", "`" + kind.symbol + "` made a scale or width infinite"});
+  if (!(std::abs(value) < 1e100)) Job::reject({"", "`" + kind.symbol + "` made a scale or width infinite"});
   return value;
+}
+
+double length_of(const double* axis) {
+  return std::sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
 }
 
 math::SinCos opposite(math::SinCos angle) { return {-angle.sin, angle.cos}; }
@@ -32,6 +37,7 @@ Drawing::Drawing(const Grammar& grammar, const LsystemParams& params, Skeleton* 
     : grammar_(grammar),
       params_(params),
       job_(job),
+      code_(grammar, job),
       turtle_(skeleton, first_width(params, job), job),
       yaw_{params.angle.yaw, math::sincos_degrees(params.angle.yaw)},
       pitch_{params.angle.pitch, math::sincos_degrees(params.angle.pitch)},
@@ -73,15 +79,51 @@ void Drawing::interpret(KindId kind, const double* parameters, std::uint64_t key
   }
   if ((++interpreted_ & 4095U) == 0) job_.check();
   const std::uint64_t own = key == 0 ? 0 : key_at(key, 20 + depth);  // without keys: none here either
-  const Production* production = choose(grammar_, rules, rules.of_kind[kind], Draws(own, depth),
-                                        [&](const Production&) { return parameters; });
+  const Draws draws(own, depth);
+  std::vector<double> changed;  // by what comes before a condition
+  const auto slots_of = [&](const Production& each) {
+    if (each.before.count == 0) return parameters;
+    changed.assign(parameters, parameters + grammar_.kinds[kind].arity);
+    changed.resize(grammar_.most_slots);
+    code_.run(each.before, changed.data(), draws.place.at(5), [](const Template&, std::uint64_t) {});
+    return static_cast<const double*>(changed.data());
+  };
+  const Production* production = choose(grammar_, rules, rules.of_kind[kind], draws, slots_of);
   if (!production) return obey(grammar_.kinds[kind], parameters, key);
+  const double* slots = slots_of(*production);
+  if (production->code.count > 0) return write_interpreted(*production, slots, own, depth);
   for (const Template& each : grammar_.successor(production->successor)) {
     std::array<double, 64> arguments;
     const std::uint64_t child = own == 0 ? 0 : child_key(own, each);
-    fill_arguments(grammar_, each, parameters, child, arguments.data());
+    fill_arguments(grammar_, each, slots, child, arguments.data());
     interpret(each.kind, arguments.data(), child, depth + 1);
   }
+}
+
+/// A successor with statements.
+void Drawing::write_interpreted(const Production& production, const double* parameters, std::uint64_t own,
+                                std::uint32_t depth) {
+  std::vector<double> slots(grammar_.most_slots);
+  const std::uint32_t known = production.before.count > 0 ? grammar_.most_slots : production.bound;
+  std::copy(parameters, parameters + known, slots.data());
+  code_.run(production.code, slots.data(), Draws(own, depth).code(),
+            [&](const Template& each, std::uint64_t turn) {
+              std::array<double, 64> arguments;
+              const std::uint64_t child = own == 0 ? 0 : code_key(own, each, turn);
+              fill_arguments(grammar_, each, slots.data(), child, arguments.data());
+              interpret(each.kind, arguments.data(), child, depth + 1);
+            });
+}
+
+/// Puts the turtle where a frame is.
+void Drawing::enter_frame(const double* parameters) {
+  const auto axis = [&](int i) {
+    return glm::dvec3(parameters[3 * i], parameters[3 * i + 1], parameters[3 * i + 2]);
+  };
+  const Frame start;
+  turtle_.move_to(axis(3));
+  turtle_.face_as(
+      {math::unit(axis(1), start.heading), math::unit(-axis(0), start.left), math::unit(axis(2), start.up)});
 }
 
 math::SinCos Drawing::turn(const Kind& kind, const double* parameters, const Angle& angle,
@@ -228,6 +270,15 @@ void Drawing::obey(const Kind& kind, const double* parameters, std::uint64_t key
       return turtle_.end_sweep(key);
     case Command::organ:
       return place(kind, parameters, key);
+    case Command::enter_frame:
+      enter_frame(parameters);
+      return turtle_.set_scale(finite(length_of(parameters + 3), kind));
+    case Command::draw_frame:
+      turtle_.push();
+      enter_frame(parameters);
+      turtle_.set_width(finite(length_of(parameters), kind));
+      turtle_.draw_plain(length_of(parameters + 3), key);
+      return turtle_.pop();
   }
 }
 

@@ -2,7 +2,7 @@
 /// Words -> turtle: every module moves the turtle, through the interpretation rules where it has some.
 #include <vector>
 
-#include "core/generators/lsystem/choose.h"
+#include "core/generators/lsystem/code.h"
 #include "core/geom/turtle.h"
 #include "generated/params/lsystem.h"
 
@@ -44,6 +44,9 @@ class Drawing {
     math::SinCos bare;  ///< of `degrees`
   };
   void interpret(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t depth);
+  void write_interpreted(const Production& production, const double* parameters, std::uint64_t own,
+                         std::uint32_t depth);
+  void enter_frame(const double* parameters);
   void obey(const Kind& kind, const double* parameters, std::uint64_t key);
   math::SinCos turn(const Kind& kind, const double* parameters, const Angle& angle, std::uint64_t key);
   math::SinCos leftward(math::SinCos angle) const;
@@ -54,6 +57,7 @@ class Drawing {
   const Grammar& grammar_;
   const LsystemParams& params_;
   Job& job_;
+  CodeRunner code_;
   Turtle turtle_;
   Grown grown_;
   std::vector<const LsystemSurface*> surfaces_;  ///< in the order of their names

@@ -82,7 +82,8 @@ void check_environment(const LsystemParams& params, std::vector<Issue>& issues) 
       issues.push_back({pointer, "found a model; only the shape mesh has one"});
     }
     if (solid.glb && !is_glb_uri(*solid.glb)) {
-      issues.push_back({pointer + "/glb", "found no data URI of a GLB; expected data:model/gltf-binary;base64,..."});
+      issues.push_back(
+          {pointer + "/glb", "found no data URI of a GLB; expected data:model/gltf-binary;base64,..."});
     }
     if (solid.role == LsystemParams::Role::host && !is_mesh)
       issues.push_back({pointer + "/shape", "a host is part of the model, so it is a mesh"});
@@ -154,7 +155,8 @@ Garden::Garden(const LsystemParams& params, Job& job) : params_(params), job_(jo
         hosts_.push_back({std::move(model), at});
       }
     }
-    (given.role == LsystemParams::Role::guide ? options.guides : options.obstacles).push_back(std::move(solid));
+    (given.role == LsystemParams::Role::guide ? options.guides : options.obstacles)
+        .push_back(std::move(solid));
   }
   options.clearance = environment.clearance;
   if (environment.light) {
@@ -173,7 +175,8 @@ Garden::Garden(const LsystemParams& params, Job& job) : params_(params), job_(jo
     plant->job.set_demand(job.demand());
     plant->position = vector_of(companion.position);
     plant->number = static_cast<std::uint32_t>(i + 1);
-    plant->steps = static_cast<std::uint32_t>(own.age && !own.timed ? std::ceil(*own.age) : double(own.iterations));
+    plant->steps =
+        static_cast<std::uint32_t>(own.age && !own.timed ? std::ceil(*own.age) : double(own.iterations));
     std::vector<Issue> issues;
     plant->own_grammar = std::make_unique<Grammar>(compile(plant->params, seed, job.limits(), issues));
     plant->grammar = plant->own_grammar.get();
@@ -225,8 +228,8 @@ void Garden::look(Plant& plant, std::vector<Stretch>& grown) {
     if (asks(kind.command)) {
       const Turtle& turtle = drawing.turtle();
       plant.questions.push_back({i,
-                                 {turtle.position(), turtle.frame().heading, 0.5 * turtle.width(), plant.number,
-                                  turtle.last_joint()},
+                                 {turtle.position(), turtle.frame().heading, 0.5 * turtle.width(),
+                                  plant.number, turtle.last_joint()},
                                  turtle.frame()});
       continue;
     }
@@ -242,7 +245,8 @@ void Garden::look(Plant& plant, std::vector<Stretch>& grown) {
     plant.alive.push_back(joint);
     if (limbs.parent[i] == Limbs::none) continue;
     const auto parent = static_cast<std::uint32_t>(limbs.key[limbs.parent[i]]);
-    grown.push_back({limbs.position[limbs.parent[i]], limbs.position[i], limbs.radius[i], plant.number, joint, parent});
+    grown.push_back(
+        {limbs.position[limbs.parent[i]], limbs.position[i], limbs.radius[i], plant.number, joint, parent});
   }
 }
 
@@ -253,7 +257,8 @@ void Garden::reply(Plant& plant) {
     double* answer = word.parameter.data() + word.at[each.module];
     const Prober& prober = each.prober;
     const auto fill = [&](std::uint32_t from, const glm::dvec3& v) {
-      for (std::uint32_t k = 0; k < 3 && from + k < kind.arity; ++k) answer[from + k] = v[static_cast<int>(k)] + 0.0;
+      for (std::uint32_t k = 0; k < 3 && from + k < kind.arity; ++k)
+        answer[from + k] = v[static_cast<int>(k)] + 0.0;
     };
     switch (kind.command) {
       case Command::ask_position:

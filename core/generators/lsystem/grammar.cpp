@@ -2,380 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 
+#include "core/generators/lsystem/compiler.h"
 #include "core/generators/lsystem/constants.h"
-#include "core/generators/lsystem/notation.h"
-#include "generated/params/lsystem.h"
 
 namespace seedmesh::lsystem {
 namespace {
 
 using lang::Fault;
 
-constexpr std::uint32_t most_parameters = 64;
-constexpr std::size_t most_kinds = 60'000;
-
-std::uint64_t hash_of(std::string_view symbol) { return Rng(0).at(symbol).key(); }
-
-/// One text of the request with the faults found in it.
-struct Source {
-  std::string_view text;
-  std::string pointer;
-  std::vector<Fault> faults;
-};
-
-class Compiler {
- public:
-  Compiler(const LsystemParams& params, std::uint64_t seed, const Limits& limits, std::vector<Issue>& issues)
-      : params_(params), limits_(limits), issues_(issues) {
-    for (const auto& [name, surface] : params_.surfaces) symbols_.declare("~" + name);
-    names_ = resolve_constants(written_constants(), Rng::of_seed(seed).at("constants"), issues_);
-    constant_count_ = names_.size();
+std::vector<WrittenConstant> written_constants(const LsystemParams& params) {
+  std::vector<WrittenConstant> written;
+  for (const auto& [name, value] : params.constants) written.push_back({name, value});
+  if (params.timed && !params.constants.contains("age")) {
+    written.push_back({"age", params.age.value_or(static_cast<double>(params.iterations))});
   }
+  return written;
+}
 
-  Grammar compile() {
-    grammar_.open = kind("[", 0);
-    grammar_.close = kind("]", 0);
-    grammar_.cut = kind("%", 0);
-    mark_ignored();
-    read_axiom();
-    read_rules("/productions/", params_.productions, grammar_.productions);
-    read_rules("/interpretation/", params_.interpretation, grammar_.interpretation);
-    check_interpretation();
-    order(grammar_.productions);
-    order(grammar_.interpretation);
-    return std::move(grammar_);
-  }
-
- private:
-  std::vector<WrittenConstant> written_constants() const {
-    std::vector<WrittenConstant> written;
-    for (const auto& [name, value] : params_.constants) written.push_back({name, value});
-    if (params_.timed && !params_.constants.contains("age")) {
-      written.push_back({"age", params_.age.value_or(static_cast<double>(params_.iterations))});
-    }
-    return written;
-  }
-
-  KindId kind(std::string_view symbol, std::uint32_t arity) {
-    const auto [at, fresh] =
-        ids_.try_emplace({std::string(symbol), arity}, static_cast<KindId>(grammar_.kinds.size()));
-    if (fresh) {
-      grammar_.kinds.push_back(
-          {std::string(symbol), arity, command_of(symbol.substr(0, symbol[0] == '~' ? 1 : symbol.size()), arity),
-           ignored_.count(symbol) != 0, surface_of(symbol)});
-      grammar_.widest = std::max(grammar_.widest, arity);
-    }
-    return at->second;
-  }
-
-  std::uint32_t surface_of(std::string_view symbol) const {
-    if (symbol.size() < 2 || symbol[0] != '~') return Kind::none;
-    const auto found = params_.surfaces.find(std::string(symbol.substr(1)));
-    if (found == params_.surfaces.end()) return Kind::none;
-    return static_cast<std::uint32_t>(std::distance(params_.surfaces.begin(), found));
-  }
-
-  /// A ~ of no surface is a slip wherever there are surfaces.
-  void check_surface(const WrittenModule& module, Source& source) const {
-    if (module.symbol != "~" || params_.surfaces.empty()) return;
-    std::string known;
-    for (const auto& [name, surface] : params_.surfaces) known += (known.empty() ? "~" : ", ~") + name;
-    source.faults.push_back({module.offset, "found `~` without the name of a surface; there are " + known});
-  }
-
-  void mark_ignored() {
-    Source source{params_.ignore, "/ignore", {}};
-    for (const WrittenModule& module :
-         read_modules(source.text, {0, source.text.size()}, symbols_, source.faults)) {
-      ignored_.insert(std::string(module.symbol));
-    }
-    ignored_.erase("[");  // brackets always count, as in the book
-    ignored_.erase("]");
-    take_faults(source);
-    for (Kind& each : grammar_.kinds) each.ignored = ignored_.count(each.symbol) != 0;
-    read_alphabet();
-  }
-
-  void read_alphabet() {
-    if (!params_.alphabet) return;
-    Source variables{params_.alphabet->variables, "/alphabet/variables", {}};
-    Source constants{params_.alphabet->constants, "/alphabet/constants", {}};
-    for (Source* source : {&variables, &constants}) {
-      for (const WrittenModule& module :
-           read_modules(source->text, {0, source->text.size()}, symbols_, source->faults)) {
-        (source == &variables ? variables_ : alphabet_constants_).insert(std::string(module.symbol));
-      }
-      take_faults(*source);
-    }
-  }
-
-  void check_symbol(const WrittenModule& module, Source& source) const {
-    if (!params_.alphabet || variables_.count(module.symbol) || alphabet_constants_.count(module.symbol))
-      return;
-    source.faults.push_back(
-        {module.offset, "found `" + std::string(module.symbol) + "`, which is not in the alphabet"});
-  }
-
-  void take_faults(Source& source) {
-    std::stable_sort(source.faults.begin(), source.faults.end(),
-                     [](const Fault& a, const Fault& b) { return a.offset < b.offset; });
-    for (const Fault& fault : source.faults) {
-      issues_.push_back(issue_at(source.pointer, source.text, fault.offset, fault.message));
-    }
-  }
-
-  lang::Expression expression(Source& source, Slice slice) {
-    const std::size_t before = source.faults.size();
-    const std::vector<lang::Token> tokens = lang::tokenize(source.text, slice.from, slice.to, source.faults);
-    if (source.faults.size() != before) return {};
-    std::size_t at = 0;
-    const lang::Expression parsed =
-        grammar_.program.parse(tokens, at, names_, source.faults, limits_.expression_depth);
-    if (source.faults.size() == before && tokens[at].kind != lang::TokenKind::end) {
-      source.faults.push_back({tokens[at].offset, "found `" + std::string(tokens[at].text) +
-                                                      "` after the end of the expression"});
-    }
-    return parsed;
-  }
-
-  /// The modules of an axiom or a successor, as templates.
-  Range word(Source& source, Slice slice) {
-    Range range{static_cast<std::uint32_t>(grammar_.templates.size()), 0};
-    if (erases(source.text, slice)) return range;
-    std::map<std::string, std::uint64_t, std::less<>> occurrences;
-    for (const WrittenModule& module : read_modules(source.text, slice, symbols_, source.faults)) {
-      check_symbol(module, source);
-      check_surface(module, source);
-      if (grammar_.templates.size() == most_modules) {
-        source.faults.push_back({module.offset, "found more than 1,000,000 modules in one grammar"});
-        break;
-      }
-      if (module.arguments.size() > most_parameters || grammar_.kinds.size() > most_kinds) {
-        source.faults.push_back({module.offset, "found too many parameters; expected at most 64"});
-        continue;
-      }
-      Template made;
-      made.first_argument = static_cast<std::uint32_t>(grammar_.arguments.size());
-      for (const Slice& argument : module.arguments) {
-        const lang::Expression value = expression(source, argument);
-        grammar_.arguments.push_back(value);
-      }
-      made.kind = kind(module.symbol, static_cast<std::uint32_t>(module.arguments.size()));
-      if (made.kind == grammar_.cut) grammar_.cuts = true;
-      std::uint64_t& count = occurrences.try_emplace(std::string(module.symbol), 0).first->second;
-      made.place = key_at(hash_of(module.symbol), count++);
-      grammar_.templates.push_back(made);
-    }
-    check_brackets(source, slice);
-    range.count = static_cast<std::uint32_t>(grammar_.templates.size()) - range.first;
-    return range;
-  }
-
-  /// [ and ] must pair inside every word; { and } need not (leaves of the book open them in one branch and
-  /// close in another).
-  void check_brackets(Source& source, Slice slice) {
-    std::vector<std::size_t> open;
-    int depth = 0;
-    for (std::size_t i = slice.from; i < slice.to; ++i) {
-      const char c = source.text[i];
-      if (c == '(') ++depth;
-      if (c == ')') --depth;
-      if (depth > 0) continue;
-      if (c == '@') {
-        ++i;
-      } else if (c == '[') {
-        open.push_back(i);
-      } else if (c == ']') {
-        if (open.empty()) {
-          source.faults.push_back({i, "found `]` without a `[` before it"});
-        } else {
-          open.pop_back();
-        }
-      }
-    }
-    if (!open.empty()) source.faults.push_back({open.back(), "found `[` without its `]`"});
-    if (open.size() > limits_.bracket_depth) {
-      source.faults.push_back(
-          {open.back(), "brackets nest deeper than " + std::to_string(limits_.bracket_depth)});
-    }
-  }
-
-  void read_axiom() {
-    Source source{params_.axiom, "/axiom", {}};
-    grammar_.axiom = word(source, {0, source.text.size()});
-    take_faults(source);
-  }
-
-  void read_rules(const std::string& folder, const std::vector<std::string>& texts, Rules& rules) {
-    for (std::size_t i = 0; i < texts.size(); ++i) {
-      Source source{texts[i], folder + std::to_string(i), {}};
-      const WrittenProduction written = read_production(source.text, source.faults);
-      if (source.faults.empty()) rules.productions.push_back(production(source, written));
-      take_faults(source);
-    }
-  }
-
-  Production production(Source& source, const WrittenProduction& written) {
-    names_.forget_after(constant_count_);
-    Production made;
-    made.pointer = source.pointer;
-    std::uint32_t slots = 0;
-    const std::vector<WrittenModule> heads =
-        read_modules(source.text, written.predecessor, symbols_, source.faults);
-    if (heads.size() == 1) {
-      check_symbol(heads[0], source);
-      if (alphabet_constants_.count(heads[0].symbol)) {
-        source.faults.push_back({heads[0].offset, "found `" + std::string(heads[0].symbol) +
-                                                      "`, which the alphabet lists as a constant"});
-      }
-      made.predecessor = formal(source, heads[0], slots);
-      if (made.predecessor == grammar_.open || made.predecessor == grammar_.close) {
-        source.faults.push_back(
-            {heads[0].offset, "found a bracket as predecessor; brackets cannot be rewritten"});
-      }
-    } else if (source.faults.empty()) {
-      source.faults.push_back(
-          {heads.empty() ? written.predecessor.from : heads[1].offset,
-           "found " + std::to_string(heads.size()) + " modules; expected one predecessor"});
-    }
-    made.left = context(source, written.left, slots);
-    std::reverse(made.left.begin(), made.left.end());
-    for (KindId id : made.left) {
-      if (id == grammar_.open || id == grammar_.close) {
-        source.faults.push_back(
-            {written.left.from, "found a bracket in a left context, which is a path without branches"});
-        break;
-      }
-    }
-    made.right = context(source, written.right, slots);
-    check_brackets(source, written.right);
-    if (written.has_condition && !is_star(source.text, written.condition)) {
-      made.conditional = true;
-      made.condition = expression(source, written.condition);
-    }
-    made.successor = word(source, written.successor);
-    if (written.has_weight) read_weight(source, written, made);
-    grammar_.most_slots = std::max(grammar_.most_slots, slots);
-    return made;
-  }
-
-  static bool is_star(std::string_view text, Slice slice) {
-    return erases(text, slice) &&
-           text.substr(slice.from, slice.to - slice.from).find('*') != std::string_view::npos;
-  }
-
-  void read_weight(Source& source, const WrittenProduction& written, Production& made) {
-    made.weighted = true;
-    made.weight = expression(source, written.weight);
-    if (made.weight.is_constant && !(made.weight.value >= 0 && std::isfinite(made.weight.value))) {
-      source.faults.push_back({written.weight.from, "found a probability that is negative or not finite"});
-    }
-  }
-
-  std::vector<KindId> context(Source& source, Slice slice, std::uint32_t& slots) {
-    std::vector<KindId> kinds;
-    for (const WrittenModule& module : read_modules(source.text, slice, symbols_, source.faults)) {
-      check_symbol(module, source);
-      kinds.push_back(formal(source, module, slots));
-    }
-    return kinds;
-  }
-
-  /// A module with formal parameters: binds each name to the next slot.
-  KindId formal(Source& source, const WrittenModule& module, std::uint32_t& slots) {
-    for (const Slice& argument : module.arguments) {
-      const std::vector<lang::Token> tokens =
-          lang::tokenize(source.text, argument.from, argument.to, source.faults);
-      if (tokens.size() != 2 || tokens[0].kind != lang::TokenKind::name) {
-        source.faults.push_back({argument.from, "found an expression; expected the name of a parameter"});
-        ++slots;
-        continue;
-      }
-      const lang::Names::Binding* before = names_.find(tokens[0].text);
-      if (before && !before->is_constant) {
-        source.faults.push_back(
-            {tokens[0].offset, "the parameter `" + std::string(tokens[0].text) + "` is named twice"});
-      }
-      names_.bind_slot(std::string(tokens[0].text), slots++);
-    }
-    if (module.arguments.size() > most_parameters) {
-      source.faults.push_back({module.offset, "found too many parameters; expected at most 64"});
-      return grammar_.open;
-    }
-    return kind(module.symbol, static_cast<std::uint32_t>(module.arguments.size()));
-  }
-
-  void check_interpretation() {
-    for (const Production& each : grammar_.interpretation.productions) {
-      if (each.has_context()) {
-        issues_.push_back(
-            {each.pointer, "an interpretation rule takes no context: it is used on one module alone"});
-      }
-    }
-  }
-
-  /// Side by side by predecessor, with context before without, then as written.
-  void order(Rules& rules) {
-    std::stable_sort(rules.productions.begin(), rules.productions.end(),
-                     [](const Production& a, const Production& b) {
-                       if (a.predecessor != b.predecessor) return a.predecessor < b.predecessor;
-                       return a.has_context() && !b.has_context();
-                     });
-    rules.of_kind.assign(grammar_.kinds.size(), {});
-    rules.redraws.assign(grammar_.kinds.size(), 0);
-    for (std::uint32_t i = 0; i < rules.productions.size(); ++i) {
-      const Production& each = rules.productions[i];
-      Range& range = rules.of_kind[each.predecessor];
-      if (range.count++ == 0) range.first = i;
-      rules.context = rules.context || each.has_context();
-      if (each.conditional && grammar_.program.draws(each.condition)) rules.redraws[each.predecessor] = 1;
-      rules.chance =
-          rules.chance || each.weighted || rules.redraws[each.predecessor] || draws(each.successor);
-    }
-    if (&rules == &grammar_.productions) rules.chance = rules.chance || draws(grammar_.axiom);
-    warn_of_weights(rules);
-  }
-
-  bool draws(Range successor) const {
-    for (const Template& each : grammar_.successor(successor)) {
-      for (std::uint32_t i = 0; i < grammar_.kinds[each.kind].arity; ++i) {
-        if (grammar_.program.draws(grammar_.arguments[each.first_argument + i])) return true;
-      }
-    }
-    return false;
-  }
-
-  /// Weights are normalised; a sum other than 1 is told, since it is mostly a slip.
-  void warn_of_weights(const Rules& rules) {
-    for (const Range& range : rules.of_kind) {
-      double sum = 0;
-      bool plain = range.count > 0;
-      for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
-        const Production& each = rules.productions[i];
-        plain = plain && each.weighted && each.weight.is_constant && !each.conditional && !each.has_context();
-        sum += each.weight.value;
-      }
-      if (!plain || std::abs(sum - 1) <= 1e-6) continue;
-      const Production& first = rules.productions[range.first];
-      grammar_.warnings.push_back({first.pointer, "the probabilities of the productions of `" +
-                                                      grammar_.kinds[first.predecessor].symbol +
-                                                      "` do not sum to 1; they are used as weights"});
-    }
-  }
-
-  const LsystemParams& params_;
-  const Limits& limits_;
-  std::vector<Issue>& issues_;
-  lang::Names names_;  ///< the constants, and behind them the parameters of the production that is read
-  std::size_t constant_count_ = 0;
-  std::set<std::string, std::less<>> ignored_, variables_, alphabet_constants_;
-  Symbols symbols_;
-  std::map<std::pair<std::string, std::uint32_t>, KindId> ids_;
-  Grammar grammar_;
-};
+/// Words that begin a statement cannot name a module.
+bool is_keyword(std::string_view name) {
+  return name == "for" || name == "while" || name == "if" || name == "else" || name == "let";
+}
 
 void check_age(const LsystemParams& params, std::vector<Issue>& issues) {
   if (params.timed && params.constants.contains("age")) {
@@ -387,6 +35,336 @@ void check_age(const LsystemParams& params, std::vector<Issue>& issues) {
 }
 
 }  // namespace
+
+Compiler::Compiler(const LsystemParams& params, std::uint64_t seed, const Limits& limits,
+                   std::vector<Issue>& issues)
+    : params_(params), limits_(limits), issues_(issues) {
+  for (const auto& [name, surface] : params_.surfaces) symbols_.declare("~" + name);
+  names_ = resolve_constants(written_constants(params), Rng::of_seed(seed).at("constants"), issues_);
+  constant_count_ = names_.size();
+}
+
+Grammar Compiler::compile() {
+  declare_modules();
+  define_functions();
+  mark_ignored();
+  read_alphabet();
+  Source none;
+  grammar_.open = kind("[", 0, none, 0);
+  grammar_.close = kind("]", 0, none, 0);
+  grammar_.cut = kind("%", 0, none, 0);
+  grammar_.ring = params_.ring;
+  grammar_.decomposition_depth = static_cast<std::uint32_t>(params_.decomposition_depth);
+  read_axiom();
+  read_rules("/productions/", params_.productions, grammar_.productions);
+  read_rules("/interpretation/", params_.interpretation, grammar_.interpretation);
+  read_rules("/decomposition/", params_.decomposition, grammar_.decomposition);
+  read_tables();
+  check_alone(grammar_.interpretation, "an interpretation rule");
+  check_alone(grammar_.decomposition, "a decomposition rule");
+  check_directions();
+  for_all_rules([&](Rules& rules) { order(rules); });
+  for (const Rules& table : grammar_.tables) {
+    grammar_.productions.chance |= table.chance;
+    grammar_.productions.context |= table.context;
+  }
+  grammar_.productions.chance |= grammar_.decomposition.chance || draws(grammar_.axiom);
+  return std::move(grammar_);
+}
+
+template <class Use>
+void Compiler::for_all_rules(Use&& use) {
+  use(grammar_.productions);
+  use(grammar_.interpretation);
+  use(grammar_.decomposition);
+  for (Rules& table : grammar_.tables) use(table);
+}
+
+/// Kinds with a signature that is not kept are told at `offset`.
+KindId Compiler::kind(std::string_view symbol, std::uint32_t written, Source& source, std::size_t offset) {
+  const auto known = ids_.find({std::string(symbol), written});
+  if (known != ids_.end()) return known->second;
+  Kind made;
+  made.symbol = symbol;
+  made.arity = written;
+  const auto signature = signatures_.find(symbol);
+  if (signature != signatures_.end() && signature->second.size() != written) {
+    source.faults.push_back({offset, "found " + std::to_string(written) + " parameters of `" + made.symbol +
+                                         "`; expected " + std::to_string(signature->second.size()) +
+                                         ", as declared"});
+  } else if (signature != signatures_.end()) {
+    const std::vector<std::uint8_t>& frames = signature->second;
+    const auto count = static_cast<std::uint32_t>(std::count(frames.begin(), frames.end(), 1));
+    if (count > 0) made.frames = frames;
+    made.arity += count * (frame_numbers - 1);
+    if (made.arity > most_parameters) {
+      source.faults.push_back({offset, "found too many parameters; expected at most 64 numbers"});
+    }
+  }
+  made.command = command_of(symbol.substr(0, symbol[0] == '~' ? 1 : symbol.size()), made.arity);
+  made.surface = surface_of(symbol);
+  made.ignored = considered_.empty() ? ignored_.count(symbol) != 0 : considered_.count(symbol) == 0;
+  if (symbol == "[" || symbol == "]") made.ignored = false;  // brackets always count, as in the book
+  grammar_.widest = std::max(grammar_.widest, made.arity);
+  const auto id = static_cast<KindId>(grammar_.kinds.size());
+  grammar_.kinds.push_back(std::move(made));
+  ids_.emplace(std::pair{std::string(symbol), written}, id);
+  return id;
+}
+
+std::uint32_t Compiler::surface_of(std::string_view symbol) const {
+  if (symbol.size() < 2 || symbol[0] != '~') return Kind::none;
+  const auto found = params_.surfaces.find(std::string(symbol.substr(1)));
+  if (found == params_.surfaces.end()) return Kind::none;
+  return static_cast<std::uint32_t>(std::distance(params_.surfaces.begin(), found));
+}
+
+/// A ~ of no surface is a slip wherever there are surfaces.
+void Compiler::check_surface(const WrittenModule& module, Source& source) const {
+  if (module.symbol != "~" || params_.surfaces.empty()) return;
+  std::string known;
+  for (const auto& [name, surface] : params_.surfaces) known += (known.empty() ? "~" : ", ~") + name;
+  source.faults.push_back({module.offset, "found `~` without the name of a surface; there are " + known});
+}
+
+/// name, or name(parameter, ...) where a parameter is a name, "frame", or both.
+void Compiler::declare_modules() {
+  for (const CommandRow& row : commands()) {
+    if (row.parameters == "(frame)") signatures_.emplace(row.symbol, std::vector<std::uint8_t>{1});
+  }
+  for (std::size_t i = 0; i < params_.modules.size(); ++i) {
+    Source source{params_.modules[i], "/modules/" + std::to_string(i), {}};
+    const std::vector<lang::Token> tokens = lang::tokenize(source.text, 0, source.text.size(), source.faults);
+    const auto fault = [&](std::size_t at, const char* expected) {
+      source.faults.push_back({tokens[at].offset, "expected " + std::string(expected) + ", found " +
+                                                      lang::in_quotes(tokens[at])});
+    };
+    std::size_t at = 0;
+    if (tokens[0].kind != lang::TokenKind::name) {
+      fault(0, "the name of a module");
+    } else if (is_keyword(tokens[0].text)) {
+      source.faults.push_back({tokens[0].offset, lang::in_quotes(tokens[0]) + " begins a statement"});
+    } else {
+      std::vector<std::uint8_t> signature;
+      const bool parameters = lang::is_symbol(tokens[++at], "(");
+      bool sound = true;
+      while (parameters && sound && !lang::is_symbol(tokens[at], ")")) {
+        ++at;  // "(" or ","
+        const bool frame = tokens[at].text == "frame";
+        const std::size_t before = at;
+        while (tokens[at].kind == lang::TokenKind::name && at < before + (frame ? 2 : 1)) ++at;
+        signature.push_back(frame ? 1 : 0);
+        sound = at > before && (lang::is_symbol(tokens[at], ",") || lang::is_symbol(tokens[at], ")"));
+      }
+      if (!sound) {
+        fault(at, "a parameter, `,` or `)`");
+      } else if (tokens[at + (parameters ? 1 : 0)].kind != lang::TokenKind::end) {
+        fault(at + (parameters ? 1 : 0), "the end of the declaration");
+      } else {
+        symbols_.declare(tokens[0].text);
+        if (parameters) signatures_.insert_or_assign(std::string(tokens[0].text), std::move(signature));
+      }
+    }
+    take_faults(source);
+  }
+}
+
+void Compiler::define_functions() {
+  std::vector<Source> sources;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < params_.functions.size(); ++i) {
+    sources.push_back({params_.functions[i], "/functions/" + std::to_string(i), {}});
+    lang::Names::Defined function;
+    names.push_back(lang::read_definition(sources[i].text, function, sources[i].faults));
+    function.is_sound = sources[i].faults.empty();
+    if (!names[i].empty() && names_.find_function(names[i]) != nullptr) {
+      sources[i].faults.push_back({0, "the function " + lang::in_quotes(names[i]) + " is defined twice"});
+    } else {
+      names_.define(names[i], std::move(function));
+    }
+  }
+  for (std::size_t i = 0; i < sources.size(); ++i) {  // all are known now, so that each can be tried
+    const lang::Names::Defined* function = names_.find_function(names[i]);
+    if (sources[i].faults.empty() && function != nullptr) {
+      std::uint32_t slot = 0;
+      for (const std::string& parameter : function->parameters) names_.bind_slot(parameter, slot++);
+      std::size_t at = 0;
+      lang::Program tried;
+      tried.parse(function->body, at, names_, sources[i].faults, limits_.expression_depth);
+      if (sources[i].faults.empty() && function->body[at].kind != lang::TokenKind::end) {
+        sources[i].faults.push_back(
+            {function->body[at].offset, "found more after the end of the expression"});
+      }
+      names_.forget_after(constant_count_);
+      if (!sources[i].faults.empty()) names_.spoil(names[i]);
+    }
+    take_faults(sources[i]);
+  }
+}
+
+std::set<std::string, std::less<>> Compiler::symbols_of(const std::string& text, const char* pointer) {
+  std::set<std::string, std::less<>> symbols;
+  Source source{text, pointer, {}};
+  for (const WrittenModule& module :
+       read_modules(source.text, {0, source.text.size()}, symbols_, source.faults)) {
+    symbols.insert(std::string(module.symbol));
+  }
+  take_faults(source);
+  return symbols;
+}
+
+void Compiler::mark_ignored() {
+  ignored_ = symbols_of(params_.ignore, "/ignore");
+  considered_ = symbols_of(params_.consider, "/consider");
+  if (!ignored_.empty() && !considered_.empty()) {
+    issues_.push_back({"/consider", "found beside `ignore`; expected one of the two"});
+  }
+}
+
+void Compiler::read_alphabet() {
+  if (!params_.alphabet) return;
+  variables_ = symbols_of(params_.alphabet->variables, "/alphabet/variables");
+  alphabet_constants_ = symbols_of(params_.alphabet->constants, "/alphabet/constants");
+}
+
+void Compiler::check_symbol(const WrittenModule& module, Source& source) const {
+  if (!params_.alphabet || variables_.count(module.symbol) || alphabet_constants_.count(module.symbol))
+    return;
+  source.faults.push_back(
+      {module.offset, "found `" + std::string(module.symbol) + "`, which is not in the alphabet"});
+}
+
+void Compiler::take_faults(Source& source) {
+  std::stable_sort(source.faults.begin(), source.faults.end(),
+                   [](const Fault& a, const Fault& b) { return a.offset < b.offset; });
+  for (const Fault& fault : source.faults) {
+    issues_.push_back(issue_at(source.pointer, source.text, fault.offset, fault.message));
+  }
+}
+
+void Compiler::read_axiom() {
+  Source source{params_.axiom, "/axiom", {}};
+  occurrences_.clear();
+  grammar_.axiom = word(source, {0, source.text.size()});
+  check_brackets(source, {0, source.text.size()});
+  take_faults(source);
+}
+
+void Compiler::read_rules(const std::string& folder, const std::vector<std::string>& texts, Rules& rules) {
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    Source source{texts[i], folder + std::to_string(i), {}};
+    const WrittenProduction written = read_production(source.text, source.faults);
+    if (source.faults.empty()) rules.productions.push_back(production(source, written));
+    take_faults(source);
+  }
+}
+
+/// A table's productions come before those that hold in every step.
+void Compiler::read_tables() {
+  for (std::size_t i = 0; i < params_.tables.size(); ++i) {
+    const auto& table = params_.tables[i];
+    grammar_.tables.emplace_back();
+    read_rules("/tables/" + std::to_string(i) + "/productions/", table.productions, grammar_.tables.back());
+    const std::vector<Production>& common = grammar_.productions.productions;
+    std::vector<Production>& own = grammar_.tables.back().productions;
+    own.insert(own.end(), common.begin(), common.end());
+    grammar_.table_of_turn.insert(grammar_.table_of_turn.end(), static_cast<std::size_t>(table.steps),
+                                  static_cast<std::uint32_t>(i));
+  }
+}
+
+void Compiler::check_alone(const Rules& rules, const char* what) {
+  for (const Production& each : rules.productions) {
+    if (!each.has_context()) continue;
+    issues_.push_back(
+        {each.pointer, std::string(what) + " takes no context: it is used on one module alone"});
+  }
+}
+
+/// A word is written in one direction: from the left where new left contexts are looked at, from the right
+/// where new right ones are.
+void Compiler::check_directions() {
+  const Production* left = nullptr;
+  const Production* right = nullptr;
+  for_all_rules([&](const Rules& rules) {
+    for (const Production& each : rules.productions) {
+      if (!each.new_left.empty()) left = &each;
+      if (!each.new_right.empty()) right = &each;
+      if (&rules == &grammar_.interpretation) continue;
+      grammar_.statements = grammar_.statements || each.code.count > 0 || each.before.count > 0;
+    }
+  });
+  grammar_.backward = right != nullptr;
+  if (left && right) {
+    issues_.push_back({right->pointer, "found a new right context where " + left->pointer +
+                                           " has a new left one; a word is written in one direction"});
+  }
+}
+
+/// Side by side by predecessor, with context before without, then as written.
+void Compiler::order(Rules& rules) {
+  std::stable_sort(rules.productions.begin(), rules.productions.end(),
+                   [](const Production& a, const Production& b) {
+                     if (a.predecessor != b.predecessor) return a.predecessor < b.predecessor;
+                     return a.has_context() && !b.has_context();
+                   });
+  rules.of_kind.assign(grammar_.kinds.size(), {});
+  rules.redraws.assign(grammar_.kinds.size(), 0);
+  for (std::uint32_t i = 0; i < rules.productions.size(); ++i) {
+    const Production& each = rules.productions[i];
+    Range& range = rules.of_kind[each.predecessor];
+    if (range.count++ == 0) range.first = i;
+    rules.context = rules.context || each.has_context();
+    if (each.conditional && grammar_.program.draws(each.condition)) rules.redraws[each.predecessor] = 1;
+    rules.chance = rules.chance || each.weighted || rules.redraws[each.predecessor] || draws(each);
+  }
+  warn_of_weights(rules);
+}
+
+bool Compiler::draws(const Production& production) const {
+  return draws(production.successor) || draws_in(production.code) || draws_in(production.before);
+}
+
+bool Compiler::draws_in(Range steps) const {
+  for (std::uint32_t i = steps.first; i < steps.first + steps.count; ++i) {
+    if (grammar_.program.draws(grammar_.steps[i].value)) return true;
+  }
+  return false;
+}
+
+bool Compiler::draws(Range successor) const {
+  const auto draws_one = [&](const lang::Expression& each) { return grammar_.program.draws(each); };
+  for (const Template& each : grammar_.successor(successor)) {
+    const Kind& kind = grammar_.kinds[each.kind];
+    for (std::uint32_t i = 0; i < kind.written(); ++i) {
+      const lang::Expression& argument = grammar_.arguments[each.first_argument + i];
+      if (draws_one(argument)) return true;
+      if (kind.frames.empty() || kind.frames[i] == 0) continue;
+      for (const FrameExpression::Part& part : grammar_.frames[frame_place(argument)].parts) {
+        if (std::any_of(std::begin(part.by), std::end(part.by), draws_one)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Weights are normalised; a sum other than 1 is told, since it is mostly a slip.
+void Compiler::warn_of_weights(const Rules& rules) {
+  for (const Range& range : rules.of_kind) {
+    double sum = 0;
+    bool plain = range.count > 0;
+    for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+      const Production& each = rules.productions[i];
+      plain = plain && each.weighted && each.weight.is_constant && !each.conditional && !each.has_context();
+      sum += each.weight.value;
+    }
+    if (!plain || std::abs(sum - 1) <= 1e-6) continue;
+    const Production& first = rules.productions[range.first];
+    grammar_.warnings.push_back({first.pointer, "the probabilities of the productions of `" +
+                                                    grammar_.kinds[first.predecessor].symbol +
+                                                    "` do not sum to 1; they are used as weights"});
+  }
+}
 
 Grammar compile(const LsystemParams& params, std::uint64_t seed, const Limits& limits,
                 std::vector<Issue>& issues) {

@@ -20,10 +20,15 @@ bool always_rewritten(const Rules& rules, Range range) {
   return false;
 }
 
+/// Decomposition, tables and statements have a say in how long a word becomes.
+bool is_written_by_productions(const Grammar& grammar) {
+  return grammar.decomposition.productions.empty() && grammar.tables.empty() && !grammar.statements;
+}
+
 }  // namespace
 
 std::uint64_t least_modules(const Grammar& grammar, std::uint32_t steps) {
-  if (grammar.cuts) return 0;
+  if (grammar.cuts || !is_written_by_productions(grammar)) return 0;
   const Rules& rules = grammar.productions;
   std::vector<std::uint64_t> least(grammar.kinds.size(), 1);
   const auto sum = [&](Range successor) {
@@ -49,7 +54,7 @@ std::uint64_t least_modules(const Grammar& grammar, std::uint32_t steps) {
 
 std::vector<std::uint64_t> exact_counts(const Grammar& grammar, std::uint32_t steps) {
   const Rules& rules = grammar.productions;
-  if (grammar.cuts) return {};
+  if (grammar.cuts || !is_written_by_productions(grammar)) return {};
   for (const Range& range : rules.of_kind) {
     if (range.count == 0) continue;
     const Production& first = rules.productions[range.first];

@@ -56,7 +56,7 @@ void refuse_explosion(const Grammar& grammar, std::uint32_t steps, const Job& jo
 template <class Sink>
 void run(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps, Sink& sink, Job& job) {
   const bool keyed = Drawing::needs_keys(grammar, params);
-  if (!grammar.productions.context) {
+  if (grammar.is_free()) {
     FreeDerivation<Sink>(grammar, steps, keyed, job, sink).run();
     return;
   }
@@ -254,12 +254,18 @@ Result<Appraisal> appraise(const LsystemParams& params, const Job& job) {
   return appraisal;
 }
 
+/// A frame is one parameter to who writes it.
+static Json arity_of(const CommandRow& row) {
+  if (row.parameters == "(frame)") return Json::array({1, 1});
+  return Json::array({row.least, row.most});
+}
+
 Json vocabulary() {
   Json rows = Json::array();
   for (const CommandRow& row : commands()) {
     rows.push_back({{"symbol", row.symbol},
                     {"parameters", row.parameters},
-                    {"arity", Json::array({row.least, row.most})},
+                    {"arity", arity_of(row)},
                     {"text", row.text},
                     {"example", row.example}});
   }

@@ -8,30 +8,34 @@
 namespace seedmesh::lsystem {
 namespace {
 
-using lang::Fault;
-
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+}  // namespace
 
 std::size_t skip_spaces(std::string_view text, std::size_t at, std::size_t to) {
   while (at < to && is_space(text[at])) ++at;
   return at;
 }
 
+std::size_t closing(std::string_view text, std::size_t open, std::size_t to) {
+  const char opens = text[open], closes = opens == '(' ? ')' : opens == '[' ? ']' : '}';
+  int depth = 0;
+  for (std::size_t i = open; i < to; ++i) {
+    if (text[i] == opens) ++depth;
+    if (text[i] == closes && --depth == 0) return i;
+  }
+  return to;
+}
+
+namespace {
+
+using lang::Fault;
+
 /// Bytes of the UTF-8 code point at `at`; the request's text is valid UTF-8 by now.
 std::size_t code_point_length(std::string_view text, std::size_t at) {
   const auto byte = static_cast<unsigned char>(text[at]);
   const std::size_t length = byte < 0x80 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
   return std::min(length, text.size() - at);
-}
-
-/// The bracket that closes the one at `open`, or nothing.
-std::optional<std::size_t> closing(std::string_view text, std::size_t open, std::size_t to) {
-  int depth = 0;
-  for (std::size_t i = open; i < to; ++i) {
-    if (text[i] == '(') ++depth;
-    if (text[i] == ')' && --depth == 0) return i;
-  }
-  return std::nullopt;
 }
 
 /// Splits text(open, close) at the commas that stand in no inner parentheses.
@@ -75,45 +79,81 @@ std::optional<Arrow> find_arrow(std::string_view text) {
 }
 
 /// Place of `mark` outside parentheses in text[slice], from `from` on; slice.to where it does not occur.
-std::size_t find_outside(std::string_view text, Slice slice, char mark) {
+std::size_t find_outside(std::string_view text, Slice slice, std::string_view mark) {
   int depth = 0;
   for (std::size_t i = slice.from; i < slice.to; ++i) {
     if (text[i] == '(') ++depth;
     if (text[i] == ')') --depth;
-    if (depth == 0 && text[i] == mark) return i;
+    if (depth == 0 && text.substr(i, std::min(mark.size(), slice.to - i)) == mark) return i;
   }
   return slice.to;
 }
 
-/// left "<" predecessor ">" right
+/// Takes `part` and the mark behind it off the front of `rest`, where the mark is there. A part that is empty
+/// is a fault.
+bool take_front(std::string_view text, std::string_view mark, Slice& rest, Slice& part,
+                std::vector<Fault>& faults) {
+  const std::size_t at = find_outside(text, rest, mark);
+  if (at == rest.to) return false;
+  part = {rest.from, at};
+  rest.from = at + mark.size();
+  if (skip_spaces(text, part.from, part.to) == part.to) {
+    faults.push_back({part.to, "found no left context before `" + std::string(mark) + "`"});
+  }
+  return true;
+}
+
+/// The same at the back.
+bool take_back(std::string_view text, std::string_view mark, Slice& rest, Slice& part,
+               std::vector<Fault>& faults) {
+  const std::size_t at = find_outside(text, rest, mark);
+  if (at == rest.to) return false;
+  part = {at + mark.size(), rest.to};
+  rest.to = at;
+  if (skip_spaces(text, part.from, part.to) == part.to) {
+    faults.push_back({part.from, "found no right context after `" + std::string(mark) + "`"});
+  }
+  return true;
+}
+
+/// [ new left "<<" ] [ left "<" ] predecessor [ ">" right ] [ ">>" new right ]
 void read_head(std::string_view text, Slice head, WrittenProduction& out, std::vector<Fault>& faults) {
+  take_front(text, "<<", head, out.new_left, faults);
+  take_back(text, ">>", head, out.new_right, faults);
+  out.has_left = take_front(text, "<", head, out.left, faults);
+  const std::size_t second = find_outside(text, head, "<");
+  if (second < head.to) {
+    faults.push_back(
+        {second, "found a second `<`; the right context is written after `>`, as in `a < b > c -> d`"});
+    head.to = second;
+  }
+  out.has_right = take_back(text, ">", head, out.right, faults);
+  const std::size_t third = find_outside(text, out.right, ">");
+  if (third < out.right.to) faults.push_back({third, "found a second `>`; expected one right context"});
   out.predecessor = head;
-  const std::size_t less = find_outside(text, head, '<');
-  if (less < head.to) {
-    out.has_left = true;
-    out.left = {head.from, less};
-    out.predecessor.from = less + 1;
-    const std::size_t second = find_outside(text, out.predecessor, '<');
-    if (second < head.to) {
-      faults.push_back(
-          {second, "found a second `<`; the right context is written after `>`, as in `a < b > c -> d`"});
-      out.predecessor.to = second;
+}
+
+/// [ "{" statements "}" ] condition [ "{" statements "}" ]
+void read_condition(std::string_view text, WrittenProduction& out, std::vector<Fault>& faults) {
+  Slice& condition = out.condition;
+  condition.from = skip_spaces(text, condition.from, condition.to);
+  const auto take = [&](Slice& part) {
+    const std::size_t open = find_outside(text, condition, "{");
+    if (open == condition.to) return;
+    const std::size_t close = closing(text, open, condition.to);
+    if (close == condition.to) faults.push_back({open, "found `{` without its `}`"});
+    part = {open + 1, close};
+    if (open == condition.from) {
+      condition.from = skip_spaces(text, std::min(close + 1, condition.to), condition.to);
+    } else {
+      const std::size_t rest = skip_spaces(text, std::min(close + 1, condition.to), condition.to);
+      if (rest < condition.to) faults.push_back({rest, "found more after the statements; expected an arrow"});
+      condition.to = open;
     }
-  }
-  const std::size_t greater = find_outside(text, out.predecessor, '>');
-  if (greater < out.predecessor.to) {
-    out.has_right = true;
-    out.right = {greater + 1, out.predecessor.to};
-    out.predecessor.to = greater;
-    const std::size_t second = find_outside(text, out.right, '>');
-    if (second < out.right.to) faults.push_back({second, "found a second `>`; expected one right context"});
-  }
-  if (out.has_left && skip_spaces(text, out.left.from, out.left.to) == out.left.to) {
-    faults.push_back({out.left.to, "found no left context before `<`"});
-  }
-  if (out.has_right && skip_spaces(text, out.right.from, out.right.to) == out.right.to) {
-    faults.push_back({out.right.from, "found no right context after `>`"});
-  }
+  };
+  const bool begins = condition.from < condition.to && text[condition.from] == '{';
+  if (begins) take(out.before);
+  take(out.after);
 }
 
 }  // namespace
@@ -122,6 +162,7 @@ Symbols::Symbols() {
   for (const CommandRow& row : commands()) {
     if (row.symbol.size() > 1) declare(row.symbol);
   }
+  for (const char* query : {"?E", "?P", "?H", "?U", "?L"}) declare(query);  // one symbol each, as in cpfg
 }
 
 void Symbols::declare(std::string_view name) {
@@ -170,14 +211,14 @@ std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, cons
     module.symbol = text.substr(at, length);
     at += length;
     if (at < slice.to && text[at] == '(') {
-      const std::optional<std::size_t> close = closing(text, at, slice.to);
-      if (!close) {
+      const std::size_t close = closing(text, at, slice.to);
+      if (close == slice.to) {
         faults.push_back({at, "found `(` without its `)`"});
         modules.push_back(std::move(module));
         break;
       }
-      module.arguments = arguments_between(text, at, *close, faults);
-      at = *close + 1;
+      module.arguments = arguments_between(text, at, close, faults);
+      at = close + 1;
     }
     modules.push_back(std::move(module));
   }
@@ -193,18 +234,19 @@ WrittenProduction read_production(std::string_view text, std::vector<Fault>& fau
     return out;
   }
   Slice head{0, arrow->from};
-  const std::size_t colon = find_outside(text, head, ':');
+  const std::size_t colon = find_outside(text, head, ":");
   if (colon < head.to) {
     out.has_condition = true;
     out.condition = {colon + 1, head.to};
     head.to = colon;
+    read_condition(text, out, faults);
   }
   read_head(text, head, out, faults);
   if (skip_spaces(text, out.predecessor.from, out.predecessor.to) == out.predecessor.to) {
     faults.push_back({out.predecessor.from, "found no predecessor; expected one module before the arrow"});
   }
   out.successor = {arrow->to, text.size()};
-  const std::size_t weight = find_outside(text, out.successor, ':');
+  const std::size_t weight = find_outside(text, out.successor, ":");
   if (weight < text.size()) {
     out.has_weight = true;
     out.weight = {weight + 1, text.size()};

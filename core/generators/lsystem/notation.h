@@ -1,7 +1,9 @@
 #pragma once
 /// The written form of modules and productions, taken apart but not yet understood:
 ///
-///   production = [ left "<" ] predecessor [ ">" right ] [ ":" condition ] arrow successor [ ":" weight ] ;
+///   production = [ new left "<<" ] [ left "<" ] predecessor [ ">" right ] [ ">>" new right ]
+///                [ ":" [ before ] condition [ after ] ] arrow successor [ ":" weight ] ;
+///   before     = "{" statements "}" ;               after = "{" statements "}" ;
 ///   arrow      = "->" | "-->" | "~>" | "→" ;      word = { module } ;
 ///   module     = symbol [ "(" expression { "," expression } ")" ] ;
 ///   symbol     = one character | "@" character | a longer name that is declared or the turtle's own ;
@@ -32,7 +34,8 @@ struct WrittenModule {
 
 /// A production cut into its parts; parts that are not there are empty slices.
 struct WrittenProduction {
-  Slice left, predecessor, right, condition, successor, weight;
+  Slice new_left, left, predecessor, right, new_right, condition, successor, weight;
+  Slice before, after;  ///< statements round the condition, without their braces
   bool has_left = false, has_right = false, has_condition = false, has_weight = false;
 };
 
@@ -57,6 +60,11 @@ class Symbols {
 /// that are no symbol.
 std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, const Symbols& symbols,
                                         std::vector<lang::Fault>& faults);
+
+/// The brace, bracket or parenthesis that closes the one at `open`, before `to`; `to` where none does.
+std::size_t closing(std::string_view text, std::size_t open, std::size_t to);
+
+std::size_t skip_spaces(std::string_view text, std::size_t at, std::size_t to);
 
 /// Cuts a production at its arrow, context marks and colons. Faults: no arrow, no predecessor, two contexts
 /// of one side.

@@ -13,8 +13,8 @@ constexpr std::size_t chunk = 4096;
 
 bool plain(const Grammar& grammar, const Production& production) {
   const auto is_bracket = [&](KindId kind) { return kind == grammar.open || kind == grammar.close; };
-  return !production.conditional && !production.weighted && production.left.size() <= 1 &&
-         production.right.size() <= 1 &&
+  return !production.conditional && !production.weighted && !production.looks_at_new() &&
+         production.left.size() <= 1 && production.right.size() <= 1 &&
          std::none_of(production.right.begin(), production.right.end(), is_bracket);
 }
 
@@ -22,7 +22,10 @@ bool plain(const Grammar& grammar, const Production& production) {
 
 bool TableRewriter::fits(const Grammar& grammar) {
   const Rules& rules = grammar.productions;
-  return grammar.widest == 0 && !grammar.cuts && !rules.chance && grammar.kinds.size() <= most_kinds &&
+  const bool by_productions_alone = grammar.decomposition.productions.empty() && grammar.tables.empty() &&
+                                    !grammar.statements && !grammar.ring;
+  return by_productions_alone && grammar.widest == 0 && !grammar.cuts && !rules.chance &&
+         grammar.kinds.size() <= most_kinds &&
          std::all_of(rules.productions.begin(), rules.productions.end(),
                      [&](const Production& each) { return plain(grammar, each); });
 }

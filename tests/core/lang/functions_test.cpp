@@ -39,7 +39,7 @@ const std::map<std::string, Interval> expected = {
     {"ran(5)", {0, 5}},           {"ran(2, 5)", {2, 5}},
     {"rand()", {0, 1}},           {"rand(5)", {0, 5}},
     {"rand(2, 5)", {2, 5}},       {"nran(10, 2)", {-10, 30}},
-    {"p(0.25)", {0, 1}},
+    {"p(0.25)", {0, 1}},          {"select(2 > 1, 10, 20)", {10, 10}},
 };
 
 TEST(Functions, GiveWhatTheirExamplesPromise) {

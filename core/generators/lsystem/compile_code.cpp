@@ -1,0 +1,408 @@
+/// Successors with statements, after the FL-systems of Marvie, Perret and Bouatouch ("The FL-system: a
+/// functional L-system for procedural geometric modeling", 2005):
+///
+///   item  = "let" name "=" expression ";" | name change ";"          name: a local
+///         | "for" "(" [ name "=" expression ] ";" expression ";" [ name change ] ")" body
+///         | "while" "(" expression ")" body | "if" "(" expression ")" body [ "else" body ] | modules ;
+///   body  = "{" { item } "}" | one statement | one module ;
+///   change = "=" expression | ("+=" | "-=" | "*=" | "/=") expression | "++" | "--" ;
+///
+/// Words that are modules by the older notation stay modules: `for` needs the semicolons, and an `if` without
+/// braces a comparison, since no turtle takes one as a length.
+#include <algorithm>
+
+#include "core/generators/lsystem/compiler.h"
+
+namespace seedmesh::lsystem {
+namespace {
+
+constexpr int deepest = 64;  // statements inside each other
+
+bool is_name(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+std::size_t end_of_name(std::string_view text, std::size_t at, std::size_t to) {
+  if (at < to && text[at] >= '0' && text[at] <= '9') return at;
+  while (at < to && is_name(text[at])) ++at;
+  return at;
+}
+
+/// `word` and the parenthesis behind it stand at `at`: the place of the parenthesis, or `to`.
+std::size_t open_after(std::string_view text, std::string_view word, std::size_t at, std::size_t to) {
+  if (text.substr(at, std::min(word.size(), to - at)) != word) return to;
+  const std::size_t open = skip_spaces(text, at + word.size(), to);
+  return open < to && text[open] == '(' ? open : to;
+}
+
+bool contains(std::string_view text, Slice slice, const char* any) {
+  return text.substr(slice.from, slice.to - slice.from).find_first_of(any) != std::string_view::npos;
+}
+
+}  // namespace
+
+class Compiler::CodeReader {
+ public:
+  enum class Allowed { modules, statements_alone };
+  CodeReader(Compiler& compiler, Source& source, std::uint32_t& slots, Allowed allowed)
+      : compiler_(compiler),
+        source_(source),
+        text_(source.text),
+        steps_(compiler.grammar_.steps),
+        slots_(slots),
+        allowed_(allowed) {}
+
+  /// The items of a block; brackets pair inside it.
+  void items(Slice slice) {
+    const std::size_t names = compiler_.names_.size();
+    const std::vector<Local> outer = locals_;
+    std::vector<std::size_t> open;
+    std::size_t at = skip_spaces(text_, slice.from, slice.to);
+    while (at < slice.to && sound()) {
+      const std::size_t before = at;
+      at = statement(at, slice.to);
+      if (at == before) at = modules(at, slice.to, open);
+      at = skip_spaces(text_, at, slice.to);
+    }
+    if (!open.empty()) fault(open.back(), "found `[` without its `]` in the same block");
+    compiler_.names_.forget_after(names);
+    locals_ = outer;
+  }
+
+  /// Where a statement at `at` ends; `at` where there is none.
+  std::size_t statement(std::size_t at, std::size_t to) {
+    if (const std::size_t open = loop_at(at, to); open < to) return for_loop(open, to);
+    if (const std::size_t open = open_after(text_, "while", at, to); open < to) return while_loop(open, to);
+    if (const std::size_t open = condition_at(at, to); open < to) return choice(open, to);
+    if (is_let(at, to)) {
+      const std::size_t name = skip_spaces(text_, at + 3, to);
+      return change(name, to, Ends::semicolon, Binds::yes);
+    }
+    const std::size_t end = end_of_name(text_, at, to);
+    const bool binds = allowed_ == Allowed::statements_alone;
+    const bool known = end > at && (binds || local(text_.substr(at, end - at)) != nullptr);
+    if (known && changes(skip_spaces(text_, end, to), to)) {
+      return change(at, to, Ends::semicolon, binds ? Binds::yes : Binds::no);
+    }
+    return at;
+  }
+
+ private:
+  struct Local {
+    std::string name;
+    std::uint32_t slot;
+  };
+  enum class Ends { semicolon, here };
+  enum class Binds { yes, no };
+
+  bool sound() const { return source_.faults.size() < lang::max_faults && !stopped_; }
+  void fault(std::size_t at, std::string message) { source_.faults.push_back({at, std::move(message)}); }
+
+  const Local* local(std::string_view name) const {
+    const auto at =
+        std::find_if(locals_.rbegin(), locals_.rend(), [&](const Local& each) { return each.name == name; });
+    return at == locals_.rend() ? nullptr : &*at;
+  }
+
+  std::size_t loop_at(std::size_t at, std::size_t to) const {
+    const std::size_t open = open_after(text_, "for", at, to);
+    return open < to && contains(text_, {open, closing(text_, open, to)}, ";") ? open : to;
+  }
+
+  std::size_t condition_at(std::size_t at, std::size_t to) const {
+    const std::size_t open = open_after(text_, "if", at, to);
+    if (open == to) return to;
+    const std::size_t close = closing(text_, open, to);
+    const std::size_t next = skip_spaces(text_, std::min(close + 1, to), to);
+    const bool braces = next < to && text_[next] == '{';
+    return braces || contains(text_, {open, close}, "<>=!&|") ? open : to;
+  }
+
+  bool is_let(std::size_t at, std::size_t to) const {
+    if (text_.substr(at, std::min<std::size_t>(3, to - at)) != "let" || at + 3 >= to) return false;
+    const std::size_t name = skip_spaces(text_, at + 3, to);
+    const std::size_t end = end_of_name(text_, name, to);
+    const std::size_t equals = skip_spaces(text_, end, to);
+    return name > at + 3 && end > name && equals < to && text_[equals] == '=';
+  }
+
+  /// One of = += -= *= /= ++ -- stands at `at`, and no ==.
+  bool changes(std::size_t at, std::size_t to) const {
+    const std::string_view two = text_.substr(at, std::min<std::size_t>(2, to - at));
+    for (const std::string_view each : {"+=", "-=", "*=", "/=", "++", "--"}) {
+      if (two == each) return true;
+    }
+    return !two.empty() && two[0] == '=' && two != "==";
+  }
+
+  /// name change [";"]; gives the end.
+  std::size_t change(std::size_t at, std::size_t to, Ends ends, Binds binds) {
+    const std::size_t name_end = end_of_name(text_, at, to);
+    const std::string name(text_.substr(at, name_end - at));
+    const std::size_t sign = skip_spaces(text_, name_end, to);
+    if (name.empty() || !changes(sign, to)) {
+      fault(at, "expected a name and its new value, as in `i = 0` or `i++`");
+      stopped_ = true;
+      return to;
+    }
+    std::size_t end = to;
+    if (ends == Ends::semicolon) {
+      end = find_semicolon(sign, to);
+      if (end == to) fault(at, "found a statement without its `;`");
+    }
+    const bool assigns = text_[sign] == '=';
+    lang::Expression value;
+    if (assigns) {
+      value = compiler_.expression(source_, {sign + 1, end});
+    } else {
+      value = changed(name, at, sign, end);
+    }
+    set(name, value, binds == Binds::yes && assigns, at);
+    return std::min(end + (ends == Ends::semicolon ? 1U : 0U), to);
+  }
+
+  /// The value of `name op= expression`, `name++` and `name--`, as the expression that it stands for.
+  lang::Expression changed(const std::string& name, std::size_t at, std::size_t sign, std::size_t end) {
+    const bool by_one = text_[sign] == text_[sign + 1];
+    if (by_one && skip_spaces(text_, sign + 2, end) < end) {
+      fault(sign + 2, "found more after `" + std::string(text_.substr(sign, 2)) + "`");
+    }
+    const std::size_t before = source_.faults.size();
+    std::vector<lang::Token> tokens;
+    const auto symbol = [&](std::string_view text) {
+      tokens.push_back({lang::TokenKind::symbol, text, sign, 1, 0});
+    };
+    tokens.push_back({lang::TokenKind::name, text_.substr(at, name.size()), at, name.size(), 0});
+    symbol(text_.substr(sign, 1));
+    symbol("(");
+    if (by_one) {
+      tokens.push_back({lang::TokenKind::number, "1", sign, 1, 1});
+    } else {
+      for (const lang::Token& each : lang::tokenize(text_, sign + 2, end, source_.faults)) {
+        if (each.kind != lang::TokenKind::end) tokens.push_back(each);
+      }
+    }
+    symbol(")");
+    tokens.push_back({lang::TokenKind::end, "", end, 0, 0});
+    std::size_t read = 0;
+    const lang::Expression value = compiler_.grammar_.program.parse(
+        tokens, read, compiler_.names_, source_.faults, compiler_.limits_.expression_depth);
+    if (source_.faults.size() == before && tokens[read].kind != lang::TokenKind::end) {
+      fault(tokens[read].offset,
+            "found `" + std::string(tokens[read].text) + "` after the end of the expression");
+    }
+    return value;
+  }
+
+  /// Writes the step that gives `name` a value; a name that is no local yet becomes one where it may.
+  void set(const std::string& name, const lang::Expression& value, bool binds, std::size_t at) {
+    const Local* known = local(name);
+    const lang::Names::Binding* bound = compiler_.names_.find(name);
+    const bool alone = allowed_ == Allowed::statements_alone;
+    std::uint32_t slot = known ? known->slot : 0;
+    if (!known && alone && bound && !bound->is_constant) {
+      slot = bound->slot;  // a parameter: its copy is changed
+    } else if (!known && !binds) {
+      fault(at, "`" + name + "` has no value yet");
+    } else if (binds && (!known || !alone)) {
+      slot = slots_++;
+      locals_.push_back({name, slot});
+      compiler_.names_.bind_slot(name, slot);
+    }
+    steps_.push_back({Step::Does::set, {}, value, slot, 0});
+  }
+
+  std::size_t find_semicolon(std::size_t at, std::size_t to) const {
+    int depth = 0;
+    for (; at < to; ++at) {
+      if (text_[at] == '(') ++depth;
+      if (text_[at] == ')') --depth;
+      if (depth == 0 && text_[at] == ';') return at;
+    }
+    return to;
+  }
+
+  std::uint32_t here() const { return static_cast<std::uint32_t>(steps_.size()); }
+  std::uint32_t add(Step::Does does, const lang::Expression& value = {}, std::uint32_t target = 0) {
+    steps_.push_back({does, {}, value, 0, target});
+    return here() - 1;
+  }
+
+  std::size_t for_loop(std::size_t open, std::size_t to) {
+    const std::size_t close = closing(text_, open, to);
+    const std::size_t first = find_semicolon(open + 1, close);
+    const std::size_t second = first < close ? find_semicolon(first + 1, close) : close;
+    if (close == to || second == close || find_semicolon(second + 1, close) < close) {
+      fault(open, "expected `(start; condition; change)`");
+      stopped_ = true;
+      return to;
+    }
+    const std::size_t names = compiler_.names_.size();
+    const std::vector<Local> outer = locals_;
+    const std::size_t start = skip_spaces(text_, open + 1, first);
+    if (start < first) change(start, first, Ends::here, Binds::yes);
+    add(Step::Does::enter_loop);
+    const std::uint32_t again = here();
+    const lang::Expression condition = compiler_.expression(source_, {first + 1, second});
+    const std::uint32_t leave = add(Step::Does::jump_unless, condition);
+    const std::size_t end = body(close + 1, to);
+    const std::size_t next = skip_spaces(text_, second + 1, close);
+    if (next < close) change(next, close, Ends::here, Binds::no);
+    end_loop(again, leave);
+    compiler_.names_.forget_after(names);
+    locals_ = outer;
+    return end;
+  }
+
+  std::size_t while_loop(std::size_t open, std::size_t to) {
+    const std::size_t close = closing(text_, open, to);
+    add(Step::Does::enter_loop);
+    const std::uint32_t again = here();
+    const std::uint32_t leave = add(Step::Does::jump_unless, condition(open, close, to));
+    const std::size_t end = body(std::min(close + 1, to), to);
+    end_loop(again, leave);
+    return end;
+  }
+
+  void end_loop(std::uint32_t again, std::uint32_t leave) {
+    add(Step::Does::next_turn);
+    add(Step::Does::jump, {}, again);
+    steps_[leave].target = add(Step::Does::leave_loop);
+  }
+
+  std::size_t choice(std::size_t open, std::size_t to) {
+    const std::size_t close = closing(text_, open, to);
+    const std::uint32_t otherwise = add(Step::Does::jump_unless, condition(open, close, to));
+    std::size_t end = body(std::min(close + 1, to), to);
+    const std::size_t next = skip_spaces(text_, end, to);
+    const bool has_else = text_.substr(next, std::min<std::size_t>(4, to - next)) == "else";
+    if (has_else) {
+      const std::uint32_t over = add(Step::Does::jump);
+      steps_[otherwise].target = here();
+      end = body(next + 4, to);
+      steps_[over].target = here();
+    } else {
+      steps_[otherwise].target = here();
+    }
+    return end;
+  }
+
+  lang::Expression condition(std::size_t open, std::size_t close, std::size_t to) {
+    if (close == to) fault(open, "found `(` without its `)`");
+    return compiler_.expression(source_, {open + 1, close});
+  }
+
+  /// A block, one statement or one module.
+  std::size_t body(std::size_t at, std::size_t to) {
+    at = skip_spaces(text_, at, to);
+    if (++depth_ > deepest) {
+      fault(at, "statements nest deeper than 64");
+      stopped_ = true;
+    }
+    if (at >= to) fault(at, "expected a module or `{` after the condition");
+    std::size_t end = to;
+    if (at < to && !stopped_) end = text_[at] == '{' ? block(at, to) : single(at, to);
+    --depth_;
+    return end;
+  }
+
+  std::size_t block(std::size_t open, std::size_t to) {
+    const std::size_t close = closing(text_, open, to);
+    if (close == to) fault(open, "found `{` without its `}`; inside a block braces pair");
+    items({open + 1, close});
+    return std::min(close + 1, to);
+  }
+
+  std::size_t single(std::size_t at, std::size_t to) {
+    const std::size_t end = statement(at, to);
+    if (end != at) return end;
+    std::size_t module_end = module_at(at, to);
+    if (text_[at] == '[') {  // a branch counts as one
+      module_end = std::min(closing(text_, at, to) + 1, to);
+    }
+    items({at, module_end});
+    return module_end;
+  }
+
+  /// Where the module at `at` ends, its parameters included.
+  std::size_t module_at(std::size_t at, std::size_t to) const {
+    const std::size_t length = std::max<std::size_t>(compiler_.symbols_.length_at(text_, at, to), 1);
+    const std::size_t end = at + length;
+    if (end >= to || text_[end] != '(') return end;
+    return std::min(closing(text_, end, to) + 1, to);
+  }
+
+  /// Modules up to the next statement, as one step; gives their end.
+  std::size_t modules(std::size_t at, std::size_t to, std::vector<std::size_t>& open) {
+    const std::size_t from = at;
+    while (at < to && (at == from || !begins_statement(at, to))) {
+      if (text_[at] == '[') open.push_back(at);
+      if (text_[at] == ']' && open.empty()) fault(at, "found `]` without a `[` before it in the same block");
+      if (text_[at] == ']' && !open.empty()) open.pop_back();
+      at = skip_spaces(text_, module_at(at, to), to);
+    }
+    if (allowed_ == Allowed::statements_alone) {
+      fault(from, "found modules; expected statements such as `x = 2;`");
+      stopped_ = true;
+      return to;
+    }
+    steps_.push_back({Step::Does::write, compiler_.word(source_, {from, at}), {}, 0, 0});
+    return at;
+  }
+
+  bool begins_statement(std::size_t at, std::size_t to) const {
+    if (loop_at(at, to) < to || open_after(text_, "while", at, to) < to) return true;
+    if (condition_at(at, to) < to || is_let(at, to)) return true;
+    const std::size_t end = end_of_name(text_, at, to);
+    return end > at && local(text_.substr(at, end - at)) && changes(skip_spaces(text_, end, to), to);
+  }
+
+  Compiler& compiler_;
+  Source& source_;
+  std::string_view text_;
+  std::vector<Step>& steps_;
+  std::uint32_t& slots_;
+  Allowed allowed_;
+  std::vector<Local> locals_;
+  int depth_ = 0;
+  bool stopped_ = false;
+};
+
+bool Compiler::has_statements(std::string_view text, Slice slice) const {
+  for (std::size_t at = slice.from; at < slice.to; ++at) {
+    const char c = text[at];
+    if (c != 'f' && c != 'w' && c != 'i' && c != 'l') continue;
+    if (at > slice.from && text[at - 1] == '@') continue;
+    const std::size_t open = open_after(text, "for", at, slice.to);
+    if (open < slice.to && contains(text, {open, closing(text, open, slice.to)}, ";")) return true;
+    if (open_after(text, "while", at, slice.to) < slice.to) return true;
+    if (text.substr(at, std::min<std::size_t>(4, slice.to - at)) == "let ") return true;
+    if (open_after(text, "if", at, slice.to) < slice.to) return true;
+  }
+  return false;
+}
+
+Range Compiler::code(Source& source, Slice slice, std::uint32_t& slots) {
+  const auto first = static_cast<std::uint32_t>(grammar_.steps.size());
+  CodeReader(*this, source, slots, CodeReader::Allowed::modules).items(slice);
+  return {first, static_cast<std::uint32_t>(grammar_.steps.size()) - first};
+}
+
+/// The names stay known to what follows in the production.
+Range Compiler::assignments(Source& source, Slice slice, std::uint32_t& slots) {
+  const auto first = static_cast<std::uint32_t>(grammar_.steps.size());
+  if (slice.empty()) return {first, 0};
+  CodeReader reader(*this, source, slots, CodeReader::Allowed::statements_alone);
+  std::size_t at = skip_spaces(source.text, slice.from, slice.to);
+  while (at < slice.to && source.faults.size() < lang::max_faults) {
+    const std::size_t end = reader.statement(at, slice.to);
+    if (end == at) {
+      source.faults.push_back({at, "expected a statement such as `x = 2;`"});
+      break;
+    }
+    at = skip_spaces(source.text, end, slice.to);
+  }
+  return {first, static_cast<std::uint32_t>(grammar_.steps.size()) - first};
+}
+
+}  // namespace seedmesh::lsystem

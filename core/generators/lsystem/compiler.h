@@ -1,0 +1,95 @@
+#pragma once
+/// Texts -> Grammar, for the files of this folder alone: grammar.cpp has the order of things and the symbols,
+/// compile_rules.cpp productions and words, compile_code.cpp statements, compile_frames.cpp frames.
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/generators/lsystem/grammar.h"
+#include "core/generators/lsystem/notation.h"
+#include "generated/params/lsystem.h"
+
+namespace seedmesh::lsystem {
+
+constexpr std::uint32_t most_parameters = 64;
+constexpr std::size_t most_kinds = 60'000;
+constexpr std::uint32_t frame_numbers = 12;  ///< axes x, y, z and origin, three numbers each
+
+/// One text of the request with the faults found in it.
+struct Source {
+  std::string_view text;
+  std::string pointer;
+  std::vector<lang::Fault> faults;
+};
+
+class Compiler {
+ public:
+  Compiler(const LsystemParams& params, std::uint64_t seed, const Limits& limits, std::vector<Issue>& issues);
+  Grammar compile();
+
+ private:
+  // grammar.cpp
+  KindId kind(std::string_view symbol, std::uint32_t written, Source& source, std::size_t offset);
+  void declare_modules();
+  void define_functions();
+  void mark_ignored();
+  std::set<std::string, std::less<>> symbols_of(const std::string& text, const char* pointer);
+  void read_alphabet();
+  void check_symbol(const WrittenModule& module, Source& source) const;
+  std::uint32_t surface_of(std::string_view symbol) const;
+  void check_surface(const WrittenModule& module, Source& source) const;
+  void take_faults(Source& source);
+  void read_axiom();
+  void read_rules(const std::string& folder, const std::vector<std::string>& texts, Rules& rules);
+  void read_tables();
+  void check_alone(const Rules& rules, const char* what);
+  void check_directions();
+  void order(Rules& rules);
+  bool draws(const Production& production) const;
+  bool draws(Range successor) const;
+  bool draws_in(Range steps) const;
+  void warn_of_weights(const Rules& rules);
+  template <class Use>
+  void for_all_rules(Use&& use);
+
+  // compile_rules.cpp
+  lang::Expression expression(Source& source, Slice slice);
+  Range word(Source& source, Slice slice);
+  void add_template(Source& source, const WrittenModule& module);
+  void check_brackets(Source& source, Slice slice);
+  Production production(Source& source, const WrittenProduction& written);
+  void read_predecessor(Source& source, Slice slice, Production& made, std::uint32_t& slots);
+  void read_contexts(Source& source, const WrittenProduction& written, Production& made,
+                     std::uint32_t& slots);
+  void read_weight(Source& source, const WrittenProduction& written, Production& made);
+  std::vector<KindId> context(Source& source, Slice slice, std::uint32_t& slots);
+  KindId formal(Source& source, const WrittenModule& module, std::uint32_t& slots);
+  void bind(Source& source, const lang::Token& name, bool is_frame, std::uint32_t& slots);
+
+  // compile_code.cpp
+  class CodeReader;
+  friend class CodeReader;
+  /// The steps of text[slice]; empty where it has no statements, and is then a word.
+  bool has_statements(std::string_view text, Slice slice) const;
+  Range code(Source& source, Slice slice, std::uint32_t& slots);
+  Range assignments(Source& source, Slice slice, std::uint32_t& slots);
+
+  // compile_frames.cpp
+  lang::Expression frame(Source& source, Slice slice);
+
+  const LsystemParams& params_;
+  const Limits& limits_;
+  std::vector<Issue>& issues_;
+  lang::Names names_;  ///< the constants, and behind them the parameters of the production that is read
+  std::size_t constant_count_ = 0;
+  std::map<std::string, std::uint32_t, std::less<>> frame_slots_;             ///< parameters that are frames
+  std::map<std::string, std::vector<std::uint8_t>, std::less<>> signatures_;  ///< 1: a frame
+  std::set<std::string, std::less<>> ignored_, considered_, variables_, alphabet_constants_;
+  Symbols symbols_;
+  std::map<std::pair<std::string, std::uint32_t>, KindId> ids_;
+  std::map<std::string, std::uint64_t, std::less<>> occurrences_;  ///< of each symbol in this successor
+  Grammar grammar_;
+};
+
+}  // namespace seedmesh::lsystem

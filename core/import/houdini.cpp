@@ -1,0 +1,335 @@
+/// L-systems as they are typed into Houdini's L-System node, one line a parameter, and its rules, after
+/// "L-System" in SideFX's documentation of the node:
+///
+///   Premise: A(1)                     Generations: 7    Angle: 28    Step Size: 0.1    Thickness: 0.05
+///   Rule 1: A(s) : s > b = F(s)[+A(s*b)]-A(s*b) : 0.5           b: 0.7    (a rule may also stand alone)
+///
+/// What Houdini turns the other way is exchanged: + is right there and & up. What scales by the node's own
+/// factors is written out with them.
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "core/generators/lsystem/notation.h"
+#include "core/import/foreign_text.h"
+#include "core/import/formats.h"
+#include "core/lang/lexer.h"
+
+namespace seedmesh {
+namespace {
+
+/// A number of the node: its name in the file, without blanks, and what the node has where it is not given.
+struct Setting {
+  std::string_view name;
+  double value;
+};
+constexpr Setting settings[] = {
+    {"generations", 7},
+    {"angle", 28},
+    {"stepsize", 0.1},
+    {"stepsizescale", 0.9},
+    {"thickness", 0.05},
+    {"thicknessscale", 0.8},
+    {"anglescale", 0.9},
+    {"randomseed", 1},
+    {"b", 0},
+    {"c", 0},
+    {"d", 0},
+};
+
+std::string squeezed(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (!is_blank(c)) out += lower(c);
+  }
+  return out;
+}
+
+class HoudiniReader {
+ public:
+  explicit HoudiniReader(ForeignText& source) : source_(source), text_(source.text()) {
+    for (const Setting& each : settings) values_[std::string(each.name)] = each.value;
+  }
+
+  Imported read() {
+    std::vector<Line> rules;
+    for (const Line& each : lines_of(text_)) {
+      const Line line = trimmed(text_, each);
+      const std::string_view two = text_.substr(line.from, std::min<std::size_t>(2, line.to - line.from));
+      if (line.from == line.to || two == "//" || two == "# ") continue;
+      read_line(line, rules);
+    }
+    if (!premise_) {
+      source_.fault(0, "found no premise");
+    } else {
+      parameters_["axiom"] = modules(*premise_, Place::word);
+      out_.origins.push_back({"/parameters/axiom", premise_->from, false});
+    }
+    parameters_["productions"] = Json::array();
+    for (const Line& each : rules) rule(each);
+    return made();
+  }
+
+ private:
+  enum class Place { word, pattern };
+
+  void read_line(Line line, std::vector<Line>& rules) {
+    const std::size_t colon = std::min(text_.substr(0, line.to).find(':', line.from), line.to);
+    const std::string key = squeezed(text_.substr(line.from, colon - line.from));
+    const Line rest = trimmed(text_, {std::min(colon + 1, line.to), line.to});
+    const bool numbered_rule =
+        key.substr(0, 4) == "rule" &&
+        std::all_of(key.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(4, key.size())),
+                    key.end(), is_digit);
+    if (colon < line.to && key == "premise") {
+      if (premise_) source_.fault(line.from, "found a second premise");
+      premise_ = rest;
+    } else if (colon < line.to && key == "contextignore") {
+      parameters_["ignore"] = modules(rest, Place::pattern);
+    } else if (colon < line.to && numbered_rule) {
+      rules.push_back(rest);
+    } else if (const auto value = values_.find(key); colon < line.to && value != values_.end()) {
+      number(rest, value->second);
+    } else if (equals_of(line) < line.to) {
+      rules.push_back(line);
+    } else if (!premise_ && colon == line.to) {
+      premise_ = line;
+    } else {
+      source_.fault(line.from,
+                    "found no parameter of the node and no rule; expected such as `Angle: 28` or `A=FA`");
+    }
+  }
+
+  void number(Line line, double& value) {
+    const bool negative = line.from < line.to && text_[line.from] == '-';
+    std::size_t at = line.from + (negative ? 1 : 0);
+    double found = 0;
+    if (!take_number(text_, at, line.to, found) || at != line.to) {
+      source_.fault(line.from, "expected a number");
+    } else {
+      value = negative ? -found : found;
+    }
+  }
+
+  /// The = of a rule: outside parentheses, and no part of a comparison; line.to where there is none.
+  std::size_t equals_of(Line line) const {
+    int depth = 0;
+    for (std::size_t i = line.from; i < line.to; ++i) {
+      const char c = text_[i];
+      if (c == '(') ++depth;
+      if (c == ')') --depth;
+      if (c != '=' || depth > 0) continue;
+      const char before = i > line.from ? text_[i - 1] : ' ', after = i + 1 < line.to ? text_[i + 1] : ' ';
+      if (after == '=') {
+        ++i;
+      } else if (before != '!' && !((before == '<' || before == '>') && has_condition(line, i))) {
+        return i;
+      }
+    }
+    return line.to;
+  }
+
+  /// <= and >= occur in conditions alone.
+  bool has_condition(Line line, std::size_t to) const {
+    return text_.substr(0, to).find(':', line.from) != std::string_view::npos;
+  }
+
+  /// [lc<]pred[>rc][:cond]=succ[:prob]
+  void rule(Line line) {
+    const std::size_t equals = equals_of(line);
+    if (equals == line.to) {
+      source_.fault(line.from, "found a rule without `=`");
+      return;
+    }
+    std::size_t head = outside(':', {line.from, equals});
+    const Line condition = head < equals ? trimmed(text_, {head + 1, equals}) : Line{equals, equals};
+    const std::size_t weight = outside(':', {equals + 1, line.to});
+    std::string out = pattern({line.from, head});
+    if (condition.from < condition.to)
+      out += " : " + std::string(text_.substr(condition.from, condition.to - condition.from));
+    out += " -> " + modules({equals + 1, weight}, Place::word);
+    if (weight < line.to) out += " : " + std::string(text_.substr(weight + 1, line.to - weight - 1));
+    Json& list = parameters_["productions"];
+    out_.origins.push_back({"/parameters/productions/" + std::to_string(list.size()), line.from, false});
+    list.push_back(std::move(out));
+  }
+
+  std::size_t outside(char mark, Line line) const {
+    int depth = 0;
+    for (std::size_t i = line.from; i < line.to; ++i) {
+      if (text_[i] == '(') ++depth;
+      if (text_[i] == ')') --depth;
+      if (depth == 0 && text_[i] == mark) return i;
+    }
+    return line.to;
+  }
+
+  std::string pattern(Line line) {
+    const std::size_t less = outside('<', line);
+    const std::size_t greater = outside('>', line);
+    std::string out;
+    if (less < line.to) out += modules({line.from, less}, Place::pattern) + " < ";
+    const std::size_t from = less < line.to ? less + 1 : line.from;
+    out += modules({from, std::max(greater, from)}, Place::pattern);
+    if (greater < line.to) out += " > " + modules({greater + 1, line.to}, Place::pattern);
+    return out;
+  }
+
+  /// The modules of text[line] in our symbols.
+  std::string modules(Line line, Place place) {
+    std::string out;
+    for (std::size_t at = line.from; at < line.to;) {
+      const std::size_t start = at;
+      const char c = text_[at++];
+      if (is_blank(c)) continue;
+      std::string arguments;
+      if (at < line.to && text_[at] == '(') {
+        const std::size_t close = lsystem::closing(text_, at, line.to);
+        if (close == line.to) {
+          source_.fault(at, "found `(` without its `)`");
+          break;
+        }
+        arguments = text_.substr(at, close + 1 - at);
+        at = close + 1;
+      }
+      out += module(c, arguments, start, place);
+    }
+    return out;
+  }
+
+  std::string module(char c, const std::string& arguments, std::size_t at, Place place) {
+    const std::string_view exchanged = "+-&^", with = "-+^&";
+    const std::size_t turn = exchanged.find(c);
+    if (turn != std::string_view::npos) return with[turn] + arguments;
+    const bool own = std::string_view("\"!;_?@*~'#gTJKM").find(c) != std::string_view::npos;
+    if (!own) {
+      if (c == 'H' || c == 'h' || c == 'F' || c == 'f' || c == 'G') note_arity(c, arguments);
+      if (c == '$' && !arguments.empty()) {
+        warn_once(at, c, " rolls towards the sky here and not towards a point");
+        return "$";
+      }
+      return c + arguments;
+    }
+    if (std::string_view("gJKM").find(c) != std::string_view::npos) {
+      warn_once(at, c,
+                c == 'g' ? " names a group, which nobody has here"
+                         : " copies geometry of an input, which nobody has here");
+      return c == 'g' ? "" : c + arguments;
+    }
+    if (place == Place::pattern) {
+      source_.fault(
+          at, lang::in_quotes(std::string_view(&c, 1)) + " is written out here, so no rule can look for it");
+      return "";
+    }
+    return written_out(c, arguments, at);
+  }
+
+  /// Symbols that scale or turn by a factor of the node where they carry none.
+  std::string written_out(char c, const std::string& arguments, std::size_t at) {
+    const auto by = [&](const char* setting) {
+      return arguments.empty() ? "(" + number_text(values_[setting]) + ")" : arguments;
+    };
+    switch (c) {
+      case '"':
+        return "@Di" + by("stepsizescale");
+      case '_':
+        return "@Dd" + by("stepsizescale");
+      case '!':
+        return "@w" + by("thicknessscale");
+      case '?':
+        return "@w(1/" + by("thicknessscale") + ")";
+      case ';':
+        return "@a" + by("anglescale");
+      case '@':
+        return "@a(1/" + by("anglescale") + ")";
+      case '*':
+        return "\\(180)";
+      case '~': {
+        const std::string most = arguments.empty() ? "(180)" : arguments;
+        const std::string angle = "(ran(-" + most + "," + most + "))";
+        return "/" + angle + "&" + angle + "+" + angle;
+      }
+      default:
+        warn_once(at, c,
+                  c == 'T' ? " is left out: give a `tropism`" : " moves textures, which nobody has here");
+        return "";
+    }
+  }
+
+  void note_arity(char c, const std::string& arguments) {
+    std::size_t count = arguments.empty() ? 0 : 1;
+    int depth = 0;
+    for (const char each : arguments) {
+      if (each == '(') ++depth;
+      if (each == ')') --depth;
+      if (each == ',' && depth == 1) ++count;
+    }
+    arities_.insert({c, count});
+  }
+
+  void warn_once(std::size_t at, char symbol, const char* text) {
+    if (warned_.insert(symbol).second) source_.warn(at, lang::in_quotes(std::string_view(&symbol, 1)) + text);
+  }
+
+  /// H is half of F; F(l,w,s,d) has its own width.
+  Json interpretation() const {
+    Json rules = Json::array();
+    constexpr const char* parameters[] = {"", "(l)", "(l,w)", "(l,w,s)", "(l,w,s,d)"};
+    for (const auto& [symbol, count] : arities_) {
+      if (count > 4) continue;
+      const bool half = symbol == 'H' || symbol == 'h';
+      const char draws = symbol == 'H' ? 'F' : symbol == 'h' ? 'f' : symbol;
+      if (!half && count < 2) continue;
+      std::string rule = symbol + std::string(parameters[count]) + " -> ";
+      if (count > 1) rule += "!(w)";
+      rule += half && count == 0 ? std::string("@Di(0.5)") + draws + "@Dd(0.5)"
+                                 : draws + std::string(half ? "(l/2)" : "(l)");
+      rules.push_back(rule);
+    }
+    return rules;
+  }
+
+  Imported made() {
+    const double generations = values_["generations"], seed = values_["randomseed"];
+    if (generations != static_cast<int>(std::clamp(generations, 0.0, 1000.0)))
+      source_.fault(0,
+                    "expected generations that are a whole number up to 1000; fractions have no counterpart");
+    if (seed < 0 || seed > 1e9 || seed != static_cast<int>(seed))
+      source_.fault(0, "expected a random seed that is a whole number up to 1e9");
+    if (!source_.sound()) return {};
+    Json rules = interpretation();
+    if (!rules.empty()) parameters_["interpretation"] = std::move(rules);
+    parameters_["iterations"] = static_cast<int>(generations);
+    parameters_["angle"] = values_["angle"];
+    parameters_["step"] = values_["stepsize"];
+    parameters_["width"] = values_["thickness"];
+    parameters_["constants"] = {
+        {"a", values_["angle"]}, {"b", values_["b"]}, {"c", values_["c"]}, {"d", values_["d"]}};
+    out_.request = {
+        {"generator", "lsystem"}, {"seed", static_cast<int>(seed)}, {"parameters", std::move(parameters_)}};
+    return std::move(out_);
+  }
+
+  ForeignText& source_;
+  std::string_view text_;
+  std::map<std::string, double> values_;
+  std::optional<Line> premise_;
+  std::set<std::pair<char, std::size_t>> arities_;
+  std::set<char> warned_;
+  Json parameters_ = Json::object();
+  Imported out_;
+};
+
+}  // namespace
+
+Result<Imported> import_houdini(std::string_view text, const ImportOptions& options) {
+  if (!options.entry.empty()) {
+    return Error{Code::invalid, {{"/entry", "a node holds one system; expected no entry"}}};
+  }
+  ForeignText source(text);
+  Imported imported = HoudiniReader(source).read();
+  return source.finish(std::move(imported));
+}
+
+}  // namespace seedmesh

@@ -1,0 +1,87 @@
+#include <gmock/gmock.h>
+
+#include "tests/core/import/support.h"
+
+namespace seedmesh {
+namespace {
+
+using nlohmann::json;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+constexpr std::string_view plant = R"(// the node's default
+Premise: A(1)
+Rule 1: A(s) : s > b = F(s)[+A(s*b)]-&(20)A(s*b) : 0.5
+A(s)=F(s):0.5
+Generations: 5
+Angle: 30
+Step Size: 0.2
+b: 0.7
+Random Seed: 4
+)";
+
+TEST(Houdini, FlipsWhatHoudiniFlips) {
+  const auto result = imported("houdini", plant);
+  ASSERT_TRUE(result) << told(result)[0];
+  const json parameters = parameters_of(result);
+  EXPECT_EQ(parameters["productions"],
+            json({"A(s) : s > b -> F(s)[-A(s*b)]+^(20)A(s*b) :  0.5", "A(s) -> F(s) : 0.5"}));
+  EXPECT_EQ(parameters["iterations"], 5);
+  EXPECT_EQ(parameters["angle"], 30);
+  EXPECT_EQ(parameters["step"], 0.2);
+  EXPECT_EQ(parameters["constants"]["b"], 0.7);
+  EXPECT_EQ(result->request.seed(), 4U);
+  EXPECT_THAT(told(result), IsEmpty());
+}
+
+TEST(Houdini, FlipsATurnInContextsToo) {
+  const auto result = imported("houdini", "F+A\nF<+>A=-\nA = &A\nGenerations: 1\n");
+  ASSERT_TRUE(result) << told(result)[0];
+  EXPECT_EQ(parameters_of(result)["productions"], json({"F < - > A -> +", "A -> ^A"}));
+  EXPECT_EQ(derived(result), "F+^A");
+}
+
+TEST(Houdini, WritesTheNodesFactorsOut) {
+  const auto result =
+      imported("houdini", "Premise: \"F!F_?;@*~(5)\"(0.5)\nThickness Scale: 0.75\nGenerations: 0\n");
+  ASSERT_TRUE(result) << told(result)[0];
+  EXPECT_EQ(parameters_of(result)["axiom"],
+            "@Di(0.9)F@w(0.75)F@Dd(0.9)@w(1/(0.75))@a(0.9)@a(1/(0.9))\\(180)"
+            "/(ran(-(5),(5)))&(ran(-(5),(5)))+(ran(-(5),(5)))@Di(0.5)");
+}
+
+TEST(Houdini, GivesWidthsAndHalfLengthsAMeaning) {
+  const auto result = imported("houdini", "Premise: F(1,0.2)H H(3)F\nGenerations: 0\nStep Size: 1\n");
+  ASSERT_TRUE(result) << told(result)[0];
+  EXPECT_EQ(parameters_of(result)["interpretation"],
+            json({"F(l,w) -> !(w)F(l)", "H -> @Di(0.5)F@Dd(0.5)", "H(l) -> F(l/2)"}));
+  Job job(0, Job::Options{});
+  EXPECT_EQ(json::parse(*derive(result->request, job))["turtle"]["total_length"], 4);
+}
+
+TEST(Houdini, WarnsOfWhatHasNoCounterpart) {
+  const auto result = imported("houdini", "Premise: FT(0.1)J'K\nGenerations: 0\n");
+  ASSERT_TRUE(result) << told(result)[0];
+  EXPECT_THAT(told(result), ElementsAre(StartsWith("1:11 `T`"), StartsWith("1:17 `J`"),
+                                        StartsWith("1:18 `'`"), StartsWith("1:19 `K`")));
+}
+
+TEST(Houdini, RefusesWhatItDoesNotUnderstandAtItsPlace) {
+  const auto fault = [](std::string_view lines) {
+    const auto result = imported("houdini", "Premise: A\n" + std::string(lines));
+    return result ? "" : told(result)[0];
+  };
+  EXPECT_THAT(fault("Colour: red\n"), StartsWith("2:1 found no parameter of the node"));
+  EXPECT_THAT(fault("Angle: wide\n"), StartsWith("2:8 expected a number"));
+  EXPECT_THAT(fault("A = F(2\n"), StartsWith("2:6 found `(`"));
+  EXPECT_THAT(fault("!=F\n"), testing::Not(testing::StrEq("")));
+  EXPECT_THAT(fault("A = F(g)\n"), StartsWith("2:1 unknown name `g`"));
+  EXPECT_THAT(fault("Generations: 2.5\n"), HasSubstr("fractions have no counterpart"));
+  EXPECT_THAT(told(imported("houdini", "A=F\n")), Contains(HasSubstr("no premise")));
+}
+
+}  // namespace
+}  // namespace seedmesh
