@@ -103,7 +103,7 @@ class Typing {
     if (type.schema.value("x-widget", "") == "seed") return set(type, Kind::seed, "std::uint64_t");
     for (const Schema& each : type.schema["oneOf"]) {
       if (!type.schema.contains("x-short") || each["type"] != "object")
-        type.parts.push_back(type_of(each, name));
+        type.parts.push_back(type_of(each, pascal_case(each.value("x-cpp-name", name))));
     }
     if (type.schema.contains("x-short")) {
       Schema object =

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/generators/fractal/fractal.h"
 #include "core/generators/lsystem/lsystem.h"
 #include "core/generators/terrain/terrain.h"
 #include "core/generators/tree/tree.h"
+#include "generated/params/fractal.h"
 #include "generated/params/lsystem.h"
 #include "generated/params/terrain.h"
 #include "generated/params/tree.h"
@@ -79,6 +81,8 @@ constexpr Generator rows[] = {
         lsystem::appraise, lsystem::vocabulary>::named("lsystem", {.grows = true}),
     Row<TreeParams, read_tree, write_tree, tree::check, tree::generate, tree::derive, tree::appraise,
         tree::vocabulary>::named("tree"),
+    Row<FractalParams, read_fractal, write_fractal, fractal::check, fractal::generate, fractal::derive,
+        fractal::appraise, fractal::vocabulary>::named("fractal"),
     Row<TerrainParams, read_terrain, write_terrain, terrain::check, terrain::generate, terrain::derive,
         terrain::appraise, terrain::vocabulary>::named<terrain::encode>("terrain", terrain_forms),
 };

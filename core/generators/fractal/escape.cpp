@@ -1,0 +1,225 @@
+#include "core/generators/fractal/escape.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "core/base/parallel.h"
+#include "core/generators/fractal/element.h"
+#include "generated/params/fractal.h"
+
+namespace seedmesh::fractal {
+namespace {
+
+constexpr double far = 1e6;  ///< squared distance at which a point has left; far enough for a smooth count
+
+/// Steps until z leaves, with a fraction; negative: it did not within the limit.
+double steps_to_leave(double zr, double zi, double cr, double ci, int limit) {
+  double rr = zr * zr, ii = zi * zi;
+  for (int step = 0; step < limit; ++step) {
+    if (rr + ii > far) return step + 1 - math::log(math::log(rr + ii) / math::log(far)) / math::log(2.0);
+    zi = 2 * zr * zi + ci;
+    zr = rr - ii + cr;
+    rr = zr * zr;
+    ii = zi * zi;
+  }
+  return -1;
+}
+
+/// Adds quads of a wall or a cap with normals of their own.
+class Plate {
+ public:
+  Plate(const FractalParams& params, const EscapeField& field, Job& job)
+      : params_(params), field_(field), n_(field.side), step_(params.size / (n_ - 1)) {
+    const std::size_t n = n_, rim = 4 * (n - 1);
+    job.spend(Resource::triangles, 2 * (n - 1) * (n - 1) + 3 * rim);
+    const std::size_t vertices = n * n + 8 * n + rim + 1;
+    mesh_.position = Array<glm::vec3>(job);
+    mesh_.normal = Array<glm::vec3>(job);
+    mesh_.color = Array<glm::u8vec4>(job);
+    mesh_.index.wide = Array<std::uint32_t>(job);
+    mesh_.position.reserve(vertices);
+    mesh_.normal.reserve(vertices);
+    mesh_.color.reserve(vertices);
+    mesh_.index.wide.reserve(3 * (2 * (n - 1) * (n - 1) + 3 * rim));
+    for (const Color& color : params.palette)
+      palette_.push_back(linear_color(color.red, color.green, color.blue));
+    add_top(job);
+    add_walls();
+    add_underside();
+  }
+
+  Mesh take() { return std::move(mesh_); }
+
+ private:
+  float height(std::uint32_t i, std::uint32_t j) const {
+    return static_cast<float>(params_.size * params_.escape.relief) * field_.value[j * n_ + i];
+  }
+  glm::vec3 at(std::uint32_t i, std::uint32_t j, float y) const {
+    return {static_cast<float>(step_ * i - params_.size / 2), y,
+            static_cast<float>(step_ * j - params_.size / 2)};
+  }
+  float underside() const { return static_cast<float>(-params_.size * params_.escape.plate); }
+
+  glm::u8vec4 color(float value) const {
+    if (value >= 1) return {8, 8, 10, 255};
+    const double place =
+        math::pow(static_cast<double>(value), 0.5) * static_cast<double>(palette_.size() - 1);
+    const std::size_t low = std::min(static_cast<std::size_t>(place), palette_.size() - 1);
+    const std::size_t high = std::min(low + 1, palette_.size() - 1);
+    const double part = place - static_cast<double>(low);
+    glm::u8vec4 mixed(255);
+    for (int c = 0; c < 3; ++c)
+      mixed[c] = static_cast<std::uint8_t>(palette_[low][c] * (1 - part) + palette_[high][c] * part + 0.5);
+    return mixed;
+  }
+
+  void add(const glm::vec3& p, const glm::vec3& normal, const glm::u8vec4& paint) {
+    mesh_.position.push_back(p);
+    mesh_.normal.push_back(normal);
+    mesh_.color.push_back(paint);
+  }
+
+  void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    for (const std::uint32_t each : {a, b, c}) mesh_.index.wide.push_back(each);
+  }
+
+  /// The mean of the faces round a sample by their areas; straight up where that would look through one of
+  /// them, as on a needle.
+  glm::vec3 normal(std::uint32_t i, std::uint32_t j) const {
+    glm::dvec3 faces[6];
+    int count = 0;
+    const auto add_face = [&](int i0, int j0, int i1, int j1, int i2, int j2) {
+      const glm::dvec3 a(sample(i0, j0)), b(sample(i1, j1)), c(sample(i2, j2));
+      faces[count++] = glm::cross(b - a, c - a);
+    };
+    const int x = static_cast<int>(i), z = static_cast<int>(j), last = static_cast<int>(n_) - 1;
+    if (x < last && z < last) add_face(x, z, x, z + 1, x + 1, z);
+    if (x > 0 && z < last) {
+      add_face(x - 1, z, x - 1, z + 1, x, z);
+      add_face(x, z, x - 1, z + 1, x, z + 1);
+    }
+    if (x < last && z > 0) {
+      add_face(x, z - 1, x, z, x + 1, z - 1);
+      add_face(x + 1, z - 1, x, z, x + 1, z);
+    }
+    if (x > 0 && z > 0) add_face(x, z - 1, x - 1, z, x, z);
+    glm::dvec3 sum(0);
+    for (int f = 0; f < count; ++f) sum += faces[f];
+    for (int f = 0; f < count; ++f) {
+      if (glm::dot(sum, faces[f]) <= 0.01 * glm::length(sum) * glm::length(faces[f])) return {0, 1, 0};
+    }
+    return glm::vec3(math::unit(sum, {0, 1, 0}));
+  }
+
+  glm::vec3 sample(int i, int j) const {
+    const auto x = static_cast<std::uint32_t>(i), z = static_cast<std::uint32_t>(j);
+    return at(x, z, height(x, z));
+  }
+
+  void add_top(const Job& job) {
+    for (std::uint32_t j = 0; j < n_; ++j) {
+      job.check();
+      for (std::uint32_t i = 0; i < n_; ++i) {
+        add(at(i, j, height(i, j)), normal(i, j), color(field_.value[j * n_ + i]));
+      }
+    }
+    for (std::uint32_t j = 0; j + 1 < n_; ++j) {
+      for (std::uint32_t i = 0; i + 1 < n_; ++i) {
+        const std::uint32_t a = j * n_ + i, b = a + 1, c = a + n_, d = c + 1;
+        add_triangle(a, c, b);
+        add_triangle(b, c, d);
+      }
+    }
+  }
+
+  /// The rim, counter-clockwise from above: corner (i, j) after `step` of 4 * (n - 1).
+  glm::uvec2 rim(std::uint32_t step) const {
+    const std::uint32_t last = n_ - 1, along = step % last;
+    switch (step / last % 4) {
+      case 0:
+        return {along, last};
+      case 1:
+        return {last, last - along};
+      case 2:
+        return {last - along, 0};
+      default:
+        return {0, along};
+    }
+  }
+
+  void add_walls() {
+    constexpr glm::vec3 outward[] = {{0, 0, 1}, {1, 0, 0}, {0, 0, -1}, {-1, 0, 0}};
+    const glm::u8vec4 paint = palette_.front();
+    for (std::uint32_t side = 0; side < 4; ++side) {
+      const auto first = static_cast<std::uint32_t>(mesh_.position.size());
+      for (std::uint32_t step = 0; step < n_; ++step) {
+        const glm::uvec2 c = rim(side * (n_ - 1) + step);
+        const glm::uvec2 end = step + 1 == n_ ? rim((side + 1) * (n_ - 1)) : c;
+        add(at(end.x, end.y, underside()), outward[side], paint);
+        add(at(end.x, end.y, height(end.x, end.y)), outward[side], paint);
+      }
+      for (std::uint32_t step = 0; step + 1 < n_; ++step) {
+        const std::uint32_t a = first + 2 * step;
+        add_triangle(a, a + 2, a + 3);
+        add_triangle(a, a + 3, a + 1);
+      }
+    }
+  }
+
+  void add_underside() {
+    const auto centre = static_cast<std::uint32_t>(mesh_.position.size());
+    const std::uint32_t steps = 4 * (n_ - 1);
+    add({0, underside(), 0}, {0, -1, 0}, palette_.front());
+    for (std::uint32_t step = 0; step < steps; ++step) {
+      const glm::uvec2 c = rim(step);
+      add(at(c.x, c.y, underside()), {0, -1, 0}, palette_.front());
+    }
+    for (std::uint32_t step = 0; step < steps; ++step)
+      add_triangle(centre, centre + 1 + (step + 1) % steps, centre + 1 + step);
+  }
+
+  const FractalParams& params_;
+  const EscapeField& field_;
+  std::uint32_t n_;
+  double step_;
+  std::vector<glm::u8vec4> palette_;
+  Mesh mesh_;
+};
+
+}  // namespace
+
+EscapeField escape_field(const FractalParams& params, Job& job) {
+  const auto& window = params.escape;
+  const auto side = static_cast<std::uint32_t>(window.resolution);
+  EscapeField field{side, Array<float>(job, std::size_t{side} * side)};
+  const double step = window.span / (side - 1), top = window.center[1] + window.span / 2,
+               left = window.center[0] - window.span / 2;
+  const bool julia = window.set == FractalSet::julia;
+  const double least_steps = 1, most_steps = window.limit;
+  parallel_for(job, side, 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t j = begin; j < end; ++j) {
+      for (std::uint32_t i = 0; i < side; ++i) {
+        if (i % 64 == 0) job.check();
+        const double re = left + step * i, im = top - step * static_cast<double>(j);
+        const double steps =
+            julia ? steps_to_leave(re, im, window.constant[0], window.constant[1], window.limit)
+                  : steps_to_leave(0, 0, re, im, window.limit);
+        double value = 1;
+        if (steps >= 0) {
+          value =
+              math::log(std::clamp(steps, least_steps, most_steps)) / math::log(std::max(most_steps, 2.0));
+          value = std::min(value, 0.999);
+        }
+        field.value[j * side + i] = static_cast<float>(value);
+      }
+    }
+  });
+  return field;
+}
+
+Mesh escape_plate(const FractalParams& params, const EscapeField& field, Job& job) {
+  return Plate(params, field, job).take();
+}
+
+}  // namespace seedmesh::fractal

@@ -1,0 +1,289 @@
+#include "core/generators/fractal/fractal.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/generators/fractal/chaos.h"
+#include "core/generators/fractal/element.h"
+#include "core/generators/fractal/escape.h"
+#include "core/generators/fractal/faces.h"
+#include "core/generators/fractal/measure.h"
+#include "core/generators/fractal/pieces.h"
+#include "core/generators/fractal/scenes.h"
+#include "core/generators/fractal/survey.h"
+#include "core/gltf/read.h"
+#include "generated/params/fractal.h"
+
+namespace seedmesh::fractal {
+namespace {
+
+bool is_named(const FractalParams& params, FractalElement name) {
+  return params.element.index() == 0 && std::get<0>(params.element) == name;
+}
+
+bool is_cube(const FractalParams& params) {
+  return is_named(params, FractalElement::cube) || is_named(params, FractalElement::rainbow_cube);
+}
+
+/// The lattice, where the surface is made of its cells.
+std::optional<Lattice> visible_lattice(const FractalParams& params, const Instructions& instructions) {
+  if (!is_cube(params) || params.surface == FractalSurface::pieces) return std::nullopt;
+  return lattice_of(instructions);
+}
+
+/// Refuses before the grid is made, where the number of squares is known in closed form.
+void refuse_too_many_squares(const Lattice& lattice, int rounds, const Job& job) {
+  const auto limit = static_cast<double>(job.limits().triangles);
+  const auto triangles = [&](int after) { return 2 * exposed_quads(lattice, after).value_or(0); };
+  if (triangles(rounds) <= limit) return;
+  int fewer = rounds;
+  while (fewer > 0 && triangles(fewer) > limit) --fewer;
+  Job::refuse("needs " + number_text(triangles(rounds)) + " triangles after " + std::to_string(rounds) +
+                  " rounds; the limit is " + std::to_string(job.limits().triangles) + ", which " +
+                  std::to_string(fewer) + " rounds keep",
+              "/iterations");
+}
+
+void scale_mesh(Solid& solid, double size) {
+  solid.origin *= size;
+  solid.cell *= size;
+}
+
+/// One stage of a copy machine. Gives the edges in four faces.
+std::uint64_t add_stage(Model& model, int parent, const FractalParams& params,
+                        const Instructions& instructions, const Element& element, int rounds, Job& job) {
+  const std::optional<Lattice> lattice = visible_lattice(params, instructions);
+  if (!lattice) {
+    add_pieces(model, parent, instructions, element, rounds, params.size, job);
+    return 0;
+  }
+  refuse_too_many_squares(*lattice, rounds, job);
+  Solid solid = solid_of(*lattice, rounds, job);
+  scale_mesh(solid, params.size);
+  const SideColors sides = rainbow();
+  const SideColors* colors = is_named(params, FractalElement::rainbow_cube) ? &sides : nullptr;
+  const std::uint64_t edges = skeleton_of(solid.by_x, job).four_face_edges;
+  add_mesh(model, parent, "cells", exposed_faces(solid, colors, job));
+  return edges;
+}
+
+Result<Model> generate_copies(const FractalParams& params, Job& job) {
+  const Instructions instructions = instructions_of(params);
+  Result<Element> element = element_of(params, job);
+  if (!element) return std::move(element).error();
+  job.progress("mesh", 0);
+  Model model;
+  model.name = "fractal";
+  model.materials = std::move(element->materials);
+  model.warnings = std::move(element->warnings);
+  std::uint64_t edges = 0;
+  if (is_named(params, FractalElement::plate)) {
+    each_stage(model, params, params.iterations, [&](int node, std::int64_t rounds) {
+      add_mesh(model, node, "plate", koch_plate(static_cast<int>(rounds), params.size, job));
+    });
+    return model;
+  }
+  each_stage(model, params, params.iterations, [&](int node, std::int64_t rounds) {
+    edges = add_stage(model, node, params, instructions, *element, static_cast<int>(rounds), job);
+  });
+  if (edges > 0) model.extras.push_back({"non_manifold_edges", std::to_string(edges)});
+  return model;
+}
+
+Result<Model> generate_cloud(const FractalParams& params, Job& job) {
+  const Instructions instructions = instructions_of(params);
+  Model model;
+  model.name = "fractal";
+  std::vector<Primitive> element;
+  if (params.cloud == FractalCloud::elements) {
+    Result<Element> made = element_of(params, job);
+    if (!made) return std::move(made).error();
+    model.materials = std::move(made->materials);
+    model.warnings = std::move(made->warnings);
+    element = std::move(made->primitives);
+  } else {
+    model.materials.push_back(plain_material(params));
+    model.materials.back().unlit = params.cloud == FractalCloud::points;
+  }
+  each_stage(model, params, params.points, [&](int node, std::int64_t count) {
+    Cloud cloud =
+        play(instructions, static_cast<std::uint64_t>(count), static_cast<std::uint32_t>(params.drop), job);
+    job.progress("mesh", 0);
+    for (glm::vec3& p : cloud.position) p *= static_cast<float>(params.size);
+    add_cloud(model, node, params, std::move(cloud), element, job);
+  });
+  return model;
+}
+
+Result<Model> generate_escape(const FractalParams& params, Job& job) {
+  job.progress("derive", 0);
+  const EscapeField field = escape_field(params, job);
+  job.progress("mesh", 0);
+  Model model;
+  model.name = "fractal";
+  model.materials.push_back(plain_material(params));
+  Node& node = model.nodes.emplace_back();
+  node.name = "fractal";
+  add_mesh(model, 0, "plate", escape_plate(params, field, job));
+  return model;
+}
+
+Json number_or_null(const std::optional<double>& number) { return number ? Json(*number) : Json(nullptr); }
+
+Json vector(const glm::vec3& v) { return Json::array({v.x + 0.0F, v.y + 0.0F, v.z + 0.0F}); }
+
+std::vector<std::int64_t> stages_of(const FractalParams& params, std::int64_t otherwise) {
+  if (params.stages.empty()) return {otherwise};
+  return {params.stages.begin(), params.stages.end()};
+}
+
+void check_stages(const FractalParams& params, std::vector<Issue>& issues) {
+  for (std::size_t i = 0; i < params.stages.size(); ++i) {
+    const std::string pointer = "/stages/" + std::to_string(i);
+    if (params.method == FractalMethod::mrcm && params.stages[i] > 1000)
+      issues.push_back(
+          {pointer, "found " + std::to_string(params.stages[i]) + " rounds, expected at most 1000"});
+    if (params.method == FractalMethod::frcm && params.stages[i] < 1)
+      issues.push_back({pointer, "found 0 points, expected at least 1"});
+    if (params.method == FractalMethod::escape)
+      issues.push_back({pointer, "found a stage, but method \"escape\" has none"});
+  }
+}
+
+void check_element(const FractalParams& params, std::vector<Issue>& issues) {
+  if (is_named(params, FractalElement::plate)) {
+    const bool snowflake = params.instructions.index() == 0 &&
+                           std::get<0>(params.instructions) == FractalInstructions::koch_snowflake;
+    if (!snowflake || params.method != FractalMethod::mrcm)
+      issues.push_back({"/element", "found \"plate\", which is the area inside the koch_snowflake of mrcm"});
+  }
+  if (params.element.index() == 0) return;
+  const FractalElementObject& given = std::get<1>(params.element);
+  if (given.model.has_value() == given.glb.has_value()) {
+    issues.push_back({"/element", std::string("found ") + (given.model ? "both" : "neither") +
+                                      " of \"model\" and \"glb\", expected one of them"});
+  } else if (given.glb && !is_glb_uri(*given.glb)) {
+    issues.push_back({"/element/glb", "expected a GLB as \"data:model/gltf-binary;base64,…\""});
+  }
+}
+
+/// Triangles and bytes of one stage.
+Estimate estimate_stage(const FractalParams& params, const Instructions& instructions, const Element& element,
+                        int rounds, const Job& job) {
+  if (const std::optional<Lattice> lattice = visible_lattice(params, instructions)) {
+    refuse_too_many_squares(*lattice, rounds, job);
+    const std::optional<double> squares = exposed_quads(*lattice, rounds);
+    const std::uint64_t count =
+        squares ? static_cast<std::uint64_t>(*squares) : count_exposed(solid_of(*lattice, rounds, job), job);
+    return {2 * count, 62 * count + 1000, true};
+  }
+  const Plan plan = plan_of(instructions, element, rounds, job);
+  return {static_cast<std::uint64_t>(plan.pieces) * element.elements, plan.bytes + 1000, true};
+}
+
+Result<Appraisal> appraise_copies(const FractalParams& params, Job& job) {
+  Appraisal appraisal;
+  const Instructions instructions = instructions_of(params);
+  Result<Element> element = element_of(params, job);
+  if (!element) return std::move(element).error();
+  appraisal.warnings = std::move(element->warnings);
+  if (is_named(params, FractalElement::plate)) return appraisal;
+  Estimate sum{0, 0, true};
+  for (const std::int64_t rounds : stages_of(params, params.iterations)) {
+    const Estimate stage = estimate_stage(params, instructions, *element, static_cast<int>(rounds), job);
+    sum = {sum.triangles + stage.triangles, sum.bytes + stage.bytes, sum.exact && stage.exact};
+  }
+  appraisal.estimate = sum;
+  return appraisal;
+}
+
+}  // namespace
+
+std::vector<Issue> check(const FractalParams& params, const Limits& limits) {
+  std::vector<Issue> issues = check_instructions(params);
+  check_element(params, issues);
+  check_stages(params, issues);
+  if (static_cast<std::uint32_t>(params.iterations) > limits.iterations) {
+    issues.push_back({"/iterations", "found " + std::to_string(params.iterations) + ", expected at most " +
+                                         std::to_string(limits.iterations)});
+  }
+  return issues;
+}
+
+Result<Model> generate(const FractalParams& params, Job& job) {
+  job.progress("derive", 0);
+  switch (params.method) {
+    case FractalMethod::frcm:
+      return generate_cloud(params, job);
+    case FractalMethod::escape:
+      return generate_escape(params, job);
+    default:
+      return generate_copies(params, job);
+  }
+}
+
+Result<Json> derive(const FractalParams& params, Job& job) {
+  Measure result;
+  if (params.method == FractalMethod::escape) {
+    const auto side = static_cast<double>(params.escape.resolution);
+    result.pieces = side * side;
+  } else {
+    result = measure(params, instructions_of(params),
+                     params.method == FractalMethod::mrcm ? params.iterations : 0, job);
+  }
+  if (params.method == FractalMethod::frcm) {
+    const Cloud cloud = play(instructions_of(params), static_cast<std::uint64_t>(params.points),
+                             static_cast<std::uint32_t>(params.drop), job);
+    const std::optional<double> dimension = result.dimension;
+    result = {};
+    result.pieces = static_cast<double>(params.points);
+    result.dimension = dimension;
+    result.bounds = bounds_of(cloud.position.span());
+  }
+  Json bounds = nullptr;
+  if (result.bounds) bounds = {{"min", vector(result.bounds->min)}, {"max", vector(result.bounds->max)}};
+  return Json{{"pieces", result.pieces},
+              {"dimension", number_or_null(result.dimension)},
+              {"exposed_quads", number_or_null(result.exposed_quads)},
+              {"surface_area", number_or_null(result.surface_area)},
+              {"volume", number_or_null(result.volume)},
+              {"genus", number_or_null(result.genus)},
+              {"non_manifold_edges", number_or_null(result.non_manifold_edges)},
+              {"bounds", std::move(bounds)},
+              {"warnings", Json::array()}};
+}
+
+Result<Appraisal> appraise(const FractalParams& params, const Job& job) {
+  Job own = job.for_child(job.seed());
+  if (params.method == FractalMethod::mrcm) return appraise_copies(params, own);
+  Appraisal appraisal;
+  if (params.method == FractalMethod::escape) {
+    const auto n = static_cast<std::uint64_t>(params.escape.resolution);
+    appraisal.estimate = Estimate{2 * (n - 1) * (n - 1) + 12 * (n - 1), 52 * n * n, true};
+  } else if (params.cloud == FractalCloud::points) {
+    std::uint64_t points = 0;
+    for (const std::int64_t count : stages_of(params, params.points))
+      points += static_cast<std::uint64_t>(count);
+    if (points > job.limits().triangles)
+      Job::refuse("needs " + std::to_string(points) + " points; the limit is " +
+                      std::to_string(job.limits().triangles),
+                  "/points");
+    appraisal.estimate = Estimate{points, 16 * points + 1000, true};
+  }
+  return appraisal;
+}
+
+Json vocabulary() {
+  Json rows = Json::array();
+  for (int i = 0; i <= static_cast<int>(FractalInstructions::koch_snowflake); ++i) {
+    FractalParams params;
+    params.instructions = static_cast<FractalInstructions>(i);
+    const Instructions instructions = instructions_of(params);
+    rows.push_back({{"name", instructions.name},
+                    {"maps", instructions.maps.size()},
+                    {"lattice", lattice_of(instructions).has_value()}});
+  }
+  return {{"instructions", std::move(rows)}};
+}
+
+}  // namespace seedmesh::fractal

@@ -1,0 +1,167 @@
+#include "core/generators/fractal/measure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "core/generators/fractal/element.h"
+#include "core/generators/fractal/pieces.h"
+#include "core/generators/fractal/survey.h"
+#include "generated/params/fractal.h"
+
+namespace seedmesh::fractal {
+namespace {
+
+constexpr double most_counted_cells = 0x1p27;
+
+double power(double base, int exponent) {
+  double result = 1;
+  for (int i = 0; i < exponent; ++i) result *= base;
+  return result;
+}
+
+std::optional<double> dimension_of(const Instructions& instructions) {
+  std::vector<double> scales;
+  for (const Affine& map : instructions.maps) {
+    const std::optional<double> scale = similarity(map);
+    if (!scale || !(*scale < 1)) return std::nullopt;
+    scales.push_back(*scale);
+  }
+  const auto [least, most] = std::ranges::minmax(scales);
+  if (scales.size() == 1) return 0.0;
+  if (most - least <= 1e-12 * most)
+    return math::log(static_cast<double>(scales.size())) / -math::log(scales.front());
+  // The sum falls with D, from the number of maps at 0.
+  double low = 0, high = 64;
+  for (int step = 0; step < 200 && low < high; ++step) {
+    const double middle = (low + high) / 2;
+    double sum = 0;
+    for (const double scale : scales) sum += math::pow(scale, middle);
+    (sum > 1 ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+bool is_cube(const FractalParams& params) {
+  if (params.element.index() != 0) return false;
+  const FractalElement name = std::get<0>(params.element);
+  return name == FractalElement::cube || name == FractalElement::rainbow_cube;
+}
+
+double cells_of_box(const Lattice& lattice, int rounds) {
+  glm::dvec3 least(lattice.cells.front()), most = least;
+  for (const glm::ivec3& cell : lattice.cells) {
+    least = glm::min(least, glm::dvec3(cell));
+    most = glm::max(most, glm::dvec3(cell));
+  }
+  const double side = lattice.side(rounds), series = (side - 1) / (lattice.parts - 1);
+  glm::dvec3 size = (most - least) * series + 1.0;
+  if (lattice.keeps) size = glm::max(size, glm::dvec3(side));
+  return size.x * size.y * size.z;
+}
+
+void measure_lattice(const Lattice& lattice, int rounds, const Job& job, Measure& out) {
+  const double side = lattice.side(rounds);
+  out.exposed_quads = exposed_quads(lattice, rounds);
+  if (lattice.inside())
+    out.volume = power(static_cast<double>(lattice.cells.size()) / power(lattice.parts, 3), rounds);
+  if (cells_of_box(lattice, rounds) <= most_counted_cells) {
+    const Survey survey = survey_of(grid_of(lattice, rounds, {0, 1, 2}, job), job);
+    const bool whole = lattice.block == glm::ivec3(1);
+    if (whole) out.exposed_quads = static_cast<double>(survey.squares);
+    const int in_block = lattice.block.x * lattice.block.y * lattice.block.z;
+    if (!lattice.inside()) out.volume = static_cast<double>(survey.cells) / (power(side, 3) * in_block);
+    out.non_manifold_edges = static_cast<double>(survey.four_face_edges);
+    if (const auto genus = survey.genus()) out.genus = static_cast<double>(*genus);
+  }
+  if (out.exposed_quads) out.surface_area = *out.exposed_quads / (side * side);
+}
+
+/// Copies of one scale that touch along edges at most: areas and volumes add up.
+void measure_apart(const FractalParams& params, const Instructions& instructions, int rounds, Measure& out) {
+  if (params.element.index() != 0 || text_of(std::get<0>(params.element)) != instructions.apart) return;
+  const std::optional<Measures> element = measures_of(params);
+  if (!element) return;
+  const double scale = similarity(instructions.maps.front()).value_or(1);
+  out.surface_area =
+      element->area * power(static_cast<double>(instructions.maps.size()) * scale * scale, rounds);
+  out.volume =
+      element->volume * power(static_cast<double>(instructions.maps.size()) * scale * scale * scale, rounds);
+}
+
+/// Maps that turn nothing move the two ends of each axis alone.
+std::optional<Box> straight_bounds(const Instructions& instructions, int rounds) {
+  for (const Affine& map : instructions.maps) {
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        if (i != j && map.linear[i][j] != 0) return std::nullopt;
+      }
+    }
+  }
+  if (!instructions.arrangement.empty()) return std::nullopt;
+  glm::dvec3 low(-0.5), high(0.5);
+  for (int round = 0; round < rounds; ++round) {
+    glm::dvec3 next_low(1e300), next_high(-1e300);
+    if (instructions.keeps) {
+      next_low = glm::dvec3(-0.5);
+      next_high = glm::dvec3(0.5);
+    }
+    for (const Affine& map : instructions.maps) {
+      const glm::dvec3 a = map(low), b = map(high);
+      next_low = glm::min(next_low, glm::min(a, b));
+      next_high = glm::max(next_high, glm::max(a, b));
+    }
+    if (next_low == low && next_high == high) break;
+    low = next_low;
+    high = next_high;
+  }
+  return Box{glm::vec3(low), glm::vec3(high)};
+}
+
+/// The box of an element that fills its frame.
+bool fills_frame(const FractalParams& params) {
+  if (params.element.index() != 0) return false;
+  const FractalElement name = std::get<0>(params.element);
+  return name != FractalElement::letter_plate && name != FractalElement::segment;
+}
+
+}  // namespace
+
+std::optional<double> exposed_quads(const Lattice& lattice, int rounds) {
+  if (!lattice.inside()) return std::nullopt;
+  const auto copies = static_cast<double>(lattice.cells.size());
+  double touching = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    double neighbours = 0, across = 0;  // pairs in one block; pairs over the border of two equal blocks
+    for (const glm::ivec3& a : lattice.cells) {
+      for (const glm::ivec3& b : lattice.cells) {
+        glm::ivec3 step = b - a;
+        const int along = step[axis];
+        step[axis] = 0;
+        if (step != glm::ivec3(0)) continue;
+        neighbours += along == 1 ? 1 : 0;
+        across += along == 1 - lattice.parts ? 1 : 0;
+      }
+    }
+    double pairs = 0, wall = 1;  // touching cells; cells of two equal blocks that touch over their border
+    for (int round = 0; round < rounds; ++round) {
+      pairs = copies * pairs + neighbours * wall;
+      wall *= across;
+    }
+    touching += pairs;
+  }
+  return 6 * power(copies, rounds) - 2 * touching;
+}
+
+Measure measure(const FractalParams& params, const Instructions& instructions, int rounds, const Job& job) {
+  Measure out;
+  out.pieces = pieces_after(instructions, rounds);
+  out.dimension = dimension_of(instructions);
+  const std::optional<Lattice> lattice = lattice_of(instructions);
+  if (is_cube(params) && lattice) measure_lattice(*lattice, rounds, job, out);
+  if (!instructions.apart.empty()) measure_apart(params, instructions, rounds, out);
+  if (fills_frame(params)) out.bounds = straight_bounds(instructions, rounds);
+  return out;
+}
+
+}  // namespace seedmesh::fractal

@@ -1,0 +1,186 @@
+#include "core/generators/fractal/pieces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "core/geom/weld.h"
+
+namespace seedmesh::fractal {
+namespace {
+
+constexpr std::uint64_t most_nodes = 400;
+constexpr std::uint64_t node_bytes = 150;  ///< of JSON
+constexpr double largest_count = 0x1p62;
+
+/// All copies after `rounds`, one after the other, without a list of them: a stack of one map a round.
+template <class Visit>
+void each_copy(const Instructions& instructions, int rounds, const Visit& visit) {
+  std::vector<Affine> stack{Affine{}};
+  std::vector<std::size_t> next{0};
+  while (!stack.empty()) {
+    const auto depth = static_cast<int>(stack.size()) - 1;
+    const bool whole = depth == rounds;
+    if (next.back() == 0 && (whole || instructions.keeps)) visit(compose(stack.back(), instructions.stem));
+    if (whole || next.back() == instructions.maps.size()) {
+      stack.pop_back();
+      next.pop_back();
+      continue;
+    }
+    const Affine copy = compose(stack.back(), instructions.maps[next.back()++]);
+    stack.push_back(copy);
+    next.push_back(0);
+  }
+}
+
+bool can_be_nodes(const Instructions& instructions) {
+  if (instructions.keeps || !instructions.arrangement.empty()) return false;
+  return std::ranges::all_of(instructions.maps,
+                             [](const Affine& map) { return similarity(map).has_value(); });
+}
+
+std::uint64_t whole(double count) { return static_cast<std::uint64_t>(std::min(count, largest_count)); }
+
+/// A copy of a mesh under each map, joined.
+class Baker {
+ public:
+  Baker(const Mesh& element, std::uint64_t copies, double size, Job& job)
+      : element_(element), size_(size), job_(job) {
+    const std::size_t count = static_cast<std::size_t>(copies);
+    mesh_.topology = element.topology;
+    mesh_.position = Array<glm::vec3>(job);
+    mesh_.normal = Array<glm::vec3>(job);
+    mesh_.uv[0] = Array<glm::vec2>(job);
+    mesh_.color = Array<glm::u8vec4>(job);
+    mesh_.index.wide = Array<std::uint32_t>(job);
+    mesh_.position.reserve(count * element.position.size());
+    mesh_.normal.reserve(count * element.normal.size());
+    mesh_.uv[0].reserve(count * element.uv[0].size());
+    mesh_.color.reserve(count * element.color.size());
+    mesh_.index.wide.reserve(count * element.index.size());
+  }
+
+  void add(const Affine& map) {
+    if (++copies_ % 256 == 0) job_.check();
+    const double determinant = glm::determinant(map.linear);
+    if (determinant == 0 && element_.topology == Topology::triangles)
+      return;  // flat: nothing to see of a solid
+    const auto first = static_cast<std::uint32_t>(mesh_.position.size());
+    glm::vec3* position = mesh_.position.extend(element_.position.size());
+    for (const glm::vec3& p : element_.position) *position++ = glm::vec3(size_ * map(glm::dvec3(p)));
+    if (!element_.normal.empty()) add_normals(map, determinant);
+    mesh_.uv[0].append(element_.uv[0].span());
+    mesh_.color.append(element_.color.span());
+    const bool mirrored = determinant < 0 && element_.topology == Topology::triangles;
+    std::uint32_t* corner = mesh_.index.wide.extend(element_.index.size());
+    for (std::size_t i = 0; i < element_.index.size(); ++i)
+      *corner++ = first + element_.index.at(mirrored ? i / 3 * 3 + 2 - i % 3 : i);
+  }
+
+  Mesh take() {
+    weld(mesh_, job_);
+    return std::move(mesh_);
+  }
+
+ private:
+  void add_normals(const Affine& map, double determinant) {
+    // The cofactors: the inverse transposed, times a determinant that may be very small.
+    const glm::dmat3& m = map.linear;
+    glm::dmat3 turn(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+    const double largest = std::max({glm::length(turn[0]), glm::length(turn[1]), glm::length(turn[2])});
+    turn *= (determinant < 0 ? -1 : 1) / largest;
+    glm::vec3* normal = mesh_.normal.extend(element_.normal.size());
+    for (const glm::vec3& n : element_.normal)
+      *normal++ = glm::vec3(math::unit(turn * glm::dvec3(n), {0, 1, 0}));
+  }
+
+  const Mesh& element_;
+  double size_;
+  Job& job_;
+  Mesh mesh_;
+  std::uint64_t copies_ = 0;
+};
+
+void refuse_too_many(double elements, std::uint64_t limit, int rounds, const Instructions& instructions,
+                     const Element& element) {
+  int fewer = rounds;
+  while (fewer > 0 && pieces_after(instructions, fewer) * static_cast<double>(element.elements) >
+                          static_cast<double>(limit)) {
+    --fewer;
+  }
+  Job::refuse("needs " + std::to_string(whole(elements)) + " triangles or lines after " +
+                  std::to_string(rounds) + " rounds; the limit is " + std::to_string(limit) + ", which " +
+                  std::to_string(fewer) + " rounds keep",
+              "/iterations");
+}
+
+}  // namespace
+
+double pieces_after(const Instructions& instructions, int rounds) {
+  const auto copies = static_cast<double>(instructions.maps.size());
+  double pieces = 1;
+  for (int round = 0; round < rounds; ++round) pieces = copies * pieces + (instructions.keeps ? 1 : 0);
+  return instructions.arrangement.empty() ? pieces
+                                          : pieces * static_cast<double>(instructions.arrangement.size());
+}
+
+Plan plan_of(const Instructions& instructions, const Element& element, int rounds, const Job& job) {
+  const double pieces = pieces_after(instructions, rounds);
+  const bool nodes_allowed = can_be_nodes(instructions) && rounds > 0;
+  Plan best;
+  bool found = false;
+  for (int meshed = rounds; meshed >= 0; --meshed) {
+    const double nodes = pieces / pieces_after(instructions, meshed);
+    if (meshed < rounds && (!nodes_allowed || nodes > most_nodes)) break;
+    const double in_mesh = meshed == rounds ? pieces : pieces_after(instructions, meshed);
+    const double wide = in_mesh * static_cast<double>(element.bytes);
+    const double bytes = wide + nodes * static_cast<double>(node_bytes);
+    const double elements = in_mesh * static_cast<double>(element.elements);
+    if (elements > static_cast<double>(job.limits().triangles)) continue;
+    if (found && bytes >= static_cast<double>(best.bytes)) continue;
+    best = {meshed, pieces, whole(elements), whole(nodes), whole(bytes)};
+    found = true;
+  }
+  // What is drawn counts as much as what is stored: a viewer pays for both.
+  const double drawn = pieces * static_cast<double>(element.elements);
+  if (!found || drawn > static_cast<double>(job.limits().triangles))
+    refuse_too_many(drawn, job.limits().triangles, rounds, instructions, element);
+  return best;
+}
+
+void add_pieces(Model& model, int parent, const Instructions& instructions, const Element& element,
+                int rounds, double size, Job& job) {
+  const Plan plan = plan_of(instructions, element, rounds, job);
+  job.spend(Resource::triangles, whole(plan.pieces) * element.elements);
+  MeshGroup group;
+  group.name = "copies";
+  const std::vector<Affine> once{Affine{}};
+  const std::vector<Affine>& around = instructions.arrangement.empty() ? once : instructions.arrangement;
+  const std::uint64_t copies = whole(plan.pieces) / std::max<std::uint64_t>(plan.nodes, 1);
+  for (const Primitive& primitive : element.primitives) {
+    Baker baker(primitive.mesh, copies, size, job);
+    for (const Affine& outer : around)
+      each_copy(instructions, plan.meshed, [&](const Affine& map) { baker.add(compose(outer, map)); });
+    group.primitives.push_back({baker.take(), primitive.material, {}});
+  }
+  model.meshes.push_back(std::move(group));
+  Node& node = model.nodes.emplace_back();
+  node.name = "copies";
+  node.parent = parent;
+  node.mesh = static_cast<int>(model.meshes.size()) - 1;
+  if (plan.nodes <= 1) return;
+  each_copy(instructions, rounds - plan.meshed, [&](const Affine& map) {
+    Affine moved = map;
+    moved.offset *= size;
+    node.instances.transforms.push_back(transform_of(moved, similarity(map).value_or(1)));
+  });
+}
+
+Mesh scattered(const Mesh& element, std::span<const glm::vec3> places, double edge, Job& job) {
+  job.spend(Resource::triangles, places.size() * element.elements());
+  Baker baker(element, places.size(), 1, job);
+  for (const glm::vec3& place : places) baker.add({glm::dmat3(edge), glm::dvec3(place)});
+  return baker.take();
+}
+
+}  // namespace seedmesh::fractal
