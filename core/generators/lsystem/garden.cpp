@@ -21,16 +21,16 @@ constexpr std::string_view own_name = "lsystem";
 glm::dvec3 vector_of(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 SolidShape shape_of(SolidParams const& given) {
-  switch (given.shape) {
-    case LsystemParams::Shape::box:
+  switch (given.solid_shape) {
+    case LsystemParams::SolidShape::box:
       return SolidShape::box;
-    case LsystemParams::Shape::sphere:
+    case LsystemParams::SolidShape::sphere:
       return SolidShape::sphere;
-    case LsystemParams::Shape::cylinder:
+    case LsystemParams::SolidShape::cylinder:
       return SolidShape::cylinder;
-    case LsystemParams::Shape::cone:
+    case LsystemParams::SolidShape::cone:
       return SolidShape::cone;
-    case LsystemParams::Shape::mesh:
+    case LsystemParams::SolidShape::mesh:
       return SolidShape::mesh;
   }
   return SolidShape::box;
@@ -75,7 +75,7 @@ void check_environment(const LsystemParams& params, std::vector<Issue>& issues) 
   for (std::size_t i = 0; i < params.environment->solids.size(); ++i) {
     const SolidParams& solid = params.environment->solids[i];
     const std::string pointer = "/environment/solids/" + std::to_string(i);
-    const bool is_mesh = solid.shape == LsystemParams::Shape::mesh;
+    const bool is_mesh = solid.solid_shape == LsystemParams::SolidShape::mesh;
     if (is_mesh && solid.model.has_value() == solid.glb.has_value()) {
       issues.push_back({pointer, "a mesh has either `model` or `glb`"});
     } else if (!is_mesh && (solid.model || solid.glb)) {

@@ -34,6 +34,23 @@ void check_age(const LsystemParams& params, std::vector<Issue>& issues) {
                                 std::to_string(params.iterations) + " iterations"});
 }
 
+/// Between two steps modules of the next word grow in place of those of this one; that needs a successor that
+/// stands in the text.
+void check_between_steps(const LsystemParams& params, const Grammar& grammar, std::vector<Issue>& issues) {
+  if (!params.age || params.timed ||
+      *params.age == static_cast<double>(static_cast<std::int64_t>(*params.age)))
+    return;
+  const auto looks_at_new = [](const Production& each) { return each.looks_at_new(); };
+  const std::vector<Production>& rules = grammar.productions.productions;
+  const char* found = grammar.statements                                      ? "statements"
+                      : !grammar.decomposition.productions.empty()            ? "decomposition rules"
+                      : std::any_of(rules.begin(), rules.end(), looks_at_new) ? "contexts of the new word"
+                                                                              : nullptr;
+  if (!found) return;
+  issues.push_back({"/age", "found a part of a step and a grammar with " + std::string(found) +
+                                "; such a grammar grows by whole steps, or by timed modules"});
+}
+
 }  // namespace
 
 Compiler::Compiler(const LsystemParams& params, std::uint64_t seed, const Limits& limits,
@@ -373,7 +390,9 @@ Grammar compile(const LsystemParams& params, std::uint64_t seed, const Limits& l
                                          std::to_string(limits.iterations)});
   }
   check_age(params, issues);
-  return Compiler(params, seed, limits, issues).compile();
+  Grammar grammar = Compiler(params, seed, limits, issues).compile();
+  check_between_steps(params, grammar, issues);
+  return grammar;
 }
 
 }  // namespace seedmesh::lsystem

@@ -13,7 +13,7 @@ double between(double from, double to, double share) { return from + (to - from)
 
 void Sprouting::module(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t born) {
   const Module each{kind, parameters, key, born};
-  const Rules& rules = grammar_.productions;
+  const Rules& rules = grammar_.rules_at(step_);
   if (kind == grammar_.cut) cut_depth_ = std::max(cut_depth_, 1);
   if (cut_depth_ > 0 || !rules.rewrites(kind)) return stay(each);
   const Production* chosen = choose(grammar_, rules, rules.of_kind[kind], Draws(key, step_),
@@ -24,8 +24,10 @@ void Sprouting::module(KindId kind, const double* parameters, std::uint64_t key,
 void Sprouting::word(const Word& word, Job& job) {
   Array<std::uint32_t> partner(job);
   pair_brackets(grammar_, word, partner);
-  ContextMatcher contexts(grammar_, word, partner);
-  const Rules& rules = grammar_.productions;
+  const Word unwritten(job);
+  const std::vector<std::size_t> no_pieces;
+  ContextMatcher contexts(grammar_, word, partner, unwritten, no_pieces, job);
+  const Rules& rules = grammar_.rules_at(step_);
   const double nothing = 0;
   for (std::size_t i = 0; i < word.size(); ++i) {
     if (i % look_every == 0) job.check();

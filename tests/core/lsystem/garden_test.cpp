@@ -9,10 +9,10 @@
 namespace seedmesh::lsystem {
 namespace {
 
-LsystemParams::Environment inside(LsystemParams::Shape shape, std::array<double, 3> size) {
+LsystemParams::Environment inside(LsystemParams::SolidShape shape, std::array<double, 3> size) {
   LsystemParams::Environment environment;
   LsystemParams::Solid guide;
-  guide.shape = shape;
+  guide.solid_shape = shape;
   guide.size = size;
   environment.solids.push_back(guide);
   return environment;
@@ -33,7 +33,7 @@ TEST(Garden, TellsWhereTheTurtleIs) {
 
 TEST(Garden, AnswersInTheNextStep) {
   LsystemParams params = grammar_of("?E(1)A", {"?E(x) < A : x == 1 -> F?E(1)A", "?E(x) -> "}, 5);
-  params.environment = inside(LsystemParams::Shape::box, {4, 3.5, 4});
+  params.environment = inside(LsystemParams::SolidShape::box, {4, 3.5, 4});
   EXPECT_EQ(derived(params), "FFFA") << "three steps of one metre fit into three and a half";
 }
 
@@ -47,7 +47,7 @@ TEST(Garden, RunsRulesThreeNineAndThreeTenOfKogovsek) {
 
 TEST(Garden, TellsTheRoomNowAndAfterTheStep) {
   LsystemParams params = grammar_of("F(0.5)?E(1,0,0)", {}, 0);
-  params.environment = inside(LsystemParams::Shape::box, {10, 1, 10});
+  params.environment = inside(LsystemParams::SolidShape::box, {10, 1, 10});
   EXPECT_EQ(derived(params), "F(0.5)?E(0,0.5,-0.5)");
 }
 
@@ -56,19 +56,19 @@ TEST(Garden, TellsTheDirectionToTheSurface) {
   params.environment.emplace();
   LsystemParams::Solid post;
   post.role = LsystemParams::Role::obstacle;
-  post.shape = LsystemParams::Shape::cylinder;
+  post.solid_shape = LsystemParams::SolidShape::cylinder;
   post.position = {3, 0, 0};
   post.size = {2, 10, 2};
   params.environment->solids.push_back(post);
-  EXPECT_EQ(derived(params), "F(0.5)?E(1,2,2.16228,1,1,0,0)");
+  EXPECT_EQ(derived(params), "F(0.5)?E(1,2,2,1,1,0,0)");
 }
 
 TEST(Garden, SeesWhatHasGrownButNotItsOwnStem) {
   const auto asks = [](const char* axiom) { return derived(grammar_of(axiom, {}, 0)); };
   EXPECT_EQ(asks("F(1)?E(1)"), "F(1)?E(1)");
-  EXPECT_EQ(asks("F(1)[+(90)F(1)]-(90)?E(1)F(1)").substr(18, 5), "?E(1)") << "siblings do not count";
-  EXPECT_EQ(asks("[F(2)]@M(-1,1,0)@R(1,0,0)F(0.5)?E(1)").substr(30), "?E(0)") << "a stem stands in the way";
-  EXPECT_EQ(asks("[F(2)]@M(-1,1,0)@R(1,0,0)F(0.5)?E(0.3)").substr(30), "?E(1)");
+  EXPECT_EQ(asks("F(1)[+(90)F(1)]-(90)?E(1)F(1)").substr(20, 5), "?E(1)") << "siblings do not count";
+  EXPECT_EQ(asks("[F(2)]@M(-1,1,0)@R(1,0,0)F(0.5)?E(1)").substr(31), "?E(0)") << "a stem stands in the way";
+  EXPECT_EQ(asks("[F(2)]@M(-1,1,0)@R(1,0,0)F(0.5)?E(0.3)").substr(31), "?E(1)");
 }
 
 TEST(Garden, LeavesLessLightBelowOthers) {
@@ -80,7 +80,7 @@ TEST(Garden, LeavesLessLightBelowOthers) {
 
 TEST(Garden, CutsWhatLeavesTheGuide) {
   LsystemParams params = grammar_of("FFFF[+(90)F]", {}, 0);
-  params.environment = inside(LsystemParams::Shape::box, {10, 2.6, 10});
+  params.environment = inside(LsystemParams::SolidShape::box, {10, 2.6, 10});
   EXPECT_FLOAT_EQ(bounds_of_drawing(params).max.y, 3) << "the centre of the third is at 2.5";
   params.environment->membership = LsystemParams::Membership::whole;
   EXPECT_FLOAT_EQ(bounds_of_drawing(params).max.y, 2);
@@ -106,10 +106,10 @@ TEST(Garden, GrowsCompanionsStepByStep) {
 
 TEST(Garden, TellsWhatTheSchemaCannot) {
   LsystemParams params = grammar_of("F", {}, 0);
-  params.environment = inside(LsystemParams::Shape::mesh, {1, 1, 1});
+  params.environment = inside(LsystemParams::SolidShape::mesh, {1, 1, 1});
   params.environment->solids.push_back(params.environment->solids[0]);
   params.environment->solids[1].glb = "no uri";
-  params.environment->solids.push_back(inside(LsystemParams::Shape::box, {1, 1, 1}).solids[0]);
+  params.environment->solids.push_back(inside(LsystemParams::SolidShape::box, {1, 1, 1}).solids[0]);
   params.environment->solids[2].role = LsystemParams::Role::host;
   LsystemParams::Companion other;
   other.system.generator = "tree";

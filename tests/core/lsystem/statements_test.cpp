@@ -143,12 +143,5 @@ TEST(Kogovsek, RepeatsAModuleInALoop) {
   EXPECT_EQ(derived(grammar_of("A(2)", {"A(n) -> for(i = 0; i <= n; i++) B"})), "BBB");
 }
 
-TEST(Kogovsek, BranchesWhereTheQuerySaysSo) {
-  LsystemParams params = grammar_of(
-      "?E(1)A(2)?E(0)A(2)", {"?E(x) < A(v) : x == 1 -> [+(a2)F(v*r2)?E(r2)A(v*r2)]-(a2)", "?E(x) -> ε"});
-  params.constants = {{"a2", 30.0}, {"r2", 0.5}};
-  EXPECT_EQ(derived(params), "[+(30)F(1)?E(0.5)A(1)]-(30)A(2)");
-}
-
 }  // namespace
 }  // namespace seedmesh::lsystem
