@@ -15,6 +15,13 @@ const aims = {
   'D0L bush n=8': { rate: 430e6, over_peer: 5 },
   'parametric tree 2.6a n=19': { rate: 25e6 },
   'context signal': { rate: 200e6 },
+  // Terrain: seconds for the whole.
+  'diamond-square 4097': { seconds: 0.06 },
+  'fBm of 8 octaves 1025': { seconds: 30e-9 * 1025 * 1025 },
+  '65536 droplets 513': { seconds: 0.2 },
+  'RTIN 1025 at .002': { seconds: 0.025 },
+  'greedy 1025 at .002': { seconds: 0.35 },
+  'diamond-square 4097 to GLB': { seconds: 0.3 },
 };
 const nanoseconds_per_triangle = 30;
 const memory_ratio = 1.5;
@@ -43,7 +50,8 @@ function verdict(reached) {
   return reached ? 'ok' : 'MISSED';
 }
 
-function print_rate(row, peer) {
+/** `copying`: bytes a second that memcpy moves. */
+function print_rate(row, peer, copying) {
   const rate = row.amount / row.seconds;
   const aim = aims[row.name];
   const cells = [row.name.padEnd(44), `${(rate / 1e6).toFixed(1).padStart(9)} M ${row.unit}/s`];
@@ -51,10 +59,12 @@ function print_rate(row, peer) {
     const each = (row.seconds / row.amount) * 1e9;
     cells.push(`${each.toFixed(1)} ns a triangle (aim ${nanoseconds_per_triangle}): ${verdict(each <= nanoseconds_per_triangle)}`);
   }
-  if (aim) cells.push(`aim ${aim.rate / 1e6} M: ${verdict(rate >= aim.rate)}`);
+  if (aim?.rate) cells.push(`aim ${aim.rate / 1e6} M: ${verdict(rate >= aim.rate)}`);
+  if (aim?.seconds) cells.push(`${(row.seconds * 1e3).toFixed(1)} ms (aim ${(aim.seconds * 1e3).toFixed(0)}): ${verdict(row.seconds <= aim.seconds)}`);
+  if (row.bytes && copying) cells.push(`${(row.seconds / (row.bytes / copying)).toFixed(1)} times copying`);
   if (peer) {
     const ratio = rate / (peer.amount / peer.seconds);
-    cells.push(`npm lindenmayer ${(peer.amount / peer.seconds / 1e6).toFixed(1)} M, ratio ${ratio.toFixed(1)}: ${verdict(ratio >= (aim?.over_peer ?? 0))}`);
+    cells.push(`npm ${peer.peer ?? 'lindenmayer'} ${(peer.amount / peer.seconds / 1e6).toFixed(1)} M, ratio ${ratio.toFixed(1)}: ${verdict(ratio >= (aim?.over_peer ?? 0))}`);
   }
   console.log(cells.join('  '));
   return { ...row, rate, peer_rate: peer && peer.amount / peer.seconds };
@@ -71,16 +81,17 @@ function run_own() {
   const own = [];
   const peers = [];
   for (let launch = 0; launch < launches; launch += 1) {
-    own.push(...lines_of(output_of(`${build}/bench/lsystem_bench`)), ...lines_of(output_of(`${build}/bench/request_bench`)));
-    peers.push(...lines_of(output_of(process.execPath, 'tests/bench/peer_lindenmayer.mjs')));
+    own.push(...lines_of(output_of(`${build}/bench/lsystem_bench`)), ...lines_of(output_of(`${build}/bench/request_bench`)), ...lines_of(output_of(`${build}/bench/terrain_bench`)));
+    for (const peer of ['lindenmayer', 'terrain']) peers.push(...lines_of(output_of(process.execPath, `tests/bench/peer_${peer}.mjs`)));
   }
-  const peer_of = gathered(peers);
-  return [...gathered(own).values()].map((row) => (row.peak_less_idle === undefined ? print_rate(row, peer_of.get(row.name)) : print_memory(row)));
+  const peer_of = gathered(peers), rows = gathered(own);
+  const copy = rows.get('copying'), copying = copy && copy.bytes / copy.seconds;
+  return [...rows.values()].map((row) => (row.peak_less_idle === undefined ? print_rate(row, peer_of.get(row.name), copying) : print_memory(row)));
 }
 
 /** The programs over Google Benchmark print tables of their own. */
 function run_library_benches() {
-  const own = new Set(['lsystem_bench', 'request_bench']);
+  const own = new Set(['lsystem_bench', 'request_bench', 'terrain_bench']);
   const folder = `${build}/bench`;
   for (const name of fs.readdirSync(folder).filter((file) => file.endsWith('_bench') && !own.has(file) && file.includes(words)).sort()) {
     console.log(`\n--- ${name}`);
@@ -89,7 +100,7 @@ function run_library_benches() {
 }
 
 console.log(`${new Date().toISOString()}, ${process.platform} ${process.arch}`);
-const rows = words === '' || 'lsystem request'.includes(words) ? run_own() : [];
+const rows = words === '' || 'lsystem request terrain'.includes(words) ? run_own() : [];
 fs.mkdirSync('build', { recursive: true });
 fs.appendFileSync('build/bench.jsonl', rows.map((row) => `${JSON.stringify({ at: new Date().toISOString(), ...row })}\n`).join(''));
 run_library_benches();

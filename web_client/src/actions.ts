@@ -12,11 +12,12 @@ interface Context {
 }
 
 const written: Record<string, string> = { gltf: 'glTF' };
+const endings: Record<string, string> = { png16: 'png', png8: 'png', rgb24: 'png', rgba32: 'png' };
 
-/** One button for each format that the output schema names. */
+/** One button for each format. */
 export function wire_downloads(formats: string[], context: Context): void {
   part('downloads').replaceChildren(...formats.map((format) =>
-    el('button', { type: 'button', 'data-format': format, title: `Download as .${format}`, onclick: () => void download(format, context) },
+    el('button', { type: 'button', 'data-format': format, title: `Download as .${endings[format] ?? format}`, onclick: () => void download(format, context) },
       written[format] ?? format.toUpperCase())));
 }
 
@@ -37,7 +38,7 @@ async function download(format: string, context: Context): Promise<void> {
   try {
     const { bytes } = await generate(in_format(request, format));
     const address = URL.createObjectURL(new Blob([bytes]));
-    el('a', { href: address, download: `${context.name()}.${format}` }).click();
+    el('a', { href: address, download: `${context.name()}.${endings[format] ?? format}` }).click();
     // The browser reads the address after this task; a minute is long enough for it.
     setTimeout(() => URL.revokeObjectURL(address), 60_000);
     context.say(`${written[format] ?? format.toUpperCase()} is downloaded`);

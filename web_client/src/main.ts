@@ -6,7 +6,6 @@ import { Refusal, get_preset, get_presets, get_schema, type Fault, type Made, ty
 import { wire_copies, wire_downloads } from './actions';
 import { el, grouped, part, rounded } from './dom';
 import { draw_form, type Form } from './form/form';
-import { is_members } from './form/schema';
 import { draw_gallery, type Gallery } from './gallery';
 import { Grower, Patience } from './grower';
 import { pack, unpack } from './link';
@@ -111,6 +110,8 @@ function refuse(refusal: Refusal): void {
 /** The form of the request's generator; drawn once for each request that is opened. */
 async function draw_parameters(state: State, signal: AbortSignal): Promise<void> {
   const schema = await persist(() => get_schema(state.request.generator, signal), signal);
+  own_formats = schema['x-formats'] ?? [];
+  offer_downloads();
   form = draw_form(schema, state.request.parameters, state.base.parameters, '/parameters', (parameters) => store.edit({ parameters }));
   part('parameters').replaceChildren(
     el('h2', { class: 'unseen' }, 'Parameters'),
@@ -198,6 +199,11 @@ const quietly = (task: Promise<void>): void => {
   task.catch((error: unknown) => { if (error instanceof Refusal) refuse(error); });
 };
 
+/** The formats of all models, and those of the generator that is shown. */
+let model_formats = ['glb'];
+let own_formats: string[] = [];
+const offer_downloads = (): void => wire_downloads([...model_formats, ...own_formats], actions);
+
 const actions = {
   request: (): Request | null => store.current?.request ?? null,
   name: (): string => `${store.current?.preset ?? 'model'}-${store.current?.request.seed ?? 0}`,
@@ -220,8 +226,8 @@ async function start(): Promise<void> {
   quietly(open_address());
 
   const output = await persist(() => get_schema('output', signal), signal);
-  const formats = is_members(output.properties) ? output.properties['format']?.enum : undefined;
-  wire_downloads((formats ?? ['glb']).map(String), actions);
+  model_formats = output['x-formats'] ?? model_formats;
+  offer_downloads();
 }
 
 quietly(start());

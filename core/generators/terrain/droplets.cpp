@@ -18,9 +18,11 @@ constexpr std::size_t least_batch = 64, most_batch = 8192;
 // Bands of rows that take up what drops did, side by side.
 constexpr std::int32_t bands = 4;
 
-// Beyer's constants: gravity in samples a step squared, and a slope that even flat water carries on.
-constexpr float gravity = 4;
-constexpr float least_slope = 0.01F;
+// Gravity in samples a step squared, a slope that even flat water carries on, and the speed at which water on
+// rough ground gets no faster: without it the fall down a cliff would carry off whatever lies below.
+constexpr float gravity = 1;
+constexpr float least_slope = 0.005F;
+constexpr float greatest_speed = 2.5F;
 
 /// Ground taken (negative) or laid down at a place, in units of a sample's width.
 struct Change {
@@ -92,7 +94,7 @@ class Drops {
         load += taken;
         changes.push_back({x, z, -taken});
       }
-      speed = std::sqrt(std::max(0.0F, speed * speed - rise * gravity));
+      speed = std::min(std::sqrt(std::max(0.0F, speed * speed - rise * gravity)), greatest_speed);
       water *= 1 - static_cast<float>(plan_.evaporation);
       x = to_x;
       z = to_z;
@@ -127,25 +129,13 @@ class Spread {
       : field_(field), range_(range), brush_(brush), reach_(reach), scale_(static_cast<float>(field.cell)) {}
 
   void add(const Change& change, std::int32_t begin, std::int32_t end) const {
-    const auto i = static_cast<std::int32_t>(change.x), j = static_cast<std::int32_t>(change.z);
+    const auto i = static_cast<std::int32_t>(change.x + 0.5F), j = static_cast<std::int32_t>(change.z + 0.5F);
+    if (j + reach_ < begin || j - reach_ >= end) return;
     const float amount = change.amount * scale_;
-    if (change.amount < 0) {
-      if (j + reach_ < begin || j - reach_ >= end) return;
-      for (const BrushCell& cell : brush_) {
-        const std::int32_t x = i + cell.dx, z = j + cell.dz;
-        if (z >= begin && z < end && x >= 0 && x < field_.width)
-          change_by(field_.at(x, z), amount * cell.weight);
-      }
-      return;
-    }
-    const float u = change.x - static_cast<float>(i), v = change.z - static_cast<float>(j);
-    const float weights[2] = {1 - v, v};
-    for (std::int32_t k = 0; k < 2; ++k) {
-      const std::int32_t z = j + k;
-      if (z < begin || z >= end) continue;
-      float* row = field_.row(z) + i;
-      change_by(row[0], amount * weights[k] * (1 - u));
-      change_by(row[1], amount * weights[k] * u);
+    for (const BrushCell& cell : brush_) {
+      const std::int32_t x = i + cell.dx, z = j + cell.dz;
+      if (z >= begin && z < end && x >= 0 && x < field_.width)
+        change_by(field_.at(x, z), amount * cell.weight);
     }
   }
 

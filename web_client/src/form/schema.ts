@@ -26,6 +26,8 @@ export interface Schema {
   'x-advanced'?: boolean;
   'x-widget'?: string;
   'x-grammar'?: string;
+  /** Of the output: the formats of every model. Of a generator: those that it has besides. */
+  'x-formats'?: string[];
   /** The members of the object form that the one number of the short form stands for. */
   'x-short'?: string[];
 }
