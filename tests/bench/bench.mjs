@@ -15,6 +15,9 @@ const aims = {
   'D0L bush n=8': { rate: 430e6, over_peer: 5 },
   'parametric tree 2.6a n=19': { rate: 25e6 },
   'context signal': { rate: 200e6 },
+  'chaos game, 1 thread': { rate: 100e6 },
+  'Menger 4, 1 thread': { seconds: 0.04 },
+  'Menger 5, 1 thread': { seconds: 0.4 },
 };
 const nanoseconds_per_triangle = 30;
 const memory_ratio = 1.5;
@@ -51,10 +54,11 @@ function print_rate(row, peer) {
     const each = (row.seconds / row.amount) * 1e9;
     cells.push(`${each.toFixed(1)} ns a triangle (aim ${nanoseconds_per_triangle}): ${verdict(each <= nanoseconds_per_triangle)}`);
   }
-  if (aim) cells.push(`aim ${aim.rate / 1e6} M: ${verdict(rate >= aim.rate)}`);
+  if (aim?.seconds) cells.push(`${(row.seconds * 1e3).toFixed(1)} ms, aim ${aim.seconds * 1e3} ms: ${verdict(row.seconds <= aim.seconds)}`);
+  if (aim?.rate) cells.push(`aim ${aim.rate / 1e6} M: ${verdict(rate >= aim.rate)}`);
   if (peer) {
     const ratio = rate / (peer.amount / peer.seconds);
-    cells.push(`npm lindenmayer ${(peer.amount / peer.seconds / 1e6).toFixed(1)} M, ratio ${ratio.toFixed(1)}: ${verdict(ratio >= (aim?.over_peer ?? 0))}`);
+    cells.push(`npm ${peer.package ?? 'lindenmayer'} ${(peer.amount / peer.seconds / 1e6).toFixed(1)} M, ratio ${ratio.toFixed(1)}: ${verdict(ratio >= (aim?.over_peer ?? 0))}`);
   }
   console.log(cells.join('  '));
   return { ...row, rate, peer_rate: peer && peer.amount / peer.seconds };
@@ -72,7 +76,8 @@ function run_own() {
   const peers = [];
   for (let launch = 0; launch < launches; launch += 1) {
     own.push(...lines_of(output_of(`${build}/bench/lsystem_bench`)), ...lines_of(output_of(`${build}/bench/request_bench`)));
-    peers.push(...lines_of(output_of(process.execPath, 'tests/bench/peer_lindenmayer.mjs')));
+    own.push(...lines_of(output_of(`${build}/bench/fractal_bench`)));
+    peers.push(...lines_of(output_of(process.execPath, 'tests/bench/peer_lindenmayer.mjs')), ...lines_of(output_of(process.execPath, 'tests/bench/peer_manifold.mjs')));
   }
   const peer_of = gathered(peers);
   return [...gathered(own).values()].map((row) => (row.peak_less_idle === undefined ? print_rate(row, peer_of.get(row.name)) : print_memory(row)));
@@ -80,7 +85,7 @@ function run_own() {
 
 /** The programs over Google Benchmark print tables of their own. */
 function run_library_benches() {
-  const own = new Set(['lsystem_bench', 'request_bench']);
+  const own = new Set(['lsystem_bench', 'request_bench', 'fractal_bench']);
   const folder = `${build}/bench`;
   for (const name of fs.readdirSync(folder).filter((file) => file.endsWith('_bench') && !own.has(file) && file.includes(words)).sort()) {
     console.log(`\n--- ${name}`);
@@ -89,7 +94,7 @@ function run_library_benches() {
 }
 
 console.log(`${new Date().toISOString()}, ${process.platform} ${process.arch}`);
-const rows = words === '' || 'lsystem request'.includes(words) ? run_own() : [];
+const rows = words === '' || 'lsystem request fractal'.includes(words) ? run_own() : [];
 fs.mkdirSync('build', { recursive: true });
 fs.appendFileSync('build/bench.jsonl', rows.map((row) => `${JSON.stringify({ at: new Date().toISOString(), ...row })}\n`).join(''));
 run_library_benches();
