@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/generators/fractal/encode.h"
 #include "core/generators/fractal/fractal.h"
 #include "core/generators/lsystem/lsystem.h"
 #include "core/generators/terrain/terrain.h"
@@ -76,13 +77,19 @@ constexpr OwnForm terrain_forms[] = {
     {"r16", "application/octet-stream", "r16"},
 };
 
+constexpr OwnForm fractal_forms[] = {
+    {"ply", "application/octet-stream", "ply"},
+    {"png16", "image/png", "png"},
+    {"png8", "image/png", "png"},
+};
+
 constexpr Generator rows[] = {
     Row<LsystemParams, read_lsystem, write_lsystem, lsystem::check, lsystem::generate, lsystem::derive,
         lsystem::appraise, lsystem::vocabulary>::named("lsystem", {.grows = true}),
     Row<TreeParams, read_tree, write_tree, tree::check, tree::generate, tree::derive, tree::appraise,
         tree::vocabulary>::named("tree"),
     Row<FractalParams, read_fractal, write_fractal, fractal::check, fractal::generate, fractal::derive,
-        fractal::appraise, fractal::vocabulary>::named("fractal"),
+        fractal::appraise, fractal::vocabulary>::named<fractal::encode>("fractal", fractal_forms),
     Row<TerrainParams, read_terrain, write_terrain, terrain::check, terrain::generate, terrain::derive,
         terrain::appraise, terrain::vocabulary>::named<terrain::encode>("terrain", terrain_forms),
 };

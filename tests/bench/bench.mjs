@@ -22,6 +22,9 @@ const aims = {
   'RTIN 1025 at .002': { seconds: 0.025 },
   'greedy 1025 at .002': { seconds: 0.35 },
   'diamond-square 4097 to GLB': { seconds: 0.3 },
+  'chaos game, 1 thread': { rate: 100e6 },
+  'Menger 4, 1 thread': { seconds: 0.04 },
+  'Menger 5, 1 thread': { seconds: 0.4 },
 };
 const nanoseconds_per_triangle = 30;
 const memory_ratio = 1.5;
@@ -64,7 +67,7 @@ function print_rate(row, peer, copying) {
   if (row.bytes && copying) cells.push(`${(row.seconds / (row.bytes / copying)).toFixed(1)} times copying`);
   if (peer) {
     const ratio = rate / (peer.amount / peer.seconds);
-    cells.push(`npm ${peer.peer ?? 'lindenmayer'} ${(peer.amount / peer.seconds / 1e6).toFixed(1)} M, ratio ${ratio.toFixed(1)}: ${verdict(ratio >= (aim?.over_peer ?? 0))}`);
+    cells.push(`npm ${peer.peer ?? peer.package ?? 'lindenmayer'} ${(peer.amount / peer.seconds / 1e6).toFixed(1)} M, ratio ${ratio.toFixed(1)}: ${verdict(ratio >= (aim?.over_peer ?? 0))}`);
   }
   console.log(cells.join('  '));
   return { ...row, rate, peer_rate: peer && peer.amount / peer.seconds };
@@ -81,8 +84,8 @@ function run_own() {
   const own = [];
   const peers = [];
   for (let launch = 0; launch < launches; launch += 1) {
-    own.push(...lines_of(output_of(`${build}/bench/lsystem_bench`)), ...lines_of(output_of(`${build}/bench/request_bench`)), ...lines_of(output_of(`${build}/bench/terrain_bench`)));
-    for (const peer of ['lindenmayer', 'terrain']) peers.push(...lines_of(output_of(process.execPath, `tests/bench/peer_${peer}.mjs`)));
+    for (const bench of ['lsystem', 'request', 'terrain', 'fractal']) own.push(...lines_of(output_of(`${build}/bench/${bench}_bench`)));
+    for (const peer of ['lindenmayer', 'terrain', 'manifold']) peers.push(...lines_of(output_of(process.execPath, `tests/bench/peer_${peer}.mjs`)));
   }
   const peer_of = gathered(peers), rows = gathered(own);
   const copy = rows.get('copying'), copying = copy && copy.bytes / copy.seconds;
@@ -91,7 +94,7 @@ function run_own() {
 
 /** The programs over Google Benchmark print tables of their own. */
 function run_library_benches() {
-  const own = new Set(['lsystem_bench', 'request_bench', 'terrain_bench']);
+  const own = new Set(['lsystem_bench', 'request_bench', 'terrain_bench', 'fractal_bench']);
   const folder = `${build}/bench`;
   for (const name of fs.readdirSync(folder).filter((file) => file.endsWith('_bench') && !own.has(file) && file.includes(words)).sort()) {
     console.log(`\n--- ${name}`);
@@ -100,7 +103,7 @@ function run_library_benches() {
 }
 
 console.log(`${new Date().toISOString()}, ${process.platform} ${process.arch}`);
-const rows = words === '' || 'lsystem request terrain'.includes(words) ? run_own() : [];
+const rows = words === '' || 'lsystem request terrain fractal'.includes(words) ? run_own() : [];
 fs.mkdirSync('build', { recursive: true });
 fs.appendFileSync('build/bench.jsonl', rows.map((row) => `${JSON.stringify({ at: new Date().toISOString(), ...row })}\n`).join(''));
 run_library_benches();

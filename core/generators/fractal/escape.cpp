@@ -42,8 +42,6 @@ class Plate {
     mesh_.normal.reserve(vertices);
     mesh_.color.reserve(vertices);
     mesh_.index.wide.reserve(3 * (2 * (n - 1) * (n - 1) + 3 * rim));
-    for (const Color& color : params.palette)
-      palette_.push_back(linear_color(color.red, color.green, color.blue));
     add_top(job);
     add_walls();
     add_underside();
@@ -62,16 +60,8 @@ class Plate {
   float underside() const { return static_cast<float>(-params_.size * params_.escape.plate); }
 
   glm::u8vec4 color(float value) const {
-    if (value >= 1) return {8, 8, 10, 255};
-    const double place =
-        math::pow(static_cast<double>(value), 0.5) * static_cast<double>(palette_.size() - 1);
-    const std::size_t low = std::min(static_cast<std::size_t>(place), palette_.size() - 1);
-    const std::size_t high = std::min(low + 1, palette_.size() - 1);
-    const double part = place - static_cast<double>(low);
-    glm::u8vec4 mixed(255);
-    for (int c = 0; c < 3; ++c)
-      mixed[c] = static_cast<std::uint8_t>(palette_[low][c] * (1 - part) + palette_[high][c] * part + 0.5);
-    return mixed;
+    const Color paint = escape_color(params_, value);
+    return linear_color(paint.red, paint.green, paint.blue);
   }
 
   void add(const glm::vec3& p, const glm::vec3& normal, const glm::u8vec4& paint) {
@@ -150,7 +140,7 @@ class Plate {
 
   void add_walls() {
     constexpr glm::vec3 outward[] = {{0, 0, 1}, {1, 0, 0}, {0, 0, -1}, {-1, 0, 0}};
-    const glm::u8vec4 paint = palette_.front();
+    const glm::u8vec4 paint = color(0);
     for (std::uint32_t side = 0; side < 4; ++side) {
       const auto first = static_cast<std::uint32_t>(mesh_.position.size());
       for (std::uint32_t step = 0; step < n_; ++step) {
@@ -170,10 +160,10 @@ class Plate {
   void add_underside() {
     const auto centre = static_cast<std::uint32_t>(mesh_.position.size());
     const std::uint32_t steps = 4 * (n_ - 1);
-    add({0, underside(), 0}, {0, -1, 0}, palette_.front());
+    add({0, underside(), 0}, {0, -1, 0}, color(0));
     for (std::uint32_t step = 0; step < steps; ++step) {
       const glm::uvec2 c = rim(step);
-      add(at(c.x, c.y, underside()), {0, -1, 0}, palette_.front());
+      add(at(c.x, c.y, underside()), {0, -1, 0}, color(0));
     }
     for (std::uint32_t step = 0; step < steps; ++step)
       add_triangle(centre, centre + 1 + (step + 1) % steps, centre + 1 + step);
@@ -183,11 +173,24 @@ class Plate {
   const EscapeField& field_;
   std::uint32_t n_;
   double step_;
-  std::vector<glm::u8vec4> palette_;
   Mesh mesh_;
 };
 
 }  // namespace
+
+Color escape_color(const FractalParams& params, float value) {
+  if (value >= 1) return {24, 24, 28};
+  const std::vector<Color>& palette = params.palette;
+  const double place = std::sqrt(static_cast<double>(value)) * static_cast<double>(palette.size() - 1);
+  const auto low = static_cast<std::size_t>(place);
+  const Color& a = palette[low];
+  const Color& b = palette[std::min(low + 1, palette.size() - 1)];
+  const double part = place - static_cast<double>(low);
+  const auto mixed = [part](std::uint8_t from, std::uint8_t to) {
+    return static_cast<std::uint8_t>(from * (1 - part) + to * part + 0.5);
+  };
+  return {mixed(a.red, b.red), mixed(a.green, b.green), mixed(a.blue, b.blue)};
+}
 
 EscapeField escape_field(const FractalParams& params, Job& job) {
   const auto& window = params.escape;

@@ -70,7 +70,7 @@ std::vector<Affine> word_maps(std::string_view text) {
         if ((letter->rows[static_cast<std::size_t>(row)] >> (letter_width - 1 - i) & 1) == 0) continue;
         const int column = static_cast<int>(place) * (letter_width + 1) + i;
         const glm::dvec3 centre{(column + 0.5) * dot - 0.5, ((letter_height - 1) / 2.0 - row) * dot, 0};
-        maps.push_back({turned(column, row) * (0.8 * dot), centre});
+        maps.push_back({turned(column, row) * (0.95 * dot), centre});
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/generators/fractal/chaos.h"
+#include "core/generators/fractal/encode.h"
 #include "core/generators/fractal/pieces.h"
 #include "tests/core/fractal/support.h"
 
@@ -220,6 +221,26 @@ TEST(Escape, MakesAClosedPlateThatIsAsHighAsTheSet) {
   EXPECT_GT(measures.volume, 0);
   EXPECT_FLOAT_EQ(bounds_of(*model).max.y, 0.5F);
   EXPECT_FLOAT_EQ(bounds_of(*model).min.y, -0.2F);
+}
+
+TEST(Forms, HoldThePointsOrTheEscapeTimes) {
+  Job job(0, Job::Options{});
+  const auto file = [&](const char* json, const char* format) {
+    return encode(fractal_params(json), format, job);
+  };
+  const auto ply = file(R"({"method": "frcm", "points": 10})", "ply");
+  ASSERT_TRUE(ply);
+  const std::string text(ply->begin(), ply->end());
+  EXPECT_THAT(text, StartsWith("ply\nformat binary_little_endian 1.0\n"));
+  EXPECT_THAT(text, HasSubstr("element vertex 10\n"));
+  EXPECT_EQ(text.size() - text.find("end_header\n") - 11, 150U);
+  for (const char* format : {"png8", "png16"}) {
+    const auto png = file(R"({"method": "escape", "escape": {"resolution": 9}})", format);
+    ASSERT_TRUE(png);
+    EXPECT_EQ((*png)[1], 'P');
+  }
+  EXPECT_EQ(file("{}", "ply").error().issues.front().pointer, "/method");
+  EXPECT_EQ(file("{}", "png8").error().issues.front().pointer, "/method");
 }
 
 TEST(Plate, FillsTheSnowflake) {

@@ -1,0 +1,95 @@
+/// Fractals: the Menger sponge from the text of a request to the bytes of a GLB, with the memory that it
+/// takes beside the answer, and the chaos game.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "core/generators/fractal/chaos.h"
+#include "core/pipeline.h"
+#include "generated/params/fractal.h"
+#include "tests/bench/report.h"
+
+namespace {
+
+using namespace seedmesh;
+
+std::string sponge(int rounds) {
+  return R"({"generator":"fractal","parameters":{"iterations":)" + std::to_string(rounds) + "}}";
+}
+
+Product made(const std::string& text, int threads) {
+  const Result<Request> request = read_request(text, Limits{});
+  if (!request) std::abort();
+  Job job(request->seed(), {.threads = threads});
+  Result<Product> product = produce(*request, job);
+  if (!product) std::abort();
+  return *std::move(product);
+}
+
+void bench_sponge(int rounds, int threads, int repeats) {
+  double triangles = 0;
+  const double seconds = bench::median_seconds<bench::WallClock>(
+      repeats, [&] { triangles = static_cast<double>(made(sponge(rounds), threads).statistics.triangles); });
+  bench::report("Menger " + std::to_string(rounds) + (threads == 1 ? ", 1 thread" : ", all cores"),
+                "triangles", triangles, seconds);
+}
+
+double status_bytes(const std::string& key) {
+  std::ifstream file("/proc/self/status");
+  for (std::string line; std::getline(file, line);) {
+    if (line.compare(0, key.size(), key) == 0)
+      return std::strtod(line.c_str() + key.size() + 1, nullptr) * 1024;
+  }
+  return 0;
+}
+
+/// In a process of its own, while this one is small.
+void bench_memory(int rounds) {
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child == 0) {
+    const double idle = status_bytes("VmRSS");
+    const Product product = made(sponge(rounds), 1);
+    std::printf(
+        "{\"name\":\"memory: Menger %d\",\"unit\":\"bytes\",\"amount\":%llu,\"peak_less_idle\":%.0f}\n",
+        rounds, static_cast<unsigned long long>(product.payload.size()), status_bytes("VmHWM") - idle);
+    std::fflush(stdout);
+    _exit(0);
+  }
+  int status = 1;
+  waitpid(child, &status, 0);
+  if (status != 0) std::abort();
+}
+
+void bench_chaos() {
+  constexpr std::uint64_t points = 20'000'000;
+  FractalParams params;
+  params.method = FractalMethod::frcm;
+  params.instructions = FractalInstructions::fern;
+  const fractal::Instructions fern = fractal::instructions_of(params);
+  const double seconds = bench::median_seconds<bench::CpuClock>(5, [&] {
+    Job job(1, Job::Options{});
+    if (fractal::play(fern, points, 100, job).position.size() != points) std::abort();
+  });
+  bench::report("chaos game, 1 thread", "points", static_cast<double>(points), seconds);
+}
+
+}  // namespace
+
+int main() {
+  bench_memory(4);
+  bench_memory(5);
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  for (const int threads : {1, cores}) {
+    bench_sponge(3, threads, 15);
+    bench_sponge(4, threads, 9);
+    bench_sponge(5, threads, 3);
+    if (cores == 1) break;
+  }
+  bench_chaos();
+}
