@@ -26,6 +26,8 @@ const aims = {
   'Menger 4, 1 thread': { seconds: 0.04 },
   'Menger 5, 1 thread': { seconds: 0.4 },
 };
+/** The programs that print figures, a line each. */
+const figures = ['lsystem', 'request', 'terrain', 'fractal', 'tree'];
 const nanoseconds_per_triangle = 30;
 const memory_ratio = 1.5;
 
@@ -84,7 +86,7 @@ function run_own() {
   const own = [];
   const peers = [];
   for (let launch = 0; launch < launches; launch += 1) {
-    for (const bench of ['lsystem', 'request', 'terrain', 'fractal']) own.push(...lines_of(output_of(`${build}/bench/${bench}_bench`)));
+    for (const bench of figures) own.push(...lines_of(output_of(`${build}/bench/${bench}_bench`)));
     for (const peer of ['lindenmayer', 'terrain', 'manifold']) peers.push(...lines_of(output_of(process.execPath, `tests/bench/peer_${peer}.mjs`)));
   }
   const peer_of = gathered(peers), rows = gathered(own);
@@ -94,7 +96,7 @@ function run_own() {
 
 /** The programs over Google Benchmark print tables of their own. */
 function run_library_benches() {
-  const own = new Set(['lsystem_bench', 'request_bench', 'terrain_bench', 'fractal_bench']);
+  const own = new Set(figures.map((bench) => `${bench}_bench`));
   const folder = `${build}/bench`;
   for (const name of fs.readdirSync(folder).filter((file) => file.endsWith('_bench') && !own.has(file) && file.includes(words)).sort()) {
     console.log(`\n--- ${name}`);
@@ -103,12 +105,12 @@ function run_library_benches() {
 }
 
 console.log(`${new Date().toISOString()}, ${process.platform} ${process.arch}`);
-const rows = words === '' || 'lsystem request terrain fractal'.includes(words) ? run_own() : [];
+const rows = words === '' || figures.join(' ').includes(words) ? run_own() : [];
 fs.mkdirSync('build', { recursive: true });
 fs.appendFileSync('build/bench.jsonl', rows.map((row) => `${JSON.stringify({ at: new Date().toISOString(), ...row })}\n`).join(''));
 run_library_benches();
 const http = ['tests/bench/http_bench.mjs', 'tests/bench/http_bench.sh'].find((file) => fs.existsSync(file));
-if (http && (words === '' || 'http'.includes(words))) {
+if (http && (words === '' || figures.join(' ').includes(words))) {
   console.log(`\n--- ${http}`);
   process.stdout.write(http.endsWith('.mjs') ? output_of(process.execPath, http) : output_of('/bin/bash', http));
 }
