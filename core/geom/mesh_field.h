@@ -35,7 +35,9 @@ class MeshField {
     std::uint32_t count = 0;  ///< of triangles; 0: an inner knot
   };
   std::uint32_t build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& order);
-  glm::dvec3 corner(std::uint32_t triangle, int k) const { return corner_[3 * std::size_t{triangle} + static_cast<std::size_t>(k)]; }
+  glm::dvec3 corner(std::uint32_t triangle, int k) const {
+    return corner_[3 * std::size_t{triangle} + static_cast<std::size_t>(k)];
+  }
 
   Array<glm::vec3> corner_;  ///< three a triangle
   std::vector<Knot> knot_;

@@ -9,9 +9,9 @@ namespace seedmesh {
 
 enum class SolidShape { box, sphere, cylinder, cone, mesh };
 
-/// Fills the box of `size` that stands on `position`: the middle of its lower face. A cylinder stands upright,
-/// a cone has its point up. Sphere, cylinder and cone whose size differs by axis are stretched; distances to
-/// them are then those to a point of the surface near the nearest, so never too small.
+/// Fills the box of `size` that stands on `position`: the middle of its lower face. A cylinder stands
+/// upright, a cone has its point up. Sphere, cylinder and cone whose size differs by axis are stretched;
+/// distances to them are then those to a point of the surface near the nearest, so never too small.
 struct Solid {
   SolidShape shape = SolidShape::box;
   glm::dvec3 position{0};

@@ -30,7 +30,8 @@ std::uint64_t cell_key(std::int64_t x, std::int64_t y, std::int64_t z) {
 std::int64_t cell_of(double x, double size) { return math::to_int64(std::floor(x / size)); }
 
 /// Distance of two segments; Ericson, "Real-Time Collision Detection", 2005, section 5.1.9.
-double segments_apart(const glm::dvec3& p1, const glm::dvec3& q1, const glm::dvec3& p2, const glm::dvec3& q2) {
+double segments_apart(const glm::dvec3& p1, const glm::dvec3& q1, const glm::dvec3& p2,
+                      const glm::dvec3& q2) {
   const glm::dvec3 d1 = q1 - p1, d2 = q2 - p2, r = p1 - p2;
   const double a = glm::dot(d1, d1), e = glm::dot(d2, d2), f = glm::dot(d2, r);
   double s = 0, t = 0;
@@ -70,7 +71,8 @@ double Surroundings::room_at(const glm::dvec3& point) const {
     room = -everywhere;
     for (const Solid& guide : options_.guides) room = std::max(room, -surface_near(guide, point).distance);
   }
-  for (const Solid& obstacle : options_.obstacles) room = std::min(room, surface_near(obstacle, point).distance);
+  for (const Solid& obstacle : options_.obstacles)
+    room = std::min(room, surface_near(obstacle, point).distance);
   return room;
 }
 
@@ -104,7 +106,9 @@ void Surroundings::settle(std::span<const Stretch> grown) {
     const Stretch& each = grown_[i];
     const double reach = each.radius + options_.clearance;
     visit_cells(glm::min(each.from, each.to) - reach, glm::max(each.from, each.to) + reach, cell_,
-                [&](std::uint64_t key) { cells_.push_back({key, static_cast<std::uint32_t>(i)}); });
+                [&](std::uint64_t key) {
+                  cells_.push_back({key, static_cast<std::uint32_t>(i)});
+                });
   }
   std::sort(cells_.begin(), cells_.end(), [](const Cell& a, const Cell& b) {
     return a.key != b.key ? a.key < b.key : a.stretch < b.stretch;
@@ -119,7 +123,8 @@ void Surroundings::cast_shadows() {
   Array<std::uint64_t> filled = shades_.like<std::uint64_t>();
   for (const Stretch& each : grown_) {
     const glm::dvec3 end = each.to;
-    filled.push_back(cell_key(cell_of(end.x, shadow.cell), cell_of(end.y, shadow.cell), cell_of(end.z, shadow.cell)));
+    filled.push_back(
+        cell_key(cell_of(end.x, shadow.cell), cell_of(end.y, shadow.cell), cell_of(end.z, shadow.cell)));
   }
   std::sort(filled.begin(), filled.end());
   const auto* const last = std::unique(filled.begin(), filled.end());
@@ -157,8 +162,8 @@ void Surroundings::cast_shadows() {
 double Surroundings::light_at(const glm::dvec3& point) const {
   const double size = options_.shadow.cell;
   const std::uint64_t key = cell_key(cell_of(point.x, size), cell_of(point.y, size), cell_of(point.z, size));
-  const auto* const found = std::lower_bound(shades_.begin(), shades_.end(), key,
-                                             [](const Shade& shade, std::uint64_t k) { return shade.key < k; });
+  const auto* const found = std::lower_bound(
+      shades_.begin(), shades_.end(), key, [](const Shade& shade, std::uint64_t k) { return shade.key < k; });
   if (found == shades_.end() || found->key != key) return 1;
   return std::clamp(1 - (found->amount - options_.shadow.shade), 0.0, 1.0);
 }
@@ -168,11 +173,11 @@ bool Surroundings::collides(const Prober& prober, const glm::dvec3& to) const {
   int count = 0;
   for (std::uint32_t joint = prober.joint; joint != Limbs::none && count < kin;) {
     relatives[count++] = joint;
-    const auto own = std::lower_bound(grown_.begin(), grown_.end(), std::pair(prober.system, joint),
-                                      [](const Stretch& each, const auto& wanted) {
-                                        return std::pair(each.system, each.joint) < wanted;
-                                      });
-    joint = own != grown_.end() && own->system == prober.system && own->joint == joint ? own->parent : Limbs::none;
+    const auto own = std::lower_bound(
+        grown_.begin(), grown_.end(), std::pair(prober.system, joint),
+        [](const Stretch& each, const auto& wanted) { return std::pair(each.system, each.joint) < wanted; });
+    joint = own != grown_.end() && own->system == prober.system && own->joint == joint ? own->parent
+                                                                                       : Limbs::none;
   }
   const auto is_kin = [&](const Stretch& each) {
     if (each.system != prober.system) return false;
@@ -184,8 +189,9 @@ bool Surroundings::collides(const Prober& prober, const glm::dvec3& to) const {
   visit_cells(glm::min(prober.position, to) - reach, glm::max(prober.position, to) + reach, cell_,
               [&](std::uint64_t key) {
                 if (hit) return;
-                const auto* found = std::lower_bound(cells_.begin(), cells_.end(), key,
-                                                     [](const Cell& cell, std::uint64_t k) { return cell.key < k; });
+                const auto* found =
+                    std::lower_bound(cells_.begin(), cells_.end(), key,
+                                     [](const Cell& cell, std::uint64_t k) { return cell.key < k; });
                 for (; found != cells_.end() && found->key == key && !hit; ++found) {
                   const Stretch& each = grown_[found->stretch];
                   if (is_kin(each)) continue;
@@ -214,163 +220,6 @@ bool Surroundings::is_free(const Prober& prober, double length) const {
     piece.position = end;
   }
   return true;
-}
-
-namespace {
-
-class Pruning {
- public:
-  Pruning(Skeleton& skeleton, const Surroundings& surroundings, Membership membership, Job& job)
-      : skeleton_(skeleton),
-        limbs_(skeleton.limbs),
-        surroundings_(surroundings),
-        membership_(membership),
-        job_(job),
-        place_(job, skeleton.limbs.size()) {}
-
-  void run() {
-    for (std::size_t i = 0; i < limbs_.size(); ++i) {
-      if (i % look_every == 0) job_.check();
-      judge(static_cast<std::uint32_t>(i));
-    }
-    compact();
-    drop_outlines();
-    drop_organs();
-  }
-
- private:
-  static constexpr std::uint32_t gone = Limbs::none;
-
-  bool is_in(const glm::dvec3& point) const { return surroundings_.room_at(point) >= 0; }
-
-  void judge(std::uint32_t joint) {
-    const std::uint32_t parent = limbs_.parent[joint];
-    if (parent == Limbs::none) {
-      const std::uint32_t anchor = limbs_.anchor.empty() ? Limbs::none : limbs_.anchor[joint];
-      keep(joint, (anchor == Limbs::none || place_[anchor] != gone) && is_in(limbs_.position[joint]));
-      return;
-    }
-    if (place_[parent] == gone || was_cut_[parent]) return keep(joint, false);
-    const glm::dvec3 from = limbs_.position[parent], step = glm::dvec3(limbs_.position[joint]) - from;
-    double share = 1;
-    switch (membership_) {
-      case Membership::centre:
-        return keep(joint, is_in(from + 0.5 * step));
-      case Membership::whole:
-        return keep(joint, inside_share(from, step) == 1);
-      case Membership::clipped:
-        share = inside_share(from, step);
-        break;
-    }
-    keep(joint, share > 0.01);
-    if (share == 1 || share <= 0.01) return;
-    const auto taper = static_cast<float>(share);
-    limbs_.position[joint] = glm::vec3(from + share * step) + 0.0F;
-    limbs_.radius[joint] = limbs_.base_radius[joint] + (limbs_.radius[joint] - limbs_.base_radius[joint]) * taper;
-    was_cut_[joint] = true;
-  }
-
-  /// How much of the step, from its beginning, is inside.
-  double inside_share(const glm::dvec3& from, const glm::dvec3& step) const {
-    double low = 0;
-    for (int i = 0; i <= probes; ++i) {
-      const double share = static_cast<double>(i) / probes;
-      if (is_in(from + share * step)) {
-        low = share;
-        continue;
-      }
-      if (i == 0) return 0;
-      double high = share;
-      for (int k = 0; k < 20; ++k) {
-        const double middle = 0.5 * (low + high);
-        (is_in(from + middle * step) ? low : high) = middle;
-      }
-      return low;
-    }
-    return 1;
-  }
-
-  void keep(std::uint32_t joint, bool yes) {
-    was_cut_.resize(std::max<std::size_t>(was_cut_.size(), joint + std::size_t{1}), false);
-    place_[joint] = yes ? kept_++ : gone;
-  }
-
-  template <class T>
-  void compact(Array<T>& values) {
-    if (values.empty()) return;
-    for (std::size_t i = 0; i < place_.size(); ++i) {
-      if (place_[i] != gone) values[place_[i]] = values[i];
-    }
-    values.resize(kept_);
-  }
-
-  std::uint32_t renamed(std::uint32_t joint) const { return joint == Limbs::none ? Limbs::none : place_[joint]; }
-
-  void compact() {
-    for (std::uint32_t& parent : limbs_.parent) parent = renamed(parent);
-    for (std::uint32_t& anchor : limbs_.anchor) anchor = renamed(anchor);
-    compact(limbs_.position);
-    compact(limbs_.radius);
-    compact(limbs_.base_radius);
-    compact(limbs_.parent);
-    compact(limbs_.starts_limb);
-    compact(limbs_.color);
-    compact(limbs_.order);
-    compact(limbs_.frame);
-    compact(limbs_.birth);
-    compact(limbs_.key);
-    compact(limbs_.anchor);
-  }
-
-  void drop_outlines() {
-    Outlines& outlines = skeleton_.outlines;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < outlines.outline.size(); ++i) {
-      if (i % look_every == 0) job_.check();
-      Outline outline = outlines.outline[i];
-      if (outline.limb_joint != Limbs::none) {
-        if (place_[outline.limb_joint] == gone || was_cut_[outline.limb_joint]) continue;
-        outline.limb_joint = place_[outline.limb_joint];
-      }
-      glm::dvec3 centre{0};
-      bool whole = true;
-      for (std::uint32_t k = outline.first; k < outline.first + outline.count; ++k) {
-        centre += glm::dvec3(outlines.vertex[k]) / double(outline.count);
-        whole = whole && (membership_ != Membership::whole || is_in(outlines.vertex[k]));
-      }
-      if (whole && is_in(centre)) outlines.outline[kept++] = outline;
-    }
-    outlines.outline.resize(kept);
-  }
-
-  void drop_organs() {
-    Array<Organ>& organs = skeleton_.organs.organ;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < organs.size(); ++i) {
-      Organ organ = organs[i];
-      if (organ.limb_joint != Limbs::none) {
-        if (place_[organ.limb_joint] == gone || was_cut_[organ.limb_joint]) continue;
-        organ.limb_joint = place_[organ.limb_joint];
-      }
-      if (is_in(organ.position)) organs[kept++] = organ;
-    }
-    organs.resize(kept);
-  }
-
-  Skeleton& skeleton_;
-  Limbs& limbs_;
-  const Surroundings& surroundings_;
-  Membership membership_;
-  Job& job_;
-  Array<std::uint32_t> place_;  ///< of each joint among those that stay, or gone
-  std::vector<bool> was_cut_;
-  std::uint32_t kept_ = 0;
-};
-
-}  // namespace
-
-void prune(Skeleton& skeleton, const Surroundings& surroundings, Membership membership, Job& job) {
-  if (surroundings.bounds_growth()) Pruning(skeleton, surroundings, membership, job).run();
 }
 
 }  // namespace seedmesh

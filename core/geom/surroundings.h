@@ -14,10 +14,10 @@ namespace seedmesh {
 /// 4.1.2): what has grown in a cell shades the cells below it in a pyramid, by shade * falloff^-q in the q-th
 /// layer down.
 struct ShadowOptions {
-  double cell = 0.5;      ///< m
-  double shade = 0.2;     ///< of the cell itself
-  double falloff = 1.6;   ///< from layer to layer
-  int layers = 6;         ///< below the cell
+  double cell = 0.5;     ///< m
+  double shade = 0.2;    ///< of the cell itself
+  double falloff = 1.6;  ///< from layer to layer
+  int layers = 6;        ///< below the cell
 };
 
 /// An internode that others may run into.

@@ -16,9 +16,9 @@ void shift(int& index, std::size_t by) {
 }
 
 void shift(Material& material, std::size_t textures) {
-  for (TextureUse* use : {&material.base_color_texture, &material.normal_texture,
-                          &material.metallic_roughness_texture, &material.occlusion_texture,
-                          &material.emissive_texture}) {
+  for (TextureUse* use :
+       {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
+        &material.occlusion_texture, &material.emissive_texture}) {
     shift(use->texture, textures);
   }
 }

@@ -9,7 +9,9 @@
 namespace seedmesh {
 namespace {
 
-Solid solid(SolidShape shape, const glm::dvec3& size = {2, 2, 2}) { return {shape, {0, 0, 0}, size, nullptr}; }
+Solid solid(SolidShape shape, const glm::dvec3& size = {2, 2, 2}) {
+  return {shape, {0, 0, 0}, size, nullptr};
+}
 
 double distance(const Solid& of, const glm::dvec3& point) { return surface_near(of, point).distance; }
 
@@ -33,7 +35,8 @@ TEST(Solid, TellsDistancesOfSimpleShapesExactly) {
 
 TEST(Solid, HasNoPointNearerThanTheNearest) {
   Rng rng(3);
-  for (const SolidShape shape : {SolidShape::box, SolidShape::sphere, SolidShape::cylinder, SolidShape::cone}) {
+  for (const SolidShape shape :
+       {SolidShape::box, SolidShape::sphere, SolidShape::cylinder, SolidShape::cone}) {
     const Solid one = solid(shape, {2, 3, 2});
     for (int i = 0; i < 200; ++i) {
       const glm::dvec3 p{rng.uniform(-3, 3), rng.uniform(-2, 5), rng.uniform(-3, 3)};
