@@ -33,7 +33,7 @@ TEST(Solid, TellsDistancesOfSimpleShapesExactly) {
   EXPECT_NEAR(distance(solid(SolidShape::cone), {2, 1, 0}), 1.5 * 2 / std::sqrt(5.0), 1e-12);
 }
 
-TEST(Solid, HasNoPointNearerThanTheNearest) {
+TEST(Solid, FindsPointsOfItsSurface) {
   Rng rng(3);
   for (const SolidShape shape :
        {SolidShape::box, SolidShape::sphere, SolidShape::cylinder, SolidShape::cone}) {

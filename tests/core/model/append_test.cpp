@@ -16,7 +16,9 @@ Model small(const char* name) {
   model.meshes[0].primitives.emplace_back();
   model.meshes[0].primitives[0].material = 0;
   model.materials.emplace_back();
-  Animation animation{"growth", {{0, 1}}, {}};
+  Animation animation;
+  animation.name = "growth";
+  animation.times.push_back({0.0F, 1.0F});
   animation.channels.push_back({1, Path::scale, Interpolation::linear, 0, {0, 0, 0, 1, 1, 1}});
   model.animations.push_back(std::move(animation));
   return model;
