@@ -95,6 +95,7 @@ class Network {
       }
       const float* row = field_.row(z);
       const double start = plane.base + plane.south * z;
+      if (worst_of_row(row, start, plane.east, first, last) <= most) return;
       for (std::int32_t x = first; x <= last; ++x) {
         const double off = std::abs(static_cast<double>(row[x]) - (start + plane.east * x));
         if (off > most && !(Place{x, z} == a) && !(Place{x, z} == b) && !(Place{x, z} == c)) {

@@ -151,11 +151,9 @@ class Errors {
 /// The triangles at an error.
 class Extraction {
  public:
-  /// `paid` triangles were spent by an earlier attempt.
-  Extraction(const Field& field, const Errors& errors, float max_error, std::size_t paid, Job& job)
+  Extraction(const Field& field, const Errors& errors, float max_error, Job& job)
       : errors_(errors),
         max_error_(max_error),
-        paid_(3 * paid),
         width_(field.width),
         meter_(job, Resource::triangles),
         names_(job, field.heights.size(), unnamed),
@@ -176,7 +174,7 @@ class Extraction {
       halve(b, c, middle);
       return;
     }
-    if (mesh_.index.size() >= paid_) meter_.spend();
+    meter_.spend();
     std::uint32_t* index = mesh_.index.extend(3);
     index[0] = name(a);
     index[1] = name(c);
@@ -194,40 +192,76 @@ class Extraction {
 
   const Errors& errors_;
   float max_error_;
-  std::size_t paid_;
   std::int32_t width_;
   Meter meter_;
   Array<std::uint32_t> names_;
   Triangulation mesh_;
 };
 
-/// visit(chunk, x, z, distance from the mesh) for the samples of every triangle, in parallel by chunks.
-template <class Visit>
-void each_distance(const Field& field, const Triangulation& mesh, const Job& job, const Visit& visit) {
-  parallel_for(
-      job, mesh.index.size() / 3, triangles_a_chunk,
-      [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-        job.check();
-        for (std::size_t t = begin; t < end; ++t) {
-          Place corner[3];
-          double height[3];
-          for (std::size_t k = 0; k < 3; ++k) {
-            corner[k] = place_of(mesh.samples[mesh.index[3 * t + k]], field.width);
-            height[k] = static_cast<double>(field.at(corner[k].x, corner[k].z));
-          }
-          if (turn(corner[0], corner[1], corner[2]) <= 1) continue;  // half a square: corners alone
-          const Plane plane =
-              Plane::through(corner[0], corner[1], corner[2], height[0], height[1], height[2]);
-          each_row_inside(
-              corner[0], corner[1], corner[2], [&](std::int32_t z, std::int32_t first, std::int32_t last) {
-                const float* row = field.row(z);
-                const double start = plane.base + plane.south * z;
-                for (std::int32_t x = first; x <= last; ++x)
-                  visit(chunk, x, z, std::abs(static_cast<double>(row[x]) - (start + plane.east * x)));
-              });
-        }
-      });
-}
+/// Looks for samples off the mesh by more than the bound, in those triangles that it has not looked at yet,
+/// and names them: putting one in divides its triangle.
+class Search {
+ public:
+  Search(const Field& field, const Errors& errors, double max_error, const Job& job)
+      : field_(field),
+        errors_(errors),
+        max_error_(max_error),
+        threshold_(static_cast<float>(max_error)),
+        seen_(job, field.heights.size(), 0) {}
+
+  std::vector<Place> run() {
+    off_.clear();
+    const std::int32_t last = field_.width - 1;
+    descend({0, 0}, {last, last}, {last, 0});
+    descend({last, last}, {0, 0}, {0, last});
+    return std::move(off_);
+  }
+
+ private:
+  void descend(Place a, Place b, Place c) {
+    const Place middle{(a.x + b.x) / 2, (a.z + b.z) / 2};
+    const std::int32_t leg = std::abs(a.x - c.x) + std::abs(a.z - c.z);
+    if (leg <= 1) return;  // half a square: corners alone
+    if (errors_.at(middle.x, middle.z) > threshold_) {
+      descend(c, a, middle);
+      descend(b, c, middle);
+      return;
+    }
+    // Two triangles share the middle of their long sides; the side that the right angle is on tells them
+    // apart.
+    std::uint8_t& seen = seen_[static_cast<std::size_t>(middle.z) * static_cast<std::size_t>(field_.width) +
+                               static_cast<std::size_t>(middle.x)];
+    const std::uint8_t mark = c.z > middle.z || (c.z == middle.z && c.x > middle.x) ? 1 : 2;
+    if ((seen & mark) != 0) return;
+    seen |= mark;
+    look(a, b, c, middle);
+  }
+
+  void look(Place a, Place b, Place c, Place middle) {
+    const auto height = [&](Place at) { return static_cast<double>(field_.at(at.x, at.z)); };
+    if (std::abs(turn(a, c, b)) == 2) {  // one sample that is no corner
+      if (std::abs((height(a) + height(b)) / 2 - height(middle)) > max_error_) off_.push_back(middle);
+      return;
+    }
+    const Plane plane = Plane::through(a, b, c, height(a), height(b), height(c));
+    each_row_inside(a, b, c, [&](std::int32_t z, std::int32_t first, std::int32_t last) {
+      const float* row = field_.row(z);
+      const double start = plane.base + plane.south * z;
+      if (worst_of_row(row, start, plane.east, first, last) <= max_error_) return;
+      for (std::int32_t x = first; x <= last; ++x) {
+        if (std::abs(static_cast<double>(row[x]) - (start + plane.east * x)) > max_error_)
+          off_.push_back({x, z});
+      }
+    });
+  }
+
+  const Field& field_;
+  const Errors& errors_;
+  double max_error_;
+  float threshold_;
+  Array<std::uint8_t> seen_;
+  std::vector<Place> off_;
+};
 
 }  // namespace
 
@@ -243,30 +277,39 @@ Triangulation rtin(const Field& field, double max_error, Border border, Job& job
       for (const Place at : {Place{i, 0}, Place{i, last}, Place{0, i}, Place{last, i}}) errors.need(at);
     }
   }
-  for (std::size_t paid = 0;;) {
-    Triangulation mesh = Extraction(field, errors, static_cast<float>(max_error), paid, job).take();
-    paid = std::max(paid, mesh.index.size() / 3);
-    std::vector<std::vector<Place>> off(chunk_count(mesh.index.size() / 3, triangles_a_chunk));
-    each_distance(field, mesh, job, [&](std::size_t chunk, std::int32_t x, std::int32_t z, double distance) {
-      if (distance > max_error) off[chunk].push_back({x, z});
-    });
-    bool holds = true;
-    for (const std::vector<Place>& list : off) {
-      for (const Place at : list) {
-        if (errors.at(at.x, at.z) == needed) continue;  // a corner, off by rounding alone
-        errors.need(at);
-        holds = false;
-      }
+  Search search(field, errors, max_error, job);
+  for (bool divided = true; divided;) {
+    job.check();
+    divided = false;
+    for (const Place at : search.run()) {
+      if (errors.at(at.x, at.z) == needed) continue;  // a corner, off by rounding alone
+      errors.need(at);
+      divided = true;
     }
-    if (holds) return mesh;
   }
+  return Extraction(field, errors, static_cast<float>(max_error), job).take();
 }
 
 double measured_error(const Field& field, const Triangulation& mesh, const Job& job) {
-  std::vector<double> worst(chunk_count(mesh.index.size() / 3, triangles_a_chunk));
-  each_distance(field, mesh, job, [&](std::size_t chunk, std::int32_t, std::int32_t, double distance) {
-    worst[chunk] = std::max(worst[chunk], distance);
-  });
+  std::vector<double> worst(chunk_count(mesh.index.size() / 3, triangles_a_chunk), 0.0);
+  parallel_for(job, mesh.index.size() / 3, triangles_a_chunk,
+               [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                 job.check();
+                 for (std::size_t t = begin; t < end; ++t) {
+                   const auto corner = [&](std::size_t k) {
+                     return place_of(mesh.samples[mesh.index[3 * t + k]], field.width);
+                   };
+                   const auto height = [&](Place at) { return static_cast<double>(field.at(at.x, at.z)); };
+                   const Place a = corner(0), b = corner(1), c = corner(2);
+                   if (turn(a, b, c) <= 1) continue;  // corners alone
+                   const Plane plane = Plane::through(a, b, c, height(a), height(b), height(c));
+                   each_row_inside(a, b, c, [&](std::int32_t z, std::int32_t first, std::int32_t last) {
+                     const double off =
+                         worst_of_row(field.row(z), plane.base + plane.south * z, plane.east, first, last);
+                     worst[chunk] = std::max(worst[chunk], off);
+                   });
+                 }
+               });
   return worst.empty() ? 0 : *std::max_element(worst.begin(), worst.end());
 }
 

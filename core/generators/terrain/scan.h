@@ -1,6 +1,7 @@
 #pragma once
 /// The samples inside a triangle, edges included, row by row, by whole numbers only: no sample is missed.
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "core/generators/terrain/field.h"
@@ -35,6 +36,26 @@ struct Plane {
     return plane;
   }
 };
+
+/// The greatest distance of samples first .. last of a row from the line start + east * x. Four side by side,
+/// as a vector unit wants them.
+inline double worst_of_row(const float* row, double start, double east, std::int32_t first,
+                           std::int32_t last) {
+  constexpr int lanes = 4;
+  double most[lanes] = {}, place[lanes];
+  for (int k = 0; k < lanes; ++k) place[k] = first + k;
+  std::int32_t x = first;
+  for (; x + lanes - 1 <= last; x += lanes) {
+    for (int k = 0; k < lanes; ++k) {
+      const double off = std::abs(static_cast<double>(row[x + k]) - (start + east * place[k]));
+      most[k] = off > most[k] ? off : most[k];
+      place[k] += lanes;
+    }
+  }
+  for (; x <= last; ++x)
+    most[0] = std::max(most[0], std::abs(static_cast<double>(row[x]) - (start + east * x)));
+  return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
+}
 
 /// Walks down an edge: the sample right of it (rounded up) and left of it (rounded down) in each row.
 class EdgeWalk {
