@@ -139,7 +139,7 @@ void bench_words(char system, std::uint32_t steps) {
 /// The model by the limits of a service; a refusal is told instead of a figure.
 void bench_model(char system, std::uint32_t steps, LsystemParams::Style style) {
   LsystemParams params = tajic(system);
-  params.iterations = steps;
+  params.iterations = static_cast<std::int32_t>(steps);
   params.style = style;
   const bool tubes = style == LsystemParams::Style::tubes;
   const std::string name =
