@@ -108,7 +108,7 @@ TEST(Cpfg, RefusesWhatItDoesNotUnderstandAtItsPlace) {
   EXPECT_EQ(fault("A --> B\n"), "");
   EXPECT_THAT(fault("A B C\n"), StartsWith("4:1 found no keyword and no production"));
   EXPECT_THAT(fault("A --> B(func(1,2))\n"), HasSubstr("4:9 unknown function `func`"));
-  EXPECT_THAT(fault("#include \"x.h\"\n"), StartsWith("4:1 found `include`"));
+  EXPECT_THAT(fault("#include \"x.h\"\n"), StartsWith("4:1 found `#include`"));
   EXPECT_THAT(fault("EndEach: {n=n+1;}\n"), StartsWith("4:1 found statements that run between steps"));
   EXPECT_THAT(fault("A --> ?(1,2)B$\n"), StartsWith("4:7 found a sub-L-system"));
   EXPECT_THAT(fault("#define X [X]\nA --> X\n"), StartsWith("5:1 found macros that contain themselves"));
