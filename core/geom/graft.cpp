@@ -17,7 +17,8 @@ namespace {
 constexpr int rounds = 4;
 
 /// The limbs that skin() must make, each with a root of its own where it begins.
-Limbs separate(const Limbs& limbs, const Chains& chains, const std::vector<Trust>& trust, const Job& job) {
+Limbs separate(const Limbs& limbs, const Chains& chains, const std::vector<Trust>& trust, const Box& box,
+               const Job& job) {
   Limbs out(job);
   const auto add = [&](std::uint32_t joint, std::uint32_t parent) {
     out.position.push_back(limbs.position[joint]);
@@ -30,6 +31,12 @@ Limbs separate(const Limbs& limbs, const Chains& chains, const std::vector<Trust
     out.key.push_back(limbs.key.empty() ? joint : limbs.key[joint]);
     return static_cast<std::uint32_t>(out.size() - 1);
   };
+  if (std::count(trust.begin(), trust.end(), Trust::none) == 0) return out;
+  // Two joints without limbs give it the extent of the whole, by which skin() tells what is too small.
+  for (const glm::vec3& corner : {box.min, box.max}) {
+    add(0, Limbs::none);
+    out.position.back() = corner;
+  }
   for (std::size_t i = 0; i < chains.head.size(); ++i) {
     if (trust[i] != Trust::none) continue;
     const std::uint32_t head = chains.head[i];
@@ -40,6 +47,17 @@ Limbs separate(const Limbs& limbs, const Chains& chains, const std::vector<Trust
       last = add(joint, last);
   }
   return out;
+}
+
+/// Limbs with a piece that lies on another's go to skin(), which knows how to draw it once.
+void distrust_overlaps(const Limbs& limbs, const Chains& chains, const Scale& scale, Job& job,
+                       std::vector<Trust>& trust) {
+  const Chains found = find_chains(limbs, scale, job);
+  for (std::size_t i = 0; i < chains.head.size(); ++i) {
+    for (std::uint32_t joint = chains.head[i]; joint != Limbs::none; joint = chains.next[joint]) {
+      if (found.mark[joint] & drawn_before) trust[i] = Trust::none;
+    }
+  }
 }
 
 template <class T>
@@ -60,9 +78,11 @@ void append(Mesh& to, const Mesh& from) {
 Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCounts* counts) {
   assert(options.sides >= 3 && options.sides <= 64);
   if (limbs.size() == 0) return {};
-  const Scale scale = scale_of(limbs, options.sides);
+  // By the ring with the most corners: those must stay apart too.
+  const Scale scale = scale_of(limbs, std::max(options.sides, corners_a_rib * options.lobes));
   const Chains chains = link_chains(limbs, job);
   std::vector<Trust> trust(chains.head.size(), options.weld ? Trust::full : Trust::closed);
+  if (options.overlaps) distrust_overlaps(limbs, chains, scale, job, trust);
   for (int round = 0;; ++round) {
     if (round == 2 * rounds) std::fill(trust.begin(), trust.end(), Trust::none);
     GraftWriter writer({limbs, chains, scale, options, trust}, job);
@@ -70,7 +90,7 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
     if (writer.settle(trust, round >= rounds) == 0) {
       if (counts) *counts = writer.counts();
       Mesh mesh = writer.take();
-      const Limbs others = separate(limbs, chains, trust, job);
+      const Limbs others = separate(limbs, chains, trust, scale.box, job);
       SkinOptions plain;
       plain.sides = std::clamp(options.sides, 3, 8);
       for (const Bark& bark : skin(others, plain, job)) append(mesh, bark.mesh);

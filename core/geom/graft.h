@@ -18,12 +18,13 @@
 namespace seedmesh {
 
 struct GraftOptions {
-  int sides = 8;         ///< corners of the thickest limb, 3..64; thinner ones have fewer, down to 3
-  bool weld = true;      ///< false: all limbs are closed tubes
-  float thinnest = 0;    ///< limbs of a smaller radius where they begin are left out
-  int lobes = 0;         ///< ribs around every limb of order 0
-  float lobe_depth = 0;  ///< as a share of the radius, below 1
-  float v_scale = 1;     ///< texture lengths a metre along the limb; u is in metres round it
+  int sides = 8;          ///< corners of the thickest limb, 3..64; thinner ones have fewer, down to 3
+  bool weld = true;       ///< false: all limbs are closed tubes
+  float thinnest = 0;     ///< limbs of a smaller radius where they begin are left out
+  int lobes = 0;          ///< ribs around every limb of order 0
+  float lobe_depth = 0;   ///< as a share of the radius, below 1
+  bool overlaps = false;  ///< limbs may lie on each other, piece by piece: such are found and left to skin()
+  float v_scale = 1;      ///< texture lengths a metre along the limb; u is in metres round it
 };
 
 struct GraftCounts {

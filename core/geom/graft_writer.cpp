@@ -12,11 +12,11 @@ namespace {
 constexpr float pi = static_cast<float>(math::pi);
 // Corners fall with this power of the radius: a limb a tenth as thick as the trunk has half its corners.
 constexpr double corner_power = 0.3;
-// Ribs need at least so many corners each.
-constexpr int corners_a_rib = 3;
 // A limb that others leave has at least so many; and rings stand so much of the bulge from loops.
 constexpr int least_opened_sides = 6;
 constexpr float bulge_share = 1.2F;
+// How much thinner, and shorter in radii, chance makes a closed limb at most.
+constexpr float most_slimmer = 0.04F;
 // The cone that closes a limb inside its parent, and where it begins: shares of the radius.
 constexpr float cap_share = 0.5F;
 // Triangles between two rings follow the shorter diagonal as long as neither ring is ahead by more, in
@@ -101,10 +101,17 @@ void GraftWriter::write_limb(std::uint32_t limb) {
   const bool is_root = context_.limbs.parent[head] == Limbs::none;
   const Loop& loop = loops_[limb];
   const bool has_loop = loop.first != none;
+  // A closed limb that does not come out of its parent is not seen.
+  if (!is_root && !has_loop && axis_.length() < context_.limbs.radius[context_.limbs.parent[head]]) return;
   ++counts_.limbs;
   if (!is_root) ++(has_loop ? (loop.is_fork ? counts_.forks : counts_.collars) : counts_.closed);
 
   const std::uint64_t hash = key_at(context_.limbs.key.empty() ? head : context_.limbs.key[head], 0x62AF7);
+  if (!is_root && !has_loop) {
+    // Limbs that lie on others, as those of a split without an angle do, must not share a vertex with them.
+    for (float& radius : axis_.radius) radius *= 1 - most_slimmer * fraction(hash);
+    axis_.point.back() -= axis_.along.back() * (most_slimmer * fraction(mix(hash)) * axis_.radius.back());
+  }
   const float last_length = axis_.at.back() - axis_.at[axis_.at.size() - 2];
   const float end = axis_.radius.back();
   const float tip = axis_.length() - std::min(end, 0.3F * last_length);

@@ -8,6 +8,9 @@
 
 namespace seedmesh {
 
+/// Ribs need at least so many corners each.
+constexpr int corners_a_rib = 3;
+
 /// How a limb may be made: grown together with its parent; closed where it begins, but with limbs of its own
 /// grown to it; closed all over; by skin().
 enum class Trust : std::uint8_t { full, detached, closed, none };

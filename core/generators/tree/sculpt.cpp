@@ -71,6 +71,9 @@ class Sculptor {
     if (s_.level.empty()) return usual;
     return s_.level[std::min(static_cast<std::size_t>(n), s_.level.size() - 1)];
   }
+  bool bears_leaves(const Limb& limb) const {
+    return !branches(limb) || (limb.level > 0 && limb.level + 2 >= s_.levels);
+  }
   bool branches(const Limb& limb) const { return limb.level + 1 < s_.levels && limb.length > s_.shortest; }
 
   /// The radius at the foot, from the taper angle.
@@ -150,7 +153,7 @@ void Sculptor::carve(const Limb& limb) {
     if (branches(limb) && shares[i] >= l.start && shares[i] < 1)
       whorl(limb, here, static_cast<int>(i), shares[i]);
   }
-  if (!branches(limb)) leaves(limb, stations, shares);
+  if (bears_leaves(limb)) leaves(limb, stations, shares);
 }
 
 void Sculptor::whorl(const Limb& limb, const Limb& here, int number, double share) {
