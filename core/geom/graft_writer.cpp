@@ -17,6 +17,8 @@ constexpr int least_opened_sides = 6;
 constexpr float bulge_share = 1.2F;
 // How much thinner, and shorter in radii, chance makes a closed limb at most.
 constexpr float most_slimmer = 0.04F;
+// A closed limb is at least so many least distances long: 4 mm in a tree of 17 m.
+constexpr float least_length = 60;
 // The cone that closes a limb inside its parent, and where it begins: shares of the radius.
 constexpr float cap_share = 0.5F;
 // Triangles between two rings follow the shorter diagonal as long as neither ring is ahead by more, in
@@ -101,8 +103,12 @@ void GraftWriter::write_limb(std::uint32_t limb) {
   const bool is_root = context_.limbs.parent[head] == Limbs::none;
   const Loop& loop = loops_[limb];
   const bool has_loop = loop.first != none;
-  // A closed limb that does not come out of its parent is not seen.
-  if (!is_root && !has_loop && axis_.length() < context_.limbs.radius[context_.limbs.parent[head]]) return;
+  // A closed limb that does not come out of its parent is not seen, nor is one as short as this; heaps of such
+  // would meet in points that a reader takes for one.
+  if (!is_root && !has_loop &&
+      axis_.length() < std::max(context_.limbs.radius[context_.limbs.parent[head]], least_length * scale.apart)) {
+    return;
+  }
   ++counts_.limbs;
   if (!is_root) ++(has_loop ? (loop.is_fork ? counts_.forks : counts_.collars) : counts_.closed);
 

@@ -11,6 +11,8 @@ constexpr ImportFormat rows[] = {
     {"fractint", "Fractint .l", "An entry becomes an L-system in the plane.", "text/plain", import_fractint},
     {"houdini", "Houdini L-System node", "Parameters and rules, with what Houdini flips flipped back.",
      "text/plain", import_houdini},
+    {"proctree", "proctree JSON", "Its 22 parameters become a tree of the model proctree.",
+     "application/json", import_proctree},
 };
 
 }  // namespace
