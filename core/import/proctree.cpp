@@ -29,7 +29,7 @@ Result<Imported> import_proctree(std::string_view text, const ImportOptions&) {
   for (const auto& [name, value] : parameters.items()) {
     if (name[0] == 'm') known[name] = value;
   }
-  const Generator::Params read = tree->read(known, "", faults);
+  const Generator::Params read = tree->read(known, "", faults, {});
   for (Issue& issue : faults.take()) issues.push_back(std::move(issue));
   for (Issue& issue : tree->check(read, Limits{})) issues.push_back(std::move(issue));
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};

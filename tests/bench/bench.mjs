@@ -84,7 +84,7 @@ function run_own() {
   const own = [];
   const peers = [];
   for (let launch = 0; launch < launches; launch += 1) {
-    for (const bench of ['lsystem', 'request', 'terrain', 'fractal']) own.push(...lines_of(output_of(`${build}/bench/${bench}_bench`)));
+    for (const bench of ['lsystem', 'request', 'terrain', 'fractal', 'tree']) own.push(...lines_of(output_of(`${build}/bench/${bench}_bench`)));
     for (const peer of ['lindenmayer', 'terrain', 'manifold']) peers.push(...lines_of(output_of(process.execPath, `tests/bench/peer_${peer}.mjs`)));
   }
   const peer_of = gathered(peers), rows = gathered(own);
@@ -94,7 +94,7 @@ function run_own() {
 
 /** The programs over Google Benchmark print tables of their own. */
 function run_library_benches() {
-  const own = new Set(['lsystem_bench', 'request_bench', 'terrain_bench', 'fractal_bench']);
+  const own = new Set(['lsystem_bench', 'request_bench', 'terrain_bench', 'fractal_bench', 'tree_bench']);
   const folder = `${build}/bench`;
   for (const name of fs.readdirSync(folder).filter((file) => file.endsWith('_bench') && !own.has(file) && file.includes(words)).sort()) {
     console.log(`\n--- ${name}`);
