@@ -217,6 +217,28 @@ dvec3 patch_normal(const glm::vec3* points, PatchBasis basis, double u, double v
   return {0, 0, 1};
 }
 
+/// Where a face is bent so far that the normal of a corner looks to its other side, the normal gives way.
+void settle_normals(Mesh& mesh) {
+  constexpr float least = 0.1F;
+  for (int round = 0; round < 4; ++round) {
+    bool is_settled = true;
+    for (std::size_t i = 0; i + 2 < mesh.index.wide.size(); i += 3) {
+      const std::uint32_t* corner = mesh.index.wide.data() + i;
+      const glm::vec3 a = mesh.position[corner[0]];
+      const glm::vec3 face =
+          math::unit(glm::cross(mesh.position[corner[1]] - a, mesh.position[corner[2]] - a), {0, 0, 1});
+      for (int k = 0; k < 3; ++k) {
+        glm::vec3& normal = mesh.normal[corner[k]];
+        const float over = glm::dot(normal, face);
+        if (over >= least) continue;
+        is_settled = false;
+        normal = math::unit(normal + face * (1.5F * least - over), face) + 0.0F;
+      }
+    }
+    if (is_settled) return;
+  }
+}
+
 }  // namespace
 
 void drop_unused(Mesh& mesh, const Job& job) {
@@ -283,6 +305,7 @@ Mesh leaf_mesh(const LeafForm& form, const Job& job) {
       add_turned(mesh, vertices, corners, math::sincos_degrees(degrees));
   }
   drop_unused(mesh, job);
+  settle_normals(mesh);
   return mesh;
 }
 
@@ -324,6 +347,7 @@ Mesh fruit_mesh(const FruitForm& form, const Job& job) {
     }
   }
   drop_unused(mesh, job);
+  settle_normals(mesh);
   return mesh;
 }
 
@@ -353,6 +377,7 @@ Mesh patch_mesh(const PatchForm& form, const Job& job) {
     }
   }
   drop_unused(mesh, job);
+  settle_normals(mesh);
   return mesh;
 }
 
