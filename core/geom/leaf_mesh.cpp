@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "core/base/math.h"
 #include "core/geom/triangulate.h"
@@ -239,9 +240,20 @@ void settle_normals(Mesh& mesh) {
   }
 }
 
+/// Lets triangles share vertices that are the same in everything, as where leaflets begin in one point.
+void share_vertices(Mesh& mesh) {
+  std::map<std::array<float, 8>, std::uint32_t> first;
+  for (std::uint32_t& i : mesh.index.wide) {
+    const glm::vec3 p = mesh.position[i], n = mesh.normal[i];
+    const glm::vec2 t = mesh.uv[0].empty() ? glm::vec2(0) : mesh.uv[0][i];
+    i = first.try_emplace({p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y}, i).first->second;
+  }
+}
+
 }  // namespace
 
 void drop_unused(Mesh& mesh, const Job& job) {
+  share_vertices(mesh);
   const Box box = bounds_of(mesh.position.span());
   const glm::vec3 extent = box.max - box.min;
   const float least = 1e-10F * glm::dot(extent, extent);

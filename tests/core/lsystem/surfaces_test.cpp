@@ -47,23 +47,22 @@ const Mesh& first_mesh(const Model& model, const Node& node) {
 
 TEST(Surfaces, StandWhereTheTurtleStandsAndPointAlongItsHeading) {
   const Model model = model_of(
-      R"({"axiom":"F(2)-(90)~leaf(0.5)","surfaces":{
-  "leaf" : { "shape" : "kite", "fold" : 0, "droop" : 0 }}})");
+      R"json({"axiom":"F(2)-(90)~leaf(0.5)","surfaces":{"leaf":{"shape":"kite","fold":0,"droop":0}}})json");
   const Node* organs = node_named(model, "organs");
-ASSERT_TRUE(organs);
-const Box box = bounds_of(first_mesh(model, *organs).position.span());
-EXPECT_NEAR(box.min.x, 0, 1e-6);
-EXPECT_NEAR(box.max.x, 0.5, 1e-6);
-EXPECT_NEAR(box.max.y, 2 + 0.35 / 2, 1e-6);
+  ASSERT_TRUE(organs);
+  const Box box = bounds_of(first_mesh(model, *organs).position.span());
+  EXPECT_NEAR(box.min.x, 0, 1e-6);
+  EXPECT_NEAR(box.max.x, 0.5, 1e-6);
+  EXPECT_NEAR(box.max.y, 2 + 0.35 / 2, 1e-6);
 }
 
 TEST(Surfaces, AreReadByTheirLongestName) {
   const Model model = model_of(
-      R"({"axiom":"F~leaf~leaf_old(2)","surfaces":{
-  "leaf" : {"size" : 0.1}, "leaf_old" : { "size" : 0.1, "color" : 3 }}})");
+      R"json({"axiom":"F~leaf~leaf_old(2)",
+              "surfaces":{"leaf":{"size":0.1},"leaf_old":{"size":0.1,"color":3}}})json");
   const Node* organs = node_named(model, "organs");
-ASSERT_TRUE(organs);
-EXPECT_THAT(model.meshes[static_cast<std::size_t>(organs->mesh)].primitives, SizeIs(2));
+  ASSERT_TRUE(organs);
+  EXPECT_THAT(model.meshes[static_cast<std::size_t>(organs->mesh)].primitives, SizeIs(2));
 }
 
 TEST(Surfaces, AreRefusedWhereTheirNameIsNotKnown) {
@@ -145,21 +144,21 @@ TEST(Sweep, LeavesBranchesAsTheyAre) {
 
 TEST(Levels, FallInTrianglesAndKeepTheLeafArea) {
   const Model model = model_of(
-      R"({"axiom":"A(1,0.1)","productions":["A(l,w) -> !(w)F(l)[&(40)A(l*0.8,w*0.7)]/(137)[&(40)A(l*0.8,w*0.7)]~leaf"],
-          "iterations":8,"sides":32,"stacks":6,"surfaces":{
-  "leaf" : { "size" : 0.1, "color" : 1 }}})",
+      R"json({"axiom":"A(1,0.1)",
+              "productions":["A(l,w) -> !(w)F(l)[&(40)A(l*0.8,w*0.7)]/(137)[&(40)A(l*0.8,w*0.7)]~leaf"],
+              "iterations":8,"sides":32,"stacks":6,"surfaces":{"leaf":{"size":0.1,"color":1}}})json",
       {.lods = 5});
-for (const char* name : {"bark", "organs"}) {
-  const Node* node = node_named(model, name);
-  ASSERT_TRUE(node);
-  ASSERT_THAT(node->lods, SizeIs(4));
-  std::size_t before = first_mesh(model, *node).elements();
-  for (const int lod : node->lods) {
-    const std::size_t now = model.meshes[static_cast<std::size_t>(lod)].primitives.front().mesh.elements();
-    EXPECT_LT(now, before) << name;
-    before = now;
+  for (const char* name : {"bark", "organs"}) {
+    const Node* node = node_named(model, name);
+    ASSERT_TRUE(node);
+    ASSERT_THAT(node->lods, SizeIs(4));
+    std::size_t before = first_mesh(model, *node).elements();
+    for (const int lod : node->lods) {
+      const std::size_t now = model.meshes[static_cast<std::size_t>(lod)].primitives.front().mesh.elements();
+      EXPECT_LT(now, before) << name;
+      before = now;
+    }
   }
-}
 }
 
 }  // namespace
