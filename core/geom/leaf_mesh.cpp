@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "core/base/math.h"
 #include "core/geom/triangulate.h"
@@ -217,9 +218,42 @@ dvec3 patch_normal(const glm::vec3* points, PatchBasis basis, double u, double v
   return {0, 0, 1};
 }
 
+/// Where a face is bent so far that the normal of a corner looks to its other side, the normal gives way.
+void settle_normals(Mesh& mesh) {
+  constexpr float least = 0.1F;
+  for (int round = 0; round < 4; ++round) {
+    bool is_settled = true;
+    for (std::size_t i = 0; i + 2 < mesh.index.wide.size(); i += 3) {
+      const std::uint32_t* corner = mesh.index.wide.data() + i;
+      const glm::vec3 a = mesh.position[corner[0]];
+      const glm::vec3 face =
+          math::unit(glm::cross(mesh.position[corner[1]] - a, mesh.position[corner[2]] - a), {0, 0, 1});
+      for (int k = 0; k < 3; ++k) {
+        glm::vec3& normal = mesh.normal[corner[k]];
+        const float over = glm::dot(normal, face);
+        if (over >= least) continue;
+        is_settled = false;
+        normal = math::unit(normal + face * (1.5F * least - over), face) + 0.0F;
+      }
+    }
+    if (is_settled) return;
+  }
+}
+
+/// Lets triangles share vertices that are the same in everything, as where leaflets begin in one point.
+void share_vertices(Mesh& mesh) {
+  std::map<std::array<float, 8>, std::uint32_t> first;
+  for (std::uint32_t& i : mesh.index.wide) {
+    const glm::vec3 p = mesh.position[i], n = mesh.normal[i];
+    const glm::vec2 t = mesh.uv[0].empty() ? glm::vec2(0) : mesh.uv[0][i];
+    i = first.try_emplace({p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y}, i).first->second;
+  }
+}
+
 }  // namespace
 
 void drop_unused(Mesh& mesh, const Job& job) {
+  share_vertices(mesh);
   const Box box = bounds_of(mesh.position.span());
   const glm::vec3 extent = box.max - box.min;
   const float least = 1e-10F * glm::dot(extent, extent);
@@ -283,6 +317,7 @@ Mesh leaf_mesh(const LeafForm& form, const Job& job) {
       add_turned(mesh, vertices, corners, math::sincos_degrees(degrees));
   }
   drop_unused(mesh, job);
+  settle_normals(mesh);
   return mesh;
 }
 
@@ -324,6 +359,7 @@ Mesh fruit_mesh(const FruitForm& form, const Job& job) {
     }
   }
   drop_unused(mesh, job);
+  settle_normals(mesh);
   return mesh;
 }
 
@@ -353,6 +389,7 @@ Mesh patch_mesh(const PatchForm& form, const Job& job) {
     }
   }
   drop_unused(mesh, job);
+  settle_normals(mesh);
   return mesh;
 }
 

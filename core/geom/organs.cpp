@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t organs_a_chunk = 512;
 constexpr float least_share = 2e-4F;  // of the model's size
+constexpr float least_extent = 1e-9F;
 
 /// Organs of one surface and colour, in their order.
 struct Group {
@@ -48,7 +49,7 @@ std::vector<Group> groups_of(const Organs& organs, const FoliageOptions& options
     if (i % 4096 == 0) job.check();
     const Organ& organ = organs.organ[i];
     const float smallest = std::min({organ.scale.x, organ.scale.y, organ.scale.z}) * extents[organ.surface];
-    if (!(smallest > least_share * options.model_size)) continue;
+    if (!(smallest > std::max(least_share * options.model_size, least_extent))) continue;
     if (seen.insert(hash_of(organ)).second) by_look[{organ.surface, organ.color}].push_back(i);
   }
   std::vector<Group> groups;

@@ -149,7 +149,8 @@ class HoudiniReader {
     if (condition.from < condition.to)
       out += " : " + std::string(text_.substr(condition.from, condition.to - condition.from));
     out += " -> " + modules({equals + 1, weight}, Place::word);
-    if (weight < line.to) out += " : " + std::string(text_.substr(weight + 1, line.to - weight - 1));
+    const Line chance = trimmed(text_, {std::min(weight + 1, line.to), line.to});
+    if (weight < line.to) out += " : " + std::string(text_.substr(chance.from, chance.to - chance.from));
     Json& list = parameters_["productions"];
     out_.origins.push_back({"/parameters/productions/" + std::to_string(list.size()), line.from, false});
     list.push_back(std::move(out));

@@ -20,7 +20,7 @@ namespace seedmesh {
 struct Origin {
   std::string pointer;     ///< into the request, such as "/parameters/productions/2"
   std::size_t offset = 0;  ///< byte of the foreign text
-  bool verbatim = false;   ///< the text stands there as it is, so that columns can be told
+  bool verbatim = false;   ///< the text stands there, byte for byte (a blank for a line's end): columns hold
 };
 
 struct Imported {

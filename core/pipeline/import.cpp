@@ -30,10 +30,14 @@ Issue at_origin(Issue issue, const Imported& imported, std::string_view text) {
   const auto origin = std::find_if(imported.origins.begin(), imported.origins.end(),
                                    [&](const Origin& each) { return each.pointer == issue.pointer; });
   if (origin == imported.origins.end()) return issue;
-  const TextPlace place = place_of(text, origin->offset);
-  const bool same_line = origin->verbatim && issue.line == 1;
-  issue.column = same_line ? place.column + issue.column - 1 : place.column;
-  issue.line = origin->verbatim && issue.line > 1 ? place.line + issue.line - 1 : place.line;
+  std::size_t offset = origin->offset;
+  for (int column = 1; origin->verbatim && column < issue.column && offset < text.size(); ++column) {
+    ++offset;
+    while (offset < text.size() && (static_cast<unsigned char>(text[offset]) & 0xC0U) == 0x80U) ++offset;
+  }
+  const TextPlace place = place_of(text, offset);
+  issue.line = place.line;
+  issue.column = place.column;
   issue.pointer.clear();
   return issue;
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <new>
 #include <nlohmann/json.hpp>
 
@@ -84,6 +85,11 @@ void sign(Model& model, const Request& request) {
   for (Warning& warning : model.warnings) warning.pointer = in_request(std::move(warning.pointer));
 }
 
+bool has_levels(const Model& model) {
+  return std::any_of(model.nodes.begin(), model.nodes.end(),
+                     [](const Node& node) { return !node.lods.empty(); });
+}
+
 int texture_size(const OutputParams& output) {
   const auto* size = std::get_if<std::int32_t>(&output.textures);
   return size ? *size : 0;
@@ -130,6 +136,11 @@ Result<Product> produce(const Request& request, Job& job, TextureStore* texture_
                     output.animation == OutputParams::Animation::growth});
     Result<Model> model = request.body().generator->generate(request.body().params, job);
     if (!model) return std::move(model).error();
+    if (output.lods > 1 && !has_levels(*model)) {
+      return Error{Code::invalid,
+                   {{"", "output.lods asks for " + std::to_string(output.lods) +
+                             " levels of detail; this model has one"}}};
+    }
     texture::paint(*model, texture_size(output), texture_store, job);
     if (output.tangents == OutputTangents::auto_) add_tangents(*model, job);
     finish(*model, job);

@@ -2,6 +2,7 @@
 /// word itself is made in memory for plain and context systems, and streamed module by module for parametric
 /// ones, as generate() does.
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "core/generators/lsystem/free.h"
 #include "core/generators/lsystem/grammar.h"
+#include "core/generators/lsystem/lsystem.h"
 #include "core/generators/lsystem/table.h"
 #include "core/generators/lsystem/text.h"
 #include "generated/params/lsystem.h"
@@ -107,6 +109,58 @@ LsystemParams honda_tree() {
   return params;
 }
 
+// Tajić 2009, table 2: systems A, B and C, which took 13, 25 and 1 seconds to draw at depth 15.
+LsystemParams tajic(char system) {
+  LsystemParams params;
+  params.axiom = system == 'A' ? "FFFFFA" : system == 'B' ? "FFFB" : "FA";
+  params.productions = system == 'A'   ? std::vector<std::string>{"A -> F[&&A][^^A]///A"}
+                       : system == 'B' ? std::vector<std::string>{"B -> F[&B]//F[^^B]///B"}
+                                       : std::vector<std::string>{"A -> F/B///B/////B", "B -> F[^F/////A]"};
+  params.interpretation = {"A -> F", "B -> F"};
+  params.step.value = 0.15;
+  params.width.value = 0.04;
+  params.sides = 6;
+  return params;
+}
+
+/// The modules of the word, handed on one by one.
+void bench_words(char system, std::uint32_t steps) {
+  const Grammar grammar = compiled(tajic(system));
+  Counter counter;
+  const double seconds = bench::median_seconds<bench::CpuClock>(3, [&] {
+    Job job(0, {.limits = roomy()});
+    counter = {};
+    FreeDerivation<Counter>(grammar, steps, false, job, counter).run();
+  });
+  bench::report(std::string("Tajic ") + system + " n=" + std::to_string(steps) + ", derivation", "modules",
+                static_cast<double>(counter.modules), seconds);
+}
+
+/// The model by the limits of a service; a refusal is told instead of a figure.
+void bench_model(char system, std::uint32_t steps, LsystemParams::Style style) {
+  LsystemParams params = tajic(system);
+  params.iterations = static_cast<std::int32_t>(steps);
+  params.style = style;
+  const bool tubes = style == LsystemParams::Style::tubes;
+  const std::string name =
+      std::string("Tajic ") + system + " n=" + std::to_string(steps) + (tubes ? ", tubes" : ", lines");
+  std::uint64_t elements = 0;
+  try {
+    const double seconds = bench::median_seconds<bench::CpuClock>(1, [&] {
+      Job job(0, Job::Options{});
+      const Result<Model> model = generate(params, job);
+      if (!model) std::abort();
+      elements = 0;
+      for (const MeshGroup& group : model->meshes) {
+        for (const Primitive& each : group.primitives) elements += each.mesh.index.size() / (tubes ? 3 : 2);
+      }
+    });
+    bench::report(name, tubes ? "triangles" : "segments", static_cast<double>(elements), seconds);
+  } catch (const Stop& stop) {
+    std::fprintf(stderr, "%s: refused: %s\n", name.c_str(), stop.what());
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -115,4 +169,11 @@ int main() {
   bench_stream("D0L bush n=8, streamed", bush(), 8);
   bench_stream("parametric tree 2.6a n=19", honda_tree(), 19);
   bench_signal();
+  for (const char system : {'A', 'B', 'C'}) {
+    for (const std::uint32_t steps : {6U, 9U, 10U, 12U, 14U, 15U}) {
+      bench_words(system, steps);
+      bench_model(system, steps, LsystemParams::Style::lines);
+      bench_model(system, steps, LsystemParams::Style::tubes);
+    }
+  }
 }

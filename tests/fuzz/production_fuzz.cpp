@@ -1,6 +1,7 @@
 /// The notation of L-systems and all that runs behind it: the first line of the input is the axiom, the
-/// others are productions, those after an empty line interpretation rules. Under small limits every input
-/// ends soon, in a refusal or in a model of finite numbers.
+/// others are productions; empty lines go on to interpretation rules, decomposition rules, a table,
+/// functions, declared modules. Under small limits every input ends soon, in a refusal or in a model of
+/// finite numbers.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -35,16 +36,24 @@ LsystemParams params_of(std::string_view text) {
   params.iterations = 4;
   params.constants = {{"k", 0.5}, {"n", "k * 2 + 1"}};
   params.ignore = "+-";
+  params.interpretation_depth = 3;
+  params.decomposition_depth = 4;
+  params.ring = text.size() % 2 == 1;
   params.axiom = take_line(text);
-  std::vector<std::string>* rules = &params.productions;
+  LsystemTable table;
+  std::vector<std::string>* const lists[] = {&params.productions,   &params.interpretation,
+                                             &params.decomposition, &table.productions,
+                                             &params.functions,     &params.modules};
+  std::size_t list = 0;
   while (!text.empty()) {
     const std::string_view line = take_line(text);
     if (line.empty()) {
-      rules = &params.interpretation;
+      list = (list + 1) % std::size(lists);
     } else {
-      rules->emplace_back(line);
+      lists[list]->emplace_back(line);
     }
   }
+  if (!table.productions.empty()) params.tables = {table, {}};
   return params;
 }
 

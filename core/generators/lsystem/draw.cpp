@@ -173,6 +173,10 @@ void Drawing::place(const Kind& kind, const double* parameters, std::uint64_t ke
   if (kind.arity > 2) scale = {parameters[0], parameters[1], parameters[2]};
   scale *= surface.size * turtle_.scale();
   scale.x *= surface.width;
+  constexpr double largest = 1e9;
+  if (!(std::max({scale.x, scale.y, scale.z}) < largest)) {
+    Job::reject({"", "an organ ~" + kind.symbol.substr(1) + " is larger than 1e9 metres"});
+  }
   if (scale.x > 0 && scale.y > 0 && scale.z > 0) turtle_.place_organ(kind.surface, scale, surface.color, key);
 }
 

@@ -28,7 +28,7 @@ TEST(Houdini, FlipsWhatHoudiniFlips) {
   ASSERT_TRUE(result) << told(result)[0];
   const json parameters = parameters_of(result);
   EXPECT_EQ(parameters["productions"],
-            json({"A(s) : s > b -> F(s)[-A(s*b)]+^(20)A(s*b) :  0.5", "A(s) -> F(s) : 0.5"}));
+            json({"A(s) : s > b -> F(s)[-A(s*b)]+^(20)A(s*b) : 0.5", "A(s) -> F(s) : 0.5"}));
   EXPECT_EQ(parameters["iterations"], 5);
   EXPECT_EQ(parameters["angle"], 30);
   EXPECT_EQ(parameters["step"], 0.2);

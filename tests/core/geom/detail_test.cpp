@@ -1,0 +1,61 @@
+#include "core/geom/detail.h"
+
+#include <gmock/gmock.h>
+
+#include "core/geom/skin.h"
+#include "tests/core/geom/skeletons.h"
+#include "tests/support/mesh_faults.h"
+
+namespace seedmesh {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+Job job_of() { return Job(1, Job::Options{}); }
+
+TEST(Detail, HasTheSidesAndStacksOfTunnelsTable) {
+  std::vector<int> sides, stacks;
+  for (int level = 0; level < most_levels; ++level) {
+    sides.push_back(Detail(level).sides(32));
+    stacks.push_back(Detail(level).stacks(6));
+  }
+  EXPECT_THAT(sides, ElementsAre(32, 22, 18, 16, 14));
+  EXPECT_THAT(stacks, ElementsAre(6, 4, 3, 3, 2));
+}
+
+/// A trunk with a thick branch that ends in a twig, and a twig of its own.
+Limbs small_tree(const Job& job) {
+  SkeletonMaker maker(job);
+  const std::uint32_t root = maker.root({0, 0, 0});
+  const std::uint32_t trunk = maker.grow(root, {0, 1, 0}, {0.1F, 0.08F});
+  const std::uint32_t branch = maker.branch(trunk, {1, 1.5F, 0}, {0.05F, 0.04F});
+  maker.branch(branch, {1.5F, 2, 0}, {0.004F, 0.002F});
+  maker.branch(trunk, {-0.3F, 1.4F, 0}, {0.004F, 0.002F});
+  maker.grow(trunk, {0, 2, 0}, {0.08F, 0.05F});
+  return std::move(maker.limbs);
+}
+
+TEST(Prune, TakesThinTwigsOffAndNothingElse) {
+  Job job = job_of();
+  const Limbs limbs = small_tree(job), pruned = prune(limbs, 0.01F, job);
+  EXPECT_EQ(pruned.size(), limbs.size() - 2);
+  for (const Bark& bark : skin(pruned, {}, job)) EXPECT_THAT(faults(bark.mesh), IsEmpty());
+  EXPECT_EQ(prune(limbs, 0, job).size(), limbs.size());
+  EXPECT_EQ(prune(limbs, 1, job).size(), 0U);
+}
+
+TEST(Skin, HasFewerSidesOnThinnerLimbsWhereItAdapts) {
+  Job job = job_of();
+  const Limbs limbs = small_tree(job);
+  const auto even = skin(limbs, {.sides = 24}, job), adapted = skin(limbs, {.sides = 24, .adapt = true}, job);
+  EXPECT_THAT(faults(adapted[0].mesh), IsEmpty());
+  EXPECT_EQ(measure({&adapted[0].mesh}).open_edges, 0U);
+  EXPECT_LT(adapted[0].mesh.elements(), even[0].mesh.elements());
+  EXPECT_EQ(sides_of_limb({.sides = 24}, 0.1F, 0.1F), 24);
+  EXPECT_EQ(sides_of_limb({.sides = 24}, 0.025F, 0.1F), 12);
+  EXPECT_EQ(sides_of_limb({.sides = 24}, 0, 0.1F), 3);
+}
+
+}  // namespace
+}  // namespace seedmesh

@@ -1,0 +1,165 @@
+/// Organs, generalized cylinders, looks and levels of detail of the generator.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/generators/lsystem/lsystem.h"
+#include "core/schema/faults.h"
+#include "generated/params/lsystem.h"
+
+namespace seedmesh::lsystem {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+LsystemParams params_of(const char* text) {
+  Faults faults;
+  LsystemParams params = read_lsystem(Json::parse(text), "", faults);
+  EXPECT_TRUE(faults.empty()) << (faults.empty() ? "" : faults.issues().front().message);
+  return params;
+}
+
+Model model_of(const char* text, const Demand& demand = {}) {
+  Job job(1, Job::Options{});
+  job.set_demand(demand);
+  Result<Model> model = generate(params_of(text), job);
+  if (!model) {
+    ADD_FAILURE() << model.error().issues.front().message;
+    return {};
+  }
+  return *std::move(model);
+}
+
+std::vector<Issue> issues_of(const char* text) { return check(params_of(text), Limits{}); }
+
+const Node* node_named(const Model& model, std::string_view name) {
+  for (const Node& node : model.nodes) {
+    if (node.name == name) return &node;
+  }
+  return nullptr;
+}
+
+const Mesh& first_mesh(const Model& model, const Node& node) {
+  return model.meshes[static_cast<std::size_t>(node.mesh)].primitives.front().mesh;
+}
+
+TEST(Surfaces, StandWhereTheTurtleStandsAndPointAlongItsHeading) {
+  const Model model = model_of(
+      R"json({"axiom":"F(2)-(90)~leaf(0.5)","surfaces":{"leaf":{"shape":"kite","fold":0,"droop":0}}})json");
+  const Node* organs = node_named(model, "organs");
+  ASSERT_TRUE(organs);
+  const Box box = bounds_of(first_mesh(model, *organs).position.span());
+  EXPECT_NEAR(box.min.x, 0, 1e-6);
+  EXPECT_NEAR(box.max.x, 0.5, 1e-6);
+  EXPECT_NEAR(box.max.y, 2 + 0.35 / 2, 1e-6);
+}
+
+TEST(Surfaces, AreReadByTheirLongestName) {
+  const Model model = model_of(
+      R"json({"axiom":"F~leaf~leaf_old(2)",
+              "surfaces":{"leaf":{"size":0.1},"leaf_old":{"size":0.1,"color":3}}})json");
+  const Node* organs = node_named(model, "organs");
+  ASSERT_TRUE(organs);
+  EXPECT_THAT(model.meshes[static_cast<std::size_t>(organs->mesh)].primitives, SizeIs(2));
+}
+
+TEST(Surfaces, AreRefusedWhereTheirNameIsNotKnown) {
+  const std::vector<Issue> issues = issues_of(R"({"axiom":"F~petal","surfaces":{"leaf":{}}})");
+  ASSERT_THAT(issues, SizeIs(1));
+  EXPECT_EQ(issues[0].pointer, "/axiom");
+  EXPECT_EQ(issues[0].column, 2);
+  EXPECT_THAT(issues[0].message, HasSubstr("~leaf"));
+}
+
+TEST(Surfaces, LeaveATildeAloneWhereThereAreNone) { EXPECT_THAT(issues_of(R"({"axiom":"F~F"})"), IsEmpty()); }
+
+TEST(Surfaces, WantPatchesForPatchesAndNothingElse) {
+  EXPECT_THAT(issues_of(R"({"axiom":"F","surfaces":{"p":{"shape":"patches"}}})"), SizeIs(1));
+}
+
+TEST(Surfaces, BecomeNodesOfOneMeshOnRequest) {
+  const Model model =
+      model_of(R"({"axiom":"F~l+F~l+F~l","surfaces":{"l":{"size":0.2}}})", {.share_organs = true});
+  const Node* leaves = node_named(model, "l");
+  ASSERT_TRUE(leaves);
+  EXPECT_THAT(leaves->instances.transforms, SizeIs(3));
+}
+
+TEST(Surfaces, HaveThePictureOfTheirKindWhereTheyAreSquares) {
+  const Model model = model_of(
+      R"({"axiom":"F~a~b","surfaces":{"a":{"shape":"birch","build":"card"},"b":{"shape":"birch"}},
+          "materials":[{"color":"#446633"}]})");
+  std::vector<std::string> kinds;
+  for (const Material& material : model.materials) kinds.push_back(material.recipe.kind);
+  EXPECT_THAT(kinds, testing::UnorderedElementsAre("", "birch_leaf", ""));
+}
+
+TEST(Looks, NeedAColourATextureOrAnImage) {
+  const std::vector<Issue> issues =
+      issues_of(R"({"axiom":"F","materials":[{"texture":"oak_bark"},{"roughness":0.2}]})");
+  ASSERT_THAT(issues, SizeIs(1));
+  EXPECT_EQ(issues[0].pointer, "/materials/1");
+}
+
+TEST(Looks, PointAtAnImageThatIsNone) {
+  const std::vector<Issue> issues =
+      issues_of(R"({"axiom":"F","materials":[{"images":{"color":"bark.png"}}]})");
+  ASSERT_THAT(issues, SizeIs(1));
+  EXPECT_EQ(issues[0].pointer, "/materials/0/images/color");
+}
+
+TEST(Looks, LetOneSeeThroughThemByTheirOpacity) {
+  const Model model = model_of(R"({"axiom":"F","materials":[{"color":"#ffffff","opacity":0.5}]})");
+  EXPECT_EQ(model.materials.front().alpha_mode, AlphaMode::blend);
+  EXPECT_EQ(model.materials.front().base_color.w, 0.5F);
+}
+
+TEST(Sweep, PassesThroughItsControlPointsAndChangesWidthSmoothly) {
+  Job job(1, Job::Options{});
+  const Result<Json> derived = derive(params_of(R"({"axiom":"@GsF(1)+(90)!(0.02)F(1)@Ge"})"), job);
+  ASSERT_TRUE(derived);
+  const Json& turtle = (*derived)["turtle"];
+  EXPECT_EQ(turtle["segments"], 16);
+  EXPECT_NEAR(turtle["position"][0].get<double>(), -1, 1e-9);
+  EXPECT_GT(turtle["total_length"].get<double>(), 2);
+  EXPECT_LT(turtle["total_length"].get<double>(), 2.4);
+}
+
+TEST(Sweep, IsStraightWhereItsHeadingsAre) {
+  Job job(1, Job::Options{});
+  const Result<Json> derived = derive(params_of(R"({"axiom":"@Gsf(1)@Gc(5)f(1)@Ge"})"), job);
+  ASSERT_TRUE(derived);
+  EXPECT_EQ((*derived)["turtle"]["segments"], 13);
+  EXPECT_NEAR((*derived)["turtle"]["total_length"].get<double>(), 2, 1e-9);
+}
+
+TEST(Sweep, LeavesBranchesAsTheyAre) {
+  Job job(1, Job::Options{});
+  const Result<Json> derived = derive(params_of(R"({"axiom":"@GsF[+F]F@Ge"})"), job);
+  ASSERT_TRUE(derived);
+  EXPECT_EQ((*derived)["turtle"]["segments"], 8 + 1 + 8);
+}
+
+TEST(Levels, FallInTrianglesAndKeepTheLeafArea) {
+  const Model model = model_of(
+      R"json({"axiom":"A(1,0.1)",
+              "productions":["A(l,w) -> !(w)F(l)[&(40)A(l*0.8,w*0.7)]/(137)[&(40)A(l*0.8,w*0.7)]~leaf"],
+              "iterations":8,"sides":32,"stacks":6,"surfaces":{"leaf":{"size":0.1,"color":1}}})json",
+      {.lods = 5});
+  for (const char* name : {"bark", "organs"}) {
+    const Node* node = node_named(model, name);
+    ASSERT_TRUE(node);
+    ASSERT_THAT(node->lods, SizeIs(4));
+    std::size_t before = first_mesh(model, *node).elements();
+    for (const int lod : node->lods) {
+      const std::size_t now = model.meshes[static_cast<std::size_t>(lod)].primitives.front().mesh.elements();
+      EXPECT_LT(now, before) << name;
+      before = now;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace seedmesh::lsystem
