@@ -117,7 +117,7 @@ class Coverage {
 class Painter {
  public:
   Painter(const LeafDrawing& drawing, Relief& relief, Rng rng, const Job& job)
-      : drawing_(drawing), view_(drawing, relief.height.size()), relief_(relief), rng_(rng), job_(job) {}
+      : view_(drawing, relief.height.size()), relief_(relief), rng_(rng), job_(job) {}
 
   /// `woody` lines have the accent's colour.
   void paint_line(const LeafLine& line, std::uint64_t number, float woody) {
@@ -213,7 +213,6 @@ class Painter {
     }
   }
 
-  const LeafDrawing& drawing_;
   View view_;
   Relief& relief_;
   Rng rng_;

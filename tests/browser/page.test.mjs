@@ -143,7 +143,7 @@ test('GLB and glTF are downloaded whole and valid', { timeout: 200_000 }, async 
   const page = await open(browser, address);
   for (const format of ['glb', 'gltf']) {
     const [download] = await Promise.all([page.waitForEvent('download'), page.click(`[data-format=${format}]`)]);
-    assert.equal(download.suggestedFilename(), `model-${small_tree.seed}.${format}`);
+    assert.equal(download.suggestedFilename(), `seedmesh-${small_tree.seed}.${format}`);
     const bytes = fs.readFileSync(await download.path());
     const answer = await server.generate({ ...small_tree, output: { format } });
     assert.ok(bytes.equals(answer.bytes), format);

@@ -446,10 +446,10 @@ test('health, readiness, version and metrics answer', async () => {
 });
 
 test('unknown paths are 404, known ones with another method 405 with Allow', async () => {
-  for (const target of ['/nothing', '/v1', '/v1/', '/v1/nowhere', '/v1/generate/', '/v1/models', '/v1/models/', '/v1/models/a/b.glb', '/v1/presets/', '/v1/import', '/healthz/x', '/index.htm', '//']) {
+  for (const target of ['/nothing', '/v1', '/v1/', '/v1/nowhere', '/v1/generate/', '/v1/models', '/v1/models/', '/v1/models/a/b.glb', '/v1/presets/', '/v1/import/x', '/healthz/x', '/index.htm', '//']) {
     is_problem(await server.get(target), 404, 'not-found');
   }
-  for (const [method, target, allow] of [['GET', '/v1/generate', 'POST'], ['GET', '/v1/validate', 'POST'], ['GET', '/v1/derive', 'POST'], ['DELETE', '/v1/models/AAAA.glb', 'GET'],
+  for (const [method, target, allow] of [['GET', '/v1/generate', 'POST'], ['GET', '/v1/validate', 'POST'], ['GET', '/v1/derive', 'POST'], ['GET', '/v1/import', 'POST'], ['DELETE', '/v1/models/AAAA.glb', 'GET'],
     ['PUT', '/v1/presets/x', 'GET'], ['PATCH', '/', 'GET'], ['DELETE', '/healthz', 'GET'], ['BREW', '/v1/generate', 'POST']]) {
     const answer = await ask(server, method, target, { body: method === 'GET' || method === 'DELETE' || method === 'BREW' ? undefined : '' });
     is_problem(answer, 405, 'method-not-allowed');

@@ -206,7 +206,7 @@ const offer_downloads = (): void => wire_downloads([...model_formats, ...own_for
 
 const actions = {
   request: (): Request | null => store.current?.request ?? null,
-  name: (): string => `${store.current?.preset ?? 'model'}-${store.current?.request.seed ?? 0}`,
+  name: (): string => `${store.current?.preset ?? 'seedmesh'}-${store.current?.request.seed ?? 0}`,
   say: status.say,
   fail: (text: string): void => status.faults(text, [], 0, () => {}),
 };
