@@ -31,11 +31,15 @@ namespace {
 
 using lang::Fault;
 
-/// Bytes of the UTF-8 code point at `at`; the request's text is valid UTF-8 by now.
+/// Bytes of the UTF-8 code point at `at`. One that is cut short ends where the next begins, so that a bracket
+/// is never part of it.
 std::size_t code_point_length(std::string_view text, std::size_t at) {
-  const auto byte = static_cast<unsigned char>(text[at]);
-  const std::size_t length = byte < 0x80 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
-  return std::min(length, text.size() - at);
+  const auto byte_at = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byte_at(at);
+  const std::size_t most = lead < 0x80 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
+  std::size_t length = 1;
+  while (length < most && at + length < text.size() && (byte_at(at + length) & 0xC0U) == 0x80U) ++length;
+  return length;
 }
 
 /// Splits text(open, close) at the commas that stand in no inner parentheses.

@@ -35,6 +35,10 @@ TEST(Notation, KeepsColonsAndContextMarksInsideParentheses) {
   EXPECT_EQ(derived(grammar_of("A(2)", {"A(x) : x<3 -> A(x>1) : 1"})), "A(1)");
 }
 
+TEST(Notation, LetsNoCharacterThatIsCutShortSwallowABracket) {
+  EXPECT_EQ(derived(grammar_of("F\xE2[+F]", {"A < B -> C"})), "F\xE2[+F]");
+}
+
 TEST(Faults, PointAtTheCharacter) {
   EXPECT_THAT(faults_of(grammar_of("F", {"F -> F[+F"})),
               ElementsAre("/productions/0 1:7 found `[` without its `]`"));
