@@ -5,9 +5,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "generated/params/fractal.h"
 #include "generated/params/lsystem.h"
 #include "generated/params/output.h"
 #include "generated/params/request.h"
+#include "generated/params/terrain.h"
+#include "generated/params/tree.h"
 
 namespace seedmesh {
 namespace {
@@ -31,9 +34,10 @@ struct Row {
   Json (*judge)(const Json& document);
 };
 
-constexpr Row rows[] = {{"lsystem", verdict<read_lsystem, write_lsystem>},
-                        {"output", verdict<read_output, write_output>},
-                        {"request", verdict<read_request, write_request>}};
+constexpr Row rows[] = {
+    {"lsystem", verdict<read_lsystem, write_lsystem>}, {"tree", verdict<read_tree, write_tree>},
+    {"fractal", verdict<read_fractal, write_fractal>}, {"terrain", verdict<read_terrain, write_terrain>},
+    {"output", verdict<read_output, write_output>},    {"request", verdict<read_request, write_request>}};
 
 Json judged(const std::string& line) {
   const std::size_t blank = line.find(' ');

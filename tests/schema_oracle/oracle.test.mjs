@@ -14,12 +14,24 @@ const openapi = JSON.parse(fs.readFileSync(path.join(build, 'generated/openapi.j
 const annotations = ['x-unit', 'x-group', 'x-step', 'x-order', 'x-advanced', 'x-grammar', 'x-cpp-name', 'x-widget', 'x-steps', 'x-short', 'x-formats'];
 
 const document_count = 2000;
-const schemas = ['lsystem', 'output', 'request'];
+const schemas = ['lsystem', 'tree', 'fractal', 'terrain', 'output', 'request'];
+
+/** Takes out the requests inside a request, and what cannot be without one: readers judge them by their own generator's schema, too, which ajv cannot. */
+function without_children(schema) {
+  const needs_one = (member) => member['x-widget'] === 'request' || (member.required ?? []).some((key) => needs_one(member.properties?.[key] ?? {})) || (member.items && needs_one(member.items));
+  for (const [key, member] of Object.entries(schema.properties ?? {})) {
+    if (needs_one(member)) delete schema.properties[key];
+    else without_children(member);
+  }
+  if (schema.oneOf) schema.oneOf = schema.oneOf.filter((part) => !needs_one(part));
+  for (const part of [schema.items, schema.additionalProperties, ...(schema.oneOf ?? [])]) if (part && typeof part === 'object') without_children(part);
+  return schema;
+}
 
 /** A schema as it is served: without references; the request leaves the parameters open. */
 function served(name) {
   const { schemas } = openapi.components;
-  const schema = structuredClone(schemas[name]);
+  const schema = without_children(structuredClone(schemas[name]));
   if (name === 'request') Object.assign(schema.properties, { parameters: { type: 'object', additionalProperties: true }, output: schemas.output });
   return schema;
 }

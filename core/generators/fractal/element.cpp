@@ -1,6 +1,7 @@
 #include "core/generators/fractal/element.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/math.h"
@@ -109,13 +110,14 @@ Mesh sphere(const Job& job) {
     const glm::ivec3 sign{(octant & 1) ? -1 : 1, (octant & 2) ? -1 : 1, (octant & 4) ? -1 : 1};
     const bool turned = sign.x * sign.y * sign.z < 0;
     const auto at = [&](int i, int j) { return corner(sign * glm::ivec3(steps - i - j, i, j)); };
-    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-      for (const std::uint32_t each : {a, turned ? c : b, turned ? b : c}) mesh.index.wide.push_back(each);
+    // Braces have an order, arguments of a call have none.
+    const auto add = [&](const std::array<std::uint32_t, 3>& corners) {
+      for (const std::size_t k : {0, turned ? 2 : 1, turned ? 1 : 2}) mesh.index.wide.push_back(corners[k]);
     };
     for (int i = 0; i < steps; ++i) {
       for (int j = 0; i + j < steps; ++j) {
-        add(at(i, j), at(i + 1, j), at(i, j + 1));
-        if (i + j + 1 < steps) add(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+        add({at(i, j), at(i + 1, j), at(i, j + 1)});
+        if (i + j + 1 < steps) add({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
       }
     }
   }
