@@ -112,7 +112,8 @@ Mesh sphere(const Job& job) {
     const auto at = [&](int i, int j) { return corner(sign * glm::ivec3(steps - i - j, i, j)); };
     // Braces have an order, arguments of a call have none.
     const auto add = [&](const std::array<std::uint32_t, 3>& corners) {
-      for (const std::size_t k : {0, turned ? 2 : 1, turned ? 1 : 2}) mesh.index.wide.push_back(corners[k]);
+      const std::size_t second = turned ? 2 : 1;
+      for (const std::size_t k : {std::size_t{0}, second, 3 - second}) mesh.index.wide.push_back(corners[k]);
     };
     for (int i = 0; i < steps; ++i) {
       for (int j = 0; i + j < steps; ++j) {
