@@ -121,7 +121,10 @@ KindId Compiler::kind(std::string_view symbol, std::uint32_t written, Source& so
   made.command = command_of(symbol.substr(0, symbol[0] == '~' ? 1 : symbol.size()), made.arity);
   made.surface = surface_of(symbol);
   made.ignored = considered_.empty() ? ignored_.count(symbol) != 0 : considered_.count(symbol) == 0;
-  if (symbol == "[" || symbol == "]") made.ignored = false;  // brackets always count, as in the book
+  if (symbol == "[" || symbol == "]") {
+    made.ignored = false;  // brackets always count, as in the book
+    if (written > 0) source.faults.push_back({offset, "found parameters of a bracket; it takes none"});
+  }
   grammar_.widest = std::max(grammar_.widest, made.arity);
   const auto id = static_cast<KindId>(grammar_.kinds.size());
   grammar_.kinds.push_back(std::move(made));

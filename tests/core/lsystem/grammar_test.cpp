@@ -39,6 +39,13 @@ TEST(Notation, LetsNoCharacterThatIsCutShortSwallowABracket) {
   EXPECT_EQ(derived(grammar_of("F\xE2[+F]", {"A < B -> C"})), "F\xE2[+F]");
 }
 
+TEST(Faults, RefuseABracketWithParameters) {
+  EXPECT_THAT(faults_of(grammar_of("F[(1)F]", {"A < B -> C"})),
+              ElementsAre("/axiom 1:2 found parameters of a bracket; it takes none"));
+  EXPECT_THAT(faults_of(grammar_of("F", {"F -> [F](2)"})),
+              ElementsAre(StartsWith("/productions/0 1:8 found parameters of a bracket")));
+}
+
 TEST(Faults, PointAtTheCharacter) {
   EXPECT_THAT(faults_of(grammar_of("F", {"F -> F[+F"})),
               ElementsAre("/productions/0 1:7 found `[` without its `]`"));
