@@ -104,6 +104,7 @@ try {
       compare(`${size(each)} from memory, c=${connections}`, () => wrk(server.url + each.answer.headers['content-location'], { connections }), () => wrk(`${near}/${file}`, { connections }));
     }
   }
+  await new Promise((resolve) => { setTimeout(resolve, 100); });  // so that connections that ended while wrk ran are known to have
   const cold = await server.generate(tree(3, 6, 1));
   compare(`cold trees of ${(cold.bytes.length / 1e3).toFixed(0)} KB, c=8`, (round) => wrk(`${server.url}/v1/generate`, { connections: 8, script: cold_script(round) }), undefined, 1000);
 } finally {
