@@ -12,13 +12,13 @@
 #include "core/pipeline.h"
 #include "server/admission.h"
 #include "server/cache.h"
-#include "server/texture_cache.h"
 #include "server/config.h"
 #include "server/http/message.h"
 #include "server/log.h"
 #include "server/metrics.h"
 #include "server/pages.h"
 #include "server/problem.h"
+#include "server/texture_cache.h"
 
 namespace seedmesh {
 

@@ -68,9 +68,10 @@ std::string quoted(const std::string& text) {
 }
 
 std::string enumerator(const std::string& word) {
-  static const std::set<std::string> taken{"auto",  "bool",   "char", "default", "delete", "do",    "double", "else",
-                                           "float", "for",    "if",   "int",     "long",   "new",   "not",    "or",
-                                           "short", "static", "this", "true",    "false",  "union", "while",  "xor"};
+  static const std::set<std::string> taken{"auto",   "bool", "char",  "default", "delete", "do",
+                                           "double", "else", "float", "for",     "if",     "int",
+                                           "long",   "new",  "not",   "or",      "short",  "static",
+                                           "this",   "true", "false", "union",   "while",  "xor"};
   return taken.contains(word) ? word + "_" : word;
 }
 

@@ -72,8 +72,10 @@ struct Row {
 };
 
 constexpr OwnForm terrain_forms[] = {
-    {"png16", "image/png", "png"},  {"png8", "image/png", "png"},
-    {"rgb24", "image/png", "png"},  {"rgba32", "image/png", "png"},
+    {"png16", "image/png", "png"},
+    {"png8", "image/png", "png"},
+    {"rgb24", "image/png", "png"},
+    {"rgba32", "image/png", "png"},
     {"r16", "application/octet-stream", "r16"},
 };
 

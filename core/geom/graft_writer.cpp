@@ -103,10 +103,11 @@ void GraftWriter::write_limb(std::uint32_t limb) {
   const bool is_root = context_.limbs.parent[head] == Limbs::none;
   const Loop& loop = loops_[limb];
   const bool has_loop = loop.first != none;
-  // A closed limb that does not come out of its parent is not seen, nor is one as short as this; heaps of such
-  // would meet in points that a reader takes for one.
+  // A closed limb that does not come out of its parent is not seen, nor is one as short as this; heaps of
+  // such would meet in points that a reader takes for one.
   if (!is_root && !has_loop &&
-      axis_.length() < std::max(context_.limbs.radius[context_.limbs.parent[head]], least_length * scale.apart)) {
+      axis_.length() <
+          std::max(context_.limbs.radius[context_.limbs.parent[head]], least_length * scale.apart)) {
     return;
   }
   ++counts_.limbs;

@@ -1,6 +1,6 @@
 #pragma once
-/// JSON written as text, for the lists of a document that may be too long for a tree of values: the tree of a document
-/// with 100,000 meshes takes 900 MB.
+/// JSON written as text, for the lists of a document that may be too long for a tree of values: the tree of a
+/// document with 100,000 meshes takes 900 MB.
 #include <string>
 #include <string_view>
 

@@ -12,8 +12,8 @@ namespace {
 
 std::uint64_t bytes_of(const Mesh& mesh) {
   std::uint64_t bytes = mesh.position.bytes() + mesh.normal.bytes() + mesh.color.bytes() +
-                        mesh.tangent.bytes() + mesh.joints.bytes() + mesh.weights.bytes() + 4 * mesh.bone.bytes() +
-                        mesh.index.wide.bytes() + mesh.index.small.bytes();
+                        mesh.tangent.bytes() + mesh.joints.bytes() + mesh.weights.bytes() +
+                        4 * mesh.bone.bytes() + mesh.index.wide.bytes() + mesh.index.small.bytes();
   for (const auto& uv : mesh.uv) bytes += uv.bytes();
   return bytes;
 }

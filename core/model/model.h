@@ -28,8 +28,8 @@ struct TextureUse {
   bool repeat = true;
 };
 
-/// Textures that are made by seed once it is known how large they are wanted (core/texture/paint.h). They take
-/// the place of the material's colour, roughness, alpha and side.
+/// Textures that are made by seed once it is known how large they are wanted (core/texture/paint.h). They
+/// take the place of the material's colour, roughness, alpha and side.
 struct TextureRecipe {
   std::string kind;  ///< of texture_kinds(), as "oak_bark"; empty: none
   std::uint64_t seed = 0;
@@ -49,7 +49,7 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5F;
   bool double_sided = false;
-  bool unlit = false;  ///< KHR_materials_unlit, never required
+  bool unlit = false;    ///< KHR_materials_unlit, never required
   TextureRecipe recipe;  ///< used up by paint()
 };
 

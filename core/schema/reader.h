@@ -94,9 +94,9 @@ void read_integer(const Place& place, const IntegerRule& rule, std::int32_t& out
 void read_text(const Place& place, const TextRule& rule, std::string& out);
 void read_color(const Place& place, Color& out);
 void read_seed(const Place& place,
-               std::uint64_t& out);         ///< 0 to 2^64 - 1, as an integer or as decimal digits
+               std::uint64_t& out);               ///< 0 to 2^64 - 1, as an integer or as decimal digits
 void read_child(const Place& place, Child& out);  ///< its parameters are JSON until read_parameters
-void read_free_object(const Place& place);  ///< only that it is an object: others read what is in it
+void read_free_object(const Place& place);        ///< only that it is an object: others read what is in it
 
 /// The index of a word in a list, or nullopt after adding a fault.
 std::optional<std::size_t> read_word(const Place& place, std::span<const std::string_view> words);

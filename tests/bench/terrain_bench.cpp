@@ -1,5 +1,5 @@
-/// How fast fields, erosion and meshes are made. On two threads, by the clock on the wall; `bytes` are those of
-/// the result, which bench.mjs compares with copying as many.
+/// How fast fields, erosion and meshes are made. On two threads, by the clock on the wall; `bytes` are those
+/// of the result, which bench.mjs compares with copying as many.
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -29,8 +29,8 @@ Job roomy() {
 }
 
 void line(const std::string& name, const char* unit, double amount, double bytes, double seconds) {
-  std::printf("{\"name\":\"%s\",\"unit\":\"%s\",\"amount\":%.0f,\"bytes\":%.0f,\"seconds\":%.9f}\n", name.c_str(), unit,
-              amount, bytes, seconds);
+  std::printf("{\"name\":\"%s\",\"unit\":\"%s\",\"amount\":%.0f,\"bytes\":%.0f,\"seconds\":%.9f}\n",
+              name.c_str(), unit, amount, bytes, seconds);
   std::fflush(stdout);
 }
 
@@ -92,8 +92,8 @@ void bench_reduced(const std::string& name, Reducer reduce) {
 }
 
 void bench_mesh() {
-  const Result<Request> request = read_request(
-      R"({"generator":"terrain","parameters":{"iterations":12,"palette":"none"}})", Limits{});
+  const Result<Request> request =
+      read_request(R"({"generator":"terrain","parameters":{"iterations":12,"palette":"none"}})", Limits{});
   if (!request) std::abort();
   double bytes = 0, triangles = 0;
   const double seconds = timed([&] {

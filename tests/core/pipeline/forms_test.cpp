@@ -32,16 +32,16 @@ TEST(Forms, AreThoseThatTheSchemasName) {
 }
 
 TEST(Forms, AreRefusedWhereTheGeneratorHasThemNot) {
-  const Result<Request> request =
-      read_request(R"({"generator":"lsystem","parameters":{"axiom":"F"},"output":{"format":"r16"}})", Limits{});
+  const Result<Request> request = read_request(
+      R"({"generator":"lsystem","parameters":{"axiom":"F"},"output":{"format":"r16"}})", Limits{});
   ASSERT_FALSE(request);
   EXPECT_EQ(request.error().issues.front().pointer, "/output/format");
   EXPECT_THAT(request.error().issues.front().message, HasSubstr("the forms of lsystem are glb, gltf, zip"));
 }
 
 TEST(Forms, MakeOneFileOfTheirMediaType) {
-  const Result<Request> request =
-      read_request(R"({"generator":"terrain","parameters":{"iterations":3},"output":{"format":"r16"}})", Limits{});
+  const Result<Request> request = read_request(
+      R"({"generator":"terrain","parameters":{"iterations":3},"output":{"format":"r16"}})", Limits{});
   ASSERT_TRUE(request);
   Job job(0, Job::Options{});
   const Result<Product> product = produce(*request, job);

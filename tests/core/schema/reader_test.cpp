@@ -27,10 +27,10 @@ TEST(Reader, FindsEveryFaultAtOnce) {
   const auto read = reading<read_lsystem>(
       R"({"productions":"F","iterations":-1,"angel":3,"sides":2.5,"angle":"wide","style":"tube","width":null,
           "materials":[{"color":"red"},{"colour":"#ffffff"}],"constants":{"1x":2,"y":[]},"alphabet":{}})");
-  EXPECT_THAT(read.pointers(), testing::UnorderedElementsAre(
-                                   "", "/productions", "/iterations", "/angel", "/sides", "/angle", "/style",
-                                   "/width", "/materials/0/color", "/materials/1/colour",
-                                   "/constants/1x", "/constants/y", "/alphabet"));
+  EXPECT_THAT(read.pointers(),
+              testing::UnorderedElementsAre("", "/productions", "/iterations", "/angel", "/sides", "/angle",
+                                            "/style", "/width", "/materials/0/color", "/materials/1/colour",
+                                            "/constants/1x", "/constants/y", "/alphabet"));
 }
 
 TEST(Reader, SaysWhatItFoundAndWhatItExpected) {
