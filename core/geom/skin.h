@@ -67,8 +67,9 @@ std::vector<Bark> skin(const Limbs& limbs, const SkinOptions& options, Job& job)
 
 /// The same skeleton as line segments (two vertices a segment, shared along limbs), one mesh for each colour
 /// index. Joints at one place share a vertex, except in models of more than 131,072 joints where next to none
-/// do.
+/// do and of more than 1,048,576. Limbs that are given away lend their memory to the mesh.
 std::vector<Bark> wires(const Limbs& limbs, Job& job);
+std::vector<Bark> wires(Limbs&& limbs, Job& job);
 
 /// How many triangles `skin` would make, without making them; exact except for internodes drawn twice.
 std::uint64_t skin_triangles(const Limbs& limbs, const SkinOptions& options);

@@ -12,11 +12,11 @@ constexpr std::uint32_t none = Limbs::none;
 constexpr std::size_t chunk = 1U << 16U;
 
 // Curves that come back to their own corners put vertices on top of each other. Looking for them costs more
-// than all the rest, so a share of the places is looked at first; below one repeated place in this many the
-// rest is left alone.
+// than all the rest. Small models can pay; of bigger ones a share of the places is looked at first, and below
+// one repeated place in this many the rest is left alone; the biggest are never looked at.
 constexpr unsigned sampled_bits = 6;
 constexpr std::uint64_t tolerated_of = 2000;
-constexpr std::size_t always_merged = std::size_t{1} << 17U;
+constexpr std::size_t always_merged = std::size_t{1} << 17U, never_merged = std::size_t{1} << 20U;
 
 /// 0 and -0 are one place.
 std::uint64_t place_hash(const glm::vec3& point) {
@@ -66,9 +66,10 @@ struct Survey {
 };
 
 Survey survey_chunk(const Limbs& limbs, std::size_t begin, std::size_t end) {
+  const bool samples = limbs.size() > always_merged && limbs.size() <= never_merged;
   Survey survey;
   for (std::size_t i = begin; i < end; ++i) {
-    if (is_sampled(limbs.position[i])) survey.sample.push_back(static_cast<std::uint32_t>(i));
+    if (samples && is_sampled(limbs.position[i])) survey.sample.push_back(static_cast<std::uint32_t>(i));
     if (limbs.parent[i] == none) continue;
     const std::int16_t color = limbs.color.empty() ? std::int16_t{0} : limbs.color[i];
     if (survey.segments++ == 0) survey.color = color;
@@ -98,6 +99,7 @@ Survey survey_all(const Limbs& limbs, const Job& job) {
 
 bool has_repeated_places(const Limbs& limbs, const Survey& survey, const Job& job) {
   if (limbs.size() <= always_merged) return true;
+  if (limbs.size() > never_merged) return false;
   PointTable table(job, survey.sample.size());
   std::uint64_t repeated = 0;
   for (std::uint32_t joint : survey.sample) {
@@ -207,37 +209,49 @@ bool is_plain(const Limbs& limbs, const Survey& survey, const Job& job) {
   return std::find(is_used.begin(), is_used.end(), 0) == is_used.end();
 }
 
-Bark plain_wires(const Limbs& limbs, const Survey& survey, const Job& job) {
-  const std::size_t count = limbs.size();
+/// `position` is that of the joints, or empty: then it is copied.
+Bark plain_wires(const Limbs& limbs, Array<glm::vec3> position, const Survey& survey, const Job& job) {
+  const std::size_t count = limbs.parent.size();
+  const bool copies = position.empty();
+  if (copies) position = Array<glm::vec3>(job, count);
   Bark bark;
   bark.color = survey.color;
   bark.mesh.topology = Topology::lines;
-  bark.mesh.position = Array<glm::vec3>(job, count);
   bark.mesh.index.wide = Array<std::uint32_t>(job, 2 * survey.segments);
   parallel_for(job, count, chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
     job.check();
     std::uint32_t* out = bark.mesh.index.wide.data() + 2 * survey.segments_before[index];
     for (std::size_t i = begin; i < end; ++i) {
-      bark.mesh.position[i] = limbs.position[i] + 0.0F;
+      position[i] = (copies ? limbs.position[i] : position[i]) + 0.0F;
       if (limbs.parent[i] == none) continue;
       *out++ = limbs.parent[i];
       *out++ = static_cast<std::uint32_t>(i);
     }
   });
+  bark.mesh.position = std::move(position);
   return bark;
 }
 
-}  // namespace
-
-std::vector<Bark> wires(const Limbs& limbs, Job& job) {
+/// `spent`: the limbs again, where their positions may be taken.
+std::vector<Bark> drawn(const Limbs& limbs, Limbs* spent, Job& job) {
   if (limbs.size() == 0) return {};
   const Survey survey = survey_all(limbs, job);
   if (survey.segments == 0) return {};
   const bool merges = has_repeated_places(limbs, survey, job);
   if (merges || !is_plain(limbs, survey, job)) return named_wires(limbs, merges, job);
   std::vector<Bark> barks;
-  barks.push_back(plain_wires(limbs, survey, job));
+  barks.push_back(
+      plain_wires(limbs, spent ? std::move(spent->position) : Array<glm::vec3>(), survey, job));
   return barks;
+}
+
+}  // namespace
+
+std::vector<Bark> wires(const Limbs& limbs, Job& job) { return drawn(limbs, nullptr, job); }
+
+std::vector<Bark> wires(Limbs&& limbs, Job& job) {
+  Limbs own = std::move(limbs);
+  return drawn(own, &own, job);
 }
 
 }  // namespace seedmesh

@@ -18,8 +18,9 @@ namespace {
 
 using namespace seedmesh;
 
-std::string sponge(int rounds) {
-  return R"({"generator":"fractal","parameters":{"iterations":)" + std::to_string(rounds) + "}}";
+std::string sponge(int rounds, const std::string& surface = "faces") {
+  return R"({"generator":"fractal","parameters":{"iterations":)" + std::to_string(rounds) +
+         R"(,"surface":")" + surface + "\"}}";
 }
 
 Product made(const std::string& text, int threads) {
@@ -37,6 +38,14 @@ void bench_sponge(int rounds, int threads, int repeats) {
       repeats, [&] { triangles = static_cast<double>(made(sponge(rounds), threads).statistics.triangles); });
   bench::report("Menger " + std::to_string(rounds) + (threads == 1 ? ", 1 thread" : ", all cores"),
                 "triangles", triangles, seconds);
+}
+
+void bench_merged(int rounds) {
+  Product product;
+  const double seconds = bench::median_seconds<bench::WallClock>(
+      5, [&] { product = made(sponge(rounds, "merged"), 1); });
+  bench::report("Menger " + std::to_string(rounds) + " merged, 1 thread", "triangles",
+                static_cast<double>(product.statistics.triangles), seconds);
 }
 
 double status_bytes(const std::string& key) {
@@ -91,5 +100,6 @@ int main() {
     bench_sponge(5, threads, 3);
     if (cores == 1) break;
   }
+  bench_merged(4);
   bench_chaos();
 }

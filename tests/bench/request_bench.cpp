@@ -1,5 +1,5 @@
-/// From the text of a request to the bytes of a GLB: time a triangle of the three biggest presets, and how
-/// much memory one big answer takes beside its own size.
+/// From the text of a request to the bytes of a GLB: time a triangle of each generator's three biggest presets,
+/// and how much memory one big answer takes beside its own size.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -31,17 +32,22 @@ Sized made(const std::string& name, const Request& request, int threads) {
   return {name, product->statistics.triangles, product->payload.size()};
 }
 
+/// The biggest presets of each generator, biggest first.
 std::vector<Sized> biggest_presets(std::size_t count) {
-  std::vector<Sized> all;
+  std::map<std::string, std::vector<Sized>> by_generator;
   for (const PresetInfo& preset : presets()) {
     const auto request = read_preset(preset.name, {}, Limits{});
-    if (request && *request) all.push_back(made(preset.name, **request, 1));
+    if (request && *request) by_generator[preset.generator].push_back(made(preset.name, **request, 1));
   }
-  std::sort(all.begin(), all.end(), [](const Sized& a, const Sized& b) {
-    return a.triangles != b.triangles ? a.triangles > b.triangles : a.name < b.name;
-  });
-  all.resize(std::min(all.size(), count));
-  return all;
+  std::vector<Sized> biggest;
+  for (auto& [generator, all] : by_generator) {
+    std::sort(all.begin(), all.end(), [](const Sized& a, const Sized& b) {
+      return a.triangles != b.triangles ? a.triangles > b.triangles : a.name < b.name;
+    });
+    all.resize(std::min(all.size(), count));
+    biggest.insert(biggest.end(), all.begin(), all.end());
+  }
+  return biggest;
 }
 
 template <class Clock>

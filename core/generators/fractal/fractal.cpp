@@ -8,6 +8,7 @@
 #include "core/generators/fractal/escape.h"
 #include "core/generators/fractal/faces.h"
 #include "core/generators/fractal/measure.h"
+#include "core/generators/fractal/merged.h"
 #include "core/generators/fractal/pieces.h"
 #include "core/generators/fractal/scenes.h"
 #include "core/generators/fractal/survey.h"
@@ -57,13 +58,15 @@ std::uint64_t add_stage(Model& model, int parent, const FractalParams& params,
     add_pieces(model, parent, instructions, element, rounds, params.size, job);
     return 0;
   }
-  refuse_too_many_squares(*lattice, rounds, job);
+  const bool merges = params.surface == FractalSurface::merged;
+  if (!merges) refuse_too_many_squares(*lattice, rounds, job);
   Solid solid = solid_of(*lattice, rounds, job);
   scale_mesh(solid, params.size);
   const SideColors sides = rainbow();
   const SideColors* colors = is_named(params, FractalElement::rainbow_cube) ? &sides : nullptr;
   const std::uint64_t edges = skeleton_of(solid.by_x, job).four_face_edges;
-  add_mesh(model, parent, "cells", exposed_faces(solid, colors, job));
+  add_mesh(model, parent, "cells",
+           merges ? merged_faces(solid, colors, job) : exposed_faces(solid, colors, job));
   return edges;
 }
 
@@ -188,6 +191,7 @@ Result<Appraisal> appraise_copies(const FractalParams& params, Job& job) {
   if (!element) return std::move(element).error();
   appraisal.warnings = std::move(element->warnings);
   if (is_named(params, FractalElement::plate)) return appraisal;
+  if (params.surface == FractalSurface::merged && visible_lattice(params, instructions)) return appraisal;
   Estimate sum{0, 0, true};
   for (const std::int64_t rounds : stages_of(params, params.iterations)) {
     const Estimate stage = estimate_stage(params, instructions, *element, static_cast<int>(rounds), job);

@@ -125,8 +125,7 @@ Model dress(Skeleton skeleton, const LsystemParams& params, Job& job) {
   if (tubes) {
     add_bark(model, std::exchange(skeleton.limbs, Limbs(job)), bones, params, wardrobe, job);
   } else {
-    add_meshes(model, "lines", wires(skeleton.limbs, job), Sides::one, wardrobe);
-    skeleton.limbs = Limbs(job);
+    add_meshes(model, "lines", wires(std::exchange(skeleton.limbs, Limbs(job)), job), Sides::one, wardrobe);
   }
   add_meshes(model, "surfaces", polygons(skeleton.outlines, job, bones), Sides::both, wardrobe);
   add_organs(model, skeleton.organs, params, size, wardrobe, job);

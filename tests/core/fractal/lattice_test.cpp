@@ -9,6 +9,7 @@
 
 #include "core/generators/fractal/faces.h"
 #include "core/generators/fractal/measure.h"
+#include "core/generators/fractal/merged.h"
 #include "core/generators/fractal/survey.h"
 #include "tests/core/fractal/support.h"
 
@@ -162,6 +163,64 @@ TEST(Faces, AreTheSameWithAnyNumberOfThreads) {
   EXPECT_EQ(std::memcmp(a.position.data(), b.position.data(), a.position.bytes()), 0);
   ASSERT_EQ(a.index.small.bytes(), b.index.small.bytes());
   EXPECT_EQ(std::memcmp(a.index.small.data(), b.index.small.data(), a.index.small.bytes()), 0);
+}
+
+/// The mesh whose squares are joined, beside the one of all squares.
+struct Joined {
+  MeshMeasures squares, rectangles;
+};
+Joined joined(const std::string& name, int rounds) {
+  Job job = plain_job();
+  const Solid solid = solid_of(named(name), rounds, job);
+  const Mesh squares = exposed_faces(solid, nullptr, job), rectangles = merged_faces(solid, nullptr, job);
+  return {seedmesh::measure({&squares}), seedmesh::measure({&rectangles})};
+}
+
+TEST(Merged, IsTheSameSurfaceWithFewerTriangles) {
+  for (const char* name : {"menger_sponge", "koch_cube", "corner_cube", "corner_cube_outside", "vicsek",
+                           "mosely_snowflake", "sierpinski_triangle"}) {
+    const Joined at = joined(name, 3);
+    EXPECT_LE(at.rectangles.triangles, at.squares.triangles) << name;
+    EXPECT_NEAR(at.rectangles.area, at.squares.area, 1e-5 * at.squares.area) << name;
+    EXPECT_NEAR(at.rectangles.volume, at.squares.volume, 1e-5 * at.squares.volume) << name;
+  }
+  const Joined sponge = joined("menger_sponge", 3);
+  EXPECT_LT(sponge.rectangles.triangles, sponge.squares.triangles * 3 / 4);
+}
+
+TEST(Merged, LeavesNoGapAndNoCornerInTheMiddleOfAnEdge) {
+  for (const char* name : {"menger_sponge", "koch_cube", "mosely_snowflake", "corner_cube_outside"}) {
+    const MeshMeasures mesh = joined(name, 3).rectangles, squares = joined(name, 3).squares;
+    EXPECT_EQ(mesh.open_edges, 0U) << name;
+    EXPECT_EQ(mesh.zero_area, 0U) << name;
+    EXPECT_EQ(mesh.flipped_corners, 0U) << name;
+    EXPECT_EQ(mesh.unused, 0U) << name;
+    EXPECT_EQ(mesh.over_used_edges > 0, squares.over_used_edges > 0) << name;
+  }
+}
+
+TEST(Merged, MakesOneRectangleOfAPlainSide) {
+  Job job = plain_job();
+  const Lattice block = *lattice_of(instructions_of(fractal_params(
+      R"({"instructions": [{"scale": 0.5, "translate": [0.25, 0.25, 0.25]}, {"scale": 0.5, "translate": [-0.25, 0.25, 0.25]}]})")));
+  EXPECT_EQ(merged_faces(solid_of(block, 1, job), nullptr, job).index.size(), 36U);
+}
+
+TEST(Merged, IsTheSameOnAnyNumberOfThreads) {
+  const char* request = R"({"iterations": 3, "surface": "merged", "element": "rainbow_cube"})";
+  const Result<Model> one = fractal_of(request), eight = fractal_of(request, 0, {.threads = 8});
+  ASSERT_TRUE(one && eight);
+  const Mesh &a = only_mesh(*one), &b = only_mesh(*eight);
+  EXPECT_TRUE(std::equal(a.position.begin(), a.position.end(), b.position.begin(), b.position.end()));
+  EXPECT_THAT(faults(*one), testing::IsEmpty());
+}
+
+TEST(Merged, MayBeAskedForWhereTheSquaresWouldPassTheLimit) {
+  Job::Options options;
+  options.limits.triangles = 26'000;
+  EXPECT_THAT(refusal(R"({"iterations": 3})", options), testing::StartsWith("/iterations: needs 36096"));
+  EXPECT_EQ(refusal(R"({"iterations": 3, "surface": "merged"})", options), "");
+  EXPECT_THAT(refusal(R"({"iterations": 4, "surface": "merged"})", options), testing::HasSubstr("26000"));
 }
 
 }  // namespace

@@ -73,12 +73,12 @@ TEST(Wires, LeaveOutRootsThatNothingGrowsFrom) {
 }
 
 /// A walk of a big model: on a lattice it comes back to its corners again and again.
-Limbs long_walk(const Job& job, bool on_lattice) {
+Limbs long_walk(const Job& job, bool on_lattice, int steps = 200'000) {
   SkeletonMaker maker(job);
   Rng rng(3);
   std::uint32_t joint = maker.root({0, 0, 0});
   Frame frame;
-  for (int i = 0; i < 200'000; ++i) {
+  for (int i = 0; i < steps; ++i) {
     frame = turn(frame,
                  on_lattice ? math::sincos_degrees(90.0 * rng.below(4)) : math::sincos(rng.uniform(-1, 1)));
     joint = maker.grow(joint, maker.limbs.position[joint] + glm::vec3(frame.heading), {1, 1});
@@ -94,6 +94,24 @@ TEST(Wires, MergeOrKeepTheVerticesOfBigModelsAsTheyNeed) {
   const auto free = wires(long_walk(job, false), job);
   EXPECT_EQ(free[0].mesh.position.size(), 200'001U);
   EXPECT_THAT(faults(free[0].mesh), IsEmpty());
+}
+
+TEST(Wires, OfMoreThanAMillionJointsKeepEveryVertex) {
+  Job job = job_of();
+  constexpr int steps = 1 << 20;
+  const Limbs limbs = long_walk(job, true, steps);
+  const auto lattice = wires(limbs, job);
+  EXPECT_EQ(lattice[0].mesh.position.size(), std::size_t{steps} + 1);
+  EXPECT_EQ(lattice[0].mesh.index.size(), 2 * std::size_t{steps});
+}
+
+TEST(Wires, OfLimbsGivenAwayAreTheSame) {
+  Job job = job_of();
+  Limbs limbs = long_walk(job, false);
+  const auto copied = wires(limbs, job), moved = wires(std::move(limbs), job);
+  EXPECT_EQ(indices(copied[0].mesh), indices(moved[0].mesh));
+  EXPECT_TRUE(std::equal(copied[0].mesh.position.begin(), copied[0].mesh.position.end(),
+                         moved[0].mesh.position.begin(), moved[0].mesh.position.end()));
 }
 
 TEST(Wires, AreTheSameOnAnyNumberOfThreads) {
