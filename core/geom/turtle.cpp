@@ -98,15 +98,16 @@ std::uint32_t Turtle::add_joint(const glm::dvec3& at, std::uint32_t parent, std:
   Limbs& limbs = skeleton_->limbs;
   if (limbs.size() >= Limbs::none) Job::refuse("draws more segments than can be counted in 32 bits");
   const auto own = static_cast<std::uint32_t>(limbs.size());
+  limbs.position.push_back(stored(at));
+  limbs.parent.push_back(parent);
+  limbs.color.push_back(state_.color);
+  if (draws_wires_) return own;
   const double width = state_.width - thinner_;
   const auto radius = static_cast<float>(width > 0 ? width / 2 : 0);
   const bool goes_on = parent != Limbs::none && !state_.begins_branch;
-  limbs.position.push_back(stored(at));
   limbs.radius.push_back(radius);
   limbs.base_radius.push_back(goes_on ? limbs.radius[parent] : radius);
-  limbs.parent.push_back(parent);
   limbs.starts_limb.push_back(parent != Limbs::none && state_.begins_branch ? 1 : 0);
-  limbs.color.push_back(state_.color);
   limbs.order.push_back(state_.order);
   if (tracks_anchors_) limbs.anchor.push_back(parent == Limbs::none ? state_.last : Limbs::none);
   if (key != 0 && limbs.key.empty()) {  // the first key of all: joints so far have none

@@ -55,6 +55,10 @@ class Turtle {
   void set_elasticity(std::int64_t tropism, double elasticity);
   void change_elasticity(std::int64_t tropism, double steps);
 
+  /// Writes of each joint where it is, its parent and its colour, and leaves the other arrays empty: enough for
+  /// wires(). Before the first segment.
+  void draw_wires() { draws_wires_ = true; }
+
   /// Writes Limbs::anchor from now on, for whoever moves limbs afterwards. Before the first segment.
   void track_anchors() { tracks_anchors_ = true; }
 
@@ -140,6 +144,7 @@ class Turtle {
   std::uint64_t most_segments_ = ~std::uint64_t{0};
   std::optional<Tropisms> tropisms_;
   bool tracks_anchors_ = false;
+  bool draws_wires_ = false;
 };
 
 }  // namespace seedmesh

@@ -49,7 +49,11 @@ Drawing::Drawing(const Grammar& grammar, const LsystemParams& params, Skeleton* 
     tropisms.push_back({{to[0], to[1], to[2]}, each.elasticity, each.step});
   }
   if (!tropisms.empty()) turtle_.set_tropisms(std::move(tropisms));
-  if (params.weather || params.environment || job.demand().growth) turtle_.track_anchors();
+  const bool moves = params.weather || params.environment || job.demand().growth;
+  if (moves) turtle_.track_anchors();
+  const bool has_own_widths = params.width_rule == LsystemParams::WidthRule::symbols ||
+                              params.width_rule == LsystemParams::WidthRule::decrement;
+  if (params.style == LsystemParams::Style::lines && has_own_widths && !moves) turtle_.draw_wires();
 }
 
 bool Drawing::needs_keys(const Grammar& grammar, const LsystemParams& params) {
