@@ -42,8 +42,8 @@ void bench_sponge(int rounds, int threads, int repeats) {
 
 void bench_merged(int rounds) {
   Product product;
-  const double seconds = bench::median_seconds<bench::WallClock>(
-      5, [&] { product = made(sponge(rounds, "merged"), 1); });
+  const double seconds =
+      bench::median_seconds<bench::WallClock>(5, [&] { product = made(sponge(rounds, "merged"), 1); });
   bench::report("Menger " + std::to_string(rounds) + " merged, 1 thread", "triangles",
                 static_cast<double>(product.statistics.triangles), seconds);
 }

@@ -1,5 +1,5 @@
-/// From the text of a request to the bytes of a GLB: time a triangle of each generator's three biggest presets,
-/// and how much memory one big answer takes beside its own size.
+/// From the text of a request to the bytes of a GLB: time a triangle of each generator's three biggest
+/// presets, and how much memory one big answer takes beside its own size.
 #include <sys/wait.h>
 #include <unistd.h>
 

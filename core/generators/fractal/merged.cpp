@@ -97,7 +97,8 @@ struct Plane {
   Plane(const Side& side, const Corners& corners, int slice)
       : bit_step(corners.step(side.world_bits())),
         row_step(corners.step(side.world_rows())),
-        first(corners.step(side.world_normal()) * static_cast<std::size_t>(slice + (side.step > 0 ? 1 : 0))) {}
+        first(corners.step(side.world_normal()) * static_cast<std::size_t>(slice + (side.step > 0 ? 1 : 0))) {
+  }
   std::size_t at(int bit, int row) const {
     return first + bit_step * static_cast<std::size_t>(bit) + row_step * static_cast<std::size_t>(row);
   }
@@ -118,8 +119,8 @@ void mark_corners(const Side& side, int first_slice, const Cuts& cuts, Corners& 
   }
 }
 
-/// The corners on the rim of a rectangle, as bits along its two rows and as rows along its two sides. The ends
-/// of the rows are in all four lists.
+/// The corners on the rim of a rectangle, as bits along its two rows and as rows along its two sides. The
+/// ends of the rows are in all four lists.
 struct Rim {
   std::vector<int> low, high, left, right;
 
@@ -200,8 +201,7 @@ class SliceMaker {
       const bool first = i + j == 0, last = i + j + 1 == low_end + high_end;
       const bool along_low = j == high_end || (i < low_end && rim_.low[i + 1] <= rim_.high[j + 1]);
       const std::uint32_t low = vertex(r.row, rim_.low[i]), high = vertex(r.row_end, rim_.high[j]);
-      const std::uint32_t next =
-          along_low ? vertex(r.row, rim_.low[++i]) : vertex(r.row_end, rim_.high[++j]);
+      const std::uint32_t next = along_low ? vertex(r.row, rim_.low[++i]) : vertex(r.row_end, rim_.high[++j]);
       if (first) {
         for (std::size_t k = rim_.left.size() - 1; k > 0; --k)
           triangle(vertex(rim_.left[k], r.bit), vertex(rim_.left[k - 1], r.bit), next);

@@ -27,6 +27,7 @@ class Check {
     if (params_.shape == TerrainShape::sphere) sphere();
     if (params_.tile) tile();
     if (params_.hydraulic) hydraulic();
+    if (params_.onto) onto();
     mesh();
     return std::move(issues_);
   }
@@ -196,6 +197,22 @@ class Check {
     belongs_to(given.iterations.has_value(), false, "iterations");
     belongs_to(given.strength.has_value(), false, "strength");
     belongs_to(given.area_exponent.has_value(), false, "area_exponent");
+  }
+
+  void onto() {
+    const auto refuse = [&](bool given, const char* pointer) {
+      if (given) fault(pointer, "heights that lie on a model have none; this belongs to a ground");
+    };
+    refuse(params_.shape == TerrainShape::sphere, "/shape");
+    refuse(params_.tile.has_value(), "/tile");
+    refuse(params_.mesh != TerrainMesh::grid, "/mesh");
+    refuse(params_.skirt > 0, "/skirt");
+    refuse(params_.base.has_value(), "/base");
+    refuse(params_.water_level.has_value(), "/water_level");
+    const bool moves = params_.onto->mapping == TerrainMapping::displacement;
+    if (moves && params_.texture > 0) fault("/texture", "a displacement has no picture; normal_map has");
+    if (!moves && params_.onto->subdivide > 0)
+      fault("/onto/subdivide", "a normal map moves nothing; displacement does");
   }
 
   void mesh() {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/base/parallel.h"
@@ -148,99 +149,101 @@ class Errors {
   Array<float> errors_;
 };
 
-/// The triangles at an error.
-class Extraction {
- public:
-  Extraction(const Field& field, const Errors& errors, float max_error, Job& job)
-      : errors_(errors),
-        max_error_(max_error),
-        width_(field.width),
-        meter_(job, Resource::triangles),
-        names_(job, field.heights.size(), unnamed),
-        mesh_{Array<std::uint32_t>(job), Array<std::uint32_t>(job)} {
-    const std::int32_t last = field.width - 1;
-    halve({0, 0}, {last, last}, {last, 0});
-    halve({last, last}, {0, 0}, {0, last});
-  }
-  Triangulation take() { return std::move(mesh_); }
+/// A triangle of the hierarchy: its long side is a-b and its right angle at c, clockwise seen from above.
+/// Fields have at most 16,385 samples a side.
+struct Half {
+  std::int16_t ax, az, bx, bz, cx, cz;
 
- private:
-  /// The triangle whose long side is a-b and whose right angle is at c, clockwise seen from above.
-  void halve(Place a, Place b, Place c) {
-    const Place middle{(a.x + b.x) / 2, (a.z + b.z) / 2};
-    const bool divisible = std::abs(a.x - c.x) + std::abs(a.z - c.z) > 1;
-    if (divisible && errors_.at(middle.x, middle.z) > max_error_) {
-      halve(c, a, middle);
-      halve(b, c, middle);
-      return;
-    }
-    meter_.spend();
-    std::uint32_t* index = mesh_.index.extend(3);
-    index[0] = name(a);
-    index[1] = name(c);
-    index[2] = name(b);
-    if (turn(a, c, b) < 0) std::swap(index[1], index[2]);
+  static Half of(Place a, Place b, Place c) {
+    const auto narrow = [](std::int32_t i) { return static_cast<std::int16_t>(i); };
+    return {narrow(a.x), narrow(a.z), narrow(b.x), narrow(b.z), narrow(c.x), narrow(c.z)};
   }
-  std::uint32_t name(Place at) {
-    const auto sample = static_cast<std::uint32_t>(at.z * width_ + at.x);
-    if (names_[sample] == unnamed) {
-      names_[sample] = static_cast<std::uint32_t>(mesh_.samples.size());
-      mesh_.samples.push_back(sample);
-    }
-    return names_[sample];
-  }
-
-  const Errors& errors_;
-  float max_error_;
-  std::int32_t width_;
-  Meter meter_;
-  Array<std::uint32_t> names_;
-  Triangulation mesh_;
+  Place a() const { return {ax, az}; }
+  Place b() const { return {bx, bz}; }
+  Place c() const { return {cx, cz}; }
 };
 
-/// Looks for samples off the mesh by more than the bound, in those triangles that it has not looked at yet,
-/// and names them: putting one in divides its triangle.
-class Search {
+Place middle_of(Place a, Place b) { return {(a.x + b.x) / 2, (a.z + b.z) / 2}; }
+
+/// The triangles that are left whole, in the order of the hierarchy, and which of them nobody has looked at.
+class Leaves {
  public:
-  Search(const Field& field, const Errors& errors, double max_error, const Job& job)
+  Leaves(const Field& field, Errors& errors, double max_error, Job& job)
       : field_(field),
         errors_(errors),
         max_error_(max_error),
         threshold_(static_cast<float>(max_error)),
-        seen_(job, field.heights.size(), 0) {}
-
-  std::vector<Place> run() {
-    off_.clear();
-    const std::int32_t last = field_.width - 1;
+        job_(job),
+        meter_(job, Resource::triangles),
+        halves_(job),
+        fresh_(job) {
+    const std::int32_t last = field.width - 1;
     descend({0, 0}, {last, last}, {last, 0});
     descend({last, last}, {0, 0}, {0, last});
-    return std::move(off_);
+    meter_.spend(halves_.size());
   }
+
+  /// Divides until no sample is off its triangle by more than the bound: what is off is put into the mesh and
+  /// the triangles that this divides are looked at anew.
+  void settle() {
+    while (need_what_is_off()) divide();
+  }
+
+  const Array<Half>& halves() const { return halves_; }
 
  private:
   void descend(Place a, Place b, Place c) {
-    const Place middle{(a.x + b.x) / 2, (a.z + b.z) / 2};
-    const std::int32_t leg = std::abs(a.x - c.x) + std::abs(a.z - c.z);
-    if (leg <= 1) return;  // half a square: corners alone
-    if (errors_.at(middle.x, middle.z) > threshold_) {
+    const Place middle = middle_of(a, b);
+    const bool divisible = std::abs(a.x - c.x) + std::abs(a.z - c.z) > 1;
+    if (divisible && errors_.at(middle.x, middle.z) > threshold_) {
       descend(c, a, middle);
       descend(b, c, middle);
       return;
     }
-    // Two triangles share the middle of their long sides; the side that the right angle is on tells them
-    // apart.
-    std::uint8_t& seen = seen_[static_cast<std::size_t>(middle.z) * static_cast<std::size_t>(field_.width) +
-                               static_cast<std::size_t>(middle.x)];
-    const std::uint8_t mark = c.z > middle.z || (c.z == middle.z && c.x > middle.x) ? 1 : 2;
-    if ((seen & mark) != 0) return;
-    seen |= mark;
-    look(a, b, c, middle);
+    halves_.push_back(Half::of(a, b, c));
+    fresh_.push_back(divisible ? 1 : 0);
   }
 
-  void look(Place a, Place b, Place c, Place middle) {
+  bool need_what_is_off() {
+    std::vector<std::vector<Place>> off(chunk_count(halves_.size(), triangles_a_chunk));
+    parallel_for(job_, halves_.size(), triangles_a_chunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                   job_.check();
+                   for (std::size_t i = begin; i < end; ++i) {
+                     if (fresh_[i] != 0) look(halves_[i], off[chunk]);
+                     fresh_[i] = 0;
+                   }
+                 });
+    bool found = false;
+    for (const std::vector<Place>& places : off) {
+      for (const Place at : places) {
+        if (errors_.at(at.x, at.z) == needed) continue;  // a corner, off by rounding alone
+        errors_.need(at);
+        found = true;
+      }
+    }
+    return found;
+  }
+
+  void divide() {
+    const Array<Half> before = std::exchange(halves_, halves_.like<Half>());
+    fresh_.clear();
+    halves_.reserve(before.size() + before.size() / 8);
+    fresh_.reserve(before.size() + before.size() / 8);
+    for (const Half& half : before) {
+      const std::size_t first = halves_.size();
+      descend(half.a(), half.b(), half.c());
+      if (halves_.size() == first + 1) fresh_.back() = 0;  // still whole, and looked at before
+    }
+    meter_.spend(halves_.size() - before.size());
+  }
+
+  void look(const Half& half, std::vector<Place>& off) const {
     const auto height = [&](Place at) { return static_cast<double>(field_.at(at.x, at.z)); };
+    const Place a = half.a(), b = half.b(), c = half.c();
     if (std::abs(turn(a, c, b)) == 2) {  // one sample that is no corner
-      if (std::abs((height(a) + height(b)) / 2 - height(middle)) > max_error_) off_.push_back(middle);
+      const Place middle = middle_of(a, b);
+      if (std::abs((height(a) + height(b)) / 2 - height(middle)) > max_error_) off.push_back(middle);
       return;
     }
     const Plane plane = Plane::through(a, b, c, height(a), height(b), height(c));
@@ -250,18 +253,47 @@ class Search {
       if (worst_of_row(row, start, plane.east, first, last) <= max_error_) return;
       for (std::int32_t x = first; x <= last; ++x) {
         if (std::abs(static_cast<double>(row[x]) - (start + plane.east * x)) > max_error_)
-          off_.push_back({x, z});
+          off.push_back({x, z});
       }
     });
   }
 
   const Field& field_;
-  const Errors& errors_;
+  Errors& errors_;
   double max_error_;
   float threshold_;
-  Array<std::uint8_t> seen_;
-  std::vector<Place> off_;
+  Job& job_;
+  Meter meter_;
+  Array<Half> halves_;
+  Array<std::uint8_t> fresh_;  ///< of each: 1 where samples inside are still to be compared
 };
+
+/// Names the samples by their first use.
+Triangulation named(const Array<Half>& halves, const Field& field, const Job& job) {
+  Array<std::uint32_t> names(job, field.heights.size(), unnamed);
+  Triangulation mesh{Array<std::uint32_t>(job), Array<std::uint32_t>(job)};
+  mesh.index = Array<std::uint32_t>(job, 3 * halves.size());
+  mesh.samples.reserve(halves.size() / 2 + halves.size() / 8);
+  const auto name = [&](Place at) {
+    const auto sample = static_cast<std::uint32_t>(at.z * field.width + at.x);
+    if (names[sample] == unnamed) {
+      names[sample] = static_cast<std::uint32_t>(mesh.samples.size());
+      mesh.samples.push_back(sample);
+    }
+    return names[sample];
+  };
+  std::uint32_t* index = mesh.index.data();
+  for (const Half& half : halves) {
+    const Place a = half.a(), b = half.b(), c = half.c();
+    index[0] = name(a);
+    index[1] = name(c);
+    index[2] = name(b);
+    if (turn(a, c, b) < 0) std::swap(index[1], index[2]);
+    index += 3;
+  }
+  mesh.samples.shrink_to_fit();
+  return mesh;
+}
 
 }  // namespace
 
@@ -277,17 +309,9 @@ Triangulation rtin(const Field& field, double max_error, Border border, Job& job
       for (const Place at : {Place{i, 0}, Place{i, last}, Place{0, i}, Place{last, i}}) errors.need(at);
     }
   }
-  Search search(field, errors, max_error, job);
-  for (bool divided = true; divided;) {
-    job.check();
-    divided = false;
-    for (const Place at : search.run()) {
-      if (errors.at(at.x, at.z) == needed) continue;  // a corner, off by rounding alone
-      errors.need(at);
-      divided = true;
-    }
-  }
-  return Extraction(field, errors, static_cast<float>(max_error), job).take();
+  Leaves leaves(field, errors, max_error, job);
+  leaves.settle();
+  return named(leaves.halves(), field, job);
 }
 
 double measured_error(const Field& field, const Triangulation& mesh, const Job& job) {

@@ -5,7 +5,9 @@
 #include <string>
 
 #include "core/base/parallel.h"
+#include "core/generators/child.h"
 #include "core/generators/terrain/maps.h"
+#include "core/generators/terrain/onto.h"
 #include "core/generators/terrain/plan.h"
 #include "core/generators/terrain/surface.h"
 #include "generated/params/terrain.h"
@@ -234,6 +236,20 @@ Model planet_model(const TerrainParams& params, Job& job) {
   return model;
 }
 
+/// The model that the field is laid on.
+Result<Model> clad_model(const TerrainParams& params, const Field& field, Job& job) {
+  constexpr std::int32_t usual_picture = 512;
+  Result<Model> model = generate_child(params.onto->model, "/onto/model", job.rng().at("onto"), job);
+  if (!model) return model;
+  if (params.onto->mapping == TerrainMapping::displacement) {
+    displace(*model, field, static_cast<int>(params.onto->subdivide), job);
+  } else {
+    const auto side = static_cast<std::int32_t>(params.texture);
+    add_normal_map(*model, field, side > 0 ? side : usual_picture, job);
+  }
+  return model;
+}
+
 std::optional<Error> refusal(const TerrainParams& params, const Limits& limits) {
   std::vector<Issue> issues = check(params, limits);
   if (issues.empty()) return std::nullopt;
@@ -258,6 +274,7 @@ Result<Model> generate(const TerrainParams& params, Job& job) {
   if (params.shape == TerrainShape::sphere) return planet_model(params, job);
   const Result<Field> field = field_of(params, job);
   if (!field) return field.error();
+  if (params.onto) return clad_model(params, *field, job);
   if (params.mesh == TerrainMesh::rtin && !fits_rtin(field->width, field->depth)) {
     return Error{Code::invalid,
                  {{"/mesh", "rtin wants a square of 2^n + 1 samples a side and this image has " +
@@ -301,6 +318,11 @@ Result<Json> derive(const TerrainParams& params, Job& job) {
 Result<Appraisal> appraise(const TerrainParams& params, const Job& job) {
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
   Appraisal appraisal;
+  if (params.onto) {
+    Result<Appraisal> child = appraise_child(params.onto->model, "/onto/model", job.rng().at("onto"), job);
+    if (child) child->estimate.reset();
+    return child;
+  }
   const bool sphere = params.shape == TerrainShape::sphere;
   if (params.algorithm == TerrainAlgorithm::image || (!sphere && params.mesh != TerrainMesh::grid))
     return appraisal;
