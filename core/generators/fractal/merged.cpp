@@ -79,16 +79,21 @@ struct Cuts {
 /// The points of the lattice that are corners of rectangles, a bit each.
 class Corners {
  public:
-  Corners(const Job& job, glm::ivec3 cells)
-      : step_{1, cells.x + std::size_t{1}, (cells.x + std::size_t{1}) * (cells.y + std::size_t{1})},
-        bits_(job, step_[2] * (cells.z + std::size_t{1}) / 64 + 1, std::uint64_t{0}) {}
+  Corners(const Job& job, glm::ivec3 cells) {
+    std::size_t count = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      step_[axis] = count;
+      count *= static_cast<std::size_t>(cells[static_cast<int>(axis)]) + 1;
+    }
+    bits_ = Array<std::uint64_t>(job, count / 64 + 1, std::uint64_t{0});
+  }
 
   std::size_t step(int axis) const { return step_[static_cast<std::size_t>(axis)]; }
   void mark(std::size_t point) { bits_[point / 64] |= std::uint64_t{1} << point % 64; }
   bool has(std::size_t point) const { return (bits_[point / 64] >> point % 64 & 1U) != 0; }
 
  private:
-  std::array<std::size_t, 3> step_;
+  std::array<std::size_t, 3> step_{};
   Array<std::uint64_t> bits_;
 };
 
