@@ -28,7 +28,7 @@ struct RoofOptions {
   double angle = 0.6;            ///< radians, 0 < angle < pi/2; of the lower slope for mansard and gambrel
   std::optional<double> height;  ///< of the highest point instead of `angle`
   double upper_angle = 0.35;     ///< mansard, gambrel: of the upper slope
-  double break_height = 0;       ///< mansard, gambrel: where it changes; 0: at half the way of the slope inwards
+  double break_height = 0;       ///< mansard, gambrel: where it changes; 0: at three tenths of the way inwards
   double overhang = 0;           ///< metres along the slope, past the eaves
   double verge = 0;              ///< metres past upright ends, level
   double thickness = 0;          ///< of the cover, upright; 0 with an overhang means 0.12
