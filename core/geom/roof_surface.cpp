@@ -196,16 +196,20 @@ RoofSurface plane_surface(const RoofBase& base, const RoofPlane& plane) {
   RoofSurface surface;
   const dvec2 up{-plane.direction.y, plane.direction.x};
   std::vector<std::uint32_t> below, above;
+  std::vector<dvec3> high;
   for (const PlanRing& ring : base.plan.rings) {
     for (const dvec2& p : ring) {
       const double height = glm::dot(up, p - plane.at) * plane.tangent;
       below.push_back(static_cast<std::uint32_t>(surface.point.size()));
-      above.push_back(below.back());
       surface.point.emplace_back(p, plane.is_bare ? height : base.height);
-      if (plane.is_bare || height - base.height < 1e-9 * diagonal_of(base.plan)) continue;
-      above.back() = static_cast<std::uint32_t>(surface.point.size());
-      surface.point.emplace_back(p, height);
+      high.emplace_back(p, height);
     }
+  }
+  above = below;
+  for (std::size_t i = 0; i < below.size() && !plane.is_bare; ++i) {
+    if (high[i].z - base.height < 1e-9 * diagonal_of(base.plan)) continue;
+    above[i] = static_cast<std::uint32_t>(surface.point.size());
+    surface.point.push_back(high[i]);
   }
   RoofSurface::Face slope;
   slope.edge = plane.edge;
