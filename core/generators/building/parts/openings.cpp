@@ -20,8 +20,10 @@ double frame_width(const dvec3& size, const PartOptions& options, double share) 
 void add_window(PartWriter& out, const dvec3& low, const dvec3& high, const PartOptions& options) {
   const dvec3 size = high - low;
   const double frame = frame_width(size, options, 0.08), bar = 0.5 * frame;
-  const int columns =
-      std::clamp(options.count > 0 ? options.count : math::to_int32(std::floor(size.x / 0.75 + 0.5)), 1, 16);
+  // Panes are at least as wide as the bars between them.
+  const int most = std::clamp(math::to_int32((size.x - 2 * frame + bar) / (2 * bar)), 1, 64);
+  const int wanted = options.count > 0 ? options.count : math::to_int32(std::floor(size.x / 0.75 + 0.5));
+  const int columns = std::clamp(wanted, 1, most);
   const int rows = size.y > 1.4 * size.x / columns ? 2 : 1;
   const double width = (size.x - 2 * frame - (columns - 1) * bar) / columns;
   // The upper light of two is the smaller one.
