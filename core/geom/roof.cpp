@@ -19,6 +19,10 @@ constexpr double steep_share = 0.3;
 constexpr double plain_thickness = 0.12;
 // Points nearer than this share of the diagonal become one.
 constexpr double weld_share = 2e-6;
+// The cover's underside lies so far below the slopes that it rests on, or, where it ends at a wall and would lie
+// in the wall's plane, so far above them: no two faces of a roof coincide.
+constexpr double sunk = 0.02;
+constexpr double lifted = 0.002;
 // Angles nearer to the upright are upright.
 constexpr double upright = 1e-6;
 
@@ -239,7 +243,10 @@ class RoofMaker {
   void add_shell(const RoofSurface& surface, double thickness) {
     const auto bottom = static_cast<std::uint32_t>(roof_.point.size());
     const auto shift = static_cast<std::uint32_t>(surface.point.size());
-    for (const double lift : {0.0, thickness}) {
+    const bool ends_at_wall =
+        std::any_of(outward_.begin(), outward_.end(), [](double d) { return !(d > sunk); });
+    const double low = ends_at_wall ? std::min(lifted, 0.1 * thickness) : -std::min(sunk, thickness);
+    for (const double lift : {low, thickness}) {
       for (const dvec3& p : surface.point) roof_.point.push_back(raised(dvec2(p), p.z + lift));
     }
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> border;

@@ -4,7 +4,8 @@
 /// Space: `raised` of plan.h; height 0 is where the walls end. Two closed solids may come out. The body stands
 /// on the plan: its slopes, its upright gables, and its base at height 0 looking down; without the base it
 /// closes walls that have no top. With an overhang (or a thickness) there is a cover on top of it: a shell
-/// that follows the slopes outwards over the walls, with an underside (soffit) and an edge (fascia).
+/// that follows the slopes outwards over the walls, with an underside (soffit) and an edge (fascia). The two
+/// share no plane, so both may stand in one mesh.
 #include <array>
 #include <optional>
 
