@@ -1,0 +1,102 @@
+// Doors, windows, dormers.
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "core/generators/building/parts/part_makers.h"
+
+namespace seedmesh::building {
+
+using glm::dvec2;
+using glm::dvec3;
+
+/// Frame as wide as asked, or in proportion, and never more than a third.
+double frame_width(const dvec3& size, const PartOptions& options, double share) {
+  const double least = std::min(size.x, size.y);
+  return std::min(options.frame > 0 ? options.frame : std::min(share * least, 0.12), least / 3);
+}
+
+/// A frame with openings, and glass in the middle of its depth.
+void add_window(PartWriter& out, const dvec3& low, const dvec3& high, const PartOptions& options) {
+  const dvec3 size = high - low;
+  const double frame = frame_width(size, options, 0.08), bar = 0.5 * frame;
+  // Panes are at least as wide as the bars between them.
+  const int most = std::clamp(math::to_int32((size.x - 2 * frame + bar) / (2 * bar)), 1, 64);
+  const int wanted = options.count > 0 ? options.count : math::to_int32(std::floor(size.x / 0.75 + 0.5));
+  const int columns = std::clamp(wanted, 1, most);
+  const int rows = size.y > 1.4 * size.x / columns ? 2 : 1;
+  const double width = (size.x - 2 * frame - (columns - 1) * bar) / columns;
+  // The upper light of two is the smaller one.
+  const double height = size.y - 2 * frame, split = rows == 2 ? 0.68 * (height - bar) : height;
+  Plan outline{{rectangle(dvec2(low), dvec2(high))}};
+  for (int column = 0; column < columns; ++column) {
+    const double x = low.x + frame + column * (width + bar), y = low.y + frame;
+    PlanRing hole = rectangle({x, y}, {x + width, y + split});
+    outline.rings.emplace_back(hole.rbegin(), hole.rend());
+    if (rows == 1) continue;
+    hole = rectangle({x, y + split + bar}, {x + width, y + height});
+    outline.rings.emplace_back(hole.rbegin(), hole.rend());
+  }
+  out.push("frame", outline, {Along::z, low.z, high.z});
+  const double inset = 0.5 * frame;
+  out.box("glass", {low.x + inset, low.y + inset, low.z + 0.4 * size.z},
+          {high.x - inset, high.y - inset, low.z + 0.55 * size.z});
+}
+
+std::vector<PartPiece> make_window(const dvec3& size, const PartOptions& options, Job& job) {
+  PartWriter out(job);
+  add_window(out, dvec3(0), size, options);
+  return out.take();
+}
+
+std::vector<PartPiece> make_door(const dvec3& size, const PartOptions& options, Job& job) {
+  PartWriter out(job);
+  const double frame = frame_width(size, options, 0.08), depth = 0.7 * size.z;
+  const double right = size.x - frame, top = size.y - frame;
+  out.push("frame",
+           Plan{{{{0, 0}, {frame, 0}, {frame, top}, {right, top}, {right, 0}, {size.x, 0}, {size.x, size.y}, {0, size.y}}}},
+           {Along::z, 0, depth});
+  // One leaf, or two where the door is wide.
+  const int leaves = size.x > 0.75 * size.y ? 2 : 1;
+  const double gap = 0.1 * frame, width = (right - frame) / leaves, leaf_back = 0.25 * depth, leaf_front = 0.75 * depth;
+  for (int leaf = 0; leaf < leaves; ++leaf) {
+    const double x = frame + leaf * width, inner = leaf > 0 ? gap : -0.3 * frame;
+    const double outer = leaf + 1 < leaves ? gap : -0.3 * frame;
+    const dvec3 low{x + inner, 0.004 * size.y, leaf_back}, high{x + width - outer, top + 0.3 * frame, leaf_front};
+    out.box("door", low, high);
+    // Two fields that stand out a little.
+    const double side = 0.17 * width, field = leaf_front + 0.12 * depth;
+    for (const dvec2 span : {dvec2(0.1, 0.42), dvec2(0.52, 0.9)}) {
+      out.box("door", {x + side, span.x * top, leaf_front - 0.1 * depth}, {x + width - side, span.y * top, field});
+    }
+    // The handle: a stem from the leaf, and a square bar.
+    const double side_of_lock = leaf % 2 == 0 ? x + 0.93 * width : x + 0.07 * width;
+    const double thick = std::min(0.012 * size.y, 0.025), reach = leaf % 2 == 0 ? -5 * thick : 5 * thick;
+    const double y = 0.48 * size.y, front = size.z, stem = depth + 0.3 * (front - depth);
+    out.box("metal", {side_of_lock - 0.5 * thick, y, leaf_front - 0.1 * depth},
+            {side_of_lock + 0.5 * thick, y + 0.8 * thick, stem + 0.2 * (front - stem)});
+    out.box("metal", {std::min(side_of_lock + reach, side_of_lock - thick), y - 0.1 * thick, stem},
+            {std::max(side_of_lock + reach, side_of_lock + thick), y + 0.9 * thick, front});
+  }
+  return out.take();
+}
+
+std::vector<PartPiece> make_dormer(const dvec3& size, const PartOptions& options, Job& job) {
+  PartWriter out(job);
+  const double angle = options.angle > 0 ? options.angle : math::pi / 4;
+  const double middle = 0.5 * size.x, rise = std::min(middle * math::tan(angle), 0.6 * size.y);
+  const double eave = size.y - rise, thick = 0.06 * size.y, inset = 0.06 * size.x, front = 0.93 * size.z;
+  out.push("roof", Plan{{{{0, eave - thick}, {middle, size.y - thick}, {size.x, eave - thick}, {size.x, eave},
+                          {middle, size.y}, {0, eave}}}},
+           {Along::z, 0, size.z});
+  // Walls end in the middle of the roof's thickness.
+  const double slope = rise / middle, shoulder = eave - 0.5 * thick + slope * inset;
+  out.push("wall",
+           Plan{{{{inset, 0}, {size.x - inset, 0}, {size.x - inset, shoulder}, {middle, size.y - 0.5 * thick}, {inset, shoulder}}}},
+           {Along::z, 0.02 * size.z, front});
+  const double left = 0.25 * size.x, sill = 0.12 * size.y, head = std::min(shoulder, 0.75 * size.y);
+  add_window(out, {left, sill, front - 0.04 * size.z}, {size.x - left, head, 0.98 * size.z}, options);
+  return out.take();
+}
+
+}  // namespace seedmesh::building

@@ -1,0 +1,67 @@
+#include "core/generators/building/parts/parts.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/generators/building/parts/part_makers.h"
+#include "core/geom/weld.h"
+
+namespace seedmesh::building {
+namespace {
+
+constexpr std::array<PartRow, 18> rows{{
+    {"balcony", "A slab with a railing on three sides; its back is at the wall.", {2.4, 1.15, 1}, make_balcony},
+    {"bell", "A church bell with clapper and yoke.", {1, 1.1, 1}, make_bell},
+    {"box", "A box.", {1, 1, 1}, make_box},
+    {"chimney", "Brick with a slab and pots; a round stack where it is more than five times as high as wide.", {0.8, 1.6, 0.6}, make_chimney},
+    {"column", "A round column with base and capital.", {0.6, 4, 0.6}, make_column},
+    {"cylinder", "An upright cylinder.", {1, 1, 1}, make_cylinder},
+    {"door", "A door in its frame, with a handle; two leaves where it is wide.", {1, 2.1, 0.2}, make_door},
+    {"dormer", "A window with walls and a roof of its own, to stand out of a slope.", {1.6, 2, 2}, make_dormer},
+    {"factory_roof", "Four teeth with glass on their upright side.", {20, 3, 10}, make_factory_roof},
+    {"floor", "A slab.", {4, 0.3, 4}, make_floor},
+    {"ledge", "A moulding along a wall; its back is at the wall.", {4, 0.3, 0.3}, make_ledge},
+    {"prism", "Four trapezia between a floor and a top half as wide.", {1, 1, 1}, make_prism},
+    {"pyramid", "A pyramid over a rectangle.", {1, 1, 1}, make_pyramid},
+    {"stairs", "Steps that rise from front to back.", {1.6, 1, 1.8}, make_stairs},
+    {"tower", "A shaft with arcades, a cornice and a spire.", {4, 16, 4}, make_tower},
+    {"triangular_prism", "A ridge along the longer side.", {1, 1, 1}, make_triangular_prism},
+    {"wall", "A thin wall.", {4, 3, 0.3}, make_wall},
+    {"window", "A frame, bars by its width, and glass.", {1.2, 1.5, 0.12}, make_window},
+}};
+
+constexpr std::array<PartMaterial, 14> materials{{
+    {"brick", "#96594a", 0, 0.95F},
+    {"bronze", "#8f6b3e", 0.9F, 0.45F},
+    {"clay", "#a8623f", 0, 0.9F},
+    {"concrete", "#a9a8a3", 0, 0.95F},
+    {"door", "#5c3b26", 0, 0.7F},
+    {"floor", "#9d978d", 0, 0.9F},
+    {"frame", "#efece4", 0, 0.6F},
+    {"gable", "#ded4c3", 0, 0.95F},
+    {"glass", "#5d7a8c", 0.1F, 0.12F},
+    {"metal", "#43474c", 0.8F, 0.45F},
+    {"roof", "#8b4b3b", 0, 0.9F},
+    {"stone", "#bdb6a8", 0, 0.95F},
+    {"wall", "#ded4c3", 0, 0.95F},
+    {"wood", "#7b5b3d", 0, 0.85F},
+}};
+
+}  // namespace
+
+std::span<const PartRow> part_rows() { return rows; }
+
+const PartRow* part_named(std::string_view name) {
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const PartRow& each) { return each.name == name; });
+  return row == rows.end() ? nullptr : &*row;
+}
+
+std::vector<PartPiece> make_part(const PartRow& row, const glm::dvec3& size, const PartOptions& options, Job& job) {
+  std::vector<PartPiece> pieces = row.make(size, options, job);
+  for (PartPiece& piece : pieces) weld(piece.mesh, job);
+  return pieces;
+}
+
+std::span<const PartMaterial> part_materials() { return materials; }
+
+}  // namespace seedmesh::building

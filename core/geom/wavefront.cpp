@@ -1,0 +1,267 @@
+#include "core/geom/wavefront.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace seedmesh {
+namespace {
+
+using glm::dvec2;
+
+// Shares of the plan's diagonal.
+constexpr double near_share = 1e-9;
+// Corners flatter than this (sine of their turn) count as such that may run into an edge.
+constexpr double flat_turn = 1e-7;
+// Normals nearer than this are those of one line.
+constexpr double same_line = 1e-7;
+
+double cross(const dvec2& a, const dvec2& b) { return a.x * b.y - a.y * b.x; }
+double length(const dvec2& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
+
+}  // namespace
+
+bool Wavefront::Event::operator<(const Event& other) const {
+  // The greatest comes first out of the queue.
+  if (time != other.time) return time > other.time;
+  if (edge != other.edge) return edge > other.edge;
+  return corner > other.corner;
+}
+
+Wavefront::Wavefront(const Plan& plan, const SkeletonOptions& options, const Job& job)
+    : scale(std::max(diagonal_of(plan), 1e-30)), end_time_(options.end_time), job_(job) {
+  std::uint32_t first = 0;
+  for (const PlanRing& ring : plan.rings) {
+    add_ring(ring, first);
+    first += static_cast<std::uint32_t>(ring.size());
+  }
+  for (std::uint32_t i = 0; i < first; ++i) {
+    if (!options.speed.empty()) sources[i].speed = options.speed[i];
+    fastest_ = std::max(fastest_, sources[i].speed);
+  }
+  near_ = near_share * scale;
+  soon_ = fastest_ > 0 ? 0.1 * near_ / fastest_ : 0;
+}
+
+void Wavefront::add_ring(const PlanRing& ring, std::uint32_t first) {
+  const auto count = static_cast<std::uint32_t>(ring.size());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t next = (i + 1) % count;
+    const dvec2 along = ring[next] - ring[i], direction = along / length(along);
+    Source line{direction, {-direction.y, direction.x}, 0, 1, first + i, false};
+    line.offset = glm::dot(line.normal, ring[i]);
+    sources.push_back(line);
+    nodes.emplace_back(ring[i], 0.0);
+    borders.push_back({first + i, first + i, first + next});
+    Edge edge;
+    edge.source = first + i;
+    edge.start_node = first + i;
+    edge.end_node = first + next;
+    edge.is_open = true;
+    edges_.push_back(edge);
+    open_.push_back(first + i);
+  }
+}
+
+dvec2 Wavefront::place_at(std::uint32_t corner, double time) const {
+  const Corner& c = corners_[corner];
+  return c.place + c.velocity * (time - c.time);
+}
+
+dvec2 Wavefront::place_of(std::uint32_t corner) const { return place_at(corner, now_); }
+
+dvec2 Wavefront::far_place(std::uint32_t edge, bool at_start) const {
+  const Edge& e = edges_[edge];
+  const std::uint32_t corner = at_start ? e.start : e.end, node = at_start ? e.start_node : e.end_node;
+  return corner != none ? place_of(corner) : dvec2(nodes[node]);
+}
+
+std::uint32_t Wavefront::add_node(const dvec2& place) {
+  nodes.emplace_back(place, now_);
+  return static_cast<std::uint32_t>(nodes.size() - 1);
+}
+
+bool Wavefront::run() {
+  if (!(fastest_ > 0)) {
+    if (!std::isfinite(end_time_)) return false;
+  }
+  const std::uint64_t most_steps = 64 + 16 * static_cast<std::uint64_t>(sources.size());
+  if (!settle()) return false;
+  expect();
+  std::vector<Event> batch;
+  for (std::uint64_t step = 0; !events_.empty(); ++step) {
+    const Event next = events_.top();
+    if (next.time > end_time_ + soon_) break;
+    if (step > most_steps) return false;
+    batch.clear();
+    now_ = std::min(std::max(now_, next.time), end_time_);
+    while (!events_.empty() && events_.top().time <= next.time + soon_) {
+      if (is_current(events_.top())) batch.push_back(events_.top());
+      events_.pop();
+    }
+    if (batch.empty()) {
+      --step;
+      continue;
+    }
+    resolve(batch);
+    if (!settle()) return false;
+    expect();
+  }
+  const bool is_left = std::any_of(edges_.begin(), edges_.end(), [](const Edge& e) { return e.is_alive; });
+  if (!is_left) return true;
+  if (!std::isfinite(end_time_)) return false;
+  close_fronts();
+  return true;
+}
+
+bool Wavefront::is_current(const Event& event) const {
+  const Edge& edge = edges_[event.edge];
+  return edge.is_alive && edge.version == event.version &&
+         (event.corner == none || corners_[event.corner].is_alive);
+}
+
+void Wavefront::expect_collapse(std::uint32_t edge) {
+  const Edge& e = edges_[edge];
+  const dvec2 along = source(edge).direction;
+  const double rate = glm::dot(along, corners_[e.end].velocity - corners_[e.start].velocity);
+  if (!(rate < 0)) return;
+  const double span = glm::dot(along, place_of(e.end) - place_of(e.start));
+  const double time = now_ + std::max(span, 0.0) / -rate;
+  if (time <= end_time_ + soon_) events_.push({time, edge, e.version, none});
+}
+
+void Wavefront::expect_hit(std::uint32_t corner, std::uint32_t edge) {
+  const Corner& c = corners_[corner];
+  const Edge& e = edges_[edge];
+  if (c.in == edge || c.out == edge) return;
+  const Source& line = source(edge);
+  const double closing = line.speed - glm::dot(line.normal, c.velocity);
+  if (!(closing > 1e-12 * fastest_)) return;
+  const double ahead = glm::dot(line.normal, place_of(corner)) - line.offset - line.speed * now_;
+  if (ahead < -2 * near_) return;
+  const double time = now_ + std::max(ahead, 0.0) / closing;
+  if (time > end_time_ + soon_) return;
+  // What has just parted here is not meeting.
+  if (time <= now_ + 2 * soon_ &&
+      (corners_[e.start].node == c.node || corners_[e.end].node == c.node)) {
+    return;
+  }
+  const double at = glm::dot(line.direction, place_at(corner, time));
+  if (at < glm::dot(line.direction, place_at(e.start, time)) - near_) return;
+  if (at > glm::dot(line.direction, place_at(e.end, time)) + near_) return;
+  events_.push({time, edge, e.version, corner});
+}
+
+/// Looks for the next events of all that has changed.
+void Wavefront::expect() {
+  std::erase_if(hitters_, [&](std::uint32_t corner) { return !corners_[corner].is_alive; });
+  const auto fresh_from = static_cast<std::ptrdiff_t>(hitters_.size());
+  for (const std::uint32_t corner : fresh_) {
+    if (corners_[corner].can_hit) hitters_.push_back(corner);
+  }
+  for (const std::uint32_t edge : open_) {
+    if (!edges_[edge].is_alive) continue;
+    expect_collapse(edge);
+    for (const std::uint32_t corner : hitters_) expect_hit(corner, edge);
+  }
+  if (fresh_from < static_cast<std::ptrdiff_t>(hitters_.size()) && open_.size() < edges_.size()) {
+    std::vector<bool> is_done(edges_.size(), false);
+    for (const std::uint32_t edge : open_) is_done[edge] = true;
+    for (std::uint32_t edge = 0; edge < edges_.size(); ++edge) {
+      if (!edges_[edge].is_alive || is_done[edge]) continue;
+      for (auto corner = hitters_.begin() + fresh_from; corner != hitters_.end(); ++corner) {
+        expect_hit(*corner, edge);
+      }
+    }
+  }
+  looks_ += open_.size() * hitters_.size() + edges_.size();
+  if (looks_ > 100'000) {
+    job_.check();
+    looks_ = 0;
+  }
+  for (const std::uint32_t edge : open_) edges_[edge].is_open = false;
+  open_.clear();
+  fresh_.clear();
+}
+
+/// Makes the corner between two edges that meet at a node.
+void Wavefront::add_corner(std::uint32_t in, std::uint32_t out, std::uint32_t node) {
+  const Source &a = source(in), &b = source(out);
+  const dvec2 sum = a.normal + b.normal, apart = b.normal - a.normal;
+  const double mean = 0.5 * (a.speed + b.speed), half = 0.5 * (b.speed - a.speed);
+  Corner corner;
+  corner.place = dvec2(nodes[node]);
+  corner.time = now_;
+  corner.node = node;
+  corner.in = in;
+  corner.out = out;
+  // Solves a.normal . v = a.speed and b.normal . v = b.speed along the bisector and across it.
+  const double squared = glm::dot(sum, sum);
+  corner.velocity = squared > 0 ? sum * (2 * mean / squared) : dvec2(0);
+  if (half != 0 && glm::dot(apart, apart) > same_line * same_line)
+    corner.velocity += apart * (2 * half / glm::dot(apart, apart));
+  corner.can_hit = cross(a.direction, b.direction) < flat_turn;
+  const auto number = static_cast<std::uint32_t>(corners_.size());
+  corners_.push_back(corner);
+  fresh_.push_back(number);
+  edges_[in].end = number;
+  edges_[in].end_node = none;
+  edges_[out].start = number;
+  edges_[out].start_node = none;
+}
+
+/// A corner, or two with a step between them where one line goes on at another speed.
+void Wavefront::join(std::uint32_t in, std::uint32_t out, std::uint32_t node) {
+  const Source a = source(in), b = source(out);
+  const dvec2 apart = b.normal - a.normal;
+  const bool is_one_line = glm::dot(apart, apart) < same_line * same_line;
+  if (!is_one_line || std::abs(a.speed - b.speed) <= 1e-9 * fastest_) {
+    add_corner(in, out, node);
+    return;
+  }
+  const bool is_down = a.speed > b.speed;
+  Source step;
+  step.direction = is_down ? -a.normal : a.normal;
+  step.normal = {-step.direction.y, step.direction.x};
+  step.offset = glm::dot(step.normal, dvec2(nodes[node]));
+  step.speed = 0;
+  step.edge = is_down ? a.edge : b.edge;
+  step.is_step = true;
+  const auto number = static_cast<std::uint32_t>(edges_.size());
+  Edge edge;
+  edge.source = static_cast<std::uint32_t>(sources.size());
+  sources.push_back(step);
+  edge.is_open = true;
+  edges_.push_back(edge);
+  open_.push_back(number);
+  add_corner(in, number, node);
+  add_corner(number, out, node);
+}
+
+/// Everything that is left at the end time becomes closed lines.
+void Wavefront::close_fronts() {
+  now_ = end_time_;
+  std::vector<std::uint32_t> node_of(corners_.size(), none);
+  for (std::uint32_t i = 0; i < corners_.size(); ++i) {
+    if (!corners_[i].is_alive) continue;
+    node_of[i] = now_ > corners_[i].time ? add_node(place_of(i)) : corners_[i].node;
+    if (node_of[i] == corners_[i].node) continue;
+    borders.push_back({edges_[corners_[i].in].source, corners_[i].node, node_of[i]});
+    borders.push_back({edges_[corners_[i].out].source, node_of[i], corners_[i].node});
+  }
+  std::vector<bool> is_done(edges_.size(), false);
+  for (std::uint32_t first = 0; first < edges_.size(); ++first) {
+    if (!edges_[first].is_alive || is_done[first]) continue;
+    SkeletonFront front;
+    for (std::uint32_t at = first; !is_done[at]; at = corners_[edges_[at].end].out) {
+      is_done[at] = true;
+      const Edge& edge = edges_[at];
+      borders.push_back({edge.source, node_of[edge.end], node_of[edge.start]});
+      front.node.push_back(node_of[edge.start]);
+      front.edge.push_back(source(at).edge);
+    }
+    fronts.push_back(std::move(front));
+  }
+}
+
+}  // namespace seedmesh
