@@ -130,15 +130,10 @@ std::optional<Overrides> read_query(std::string_view query) {
   return overrides;
 }
 
-std::variant<Request, http::Response> read_body(Call& call) {
-  if (!is_json_type(call.request.header("Content-Type"))) {
-    http::Response response = refuse(call, problem(415, "Send the body as application/json in UTF-8."));
-    response.set("Accept", "application/json");
-    return response;
-  }
+std::variant<Request, http::Response> read_text(Call& call, const std::string& text) {
   std::optional<Result<Request>> request;
-  const auto read = [&] { request = read_request(call.request.body, call.service.config.limits); };
-  if (call.request.body.size() <= quickly_read) {
+  const auto read = [&] { request = read_request(text, call.service.config.limits); };
+  if (text.size() <= quickly_read) {
     read();
   } else if (const auto refused =
                  with_worker(call, call.request.gone(), [&](const Job::Options&) { read(); })) {
@@ -147,6 +142,15 @@ std::variant<Request, http::Response> read_body(Call& call) {
   if (!*request) return refuse(call, problem_of(request->error()));
   if (auto refusal = forbidden(call, **request)) return std::move(*refusal);
   return std::move(**request);
+}
+
+std::variant<Request, http::Response> read_body(Call& call) {
+  if (!is_json_type(call.request.header("Content-Type"))) {
+    http::Response response = refuse(call, problem(415, "Send the body as application/json in UTF-8."));
+    response.set("Accept", "application/json");
+    return response;
+  }
+  return read_text(call, call.request.body);
 }
 
 }  // namespace seedmesh

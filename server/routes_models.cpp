@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t longest_location = 2'048;
 constexpr std::uint64_t least_compressed = 1'024;
 constexpr std::uint64_t most_compressed = 64U << 20U;
+constexpr std::uint64_t most_opened =
+    1U << 20U;  ///< of a token; its 8,000 characters hold a tenth of it at most
 constexpr std::int64_t year = 31'536'000;
 
 std::string milliseconds(std::string_view name, double duration) {
@@ -193,11 +195,11 @@ http::Response get_model(Call& call) {
   if (!is_extension(extension))
     return refuse(call, problem(404, "A permalink ends with .glb, .gltf, .zip, .png, .r16, .ply or .json."));
 
-  Result<Token> token = read_token(text, call.service.config.body_limit);
+  Result<Token> token = read_token(text, std::min(call.service.config.body_limit, most_opened));
   if (!token) return refuse(call, problem_of(token.error()));
-  Result<Request> request = read_request(token->request, call.service.config.limits);
-  if (!request) return refuse(call, problem_of(request.error()));
-  if (auto refusal = forbidden(call, *request)) return std::move(*refusal);
+  auto read = read_text(call, token->request);
+  if (auto* refusal = std::get_if<http::Response>(&read)) return std::move(*refusal);
+  const auto request = std::make_optional(std::get<Request>(std::move(read)));
   if (token->engine && *token->engine != engine_version()) return redirect_to_own(call, *request, extension);
   // A token without an engine may mean other bytes tomorrow.
   const Kept kept = token->engine ? Kept::for_ever : Kept::checked;

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "server/cors.h"
+#include "server/give_back.h"
 #include "server/http/listener.h"
 #include "server/routes.h"
 #include "server/service.h"
@@ -146,6 +147,7 @@ int serve(const Config& config, const std::vector<std::string>& warnings) {
              {"engine", engine_version()},
              {"threads", config.threads}});
 
+  const GiveBack give_back;
   std::thread listening([&] { listener.run(); });
   int signal = 0;
   ::sigwait(&ending, &signal);

@@ -25,7 +25,7 @@ function connect(talk, { read = true } = {}) {
       got.sent += Buffer.byteLength(bytes);
       socket.write(bytes, (error) => written(!error));
     });
-    if (read) socket.on('data', (bytes) => count(bytes.toString('latin1', 0, 64)));
+    if (read) socket.on('data', (bytes) => count(bytes.length < 65_536 ? bytes.toString('latin1') : bytes.toString('latin1', 0, 64)));
     socket.on('error', () => {});
     socket.on('end', () => socket.destroy());
     socket.on('close', () => { clearTimeout(timer); resolve(); });
