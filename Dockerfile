@@ -37,7 +37,9 @@ LABEL org.opencontainers.image.title="Seedmesh" \
   org.opencontainers.image.description="Seeded 3D models from grammars, as glTF over HTTP" \
   org.opencontainers.image.licenses="MIT" \
   org.opencontainers.image.version="${VERSION}" \
-  org.opencontainers.image.revision="${REVISION}"
+  org.opencontainers.image.revision="${REVISION}" \
+  org.opencontainers.image.documentation="/docs of the running service" \
+  io.seedmesh.sbom="/licences/sbom.spdx.json"
 COPY --from=build /rootfs /
 # Variables, so that another port holds for the service and for the check of its health.
 ENV SEEDMESH_HOST=0.0.0.0 SEEDMESH_PORT=8080

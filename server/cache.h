@@ -23,6 +23,7 @@ struct Made {
   Product product;
   std::shared_ptr<const Payload> payload;  ///< the product's bytes, taken out of it
   std::string token;                       ///< of the permalink; "" where it is too long for any URL
+  bool shared = false;                     ///< another replica made it: it came from the shared cache
 };
 
 class Cache {

@@ -3,12 +3,15 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/pipeline.h"
+#include "server/base64url.h"
 #include "server/problem.h"
+#include "server/signature.h"
 
 namespace seedmesh {
 namespace {
@@ -122,6 +125,29 @@ int import_command(const Config& config, const ImportFiles& files) {
   Payload payload;
   payload.add(request.dump(2) + "\n");
   return write_file(files.out, payload) ? 0 : unusable(files.out);
+}
+
+int sign_command(const Config& config, const std::string& target, double valid_for) {
+  if (config.signing_keys.empty()) {
+    std::fputs("seedmesh: there are no signing-keys\n", stderr);
+    return 2;
+  }
+  if (target.empty() || target.front() != '/') {
+    std::fputs("seedmesh: a target begins with a slash\n", stderr);
+    return 2;
+  }
+  std::optional<std::int64_t> expires;
+  if (valid_for > 0) expires = std::time(nullptr) + static_cast<std::int64_t>(valid_for);
+  std::printf("%s\n", sign_target(target, config.signing_keys.front(), expires).c_str());
+  return 0;
+}
+
+int key_command(const std::string& name) {
+  const std::string key = base64url(secret_bytes(24));
+  std::printf("API key      %s\n", key.c_str());
+  std::printf("api-keys     %s:%s\n", name.c_str(), hex(sha256(key)).c_str());
+  std::printf("signing-keys %s:%s\n", name.c_str(), hex(secret_bytes(32)).c_str());
+  return 0;
 }
 
 int presets_command(const std::string& name) {

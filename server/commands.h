@@ -18,6 +18,12 @@ struct ImportFiles {
 };
 int import_command(const Config& config, const ImportFiles& files);
 /// All names, one a line with title; or one preset's request.
+/// Prints the target with a signature; 2 where there are no signing keys.
+int sign_command(const Config& config, const std::string& target, double valid_for);
+
+/// Prints a new API key, and the lines for the settings `api-keys` and `signing-keys`.
+int key_command(const std::string& name);
+
 int presets_command(const std::string& name);
 
 }  // namespace seedmesh

@@ -1,5 +1,5 @@
 #pragma once
-/// zlib in three forms: gzip for answers, raw deflate for permalinks, and the bounded way back.
+/// Content codings for answers; raw deflate for permalinks, and the bounded way back.
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -7,12 +7,17 @@
 #include <string_view>
 #include <vector>
 
+#include "server/negotiate.h"
+
 namespace seedmesh {
 
-/// One gzip member of all pieces. Models take level 1: vertex data hardly gains from more, at several times
-/// the cost.
-std::string gzip(const std::vector<std::span<const std::byte>>& pieces, int level);
-std::string gzip(std::string_view text, int level = 6);
+/// What an answer is worth: a model, whose vertex data hardly gains from more, at several times the cost; a
+/// text made at the moment; a text that is made once.
+enum class Effort { model, text, once };
+
+/// All pieces in one stream of a coding other than identity.
+std::string encode(Coding coding, const std::vector<std::span<const std::byte>>& pieces, Effort effort);
+std::string encode(Coding coding, std::string_view text, Effort effort);
 
 std::string deflate_raw(std::string_view text);
 

@@ -1,8 +1,10 @@
 /// Host tool:  embed_assets <folder> <out.cpp>
-/// Writes every file of the folder as C++ string literals, with its media type and its gzip form.
+/// Writes every file of the folder as C++ string literals, with its media type and its forms in gzip and br.
+#include <brotli/encode.h>
 #include <zlib.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -51,6 +53,24 @@ std::string gzip(const std::string& bytes) {
   return out;
 }
 
+std::string brotli(const std::string& bytes) {
+  std::size_t size = BrotliEncoderMaxCompressedSize(bytes.size());
+  std::string out(size, '\0');
+  if (!BrotliEncoderCompress(BROTLI_MAX_QUALITY, BROTLI_DEFAULT_WINDOW, BROTLI_MODE_GENERIC, bytes.size(),
+                             reinterpret_cast<const std::uint8_t*>(bytes.data()), &size,
+                             reinterpret_cast<std::uint8_t*>(out.data()))) {
+    return {};
+  }
+  out.resize(size);
+  return out;
+}
+
+/// "" where the form is not worth the client's time.
+std::string worthy(std::string packed, const std::string& bytes) {
+  if (packed.size() + packed.size() / 10 > bytes.size()) packed.clear();
+  return packed;
+}
+
 /// A string view of a literal in octal escapes, in lines that compilers take quickly.
 void write_literal(std::ofstream& out, std::string_view bytes) {
   out << "std::string_view(";
@@ -92,12 +112,12 @@ int main(int count, char** arguments) {
   for (const auto& [name, path] : files) {
     std::ifstream in(path, std::ios::binary);
     const std::string bytes((std::istreambuf_iterator<char>(in)), {});
-    std::string packed = gzip(bytes);
-    if (packed.size() + packed.size() / 10 > bytes.size()) packed.clear();  // not worth the client's time
     out << "    {\"" << name << "\", \"" << type_of(path.extension().string()) << "\", ";
     write_literal(out, bytes);
     out << ", ";
-    write_literal(out, packed);
+    write_literal(out, worthy(gzip(bytes), bytes));
+    out << ", ";
+    write_literal(out, worthy(brotli(bytes), bytes));
     out << "},\n";
   }
   out << "  };\n  return assets;\n}\n\n}  // namespace seedmesh\n";

@@ -44,7 +44,7 @@ std::string event(std::string_view name, const std::string& data) {
   return text;
 }
 
-std::string done_event(const Known& known, const Made& made) {
+std::string done_event(const Call& call, const Known& known, const Made& made) {
   const Statistics& statistics = made.product.statistics;
   Json data = {{"permalink", nullptr},
                {"etag", "\"" + known.tag + "\""},
@@ -55,8 +55,11 @@ std::string done_event(const Known& known, const Made& made) {
                  {"warnings", statistics.warnings},
                  {"bytes", made.payload->size()}}},
                {"timing", Json::object()}};
-  const std::string link = permalink(made.token, made.product.extension);
-  if (!made.token.empty() && link.size() <= 8'000) data["permalink"] = link;
+  if (!made.token.empty()) {
+    const std::string link =
+        call.service.access.signed_for(call.grant, permalink(made.token, made.product.extension));
+    if (!link.empty() && link.size() <= 8'000) data["permalink"] = link;
+  }
   for (const Product::Span& span : made.product.timing) data["timing"][span.name] = span.milliseconds;
   return event("done", data.dump());
 }
@@ -106,7 +109,7 @@ struct Generation {
       lock.lock();
     }
     if (const auto* entry = std::get_if<Cache::Entry>(&box.end->outcome)) {
-      send(done_event(known, **entry));
+      send(done_event(call, known, **entry));
     } else {
       send(event("error", problem_json(std::get<Problem>(box.end->outcome), call.request.id)));
     }

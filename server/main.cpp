@@ -1,4 +1,5 @@
-/// The program: seedmesh serve | generate | validate | derive | import | presets | healthcheck.
+/// The program: seedmesh serve | generate | validate | derive | import | presets | manifest |
+/// sign | key | healthcheck.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
@@ -7,6 +8,7 @@
 #include "core/pipeline.h"
 #include "server/commands.h"
 #include "server/config.h"
+#include "server/manifest.h"
 #include "server/serve.h"
 
 namespace {
@@ -19,9 +21,15 @@ constexpr int usage_error = 2;
 using Texts = std::map<std::string, std::string>;
 
 void add_settings(CLI::App& command, Texts& texts) {
+  command.add_option("--config", texts["config"],
+                     "File with settings: an object of JSON, keys as the flags.");
   for (const SettingInfo& setting : settings()) {
-    command.add_option("--" + setting.name, texts[setting.name],
-                       setting.text + " [" + setting.fallback + "]");
+    const std::string text = setting.text + " [" + setting.fallback + "]";
+    if (setting.is_switch) {
+      command.add_flag("--" + setting.name, texts[setting.name], text);
+    } else {
+      command.add_option("--" + setting.name, texts[setting.name], text);
+    }
   }
 }
 
@@ -67,7 +75,9 @@ int main(int count, char** arguments) {
       "Exit status: 0, 1 (refused: the problem as JSON on standard error) or 2 (usage).");
 
   Texts texts;
-  std::string in, out = "-", preset;
+  std::string in, out = "-", preset, target, key_name;
+  double valid_for = 0;
+  ManifestOptions manifest;
   ImportFiles files{"", "-", "", ""};
   bool print_config = false;
   const auto command = [&](const char* name, const char* text) { return app.add_subcommand(name, text); };
@@ -88,8 +98,22 @@ int main(int count, char** arguments) {
   importing->add_option("-o,--out", files.out, "File for the request; - is standard output.");
   CLI::App* listing = command("presets", "List the presets, or print one.");
   listing->add_option("name", preset, "The one to print.");
+  CLI::App* many =
+      command("manifest", "Make the models of all requests of a file, on all cores, with resume.");
+  many->add_option("file", manifest.file,
+                   "Requests, one a line, or {\"name\", \"request\"}; - is standard input.")
+      ->required();
+  many->add_option("-o,--out", manifest.folder, "Folder for models and results.jsonl.")->required();
+  many->add_option("--part", manifest.part,
+                   "index/count: every count-th line alone, from index (0 to count - 1).");
+  many->add_flag("--quiet", manifest.quiet, "Tell no progress.");
+  CLI::App* signing = command("sign", "Sign a URL with the first of the signing keys.");
+  signing->add_option("target", target, "Path and query: /v1/presets/koch_island.glb?seed=3")->required();
+  signing->add_option("--valid-for", valid_for, "Seconds that the signature holds; 0 is for ever.");
+  CLI::App* keying = command("key", "Draw a new API key and signing key, and print what the settings need.");
+  keying->add_option("name", key_name, "Name of both.")->required();
   CLI::App* checking = command("healthcheck", "Ask a service on this machine whether it is alive.");
-  for (CLI::App* each : {serving, generating, validating, deriving, importing, checking})
+  for (CLI::App* each : {serving, generating, validating, deriving, importing, many, signing, checking})
     add_settings(*each, texts);
 
   try {
@@ -111,6 +135,9 @@ int main(int count, char** arguments) {
   if (validating->parsed()) return validate_command(config, in);
   if (deriving->parsed()) return derive_command(config, in);
   if (importing->parsed()) return import_command(config, files);
+  if (many->parsed()) return manifest_command(config, manifest);
+  if (signing->parsed()) return sign_command(config, target, valid_for);
+  if (keying->parsed()) return key_command(key_name);
   if (checking->parsed()) return healthcheck(config);
   return presets_command(preset);
 }

@@ -6,6 +6,7 @@
 #include <prometheus/histogram.h>
 #include <prometheus/registry.h>
 #include <prometheus/text_serializer.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -32,7 +33,7 @@ const Histogram::BucketBoundaries answer_seconds = {.0005, .001, .0025, .005, .0
 /// What the kernel tells of this process.
 struct Process {
   double cpu_seconds = 0, started = 0;
-  double resident = 0, virtual_bytes = 0, threads = 0, open_files = 0;
+  double resident = 0, virtual_bytes = 0, threads = 0, open_files = 0, most_files = 0;
 };
 
 Process look_at_process() {
@@ -60,6 +61,8 @@ Process look_at_process() {
     seen.open_files -= 3;  // ".", ".." and the directory itself
     ::closedir(directory);
   }
+  rlimit files{};
+  if (::getrlimit(RLIMIT_NOFILE, &files) == 0) seen.most_files = static_cast<double>(files.rlim_cur);
   return seen;
 }
 
@@ -84,6 +87,22 @@ struct Metrics::Series {
                                   .Name("seedmesh_rejected_total")
                                   .Help("Requests turned away before any work, by reason.")
                                   .Register(registry);
+  Family<Counter>& denied = BuildCounter()
+                                .Name("seedmesh_denied_total")
+                                .Help("Requests that were not let in (401, 403), by reason.")
+                                .Register(registry);
+  Family<Counter>& limited = BuildCounter()
+                                 .Name("seedmesh_limited_total")
+                                 .Help("Requests refused because they would pass a limit, by limit.")
+                                 .Register(registry);
+  Family<Counter>& cancelled = BuildCounter()
+                                   .Name("seedmesh_cancelled_total")
+                                   .Help("Generations stopped before their end, by reason.")
+                                   .Register(registry);
+  Family<Counter>& used = BuildCounter()
+                              .Name("seedmesh_key_requests_total")
+                              .Help("Requests let in with an API key, by its name.")
+                              .Register(registry);
   Counter& bytes = counter("seedmesh_response_bytes_total", "Bytes sent, heads included.");
   Counter& models = counter("seedmesh_models_total", "Models generated.");
   Counter& triangles = counter("seedmesh_triangles_total", "Triangles generated.");
@@ -92,18 +111,27 @@ struct Metrics::Series {
   Gauge& queue_depth = gauge("seedmesh_queue_depth", "Requests waiting for a worker.");
   Gauge& workers = gauge("seedmesh_workers", "Generations that may run at once.");
   Gauge& workers_busy = gauge("seedmesh_workers_busy", "Generations that run now.");
+  Gauge& utilization = gauge("seedmesh_workers_utilization", "Share of the workers that is busy, 0 to 1.");
   Gauge& cache_bytes = gauge("seedmesh_cache_bytes", "Bytes of finished models in memory.");
   Gauge& cache_entries = gauge("seedmesh_cache_entries", "Finished models in memory.");
   Counter& cache_hits = counter("seedmesh_cache_hits_total", "Models answered from memory.");
   Counter& cache_joins = counter("seedmesh_cache_joins_total", "Requests that waited for an equal one.");
   Counter& cache_misses = counter("seedmesh_cache_misses_total", "Models that had to be made.");
   Counter& cache_evictions = counter("seedmesh_cache_evictions_total", "Models dropped to make room.");
+  Gauge& shared_up = gauge("seedmesh_shared_cache_connections", "Open connections to the shared cache.");
+  Counter& shared_hits = counter("seedmesh_shared_cache_hits_total", "Models found in the shared cache.");
+  Counter& shared_misses = counter("seedmesh_shared_cache_misses_total", "Models not found there.");
+  Counter& shared_writes = counter("seedmesh_shared_cache_writes_total", "Models written there.");
+  Counter& shared_errors = counter("seedmesh_shared_cache_errors_total", "Exchanges with it that failed.");
+  Counter& shared_skips =
+      counter("seedmesh_shared_cache_skips_total", "Exchanges not tried: it was away or busy.");
   Counter& cpu = counter("process_cpu_seconds_total", "User and system time of the process.");
   Gauge& started = gauge("process_start_time_seconds", "Start of the process since the epoch.");
   Gauge& resident = gauge("process_resident_memory_bytes", "Resident memory.");
   Gauge& virtual_bytes = gauge("process_virtual_memory_bytes", "Virtual memory.");
   Gauge& threads = gauge("process_threads", "Threads of the process.");
   Gauge& open_files = gauge("process_open_fds", "Open file descriptors.");
+  Gauge& most_files = gauge("process_max_fds", "Most file descriptors that may be open.");
 
   std::mutex mutex;
   std::map<std::pair<std::string, int>, std::pair<Counter*, Histogram*>, std::less<>> by_route;
@@ -124,8 +152,15 @@ Metrics::Metrics() : series_(std::make_unique<Series>()) {
       .Register(series_->registry)
       .Add({{"version", std::string(program_version())}, {"engine", std::string(engine_version())}})
       .Set(1);
-  for (const char* reason : {"queue_full", "deadline", "draining", "connections", "bodies"})
+  for (const char* reason :
+       {"queue_full", "deadline", "draining", "connections", "bodies", "key_rate", "key_concurrency"})
     series_->rejected.Add({{"reason", reason}});
+  for (const char* reason :
+       {"key_missing", "key_wrong", "signature_wrong", "signature_expired", "generator", "only_presets"})
+    series_->denied.Add({{"reason", reason}});
+  for (const char* reason : {"client_gone", "deadline"}) series_->cancelled.Add({{"reason", reason}});
+  for (const char* limit : {"modules", "shapes", "triangles", "memory", "output", "body"})
+    series_->limited.Add({{"limit", limit}});
 }
 
 Metrics::~Metrics() = default;
@@ -151,6 +186,20 @@ void Metrics::rejected(std::string_view reason) {
   series_->rejected.Add({{"reason", std::string(reason)}}).Increment();
 }
 
+void Metrics::denied(std::string_view reason) {
+  series_->denied.Add({{"reason", std::string(reason)}}).Increment();
+}
+
+void Metrics::limited(std::string_view limit) {
+  series_->limited.Add({{"limit", std::string(limit)}}).Increment();
+}
+
+void Metrics::cancelled(std::string_view reason) {
+  series_->cancelled.Add({{"reason", std::string(reason)}}).Increment();
+}
+
+void Metrics::used(std::string_view key) { series_->used.Add({{"key", std::string(key)}}).Increment(); }
+
 void Metrics::spent(std::string_view span, double seconds) {
   series_->spans.Add({{"span", std::string(span)}}, answer_seconds).Observe(seconds);
 }
@@ -171,12 +220,19 @@ std::string Metrics::text(const Levels& levels) {
   s.queue_depth.Set(static_cast<double>(levels.waiting));
   s.workers.Set(levels.workers);
   s.workers_busy.Set(levels.busy);
+  s.utilization.Set(levels.workers > 0 ? static_cast<double>(levels.busy) / levels.workers : 0);
   s.cache_bytes.Set(static_cast<double>(levels.cache.bytes));
   s.cache_entries.Set(static_cast<double>(levels.cache.entries));
   raise(s.cache_hits, static_cast<double>(levels.cache.hits));
   raise(s.cache_joins, static_cast<double>(levels.cache.joins));
   raise(s.cache_misses, static_cast<double>(levels.cache.misses));
   raise(s.cache_evictions, static_cast<double>(levels.cache.evictions));
+  s.shared_up.Set(static_cast<double>(levels.shared.connections));
+  raise(s.shared_hits, static_cast<double>(levels.shared.hits));
+  raise(s.shared_misses, static_cast<double>(levels.shared.misses));
+  raise(s.shared_writes, static_cast<double>(levels.shared.writes));
+  raise(s.shared_errors, static_cast<double>(levels.shared.errors));
+  raise(s.shared_skips, static_cast<double>(levels.shared.skips));
   const Process process = look_at_process();
   raise(s.cpu, process.cpu_seconds);
   s.started.Set(process.started);
@@ -184,6 +240,7 @@ std::string Metrics::text(const Levels& levels) {
   s.virtual_bytes.Set(process.virtual_bytes);
   s.threads.Set(process.threads);
   s.open_files.Set(process.open_files);
+  s.most_files.Set(process.most_files);
   return prometheus::TextSerializer().Serialize(s.registry.Collect());
 }
 

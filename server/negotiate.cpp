@@ -47,20 +47,35 @@ Weighted take_weighted(std::string_view& list) {
 
 }  // namespace
 
-std::optional<Coding> choose_coding(std::string_view accept_encoding) {
-  std::optional<double> gzip, identity, any;
+std::string_view name_of(Coding coding) {
+  static constexpr std::string_view names[] = {"identity", "gzip", "br", "zstd"};
+  return names[static_cast<std::size_t>(coding)];
+}
+
+std::optional<Coding> choose_coding(std::string_view accept_encoding, std::span<const Coding> offered) {
+  std::optional<double> weights[4];
+  std::optional<double> any;
   while (!accept_encoding.empty()) {
     const Weighted coding = take_weighted(accept_encoding);
-    if (same_name(coding.name, "gzip") || same_name(coding.name, "x-gzip")) gzip = coding.weight;
-    if (same_name(coding.name, "identity")) identity = coding.weight;
+    for (const Coding each : {Coding::identity, Coding::gzip, Coding::br, Coding::zstd}) {
+      const bool named = same_name(coding.name, name_of(each));
+      if (named || (each == Coding::gzip && same_name(coding.name, "x-gzip")))
+        weights[static_cast<std::size_t>(each)] = coding.weight;
+    }
     if (coding.name == "*") any = coding.weight;
   }
-  const double gzip_weight = gzip ? *gzip : any.value_or(0);
-  const double identity_weight = identity           ? *identity
-                                 : any && *any <= 0 ? 0
-                                                    : 0.001;  // acceptable unless it is ruled out
-  if (gzip_weight > 0 && gzip_weight >= identity_weight) return Coding::gzip;
-  if (identity_weight > 0) return Coding::identity;
+  // Acceptable unless it is ruled out, but liked less than anything that is named.
+  const double plain = weights[0] ? *weights[0] : any && *any <= 0 ? 0 : 0.001;
+  std::optional<Coding> best;
+  double best_weight = 0;
+  for (const Coding each : offered) {
+    // Old clients that send "*" alone know gzip and not what came after it.
+    const double weight =
+        weights[static_cast<std::size_t>(each)].value_or(each == Coding::gzip ? any.value_or(0) : 0);
+    if (weight > best_weight) best = each, best_weight = weight;
+  }
+  if (best && best_weight >= plain) return best;
+  if (plain > 0) return Coding::identity;
   return std::nullopt;
 }
 
@@ -114,7 +129,8 @@ std::string tag_of(std::string_view canonical, std::string_view engine) {
 std::string etag(std::string_view tag, Coding coding) {
   std::string quoted = "\"";
   quoted += tag;
-  quoted += coding == Coding::gzip ? "-gzip\"" : "\"";
+  if (coding != Coding::identity) (quoted += '-') += name_of(coding);
+  quoted += '"';
   return quoted;
 }
 
@@ -123,7 +139,9 @@ bool matches(std::string_view if_none_match, std::string_view tag) {
     std::string_view each = take(if_none_match, ',');
     if (each == "*") return true;
     if (each.substr(0, 2) == "W/") each.remove_prefix(2);
-    if (each == etag(tag, Coding::identity) || each == etag(tag, Coding::gzip)) return true;
+    for (const Coding coding : {Coding::identity, Coding::gzip, Coding::br, Coding::zstd}) {
+      if (each == etag(tag, coding)) return true;
+    }
   }
   return false;
 }

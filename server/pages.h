@@ -12,6 +12,7 @@ struct Asset {
   std::string_view type;
   std::string_view bytes;
   std::string_view gzip;  ///< "" where compression gains nothing
+  std::string_view br;    ///< the same
 };
 std::span<const Asset> embedded_assets();
 

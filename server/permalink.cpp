@@ -1,57 +1,15 @@
 #include "server/permalink.h"
 
-#include <array>
+#include <cassert>
 #include <nlohmann/json.hpp>
 
+#include "server/base64url.h"
 #include "server/compress.h"
 
 namespace seedmesh {
 namespace {
 
-constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
 constexpr int deepest = 64;
-
-std::string base64url(std::string_view bytes) {
-  std::string text;
-  text.reserve((bytes.size() * 4 + 2) / 3);
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char byte : bytes) {
-    bits = (bits << 8U) | static_cast<unsigned char>(byte);
-    for (count += 8; count >= 6; count -= 6)
-      text.push_back(alphabet[(bits >> static_cast<unsigned>(count - 6)) & 63U]);
-  }
-  if (count > 0) text.push_back(alphabet[(bits << static_cast<unsigned>(6 - count)) & 63U]);
-  return text;
-}
-
-/// Strict: no padding, no other characters, and no bits that are left over, so that a token has one spelling.
-std::optional<std::string> bytes_of(std::string_view text) {
-  static const auto values = [] {
-    std::array<signed char, 256> table{};
-    table.fill(-1);
-    for (std::size_t i = 0; i < alphabet.size(); ++i) {
-      table[static_cast<unsigned char>(alphabet[i])] = static_cast<signed char>(i);
-    }
-    return table;
-  }();
-  std::string bytes;
-  bytes.reserve(text.size() * 3 / 4);
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    const int value = values[static_cast<unsigned char>(c)];
-    if (value < 0) return std::nullopt;
-    bits = (bits << 6U) | static_cast<std::uint32_t>(value);
-    count += 6;
-    if (count >= 8) {
-      count -= 8;
-      bytes.push_back(static_cast<char>((bits >> static_cast<unsigned>(count)) & 255U));
-    }
-  }
-  if (count == 6 || (bits & ((1U << static_cast<unsigned>(count)) - 1U)) != 0) return std::nullopt;
-  return bytes;
-}
 
 Error malformed(std::string message) { return {Code::malformed, {{"", std::move(message)}}}; }
 
@@ -85,7 +43,7 @@ std::string write_token(std::string_view canonical, std::string_view engine) {
 }
 
 Result<Token> read_token(std::string_view token, std::size_t most) {
-  const std::optional<std::string> packed = bytes_of(token);
+  const std::optional<std::string> packed = from_base64url(token);
   if (!packed || packed->empty()) return malformed("The token is not base64url.");
   const std::optional<std::string> text = inflate_raw(*packed, most);
   if (!text) return malformed("The token does not open.");

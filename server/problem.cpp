@@ -29,6 +29,8 @@ std::string summary(const Error& error) {
 const std::vector<ProblemKind>& problem_kinds() {
   static const std::vector<ProblemKind> kinds = {
       {400, "malformed-request", "The request is malformed"},
+      {401, "unauthorized", "A key is required"},
+      {403, "forbidden", "This is not allowed"},
       {404, "not-found", "There is nothing here"},
       {405, "method-not-allowed", "The method is not allowed here"},
       {406, "not-acceptable", "No acceptable form of the answer"},
@@ -41,6 +43,7 @@ const std::vector<ProblemKind>& problem_kinds() {
       {422, "invalid-request", "The request is not valid"},
       {422, "limit-exceeded", "The request passes a limit"},
       {429, "queue-full", "Too many requests are waiting"},
+      {429, "rate-limited", "Too many requests with this key"},
       {431, "headers-too-large", "The header fields are too large"},
       {499, "client-gone", "The client has gone"},
       {500, "internal-error", "Internal error"},
@@ -87,6 +90,21 @@ Problem problem_of(const Error& error) {
   }
   made.errors = error.issues;
   return made;
+}
+
+std::string_view limit_of(const Problem& problem) {
+  const std::string_view text = problem.errors.empty() ? problem.detail : problem.errors.front().message;
+  // As Job and the generators name what they count.
+  static constexpr std::pair<std::string_view, std::string_view> words[] = {
+      {"memory", "memory"}, {"output bytes", "output"}, {"modules", "modules"},
+      {"shapes", "shapes"}, {"triangles", "triangles"}, {"iterations", "iterations"},
+      {"points", "points"}, {"segments", "segments"},   {"leaves", "leaves"},
+      {"deep", "depth"},    {"depth", "depth"},         {"values", "values"},
+  };
+  for (const auto& [word, limit] : words) {
+    if (text.find(word) != std::string_view::npos) return limit;
+  }
+  return "other";
 }
 
 std::string problem_json(const Problem& problem, std::string_view instance, int indent) {

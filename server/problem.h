@@ -23,9 +23,12 @@ struct Problem {
 /// id. A client that has gone gets 499, which only the log sees.
 Problem problem_of(const Error& error);
 
-/// A problem that needs no list of faults, by status: 404, 405, 406, 411, 413, 414, 415, 416, 417, 429, 431,
-/// 503, 505, ...
+/// A problem that needs no list of faults, by status: 401, 403, 404, 405, 406, 411, 413, 414, 415, 416, 417,
+/// 429, 431, 503, 505, ...
 Problem problem(int status, std::string detail);
+
+/// Which limit a "limit-exceeded" is about, in one word of a bounded set; "other" where its text tells none.
+std::string_view limit_of(const Problem& problem);
 
 /// The whole object as JSON; `instance` is the request's id, `indent` as of nlohmann (-1 = one line).
 std::string problem_json(const Problem& problem, std::string_view instance, int indent = -1);

@@ -8,20 +8,24 @@
 namespace seedmesh {
 namespace {
 
+/// Whether a closed service (access.h) asks for a key or a signature.
+enum class Guard { open, closed };
+
 struct Route {
   std::string_view method;   ///< GET rows answer HEAD too
   std::string_view pattern;  ///< ends with "/{...}" where a last segment is free
   http::Response (*answer)(Call&);
+  Guard guard = Guard::open;
 };
 
 constexpr Route table[] = {
-    {"POST", "/v1/generate", post_generate},
-    {"GET", "/v1/models/{token}", get_model},
+    {"POST", "/v1/generate", post_generate, Guard::closed},
+    {"GET", "/v1/models/{token}", get_model, Guard::closed},
     {"GET", "/v1/presets", get_presets},
-    {"GET", "/v1/presets/{name}", get_preset},
-    {"POST", "/v1/validate", post_validate},
-    {"POST", "/v1/derive", post_derive},
-    {"POST", "/v1/import", post_import},
+    {"GET", "/v1/presets/{name}", get_preset, Guard::closed},
+    {"POST", "/v1/validate", post_validate, Guard::closed},
+    {"POST", "/v1/derive", post_derive, Guard::closed},
+    {"POST", "/v1/import", post_import, Guard::closed},
     {"GET", "/v1/schemas/{name}", get_schema},
     {"GET", "/v1/vocabulary", get_vocabulary},
     {"GET", "/openapi.json", get_openapi},
@@ -57,8 +61,20 @@ bool allows(const Route& row, std::string_view method) {
   return row.method == method || (row.method == "GET" && method == "HEAD");
 }
 
-http::Response run(const Route& row, Call& call) {
+http::Response admit_and_answer(const Route& row, Call& call) {
+  auto admitted = call.service.access.admit(call.request);
+  if (const auto* denial = std::get_if<Denial>(&admitted)) return deny(call, *denial);
+  call.grant = std::get<Grant>(std::move(admitted));
   http::Response response = row.answer(call);
+  if (call.grant.by == Grant::By::key) {
+    response.log_fields.emplace_back("key", call.grant.key);
+    call.service.metrics.used(call.grant.key);
+  }
+  return response;
+}
+
+http::Response run(const Route& row, Call& call) {
+  http::Response response = row.guard == Guard::closed ? admit_and_answer(row, call) : row.answer(call);
   response.route = row.pattern;
   return response;
 }
@@ -80,7 +96,8 @@ http::Response other_method(const Route& row, Call& call) {
 }  // namespace
 
 http::Response route(Service& service, const http::Request& request) {
-  Call call{service, request, {}};
+  Call call{service, request, {}, {}};
+  call.grant.target_size = request.target.size();
   for (const Route& row : table) {
     std::optional<std::string> name = fit(row.pattern, request.path);
     if (!name) continue;
@@ -113,22 +130,27 @@ std::optional<Overrides> read_query(std::string_view query) {
   return overrides;
 }
 
-std::variant<Request, http::Response> read_body(Call& call) {
-  if (!is_json_type(call.request.header("Content-Type"))) {
-    http::Response response = refuse(call, problem(415, "Send the body as application/json in UTF-8."));
-    response.set("Accept", "application/json");
-    return response;
-  }
+std::variant<Request, http::Response> read_text(Call& call, const std::string& text) {
   std::optional<Result<Request>> request;
-  const auto read = [&] { request = read_request(call.request.body, call.service.config.limits); };
-  if (call.request.body.size() <= quickly_read) {
+  const auto read = [&] { request = read_request(text, call.service.config.limits); };
+  if (text.size() <= quickly_read) {
     read();
   } else if (const auto refused =
                  with_worker(call, call.request.gone(), [&](const Job::Options&) { read(); })) {
     return refuse(call, *refused);
   }
   if (!*request) return refuse(call, problem_of(request->error()));
+  if (auto refusal = forbidden(call, **request)) return std::move(*refusal);
   return std::move(**request);
+}
+
+std::variant<Request, http::Response> read_body(Call& call) {
+  if (!is_json_type(call.request.header("Content-Type"))) {
+    http::Response response = refuse(call, problem(415, "Send the body as application/json in UTF-8."));
+    response.set("Accept", "application/json");
+    return response;
+  }
+  return read_text(call, call.request.body);
 }
 
 }  // namespace seedmesh

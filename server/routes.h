@@ -33,6 +33,9 @@ http::Response generate_events(Call& call, const Known& known);
 /// The query as pairs, or nothing where an escape is malformed.
 std::optional<Overrides> read_query(std::string_view query);
 
+/// Reads a text as a request that is allowed here, with a worker where that takes long, or gives the refusal.
+std::variant<Request, http::Response> read_text(Call& call, const std::string& text);
+
 /// Reads the body of a POST as a request, or gives the refusal: 415, 400, 422.
 std::variant<Request, http::Response> read_body(Call& call);
 

@@ -41,9 +41,10 @@ std::variant<ImportQuestion, http::Response> import_question(Call& call, const O
   return question;
 }
 
-std::string preset_list() {
+std::string preset_list(const Access& access) {
   Json list = Json::array();
   for (const PresetInfo& preset : presets()) {
+    if (!access.allows_generator(preset.generator)) continue;
     list.push_back({{"name", preset.name},
                     {"generator", preset.generator},
                     {"title", preset.title},
@@ -60,7 +61,10 @@ http::Response post_validate(Call& call) { return answer_with(call, validate); }
 http::Response post_derive(Call& call) { return answer_with(call, derive); }
 
 http::Response post_import(Call& call) {
-  const std::optional<Overrides> query = read_query(call.request.query);
+  if (call.service.access.only_presets())
+    return deny(
+        call, {problem(403, "Only presets are made here: there is nothing to import for."), "only_presets"});
+  const std::optional<Overrides> query = read_query(call.query());
   if (!query)
     return refuse(call, problem_of({Code::malformed, {{"", "The query has a malformed percent escape."}}}));
   if (!is_text_or_json_type(call.request.header("Content-Type"))) {
@@ -79,7 +83,8 @@ http::Response post_import(Call& call) {
 }
 
 http::Response get_presets(Call& call) {
-  return fixed_answer(call, "/v1/presets", "application/json", preset_list);
+  return fixed_answer(call, "/v1/presets", "application/json",
+                      [&] { return preset_list(call.service.access); });
 }
 
 http::Response get_schema(Call& call) {

@@ -2,6 +2,7 @@
 /// /v1/presets/{name}[.{ext}].
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 
 #include "server/compress.h"
 #include "server/http/head.h"
@@ -15,8 +16,9 @@ namespace {
 constexpr std::size_t longest_location = 2'048;
 constexpr std::uint64_t least_compressed = 1'024;
 constexpr std::uint64_t most_compressed = 64U << 20U;
-constexpr std::string_view immutable = "public, max-age=31536000, immutable";
-constexpr std::string_view revalidate = "no-cache";
+constexpr std::uint64_t most_opened =
+    1U << 20U;  ///< of a token; its 8,000 characters hold a tenth of it at most
+constexpr std::int64_t year = 31'536'000;
 
 std::string milliseconds(std::string_view name, double duration) {
   char text[96];
@@ -36,20 +38,20 @@ std::string server_timing(const Call& call, const Cache::Answer& answer, const M
   return milliseconds("parse", std::max(0.0, total)) + spans + (answer.hit ? ", cache;desc=\"hit\"" : "");
 }
 
-/// The gzip form of a model. It is kept beside the model itself, so that it is made once.
-Cache::Entry compressed(const Call& call, const Known& known, const Cache::Entry& plain) {
+/// A coded form of a model. It is kept beside the model itself, so that it is made once.
+Cache::Entry compressed(const Call& call, const Known& known, const Cache::Entry& plain, Coding coding) {
   const auto make = [&](const std::stop_token& stop) -> Cache::Outcome {
     auto made = std::make_shared<Made>(*plain);
     const auto work = [&](const Job::Options&) {
       auto payload = std::make_shared<Payload>();
-      payload->add(gzip(plain->payload->pieces(), 1));
+      payload->add(encode(coding, plain->payload->pieces(), Effort::model));
       made->payload = std::move(payload);
     };
     if (auto refused = with_worker(call, stop, work)) return std::move(*refused);
     return Cache::Entry(std::move(made));
   };
-  const Cache::Answer answer =
-      call.service.cache.get("gzip " + known.request.canonical(), call.request.gone, make);
+  const Cache::Answer answer = call.service.cache.get(
+      std::string(name_of(coding)) + " " + known.request.canonical(), call.request.gone, make);
   const Cache::Entry* entry = std::get_if<Cache::Entry>(&answer.outcome);
   return entry ? *entry : nullptr;
 }
@@ -78,22 +80,40 @@ void apply_range(const Call& call, http::Response& response, const std::string& 
   }
 }
 
-void describe(http::Response& response, const Made& made) {
+void describe(const Call& call, http::Response& response, const Made& made) {
   const Statistics& statistics = made.product.statistics;
   response.set("Seedmesh-Triangles", std::to_string(statistics.triangles));
   response.set("Seedmesh-Vertices", std::to_string(statistics.vertices));
   response.set("Seedmesh-Warnings", std::to_string(statistics.warnings));
-  const std::string location = permalink(made.token, made.product.extension);
-  if (!made.token.empty() && location.size() <= longest_location) response.set("Content-Location", location);
+  if (made.token.empty()) return;
+  const std::string location =
+      call.service.access.signed_for(call.grant, permalink(made.token, made.product.extension));
+  if (!location.empty() && location.size() <= longest_location) response.set("Content-Location", location);
 }
 
-http::Response model_answer(Call& call, const Known& known, std::string_view cache_control) {
+/// How long an answer may be kept, and by whom: what was shown to get it is not shown to a cache on the way.
+enum class Kept { for_ever, checked };
+std::string cache_control(const Call& call, Kept kept) {
+  const Grant& grant = call.grant;
+  const char* owner = grant.by == Grant::By::key ? "private" : "public";
+  if (kept == Kept::checked) return grant.by == Grant::By::key ? "private, no-cache" : "no-cache";
+  const std::int64_t left = grant.expires ? *grant.expires - std::time(nullptr) : year;
+  return std::string(owner) + ", max-age=" + std::to_string(std::clamp<std::int64_t>(left, 0, year)) +
+         ", immutable";
+}
+
+/// Vary of models: what was shown to get one is part of it where keys are asked for.
+std::string varies(const Call& call, const char* fields) {
+  return call.service.access.closed() ? std::string(fields) + ", Authorization, X-Api-Key" : fields;
+}
+
+http::Response model_answer(Call& call, const Known& known, Kept kept) {
   const auto coding = choose_coding(call.request.header("Accept-Encoding"));
   if (!coding) return refuse(call, not_acceptable());
   const bool post = call.request.method == "POST";
   http::Response response;
-  response.set("Cache-Control", std::string(cache_control));
-  response.set("Vary", post ? "Accept, Accept-Encoding" : "Accept-Encoding");
+  response.set("Cache-Control", cache_control(call, kept));
+  response.set("Vary", varies(call, post ? "Accept, Accept-Encoding" : "Accept-Encoding"));
   if (!post && matches(call.request.header("If-None-Match"), known.tag)) {
     response.status = 304;
     response.set("ETag", etag(known.tag, *coding));
@@ -105,18 +125,19 @@ http::Response model_answer(Call& call, const Known& known, std::string_view cac
   const Cache::Entry entry = std::get<Cache::Entry>(answer.outcome);
   std::shared_ptr<const Payload> payload = entry->payload;
   Coding used = Coding::identity;
-  if (*coding == Coding::gzip && payload->size() >= least_compressed && payload->size() <= most_compressed) {
-    if (const Cache::Entry packed = compressed(call, known, entry)) {
+  if (*coding != Coding::identity && payload->size() >= least_compressed &&
+      payload->size() <= most_compressed) {
+    if (const Cache::Entry packed = compressed(call, known, entry, *coding)) {
       payload = packed->payload;
-      used = Coding::gzip;
+      used = *coding;
     }
   }
-  response.cache_use = answer.hit ? "hit" : "miss";
+  response.cache_use = answer.hit ? "hit" : entry->shared ? "shared" : "miss";
   response.type = entry->product.media_type;
   response.set("ETag", etag(known.tag, used));
-  if (used == Coding::gzip) response.set("Content-Encoding", "gzip");
+  if (used != Coding::identity) response.set("Content-Encoding", std::string(name_of(used)));
   response.set("Server-Timing", server_timing(call, answer, *entry));
-  describe(response, *entry);
+  describe(call, response, *entry);
   const std::uint64_t size = payload->size();
   response.body = http::Slice{std::move(payload), 0, size};
   apply_range(call, response, etag(known.tag, used));
@@ -141,10 +162,11 @@ Result<Request> in_form(const Request& request, std::string_view extension) {
   return with_format(request, extension == "png" ? "png16" : extension);
 }
 
-http::Response redirect_to_own(const Request& request, const std::string& extension) {
+http::Response redirect_to_own(const Call& call, const Request& request, const std::string& extension) {
+  const std::string own = permalink(write_token(request.canonical(), engine_version()), extension);
   http::Response response;
   response.status = 307;
-  response.set("Location", permalink(write_token(request.canonical(), engine_version()), extension));
+  response.set("Location", call.service.access.signed_until(call.grant, own));
   response.set("Cache-Control", "no-store");
   response.set("Vary", "Accept-Encoding");
   response.log_text = "token of another engine version";
@@ -160,53 +182,58 @@ http::Response post_generate(Call& call) {
   // HTTP/1.0 has no body without a known length.
   if (call.request.minor == 1 && wants_events(call.request.header("Accept")))
     return generate_events(call, wanted);
-  return model_answer(call, wanted, revalidate);
+  return model_answer(call, wanted, Kept::checked);
 }
 
 http::Response get_model(Call& call) {
-  const auto& query = call.request.query;
-  if (!query.empty()) return refuse(call, problem_of({Code::invalid, {{"", "A permalink takes no query."}}}));
+  if (!call.query().empty())
+    return refuse(call, problem_of({Code::invalid, {{"", "A permalink takes no query."}}}));
   const auto [text, extension] = split_extension(call.name);
-  if (auto remembered = call.service.targets.find(call.request.target))
-    return model_answer(call, *remembered, immutable);
+  const std::string target(call.target());
+  if (auto remembered = call.service.targets.find(target))
+    return model_answer(call, *remembered, Kept::for_ever);
   if (!is_extension(extension))
     return refuse(call, problem(404, "A permalink ends with .glb, .gltf, .zip, .png, .r16, .ply or .json."));
 
-  Result<Token> token = read_token(text, call.service.config.body_limit);
+  Result<Token> token = read_token(text, std::min(call.service.config.body_limit, most_opened));
   if (!token) return refuse(call, problem_of(token.error()));
-  Result<Request> request = read_request(token->request, call.service.config.limits);
-  if (!request) return refuse(call, problem_of(request.error()));
-  if (token->engine && *token->engine != engine_version()) return redirect_to_own(*request, extension);
+  auto read = read_text(call, token->request);
+  if (auto* refusal = std::get_if<http::Response>(&read)) return std::move(*refusal);
+  const auto request = std::make_optional(std::get<Request>(std::move(read)));
+  if (token->engine && *token->engine != engine_version()) return redirect_to_own(call, *request, extension);
   // A token without an engine may mean other bytes tomorrow.
-  const std::string_view cache_control = token->engine ? immutable : revalidate;
-  if (extension == "json") return json_answer(call, request->canonical(), "application/json", cache_control);
+  const Kept kept = token->engine ? Kept::for_ever : Kept::checked;
+  if (extension == "json")
+    return json_answer(call, request->canonical(), "application/json", cache_control(call, kept));
   Result<Request> formed = in_form(*request, extension);
   if (!formed) return refuse(call, problem_of(formed.error()));
   const Known wanted = known(std::move(*formed));
-  if (token->engine) call.service.targets.keep(call.request.target, wanted);
-  return model_answer(call, wanted, cache_control);
+  if (token->engine) call.service.targets.keep(target, wanted);
+  return model_answer(call, wanted, kept);
 }
 
 http::Response get_preset(Call& call) {
   const auto [name, extension] = split_extension(call.name);
-  if (auto remembered = call.service.targets.find(call.request.target))
-    return model_answer(call, *remembered, revalidate);
+  const std::string target(call.target());
+  if (auto remembered = call.service.targets.find(target))
+    return model_answer(call, *remembered, Kept::checked);
   if (!extension.empty() && !is_extension(extension))
     return refuse(call, problem(404, "There is no such form of a preset."));
-  const std::optional<Overrides> overrides = read_query(call.request.query);
+  const std::optional<Overrides> overrides = read_query(call.query());
   if (!overrides)
     return refuse(call, problem_of({Code::malformed, {{"", "The query has a malformed percent escape."}}}));
   auto read = read_preset(name, *overrides, call.service.config.limits);
   if (!read) return refuse(call, problem(404, "There is no preset of this name."));
   if (!*read) return refuse(call, problem_of(read->error()));
+  if (auto refusal = forbidden(call, **read)) return std::move(*refusal);
   if (extension.empty() || extension == "json") {
     return json_answer(call, overrides->empty() ? *preset_json(name) : (*read)->canonical());
   }
   Result<Request> formed = in_form(**read, extension);
   if (!formed) return refuse(call, problem_of(formed.error()));
   const Known wanted = known(std::move(*formed));
-  call.service.targets.keep(call.request.target, wanted);
-  return model_answer(call, wanted, revalidate);
+  call.service.targets.keep(target, wanted);
+  return model_answer(call, wanted, Kept::checked);
 }
 
 }  // namespace seedmesh

@@ -19,6 +19,9 @@ constexpr const char* docs_security =
     "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'; frame-ancestors "
     "'self'";
 
+/// What embed_assets makes of files that gain from it.
+constexpr Coding asset_codings[] = {Coding::br, Coding::gzip};
+
 http::Response status_answer(int status, std::string_view word) {
   http::Response response;
   response.status = status;
@@ -63,6 +66,7 @@ http::Response get_metrics(Call& call) {
   levels.workers = service.admission.workers();
   levels.busy = service.admission.busy();
   levels.cache = service.cache.figures();
+  levels.shared = service.shared.figures();
   http::Response response;
   response.type = "text/plain; version=0.0.4; charset=utf-8";
   response.body = service.metrics.text(levels);
@@ -79,9 +83,12 @@ http::Response get_docs(Call& call) {
 
 http::Response get_asset(Call& call) {
   const Asset& asset = *call.service.pages.find(call.request.path);
-  const auto coding = choose_coding(call.request.header("Accept-Encoding"));
+  const auto coding = choose_coding(call.request.header("Accept-Encoding"), asset_codings);
   if (!coding) return refuse(call, not_acceptable());
-  const Coding used = asset.gzip.empty() ? Coding::identity : *coding;
+  const std::string_view packed = *coding == Coding::br     ? asset.br
+                                  : *coding == Coding::gzip ? asset.gzip
+                                                            : "";
+  const Coding used = packed.empty() ? Coding::identity : *coding;
   const std::string tag = tag_of(asset.bytes, asset.path);
   http::Response response;
   response.set("ETag", etag(tag, used));
@@ -94,8 +101,8 @@ http::Response get_asset(Call& call) {
     return response;
   }
   response.type = asset.type;
-  if (used == Coding::gzip) response.set("Content-Encoding", "gzip");
-  response.body = std::string(used == Coding::gzip ? asset.gzip : asset.bytes);
+  if (used != Coding::identity) response.set("Content-Encoding", std::string(name_of(used)));
+  response.body = std::string(used == Coding::identity ? asset.bytes : packed);
   return response;
 }
 

@@ -11,9 +11,12 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "server/cors.h"
+#include "server/give_back.h"
 #include "server/http/listener.h"
 #include "server/routes.h"
 #include "server/service.h"
+#include "server/trace.h"
 
 namespace seedmesh {
 namespace {
@@ -40,6 +43,18 @@ http::ListenerOptions listener_options(const Config& config) {
 
 bool is_probe(std::string_view path) { return path == "/healthz" || path == "/readyz" || path == "/metrics"; }
 
+/// What every answer has, whatever its route: the origin's permission and our place in the caller's trace.
+http::Response finish(const Service& service, const http::Request& request, http::Response response) {
+  allow_origin(service.config.cors_origins, request, response);
+  const auto trace = read_traceparent(request.header("Traceparent"));
+  if (!trace) return response;
+  response.set("Traceparent", traceparent(*trace));
+  response.log_fields.insert(
+      response.log_fields.end(),
+      {{"trace_id", trace->trace_id}, {"span_id", trace->span_id}, {"parent_span_id", trace->parent_id}});
+  return response;
+}
+
 http::Response handle(Service& service, const http::Request& request) {
   if (is_probe(request.path)) return route(service, request);
   // Counts down when the answer is made; the bytes are on their way then.
@@ -48,22 +63,23 @@ http::Response handle(Service& service, const http::Request& request) {
     ~InFlight() { --count; }
     std::atomic<std::int64_t>& count;
   } in_flight(service.in_flight);
-  return route(service, request);
+  return finish(service, request, route(service, request));
 }
 
 http::Response refuse_unread(Service& service, const http::Request& request, const http::Refusal& refusal) {
   if (refusal.status == 503) service.metrics.rejected(refusal.reason);
+  if (refusal.status == 413) service.metrics.limited("body");
   http::Response response = to_response(problem(refusal.status, refusal.detail), request.id);
   response.route = "unread";
   return response;
 }
 
-http::Response fail(const http::Request& request, const std::string& what) {
+http::Response fail(const Service& service, const http::Request& request, const std::string& what) {
   Problem fault = problem(500, "Something went wrong here. The instance names the request in the log.");
   fault.log_text = what;
   http::Response response = to_response(fault, request.id);
   response.route = "failed";
-  return response;
+  return finish(service, request, std::move(response));
 }
 
 void record(Service& service, const http::Exchange& exchange) {
@@ -84,6 +100,7 @@ void record(Service& service, const http::Exchange& exchange) {
                  {"duration_ms", exchange.seconds * 1e3},
                  {"remote", request.remote}};
   if (!response.cache_use.empty()) fields["cache"] = response.cache_use;
+  for (const auto& [name, value] : response.log_fields) fields[name] = value;
   if (!response.log_text.empty()) fields["reason"] = response.log_text;
   if (!exchange.complete) fields["complete"] = false;
   service.log.write(level, "request", fields);
@@ -112,7 +129,7 @@ int serve(const Config& config, const std::vector<std::string>& warnings) {
   callbacks.refuse = [&](const auto& request, const auto& refusal) {
     return refuse_unread(service, request, refusal);
   };
-  callbacks.fail = fail;
+  callbacks.fail = [&](const auto& request, const auto& what) { return fail(service, request, what); };
   callbacks.done = [&](const http::Exchange& exchange) { record(service, exchange); };
   http::Listener listener(listener_options(config), std::move(callbacks));
   const int port = listener.bind();
@@ -130,6 +147,7 @@ int serve(const Config& config, const std::vector<std::string>& warnings) {
              {"engine", engine_version()},
              {"threads", config.threads}});
 
+  const GiveBack give_back;
   std::thread listening([&] { listener.run(); });
   int signal = 0;
   ::sigwait(&ending, &signal);

@@ -1,7 +1,6 @@
 #include "server/service.h"
 
 #include "server/compress.h"
-#include "server/negotiate.h"
 #include "server/permalink.h"
 
 namespace seedmesh {
@@ -27,8 +26,17 @@ Problem turned_away(Service& service, Admission::Refused why) {
   return problem(503, "The service cannot take the request.");
 }
 
+/// The token of the permalink; "" where it is too long for any URL.
+std::string token_of(const Request& request) {
+  std::string token = write_token(request.canonical(), engine_version());
+  if (token.size() > longest_token) token.clear();
+  return token;
+}
+
 Cache::Outcome make(const Call& call, const Known& known, const std::stop_token& stop,
                     const Job::Progress& progress) {
+  SharedCache& shared = call.service.shared;
+  if (Cache::Entry there = shared.get(known.request.canonical(), token_of(known.request))) return there;
   Cache::Outcome outcome;
   const auto work = [&](Job::Options options) {
     options.progress = progress;
@@ -41,14 +49,14 @@ Cache::Outcome make(const Call& call, const Known& known, const std::stop_token&
     auto made = std::make_shared<Made>();
     made->product = std::move(*product);
     made->payload = std::make_shared<const Payload>(std::move(made->product.payload));
-    const std::string token = write_token(known.request.canonical(), engine_version());
-    if (token.size() <= longest_token) made->token = token;
+    made->token = token_of(known.request);
     call.service.metrics.made(made->product.statistics);
     for (const Product::Span& span : made->product.timing)
       call.service.metrics.spent(span.name, span.milliseconds / 1e3);
     outcome = Cache::Entry(std::move(made));
   };
   if (auto refused = with_worker(call, stop, work)) return std::move(*refused);
+  if (const auto* entry = std::get_if<Cache::Entry>(&outcome)) shared.put(known.request.canonical(), *entry);
   return outcome;
 }
 
@@ -61,8 +69,8 @@ http::Response validated(const Call& call, const std::string& tag, Coding used,
   response.set("Vary", "Accept-Encoding");
   if (call.request.method != "POST" && matches(call.request.header("If-None-Match"), tag)) {
     response.status = 304;
-  } else if (used == Coding::gzip) {
-    response.set("Content-Encoding", "gzip");
+  } else if (used != Coding::identity) {
+    response.set("Content-Encoding", std::string(name_of(used)));
   }
   return response;
 }
@@ -126,14 +134,16 @@ std::string extension_of(std::string_view format) {
   return std::string(png ? "png" : format);
 }
 
-std::shared_ptr<const FixedText> FixedTexts::get(const std::string& path,
+std::shared_ptr<const FixedText> FixedTexts::get(const std::string& path, Coding coding,
                                                  const std::function<std::string()>& make) {
+  const std::string key = std::string(name_of(coding)) + " " + path;
   const std::lock_guard lock(mutex_);
-  auto& text = by_path_[path];
+  auto& text = by_path_[key];
   if (!text) {
     FixedText made{make(), {}, {}};
     made.tag = tag_of(made.text, path);
-    if (made.text.size() >= worth_compressing) made.packed = gzip(made.text, 9);
+    if (coding != Coding::identity && made.text.size() >= worth_compressing)
+      made.packed = encode(coding, made.text, Effort::once);
     text = std::make_shared<const FixedText>(std::move(made));
   }
   return text;
@@ -143,34 +153,59 @@ http::Response json_answer(const Call& call, std::string text, std::string_view 
                            std::string_view cache_control) {
   const auto coding = choose_coding(call.request.header("Accept-Encoding"));
   if (!coding) return refuse(call, not_acceptable());
-  const bool pack = *coding == Coding::gzip && text.size() >= worth_compressing;
-  http::Response response =
-      validated(call, tag_of(text, type), pack ? Coding::gzip : Coding::identity, cache_control);
+  const Coding used = text.size() >= worth_compressing ? *coding : Coding::identity;
+  http::Response response = validated(call, tag_of(text, type), used, cache_control);
   if (response.status == 304) return response;
   response.type = type;
-  response.body = pack ? gzip(text) : std::move(text);
+  response.body = used == Coding::identity ? std::move(text) : encode(used, text, Effort::text);
   return response;
 }
 
 http::Response fixed_answer(const Call& call, const std::string& path, std::string_view type,
                             const std::function<std::string()>& make) {
-  const auto coding = choose_coding(call.request.header("Accept-Encoding"));
+  const auto coding = choose_coding(call.request.header("Accept-Encoding"), small_codings);
   if (!coding) return refuse(call, not_acceptable());
-  const auto fixed = call.service.texts.get(path, make);
-  const bool pack = *coding == Coding::gzip && !fixed->packed.empty();
-  http::Response response = validated(call, fixed->tag, pack ? Coding::gzip : Coding::identity, "no-cache");
+  const auto fixed = call.service.texts.get(path, *coding, make);
+  const Coding used = fixed->packed.empty() ? Coding::identity : *coding;
+  http::Response response = validated(call, fixed->tag, used, "no-cache");
   if (response.status == 304) return response;
   response.type = type;
-  response.body = pack ? fixed->packed : fixed->text;
+  response.body = used == Coding::identity ? fixed->text : fixed->packed;
   return response;
 }
 
 Problem not_acceptable() {
-  return problem(406, "Neither gzip nor an unencoded answer is acceptable to the client.");
+  return problem(406, "Neither gzip, br, zstd nor an unencoded answer is acceptable to the client.");
 }
 
 http::Response refuse(const Call& call, const Problem& problem) {
+  if (problem.status == 499) call.service.metrics.cancelled("client_gone");
+  if (problem.status == 504) call.service.metrics.cancelled("deadline");
+  if (problem.word == "limit-exceeded") call.service.metrics.limited(limit_of(problem));
   return to_response(problem, call.request.id);
+}
+
+http::Response deny(const Call& call, const Denial& denial) {
+  if (denial.problem.status == 429) {
+    call.service.metrics.rejected(denial.reason);
+  } else {
+    call.service.metrics.denied(denial.reason);
+  }
+  http::Response response = to_response(denial.problem, call.request.id);
+  if (denial.problem.status == 401) response.set("WWW-Authenticate", "Bearer realm=\"seedmesh\"");
+  response.log_text = denial.reason;
+  return response;
+}
+
+std::optional<http::Response> forbidden(const Call& call, const Request& request) {
+  const auto denial = call.service.access.forbid(request);
+  if (!denial) return std::nullopt;
+  return deny(call, *denial);
+}
+
+std::string_view Call::query() const {
+  const std::string_view whole = target();
+  return whole.substr(std::min(std::min(whole.find('?'), whole.size()) + 1, whole.size()));
 }
 
 }  // namespace seedmesh

@@ -10,14 +10,17 @@
 #include <variant>
 
 #include "core/pipeline.h"
+#include "server/access.h"
 #include "server/admission.h"
 #include "server/cache.h"
 #include "server/config.h"
 #include "server/http/message.h"
 #include "server/log.h"
 #include "server/metrics.h"
+#include "server/negotiate.h"
 #include "server/pages.h"
 #include "server/problem.h"
+#include "server/shared_cache.h"
 #include "server/texture_cache.h"
 
 namespace seedmesh {
@@ -46,18 +49,20 @@ class KnownTargets {
 
 /// A text that never changes while the program runs, with everything that answering with it takes.
 struct FixedText {
-  std::string text, packed, tag;
+  std::string text, tag;
+  std::string packed;  ///< in the coding that was asked for; "" where that gains nothing
 };
 
 /// Fixed texts by path, made when they are first asked for: compressing the OpenAPI document for each client
 /// would cost more than many a model.
 class FixedTexts {
  public:
-  std::shared_ptr<const FixedText> get(const std::string& path, const std::function<std::string()>& make);
+  std::shared_ptr<const FixedText> get(const std::string& path, Coding coding,
+                                       const std::function<std::string()>& make);
 
  private:
   std::mutex mutex_;
-  std::unordered_map<std::string, std::shared_ptr<const FixedText>> by_path_;
+  std::unordered_map<std::string, std::shared_ptr<const FixedText>> by_path_;  ///< "br /docs"
 };
 
 struct Service {
@@ -66,13 +71,17 @@ struct Service {
         log(given_log),
         admission(given.threads, static_cast<std::size_t>(given.queue)),
         cache(given.cache_bytes),
-        textures(given.texture_bytes) {}
+        textures(given.texture_bytes),
+        access(given),
+        shared(given, given_log) {}
 
   const Config config;
   const Log& log;
   Admission admission;
   Cache cache;
   TextureCache textures;
+  Access access;
+  SharedCache shared;
   Metrics metrics;
   KnownTargets targets;
   FixedTexts texts;
@@ -86,6 +95,11 @@ struct Call {
   Service& service;
   const http::Request& request;
   std::string name;  ///< what stands in the place of the pattern's {…}
+  Grant grant;       ///< what it was let in with
+
+  /// Target and query without the signature that the grant is of.
+  std::string_view target() const { return std::string_view(request.target).substr(0, grant.target_size); }
+  std::string_view query() const;
 };
 
 using Clock = std::chrono::steady_clock;
@@ -110,9 +124,15 @@ http::Response json_answer(const Call& call, std::string text, std::string_view 
 http::Response fixed_answer(const Call& call, const std::string& path, std::string_view type,
                             const std::function<std::string()>& make);
 
-/// 406: the client takes neither of the two codings there are.
+/// 406: the client takes none of the codings there are.
 Problem not_acceptable();
 
 http::Response refuse(const Call& call, const Problem& problem);
+
+/// The same, counted by its reason.
+http::Response deny(const Call& call, const Denial& denial);
+
+/// The refusal of a request that is not allowed here (Access::forbid); nothing where it is.
+std::optional<http::Response> forbidden(const Call& call, const Request& request);
 
 }  // namespace seedmesh

@@ -130,13 +130,12 @@ bool Connection::send_all(std::string_view first, std::string_view second) {
   return !broken_;
 }
 
-void Connection::linger() {
-  constexpr std::size_t most_bytes = 64U << 20U;
+void Connection::linger(std::size_t most) {
   if (broken_ || ::shutdown(socket_, SHUT_WR) != 0) return;
   const auto until = Clock::now() + std::chrono::seconds(2);
   buffer_.clear();
   consumed_ = 0;
-  for (std::size_t read = 0; read < most_bytes && fill(until); read += read_size) {
+  for (std::size_t read = 0; read < most && fill(until); read += read_size) {
     buffer_.clear();
     consumed_ = 0;
   }

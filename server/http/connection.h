@@ -38,9 +38,9 @@ class Connection {
   bool broken() const { return broken_; }
   std::uint64_t sent() const { return sent_; }
 
-  /// Ends our side and reads what the client still sends, bounded in time and bytes: closing a socket with
-  /// unread bytes resets it, and the client would lose the answer that tells what was wrong.
-  void linger();
+  /// Ends our side and reads what the client still sends, for two seconds and `most` bytes: closing a socket
+  /// with unread bytes resets it, and the client would lose the answer that tells what was wrong.
+  void linger(std::size_t most);
 
  private:
   bool send_all(std::string_view first, std::string_view second);

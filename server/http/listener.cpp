@@ -272,7 +272,9 @@ class Listener::Server : public httplib::Server {
     Response response = callbacks_.refuse(request, refusal);
     response.close = true;
     send(connection, request, response);
-    connection.linger();
+    // A body is worth reading to its end, so that the client sees why it was refused; an endless head is not.
+    const bool body = refusal.status == 411 || refusal.status == 413 || refusal.status == 415;
+    connection.linger(body ? 24U << 20U : 1U << 20U);
     return false;
   }
 

@@ -67,7 +67,8 @@ struct Response {
   // For the log and the metrics, not sent.
   std::string route;      ///< the pattern that matched; bounded in number
   std::string log_text;   ///< what went wrong, in words for the operator only
-  std::string cache_use;  ///< "hit", "miss", "" where no cache was asked
+  std::string cache_use;  ///< "hit", "shared", "miss", "" where no cache was asked
+  std::vector<std::pair<std::string, std::string>> log_fields;  ///< whatever else the line shall have
 
   void set(std::string name, std::string value) { headers.emplace_back(std::move(name), std::move(value)); }
 };

@@ -236,20 +236,25 @@ test('If-None-Match gives 304 before any work, on GET and HEAD, by list, weak, c
   assert.equal((await server.get(link, { 'if-none-match': '"other"' })).status, 200);
 });
 
-test('gzip is sent where it is liked, with its own tag, and opens to the same bytes', async () => {
+test('gzip, br and zstd are sent where they are liked, with their own tags, and open to the same bytes', async () => {
   const link = (await server.generate(plant)).headers['content-location'];
   const plain = await server.get(link);
-  for (const target of [link, '/v1/schemas/lsystem', '/openapi.json', '/docs']) {
-    const bare = await server.get(target), packed = await server.get(target, { 'accept-encoding': 'br;q=0.9, gzip' });
-    assert.equal(bare.headers['content-encoding'], undefined);
-    assert.equal(packed.headers['content-encoding'], 'gzip', target);
-    assert.match(packed.headers.vary, /Accept-Encoding/);
-    assert.equal(packed.headers.etag, bare.headers.etag.replace(/"$/, '-gzip"'));
-    assert.deepEqual(zlib.gunzipSync(packed.bytes), bare.bytes);
-    assert.ok(packed.bytes.length < bare.bytes.length);
-    assert.equal((await server.get(target, { 'if-none-match': packed.headers.etag })).status, 304);
+  const codings = { gzip: ['br;q=0.9, gzip', zlib.gunzipSync], br: ['gzip;q=0.9, br', zlib.brotliDecompressSync], zstd: ['zstd, gzip;q=0.5', zlib.zstdDecompressSync] };
+  for (const [coding, [asked, unpack]] of Object.entries(codings)) {
+    for (const target of [link, '/v1/schemas/lsystem', '/openapi.json', '/docs']) {
+      const bare = await server.get(target), packed = await server.get(target, { 'accept-encoding': asked });
+      assert.equal(bare.headers['content-encoding'], undefined);
+      assert.equal(packed.headers['content-encoding'], coding, target);
+      assert.match(packed.headers.vary, /Accept-Encoding/);
+      assert.equal(packed.headers.etag, bare.headers.etag.replace(/"$/, `-${coding}"`));
+      if (unpack) assert.deepEqual(unpack(packed.bytes), bare.bytes);  // Node knows zstd from 22.15 on
+      else assert.equal(packed.bytes.readUInt32LE(0), 0xfd2fb528);
+      assert.ok(packed.bytes.length < bare.bytes.length);
+      assert.equal((await server.get(target, { 'if-none-match': packed.headers.etag })).status, 304);
+    }
   }
-  for (const refused of ['gzip;q=0', 'identity', 'br', 'gzip;q=0, *;q=0.1']) {
+  assert.equal((await server.get('/', { 'accept-encoding': 'gzip, br, zstd' })).headers['content-encoding'], 'br');
+  for (const refused of ['gzip;q=0', 'identity', 'deflate', 'gzip;q=0, *;q=0.1']) {
     assert.equal((await server.get(link, { 'accept-encoding': refused })).headers['content-encoding'], undefined, refused);
   }
   is_problem(await server.get(link, { 'accept-encoding': 'identity;q=0' }), 406, 'not-acceptable');

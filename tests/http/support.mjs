@@ -27,7 +27,7 @@ export function run(file, args, { input = '', env = {} } = {}) {
 
 /** A server on a port of its own; ends with the test file at the latest. */
 export async function serve(file, flags = [], env = {}) {
-  const child = spawn(file, ['serve', '--port', '0', ...flags], { env: { ...process.env, ...env } });
+  const child = spawn(file, ['serve', ...(flags.includes('--port') ? [] : ['--port', '0']), ...flags], { env: { ...process.env, ...env } });
   const server = { child, stderr: '' };
   child.stderr.on('data', (bytes) => { server.stderr += bytes; });
   server.ended = new Promise((resolve) => child.on('close', (status, signal) => resolve({ status, signal })));

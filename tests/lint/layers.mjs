@@ -18,6 +18,9 @@ const seams = [
   [/^(oneapi\/)?tbb(\/|\.h)/, /^core\/base\/parallel\.cpp$/],
   [/^png\.h$/, /^core\/(texture\/|pipeline\/engine\.cpp)/],
   [/^random$/, /^server\//],
+  [/^openssl\//, /^server\/signature\.cpp$/],
+  [/^hiredis\//, /^server\/shared_cache\.cpp$/],
+  [/^(brotli\/|zstd\.h$)/, /^server\/(compress|embed_assets)\.cpp$/],
 ];
 
 // The room whose users may include what the host tool makes in the build tree.

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdio>
+#include <fstream>
+
 namespace seedmesh {
 namespace {
 
@@ -62,6 +65,64 @@ TEST(Config, OverlooksTheVariablesThatKubernetesSets) {
   EXPECT_TRUE(loaded.faults.empty());
   EXPECT_TRUE(loaded.warnings.empty());
   EXPECT_EQ(loaded.config.port, 8080);
+}
+
+/// A file of settings that is gone after the test.
+struct SettingsFile {
+  explicit SettingsFile(const std::string& text) : name(testing::TempDir() + "seedmesh-settings.json") {
+    std::ofstream(name) << text;
+  }
+  ~SettingsFile() { std::remove(name.c_str()); }
+  std::string name;
+};
+
+TEST(Config, LetsTheEnvironmentWinOverTheFile) {
+  const SettingsFile file(
+      R"({"queue": 7, "port": 9000, "cache-bytes": "1MiB", // a comment
+          "only-presets": true, "generators": ["rehearsal"], "cors-origins": "*"})");
+  const auto loaded = load_config({"SEEDMESH_CONFIG=" + file.name, "SEEDMESH_PORT=9001"}, {{"queue", "8"}});
+  EXPECT_THAT(loaded.faults, testing::IsEmpty());
+  EXPECT_THAT(loaded.warnings, testing::IsEmpty());
+  EXPECT_EQ(loaded.config.queue, 8);
+  EXPECT_EQ(loaded.config.port, 9001);
+  EXPECT_EQ(loaded.config.cache_bytes, 1U << 20U);
+  EXPECT_TRUE(loaded.config.only_presets);
+  EXPECT_THAT(loaded.config.generators, ElementsAre("rehearsal"));
+}
+
+TEST(Config, ListsEveryFaultOfTheFileToo) {
+  const SettingsFile file(R"({"queue": "many", "prot": 1, "port": null, "generators": ["oak"]})");
+  const auto loaded = load_config({}, {{"config", file.name}, {"threads", "0"}});
+  EXPECT_THAT(loaded.faults, ElementsAre(HasSubstr("queue is"), HasSubstr("prot is no setting"),
+                                         HasSubstr("port"), HasSubstr("oak"), HasSubstr("--threads")));
+}
+
+TEST(Config, RefusesAFileThatIsNone) {
+  EXPECT_THAT(load_config({}, {{"config", "/no/such/file"}}).faults,
+              ElementsAre(HasSubstr("cannot be read")));
+  EXPECT_THAT(load_config({}, {{"config", SettingsFile("{").name}}).faults.size(), 1);
+  const SettingsFile list("[]");
+  EXPECT_THAT(load_config({}, {{"config", list.name}}).faults, ElementsAre(HasSubstr("no object")));
+}
+
+TEST(Config, NeverTellsSecrets) {
+  const std::string digest(64, 'c'), secret(32, 'd');
+  const auto loaded = load_config({}, {{"api-keys", "a:" + digest},
+                                       {"signing-keys", "k:" + secret},
+                                       {"redis-url", "redis://u:hunter2@cache"}});
+  EXPECT_THAT(loaded.faults, testing::IsEmpty());
+  const std::string text = config_json(loaded.config);
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("a:(hidden)"), HasSubstr("k:(hidden)"), HasSubstr("redis://cache:6379/0")));
+  EXPECT_THAT(text, testing::Not(testing::AnyOf(HasSubstr(digest), HasSubstr(secret), HasSubstr("hunter2"))));
+  const auto wrong =
+      load_config({}, {{"api-keys", "a:hunter2"}, {"signing-keys", "hunter2"}, {"redis-url", "hunter2"}});
+  EXPECT_EQ(wrong.faults.size(), 3U);
+  for (const std::string& fault : wrong.faults) EXPECT_THAT(fault, testing::Not(HasSubstr("hunter2")));
+}
+
+TEST(Config, RefusesALifetimeOfLinksThatAreNotSigned) {
+  EXPECT_THAT(load_config({}, {{"link-lifetime", "60"}}).faults, ElementsAre(HasSubstr("signing-keys")));
 }
 
 TEST(Config, PrintsWhatItWouldRead) {

@@ -5,26 +5,36 @@
 namespace seedmesh {
 namespace {
 
+TEST(AcceptEncoding, TakesWhatIsLikedBestAndOursAmongEquals) {
+  EXPECT_EQ(choose_coding("gzip, deflate, br, zstd"), Coding::zstd);
+  EXPECT_EQ(choose_coding("gzip, deflate, br, zstd", small_codings), Coding::br);
+  EXPECT_EQ(choose_coding("br, gzip;q=0.5"), Coding::br);
+  EXPECT_EQ(choose_coding("gzip, zstd;q=0.9, br;q=0"), Coding::gzip);
+  EXPECT_EQ(choose_coding("ZSTD;q=0.001"), Coding::zstd);
+  EXPECT_EQ(choose_coding("br;q=0.5, identity"), Coding::identity);
+  const Coding only_gzip[] = {Coding::gzip};
+  EXPECT_EQ(choose_coding("br, gzip;q=0.1", only_gzip), Coding::gzip);
+}
+
 TEST(AcceptEncoding, TakesGzipWhereItIsWelcome) {
   EXPECT_EQ(choose_coding("gzip"), Coding::gzip);
-  EXPECT_EQ(choose_coding("br, gzip;q=0.5"), Coding::gzip);
   EXPECT_EQ(choose_coding("GZIP ; q=1.0"), Coding::gzip);
   EXPECT_EQ(choose_coding("*"), Coding::gzip);
 }
 
 TEST(AcceptEncoding, StaysPlainWhereGzipIsNotNamedOrForbidden) {
   EXPECT_EQ(choose_coding(""), Coding::identity);
-  EXPECT_EQ(choose_coding("br, deflate"), Coding::identity);
+  EXPECT_EQ(choose_coding("compress, deflate"), Coding::identity);
   EXPECT_EQ(choose_coding("gzip;q=0"), Coding::identity);
   EXPECT_EQ(choose_coding("gzip;q=0, *"), Coding::identity);
   EXPECT_EQ(choose_coding("identity, gzip;q=0.5"), Coding::identity);
   EXPECT_EQ(choose_coding("gzip;q=nonsense"), Coding::identity);
 }
 
-TEST(AcceptEncoding, FindsNothingWhereBothAreForbidden) {
+TEST(AcceptEncoding, FindsNothingWhereAllAreForbidden) {
   EXPECT_EQ(choose_coding("identity;q=0"), std::nullopt);
   EXPECT_EQ(choose_coding("*;q=0"), std::nullopt);
-  EXPECT_EQ(choose_coding("br, identity;q=0, gzip;q=0"), std::nullopt);
+  EXPECT_EQ(choose_coding("deflate, identity;q=0, gzip;q=0"), std::nullopt);
   EXPECT_EQ(choose_coding("identity;q=0, gzip;q=0.1"), Coding::gzip);
 }
 
@@ -67,7 +77,8 @@ TEST(Tag, ChangesWithRequestAndEngine) {
 TEST(IfNoneMatch, OverlooksTheCoding) {
   const std::string tag = tag_of("{}", "1");
   EXPECT_TRUE(matches(etag(tag, Coding::identity), tag));
-  EXPECT_TRUE(matches(etag(tag, Coding::gzip), tag));
+  for (const Coding coding : {Coding::gzip, Coding::br, Coding::zstd})
+    EXPECT_TRUE(matches(etag(tag, coding), tag));
   EXPECT_TRUE(matches("\"other\", W/" + etag(tag, Coding::gzip), tag));
   EXPECT_TRUE(matches("*", tag));
   EXPECT_FALSE(matches("", tag));

@@ -1,0 +1,105 @@
+// What deploy/ ships is what it says: manifests after the schemas of Kubernetes, settings that there are, metrics that there are.
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import crypto from 'node:crypto';
+import fs from 'node:fs';
+import path from 'node:path';
+import { test } from 'node:test';
+import yaml from 'yaml';
+import { rehearsal, run, serve } from '../http/support.mjs';
+
+const root = path.resolve(path.dirname(new URL(import.meta.url).pathname), '../..');
+const deploy = path.join(root, 'deploy');
+const read = (name) => fs.readFileSync(path.join(deploy, name), 'utf8');
+const folders = ['kubernetes/service', 'kubernetes/batch'];
+const manifests = (folder) => fs.readdirSync(path.join(deploy, folder)).filter((name) => name.endsWith('.yaml') && name !== 'kustomization.yaml').map((name) => ({ name: `${folder}/${name}`, object: yaml.parse(read(`${folder}/${name}`)) }));
+const every = folders.flatMap(manifests);
+const of_kind = (kind) => every.find(({ object }) => object.kind === kind).object;
+
+test('every manifest is valid after the schema of its kind', async () => {
+  for (const { name, object } of every) {
+    const { [object.kind]: Model } = await import(`kubernetes-models/${object.apiVersion}`);
+    assert.doesNotThrow(() => new Model(object).validate(), name);
+  }
+  const broken = structuredClone(of_kind('Deployment'));
+  broken.spec.template.spec.containers[0].ports[0].containerPort = 'http';
+  const { Deployment } = await import('kubernetes-models/apps/v1');
+  assert.throws(() => new Deployment(broken).validate(), /containerPort/, 'the schemas do look');
+});
+
+test('each folder lists the files that are in it, and no other', () => {
+  for (const folder of folders) {
+    const listed = yaml.parse(read(`${folder}/kustomization.yaml`)).resources.map((name) => `${folder}/${name}`).sort();
+    assert.deepEqual(listed, manifests(folder).map(({ name }) => name).sort());
+  }
+});
+
+test('kubectl makes one of each folder', { skip: spawnSync('kubectl', ['version', '--client']).error ? 'there is no kubectl here' : false }, () => {
+  for (const folder of folders) {
+    const { status, stdout, stderr } = spawnSync('kubectl', ['kustomize', path.join(deploy, folder)], { encoding: 'utf8' });
+    assert.equal(status, 0, stderr);
+    assert.ok(yaml.parseAllDocuments(stdout).length >= 2);
+  }
+});
+
+test('selectors find the pods, and ports have the names that are asked for', () => {
+  const { template, selector } = of_kind('Deployment').spec;
+  const holds = (wanted) => Object.entries(wanted).every(([key, value]) => template.metadata.labels[key] === value);
+  assert.ok(holds(selector.matchLabels));
+  assert.ok(holds(of_kind('Service').spec.selector));
+  assert.ok(holds(of_kind('PodDisruptionBudget').spec.selector.matchLabels));
+  assert.ok(holds(of_kind('NetworkPolicy').spec.podSelector.matchLabels));
+  const ports = template.spec.containers[0].ports.map((port) => port.name);
+  assert.ok(ports.includes(of_kind('Service').spec.ports[0].targetPort) && ports.includes('http'));
+  assert.equal(of_kind('HorizontalPodAutoscaler').spec.scaleTargetRef.name, of_kind('Deployment').metadata.name);
+});
+
+test('pods have no right that they do not need', () => {
+  for (const { object } of every.filter(({ object: { kind } }) => ['Deployment', 'Job'].includes(kind))) {
+    const { spec } = object.spec.template;
+    assert.equal(spec.securityContext.runAsNonRoot, true);
+    assert.equal(spec.securityContext.seccompProfile.type, 'RuntimeDefault');
+    assert.equal(spec.automountServiceAccountToken, false);
+    for (const { securityContext, resources } of spec.containers) {
+      assert.deepEqual([securityContext.readOnlyRootFilesystem, securityContext.allowPrivilegeEscalation, securityContext.capabilities.drop], [true, false, ['ALL']]);
+      assert.ok(resources.limits.memory && resources.requests.cpu);
+    }
+  }
+});
+
+test('a pod has the time that draining takes', () => {
+  const literals = Object.fromEntries(yaml.parse(read('kubernetes/service/kustomization.yaml')).configMapGenerator[0].literals.map((each) => each.split('=')));
+  const { terminationGracePeriodSeconds } = of_kind('Deployment').spec.template.spec;
+  assert.ok(terminationGracePeriodSeconds > Number(literals.SEEDMESH_DRAIN_DELAY) + Number(literals.SEEDMESH_TIME_LIMIT));
+});
+
+test('the shares of the batch are as many as its pods', () => {
+  const { spec } = of_kind('Job');
+  const { args } = spec.template.spec.containers[0];
+  assert.equal(args[args.indexOf('--part') + 1], `$(JOB_COMPLETION_INDEX)/${spec.completions}`);
+});
+
+test('every variable that is set somewhere is a setting', async () => {
+  const files = ['README.md', 'compose.yaml', 'kubernetes/service/kustomization.yaml', 'kubernetes/service/deployment.yaml', '../Dockerfile', '../docs/operating.md'];
+  const { out } = await run(rehearsal, ['serve', '--print-config']);
+  const settings = Object.keys(JSON.parse(out)).map((name) => `SEEDMESH_${name.toUpperCase().replaceAll('-', '_')}`);
+  const known = new Set([...settings, 'SEEDMESH_CONFIG', 'SEEDMESH_TESTS', 'SEEDMESH_ENGINE', 'SEEDMESH_BASE']);
+  for (const file of files) for (const [name] of read(file).matchAll(/SEEDMESH_[A-Z_]+[A-Z]/g)) assert.ok(known.has(name), `${file}: ${name}`);
+});
+
+test('every metric of dashboard, alerts, autoscaler and documentation is there', async () => {
+  const digest = crypto.createHash('sha256').update('a key').digest('hex');
+  const server = await serve(rehearsal, ['--api-keys', `somebody:${digest}`]);
+  assert.equal((await server.generate({ generator: 'rehearsal' }, { 'x-api-key': 'a key' })).status, 200);
+  const text = (await server.get('/metrics')).text;
+  await server.stop();
+  const names = new Set([...text.matchAll(/^# TYPE (\S+) (\S+)$/gm)].flatMap(([, name, kind]) => (kind === 'histogram' ? [name, `${name}_bucket`, `${name}_sum`, `${name}_count`] : [name])));
+  for (const file of ['grafana/seedmesh.json', 'prometheus/alerts.yaml', 'prometheus/adapter.yaml', 'kubernetes/service/hpa.yaml', '../docs/operating.md']) {
+    for (const [name] of read(file).matchAll(/\b(seedmesh|process)_[a-z_]*[a-z](?![a-z_]*\*)\b/g)) {
+      assert.ok(names.has(name) || [...names].some((each) => each.startsWith(`${name}_`)), `${file}: ${name}`);
+    }
+  }
+  const queries = JSON.parse(read('grafana/seedmesh.json')).panels.flatMap((panel) => panel.targets.map((target) => target.expr));
+  assert.ok(queries.length > 25);
+  for (const rule of yaml.parse(read('prometheus/alerts.yaml')).groups[0].rules) assert.ok(rule.alert && rule.expr && rule.annotations.summary);
+});

@@ -1,0 +1,44 @@
+/// A permalink's token of any characters: it opens within its bound or is refused, and has one spelling.
+#include <cstdint>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "server/base64url.h"
+#include "server/compress.h"
+#include "server/permalink.h"
+
+namespace {
+
+constexpr std::size_t most = 1U << 20U;
+
+void check(std::string_view text) {
+  using namespace seedmesh;
+  const Result<Token> token = read_token(text, most);
+  if (!token) {
+    if (token.error().code != Code::malformed || token.error().issues.empty()) std::abort();
+    return;
+  }
+  if (token->request.size() > most) std::abort();
+  if (!token->engine || !nlohmann::json::parse(token->request, nullptr, false).is_object()) return;
+  const nlohmann::json engine = *token->engine;
+  try {
+    const Result<Token> again = read_token(write_token(token->request, engine.dump().substr(1, 8)), 2 * most);
+    if (!again) std::abort();
+  } catch (const nlohmann::json::type_error&) {  // an engine that is no UTF-8: no such token is written
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  check(text);
+  if (const auto bytes = seedmesh::from_base64url(text)) {
+    if (seedmesh::base64url(*bytes) != text) std::abort();
+  }
+  // The same bytes as what is inside of a sound wrapping, so that the fuzzer gets there.
+  check(seedmesh::base64url(seedmesh::deflate_raw(text)));
+  check(seedmesh::base64url(text));
+  return 0;
+}

@@ -1,0 +1,95 @@
+#!/usr/bin/env node
+// Every attack that servers of this kind have fallen to, one after the other, against the program. While each runs, a good client asks
+// for a model that is in memory and for /healthz; afterwards the process must have given its memory back.
+//   attack.mjs [seconds of each] [only those whose name has this]
+import { execFileSync, spawn, spawnSync } from 'node:child_process';
+import crypto from 'node:crypto';
+import path from 'node:path';
+import { ask, program, serve, sleep } from './support.mjs';
+
+const seconds = Number(process.argv[2] ?? 5), only = process.argv[3] ?? '';
+const attackers = path.join(path.dirname(new URL(import.meta.url).pathname), 'attackers.mjs');
+const most_milliseconds = 50, most_growth = 1.2;
+const preset = 'abop_1_24a';
+
+const quantile = (list, share) => list.sort((a, b) => a - b)[Math.min(list.length - 1, Math.floor(list.length * share))];
+
+/** What the good client sees until `ended`; each request on a connection of its own. */
+async function good_client(server, ended) {
+  const times = [], statuses = new Map();
+  let over = false, turn = 0;
+  ended.then(() => { over = true; });
+  while (!over) {
+    const target = ['/healthz', `/v1/presets/${preset}.glb`][turn++ % 2];
+    const begun = performance.now();
+    const status = await ask(server, 'GET', target, { headers: { connection: 'close', 'x-api-key': key } }).then((answer) => answer.status, (error) => error.code);
+    times.push(performance.now() - begun);
+    statuses.set(status, (statuses.get(status) ?? 0) + 1);
+    await sleep(10);
+  }
+  return { times, statuses };
+}
+
+const resident = (server) => server.metric('process_resident_memory_bytes');
+
+/** The least that is seen within eight seconds, or what is `enough`: what the process needs, not what it was about to give back. */
+async function settled(server, enough = 0) {
+  let least = Infinity;
+  for (let i = 0; i < 32 && least > enough; ++i) {
+    least = Math.min(least, await resident(server));
+    await sleep(250);
+  }
+  return least;
+}
+
+// Guesses are made at a service that asks for signatures; its good client has a key.
+const key = 'the key of the good client', guessing = 'guesses at signatures';
+const closed = ['--api-keys', `good:${crypto.createHash('sha256').update(key).digest('hex')}`, '--signing-keys', `a:${crypto.randomBytes(32).toString('hex')}`];
+const server = await serve(program, ['--threads', '2', '--connections', '512', '--head-timeout', '2', '--body-timeout', '2', '--idle-timeout', '3', '--write-timeout', '2', '--cache-bytes', '16MiB', '--texture-bytes', '8MiB', '--time-limit', '5', '--max-memory', '256MiB', '--log-level', 'error', ...(only === guessing ? closed : [])]);
+const own = { 'x-api-key': key };
+const presets = (await server.get('/v1/presets')).json.presets;
+for (const each of presets.slice(0, 40)) await server.get(`/v1/presets/${each.name}.glb`, own);
+const made = await server.get(`/v1/presets/${preset}.glb`, own);
+const permalink = made.headers['content-location'].split('?')[0];
+
+const calm = await good_client(server, sleep(2000));
+const calm_95 = quantile(calm.times, 0.95);
+// On a machine that is busy with other things, three times its own calm counts.
+const allowed = Math.max(most_milliseconds, 3 * calm_95);
+const start = await settled(server);
+console.log(`calm: good client median ${quantile(calm.times, 0.5).toFixed(1)} ms, 95 % below ${calm_95.toFixed(1)} ms; ${(start / 1e6).toFixed(0)} MB resident`);
+if (allowed > most_milliseconds) console.log(`this machine is busy: ${allowed.toFixed(0)} ms are allowed instead of ${most_milliseconds} ms`);
+
+const verdicts = [];
+const names = JSON.parse(execFileSync(process.execPath, [attackers, '--list'])).filter((name) => (only ? name.includes(only) : name !== guessing));
+for (const name of names) {
+  const child = spawn(process.execPath, [attackers, name, String(server.port), String(seconds), preset, permalink], { stdio: ['ignore', 'pipe', 'inherit'] });
+  let out = '';
+  child.stdout.on('data', (bytes) => { out += bytes; });
+  const ended = new Promise((resolve) => { child.on('close', resolve); });
+  await sleep(300);
+  let peak = 0;
+  const watching = setInterval(() => { resident(server).then((bytes) => { peak = Math.max(peak, bytes); }, () => {}); }, 250);
+  const { times, statuses } = await good_client(server, ended);
+  clearInterval(watching);
+  const after = await settled(server, most_growth * start);
+  const late = quantile(times, 0.95), bad = [...statuses].filter(([status]) => status !== 200);
+  const growth = after / start, got = out ? JSON.parse(out) : { connections: 0, sent: 0, statuses: {} };
+  const sound = out && late <= allowed && bad.length === 0 && growth <= most_growth;
+  verdicts.push(sound);
+  console.log(`${sound ? 'ok    ' : 'BROKEN'} ${name}: good client median ${quantile(times, 0.5).toFixed(1)} ms, 95 % ${late.toFixed(1)} ms, worst ${Math.max(...times).toFixed(0)} ms, ${times.length} asked` +
+    `${bad.length ? `, ${bad.map(([status, count]) => `${count} x ${status}`).join(', ')}` : ''}; memory at most ${(peak / 1e6).toFixed(0)} MB, then ${growth.toFixed(2)} of the start;` +
+    ` attackers: ${got.connections} connections, ${(got.sent / 1e6).toFixed(1)} MB, answers ${JSON.stringify(got.statuses)}`);
+}
+const alive = (await server.get('/healthz')).status === 200;
+const { status } = await server.stop();
+verdicts.push(alive && status === 0);
+if (!alive || status !== 0) console.log(`BROKEN the service lives on and ends with 0: it ended with ${status}\n${server.stderr.slice(-2000)}`);
+if (!only) {  // in a run of its own, with keys
+  const { status: guessed, stdout } = spawnSync(process.execPath, [process.argv[1], String(seconds), guessing], { encoding: 'utf8' });
+  verdicts.push(guessed === 0);
+  console.log(stdout.split('\n').filter((line) => line.includes(guessing)).join('\n'));
+}
+const failed = verdicts.filter((sound) => !sound).length;
+console.log(`${verdicts.length - failed} passed, ${failed} failed`);
+process.exit(failed ? 1 : 0);
