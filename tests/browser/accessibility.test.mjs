@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { createRequire } from 'node:module';
 import { after, before, test } from 'node:test';
-import { field, fragment_of, launch, open, open_parameters, program, serve, small_tree, until_shown, until_state } from './support.mjs';
+import { field, fragment_of, launch, open, open_parameters, program, serve, small_tree, until_shown, until_state, write } from './support.mjs';
 
 const axe = fs.readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const tags = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
@@ -35,7 +35,7 @@ for (const colorScheme of ['light', 'dark']) {
     for (const add of await page.locator('.add').all()) await add.click();
     await until_state(page, 'ready', 'refused');
     await passes(page, 'parameters');
-    await field(page, '/parameters/productions').locator('textarea').fill('F -> [');
+    await write(field(page, '/parameters/productions'), 'F -> [');
     await until_state(page, 'refused');
     await passes(page, 'a refusal');
     await page.route('**/v1/generate', (route) => route.fulfill({ status: 503, headers: { 'Retry-After': '60' }, json: {} }));

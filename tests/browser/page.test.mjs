@@ -7,7 +7,7 @@ import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { validateBytes } from 'gltf-validator';
 import { PNG } from 'pngjs';
-import { difference, fragment_of, launch, open, picture, program, request_of, serve, small_tree, statistics, until_shown, until_state } from './support.mjs';
+import { difference, fragment_of, from_menu, launch, open, picture, program, request_of, serve, small_tree, statistics, until_shown, until_state } from './support.mjs';
 
 let server, browser, address;
 before(async () => {
@@ -142,7 +142,7 @@ test('a lost picture is told and comes back', { timeout: 200_000 }, async () => 
 test('GLB and glTF are downloaded whole and valid', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   for (const format of ['glb', 'gltf']) {
-    const [download] = await Promise.all([page.waitForEvent('download'), page.click(`[data-format=${format}]`)]);
+    const [download] = await Promise.all([page.waitForEvent('download'), format === 'glb' ? page.click('[data-format=glb]') : from_menu(page, 'download-menu', `[data-format=${format}]`)]);
     assert.equal(download.suggestedFilename(), `seedmesh-${small_tree.seed}.${format}`);
     const bytes = fs.readFileSync(await download.path());
     const answer = await server.generate({ ...small_tree, output: { format } });
@@ -155,7 +155,7 @@ test('GLB and glTF are downloaded whole and valid', { timeout: 200_000 }, async 
 test('the copied curl command saves the same model', { timeout: 200_000 }, async () => {
   const quoted = { ...small_tree, parameters: { ...small_tree.parameters, interpretation: ["F -> 'F"] } };
   const page = await open(browser, `${server.url}/${fragment_of(quoted)}`, { permissions: ['clipboard-read', 'clipboard-write'] });
-  await page.click('#copy-curl');
+  await from_menu(page, 'code-menu', '#copy-curl');
   await page.waitForFunction(() => document.getElementById('status').textContent === 'The command is copied');
   const command = await page.evaluate(() => navigator.clipboard.readText());
   assert.match(command, /^curl .*-o model\.glb /);
