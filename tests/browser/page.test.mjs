@@ -52,6 +52,25 @@ test('the first load is at most 185 KB compressed, all from the server itself', 
   assert.deepEqual(page.faults, []);
 });
 
+test('the editor is at most 112 KB compressed, and the whole client 310 KB', async () => {
+  const seen = new Map();
+  /** A file with all that it names: chunks name each other by their file. */
+  const fetch_all = async (file) => {
+    if (seen.has(file)) return;
+    const answer = await server.get(file, { 'accept-encoding': 'gzip' });
+    assert.equal(answer.status, 200, file);
+    seen.set(file, answer.bytes.length);
+    const { text } = await server.get(file);
+    for (const [, name] of text.matchAll(/["'`](?:\.?\/)?(?:assets\/)?([\w-]+-[\w-]{8}\.(?:js|css))["'`]/g)) await fetch_all(`/assets/${name}`);
+  };
+  await fetch_all('/');
+  const sizes = [...seen];
+  const editor = sizes.find(([file]) => /\/editor-/.test(file));
+  assert.ok(editor && editor[1] <= 112 * 1024, String(editor));
+  const all = sizes.reduce((sum, [, bytes]) => sum + bytes, 0);
+  assert.ok(sizes.length >= 5 && all <= 310 * 1024, `${all} bytes in ${sizes.length} files`);
+});
+
 test('the policy allows nothing inline and nothing foreign', async () => {
   const policy = (await server.get('/')).headers['content-security-policy'];
   assert.match(policy, /default-src 'none'/);
