@@ -83,9 +83,9 @@ export async function picture(page) {
   return png;
 }
 
-/** Share of pixels that differ visibly. */
-export function difference(a, b) {
+/** Share of pixels that differ visibly; a lower threshold sees faint shades too. */
+export function difference(a, b, threshold = 0.2) {
   const [first, second] = [PNG.sync.read(a), PNG.sync.read(b)];
   assert.deepEqual([first.width, first.height], [second.width, second.height]);
-  return pixelmatch(first.data, second.data, null, first.width, first.height, { threshold: 0.2 }) / (first.width * first.height);
+  return pixelmatch(first.data, second.data, null, first.width, first.height, { threshold }) / (first.width * first.height);
 }

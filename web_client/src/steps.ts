@@ -25,6 +25,7 @@ export interface Steps {
 export function wire_steps(context: Context): Steps {
   const box = part('step-bar');
   let name: string | null = null;
+  let title: string | undefined;
   let usual: number | undefined;
   let least = 0, now: number | undefined, last: number | undefined;
   let playing = 0;
@@ -76,13 +77,18 @@ export function wire_steps(context: Context): Steps {
   return {
     by,
     take(schema) {
+      // A form that is drawn anew for the same generator does not end the play.
+      const of_another = schema?.title !== title;
+      title = schema?.title;
       const found = Object.entries(schema?.properties ?? {}).find(([, member]) => member['x-steps'] && member.type === 'integer');
       name = found?.[0] ?? null;
       usual = typeof found?.[1].default === 'number' ? found[1].default : undefined;
       least = Math.max(0, found?.[1].minimum ?? 0);
       box.setAttribute('aria-label', found?.[1].title ?? 'Steps');
-      is_playing = false;
-      playing += 1;
+      if (of_another) {
+        is_playing = false;
+        playing += 1;
+      }
       draw();
     },
     follow(state) {
