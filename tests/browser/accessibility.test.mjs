@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { createRequire } from 'node:module';
 import { after, before, test } from 'node:test';
-import { field, fragment_of, launch, open, open_parameters, program, serve, small_tree, until_shown, until_state } from './support.mjs';
+import { code, field, fragment_of, from_menu, launch, open, open_parameters, program, serve, small_tree, until_shown, until_state, write } from './support.mjs';
 
 const axe = fs.readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const tags = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
@@ -29,13 +29,39 @@ for (const colorScheme of ['light', 'dark']) {
   test(`axe finds nothing in any panel and state, ${colorScheme}`, { timeout: 600_000 }, async () => {
     const page = await open(browser, address, { colorScheme, viewport: { width: 1000, height: 600 } });
     await passes(page, 'gallery');
+    for (const menu of ['seeds-menu', 'code-menu', 'download-menu', 'view-menu']) {
+      await page.click(`#${menu} > summary`);
+      await passes(page, menu);
+    }
+    await page.keyboard.press('Escape');
+    await page.click('#compare');
+    await passes(page, 'a comparison');
+    await page.click('#compare');
+    await page.click('#help');
+    await passes(page, 'the keys');
+    await page.keyboard.press('Escape');
+    await from_menu(page, 'seeds-menu', '#nine');
+    await page.waitForFunction(() => document.getElementById('nine-dialog').dataset.filled === '9');
+    await passes(page, 'nine seeds');
+    await page.keyboard.press('Escape');
+    await page.setInputFiles('#file', { name: 'letter.txt', mimeType: 'text/plain', buffer: Buffer.from('Dear all,') });
+    await page.waitForSelector('#import-dialog[open]');
+    await passes(page, 'a file that nobody understands');
+    await page.keyboard.press('Escape');
+    await page.click('#tab-request');
+    await code(page.locator('#request')).waitFor();
+    await passes(page, 'the JSON');
+    await page.click('#tab-result');
+    await page.waitForSelector('#result .figures');
+    await passes(page, 'the result');
     await open_parameters(page);
+    await code(field(page, '/parameters/axiom')).waitFor();
     for (const more of await page.locator('details.more > summary').all()) await more.click();
     await field(page, '/parameters/axiom').getByRole('button', { name: 'About' }).click();
     for (const add of await page.locator('.add').all()) await add.click();
     await until_state(page, 'ready', 'refused');
     await passes(page, 'parameters');
-    await field(page, '/parameters/productions').locator('textarea').fill('F -> [');
+    await write(field(page, '/parameters/productions'), 'F -> [');
     await until_state(page, 'refused');
     await passes(page, 'a refusal');
     await page.route('**/v1/generate', (route) => route.fulfill({ status: 503, headers: { 'Retry-After': '60' }, json: {} }));
@@ -57,6 +83,15 @@ test('axe finds nothing on a narrow screen', { timeout: 300_000 }, async () => {
   await passes(page, 'folded');
   await open_parameters(page);
   await passes(page, 'parameters');
+  await page.click('#tab-request');
+  await code(page.locator('#request')).waitFor();
+  await passes(page, 'the JSON');
+  for (const menu of ['seeds-menu', 'code-menu', 'download-menu', 'view-menu']) {
+    await page.click(`#${menu} > summary`);
+    const body = await page.locator(`#${menu} .menu-body`).boundingBox();
+    assert.ok(body.x >= 0 && body.x + body.width <= 360, `${menu} lies in the window`);
+  }
+  await page.keyboard.press('Escape');
   const wide = await page.evaluate(() => document.documentElement.scrollWidth);
   assert.ok(wide <= 360, `the page is ${wide} px wide`);
 });

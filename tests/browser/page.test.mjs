@@ -7,7 +7,7 @@ import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { validateBytes } from 'gltf-validator';
 import { PNG } from 'pngjs';
-import { difference, fragment_of, launch, open, picture, program, request_of, serve, small_tree, statistics, until_shown, until_state } from './support.mjs';
+import { difference, fragment_of, from_menu, launch, open, picture, program, request_of, serve, small_tree, statistics, until_shown, until_state } from './support.mjs';
 
 let server, browser, address;
 before(async () => {
@@ -50,6 +50,25 @@ test('the first load is at most 185 KB compressed, all from the server itself', 
   assert.ok(bytes <= 185 * 1024, `${bytes} bytes`);
   assert.deepEqual([...hosts], [new URL(server.url).host]);
   assert.deepEqual(page.faults, []);
+});
+
+test('the editor is at most 112 KB compressed, and the whole client 310 KB', async () => {
+  const seen = new Map();
+  /** A file with all that it names: chunks name each other by their file. */
+  const fetch_all = async (file) => {
+    if (seen.has(file)) return;
+    const answer = await server.get(file, { 'accept-encoding': 'gzip' });
+    assert.equal(answer.status, 200, file);
+    seen.set(file, answer.bytes.length);
+    const { text } = await server.get(file);
+    for (const [, name] of text.matchAll(/["'`](?:\.?\/)?(?:assets\/)?([\w-]+-[\w-]{8}\.(?:js|css))["'`]/g)) await fetch_all(`/assets/${name}`);
+  };
+  await fetch_all('/');
+  const sizes = [...seen];
+  const editor = sizes.find(([file]) => /\/editor-/.test(file));
+  assert.ok(editor && editor[1] <= 112 * 1024, String(editor));
+  const all = sizes.reduce((sum, [, bytes]) => sum + bytes, 0);
+  assert.ok(sizes.length >= 5 && all <= 310 * 1024, `${all} bytes in ${sizes.length} files`);
 });
 
 test('the policy allows nothing inline and nothing foreign', async () => {
@@ -142,7 +161,7 @@ test('a lost picture is told and comes back', { timeout: 200_000 }, async () => 
 test('GLB and glTF are downloaded whole and valid', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   for (const format of ['glb', 'gltf']) {
-    const [download] = await Promise.all([page.waitForEvent('download'), page.click(`[data-format=${format}]`)]);
+    const [download] = await Promise.all([page.waitForEvent('download'), format === 'glb' ? page.click('[data-format=glb]') : from_menu(page, 'download-menu', `[data-format=${format}]`)]);
     assert.equal(download.suggestedFilename(), `seedmesh-${small_tree.seed}.${format}`);
     const bytes = fs.readFileSync(await download.path());
     const answer = await server.generate({ ...small_tree, output: { format } });
@@ -155,7 +174,7 @@ test('GLB and glTF are downloaded whole and valid', { timeout: 200_000 }, async 
 test('the copied curl command saves the same model', { timeout: 200_000 }, async () => {
   const quoted = { ...small_tree, parameters: { ...small_tree.parameters, interpretation: ["F -> 'F"] } };
   const page = await open(browser, `${server.url}/${fragment_of(quoted)}`, { permissions: ['clipboard-read', 'clipboard-write'] });
-  await page.click('#copy-curl');
+  await from_menu(page, 'code-menu', '#copy-curl');
   await page.waitForFunction(() => document.getElementById('status').textContent === 'The command is copied');
   const command = await page.evaluate(() => navigator.clipboard.readText());
   assert.match(command, /^curl .*-o model\.glb /);

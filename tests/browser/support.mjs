@@ -28,6 +28,8 @@ export async function open(browser, address, { states = ['ready'], before = asyn
   await before(page);
   await page.goto(address);
   await until_state(page, ...states);
+  // What is not needed for the first model comes a moment later.
+  await page.waitForFunction(() => document.body.dataset.tools === 'ready');
   return page;
 }
 
@@ -37,6 +39,34 @@ export const field = (page, pointer) => page.locator(`[data-pointer="${pointer}"
 export async function open_parameters(page) {
   await page.click('#tab-parameters');
   await page.waitForSelector('#parameters .form');
+}
+
+/** The code editor in a field, once it has taken the place of the text area. Locators look into its shadow root. */
+export const code = (place) => place.locator('.cm-content');
+
+export async function written(place) {
+  await code(place).waitFor();
+  return (await code(place).locator('.cm-line').allTextContents()).join('\n');
+}
+
+/** Pastes a text in place of all that is there. */
+export async function write(place, text) {
+  await code(place).click();
+  await code(place).press('Control+a');
+  await code(place).evaluate((content, text) => {
+    const clipboardData = new DataTransfer();
+    clipboardData.setData('text/plain', text);
+    content.dispatchEvent(new ClipboardEvent('paste', { clipboardData, bubbles: true, cancelable: true }));
+  }, text);
+}
+
+/** What is selected in a code editor: its selection is that of the shadow root. */
+export const selected = (place) => code(place).evaluate((content) => content.getRootNode().getSelection().toString());
+
+/** Opens a menu and clicks a button in it. */
+export async function from_menu(page, menu, button) {
+  if (!(await page.locator(`#${menu}`).evaluate((each) => each.open))) await page.click(`#${menu} > summary`);
+  await page.click(button);
 }
 
 export const statistics = (page) => page.evaluate(() => ({
@@ -53,9 +83,9 @@ export async function picture(page) {
   return png;
 }
 
-/** Share of pixels that differ visibly. */
-export function difference(a, b) {
+/** Share of pixels that differ visibly; a lower threshold sees faint shades too. */
+export function difference(a, b, threshold = 0.2) {
   const [first, second] = [PNG.sync.read(a), PNG.sync.read(b)];
   assert.deepEqual([first.width, first.height], [second.width, second.height]);
-  return pixelmatch(first.data, second.data, null, first.width, first.height, { threshold: 0.2 }) / (first.width * first.height);
+  return pixelmatch(first.data, second.data, null, first.width, first.height, { threshold }) / (first.width * first.height);
 }

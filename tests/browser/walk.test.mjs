@@ -1,7 +1,7 @@
 // A newcomer's walk through the page, from the first sight to a link that somebody else opens.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { difference, field, launch, open, open_parameters, picture, program, serve, statistics, until_shown, until_state } from './support.mjs';
+import { code, difference, field, launch, open, open_parameters, picture, program, selected, serve, statistics, until_shown, until_state, write, written } from './support.mjs';
 
 let server, browser;
 before(async () => { server = await serve(program); browser = await launch(); });
@@ -9,7 +9,7 @@ after(async () => { await browser?.close(); await server?.stop(); });
 
 test('a newcomer grows a tree, mends a production and shares the result', { timeout: 600_000 }, async (t) => {
   const page = await open(browser, server.url, { permissions: ['clipboard-read', 'clipboard-write'] });
-  const productions = field(page, '/parameters/productions').locator('textarea');
+  const productions = field(page, '/parameters/productions');
   let whole, link, shown, drawing;
 
   await t.test('the page shows a model without a click', async () => {
@@ -30,22 +30,22 @@ test('a newcomer grows a tree, mends a production and shares the result', { time
     assert.notDeepEqual(await statistics(page), before);
   });
   await t.test('a broken production is read at its line and column', async () => {
-    whole = await productions.inputValue();
+    whole = await written(productions);
     const lines = whole.split('\n');
     const last = lines.length - 1;
-    await productions.fill([...lines.slice(0, last), `${lines[last]}[`].join('\n'));
+    await write(productions, [...lines.slice(0, last), `${lines[last]}[`].join('\n'));
     await until_state(page, 'refused');
     const spot = field(page, '/parameters/productions').locator('.spot');
     const column = lines[last].length + 1;
     assert.match(await spot.first().textContent(), new RegExp(`^Line ${last + 1}, column ${column}: .*\\[`));
     await spot.first().click();
-    const selected = await productions.evaluate((area) => [area.selectionStart, area.value.slice(area.selectionStart, area.selectionEnd)]);
-    assert.deepEqual(selected, [whole.length, '[']);
-    assert.equal(await field(page, '/parameters/productions').locator('mark').textContent(), '[');
+    assert.equal(await selected(productions), '[');
+    assert.equal(await productions.locator('.cm-lintRange-error').textContent(), '[');
+    assert.equal(await code(productions).getAttribute('aria-invalid'), 'true');
     assert.ok((await page.textContent('#alert')).length > 0);
   });
   await t.test('it is mended, and the fault goes away', async () => {
-    await until_shown(page, () => productions.fill(whole));
+    await until_shown(page, () => write(productions, whole));
     assert.equal(await field(page, '/parameters/productions').locator('.spot').count(), 0);
     assert.equal(await page.textContent('#alert'), '');
   });
@@ -71,7 +71,7 @@ test('a newcomer grows a tree, mends a production and shares the result', { time
       assert.deepEqual(await statistics(other), shown);
       assert.equal(await other.inputValue('#seed'), await page.inputValue('#seed'));
       await open_parameters(other);
-      assert.equal(await field(other, '/parameters/productions').locator('textarea').inputValue(), whole);
+      assert.equal(await written(field(other, '/parameters/productions')), whole);
       const differs = difference(drawing, await picture(other));
       assert.ok(differs < 0.002, `${differs} of the picture differs`);
       // The measure itself can tell pictures apart.

@@ -1,12 +1,15 @@
-/** What leaves the page: files, the link, the command. */
+/** What leaves the page: files, the link, programs that fetch the model. */
 import { Busy, Gone, generate, in_format, type Request } from './api';
+import { curl_of, javascript_of, python_of } from './commands';
 import { el, part } from './dom';
-import { curl_of, link_to } from './link';
+import { link_to } from './link';
 
-interface Context {
+export interface Context {
   request(): Request | null;
   /** The file's name without its ending. */
   name(): string;
+  /** What is seen now. */
+  picture(): Promise<Blob | null>;
   say(text: string): void;
   fail(text: string): void;
 }
@@ -14,22 +17,50 @@ interface Context {
 const written: Record<string, string> = { gltf: 'glTF' };
 const endings: Record<string, string> = { png16: 'png', png8: 'png', rgb24: 'png', rgba32: 'png' };
 
-/** One button for each format. */
+/** Links beyond this are cut by chats and mail. */
+const long_link = 2000;
+
+/** One button for each format but the first, which has one of its own. */
 export function wire_downloads(formats: string[], context: Context): void {
-  part('downloads').replaceChildren(...formats.map((format) =>
-    el('button', { type: 'button', 'data-format': format, title: `Download as .${endings[format] ?? format}`, onclick: () => void download(format, context) },
+  part('downloads').replaceChildren(...formats.slice(1).map((format) =>
+    el('button', { type: 'button', 'data-format': format, 'data-close': true, title: `Download as .${endings[format] ?? format}` },
       written[format] ?? format.toUpperCase())));
+  for (const button of document.querySelectorAll<HTMLButtonElement>('[data-format]'))
+    button.onclick = () => void download(button.dataset['format'] ?? '', context);
 }
 
 export function wire_copies(context: Context): void {
-  part('copy-link').addEventListener('click', async () => {
-    const request = context.request();
-    if (request) await copy(await link_to(request), 'The link is copied', context);
+  const on = (id: string, act: (request: Request) => Promise<void>): void =>
+    part(id).addEventListener('click', () => { const request = context.request(); if (request) void act(request); });
+  on('copy-link', async (request) => {
+    const link = await link_to(request);
+    const warning = link.length > long_link ? `. It has ${link.length} characters: some programs cut it. The request as JSON is safer` : '';
+    await copy(link, `The link is copied${warning}`, context);
   });
-  part('copy-curl').addEventListener('click', async () => {
-    const request = context.request();
-    if (request) await copy(curl_of(request), 'The command is copied', context);
-  });
+  on('copy-curl', (request) => copy(curl_of(request), 'The command is copied', context));
+  on('copy-python', (request) => copy(python_of(request), 'The Python program is copied', context));
+  on('copy-javascript', (request) => copy(javascript_of(request), 'The JavaScript program is copied', context));
+  on('save-request', async (request) => save_request(request, context));
+  on('save-picture', () => save_picture(context));
+}
+
+export function save_request(request: Request, context: Context): void {
+  save(new Blob([`${JSON.stringify(request, null, 2)}\n`]), 'json', context);
+  context.say('The request is saved');
+}
+
+export async function save_picture(context: Context): Promise<void> {
+  const picture = await context.picture();
+  if (!picture) return;
+  save(picture, 'png', context);
+  context.say('The picture is saved');
+}
+
+function save(file: Blob, ending: string, context: Context): void {
+  const address = URL.createObjectURL(file);
+  el('a', { href: address, download: `${context.name()}.${ending}` }).click();
+  // The browser reads the address after this task; a minute is long enough for it.
+  setTimeout(() => URL.revokeObjectURL(address), 60_000);
 }
 
 async function download(format: string, context: Context): Promise<void> {
@@ -37,10 +68,7 @@ async function download(format: string, context: Context): Promise<void> {
   if (!request) return;
   try {
     const { bytes } = await generate(in_format(request, format));
-    const address = URL.createObjectURL(new Blob([bytes]));
-    el('a', { href: address, download: `${context.name()}.${endings[format] ?? format}` }).click();
-    // The browser reads the address after this task; a minute is long enough for it.
-    setTimeout(() => URL.revokeObjectURL(address), 60_000);
+    save(new Blob([bytes]), endings[format] ?? format, context);
     context.say(`${written[format] ?? format.toUpperCase()} is downloaded`);
   } catch (error) {
     const why = error instanceof Busy ? 'The server is full.' : error instanceof Gone ? 'The server cannot be reached.' : (error as Error).message;

@@ -11,7 +11,21 @@ export interface Request {
 export interface Preset { name: string; generator: string; title: string; description: string; tags: string[] }
 
 /** One fault of a request: a JSON Pointer into it; line and column, from 1, point into a grammar's text. */
-export interface Fault { pointer: string; message: string; line?: number; column?: number }
+export interface Fault {
+  pointer: string;
+  message: string;
+  line?: number;
+  column?: number;
+  /** A warning: the request is taken nevertheless. */
+  mild?: boolean;
+}
+
+/** A symbol, an operation or a function of a notation. */
+export interface Word { symbol?: string; name?: string; parameters?: string; text?: string; example?: string }
+
+export type Vocabulary = Record<string, Word[]>;
+
+export interface Check { warnings: Fault[]; estimate: { triangles: number; bytes: number; exact: boolean } | null }
 
 export interface Statistics { triangles: number; bytes: number; milliseconds: number; warnings: number }
 
@@ -79,17 +93,66 @@ export async function get_preset(name: string, signal?: AbortSignal): Promise<Re
 export const get_schema = (name: string, signal?: AbortSignal): Promise<Schema> =>
   read<Schema>(`v1/schemas/${encodeURIComponent(name)}`, signal);
 
+/** RFC 7396: members of the patch over those there are; null takes a member away. */
+function merged(base: unknown, patch: unknown): unknown {
+  if (typeof patch !== 'object' || patch === null || Array.isArray(patch)) return patch;
+  const result: Record<string, unknown> = typeof base === 'object' && base !== null && !Array.isArray(base) ? { ...base } : {};
+  for (const [name, value] of Object.entries(patch)) {
+    if (value === null) delete result[name];
+    else result[name] = merged(result[name], value);
+  }
+  return result;
+}
+
+/** A request as it was written, which may name a preset: then what it says over that preset. */
+export async function whole(written: unknown): Promise<Request> {
+  if (typeof written !== 'object' || written === null || Array.isArray(written)) throw new Error('A request is an object.');
+  const { preset, ...rest } = written as Partial<Request> & { preset?: unknown };
+  if (typeof preset === 'string') return complete(merged(await get_preset(preset), rest) as Partial<Request>);
+  if (typeof rest.generator !== 'string') throw new Error('A request names its generator.');
+  return complete(rest);
+}
+
 /** With the members that the page relies on. */
 export const complete = (request: Partial<Request>): Request =>
   ({ ...request, generator: request.generator ?? '', seed: request.seed ?? 0, parameters: request.parameters ?? {} });
 
-const post = (request: Request, accept: string, signal?: AbortSignal): Promise<Response> =>
-  call('v1/generate', {
+const post_json = (address: string, request: Request, accept: string, signal?: AbortSignal): Promise<Response> =>
+  call(address, {
     method: 'POST',
     headers: { 'Content-Type': 'application/json', Accept: accept },
     body: JSON.stringify(request),
     signal: signal ?? null,
   });
+
+const post = (request: Request, accept: string, signal?: AbortSignal): Promise<Response> =>
+  post_json('v1/generate', request, accept, signal);
+
+export const get_vocabulary = (): Promise<Vocabulary> => read<Vocabulary>('v1/vocabulary');
+
+/** Every fault (a Refusal) or every warning, without the model. */
+export async function check(request: Request, signal?: AbortSignal): Promise<Check> {
+  const answer = (await (await post_json('v1/validate', request, 'application/json', signal)).json()) as Check;
+  return { estimate: answer.estimate, warnings: answer.warnings.map((warning) => ({ ...warning, mild: true })) };
+}
+
+/** What the generator makes before there is geometry; its members are the generator's own. */
+export const derive = async (request: Request, signal?: AbortSignal): Promise<Record<string, unknown>> =>
+  (await (await post_json('v1/derive', request, 'application/json', signal)).json()) as Record<string, unknown>;
+
+/** The formats that the server can import, from its own description. */
+export async function import_formats(): Promise<string[]> {
+  const { components } = await read<{ components: { parameters: { ImportFormat?: { schema?: { enum?: string[] } } } } }>('openapi.json');
+  return components.parameters.ImportFormat?.schema?.enum ?? [];
+}
+
+/** A file of another program as a request of ours. */
+export async function import_file(text: string, format: string, entry: string): Promise<{ request: Request; warnings: Fault[] }> {
+  const query = new URLSearchParams(entry ? { format, entry } : { format });
+  const response = await call(`v1/import?${query}`, { method: 'POST', headers: { 'Content-Type': 'text/plain' }, body: text });
+  const answer = (await response.json()) as { request: Partial<Request>; warnings: Fault[] };
+  return { request: complete(answer.request), warnings: answer.warnings };
+}
 
 export const in_format = (request: Request, format: string): Request =>
   ({ ...request, output: { ...request.output, format } });

@@ -34,6 +34,10 @@ const strokes = {
   help: 'M9.2 9a2.8 2.8 0 1 1 4.2 2.4c-.9.5-1.4 1.1-1.4 2.1M12 17.2v.1',
   add: 'M12 5v14M5 12h14',
   remove: 'M6 6l12 12M18 6L6 18',
+  first: 'M18 6l-8 6 8 6zM6 6v12',
+  back: 'M15 6l-8 6 8 6z',
+  next: 'M9 6l8 6-8 6z',
+  last: 'M6 6l8 6-8 6zM18 6v12',
 } as const;
 
 export function icon(name: keyof typeof strokes): SVGSVGElement {

@@ -1,5 +1,5 @@
-/** A request as text: in the page's own address, and as a command. The link carries all; no server keeps it. */
-import { complete, in_format, type Request } from './api';
+/** A request as text in the page's own address. The link carries all; no server keeps it. */
+import { complete, type Request } from './api';
 
 async function through(bytes: Uint8Array<ArrayBuffer>, stream: CompressionStream | DecompressionStream): Promise<ArrayBuffer> {
   return new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer();
@@ -29,12 +29,4 @@ export async function link_to(request: Request): Promise<string> {
   address.search = '';
   address.hash = await pack(request);
   return address.href;
-}
-
-/** A command for a POSIX shell that saves the same model. */
-export function curl_of(request: Request): string {
-  const quote = (text: string): string => `'${text.replaceAll("'", `'\\''`)}'`;
-  const address = new URL('v1/generate', location.href.split(/[?#]/)[0]);
-  const body = JSON.stringify(in_format(request, 'glb'));
-  return `curl --fail-with-body -o model.glb -H 'Content-Type: application/json' -d ${quote(body)} ${quote(address.href)}`;
 }

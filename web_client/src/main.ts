@@ -2,136 +2,178 @@
  * Brings the parts together. The address tells what is shown: `#…` carries a request; in the query `quality=low` or
  * `quality=high` chooses how it is drawn, and `stage` leaves only the picture, for making pictures.
  */
-import { Refusal, get_preset, get_presets, get_schema, type Fault, type Made, type Preset, type Request } from './api';
-import { wire_copies, wire_downloads } from './actions';
+import { Refusal, get_presets, get_schema, type Fault, type Made, type Preset, type Request } from './api';
+import { Address } from './address';
+import { Checker, joined } from './checker';
 import { el, grouped, part, rounded } from './dom';
-import { draw_form, type Form } from './form/form';
+import type { Form } from './form/form';
+import type { Schema } from './form/schema';
 import { draw_gallery, type Gallery } from './gallery';
 import { Grower, Patience } from './grower';
-import { pack, unpack } from './link';
+import { forget_hint, wire_hint } from './hint';
+import { for_view } from './for_view';
 import { wire_seed } from './seed';
+import { is_high, make_viewer } from './setup';
 import { Store, type State } from './state';
 import { wire_status } from './status';
 import { wire_tabs } from './tabs';
-import { show_measures, wire_view } from './view_tools';
-import { Viewer } from './viewer/viewer';
+import type { Core, Tools } from './tools';
+import { show_measures } from './measures';
+import type { Model } from './viewer/model';
 import './style/base.css';
 import './style/layout.css';
 import './style/gallery.css';
 import './style/form.css';
+import './style/view.css';
 
-/** What a visitor sees first, where the server has it. */
-const first_shown = 'kogovsek_grm';
-
-interface Memory { preset: string | null }
-
-const query = new URLSearchParams(location.search);
-const dark = matchMedia('(prefers-color-scheme: dark)');
-const still = matchMedia('(prefers-reduced-motion: reduce)');
+/** A model of more triangles is drawn only when asked for: it can cost a browser its picture. */
+const heavy = 3_000_000;
 
 const store = new Store();
 const status = wire_status();
-const tabs = wire_tabs();
 const patience = new Patience();
-const viewer = make_viewer();
+const high = is_high();
+const viewer = make_viewer(status, high);
 const seed = wire_seed((value) => store.edit({ seed: value }));
 const grower = new Grower((phase) => {
   status.phase(phase);
   if (phase.kind === 'refused') refuse(phase.refusal);
+  if (phase.kind === 'ready' || phase.kind === 'refused') settle(phase.kind === 'ready');
 }, show);
+const checker = new Checker((faults) => { checked = faults; show_faults(); });
+const tabs = wire_tabs((page) => tools?.page(page));
 
 let presets: Preset[] = [];
 let gallery: Gallery | null = null;
 let form: Form | null = null;
-let drawn_for = '';
+let tools: Tools | null = null;
 let opening = new AbortController();
 let keep_camera = false;
-let address_timer = 0;
-let last_refusal: Refusal | null = null;
+let last: { bytes: ArrayBuffer; model: Model | null; triangles: number } | null = null;
+/** What the making of the model, and what the checking of the request had to say. */
+let refusal: Refusal | null = null;
+let checked: Fault[] = [];
 /** The model that is shown is not the one that the link meant: that has to stay readable. */
 let link_is_damaged = false;
+let waiting: ((drawn: boolean) => void)[] = [];
+let schema: Schema | null = null;
+/** The formats and motions that models can have. */
+let formats = ['glb'];
+let motions: string[] = [];
 
-/** A machine without a graphics card says so in the name of its renderer. */
-function make_viewer(): Viewer | null {
-  const asked = query.get('quality');
-  const soft = /swiftshader|llvmpipe|software/i.test(renderer_name());
-  document.body.classList.toggle('stage', query.has('stage'));
-  try {
-    const made = new Viewer(part<HTMLCanvasElement>('picture'), {
-      quality: asked === 'low' || (asked !== 'high' && soft) ? 'low' : 'high', dark: dark.matches, still: still.matches, covered: query.has('stage') ? 0 : 72,
-    });
-    if (query.has('stage')) { made.set_grid(false); made.set_figure(false); }
-    made.on_context = (lost) => status.lost(lost);
-    dark.addEventListener('change', () => made.set_theme(dark.matches));
-    return made;
-  } catch {
-    status.faults('This browser gives no picture: WebGL 2 is missing or switched off. Downloads work all the same.', [], 0, () => {});
-    return null;
-  }
+const persist = <T>(task: () => Promise<T>, signal: AbortSignal): Promise<T> =>
+  patience.persist(task, (reason, until) => status.phase({ kind: 'waiting', reason, until }), signal);
+
+const quietly = (task: Promise<void>): void => {
+  task.catch((error: unknown) => { if (error instanceof Refusal) refuse(error); });
+};
+
+const begin_opening = (): AbortSignal => {
+  opening.abort();
+  opening = new AbortController();
+  link_is_damaged = false;
+  return opening.signal;
+};
+
+const address = new Address({
+  store, persist,
+  presets: () => presets,
+  begin: begin_opening,
+  damaged() {
+    link_is_damaged = true;
+    status.faults('This link is damaged: it holds no whole request. Ask for it once more, or choose from the gallery.', [], 0, () => {});
+  },
+});
+
+const core: Core = {
+  store, viewer, high, status, seed, tabs,
+  bytes: () => last?.bytes ?? null,
+  grow_again: () => { if (store.current) grow(store.current.request, 'now'); },
+  drawn: () => new Promise((resolve) => {
+    if (document.body.dataset['state'] === 'ready') resolve(true);
+    else waiting.push(resolve);
+  }),
+  open(request, title) {
+    begin_opening();
+    store.open(request, { preset: null, title, description: '' });
+    tabs.open('parameters');
+    quietly(address.push(null));
+  },
+  search: () => gallery?.search(),
+};
+
+function settle(drawn: boolean): void {
+  for (const resolve of waiting) resolve(drawn);
+  waiting = [];
 }
 
-function renderer_name(): string {
-  const context = document.createElement('canvas').getContext('webgl2');
-  const detail = context?.getExtension('WEBGL_debug_renderer_info');
-  const name = context && detail ? String(context.getParameter(detail.UNMASKED_RENDERER_WEBGL)) : '';
-  context?.getExtension('WEBGL_lose_context')?.loseContext();
-  return name;
-}
+const grow = (request: Request, when: 'now' | 'soon'): void => grower.ask(for_view(request, tools?.motion() ?? null), when);
 
 async function show(made: Made, request: Request): Promise<void> {
-  await viewer?.show(made.bytes, keep_camera);
-  keep_camera = true;
-  last_refusal = null;
-  form?.show_faults([]);
+  const { triangles } = made.statistics;
+  refusal = null;
+  show_faults();
   if (viewer && !link_is_damaged) status.faults('', [], 0, () => {});
-  if (viewer) show_measures(viewer);
+  last = { bytes: made.bytes, model: null, triangles };
+  if (viewer && (triangles < heavy || (await status.ask(`This model has ${grouped(triangles)} triangles.`, 'Draw it')))) {
+    last.model = await viewer.show(made.bytes, keep_camera);
+    keep_camera = true;
+    tools?.shown(last.model, triangles);
+    show_measures(viewer);
+  }
+  seed.drawn(request.seed);
   status.shown(made.statistics);
   const size = viewer?.measures.size;
   const measure = size ? `, ${rounded(size.x)} m wide, ${rounded(size.y)} m high, ${rounded(size.z)} m deep` : '';
   part('picture').setAttribute('aria-label',
-    `${store.current?.title ?? 'Model'}, seed ${request.seed}: ${grouped(made.statistics.triangles)} triangles${measure}`);
+    `${store.current?.title ?? 'Model'}, seed ${request.seed}: ${grouped(triangles)} triangles${measure}`);
   document.body.dataset['shown'] = String(Number(document.body.dataset['shown']) + 1);
 }
 
-function refuse(refusal: Refusal): void {
-  last_refusal = refusal;
-  const homeless = form ? form.show_faults(refusal.faults) : refusal.faults;
-  const in_fields = refusal.faults.length - homeless.length;
+/** At the fields and in the JSON. */
+function show_faults(): void {
+  const faults = joined(refusal?.faults ?? [], checked);
+  tools?.show_faults(faults);
+  form?.show_faults(faults);
+}
+
+function refuse(next: Refusal): void {
+  refusal = next;
+  show_faults();
+  const homeless = next.faults.filter((fault) => !form?.holds(fault));
   // One fault is its own summary.
-  const rest = homeless.filter((fault: Fault) => fault.message !== refusal.message);
-  status.faults(refusal.message, rest, in_fields, () => {
+  const rest = homeless.filter((fault: Fault) => fault.message !== next.message);
+  status.faults(next.message, rest, next.faults.length - homeless.length, () => {
     tabs.open('parameters');
-    const faulty = part('parameters').querySelector<HTMLElement>('.faulty .spot, .faulty input, .faulty textarea, .faulty select');
+    const faulty = part('parameters').querySelector<HTMLElement>('.field.faulty :is(.spot, input, textarea, select)');
     faulty?.focus();
     faulty?.scrollIntoView({ block: 'center' });
   });
 }
 
-/** The form of the request's generator; drawn once for each request that is opened. */
+/** The form of the request's generator; drawn once for each request that is opened, and when another hand wrote it. */
 async function draw_parameters(state: State, signal: AbortSignal): Promise<void> {
-  const schema = await persist(() => get_schema(state.request.generator, signal), signal);
-  own_formats = schema['x-formats'] ?? [];
-  offer_downloads();
-  form = draw_form(schema, state.request.parameters, state.base.parameters, '/parameters', (parameters) => store.edit({ parameters }));
-  part('parameters').replaceChildren(
-    el('h2', { class: 'unseen' }, 'Parameters'),
-    el('p', { class: 'soft about' }, state.description || schema.description || ''), form.element);
+  const { generator } = state.request;
+  const [known, { draw_form, keep_place, about }] = await Promise.all([
+    persist(() => get_schema(generator, signal), signal), persist(() => import('./form/form'), signal)]);
+  const { request, base } = store.current ?? state;
+  if (signal.aborted || request.generator !== generator) return;
+  schema = known;
+  const restore = keep_place(part('parameters'));
+  form = draw_form(schema, request.parameters, base.parameters, '/parameters', (parameters) => store.edit({ parameters }));
+  part('parameters').replaceChildren(el('h2', { class: 'unseen' }, 'Parameters'), about(generator, schema, state.description), form.element);
+  restore();
+  explain();
   // The answer may have come before the form.
-  if (last_refusal) refuse(last_refusal);
+  if (refusal) refuse(refusal);
+  else show_faults();
 }
 
-/** The address carries what is shown; the entry of the history also remembers which preset it came from. */
-async function write_address(state: State, how: 'push' | 'replace'): Promise<void> {
-  const text = `#${await pack(state.request)}`;
-  if (store.current !== state) return;
-  drawn_for = text;
-  const memory: Memory = { preset: state.preset };
-  if (how === 'push') history.pushState(memory, '', text);
-  else history.replaceState(memory, '', text);
-}
-
-const persist = <T>(task: () => Promise<T>, signal: AbortSignal): Promise<T> =>
-  patience.persist(task, (reason, until) => status.phase({ kind: 'waiting', reason, until }), signal);
+const explain = (): void => {
+  if (!schema) return;
+  tools?.explain(schema);
+  tools?.offer([...formats, ...(schema['x-formats'] ?? [])], motions);
+};
 
 store.subscribe((state, cause) => {
   seed.show(state.request.seed);
@@ -140,94 +182,48 @@ store.subscribe((state, cause) => {
   if (cause === 'open') {
     keep_camera = false;
     form = null;
-    const { signal } = opening;
-    last_refusal = null;
-    quietly(draw_parameters(state, signal));
+    schema = null;
+    refusal = null;
+    checked = [];
   } else {
     link_is_damaged = false;
-    // Browsers refuse to change the address as fast as a slider moves.
-    clearTimeout(address_timer);
-    address_timer = window.setTimeout(() => quietly(write_address(state, 'replace')), 300);
+    address.follow(state);
+    forget_hint();
   }
-  grower.ask(state.request, cause === 'open' ? 'now' : 'soon');
+  if (cause !== 'edit') quietly(draw_parameters(state, opening.signal));
+  tools?.follow(state, cause === 'open');
+  checker.ask(state.request);
+  grow(state.request, cause === 'open' ? 'now' : 'soon');
 });
 
-function begin_opening(): AbortSignal {
-  opening.abort();
-  opening = new AbortController();
-  link_is_damaged = false;
-  return opening.signal;
+async function load_tools(signal: AbortSignal): Promise<void> {
+  const { wire_tools } = await persist(() => import('./tools'), signal);
+  tools = wire_tools(core);
+  if (store.current) tools.follow(store.current, true);
+  if (last?.model) tools.shown(last.model, last.triangles);
+  explain();
+  show_faults();
+  document.body.dataset['tools'] = 'ready';
 }
-
-async function open_preset(preset: Preset): Promise<void> {
-  const signal = begin_opening();
-  gallery?.mark(preset.name);
-  const request = await persist(() => get_preset(preset.name, signal), signal);
-  store.open(request, { preset: preset.name, title: preset.title, description: preset.description });
-}
-
-async function open_link(fragment: string): Promise<void> {
-  begin_opening();
-  drawn_for = fragment;
-  try {
-    const request = await unpack(fragment.slice(1));
-    const from = presets.find((preset) => preset.name === (history.state as Memory | null)?.preset);
-    store.open(request, { preset: from?.name ?? null, title: from?.title ?? 'From a link', description: from?.description ?? '' });
-  } catch {
-    if (!store.current) await open_first();
-    link_is_damaged = true;
-    status.faults('This link is damaged: it holds no whole request. Ask for it once more, or choose from the gallery.', [], 0, () => {});
-  }
-}
-
-const open_first = (): Promise<void> => {
-  drawn_for = '';
-  const first = presets.find((preset) => preset.name === first_shown) ?? presets[0];
-  return first ? open_preset(first) : Promise.resolve();
-};
-
-const open_address = (): Promise<void> => (location.hash.length > 1 ? open_link(location.hash) : open_first());
-
-/** A card leaves an entry in the browser's history, so that Back returns to what was shown before. */
-async function choose(preset: Preset): Promise<void> {
-  await open_preset(preset);
-  clearTimeout(address_timer);
-  if (store.current?.preset === preset.name) await write_address(store.current, 'push');
-}
-
-const quietly = (task: Promise<void>): void => {
-  task.catch((error: unknown) => { if (error instanceof Refusal) refuse(error); });
-};
-
-/** The formats of all models, and those of the generator that is shown. */
-let model_formats = ['glb'];
-let own_formats: string[] = [];
-const offer_downloads = (): void => wire_downloads([...model_formats, ...own_formats], actions);
-
-const actions = {
-  request: (): Request | null => store.current?.request ?? null,
-  name: (): string => `${store.current?.preset ?? 'seedmesh'}-${store.current?.request.seed ?? 0}`,
-  say: status.say,
-  fail: (text: string): void => status.faults(text, [], 0, () => {}),
-};
 
 async function start(): Promise<void> {
-  wire_copies(actions);
-  if (viewer) wire_view(viewer, seed.roll);
+  wire_hint();
   part('cancel').addEventListener('click', () => grower.cancel());
   const again = (): void => { patience.nudge(); grower.again(); };
   part('again').addEventListener('click', again);
   addEventListener('online', () => { if (['gone', 'full'].includes(document.body.dataset['state'] ?? '')) again(); });
-  addEventListener('hashchange', () => { if (location.hash !== drawn_for) quietly(open_address()); });
+  addEventListener('hashchange', () => { if (address.is_foreign) quietly(address.open()); });
 
   const { signal } = new AbortController();
   presets = await persist(() => get_presets(signal), signal);
-  gallery = draw_gallery(part('gallery'), presets, (preset) => quietly(choose(preset)));
-  quietly(open_address());
+  gallery = draw_gallery(part('gallery'), presets, (preset) => { gallery?.mark(preset.name); forget_hint(); quietly(address.choose(preset)); });
+  quietly(address.open());
+  quietly(load_tools(signal));
 
   const output = await persist(() => get_schema('output', signal), signal);
-  model_formats = output['x-formats'] ?? model_formats;
-  offer_downloads();
+  formats = output['x-formats'] ?? formats;
+  motions = (output.properties?.['animation']?.enum ?? []).map(String).filter((name) => name !== 'none');
+  explain();
 }
 
 quietly(start());

@@ -1,19 +1,34 @@
-/** The seed: typed, or rolled. Beyond 2^53 a JavaScript number is no longer exact, so it is kept as text there. */
-import { part } from './dom';
+/** The seed: typed, rolled, or taken from those before. Beyond 2^53 a JavaScript number is no longer exact, so it is text there. */
+import { el, part } from './dom';
 
 const largest = 2n ** 64n - 1n;
+const most_kept = 12;
+
+export type Seed = number | string;
 
 /** null where the text is no seed. */
-export function seed_of(text: string): number | string | null {
+export function seed_of(text: string): Seed | null {
   if (!/^\d{1,20}$/.test(text.trim())) return null;
   const seed = BigInt(text.trim());
   if (seed > largest) return null;
   return seed <= BigInt(Number.MAX_SAFE_INTEGER) ? Number(seed) : String(seed);
 }
 
-export function wire_seed(change: (seed: number | string) => void): { show(seed: number | string): void; roll(): void } {
+/** The seed `step` further; past the largest it begins again at 0. */
+export const seed_after = (seed: Seed, step: number): Seed => seed_of(String((BigInt(seed) + BigInt(step)) % (largest + 1n))) ?? 0;
+
+export interface SeedBox {
+  show(seed: Seed): void;
+  roll(): void;
+  /** A model of this seed was drawn: it goes to the front of the list. */
+  drawn(seed: Seed): void;
+}
+
+export function wire_seed(change: (seed: Seed) => void): SeedBox {
   const box = part<HTMLInputElement>('seed');
-  const show = (seed: number | string): void => {
+  const list = part('seed-list');
+  let before: Seed[] = [];
+  const show = (seed: Seed): void => {
     box.setAttribute('aria-invalid', 'false');
     // What is being typed stays as it is: 007 is 7.
     if (seed_of(box.value) !== seed) box.value = String(seed);
@@ -29,5 +44,12 @@ export function wire_seed(change: (seed: number | string) => void): { show(seed:
     if (seed !== null) change(seed);
   });
   part('dice').addEventListener('click', roll);
-  return { show, roll };
+  return {
+    show, roll,
+    drawn(seed) {
+      before = [seed, ...before.filter((each) => each !== seed)].slice(0, most_kept);
+      list.replaceChildren(...before.map((each) => el('li', {},
+        el('button', { type: 'button', 'data-close': true, 'aria-current': each === seed, onclick: () => { show(each); change(each); } }, String(each)))));
+    },
+  };
 }

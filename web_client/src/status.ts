@@ -16,6 +16,8 @@ export interface Status {
   /** Faults that no field shows, and how many the fields show; none takes the alert away. */
   faults(detail: string, homeless: Fault[], in_fields: number, lead: () => void): void;
   lost(lost: boolean): void;
+  /** A question with one way on; what happens next in the page answers it with no. */
+  ask(question: string, yes: string): Promise<boolean>;
 }
 
 export function wire_status(): Status {
@@ -25,6 +27,7 @@ export function wire_status(): Status {
   let timers: number[] = [];
   let is_growing = false;
   let was_waiting = false;
+  let answer_no = (): void => {};
 
   const clear = (): void => {
     for (const timer of timers) clearTimeout(timer), clearInterval(timer);
@@ -68,6 +71,7 @@ export function wire_status(): Status {
   return {
     say,
     phase(phase) {
+      answer_no();
       document.body.dataset['state'] = phase.kind === 'waiting' ? phase.reason : phase.kind;
       if (phase.kind === 'growing') {
         growing(phase.share);
@@ -111,6 +115,18 @@ export function wire_status(): Status {
         ...homeless.map((fault) => el('p', {}, fault.pointer ? `${fault.pointer}: ${fault.message}` : fault.message)),
         ...(in_fields > 0 ? [go] : []),
       );
+    },
+    ask(question, yes) {
+      document.body.dataset['state'] = 'asking';
+      clear();
+      is_growing = false;
+      progress.hidden = true;
+      show('');
+      return new Promise((resolve) => {
+        answer_no = () => resolve(false);
+        const answer = (is: boolean) => () => { answer_no = () => {}; alert.replaceChildren(); resolve(is); };
+        alert.replaceChildren(el('p', {}, question), el('button', { type: 'button', onclick: answer(true) }, yes), el('button', { type: 'button', onclick: answer(false) }, 'Leave it'));
+      });
     },
     lost(lost) {
       if (lost) show('The browser has lost the picture. It comes back when the graphics card answers');

@@ -1,24 +1,33 @@
-/** The two pages of the panel, and on a narrow screen the panel as a sheet that folds. */
+/** The pages of the panel, and on a narrow screen the panel as a sheet that folds. */
 import { part } from './dom';
 
-const names = ['gallery', 'parameters'] as const;
+const names = ['gallery', 'parameters', 'request', 'result'] as const;
 export type Page = (typeof names)[number];
 
-export function wire_tabs(): { open(page: Page): void } {
+export interface Tabs {
+  open(page: Page): void;
+  is_open(page: Page): boolean;
+}
+
+/** `opened` hears of each page that comes into sight. */
+export function wire_tabs(opened: (page: Page) => void): Tabs {
   const tabs = names.map((name) => part(`tab-${name}`));
   const fold = part('fold'), panel = part('panel');
+  let now: Page = 'gallery';
   const fold_to = (open: boolean): void => {
     panel.classList.toggle('folded', !open);
     fold.setAttribute('aria-expanded', String(open));
     fold.setAttribute('aria-label', open ? 'Fold the panel' : 'Unfold the panel');
   };
   const open = (page: Page): void => {
+    now = page;
     names.forEach((name, index) => {
       part(name).hidden = name !== page;
       tabs[index]?.setAttribute('aria-selected', String(name === page));
       tabs[index]?.setAttribute('tabindex', name === page ? '0' : '-1');
     });
     fold_to(true);
+    opened(page);
   };
   names.forEach((name, index) => {
     tabs[index]?.addEventListener('click', () => open(name));
@@ -31,5 +40,5 @@ export function wire_tabs(): { open(page: Page): void } {
     });
   });
   fold.addEventListener('click', () => fold_to(panel.classList.contains('folded')));
-  return { open };
+  return { open, is_open: (page) => now === page };
 }

@@ -1,18 +1,31 @@
 /** The buttons and keys of the picture. Single letters count only while the picture has the focus. */
-import { part, rounded } from './dom';
+import { part } from './dom';
+import { show_measures } from './measures';
 import type { Viewer } from './viewer/viewer';
 
-export function wire_view(viewer: Viewer, roll: () => void): void {
-  const toggle = (id: string, set: (on: boolean) => void): (() => void) => {
-    const button = part(id);
-    const flip = (): void => {
-      const on = button.getAttribute('aria-pressed') !== 'true';
-      button.setAttribute('aria-pressed', String(on));
-      set(on);
-    };
-    button.addEventListener('click', flip);
-    return flip;
+interface Acts {
+  roll(): void;
+  next_mode(): void;
+  compare(): void;
+  save_picture(): void;
+  step(by: number): void;
+  play(): void;
+  leave_gait(): void;
+}
+
+/** A button that is pressed or not; the answer flips it. */
+export function toggle(id: string, set: (on: boolean) => void): () => void {
+  const button = part(id);
+  const flip = (): void => {
+    const on = button.getAttribute('aria-pressed') !== 'true';
+    button.setAttribute('aria-pressed', String(on));
+    set(on);
   };
+  button.addEventListener('click', flip);
+  return flip;
+}
+
+export function wire_view(viewer: Viewer, acts: Acts): void {
   const fit = (): void => viewer.fit();
   part('fit').addEventListener('click', fit);
   const turn = 0.12;
@@ -21,7 +34,14 @@ export function wire_view(viewer: Viewer, roll: () => void): void {
     w: toggle('wireframe', (on) => viewer.set_wireframe(on)),
     g: toggle('grid', (on) => { viewer.set_grid(on); show_measures(viewer); }),
     h: toggle('figure', (on) => viewer.set_figure(on)),
-    r: roll,
+    r: acts.roll,
+    n: acts.next_mode,
+    c: acts.compare,
+    p: acts.save_picture,
+    '[': () => acts.step(-1),
+    ']': () => acts.step(1),
+    ' ': acts.play,
+    escape: acts.leave_gait,
     arrowleft: () => viewer.orbit(-turn, 0, 1),
     arrowright: () => viewer.orbit(turn, 0, 1),
     arrowup: () => viewer.orbit(0, -turn, 1),
@@ -36,11 +56,6 @@ export function wire_view(viewer: Viewer, roll: () => void): void {
     event.preventDefault();
     act();
   });
-}
-
-/** "1.4 × 2.1 × 0.3 m · grid of 1 m" */
-export function show_measures(viewer: Viewer): void {
-  const { size, cell } = viewer.measures;
-  const grid = part('grid').getAttribute('aria-pressed') === 'true' ? ` · grid of ${rounded(cell)} m` : '';
-  part('measures').textContent = `${rounded(size.x)} × ${rounded(size.y)} × ${rounded(size.z)} m${grid}`;
+  const drawn = part('drawn');
+  viewer.on_drawn = (milliseconds) => { drawn.textContent = `${milliseconds < 10 ? milliseconds.toFixed(1) : Math.round(milliseconds)} ms`; };
 }

@@ -41,13 +41,22 @@ export class Board {
     for (const key of this.sinks.keys()) if (key.startsWith(`${pointer}/`)) this.sinks.delete(key);
   }
 
+  holds(fault: Fault): boolean {
+    return this.sinks.has(this.nearest(fault));
+  }
+
+  private nearest(fault: Fault): string {
+    let { pointer } = fault;
+    while (pointer && !this.sinks.has(pointer)) pointer = pointer.slice(0, pointer.lastIndexOf('/'));
+    return pointer;
+  }
+
   /** Shows each fault at its field, takes away those that are mended, and returns the ones without a field. */
   show(faults: Fault[]): Fault[] {
     const by_sink = new Map<string, Fault[]>();
     const homeless: Fault[] = [];
     for (const fault of faults) {
-      let pointer = fault.pointer;
-      while (pointer && !this.sinks.has(pointer)) pointer = pointer.slice(0, pointer.lastIndexOf('/'));
+      const pointer = this.nearest(fault);
       if (!this.sinks.has(pointer)) homeless.push(fault);
       else by_sink.set(pointer, [...(by_sink.get(pointer) ?? []), fault]);
     }
@@ -60,6 +69,8 @@ export interface Frame {
   element: HTMLElement;
   /** Tells the frame the value that is shown now, for its reset button. */
   now(value: unknown): void;
+  /** The control has given way to one that is labelled otherwise. */
+  no_control(): void;
 }
 
 /**
@@ -92,12 +103,15 @@ export function frame(place: Place, control: HTMLElement, body: HTMLElement, red
     el('div', { class: 'field-head' }, label, schema.description ? open_help : null, reset), body, help, fault);
 
   board.add(place.pointer, (faults) => {
-    element.classList.toggle('faulty', faults.length > 0);
-    if (!is_group) control.setAttribute('aria-invalid', String(faults.length > 0));
+    const is_faulty = faults.some((each) => !each.mild);
+    element.classList.toggle('faulty', is_faulty);
+    if (!is_group) control.setAttribute('aria-invalid', String(is_faulty));
+    fault.classList.toggle('mild', !is_faulty);
     fault.hidden = faults.length === 0;
     fault.textContent = faults.map((each) => each.message).join('\n');
   });
   const now = (value: unknown): void => { reset.hidden = same(value, place.base); };
   now(place.value);
-  return { element, now };
+  const no_control = (): void => { label.removeAttribute('for'); };
+  return { element, now, no_control };
 }

@@ -3,9 +3,19 @@ import type { Fault } from '../api';
 import { el } from '../dom';
 import { Board, type Draw, type Place } from './field';
 import { list_field, map_field, member_fields, object_field, variant_field } from './group_fields';
+import { colors_field, image_field, request_field, vector_field } from './row_fields';
 import { is_members, type Members, type Schema } from './schema';
 import { choice_field, color_field, json_field, number_field, switch_field, word_field } from './simple_fields';
 import { text_field } from './text_field';
+
+/** A list of anything, of a fixed number of numbers, of colours, of lines of text. */
+function list_for({ items, minItems, maxItems }: Schema): Draw {
+  if (!items) return json_field;
+  const is_number = items.type === 'number' || items.type === 'integer';
+  if (is_number && minItems !== undefined && minItems === maxItems && minItems <= 16) return vector_field;
+  if (items['x-widget'] === 'color') return colors_field;
+  return items.type === 'string' ? text_field : list_field;
+}
 
 /** The field that can show what the schema describes. */
 function field_for(schema: Schema): Draw {
@@ -20,9 +30,11 @@ function field_for(schema: Schema): Draw {
     case 'boolean': return switch_field;
     case 'string':
       if (schema['x-widget'] === 'color') return color_field;
+      if (schema['x-widget'] === 'image') return image_field;
       return schema['x-grammar'] && schema['x-grammar'] !== 'expression' ? text_field : word_field;
-    case 'array': return schema.items?.type === 'string' ? text_field : schema.items ? list_field : json_field;
+    case 'array': return list_for(schema);
     case 'object':
+      if (schema['x-widget'] === 'request') return request_field;
       if (schema.properties) return object_field;
       return is_members(schema.additionalProperties) ? map_field : json_field;
     default: return json_field;
@@ -35,6 +47,22 @@ export interface Form {
   element: HTMLElement;
   /** Shows faults at their fields and returns those that belong to none. */
   show_faults(faults: Fault[]): Fault[];
+  /** Whether some field shows it. */
+  holds(fault: Fault): boolean;
+}
+
+/** What is open and what has the focus, to be found again when the form is drawn anew. */
+export function keep_place(place: HTMLElement): () => void {
+  const key = (details: HTMLDetailsElement): string =>
+    `${details.closest('[data-pointer]')?.getAttribute('data-pointer') ?? ''} ${details.className} ${details.querySelector('summary')?.textContent ?? ''}`;
+  const open = new Map([...place.querySelectorAll('details')].map((details) => [key(details), details.open]));
+  const { scrollTop } = place;
+  const focused = place.contains(document.activeElement) ? document.activeElement?.closest('[data-pointer]')?.getAttribute('data-pointer') : null;
+  return () => {
+    for (const details of place.querySelectorAll('details')) details.open = open.get(key(details)) ?? details.open;
+    place.scrollTop = scrollTop;
+    if (focused) place.querySelector<HTMLElement>(`[data-pointer="${CSS.escape(focused)}"] :is(input, select, textarea, button)`)?.focus({ preventScroll: true });
+  };
 }
 
 /** `pointer` is where the value stands in the request; `change` gets the whole new value. */
@@ -63,9 +91,14 @@ export function draw_form(schema: Schema, value: Members, base: Members, pointer
     show_faults(faults) {
       const homeless = board.show(faults);
       // What is faulty is not left folded away.
-      for (const faulty of element.querySelectorAll('.faulty'))
+      for (const faulty of element.querySelectorAll('.field.faulty'))
         for (let up = faulty.closest('details'); up; up = up.parentElement?.closest('details') ?? null) up.open = true;
       return homeless;
     },
+    holds: (fault) => board.holds(fault),
   };
 }
+
+/** What the generator is, in a line or two, and where it is explained at length. */
+export const about = (generator: string, schema: Schema, description: string): HTMLElement =>
+  el('p', { class: 'soft about' }, `${description || schema.description || ''} `, el('a', { href: `./docs#schema-${generator}` }, `About ${schema.title ?? generator}`));

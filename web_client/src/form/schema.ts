@@ -8,6 +8,7 @@ export interface Schema {
   additionalProperties?: boolean | Schema;
   required?: string[];
   items?: Schema;
+  minItems?: number;
   maxItems?: number;
   enum?: unknown[];
   const?: unknown;
@@ -66,7 +67,7 @@ export function fresh_value(schema: Schema): unknown {
       for (const name of schema.required ?? []) members[name] = fresh_value(schema.properties?.[name] ?? {});
       return members;
     }
-    case 'array': return [];
+    case 'array': return Array.from({ length: schema.minItems ?? 0 }, () => fresh_value(schema.items ?? {}));
     case 'boolean': return false;
     case 'string': return schema['x-widget'] === 'color' ? '#808080' : '';
     case 'number':

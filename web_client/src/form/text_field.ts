@@ -1,115 +1,115 @@
 /**
- * A text area with line numbers that marks the character of a fault: for grammars as one text, and for lists of
- * strings with one entry a line. Behind the text area lies a copy of the text, invisible but for its marks.
+ * Texts that a fault can point into: grammars as one text, and lists of strings with one entry a line. They are plain
+ * text areas until they come into sight; those with a notation then become code editors.
  */
 import type { Fault } from '../api';
 import { el } from '../dom';
+import { load_editor, when_seen, type Mark } from '../editor/load';
 import { frame, type Draw, type Place } from './field';
 import { redrawable } from './simple_fields';
-
-const most_rows = 16;
+import { code_face, plain_face, type Face } from './text_faces';
 
 /** A place in the text, both from 0. `column` counts characters (code points), as the server does. */
-interface Spot { line: number; column: number; message: string }
+interface Spot { line: number; column: number }
 
 /** Which line of the text each entry of the list stands on. Empty lines are no entries. */
 export const entry_lines = (text: string): number[] =>
   text.split('\n').flatMap((line, index) => (line.trim() === '' ? [] : [index]));
 
 /** UTF-16 offset of a spot in the text; a spot past the end of its line is the end of the line. */
-export function offset_of(text: string, spot: { line: number; column: number }): number {
+export function offset_of(text: string, spot: Spot): number {
   const lines = text.split('\n');
   const before = lines.slice(0, spot.line).reduce((sum, line) => sum + line.length + 1, 0);
   return before + [...(lines[spot.line] ?? '')].slice(0, spot.column).join('').length;
 }
 
+const notation_of = (place: Place): string | undefined => place.schema['x-grammar'] ?? place.schema.items?.['x-grammar'];
+
 export const text_field: Draw = (place) =>
   redrawable((redraw) => {
     const is_list = place.schema.type === 'array';
-    const one_line = !is_list && place.schema['x-grammar'] !== undefined && place.schema['x-grammar'] !== 'cga';
-    const area = el('textarea', { wrap: 'off', spellcheck: 'false', autocomplete: 'off', autocapitalize: 'off', class: 'code' });
-    area.value = text_of(place, is_list);
-    const gutter = el('div', { class: 'gutter', 'aria-hidden': 'true' });
-    const marks = el('pre', { class: 'marks', 'aria-hidden': 'true' });
+    const notation = notation_of(place);
+    const one_line = !is_list && notation !== undefined && notation !== 'cga';
+    const take = (text: string): void => {
+      const value = is_list ? text.split('\n').map((line) => line.trim()).filter((line) => line !== '') : text;
+      place.value = value;
+      place.change(value);
+      drawn.now(value);
+    };
+    const plain = plain_face(text_of(place, is_list), one_line, take);
+    let face: Face = plain;
     const spots_below = el('ul', { class: 'spots', hidden: true });
-    const editor = el('div', { class: 'editor' }, gutter, el('div', { class: 'paper' }, marks, area));
-    const drawn = frame(place, area, el('div', {}, editor, spots_below), redraw);
+    const body = el('div', {}, face.element, spots_below);
+    const drawn = frame(place, plain.area, body, redraw);
 
-    let spots: Spot[] = [];
-    const follow = (): void => {
-      marks.scrollTop = area.scrollTop;
-      marks.scrollLeft = area.scrollLeft;
-      gutter.scrollTop = area.scrollTop;
-    };
-    const draw = (): void => {
-      const lines = area.value.split('\n').length;
-      const faulty = new Set(spots.map((spot) => spot.line));
-      area.rows = Math.min(Math.max(lines, one_line ? 1 : 2), most_rows);
-      gutter.replaceChildren(...Array.from({ length: lines }, (_, index) =>
-        el('div', { class: faulty.has(index) ? 'faulty' : undefined }, String(index + 1))));
-      marks.replaceChildren(...marked(area.value, spots));
-      follow();
-    };
-    const take = (value: unknown): void => { place.change(value); drawn.now(value); };
-    area.addEventListener('scroll', follow);
-    area.addEventListener('input', () => {
-      spots = [];
-      draw();
-      take(is_list ? area.value.split('\n').map((line) => line.trim()).filter((line) => line !== '') : area.value);
-    });
-
-    place.board.add(place.pointer, (faults) => {
-      spots = faults.map((fault) => spot_of(fault, place.pointer, area.value, is_list));
-      drawn.element.classList.toggle('faulty', spots.length > 0);
-      area.setAttribute('aria-invalid', String(spots.length > 0));
+    let known: Fault[] = [];
+    const show = (faults: Fault[]): void => {
+      known = faults;
+      const text = face.text();
+      const spots = faults.map((fault) => spot_of(fault, place.pointer, text, is_list));
+      const marks = spots.map((spot, index) => mark_of(text, spot, faults[index]));
+      const is_faulty = faults.some((fault) => !fault.mild);
+      drawn.element.classList.toggle('faulty', is_faulty);
       spots_below.hidden = spots.length === 0;
-      spots_below.replaceChildren(...spots.map((spot, index) => spot_row(area, spot, faults[index])));
-      draw();
-    });
-    draw();
+      spots_below.replaceChildren(...spots.map((spot, index) => spot_row(() => face, spot, marks[index], faults[index])));
+      face.mark(marks);
+    };
+    place.board.add(place.pointer, show);
+
+    if (notation !== undefined) when_seen(plain.element, () => void become_code().catch(() => { /* The text area does as well. */ }));
+    async function become_code(): Promise<void> {
+      const make = await load_editor();
+      const has_focus = plain.area === document.activeElement;
+      const [from, to] = [plain.area.selectionStart, plain.area.selectionEnd];
+      const editor = make({
+        notation: notation ?? '', label: place.label, text: plain.text(), dark: false,
+        change(text) { show([]); take(text); },
+      });
+      editor.host.classList.toggle('one-line', one_line);
+      face = code_face(editor);
+      // A shape tells the line of its rule.
+      editor.host.addEventListener('go-line', (event) => {
+        const line = (event as CustomEvent<number>).detail - 1;
+        editor.go(offset_of(editor.text(), { line, column: 0 }), offset_of(editor.text(), { line, column: 1e6 }));
+      });
+      plain.element.replaceWith(editor.host);
+      drawn.no_control();
+      show(known);
+      if (has_focus) face.go(from, to);
+    }
     return drawn.element;
   });
 
 function text_of(place: Place, is_list: boolean): string {
   const value = place.value ?? place.schema.default;
   // An entry with line breaks of its own becomes one line: to a grammar they are spaces.
-  if (is_list) return Array.isArray(value) ? value.map((entry) => String(entry).replaceAll('\n', ' ')).join('\n') : '';
-  return typeof value === 'string' ? value : '';
+  if (is_list) return Array.isArray(value) ? value.map((entry) => String(entry).replaceAll(/\r?\n/g, ' ')).join('\n') : '';
+  return typeof value === 'string' ? value.replaceAll('\r\n', '\n') : '';
 }
 
 function spot_of(fault: Fault, pointer: string, text: string, is_list: boolean): Spot {
-  const message = fault.message;
   const column = (fault.column ?? 1) - 1;
-  if (!is_list) return { line: (fault.line ?? 1) - 1, column, message };
+  if (!is_list) return { line: (fault.line ?? 1) - 1, column };
   const entry = Number(fault.pointer.slice(pointer.length + 1).split('/')[0]);
   const line = entry_lines(text)[entry] ?? 0;
   // Entries reach the server trimmed; its columns start after the indent.
   const indent = /^\s*/.exec(text.split('\n')[line] ?? '')?.[0].length ?? 0;
-  return { line, column: column + indent, message };
+  return { line, column: column + indent };
+}
+
+/** The character at the spot; the whole line where the fault names no column. */
+function mark_of(text: string, spot: Spot, fault: Fault | undefined): Mark {
+  const from = offset_of(text, fault?.column === undefined ? { line: spot.line, column: 0 } : spot);
+  const line_end = text.indexOf('\n', from) < 0 ? text.length : text.indexOf('\n', from);
+  const one = from + (text.codePointAt(from) ?? 0 ? String.fromCodePoint(text.codePointAt(from) ?? 32).length : 0);
+  const to = fault?.column === undefined ? line_end : Math.min(Math.max(one, from), Math.max(line_end, from));
+  return { from, to, message: fault?.message ?? '', ...(fault?.mild ? { mild: true } : {}) };
 }
 
 /** "Line 2, column 7: what is wrong", which leads to the place and selects the character there. */
-function spot_row(area: HTMLTextAreaElement, spot: Spot, fault: Fault | undefined): HTMLElement {
+function spot_row(face: () => Face, spot: Spot, mark: Mark | undefined, fault: Fault | undefined): HTMLElement {
   const where = fault?.column === undefined ? `Line ${spot.line + 1}` : `Line ${spot.line + 1}, column ${spot.column + 1}`;
-  const go = el('button', { type: 'button', class: 'spot' }, el('b', {}, where), `: ${spot.message}`);
-  go.addEventListener('click', () => {
-    const begin = offset_of(area.value, spot);
-    area.focus();
-    area.setSelectionRange(begin, Math.min(begin + 1, area.value.length));
-  });
+  const go = el('button', { type: 'button', class: fault?.mild ? 'spot mild' : 'spot' }, el('b', {}, where), `: ${fault?.message ?? ''}`);
+  go.addEventListener('click', () => { if (mark) face().go(mark.from, mark.to); });
   return el('li', {}, go);
-}
-
-function marked(text: string, spots: Spot[]): (Node | string)[] {
-  const parts: (Node | string)[] = [];
-  let done = 0;
-  const begins = [...new Set(spots.map((spot) => offset_of(text, spot)))].sort((a, b) => a - b);
-  for (const begin of begins) {
-    const at_end = begin >= text.length || text[begin] === '\n';
-    const character = at_end ? ' ' : String.fromCodePoint(text.codePointAt(begin) ?? 32);
-    parts.push(text.slice(done, begin), el('mark', {}, character));
-    done = begin + (at_end ? 0 : character.length);
-  }
-  parts.push(`${text.slice(done)}\n`);
-  return parts;
 }

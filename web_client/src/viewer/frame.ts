@@ -6,11 +6,15 @@ const fill = 0.8;
 /** So many points stand for a mesh; the outline of a plant needs no more. */
 const most_points = 3000;
 
-/** Flat drawings are looked at from the front, bodies from a corner, both from a little above. */
+/**
+ * Flat drawings are looked at from the front, bodies from a corner and a little above. The wider and lower a body is,
+ * the higher the camera rises: land lies under the eye, and is not seen along its edge.
+ */
 export function usual_direction(box: Box3): Vector3 {
   const size = box.getSize(new Vector3());
-  const flat = size.z < 0.12 * Math.max(size.x, size.y);
-  return (flat ? new Vector3(0.16, 0.06, 1) : new Vector3(0.55, 0.22, 1)).normalize();
+  if (size.z < 0.12 * Math.max(size.x, size.y)) return new Vector3(0.16, 0.06, 1).normalize();
+  const lowness = 1 - Math.min(size.y / (0.7 * Math.max(size.x, size.z)), 1);
+  return new Vector3(0.55, 0.22 + 0.62 * lowness, 1).normalize();
 }
 
 export function corners_of(box: Box3): Vector3[] {

@@ -1,9 +1,13 @@
 /** What stands round the model: light, the ground with its grid in metres, and a person of 1.8 m for scale. */
 import {
   Box3, CapsuleGeometry, Color, DirectionalLight, Group, HemisphereLight, Mesh, MeshBasicMaterial, PlaneGeometry,
-  ShaderMaterial, ShadowMaterial, SphereGeometry, Vector3, type Material,
+  ShaderMaterial, ShadowMaterial, SphereGeometry, Vector3, type Material, type Texture,
 } from 'three';
 import { corners_of } from './frame';
+import { sky_texture } from './sky';
+
+/** The movable light: the way it comes from, in degrees, and whether it shines. */
+export interface Sun { on: boolean; turn: number; height: number }
 
 const grid_vertex = `
   varying vec2 ground;
@@ -62,6 +66,8 @@ export class Stage {
   readonly group = new Group();
   /** Side of a grid cell, in metres: a power of ten. */
   cell = 1;
+  /** Height of the ground. */
+  floor = 0;
   private readonly sky = new HemisphereLight(0xffffff, 0x9a958a, 2.3);
   private readonly sun = new DirectionalLight(0xfff3e0, 3.1);
   private readonly rim = new DirectionalLight(0xdfeaff, 0.7);
@@ -70,6 +76,11 @@ export class Stage {
   private readonly figure: Group;
   private readonly skin = new MeshBasicMaterial({ toneMapped: false });
   private wants_figure = true;
+  private wants_grid = true;
+  private light: Sun = { on: true, turn: 38, height: 51 };
+  private background: Texture | null = null;
+  private dark = false;
+  private around = new Box3(new Vector3(-1, 0, -1), new Vector3(1, 2, 1));
 
   constructor(shadows: boolean) {
     const uniforms = { color: { value: new Color() }, cell: { value: 1 }, reach: { value: 10 }, centre: { value: new Vector3() } };
@@ -91,6 +102,7 @@ export class Stage {
 
   /** Puts ground, light and person round a model. */
   surround(box: Box3): void {
+    this.around.copy(box);
     const size = box.getSize(new Vector3());
     const centre = box.getCenter(new Vector3());
     const largest = Math.max(size.x, size.y, size.z, 1e-3);
@@ -111,8 +123,9 @@ export class Stage {
     // Beside a model of a few centimetres, or of a hundred metres, a person shows nothing.
     this.figure.visible = this.wants_figure && size.y > 0.6 && size.y < 60;
 
+    this.floor = floor;
     this.sun.target.position.copy(centre);
-    this.sun.position.copy(centre).add(new Vector3(0.55, 1.1, 0.7).multiplyScalar(largest * 2));
+    this.sun.position.copy(centre).addScaledVector(this.to_sun, largest * 2.8);
     this.rim.position.copy(centre).add(new Vector3(-0.7, 0.4, -0.9).multiplyScalar(largest));
     const camera = this.sun.shadow.camera;
     const half = size.length() * 0.75 + 1;
@@ -126,7 +139,39 @@ export class Stage {
     return matters ? corners_of(new Box3().setFromObject(this.figure)) : [];
   }
 
-  set grid_visible(visible: boolean) { this.grid.visible = visible; }
+  private get to_sun(): Vector3 {
+    return new Vector3().setFromSphericalCoords(1, (90 - this.light.height) * Math.PI / 180, this.light.turn * Math.PI / 180);
+  }
+
+  set_sun(light: Sun): void {
+    this.light = { ...light };
+    this.sun.visible = light.on;
+    this.set_theme(this.dark);
+    this.surround(this.around);
+    if (this.background) this.set_sky(true);
+  }
+
+  set_shadow(on: boolean): void {
+    this.sun.castShadow = on;
+    this.shade.visible = on;
+  }
+
+  /** The sky behind everything, or null for the plain background of the page. */
+  set_sky(on: boolean): Texture | null {
+    this.background?.dispose();
+    this.background = on ? sky_texture(this.to_sun, this.light.on) : null;
+    return this.background;
+  }
+
+  /** Without ground and person, for the portrait of another model. */
+  set bare(bare: boolean) {
+    this.grid.visible = bare ? false : this.wants_grid;
+    if (bare) this.figure.visible = false;
+  }
+
+  get sky_background(): Texture | null { return this.background; }
+
+  set grid_visible(visible: boolean) { this.wants_grid = visible; this.grid.visible = visible; }
 
   show_figure(wanted: boolean, box: Box3): void {
     this.wants_figure = wanted;
@@ -134,9 +179,11 @@ export class Stage {
   }
 
   set_theme(dark: boolean): void {
+    this.dark = dark;
     (this.grid.material.uniforms['color']!.value as Color).set(dark ? 0x8fa398 : 0x6d7f74);
     this.skin.color.set(dark ? 0x3c4942 : 0xcdd3ca);
     this.shade.material.opacity = dark ? 0.4 : 0.2;
-    this.sky.intensity = dark ? 2.0 : 2.3;
+    // Without the sun there is still enough to tell the shape by.
+    this.sky.intensity = (dark ? 2.0 : 2.3) * (this.light.on ? 1 : 0.8);
   }
 }

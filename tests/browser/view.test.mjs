@@ -1,0 +1,257 @@
+// Ways to look at a model: shading, light, levels, materials, motion, camera; steps; what was derived.
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { PNG } from 'pngjs';
+import { difference, field, fragment_of, launch, open, picture, program, serve, small_tree, statistics, until_shown } from './support.mjs';
+
+let server, browser, address;
+before(async () => {
+  server = await serve(program);
+  browser = await launch();
+  address = `${server.url}/${fragment_of(small_tree)}`;
+});
+after(async () => { await browser?.close(); await server?.stop(); });
+
+const leafy = { generator: 'tree', seed: 2, parameters: { model: 'weber_penn', Levels: 2, Leaves: 8, season: 'summer', sides: 4 }, output: { textures: 'none' } };
+const number = (text) => Number(text.replaceAll(/[^\d]/g, ''));
+const open_menu = (page) => page.locator('#view-menu').evaluate((menu) => { menu.open = true; });
+/** Chooses in the menu, and closes it, so that it covers nothing. */
+const choose = async (page, id, value) => {
+  await open_menu(page);
+  await page.selectOption(id, value);
+  await page.keyboard.press('Escape');
+};
+/** On foot or in flight the menu closes by itself, and Escape would end it. */
+const go_by = async (page, gait) => {
+  await open_menu(page);
+  await page.selectOption('#gait', gait);
+};
+const switch_to = async (page, id, on) => {
+  await open_menu(page);
+  await page.setChecked(id, on);
+  await page.keyboard.press('Escape');
+};
+
+/** The picture changes by at least so much of it. */
+async function changes(page, words, act, least = 0.0005) {
+  const earlier = await picture(page);
+  await act();
+  let share = 0;
+  for (let tries = 0; tries < 20 && share < least; tries += 1) share = difference(earlier, await picture(page), 0.04);
+  assert.ok(share >= least, `${words}: ${share}`);
+  return earlier;
+}
+
+test('a model is seen shaded, flat, by its normals and with squares', { timeout: 300_000 }, async () => {
+  const page = await open(browser, `${server.url}/${fragment_of({ generator: 'terrain', seed: 1, parameters: { algorithm: 'diamond_square', iterations: 3, size: 20, amplitude: 4 } })}`, { states: ['ready', 'refused'] });
+  const first = await picture(page);
+  for (const mode of ['flat', 'normals', 'uv']) await changes(page, mode, () => choose(page, '#shading', mode));
+  await choose(page, '#shading', 'shaded');
+  let left = 1;
+  for (let tries = 0; tries < 20 && left > 0.002; tries += 1) left = difference(first, await picture(page));
+  assert.ok(left <= 0.002, `${left} differs from the first picture`);
+  await page.focus('#picture');
+  await changes(page, 'N', () => page.keyboard.press('n'));
+  await changes(page, 'wires over it', () => page.keyboard.press('w'));
+  assert.deepEqual(page.faults, []);
+});
+
+test('sky, shadow, and a light that is moved and switched off', { timeout: 300_000 }, async () => {
+  const page = await open(browser, address);
+  await changes(page, 'sky', () => switch_to(page, '#sky', true), 0.1);
+  await switch_to(page, '#sky', false);
+  await changes(page, 'shadow', () => switch_to(page, '#shadow', true));
+  await open_menu(page);
+  await changes(page, 'from another side', () => page.getByLabel('Light from').fill('200'));
+  await changes(page, 'from above', () => page.getByLabel('Height of light').fill('88'));
+  await changes(page, 'off', () => switch_to(page, '#light-on', false));
+  assert.deepEqual(page.faults, []);
+});
+
+test('levels of detail are fetched, counted, chosen, and change with the distance', { timeout: 300_000 }, async () => {
+  const page = await open(browser, `${server.url}/${fragment_of({ ...small_tree, parameters: { ...small_tree.parameters, sides: 12, iterations: 2 } })}`);
+  const made = number((await statistics(page)).triangles);
+  await choose(page, '#detail', 'ask');
+  await page.waitForFunction(() => document.querySelectorAll('#detail option').length > 3);
+  const labels = await page.locator('#detail option').allTextContents();
+  assert.equal(await page.inputValue('#detail'), 'auto');
+  const counts = labels.filter((label) => /triangles$/.test(label)).map((label) => number(label.split('·')[1]));
+  assert.equal(counts[0], made);
+  assert.ok(counts.length >= 2 && counts.at(-1) < counts[0], labels.join('; '));
+  await choose(page, '#detail', '0');
+  await changes(page, 'the coarsest level', () => choose(page, '#detail', String(counts.length - 1)), 0.0002);
+  await choose(page, '#detail', '');
+  assert.equal(number((await page.locator('#detail option').first().textContent()).split('·')[1]), made);
+  assert.deepEqual(page.faults, []);
+});
+
+test('a model is shown in the materials of another season without asking the server', { timeout: 300_000 }, async () => {
+  const page = await open(browser, `${server.url}/${fragment_of(leafy)}`);
+  const asked = [];
+  page.on('request', (request) => { if (request.url().endsWith('/v1/generate')) asked.push(request.url()); });
+  await open_menu(page);
+  const names = await page.locator('#material-set option').allTextContents();
+  assert.deepEqual(names, ['As asked for', 'spring', 'summer', 'autumn']);
+  await changes(page, 'autumn', () => choose(page, '#material-set', 'autumn'), 0.001);
+  assert.deepEqual(asked, []);
+  await until_shown(page, () => page.fill('#seed', '3'));
+  assert.equal(await page.inputValue('#material-set'), 'autumn', 'the choice stays');
+  assert.deepEqual(page.faults, []);
+});
+
+test('growth is played and stands at any moment; a generator without it offers none', { timeout: 300_000 }, async () => {
+  const page = await open(browser, address);
+  await page.click('#view-menu > summary');
+  await page.waitForFunction(() => [...document.querySelectorAll('#motion-kind option')].some((option) => option.value === 'growth'));
+  await until_shown(page, () => page.selectOption('#motion-kind', 'growth'));
+  await page.keyboard.press('Escape');
+  assert.ok(await page.isVisible('#motion'));
+  const grown = await changes(page, 'the beginning', () => page.locator('#motion-time').fill('200'), 0.001);
+  await page.locator('#motion-time').fill('1000');
+  let left = 1;
+  for (let tries = 0; tries < 20 && left > 0.003; tries += 1) left = difference(grown, await picture(page));
+  assert.ok(left <= 0.003, `at its end it is the model: ${left}`);
+  await page.focus('#picture');
+  await page.keyboard.press(' ');
+  await page.waitForFunction(() => { const at = Number(document.getElementById('motion-time').value); return at > 20 && at < 990; });
+  assert.equal(await page.textContent('#motion-play'), 'Stop');
+  await page.click('#motion-play');
+  assert.equal(await page.textContent('#motion-play'), 'Play');
+  await until_shown(page, () => page.click('[data-preset="menger_sponge"]'));
+  await page.click('#view-menu > summary');
+  await page.waitForTimeout(500);
+  assert.ok(await page.isHidden('#motion-kind'));
+  assert.ok(await page.isHidden('#motion'));
+  assert.deepEqual(page.faults, []);
+});
+
+test('on foot and in flight, with the place read out', { timeout: 300_000 }, async () => {
+  const page = await open(browser, address);
+  const place = async () => (await page.textContent('#whereabouts')).match(/-?[\d.]+/g).map(Number);
+  await go_by(page, 'walk');
+  await page.focus('#picture');
+  assert.equal((await place())[1], 1.7, 'eyes at 1.7 m');
+  const hold = async (key) => {
+    const from = await place();
+    await page.keyboard.down(key);
+    await page.waitForFunction((text) => document.getElementById('whereabouts').textContent !== text, await page.textContent('#whereabouts'));
+    await page.waitForTimeout(250);
+    await page.keyboard.up(key);
+    return (await place()).map((value, index) => value - from[index]);
+  };
+  const ahead = await hold('w');
+  assert.ok(Math.hypot(ahead[0], ahead[2]) > 0.05 && ahead[1] === 0, String(ahead));
+  assert.equal(await page.getAttribute('#wireframe', 'aria-pressed'), 'false', 'W goes, and is no command');
+  const turned = await hold('ArrowRight');
+  assert.ok(turned[3] !== 0 && turned[0] === 0);
+  await go_by(page, 'fly');
+  await page.focus('#picture');
+  assert.ok((await hold('q'))[1] > 0.05);
+  assert.ok((await hold('PageDown'))[1] < 0);
+  await page.keyboard.press('Escape');
+  assert.ok(await page.isHidden('#whereabouts'));
+  assert.equal(await page.inputValue('#gait'), 'orbit');
+});
+
+test('steps: from the start, on, back, all in turn, and to the last', { timeout: 300_000 }, async () => {
+  const page = await open(browser, address);
+  const now = () => page.textContent('#step-now');
+  assert.equal(await now(), 'step 3 of 3');
+  const whole = (await statistics(page)).bytes;
+  await until_shown(page, () => page.click('#step-fresh'));
+  assert.equal(await now(), 'step 0 of 3');
+  assert.ok(await page.isDisabled('#step-back'));
+  await until_shown(page, () => page.click('#step-next'));
+  await until_shown(page, () => page.click('#step-next'));
+  await until_shown(page, () => page.click('#step-back'));
+  assert.equal(await now(), 'step 1 of 3');
+  const seen = [];
+  page.on('request', (request) => { if (request.url().endsWith('/v1/generate') && !/event-stream/.test(request.headers().accept)) seen.push(JSON.parse(request.postData()).parameters.iterations); });
+  await page.click('#step-play');
+  assert.equal(await page.textContent('#step-play'), 'Stop');
+  await page.waitForFunction(() => document.getElementById('step-play').textContent === 'Play' && document.body.dataset.state === 'ready');
+  assert.deepEqual(seen, [2, 3]);
+  await until_shown(page, () => page.click('#step-fresh'));
+  await until_shown(page, () => page.click('#step-finish'));
+  assert.equal((await statistics(page)).bytes, whole);
+  await page.focus('#picture');
+  await until_shown(page, () => page.keyboard.press('['));
+  assert.equal(await now(), 'step 2 of 3');
+});
+
+test('the camera rises over wide and low land', { timeout: 200_000 }, async () => {
+  const page = await open(browser, `${server.url}/${fragment_of({ generator: 'terrain', seed: 1, parameters: { algorithm: 'midpoint', iterations: 3 } })}`, { states: ['ready', 'refused'] });
+  await until_shown(page, () => page.click('[data-preset="midpoint_hills"]'));
+  await page.click('#grid');
+  const { width, height, data } = PNG.sync.read(await picture(page));
+  // Rows in which something stands that is not the pale background.
+  let rows = 0;
+  for (let y = 0; y < height; y += 1) {
+    let ink = 0;
+    for (let x = 0; x < width; x += 1) if (Math.max(data[(y * width + x) * 4], data[(y * width + x) * 4 + 1]) - data[(y * width + x) * 4 + 2] > 30) ink += 1;
+    if (ink > width * 0.1) rows += 1;
+  }
+  assert.ok(rows > height * 0.25, `${rows} of ${height} rows`);
+});
+
+test('heights are shown as a map with its size, figures and words as such', { timeout: 300_000 }, async () => {
+  const page = await open(browser, address);
+  await page.click('#tab-result');
+  await page.waitForSelector('#result .figures');
+  assert.match(await page.textContent('#result'), /Length/);
+  await until_shown(page, async () => { await page.click('#tab-gallery'); await page.click('[data-preset="midpoint_hills"]'); });
+  await page.click('#tab-result');
+  await page.waitForSelector('.height-map');
+  const { json } = await server.post('/v1/derive', (await server.get('/v1/presets/midpoint_hills')).json);
+  assert.deepEqual(await page.locator('.height-map').evaluate((map) => [map.width, map.height]), [json.width, json.height]);
+  await page.locator('.height-map').hover({ position: { x: 100, y: 60 } });
+  await page.waitForFunction(() => /Sample \d/.test(document.querySelector('.map-of-heights output').textContent));
+  const [, x, y, told] = /Sample (\d+), (\d+): (-?[\d.]+) m/.exec(await page.textContent('.map-of-heights output')).map(Number);
+  const height = json.heights[y * json.width + x];
+  assert.ok(x > 10 && y > 5 && Math.abs(told - height) <= Math.abs(height) * 0.01 + 0.01, `${told} for ${height} at ${x}, ${y}`);
+});
+
+test('shapes lie over the model as boxes, and one that is pointed at tells what it is', { timeout: 300_000 }, async () => {
+  const axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+  const shapes = [
+    { id: 0, parent: null, symbol: 'Lot', parameters: {}, active: false, scope: { origin: [-5, 0, -5], axes, size: [10, 0, 10] } },
+    { id: 1, parent: 0, symbol: 'Wall', parameters: { bays: 3 }, active: true, rule: 'Lot --> Wall', line: 2, scope: { origin: [-5, -5, -5], axes, size: [10, 20, 10] } },
+  ];
+  const page = await open(browser, address, { before: (page) => page.route('**/v1/derive', (route) => route.fulfill({ json: { shapes, warnings: [], reports: { area: 12.5 } } })) });
+  await page.click('#hint-away');
+  await page.click('#tab-result');
+  await page.waitForSelector('#show-shapes');
+  await changes(page, 'boxes', () => page.check('#show-shapes'));
+  await page.locator('#picture').click({ position: { x: 200, y: 200 } });
+  await page.waitForSelector('.picked h4');
+  const told = await page.textContent('.picked');
+  for (const words of ['Wall', 'Lot', 'Lot --> Wall', '10 × 20 × 10 m', '"bays":3']) assert.ok(told.includes(words), `${words} in ${told}`);
+  await changes(page, 'no boxes', () => page.uncheck('#show-shapes'));
+});
+
+test('a heavy model is drawn only when asked for', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address, { before: (page) => page.route('**/v1/generate', async (route) => {
+    const response = await route.fetch();
+    await route.fulfill({ response, headers: { ...response.headers(), 'seedmesh-triangles': JSON.parse(route.request().postData()).seed === 4 ? '5000000' : '100' } });
+  }) });
+  await page.fill('#seed', '4');
+  await page.waitForFunction(() => document.body.dataset.state === 'asking');
+  assert.match(await page.textContent('#alert'), /5,000,000 triangles/);
+  await until_shown(page, () => page.getByRole('button', { name: 'Draw it' }).click());
+  assert.equal(await page.textContent('#alert'), '');
+});
+
+// Pictures that are kept in the repository: `SEEDMESH_NEW_PICTURES=1` takes them anew.
+const kept = path.join(import.meta.dirname, 'pictures');
+for (const name of ['koch_snowflake', 'menger_sponge', 'abop_1_24f']) {
+  test(`${name} looks as it did`, { timeout: 200_000 }, async () => {
+    const page = await open(browser, `${server.url}/?stage&quality=low${fragment_of((await server.get(`/v1/presets/${name}`)).json)}`, { viewport: { width: 320, height: 180 }, colorScheme: 'light' });
+    const png = await page.screenshot();
+    const file = path.join(kept, `${name}.png`);
+    if (process.env.SEEDMESH_NEW_PICTURES) { fs.mkdirSync(kept, { recursive: true }); fs.writeFileSync(file, png); }
+    const share = difference(fs.readFileSync(file), png);
+    assert.ok(share < 0.02, `${share} of the picture differs`);
+  });
+}

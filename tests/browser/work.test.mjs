@@ -1,0 +1,230 @@
+// Undo, seeds, comparison, what leaves the page and what comes in.
+import assert from 'node:assert/strict';
+import { execFileSync, spawnSync } from 'node:child_process';
+import fs from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { PNG } from 'pngjs';
+import { difference, field, fragment_of, from_menu, launch, open, open_parameters, picture, program, request_of, serve, small_tree, statistics, until_shown } from './support.mjs';
+
+let server, browser, address;
+before(async () => {
+  server = await serve(program);
+  browser = await launch();
+  address = `${server.url}/${fragment_of(small_tree)}`;
+});
+after(async () => { await browser?.close(); await server?.stop(); });
+
+const clipboard = { permissions: ['clipboard-read', 'clipboard-write'] };
+const steps_apart = (page) => page.waitForTimeout(800);
+
+test('undo and redo go through the edits, and a slider in motion is one', { timeout: 300_000 }, async () => {
+  const page = await open(browser, address);
+  await open_parameters(page);
+  const angle = field(page, '/parameters/angle').locator('input[type=number]');
+  assert.ok(await page.isDisabled('#undo'));
+  await until_shown(page, () => field(page, '/parameters/angle').locator('input[type=range]').evaluate((slider) => {
+    for (let value = 30; value <= 40; value += 1) { slider.value = value; slider.dispatchEvent(new Event('input')); }
+  }));
+  await steps_apart(page);
+  await until_shown(page, () => page.fill('#seed', '8'));
+  await page.focus('#picture');
+  await until_shown(page, () => page.keyboard.press('Control+z'));
+  assert.equal(await page.inputValue('#seed'), '3');
+  assert.equal(await angle.inputValue(), '40');
+  await until_shown(page, () => page.click('#undo'));
+  assert.equal(await angle.inputValue(), '25');
+  assert.ok(await page.isDisabled('#undo'));
+  await until_shown(page, () => page.keyboard.press('Control+y'));
+  assert.equal(await angle.inputValue(), '40');
+  await until_shown(page, () => page.click('#redo'));
+  assert.equal(await page.inputValue('#seed'), '8');
+  await until_shown(page, async () => { await page.click('#tab-gallery'); await page.click('[data-preset="koch_snowflake"]'); });
+  await until_shown(page, () => page.click('#undo'));
+  assert.equal(await page.inputValue('#seed'), '8', 'a preset that was opened is undone too');
+});
+
+test('seeds so far can be taken again', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  await until_shown(page, () => page.fill('#seed', '11'));
+  await until_shown(page, () => page.fill('#seed', '12'));
+  await page.click('#seeds-menu > summary');
+  assert.deepEqual(await page.locator('#seed-list button').allTextContents(), ['12', '11', '3']);
+  await until_shown(page, () => page.click('#seed-list button >> text="3"'));
+  assert.equal(await page.inputValue('#seed'), '3');
+});
+
+test('nine seeds are shown as pictures, and one is taken', { timeout: 300_000 }, async () => {
+  const chance = { generator: 'lsystem', seed: '18446744073709551614', parameters: { axiom: 'F', productions: ['F -> F[+F]F : 0.5', 'F -> F[-F]F : 0.5'], iterations: 4, step: 0.2 } };
+  const page = await open(browser, `${server.url}/${fragment_of(chance)}`);
+  const before = await picture(page);
+  await from_menu(page, 'seeds-menu', '#nine');
+  await page.waitForFunction(() => document.getElementById('nine-dialog').dataset.filled === '9');
+  const seeds = await page.locator('.cell').evaluateAll((cells) => cells.map((cell) => cell.dataset.seed));
+  assert.deepEqual(seeds.slice(0, 4), ['18446744073709551614', '18446744073709551615', '0', '1'], 'after the largest seed comes 0');
+  const pictures = await page.locator('.cell canvas').evaluateAll((each) => each.map((canvas) => canvas.toDataURL()));
+  assert.equal(pictures.length, 9);
+  assert.ok(new Set(pictures).size >= 5, 'chance shows');
+  await page.keyboard.press('Escape');
+  assert.ok(difference(before, await picture(page)) < 0.002, 'the model on the page is as it was');
+  await from_menu(page, 'seeds-menu', '#nine');
+  await until_shown(page, () => page.click('.cell[data-seed="1"]'));
+  assert.equal(await page.inputValue('#seed'), '1');
+});
+
+test('A | B keeps a model to the left of a divider that moves', { timeout: 300_000 }, async () => {
+  const page = await open(browser, address);
+  await page.focus('#picture');
+  await page.keyboard.press('c');
+  assert.equal(await page.getAttribute('#compare', 'aria-pressed'), 'true');
+  assert.match(await page.textContent('#divider-box label'), /seed 3/);
+  await open_parameters(page);
+  const same = await picture(page);
+  await until_shown(page, () => field(page, '/parameters/angle').locator('input[type=number]').fill('70'));
+  const both = await picture(page);
+  await page.locator('#divider').fill('0');
+  const right = await picture(page);
+  await page.locator('#divider').fill('100');
+  const left = await picture(page);
+  assert.ok(difference(left, right) > 0.001, 'the two differ');
+  for (const [name, other] of [['left', left], ['right', right], ['same', same]]) assert.ok(difference(both, other) > 0.0005, name);
+  await page.click('#compare');
+  assert.ok(await page.isHidden('#divider-box'));
+  assert.ok(difference(right, await picture(page)) < 0.01);
+});
+
+test('the copied JavaScript and Python programs save the same model', { timeout: 300_000 }, async (t) => {
+  const odd = { ...small_tree, seed: '18446744073709551615', parameters: { ...small_tree.parameters, constants: { k: '1 + 1' }, timed: false, materials: [{ name: 'Rinde ü 🌲', color: '#6b4f35' }] } };
+  const page = await open(browser, `${server.url}/${fragment_of(odd)}`, clipboard);
+  const expected = (await server.generate(odd)).bytes;
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'seedmesh-'));
+  const copied = async (button, word) => {
+    await from_menu(page, 'code-menu', button);
+    await page.waitForFunction((word) => document.getElementById('status').textContent.includes(word), word);
+    return page.evaluate(() => navigator.clipboard.readText());
+  };
+  fs.writeFileSync(path.join(folder, 'fetch.mjs'), await copied('#copy-javascript', 'JavaScript'));
+  execFileSync(process.execPath, ['fetch.mjs'], { cwd: folder });
+  assert.ok(fs.readFileSync(path.join(folder, 'model.glb')).equals(expected));
+  fs.rmSync(path.join(folder, 'model.glb'));
+  fs.writeFileSync(path.join(folder, 'fetch.py'), await copied('#copy-python', 'Python'));
+  const run = spawnSync('python3', ['fetch.py'], { cwd: folder });
+  if (run.error?.code === 'ENOENT') t.diagnostic('no python3 here: the Python program was not run');
+  else {
+    assert.equal(run.status, 0, String(run.stderr));
+    assert.ok(fs.readFileSync(path.join(folder, 'model.glb')).equals(expected));
+  }
+  fs.rmSync(folder, { recursive: true });
+});
+
+test('zip, picture and request are saved', { timeout: 300_000 }, async () => {
+  const page = await open(browser, address);
+  const saved = async (button) => {
+    const [download] = await Promise.all([page.waitForEvent('download'), from_menu(page, 'download-menu', button)]);
+    return { name: download.suggestedFilename(), bytes: fs.readFileSync(await download.path()) };
+  };
+  const zip = await saved('[data-format=zip]');
+  assert.equal(zip.name, 'seedmesh-3.zip');
+  assert.ok(zip.bytes.equals((await server.generate({ ...small_tree, output: { format: 'zip' } })).bytes));
+  const png = await saved('#save-picture');
+  assert.equal(png.name, 'seedmesh-3.png');
+  const { width, height, data } = PNG.sync.read(png.bytes);
+  assert.ok(width > 300 && height > 300);
+  assert.ok(new Set(new Uint32Array(data.buffer, data.byteOffset, data.length / 4)).size > 50, 'something is drawn');
+  const json = await saved('#save-request');
+  assert.deepEqual(JSON.parse(json.bytes), small_tree);
+  const [download] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('Control+s')]);
+  assert.equal(download.suggestedFilename(), 'seedmesh-3.json');
+});
+
+/** Drops a file onto the page as a hand would. */
+const drop = (page, name, text) => page.evaluate(({ name, text }) => {
+  const dataTransfer = new DataTransfer();
+  dataTransfer.items.add(new File([text], name));
+  for (const type of ['dragenter', 'dragover', 'drop']) document.body.dispatchEvent(new DragEvent(type, { dataTransfer, bubbles: true, cancelable: true }));
+}, { name, text });
+
+test('a request that is dropped or chosen is opened', { timeout: 300_000 }, async () => {
+  const page = await open(browser, address);
+  await until_shown(page, () => drop(page, 'mine.json', JSON.stringify({ ...small_tree, seed: 77 })));
+  assert.equal(await page.inputValue('#seed'), '77');
+  assert.equal(await page.textContent('#title'), 'mine');
+  assert.ok(await page.isHidden('#drop-sign'));
+  await until_shown(page, async () => {
+    const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.click('#open-file')]);
+    await chooser.setFiles({ name: 'other.json', mimeType: 'application/json', buffer: Buffer.from('{"preset": "koch_snowflake", "seed": 5}') });
+  });
+  assert.equal(await page.inputValue('#seed'), '5');
+  await page.waitForFunction(() => location.hash.length > 50);
+  assert.equal(request_of(new URL(page.url()).hash).generator, 'lsystem');
+});
+
+test('a file of another program is imported, and one that nobody understands is explained', { timeout: 300_000 }, async () => {
+  const page = await open(browser, address);
+  const koch = 'Koch1 {\n  Angle 6\n  Axiom F--F--F\n  F=F+F--F+F\n}\n';
+  await until_shown(page, () => drop(page, 'koch.l', koch));
+  assert.ok((await statistics(page)).bytes > 0);
+  await page.waitForFunction(() => location.hash.length > 50);
+  assert.match(JSON.stringify(request_of(new URL(page.url()).hash)), /F\+F--F\+F/);
+  await drop(page, 'two.l', `${koch}Koch2 {\n  Angle 4\n  Axiom F\n  F=F+F-F\n}\n`);
+  await page.waitForSelector('#import-dialog[open]');
+  assert.match(await page.textContent('#import-dialog'), /Koch1, Koch2/);
+  assert.equal(await page.inputValue('#import-format'), 'fractint');
+  await page.fill('#import-entry', 'Koch2');
+  await until_shown(page, () => page.click('#import-dialog button.first'));
+  assert.ok(await page.isHidden('#import-dialog'));
+  assert.equal(await page.textContent('#title'), 'Koch2');
+  await drop(page, 'letter.txt', 'Dear all,\nthis is a letter.\n');
+  await page.waitForSelector('#import-dialog[open]');
+  assert.match(await page.textContent('#import-dialog'), /Line \d+, column 1/);
+  await page.getByRole('button', { name: 'Close' }).click();
+});
+
+test('a first visit is told in one line what to do, and only a first one', { timeout: 200_000 }, async () => {
+  const page = await open(browser, server.url);
+  assert.match(await page.textContent('#hint'), /Choose a model/);
+  assert.ok(await page.isVisible('#hint'));
+  await page.click('#hint-away');
+  assert.ok(await page.isHidden('#hint'));
+  await page.reload();
+  await page.waitForFunction(() => document.body.dataset.state === 'ready');
+  assert.ok(await page.isHidden('#hint'));
+});
+
+test('the question mark lists the keys, and the form leads to the page of its generator', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  await page.focus('#picture');
+  await page.keyboard.press('?');
+  assert.ok(await page.isVisible('#keys-dialog'));
+  assert.match(await page.textContent('#keys-dialog'), /Wireframe/);
+  await page.keyboard.press('Escape');
+  assert.ok(await page.isHidden('#keys-dialog'));
+  await page.fill('#seed', '1');
+  await page.focus('#seed');
+  await page.keyboard.press('?');
+  assert.ok(await page.isHidden('#keys-dialog'), 'in a field it is a character');
+  await open_parameters(page);
+  const link = await page.getAttribute('#parameters .about a', 'href');
+  assert.match(link, /docs#schema-lsystem$/);
+  assert.match((await server.get('/docs')).text, /id="schema-lsystem"/);
+});
+
+test('the gallery goes by keyboard: slash, words, arrows, Enter', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  await page.focus('#picture');
+  await page.keyboard.press('/');
+  await page.keyboard.type('dragon');
+  await page.keyboard.press('ArrowDown');
+  const first = await page.evaluate(() => document.activeElement.dataset.preset);
+  await page.keyboard.press('ArrowRight');
+  const second = await page.evaluate(() => document.activeElement.dataset.preset);
+  assert.ok(first && second && first !== second);
+  await until_shown(page, () => page.keyboard.press('Enter'));
+  assert.equal(await page.getAttribute(`[data-preset="${second}"]`, 'aria-pressed'), 'true');
+  await page.keyboard.press('ArrowUp');
+  assert.ok(await page.evaluate(() => document.activeElement.type === 'search' || document.activeElement.dataset.preset));
+  const headings = await page.locator('.family-head').allTextContents();
+  const { presets } = (await server.get('/v1/presets')).json;
+  assert.equal(headings.length, new Set(presets.map((preset) => preset.generator)).size);
+});

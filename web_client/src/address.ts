@@ -1,0 +1,90 @@
+/** The address tells what is shown: `#…` carries a request, and so does each entry of the browser's history. */
+import { get_preset, type Preset } from './api';
+import { pack, unpack } from './link';
+import type { State, Store } from './state';
+
+interface Memory { preset: string | null }
+
+interface Context {
+  store: Store;
+  presets(): Preset[];
+  /** Begins to open something else; what is still being opened is given up. */
+  begin(): AbortSignal;
+  persist<T>(task: () => Promise<T>, signal: AbortSignal): Promise<T>;
+  /** The fragment is no request. */
+  damaged(): void;
+}
+
+/** What a visitor sees first, where the server has it. */
+const first_shown = 'kogovsek_grm';
+
+export class Address {
+  private drawn_for = '';
+  private timer = 0;
+  private readonly context: Context;
+
+  constructor(context: Context) {
+    this.context = context;
+  }
+
+  /** The address follows the state a moment later: browsers refuse to change it as fast as a slider moves. */
+  follow(state: State): void {
+    clearTimeout(this.timer);
+    this.timer = window.setTimeout(() => void this.write(state, 'replace'), 300);
+  }
+
+  /** Whether the browser shows another address than the page has written. */
+  get is_foreign(): boolean { return location.hash !== this.drawn_for; }
+
+  open(): Promise<void> {
+    return location.hash.length > 1 ? this.open_link(location.hash) : this.open_first();
+  }
+
+  /** A card leaves an entry in the browser's history, so that Back returns to what was shown before. */
+  async choose(preset: Preset): Promise<void> {
+    await this.open_preset(preset);
+    await this.push(preset.name);
+  }
+
+  /** Makes an entry of what is shown now. */
+  async push(preset: string | null): Promise<void> {
+    clearTimeout(this.timer);
+    const { current } = this.context.store;
+    if (current?.preset === preset) await this.write(current, 'push');
+  }
+
+  private async open_preset(preset: Preset): Promise<void> {
+    const signal = this.context.begin();
+    const request = await this.context.persist(() => get_preset(preset.name, signal), signal);
+    this.context.store.open(request, { preset: preset.name, title: preset.title, description: preset.description });
+  }
+
+  private async open_first(): Promise<void> {
+    this.drawn_for = '';
+    const presets = this.context.presets();
+    const first = presets.find((preset) => preset.name === first_shown) ?? presets[0];
+    if (first) await this.open_preset(first);
+  }
+
+  private async open_link(fragment: string): Promise<void> {
+    this.context.begin();
+    this.drawn_for = fragment;
+    try {
+      const request = await unpack(fragment.slice(1));
+      const from = this.context.presets().find((preset) => preset.name === (history.state as Memory | null)?.preset);
+      this.context.store.open(request, { preset: from?.name ?? null, title: from?.title ?? 'From a link', description: from?.description ?? '' });
+    } catch {
+      if (!this.context.store.current) await this.open_first();
+      this.context.damaged();
+    }
+  }
+
+  private async write(state: State, how: 'push' | 'replace'): Promise<void> {
+    const text = `#${await pack(state.request)}`;
+    if (this.context.store.current !== state) return;
+    this.drawn_for = text;
+    const memory: Memory = { preset: state.preset };
+    if (how === 'push') history.pushState(memory, '', text);
+    else history.replaceState(memory, '', text);
+  }
+}

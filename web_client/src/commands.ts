@@ -1,0 +1,62 @@
+/** A request as a program that saves its model: written out, never run. */
+import { in_format, type Request } from './api';
+
+const address = (): string => new URL('v1/generate', location.href.split(/[?#]/)[0]).href;
+
+/** For a POSIX shell. */
+export function curl_of(request: Request): string {
+  const quote = (text: string): string => `'${text.replaceAll("'", `'\\''`)}'`;
+  return `curl --fail-with-body -o model.glb -H 'Content-Type: application/json' -d ${quote(JSON.stringify(in_format(request, 'glb')))} ${quote(address())}`;
+}
+
+/** JSON as a Python literal: what differs are three words. Strings keep their escapes, which both read alike. */
+function python_literal(value: unknown, indent: string): string {
+  if (value === null) return 'None';
+  if (typeof value === 'boolean') return value ? 'True' : 'False';
+  if (typeof value !== 'object') return JSON.stringify(value).replace(/[\u0080-\uffff]/g, (unit) => `\\u${unit.charCodeAt(0).toString(16).padStart(4, '0')}`).replace(/\\u(d[89ab]..)\\u(d[c-f]..)/g,
+    (_, high: string, low: string) => `\\U${(((parseInt(high, 16) & 0x3ff) << 10 | parseInt(low, 16) & 0x3ff) + 0x10000).toString(16).padStart(8, '0')}`);
+  const inner = `${indent}    `;
+  const items = Array.isArray(value)
+    ? value.map((each) => python_literal(each, inner))
+    : Object.entries(value).map(([name, each]) => `${python_literal(name, inner)}: ${python_literal(each, inner)}`);
+  const [open, close] = Array.isArray(value) ? ['[', ']'] : ['{', '}'];
+  const flat = items.join(', ');
+  return flat.length + indent.length < 90 && !flat.includes('\n') ? `${open}${flat}${close}` : `${open}\n${items.map((item) => `${inner}${item},\n`).join('')}${indent}${close}`;
+}
+
+/** Nothing but the standard library. */
+export function python_of(request: Request): string {
+  return `import json
+import urllib.error
+import urllib.request
+
+request = ${python_literal(in_format(request, 'glb'), '')}
+
+call = urllib.request.Request(
+    ${JSON.stringify(address())},
+    data=json.dumps(request).encode(),
+    headers={"Content-Type": "application/json"},
+)
+try:
+    with urllib.request.urlopen(call) as answer, open("model.glb", "wb") as file:
+        file.write(answer.read())
+except urllib.error.HTTPError as problem:
+    raise SystemExit(problem.read().decode())
+`;
+}
+
+/** For Node as a module; the fetch is the same in a browser. */
+export function javascript_of(request: Request): string {
+  return `import { writeFile } from 'node:fs/promises';
+
+const request = ${JSON.stringify(in_format(request, 'glb'), null, 2)};
+
+const answer = await fetch(${JSON.stringify(address())}, {
+  method: 'POST',
+  headers: { 'Content-Type': 'application/json' },
+  body: JSON.stringify(request),
+});
+if (!answer.ok) throw new Error(await answer.text());
+await writeFile('model.glb', new Uint8Array(await answer.arrayBuffer()));
+`;
+}

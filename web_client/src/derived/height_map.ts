@@ -1,0 +1,48 @@
+/** Heights as a map seen from above, north at the top: shaded relief over tints that every eye tells apart. */
+import { el, grouped, rounded } from '../dom';
+
+export interface Heights { width: number; height: number; min: number; max: number; heights: number[] }
+
+export const is_heights = (answer: object): answer is Heights => {
+  const { width, height, heights } = answer as Partial<Heights>;
+  return typeof width === 'number' && typeof height === 'number' && Array.isArray(heights) && heights.length === width * height;
+};
+
+/** Dark blue over green to pale yellow: brightness alone tells low from high (after the map "viridis"). */
+const tints: readonly [number, number, number][] = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
+
+function tint(share: number): [number, number, number] {
+  const at = Math.min(Math.max(share, 0), 1) * (tints.length - 1);
+  const low = tints[Math.floor(at)] ?? [0, 0, 0], high = tints[Math.ceil(at)] ?? low;
+  return [0, 1, 2].map((index) => low[index]! + (high[index]! - low[index]!) * (at % 1)) as [number, number, number];
+}
+
+export function draw_map(map: Heights): HTMLElement {
+  const { width, height, heights } = map;
+  const span = map.max - map.min || 1;
+  const canvas = el('canvas', { width, height, role: 'img', class: 'height-map', 'aria-label': `Map of heights, ${width} by ${height} samples, from ${rounded(map.min)} to ${rounded(map.max)} m` });
+  const context = canvas.getContext('2d');
+  const image = context?.createImageData(width, height);
+  if (context && image) {
+    const at = (x: number, y: number): number => heights[Math.min(Math.max(y, 0), height - 1) * width + Math.min(Math.max(x, 0), width - 1)] ?? 0;
+    // Light from the north-west, as on printed maps; the slope counts by the span, whatever the size in metres.
+    const relief = width / span * 0.12;
+    for (let y = 0; y < height; y += 1) {
+      for (let x = 0; x < width; x += 1) {
+        const slope = (at(x + 1, y) - at(x - 1, y) + at(x, y + 1) - at(x, y - 1)) * relief;
+        const shade = 0.85 + 0.35 * (-slope / Math.hypot(1, slope));
+        const color = tint((at(x, y) - map.min) / span);
+        image.data.set([color[0] * shade, color[1] * shade, color[2] * shade, 255], (y * width + x) * 4);
+      }
+    }
+    context.putImageData(image, 0, 0);
+  }
+  const here = el('output', { class: 'soft' }, 'Point at the map to read a height');
+  canvas.addEventListener('pointermove', (event) => {
+    const area = canvas.getBoundingClientRect();
+    const x = Math.floor((event.clientX - area.left) / area.width * width), y = Math.floor((event.clientY - area.top) / area.height * height);
+    here.textContent = `Sample ${x}, ${y}: ${rounded(heights[y * width + x] ?? 0)} m`;
+  });
+  return el('figure', { class: 'map-of-heights' }, canvas,
+    el('figcaption', {}, `${grouped(width)} × ${grouped(height)} samples, north at the top, ${rounded(map.min)} to ${rounded(map.max)} m. `, here));
+}

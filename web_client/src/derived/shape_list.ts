@@ -1,0 +1,71 @@
+/** The shapes of a derivation: their scopes as boxes over the model, and what the one that was pointed at is. */
+import { el, grouped, rounded } from '../dom';
+import { is_members } from '../form/schema';
+import type { Overlay } from '../result';
+import type { ScopeBox } from '../viewer/boxes';
+
+export interface Shape { id: number; parent?: number | null; symbol: string; parameters?: unknown; active?: boolean; rule?: string; line?: number; scope: ScopeBox }
+
+export const is_shapes = (value: unknown): value is Shape[] =>
+  Array.isArray(value) && value.length > 0 && value.every((each) => is_members(each) && 'symbol' in each && is_members(each['scope']));
+
+/** More boxes than these hide the model and each other. */
+const most = 20_000;
+
+export class ShapeList {
+  readonly element: HTMLElement;
+  private readonly shapes: Shape[];
+  private readonly overlay: Overlay | null;
+  private readonly lead: (line: number) => void;
+  private readonly told = el('div', { class: 'picked', role: 'status' });
+  private readonly symbols: string[];
+  private readonly on = el('input', { type: 'checkbox', class: 'switch', id: 'show-shapes' });
+  private readonly kind = el('select', { id: 'shape-kind' });
+  private seen: Shape[] = [];
+
+  constructor(shapes: Shape[], overlay: Overlay | null, lead: (line: number) => void) {
+    this.shapes = shapes;
+    this.overlay = overlay;
+    this.lead = lead;
+    const counts = new Map<string, number>();
+    for (const shape of shapes) counts.set(shape.symbol, (counts.get(shape.symbol) ?? 0) + 1);
+    this.symbols = [...counts.keys()];
+    this.kind.append(el('option', { value: '' }, `Parts of the result (${grouped(shapes.filter((shape) => shape.active !== false).length)})`),
+      el('option', { value: '*' }, `All shapes (${grouped(shapes.length)})`),
+      ...[...counts].map(([symbol, count]) => el('option', { value: `=${symbol}` }, `${symbol} (${grouped(count)})`)));
+    this.on.addEventListener('change', () => this.lay_over());
+    this.kind.addEventListener('change', () => this.lay_over());
+    this.element = el('section', { class: 'shapes' }, el('h3', {}, 'Shapes'),
+      el('div', { class: 'row' }, el('label', { for: 'show-shapes' }, 'Boxes over the model'), this.on),
+      el('div', { class: 'row' }, el('label', { for: 'shape-kind' }, 'Which'), this.kind),
+      el('p', { class: 'soft' }, 'With the boxes on, click a part of the model to read what it is.'), this.told);
+  }
+
+  lay_over(): void {
+    const kind = this.kind.value;
+    this.seen = this.shapes.filter((shape) => (kind === '' ? shape.active !== false : kind === '*' || `=${shape.symbol}` === kind)).slice(0, most);
+    this.overlay?.set_boxes(this.on.checked ? this.seen.map((shape) => shape.scope) : null, (index) => this.symbols.indexOf(this.seen[index]?.symbol ?? ''));
+  }
+
+  pick(index: number): void {
+    const shape = this.seen[index];
+    if (!shape) { this.told.replaceChildren(); return; }
+    const parents: string[] = [];
+    for (let up = shape.parent; up !== null && up !== undefined && parents.length < 20; ) {
+      const parent: Shape | undefined = this.shapes.find((each) => each.id === up);
+      if (!parent) break;
+      parents.unshift(parent.symbol);
+      up = parent.parent;
+    }
+    const row = (name: string, value: string | HTMLElement): HTMLElement => el('div', {}, el('dt', {}, name), el('dd', {}, value));
+    const { line, rule } = shape;
+    this.told.replaceChildren(el('h4', {}, shape.symbol), el('dl', { class: 'figures' },
+      row('Number', String(shape.id)),
+      ...(parents.length > 0 ? [row('Made of', parents.join(' › '))] : []),
+      ...(rule !== undefined ? [row('Rule', rule)] : []),
+      ...(line !== undefined ? [row('Line', el('button', { type: 'button', onclick: () => this.lead(line) }, String(line)))] : []),
+      row('Size', shape.scope.size.map(rounded).join(' × ') + ' m'),
+      row('Corner', shape.scope.origin.map(rounded).join(', ') + ' m'),
+      ...(shape.parameters !== undefined && JSON.stringify(shape.parameters) !== '{}' && JSON.stringify(shape.parameters) !== '[]' ? [row('Parameters', JSON.stringify(shape.parameters))] : [])));
+  }
+}

@@ -1,0 +1,35 @@
+/** Completion: what the vocabulary knows, with its text and an example, and the names that the text itself defines. */
+import type { Completion, CompletionContext, CompletionResult } from '@codemirror/autocomplete';
+import type { Word } from '../api';
+import type { Words } from './words';
+
+function told(word: Word): Pick<Completion, 'detail' | 'info'> {
+  const parameters = word.parameters ?? '';
+  const example = word.example ? ` Example: ${word.example}` : '';
+  return { detail: parameters, info: `${word.text ?? ''}${example}` };
+}
+
+const in_parentheses = (before: string): boolean => before.lastIndexOf('(') > before.lastIndexOf(')');
+
+export function completions(words: Words, notation: string): (context: CompletionContext) => CompletionResult | null {
+  const of_symbols: Completion[] = [...words.symbols].map(([label, word]) => ({ label, type: 'keyword', ...told(word) }));
+  const of_functions: Completion[] = [...words.functions].map(([label, word]) => ({ label, type: 'function', apply: `${label}(`, ...told(word) }));
+  const is_symbolic = notation !== 'cga';
+  return (context) => {
+    const line = context.state.doc.lineAt(context.pos);
+    const before = line.text.slice(0, context.pos - line.from);
+    const in_expression = is_symbolic ? in_parentheses(before) || /:[^-→~]*$/.test(before) || notation === 'expression' : false;
+    if (is_symbolic && !in_expression) {
+      // A symbol is complete as soon as it is typed; only those of several characters have a beginning.
+      const at = context.matchBefore(/@[^\s()]*/);
+      if (!at && !context.explicit) return null;
+      return { from: at?.from ?? context.pos, options: of_symbols, filter: at !== null };
+    }
+    const word = context.matchBefore(/[\p{L}_$][\p{L}\p{N}_$.]*/u);
+    if (!word && !context.explicit) return null;
+    const own = [...new Set(context.state.doc.toString().match(/[\p{L}_$][\p{L}\p{N}_$]{1,}/gu) ?? [])]
+      .filter((name) => !words.functions.has(name) && !words.symbols.has(name) && name !== word?.text)
+      .map((label): Completion => ({ label, type: 'variable' }));
+    return { from: word?.from ?? context.pos, options: [...(is_symbolic ? [] : of_symbols), ...of_functions, ...(is_symbolic ? [] : own)], validFor: /^[\p{L}\p{N}_$.]*$/u };
+  };
+}

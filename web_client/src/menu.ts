@@ -1,0 +1,25 @@
+/** Small menus made of <details>: they close on Escape, on a click elsewhere, and after a choice. */
+export function wire_menus(): void {
+  const menus = (): HTMLDetailsElement[] => [...document.querySelectorAll<HTMLDetailsElement>('details.menu')];
+  document.addEventListener('pointerdown', (event) => {
+    for (const menu of menus()) if (menu.open && !menu.contains(event.target as Node)) menu.open = false;
+  });
+  document.addEventListener('keydown', (event) => {
+    if (event.key !== 'Escape') return;
+    for (const menu of menus()) {
+      if (!menu.open) continue;
+      menu.open = false;
+      menu.querySelector('summary')?.focus();
+    }
+  });
+  document.addEventListener('click', (event) => {
+    const choice = (event.target as Element).closest('[data-close]');
+    const menu = choice?.closest<HTMLDetailsElement>('details.menu');
+    if (menu) menu.open = false;
+  });
+  document.addEventListener('toggle', (event) => {
+    const opened = event.target as HTMLDetailsElement;
+    if (!opened.open || !opened.classList.contains('menu')) return;
+    for (const menu of menus()) if (menu !== opened && !menu.contains(opened)) menu.open = false;
+  }, true);
+}

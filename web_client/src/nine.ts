@@ -1,0 +1,55 @@
+/** Nine seeds of one request as pictures in three rows: this one and eight that chance chose. One is taken, or none. */
+import { Busy, Gone, generate, in_format, type Request } from './api';
+import { el, part } from './dom';
+import { seed_after, type Seed } from './seed';
+
+interface Context {
+  request(): Request | null;
+  portrait(bytes: ArrayBuffer, width: number, height: number): Promise<HTMLCanvasElement>;
+  choose(seed: Seed): void;
+}
+
+const width = 264, height = 198;
+
+export function wire_nine(context: Context): void {
+  const dialog = part<HTMLDialogElement>('nine-dialog');
+  let running = new AbortController();
+  dialog.addEventListener('close', () => running.abort());
+  // The pictures belong to the request that they were made for.
+  part('nine').addEventListener('click', () => { dialog.showModal(); void fill(); });
+
+  async function fill(first?: Seed): Promise<void> {
+    const request = context.request();
+    if (!request) return;
+    running.abort();
+    running = new AbortController();
+    const { signal } = running;
+    const begin = first ?? request.seed;
+    const seeds = Array.from({ length: 9 }, (_, index) => seed_after(begin, index));
+    const cells = seeds.map((seed) => {
+      const cell = el('button', { type: 'button', class: 'cell', 'data-seed': String(seed), 'aria-label': `Seed ${seed}`, 'aria-current': seed === request.seed },
+        el('span', { class: 'cell-picture' }), el('span', {}, String(seed)));
+      cell.addEventListener('click', () => { context.choose(seed); dialog.close(); });
+      return cell;
+    });
+    const more = el('button', { type: 'button', onclick: () => void fill(seed_after(begin, 9)) }, 'Nine more');
+    dialog.replaceChildren(
+      el('h2', { id: 'nine-title' }, 'Nine seeds'), el('div', { class: 'nine' }, ...cells),
+      el('div', { class: 'row end' }, more, el('button', { type: 'button', onclick: () => dialog.close() }, 'Close')));
+    dialog.dataset['filled'] = '0';
+    // One after the other: the server has other guests, and the first picture comes sooner.
+    for (const [index, seed] of seeds.entries()) {
+      const place = cells[index]?.firstElementChild;
+      try {
+        const { bytes } = await generate(in_format({ ...request, seed }, 'glb'), signal);
+        const picture = await context.portrait(bytes, width, height);
+        if (signal.aborted) return;
+        place?.replaceWith(picture);
+      } catch (error) {
+        if (signal.aborted) return;
+        place?.replaceChildren(error instanceof Busy ? 'The server is full' : error instanceof Gone ? 'No answer' : 'Refused');
+      }
+      dialog.dataset['filled'] = String(index + 1);
+    }
+  }
+}

@@ -1,0 +1,118 @@
+/** What the generator makes before there is geometry (POST /v1/derive): figures, texts, a map of heights, shapes. */
+import { Refusal, derive, type Request } from './api';
+import { el, grouped, part, rounded } from './dom';
+import { is_members, type Members } from './form/schema';
+import type { State } from './state';
+import { draw_map, is_heights } from './derived/height_map';
+import { ShapeList, is_shapes } from './derived/shape_list';
+import type { ScopeBox } from './viewer/boxes';
+
+export interface Overlay {
+  set_boxes(scopes: ScopeBox[] | null, color_of?: (index: number) => number): void;
+}
+
+export interface Result {
+  /** Whether it is in sight: only then is the server asked. */
+  open(in_sight: boolean): void;
+  follow(state: State): void;
+  /** Another model is drawn: what lay over the one before is gone. */
+  drawn(): void;
+  picked(index: number): void;
+}
+
+/** Texts are cut here; the whole can be copied out of the answer of the server. */
+const longest = 4000;
+
+export function wire_result(overlay: Overlay | null, lead: (line: number) => void): Result {
+  const page = part('result');
+  let request: Request | null = null;
+  let shown_for: Request | null = null;
+  let in_sight = false;
+  let running = new AbortController();
+  let shapes: ShapeList | null = null;
+
+  async function ask(): Promise<void> {
+    if (!in_sight || !request || shown_for === request) return;
+    running.abort();
+    running = new AbortController();
+    const { signal } = running;
+    const asked = request;
+    page.dataset['for'] = '';
+    try {
+      const answer = await derive(asked, signal);
+      shown_for = asked;
+      draw(answer);
+    } catch (error) {
+      if (signal.aborted) return;
+      shapes = null;
+      page.replaceChildren(head(), el('p', { class: 'soft' }, error instanceof Refusal ? `Nothing to show: ${error.message}` : 'The server does not answer.'));
+    }
+    page.dataset['for'] = String(asked.seed);
+  }
+
+  function draw(answer: Members): void {
+    const rest = { ...answer };
+    const parts: (HTMLElement | null)[] = [];
+    shapes = null;
+    if (is_heights(rest)) {
+      parts.push(draw_map(rest));
+      delete (rest as Members)['heights'];
+    }
+    if (is_shapes(rest['shapes'])) {
+      shapes = new ShapeList(rest['shapes'], overlay, lead);
+      parts.push(shapes.element);
+      delete rest['shapes'];
+    }
+    const figures = figures_of(rest);
+    parts.push(figures.length > 0 ? el('dl', { class: 'figures' }, ...figures.map(([name, value]) => el('div', {}, el('dt', {}, name), el('dd', {}, value)))) : null);
+    for (const [name, value] of Object.entries(rest)) parts.push(...long_part(name, value));
+    page.replaceChildren(head(), ...parts.filter((each) => each !== null));
+  }
+
+  return {
+    open(now) { in_sight = now; void ask(); },
+    follow(state) {
+      request = state.request;
+      void ask();
+    },
+    drawn() { shapes?.lay_over(); },
+    picked(index) { shapes?.pick(index); },
+  };
+}
+
+const head = (): HTMLElement => el('p', { class: 'soft about' }, 'What the generator makes of the request before there is geometry.');
+const readable = (name: string): string => name.replaceAll('_', ' ').replace(/^./, (first) => first.toUpperCase());
+const is_vector = (value: unknown): value is number[] => Array.isArray(value) && value.length > 0 && value.length <= 4 && value.every((each) => typeof each === 'number');
+const figure = (value: number): string => (Number.isInteger(value) ? grouped(value) : rounded(value));
+
+/** Numbers, words, vectors, one line each; those of nested objects under both names. */
+function figures_of(members: Members, before = ''): [string, string][] {
+  return Object.entries(members).flatMap(([name, value]): [string, string][] => {
+    const label = before ? `${before}, ${name.replaceAll('_', ' ')}` : readable(name);
+    if (typeof value === 'number') return [[label, figure(value)]];
+    if (typeof value === 'boolean') return [[label, value ? 'yes' : 'no']];
+    if (typeof value === 'string' && value.length <= 60) return [[label, value]];
+    if (is_vector(value)) return [[label, value.map(figure).join(', ')]];
+    if (is_members(value) && Object.keys(value).length <= 8) return figures_of(value, label);
+    return [];
+  });
+}
+
+/** Long texts, tables of objects, and long maps. */
+function long_part(name: string, value: unknown): HTMLElement[] {
+  const title = el('h3', {}, readable(name));
+  if (typeof value === 'string' && value.length > 60) {
+    const cut = value.length > longest ? `${value.slice(0, longest)} …` : value;
+    return [title, el('pre', { class: 'long', tabindex: 0, 'aria-label': readable(name) }, cut)];
+  }
+  if (Array.isArray(value) && value.length > 0 && value.every(is_members)) {
+    const columns = [...new Set(value.slice(0, 50).flatMap((row) => Object.keys(row)))];
+    const cell = (each: unknown): string => (typeof each === 'number' ? figure(each) : is_vector(each) ? each.map(figure).join(', ') : each === undefined ? '' : typeof each === 'string' ? each : JSON.stringify(each).slice(0, 60));
+    return [title, el('div', { class: 'scroll', tabindex: 0, role: 'region', 'aria-label': readable(name) }, el('table', {},
+      el('thead', {}, el('tr', {}, ...columns.map((column) => el('th', { scope: 'col' }, readable(column))))),
+      el('tbody', {}, ...value.slice(0, 200).map((row) => el('tr', {}, ...columns.map((column) => el('td', {}, cell(row[column]))))))))];
+  }
+  if (is_members(value) && Object.keys(value).length > 8)
+    return [title, el('dl', { class: 'figures' }, ...figures_of(value).map(([label, text]) => el('div', {}, el('dt', {}, label), el('dd', {}, text))))];
+  return [];
+}

@@ -1,0 +1,157 @@
+/**
+ * Everything that is not needed for the first model: what leaves and enters the page, the texts beside the form, steps,
+ * views, comparisons, help. A file of its own, fetched while the server makes that model.
+ */
+import type { Fault, Request } from './api';
+import { save_picture, save_request, wire_copies, wire_downloads } from './actions';
+import { part } from './dom';
+import type { Schema } from './form/schema';
+import { is_typing, wire_help } from './help';
+import { levels_of, motions_of } from './levels';
+import { wire_menus } from './menu';
+import { wire_nine } from './nine';
+import { wire_files } from './open_files';
+import { wire_request_text } from './request_text';
+import { wire_result } from './result';
+import type { SeedBox } from './seed';
+import type { State, Store } from './state';
+import type { Status } from './status';
+import { wire_steps } from './steps';
+import type { Page, Tabs } from './tabs';
+import { wire_compare, wire_motion, wire_view_menu } from './view_menu';
+import { wire_view } from './view_tools';
+import type { Model } from './viewer/model';
+import type { Viewer } from './viewer/viewer';
+
+export interface Core {
+  store: Store;
+  viewer: Viewer | null;
+  high: boolean;
+  status: Status;
+  seed: SeedBox;
+  tabs: Tabs;
+  /** The GLB that is shown. */
+  bytes(): ArrayBuffer | null;
+  grow_again(): void;
+  /** Ends when the model of the last change is drawn; false where it was refused. */
+  drawn(): Promise<boolean>;
+  open(request: Request, title: string): void;
+  search(): void;
+}
+
+export interface Tools {
+  follow(state: State, is_new: boolean): void;
+  /** The schema of the request's generator. */
+  explain(schema: Schema): void;
+  shown(model: Model, triangles: number): void;
+  show_faults(faults: Fault[]): void;
+  page(page: Page): void;
+  offer(formats: string[], motions: string[]): void;
+  /** The motion that the view asks for. */
+  motion(): string | null;
+}
+
+export function wire_tools(core: Core): Tools {
+  const { store, viewer, status, tabs } = core;
+  const actions = {
+    request: (): Request | null => store.current?.request ?? null,
+    name: (): string => `${store.current?.preset ?? 'seedmesh'}-${store.current?.request.seed ?? 0}`,
+    picture: (): Promise<Blob | null> => viewer?.screenshot() ?? Promise.resolve(null),
+    say: status.say,
+    fail: (text: string): void => status.faults(text, [], 0, () => {}),
+  };
+  const request_text = wire_request_text((request) => store.write(request));
+  const result = wire_result(viewer, (line) => {
+    tabs.open('parameters');
+    part('parameters').querySelector<HTMLElement>('.code-editor')?.dispatchEvent(new CustomEvent('go-line', { detail: line }));
+  });
+  const steps = wire_steps({
+    edit(name, value) {
+      const { [name]: _, ...others } = store.current?.request.parameters ?? {};
+      if (store.current) store.write({ ...store.current.request, parameters: value === undefined ? others : { ...others, [name]: value } });
+    },
+    drawn: core.drawn,
+  });
+  const view_menu = viewer && wire_view_menu(viewer, {
+    high: core.high, levels: () => levels_of(store.current!.request), animate: core.grow_again, fail: actions.fail,
+  });
+  const motion = viewer && wire_motion(viewer);
+  let motions: string[] = [];
+
+  // Which motions there are is asked when somebody looks for them, once for each request that is opened.
+  let asked_for: Request | null = null;
+  part('view-menu').addEventListener('toggle', () => {
+    const state = store.current;
+    if (!state || asked_for === state.base || !part<HTMLDetailsElement>('view-menu').open) return;
+    asked_for = state.base;
+    void motions_of(state.request, motions).then((can) => { if (store.current?.base === state.base) view_menu?.offer_motions(can); });
+  });
+
+  wire_menus();
+  wire_copies(actions);
+  const files = wire_files({ open: core.open, say: status.say, fail: actions.fail });
+  const help = wire_help();
+  wire_keys(core, { open_file: files.choose, help: help.open, save() { if (store.current) save_request(store.current.request, actions); } });
+  if (viewer) {
+    const compare = wire_compare(viewer, core.bytes, () => `${store.current?.title ?? ''}, seed ${store.current?.request.seed ?? 0}`);
+    wire_view(viewer, {
+      roll: core.seed.roll, compare,
+      next_mode: () => view_menu?.next_mode(), save_picture: () => void save_picture(actions), step: steps.by,
+      play: () => motion?.play(), leave_gait: () => view_menu?.leave_gait(),
+    });
+    viewer.on_pick = (index) => result.picked(index);
+    wire_nine({ request: actions.request, portrait: (bytes, width, height) => viewer.portrait(bytes, width, height), choose: (seed) => store.edit({ seed }) });
+  }
+
+  return {
+    follow(state, is_new) {
+      part<HTMLButtonElement>('undo').disabled = !store.can_undo;
+      part<HTMLButtonElement>('redo').disabled = !store.can_redo;
+      steps.follow(state);
+      request_text.follow(state);
+      result.follow(state);
+      if (is_new) view_menu?.offer_motions([]);
+    },
+    explain(schema) {
+      steps.take(schema);
+      if (store.current) steps.follow(store.current);
+    },
+    shown(model, triangles) {
+      view_menu?.shown(model, triangles);
+      motion?.shown(model);
+      result.drawn();
+    },
+    show_faults: (faults) => request_text.show_faults(faults),
+    page(page) {
+      if (page === 'request') request_text.open();
+      result.open(page === 'result');
+    },
+    offer(formats, all_motions) {
+      wire_downloads(formats, actions);
+      motions = all_motions;
+    },
+    motion: () => view_menu?.motion() ?? null,
+  };
+}
+
+/** The keys that count everywhere, except where words are typed. */
+function wire_keys({ store, tabs, search }: Core, acts: { open_file(): void; help(): void; save(): void }): void {
+  part('undo').addEventListener('click', () => store.undo());
+  part('redo').addEventListener('click', () => store.redo());
+  addEventListener('keydown', (event) => {
+    const key = event.key.toLowerCase();
+    const held = event.ctrlKey || event.metaKey;
+    const act = held && key === 's' ? acts.save
+      : held && key === 'o' ? acts.open_file
+      : is_typing(event) || event.defaultPrevented ? null
+      : held && key === 'z' ? () => (event.shiftKey ? store.redo() : store.undo())
+      : held && key === 'y' ? () => store.redo()
+      : held || event.altKey ? null
+      : key === '?' ? acts.help
+      : key === '/' ? () => { tabs.open('gallery'); search(); }
+      : null;
+    if (!act) return;
+    event.preventDefault();
+    act();
+  });
+}

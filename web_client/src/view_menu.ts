@@ -1,0 +1,186 @@
+/** What the picture can show besides: shading, materials, levels of detail, motion, light, sky, camera. */
+import { el, fresh_id, grouped, part, rounded } from './dom';
+import type { Model } from './viewer/model';
+import type { Mode } from './viewer/modes';
+import type { Viewer } from './viewer/viewer';
+import type { Gait } from './viewer/walker';
+
+interface Context {
+  /** The zip with levels of detail of the model that is shown; fewer than asked for where it has no more. */
+  levels(): Promise<ArrayBuffer>;
+  /** Shows the model with this motion; null for a still one. */
+  animate(motion: string | null): void;
+  fail(text: string): void;
+  high: boolean;
+}
+
+export interface ViewMenu {
+  /** Another model is shown. */
+  shown(model: Model, triangles: number): void;
+  /** The motions that the model can have. */
+  offer_motions(motions: string[]): void;
+  motion(): string | null;
+  next_mode(): void;
+  leave_gait(): void;
+}
+
+const modes: [Mode, string][] = [['shaded', 'Shaded'], ['flat', 'Flat'], ['normals', 'Normals'], ['uv', 'UV squares']];
+const gaits: [Gait, string][] = [['orbit', 'Turn'], ['walk', 'On foot'], ['fly', 'In flight']];
+
+function choice(label: string, id: string, change: (value: string) => void): { row: HTMLElement; select: HTMLSelectElement; offer(options: [string, string][]): void } {
+  const select = el('select', { id });
+  select.addEventListener('change', () => change(select.value));
+  return {
+    select,
+    row: el('div', { class: 'row' }, el('label', { for: id }, label), select),
+    offer(options) {
+      const value = select.value;
+      select.replaceChildren(...options.map(([name, text]) => el('option', { value: name, selected: name === value }, text)));
+    },
+  };
+}
+
+function tick(label: string, id: string, on: boolean, change: (on: boolean) => void): HTMLElement {
+  const box = el('input', { type: 'checkbox', class: 'switch', id, checked: on });
+  box.addEventListener('change', () => change(box.checked));
+  return el('div', { class: 'row' }, el('label', { for: id }, label), box);
+}
+
+function range(label: string, low: number, high: number, value: number, change: (value: number) => void): HTMLElement {
+  const id = fresh_id('range');
+  const input = el('input', { type: 'range', id, min: low, max: high, value });
+  input.addEventListener('input', () => change(input.valueAsNumber));
+  return el('div', { class: 'row' }, el('label', { for: id }, label), input);
+}
+
+export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
+  const sun = { on: true, turn: 38, height: 51 };
+  const shading = choice('Shading', 'shading', (value) => viewer.set_mode(value as Mode));
+  shading.offer(modes);
+  const material = choice('Materials', 'material-set', (value) => void viewer.set_variant(value || null));
+  const motion = choice('Motion', 'motion-kind', (value) => context.animate(value || null));
+  const level = choice('Level of detail', 'detail', (value) => void choose_level(value));
+  const gait = choice('Camera', 'gait', (value) => {
+    viewer.set_gait(value as Gait);
+    part('whereabouts').hidden = value === 'orbit';
+    if (value !== 'orbit') { part<HTMLDetailsElement>('view-menu').open = false; part('picture').focus(); }
+  });
+  gait.offer(gaits);
+  let triangles = 0;
+  let counts: number[] | null = null;
+
+  part('view-options').append(
+    shading.row, material.row, motion.row, level.row, gait.row,
+    tick('Sky', 'sky', false, (on) => viewer.set_sky(on)),
+    tick('Shadow', 'shadow', context.high, (on) => viewer.set_shadow(on)),
+    tick('Light', 'light-on', true, (on) => { sun.on = on; viewer.set_sun(sun); }),
+    range('Light from', 0, 360, sun.turn, (value) => { sun.turn = value; viewer.set_sun(sun); }),
+    range('Height of light', 1, 90, sun.height, (value) => { sun.height = value; viewer.set_sun(sun); }),
+    tick('Time to draw', 'show-drawn', false, (on) => { part('drawn-box').hidden = !on; }));
+  viewer.walker.on_move = (place, heading) => {
+    part('whereabouts').textContent = `x ${place.x.toFixed(1)}, y ${place.y.toFixed(1)}, z ${place.z.toFixed(1)} m · ${Math.round(heading)}° · ${rounded(viewer.measures.size.y)} m high`;
+  };
+
+  const label_levels = (): void => {
+    const names: [string, string][] = counts
+      ? [['', `As made · ${grouped(triangles)}`], ['auto', 'By distance'], ...counts.map((count, index): [string, string] => [String(index), `${index} · ${grouped(count)} triangles`])]
+      : [['', `As made · ${grouped(triangles)}`], ['ask', 'Fetch coarser levels']];
+    level.offer(names);
+  };
+
+  async function choose_level(value: string): Promise<void> {
+    if (value === '') { viewer.choose_level(null); counts = null; label_levels(); return; }
+    if (value !== 'ask') { viewer.choose_level(value === 'auto' ? 'auto' : Number(value)); return; }
+    level.select.disabled = true;
+    try {
+      counts = await viewer.take_levels(await context.levels());
+      label_levels();
+      level.select.value = 'auto';
+      viewer.choose_level('auto');
+    } catch (error) {
+      context.fail(`No levels: ${(error as Error).message}`);
+      level.select.value = '';
+    } finally {
+      level.select.disabled = false;
+    }
+  }
+
+  return {
+    shown(model, made) {
+      triangles = made;
+      counts = null;
+      level.select.value = '';
+      label_levels();
+      material.row.hidden = model.variants.length === 0;
+      material.offer([['', 'As asked for'], ...model.variants.map((name): [string, string] => [name, name])]);
+    },
+    offer_motions(motions) {
+      motion.row.hidden = motions.length === 0;
+      motion.offer([['', 'Still'], ...motions.map((name): [string, string] => [name, name.replace(/^./, (first) => first.toUpperCase())])]);
+    },
+    motion: () => motion.select.value || null,
+    next_mode() {
+      shading.select.selectedIndex = (shading.select.selectedIndex + 1) % modes.length;
+      viewer.set_mode(shading.select.value as Mode);
+    },
+    leave_gait() {
+      if (gait.select.value === 'orbit') return;
+      gait.select.value = 'orbit';
+      gait.select.dispatchEvent(new Event('change'));
+    },
+  };
+}
+
+/** The bar under a model that moves: play, and any moment of it. */
+export function wire_motion(viewer: Viewer): { shown(model: Model): void; play(): void } {
+  const bar = part('motion'), play = part('motion-play'), now = part('motion-now');
+  const time = part<HTMLInputElement>('motion-time');
+  const tell = (share: number): void => {
+    time.value = String(Math.round(share * 1000));
+    now.textContent = `${(share * viewer.motion.seconds).toFixed(1)} s`;
+    const runs = viewer.motion.is_running;
+    play.textContent = runs ? 'Stop' : 'Play';
+    play.setAttribute('aria-label', runs ? 'Stop the motion' : 'Play the motion');
+  };
+  viewer.motion.on_time = tell;
+  const flip = (): void => {
+    if (!viewer.motion.has_clip) return;
+    viewer.play(!viewer.motion.is_running);
+    tell(time.valueAsNumber / 1000);
+  };
+  play.addEventListener('click', flip);
+  time.addEventListener('input', () => {
+    viewer.play(false);
+    viewer.set_time(time.valueAsNumber / 1000);
+    tell(time.valueAsNumber / 1000);
+  });
+  return {
+    shown(model) {
+      bar.hidden = model.clips.length === 0;
+      if (model.clips.length > 0) tell(time.valueAsNumber / 1000);
+    },
+    play: flip,
+  };
+}
+
+/** A | B: the model that is shown when it is switched on stays to the left; what follows is to the right. */
+export function wire_compare(viewer: Viewer, bytes: () => ArrayBuffer | null, title: () => string): (() => void) {
+  const button = part('compare'), box = part('divider-box');
+  const divider = part<HTMLInputElement>('divider'), line = part('divider-line');
+  const place = (): void => {
+    viewer.set_divider(divider.valueAsNumber / 100);
+    line.style.setProperty('left', `${divider.value}%`);
+  };
+  const flip = (): void => {
+    const on = button.getAttribute('aria-pressed') !== 'true';
+    const kept = bytes();
+    if (on && !kept) return;
+    button.setAttribute('aria-pressed', String(on));
+    box.hidden = line.hidden = !on;
+    if (on) box.querySelector('label')!.textContent = `Left: ${title()}`;
+    void viewer.compare(on ? kept : null).then(place);
+  };
+  button.addEventListener('click', flip);
+  divider.addEventListener('input', place);
+  return flip;
+}

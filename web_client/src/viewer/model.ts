@@ -1,0 +1,151 @@
+/** A glTF as the viewer keeps it: its parts, its clips, and the sets of materials that it can wear. */
+import {
+  Box3, Material, Mesh, Texture, Vector3, type AnimationClip, type BufferGeometry, type Object3D,
+} from 'three';
+import { GLTFLoader, type GLTF } from 'three/addons/loaders/GLTFLoader.js';
+import { corners_of, points_of } from './frame';
+
+const variants_word = 'KHR_materials_variants';
+
+interface Mapping { material: number; variants: number[] }
+
+export interface Warning { pointer: string; message: string; line?: number; column?: number }
+
+const loader = new GLTFLoader();
+
+export class Model {
+  readonly root: Object3D;
+  readonly clips: AnimationClip[];
+  /** Names of the sets of materials; empty where there is one look only. */
+  readonly variants: string[];
+  /** What the server wanted to say about the request, written into the file. */
+  readonly warnings: Warning[];
+  readonly box: Box3;
+  /** Points that stand for the outline. */
+  readonly points: Vector3[];
+  private readonly gltf: GLTF;
+  private readonly own = new Map<Mesh, Material | Material[]>();
+
+  private constructor(gltf: GLTF) {
+    this.gltf = gltf;
+    this.root = gltf.scene;
+    this.clips = gltf.animations;
+    const json = gltf.parser.json as { extensions?: Record<string, { variants?: { name: string }[] }>; asset?: { extras?: { warnings?: Warning[] } } };
+    this.variants = (json.extensions?.[variants_word]?.variants ?? []).map((each) => each.name);
+    this.warnings = json.asset?.extras?.warnings ?? [];
+    this.box = new Box3().setFromObject(this.root);
+    if (this.box.isEmpty()) this.box.set(new Vector3(-0.5, 0, -0.5), new Vector3(0.5, 1, 0.5));
+    this.points = points_of(this.root);
+    if (this.points.length === 0) this.points = corners_of(this.box);
+    this.each_mesh((mesh) => {
+      mesh.castShadow = true;
+      mesh.receiveShadow = true;
+      this.own.set(mesh, mesh.material);
+      // A skin grows out of the box that its first frame has.
+      if (this.clips.length > 0) mesh.frustumCulled = false;
+    });
+  }
+
+  /** A GLB, or a glTF whose addresses can be fetched. */
+  static async from(data: ArrayBuffer | string): Promise<Model> {
+    return new Model(await loader.parseAsync(data, ''));
+  }
+
+  each_mesh(act: (mesh: Mesh) => void): void {
+    this.root.traverse((part) => { if (part instanceof Mesh && !part.userData['helper']) act(part); });
+  }
+
+  /** The material that the file gives a mesh, whatever it wears at the moment. */
+  own_material(mesh: Mesh): Material | Material[] {
+    return this.own.get(mesh) ?? mesh.material;
+  }
+
+  /** Dresses the meshes in the materials of a variant; null for those of the file itself. */
+  async wear(name: string | null): Promise<void> {
+    const wanted = name === null ? -1 : this.variants.indexOf(name);
+    const changes: Promise<void>[] = [];
+    this.each_mesh((mesh) => {
+      const extensions = mesh.userData['gltfExtensions'] as Record<string, { mappings: Mapping[] }> | undefined;
+      const mapping = extensions?.[variants_word]?.mappings.find((each) => each.variants.includes(wanted));
+      const first = (mesh.userData['first'] as Material | undefined) ?? (mesh.userData['first'] = this.own.get(mesh));
+      if (wanted < 0 || !mapping) {
+        this.own.set(mesh, first as Material);
+        return;
+      }
+      changes.push((async () => {
+        const kept = mesh.material;
+        mesh.material = (await this.gltf.parser.getDependency('material', mapping.material)) as Material;
+        this.gltf.parser.assignFinalMaterial(mesh);
+        this.own.set(mesh, mesh.material);
+        mesh.material = kept;
+      })());
+    });
+    await Promise.all(changes);
+  }
+
+  get triangles(): number {
+    let count = 0;
+    this.each_mesh((mesh) => {
+      const instances = (mesh as Mesh & { count?: number }).count ?? 1;
+      count += triangles_of(mesh.geometry) * instances;
+    });
+    return count;
+  }
+
+  dispose(): void {
+    this.root.removeFromParent();
+    this.root.traverse((part) => {
+      const { geometry, material } = part as Mesh;
+      geometry?.dispose();
+      // What a mesh wears for a while (normals, squares) belongs to the viewer.
+      for (const each of [this.own.get(part as Mesh) ?? material ?? []].flat() as Material[]) {
+        for (const value of Object.values(each)) if (value instanceof Texture) value.dispose();
+        each.dispose();
+      }
+    });
+  }
+}
+
+const triangles_of = (geometry: BufferGeometry): number =>
+  Math.floor((geometry.index?.count ?? geometry.getAttribute('position')?.count ?? 0) / 3);
+
+/** The levels of one model, from fine to coarse, one of which is in sight. */
+export class Levels {
+  readonly models: Model[];
+  private near = 0;
+  private now = 0;
+
+  constructor(models: Model[]) {
+    this.models = models;
+  }
+
+  /** A level by number, or "auto": the first up to the distance `near`, and each doubling takes the next. */
+  choose(level: number | 'auto', parent: Object3D, near: number): void {
+    for (const model of this.models) parent.add(model.root);
+    this.near = level === 'auto' ? near : 0;
+    this.show(level === 'auto' ? 0 : level);
+  }
+
+  /** Called before each picture; true where another level came into sight. */
+  at(distance: number): boolean {
+    if (this.near === 0) return false;
+    const wanted = Math.max(0, Math.ceil(Math.log2(distance / this.near)));
+    // On the way in a tenth more is asked for, so that a camera on the border does not flicker.
+    const closer = Math.max(0, Math.ceil(Math.log2((distance * 1.1) / this.near)));
+    const next = Math.min(wanted < this.now ? closer : wanted, this.models.length - 1);
+    if (next === this.now) return false;
+    this.show(next);
+    return true;
+  }
+
+  get in_sight(): number { return this.now; }
+
+  dispose(): void {
+    for (const model of this.models) model.dispose();
+  }
+
+  private show(level: number): void {
+    this.now = Math.min(level, this.models.length - 1);
+    this.models.forEach((model, index) => { model.root.visible = index === this.now; });
+  }
+}

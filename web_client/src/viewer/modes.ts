@@ -1,0 +1,85 @@
+/** Ways to look at a mesh other than in its own materials, and the lines over it. */
+import {
+  DataTexture, DoubleSide, Mesh, MeshBasicMaterial, MeshNormalMaterial, NearestFilter, LinearMipmapLinearFilter, RepeatWrapping, SRGBColorSpace,
+  type Material, type MeshStandardMaterial, type Object3D,
+} from 'three';
+import type { Model } from './model';
+
+export type Mode = 'shaded' | 'flat' | 'normals' | 'uv';
+
+/** 8 x 8 squares to the unit; hue runs with u and brightness with v, so that a turned or mirrored chart shows. */
+function checker(): DataTexture {
+  const side = 256, squares = 8;
+  const data = new Uint8Array(side * side * 4);
+  for (let y = 0; y < side; y += 1) {
+    for (let x = 0; x < side; x += 1) {
+      const light = ((x * squares / side | 0) + (y * squares / side | 0)) % 2 === 0;
+      const rim = x * squares % side < squares || y * squares % side < squares;
+      const at = (y * side + x) * 4;
+      const [u, v] = [x / side, y / side];
+      const shade = rim ? 0.25 : light ? 1 : 0.55;
+      // From blue to orange along u: the pair that every eye tells apart.
+      data[at] = 255 * shade * (0.1 + 0.8 * u);
+      data[at + 1] = 255 * shade * (0.35 + 0.3 * v + 0.1 * u);
+      data[at + 2] = 255 * shade * (0.85 - 0.75 * u);
+      data[at + 3] = 255;
+    }
+  }
+  const texture = new DataTexture(data, side, side);
+  texture.wrapS = texture.wrapT = RepeatWrapping;
+  texture.colorSpace = SRGBColorSpace;
+  texture.magFilter = NearestFilter;
+  texture.minFilter = LinearMipmapLinearFilter;
+  texture.generateMipmaps = true;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+export class Modes {
+  mode: Mode = 'shaded';
+  wireframe = false;
+  readonly wire = new MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.55 });
+  private readonly normals = new MeshNormalMaterial({ side: DoubleSide });
+  private squares: MeshBasicMaterial | null = null;
+  private wires: Object3D[] = [];
+
+  /** Puts all on that is switched on. Called again whenever the model, its materials or a switch changes. */
+  dress(models: Model[]): void {
+    for (const wires of this.wires) wires.removeFromParent();
+    this.wires = [];
+    for (const model of models) model.each_mesh((mesh) => this.dress_mesh(model, mesh));
+  }
+
+  /** Meshes that are lines over others; they are no part of the model. */
+  forget(): void {
+    for (const wires of this.wires) wires.removeFromParent();
+    this.wires = [];
+  }
+
+  private dress_mesh(model: Model, mesh: Mesh): void {
+    const own = model.own_material(mesh);
+    mesh.material = this.mode === 'normals' ? this.normals : this.mode === 'uv' ? this.unwrapped() : own;
+    for (const material of [own, mesh.material].flat() as MeshStandardMaterial[]) {
+      const flat = this.mode === 'flat';
+      if ('flatShading' in material && material.flatShading !== flat && material !== (this.normals as Material)) {
+        material.flatShading = flat;
+        material.needsUpdate = true;
+      }
+      material.polygonOffset = this.wireframe;
+      material.polygonOffsetFactor = 1;
+      material.polygonOffsetUnits = 1;
+    }
+    if (!this.wireframe) return;
+    const wires = mesh.clone(false);
+    wires.material = this.wire;
+    wires.castShadow = false;
+    wires.userData = { helper: true };
+    mesh.parent?.add(wires);
+    this.wires.push(wires);
+  }
+
+  private unwrapped(): MeshBasicMaterial {
+    this.squares ??= new MeshBasicMaterial({ map: checker(), side: DoubleSide, toneMapped: false });
+    return this.squares;
+  }
+}

@@ -1,0 +1,69 @@
+/** A clip of the model: stands at a share of its length, or runs. */
+import type { AnimationClip, Interpolant, KeyframeTrack, Mesh, Object3D, Quaternion, Vector3 } from 'three';
+import type { Model } from './model';
+
+type Keyed = KeyframeTrack & { createInterpolant(): Interpolant };
+
+/** One animated property of one node. */
+interface Channel { curve: Interpolant; set(values: ArrayLike<number>): void }
+
+/** glTF knows four properties; the loader names a track "<node>.<property>". */
+function channels_of(root: Object3D, clip: AnimationClip): Channel[] {
+  const nodes = new Map<string, Object3D>();
+  root.traverse((node) => { nodes.set(node.uuid, node); if (node.name && !nodes.has(node.name)) nodes.set(node.name, node); });
+  return clip.tracks.flatMap((track): Channel[] => {
+    const dot = track.name.lastIndexOf('.');
+    const node = nodes.get(track.name.slice(0, dot)), property = track.name.slice(dot + 1);
+    if (!node) return [];
+    const curve = (track as Keyed).createInterpolant();
+    if (property === 'morphTargetInfluences')
+      return [{ curve, set: (values) => { (node as Mesh).morphTargetInfluences?.forEach((_, index, all) => { all[index] = values[index] ?? 0; }); } }];
+    const target = (node as unknown as Record<string, Vector3 | Quaternion | undefined>)[property];
+    return target ? [{ curve, set: (values) => { target.fromArray(Array.from(values)); } }] : [];
+  });
+}
+
+export class Motion {
+  /** Called with the share that is shown while it runs. */
+  on_time: (share: number) => void = () => {};
+  private channels: Channel[] = [];
+  private duration = 0;
+  private running = false;
+  private last = 0;
+  private share = 1;
+
+  get has_clip(): boolean { return this.channels.length > 0; }
+  get is_running(): boolean { return this.running; }
+  get seconds(): number { return this.duration; }
+
+  take(model: Model | null): void {
+    const clip = model?.clips[0];
+    this.running = false;
+    this.channels = model && clip ? channels_of(model.root, clip) : [];
+    this.duration = clip?.duration ?? 0;
+    this.stand(this.share);
+  }
+
+  /** 0 is the first moment, 1 the last. */
+  stand(share: number): void {
+    this.share = share;
+    for (const { curve, set } of this.channels) set(curve.evaluate(share * this.duration) as ArrayLike<number>);
+  }
+
+  run(on: boolean): void {
+    this.running = on && this.has_clip;
+    if (this.running && this.share > 0.999) this.stand(0);
+    this.last = performance.now();
+  }
+
+  /** Goes on by the time since the last call; true while there is more to show. */
+  step(): boolean {
+    if (!this.running) return false;
+    const now = performance.now();
+    this.stand(Math.min(1, this.share + (now - this.last) / 1000 / Math.max(this.duration, 1e-3)));
+    this.last = now;
+    if (this.share >= 1) this.running = false;
+    this.on_time(this.share);
+    return this.running;
+  }
+}

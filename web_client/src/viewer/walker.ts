@@ -1,0 +1,115 @@
+/** On foot or in flight: W A S D go, Q and Z or the page keys rise and sink, arrows and a drag turn the head. */
+import { MathUtils, Raycaster, Vector3, type Object3D, type PerspectiveCamera } from 'three';
+
+export type Gait = 'orbit' | 'walk' | 'fly';
+
+const eye = 1.7;
+/** Metres a second on foot; Shift goes four times as fast. */
+const pace = 1.8;
+const turn_speed = 1.4;
+const going = ['w', 'a', 's', 'd', 'q', 'z', 'pageup', 'pagedown', 'arrowleft', 'arrowright', 'arrowup', 'arrowdown', 'shift'];
+
+export class Walker {
+  gait: Gait = 'orbit';
+  on_move: (place: Vector3, heading: number) => void = () => {};
+  private readonly camera: PerspectiveCamera;
+  private readonly pressed = new Set<string>();
+  private readonly ray = new Raycaster();
+  private yaw = 0;
+  private pitch = 0;
+  private last = 0;
+  /** Half the model, in metres: flight is as fast as it is large. */
+  private reach = 5;
+  private floor = 0;
+  private ground: Object3D | null = null;
+  private dragged: { id: number; x: number; y: number } | null = null;
+
+  constructor(camera: PerspectiveCamera, canvas: HTMLCanvasElement, wake: () => void) {
+    this.camera = camera;
+    canvas.addEventListener('keydown', (event) => {
+      const key = event.key.toLowerCase();
+      if (this.gait === 'orbit' || !going.includes(key) || event.ctrlKey || event.metaKey || event.altKey) return;
+      event.preventDefault();
+      event.stopImmediatePropagation();
+      if (this.pressed.size === 0) this.last = performance.now();
+      this.pressed.add(key);
+      wake();
+    });
+    canvas.addEventListener('keyup', (event) => this.pressed.delete(event.key.toLowerCase()));
+    canvas.addEventListener('blur', () => this.pressed.clear());
+    canvas.addEventListener('pointerdown', (event) => {
+      if (this.gait !== 'orbit') this.dragged = { id: event.pointerId, x: event.clientX, y: event.clientY };
+    });
+    canvas.addEventListener('pointermove', (event) => {
+      if (this.dragged?.id !== event.pointerId || this.gait === 'orbit') return;
+      this.look((this.dragged.x - event.clientX) * 0.004, (this.dragged.y - event.clientY) * 0.004);
+      this.dragged = { id: event.pointerId, x: event.clientX, y: event.clientY };
+      this.aim();
+      wake();
+    });
+    addEventListener('pointerup', () => { this.dragged = null; });
+  }
+
+  /** What is walked on, and how large it is. */
+  land(model: Object3D, floor: number, reach: number): void {
+    this.ground = model;
+    this.floor = floor;
+    this.reach = reach;
+  }
+
+  /** Takes the camera where it stands; on foot it comes down to the ground. */
+  begin(gait: Gait): void {
+    this.gait = gait;
+    this.pressed.clear();
+    if (gait === 'orbit') return;
+    const ahead = this.camera.getWorldDirection(new Vector3());
+    this.yaw = Math.atan2(-ahead.x, -ahead.z);
+    this.pitch = gait === 'walk' ? 0 : Math.asin(MathUtils.clamp(ahead.y, -1, 1));
+    this.camera.near = Math.min(this.camera.near, 0.1);
+    this.camera.updateProjectionMatrix();
+    if (gait === 'walk') this.come_down();
+    this.aim();
+  }
+
+  /** Goes on by the time since the last call; true while a key is held. */
+  step(): boolean {
+    if (this.gait === 'orbit' || this.pressed.size === 0) return false;
+    const now = performance.now();
+    const seconds = Math.min((now - this.last) / 1000, 0.1);
+    this.last = now;
+    const has = (...keys: string[]): number => (keys.some((key) => this.pressed.has(key)) ? 1 : 0);
+    this.look((has('arrowleft') - has('arrowright')) * turn_speed * seconds, (has('arrowup') - has('arrowdown')) * turn_speed * seconds);
+    const speed = Math.max(pace, this.reach * (this.gait === 'fly' ? 0.4 : 0.08)) * (has('shift') ? 4 : 1) * seconds;
+    const along = (has('w') - has('s')) * speed, across = (has('d') - has('a')) * speed;
+    const up = (has('q', 'pageup') - has('z', 'pagedown')) * speed;
+    const level = this.gait === 'walk' ? 0 : this.pitch;
+    this.camera.position.add(new Vector3(
+      -Math.sin(this.yaw) * Math.cos(level) * along + Math.cos(this.yaw) * across,
+      Math.sin(level) * along + (this.gait === 'fly' ? up : 0),
+      -Math.cos(this.yaw) * Math.cos(level) * along - Math.sin(this.yaw) * across));
+    if (this.gait === 'walk') this.come_down();
+    this.aim();
+    return true;
+  }
+
+  private look(turn: number, tilt: number): void {
+    this.yaw += turn;
+    this.pitch = MathUtils.clamp(this.pitch + tilt, -1.5, 1.5);
+  }
+
+  private aim(): void {
+    this.camera.rotation.set(this.pitch, this.yaw, 0, 'YXZ');
+    // 0 is the way to -z, clockwise, as on a map with north at the top.
+    const heading = ((-this.yaw * 180 / Math.PI) % 360 + 360) % 360;
+    this.on_move(this.camera.position, heading);
+  }
+
+  /** Onto what lies below: a step of half a metre is climbed, a crown overhead is not. */
+  private come_down(): void {
+    const { position } = this.camera;
+    const step = Math.max(0.5, this.reach * 0.02);
+    this.ray.set(new Vector3(position.x, position.y - eye + step, position.z), new Vector3(0, -1, 0));
+    const below = this.ground ? this.ray.intersectObject(this.ground, true)[0] : undefined;
+    position.y = Math.max(below?.point.y ?? this.floor, this.floor) + eye;
+  }
+}
