@@ -102,12 +102,14 @@ Areas areas_of(const Mesh& mesh, const Pieces& pieces) {
   return areas;
 }
 
-/// The area vectors of a closed piece cancel each other out.
-bool all_open(const Areas& areas) {
+/// How many pieces are small and open: the area vectors of a closed piece cancel each other out.
+std::size_t count_leaves(const Pieces& pieces, const Areas& areas) {
+  std::size_t leaves = 0;
   for (std::size_t i = 0; i < areas.sum.size(); ++i) {
-    if (areas.area[i] > 0 && glm::dot(areas.sum[i], areas.sum[i]) < 1e-4 * areas.area[i] * areas.area[i]) return false;
+    const bool open = glm::dot(areas.sum[i], areas.sum[i]) > 1e-4 * areas.area[i] * areas.area[i];
+    leaves += open && pieces.triangles[i] <= most_triangles ? 1 : 0;
   }
-  return true;
+  return leaves;
 }
 
 /// Leaves the triangles of the pieces that stay.
@@ -133,10 +135,9 @@ std::uint64_t place_key(const glm::vec3& p) {
 bool is_foliage(const Mesh& mesh, const Job& job) {
   if (mesh.topology != Topology::triangles || mesh.position.empty()) return false;
   const Pieces pieces = pieces_of(mesh, job);
-  if (pieces.first.size() < fewest_pieces) return false;
-  const auto too_large = [](std::uint32_t triangles) { return triangles > most_triangles; };
-  return std::none_of(pieces.triangles.begin(), pieces.triangles.end(), too_large) &&
-         all_open(areas_of(mesh, pieces));
+  const auto all = static_cast<std::size_t>(
+      std::count_if(pieces.triangles.begin(), pieces.triangles.end(), [](std::uint32_t n) { return n > 0; }));
+  return all >= fewest_pieces && count_leaves(pieces, areas_of(mesh, pieces)) * 10 >= all * 9;
 }
 
 void thin_sheets(Mesh& mesh, std::uint64_t target, const Job& job) {
@@ -151,6 +152,7 @@ void thin_sheets(Mesh& mesh, std::uint64_t target, const Job& job) {
   std::vector<bool> stays(order.size(), false);
   std::uint64_t kept = 0, pieces_kept = 0;
   for (const std::uint32_t piece : order) {
+    if (pieces.triangles[piece] == 0) continue;  // vertices that nobody uses
     if (pieces_kept > 0 && kept + pieces.triangles[piece] > target) break;
     kept += pieces.triangles[piece];
     ++pieces_kept;

@@ -11,7 +11,7 @@ namespace seedmesh {
 namespace {
 
 constexpr const char* pointer = "/output/max_triangles";
-constexpr int attempts = 4;  ///< at a smaller share each time, where some meshes cannot do theirs
+constexpr int attempts = 6;  ///< at a smaller share each time, where some meshes cannot do theirs
 
 std::uint64_t triangles_of(const MeshGroup& group) {
   std::uint64_t triangles = 0;
@@ -100,23 +100,39 @@ std::uint64_t share_of(std::uint64_t triangles, double share) {
   return static_cast<std::uint64_t>(static_cast<double>(triangles) * share);
 }
 
-/// The family with `share` of its triangles: fewer leaves, simpler limbs, and no twigs where that is not
-/// enough.
-void coarsen(Family& family, double share, Job& job) {
-  std::uint64_t leaves = 0, rest = 0;
+std::uint64_t triangles_of(const Family& family, bool foliage) {
+  std::uint64_t triangles = 0;
   for (std::size_t i = 0; i < family.meshes.size(); ++i) {
-    Mesh& mesh = *family.meshes[i];
-    if (family.foliage[i]) thin_sheets(mesh, share_of(mesh.elements(), share), job);
-    (family.foliage[i] ? leaves : rest) += mesh.elements();
+    if (family.foliage[i] == foliage) triangles += family.meshes[i]->elements();
   }
-  if (rest == 0) return;
-  const std::uint64_t wanted = share_of(rest, share);
+  return triangles;
+}
+
+/// What is no foliage, with at most `wanted` triangles if that can be: simpler, and without its smallest pieces
+/// where that is not enough.
+void coarsen_limbs(Family& family, std::uint64_t wanted, Job& job) {
+  const std::uint64_t leaves = triangles_of(family, true);
   const std::uint64_t left = simplify(family.meshes, leaves + wanted, family.foliage, job) - leaves;
   if (left <= wanted) return;
   const double further = static_cast<double>(wanted) / static_cast<double>(left);
   for (std::size_t i = 0; i < family.meshes.size(); ++i) {
     Mesh& mesh = *family.meshes[i];
     if (!family.foliage[i]) drop_smallest_pieces(mesh, share_of(mesh.elements(), further), job);
+  }
+}
+
+/// The family with `share` of its triangles. Leaves make up for limbs that could not lose as many, down to a
+/// tenth of what was theirs.
+void coarsen(Family& family, double share, Job& job) {
+  const std::uint64_t leaves = triangles_of(family, true), limbs = triangles_of(family, false);
+  if (limbs > 0) coarsen_limbs(family, share_of(limbs, share), job);
+  if (leaves == 0) return;
+  const std::uint64_t total = share_of(leaves + limbs, share), left = triangles_of(family, false);
+  const double room = static_cast<double>(total > left ? total - left : 0) / static_cast<double>(leaves);
+  const double kept = std::clamp(room, share / 10, share);
+  for (std::size_t i = 0; i < family.meshes.size(); ++i) {
+    Mesh& mesh = *family.meshes[i];
+    if (family.foliage[i]) thin_sheets(mesh, share_of(mesh.elements(), kept), job);
   }
 }
 

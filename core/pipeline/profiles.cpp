@@ -96,15 +96,22 @@ std::string numbered(std::size_t number) { return (number < 10 ? "_0" : "_") + s
 std::string collision_name(const std::string& seen, CollisionShape shape, std::size_t number,
                            OutputProfile profile) {
   if (profile == OutputProfile::unreal) return std::string(unreal_prefix(shape)) + seen + numbered(number);
-  std::string name = seen + "_collision";
-  if (number > 0) name += '_' + std::to_string(number + 1);
-  return profile == OutputProfile::godot ? name + "-convcolonly" : name;
+  return seen + "_collision" + numbered(number) + "-convcolonly";
+}
+
+/// A generator may have been asked for names of its own.
+bool is_named(std::string_view name) {
+  for (const std::string_view prefix : {"UBX_", "UCP_", "USP_", "UCX_"}) {
+    if (name.starts_with(prefix)) return true;
+  }
+  return name.ends_with("-convcolonly") || name.ends_with("-colonly");
 }
 
 void name_collisions(Model& model, OutputProfile profile) {
+  if (profile != OutputProfile::unreal && profile != OutputProfile::godot) return;
   std::map<std::string, std::size_t> shapes;  // of each mesh that is seen
   for (Node& node : model.nodes) {
-    if (node.collision == CollisionShape::none) continue;
+    if (node.collision == CollisionShape::none || is_named(node.name)) continue;
     const MeshGroup* group = seen_beside(model, node);
     const std::string seen = group ? group->name : "model";
     node.name = collision_name(seen, node.collision, shapes[seen]++, profile);
