@@ -21,6 +21,7 @@ namespace {
 /// What a generator can do beyond making a still model.
 struct Traits {
   bool grows = false;
+  bool parts = false;
 };
 
 /// The functions of one generator as the compiler sees them, turned to those of a row.
@@ -52,6 +53,7 @@ struct Row {
   static constexpr Generator named(std::string_view name, Traits traits = {}) {
     return {.name = name,
             .grows = traits.grows,
+            .parts = traits.parts,
             .read = read,
             .write = write,
             .check = check,

@@ -20,18 +20,31 @@ constexpr std::byte zeros[4] = {};
 
 constexpr std::uint64_t padded(std::uint64_t bytes) { return (bytes + 3) & ~std::uint64_t{3}; }
 
+bool fits(const Bin::View& view, Pool pool, std::uint64_t bytes) {
+  return view.pool == pool && pool != Pool::image && padded(view.length) + bytes <= shared_view_bytes;
+}
+
+constexpr int array_buffer = 34962, element_array_buffer = 34963;
+
+}  // namespace
+
 std::uint32_t stride_of(Pool pool) {
   switch (pool) {
+    case Pool::index2:
+    case Pool::sequence2:
+      return 2;
     case Pool::vertex4:
+    case Pool::index4:
+    case Pool::sequence4:
       return 4;
     case Pool::vertex8:
+    case Pool::octahedral8:
+    case Pool::exponential8:
       return 8;
     case Pool::vertex12:
       return 12;
     case Pool::vertex16:
       return 16;
-    case Pool::index2:
-    case Pool::index4:
     case Pool::keys:
     case Pool::binds:
     case Pool::image:
@@ -40,13 +53,31 @@ std::uint32_t stride_of(Pool pool) {
   return 0;
 }
 
-bool fits(const Bin::View& view, Pool pool, std::uint64_t bytes) {
-  return view.pool == pool && pool != Pool::image && padded(view.length) + bytes <= shared_view_bytes;
+int target_of(Pool pool) {
+  switch (pool) {
+    case Pool::vertex4:
+    case Pool::vertex8:
+    case Pool::vertex12:
+    case Pool::vertex16:
+    case Pool::octahedral8:
+    case Pool::exponential8:
+      return array_buffer;
+    case Pool::index2:
+    case Pool::index4:
+    case Pool::sequence2:
+    case Pool::sequence4:
+      return element_array_buffer;
+    case Pool::keys:
+    case Pool::binds:
+    case Pool::image:
+      return 0;
+  }
+  return 0;
 }
 
-}  // namespace
-
 Pool vertex_pool(const Column& column) {
+  if (column.filter == Filter::octahedral) return Pool::octahedral8;
+  if (column.filter == Filter::exponential) return Pool::exponential8;
   switch (column.stride()) {
     case 4:
       return Pool::vertex4;
@@ -68,7 +99,7 @@ int Bin::add(Pool pool, Slice slice) {
   return static_cast<int>(items_.size()) - 1;
 }
 
-void Bin::arrange() {
+void Bin::arrange(Packing packing) {
   order_.resize(items_.size());
   std::iota(order_.begin(), order_.end(), std::size_t{0});
   std::stable_sort(order_.begin(), order_.end(),
@@ -78,15 +109,26 @@ void Bin::arrange() {
     const Item& item = items_[number];
     const std::uint64_t bytes = item.slice.bytes.size();
     if (views_.empty() || !fits(views_.back(), item.pool, bytes)) {
+      size_ = padded(size_);
       views_.push_back({.pool = item.pool, .offset = size_});
     } else {
-      views_.back().stride = stride_of(item.pool);
+      if (packing == Packing::aligned) size_ = padded(size_);
+      if (target_of(item.pool) == array_buffer) views_.back().stride = stride_of(item.pool);
     }
     View& view = views_.back();
     places_[number] = {static_cast<int>(views_.size()) - 1, size_ - view.offset};
     view.length = size_ - view.offset + bytes;
-    size_ += padded(bytes);
+    size_ += bytes;
   }
+  size_ = padded(size_);
+}
+
+std::vector<std::vector<Slice>> Bin::slices() const {
+  std::vector<std::vector<Slice>> inside(views_.size());
+  for (const std::size_t number : order_) {
+    inside[static_cast<std::size_t>(places_[number].view)].push_back(items_[number].slice);
+  }
+  return inside;
 }
 
 void Bin::drain(Job& job, const std::function<void(Slice)>& sink) {

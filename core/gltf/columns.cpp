@@ -11,14 +11,6 @@ namespace {
 
 constexpr std::string_view uv_semantics[] = {"TEXCOORD_0", "TEXCOORD_1", "TEXCOORD_2", "TEXCOORD_3"};
 
-/// Moves a container to where payloads can share it.
-template <class Container>
-Slice keep(Container numbers) {
-  auto kept = std::make_shared<const Container>(std::move(numbers));
-  const auto bytes = std::as_bytes(std::span(kept->data(), kept->size()));
-  return {std::move(kept), bytes};
-}
-
 template <class T>
 Column column_of(Array<T>& array, Component component, Lanes lanes) {
   const std::size_t count = array.size();

@@ -20,16 +20,20 @@ struct Slice {
 };
 
 /// Numbers as OpenGL names their types, which glTF took over.
-enum class Component : int { u8 = 5121, u16 = 5123, u32 = 5125, f32 = 5126 };
+enum class Component : int { u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 
 enum class Lanes : int { scalar = 1, vec2 = 2, vec3 = 3, vec4 = 4, mat4 = 16 };
+
+/// How the bytes of a compressed column differ from what its accessor tells: see EXT_meshopt_compression.
+enum class Filter { none, octahedral, exponential };
 
 struct Column {
   Slice slice = {};
   Component component = Component::f32;
   Lanes lanes = Lanes::scalar;
   std::size_t count = 0;          ///< elements of `lanes` numbers each; never 0 in a document
-  bool normalized = false;        ///< integers stand for 0..1
+  bool normalized = false;        ///< integers stand for 0..1, or -1..1 with a sign
+  Filter filter = Filter::none;
   std::optional<Box> range = {};  ///< where glTF wants it (positions, key times: in x)
 
   std::uint32_t stride() const { return static_cast<std::uint32_t>(slice.bytes.size() / count); }
@@ -64,6 +68,14 @@ struct Columns {
   std::vector<Column> inverse_binds;      ///< as Model::skins
   std::vector<Tracks> animations;         ///< as Model::animations
 };
+
+/// Moves a container to where payloads can share it.
+template <class Container>
+Slice keep(Container numbers) {
+  auto kept = std::make_shared<const Container>(std::move(numbers));
+  const auto bytes = std::as_bytes(std::span(kept->data(), kept->size()));
+  return {std::move(kept), bytes};
+}
 
 /// Takes the arrays out of `model` (which keeps all else) without copying any of them. The range of the
 /// positions is Mesh::bounds where it is set; else they are read through once. A texture coordinate set that

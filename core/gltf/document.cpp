@@ -3,11 +3,15 @@
 #include <tiny_gltf.h>
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <deque>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
 
+#include "core/base/array.h"
+#include "core/gltf/compress.h"
 #include "core/gltf/json_text.h"
 #include "core/gltf/lists.h"
 #include "core/gltf/materials.h"
@@ -16,29 +20,9 @@
 namespace seedmesh::gltf {
 namespace {
 
-constexpr int array_buffer = 34962, element_array_buffer = 34963;
-
 /// Stands for a number that is not known yet. A control character is always escaped in JSON, so no name holds
 /// it.
 constexpr std::string_view view_mark = "\x01";
-
-int target_of(Pool pool) {
-  switch (pool) {
-    case Pool::vertex4:
-    case Pool::vertex8:
-    case Pool::vertex12:
-    case Pool::vertex16:
-      return array_buffer;
-    case Pool::index2:
-    case Pool::index4:
-      return element_array_buffer;
-    case Pool::keys:
-    case Pool::binds:
-    case Pool::image:
-      return 0;
-  }
-  return 0;
-}
 
 /// Opens a member that is an array of objects, or goes on with it.
 void open_entry(std::string& list) { list += list.empty() ? '[' : ','; }
@@ -51,6 +35,7 @@ class Describer {
         columns_(columns),
         options_(options),
         job_(job),
+        accessors_(options.dialect.compressed ? Packing::tight : Packing::aligned),
         meshes_(model.meshes.size()),
         images_(model.textures.size()),
         skins_(model.skins.size()),
@@ -69,12 +54,27 @@ class Describer {
       const int mesh = mesh_of(node);
       shown.meshes.push_back(meshes_.use(mesh));
       if (mesh >= 0) skins_.use(node.skin);
+      if (options_.dialect.lods_inside) shown.lods.push_back(lods_of(node, mesh));
       if (node.parent < 0) scene.nodes.push_back(static_cast<int>(i));
     }
     shown.skins = skins_.numbers();
+    if (std::any_of(shown.lods.begin(), shown.lods.end(), [](const auto& lods) { return !lods.empty(); })) {
+      out_.extensionsUsed.emplace_back("MSFT_lod");
+    }
     out_.defaultScene = 0;
     out_.scenes.push_back(std::move(scene));
     return shown;
+  }
+
+  /// Stores the copies of nodes as arrays, where they are to be no nodes. Those of a skinned mesh stay nodes.
+  void add_copies(Shown& shown) {
+    if (!options_.dialect.gpu_instances) return;
+    for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
+      const std::vector<Transform>& copies = model_.nodes[i].instances.transforms;
+      if (copies.empty() || shown.meshes[i] < 0 || model_.nodes[i].skin >= 0) continue;
+      shown.copies[i] = copies_of(copies);
+    }
+    if (!shown.copies.empty()) require("EXT_mesh_gpu_instancing");
   }
 
   void add_meshes() {
@@ -149,7 +149,12 @@ class Describer {
   /// Gives everything its place in the buffer; nothing can be added after this.
   void arrange() {
     Bin& bin = accessors_.bin();
-    bin.arrange();
+    bin.arrange(accessors_.packing());
+    for (const int item : image_items_) {
+      image_list_.replace(image_list_.find(view_mark), view_mark.size(),
+                          std::to_string(bin.place(item).view));
+    }
+    if (options_.dialect.compressed) return compress_views();
     for (const Bin::View& view : bin.views()) {
       tinygltf::BufferView& described = out_.bufferViews.emplace_back();
       described.buffer = 0;
@@ -157,10 +162,6 @@ class Describer {
       described.byteLength = static_cast<std::size_t>(view.length);
       described.byteStride = view.stride;
       described.target = target_of(view.pool);
-    }
-    for (const int item : image_items_) {
-      image_list_.replace(image_list_.find(view_mark), view_mark.size(),
-                          std::to_string(bin.place(item).view));
     }
   }
 
@@ -181,11 +182,13 @@ class Describer {
       accessors_.append(out, job_);
     }
     append_list(out, ",\"animations\":", animation_list_);
+    if (!compressed_.views.empty()) out += ",\"bufferViews\":" + compressed_.views;
     append_list(out, ",\"images\":", image_list_);
     append_list(out, ",\"meshes\":", mesh_list_);
   }
 
-  Bin take_bin() { return std::move(accessors_.bin()); }
+  Bin take_bin() { return std::move(options_.dialect.compressed ? compressed_.bin : accessors_.bin()); }
+  std::uint64_t fallback() const { return compressed_.fallback; }
   const std::vector<std::size_t>& images() const { return images_.used(); }
 
  private:
@@ -194,6 +197,71 @@ class Describer {
     out += key;
     out += list;
     out += ']';
+  }
+
+  void require(const char* extension) {
+    out_.extensionsUsed.emplace_back(extension);
+    out_.extensionsRequired.emplace_back(extension);
+  }
+
+  void compress_views() {
+    compressed_ = compress(accessors_.bin(), job_);
+    accessors_.bin().forget();
+    if (compressed_.fallback == 0) return;
+    require("KHR_mesh_quantization");
+    require("EXT_meshopt_compression");
+  }
+
+  /// Numbers of the coarser meshes of a node that shows `mesh`.
+  std::vector<int> lods_of(const Node& node, int mesh) {
+    std::vector<int> lods;
+    for (const int lod : node.lods) {
+      if (mesh >= 0 && !columns_.meshes[static_cast<std::size_t>(lod)].empty()) lods.push_back(meshes_.use(lod));
+    }
+    return lods;
+  }
+
+  template <class T>
+  int add_column(Array<T> values, Component component, Lanes lanes) {
+    const std::size_t count = values.size();
+    copy_columns_.push_back({.slice = keep(std::move(values)), .component = component, .lanes = lanes, .count = count});
+    Column& column = copy_columns_.back();
+    column.normalized = component == Component::i16;
+    return accessors_.add(vertex_pool(column), column);
+  }
+
+  /// Rotations in 16 bits where the file is quantized anyway, which all readers of both extensions take.
+  CopyAccessors copies_of(const std::vector<Transform>& copies) {
+    Array<glm::vec3> translation(job_, copies.size()), scale(job_, copies.size());
+    bool turned = false, scaled = false;
+    for (std::size_t i = 0; i < copies.size(); ++i) {
+      translation[i] = copies[i].translation + 0.0F;
+      scale[i] = copies[i].scale;
+      scaled = scaled || scale[i] != glm::vec3(1);
+      turned = turned || copies[i].rotation != glm::quat(1, 0, 0, 0);
+    }
+    CopyAccessors accessors;
+    accessors.translation = add_column(std::move(translation), Component::f32, Lanes::vec3);
+    if (turned && options_.dialect.compressed) {
+      Array<glm::i16vec4> rotation(job_, copies.size());
+      for (std::size_t i = 0; i < copies.size(); ++i) {
+        const glm::quat& q = copies[i].rotation;
+        for (int lane = 0; lane < 4; ++lane) {
+          const float value = lane == 0 ? q.x : lane == 1 ? q.y : lane == 2 ? q.z : q.w;
+          rotation[i][lane] = static_cast<std::int16_t>(std::floor(std::clamp(value, -1.0F, 1.0F) * 32'767 + 0.5F));
+        }
+      }
+      accessors.rotation = add_column(std::move(rotation), Component::i16, Lanes::vec4);
+    } else if (turned) {
+      Array<glm::vec4> rotation(job_, copies.size());
+      for (std::size_t i = 0; i < copies.size(); ++i) {
+        const glm::quat& q = copies[i].rotation;
+        rotation[i] = glm::vec4(q.x, q.y, q.z, q.w) + 0.0F;
+      }
+      accessors.rotation = add_column(std::move(rotation), Component::f32, Lanes::vec4);
+    }
+    if (scaled) accessors.scale = add_column(std::move(scale), Component::f32, Lanes::vec3);
+    return accessors;
   }
 
   int mesh_of(const Node& node) const {
@@ -248,6 +316,8 @@ class Describer {
   std::map<std::pair<int, bool>, int> textures_;
   std::map<bool, int> samplers_;
   std::vector<int> image_items_;
+  std::deque<Column> copy_columns_;  ///< accessors point at them
+  Compressed compressed_;
 };
 
 /// asset.extras as a JSON object, empty if there is nothing to say.
@@ -288,8 +358,9 @@ void add_to_asset(std::string& text, const std::string& extras) {
 
 Document describe(const Model& model, const Columns& columns, const DocumentOptions& options, Job& job) {
   Describer describer(model, columns, options, job);
-  const Shown shown = describer.show_nodes();
+  Shown shown = describer.show_nodes();
   describer.add_meshes();
+  describer.add_copies(shown);
   describer.add_animations();
   describer.add_materials();
   describer.add_skins();
@@ -313,6 +384,10 @@ Document describe(const Model& model, const Columns& columns, const DocumentOpti
   if (document.bin.size() > 0) {
     head += ",\"buffers\":[{\"byteLength\":" + std::to_string(document.bin.size());
     document.tail = "}]}";
+  }
+  if (describer.fallback() > 0) {
+    document.tail = "},{\"byteLength\":" + std::to_string(describer.fallback()) +
+                    ",\"extensions\":{\"EXT_meshopt_compression\":{\"fallback\":true}}}]}";
   }
   return document;
 }

@@ -7,11 +7,13 @@
 
 #include "core/gltf/bin.h"
 #include "core/gltf/columns.h"
+#include "core/gltf/write.h"
 #include "core/model/model.h"
 
 namespace seedmesh::gltf {
 
-/// JSON in two pieces, with the gap where the buffer's address goes: either nothing or `,"uri":"..."`.
+/// JSON in two pieces, with the gap where the address of the (first) buffer goes: either nothing or
+/// `,"uri":"..."`.
 struct Document {
   std::string head, tail;
   std::vector<std::size_t> images;  ///< which of Model::textures it uses
@@ -22,6 +24,7 @@ struct DocumentOptions {
   std::string generator = {};
   std::size_t lod = 0;                       ///< nodes with fewer levels show their coarsest
   std::vector<std::string> image_uris = {};  ///< as Model::textures; empty: the images go into the buffer
+  Dialect dialect = {};                      ///< `compressed`: `columns` are quantized
 };
 
 /// Describes what the scene of this level uses and nothing else: no mesh, material, texture, skin without a

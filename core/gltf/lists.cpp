@@ -127,7 +127,13 @@ void append_primitive(std::string& out, const Part& part, Accessors& accessors, 
     append_member(out, ":", numbers[attribute.column]);
   }
   out += '}';
-  if (part.index) append_member(out, ",\"indices\":", accessors.add(index_pool(*part.index), *part.index));
+  if (part.index) {
+    Pool pool = index_pool(*part.index);
+    if (accessors.packing() == Packing::tight && part.topology != Topology::triangles) {
+      pool = pool == Pool::index2 ? Pool::sequence2 : Pool::sequence4;
+    }
+    append_member(out, ",\"indices\":", accessors.add(pool, *part.index));
+  }
   const int material = materials.numbering.use(part.material);
   if (material >= 0) append_member(out, ",\"material\":", material);
   if (part.topology != Topology::triangles) append_member(out, ",\"mode\":", mode_of(part.topology));

@@ -26,6 +26,9 @@ class Numbering {
 /// The accessors of a document, and with them the contents of its buffer.
 class Accessors {
  public:
+  explicit Accessors(Packing packing) : packing_(packing) {}
+  Packing packing() const { return packing_; }
+
   /// Stores the column in the buffer and returns the number of its accessor. `column` has to stay.
   int add(Pool pool, const Column& column);
 
@@ -40,6 +43,7 @@ class Accessors {
     int item = -1;
     const Column* column = nullptr;
   };
+  Packing packing_;
   std::vector<Row> rows_;
   Bin bin_;
 };

@@ -1,6 +1,7 @@
 #include "core/gltf/nodes.h"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 #include <unordered_set>
 
@@ -48,7 +49,17 @@ std::string_view name_of(CollisionShape shape) {
   return "none";
 }
 
-void append_extras(std::string& out, const Node& node) {
+/// Shares of the screen's height below which the next level is shown; the last is never left for nothing.
+void append_coverage(std::string& out, std::size_t levels) {
+  constexpr std::array<std::string_view, 5> shares = {"0.5", "0.25", "0.12", "0.06", "0.03"};
+  for (std::size_t i = 0; i + 1 < levels; ++i) {
+    out += i == 0 ? '[' : ',';
+    out += shares[std::min(i, shares.size() - 1)];
+  }
+  out += ",0]";
+}
+
+void append_extras(std::string& out, const Node& node, std::size_t levels) {
   char before = '{';
   const auto append_name = [&](std::string_view name) {
     if (before == '{') out += ",\"extras\":";
@@ -64,6 +75,10 @@ void append_extras(std::string& out, const Node& node) {
   if (node.collision != CollisionShape::none) {
     append_name("collision");
     append_string(out, name_of(node.collision));
+  }
+  if (levels > 1) {
+    append_name("MSFT_screencoverage");
+    append_coverage(out, levels);
   }
   if (before == ',') out += '}';
 }
@@ -93,7 +108,11 @@ class NodeWriter {
  public:
   NodeWriter(std::string& out, const Model& model, const Shown& shown)
       : out_(out), model_(model), shown_(shown), family_(family_of(model)), next_copy_(model.nodes.size()) {
-    const auto is_copied = [](const Node& node) { return !node.instances.transforms.empty(); };
+    next_level_ = next_copy_;
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) next_level_ += copies(i);
+    const auto is_copied = [](const Node& node) {
+      return !node.instances.transforms.empty() || !node.lods.empty();
+    };
     if (std::none_of(model.nodes.begin(), model.nodes.end(), is_copied)) return;
     for (const Node& node : model.nodes) names_.insert(node.name);
   }
@@ -102,9 +121,12 @@ class NodeWriter {
     const Node& node = model_.nodes[number];
     open(node.name);
     append_transform(out_, node.transform);
-    if (node.instances.transforms.empty()) append_shown(number);
+    const bool shows = stands_itself(number);
+    if (shows) append_shown(number, shown_.meshes[number]);
     append_children(number);
-    append_extras(out_, node);
+    const std::size_t coarser = shows ? levels(number) : 0;
+    append_extensions(number, shows, coarser);
+    append_extras(out_, node, 1 + coarser);
     out_ += '}';
   }
 
@@ -113,15 +135,90 @@ class NodeWriter {
     for (std::size_t i = 0; i < copies(number); ++i) {
       open(copy_name(node.name, i));
       append_transform(out_, node.instances.transforms[i]);
-      append_shown(number);
+      append_shown(number, shown_.meshes[number]);
+      append_extensions(number, false, levels(number));
+      if (levels(number) > 0) append_extras(out_, Node{}, 1 + levels(number));
       out_ += '}';
       meter.step();
     }
   }
 
+  /// The coarser levels in the order in which they were named: those of nodes, then those of copies.
+  void append_all_levels(TextMeter& meter) {
+    for (const bool itself : {true, false}) {
+      for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
+        if (levels(i) > 0 && stands_itself(i) == itself) append_levels(i, meter);
+      }
+    }
+  }
+
  private:
+  /// Copies that are nodes.
   std::size_t copies(std::size_t number) const {
-    return shown_.meshes[number] < 0 ? 0 : model_.nodes[number].instances.transforms.size();
+    if (shown_.meshes[number] < 0 || shown_.copies.contains(number)) return 0;
+    return model_.nodes[number].instances.transforms.size();
+  }
+
+  /// Whether the node shows its mesh, once or by instancing, and no child does so for it.
+  bool stands_itself(std::size_t number) const {
+    return shown_.meshes[number] >= 0 &&
+           (model_.nodes[number].instances.transforms.empty() || shown_.copies.contains(number));
+  }
+
+  std::size_t levels(std::size_t number) const {
+    return shown_.meshes[number] < 0 || shown_.lods.empty() ? 0 : shown_.lods[number].size();
+  }
+
+  void append_levels(std::size_t number, TextMeter& meter) {
+    const Node& node = model_.nodes[number];
+    const bool itself = stands_itself(number);
+    for (std::size_t i = 0; i < (itself ? 1 : copies(number)); ++i) {
+      for (std::size_t level = 0; level < levels(number); ++level) {
+        open(level_name(itself ? node.name : copy_name(node.name, i), level + 1));
+        append_transform(out_, itself ? node.transform : node.instances.transforms[i]);
+        append_shown(number, shown_.lods[number][level]);
+        append_extensions(number, itself, 0);
+        out_ += '}';
+        meter.step();
+      }
+    }
+  }
+
+  /// `itself`: with the copies that are no nodes. `coarser`: how many levels to name.
+  void append_extensions(std::size_t number, bool itself, std::size_t coarser) {
+    const auto found = itself ? shown_.copies.find(number) : shown_.copies.end();
+    if (found == shown_.copies.end() && coarser == 0) return;
+    out_ += ",\"extensions\":{";
+    if (found != shown_.copies.end()) {
+      out_ += "\"EXT_mesh_gpu_instancing\":{\"attributes\":{";
+      append_attribute("\"TRANSLATION\":", found->second.translation);
+      append_attribute("\"ROTATION\":", found->second.rotation);
+      append_attribute("\"SCALE\":", found->second.scale);
+      out_ += "}}";
+    }
+    if (coarser > 0) {
+      if (out_.back() == '}') out_ += ',';
+      out_ += "\"MSFT_lod\":{\"ids\":[";
+      for (std::size_t i = 0; i < coarser; ++i) append_child(next_level_++);
+      out_ += "]}";
+    }
+    out_ += '}';
+  }
+
+  void append_attribute(std::string_view key, int accessor) {
+    if (accessor < 0) return;
+    if (out_.back() != '{') out_ += ',';
+    append_member(out_, key, accessor);
+  }
+
+  /// "bark_LOD0" is the finest of "bark_LOD1".
+  std::string level_name(std::string name, std::size_t level) const {
+    constexpr std::string_view finest = "_LOD0";
+    if (name.ends_with(finest)) name.resize(name.size() - finest.size());
+    name += "_LOD";
+    append_integer(name, static_cast<long long>(level));
+    while (names_.contains(name)) name += '_';
+    return name;
   }
 
   void open(std::string_view name) {
@@ -130,10 +227,10 @@ class NodeWriter {
     append_string(out_, name);
   }
 
-  void append_shown(std::size_t number) {
+  void append_shown(std::size_t number, int mesh) {
     const int skin = model_.nodes[number].skin;
-    if (shown_.meshes[number] < 0) return;  // a skin without a mesh is an error
-    append_member(out_, ",\"mesh\":", shown_.meshes[number]);
+    if (mesh < 0) return;  // a skin without a mesh is an error
+    append_member(out_, ",\"mesh\":", mesh);
     if (skin >= 0) append_member(out_, ",\"skin\":", shown_.skins[static_cast<std::size_t>(skin)]);
   }
 
@@ -164,7 +261,7 @@ class NodeWriter {
   const Model& model_;
   const Shown& shown_;
   Family family_;
-  std::size_t next_copy_;
+  std::size_t next_copy_, next_level_ = 0;  ///< numbers of nodes that come behind those of the model
   std::unordered_set<std::string_view> names_;  ///< of the model's nodes, if any node is copied
 };
 
@@ -179,6 +276,7 @@ void append_nodes(std::string& out, const Model& model, const Shown& shown, Job&
     meter.step();
   }
   for (std::size_t i = 0; i < model.nodes.size(); ++i) writer.append_copies(i, meter);
+  writer.append_all_levels(meter);
   out += ']';
   meter.settle();
 }

@@ -9,6 +9,7 @@
 #include "core/gltf/bin.h"
 #include "core/gltf/columns.h"
 #include "core/gltf/document.h"
+#include "core/gltf/quantize.h"
 #include "core/gltf/zip.h"
 
 namespace seedmesh {
@@ -121,9 +122,10 @@ std::size_t lod_count(const Model& model) {
   return 1 + coarser;
 }
 
-Payload write_zip(const Model& model, const Columns& columns, const std::string& generator, Job& job) {
+Payload write_zip(const Model& model, const Columns& columns, gltf::DocumentOptions options, Job& job) {
   const std::string stem = file_stem(model.name);
-  gltf::DocumentOptions options{.generator = generator, .image_uris = image_files(model)};
+  options.image_uris = image_files(model);
+  options.dialect.lods_inside = false;
   std::vector<gltf::ZipEntry> files;
   std::set<std::size_t> images;
   const std::size_t lods = lod_count(model);
@@ -150,13 +152,22 @@ Payload write_zip(const Model& model, const Columns& columns, const std::string&
 
 }  // namespace
 
-Payload write(Model model, Container container, const std::string& generator, Job& job) {
+Payload write(Model model, const WriteOptions& options, Job& job) {
+  const Dialect& dialect = options.dialect;
+  std::vector<gltf::Grid> grids;
+  if (dialect.compressed) grids = gltf::lay_grids(model);
   Columns columns = gltf::take_columns(model);
-  if (container == Container::zip) return write_zip(model, columns, generator, job);
-  Document document = gltf::describe(model, columns, {.generator = generator}, job);
+  if (dialect.compressed) gltf::quantize(columns, grids, job);
+  const gltf::DocumentOptions described{.generator = options.generator, .dialect = dialect};
+  if (options.container == Container::zip) return write_zip(model, columns, described, job);
+  Document document = gltf::describe(model, columns, described, job);
   columns = {};  // now the document alone holds the arrays, and can give each back as soon as it is written
-  return container == Container::glb ? write_glb(std::move(document), job)
-                                     : write_gltf(std::move(document), job);
+  return options.container == Container::glb ? write_glb(std::move(document), job)
+                                             : write_gltf(std::move(document), job);
+}
+
+Payload write(Model model, Container container, const std::string& generator, Job& job) {
+  return write(std::move(model), {container, generator, {}}, job);
 }
 
 }  // namespace seedmesh

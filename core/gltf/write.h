@@ -12,10 +12,27 @@ namespace seedmesh {
 /// whose nodes have coarser levels also name_LOD1.gltf, name_LOD1.bin and so on, which share the textures.
 enum class Container { glb, gltf, zip };
 
-/// Writes the whole model; takes it over, since the payload points into its arrays. `generator` goes to
-/// asset.generator. Every accessor has min and max where glTF wants them, every view of vertices or indices
-/// its target, everything is aligned to 4. Core glTF 2.0: instances become nodes that share a mesh;
-/// extensions (unlit, variants) are never required. What no node shows (meshes, materials, textures, skins)
+/// What a file says in words that core glTF 2.0 does not have. Who cannot read such a word would show something
+/// else, so the file requires it; only MSFT_lod may be overlooked: the finest level is then shown alone.
+struct Dialect {
+  /// KHR_mesh_quantization and EXT_meshopt_compression: positions of 16 bits on a grid of the mesh (steps of a
+  /// power of two, alike for meshes alike in size, so that their common edges stay common), normals and
+  /// tangents of 10 bits an octahedral axis, texture coordinates of 16 bits, or of 2^-14 outside 0..1. What
+  /// becomes equal is one vertex, what loses its area is left out. Lossless from there on.
+  bool compressed = false;
+  bool gpu_instances = false;  ///< EXT_mesh_gpu_instancing instead of a node for each copy
+  bool lods_inside = false;    ///< MSFT_lod; of no effect in a zip, which has a file for each level
+};
+
+struct WriteOptions {
+  Container container = Container::glb;
+  std::string generator = {};  ///< goes to asset.generator
+  Dialect dialect = {};
+};
+
+/// Writes the whole model; takes it over, since the payload points into its arrays. Every accessor has min and max where glTF wants them, every view of vertices or indices
+/// its target, everything is aligned to 4. Without a dialect core glTF 2.0: instances become nodes that share a
+/// mesh; extensions (unlit, variants) are never required. What no node shows (meshes, materials, textures, skins)
 /// is left out; a model without meshes gives a scene without any. Model::extras and warnings go to
 /// asset.extras.
 ///
@@ -25,7 +42,10 @@ enum class Container { glb, gltf, zip };
 ///
 /// Throws Stop (through job) before output_bytes is passed, or where the file would reach 4 GiB. Vertex and
 /// index data are not copied for glb and zip; base64 takes 4/3 of them and gives each array back when it is
-/// encoded.
+/// encoded. The compressed dialect makes its data anew: about 60 ns a vertex, one thread.
+Payload write(Model model, const WriteOptions& options, Job& job);
+
+/// The same in plain words.
 Payload write(Model model, Container container, const std::string& generator, Job& job);
 
 }  // namespace seedmesh

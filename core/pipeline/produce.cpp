@@ -2,11 +2,15 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "core/geom/copies.h"
 #include "core/geom/finish.h"
 #include "core/geom/tangents.h"
 #include "core/gltf/write.h"
 #include "core/lang/expression.h"
+#include "core/model/row.h"
 #include "core/pipeline/body.h"
+#include "core/pipeline/fit.h"
+#include "core/pipeline/profiles.h"
 #include "core/texture/paint.h"
 
 namespace seedmesh {
@@ -50,9 +54,7 @@ Error in_request(Error error) {
 template <class T, class Work>
 Result<T> guarded(Work&& work) {
   try {
-    Result<T> result = work();
-    if (!result) return in_request(std::move(result).error());
-    return result;
+    return work();
   } catch (const Stop& stop) {
     return in_request(Error{stop.code(), {stop.issue()}});
   } catch (const std::bad_alloc&) {
@@ -114,7 +116,7 @@ std::vector<Product::Span> timing_of(const Job& job) {
 Result<Product> produce_own(const Request& request, const OwnForm& form, Job& job) {
   Result<Array<std::uint8_t>> file =
       request.body().generator->encode(request.body().params, form.format, job);
-  if (!file) return std::move(file).error();
+  if (!file) return in_request(std::move(file).error());
   job.spend(Resource::output_bytes, file->size());
   Product product;
   product.media_type = form.media_type;
@@ -126,24 +128,86 @@ Result<Product> produce_own(const Request& request, const OwnForm& form, Job& jo
   return product;
 }
 
+/// Parts of one thing that are repeated more often than this are merged by material.
+constexpr std::uint64_t most_parts = 400;
+
+Demand demand_of(const OutputParams& output) {
+  return {.lods = output.max_triangles ? levels_to_choose_from : output.lods,
+          .share_organs = output.instancing == OutputInstancing::nodes || output.instancing == OutputInstancing::gpu,
+          .growth = output.animation == OutputParams::Animation::growth};
+}
+
+/// The model of one seed, as its generator makes it.
+Result<Model> generate(const Request& request, Job& job) {
+  const OutputParams& output = request.body().output;
+  job.set_demand(demand_of(output));
+  Result<Model> model = request.body().generator->generate(request.body().params, job);
+  if (!model) return in_request(std::move(model).error());
+  if (output.lods > 1 && !has_levels(*model)) {
+    return Error{Code::invalid,
+                 {{"/output/lods", "found " + std::to_string(output.lods) +
+                                       " levels of detail; this model has one"}}};
+  }
+  return model;
+}
+
+/// The models of as many seeds as are wanted, side by side.
+Result<Model> generate_all(const Request& request, Job& job) {
+  const int variants = request.body().output.variants;
+  if (variants == 1) return generate(request, job);
+  std::vector<Model> models;
+  for (int i = 0; i < variants; ++i) {
+    job.progress("derive", static_cast<double>(i) / variants);
+    const std::uint64_t seed = request.seed() + static_cast<std::uint64_t>(i);
+    Job own = job.for_child(seed);
+    Result<Model> model = generate(request, own);
+    if (!model) return std::move(model).error();
+    model->name += "_seed_" + std::to_string(seed);
+    model->extras.push_back({"seed", seed_json(seed).dump()});
+    models.push_back(*std::move(model));
+  }
+  return row_of(std::move(models));
+}
+
+/// Copies as meshes of their own, where that is wanted.
+void merge_where_wanted(Model& model, const Request& request, Job& job) {
+  const OutputInstancing instancing = request.body().output.instancing;
+  const bool crowded = instancing == OutputInstancing::auto_ && request.body().generator->parts &&
+                       count_copies(model) > most_parts;
+  if (instancing == OutputInstancing::merge || crowded) merge_copies(model, job);
+}
+
+WriteOptions write_options(const Request& request, const Form& form) {
+  const OutputParams& output = request.body().output;
+  const Profile& profile = profile_of(output.profile);
+  const bool by_itself = output.instancing == OutputInstancing::auto_ && profile.prefers_gpu &&
+                         !request.body().generator->parts;
+  return {.container = form.container,
+          .generator = "Seedmesh " + std::string(program_version()),
+          .dialect = {.compressed = profile.compressed,
+                      .gpu_instances = by_itself || output.instancing == OutputInstancing::gpu,
+                      .lods_inside = profile.lods_inside}};
+}
+
 }  // namespace
 
 Result<Product> produce(const Request& request, Job& job, TextureStore* texture_store) {
   return guarded<Product>([&]() -> Result<Product> {
     if (const OwnForm* form = own_form_of(request)) return produce_own(request, *form, job);
     const OutputParams& output = request.body().output;
-    job.set_demand({output.lods, output.instancing == OutputInstancing::nodes,
-                    output.animation == OutputParams::Animation::growth});
-    Result<Model> model = request.body().generator->generate(request.body().params, job);
+    Result<Model> model = generate_all(request, job);
     if (!model) return std::move(model).error();
-    if (output.lods > 1 && !has_levels(*model)) {
-      return Error{Code::invalid,
-                   {{"", "output.lods asks for " + std::to_string(output.lods) +
-                             " levels of detail; this model has one"}}};
+    if (output.max_triangles) {
+      const auto most = static_cast<std::uint64_t>(*output.max_triangles);
+      if (std::optional<Issue> issue = fit(*model, most, output.lods, job)) {
+        return Error{Code::limit, {*std::move(issue)}};
+      }
     }
+    merge_where_wanted(*model, request, job);
     texture::paint(*model, texture_size(output), texture_store, job);
     if (output.tangents == OutputTangents::auto_) add_tangents(*model, job);
     finish(*model, job);
+    name_for(*model, output.profile);
     sign(*model, request);
     const ModelCounts counts = count(*model);
     Product product;
@@ -153,8 +217,7 @@ Result<Product> produce(const Request& request, Job& job, TextureStore* texture_
     product.media_type = form.media_type;
     product.extension = form.name;
     job.progress("encode", 0);
-    product.payload =
-        write(std::move(*model), form.container, "Seedmesh " + std::string(program_version()), job);
+    product.payload = write(std::move(*model), write_options(request, form), job);
     product.timing = timing_of(job);
     return product;
   });
@@ -163,7 +226,7 @@ Result<Product> produce(const Request& request, Job& job, TextureStore* texture_
 Result<std::string> derive(const Request& request, Job& job) {
   return guarded<std::string>([&]() -> Result<std::string> {
     Result<Json> answer = request.body().generator->derive(request.body().params, job);
-    if (!answer) return std::move(answer).error();
+    if (!answer) return in_request(std::move(answer).error());
     return canonical_text(*answer);
   });
 }
@@ -171,9 +234,16 @@ Result<std::string> derive(const Request& request, Job& job) {
 Result<std::string> validate(const Request& request, Job& job) {
   return guarded<std::string>([&]() -> Result<std::string> {
     Result<Appraisal> appraisal = request.body().generator->appraise(request.body().params, job);
-    if (!appraisal) return std::move(appraisal).error();
+    if (!appraisal) return in_request(std::move(appraisal).error());
     Json answer = {{"valid", true}, {"warnings", described(appraisal->warnings)}, {"estimate", nullptr}};
-    if (const std::optional<Estimate>& estimate = appraisal->estimate) {
+    const OutputParams& output = request.body().output;
+    if (std::optional<Estimate>& estimate = appraisal->estimate) {
+      const auto variants = static_cast<std::uint64_t>(output.variants);
+      *estimate = {estimate->triangles * variants, estimate->bytes * variants, estimate->exact && variants == 1};
+      const auto most = static_cast<std::uint64_t>(output.max_triangles.value_or(0));
+      if (most > 0 && estimate->triangles > most) {
+        *estimate = {most, estimate->bytes / estimate->triangles * most, false};
+      }
       answer["estimate"] = {
           {"triangles", estimate->triangles}, {"bytes", estimate->bytes}, {"exact", estimate->exact}};
     }

@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <bit>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/generators/child.h"
 #include "core/pipeline/body.h"
+#include "core/pipeline/profiles.h"
 #include "core/schema/nearest.h"
 #include "core/schema/presets.h"
 #include "generated/params/request.h"
@@ -67,16 +69,46 @@ void add_form_fault(const Generator& generator, const OutputParams& output, Faul
                                     std::string(generator.name) + " are " + known});
 }
 
+/// Levels of detail need somebody who reads them, and copies on the GPU too.
+void check_profile(const OutputParams& output, Faults& faults) {
+  const Profile& profile = profile_of(output.profile);
+  const std::string named = "the profile " + std::string(text_of(output.profile));
+  if (output.lods > 1 && output.format != OutputFormat::zip && !profile.lods_inside) {
+    faults.add({"/output/lods", "found " + std::to_string(output.lods) + " levels of detail in the format " +
+                                    std::string(text_of(output.format)) + " with " + named +
+                                    ", which hold one; expected the format zip, or one of the profiles " +
+                                    profiles_where(&Profile::lods_inside)});
+  }
+  if (output.instancing == OutputInstancing::gpu && !profile.gpu_instances) {
+    faults.add({"/output/instancing", "found gpu with " + named + ", whose readers do not all take it; expected one of the profiles " +
+                                          profiles_where(&Profile::gpu_instances)});
+  }
+}
+
 /// What the schema cannot say of the output.
-void check_output(const OutputParams& output, Faults& faults) {
+void check_output(const OutputParams& output, std::uint64_t seed, Faults& faults) {
   const auto* size = std::get_if<std::int32_t>(&output.textures);
   if (size && !std::has_single_bit(static_cast<std::uint32_t>(*size)) && !faults.covers("/output/textures")) {
     faults.add({"/output/textures", "found " + std::to_string(*size) + "; expected a power of two, as 512"});
   }
-  if (output.lods > 1 && output.format != OutputFormat::zip) {
-    faults.add({"/output/lods", "found " + std::to_string(output.lods) + " levels of detail in the format " +
-                                    std::string(text_of(output.format)) +
-                                    ", which holds one; expected the format zip"});
+  const auto more = static_cast<std::uint64_t>(output.variants - 1);
+  if (seed + more < seed) {
+    faults.add({"/output/variants", "found " + std::to_string(output.variants) +
+                                        " seeds, of which some would be 2^64 or more"});
+  }
+  check_profile(output, faults);
+}
+
+/// A form that is no model has no use for what only models have.
+void check_own_form(const Generator& generator, const OutputParams& output, Faults& faults) {
+  const std::string_view format = text_of(output.format);
+  const auto is_own = [format](const OwnForm& form) { return form.format == format; };
+  if (std::none_of(generator.forms.begin(), generator.forms.end(), is_own)) return;
+  Json options = write_output(output);
+  options.erase("format");
+  for (const auto& [name, value] : options.items()) {
+    faults.add({"/output/" + name, "found " + value.dump() + " with the format " + std::string(format) +
+                                       ", which is no model and has no such option"});
   }
 }
 
@@ -94,13 +126,16 @@ Result<Request> read_request_body(const Json& json, const Limits& limits) {
   if (frame.preset && !faults.covers("/preset")) {
     faults.add({"/preset", schema::unknown_word("preset", *frame.preset, preset_names())});
   }
-  check_output(frame.output, faults);
+  check_output(frame.output, frame.seed, faults);
   Request::Body body;
   body.generator = named_generator(merged, frame, faults);
   if (body.generator && (!merged.contains("parameters") || merged["parameters"].is_object())) {
     body.params = parameters_of(merged, *body.generator, limits, faults);
   }
-  if (body.generator) add_form_fault(*body.generator, frame.output, faults);
+  if (body.generator) {
+    add_form_fault(*body.generator, frame.output, faults);
+    check_own_form(*body.generator, frame.output, faults);
+  }
   if (body.generator && !body.generator->grows && frame.output.animation == OutputParams::Animation::growth) {
     faults.add({"/output/animation",
                 "the generator " + std::string(body.generator->name) + " makes no growth animation"});
@@ -125,7 +160,8 @@ Result<Request> with_format(const Request& request, std::string_view format) {
   Request::Body body = request.body();
   body.output = read_output(output, "/output", faults);
   if (faults.empty()) add_form_fault(*body.generator, body.output, faults);
-  if (faults.empty()) check_output(body.output, faults);
+  if (faults.empty()) check_output(body.output, body.seed, faults);
+  if (faults.empty()) check_own_form(*body.generator, body.output, faults);
   if (!faults.empty()) return Error{Code::invalid, faults.take()};
   body.canonical = canonical_request(body);
   return Request(std::make_shared<const Request::Body>(std::move(body)));

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -131,6 +132,31 @@ inline Model with_lods(const Job& job) {
   model.nodes.resize(2);
   model.nodes[0].lods = {2, 3};
   return model;
+}
+
+/// Squares scattered about, turned and scaled.
+inline Model scattered(const Job& job) {
+  Model model = model_of(square(job));
+  for (int i = 0; i < 5; ++i) {
+    const auto at = static_cast<float>(i);
+    model.nodes[0].instances.transforms.push_back(
+        {{at, 2 * at, 0.5F}, glm::quat(0.8F, 0, 0.6F, 0), glm::vec3(1 + at)});
+  }
+  return model;
+}
+
+/// What the words of every dialect are needed for.
+inline std::map<std::string, Model> dialect_samples(const Job& job) {
+  std::map<std::string, Model> models;
+  models["squares"] = model_of(square(job), square(job, 0.1F));
+  models["bending_band"] = bending_band(job);
+  models["textured"] = textured(job);
+  models["seasonal"] = seasonal(job);
+  models["lods"] = with_lods(job);
+  models["instances"] = scattered(job);
+  models["instances_with_lods"] = with_lods(job);
+  models["instances_with_lods"].nodes[0].instances = scattered(job).nodes[0].instances;
+  return models;
 }
 
 /// The JSON of a GLB.

@@ -369,16 +369,8 @@ TEST(Write, LeavesSamplesForTheKhronosValidator) {
   const std::filesystem::path folder = "gltf_samples";
   std::filesystem::create_directories(folder);
   const Job fresh = job();
-  std::map<std::string, Model> models;
+  std::map<std::string, Model> models = dialect_samples(fresh);
   models["empty"] = Model{};
-  models["squares"] = model_of(square(fresh), square(fresh, 0.1F));
-  models["bending_band"] = bending_band(fresh);
-  models["textured"] = textured(fresh);
-  models["seasonal"] = seasonal(fresh);
-  models["lods"] = with_lods(fresh);
-  Model instances = model_of(square(fresh));
-  instances.nodes[0].instances.transforms.resize(5);
-  models["instances"] = std::move(instances);
   Mesh windy = square(fresh);
   windy.uv[3] = Array<glm::vec2>(fresh, 4, {0, 1});
   windy.color = Array<glm::u8vec4>(fresh, 4, {1, 2, 3, 4});
@@ -392,6 +384,16 @@ TEST(Write, LeavesSamplesForTheKhronosValidator) {
     const std::filesystem::path file = folder / (name + ".glb");
     std::ofstream(file, std::ios::binary) << glb_of(std::move(model)).text();
     EXPECT_GT(std::filesystem::file_size(file), 100U);
+  }
+  for (auto& [name, model] : dialect_samples(fresh)) {
+    Job each = job();
+    const WriteOptions options{Container::glb, "seedmesh test", {true, true, true}};
+    std::ofstream(folder / (name + "_web.glb"), std::ios::binary) << write(std::move(model), options, each).text();
+  }
+  for (auto& [name, model] : dialect_samples(fresh)) {
+    Job each = job();
+    const WriteOptions options{Container::glb, "seedmesh test", {false, true, true}};
+    std::ofstream(folder / (name + "_unity.glb"), std::ios::binary) << write(std::move(model), options, each).text();
   }
   Job text_job = job();
   const std::filesystem::path file = folder / "textured.gltf";

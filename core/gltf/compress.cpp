@@ -1,0 +1,171 @@
+/// Kapoulkine, "EXT_meshopt_compression", https://github.com/KhronosGroup/glTF (2021); codecs of version 0
+/// (vertices) and 1 (indices), which the extension fixes.
+#include "core/gltf/compress.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <memory>
+#include <string_view>
+
+#include "core/base/array.h"
+#include "core/gltf/json_text.h"
+
+namespace seedmesh::gltf {
+namespace {
+
+enum class Mode { attributes, triangles, indices };
+
+Mode mode_of(Pool pool) {
+  switch (pool) {
+    case Pool::index2:
+    case Pool::index4:
+      return Mode::triangles;
+    case Pool::sequence2:
+    case Pool::sequence4:
+      return Mode::indices;
+    default:
+      return Mode::attributes;
+  }
+}
+
+std::string_view name_of(Mode mode) {
+  switch (mode) {
+    case Mode::attributes:
+      return "ATTRIBUTES";
+    case Mode::triangles:
+      return "TRIANGLES";
+    case Mode::indices:
+      return "INDICES";
+  }
+  return "ATTRIBUTES";
+}
+
+std::string_view filter_of(Pool pool) {
+  if (pool == Pool::octahedral8) return "OCTAHEDRAL";
+  if (pool == Pool::exponential8) return "EXPONENTIAL";
+  return {};
+}
+
+/// The library keeps the versions to write for the whole process.
+void choose_versions() {
+  static const bool chosen = [] {
+    meshopt_encodeVertexVersion(0);
+    meshopt_encodeIndexVersion(1);
+    return true;
+  }();
+  static_cast<void>(chosen);
+}
+
+/// The arrays of a view one behind the other.
+Slice joined(std::vector<Slice> slices, std::uint64_t length, Job& job) {
+  if (slices.size() == 1) return std::move(slices.front());
+  auto block = std::make_shared<Array<std::byte>>(job);
+  block->reserve(length);
+  for (const Slice& slice : slices) block->append(slice.bytes);
+  assert(block->size() == length);
+  const auto whole = std::as_const(*block).span();
+  return {std::move(block), whole};
+}
+
+Array<unsigned> indices_of(std::span<const std::byte> bytes, std::uint32_t stride, Job& job) {
+  Array<unsigned> indices(job, bytes.size() / stride);
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    unsigned index = 0;
+    std::memcpy(&index, bytes.data() + i * stride, stride);  // the low bytes come first
+    indices[i] = index;
+  }
+  return indices;
+}
+
+/// What a codec makes of a stream. Its bound is a third more than the stream at worst.
+Slice encoded(std::span<const std::byte> bytes, Pool pool, Job& job) {
+  const std::uint32_t stride = stride_of(pool);
+  const std::size_t count = bytes.size() / stride;
+  auto out = std::make_shared<Array<unsigned char>>(job);
+  std::size_t size = 0;
+  if (mode_of(pool) == Mode::attributes) {
+    out->resize(meshopt_encodeVertexBufferBound(count, stride));
+    size = meshopt_encodeVertexBuffer(out->data(), out->size(), bytes.data(), count, stride);
+  } else {
+    const Array<unsigned> indices = indices_of(bytes, stride, job);
+    const std::size_t vertices = std::size_t{*std::max_element(indices.begin(), indices.end())} + 1;
+    if (mode_of(pool) == Mode::triangles) {
+      out->resize(meshopt_encodeIndexBufferBound(count, vertices));
+      size = meshopt_encodeIndexBuffer(out->data(), out->size(), indices.data(), count);
+    } else {
+      out->resize(meshopt_encodeIndexSequenceBound(count, vertices));
+      size = meshopt_encodeIndexSequence(out->data(), out->size(), indices.data(), count);
+    }
+  }
+  assert(size > 0);
+  out->resize(size);
+  out->shrink_to_fit();
+  const auto whole = std::as_bytes(std::as_const(*out).span());
+  return {std::move(out), whole};
+}
+
+void append_member(std::string& out, std::string_view key, std::uint64_t number) {
+  out += key;
+  append_integer(out, static_cast<long long>(number));
+}
+
+/// Where the stream lies, then how to read it.
+void append_extension(std::string& out, const Bin::View& plain, const Bin::View& stored) {
+  const std::uint32_t stride = stride_of(plain.pool);
+  out += ",\"extensions\":{\"EXT_meshopt_compression\":{\"buffer\":0";
+  append_member(out, ",\"byteOffset\":", stored.offset);
+  append_member(out, ",\"byteLength\":", stored.length);
+  append_member(out, ",\"byteStride\":", stride);
+  append_member(out, ",\"count\":", plain.length / stride);
+  out += ",\"mode\":\"";
+  out += name_of(mode_of(plain.pool));
+  out += '"';
+  if (const std::string_view filter = filter_of(plain.pool); !filter.empty()) {
+    out += ",\"filter\":\"";
+    out += filter;
+    out += '"';
+  }
+  out += "}}";
+}
+
+void append_view(std::string& out, const Bin::View& plain, const Bin::View& stored, std::uint64_t fallback) {
+  const bool compressed = target_of(plain.pool) != 0;
+  out += out.empty() ? '[' : ',';
+  append_member(out, "{\"buffer\":", compressed ? 1 : 0);
+  append_member(out, ",\"byteOffset\":", compressed ? fallback : stored.offset);
+  append_member(out, ",\"byteLength\":", plain.length);
+  if (compressed) {
+    if (mode_of(plain.pool) == Mode::attributes) append_member(out, ",\"byteStride\":", stride_of(plain.pool));
+    append_member(out, ",\"target\":", static_cast<std::uint64_t>(target_of(plain.pool)));
+    append_extension(out, plain, stored);
+  }
+  out += '}';
+}
+
+}  // namespace
+
+Compressed compress(const Bin& plain, Job& job) {
+  choose_versions();
+  Compressed result;
+  std::vector<std::vector<Slice>> slices = plain.slices();
+  for (std::size_t i = 0; i < slices.size(); ++i) {
+    job.check();
+    const Bin::View& view = plain.views()[i];
+    Slice slice = joined(std::move(slices[i]), view.length, job);
+    if (target_of(view.pool) != 0) slice = encoded(slice.bytes, view.pool, job);
+    result.bin.add(Pool::image, std::move(slice));  // a pool whose arrays never share a view
+  }
+  result.bin.arrange();
+  for (std::size_t i = 0; i < slices.size(); ++i) {
+    const Bin::View& view = plain.views()[i];
+    append_view(result.views, view, result.bin.views()[i], result.fallback);
+    if (target_of(view.pool) != 0) result.fallback += (view.length + 3) / 4 * 4;
+  }
+  if (!result.views.empty()) result.views += ']';
+  return result;
+}
+
+}  // namespace seedmesh::gltf

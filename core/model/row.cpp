@@ -1,0 +1,142 @@
+#include "core/model/row.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "core/model/append.h"
+
+namespace seedmesh {
+namespace {
+
+constexpr float gap_share = 0.2F;
+
+bool same(const TextureUse& a, const TextureUse& b) {
+  return std::tie(a.texture, a.uv_set, a.repeat) == std::tie(b.texture, b.uv_set, b.repeat);
+}
+
+/// Equal in all but the seed of the textures.
+bool alike(const Material& a, const Material& b) {
+  const auto plain = [](const Material& m) {
+    return std::tie(m.name, m.base_color, m.metallic, m.roughness, m.emissive, m.alpha_mode, m.alpha_cutoff,
+                    m.double_sided, m.unlit, m.recipe.kind, m.recipe.color);
+  };
+  return plain(a) == plain(b) && same(a.base_color_texture, b.base_color_texture) &&
+         same(a.normal_texture, b.normal_texture) &&
+         same(a.metallic_roughness_texture, b.metallic_roughness_texture) &&
+         same(a.occlusion_texture, b.occlusion_texture) && same(a.emissive_texture, b.emissive_texture);
+}
+
+/// Images with the same bytes become the first of them.
+void share_textures(Model& model) {
+  std::vector<int> place(model.textures.size());
+  std::vector<std::shared_ptr<const Image>> kept;
+  for (std::size_t i = 0; i < model.textures.size(); ++i) {
+    const auto known = std::find_if(kept.begin(), kept.end(), [&](const auto& each) {
+      return each == model.textures[i] || (each->mime == model.textures[i]->mime && each->bytes == model.textures[i]->bytes);
+    });
+    place[i] = static_cast<int>(known - kept.begin());
+    if (known == kept.end()) kept.push_back(model.textures[i]);
+  }
+  for (Material& material : model.materials) {
+    for (TextureUse* use :
+         {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
+          &material.occlusion_texture, &material.emissive_texture}) {
+      if (use->texture >= 0) use->texture = place[static_cast<std::size_t>(use->texture)];
+    }
+  }
+  model.textures = std::move(kept);
+}
+
+void share_materials(Model& model) {
+  std::vector<int> place(model.materials.size());
+  std::vector<Material> kept;
+  for (std::size_t i = 0; i < model.materials.size(); ++i) {
+    const auto known = std::find_if(kept.begin(), kept.end(),
+                                    [&](const Material& each) { return alike(each, model.materials[i]); });
+    place[i] = static_cast<int>(known - kept.begin());
+    if (known == kept.end()) kept.push_back(std::move(model.materials[i]));
+  }
+  const auto move = [&place](int& material) {
+    if (material >= 0) material = place[static_cast<std::size_t>(material)];
+  };
+  for (MeshGroup& group : model.meshes) {
+    for (Primitive& primitive : group.primitives) {
+      move(primitive.material);
+      for (int& material : primitive.variant_materials) move(material);
+    }
+  }
+  model.materials = std::move(kept);
+}
+
+/// The names of all variants, in the order in which they first come.
+std::vector<std::string> all_variants(const std::vector<Model>& models) {
+  std::vector<std::string> names;
+  for (const Model& model : models) {
+    for (const std::string& name : model.variants) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+/// The primitives of `model` with a material for each of `names`: their own where they have no such variant.
+void widen_variants(Model& model, const std::vector<std::string>& names) {
+  for (MeshGroup& group : model.meshes) {
+    for (Primitive& primitive : group.primitives) {
+      if (primitive.variant_materials.empty()) continue;
+      std::vector<int> wide;
+      for (const std::string& name : names) {
+        const auto own = static_cast<std::size_t>(
+            std::find(model.variants.begin(), model.variants.end(), name) - model.variants.begin());
+        wide.push_back(own < primitive.variant_materials.size() ? primitive.variant_materials[own]
+                                                                : primitive.material);
+      }
+      primitive.variant_materials = std::move(wide);
+    }
+  }
+}
+
+void drop_repeated_warnings(Model& model) {
+  std::vector<Warning> kept;
+  for (Warning& each : model.warnings) {
+    const auto says_the_same = [&each](const Warning& other) {
+      return std::tie(each.pointer, each.message, each.line, each.column) ==
+             std::tie(other.pointer, other.message, other.line, other.column);
+    };
+    if (std::none_of(kept.begin(), kept.end(), says_the_same)) kept.push_back(std::move(each));
+  }
+  model.warnings = std::move(kept);
+}
+
+}  // namespace
+
+Model row_of(std::vector<Model> models) {
+  std::vector<Box> boxes;
+  float widest = 0;
+  for (const Model& model : models) {
+    boxes.push_back(bounds_of(model));
+    widest = std::max(widest, boxes.back().max.x - boxes.back().min.x);
+  }
+  Model row;
+  row.name = models.front().name;
+  row.variants = all_variants(models);
+  float end = boxes.front().min.x;  // where the next model may begin
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    widen_variants(models[i], row.variants);
+    Transform at;
+    at.translation.x = i == 0 ? 0 : end - boxes[i].min.x;
+    end = at.translation.x + boxes[i].max.x + gap_share * widest;
+    const std::size_t stand = row.nodes.size();
+    std::vector<Extra> extras = std::move(models[i].extras);
+    append(row, std::move(models[i]), -1, at);
+    row.nodes[stand].extras = std::move(extras);
+  }
+  share_textures(row);
+  share_materials(row);
+  drop_repeated_warnings(row);
+  return row;
+}
+
+}  // namespace seedmesh

@@ -1,0 +1,156 @@
+#include "core/pipeline/profiles.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <string_view>
+
+namespace seedmesh {
+namespace {
+
+//                                           compressed  gpu  prefers it  lods
+constexpr std::array<Profile, 6> profiles = {{{OutputProfile::core, false, false, false, false},
+                                              {OutputProfile::web, true, true, true, true},
+                                              {OutputProfile::unity, false, true, false, true},
+                                              {OutputProfile::unreal, false, false, false, false},
+                                              {OutputProfile::godot, false, false, false, false},
+                                              {OutputProfile::blender, false, true, false, false}}};
+
+constexpr std::size_t longest_in_blender = 63;
+
+/// Gives out each name once: "bark", "bark_2", ... Blender's names have an end, and so has the stem then.
+class Names {
+ public:
+  explicit Names(std::size_t longest) : longest_(longest) {}
+
+  std::string unique(std::string_view stem) {
+    std::string name = cut(stem, longest_);
+    for (int number = 2; !taken_.insert(name).second; ++number) {
+      const std::string ending = "_" + std::to_string(number);
+      name = cut(stem, longest_ - ending.size()) + ending;
+    }
+    return name;
+  }
+
+ private:
+  /// No letter of UTF-8 is cut in two.
+  static std::string cut(std::string_view name, std::size_t longest) {
+    std::size_t end = std::min(name.size(), longest);
+    while (end > 0 && end < name.size() && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;
+    return std::string(name.substr(0, end));
+  }
+
+  std::size_t longest_;
+  std::set<std::string> taken_;
+};
+
+bool is_plain(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+}
+
+std::string spelled(std::string name, OutputProfile profile) {
+  constexpr std::string_view not_in_godot = ".:@/\"%";
+  for (char& c : name) {
+    if (profile == OutputProfile::unreal && !is_plain(c)) c = '_';
+    if (profile == OutputProfile::godot && not_in_godot.find(c) != std::string_view::npos) c = '_';
+  }
+  return name;
+}
+
+std::string_view unreal_prefix(CollisionShape shape) {
+  switch (shape) {
+    case CollisionShape::box:
+      return "UBX_";
+    case CollisionShape::capsule:
+      return "UCP_";
+    case CollisionShape::sphere:
+      return "USP_";
+    case CollisionShape::none:
+    case CollisionShape::convex:
+      return "UCX_";
+  }
+  return "UCX_";
+}
+
+bool is_seen(const Node& node) { return node.mesh >= 0 && node.collision == CollisionShape::none; }
+
+/// The mesh that a collision shape stands for: its parent's, a sibling's, or the first of the model.
+const MeshGroup* seen_beside(const Model& model, const Node& shape) {
+  const Node* found = nullptr;
+  if (shape.parent >= 0 && is_seen(model.nodes[static_cast<std::size_t>(shape.parent)])) {
+    found = &model.nodes[static_cast<std::size_t>(shape.parent)];
+  }
+  for (const Node& node : model.nodes) {
+    if (!found && is_seen(node) && node.parent == shape.parent) found = &node;
+  }
+  for (const Node& node : model.nodes) {
+    if (!found && is_seen(node)) found = &node;
+  }
+  return found ? &model.meshes[static_cast<std::size_t>(found->mesh)] : nullptr;
+}
+
+/// "_00" and so on: Unreal wants a number where a mesh has several shapes.
+std::string numbered(std::size_t number) { return (number < 10 ? "_0" : "_") + std::to_string(number); }
+
+std::string collision_name(const std::string& seen, CollisionShape shape, std::size_t number,
+                           OutputProfile profile) {
+  if (profile == OutputProfile::unreal) return std::string(unreal_prefix(shape)) + seen + numbered(number);
+  return seen + "_collision" + numbered(number) + "-convcolonly";
+}
+
+/// A generator may have been asked for names of its own.
+bool is_named(std::string_view name) {
+  for (const std::string_view prefix : {"UBX_", "UCP_", "USP_", "UCX_"}) {
+    if (name.starts_with(prefix)) return true;
+  }
+  return name.ends_with("-convcolonly") || name.ends_with("-colonly");
+}
+
+void name_collisions(Model& model, OutputProfile profile) {
+  if (profile != OutputProfile::unreal && profile != OutputProfile::godot) return;
+  std::map<std::string, std::size_t> shapes;  // of each mesh that is seen
+  for (Node& node : model.nodes) {
+    if (node.collision == CollisionShape::none || is_named(node.name)) continue;
+    const MeshGroup* group = seen_beside(model, node);
+    const std::string seen = group ? group->name : "model";
+    node.name = collision_name(seen, node.collision, shapes[seen]++, profile);
+    if (node.mesh >= 0) model.meshes[static_cast<std::size_t>(node.mesh)].name = node.name;
+  }
+}
+
+}  // namespace
+
+const Profile& profile_of(OutputProfile name) {
+  return *std::find_if(profiles.begin(), profiles.end(),
+                       [name](const Profile& each) { return each.name == name; });
+}
+
+std::string profiles_where(bool Profile::* reads) {
+  std::string list;
+  for (const Profile& each : profiles) {
+    if (each.*reads) list += (list.empty() ? "" : ", ") + std::string(text_of(each.name));
+  }
+  return list;
+}
+
+void name_for(Model& model, OutputProfile profile) {
+  const std::size_t longest = profile == OutputProfile::blender ? longest_in_blender : std::size_t{1} << 20U;
+  Names nodes(longest), meshes(longest), materials(longest), animations(longest);
+  for (MeshGroup& group : model.meshes) group.name = spelled(std::move(group.name), profile);
+  name_collisions(model, profile);
+  for (Node& node : model.nodes) {
+    std::string name = node.collision == CollisionShape::none ? spelled(node.name, profile) : node.name;
+    if (profile == OutputProfile::unity && !node.lods.empty()) name += "_LOD0";
+    node.name = nodes.unique(name);
+  }
+  for (MeshGroup& group : model.meshes) group.name = meshes.unique(group.name);
+  for (Material& material : model.materials) material.name = materials.unique(spelled(material.name, profile));
+  for (Animation& animation : model.animations) {
+    std::string name = spelled(animation.name, profile);
+    if (profile == OutputProfile::godot && name == "wind") name += "-loop";
+    animation.name = animations.unique(name);
+  }
+}
+
+}  // namespace seedmesh

@@ -1,0 +1,222 @@
+/// Every option of the output does what it says, or is refused where it stands.
+#include <gmock/gmock.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/pipeline.h"
+#include "core/pipeline/profiles.h"
+
+namespace seedmesh {
+namespace {
+
+using nlohmann::json;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::UnorderedElementsAre;
+
+std::string request_of(const std::string& preset, const std::string& output) {
+  return R"({"preset":")" + preset + R"(","output":)" + output + "}";
+}
+
+std::vector<std::string> pointers_of(const Error& error) {
+  std::vector<std::string> all;
+  for (const Issue& issue : error.issues) all.push_back(issue.pointer);
+  return all;
+}
+
+/// The pointers of the faults of a request, whether they show when it is read or when it is made.
+std::vector<std::string> refused(const std::string& preset, const std::string& output) {
+  const Result<Request> request = read_request(request_of(preset, output), Limits{});
+  if (!request) return pointers_of(request.error());
+  Job job(request->seed(), Job::Options{});
+  const Result<Product> product = produce(*request, job);
+  return product ? std::vector<std::string>{} : pointers_of(product.error());
+}
+
+struct Made {
+  json document;
+  Statistics statistics;
+};
+
+Made made(const std::string& preset, const std::string& output) {
+  const Result<Request> request = read_request(request_of(preset, output), Limits{});
+  if (!request) {
+    ADD_FAILURE() << request.error().issues.front().message;
+    return {};
+  }
+  Job job(request->seed(), Job::Options{});
+  const Result<Product> product = produce(*request, job);
+  if (!product) {
+    ADD_FAILURE() << product.error().issues.front().message;
+    return {};
+  }
+  const std::string bytes = product->payload.text();
+  std::uint32_t size = 0;
+  std::memcpy(&size, bytes.data() + 12, sizeof size);
+  return {json::parse(bytes.substr(20, size)), product->statistics};
+}
+
+std::vector<std::string> required(const json& document) {
+  return document.value("extensionsRequired", std::vector<std::string>());
+}
+
+TEST(Output, RequiresNothingBeyondCoreOfWhoDoesNotReadIt) {
+  for (const char* profile : {"core", "unity", "unreal", "godot", "blender"}) {
+    const json document = made("hutsko_tree", std::string(R"({"profile":")") + profile + "\"}").document;
+    EXPECT_THAT(required(document), IsEmpty()) << profile;
+  }
+  EXPECT_THAT(required(made("hutsko_tree", R"({"profile":"web"})").document),
+              UnorderedElementsAre("KHR_mesh_quantization", "EXT_meshopt_compression"));
+}
+
+TEST(Output, RefusesLevelsThatNobodyWouldRead) {
+  for (const char* profile : {"core", "unreal", "godot", "blender"}) {
+    const std::string output = std::string(R"({"lods":3,"profile":")") + profile + "\"";
+    EXPECT_THAT(refused("hutsko_tree", output + "}"), ElementsAre("/output/lods")) << profile;
+    EXPECT_THAT(refused("hutsko_tree", output + R"(,"format":"zip"})"), IsEmpty()) << profile;
+  }
+  for (const char* profile : {"web", "unity"}) {
+    const json document = made("hutsko_tree", std::string(R"({"lods":3,"profile":")") + profile + "\"}").document;
+    EXPECT_THAT(document["extensionsUsed"], Contains("MSFT_lod")) << profile;
+  }
+}
+
+TEST(Output, RefusesLevelsOfAModelThatHasNone) {
+  EXPECT_THAT(refused("menger_sponge", R"({"lods":2,"profile":"web"})"), ElementsAre("/output/lods"));
+}
+
+TEST(Output, PutsCopiesOnTheGpuOnlyWhereThatIsRead) {
+  for (const char* profile : {"core", "unreal", "godot"}) {
+    const std::string output = std::string(R"({"instancing":"gpu","profile":")") + profile + "\"}";
+    EXPECT_THAT(refused("copies_of_a_plant", output), ElementsAre("/output/instancing")) << profile;
+  }
+  for (const char* profile : {"web", "unity", "blender"}) {
+    const std::string output = std::string(R"({"instancing":"gpu","profile":")") + profile + "\"}";
+    EXPECT_THAT(required(made("copies_of_a_plant", output).document), Contains("EXT_mesh_gpu_instancing")) << profile;
+  }
+}
+
+TEST(Output, ChoosesByItselfHowCopiesAreWritten) {
+  const Made core = made("copies_of_a_plant", "{}"), web = made("copies_of_a_plant", R"({"profile":"web"})"),
+             merged = made("copies_of_a_plant", R"({"instancing":"merge"})");
+  EXPECT_GT(core.document["nodes"].size(), 20U);
+  EXPECT_THAT(required(core.document), IsEmpty());
+  EXPECT_THAT(required(web.document), Contains("EXT_mesh_gpu_instancing"));
+  EXPECT_EQ(merged.document["nodes"].size(), 2U);
+  EXPECT_EQ(merged.document["meshes"].size(), 1U);
+  EXPECT_EQ(core.statistics.triangles, web.statistics.triangles);
+  EXPECT_EQ(core.statistics.triangles, merged.statistics.triangles);
+}
+
+TEST(Output, SetsVariantsSideBySide) {
+  const Made one = made("leafy_birch", R"({"textures":16})"), four = made("leafy_birch", R"({"textures":16,"variants":4})");
+  EXPECT_EQ(four.document["materials"].size(), one.document["materials"].size());
+  EXPECT_EQ(four.document["images"].size(), one.document["images"].size());
+  EXPECT_EQ(four.document["meshes"].size(), 4 * one.document["meshes"].size());
+  std::vector<std::uint64_t> seeds;
+  for (const json& node : four.document["nodes"]) {
+    if (node.contains("extras") && node["extras"].contains("seed")) seeds.push_back(node["extras"]["seed"]);
+  }
+  const std::uint64_t first = four.document["asset"]["extras"]["seed"];
+  EXPECT_THAT(seeds, ElementsAre(first, first + 1, first + 2, first + 3));
+}
+
+TEST(Output, RefusesVariantsBeyondTheLastSeed) {
+  const Result<Request> request = read_request(
+      R"({"preset":"leafy_birch","seed":"18446744073709551615","output":{"variants":2}})", Limits{});
+  ASSERT_FALSE(request);
+  EXPECT_THAT(pointers_of(request.error()), ElementsAre("/output/variants"));
+}
+
+TEST(Output, HoldsABudgetOfTriangles) {
+  const std::uint64_t whole = made("growing_tree", R"({"animation":"none"})").statistics.triangles;
+  ASSERT_GT(whole, 20'000U);
+  for (const int most : {20'000, 9'000, 3'000}) {
+    const std::uint64_t drawn =
+        made("growing_tree", R"({"animation":"none","max_triangles":)" + std::to_string(most) + "}").statistics.triangles;
+    EXPECT_LE(drawn, static_cast<std::uint64_t>(most));
+    EXPECT_GT(drawn, static_cast<std::uint64_t>(most / 2));
+  }
+  EXPECT_EQ(made("growing_tree", R"({"animation":"none","max_triangles":1000000})").statistics.triangles, whole);
+}
+
+TEST(Output, HoldsTheBudgetOfAllVariantsTogether) {
+  EXPECT_LE(made("hutsko_tree", R"({"variants":3,"max_triangles":2000})").statistics.triangles, 2'000U);
+}
+
+TEST(Output, RefusesABudgetThatCannotBeHeld) {
+  EXPECT_THAT(refused("menger_sponge", R"({"max_triangles":10})"), ElementsAre("/output/max_triangles"));
+  EXPECT_THAT(refused("growing_tree", R"({"animation":"none","lods":5,"format":"zip","max_triangles":3000})"),
+              ElementsAre("/output/max_triangles"));
+}
+
+TEST(Output, RefusesWhatAFormThatIsNoModelHasNoUseFor) {
+  EXPECT_THAT(
+      refused("alps",
+              R"({"format":"r16","profile":"web","variants":2,"max_triangles":5,"instancing":"merge","tangents":"none"})"),
+      UnorderedElementsAre("/output/profile", "/output/variants", "/output/max_triangles", "/output/instancing",
+                           "/output/tangents"));
+}
+
+TEST(Output, SpeaksOfVariantsInTheEstimate) {
+  const auto triangles = [](const std::string& output) {
+    const Result<Request> request = read_request(request_of("hutsko_tree", output), Limits{});
+    Job job(0, Job::Options{});
+    return json::parse(*validate(*request, job))["estimate"]["triangles"].get<std::uint64_t>();
+  };
+  EXPECT_EQ(triangles(R"({"variants":5})"), 5 * triangles("{}"));
+  EXPECT_EQ(triangles(R"({"max_triangles":77})"), 77U);
+}
+
+/// A trunk with a hull, as a generator leaves it.
+Model trunk() {
+  Model model;
+  model.meshes.push_back({"old bark", {}});
+  model.meshes.push_back({"hull", {}});
+  model.nodes.resize(2);
+  model.nodes[0].name = "old bark";
+  model.nodes[0].mesh = 0;
+  model.nodes[1].name = "hull";
+  model.nodes[1].mesh = 1;
+  model.nodes[1].collision = CollisionShape::convex;
+  return model;
+}
+
+TEST(Names, AreThoseOfTheImporter) {
+  Model unreal = trunk(), godot = trunk(), core = trunk(), unity = trunk();
+  name_for(unreal, OutputProfile::unreal);
+  EXPECT_EQ(unreal.nodes[0].name, "old_bark");
+  EXPECT_EQ(unreal.nodes[1].name, "UCX_old_bark_00");
+  EXPECT_EQ(unreal.meshes[1].name, "UCX_old_bark_00");
+  godot.animations.push_back({"wind", {}, {}});
+  name_for(godot, OutputProfile::godot);
+  EXPECT_EQ(godot.nodes[1].name, "old bark_collision_00-convcolonly");
+  EXPECT_EQ(godot.animations[0].name, "wind-loop");
+  name_for(core, OutputProfile::core);
+  EXPECT_EQ(core.nodes[1].name, "hull");
+  unity.nodes[0].lods = {1};
+  name_for(unity, OutputProfile::unity);
+  EXPECT_EQ(unity.nodes[0].name, "old bark_LOD0");
+}
+
+TEST(Names, StayAsTheyAreWhereTheyFollowAConvention) {
+  Model model = trunk();
+  model.nodes[1].name = "UCX_bark_01";
+  name_for(model, OutputProfile::godot);
+  EXPECT_EQ(model.nodes[1].name, "UCX_bark_01");
+}
+
+TEST(Names, EndWhereBlenderEndsThem) {
+  Model model = trunk();
+  for (Node& node : model.nodes) node.name = std::string(61, 'x') + "äää";
+  name_for(model, OutputProfile::blender);
+  EXPECT_EQ(model.nodes[0].name, std::string(61, 'x') + "ä");
+  EXPECT_EQ(model.nodes[1].name, std::string(61, 'x') + "_2");
+}
+
+}  // namespace
+}  // namespace seedmesh
