@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/generators/building/building.h"
 #include "core/generators/fractal/encode.h"
 #include "core/generators/fractal/fractal.h"
 #include "core/generators/lsystem/lsystem.h"
 #include "core/generators/terrain/terrain.h"
 #include "core/generators/tree/tree.h"
+#include "generated/params/building.h"
 #include "generated/params/fractal.h"
 #include "generated/params/lsystem.h"
 #include "generated/params/terrain.h"
@@ -94,6 +96,8 @@ constexpr Generator rows[] = {
         fractal::appraise, fractal::vocabulary>::named<fractal::encode>("fractal", fractal_forms),
     Row<TerrainParams, read_terrain, write_terrain, terrain::check, terrain::generate, terrain::derive,
         terrain::appraise, terrain::vocabulary>::named<terrain::encode>("terrain", terrain_forms),
+    Row<BuildingParams, read_building, write_building, building::check, building::generate, building::derive,
+        building::appraise, building::vocabulary>::named("building"),
 };
 
 }  // namespace

@@ -1,0 +1,509 @@
+#include "core/generators/building/bodies.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+
+#include "core/base/math.h"
+#include "core/base/rng.h"
+#include "core/geom/weld.h"
+
+namespace seedmesh::building {
+namespace {
+
+constexpr std::uint32_t most_layers = 64;
+constexpr double least_area = 4e-12;  ///< of a triangle, by the square of the model's diagonal
+
+/// A shape that is drawn.
+struct Body {
+  std::uint32_t shape = 0;
+  std::uint16_t layer = 0;
+  std::int32_t material = 0;
+};
+
+/// The corners and triangles of one body in its own frame: what a mesh is filled with.
+struct Patch {
+  std::vector<glm::dvec3> position, normal;
+  std::vector<std::uint32_t> index;
+  void clear() {
+    position.clear();
+    normal.clear();
+    index.clear();
+  }
+};
+
+struct CornerMask {
+  std::uint64_t key = 0, layers = 0;
+};
+
+/// Which layers have a corner at a place already. Open addressing; keys are never 0.
+class CornerBook {
+ public:
+  CornerBook(const Job& job, std::size_t corners)
+      : slots_(job, std::bit_ceil(corners * 2 + 64), CornerMask{}) {}
+  std::uint64_t& layers(std::uint64_t key) {
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t i = mix(key) & mask;; i = (i + 1) & mask) {
+      if (slots_[i].key == key) return slots_[i].layers;
+      if (slots_[i].key == 0) {
+        slots_[i].key = key;
+        return slots_[i].layers;
+      }
+    }
+  }
+
+ private:
+  Array<CornerMask> slots_;
+};
+
+struct Bucket {
+  std::size_t vertices = 0, indices = 0;
+  bool has_solids = false;
+  Mesh mesh;
+};
+
+class Assembly {
+ public:
+  Assembly(Model& model, const Shapes& shapes, Looks& looks, std::span<const Asset> assets, Job& job)
+      : model_(model), shapes_(shapes), looks_(looks), assets_(assets), job_(job) {}
+
+  void run(Sharing sharing) {
+    gather();
+    Node root;
+    root.name = "building";
+    model_.nodes.push_back(std::move(root));
+    root_ = static_cast<int>(model_.nodes.size()) - 1;
+    const bool few = sharing == Sharing::few && bodies_.size() <= most_nodes;
+    std::vector<Body> merged;
+    if (sharing == Sharing::nodes || few) {
+      std::vector<Body> single;
+      for (const Body& body : bodies_) {
+        const bool is_textured = body.material >= 0 && looks_.tile_of(body.material) != nullptr;
+        (is_textured ? merged : single).push_back(body);
+      }
+      share(single);
+    } else {
+      merged = std::move(bodies_);
+    }
+    if (!merged.empty()) merge(merged);
+  }
+
+ private:
+  bool is_asset(const Shape& shape) const { return (shape.geometry & asset_bit) != 0; }
+  const Asset& asset_of(const Shape& shape) const { return assets_[shape.geometry & ~asset_bit]; }
+
+  /// What is drawn, its material, and the extent of all.
+  void gather() {
+    glm::dvec3 low(1e300), high(-1e300);
+    for (std::uint32_t i = 0; i < shapes_.shapes.size(); ++i) {
+      const Shape& shape = shapes_.shapes[i];
+      if (!shape.is_active || dimension(shape.size) < 2) continue;
+      const glm::dmat3& axes = shapes_.axes[shape.axes];
+      glm::dvec3 reach(0);
+      for (int axis = 0; axis < 3; ++axis) reach += 0.5 * shape.size[axis] * glm::abs(axes[axis]);
+      const glm::dvec3 middle = shape.origin + axes * (0.5 * shape.size);
+      low = glm::min(low, middle - reach);
+      high = glm::max(high, middle + reach);
+      bodies_.push_back({i, 0, 0});
+      if ((i & 4095U) == 0) job_.check();
+    }
+    if (bodies_.empty()) return;
+    diagonal_ = glm::length(high - low);
+    low_ = low;
+    least_ = least_area * diagonal_ * diagonal_;
+    std::size_t thin = 0;
+    std::erase_if(bodies_, [&](const Body& body) {
+      const glm::dvec3& s = shapes_.shapes[body.shape].size;
+      double smallest = 1e300;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double a = s[(axis + 1) % 3], b = s[(axis + 2) % 3];
+        if (a != 0 && b != 0) smallest = std::min(smallest, a * b);
+      }
+      const bool is_thin =
+          smallest * 0.5 <= least_ || std::min({s.x != 0 ? s.x : 1e300, s.y != 0 ? s.y : 1e300,
+                                                s.z != 0 ? s.z : 1e300}) < 4e-6 * diagonal_;
+      thin += is_thin;
+      return is_thin;
+    });
+    if (thin > 0)
+      model_.warnings.push_back(
+          {"/rules",
+           std::to_string(thin) + " shapes are too thin beside the whole to be drawn and are left out", 0,
+           0});
+    for (Body& body : bodies_)
+      body.material =
+          is_asset(shapes_.shapes[body.shape]) ? -1 : looks_.material_of(shapes_.shapes[body.shape]);
+  }
+
+  void box_patch(const glm::dvec3& size, Patch& patch) const {
+    const int flat = dimension(size) == 2 ? flat_axis(size) : -1;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (flat >= 0 && axis != flat) continue;
+      const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+      for (const int side : {0, 1}) {
+        if (flat >= 0 && side == 0) continue;
+        const auto base = static_cast<std::uint32_t>(patch.position.size());
+        glm::dvec3 normal(0);
+        normal[axis] = side == 1 ? 1 : -1;
+        for (int k = 0; k < 4; ++k) {
+          glm::dvec3 p(0);
+          p[axis] = side == 1 ? size[axis] : 0;
+          const bool second = k == 1 || k == 2, third = k >= 2;
+          p[side == 1 ? u : v] = second ? size[side == 1 ? u : v] : 0;
+          p[side == 1 ? v : u] = third ? size[side == 1 ? v : u] : 0;
+          patch.position.push_back(p);
+          patch.normal.push_back(normal);
+        }
+        for (const std::uint32_t k : {0U, 1U, 2U, 0U, 2U, 3U}) patch.index.push_back(base + k);
+      }
+    }
+  }
+
+  void solid_patch(const Solid& solid, const glm::dvec3& size, Patch& patch) {
+    smooth_.assign(solid.points.size(), glm::dvec3(0));
+    for (const Face& face : solid.faces) {
+      if (!face.is_round) continue;
+      const glm::dvec3 normal = math::unit(area_vector(solid, face, size), glm::dvec3(0));
+      const Loop& loop = solid.loops[face.first_loop];
+      for (std::uint32_t i = 0; i < loop.count; ++i) smooth_[solid.corners[loop.first + i]] += normal;
+    }
+    for (const Face& face : solid.faces) {
+      const glm::dvec3 normal = math::unit(area_vector(solid, face, size), glm::dvec3(0));
+      if (normal == glm::dvec3(0)) continue;
+      triangles_.clear();
+      triangulate(solid, face, size, triangles_);
+      place_.assign(solid.points.size(), none);
+      for (const std::uint32_t point : triangles_) {
+        if (place_[point] == none) {
+          place_[point] = static_cast<std::uint32_t>(patch.position.size());
+          patch.position.push_back(solid.points[point] * size);
+          patch.normal.push_back(face.is_round ? math::unit(smooth_[point], normal) : normal);
+        }
+        patch.index.push_back(place_[point]);
+      }
+    }
+  }
+
+  /// The body in the frame of its scope.
+  void fill(const Shape& shape, Patch& patch) {
+    patch.clear();
+    if (shape.geometry == box_geometry)
+      box_patch(shape.size, patch);
+    else
+      solid_patch(shapes_.solid_of(shape.geometry), shape.size, patch);
+  }
+
+  std::size_t triangles_of(const Shape& shape) {
+    if (is_asset(shape)) {
+      std::size_t sum = 0;
+      for (const Primitive& primitive : asset_of(shape).primitives) sum += primitive.mesh.elements();
+      return sum;
+    }
+    if (shape.geometry == box_geometry) return dimension(shape.size) == 3 ? 12 : 2;
+    return shapes_.solid_of(shape.geometry).corners.size();
+  }
+
+  Mesh empty_mesh(bool has_uv) const {
+    Mesh mesh;
+    mesh.position = Array<glm::vec3>(job_);
+    mesh.normal = Array<glm::vec3>(job_);
+    if (has_uv) mesh.uv[0] = Array<glm::vec2>(job_);
+    mesh.index.wide = Array<std::uint32_t>(job_);
+    return mesh;
+  }
+
+  // Shared meshes
+
+  struct Key {
+    std::uint32_t geometry;
+    std::array<std::int64_t, 3> size;
+    std::int32_t material;
+    friend auto operator<=>(const Key&, const Key&) = default;
+  };
+
+  /// Metres in micrometres: bodies equal to that are one.
+  static std::array<std::int64_t, 3> rounded(const glm::dvec3& size) {
+    return {math::to_int64(size.x * 1e6 + 0.5), math::to_int64(size.y * 1e6 + 0.5),
+            math::to_int64(size.z * 1e6 + 0.5)};
+  }
+
+  void share(const std::vector<Body>& bodies) {
+    std::map<Key, std::size_t> places;
+    std::vector<std::pair<std::uint32_t, std::vector<Transform>>> groups;
+    for (const Body& body : bodies) {
+      const Shape& shape = shapes_.shapes[body.shape];
+      // A turned box is the same box; an asset is scaled by its node.
+      const Key key{shape.geometry, is_asset(shape) ? std::array<std::int64_t, 3>{} : rounded(shape.size),
+                    body.material};
+      const auto [found, is_new] = places.try_emplace(key, groups.size());
+      if (is_new) groups.emplace_back(body.shape, std::vector<Transform>{});
+      groups[found->second].second.push_back(transform_of(shape));
+    }
+    job_.spend(Resource::shapes, groups.size());
+    for (auto& [first, transforms] : groups) {
+      const Shape& shape = shapes_.shapes[first];
+      const std::size_t triangles = triangles_of(shape);
+      job_.spend(Resource::triangles, triangles * transforms.size());
+      const int mesh = is_asset(shape) ? add_asset_mesh(shape) : add_shared_mesh(shape);
+      if (mesh < 0) continue;
+      Node node;
+      node.name = is_asset(shape) ? shapes_.asset_names[shape.geometry & ~asset_bit] : looks_.symbol(shape);
+      node.parent = root_;
+      node.mesh = mesh;
+      if (transforms.size() == 1)
+        node.transform = transforms[0];
+      else
+        node.instances.transforms = std::move(transforms);
+      model_.nodes.push_back(std::move(node));
+    }
+  }
+
+  Transform transform_of(const Shape& shape) const {
+    const glm::dmat3& axes = shapes_.axes[shape.axes];
+    Transform transform;
+    transform.rotation = glm::quat(glm::quat_cast(axes));
+    glm::dvec3 at = shape.origin;
+    if (is_asset(shape)) {
+      const Asset& asset = asset_of(shape);
+      const glm::dvec3 scale = scale_of(shape, asset);
+      transform.scale = glm::vec3(scale);
+      at -= axes * (scale * asset.low);
+    }
+    transform.translation = glm::vec3(at);
+    return transform;
+  }
+
+  static glm::dvec3 scale_of(const Shape& shape, const Asset& asset) {
+    glm::dvec3 scale(1);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (asset.size[axis] > 0 && shape.size[axis] > 0) scale[axis] = shape.size[axis] / asset.size[axis];
+    }
+    return scale;
+  }
+
+  int add_asset_mesh(const Shape& shape) {
+    const std::uint32_t index = shape.geometry & ~asset_bit;
+    const auto found = asset_meshes_.find(index);
+    if (found != asset_meshes_.end()) return found->second;
+    MeshGroup group;
+    group.name = shapes_.asset_names[index];
+    for (const Primitive& primitive : asset_of(shape).primitives) {
+      Primitive copy;
+      copy.material = primitive.material;
+      copy.mesh = empty_mesh(!primitive.mesh.uv[0].empty());
+      copy.mesh.topology = primitive.mesh.topology;
+      append_asset(primitive.mesh, copy.mesh, glm::dmat3(1), glm::dvec3(1), glm::dvec3(0));
+      group.primitives.push_back(std::move(copy));
+    }
+    model_.meshes.push_back(std::move(group));
+    const int made = static_cast<int>(model_.meshes.size()) - 1;
+    asset_meshes_.emplace(index, made);
+    return made;
+  }
+
+  int add_shared_mesh(const Shape& shape) {
+    fill(shape, patch_);
+    if (patch_.index.empty()) return -1;
+    Primitive primitive;
+    primitive.material = looks_.material_of(shape);
+    primitive.mesh = empty_mesh(false);
+    append(patch_, primitive.mesh, glm::dmat3(1), glm::dvec3(0), nullptr);
+    if (shape.geometry != box_geometry) weld(primitive.mesh, job_);
+    MeshGroup group;
+    group.name = looks_.symbol(shape);
+    group.primitives.push_back(std::move(primitive));
+    model_.meshes.push_back(std::move(group));
+    return static_cast<int>(model_.meshes.size()) - 1;
+  }
+
+  static void append_asset(const Mesh& from, Mesh& to, const glm::dmat3& axes, const glm::dvec3& scale,
+                           const glm::dvec3& at) {
+    const auto base = static_cast<std::uint32_t>(to.position.size());
+    for (std::size_t i = 0; i < from.position.size(); ++i) {
+      to.position.push_back(glm::vec3(at + axes * (scale * glm::dvec3(from.position[i]))));
+      if (!from.normal.empty())
+        to.normal.push_back(
+            glm::vec3(math::unit(axes * (glm::dvec3(from.normal[i]) / scale), glm::dvec3(0, 1, 0))));
+      if (!to.uv[0].empty() || base == 0) {
+        if (!from.uv[0].empty()) to.uv[0].push_back(from.uv[0][i]);
+      }
+    }
+    for (std::size_t i = 0; i < from.index.size(); ++i) to.index.wide.push_back(base + from.index.at(i));
+  }
+
+  /// Texture coordinates in tiles: level distance along the wall and height, so that neighbours go on.
+  static glm::vec2 texture_at(const glm::dvec3& p, const glm::dvec3& n, const glm::dvec2& tile) {
+    glm::dvec3 x = glm::cross(glm::dvec3(0, 1, 0), n);
+    if (glm::dot(x, x) < 1e-9) x = glm::dvec3(1, 0, 0);
+    x = math::unit(x, glm::dvec3(1, 0, 0));
+    const glm::dvec3 y = glm::cross(n, x);
+    return {static_cast<float>(glm::dot(p, x) / tile.x), static_cast<float>(-glm::dot(p, y) / tile.y)};
+  }
+
+  static void append(const Patch& patch, Mesh& mesh, const glm::dmat3& axes, const glm::dvec3& origin,
+                     const glm::dvec2* tile) {
+    const auto base = static_cast<std::uint32_t>(mesh.position.size());
+    const std::size_t count = patch.position.size();
+    glm::vec3* position = mesh.position.extend(count);
+    glm::vec3* normal = mesh.normal.extend(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const glm::dvec3 at = origin + axes * patch.position[i], n = axes * patch.normal[i];
+      position[i] = glm::vec3(at);
+      normal[i] = glm::vec3(n);
+      if (tile != nullptr) mesh.uv[0].push_back(texture_at(at, n, *tile));
+    }
+    std::uint32_t* index = mesh.index.wide.extend(patch.index.size());
+    for (std::size_t i = 0; i < patch.index.size(); ++i) index[i] = base + patch.index[i];
+  }
+
+  // Merged meshes
+
+  std::uint64_t key_of(const glm::dvec3& point) const {
+    const glm::dvec3 cell = (point - low_) / (1e-5 * diagonal_) + 2.5;
+    std::uint64_t key = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      key = key << 21U | static_cast<std::uint64_t>(std::clamp(cell[axis], 0.0, 2e6));
+    return key + 1;
+  }
+
+  void corners_of(const Shape& shape, std::vector<std::uint64_t>& keys) const {
+    keys.clear();
+    const glm::dmat3& axes = shapes_.axes[shape.axes];
+    const auto add = [&](const glm::dvec3& unit) {
+      keys.push_back(key_of(shape.origin + axes * (unit * shape.size)));
+    };
+    if (shape.geometry == box_geometry || is_asset(shape)) {
+      const int x = shape.size.x != 0 ? 2 : 1, y = shape.size.y != 0 ? 2 : 1, z = shape.size.z != 0 ? 2 : 1;
+      for (int i = 0; i < x; ++i) {
+        for (int j = 0; j < y; ++j) {
+          for (int k = 0; k < z; ++k) add({i, j, k});
+        }
+      }
+    } else {
+      for (const glm::dvec3& p : shapes_.solid_of(shape.geometry).points) add(p);
+    }
+  }
+
+  /// The lowest layer in which no body has a corner in common with this one.
+  std::uint32_t put_in_layers(std::vector<Body>& bodies) {
+    std::size_t corners = 0;
+    for (const Body& body : bodies) {
+      const Shape& shape = shapes_.shapes[body.shape];
+      corners += shape.geometry == box_geometry || is_asset(shape)
+                     ? 8
+                     : shapes_.solid_of(shape.geometry).points.size();
+    }
+    CornerBook book(job_, corners);
+    std::vector<std::uint64_t> keys;
+    std::vector<std::uint64_t*> masks;
+    std::uint32_t layers = 0;
+    std::size_t done = 0;
+    for (Body& body : bodies) {
+      corners_of(shapes_.shapes[body.shape], keys);
+      std::uint64_t taken = 0;
+      masks.clear();
+      for (const std::uint64_t key : keys) {
+        masks.push_back(&book.layers(key));
+        taken |= *masks.back();
+      }
+      const auto layer =
+          std::min<std::uint32_t>(static_cast<std::uint32_t>(std::countr_one(taken)), most_layers - 1);
+      for (std::uint64_t* mask : masks) *mask |= std::uint64_t{1} << layer;
+      body.layer = static_cast<std::uint16_t>(layer);
+      layers = std::max(layers, layer + 1);
+      if ((++done & 4095U) == 0) job_.check();
+    }
+    return layers;
+  }
+
+  void merge(std::vector<Body>& bodies) {
+    const std::uint32_t layers = put_in_layers(bodies);
+    const std::size_t materials = model_.materials.size();
+    std::vector<Bucket> buckets(layers * materials);
+    std::size_t triangles = 0;
+    for (const Body& body : bodies) {
+      const Shape& shape = shapes_.shapes[body.shape];
+      triangles += triangles_of(shape);
+      if (is_asset(shape)) continue;
+      Bucket& bucket = buckets[body.layer * materials + static_cast<std::size_t>(body.material)];
+      const bool is_box = shape.geometry == box_geometry;
+      const std::size_t count =
+          is_box ? (dimension(shape.size) == 3 ? 24 : 4) : shapes_.solid_of(shape.geometry).corners.size();
+      bucket.vertices += count;
+      bucket.indices += is_box ? count / 4 * 6 : 0;
+      bucket.has_solids |= !is_box;
+    }
+    job_.spend(Resource::triangles, triangles);
+    for (std::size_t i = 0; i < buckets.size(); ++i) {
+      Bucket& bucket = buckets[i];
+      const bool has_uv = looks_.tile_of(static_cast<int>(i % materials)) != nullptr;
+      bucket.mesh = empty_mesh(has_uv);
+      bucket.mesh.position.reserve(bucket.vertices);
+      bucket.mesh.normal.reserve(bucket.vertices);
+      bucket.mesh.index.wide.reserve(bucket.indices);
+    }
+    std::size_t done = 0;
+    for (const Body& body : bodies) {
+      const Shape& shape = shapes_.shapes[body.shape];
+      const glm::dmat3& axes = shapes_.axes[shape.axes];
+      if ((++done & 4095U) == 0) job_.check();
+      if (is_asset(shape)) {
+        const Asset& asset = asset_of(shape);
+        const glm::dvec3 scale = scale_of(shape, asset);
+        for (const Primitive& primitive : asset.primitives) {
+          Bucket& bucket =
+              buckets[body.layer * materials + static_cast<std::size_t>(std::max(primitive.material, 0))];
+          append_asset(primitive.mesh, bucket.mesh, axes, scale, shape.origin - axes * (scale * asset.low));
+          bucket.has_solids = true;
+        }
+        continue;
+      }
+      Bucket& bucket = buckets[body.layer * materials + static_cast<std::size_t>(body.material)];
+      fill(shape, patch_);
+      append(patch_, bucket.mesh, axes, shape.origin, looks_.tile_of(body.material));
+    }
+    for (std::uint32_t layer = 0; layer < layers; ++layer) {
+      MeshGroup group;
+      group.name = "layer";
+      for (std::size_t m = 0; m < materials; ++m) {
+        Bucket& bucket = buckets[layer * materials + m];
+        if (bucket.mesh.index.wide.empty()) continue;
+        if (bucket.has_solids) weld(bucket.mesh, job_);
+        bucket.mesh.cache_ordered = !bucket.has_solids;
+        group.primitives.push_back({std::move(bucket.mesh), static_cast<int>(m), {}});
+      }
+      if (group.primitives.empty()) continue;
+      Node node;
+      node.name = "layer";
+      node.parent = root_;
+      node.mesh = static_cast<int>(model_.meshes.size());
+      model_.meshes.push_back(std::move(group));
+      model_.nodes.push_back(std::move(node));
+    }
+  }
+
+  Model& model_;
+  const Shapes& shapes_;
+  Looks& looks_;
+  std::span<const Asset> assets_;
+  Job& job_;
+  int root_ = -1;
+  std::vector<Body> bodies_;
+  double diagonal_ = 1, least_ = 0;
+  glm::dvec3 low_{0};
+  Patch patch_;
+  std::vector<glm::dvec3> smooth_;
+  std::vector<std::uint32_t> triangles_, place_;
+  std::map<std::uint32_t, int> asset_meshes_;
+};
+
+}  // namespace
+
+void add_bodies(Model& model, const Shapes& shapes, Looks& looks, std::span<const Asset> assets,
+                Sharing sharing, Job& job) {
+  Assembly(model, shapes, looks, assets, job).run(sharing);
+}
+
+}  // namespace seedmesh::building

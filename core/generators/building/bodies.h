@@ -1,0 +1,30 @@
+#pragma once
+/// Shapes -> Model: the active shapes as meshes.
+#include <span>
+
+#include "core/generators/building/looks.h"
+#include "core/generators/building/shapes.h"
+#include "core/model/model.h"
+
+namespace seedmesh::building {
+
+/// An asset that shapes insert, in its own box.
+struct Asset {
+  glm::dvec3 low{0}, size{1};
+  std::vector<Primitive> primitives;  ///< materials are those of the model
+};
+
+enum class Sharing {
+  few,     ///< equal bodies share a mesh while there are few of them (most_nodes), else as merged
+  nodes,   ///< equal bodies share a mesh, and each has a node
+  merged,  ///< one mesh a layer, one primitive a material
+};
+constexpr std::size_t most_nodes = 400;
+
+/// Adds a node "building" with all active shapes below it. Shapes without an area are passed over. Merged
+/// shapes that touch go to different layers, so that in every mesh an edge lies in at most two triangles.
+/// Spends Resource::triangles. Cost: about 0.4 microseconds a box.
+void add_bodies(Model& model, const Shapes& shapes, Looks& looks, std::span<const Asset> assets,
+                Sharing sharing, Job& job);
+
+}  // namespace seedmesh::building

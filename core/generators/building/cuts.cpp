@@ -1,0 +1,165 @@
+#include "core/generators/building/cuts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seedmesh::building {
+namespace {
+
+/// Relative to the length: what rounding of sums may lose, far below anything that is built.
+constexpr double slack = 1e-9;
+
+/// What one pass over a list of cells asks for.
+struct Sums {
+  double fixed = 0, floating = 0;
+  std::uint32_t groups = 0;
+};
+
+class Cutter {
+ public:
+  Cutter(std::span<const Cell> cells, double length, Rounding rounding, double most, std::vector<Cut>& out)
+      : cells_(cells),
+        length_(length),
+        eps_(slack * std::max(length, 1e-9)),
+        rounding_(rounding),
+        most_(most),
+        out_(out) {}
+
+  /// Cells of one level fill `room` from `at` on.
+  void level(std::uint32_t first, std::uint32_t count, double at, double room) {
+    const Sums sums = sums_of(first, count);
+    Plan plan = plan_of(first, count, sums, room);
+    for (std::uint32_t i = first; i < first + count && !is_full_ && wanted_ <= most_; ++i) {
+      const Cell& cell = cells_[i];
+      if (!cell.is_group) {
+        const double size = cell.measure == Measure::floating ? cell.size * plan.stretch : fixed(cell);
+        place(cell, at, size);
+        at += std::max(0.0, size);
+        continue;
+      }
+      const Sums cycle = sums_of(cell.first, cell.count);
+      const double n = plan.copies[plan.next++];
+      wanted_ += n * cell.count;
+      if (wanted_ > most_) return;
+      wanted_ -= n * cell.count;
+      // A group inside a group takes what a floating cell of its size would.
+      const double span = cycle.fixed + (cycle.floating + nested(cell)) * plan.stretch;
+      for (double k = 0; k < n && !is_full_ && wanted_ <= most_; ++k) {
+        if (cycle.groups > 0) {
+          level(cell.first, cell.count, at, span);
+        } else {
+          double p = at;
+          for (std::uint32_t c = cell.first; c < cell.first + cell.count; ++c) {
+            const double size =
+                cells_[c].measure == Measure::floating ? cells_[c].size * plan.stretch : fixed(cells_[c]);
+            place(cells_[c], p, size);
+            p += std::max(0.0, size);
+          }
+        }
+        at += span;
+        if (!(span > 0)) break;
+      }
+    }
+  }
+
+  double wanted() const { return wanted_; }
+
+ private:
+  struct Plan {
+    double stretch = 0;
+    std::vector<double> copies;
+    std::size_t next = 0;
+  };
+
+  double fixed(const Cell& cell) const {
+    return std::max(0.0, cell.measure == Measure::relative ? cell.size * length_ : cell.size);
+  }
+
+  Sums sums_of(std::uint32_t first, std::uint32_t count) const {
+    Sums sums;
+    for (std::uint32_t i = first; i < first + count; ++i) {
+      const Cell& cell = cells_[i];
+      if (cell.is_group)
+        ++sums.groups;
+      else if (cell.measure == Measure::floating)
+        sums.floating += std::max(0.0, cell.size);
+      else
+        sums.fixed += fixed(cell);
+    }
+    return sums;
+  }
+
+  /// What the groups inside a group ask for, once each.
+  double nested(const Cell& group) const {
+    double sum = 0;
+    for (std::uint32_t i = group.first; i < group.first + group.count; ++i) {
+      if (!cells_[i].is_group) continue;
+      const Sums inner = sums_of(cells_[i].first, cells_[i].count);
+      sum += inner.fixed + inner.floating + nested(cells_[i]);
+    }
+    return sum;
+  }
+
+  Plan plan_of(std::uint32_t first, std::uint32_t count, const Sums& sums, double room) const {
+    Plan plan;
+    double fixed_all = sums.fixed, floating_all = sums.floating;
+    for (std::uint32_t i = first; i < first + count; ++i) {
+      if (!cells_[i].is_group) continue;
+      const Sums inner = sums_of(cells_[i].first, cells_[i].count);
+      const double floating = inner.floating + nested(cells_[i]), cycle = inner.fixed + floating;
+      const double share = std::max(0.0, room - sums.fixed - sums.floating) / sums.groups;
+      double n = 0;
+      if (cycle > 0) {
+        const double x = share / cycle;
+        const bool floats = floating > 0 || sums.floating > 0;
+        if (!floats || rounding_ == Rounding::ceil)
+          n = std::ceil(x - slack);
+        else
+          n = std::floor(x + 0.5 + slack);
+        if (floats && inner.fixed > 0)
+          n = std::min(n, std::floor((room - sums.fixed) / sums.groups / inner.fixed + slack));
+        if (n < 1 && sums.floating <= 0 && floating > 0) n = 1;
+        n = std::max(0.0, n);
+      }
+      plan.copies.push_back(n);
+      fixed_all += n * inner.fixed;
+      floating_all += n * floating;
+    }
+    plan.stretch = floating_all > 0 ? std::max(0.0, room - fixed_all) / floating_all : 0;
+    return plan;
+  }
+
+  void place(const Cell& cell, double at, double size) {
+    if (!(size > eps_) || is_full_) return;
+    if (at >= length_ - eps_) {
+      is_full_ = true;
+      return;
+    }
+    if (++wanted_ > most_) return;
+    out_.push_back({at, at + size > length_ - eps_ ? length_ - at : size, cell.part});
+  }
+
+  std::span<const Cell> cells_;
+  double length_, eps_;
+  Rounding rounding_;
+  double most_, wanted_ = 0;
+  std::vector<Cut>& out_;
+  bool is_full_ = false;
+};
+
+}  // namespace
+
+double copies_of(double length, double size, Rounding rounding) {
+  const double x = length / size;
+  return std::max(1.0, rounding == Rounding::ceil ? std::ceil(x - slack) : std::floor(x + 0.5 + slack));
+}
+
+bool cut(std::span<const Cell> cells, std::uint32_t first, std::uint32_t count, double length,
+         Rounding rounding, double most, std::vector<Cut>& out, double& wanted) {
+  Cutter cutter(cells, length, rounding, most, out);
+  cutter.level(first, count, 0, length);
+  wanted = cutter.wanted();
+  return wanted <= most;
+}
+
+}  // namespace seedmesh::building

@@ -1,0 +1,124 @@
+#pragma once
+/// The interpreter behind derive.h, for the sources of this folder.
+#include <array>
+#include <unordered_map>
+
+#include "core/generators/building/derive.h"
+#include "core/generators/building/occlusion.h"
+
+namespace seedmesh::building {
+
+class Deriver {
+ public:
+  /// `first` is what the first pass made, or null in that pass.
+  Deriver(const Plan& plan, const Context* first, Job& job);
+  Shapes run();
+  std::vector<SnapPlane> take_snaps() { return std::move(snaps_); }
+
+ private:
+  /// The current shape of a successor, which operations change.
+  struct State {
+    glm::dvec3 origin{0}, size{0};
+    std::uint32_t axes = 0, geometry = box_geometry, style = 0;
+    std::uint32_t split_index = 0, split_total = 0, comp_index = 0, comp_total = 0;
+  };
+  /// One successor on the way: whose it is, and where its random numbers hang.
+  struct Frame {
+    std::uint32_t shape = 0;  ///< whose rule this is
+    std::uint64_t key = 0;
+    State before;  ///< when the rule or the bracket began: for center()
+  };
+
+  // Order (derive.cpp)
+  void begin();
+  void finish_all();
+  void parallel(int rounds);
+  void sequential(int steps);
+  bool has_rule(const Shape& shape) const;
+  bool expand(std::uint32_t shape);
+  void evaluate_attributes();
+
+  // Rules (interpret.cpp)
+  const Choice* choose(std::uint32_t shape);
+  const Choice* choose_in(std::span<const std::uint32_t> rules, std::uint32_t parameters, std::uint64_t key);
+  void run_body(std::uint32_t body, const State& state, const Frame& frame);
+  void run_choice(const Choice& choice, const State& state, const Frame& frame);
+  void run_step(const Step& step, State& state, const Frame& frame, std::uint64_t key, bool& is_pending);
+  void call(const Step& step, const State& state, const Frame& frame, std::uint64_t key);
+  void leaf(const State& state, const Frame& frame, std::uint64_t key, std::uint32_t symbol);
+  std::uint32_t add(const State& state, const Frame& frame, std::uint64_t key, std::uint32_t symbol);
+
+  // Values (interpret.cpp)
+  void look_at(const State& state, std::uint32_t shape);
+  void fill_slots();
+  double value(const Value& value);
+  double number(const Value& value);
+  double length(const Argument& argument, double whole);
+  const std::string& text(const Argument& argument);
+  double text_number(const Argument& argument);
+  [[noreturn]] void reject(std::uint32_t offset, const std::string& message) const;
+  void warn(std::uint32_t offset, const std::string& message);
+
+  // Operations (operate.cpp, split.cpp, comp.cpp)
+  void translate(const Step& step, State& state);
+  void resize(const Step& step, State& state);
+  void rotate(const Step& step, State& state);
+  void center(const Step& step, State& state, const Frame& frame);
+  void mirror(State& state);
+  void extrude(const Step& step, State& state);
+  void taper(const Step& step, State& state);
+  void insert(const Step& step, State& state);
+  void color(const Step& step, State& state);
+  void set(const Step& step, State& state);
+  void report(const Step& step);
+  void snap(const Step& step, const State& state);
+  void split(const Step& step, const State& state, const Frame& frame, std::uint64_t key);
+  void repeat(const Step& step, const State& state, const Frame& frame, std::uint64_t key);
+  void pieces(const Step& step, const State& state, const Frame& frame, std::uint64_t key,
+              std::span<const Cut> cuts);
+  void snapped(const Step& step, const State& state, std::vector<double>& lines) const;
+  void comp(const Step& step, const State& state, const Frame& frame, std::uint64_t key);
+  void components(const State& state, int kind, std::vector<State>& out);
+  void box_faces(const State& state, std::vector<State>& out);
+  void solid_faces(const State& state, std::vector<State>& out);
+  void edges_and_corners(const State& state, int kind, std::vector<State>& out);
+  std::uint32_t classes_of(const State& face) const;
+  void merge(const State& state, std::span<const State> faces, State& out);
+
+  // Tables
+  std::uint32_t add_axes(const glm::dmat3& axes);
+  std::uint32_t add_solid(Solid solid);
+  std::uint32_t named_solid(std::string_view name);
+  const Solid& flat_solid(const State& state);
+  std::uint32_t style_with(Style style);
+  glm::dmat3 axes_of(const State& state) const { return out_.axes[state.axes]; }
+  double area(const State& state) const;
+  double volume(const State& state) const;
+
+  const Plan& plan_;
+  const Grammar& grammar_;
+  const Context* first_;
+  Job& job_;
+  Meter meter_;
+  Shapes out_;
+  std::vector<double> slots_;
+  const State* seen_ = nullptr;  ///< what the slots are to be filled for
+  std::uint32_t seen_shape_ = none, filled_attributes_ = none, filled_parameters_ = none;
+  bool is_filled_ = false;
+  Rng draws_{0};
+  bool is_finishing_ = false;
+  std::map<Style, std::uint32_t> styles_;
+  std::map<std::vector<double>, std::uint32_t> attribute_sets_;
+  std::map<std::string, std::uint32_t, std::less<>> named_;
+  std::array<Solid, 3> squares_;
+  std::unordered_map<std::uint64_t, std::uint32_t> turned_;  ///< axes and side: axes of the faces of boxes
+  std::map<std::pair<std::uint32_t, int>, std::uint32_t>
+      made_solids_;  ///< of extrusions, by what was extruded
+  std::vector<SnapPlane> snaps_;
+  std::vector<std::uint32_t> warned_;
+  std::uint64_t solid_corners_ = 0;
+  std::vector<Cell> cells_;
+  std::vector<std::vector<Cut>> spare_cuts_;
+};
+
+}  // namespace seedmesh::building

@@ -1,0 +1,164 @@
+#include "core/generators/building/looks.h"
+
+#include <algorithm>
+
+#include "core/schema/color.h"
+#include "core/texture/data_uri.h"
+#include "generated/params/building.h"
+
+namespace seedmesh::building {
+namespace {
+
+struct Look {
+  std::string_view name;
+  Color color;
+  double roughness, metallic, opacity;
+};
+
+// Weathered rather than pure: nothing on a street is white or saturated.
+constexpr Look looks[] = {
+    {"plaster", {222, 214, 200}, 0.95, 0, 1},  {"wall", {214, 203, 184}, 0.95, 0, 1},
+    {"facade", {214, 203, 184}, 0.95, 0, 1},   {"brick", {150, 82, 64}, 0.95, 0, 1},
+    {"stone", {176, 170, 158}, 0.9, 0, 1},     {"concrete", {158, 157, 152}, 0.9, 0, 1},
+    {"marble", {228, 226, 220}, 0.5, 0, 1},    {"wood", {122, 84, 54}, 0.8, 0, 1},
+    {"door", {94, 62, 42}, 0.7, 0, 1},         {"glass", {74, 96, 112}, 0.1, 0, 1},
+    {"window", {74, 96, 112}, 0.1, 0, 1},      {"frame", {238, 236, 230}, 0.7, 0, 1},
+    {"metal", {134, 138, 142}, 0.4, 1, 1},     {"steel", {134, 138, 142}, 0.4, 1, 1},
+    {"copper", {104, 152, 132}, 0.6, 0, 1},    {"gold", {212, 168, 74}, 0.35, 1, 1},
+    {"roof", {142, 74, 58}, 0.9, 0, 1},        {"roof_tile", {142, 74, 58}, 0.9, 0, 1},
+    {"slate", {82, 88, 96}, 0.8, 0, 1},        {"zinc", {146, 152, 158}, 0.5, 0, 1},
+    {"tar", {70, 70, 72}, 0.95, 0, 1},         {"ledge", {196, 188, 174}, 0.9, 0, 1},
+    {"column", {206, 200, 188}, 0.85, 0, 1},   {"floor", {168, 160, 148}, 0.9, 0, 1},
+    {"chimney", {132, 72, 58}, 0.95, 0, 1},    {"grass", {98, 128, 70}, 1, 0, 1},
+    {"pavement", {150, 148, 144}, 0.95, 0, 1}, {"ground", {132, 120, 102}, 1, 0, 1},
+    {"building", {222, 214, 200}, 0.95, 0, 1},
+};
+
+const Look* find_look(std::string_view name) {
+  const auto* const found = std::ranges::find(looks, name, &Look::name);
+  return found == std::end(looks) ? nullptr : found;
+}
+
+std::string lower(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return text;
+}
+
+void paint(Material& material, const Color& color) {
+  material.base_color = {linear_of_srgb(color.red), linear_of_srgb(color.green), linear_of_srgb(color.blue),
+                         1};
+}
+
+}  // namespace
+
+std::vector<std::string_view> built_in_materials() {
+  std::vector<std::string_view> names;
+  for (const Look& look : looks) names.push_back(look.name);
+  return names;
+}
+
+void check_looks(const BuildingParams& params, std::vector<Issue>& issues) {
+  for (const auto& [name, given] : params.materials) {
+    if (!given.images) continue;
+    const auto check = [&](const std::string& uri, const char* member) {
+      if (uri.empty()) return;
+      std::string fault = texture::fault_of_image_uri(uri);
+      if (!fault.empty()) issues.push_back({"/materials/" + name + "/images/" + member, std::move(fault)});
+    };
+    check(given.images->color, "color");
+    check(given.images->normal, "normal");
+    check(given.images->surface, "surface");
+  }
+}
+
+Looks::Looks(Model& model, const BuildingParams& params, const Shapes& shapes, const Job& job)
+    : model_(model), params_(params), shapes_(shapes) {
+  for (const auto& [name, given] : params.materials) {
+    if (!given.images) continue;
+    const std::string at = "/materials/" + name + "/images/";
+    pictures_[name] = {load(given.images->color, name + "_color", at + "color", job),
+                       load(given.images->normal, name + "_normal", at + "normal", job),
+                       load(given.images->surface, name + "_surface", at + "surface", job)};
+  }
+}
+
+int Looks::load(const std::string& uri, const std::string& name, const std::string& pointer, const Job& job) {
+  if (uri.empty()) return -1;
+  Result<std::shared_ptr<const Image>> image = texture::image_of_data_uri(uri, name, job);
+  if (!image) Job::reject({pointer, image.error().issues.front().message});
+  model_.textures.push_back(*std::move(image));
+  return static_cast<int>(model_.textures.size()) - 1;
+}
+
+int Looks::material_of(const Shape& shape) {
+  const auto [found, is_new] = made_.try_emplace({shape.style, shape.symbol}, -1);
+  if (!is_new) return found->second;
+  const Style& style = shapes_.styles[shape.style];
+  const std::string* const color = shapes_.texts.of(style.color);
+  std::string name;
+  if (const std::string* given = shapes_.texts.of(style.material)) {
+    name = *given;
+  } else if (color != nullptr) {
+    name = "color_" + lower(color->substr(1));
+  } else {
+    const std::string& symbol = symbols_[shape.symbol];
+    if (params_.materials.contains(symbol))
+      name = symbol;
+    else
+      name = find_look(lower(symbol)) != nullptr || params_.materials.contains(lower(symbol)) ? lower(symbol)
+                                                                                              : "building";
+  }
+  found->second = make(name, color);
+  return found->second;
+}
+
+int Looks::make(const std::string& name, const std::string* color) {
+  const auto given = params_.materials.find(name);
+  // A name that says nothing takes the colour in force, one that is known keeps its own.
+  const Look* const known = find_look(name);
+  const bool takes_color =
+      color != nullptr && known == nullptr && (given == params_.materials.end() || !given->second.color);
+  const std::string key = takes_color ? name + *color : name;
+  const auto [found, is_new] = by_name_.try_emplace(key, static_cast<int>(model_.materials.size()));
+  if (!is_new) return found->second;
+  Material material;
+  material.name = name;
+  const Look& look = known != nullptr ? *known : looks[0];
+  paint(material, takes_color ? *color_of(*color) : look.color);
+  material.roughness = static_cast<float>(look.roughness);
+  material.metallic = static_cast<float>(look.metallic);
+  if (given != params_.materials.end()) {
+    const BuildingMaterial& own = given->second;
+    if (own.color)
+      paint(material, *own.color);
+    else if (own.images && !own.images->color.empty())
+      material.base_color = glm::vec4(1);
+    material.roughness = static_cast<float>(own.roughness);
+    material.metallic = static_cast<float>(own.metallic);
+    if (own.opacity < 1) {
+      material.base_color.w = static_cast<float>(own.opacity);
+      material.alpha_mode = AlphaMode::blend;
+    }
+    if (const auto pictures = pictures_.find(name); pictures != pictures_.end()) {
+      const Pictures& p = pictures->second;
+      if (p.color >= 0) material.base_color_texture = {p.color, 0, true};
+      if (p.normal >= 0) material.normal_texture = {p.normal, 0, true};
+      if (p.surface >= 0)
+        material.metallic_roughness_texture = material.occlusion_texture = {p.surface, 0, true};
+      if (own.images->cut_out) {
+        material.alpha_mode = AlphaMode::mask;
+        material.double_sided = true;
+      }
+      tiles_[found->second] = {own.tile[0], own.tile[1]};
+    }
+  }
+  model_.materials.push_back(std::move(material));
+  return found->second;
+}
+
+const glm::dvec2* Looks::tile_of(int material) const {
+  const auto found = tiles_.find(material);
+  return found == tiles_.end() ? nullptr : &found->second;
+}
+
+}  // namespace seedmesh::building

@@ -1,0 +1,54 @@
+#pragma once
+/// Materials by name: those of the request, built-in ones, and plain colours.
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "core/base/job.h"
+#include "core/generators/building/shapes.h"
+#include "core/model/model.h"
+
+namespace seedmesh {
+struct BuildingParams;
+}
+
+namespace seedmesh::building {
+
+/// Gives each look a material of the model when it is first asked for. A shape's look: its material by name,
+/// else its colour, else what its symbol is called (Wall, Roof, Window, ...), else plain plaster.
+class Looks {
+ public:
+  Looks(Model& model, const BuildingParams& params, const Shapes& shapes, const Job& job);
+  int material_of(const Shape& shape);
+  /// Metres of one tile, where the material has images: texture coordinates are needed then.
+  const glm::dvec2* tile_of(int material) const;
+
+ private:
+  int make(const std::string& name, const std::string* color);
+  int load(const std::string& uri, const std::string& name, const std::string& pointer, const Job& job);
+
+  Model& model_;
+  const BuildingParams& params_;
+  const Shapes& shapes_;
+  struct Pictures {
+    int color = -1, normal = -1, surface = -1;
+  };
+  std::map<std::string, Pictures, std::less<>> pictures_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> made_;  ///< style and symbol
+  std::map<std::string, int> by_name_;
+  std::map<int, glm::dvec2> tiles_;
+  std::vector<std::string> symbols_;
+
+ public:
+  /// The names of symbols, which a shape knows by number alone.
+  void set_symbols(std::vector<std::string> names) { symbols_ = std::move(names); }
+  const std::string& symbol(const Shape& shape) const { return symbols_[shape.symbol]; }
+};
+
+/// Data URIs that are none, with pointers.
+void check_looks(const BuildingParams& params, std::vector<Issue>& issues);
+
+/// The built-in names.
+std::vector<std::string_view> built_in_materials();
+
+}  // namespace seedmesh::building

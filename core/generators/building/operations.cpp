@@ -1,0 +1,87 @@
+#include "core/generators/building/operations.h"
+
+#include <algorithm>
+
+namespace seedmesh::building {
+namespace {
+
+constexpr OperationRow rows[] = {
+    {"T", Op::translate, "nnn", Braces::absent, "x, y, z",
+     "Moves the scope along its own axes; 'v is a share of its size.", "A ~> T(1, 0, 0) B."},
+    {"t", Op::translate, "nnn", Braces::absent, "x, y, z", "As T.", "A --> t(0, '0.5, 0) B."},
+    {"S", Op::size, "nnn", Braces::absent, "x, y, z",
+     "Sets the size of the scope; 'v or 1r is a share of what it is. A negative size mirrors, 0 flattens.",
+     "A ~> S(1r, 2, 1r) B."},
+    {"s", Op::size, "nnn", Braces::absent, "x, y, z", "As S.", "A --> s('1, 2, '1) B."},
+    {"R", Op::rotate, "nnn|w", Braces::absent, "x, y, z, centre",
+     "Turns the scope by degrees about x, then y, then z; about its origin, or about its centre with "
+     "scopeCenter.",
+     "A ~> R(0, 30, 0) B."},
+    {"r", Op::rotate, "nnn|w", Braces::absent, "x, y, z, centre", "As R.", "A --> r(0, 30, 0) B."},
+    {"center", Op::center, "w", Braces::absent, "axes",
+     "Moves the scope to the middle of the one it had when the rule or bracket began, on the axes named.",
+     "A --> s('0.5, '1, '0.5) center(xz) B."},
+    {"mirrorScope", Op::mirror_scope, "", Braces::absent, "",
+     "Turns the scope by a half turn about its y axis, so that x and z run the other way.",
+     "A --> mirrorScope() B."},
+    {"split", Op::split, "w|w", Braces::cells, "axis, noAdjust",
+     "Cuts the shape across an axis into cells { size: successor | ... }; sizes are absolute, '0.5 of the "
+     "scope or ~3 "
+     "of what is left; { }* repeats.",
+     "A --> split(x){ ~1: B. | { 0.5: C. | ~2: D. }* | ~1: B. }"},
+    {"Subdiv", Op::split, "w", Braces::names, "axis, sizes",
+     "The split of 2006: sizes in the call, 3r for a share of what is left.",
+     "A ~> Subdiv(\"X\", 2, 1r, 2){ B. | C. | B. }"},
+    {"Repeat", Op::repeat, "wn", Braces::one, "axis, size",
+     "Cuts the shape into equal pieces of about this size.", "A ~> Repeat(\"X\", 2){ B. }"},
+    {"comp", Op::comp, "w", Braces::selectors, "f",
+     "Takes the faces (f), edges (e) or corners (v) as shapes: front, back, left, right, top, bottom, side, "
+     "all, "
+     "horizontal, aslant, vertical, nutant, a number.",
+     "A --> comp(f){ side: B. | top: C. }"},
+    {"Comp", Op::comp, "w|n", Braces::one, "type, index",
+     "The component split of 2006: faces, sidefaces, topfaces, bottomfaces, edges, vertices; with an index, "
+     "one of them.",
+     "A ~> Comp(\"sidefaces\"){ B. }"},
+    {"Snap", Op::snap, "w|w", Braces::absent, "axes, id",
+     "Makes the planes of this shape across the axes named snap lines; splits along \"XS\" keep to them.",
+     "A ~> Snap(\"X\") Subdiv(\"XS\", 1r, 1r){ B. | C. }"},
+    {"extrude", Op::extrude, "n", Braces::absent, "height", "Makes a solid of a face, along its normal.",
+     "A --> s('1, 0, '1) extrude(9) B."},
+    {"taper", Op::taper, "n", Braces::absent, "height", "Makes a pyramid of a face, its tip above the middle.",
+     "A --> s('1, 0, '1) taper(3) B."},
+    {"I", Op::place, "t", Braces::absent, "name",
+     "Puts a body, a part or an asset into the scope, as a leaf of its own; the shape goes on as it was.",
+     "A ~> [ I(\"cube\") ] T(0, 3, 0) I(\"pyramid\")"},
+    {"i", Op::insert, "t", Braces::absent, "name",
+     "Makes a body, a part or an asset of the shape, fitted to its scope: where a size is 0 it follows from "
+     "the others.",
+     "A --> i(\"cylinder\")"},
+    {"primitive", Op::insert, "t", Braces::absent, "name", "As i.", "A --> primitive(\"prism\")"},
+    {"color", Op::color, "t|nnn", Braces::absent, "color",
+     "The colour, as \"#rrggbb\" or red, green, blue from 0 to 1.", "A --> color(\"#aa8866\") B."},
+    {"material", Op::material, "t", Braces::absent, "name",
+     "The material by name: one of the request's, a built-in one, or a new one with the colour in force.",
+     "A --> material(\"brick\") B."},
+    {"set", Op::set, "wn", Braces::absent, "attribute, value",
+     "Gives an attribute another value in what follows from here; material.name and material.color are "
+     "attributes too.",
+     "attr w = 1  A --> set(w, 2) B  B --> s(w, '1, '1) C."},
+    {"report", Op::report, "t|n", Braces::absent, "key, value",
+     "Adds a value to the report of that name, which derive answers: count, sum, mean, least and greatest.",
+     "A --> report(\"area\", geometry.area) B."},
+    {"label", Op::label, "t", Braces::absent, "name", "Names the shapes from here on, for queries.",
+     "A --> label(\"mass\") B."},
+};
+
+}  // namespace
+
+std::span<const OperationRow> operations() { return rows; }
+
+const OperationRow* find_operation(std::string_view name) {
+  const auto* const found = std::find_if(std::begin(rows), std::end(rows),
+                                         [&](const OperationRow& row) { return row.name == name; });
+  return found == std::end(rows) ? nullptr : found;
+}
+
+}  // namespace seedmesh::building
