@@ -131,7 +131,7 @@ Cache::Answer model_of(const Call& call, const Known& known, const Job::Progress
 
 std::string extension_of(std::string_view format) {
   const bool png = format == "png16" || format == "png8" || format == "rgb24" || format == "rgba32";
-  return std::string(png ? "png" : format);
+  return std::string(png ? "png" : format == "placements" ? "zip" : format);
 }
 
 std::shared_ptr<const FixedText> FixedTexts::get(const std::string& path, Coding coding,

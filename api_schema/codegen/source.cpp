@@ -226,9 +226,9 @@ std::string writer_of(const Type& type) {
   for (const Member& member : type.members) {
     if (member.type.kind == Kind::free) continue;
     const std::string name = "value." + member.cpp_name;
-    const std::string assign = "json[" + quoted(member.name) +
-                               "] = " + write_expression(member.type, member.optional ? "*" + name : name) +
-                               ";\n";
+    const std::string assign =
+        "json[" + quoted(member.name) +
+        "] = " + write_expression(member.type, member.optional ? "(*" + name + ")" : name) + ";\n";
     if (member.required) {
       body += "  " + assign;
     } else if (member.optional) {

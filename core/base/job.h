@@ -70,6 +70,8 @@ struct Demand {
   int lods = 1;               ///< levels of detail, 1 to 5
   bool share_organs = false;  ///< organs as nodes that share a mesh, instead of one mesh of all
   bool growth = false;        ///< the animation "growth"
+  int textures = 512;         ///< texels of a side, for forms that hold models themselves; 0: none
+  bool tangents = true;       ///< for these forms
 };
 
 /// The context of one request. Safe to use from the worker threads of that request.

@@ -92,8 +92,10 @@ Generator::Params read_parameters(const Generator& generator, const Json& json, 
   return read_at_depth(generator, json, pointer, limits, faults, 0);
 }
 
-Result<Model> generate_child(const Child& child, const std::string& pointer, Rng place, const Job& job) {
+Result<Model> generate_child(const Child& child, const std::string& pointer, Rng place, const Job& job,
+                             const Demand& demand) {
   Call call(child, pointer, place, job);
+  call.job.set_demand(demand);
   Result<Model> model = call.run<Model>(call.generator->generate);
   if (model) call.point(model->warnings);
   return model;

@@ -26,7 +26,9 @@ Generator::Params read_parameters(const Generator& generator, const Json& json, 
 /// The model of a child that stands at `pointer` of the parameters around it, not finished. Where the child
 /// has no seed of its own it grows from `place`, which is to be a different stream for each place. Faults and
 /// warnings point into the parameters around it. Stages of the child are not told as progress.
-Result<Model> generate_child(const Child& child, const std::string& pointer, Rng place, const Job& job);
+/// `demand`: what is asked of its model; plain where nothing is said.
+Result<Model> generate_child(const Child& child, const std::string& pointer, Rng place, const Job& job,
+                             const Demand& demand = {});
 
 /// The same for the estimate.
 Result<Appraisal> appraise_child(const Child& child, const std::string& pointer, Rng place, const Job& job);

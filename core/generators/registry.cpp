@@ -7,11 +7,13 @@
 #include "core/generators/fractal/encode.h"
 #include "core/generators/fractal/fractal.h"
 #include "core/generators/lsystem/lsystem.h"
+#include "core/generators/scene/scene.h"
 #include "core/generators/terrain/terrain.h"
 #include "core/generators/tree/tree.h"
 #include "generated/params/building.h"
 #include "generated/params/fractal.h"
 #include "generated/params/lsystem.h"
+#include "generated/params/scene.h"
 #include "generated/params/terrain.h"
 #include "generated/params/tree.h"
 
@@ -89,6 +91,10 @@ constexpr OwnForm fractal_forms[] = {
     {"png8", "image/png", "png"},
 };
 
+constexpr OwnForm scene_forms[] = {
+    {"placements", "application/zip", "zip"},
+};
+
 constexpr Generator rows[] = {
     Row<LsystemParams, read_lsystem, write_lsystem, lsystem::check, lsystem::generate, lsystem::derive,
         lsystem::appraise, lsystem::vocabulary>::named("lsystem", {.grows = true}),
@@ -100,6 +106,8 @@ constexpr Generator rows[] = {
         terrain::appraise, terrain::vocabulary>::named<terrain::encode>("terrain", terrain_forms),
     Row<BuildingParams, read_building, write_building, building::check, building::generate, building::derive,
         building::appraise, building::vocabulary>::named("building"),
+    Row<SceneParams, read_scene, write_scene, scene::check, scene::generate, scene::derive, scene::appraise,
+        scene::vocabulary>::named<scene::encode>("scene", scene_forms),
 };
 
 }  // namespace

@@ -114,6 +114,10 @@ std::vector<Product::Span> timing_of(const Job& job) {
 
 /// What is no model comes from its generator as one file.
 Result<Product> produce_own(const Request& request, const OwnForm& form, Job& job) {
+  Demand demand;
+  demand.textures = texture_size(request.body().output);
+  demand.tangents = request.body().output.tangents == OutputTangents::auto_;
+  job.set_demand(demand);
   Result<Array<std::uint8_t>> file =
       request.body().generator->encode(request.body().params, form.format, job);
   if (!file) return in_request(std::move(file).error());

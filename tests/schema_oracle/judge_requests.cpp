@@ -9,6 +9,7 @@
 #include "generated/params/lsystem.h"
 #include "generated/params/output.h"
 #include "generated/params/request.h"
+#include "generated/params/scene.h"
 #include "generated/params/terrain.h"
 #include "generated/params/tree.h"
 
@@ -37,7 +38,8 @@ struct Row {
 constexpr Row rows[] = {
     {"lsystem", verdict<read_lsystem, write_lsystem>}, {"tree", verdict<read_tree, write_tree>},
     {"fractal", verdict<read_fractal, write_fractal>}, {"terrain", verdict<read_terrain, write_terrain>},
-    {"output", verdict<read_output, write_output>},    {"request", verdict<read_request, write_request>}};
+    {"scene", verdict<read_scene, write_scene>},       {"output", verdict<read_output, write_output>},
+    {"request", verdict<read_request, write_request>}};
 
 Json judged(const std::string& line) {
   const std::size_t blank = line.find(' ');

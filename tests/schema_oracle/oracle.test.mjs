@@ -14,7 +14,7 @@ const openapi = JSON.parse(fs.readFileSync(path.join(build, 'generated/openapi.j
 const annotations = ['x-unit', 'x-group', 'x-step', 'x-order', 'x-advanced', 'x-grammar', 'x-cpp-name', 'x-widget', 'x-steps', 'x-short', 'x-formats'];
 
 const document_count = 2000;
-const schemas = ['lsystem', 'tree', 'fractal', 'terrain', 'output', 'request'];
+const schemas = ['lsystem', 'tree', 'fractal', 'terrain', 'scene', 'output', 'request'];
 
 /** Takes out the requests inside a request, and what cannot be without one: readers judge them by their own generator's schema, too, which ajv cannot. */
 function without_children(schema) {

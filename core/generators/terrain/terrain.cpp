@@ -275,14 +275,18 @@ Result<Model> generate(const TerrainParams& params, Job& job) {
   const Result<Field> field = field_of(params, job);
   if (!field) return field.error();
   if (params.onto) return clad_model(params, *field, job);
-  if (params.mesh == TerrainMesh::rtin && !fits_rtin(field->width, field->depth)) {
+  return dressed(params, *field, job);
+}
+
+Result<Model> dressed(const TerrainParams& params, const Field& field, Job& job) {
+  if (params.mesh == TerrainMesh::rtin && !fits_rtin(field.width, field.depth)) {
     return Error{Code::invalid,
                  {{"/mesh", "rtin wants a square of 2^n + 1 samples a side and this image has " +
-                                std::to_string(field->width) + " x " + std::to_string(field->depth) +
+                                std::to_string(field.width) + " x " + std::to_string(field.depth) +
                                 "; resample it, or use greedy"}}};
   }
   job.progress("mesh", 0);
-  return Dressing(params, *field, job).dress();
+  return Dressing(params, field, job).dress();
 }
 
 Result<Json> derive(const TerrainParams& params, Job& job) {

@@ -21,11 +21,17 @@ struct TerrainParams;
 
 namespace seedmesh::terrain {
 
+struct Field;
+
 /// Every fault between parameters, with pointers relative to them. Makes nothing.
 std::vector<Issue> check(const TerrainParams& params, const Limits& limits);
 
 /// The model. Issues: those of check(), and of an image that cannot be read.
 Result<Model> generate(const TerrainParams& params, Job& job);
+
+/// The model of a field that is at hand: what field_of() gave, and what was done to it since. Planes alone.
+/// Issues: a mesh that does not fit the field.
+Result<Model> dressed(const TerrainParams& params, const Field& field, Job& job);
 
 /// {width, height, min, max, mean, heights, warnings}: heights in metres, row by row from north-west, for
 /// fields of at most 257 x 257; null beyond, and for spheres.

@@ -1,0 +1,239 @@
+#include "core/generators/scene/casts.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "core/base/math.h"
+#include "core/base/parallel.h"
+#include "core/generators/child.h"
+#include "core/generators/scene/plant.h"
+#include "core/schema/embedded.h"
+#include "generated/params/scene.h"
+
+namespace seedmesh::scene {
+namespace {
+
+constexpr std::uint32_t none = 0xFFFFFFFFU;
+constexpr std::uint64_t draw_variant = 6;
+
+/// The schema of a generator's parameters; null where there is none.
+const Json* schema_of(std::string_view generator) {
+  static const auto all = [] {
+    std::map<std::string, Json, std::less<>> schemas;
+    for (const EmbeddedText& each : embedded_schemas())
+      schemas.emplace(std::string(each.name), Json::parse(each.text));
+    return schemas;
+  }();
+  const auto found = all.find(generator);
+  return found == all.end() ? nullptr : &found->second;
+}
+
+std::vector<std::string> tokens_of(std::string_view path) {
+  std::vector<std::string> tokens;
+  std::size_t start = 0;
+  while (true) {
+    const std::size_t dot = path.find('.', start);
+    tokens.emplace_back(path.substr(start, dot == std::string_view::npos ? dot : dot - start));
+    if (dot == std::string_view::npos) return tokens;
+    start = dot + 1;
+  }
+}
+
+/// What the schema says of a member, in any of its alternatives.
+const Json* member_of(const Json& schema, const std::string& name) {
+  if (const auto choices = schema.find("oneOf"); choices != schema.end()) {
+    for (const Json& each : *choices) {
+      if (const Json* found = member_of(each, name)) return found;
+    }
+    return nullptr;
+  }
+  if (const auto members = schema.find("properties"); members != schema.end()) {
+    const auto found = members->find(name);
+    return found == members->end() ? nullptr : &*found;
+  }
+  const auto others = schema.find("additionalProperties");
+  return others != schema.end() && others->is_object() ? &*others : nullptr;
+}
+
+const Json* schema_at(std::string_view generator, std::string_view path) {
+  const Json* schema = schema_of(generator);
+  for (const std::string& token : tokens_of(path)) {
+    if (schema) schema = member_of(*schema, token);
+  }
+  return schema;
+}
+
+/// How old a plant becomes by its own request: its age, or where it has none all its iterations.
+std::optional<double> own_age(const Child& child) {
+  const Json parameters = Json::parse(child.parameters);
+  if (const auto age = parameters.find("age"); age != parameters.end() && age->is_number())
+    return age->get<double>();
+  const Json* iterations = schema_at(child.generator, "iterations");
+  if (!iterations) return std::nullopt;
+  const auto given = parameters.find("iterations");
+  if (given != parameters.end() && given->is_number()) return given->get<double>();
+  return iterations->contains("default") ? std::optional(iterations->at("default").get<double>())
+                                         : std::nullopt;
+}
+
+void set(Child& child, std::string_view path, const Json& value) {
+  child.parameters = with_parameter(child.parameters, path, value.dump());
+}
+
+Json drawn_value(const SceneVariation& variation, const Child& child, Rng rng) {
+  if (variation.among) {
+    const auto& choice = (*variation.among)[rng.below(static_cast<std::uint32_t>(variation.among->size()))];
+    return std::visit([](const auto& value) { return Json(value); }, choice);
+  }
+  const double from = *variation.from, to = *variation.to;
+  if (!is_whole(child.generator, variation.parameter)) return rng.uniform(from, to);
+  return math::to_int64(std::min(std::floor(rng.uniform(from, to + 1)), to));
+}
+
+double value_of(const std::variant<double, std::array<double, 2>>& given, Rng rng) {
+  if (const double* one = std::get_if<double>(&given)) return *one;
+  return rng.uniform(std::get<1>(given)[0], std::get<1>(given)[1]);
+}
+
+/// What the scene says of all plants: none is older than it says, and it is one season for all.
+void live_in(const SceneParams& scene, Child& child) {
+  if (scene.age && has_parameter(child.generator, "age"))
+    set(child, "age", std::min(*scene.age, own_age(child).value_or(*scene.age)));
+  if (scene.season && has_parameter(child.generator, "season"))
+    set(child, "season", std::string(text_of(*scene.season)));
+}
+
+Child variant_of(const SceneParams& scene, const SceneLayer& layer, std::size_t number, Rng models) {
+  Child child = layer.model;
+  const Rng rng = (child.seed ? Rng::of_seed(*child.seed) : models).at(number);
+  if (!child.seed || number > 0) child.seed = rng.key();
+  if (layer.age) set(child, "age", value_of(*layer.age, rng.at("age")));
+  live_in(scene, child);
+  for (const SceneVariation& each : layer.vary)
+    set(child, each.parameter, drawn_value(each, child, rng.at("vary").at(each.parameter)));
+  return child;
+}
+
+/// The model of a position by itself; nothing where a variant of the layer stands there.
+std::optional<Child> model_at(const SceneParams& scene, const SceneLayer& layer,
+                              const ScenePosition& position, const Child& variant, Rng rng) {
+  if (!position.model && !position.age) return std::nullopt;
+  Child child = position.model ? *position.model : variant;
+  if (!child.seed) child.seed = rng.key();
+  if (position.model && layer.age && has_parameter(child.generator, "age"))
+    set(child, "age", value_of(*layer.age, rng.at("age")));
+  if (position.age) set(child, "age", *position.age);
+  live_in(scene, child);
+  return child;
+}
+
+}  // namespace
+
+bool has_parameter(std::string_view generator, std::string_view path) {
+  return schema_at(generator, path) != nullptr;
+}
+
+bool is_whole(std::string_view generator, std::string_view path) {
+  const Json* schema = schema_at(generator, path);
+  return schema && schema->value("type", "") == "integer";
+}
+
+std::string with_parameter(const std::string& parameters, std::string_view path, const std::string& json) {
+  Json root = Json::parse(parameters);
+  Json* at = &root;
+  for (const std::string& token : tokens_of(path)) {
+    if (!at->is_object()) *at = Json::object();
+    at = &(*at)[token];
+  }
+  *at = Json::parse(json);
+  return canonical_text(root);
+}
+
+std::uint32_t Casting::cast_of(std::size_t layer, const Stand& stand) const {
+  const Layer& own = layers[layer];
+  if (stand.position < own.by_position.size() && own.by_position[stand.position] != none)
+    return own.by_position[stand.position];
+  Rng rng(key_at(stand.key, draw_variant));
+  return own.first + rng.below(own.count);
+}
+
+std::size_t count_casts(const SceneParams& params) {
+  std::size_t count = 0;
+  for (const SceneLayer& layer : params.layers) {
+    count += static_cast<std::size_t>(layer.variants);
+    for (const ScenePosition& position : layer.place.positions)
+      count += position.model || position.age ? 1U : 0U;
+  }
+  return count;
+}
+
+Casting casting_of(const SceneParams& params, const Job& job) {
+  Casting casting;
+  for (std::size_t i = 0; i < params.layers.size(); ++i) {
+    const SceneLayer& layer = params.layers[i];
+    const Rng rng = stream_of(layer, i, job);
+    const std::string name = layer.name.value_or("layer_" + std::to_string(i));
+    const std::string pointer = "/layers/" + std::to_string(i);
+    Casting::Layer own;
+    own.first = static_cast<std::uint32_t>(casting.casts.size());
+    own.count = static_cast<std::uint32_t>(layer.variants);
+    std::vector<Child> variants;
+    for (std::size_t k = 0; k < own.count; ++k) {
+      variants.push_back(variant_of(params, layer, k, rng.at("model")));
+      casting.casts.push_back({name + "_" + std::to_string(k), pointer + "/model", variants.back()});
+    }
+    for (std::size_t k = 0; k < layer.place.positions.size(); ++k) {
+      const ScenePosition& position = layer.place.positions[k];
+      const Rng there = rng.at("position").at(k);
+      Rng choice(key_at(there.key(), draw_variant));
+      const std::optional<Child> child =
+          model_at(params, layer, position, variants[choice.below(own.count)], there);
+      own.by_position.push_back(child ? static_cast<std::uint32_t>(casting.casts.size()) : none);
+      if (!child) continue;
+      const std::string place = pointer + "/place/positions/" + std::to_string(k);
+      casting.casts.push_back({name + "_at_" + std::to_string(k),
+                               position.model ? place + "/model" : pointer + "/model", *child});
+    }
+    casting.layers.push_back(std::move(own));
+  }
+  return casting;
+}
+
+void refuse_too_many(const Casting& casting, const Job& job) {
+  std::uint64_t triangles = 0;
+  for (const Cast& cast : casting.casts) {
+    const Result<Appraisal> appraisal = appraise_child(cast.request, cast.pointer, Rng(0), job);
+    if (!appraisal || !appraisal->estimate) continue;
+    triangles += std::min(appraisal->estimate->triangles, job.limits().triangles + 1);
+    if (triangles > job.limits().triangles) {
+      Job::refuse("the models up to this one need at least " + std::to_string(triangles) +
+                      " triangles; the limit is " + std::to_string(job.limits().triangles),
+                  cast.pointer);
+    }
+  }
+}
+
+Result<std::vector<Model>> models_of(const Casting& casting, const std::vector<std::uint8_t>& wanted,
+                                     int levels, Job& job) {
+  Demand demand;
+  demand.lods = levels;
+  std::vector<std::optional<Result<Model>>> made(casting.casts.size());
+  parallel_for(job, made.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (wanted[i] == 0) continue;
+      const Cast& cast = casting.casts[i];
+      made[i].emplace(generate_child(cast.request, cast.pointer, Rng(0), job, demand));
+    }
+  });
+  std::vector<Model> models(made.size());
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    if (!made[i]) continue;
+    if (!*made[i]) return std::move(*made[i]).error();
+    models[i] = std::move(**made[i]);
+  }
+  return models;
+}
+
+}  // namespace seedmesh::scene

@@ -1,0 +1,250 @@
+/// What no schema can tell of a scene.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/generators/child.h"
+#include "core/generators/scene/casts.h"
+#include "core/generators/scene/scene.h"
+#include "core/schema/nearest.h"
+#include "generated/params/scene.h"
+
+namespace seedmesh::scene {
+namespace {
+
+constexpr std::string_view own_name = "scene", ground_name = "terrain";
+constexpr std::string_view png_head = "data:image/png;base64,";
+
+/// Collects the faults below a pointer.
+class Checker {
+ public:
+  Checker(const SceneParams& params, const Limits& limits) : params_(params), limits_(limits) {}
+
+  std::vector<Issue> check() {
+    check_ground();
+    for (std::size_t i = 0; i < params_.paths.size(); ++i)
+      check_line(params_.paths[i].points, "/paths/" + std::to_string(i) + "/points");
+    for (std::size_t i = 0; i < params_.layers.size(); ++i) check_layer(i);
+    const std::size_t casts = count_casts(params_);
+    if (casts > most_casts) {
+      add("/layers", "found " + std::to_string(casts) +
+                         " models, variants and those of positions together; " + "expected at most " +
+                         std::to_string(most_casts));
+    }
+    return std::move(issues_);
+  }
+
+ private:
+  void add(std::string pointer, std::string message) {
+    issues_.push_back({std::move(pointer), std::move(message)});
+  }
+
+  void check_ground() {
+    if (!params_.terrain) return;
+    if (params_.ground) add("/ground", "found both `terrain` and `ground`; the ground is one of them");
+    const Child& terrain = *params_.terrain;
+    if (terrain.generator.empty()) return;
+    if (terrain.generator != ground_name) {
+      add("/terrain/generator", "found " + terrain.generator + "; the ground is made by terrain");
+      return;
+    }
+    const Json parameters = Json::parse(terrain.parameters);
+    if (parameters.value("shape", "plane") != "plane")
+      add("/terrain/parameters/shape", "found a sphere; the ground of a scene is a plane");
+  }
+
+  /// A scene nowhere inside of the request, however deep.
+  void check_child(const Child& child, const std::string& pointer) {
+    if (child.generator == own_name) {
+      add(pointer + "/generator", "found a scene; a scene has no scene inside");
+      return;
+    }
+    const Generator* generator = find_generator(child.generator);
+    if (!generator) return;
+    Faults faults;
+    generator->read(Json::parse(child.parameters), "", faults, [&](const ChildPlace& place) {
+      check_child(*place.child, pointer + "/parameters" + place.pointer);
+    });
+  }
+
+  template <class Points>
+  void check_line(const Points& points, const std::string& pointer) {
+    const bool is_long =
+        std::adjacent_find(points.begin(), points.end(), std::not_equal_to<>()) != points.end();
+    if (!is_long) add(pointer, "all points are one; expected a line");
+  }
+
+  void check_layer(std::size_t number) {
+    const SceneLayer& layer = params_.layers[number];
+    const std::string pointer = "/layers/" + std::to_string(number);
+    if (layer.name) {
+      for (std::size_t i = 0; i < number; ++i) {
+        if (params_.layers[i].name != layer.name) continue;
+        add(pointer + "/name", "found " + *layer.name + ", which is the name of layer " + std::to_string(i));
+        break;
+      }
+    }
+    check_child(layer.model, pointer + "/model");
+    check_span(layer.scale, pointer + "/scale");
+    check_span(layer.turn, pointer + "/turn");
+    if (layer.age) check_span(*layer.age, pointer + "/age");
+    if (layer.age && !layer.model.generator.empty() && find_generator(layer.model.generator) &&
+        !has_parameter(layer.model.generator, "age"))
+      add(pointer + "/age", layer.model.generator + " has no parameter age");
+    if (layer.foundation && !layer.footprint)
+      add(pointer + "/foundation", "a foundation lies under a footprint, and the layer has none");
+    for (std::size_t i = 0; i < layer.vary.size(); ++i)
+      check_variation(layer.model, layer.vary[i], pointer + "/vary/" + std::to_string(i));
+    check_place(layer, number, pointer + "/place");
+  }
+
+  void check_span(const std::variant<double, std::array<double, 2>>& given, const std::string& pointer) {
+    const auto* both = std::get_if<1>(&given);
+    if (both && (*both)[0] > (*both)[1]) add(pointer, "the first is above the second; expected from and to");
+  }
+
+  /// Tries both ends of a range, or every value, on the model.
+  void check_variation(const Child& model, const SceneVariation& variation, const std::string& pointer) {
+    const bool has_range = variation.from.has_value() || variation.to.has_value();
+    if (has_range == variation.among.has_value() ||
+        (has_range && !(variation.from.has_value() && variation.to.has_value()))) {
+      add(pointer, "expected either `from` and `to`, or `among`");
+      return;
+    }
+    if (has_range && *variation.from > *variation.to) {
+      add(pointer + "/from", "from is above to");
+      return;
+    }
+    const Generator* generator = find_generator(model.generator);
+    if (!generator) return;
+    if (!has_parameter(model.generator, variation.parameter)) {
+      add(pointer + "/parameter",
+          model.generator + " has no parameter \"" + shortened(variation.parameter, 40) + "\"");
+      return;
+    }
+    if (variation.among) {
+      for (std::size_t i = 0; i < variation.among->size(); ++i) {
+        const Json value = std::visit([](const auto& each) { return Json(each); }, (*variation.among)[i]);
+        try_value(*generator, model, variation.parameter, value, pointer + "/among/" + std::to_string(i));
+      }
+      return;
+    }
+    try_value(*generator, model, variation.parameter, Json(*variation.from), pointer + "/from");
+    try_value(*generator, model, variation.parameter, Json(*variation.to), pointer + "/to");
+  }
+
+  void try_value(const Generator& generator, const Child& model, const std::string& path, const Json& value,
+                 const std::string& pointer) {
+    Faults faults;
+    const Json parameters = Json::parse(with_parameter(model.parameters, path, value.dump()));
+    const Generator::Params params = generator.read(parameters, "", faults, {});
+    std::vector<Issue> issues = faults.take();
+    if (issues.empty()) issues = generator.check(params, limits_);
+    if (!issues.empty()) add(pointer, "the model refuses it: " + issues.front().message);
+  }
+
+  void check_place(const SceneLayer& layer, std::size_t number, const std::string& pointer) {
+    const ScenePlace& place = layer.place;
+    using Method = SceneMethod;
+    const std::string method(text_of(place.method));
+    const auto member = [&](const char* name, bool is_given, bool is_needed,
+                            std::initializer_list<Method> of) {
+      const bool belongs = std::find(of.begin(), of.end(), place.method) != of.end();
+      if (is_given && !belongs) add(pointer + "/" + name, "has no effect with the method " + method);
+      if (!is_given && is_needed && belongs) add(pointer, "the method " + method + " needs `" + name + "`");
+    };
+    member("positions", !place.positions.empty(), true, {Method::positions});
+    member("distance", place.distance.has_value(), true, {Method::poisson, Method::path});
+    member("spacing", place.spacing.has_value(), true, {Method::rows});
+    member("angle", place.angle != 0, false, {Method::rows});
+    member("stagger", place.stagger != 0, false, {Method::rows});
+    member("jitter", place.jitter != 0, false, {Method::rows, Method::path});
+    member("points", place.points.has_value(), true, {Method::path});
+    member("offset", place.offset != 0, false, {Method::path});
+    member("side", place.side != SceneSide::both, false, {Method::path});
+    member("clusters", place.clusters.has_value(), true, {Method::clusters});
+    member("count", place.count.has_value(), false,
+           {Method::poisson, Method::scatter, Method::clusters, Method::rows, Method::path});
+    if (!place.count && (place.method == Method::scatter || place.method == Method::clusters))
+      add(pointer, "the method " + method + " needs `count`");
+    if (place.method == Method::positions) {
+      check_positions(layer, pointer);
+      refuse_rules(place, pointer);
+      return;
+    }
+    if (place.points) check_line(*place.points, pointer + "/points");
+    if (place.area) check_area(*place.area, pointer + "/area");
+    if (place.density_image && !place.density_image->starts_with(png_head))
+      add(pointer + "/density_image", "expected a PNG as a data URI: data:image/png;base64,…");
+    const auto limits = [&](const auto& given, const char* name) {
+      if (given && given->from && given->to && *given->from > *given->to)
+        add(pointer + "/" + name, "from is above to");
+    };
+    limits(place.slope, "slope");
+    limits(place.altitude, "altitude");
+    limits(place.above_water, "above_water");
+    limits(place.shade, "shade");
+    for (std::size_t i = 0; i < place.near.size(); ++i)
+      check_near(place.near[i], number, pointer + "/near/" + std::to_string(i));
+    if (place.above_water && !params_.terrain)
+      add(pointer + "/above_water", "there is no water; it comes with the terrain");
+  }
+
+  void check_positions(const SceneLayer& layer, const std::string& pointer) {
+    for (std::size_t i = 0; i < layer.place.positions.size(); ++i) {
+      const ScenePosition& position = layer.place.positions[i];
+      const std::string at = pointer + "/positions/" + std::to_string(i);
+      if (position.model) check_child(*position.model, at + "/model");
+      const std::string& generator = position.model ? position.model->generator : layer.model.generator;
+      if (position.age && find_generator(generator) && !has_parameter(generator, "age"))
+        add(at + "/age", generator + " has no parameter age");
+    }
+  }
+
+  /// Explicit positions are taken as they are.
+  void refuse_rules(const ScenePlace& place, const std::string& pointer) {
+    const auto refuse = [&](bool is_given, const char* name) {
+      if (is_given) add(pointer + "/" + name, "has no effect with the method positions");
+    };
+    refuse(place.area.has_value(), "area");
+    refuse(place.edge != 0, "edge");
+    refuse(place.density != 1, "density");
+    refuse(place.density_image.has_value(), "density_image");
+    refuse(place.noise.has_value(), "noise");
+    refuse(place.slope.has_value(), "slope");
+    refuse(place.altitude.has_value(), "altitude");
+    refuse(place.above_water.has_value(), "above_water");
+    refuse(place.shade.has_value(), "shade");
+    refuse(!place.near.empty(), "near");
+  }
+
+  void check_area(const std::vector<std::array<double, 2>>& area, const std::string& pointer) {
+    double twice = 0;
+    for (std::size_t i = 0, j = area.size() - 1; i < area.size(); j = i++)
+      twice += area[j][0] * area[i][1] - area[i][0] * area[j][1];
+    if (twice == 0) add(pointer, "the polygon has no area");
+  }
+
+  void check_near(const SceneNeighbour& near, std::size_t number, const std::string& pointer) {
+    std::vector<std::string_view> names;
+    for (std::size_t i = 0; i < number; ++i) {
+      if (params_.layers[i].name) names.push_back(*params_.layers[i].name);
+    }
+    if (std::find(names.begin(), names.end(), near.layer) == names.end())
+      add(pointer + "/layer", schema::unknown_word("layer before this one called", near.layer, names));
+    if (!near.from && !near.to) add(pointer, "expected `from`, `to` or both");
+    if (near.from && near.to && *near.from > *near.to) add(pointer + "/from", "from is above to");
+  }
+
+  const SceneParams& params_;
+  const Limits& limits_;
+  std::vector<Issue> issues_;
+};
+
+}  // namespace
+
+std::vector<Issue> check(const SceneParams& params, const Limits& limits) {
+  return Checker(params, limits).check();
+}
+
+}  // namespace seedmesh::scene

@@ -1,0 +1,194 @@
+#include "core/generators/scene/ground.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/base/math.h"
+#include "core/generators/scene/ways.h"
+#include "core/generators/terrain/plan.h"
+#include "core/generators/terrain/terrain.h"
+#include "core/model/append.h"
+#include "generated/params/scene.h"
+#include "generated/params/terrain.h"
+
+namespace seedmesh::scene {
+namespace {
+
+constexpr char terrain_pointer[] = "/terrain/parameters";
+constexpr int sides_of_a_disc = 96;
+
+/// What `work` gives, faults pointing to the terrain.
+template <class T, class Work>
+Result<T> of_terrain(const Work& work) {
+  try {
+    Result<T> result = work();
+    if (result) return result;
+    Error error = std::move(result).error();
+    for (Issue& issue : error.issues) issue.pointer.insert(0, terrain_pointer);
+    return error;
+  } catch (const Stop& stop) {  // the same stop, told of where it belongs
+    Issue issue = stop.issue();
+    if (!issue.pointer.empty()) issue.pointer.insert(0, terrain_pointer);
+    throw Stop(stop.code(), std::move(issue));
+  }
+}
+
+Extent around_middle(const glm::dvec2& size) { return {-size / 2.0, size / 2.0}; }
+
+/// Two triangles, or those of a disc.
+Mesh flat_mesh(const Extent& extent, bool round, const Job& job) {
+  Mesh mesh;
+  mesh.position = Array<glm::vec3>(job);
+  mesh.normal = Array<glm::vec3>(job);
+  mesh.uv[0] = Array<glm::vec2>(job);
+  mesh.index.wide = Array<std::uint32_t>(job);
+  const auto add = [&](const glm::dvec2& p) {
+    const glm::dvec2 share = (p - extent.min) / extent.size();
+    mesh.position.push_back({static_cast<float>(p.x), 0, static_cast<float>(p.y)});
+    mesh.normal.push_back({0, 1, 0});
+    mesh.uv[0].push_back(glm::vec2(share));
+  };
+  const auto face = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    for (const std::uint32_t corner : {a, b, c}) mesh.index.wide.push_back(corner);
+  };
+  if (!round) {
+    for (const glm::dvec2& p :
+         {extent.min, {extent.min.x, extent.max.y}, extent.max, {extent.max.x, extent.min.y}})
+      add(p);
+    face(0, 1, 2);
+    face(0, 2, 3);
+    return mesh;
+  }
+  const double radius = extent.max.x;
+  for (int i = 0; i < sides_of_a_disc; ++i) {
+    const math::SinCos turn = math::sincos(2 * math::pi * i / sides_of_a_disc);
+    add({radius * turn.cos, -radius * turn.sin});
+  }
+  for (std::uint32_t i = 1; i + 1 < sides_of_a_disc; ++i) face(0, i, i + 1);
+  return mesh;
+}
+
+Model flat_model(const SceneGround& ground, const Extent& extent, bool round, const Job& job) {
+  Model model;
+  model.name = "ground";
+  Node node;
+  node.name = "ground";
+  if (ground.outline != SceneOutline::none) {
+    Material material;
+    material.name = "ground";
+    material.base_color = {linear_of_srgb(ground.color.red), linear_of_srgb(ground.color.green),
+                           linear_of_srgb(ground.color.blue), 1};
+    material.roughness = 0.95F;
+    model.materials.push_back(material);
+    model.meshes.push_back({"ground", {}});
+    model.meshes.back().primitives.push_back({flat_mesh(extent, round, job), 0, {}});
+    node.mesh = 0;
+  }
+  model.nodes.push_back(std::move(node));
+  return model;
+}
+
+}  // namespace
+
+Result<Ground> Ground::make(const SceneParams& params, const Job& job) {
+  Ground ground;
+  if (!params.terrain) {
+    const SceneGround level = params.ground.value_or(SceneGround{});
+    ground.extent_ = around_middle(glm::dvec2(level.size));
+    ground.round_ = level.outline == SceneOutline::disc;
+    return ground;
+  }
+  Faults faults;
+  ground.terrain_ = std::make_shared<const TerrainParams>(
+      read_terrain(Json::parse(params.terrain->parameters), "", faults));
+  ground.seed_ = params.terrain->seed.value_or(job.rng().at("scene").at("terrain").key());
+  Job own = job.for_child(ground.seed_);
+  Result<terrain::Field> field =
+      of_terrain<terrain::Field>([&] { return terrain::field_of(*ground.terrain_, own); });
+  if (!field) return std::move(field).error();
+  ground.field_ = std::move(*field);
+  const terrain::Field& made = ground.field_;
+  ground.extent_ = around_middle(glm::dvec2(made.width - 1, made.depth - 1) * made.cell);
+  if (ground.terrain_->water_level &&
+      *ground.terrain_->water_level > static_cast<double>(terrain::range_of(made, job).low))
+    ground.water_ = ground.terrain_->water_level;
+  return ground;
+}
+
+bool Ground::holds(const glm::dvec2& p, double edge) const {
+  if (round_) return glm::length(p) <= extent_.max.x - edge;
+  return p.x >= extent_.min.x + edge && p.y >= extent_.min.y + edge && p.x <= extent_.max.x - edge &&
+         p.y <= extent_.max.y - edge;
+}
+
+/// Squares are cut as grid meshes are: along the diagonal that is closer to level.
+Ground::Sample Ground::sample(const glm::dvec2& p) const {
+  if (!terrain_) return {};
+  const double x = std::clamp((p.x - extent_.min.x) / field_.cell, 0.0, field_.width - 1.0);
+  const double z = std::clamp((p.y - extent_.min.y) / field_.cell, 0.0, field_.depth - 1.0);
+  const std::int32_t i = std::min(math::to_int32(x), field_.width - 2);
+  const std::int32_t j = std::min(math::to_int32(z), field_.depth - 2);
+  const double u = x - i, v = z - j;
+  const auto at = [&](std::int32_t east, std::int32_t south) {
+    return static_cast<double>(field_.at(i + east, j + south));
+  };
+  const double nw = at(0, 0), ne = at(1, 0), sw = at(0, 1), se = at(1, 1);
+  const bool falls = std::abs(nw - se) <= std::abs(ne - sw);
+  glm::dvec2 rise;
+  double corner = nw, east = u, south = v;
+  if (falls) {
+    rise = v >= u ? glm::dvec2(se - sw, sw - nw) : glm::dvec2(ne - nw, se - ne);
+  } else if (u + v <= 1) {
+    rise = {ne - nw, sw - nw};
+  } else {
+    rise = {se - sw, se - ne};
+    corner = se;
+    east = u - 1;
+    south = v - 1;
+  }
+  return {corner + rise.x * east + rise.y * south, rise / field_.cell};
+}
+
+void Ground::level(const Foundation& foundation) {
+  if (!terrain_) return;
+  const Footprint& footprint = foundation.footprint;
+  const auto height = static_cast<float>(this->height(footprint.at));
+  // All squares that the footprint touches become level.
+  const double flat = field_.cell * std::sqrt(2.0);
+  const double reach = footprint.reach() + flat + foundation.slope_width;
+  const auto index = [&](double place, double least, std::int32_t last) {
+    return math::to_int32(std::clamp((place - least) / field_.cell, 0.0, static_cast<double>(last)));
+  };
+  const std::int32_t x0 = index(footprint.at.x - reach, extent_.min.x, field_.width - 1);
+  const std::int32_t x1 = index(footprint.at.x + reach, extent_.min.x, field_.width - 1);
+  const std::int32_t z0 = index(footprint.at.y - reach, extent_.min.y, field_.depth - 1);
+  const std::int32_t z1 = index(footprint.at.y + reach, extent_.min.y, field_.depth - 1);
+  for (std::int32_t z = z0; z <= z1; ++z) {
+    for (std::int32_t x = x0; x <= x1; ++x) {
+      const double outside = footprint.outside(extent_.min + glm::dvec2(x, z) * field_.cell) - flat;
+      if (outside > 0 && outside >= foundation.slope_width) continue;
+      const double share = outside <= 0 ? 0 : outside / foundation.slope_width;
+      const auto old = static_cast<float>(share * share * (3 - 2 * share));
+      float& sample = field_.at(x, z);
+      sample = height + (sample - height) * old;
+    }
+  }
+}
+
+Result<Model> Ground::model(const SceneParams& params, const Job& job) const {
+  Model model;
+  if (terrain_) {
+    Job own = job.for_child(seed_);
+    Result<Model> made = of_terrain<Model>([&] { return terrain::dressed(*terrain_, field_, own); });
+    if (!made) return made;
+    model = std::move(*made);
+    for (Warning& warning : model.warnings) warning.pointer.insert(0, terrain_pointer);
+  } else {
+    model = flat_model(params.ground.value_or(SceneGround{}), extent_, round_, job);
+  }
+  add_ways(model, params.paths, *this, terrain_ ? field_.cell : 0, job);
+  return model;
+}
+
+}  // namespace seedmesh::scene

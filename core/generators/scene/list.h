@@ -1,0 +1,18 @@
+#pragma once
+/// Where everything stands as a list: what engines feed to their own instancing.
+#include "core/generators/scene/casts.h"
+#include "core/generators/scene/plant.h"
+#include "core/schema/json.h"
+
+namespace seedmesh::scene {
+
+/// The answer of derive(): see scene.h.
+Json told(const SceneParams& params, const Ground& ground, const Planting& planting, const Casting& casting,
+          const Job& job);
+
+/// A zip of placements.json, which has all stands, and models/<name>.glb. Numbers have as many digits as a
+/// 32-bit float needs. Spends output bytes. About 0.5 microseconds a stand on one thread.
+Result<Array<std::uint8_t>> placement_list(const SceneParams& params, const Ground& ground,
+                                           const Planting& planting, const Casting& casting, Job& job);
+
+}  // namespace seedmesh::scene

@@ -1,0 +1,131 @@
+#include "core/generators/scene/stands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/base/math.h"
+#include "core/base/parallel.h"
+
+namespace seedmesh::scene {
+namespace {
+
+constexpr std::size_t stands_a_chunk = 4096;
+
+/// A vector of length up to `most` in any direction, its ends spread evenly over the disc.
+glm::dvec2 drawn_offset(Rng& rng, double most) {
+  if (most <= 0) return {0, 0};
+  const double distance = most * std::sqrt(rng.unit());
+  const math::SinCos way = math::sincos(rng.uniform(0, 2 * math::pi));
+  return {distance * way.cos, distance * way.sin};
+}
+
+void refuse_more_than(double most, const Job& job) {
+  if (most > static_cast<double>(job.limits().shapes)) {
+    Job::refuse("gives more places than " + std::to_string(job.limits().shapes) + ", the limit on shapes");
+  }
+}
+
+/// `count` stands of a series, each from its own stream by `place`.
+template <class Place>
+Array<Stand> series(std::uint64_t first, std::size_t count, Rng rng, const Job& job, const Place& place) {
+  refuse_more_than(static_cast<double>(count), job);
+  Array<Stand> stands(job, count, Stand{});
+  parallel_for(job, count, stands_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    job.check();
+    for (std::size_t i = begin; i < end; ++i) {
+      Rng own = rng.at(first + i);
+      stands[i].key = own.key();
+      stands[i].at = place(own);
+    }
+  });
+  return stands;
+}
+
+glm::dvec2 drawn_place(const Extent& part, Rng& rng) {
+  const double x = rng.uniform(part.min.x, part.max.x);
+  return {x, rng.uniform(part.min.y, part.max.y)};
+}
+
+}  // namespace
+
+Array<Stand> scattered(const Extent& part, std::uint64_t first, std::size_t count, Rng rng, const Job& job) {
+  return series(first, count, rng, job, [&](Rng& own) { return drawn_place(part, own); });
+}
+
+Array<Stand> clustered(const Extent& part, const ClusterPlan& plan, std::uint64_t first, std::size_t count,
+                       Rng rng, const Job& job) {
+  std::vector<glm::dvec2> middles;
+  for (std::size_t i = 0; i < plan.clusters; ++i) {
+    Rng own = rng.at("middle").at(i);
+    middles.push_back(drawn_place(part, own));
+  }
+  return series(first, count, rng, job, [&](Rng& own) {
+    const glm::dvec2 middle = middles[own.below(static_cast<std::uint32_t>(middles.size()))];
+    const double x = normal(own, 0, plan.radius);
+    return middle + glm::dvec2(x, normal(own, 0, plan.radius));
+  });
+}
+
+Array<Stand> in_rows(const Extent& part, const RowPlan& plan, Rng rng, const Job& job) {
+  const glm::dvec2 middle = (part.min + part.max) / 2.0;
+  const double reach = glm::length(part.size()) / 2 + plan.jitter;
+  refuse_more_than(std::ceil(4 * reach * reach / (plan.spacing.x * plan.spacing.y)) / 4, job);
+  const math::SinCos turn = math::sincos(plan.angle);
+  // Counter-clockwise seen from above, with z to the south.
+  const glm::dvec2 onward(turn.cos, -turn.sin), aside(turn.sin, turn.cos);
+  const std::int64_t rows = math::to_int64(std::ceil(reach / plan.spacing.y));
+  const std::int64_t columns = math::to_int64(std::ceil(reach / plan.spacing.x)) + 1;
+  Array<Stand> stands(job);
+  for (std::int64_t row = -rows; row <= rows; ++row) {
+    job.check();
+    const double shift = row % 2 != 0 ? plan.stagger : 0;
+    for (std::int64_t column = -columns; column <= columns; ++column) {
+      Stand stand;
+      const glm::dvec2 place = middle + onward * (plan.spacing.x * (static_cast<double>(column) + shift)) +
+                               aside * (plan.spacing.y * static_cast<double>(row));
+      if (glm::any(glm::lessThan(place, part.min - plan.jitter)) ||
+          glm::any(glm::greaterThan(place, part.max + plan.jitter)))
+        continue;
+      Rng own = rng.at(static_cast<std::uint64_t>(row)).at(static_cast<std::uint64_t>(column));
+      stand.key = own.key();
+      stand.turn = static_cast<float>(plan.angle);
+      stand.at = place + drawn_offset(own, plan.jitter);
+      if (part.holds(stand.at)) stands.push_back(stand);
+    }
+  }
+  return stands;
+}
+
+Array<Stand> along(std::span<const glm::dvec2> points, const WayPlan& plan, Rng rng, const Job& job) {
+  double length = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += glm::distance(points[i - 1], points[i]);
+  refuse_more_than(2 * length / plan.distance, job);
+  const bool both = plan.offset > 0 && plan.left && plan.right;
+  Array<Stand> stands(job);
+  double passed = 0, next = plan.distance / 2;
+  std::uint64_t number = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    job.check();
+    const double piece = glm::distance(points[i - 1], points[i]);
+    if (piece <= 0) continue;
+    const glm::dvec2 onward = (points[i] - points[i - 1]) / piece;
+    const glm::dvec2 left(onward.y, -onward.x);
+    for (; next <= passed + piece; next += plan.distance, ++number) {
+      const glm::dvec2 middle = points[i - 1] + onward * (next - passed);
+      for (int side = 0; side < 2; ++side) {
+        if (!both && side == (plan.left ? 1 : 0)) continue;
+        Rng own = rng.at(number).at(static_cast<std::uint64_t>(side));
+        Stand stand;
+        stand.key = own.key();
+        stand.turn = static_cast<float>(math::atan2(-onward.y, onward.x));
+        stand.at = middle + left * (side == 0 ? plan.offset : -plan.offset) + drawn_offset(own, plan.jitter);
+        stands.push_back(stand);
+      }
+    }
+    passed += piece;
+  }
+  return stands;
+}
+
+}  // namespace seedmesh::scene

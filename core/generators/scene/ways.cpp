@@ -1,0 +1,144 @@
+#include "core/generators/scene/ways.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "core/generators/scene/ground.h"
+#include "generated/params/scene.h"
+
+namespace seedmesh::scene {
+namespace {
+
+// Above the ground, so that nothing of it shows through; the next piece a little more, so that pieces that
+// lie on each other do not flicker.
+constexpr double lift = 0.04, step_up = 0.004, lift_a_cell = 0.04;
+constexpr int different_lifts = 7;
+constexpr int corners_of_a_joint = 16;
+constexpr double most_squares = 4096;  ///< along one piece
+
+class Band {
+ public:
+  Band(const Ground& ground, double cell, const Job& job) : ground_(ground), cell_(cell), job_(job) {
+    mesh_.position = Array<glm::vec3>(job);
+    mesh_.normal = Array<glm::vec3>(job);
+    mesh_.index.wide = Array<std::uint32_t>(job);
+  }
+
+  void lay(const std::vector<glm::dvec2>& points, double half_width) {
+    bool is_first = true;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      if (glm::distance(points[i - 1], points[i]) < 1e-3) continue;
+      job_.check();
+      if (!is_first) disc(points[i - 1], half_width);
+      strip(points[i - 1], points[i], half_width);
+      is_first = false;
+    }
+  }
+
+  Mesh take() {
+    smooth();
+    return std::move(mesh_);
+  }
+
+ private:
+  std::uint32_t vertex(const glm::dvec2& p) {
+    const double above = lift + lift_a_cell * cell_ + step_up * (piece_ % different_lifts);
+    mesh_.position.push_back(glm::vec3(glm::dvec3(p.x, ground_.height(p) + above, p.y)));
+    return static_cast<std::uint32_t>(mesh_.position.size()) - 1;
+  }
+  void face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    for (const std::uint32_t corner : {a, b, c}) mesh_.index.wide.push_back(corner);
+  }
+
+  int squares(double length) const {
+    return cell_ > 0 ? static_cast<int>(std::clamp(std::ceil(2 * length / cell_), 1.0, most_squares)) : 1;
+  }
+
+  void strip(const glm::dvec2& a, const glm::dvec2& b, double half_width) {
+    ++piece_;
+    const double length = glm::distance(a, b);
+    const glm::dvec2 onward = (b - a) / length, left(onward.y, -onward.x);
+    const int far = squares(length), wide = squares(2 * half_width);
+    std::uint32_t before = 0;
+    for (int i = 0; i <= far; ++i) {
+      const glm::dvec2 middle = a + onward * (length * i / far);
+      const auto row = static_cast<std::uint32_t>(mesh_.position.size());
+      for (int k = 0; k <= wide; ++k) vertex(middle + left * (half_width * (1 - 2.0 * k / wide)));
+      for (std::uint32_t k = 0; i > 0 && k < static_cast<std::uint32_t>(wide); ++k) {
+        face(before + k, before + k + 1, row + k + 1);
+        face(before + k, row + k + 1, row + k);
+      }
+      before = row;
+    }
+  }
+
+  void disc(const glm::dvec2& middle, double radius) {
+    ++piece_;
+    const std::uint32_t centre = vertex(middle);
+    const int rings = squares(radius);
+    for (int ring = 1; ring <= rings; ++ring) {
+      const auto first = static_cast<std::uint32_t>(mesh_.position.size());
+      for (int i = 0; i < corners_of_a_joint; ++i) {
+        const math::SinCos turn = math::sincos(2 * math::pi * i / corners_of_a_joint);
+        vertex(middle + glm::dvec2(turn.cos, -turn.sin) * (radius * ring / rings));
+      }
+      for (std::uint32_t i = 0; i < corners_of_a_joint; ++i) {
+        const std::uint32_t j = (i + 1) % corners_of_a_joint;
+        if (ring == 1) {
+          face(centre, first + i, first + j);
+          continue;
+        }
+        const std::uint32_t inner = first - corners_of_a_joint;
+        face(inner + i, first + i, first + j);
+        face(inner + i, first + j, inner + j);
+      }
+    }
+  }
+
+  /// Normals from the triangles around.
+  void smooth() {
+    Array<glm::dvec3> sum(job_, mesh_.position.size(), glm::dvec3(0));
+    const Array<std::uint32_t>& index = mesh_.index.wide;
+    for (std::size_t i = 0; i < index.size(); i += 3) {
+      const glm::dvec3 a(mesh_.position[index[i]]), b(mesh_.position[index[i + 1]]),
+          c(mesh_.position[index[i + 2]]);
+      for (std::size_t k = 0; k < 3; ++k) sum[index[i + k]] += glm::cross(b - a, c - a);
+    }
+    for (const glm::dvec3& each : sum) mesh_.normal.push_back(glm::vec3(math::unit(each, {0, 1, 0})));
+  }
+
+  const Ground& ground_;
+  double cell_;
+  const Job& job_;
+  Mesh mesh_;
+  int piece_ = 0;
+};
+
+}  // namespace
+
+void add_ways(Model& model, const std::vector<ScenePath>& paths, const Ground& ground, double cell,
+              const Job& job) {
+  for (const ScenePath& path : paths) {
+    if (!path.shown) continue;
+    std::vector<glm::dvec2> points;
+    for (const auto& p : path.points) points.emplace_back(p[0], p[1]);
+    Band band(ground, cell, job);
+    band.lay(points, path.width / 2);
+    Material material;
+    material.name = "path";
+    material.base_color = {linear_of_srgb(path.color.red), linear_of_srgb(path.color.green),
+                           linear_of_srgb(path.color.blue), 1};
+    material.roughness = 1;
+    Node node;
+    node.name = "path";
+    node.parent = 0;
+    node.mesh = static_cast<int>(model.meshes.size());
+    model.nodes.push_back(std::move(node));
+    model.meshes.push_back({"path", {}});
+    model.meshes.back().primitives.push_back({band.take(), static_cast<int>(model.materials.size()), {}});
+    model.materials.push_back(std::move(material));
+  }
+}
+
+}  // namespace seedmesh::scene

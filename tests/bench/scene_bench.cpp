@@ -1,0 +1,128 @@
+/// How fast scenes are planted, listed and written. On two threads, by the clock on the wall.
+#include <cstdint>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/base/math.h"
+#include "core/generators/scene/stands.h"
+#include "core/pipeline.h"
+#include "core/schema/json.h"
+#include "tests/bench/report.h"
+
+namespace {
+
+using namespace seedmesh;
+
+constexpr int rounds = 3;
+
+Job roomy() {
+  Job::Options options;
+  options.threads = 2;
+  options.limits.memory_bytes = std::uint64_t{6} << 30U;
+  options.limits.output_bytes = std::uint64_t{3} << 30U;
+  return Job(1, options);
+}
+
+template <class Work>
+double timed(Work&& work) {
+  return bench::median_seconds<bench::WallClock>(rounds, work);
+}
+
+void bench_poisson() {
+  const scene::Extent ground{glm::dvec2(-500), glm::dvec2(500)};
+  double places = 0;
+  const double seconds = timed([&] {
+    places = static_cast<double>(scene::poisson_disk(ground, ground, 0.82, Rng(1), roomy()).size());
+  });
+  bench::report("Poisson disk", "places", places, seconds);
+}
+
+/// Bytes of the answer; 0 where the request is refused.
+double made(const Json& json, double& seconds) {
+  const Result<Request> request = read_request(json.dump(), Limits{});
+  if (!request) return 0;
+  double bytes = 0;
+  seconds = timed([&] {
+    Job job = roomy();
+    const Result<Product> product = produce(*request, job);
+    if (!product) std::abort();
+    bytes = static_cast<double>(product->payload.size());
+  });
+  return bytes;
+}
+
+void report_made(const std::string& name, const char* unit, double amount, const Json& json) {
+  double seconds = 0;
+  const double bytes = made(json, seconds);
+  if (bytes == 0) return;
+  std::printf("{\"name\":\"%s\",\"unit\":\"%s\",\"amount\":%.0f,\"bytes\":%.0f,\"seconds\":%.9f}\n",
+              name.c_str(), unit, amount, bytes, seconds);
+  std::fflush(stdout);
+}
+
+Json tree(int levels) {
+  return {{"preset", "proctree_0"}, {"parameters", {{"mLevels", levels}, {"mSegments", 6}}}};
+}
+
+Json terrain() {
+  return {{"generator", "terrain"},
+          {"parameters",
+           {{"algorithm", "fbm"},
+            {"resolution", 1025},
+            {"size", 2000},
+            {"amplitude", 120},
+            {"mesh", "greedy"},
+            {"max_error", 0.6}}}};
+}
+
+void bench_list() {
+  const Json cube = {{"generator", "fractal"}, {"parameters", {{"iterations", 0}}}};
+  report_made("1 M placements as list", "placements", 1e6,
+              {{"generator", "scene"},
+               {"parameters",
+                {{"ground", {{"size", 4000}}},
+                 {"layers", {{{"model", cube}, {"place", {{"method", "scatter"}, {"count", 1'000'000}}}}}}}},
+               {"output", {{"format", "placements"}}}});
+}
+
+void bench_forest() {
+  Json forest = {{"generator", "scene"},
+                 {"parameters",
+                  {{"terrain", terrain()},
+                   {"layers",
+                    {{{"model", tree(4)},
+                      {"variants", 16},
+                      {"place", {{"method", "scatter"}, {"count", 100'000}, {"slope", {{"to", 40}}}}},
+                      {"scale", {0.7, 1.3}}}}}}}};
+  report_made("100,000 trees on 1025 x 1025 as nodes", "trees", 100'000, forest);
+  forest["output"] = {{"profile", "web"}};
+  report_made("100,000 trees on 1025 x 1025 for the web", "trees", 100'000, forest);
+}
+
+/// Every tree another model, at another age.
+void bench_growth(int count) {
+  Json positions = Json::array();
+  for (int i = 0; i < count; ++i)
+    positions.push_back({{"at", {i % 25 * 3 - 36, i / 25 * 3 - 30}}, {"age", 3 + i % 4 * 0.5}});
+  const Json model = {{"preset", "growing_tree"}, {"parameters", {{"sides", 5}}}};
+  report_made("one growth step of " + std::to_string(count) + " trees", "trees", count,
+              {{"generator", "scene"},
+               {"parameters",
+                {{"age", 4.25},
+                 {"layers",
+                  {{{"model", model},
+                    {"variants", 1},
+                    {"place", {{"method", "positions"}, {"positions", positions}}}}}}}},
+               {"output", {{"textures", "none"}}}});
+}
+
+}  // namespace
+
+int main() {
+  bench_poisson();
+  bench_list();
+  bench_forest();
+  bench_growth(50);
+  bench_growth(500);
+}

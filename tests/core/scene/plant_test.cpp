@@ -1,0 +1,253 @@
+/// Rules of where things stand, over random scenes.
+#include <cmath>
+
+#include "core/base/math.h"
+#include "tests/core/scene/support.h"
+
+namespace seedmesh {
+namespace {
+
+using scene::Stand;
+
+Json hills(std::uint64_t seed) {
+  return {{"generator", "terrain"},
+          {"seed", seed},
+          {"parameters",
+           {{"iterations", 6}, {"size", 200}, {"amplitude", 40}, {"hurst", 0.8}, {"water_level", -2}}}};
+}
+
+Json layer(const std::string& name, const Json& place) {
+  return {{"name", name}, {"model", cube()}, {"variants", 1}, {"place", place}};
+}
+
+Json poisson(double distance) { return {{"distance", distance}}; }
+
+double steepness(const scene::Ground& ground, const Stand& stand) {
+  return math::degrees(math::atan2(glm::length(ground.gradient(stand.at)), 1));
+}
+
+double least_distance(const Array<Stand>& stands) {
+  double least = 1e30;
+  for (std::size_t i = 0; i < stands.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) least = std::min(least, glm::distance(stands[i].at, stands[k].at));
+  }
+  return least;
+}
+
+TEST(Plant, KeepsEveryRuleOnRandomScenes) {
+  Rng rng(99);
+  for (std::uint64_t round = 0; round < 24; ++round) {
+    const double distance = rng.uniform(2, 8), steepest = rng.uniform(8, 40), low = rng.uniform(-10, 5);
+    const double high = low + rng.uniform(5, 40);
+    Json place = poisson(distance);
+    place["slope"] = {{"to", steepest}, {"soft", rng.uniform(0, 10)}};
+    place["altitude"] = {{"from", low}, {"to", high}};
+    place["edge"] = rng.uniform(0, 20);
+    const Json json = {{"terrain", hills(round)}, {"layers", {layer("a", place)}}};
+    const Planted made = planted(json, round);
+    EXPECT_GE(least_distance(made.layer(0)), distance);
+    for (const Stand& stand : made.layer(0)) {
+      EXPECT_LE(steepness(made.ground, stand), steepest);
+      const double height = made.ground.height(stand.at);
+      EXPECT_GE(height, low);
+      EXPECT_LE(height, high);
+      if (made.ground.water()) {
+        EXPECT_GE(height, *made.ground.water());
+      }
+      EXPECT_TRUE(made.ground.holds(stand.at, place["edge"].get<double>()));
+    }
+  }
+}
+
+TEST(Plant, KeepsOffFootprintsAndWays) {
+  Rng rng(5);
+  for (std::uint64_t round = 0; round < 12; ++round) {
+    Json houses = layer("house", {{"method", "scatter"}, {"count", 6}, {"edge", 10}});
+    houses["footprint"] = {rng.uniform(4, 12), rng.uniform(4, 12)};
+    houses["scale"] = {0.5, 1.5};
+    Json trees = layer("tree", poisson(1.5));
+    trees["footprint"] = 0.4;
+    const Json json = {
+        {"ground", {{"size", 80}}},
+        {"paths", {{{"points", {{-40, rng.uniform(-20, 20)}, {0, 5}, {40, 0}}}, {"width", 4}}}},
+        {"layers", {houses, trees}}};
+    const Planted made = planted(json, round);
+    const Generator::Params params = read_scene_params(json);
+    std::vector<glm::dvec2> points;
+    for (const auto& p : own(params).paths[0].points) points.emplace_back(p[0], p[1]);
+    const scene::Way way = scene::way_of(points, 4);
+    const auto& size = std::get<1>(*own(params).layers[0].footprint);
+    EXPECT_GT(made.layer(1).size(), 500U);
+    for (const Stand& tree : made.layer(1)) {
+      EXPECT_FALSE(way.covers(tree.at, 0.4 * 0.999));
+      for (const Stand& house : made.layer(0)) {
+        const auto footprint = scene::Footprint::of(house, glm::dvec2(size[0], size[1]) / 2.0, false);
+        EXPECT_GE(footprint.outside(tree.at), 0.4 * 0.999);
+      }
+    }
+  }
+}
+
+TEST(Plant, LeavesOtherLayersWhereTheyAreWhenOneChanges) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    Json json = {
+        {"terrain", hills(3)},
+        {"layers",
+         {layer("a", poisson(5)), layer("b", {{"method", "scatter"}, {"count", 90}}),
+          layer("c", {{"method", "clusters"}, {"count", 50}, {"clusters", {{"count", 4}, {"radius", 6}}}})}}};
+    const Planted before = planted(json, seed);
+    json["layers"][1]["place"]["count"] = 30;
+    json["layers"][1]["scale"] = {1, 2};
+    const Planted after = planted(json, seed);
+    for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
+      ASSERT_EQ(before.layer(i).size(), after.layer(i).size());
+      for (std::size_t k = 0; k < before.layer(i).size(); ++k) {
+        EXPECT_EQ(before.layer(i)[k].at, after.layer(i)[k].at);
+        EXPECT_EQ(before.layer(i)[k].turn, after.layer(i)[k].turn);
+      }
+    }
+    json["layers"].erase(0);  // names, not numbers, are what is drawn by
+    const Planted fewer = planted(json, seed);
+    ASSERT_EQ(fewer.layer(1).size(), after.layer(2).size());
+    for (std::size_t k = 0; k < fewer.layer(1).size(); ++k)
+      EXPECT_EQ(fewer.layer(1)[k].at, after.layer(2)[k].at);
+  }
+}
+
+TEST(Plant, KeepsThePlacesThatStillSuitWhenARuleGetsStricter) {
+  Json json = {{"terrain", hills(3)}, {"layers", {layer("a", poisson(4))}}};
+  const Planted all = planted(json);
+  json["layers"][0]["place"]["slope"] = {{"to", 20}};
+  const Planted some = planted(json);
+  EXPECT_LT(some.layer(0).size(), all.layer(0).size());
+  for (const Stand& stand : some.layer(0)) {
+    EXPECT_TRUE(std::any_of(all.layer(0).begin(), all.layer(0).end(),
+                            [&](const Stand& other) { return other.at == stand.at; }));
+  }
+}
+
+TEST(Plant, LetsTheLargerCrownsLive) {
+  Json big = layer("big", {{"method", "scatter"}, {"count", 120}});
+  big["scale"] = {1, 2};
+  big["crown"] = 3;
+  Json small = layer("small", {{"method", "scatter"}, {"count", 600}});
+  small["crown"] = 0.8;
+  Json json = {{"ground", {{"size", 80}}}, {"layers", {small, big}}, {"competition", 0.9}};
+  const Planted made = planted(json);
+  std::vector<std::pair<glm::dvec2, double>> crowns;
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (const Stand& stand : made.layer(i))
+      crowns.emplace_back(stand.at, (i == 0 ? 0.8 : 3.0) * static_cast<double>(stand.scale));
+  }
+  for (std::size_t i = 0; i < crowns.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      EXPECT_GE(glm::distance(crowns[i].first, crowns[k].first),
+                0.9 * (crowns[i].second + crowns[k].second) * 0.999999);
+    }
+  }
+  json["competition"] = 0;
+  const Planted all = planted(json);
+  EXPECT_EQ(all.layer(1).size(), 120U);
+  EXPECT_LT(made.layer(1).size(), 100U);
+  // The largest of all is never beaten.
+  const auto largest = std::max_element(all.layer(1).begin(), all.layer(1).end(),
+                                        [](const Stand& a, const Stand& b) { return a.scale < b.scale; });
+  EXPECT_TRUE(std::any_of(made.layer(1).begin(), made.layer(1).end(),
+                          [&](const Stand& stand) { return stand.at == largest->at; }));
+}
+
+TEST(Plant, LooksForNeighboursAndShade) {
+  Json trees = layer("tree", poisson(12));
+  trees["crown"] = 4;
+  Json moss = layer("moss", {{"method", "scatter"}, {"count", 200}, {"shade", {{"from", 0.4}}}});
+  Json ring = layer(
+      "ring",
+      {{"method", "scatter"}, {"count", 200}, {"near", {{{"layer", "tree"}, {"from", 4.5}, {"to", 6}}}}});
+  const Planted made = planted({{"ground", {{"size", 100}}}, {"layers", {trees, moss, ring}}});
+  const auto nearest = [&](const Stand& stand) {
+    double least = 1e30;
+    for (const Stand& tree : made.layer(0)) least = std::min(least, glm::distance(tree.at, stand.at));
+    return least;
+  };
+  EXPECT_EQ(made.layer(1).size(), 200U);
+  for (const Stand& stand : made.layer(1)) EXPECT_LE(nearest(stand), 4 * std::sqrt(0.6));
+  for (const Stand& stand : made.layer(2)) {
+    EXPECT_GE(nearest(stand), 4.5);
+    EXPECT_LE(nearest(stand), 6);
+  }
+}
+
+TEST(Plant, FollowsADensityImage) {
+  // 2 x 1 pixels: black in the west, white in the east.
+  const std::string image =
+      "data:image/"
+      "png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAAAAADRSSBWAAAAC0lEQVR4nGNg+A8AAQIBAEK+"
+      "vGgAAAAASUVORK5CYII=";
+  const Planted made = planted(
+      {{"ground", {{"size", 100}}}, {"layers", {layer("a", {{"distance", 2}, {"density_image", image}})}}});
+  int west = 0, east = 0;
+  for (const Stand& stand : made.layer(0)) (stand.at.x < 0 ? west : east) += 1;
+  EXPECT_GT(east, 4 * west);
+  for (const Stand& stand : made.layer(0)) EXPECT_GT(stand.at.x, -26);
+}
+
+TEST(Plant, ThinsOutToACount) {
+  Json json = {{"ground", {{"size", 100}}}, {"layers", {layer("a", poisson(3))}}};
+  const Planted all = planted(json);
+  json["layers"][0]["place"]["count"] = 57;
+  const Planted some = planted(json);
+  EXPECT_EQ(some.layer(0).size(), 57U);
+  for (const Stand& stand : some.layer(0)) {
+    EXPECT_TRUE(std::any_of(all.layer(0).begin(), all.layer(0).end(),
+                            [&](const Stand& other) { return other.at == stand.at; }));
+  }
+}
+
+TEST(Plant, LevelsTheGroundUnderFoundations) {
+  Json houses = layer("house", {{"method", "scatter"}, {"count", 5}, {"edge", 20}});
+  houses["footprint"] = {10, 6};
+  houses["foundation"] = Json::object();
+  const Json json = {{"terrain", hills(4)}, {"layers", {houses}}};
+  const Planted made = planted(json, 3);
+  ASSERT_EQ(made.layer(0).size(), 5U);
+  const Stand& house = made.layer(0)[4];  // the last one, on whose ground no other foundation was laid
+  const double height = made.ground.height(house.at);
+  const auto footprint = scene::Footprint::of(house, {5, 3}, false);
+  Rng rng(3);
+  for (int i = 0; i < 500; ++i) {
+    const double x = rng.uniform(-6, 6);
+    const glm::dvec2 p = house.at + glm::dvec2(x, rng.uniform(-6, 6));
+    if (footprint.outside(p) <= 0) {
+      EXPECT_NEAR(made.ground.height(p), height, 1e-4);
+    }
+  }
+}
+
+TEST(Plant, WarnsWhereTooFewFindAPlace) {
+  const Planted made =
+      planted({{"ground", {{"size", 10}}},
+               {"layers", {layer("a", {{"method", "scatter"}, {"count", 5}, {"altitude", {{"from", 5}}}})}}});
+  ASSERT_EQ(made.planting.warnings.size(), 2U);
+  EXPECT_EQ(made.planting.warnings[0].pointer, "/layers/0/place/count");
+  EXPECT_EQ(made.planting.warnings[0].message, "only 0 of 5 found a place that suits the layer");
+}
+
+TEST(Plant, StandsOnTheGroundAndLeansWithIt) {
+  Json tilted = layer("a", poisson(6));
+  tilted["upright"] = 0;
+  tilted["sink"] = 0.5;
+  const Json json = {{"terrain", hills(4)}, {"layers", {tilted}}};
+  const Planted made = planted(json);
+  const Generator::Params params = read_scene_params(json);
+  for (const Stand& stand : made.layer(0)) {
+    const Transform t = scene::transform_of(stand, own(params).layers[0], made.ground);
+    EXPECT_NEAR(static_cast<double>(t.translation.y), made.ground.height(stand.at) - 0.5, 1e-4);
+    const glm::dvec2 rise = made.ground.gradient(stand.at);
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(-rise.x, 1, -rise.y));
+    EXPECT_NEAR(glm::dot(glm::dvec3(t.rotation * glm::vec3(0, 1, 0)), normal), 1, 1e-5);
+    EXPECT_NEAR(static_cast<double>(glm::length(t.rotation)), 1, 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace seedmesh

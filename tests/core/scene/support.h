@@ -1,0 +1,84 @@
+#pragma once
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/generators/child.h"
+#include "core/generators/scene/plant.h"
+#include "core/generators/scene/scene.h"
+#include "core/geom/finish.h"
+#include "generated/params/scene.h"
+#include "tests/support/mesh_faults.h"
+
+namespace seedmesh {
+
+inline Job job_of(std::uint64_t seed, int threads = 1) {
+  Job::Options options;
+  options.threads = threads;
+  return Job(seed, options);
+}
+
+/// As the pipeline reads it: children too.
+inline Generator::Params read_scene_params(const Json& json) {
+  Faults faults;
+  Generator::Params params = read_parameters(*find_generator("scene"), json, "", Limits{}, faults);
+  EXPECT_TRUE(faults.empty()) << faults.issues().front().pointer << " " << faults.issues().front().message;
+  return params;
+}
+
+inline const SceneParams& own(const Generator::Params& params) {
+  return *static_cast<const SceneParams*>(params.get());
+}
+
+/// The faults of a request, as "pointer: message".
+inline std::vector<std::string> scene_faults(const Json& json) {
+  Faults faults;
+  read_parameters(*find_generator("scene"), json, "", Limits{}, faults);
+  std::vector<std::string> told;
+  for (const Issue& issue : faults.issues()) told.push_back(issue.pointer + ": " + issue.message);
+  return told;
+}
+
+/// Where everything stands, and the ground it stands on.
+struct Planted {
+  scene::Ground ground;
+  scene::Planting planting;
+  const Array<scene::Stand>& layer(std::size_t i) const { return planting.layers.at(i); }
+};
+
+inline Planted planted(const Json& json, std::uint64_t seed = 1, int threads = 1) {
+  const Generator::Params params = read_scene_params(json);
+  Job job = job_of(seed, threads);
+  Result<scene::Ground> ground = scene::Ground::make(own(params), job);
+  EXPECT_TRUE(ground);
+  scene::Planting planting = scene::plant(own(params), *ground, job);
+  return {std::move(*ground), std::move(planting)};
+}
+
+inline Result<Model> scene_of(const Json& json, std::uint64_t seed = 1, Job::Options options = {}) {
+  const Generator::Params params = read_scene_params(json);
+  Job job(seed, std::move(options));
+  try {
+    Result<Model> model = scene::generate(own(params), job);
+    if (model) finish(*model, job);
+    return model;
+  } catch (const Stop& stop) {
+    return Error{stop.code(), {stop.issue()}};
+  }
+}
+
+inline Json derived_scene(const Json& json, std::uint64_t seed = 1) {
+  const Generator::Params params = read_scene_params(json);
+  Job job = job_of(seed);
+  Result<Json> answer = scene::derive(own(params), job);
+  EXPECT_TRUE(answer);
+  return answer ? *answer : Json();
+}
+
+/// A model that costs nothing.
+inline Json cube(double size = 1) {
+  return {{"generator", "fractal"}, {"parameters", {{"iterations", 0}, {"size", size}}}};
+}
+
+}  // namespace seedmesh
