@@ -33,6 +33,8 @@ struct Generator {
 
   std::string_view name;  ///< in a request; its schema and its folder of presets have the same name
   bool grows = false;     ///< makes the animation "growth" where Job::demand() asks for it
+  bool sways = false;     ///< writes wind weights where it asks for them
+  bool has_collision = false;  ///< makes collision shapes where it asks for them
 
   /// From JSON that stands at `pointer`. Gives parameters even where there are faults: refused members have
   /// defaults. An empty `settle` leaves requests inside as they are. Callers use read_parameters of child.h.

@@ -85,6 +85,8 @@ void sign(Model& model, const Request& request) {
   for (Warning& warning : model.warnings) warning.pointer = in_request(std::move(warning.pointer));
 }
 
+static_assert(static_cast<int>(OutputCollision::godot) == static_cast<int>(CollisionNames::godot));
+
 bool has_levels(const Model& model) {
   return std::any_of(model.nodes.begin(), model.nodes.end(),
                      [](const Node& node) { return !node.lods.empty(); });
@@ -133,7 +135,8 @@ Result<Product> produce(const Request& request, Job& job, TextureStore* texture_
     if (const OwnForm* form = own_form_of(request)) return produce_own(request, *form, job);
     const OutputParams& output = request.body().output;
     job.set_demand({output.lods, output.instancing == OutputInstancing::nodes,
-                    output.animation == OutputParams::Animation::growth});
+                    output.animation == OutputParams::Animation::growth, output.wind == OutputWind::weights,
+                    static_cast<CollisionNames>(output.collision)});
     Result<Model> model = request.body().generator->generate(request.body().params, job);
     if (!model) return std::move(model).error();
     if (output.lods > 1 && !has_levels(*model)) {
