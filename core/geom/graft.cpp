@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/geom/crowd.h"
 #include "core/geom/graft_plan.h"
 #include "core/geom/graft_writer.h"
 #include "core/geom/skin.h"
@@ -124,6 +125,17 @@ void append_leftover(Mesh& mesh, Leftover limbs, const GraftOptions& options, Jo
   }
 }
 
+/// Limbs as thin as threads, and those that even skin() made, may touch in points that a reader takes for
+/// one.
+void refuse_crowds(const Mesh& mesh, const Scale& scale, bool is_doubtful, const Job& job) {
+  if (!is_doubtful) return;
+  const Box box = bounds_of(mesh.position.span());
+  if (!is_crowded(mesh, 1e-6F * std::min(scale.size, glm::length(box.max - box.min)), job)) return;
+  Job::refuse(
+      "the limbs lie in heaps so dense, less than a millionth of the tree apart, that their bark is no "
+      "surface; fewer or thicker limbs are needed");
+}
+
 }  // namespace
 
 Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCounts* counts) {
@@ -143,10 +155,13 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
       if (counts) *counts = writer.counts();
       // Rings of more corners than a cache has entries come in once more.
       const bool is_ordered = 10 * writer.wide_corners() < writer.corners();
+      const bool is_doubtful = writer.has_threads();
+      const auto fallen_back =
+          static_cast<std::uint32_t>(std::count(trust.begin(), trust.end(), Trust::none));
       Mesh mesh = writer.take();
       append_leftover(mesh, Leftover(limbs, chains, trust, scale.box), options, job);
-      if (counts)
-        counts->fallen_back = static_cast<std::uint32_t>(std::count(trust.begin(), trust.end(), Trust::none));
+      refuse_crowds(mesh, scale, is_doubtful || fallen_back > 0, job);
+      if (counts) counts->fallen_back = fallen_back;
       mesh.cache_ordered = is_ordered;
       return mesh;
     }

@@ -41,8 +41,9 @@ struct GraftCounts {
 /// The bark of all limbs, whatever their colour. Guarantees as skin(): closed, welded by position every edge
 /// in two triangles; unit normals that no face looks against; no unused vertex; u and v in metres (unless
 /// `wrap`), one seam.
-/// `counts` may be null. Limbs that would break a guarantee are skinned by skin() instead. Spends
-/// Resource::triangles as it goes. One thread; about 40 bytes a vertex beside the mesh.
+/// Heaps of limbs so dense that no surface is left are refused (Code::limit). `counts` may be null. Limbs
+/// that would break a guarantee are skinned by skin() instead. Spends Resource::triangles as it goes. One
+/// thread; about 40 bytes a vertex beside the mesh.
 Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCounts* counts = nullptr);
 
 }  // namespace seedmesh

@@ -74,7 +74,7 @@ void place(Opening& opening, std::vector<LoopPoint>& points) {
 
 float angle_about(const GraftAxis& parent, std::size_t piece, const glm::vec3& out) {
   return static_cast<float>(math::quick_atan2(static_cast<double>(glm::dot(out, parent.aside(piece))),
-                                        static_cast<double>(glm::dot(out, parent.u[piece]))));
+                                              static_cast<double>(glm::dot(out, parent.u[piece]))));
 }
 
 }  // namespace

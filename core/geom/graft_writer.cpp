@@ -24,6 +24,8 @@ constexpr float cap_share = 0.5F;
 // Triangles between two rings follow the shorter diagonal as long as neither ring is ahead by more, in
 // radians.
 constexpr float most_lead = 0.5F;
+// Limbs that begin thinner than so many of the least radius may touch each other.
+constexpr float thread = 8;
 // A child thinner than so many of the least radius is not worth an opening.
 constexpr float least_opened = 3;
 // Of a ring that a vertex cache of 16 entries still holds when the next ring needs it.
@@ -107,6 +109,7 @@ void GraftWriter::write_limb(std::uint32_t limb) {
   const std::uint32_t head = context_.chains.head[limb];
   if (!axis_.read(context_.limbs, context_.chains, head, scale.shortest)) return;
   if (axis_.radius[0] < std::max(2 * scale.thinnest, context_.options.thinnest)) return;
+  has_threads_ = has_threads_ || axis_.radius[0] < thread * scale.thinnest;
   for (float& radius : axis_.radius) radius = std::max(radius, 2 * scale.thinnest);
   const bool is_root = context_.limbs.parent[head] == Limbs::none;
   const Loop& loop = loops_[limb];

@@ -1,6 +1,6 @@
 #pragma once
-/// Wind weights of a plant: four numbers a vertex from which shaders of any engine make theirs, as no standard
-/// exists (docs/trees.md has the table).
+/// Wind weights of a plant: four numbers a vertex from which shaders of any engine make theirs, as no
+/// standard exists (docs/trees.md has the table).
 ///
 ///   TEXCOORD_2 = (bend of the trunk, bend of the branch)   TEXCOORD_3 = (phase of the branch, flutter)
 ///

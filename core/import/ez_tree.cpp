@@ -1,6 +1,6 @@
-/// Trees of ez-tree (Daniel Greenheck, MIT): its options as JSON, as its page saves and loads them. They become
-/// a tree of the model weber_penn, whose levels, lengths, angles and tapers mean nearly the same. What has no
-/// counterpart becomes a warning.
+/// Trees of ez-tree (Daniel Greenheck, MIT): its options as JSON, as its page saves and loads them. They
+/// become a tree of the model weber_penn, whose levels, lengths, angles and tapers mean nearly the same. What
+/// has no counterpart becomes a warning.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -68,7 +68,8 @@ struct Reader {
     if (!from) return;
     for (const auto& [name, value] : from->items()) {
       if (!names.contains(name))
-        fault(at + "/" + pointer_token(name).substr(1), "\"" + shortened(name, 40) + "\" is no option of ez-tree");
+        fault(at + "/" + pointer_token(name).substr(1),
+              "\"" + shortened(name, 40) + "\" is no option of ez-tree");
     }
   }
 };
@@ -93,12 +94,16 @@ std::array<Level, levels_known> levels_of(Reader& reader, const Json* branch) {
     double Level::*member;
     std::pair<double, double> range;
   };
-  static const Column columns[] = {
-      {"angle", &Level::angle, {0, 180}},         {"children", &Level::children, {0, 500}},
-      {"gnarliness", &Level::gnarliness, {-2, 2}}, {"length", &Level::length, {0.01, 500}},
-      {"radius", &Level::radius, {0.001, 50}},     {"sections", &Level::sections, {1, 60}},
-      {"segments", &Level::segments, {3, 64}},     {"start", &Level::start, {0, 1}},
-      {"taper", &Level::taper, {0, 1}},            {"twist", &Level::twist, {-6.3, 6.3}}};
+  static const Column columns[] = {{"angle", &Level::angle, {0, 180}},
+                                   {"children", &Level::children, {0, 500}},
+                                   {"gnarliness", &Level::gnarliness, {-2, 2}},
+                                   {"length", &Level::length, {0.01, 500}},
+                                   {"radius", &Level::radius, {0.001, 50}},
+                                   {"sections", &Level::sections, {1, 60}},
+                                   {"segments", &Level::segments, {3, 64}},
+                                   {"start", &Level::start, {0, 1}},
+                                   {"taper", &Level::taper, {0, 1}},
+                                   {"twist", &Level::twist, {-6.3, 6.3}}};
   for (const Column& column : columns) {
     const Json* object = branch ? reader.member(*branch, "/branch", column.name) : nullptr;
     const std::string at = std::string("/branch/") + column.name;
@@ -126,7 +131,8 @@ std::string color_of(Reader& reader, const Json* from, const std::string& at) {
   const auto bits = math::to_uint32(tint);
   if (bits == 0xFFFFFF) return "";
   std::string text = "#";
-  for (int shift = 20; shift >= 0; shift -= 4) text += "0123456789abcdef"[bits >> static_cast<unsigned>(shift) & 15U];
+  for (int shift = 20; shift >= 0; shift -= 4)
+    text += "0123456789abcdef"[bits >> static_cast<unsigned>(shift) & 15U];
   return text;
 }
 
@@ -219,13 +225,15 @@ class Writer {
     const Json* leaves = leaves_;
     const std::string at = "/leaves";
     reader_.known(leaves, at,
-                  {"type", "billboard", "angle", "count", "start", "size", "sizeVariance", "tint", "alphaTest",
-                   "roundedNormals"});
+                  {"type", "billboard", "angle", "count", "start", "size", "sizeVariance", "tint",
+                   "alphaTest", "roundedNormals"});
     const std::string type = lower_case(reader_.word(leaves, at, "type"));
     static const std::map<std::string, std::string> shapes = {
         {"ash", "compound"}, {"aspen", "cordate"}, {"oak", "lobed"}, {"pine", "needles"}, {"", "lobed"}};
     const auto shape = shapes.find(type);
-    if (shape == shapes.end()) reader_.fault("/leaves/type", "found \"" + shortened(type, 40) + "\", expected ash, aspen, oak or pine");
+    if (shape == shapes.end())
+      reader_.fault("/leaves/type",
+                    "found \"" + shortened(type, 40) + "\", expected ash, aspen, oak or pine");
     const double size = reader_.number(leaves, at, "size", 2.5, {0, 100});
     const auto count = static_cast<int>(reader_.number(leaves, at, "count", 1, {0, 500}));
     out_["Leaves"] = count;
@@ -250,13 +258,18 @@ class Writer {
     const Json* bark = reader_.member(file_, "", "bark");
     reader_.known(bark, "/bark", {"type", "tint", "flatShading", "textured", "textureScale"});
     const std::string type = lower_case(reader_.word(bark, "/bark", "type"));
-    out_["bark"] = type == "birch" ? "birch_bark" : type == "pine" ? "pine_bark" : type == "willow" ? "willow_bark" : "oak_bark";
+    out_["bark"] = type == "birch"    ? "birch_bark"
+                   : type == "pine"   ? "pine_bark"
+                   : type == "willow" ? "willow_bark"
+                                      : "oak_bark";
     const std::string color = color_of(reader_, bark, "/bark");
     if (!color.empty()) out_["bark_color"] = color;
   }
 
   void write_warnings() {
-    reader_.warn("lengths are taken as fifths of a metre; chance is drawn by place: the tree is like the saved one, not the same");
+    reader_.warn(
+        "lengths are taken as fifths of a metre; chance is drawn by place: the tree is like the saved one, "
+        "not the same");
     for (const Level& each : level_) {
       if (each.twist == 0) continue;
       reader_.warn("branch/twist: limbs do not turn about their own axis");
@@ -284,10 +297,12 @@ class Writer {
 Result<Imported> import_ez_tree(std::string_view text, const ImportOptions&) {
   Result<Json> file = parse_json(text);
   if (!file) return std::move(file).error();
-  if (!file->is_object()) return Error{Code::invalid, {{"", "expected an object of ez-tree's options", 0, 0}}};
+  if (!file->is_object())
+    return Error{Code::invalid, {{"", "expected an object of ez-tree's options", 0, 0}}};
   Reader reader;
   reader.known(&*file, "", {"seed", "type", "bark", "branch", "leaves", "trellis"});
-  if (!file->contains("branch")) reader.fault("", "found no member \"branch\", which every tree of ez-tree has");
+  if (!file->contains("branch"))
+    reader.fault("", "found no member \"branch\", which every tree of ez-tree has");
   const double seed = reader.number(&*file, "", "seed", 0, {0, 9007199254740991});
   Imported imported;
   Json parameters = Writer(*file, reader).parameters();

@@ -91,9 +91,9 @@ void make_young(Skeleton& skeleton, double share, Job& job) {
     if (i % 4096 == 0) job.check();
     const std::uint32_t parent = limbs.parent[i];
     own[i] = std::max(size_at(birth[i], time), birth[i] == 0 ? seedling : 0.0F);
-    scale[i] = parent == Limbs::none           ? own[i]
-               : birth[i] == birth[parent]     ? scale[parent]
-                                               : std::min(own[i], 1.0F) * scale[parent];
+    scale[i] = parent == Limbs::none       ? own[i]
+               : birth[i] == birth[parent] ? scale[parent]
+                                           : std::min(own[i], 1.0F) * scale[parent];
     const bool is_there = parent == Limbs::none || (new_place[parent] != Limbs::none && scale[i] > smallest);
     new_place[i] = is_there ? count++ : Limbs::none;
     position[i] = parent == Limbs::none
@@ -105,7 +105,8 @@ void make_young(Skeleton& skeleton, double share, Job& job) {
   for (const Organ& organ : organs) {
     const std::uint32_t joint = organ.limb_joint;
     if (joint == Limbs::none || new_place[joint] == Limbs::none) continue;
-    const float open = std::min(1.0F, own[joint] / unfolded);
+    const float open = std::min(1.0F, (own[joint] - seedling) / unfolded);
+    if (!(open > 0)) continue;
     Organ young = organ;
     young.position = position[joint] + (organ.position - limbs.position[joint]) * scale[joint];
     young.scale *= open;

@@ -22,7 +22,8 @@ struct Body {
 };
 
 /// The limb of `joint` as straight bodies, appended.
-void cut(const Limbs& limbs, const Chains& chains, std::uint32_t head, float thinnest, std::vector<Body>& out) {
+void cut(const Limbs& limbs, const Chains& chains, std::uint32_t head, float thinnest,
+         std::vector<Body>& out) {
   GraftAxis axis;
   if (!axis.read(limbs, chains, head, 0)) return;
   std::size_t last = axis.point.size() - 1;
@@ -68,8 +69,9 @@ Mesh prism(const Body& body, const Job& job) {
     // Flat sides: a body is looked at by engines, not by eyes.
     const glm::vec3 a = out_at(i), b = out_at((i + 1) % sides);
     const glm::vec3 normal = math::unit(a + b + along * (2 * slope), a);
-    const std::uint32_t corner[4] = {add(body.from + a * body.base, normal), add(body.from + b * body.base, normal),
-                                     add(body.to + b * body.end, normal), add(body.to + a * body.end, normal)};
+    const std::uint32_t corner[4] = {
+        add(body.from + a * body.base, normal), add(body.from + b * body.base, normal),
+        add(body.to + b * body.end, normal), add(body.to + a * body.end, normal)};
     for (const int k : {0, 1, 2, 0, 2, 3}) mesh.index.wide.push_back(corner[k]);
   }
   for (const bool is_end : {false, true}) {
@@ -116,7 +118,8 @@ void add_collision(Model& model, const Limbs& limbs, Job& job) {
     if (is_root) trunk = std::max(trunk, radius);
     if (!is_below || is_root) thick.push_back({radius, head});
   }
-  std::stable_sort(thick.begin(), thick.end(), [](const Thick& a, const Thick& b) { return a.radius > b.radius; });
+  std::stable_sort(thick.begin(), thick.end(),
+                   [](const Thick& a, const Thick& b) { return a.radius > b.radius; });
   std::vector<Body> bodies;
   for (const Thick& each : thick) {
     if (each.radius < least_share * trunk || bodies.size() >= most_bodies) break;
@@ -130,7 +133,8 @@ void add_collision(Model& model, const Limbs& limbs, Job& job) {
     node.collision = CollisionShape::convex;
     node.mesh = static_cast<int>(model.meshes.size());
     MeshGroup group{"collision", {}};
-    group.primitives.push_back({prism(bodies[i], job), model.nodes.size() > 0 && !model.materials.empty() ? 0 : -1, {}});
+    group.primitives.push_back(
+        {prism(bodies[i], job), model.nodes.size() > 0 && !model.materials.empty() ? 0 : -1, {}});
     job.spend(Resource::triangles, group.primitives.back().mesh.elements());
     model.nodes.push_back(std::move(node));
     model.meshes.push_back(std::move(group));

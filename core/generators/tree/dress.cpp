@@ -1,17 +1,29 @@
 #include "core/generators/tree/dress.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "core/generators/tree/collision.h"
 #include "core/generators/tree/leaves.h"
 #include "core/generators/tree/looks.h"
+#include "core/generators/tree/weber_penn_shape.h"
 #include "core/geom/detail.h"
 #include "core/geom/graft.h"
 #include "core/geom/grow.h"
 
 namespace seedmesh::tree {
 namespace {
+
+/// Stems that split without an angle go on as one, and those that turn right round meet themselves.
+bool may_overlap(const TreeParams& params) {
+  if (params.model != TreeModel::weber_penn) return false;
+  const auto levels = weber_penn_levels(params);
+  return params.base_splits > 0 || std::any_of(levels.begin(), levels.end(), [](const WeberPennLevel& level) {
+           return level.seg_splits > 0 || std::abs(level.curve) + std::abs(level.curve_back) >= 300 ||
+                  level.curve_v < -60;
+         });
+}
 
 GraftOptions graft_options(const TreeParams& params, const Detail& detail) {
   GraftOptions options;
@@ -23,10 +35,7 @@ GraftOptions graft_options(const TreeParams& params, const Detail& detail) {
     options.lobes = params.Lobes;
     options.lobe_depth = static_cast<float>(params.LobeDepth);
   }
-  // Stems that split without an angle go on as one.
-  options.overlaps = params.model == TreeModel::weber_penn &&
-                     (params.base_splits > 0 || params.seg_splits_0 > 0 || params.seg_splits_1 > 0 ||
-                      params.seg_splits_2 > 0 || params.seg_splits_3 > 0);
+  options.overlaps = may_overlap(params);
   if (params.model == TreeModel::proctree) options.v_scale = static_cast<float>(params.mVMultiplier);
   return options;
 }

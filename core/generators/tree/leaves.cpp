@@ -160,7 +160,8 @@ void add_leaves(Model& model, Organs& organs, const TreeParams& params, const Le
   // Bark looks the same in every season.
   for (MeshGroup& group : model.meshes) {
     for (Primitive& primitive : group.primitives) {
-      if (primitive.variant_materials.empty()) primitive.variant_materials.assign(look.variants.size(), primitive.material);
+      if (primitive.variant_materials.empty())
+        primitive.variant_materials.assign(look.variants.size(), primitive.material);
     }
   }
 }

@@ -126,8 +126,7 @@ int add_bark_look(Model& model, const TreeParams& params, const Job& job) {
     material.recipe.kind = text_of(params.bark);
     material.recipe.seed = static_cast<std::uint64_t>(params.bark_seed);
     if (params.bark_color) {
-      material.recipe.color = {
-          {params.bark_color->red, params.bark_color->green, params.bark_color->blue}};
+      material.recipe.color = {{params.bark_color->red, params.bark_color->green, params.bark_color->blue}};
     }
   }
   put_images_on(material, params.bark_images, "/bark_images", model, job);
@@ -141,7 +140,8 @@ LeafLook add_leaf_look(Model& model, const TreeParams& params, const Job& job) {
   material.double_sided = true;
   const Color most = brightest(params.leaf);
   if (wears_picture(params)) {
-    material.recipe.kind = texture::leaf_kind(static_cast<LeafShape>(params.leaf.leaf_shape), shows_twig(params));
+    material.recipe.kind =
+        texture::leaf_kind(static_cast<LeafShape>(params.leaf.leaf_shape), shows_twig(params));
     material.recipe.color = {{most.red, most.green, most.blue}};
   }
   LeafLook look;
@@ -162,7 +162,8 @@ LeafLook add_leaf_look(Model& model, const TreeParams& params, const Job& job) {
     model.materials.push_back(material);
     model.variants.emplace_back(leafy_seasons[season]);
   }
-  const std::size_t chosen = params.season == TreeSeason::winter ? 1 : static_cast<std::size_t>(params.season);
+  const std::size_t chosen =
+      params.season == TreeSeason::winter ? 1 : static_cast<std::size_t>(params.season);
   look.material = look.variants[chosen];
   return look;
 }

@@ -31,7 +31,7 @@ class Forker {
   void run() {
     SkeletonWriter::Joint foot;
     foot.radius = foot.base_radius = p_.mMaxRadius * (1 + p_.trunk_flare);
-    foot.key = chances_.trunk.key();
+    foot.key = chances_.trunk.at("foot").key();
     Node root;
     root.head = {0, p_.mTrunkLength, 0};
     root.length = p_.mInitialBranchLength;

@@ -167,7 +167,8 @@ void Sculptor::whorl(const Limb& limb, const Limb& here, int number, double shar
     const double angle =
         l.angle + (l.angle_tip - l.angle) * share + spread(chance.at("angle"), l.angle_spread);
     Limb child;
-    child.frame = pitch(roll(here.frame, math::quick_sincos_degrees(around)), math::quick_sincos_degrees(angle));
+    child.frame =
+        pitch(roll(here.frame, math::quick_sincos_degrees(around)), math::quick_sincos_degrees(angle));
     child.position = here.position;
     child.joint = here.joint;
     child.level = limb.level + 1;

@@ -398,11 +398,13 @@ void Grower::leaf(const Stem& stem, const Bud& bud) {
     const WeberPennLevel& l = level(stem.level + 1);
     const double count = -p_.Leaves;
     const double across = count > 1 ? l.rotate * (bud.number / (count - 1) - 0.5) : 0;
-    leaf.frame = pitch(turn(bud.frame, math::quick_sincos_degrees(across)), math::quick_sincos_degrees(l.down_angle));
+    leaf.frame =
+        pitch(turn(bud.frame, math::quick_sincos_degrees(across)), math::quick_sincos_degrees(l.down_angle));
   } else {
     leaf.frame = child_frame(stem, bud, rng);
   }
   leaf.frame = to_light(leaf.frame, bud.position);
+  if (leaf.frame.up.y < 0) leaf.frame = {leaf.frame.heading, -leaf.frame.left, -leaf.frame.up};
   leaf.position = bud.position;
   leaf.length = p_.LeafScale;
   leaf.width = p_.LeafScale * p_.LeafScaleX;

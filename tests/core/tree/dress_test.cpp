@@ -93,11 +93,13 @@ TEST(Dress, BuildsSoundLeavesOfEveryShape) {
   params.branches_1 = 4;
   params.branches_2 = 3;
   for (int shape = 0; shape <= static_cast<int>(TreeLeafShape::petal); ++shape) {
-    for (int build = static_cast<int>(TreeBuild::card); build <= static_cast<int>(TreeBuild::bunch); ++build) {
+    for (int build = static_cast<int>(TreeBuild::card); build <= static_cast<int>(TreeBuild::bunch);
+         ++build) {
       params.leaf.leaf_shape = static_cast<TreeLeafShape>(shape);
       params.leaf.build = static_cast<TreeBuild>(build);
       for (const std::string& fault : faults(made(params)))
-        ADD_FAILURE() << text_of(params.leaf.leaf_shape) << ' ' << text_of(params.leaf.build) << ": " << fault;
+        ADD_FAILURE() << text_of(params.leaf.leaf_shape) << ' ' << text_of(params.leaf.build) << ": "
+                      << fault;
     }
   }
 }
@@ -176,9 +178,10 @@ TEST(Dress, WritesWindWeightsThatDoNotTearTheBark) {
 }
 
 TEST(Dress, CallsCollisionBodiesAsEachEngineWantsThem) {
-  const std::pair<CollisionNames, const char*> names[] = {{CollisionNames::plain, "collision_01"},
-                                                          {CollisionNames::unreal, "UCX_bark_01"},
-                                                          {CollisionNames::godot, "collision_01-convcolonly"}};
+  const std::pair<CollisionNames, const char*> names[] = {
+      {CollisionNames::plain, "collision_01"},
+      {CollisionNames::unreal, "UCX_bark_01"},
+      {CollisionNames::godot, "collision_01-convcolonly"}};
   for (const auto& [convention, name] : names) {
     const Model model = made(small_tree(), {.collision = convention});
     const Mesh& body = mesh_of(model, name);
@@ -194,8 +197,9 @@ TEST(Dress, LeavesTheRestAsItIsWhereRootsAreSwitchedOn) {
   const Model without = made(params);
   params.roots.count = 6;
   const Model with = made(params);
-  EXPECT_EQ(std::vector(mesh_of(without, "leaves").position.begin(), mesh_of(without, "leaves").position.end()),
-            std::vector(mesh_of(with, "leaves").position.begin(), mesh_of(with, "leaves").position.end()));
+  EXPECT_EQ(
+      std::vector(mesh_of(without, "leaves").position.begin(), mesh_of(without, "leaves").position.end()),
+      std::vector(mesh_of(with, "leaves").position.begin(), mesh_of(with, "leaves").position.end()));
   EXPECT_LT(bounds_of(mesh_of(with, "bark").position.span()).min.y, -0.01F);
 }
 
