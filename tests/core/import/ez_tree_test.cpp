@@ -25,7 +25,7 @@ constexpr const char* oak = R"({
 TEST(EzTreeFile, BecomesATreeOfItsLevelsAndLengths) {
   const auto result = imported("ez_tree", oak);
   const nlohmann::json parameters = parameters_of(result);
-  EXPECT_EQ(parameters["model"], "weber_penn");
+  EXPECT_FALSE(parameters.contains("model")) << "weber_penn goes without saying";
   EXPECT_EQ(parameters["Levels"], 4);
   EXPECT_EQ(parameters["1Branches"], 8);
   EXPECT_EQ(parameters["2DownAngle"], 61);
@@ -35,14 +35,17 @@ TEST(EzTreeFile, BecomesATreeOfItsLevelsAndLengths) {
   EXPECT_EQ(parameters["leaf"]["shape"], "lobed");
   EXPECT_EQ(parameters["leaf"]["build"], "cross");
   EXPECT_EQ(parameters["bark_color"], "#ceccbe");
-  EXPECT_EQ(result->request["seed"], 23399);
+  EXPECT_EQ(result->request.seed(), 23399U);
 }
 
-TEST(EzTreeFile, BecomesARequestThatIsSound) {
+TEST(EzTreeFile, BecomesARequestThatMakesATreeOfLikeSize) {
   const auto result = imported("ez_tree", oak);
   ASSERT_TRUE(result);
-  const Result<Request> request = read_request(result->request.dump(), Limits{});
-  ASSERT_TRUE(request) << request.error().issues.front().pointer << request.error().issues.front().message;
+  Job job(result->request.seed(), Job::Options{});
+  const Result<Product> product = produce(result->request, job);
+  ASSERT_TRUE(product);
+  EXPECT_GT(product->statistics.triangles, 5'000U);
+  EXPECT_LT(product->statistics.triangles, 100'000U);
 }
 
 TEST(EzTreeFile, IsRefusedWithEveryFaultAtItsPlace) {
