@@ -64,12 +64,17 @@ class Purse {
   std::uint64_t limit_;
 };
 
+/// Whose names collision shapes have; none: there are none.
+enum class CollisionNames { none, plain, unreal, godot };
+
 /// What of the wanted output bears on how a model is made. Whoever is asked for what it cannot make is not
 /// called: the pipeline refuses the request.
 struct Demand {
   int lods = 1;               ///< levels of detail, 1 to 5
   bool share_organs = false;  ///< organs as nodes that share a mesh, instead of one mesh of all
   bool growth = false;        ///< the animation "growth"
+  bool wind = false;          ///< wind weights in TEXCOORD_2 and TEXCOORD_3
+  CollisionNames collision = CollisionNames::none;
   int textures = 512;         ///< texels of a side, for forms that hold models themselves; 0: none
   bool tangents = true;       ///< for these forms
 };

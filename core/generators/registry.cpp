@@ -22,7 +22,7 @@ namespace {
 
 /// What a generator can do beyond making a still model.
 struct Traits {
-  bool grows = false;
+  bool grows = false, sways = false, has_collision = false;
   bool parts = false;
 };
 
@@ -55,6 +55,8 @@ struct Row {
   static constexpr Generator named(std::string_view name, Traits traits = {}) {
     return {.name = name,
             .grows = traits.grows,
+            .sways = traits.sways,
+            .has_collision = traits.has_collision,
             .parts = traits.parts,
             .read = read,
             .write = write,
@@ -99,7 +101,7 @@ constexpr Generator rows[] = {
     Row<LsystemParams, read_lsystem, write_lsystem, lsystem::check, lsystem::generate, lsystem::derive,
         lsystem::appraise, lsystem::vocabulary>::named("lsystem", {.grows = true}),
     Row<TreeParams, read_tree, write_tree, tree::check, tree::generate, tree::derive, tree::appraise,
-        tree::vocabulary>::named("tree"),
+        tree::vocabulary>::named("tree", {.grows = true, .sways = true, .has_collision = true}),
     Row<FractalParams, read_fractal, write_fractal, fractal::check, fractal::generate, fractal::derive,
         fractal::appraise, fractal::vocabulary>::named<fractal::encode>("fractal", fractal_forms),
     Row<TerrainParams, read_terrain, write_terrain, terrain::check, terrain::generate, terrain::derive,

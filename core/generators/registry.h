@@ -31,9 +31,11 @@ struct Generator {
   /// What is done with each request inside the parameters when they are read: see child.h.
   using Settle = std::function<void(const ChildPlace&)>;
 
-  std::string_view name;  ///< in a request; its schema and its folder of presets have the same name
-  bool grows = false;     ///< makes the animation "growth" where Job::demand() asks for it
-  bool parts = false;     ///< what it repeats are parts of one thing, which beyond 400 are merged by material
+  std::string_view name;       ///< in a request; its schema and its folder of presets have the same name
+  bool grows = false;          ///< makes the animation "growth" where Job::demand() asks for it
+  bool sways = false;          ///< writes wind weights where it asks for them
+  bool has_collision = false;  ///< makes collision shapes where it asks for them
+  bool parts = false;  ///< what it repeats are parts of one thing, which beyond 400 are merged by material
 
   /// From JSON that stands at `pointer`. Gives parameters even where there are faults: refused members have
   /// defaults. An empty `settle` leaves requests inside as they are. Callers use read_parameters of child.h.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/geom/crowd.h"
 #include "core/geom/graft_plan.h"
 #include "core/geom/graft_writer.h"
 #include "core/geom/skin.h"
@@ -16,10 +17,36 @@ namespace {
 // on at once by skin(), and after twice as many the whole.
 constexpr int rounds = 4;
 
-/// The limbs that skin() must make, each with a root of its own where it begins.
-Limbs separate(const Limbs& limbs, const Chains& chains, const std::vector<Trust>& trust, const Box& box,
-               const Job& job) {
+/// The limbs that skin() must make, each with a root of its own where it begins. At most so many joints at
+/// once that their numbers fit Mesh::bone.
+class Leftover {
+ public:
+  static constexpr std::size_t most_joints = 0xFFFF;
+
+  Leftover(const Limbs& limbs, const Chains& chains, const std::vector<Trust>& trust, const Box& box)
+      : limbs_(limbs), chains_(chains), trust_(trust), box_(box) {}
+
+  /// The next limbs; empty at the end. `was` gets the joint that each was.
+  Limbs next(std::vector<std::uint32_t>& was, const Job& job);
+
+ private:
+  std::size_t joints_of(std::size_t limb) const {
+    std::size_t count = 1;
+    for (std::uint32_t joint = chains_.head[limb]; joint != Limbs::none; joint = chains_.next[joint]) ++count;
+    return count;
+  }
+
+  const Limbs& limbs_;
+  const Chains& chains_;
+  const std::vector<Trust>& trust_;
+  const Box& box_;
+  std::size_t at_ = 0;
+};
+
+Limbs Leftover::next(std::vector<std::uint32_t>& was, const Job& job) {
+  const Limbs& limbs = limbs_;
   Limbs out(job);
+  was.clear();
   const auto add = [&](std::uint32_t joint, std::uint32_t parent) {
     out.position.push_back(limbs.position[joint]);
     out.radius.push_back(limbs.radius[joint]);
@@ -29,21 +56,24 @@ Limbs separate(const Limbs& limbs, const Chains& chains, const std::vector<Trust
     out.color.push_back(0);
     out.order.push_back(0);
     out.key.push_back(limbs.key.empty() ? joint : limbs.key[joint]);
+    was.push_back(joint);
     return static_cast<std::uint32_t>(out.size() - 1);
   };
-  if (std::count(trust.begin(), trust.end(), Trust::none) == 0) return out;
+  while (at_ < chains_.head.size() && trust_[at_] != Trust::none) ++at_;
+  if (at_ == chains_.head.size()) return out;
   // Two joints without limbs give it the extent of the whole, by which skin() tells what is too small.
-  for (const glm::vec3& corner : {box.min, box.max}) {
+  for (const glm::vec3& corner : {box_.min, box_.max}) {
     add(0, Limbs::none);
     out.position.back() = corner;
   }
-  for (std::size_t i = 0; i < chains.head.size(); ++i) {
-    if (trust[i] != Trust::none) continue;
-    const std::uint32_t head = chains.head[i];
+  for (const std::size_t first = at_; at_ < chains_.head.size(); ++at_) {
+    if (trust_[at_] != Trust::none) continue;
+    if (at_ > first && out.size() + joints_of(at_) > most_joints) break;
+    const std::uint32_t head = chains_.head[at_];
     const bool is_root = limbs.parent[head] == Limbs::none;
     std::uint32_t last = add(is_root ? head : limbs.parent[head], Limbs::none);
-    for (std::uint32_t joint = is_root ? chains.next[head] : head; joint != Limbs::none;
-         joint = chains.next[joint])
+    for (std::uint32_t joint = is_root ? chains_.next[head] : head; joint != Limbs::none;
+         joint = chains_.next[joint])
       last = add(joint, last);
   }
   return out;
@@ -73,6 +103,39 @@ void append(Mesh& to, const Mesh& from) {
   for (const std::uint32_t index : from.index.wide) to.index.wide.push_back(first + index);
 }
 
+/// What skin() makes of the limbs that nothing else can be made of.
+void append_leftover(Mesh& mesh, Leftover limbs, const GraftOptions& options, Job& job) {
+  std::vector<std::uint32_t> was;
+  std::vector<std::uint16_t> number;
+  for (Limbs others = limbs.next(was, job); others.size() > 0; others = limbs.next(was, job)) {
+    SkinOptions plain;
+    plain.sides = std::clamp(options.sides, 3, 8);
+    plain.wrap = options.wrap;
+    if (options.joints && was.size() <= Leftover::most_joints) {
+      number.resize(was.size());
+      for (std::size_t i = 0; i < number.size(); ++i) number[i] = static_cast<std::uint16_t>(i);
+      plain.bones = number;
+    }
+    for (const Bark& bark : skin(others, plain, job)) {
+      append(mesh, bark.mesh);
+      if (!options.joints) continue;
+      for (std::size_t i = 0; i < bark.mesh.position.size(); ++i)
+        options.joints->push_back(bark.mesh.bone.empty() ? was.back() : was[bark.mesh.bone[i]]);
+    }
+  }
+}
+
+/// Limbs as thin as threads, and those that even skin() made, may touch in points that a reader takes for
+/// one.
+void refuse_crowds(const Mesh& mesh, const Scale& scale, bool is_doubtful, const Job& job) {
+  if (!is_doubtful) return;
+  const Box box = bounds_of(mesh.position.span());
+  if (!is_crowded(mesh, 1e-6F * std::min(scale.size, glm::length(box.max - box.min)), job)) return;
+  Job::refuse(
+      "the limbs lie in heaps so dense, less than a millionth of the tree apart, that their bark is no "
+      "surface; fewer or thicker limbs are needed");
+}
+
 }  // namespace
 
 Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCounts* counts) {
@@ -85,19 +148,21 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
   if (options.overlaps) distrust_overlaps(limbs, chains, scale, job, trust);
   for (int round = 0;; ++round) {
     if (round == 2 * rounds) std::fill(trust.begin(), trust.end(), Trust::none);
+    if (options.joints) options.joints->clear();
     GraftWriter writer({limbs, chains, scale, options, trust}, job);
     writer.write_all();
     if (writer.settle(trust, round >= rounds) == 0) {
       if (counts) *counts = writer.counts();
-      Mesh mesh = writer.take();
-      const Limbs others = separate(limbs, chains, trust, scale.box, job);
-      SkinOptions plain;
-      plain.sides = std::clamp(options.sides, 3, 8);
-      for (const Bark& bark : skin(others, plain, job)) append(mesh, bark.mesh);
-      if (counts)
-        counts->fallen_back = static_cast<std::uint32_t>(std::count(trust.begin(), trust.end(), Trust::none));
       // Rings of more corners than a cache has entries come in once more.
-      mesh.cache_ordered = options.sides <= 12 && options.lobes <= 4;
+      const bool is_ordered = 10 * writer.wide_corners() < writer.corners();
+      const bool is_doubtful = writer.has_threads();
+      const auto fallen_back =
+          static_cast<std::uint32_t>(std::count(trust.begin(), trust.end(), Trust::none));
+      Mesh mesh = writer.take();
+      append_leftover(mesh, Leftover(limbs, chains, trust, scale.box), options, job);
+      refuse_crowds(mesh, scale, is_doubtful || fallen_back > 0, job);
+      if (counts) counts->fallen_back = fallen_back;
+      mesh.cache_ordered = is_ordered;
       return mesh;
     }
   }

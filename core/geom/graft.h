@@ -25,6 +25,13 @@ struct GraftOptions {
   float lobe_depth = 0;   ///< as a share of the radius, below 1
   bool overlaps = false;  ///< limbs may lie on each other, piece by piece: such are found and left to skin()
   float v_scale = 1;      ///< texture lengths a metre along the limb; u is in metres round it
+  /// For pictures that repeat: u goes a whole number of times from 0 to 1 round each limb, once a metre of
+  /// circumference where it begins and at least once, and v keeps the picture's proportions as the limb grows
+  /// thinner.
+  bool wrap = false;
+  /// Where given, it gets for each vertex the joint at the far end of the internode that it moves with. The
+  /// rim that two limbs share moves with the older one.
+  Array<std::uint32_t>* joints = nullptr;
 };
 
 struct GraftCounts {
@@ -32,9 +39,11 @@ struct GraftCounts {
 };
 
 /// The bark of all limbs, whatever their colour. Guarantees as skin(): closed, welded by position every edge
-/// in two triangles; unit normals that no face looks against; no unused vertex; u and v in metres, one seam.
-/// `counts` may be null. Limbs that would break a guarantee are skinned by skin() instead. Spends
-/// Resource::triangles as it goes. One thread; about 40 bytes a vertex beside the mesh.
+/// in two triangles; unit normals that no face looks against; no unused vertex; u and v in metres (unless
+/// `wrap`), one seam.
+/// Heaps of limbs so dense that no surface is left are refused (Code::limit). `counts` may be null. Limbs
+/// that would break a guarantee are skinned by skin() instead. Spends Resource::triangles as it goes. One
+/// thread; about 40 bytes a vertex beside the mesh.
 Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCounts* counts = nullptr);
 
 }  // namespace seedmesh

@@ -1,10 +1,17 @@
 #include "core/geom/graft_axis.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/math.h"
 
 namespace seedmesh {
+namespace {
+
+// Where a limb is thinner than this share of its beginning its picture shrinks no further.
+constexpr float thinnest_share = 0.2F;
+
+}  // namespace
 
 std::size_t GraftAxis::piece_at(float s, std::size_t from) const {
   std::size_t piece = std::min(from, pieces() - 1);
@@ -41,6 +48,16 @@ bool GraftAxis::read(const Limbs& limbs, const Chains& chains, std::uint32_t hea
     joint.push_back(next);
   }
   return !along.empty();
+}
+
+void GraftAxis::stretch(float turns) {
+  v.assign(1, 0.0F);
+  const float least = thinnest_share * radius[0];
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+    const float length = at[i + 1] - at[i];
+    const float mean = std::max(0.5F * (radius[i] + radius[i + 1]), least);
+    v.push_back(v.back() + (turns > 0 ? length * turns / mean : length));
+  }
 }
 
 void GraftAxis::carry(const glm::vec3& first) {

@@ -10,13 +10,14 @@ struct GraftAxis {
   std::vector<glm::vec3> point;
   std::vector<float> at;      ///< length along the limb up to each point
   std::vector<float> radius;  ///< at each point
+  std::vector<float> v;       ///< texture coordinate along the limb at each point
   std::vector<std::uint32_t> joint;
   std::vector<glm::vec3> along, u;  ///< of the piece after each point but the last: unit, at right angles
   int order = 0;
 
   std::size_t pieces() const { return along.size(); }
   float length() const { return at.back(); }
-  glm::vec3 v(std::size_t piece) const { return glm::cross(along[piece], u[piece]); }
+  glm::vec3 aside(std::size_t piece) const { return glm::cross(along[piece], u[piece]); }
 
   /// The piece that holds `s`, looked for from piece `from`.
   std::size_t piece_at(float s, std::size_t from) const;
@@ -25,9 +26,17 @@ struct GraftAxis {
     return radius[piece] + (radius[piece + 1] - radius[piece]) * share;
   }
 
+  /// The texture coordinate at `s` of `piece`, which goes on beyond both ends.
+  float v_at(float s, std::size_t piece) const {
+    const float share = (s - at[piece]) / (at[piece + 1] - at[piece]);
+    return v[piece] + (v[piece + 1] - v[piece]) * share;
+  }
+
   /// Reads the limb that begins with `head`; pieces shorter than `shortest` are passed over. False: there is
   /// nothing of it.
   bool read(const Limbs& limbs, const Chains& chains, std::uint32_t head, float shortest);
+  /// Texture coordinates: the length itself, or for `turns` > 0 the length times that by the radius.
+  void stretch(float turns);
   /// Frames from a first direction at right angles to the first piece.
   void carry(const glm::vec3& first);
 };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/math.h"
+#include "core/base/quick_math.h"
 
 namespace seedmesh {
 namespace {
@@ -73,8 +73,8 @@ void place(Opening& opening, std::vector<LoopPoint>& points) {
 }
 
 float angle_about(const GraftAxis& parent, std::size_t piece, const glm::vec3& out) {
-  return static_cast<float>(math::atan2(static_cast<double>(glm::dot(out, parent.v(piece))),
-                                        static_cast<double>(glm::dot(out, parent.u[piece]))));
+  return static_cast<float>(math::quick_atan2(static_cast<double>(glm::dot(out, parent.aside(piece))),
+                                              static_cast<double>(glm::dot(out, parent.u[piece]))));
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ std::optional<Opening> collar(const GraftAxis& parent, std::size_t at_point, con
   for (int i = 0; i < bud.sides; ++i) {
     LoopPoint point;
     point.phase = corner_phase(bud.sides, i);
-    const math::SinCos at = math::sincos(static_cast<double>(point.phase));
+    const math::SinCos at = math::quick_sincos(static_cast<double>(point.phase));
     const float cosine = static_cast<float>(at.cos), sine = static_cast<float>(at.sin);
     const float beside = wide * sine, before = wide * cosine * out_of_top;
     float radius = around;
@@ -167,7 +167,7 @@ std::optional<Opening> fork_at(const GraftAxis& parent, std::size_t at_point, co
   for (int i = 0; i < bud.sides; ++i) {
     LoopPoint point;
     point.phase = corner_phase(bud.sides, i);
-    const math::SinCos at = math::sincos(static_cast<double>(point.phase));
+    const math::SinCos at = math::quick_sincos(static_cast<double>(point.phase));
     const float cosine = static_cast<float>(at.cos), sine = static_cast<float>(at.sin);
     const glm::vec3 lean = cosine > 0 ? crotch * (rise * cosine) : outer * (-radius * mitre * cosine);
     const glm::vec3 off = cross.aside * (radius * sine) + lean;

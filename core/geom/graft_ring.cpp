@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/math.h"
+#include "core/base/quick_math.h"
 #include "core/geom/graft_writer.h"
 
 namespace seedmesh {
@@ -17,10 +17,11 @@ GraftWriter::Plane GraftWriter::plane_at(float at, std::size_t piece) const {
   plane.tangent = axis_.along[piece];
   plane.centre = axis_.point[piece] + plane.tangent * (at - axis_.at[piece]);
   plane.u = axis_.u[piece];
-  plane.v = axis_.v(piece);
+  plane.v = axis_.aside(piece);
   const float length = axis_.at[piece + 1] - axis_.at[piece];
   plane.radius = axis_.radius_at(std::clamp(at, axis_.at[piece], axis_.at[piece + 1]), piece);
   plane.slope = (axis_.radius[piece] - axis_.radius[piece + 1]) / length;
+  plane.v_at = axis_.v_at(at, piece);
   return plane;
 }
 
@@ -55,7 +56,20 @@ std::uint32_t GraftWriter::vertex(const glm::vec3& position, const glm::vec3& no
   mesh_.normal.push_back(normal + 0.0F);
   mesh_.uv[0].push_back(glm::vec2(uv.x, uv.y * context_.options.v_scale) + 0.0F);
   group_.push_back(group);
+  if (context_.options.joints) context_.options.joints->push_back(joint_);
   return index;
+}
+
+/// u round the limb and v along it.
+glm::vec2 GraftWriter::picture_at(float radius, float angle, float at) const {
+  return {(turns_ > 0 ? turns_ : radius) * angle, axis_.v_at(at, axis_.piece_at(at, 0))};
+}
+
+/// The joint whose internode holds the length `at`; of two that meet there the older one.
+void GraftWriter::stand_at(float at) {
+  std::size_t piece = axis_.piece_at(at, 0);
+  if (piece > 0 && at <= axis_.at[piece]) --piece;
+  joint_ = axis_.joint[piece + 1];
 }
 
 std::uint32_t GraftWriter::ring_corner(const Plane& plane, float angle, glm::vec2 direction) {
@@ -69,7 +83,7 @@ std::uint32_t GraftWriter::ring_corner(const Plane& plane, float angle, glm::vec
     normal -= (plane.v * direction.x - plane.u * direction.y) * fall;
   }
   return vertex(plane.centre + out * (plane.radius * factor), math::unit(normal, out),
-                {plane.radius * angle, plane.at}, none);
+                {(turns_ > 0 ? turns_ : plane.radius) * angle, plane.v_at}, none);
 }
 
 /// The angle within half a turn of the seam.
@@ -84,7 +98,7 @@ std::uint32_t GraftWriter::group_for(const LoopPoint& point, std::uint32_t child
   group_normal_.push_back(glm::vec3(0));  // of the parent's faces
   group_normal_.push_back(glm::vec3(0));  // of the child's
   group_limb_.push_back(child);
-  loop_vertices_.push_back({point.position, point.phase, point.reach, group + 1});
+  loop_vertices_.push_back({point.position, point.phase, point.reach, group + 1, joint_});
   return group;
 }
 
@@ -96,7 +110,7 @@ std::uint32_t GraftWriter::vertex_of(Mark& mark, const Plane& plane, bool is_bey
   if (mark.point) {
     const float height = std::clamp(mark.point->height, 0.0F, axis_.length());
     const float radius = axis_.radius_at(height, axis_.piece_at(height, 0));
-    made = vertex(mark.point->position, {0, 0, 0}, {radius * angle, mark.point->height}, mark.group);
+    made = vertex(mark.point->position, {0, 0, 0}, picture_at(radius, angle, mark.point->height), mark.group);
   } else {
     made = ring_corner(plane, angle, mark.direction);
   }
@@ -191,7 +205,7 @@ void GraftWriter::open_ring(const Plane& plane, const Band& band) {
 
 void GraftWriter::set_seam(float angle) {
   seam_ = angle;
-  const math::SinCos turn = math::sincos(static_cast<double>(angle));
+  const math::SinCos turn = math::quick_sincos(static_cast<double>(angle));
   seam_turn_ = {static_cast<float>(turn.cos), static_cast<float>(turn.sin)};
 }
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/math.h"
+#include "core/base/quick_math.h"
 #include "core/geom/graft_writer.h"
 
 namespace seedmesh {
@@ -36,7 +36,7 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
         const glm::vec3 one = position[index[3 * t + (corner + 1) % 3]] - here;
         const glm::vec3 other = position[index[3 * t + (corner + 2) % 3]] - here;
         const auto angle = static_cast<float>(
-            math::atan2(static_cast<double>(size), static_cast<double>(glm::dot(one, other))));
+            math::quick_atan2(static_cast<double>(size), static_cast<double>(glm::dot(one, other))));
         group_normal_[groups[corner]] += normal * (angle / size);
       }
     }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/math.h"
+#include "core/base/quick_math.h"
 #include "core/base/rng.h"
 
 namespace seedmesh {
@@ -24,8 +24,15 @@ constexpr float cap_share = 0.5F;
 // Triangles between two rings follow the shorter diagonal as long as neither ring is ahead by more, in
 // radians.
 constexpr float most_lead = 0.5F;
+// Limbs that begin thinner than so many of the least radius may touch each other.
+constexpr float thread = 8;
 // A child thinner than so many of the least radius is not worth an opening.
 constexpr float least_opened = 3;
+// Of a ring that a vertex cache of 16 entries still holds when the next ring needs it.
+constexpr std::size_t cached_corners = 13;
+
+/// Pictures by a radian round a limb: a whole number of a metre each, at least one.
+float turns_of(float radius) { return std::max(1.0F, std::floor(2 * pi * radius + 0.5F)) / (2 * pi); }
 
 float fraction(std::uint64_t hash) { return static_cast<float>(hash >> 40U) * 0x1p-24F; }
 
@@ -33,7 +40,7 @@ std::vector<std::vector<glm::vec2>> circles_up_to(int most) {
   std::vector<std::vector<glm::vec2>> circles(static_cast<std::size_t>(most) + 1);
   for (int sides = 3; sides <= most; ++sides) {
     for (int i = 0; i < sides; ++i) {
-      const math::SinCos at = math::sincos(2 * math::pi * i / sides);
+      const math::SinCos at = math::quick_sincos(2 * math::pi * i / sides);
       circles[static_cast<std::size_t>(sides)].emplace_back(static_cast<float>(at.cos),
                                                             static_cast<float>(at.sin));
     }
@@ -56,6 +63,10 @@ GraftWriter::GraftWriter(const Context& context, Job& job)
   const std::size_t count = context.chains.head.size();
   circles_ = circles_up_to(
       2 * std::max({least_opened_sides, context.options.sides, corners_a_rib * context.options.lobes}));
+  for (int corners = 4; corners <= context.options.sides; ++corners) {
+    const double share = math::pow((corners - 0.5) / context.options.sides, 1 / corner_power);
+    corner_radius_.push_back(thickest_ * static_cast<float>(share));
+  }
   loops_.resize(count);
   first_child_.assign(limbs.size(), none);
   next_sibling_.assign(count, none);
@@ -79,9 +90,8 @@ void GraftWriter::write_all() {
 
 /// Three, or an even number, so that rings of different limbs meet corner to corner.
 int GraftWriter::corners_for(float radius) const {
-  const double share = static_cast<double>(std::min(1.0F, radius / std::max(thickest_, 1e-9F)));
-  const int wanted =
-      static_cast<int>(math::to_int32(context_.options.sides * math::pow(share, corner_power) + 0.5));
+  const auto least = std::upper_bound(corner_radius_.begin(), corner_radius_.end(), radius);
+  const int wanted = 3 + static_cast<int>(least - corner_radius_.begin());
   return wanted <= 3 || wanted == context_.options.sides ? std::max(3, wanted) : wanted + wanted % 2;
 }
 
@@ -99,6 +109,7 @@ void GraftWriter::write_limb(std::uint32_t limb) {
   const std::uint32_t head = context_.chains.head[limb];
   if (!axis_.read(context_.limbs, context_.chains, head, scale.shortest)) return;
   if (axis_.radius[0] < std::max(2 * scale.thinnest, context_.options.thinnest)) return;
+  has_threads_ = has_threads_ || axis_.radius[0] < thread * scale.thinnest;
   for (float& radius : axis_.radius) radius = std::max(radius, 2 * scale.thinnest);
   const bool is_root = context_.limbs.parent[head] == Limbs::none;
   const Loop& loop = loops_[limb];
@@ -128,11 +139,13 @@ void GraftWriter::write_limb(std::uint32_t limb) {
   if (has_loop) {
     first = loop.u;
   } else {
-    const math::SinCos turn = math::sincos(static_cast<double>(fraction(hash)) * 2 * math::pi);
+    const math::SinCos turn = math::quick_sincos(static_cast<double>(fraction(hash)) * 2 * math::pi);
     first = first * static_cast<float>(turn.cos) +
             glm::cross(axis_.along[0], first) * static_cast<float>(turn.sin);
   }
   axis_.carry(first);
+  turns_ = context_.options.wrap ? turns_of(axis_.radius[0]) : 0;
+  axis_.stretch(turns_);
   least_sides_ = 3;
   loop_sides_ = has_loop ? static_cast<int>(loop.count) : 0;
   const float middle = axis_.radius_at(0.5F * axis_.length(), axis_.piece_at(0.5F * axis_.length(), 0));
@@ -206,6 +219,7 @@ void GraftWriter::begin_closed(bool is_root, std::uint32_t limb) {
   const std::uint32_t head = context_.chains.head[limb];
   const std::uint64_t hash = key_at(context_.limbs.key.empty() ? head : context_.limbs.key[head], 0x0C10);
   Plane plane = plane_at(0, 0);
+  stand_at(0);
   const glm::vec3 along = axis_.along[0];
   if (is_root) {
     plane.slope = 0;
@@ -224,11 +238,12 @@ void GraftWriter::begin_closed(bool is_root, std::uint32_t limb) {
   const float back = (0.05F + 0.4F * fraction(hash)) * plane.radius + context_.scale.apart;
   plane.centre -= along * back;
   plane.at = -back;
+  plane.v_at = axis_.v_at(-back, 0);
   plane.slope = -0.5F;
   plain_ring(plane, below_);
   const float cone = cap_share * plane.radius;
   const std::uint32_t apex =
-      vertex(plane.centre - along * cone, -along, {pi * plane.radius, -back - cone}, none);
+      vertex(plane.centre - along * cone, -along, picture_at(plane.radius, pi, -back - cone), none);
   for (std::size_t i = 0; i + 1 < below_.size(); ++i) triangle(apex, below_[i + 1].vertex, below_[i].vertex);
 }
 
@@ -240,7 +255,9 @@ void GraftWriter::begin_loop(const Loop& loop) {
   std::sort(order.begin(), order.end(),
             [](const LoopVertex* a, const LoopVertex* b) { return a->angle > b->angle; });
   const auto add = [&](const LoopVertex& at, float angle) {
-    below_.push_back({angle, vertex(at.position, {0, 0, 0}, {loop.radius * angle, at.reach}, at.group)});
+    joint_ = at.joint;
+    below_.push_back(
+        {angle, vertex(at.position, {0, 0, 0}, picture_at(loop.radius, angle, at.reach), at.group)});
   };
   for (const LoopVertex* each : order) add(*each, -each->angle);
   add(*order.front(), 2 * pi - order.front()->angle);
@@ -248,6 +265,7 @@ void GraftWriter::begin_loop(const Loop& loop) {
 }
 
 void GraftWriter::write_band(const Band& band) {
+  stand_at(band.at);
   if (band.openings.empty()) {
     plain_ring(plane_of(band), upper_);
     strip(below_, upper_);
@@ -256,12 +274,14 @@ void GraftWriter::write_band(const Band& band) {
     strip(below_, lower_);
   }
   std::swap(below_, upper_);
+  corners_ += below_.size();
+  if (below_.size() > cached_corners) wide_corners_ += below_.size();
 }
 
 void GraftWriter::write_tip(float end_radius) {
   const glm::vec3 along = axis_.along.back();
   const std::uint32_t apex =
-      vertex(axis_.point.back(), along, {pi * end_radius + seam_ * end_radius, axis_.length()}, none);
+      vertex(axis_.point.back(), along, picture_at(end_radius, pi + seam_, axis_.length()), none);
   for (std::size_t i = 0; i + 1 < below_.size(); ++i) triangle(below_[i].vertex, below_[i + 1].vertex, apex);
 }
 

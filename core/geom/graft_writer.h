@@ -33,6 +33,11 @@ class GraftWriter {
   std::size_t settle(std::vector<Trust>& trust, bool is_late);
 
   const GraftCounts& counts() const { return counts_; }
+  /// Vertices on rings, and those of them on rings of more corners than a vertex cache holds.
+  std::size_t corners() const { return corners_; }
+  /// Limbs not much thicker than what can be told from a line.
+  bool has_threads() const { return has_threads_; }
+  std::size_t wide_corners() const { return wide_corners_; }
   Mesh take() { return std::move(mesh_); }
 
  private:
@@ -48,6 +53,7 @@ class GraftWriter {
   struct Plane {
     glm::vec3 centre{0}, u{0}, v{0}, tangent{0};
     float radius = 0, at = 0;
+    float v_at = 0;   ///< texture coordinate
     float slope = 0;  ///< how much the radius falls along the limb
   };
 
@@ -64,6 +70,7 @@ class GraftWriter {
     glm::vec3 position{0};
     float angle = 0, reach = 0;
     std::uint32_t group = none;
+    std::uint32_t joint = none;  ///< of the parent
   };
   struct Loop {
     std::uint32_t first = none, count = 0;
@@ -85,6 +92,8 @@ class GraftWriter {
   int sides_for(float radius) const;
   float ribbed(float angle) const;
   std::uint32_t ring_corner(const Plane& plane, float angle, glm::vec2 direction);
+  glm::vec2 picture_at(float radius, float angle, float at) const;
+  void stand_at(float at);
   float by_seam(float angle) const;
   void set_seam(float angle);
   std::uint32_t group_for(const LoopPoint& point, std::uint32_t child);
@@ -109,6 +118,7 @@ class GraftWriter {
   std::vector<Loop> loops_;
   std::vector<LoopVertex> loop_vertices_;
   std::vector<std::vector<glm::vec2>> circles_;  ///< corners by number
+  std::vector<float> corner_radius_;             ///< from which on a limb has 4, 5, ... corners
   float thickest_ = 0;
   GraftCounts counts_;
 
@@ -121,6 +131,10 @@ class GraftWriter {
   float seam_ = 0;
   glm::vec2 seam_turn_{1, 0};  ///< its cosine and sine
   int least_sides_ = 3, loop_sides_ = 0;
+  float turns_ = 0;             ///< of the picture round the limb, by a radian; 0: u is in metres
+  std::uint32_t joint_ = none;  ///< what the vertices being written move with
+  std::size_t corners_ = 0, wide_corners_ = 0;
+  bool has_threads_ = false;
 };
 
 }  // namespace seedmesh

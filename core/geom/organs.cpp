@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <unordered_set>
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
@@ -36,24 +35,70 @@ std::uint64_t hash_of(const Organ& organ) {
   return hash;
 }
 
+/// Hashes seen so far, in a table with open addresses.
+class Seen {
+ public:
+  Seen(std::size_t most, const Job& job) {
+    std::size_t size = 16;
+    while (size < 2 * most) size *= 2;
+    table_ = Array<std::uint64_t>(job, size, std::uint64_t{0});
+  }
+  /// False: it was there before.
+  bool insert(std::uint64_t hash) {
+    hash += hash == 0 ? 1 : 0;
+    std::size_t at = hash & (table_.size() - 1);
+    for (; table_[at] != 0; at = (at + 1) & (table_.size() - 1)) {
+      if (table_[at] == hash) return false;
+    }
+    table_[at] = hash;
+    return true;
+  }
+
+ private:
+  Array<std::uint64_t> table_;
+};
+
+std::uint64_t word_of(float a, float b) {
+  std::uint32_t words[2];
+  std::memcpy(words, &a, sizeof(a));
+  std::memcpy(words + 1, &b, sizeof(b));
+  return words[0] | std::uint64_t{words[1]} << 32U;
+}
+
+/// Of all that places an organ; quicker than hash_of.
+std::uint64_t place_of(const Organ& organ) {
+  std::uint64_t hash = mix(word_of(organ.position.x, organ.position.y) + organ.surface);
+  hash = mix(hash ^ word_of(organ.position.z, organ.frame.w));
+  hash = mix(hash ^ word_of(organ.frame.x, organ.frame.y));
+  hash = mix(hash ^ word_of(organ.frame.z, organ.scale.x));
+  return mix(hash ^ word_of(organ.scale.y, organ.scale.z));
+}
+
 std::vector<Group> groups_of(const Organs& organs, const FoliageOptions& options, const Job& job) {
   std::map<std::pair<std::uint32_t, std::int16_t>, std::vector<std::uint32_t>> by_look;
-  std::unordered_set<std::uint64_t> seen;
+  Seen seen(organs.organ.size(), job);
   std::vector<float> extents;
   for (const Mesh& surface : options.surfaces) {
     const Box box = bounds_of(surface.position.span());
     const glm::vec3 extent = box.max - box.min;
     extents.push_back(std::max({extent.x, extent.y, extent.z}));
   }
+  std::pair<std::uint32_t, std::int16_t> look;
+  std::vector<std::uint32_t>* members = nullptr;
   for (std::uint32_t i = 0; i < organs.organ.size(); ++i) {
     if (i % 4096 == 0) job.check();
     const Organ& organ = organs.organ[i];
     const float smallest = std::min({organ.scale.x, organ.scale.y, organ.scale.z}) * extents[organ.surface];
     if (!(smallest > std::max(least_share * options.model_size, least_extent))) continue;
-    if (seen.insert(hash_of(organ)).second) by_look[{organ.surface, organ.color}].push_back(i);
+    if (!seen.insert(place_of(organ))) continue;
+    if (!members || look != std::pair{organ.surface, organ.color}) {
+      look = {organ.surface, organ.color};
+      members = &by_look[look];
+    }
+    members->push_back(i);
   }
   std::vector<Group> groups;
-  for (auto& [look, members] : by_look) groups.push_back({look.first, look.second, std::move(members)});
+  for (auto& [key, list] : by_look) groups.push_back({key.first, key.second, std::move(list)});
   return groups;
 }
 
@@ -75,6 +120,7 @@ class Placer {
           is_even ? surface_.normal[i] : math::unit(surface_.normal[i] * inverse, {0, 0, 1});
       out_.normal[first + i] = math::unit(turn * normal, {0, 1, 0});
     }
+    if (!surface_.tangent.empty()) place_tangents(first, turn, stretch);
     if (!out_.uv[0].empty())
       std::memcpy(out_.uv[0].data() + first, surface_.uv[0].data(), surface_.uv[0].bytes());
     const std::size_t corners = surface_.index.wide.size(), first_corner = number * corners;
@@ -82,9 +128,40 @@ class Placer {
     for (std::size_t i = 0; i < corners; ++i)
       out_.index.wide[first_corner + i] = surface_.index.wide[i] + shift;
     if (options_.crown) follow_crown(first, first_corner);
+    if (!out_.color.empty()) {
+      const auto shade =
+          static_cast<std::uint8_t>(255.0F - 255.0F * options_.tint * fraction(key_at(organ.key, 0x7147)));
+      std::fill_n(out_.color.data() + first, vertices, glm::u8vec4(shade, shade, shade, 255));
+    }
+    if (!out_.bone.empty()) std::fill_n(out_.bone.data() + first, vertices, bone_of(organ));
+    if (options_.wind) place_wind(organ, first);
   }
 
  private:
+  static float fraction(std::uint64_t hash) { return static_cast<float>(hash >> 40U) * 0x1p-24F; }
+
+  std::uint16_t bone_of(const Organ& organ) const {
+    return organ.limb_joint == Limbs::none ? std::uint16_t{0} : options_.bones[organ.limb_joint];
+  }
+
+  void place_tangents(std::size_t first, const glm::mat3& turn, const glm::mat3& stretch) const {
+    for (std::size_t i = 0; i < surface_.tangent.size(); ++i) {
+      const glm::vec3 normal = out_.normal[first + i];
+      const glm::vec3 along = stretch * glm::vec3(surface_.tangent[i]);
+      out_.tangent[first + i] =
+          glm::vec4(math::unit(along - normal * glm::dot(along, normal), turn[0]), surface_.tangent[i].w);
+    }
+  }
+
+  /// An organ moves whole with the limb at its base; its own flutter grows from there to its tip.
+  void place_wind(const Organ& organ, std::size_t first) const {
+    const glm::vec2 sway = options_.wind->at(organ.limb_joint, organ.position);
+    for (std::size_t i = 0; i < surface_.position.size(); ++i) {
+      out_.uv[2][first + i] = {options_.wind->trunk_bend(organ.position.y), sway.x};
+      out_.uv[3][first + i] = {sway.y, std::clamp(surface_.position[i].y, 0.0F, 1.0F)};
+    }
+  }
+
   /// Vertices keep to the side of all their faces: the mean of an organ's own normal and the crown's is taken
   /// on the side where the organ's is, and only as far as no face would look away from it.
   void follow_crown(std::size_t first, std::size_t first_corner) const {
@@ -112,7 +189,7 @@ class Placer {
   Mesh& out_;
 };
 
-Mesh room_for(const Mesh& surface, std::size_t count, Job& job) {
+Mesh room_for(const Mesh& surface, std::size_t count, const FoliageOptions& options, Job& job) {
   const std::uint64_t vertices = std::uint64_t{surface.position.size()} * count;
   if (vertices > 0xFFFFFFFEU) Job::refuse("the organs have more vertices than 32-bit indices can name");
   job.spend(Resource::triangles, surface.index.wide.size() / 3 * count);
@@ -120,6 +197,12 @@ Mesh room_for(const Mesh& surface, std::size_t count, Job& job) {
   mesh.position = Array<glm::vec3>(job, vertices);
   mesh.normal = Array<glm::vec3>(job, vertices);
   if (!surface.uv[0].empty()) mesh.uv[0] = Array<glm::vec2>(job, vertices);
+  if (!surface.tangent.empty()) mesh.tangent = Array<glm::vec4>(job, vertices);
+  if (options.tint > 0) mesh.color = Array<glm::u8vec4>(job, vertices);
+  if (!options.bones.empty()) mesh.bone = Array<std::uint16_t>(job, vertices);
+  if (options.wind) {
+    for (const std::size_t set : {2U, 3U}) mesh.uv[set] = Array<glm::vec2>(job, vertices);
+  }
   mesh.index.wide = Array<std::uint32_t>(job, surface.index.wide.size() * count);
   mesh.cache_ordered = surface.cache_ordered;
   return mesh;
@@ -131,7 +214,7 @@ std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& op
   std::vector<Foliage> foliage;
   for (const Group& group : groups_of(organs, options, job)) {
     const Mesh& surface = options.surfaces[group.surface];
-    foliage.push_back({group.surface, group.color, room_for(surface, group.organs.size(), job)});
+    foliage.push_back({group.surface, group.color, room_for(surface, group.organs.size(), options, job)});
     const Placer placer(surface, options, foliage.back().mesh);
     parallel_for(job, group.organs.size(), organs_a_chunk,
                  [&](std::size_t begin, std::size_t end, std::size_t) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/geom/limbs.h"
+#include "core/geom/wind.h"
 #include "core/model/model.h"
 
 namespace seedmesh {
@@ -34,12 +35,18 @@ struct FoliageOptions {
   /// back side round.
   std::optional<glm::vec3> crown;
   float crown_share = 0.75F;
+  /// Organs differ in brightness by up to this share, by the hash of their key, as vertex colours; 0: none.
+  float tint = 0;
+  /// Of each joint of the limbs, what moves it: fills Mesh::bone with that of Organ::limb_joint.
+  std::span<const std::uint16_t> bones = {};
+  /// Where given, wind weights as in wind.h.
+  const WindField* wind = nullptr;
 };
 
 /// One Foliage for each surface and colour in use, both rising. Organs that stand exactly on an earlier one
 /// of their surface are passed over, and so are those without extent. Spends Resource::triangles before it
 /// allocates. Runs on job.threads(); the result does not depend on it. 3 ns a vertex and thread, 15 with a
-/// crown.
+/// crown. Tangents of a surface come along.
 std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& options, Job& job);
 
 /// The same organs as transforms, for formats that share one mesh among nodes.

@@ -5,6 +5,7 @@
 namespace seedmesh {
 
 Result<Imported> import_cpfg(std::string_view text, const ImportOptions& options);      // cpfg.cpp
+Result<Imported> import_ez_tree(std::string_view text, const ImportOptions& options);   // ez_tree.cpp
 Result<Imported> import_fractint(std::string_view text, const ImportOptions& options);  // fractint.cpp
 Result<Imported> import_houdini(std::string_view text, const ImportOptions& options);   // houdini.cpp
 Result<Imported> import_proctree(std::string_view text, const ImportOptions& options);  // proctree.cpp

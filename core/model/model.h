@@ -34,6 +34,7 @@ struct TextureRecipe {
   std::string kind;  ///< of texture_kinds(), as "oak_bark"; empty: none
   std::uint64_t seed = 0;
   std::optional<std::array<std::uint8_t, 3>> color;  ///< sRGB of the main colour; none: the kind's own
+  glm::vec3 factor{1};  ///< linear; multiplies what is painted, so that several looks share one picture
 };
 
 enum class AlphaMode { opaque, mask, blend };

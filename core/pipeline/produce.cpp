@@ -87,6 +87,8 @@ void sign(Model& model, const Request& request) {
   for (Warning& warning : model.warnings) warning.pointer = in_request(std::move(warning.pointer));
 }
 
+static_assert(static_cast<int>(OutputCollision::godot) == static_cast<int>(CollisionNames::godot));
+
 bool has_levels(const Model& model) {
   return std::any_of(model.nodes.begin(), model.nodes.end(),
                      [](const Node& node) { return !node.lods.empty(); });
@@ -138,7 +140,9 @@ constexpr std::uint64_t most_parts = 400;
 Demand demand_of(const OutputParams& output) {
   return {.lods = output.max_triangles ? levels_to_choose_from : output.lods,
           .share_organs = output.instancing == OutputInstancing::nodes || output.instancing == OutputInstancing::gpu,
-          .growth = output.animation == OutputParams::Animation::growth};
+          .growth = output.animation == OutputParams::Animation::growth,
+          .wind = output.wind == OutputWind::weights,
+          .collision = static_cast<CollisionNames>(output.collision)};
 }
 
 /// The model of one seed, as its generator makes it.

@@ -140,6 +140,14 @@ Result<Request> read_request_body(const Json& json, const Limits& limits) {
     faults.add({"/output/animation",
                 "the generator " + std::string(body.generator->name) + " makes no growth animation"});
   }
+  if (body.generator && !body.generator->sways && frame.output.wind != OutputWind::none) {
+    faults.add(
+        {"/output/wind", "the generator " + std::string(body.generator->name) + " has no wind weights"});
+  }
+  if (body.generator && !body.generator->has_collision && frame.output.collision != OutputCollision::none) {
+    faults.add({"/output/collision",
+                "the generator " + std::string(body.generator->name) + " makes no collision shapes"});
+  }
   if (!faults.empty()) return Error{Code::invalid, faults.take()};
   body.output = frame.output;
   body.seed = frame.seed;

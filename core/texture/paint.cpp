@@ -61,7 +61,7 @@ void dress(Material& material, int first, bool is_bark) {
   put(material.normal_texture, first + 1, is_bark);
   put(material.occlusion_texture, first + 2, is_bark);
   put(material.metallic_roughness_texture, first + 2, is_bark);
-  material.base_color = {1, 1, 1, material.base_color.w};
+  material.base_color = {material.recipe.factor, material.base_color.w};
   material.roughness = 1;
   if (is_bark) return;
   material.alpha_mode = AlphaMode::mask;

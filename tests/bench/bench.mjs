@@ -92,7 +92,7 @@ function run_own() {
   const peers = [];
   for (let launch = 0; launch < launches; launch += 1) {
     for (const bench of figures) own.push(...lines_of(output_of(`${build}/bench/${bench}_bench`)));
-    for (const peer of ['lindenmayer', 'terrain', 'manifold']) peers.push(...lines_of(output_of(process.execPath, `tests/bench/peer_${peer}.mjs`)));
+    for (const peer of ['lindenmayer', 'terrain', 'manifold', 'ez_tree']) peers.push(...lines_of(output_of(process.execPath, `tests/bench/peer_${peer}.mjs`)));
   }
   const peer_of = gathered(peers), rows = gathered(own);
   const copy = rows.get('copying'), copying = copy && copy.bytes / copy.seconds;

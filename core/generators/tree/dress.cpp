@@ -1,113 +1,99 @@
 #include "core/generators/tree/dress.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <optional>
 
-#include "core/geom/foliage.h"
+#include "core/generators/tree/collision.h"
+#include "core/generators/tree/leaves.h"
+#include "core/generators/tree/looks.h"
+#include "core/generators/tree/weber_penn_shape.h"
+#include "core/geom/detail.h"
 #include "core/geom/graft.h"
+#include "core/geom/grow.h"
 
 namespace seedmesh::tree {
 namespace {
 
-constexpr float bark_roughness = 0.95F, leaf_roughness = 0.65F;
-// Young leaves: the summer's colour turned so far to a light yellow green.
-constexpr double spring_share = 0.4;
-constexpr Color spring_green{176, 206, 96};
+/// Stems that split without an angle go on as one, and those that turn right round meet themselves.
+bool may_overlap(const TreeParams& params) {
+  if (params.model != TreeModel::weber_penn) return false;
+  const auto levels = weber_penn_levels(params);
+  return params.base_splits > 0 || std::any_of(levels.begin(), levels.end(), [](const WeberPennLevel& level) {
+           return level.seg_splits > 0 || std::abs(level.curve) + std::abs(level.curve_back) >= 300 ||
+                  level.curve_v < -60;
+         });
+}
 
-constexpr std::array<const char*, 3> leafy_seasons{"spring", "summer", "autumn"};
-
-GraftOptions graft_options(const TreeParams& params) {
+GraftOptions graft_options(const TreeParams& params, const Detail& detail) {
   GraftOptions options;
-  options.sides = sides_of(params);
+  options.sides = detail.sides(sides_of(params));
   options.weld = params.weld;
   options.thinnest = static_cast<float>(params.twig_radius);
-  if (params.model == TreeModel::weber_penn && params.LobeDepth > 0) {
+  options.wrap = has_bark_picture(params);
+  if (params.model == TreeModel::weber_penn && params.LobeDepth > 0 && detail.level() < 2) {
     options.lobes = params.Lobes;
     options.lobe_depth = static_cast<float>(params.LobeDepth);
   }
-  // Stems that split without an angle go on as one.
-  options.overlaps = params.model == TreeModel::weber_penn &&
-                     (params.base_splits > 0 || params.seg_splits_0 > 0 || params.seg_splits_1 > 0 ||
-                      params.seg_splits_2 > 0 || params.seg_splits_3 > 0);
+  options.overlaps = may_overlap(params);
   if (params.model == TreeModel::proctree) options.v_scale = static_cast<float>(params.mVMultiplier);
   return options;
 }
 
-Material painted(std::string name, const glm::vec3& color, float roughness) {
-  Material material;
-  material.name = std::move(name);
-  material.base_color = {color, 1};
-  material.roughness = roughness;
-  return material;
-}
+/// What moves the tree: bones that grow, wind.
+struct Motion {
+  std::optional<GrowthPlan> growth;
+  std::optional<WindField> wind;
+  bool is_any() const { return growth || wind; }
+};
 
-glm::vec3 linear(const Color& color) {
-  return {linear_of_srgb(color.red), linear_of_srgb(color.green), linear_of_srgb(color.blue)};
-}
-
-Color mixed(const Color& a, const Color& b, double share) {
-  const auto part = [&](std::uint8_t x, std::uint8_t y) {
-    return static_cast<std::uint8_t>(math::to_int32(x + (y - x) * share + 0.5));
-  };
-  return {part(a.red, b.red), part(a.green, b.green), part(a.blue, b.blue)};
-}
-
-/// By leafy_seasons.
-Color leaf_color(const TreeLeaf& leaf, std::size_t season) {
-  if (season == 0) return mixed(leaf.color, spring_green, spring_share);
-  return season == 2 && !leaf.evergreen ? leaf.autumn : leaf.color;
-}
-
-LeafForm form_of(const TreeParams& params) {
-  switch (params.leaf.form) {
-    case TreeForm::blade:
-      return LeafForm::blade;
-    case TreeForm::twig:
-      return LeafForm::twig;
-    case TreeForm::needle:
-      return LeafForm::needle;
-    case TreeForm::kite:
-      return LeafForm::kite;
-    default:
-      return params.model == TreeModel::proctree ? LeafForm::twig : LeafForm::kite;
+Mesh bark_of(const Limbs& limbs, const GraftOptions& wanted, const Motion& motion, Job& job) {
+  GraftOptions options = wanted;
+  Array<std::uint32_t> joints(job);
+  if (motion.is_any()) options.joints = &joints;
+  Mesh mesh = graft(limbs, options, job);
+  if (motion.growth) {
+    mesh.bone = Array<std::uint16_t>(job, mesh.position.size());
+    for (std::size_t i = 0; i < joints.size(); ++i) mesh.bone[i] = motion.growth->bone[joints[i]];
   }
+  if (motion.wind) add_wind(mesh, joints, *motion.wind, job);
+  return mesh;
 }
 
-bool has_leaves(const TreeParams& params) {
-  if (params.leaf.form == TreeForm::none) return false;
-  return params.season != TreeSeason::winter || params.leaf.evergreen;
-}
-
-void add_mesh(Model& model, const char* name, Mesh mesh, int material) {
-  if (mesh.position.empty()) return;
+void add_bark(Model& model, const Limbs& limbs, const TreeParams& params, const Motion& motion, Job& job) {
   Node node;
-  node.name = name;
+  node.name = "bark";
   node.parent = 0;
-  node.mesh = static_cast<int>(model.meshes.size());
-  model.nodes.push_back(std::move(node));
-  model.meshes.push_back({name, {}});
-  model.meshes.back().primitives.push_back({std::move(mesh), material, {}});
+  const int material = add_bark_look(model, params, job);
+  const float most = thickest(limbs);
+  for (int level = 0; level < job.demand().lods; ++level) {
+    const Detail detail(level);
+    const GraftOptions options = graft_options(params, detail);
+    Mesh mesh;
+    if (level == 0) {
+      mesh = bark_of(limbs, options, motion, job);
+    } else {
+      const Limbs kept = prune(limbs, detail.thinnest() * most, job);
+      Motion own;
+      if (motion.wind) own.wind.emplace(kept, job, &*motion.wind);
+      mesh = bark_of(kept, options, own, job);
+    }
+    if (mesh.position.empty()) continue;
+    const int number = static_cast<int>(model.meshes.size());
+    model.meshes.push_back({level == 0 ? "bark" : "bark_LOD" + std::to_string(level), {}});
+    model.meshes.back().primitives.push_back({std::move(mesh), material, {}});
+    if (node.mesh < 0) {
+      node.mesh = number;
+    } else {
+      node.lods.push_back(number);
+    }
+  }
+  if (node.mesh >= 0) model.nodes.push_back(std::move(node));
 }
 
-/// The leaves' materials: that of the season, and all that have leaves as variants to choose from.
-void paint_leaves(Model& model, const TreeParams& params) {
-  const auto first = static_cast<int>(model.materials.size());
-  std::vector<int> variants;
-  for (std::size_t season = 0; season < leafy_seasons.size(); ++season) {
-    Material material = painted(std::string("leaf_") + leafy_seasons[season],
-                                linear(leaf_color(params.leaf, season)), leaf_roughness);
-    material.double_sided = true;
-    variants.push_back(static_cast<int>(model.materials.size()));
-    model.materials.push_back(std::move(material));
-    model.variants.emplace_back(leafy_seasons[season]);
-  }
-  const int chosen = params.season == TreeSeason::winter ? 1 : static_cast<int>(params.season);
-  model.meshes.back().primitives.back().material = first + chosen;
-  model.meshes.back().primitives.back().variant_materials = variants;
-  if (model.meshes.size() > 1) {
-    model.meshes.front().primitives.front().variant_materials.assign(
-        variants.size(), model.meshes.front().primitives.front().material);
-  }
+float size_of(const Limbs& limbs) {
+  const Box box = bounds_of(limbs.position.span());
+  return glm::length(box.max - box.min);
 }
 
 }  // namespace
@@ -122,19 +108,26 @@ Model dress(Skeleton skeleton, const TreeParams& params, Job& job) {
   Node root;
   root.name = "tree";
   model.nodes.push_back(std::move(root));
-  model.materials.push_back(painted("bark", linear(params.bark_color), bark_roughness));
-  add_mesh(model, "bark", graft(skeleton.limbs, graft_options(params), job), 0);
-  skeleton.limbs = Limbs(job);  // its memory goes back before the leaves need theirs
-  if (!has_leaves(params)) return model;
-  FoliageOptions options;
-  options.density = params.leaf.density;
-  options.size = static_cast<float>(params.leaf.size);
-  options.crown = static_cast<float>(params.leaf.crown_normals);
-  options.tint = static_cast<float>(params.leaf.tint);
-  Mesh leaves = foliage(skeleton.organs.organ.span(), leaf_template(form_of(params)), options, job);
-  if (leaves.position.empty()) return model;
-  add_mesh(model, "leaves", std::move(leaves), 0);
-  paint_leaves(model, params);
+  Motion motion;
+  if (job.demand().growth) {
+    if (job.demand().lods > 1)
+      Job::reject({"", "found several levels of detail; the growth animation needs one", 0, 0});
+    if (job.demand().share_organs)
+      Job::reject({"", "found leaves as nodes; the growth animation needs them merged", 0, 0});
+    motion.growth = plan_growth(skeleton.limbs, {}, job);
+  }
+  if (job.demand().wind) motion.wind.emplace(skeleton.limbs, job);
+  add_bark(model, skeleton.limbs, params, motion, job);
+  add_collision(model, skeleton.limbs, job);
+  const float size = size_of(skeleton.limbs);
+  if (!motion.wind) skeleton.limbs = Limbs(job);  // its memory goes back before the leaves need theirs
+  if (has_leaves(params)) {
+    LeafMotion moved;
+    if (motion.growth) moved.bones = motion.growth->bone.span();
+    if (motion.wind) moved.wind = &*motion.wind;
+    add_leaves(model, skeleton.organs, params, moved, size, job);
+  }
+  if (motion.growth) add_growth(model, *motion.growth);
   return model;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// What every model of a tree writes with: limbs and leaves of one Skeleton, counted before they are made.
 #include "core/base/job.h"
+#include "core/base/quick_math.h"
 #include "core/geom/frame.h"
 #include "core/geom/limbs.h"
 #include "generated/params/tree.h"

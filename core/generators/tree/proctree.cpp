@@ -31,7 +31,7 @@ class Forker {
   void run() {
     SkeletonWriter::Joint foot;
     foot.radius = foot.base_radius = p_.mMaxRadius * (1 + p_.trunk_flare);
-    foot.key = chances_.trunk.key();
+    foot.key = chances_.trunk.at("foot").key();
     Node root;
     root.head = {0, p_.mTrunkLength, 0};
     root.length = p_.mInitialBranchLength;
@@ -88,7 +88,7 @@ Forker::Directions Forker::directions(const Node& node) const {
   glm::dvec3 second = first - across * (p_.mBranchFactor * glm::dot(across, across));
   if (r > 0.5) std::swap(first, second);
   if (node.steps > 0) {
-    const math::SinCos around = math::sincos(2 * math::pi * p_.mTwistRate * node.steps / p_.mTreeSteps);
+    const math::SinCos around = math::quick_sincos(2 * math::pi * p_.mTwistRate * node.steps / p_.mTreeSteps);
     second = unit({around.sin, r, around.cos});
   }
   const double near_trunk = static_cast<double>(node.levels) / p_.mLevels;

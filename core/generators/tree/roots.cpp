@@ -23,7 +23,7 @@ void grow_roots(const TreeRoots& roots, const Chances& chances, std::uint32_t fo
     for (int k = 1; k <= pieces; ++k) {
       const double share = static_cast<double>(k) / pieces, before = static_cast<double>(k - 1) / pieces;
       around += spread(rng.at("turn").at(static_cast<std::uint64_t>(k)), 14);
-      const math::SinCos heading = math::sincos_degrees(around);
+      const math::SinCos heading = math::quick_sincos_degrees(around);
       at += glm::dvec3{heading.cos, 0, heading.sin} * (length / pieces);
       at.y = -roots.depth * length * share * share;
       const auto radius = [&](double s) {

@@ -50,8 +50,8 @@ class Sculptor {
     Limb trunk;
     trunk.rng = chances_.trunk;
     trunk.length = s_.height * (1 + spread(trunk.rng.at("height"), s_.height_spread));
-    trunk.frame = pitch(roll(Frame{}, math::sincos_degrees(trunk.rng.at("roll").uniform(0, 360))),
-                        math::sincos_degrees(s_.lean));
+    trunk.frame = pitch(roll(Frame{}, math::quick_sincos_degrees(trunk.rng.at("roll").uniform(0, 360))),
+                        math::quick_sincos_degrees(s_.lean));
     trunk.radius = radius_of(trunk, 1e9);
     SkeletonWriter::Joint foot;
     foot.radius = foot.base_radius = radius_at(trunk, 0);
@@ -120,14 +120,14 @@ Frame Sculptor::turned(const Limb& limb, const Frame& frame, int segment, double
   const TreeLevel& l = level(limb.level);
   const Rng rng = limb.rng.at("segment").at(static_cast<std::uint64_t>(segment));
   const double bend = l.bend + spread(rng.at("bend"), l.bend_spread);
-  Frame next = pitch(roll(frame, math::sincos_degrees(l.spin)), math::sincos_degrees(bend));
+  Frame next = pitch(roll(frame, math::quick_sincos_degrees(l.spin)), math::quick_sincos_degrees(bend));
   if (l.rise == 0) return next;
   const glm::dvec3 axis = glm::cross(next.heading, glm::dvec3{0, 1, 0});
   const double size = std::sqrt(glm::dot(axis, axis));
   if (size < 1e-6) return next;
-  const double to_sky = math::degrees(math::acos(std::clamp(next.heading.y, -1.0, 1.0)));
+  const double to_sky = math::degrees(math::quick_acos(std::clamp(next.heading.y, -1.0, 1.0)));
   const double rise = std::clamp(l.rise * share, to_sky - 180, to_sky);
-  return rotated(next, axis / size, math::sincos_degrees(rise));
+  return rotated(next, axis / size, math::quick_sincos_degrees(rise));
 }
 
 void Sculptor::carve(const Limb& limb) {
@@ -167,11 +167,12 @@ void Sculptor::whorl(const Limb& limb, const Limb& here, int number, double shar
     const double angle =
         l.angle + (l.angle_tip - l.angle) * share + spread(chance.at("angle"), l.angle_spread);
     Limb child;
-    child.frame = pitch(roll(here.frame, math::sincos_degrees(around)), math::sincos_degrees(angle));
+    child.frame =
+        pitch(roll(here.frame, math::quick_sincos_degrees(around)), math::quick_sincos_degrees(angle));
     child.position = here.position;
     child.joint = here.joint;
     child.level = limb.level + 1;
-    const math::SinCos lean = math::sincos_degrees(angle), about = math::sincos_degrees(around);
+    const math::SinCos lean = math::quick_sincos_degrees(angle), about = math::quick_sincos_degrees(around);
     const double room = room_in_shape(l, limb.length, share * limb.length,
                                       {lean.sin * about.sin, lean.cos, lean.sin * about.cos});
     child.length = room * l.fill * (1 - l.fill_spread * Rng(chance.at("fill")).unit());
@@ -192,8 +193,8 @@ void Sculptor::leaves(const Limb& limb, const std::vector<Limb>& stations,
     const Rng own = rng.at(static_cast<std::uint64_t>(i));
     const double around = 137.5 * i + spread(own.at("around"), 20);
     SkeletonWriter::Leaf leaf;
-    leaf.frame = pitch(roll(stations[at].frame, math::sincos_degrees(around)),
-                       math::sincos_degrees(s_.leaf_angle + spread(own.at("angle"), 15)));
+    leaf.frame = pitch(roll(stations[at].frame, math::quick_sincos_degrees(around)),
+                       math::quick_sincos_degrees(s_.leaf_angle + spread(own.at("angle"), 15)));
     if (leaf.frame.up.y < 0) leaf.frame = {leaf.frame.heading, -leaf.frame.left, -leaf.frame.up};
     leaf.position = stations[at].position - stations[at].frame.heading * ((shares[at] - share) * limb.length);
     leaf.length = s_.leaf_length;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/generators/tree/age.h"
 #include "core/generators/tree/dress.h"
+#include "core/generators/tree/looks.h"
 #include "core/generators/tree/proctree.h"
 #include "core/generators/tree/roots.h"
 #include "core/generators/tree/sculpt.h"
@@ -35,6 +37,8 @@ Skeleton grow(const TreeParams& params, Job& job) {
       break;
   }
   grow_roots(params.roots, chances, 0, writer);
+  if (params.age) make_young(skeleton, *params.age / params.mature_age, job);
+  if (job.demand().growth) skeleton.limbs.birth = births_of(skeleton.limbs, job);
   return skeleton;
 }
 
@@ -103,6 +107,7 @@ std::vector<Issue> check(const TreeParams& params, const Limits&) {
                       "found " + std::to_string(params.mSegments) + ", expected an even number of corners", 0,
                       0});
   }
+  check_images(params, issues);
   return issues;
 }
 

@@ -76,7 +76,7 @@ class Grower {
     stem.radius = stem.length * p_.Ratio * factor;
     stem.parent_length = stem.length;
     stem.parent_length_max = 1;
-    stem.frame = roll(Frame{}, math::sincos_degrees(stem.rng.at("roll").uniform(0, 360)));
+    stem.frame = roll(Frame{}, math::quick_sincos_degrees(stem.rng.at("roll").uniform(0, 360)));
     trunk_length_ = stem.length;
     SkeletonWriter::Joint root;
     root.radius = root.base_radius = radius_at(stem, 0);
@@ -102,10 +102,10 @@ class Grower {
       curve += spread(stem.rng.at("curve").at(static_cast<std::uint64_t>(segment)), l.curve_v) / l.curve_res;
     curve -= stem.uncurve;
     if (stem.level >= 2 && p_.AttractionUp != 0) {
-      const double declination = math::acos(std::clamp(frame.heading.y, -1.0, 1.0));
+      const double declination = math::quick_acos(std::clamp(frame.heading.y, -1.0, 1.0));
       curve -= math::degrees(p_.AttractionUp * declination * std::clamp(frame.up.y, -1.0, 1.0)) / l.curve_res;
     }
-    return pitch(frame, math::sincos_degrees(std::clamp(curve, -170.0, 170.0)));
+    return pitch(frame, math::quick_sincos_degrees(std::clamp(curve, -170.0, 170.0)));
   }
 
   int pieces(const Stem& stem) const {
@@ -117,12 +117,12 @@ class Grower {
   Frame piece_frame(const Stem& stem, const Frame& axis, int piece) const {
     const WeberPennLevel& l = level(stem.level);
     if (l.curve_v >= 0) return axis;
-    const Frame around = roll(axis, math::sincos_degrees(360.0 / helix_pieces * piece));
-    return pitch(around, math::sincos_degrees(-l.curve_v));
+    const Frame around = roll(axis, math::quick_sincos_degrees(360.0 / helix_pieces * piece));
+    return pitch(around, math::quick_sincos_degrees(-l.curve_v));
   }
 
   double declination(const Frame& frame) const {
-    return math::degrees(math::acos(std::clamp(frame.heading.y, -1.0, 1.0)));
+    return math::degrees(math::quick_acos(std::clamp(frame.heading.y, -1.0, 1.0)));
   }
 
   /// How many children a whole stem bears.
@@ -251,8 +251,8 @@ void Grower::split(Stem& stem, Frame& frame, const glm::dvec3& at, int segment, 
     double about = 20 + 0.75 * (30 + std::abs(down - 90)) * square * square;
     if (chance.unit() < 0.5) about = -about;
     if (at_base) about = 360.0 * number / (clones + 1);
-    Frame turned = pitch(frame, math::sincos_degrees(angle));
-    if (number > 0 || at_base) turned = rotated(turned, {0, 1, 0}, math::sincos_degrees(about));
+    Frame turned = pitch(frame, math::quick_sincos_degrees(angle));
+    if (number > 0 || at_base) turned = rotated(turned, {0, 1, 0}, math::quick_sincos_degrees(about));
     return std::pair{turned, angle / left};
   };
   for (int number = clones; number >= 1; --number) {
@@ -320,7 +320,7 @@ Frame Grower::child_frame(const Stem& stem, const Bud& bud, const Rng& rng) cons
     const double room = std::max(1e-9, stem.length - bare);
     down += l.down_angle_v * (1 - 2 * shape_ratio(p_, 0, (stem.length - bud.offset) / room));
   }
-  return pitch(roll(bud.frame, math::sincos_degrees(rotate)), math::sincos_degrees(down));
+  return pitch(roll(bud.frame, math::quick_sincos_degrees(rotate)), math::quick_sincos_degrees(down));
 }
 
 void Grower::bear(const Stem& stem, const Bud& bud, double child_max) {
@@ -381,14 +381,14 @@ bool Grower::fits(const Stem& stem) const {
 /// Turns a leaf's upper side outward and up: the section on leaf orientation of the paper.
 Frame Grower::to_light(Frame leaf, const glm::dvec3& position) const {
   if (p_.LeafBend == 0) return leaf;
-  double outward = math::atan2(position.z, position.x) - math::atan2(leaf.up.z, leaf.up.x);
+  double outward = math::quick_atan2(position.z, position.x) - math::quick_atan2(leaf.up.z, leaf.up.x);
   if (outward > math::pi) outward -= 2 * math::pi;
   if (outward < -math::pi) outward += 2 * math::pi;
-  leaf = rotated(leaf, {0, 1, 0}, math::sincos(-p_.LeafBend * outward));
+  leaf = rotated(leaf, {0, 1, 0}, math::quick_sincos(-p_.LeafBend * outward));
   const double aside = std::sqrt(leaf.up.x * leaf.up.x + leaf.up.z * leaf.up.z);
   if (aside < 1e-9) return leaf;
   const glm::dvec3 level_axis = glm::dvec3{-leaf.up.z, 0, leaf.up.x} / aside;
-  return rotated(leaf, level_axis, math::sincos(p_.LeafBend * math::atan2(aside, leaf.up.y)));
+  return rotated(leaf, level_axis, math::quick_sincos(p_.LeafBend * math::quick_atan2(aside, leaf.up.y)));
 }
 
 void Grower::leaf(const Stem& stem, const Bud& bud) {
@@ -398,11 +398,13 @@ void Grower::leaf(const Stem& stem, const Bud& bud) {
     const WeberPennLevel& l = level(stem.level + 1);
     const double count = -p_.Leaves;
     const double across = count > 1 ? l.rotate * (bud.number / (count - 1) - 0.5) : 0;
-    leaf.frame = pitch(turn(bud.frame, math::sincos_degrees(across)), math::sincos_degrees(l.down_angle));
+    leaf.frame =
+        pitch(turn(bud.frame, math::quick_sincos_degrees(across)), math::quick_sincos_degrees(l.down_angle));
   } else {
     leaf.frame = child_frame(stem, bud, rng);
   }
   leaf.frame = to_light(leaf.frame, bud.position);
+  if (leaf.frame.up.y < 0) leaf.frame = {leaf.frame.heading, -leaf.frame.left, -leaf.frame.up};
   leaf.position = bud.position;
   leaf.length = p_.LeafScale;
   leaf.width = p_.LeafScale * p_.LeafScaleX;

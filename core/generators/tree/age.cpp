@@ -1,0 +1,134 @@
+#include "core/generators/tree/age.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seedmesh::tree {
+namespace {
+
+// A limb sprouts when this share of what is left to its parent has passed, from the foot of the parent to its
+// tip; chance takes as much to either side.
+constexpr float first_share = 0.03F, last_share = 0.5F, spread_share = 0.06F;
+constexpr float latest = 0.8F;
+// Limbs below this share of their size are not there yet.
+constexpr float smallest = 2e-3F;
+// A leaf is unfolded when its twig has so much of its size.
+constexpr float unfolded = 0.35F;
+// The seedling has this share of the tree's height.
+constexpr float seedling = 0.01F;
+
+float fraction(std::uint64_t hash) { return static_cast<float>(hash >> 40U) * 0x1p-24F; }
+
+float length_of(const Limbs& limbs, std::size_t joint) {
+  const glm::vec3 step = limbs.position[joint] - limbs.position[limbs.parent[joint]];
+  return std::sqrt(glm::dot(step, step));
+}
+
+/// Of each joint, where along its limb it stands, 0..1.
+Array<float> places(const Limbs& limbs, Job& job) {
+  Array<float> place(job, limbs.size(), 0.0F), rest(job, limbs.size(), 0.0F);
+  for (std::size_t i = limbs.size(); i-- > 0;) {
+    const std::uint32_t parent = limbs.parent[i];
+    if (parent == Limbs::none || limbs.starts_limb[i]) continue;
+    rest[parent] = rest[i] + length_of(limbs, i);
+  }
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    if (i % 4096 == 0) job.check();
+    const std::uint32_t parent = limbs.parent[i];
+    if (parent == Limbs::none) continue;
+    const float before = limbs.starts_limb[i] ? 0 : place[parent];
+    const float length = length_of(limbs, i), left = length + rest[i];
+    place[i] = left > 0 ? before + (1 - before) * (length / left) : 1;
+  }
+  return place;
+}
+
+/// The size of what sprouts at `birth`.
+float size_at(float birth, float share) {
+  if (share <= birth) return 0;
+  const float left = 1 - (share - birth) / (1 - birth);
+  return 1 - left * left;
+}
+
+template <class T>
+void compact(Array<T>& values, const Array<std::uint32_t>& new_place, std::size_t count) {
+  if (values.empty()) return;
+  for (std::size_t i = 0; i < new_place.size(); ++i) {
+    if (new_place[i] != Limbs::none) values[new_place[i]] = values[i];
+  }
+  values.resize(count);
+}
+
+}  // namespace
+
+Array<float> births_of(const Limbs& limbs, Job& job) {
+  Array<float> birth(job, limbs.size(), 0.0F);
+  const Array<float> place = places(limbs, job);
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    if (i % 4096 == 0) job.check();
+    const std::uint32_t parent = limbs.parent[i];
+    if (parent == Limbs::none) continue;
+    birth[i] = birth[parent];
+    if (!limbs.starts_limb[i]) continue;
+    const float chance = 2 * fraction(key_at(limbs.key[i], 0xA6E)) - 1;
+    const float wait = first_share + (last_share - first_share) * place[parent] + spread_share * chance;
+    birth[i] = std::min(latest, birth[parent] + (1 - birth[parent]) * std::max(0.0F, wait));
+  }
+  return birth;
+}
+
+void make_young(Skeleton& skeleton, double share, Job& job) {
+  if (share >= 1) return;
+  Limbs& limbs = skeleton.limbs;
+  const std::size_t size = limbs.size();
+  const Array<float> birth = births_of(limbs, job);
+  const auto time = static_cast<float>(share);
+  Array<float> own(job, size, 1.0F), scale(job, size, 1.0F);
+  Array<glm::vec3> position(job, size);
+  Array<std::uint32_t> new_place(job, size);
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    if (i % 4096 == 0) job.check();
+    const std::uint32_t parent = limbs.parent[i];
+    own[i] = std::max(size_at(birth[i], time), birth[i] == 0 ? seedling : 0.0F);
+    scale[i] = parent == Limbs::none       ? own[i]
+               : birth[i] == birth[parent] ? scale[parent]
+                                           : std::min(own[i], 1.0F) * scale[parent];
+    const bool is_there = parent == Limbs::none || (new_place[parent] != Limbs::none && scale[i] > smallest);
+    new_place[i] = is_there ? count++ : Limbs::none;
+    position[i] = parent == Limbs::none
+                      ? limbs.position[i]
+                      : position[parent] + (limbs.position[i] - limbs.position[parent]) * scale[i];
+  }
+  Array<Organ>& organs = skeleton.organs.organ;
+  std::size_t kept = 0;
+  for (const Organ& organ : organs) {
+    const std::uint32_t joint = organ.limb_joint;
+    if (joint == Limbs::none || new_place[joint] == Limbs::none) continue;
+    const float open = std::min(1.0F, (own[joint] - seedling) / unfolded);
+    if (!(open > 0)) continue;
+    Organ young = organ;
+    young.position = position[joint] + (organ.position - limbs.position[joint]) * scale[joint];
+    young.scale *= open;
+    young.limb_joint = new_place[joint];
+    organs[kept++] = young;
+  }
+  organs.resize(kept);
+  for (std::size_t i = 0; i < size; ++i) {
+    const float thickness = scale[i] * std::sqrt(scale[i]);
+    limbs.radius[i] *= thickness;
+    limbs.base_radius[i] *= thickness;
+    if (limbs.parent[i] != Limbs::none) limbs.parent[i] = new_place[limbs.parent[i]];
+  }
+  compact(position, new_place, count);
+  limbs.position = std::move(position);
+  compact(limbs.radius, new_place, count);
+  compact(limbs.base_radius, new_place, count);
+  compact(limbs.parent, new_place, count);
+  compact(limbs.starts_limb, new_place, count);
+  compact(limbs.color, new_place, count);
+  compact(limbs.order, new_place, count);
+  compact(limbs.key, new_place, count);
+}
+
+}  // namespace seedmesh::tree

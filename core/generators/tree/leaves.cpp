@@ -1,0 +1,169 @@
+#include "core/generators/tree/leaves.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geom/detail.h"
+#include "core/geom/leaf_mesh.h"
+#include "core/texture/leaf.h"
+
+namespace seedmesh::tree {
+namespace {
+
+constexpr int coarsest = 4;
+
+LeafBuild leaf_build(TreeBuild build) {
+  switch (build) {
+    case TreeBuild::cross:
+      return LeafBuild::cross;
+    case TreeBuild::curved:
+      return LeafBuild::curved;
+    case TreeBuild::mesh:
+      return LeafBuild::mesh;
+    case TreeBuild::twig:
+      return LeafBuild::twig;
+    case TreeBuild::bunch:
+      return LeafBuild::bunch;
+    default:
+      return LeafBuild::card;
+  }
+}
+
+Mesh leaf_of(const TreeParams& params, int level, const Job& job) {
+  const TreeLeaf& leaf = params.leaf;
+  LeafForm form;
+  form.shape = static_cast<LeafShape>(leaf.leaf_shape);
+  form.build = leaf_build(build_of(params));
+  form.fold = math::radians(leaf.fold);
+  form.droop = math::radians(leaf.droop);
+  form.coarseness = std::min(coarsest, leaf.coarseness + level);
+  const bool is_twig = form.build == LeafBuild::twig || form.build == LeafBuild::bunch;
+  form.twig_leaves = texture::leaf_picture(texture::leaf_kind(form.shape, is_twig)).count;
+  return leaf_mesh(form, job);
+}
+
+/// Organs come with the width and length of a leaf; a leaf's mesh is 1 long and has a width of its own.
+void fit(Organs& organs, const TreeParams& params, const Mesh& leaf, const Job& job) {
+  const Box box = bounds_of(leaf.position.span());
+  const float across = std::max(1e-3F, box.max.x - box.min.x);
+  const TreeBuild build = build_of(params);
+  const bool is_round = build == TreeBuild::cross || build == TreeBuild::bunch;
+  const double density = params.leaf.density;
+  const auto size = static_cast<float>(params.leaf.size / std::sqrt(std::max(density, 1e-3)));
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < organs.organ.size(); ++i) {
+    if (i % 4096 == 0) job.check();
+    Organ organ = organs.organ[i];
+    if (density < 1 && static_cast<double>(key_at(organ.key, 0xDE45) >> 11U) * 0x1p-53 >= density) continue;
+    const float width = organ.scale.x * size / across, length = organ.scale.y * size;
+    organ.scale = {width, length, is_round ? width : length};
+    organs.organ[kept++] = organ;
+  }
+  organs.organ.resize(kept);
+}
+
+FoliageOptions options_of(const Organs& organs, const TreeParams& params, const LeafMotion& motion,
+                          float model_size) {
+  FoliageOptions options;
+  options.model_size = model_size;
+  options.tint = static_cast<float>(params.leaf.tint);
+  options.bones = motion.bones;
+  options.wind = motion.wind;
+  if (params.leaf.crown_normals > 0 && !organs.organ.empty()) {
+    Box box{organs.organ[0].position, organs.organ[0].position};
+    for (const Organ& organ : organs.organ) {
+      box.min = glm::min(box.min, organ.position);
+      box.max = glm::max(box.max, organ.position);
+    }
+    // A little below the middle, so that the lowest leaves do not look straight down.
+    const glm::vec3 middle = 0.5F * (box.min + box.max);
+    options.crown = glm::vec3(middle.x, middle.y - 0.2F * (box.max.y - box.min.y), middle.z);
+    options.crown_share = static_cast<float>(params.leaf.crown_normals);
+  }
+  return options;
+}
+
+Organs copy_of(const Organs& organs, const Job& job) {
+  Organs copy(job);
+  copy.organ.append(organs.organ.span());
+  return copy;
+}
+
+std::string level_name(const char* name, int level) {
+  return level == 0 ? name : name + ("_LOD" + std::to_string(level));
+}
+
+void put_on(Model& model, Node& node, MeshGroup group) {
+  const int mesh = static_cast<int>(model.meshes.size());
+  model.meshes.push_back(std::move(group));
+  if (node.mesh < 0) {
+    node.mesh = mesh;
+  } else {
+    node.lods.push_back(mesh);
+  }
+}
+
+void add_merged(Model& model, Organs& organs, const TreeParams& params, const FoliageOptions& shared,
+                const LeafLook& look, Job& job) {
+  Node node;
+  node.name = "leaves";
+  node.parent = 0;
+  for (int level = 0; level < job.demand().lods; ++level) {
+    FoliageOptions options = shared;
+    const Mesh surface = leaf_of(params, level, job);
+    options.surfaces = std::span(&surface, 1);
+    Organs thinned(job);
+    if (level > 0) {
+      thinned = copy_of(organs, job);
+      thin_out(thinned, Detail(level).every());
+    }
+    MeshGroup group{level_name("leaves", level), {}};
+    for (Foliage& part : place_organs(level > 0 ? thinned : organs, options, job))
+      group.primitives.push_back({std::move(part.mesh), look.material, look.variants});
+    if (!group.primitives.empty()) put_on(model, node, std::move(group));
+  }
+  if (node.mesh >= 0) model.nodes.push_back(std::move(node));
+}
+
+/// One node that the writer turns to as many as there are leaves.
+void add_shared(Model& model, const Organs& organs, const TreeParams& params, FoliageOptions options,
+                const LeafLook& look, Job& job) {
+  Node node;
+  node.name = "leaf";
+  node.parent = 0;
+  for (int level = 0; level < job.demand().lods; ++level) {
+    MeshGroup group{level_name("leaf", level), {}};
+    group.primitives.push_back({leaf_of(params, level, job), look.material, look.variants});
+    if (level == 0) {
+      options.surfaces = std::span(&group.primitives.front().mesh, 1);
+      for (FoliagePlaces& places : organ_places(organs, options, job))
+        node.instances.transforms = std::move(places.places);
+    }
+    put_on(model, node, std::move(group));
+  }
+  if (!node.instances.transforms.empty()) model.nodes.push_back(std::move(node));
+}
+
+}  // namespace
+
+void add_leaves(Model& model, Organs& organs, const TreeParams& params, const LeafMotion& motion,
+                float model_size, Job& job) {
+  fit(organs, params, leaf_of(params, 0, job), job);
+  if (organs.organ.empty()) return;
+  const LeafLook look = add_leaf_look(model, params, job);
+  const FoliageOptions options = options_of(organs, params, motion, model_size);
+  if (job.demand().share_organs) {
+    add_shared(model, organs, params, options, look, job);
+  } else {
+    add_merged(model, organs, params, options, look, job);
+  }
+  // Bark looks the same in every season.
+  for (MeshGroup& group : model.meshes) {
+    for (Primitive& primitive : group.primitives) {
+      if (primitive.variant_materials.empty())
+        primitive.variant_materials.assign(look.variants.size(), primitive.material);
+    }
+  }
+}
+
+}  // namespace seedmesh::tree

@@ -1,0 +1,20 @@
+#pragma once
+/// The leaves of a tree as meshes or places.
+#include "core/generators/tree/growth_context.h"
+#include "core/generators/tree/looks.h"
+#include "core/geom/organs.h"
+
+namespace seedmesh::tree {
+
+/// What moves leaves: bones of the joints, wind; both may be empty.
+struct LeafMotion {
+  std::span<const std::uint16_t> bones;
+  const WindField* wind = nullptr;
+};
+
+/// Adds the node "leaves" with all levels of detail, or, where the output asks for it, as places of one mesh.
+/// `organs` are used up. `model_size` is the diagonal of the tree.
+void add_leaves(Model& model, Organs& organs, const TreeParams& params, const LeafMotion& motion,
+                float model_size, Job& job);
+
+}  // namespace seedmesh::tree

@@ -1,0 +1,119 @@
+#include "core/generators/tree/age.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "tests/core/tree/support.h"
+
+namespace seedmesh::tree {
+namespace {
+
+std::vector<TreeParams> one_of_each_model() {
+  std::vector<TreeParams> all(3);
+  all[0].ScaleV = 0;
+  all[1].model = TreeModel::proctree;
+  all[2].model = TreeModel::sculpt;
+  return all;
+}
+
+class Aged {
+ public:
+  Aged(const TreeParams& params, double share)
+      : job_(3, Job::Options{}), skeleton_(skeleton_of(params, 3, job_)) {
+    make_young(skeleton_, share, job_);
+  }
+  const Limbs& limbs() const { return skeleton_.limbs; }
+  std::size_t leaves() const { return skeleton_.organs.organ.size(); }
+  const Organs& organs() const { return skeleton_.organs; }
+
+  /// Where the joint of each key is.
+  std::map<std::uint64_t, glm::vec3> joints() const {
+    std::map<std::uint64_t, glm::vec3> places;
+    for (std::size_t i = 0; i < limbs().size(); ++i) places.emplace(limbs().key[i], limbs().position[i]);
+    return places;
+  }
+
+ private:
+  Job job_;
+  Skeleton skeleton_;
+};
+
+float height_of(const Limbs& limbs) {
+  float height = 0;
+  for (const glm::vec3& p : limbs.position) height = std::max(height, p.y);
+  return height;
+}
+
+TEST(Age, LetsNoLimbJumpBetweenNeighbouringAges) {
+  for (const TreeParams& params : one_of_each_model()) {
+    const float height = height_of(Aged(params, 1).limbs());
+    constexpr int steps = 60;
+    std::map<std::uint64_t, glm::vec3> before = Aged(params, 0).joints();
+    float farthest = 0;
+    for (int i = 1; i <= steps; ++i) {
+      const Aged now(params, static_cast<double>(i) / steps);
+      const auto places = now.joints();
+      for (std::size_t k = 0; k < now.limbs().size(); ++k) {
+        const auto was = before.find(now.limbs().key[k]);
+        if (was != before.end()) {
+          farthest = std::max(farthest, glm::distance(was->second, now.limbs().position[k]));
+          continue;
+        }
+        // What was not there begins as small as the step lets it.
+        const glm::vec3 from = now.limbs().position[now.limbs().parent[k]];
+        farthest = std::max(farthest, glm::distance(from, now.limbs().position[k]));
+      }
+      before = places;
+    }
+    // In a tenth of a year of twenty no joint moves by more than a fortieth of the final height.
+    EXPECT_LT(farthest, 0.025F * 200 / steps * height) << "model " << static_cast<int>(params.model);
+    EXPECT_GT(farthest, 0.0F);
+  }
+}
+
+TEST(Age, IsTheWholeTreeInTheEndAndASeedlingAtFirst) {
+  for (const TreeParams& params : one_of_each_model()) {
+    const Skeletons whole(params, 3);
+    const Aged old(params, 1), new_born(params, 0);
+    EXPECT_EQ(whole.limbs().position.size(), old.limbs().size());
+    EXPECT_LT(height_of(new_born.limbs()), 0.02F * height_of(old.limbs()));
+    EXPECT_EQ(new_born.leaves(), 0U);
+  }
+}
+
+TEST(Age, AddsLimbsAndHeightAsYearsGoBy) {
+  for (const TreeParams& params : one_of_each_model()) {
+    std::size_t limbs = 0;
+    float height = 0;
+    for (const double share : {0.1, 0.3, 0.6, 1.0}) {
+      const Aged tree(params, share);
+      EXPECT_GE(tree.limbs().size(), limbs);
+      EXPECT_GT(height_of(tree.limbs()), height);
+      limbs = tree.limbs().size();
+      height = height_of(tree.limbs());
+    }
+  }
+}
+
+TEST(Age, HasLeavesOfFullSizeOnAYoungTree) {
+  TreeParams params;
+  const Aged young(params, 0.4);
+  ASSERT_GT(young.leaves(), 50U);
+  float longest = 0;
+  for (const Organ& leaf : young.organs().organ) longest = std::max(longest, leaf.scale.y);
+  EXPECT_FLOAT_EQ(longest, static_cast<float>(params.LeafScale));
+}
+
+TEST(Age, KeepsChildrenThinnerThanWhatTheyGrowFrom) {
+  const Aged young(TreeParams{}, 0.5);
+  const Limbs& limbs = young.limbs();
+  for (std::size_t i = 1; i < limbs.size(); ++i) {
+    if (limbs.parent[limbs.parent[i]] == Limbs::none) continue;
+    EXPECT_LE(limbs.base_radius[i],
+              1.001F * std::max(limbs.radius[limbs.parent[i]], limbs.base_radius[limbs.parent[i]]));
+  }
+}
+
+}  // namespace
+}  // namespace seedmesh::tree

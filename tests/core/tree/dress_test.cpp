@@ -1,0 +1,216 @@
+#include "core/generators/tree/dress.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "core/generators/tree/tree.h"
+#include "core/geom/finish.h"
+#include "tests/support/mesh_faults.h"
+
+namespace seedmesh::tree {
+namespace {
+
+TreeParams small_tree() {
+  TreeParams params;
+  params.branches_1 = 14;
+  params.branches_2 = 8;
+  params.Leaves = 8;
+  return params;
+}
+
+Model made(const TreeParams& params, const Demand& demand = {}) {
+  Job job(5, Job::Options{});
+  job.set_demand(demand);
+  Result<Model> model = generate(params, job);
+  EXPECT_TRUE(model);
+  finish(*model, job);
+  return std::move(*model);
+}
+
+const Node& node(const Model& model, std::string_view name) {
+  const auto found = std::find_if(model.nodes.begin(), model.nodes.end(),
+                                  [&](const Node& each) { return each.name == name; });
+  EXPECT_NE(found, model.nodes.end()) << name;
+  return *found;
+}
+
+const Mesh& mesh_of(const Model& model, std::string_view name) {
+  return model.meshes[static_cast<std::size_t>(node(model, name).mesh)].primitives.front().mesh;
+}
+
+double area_of(const Mesh& mesh) { return measure({&mesh}).area; }
+
+TEST(Dress, MakesOnePieceOfBarkAndOneOfLeaves) {
+  const Model model = made(small_tree());
+  EXPECT_EQ(model.meshes.size(), 2U);
+  EXPECT_TRUE(faults(model).empty());
+  EXPECT_EQ(measure({&mesh_of(model, "bark")}).open_edges, 0U);
+}
+
+TEST(Dress, WrapsThePictureAWholeNumberOfTimesRoundEachRing) {
+  const Model model = made(small_tree());
+  const Mesh& bark = mesh_of(model, "bark");
+  float most = 0;
+  for (const glm::vec2& uv : bark.uv[0]) most = std::max(most, std::abs(uv.x));
+  EXPECT_LE(most, 3.0F);
+  EXPECT_EQ(model.materials.front().recipe.kind, "oak_bark");
+}
+
+TEST(Dress, GivesLeavesThePictureOfTheirShapeAndEachSeasonAColour) {
+  TreeParams params = small_tree();
+  params.leaf.leaf_shape = TreeLeafShape::maple;
+  params.season = TreeSeason::autumn;
+  const Model model = made(params);
+  EXPECT_EQ(model.variants, (std::vector<std::string>{"spring", "summer", "autumn"}));
+  const auto& primitive = model.meshes.back().primitives.front();
+  ASSERT_EQ(primitive.variant_materials.size(), 3U);
+  EXPECT_EQ(primitive.material, primitive.variant_materials[2]);
+  std::set<std::string> kinds;
+  for (const int material : primitive.variant_materials) {
+    const TextureRecipe& recipe = model.materials[static_cast<std::size_t>(material)].recipe;
+    kinds.insert(recipe.kind);
+    EXPECT_EQ(recipe.color, model.materials.back().recipe.color) << "one picture for all";
+    EXPECT_LE(std::max({recipe.factor.x, recipe.factor.y, recipe.factor.z}), 1.0F);
+  }
+  EXPECT_EQ(kinds, std::set<std::string>{"maple_leaf"});
+  EXPECT_EQ(model.meshes.front().primitives.front().variant_materials.size(), 3U);
+}
+
+TEST(Dress, IsBareInWinterUnlessItIsEvergreen) {
+  TreeParams params = small_tree();
+  params.season = TreeSeason::winter;
+  EXPECT_EQ(made(params).meshes.size(), 1U);
+  params.leaf.evergreen = true;
+  EXPECT_EQ(made(params).meshes.size(), 2U);
+}
+
+TEST(Dress, BuildsSoundLeavesOfEveryShape) {
+  TreeParams params = small_tree();
+  params.branches_1 = 4;
+  params.branches_2 = 3;
+  for (int shape = 0; shape <= static_cast<int>(TreeLeafShape::petal); ++shape) {
+    for (int build = static_cast<int>(TreeBuild::card); build <= static_cast<int>(TreeBuild::bunch);
+         ++build) {
+      params.leaf.leaf_shape = static_cast<TreeLeafShape>(shape);
+      params.leaf.build = static_cast<TreeBuild>(build);
+      for (const std::string& fault : faults(made(params)))
+        ADD_FAILURE() << text_of(params.leaf.leaf_shape) << ' ' << text_of(params.leaf.build) << ": "
+                      << fault;
+    }
+  }
+}
+
+TEST(Dress, KeepsTheAreaOfLeavesInEveryLevelOfDetail) {
+  TreeParams params = small_tree();
+  params.branches_1 = 30;
+  params.branches_2 = 20;
+  params.leaf.coarseness = 4;
+  const Model model = made(params, {.lods = 5});
+  const Node &bark = node(model, "bark"), &leaves = node(model, "leaves");
+  ASSERT_EQ(bark.lods.size(), 4U);
+  ASSERT_EQ(leaves.lods.size(), 4U);
+  const double whole = area_of(mesh_of(model, "leaves"));
+  std::size_t before = mesh_of(model, "bark").elements();
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Mesh& coarser = model.meshes[static_cast<std::size_t>(leaves.lods[i])].primitives.front().mesh;
+    EXPECT_NEAR(area_of(coarser) / whole, 1, 0.12) << "level " << i + 1;
+    const Mesh& wood = model.meshes[static_cast<std::size_t>(bark.lods[i])].primitives.front().mesh;
+    EXPECT_LT(wood.elements(), before);
+    EXPECT_EQ(measure({&wood}).open_edges, 0U);
+    before = wood.elements();
+  }
+}
+
+TEST(Dress, GrowsBarkAndLeavesWithOneSkeletonOfBones) {
+  const Model model = made(small_tree(), {.growth = true});
+  ASSERT_EQ(model.skins.size(), 1U);
+  ASSERT_EQ(model.animations.size(), 1U);
+  EXPECT_TRUE(faults(model).empty());
+  for (const char* name : {"bark", "leaves"}) {
+    const Mesh& mesh = mesh_of(model, name);
+    ASSERT_EQ(mesh.bone.size(), mesh.position.size());
+    EXPECT_EQ(node(model, name).skin, 0);
+    const std::set<std::uint16_t> used(mesh.bone.begin(), mesh.bone.end());
+    EXPECT_GT(used.size(), 10U);
+    EXPECT_LT(*used.rbegin(), model.skins.front().joints.size());
+  }
+}
+
+TEST(Dress, MovesTheRimOfACollarWithTheOlderLimbAlone) {
+  const Model model = made(small_tree(), {.growth = true});
+  const Mesh& bark = mesh_of(model, "bark");
+  std::map<std::tuple<float, float, float>, std::uint16_t> bone;
+  for (std::size_t i = 0; i < bark.position.size(); ++i) {
+    const glm::vec3 p = bark.position[i];
+    const auto [place, is_new] = bone.try_emplace({p.x, p.y, p.z}, bark.bone[i]);
+    EXPECT_EQ(place->second, bark.bone[i]) << "vertices at one place part when the tree grows";
+  }
+}
+
+TEST(Dress, WritesWindWeightsThatDoNotTearTheBark) {
+  const Model model = made(small_tree(), {.wind = true});
+  std::map<std::tuple<float, float, float>, glm::vec2> bend;
+  const Mesh& bark = mesh_of(model, "bark");
+  ASSERT_EQ(bark.uv[2].size(), bark.position.size());
+  float most = 0;
+  for (std::size_t i = 0; i < bark.position.size(); ++i) {
+    const glm::vec3 p = bark.position[i];
+    const auto [place, is_new] = bend.try_emplace({p.x, p.y, p.z}, bark.uv[2][i]);
+    EXPECT_LT(glm::distance(place->second, bark.uv[2][i]), 1e-5F);
+    most = std::max(most, bark.uv[2][i].y);
+    EXPECT_EQ(bark.uv[3][i].y, 0) << "bark does not flutter";
+  }
+  EXPECT_NEAR(most, 1, 0.2);
+  const Mesh& leaves = mesh_of(model, "leaves");
+  float flutter = 0;
+  for (std::size_t i = 0; i < leaves.position.size(); ++i) {
+    for (const float each : {leaves.uv[2][i].x, leaves.uv[2][i].y, leaves.uv[3][i].x, leaves.uv[3][i].y}) {
+      EXPECT_GE(each, 0);
+      EXPECT_LE(each, 1);
+    }
+    flutter = std::max(flutter, leaves.uv[3][i].y);
+  }
+  EXPECT_NEAR(flutter, 1, 0.05);
+}
+
+TEST(Dress, CallsCollisionBodiesAsEachEngineWantsThem) {
+  const std::pair<CollisionNames, const char*> names[] = {
+      {CollisionNames::plain, "collision_01"},
+      {CollisionNames::unreal, "UCX_bark_01"},
+      {CollisionNames::godot, "collision_01-convcolonly"}};
+  for (const auto& [convention, name] : names) {
+    const Model model = made(small_tree(), {.collision = convention});
+    const Mesh& body = mesh_of(model, name);
+    EXPECT_TRUE(faults(body).empty());
+    const MeshMeasures measures = measure({&body});
+    EXPECT_EQ(measures.open_edges, 0U);
+    EXPECT_GT(measures.volume, 0);
+  }
+}
+
+TEST(Dress, LeavesTheRestAsItIsWhereRootsAreSwitchedOn) {
+  TreeParams params = small_tree();
+  const Model without = made(params);
+  params.roots.count = 6;
+  const Model with = made(params);
+  EXPECT_EQ(
+      std::vector(mesh_of(without, "leaves").position.begin(), mesh_of(without, "leaves").position.end()),
+      std::vector(mesh_of(with, "leaves").position.begin(), mesh_of(with, "leaves").position.end()));
+  EXPECT_LT(bounds_of(mesh_of(with, "bark").position.span()).min.y, -0.01F);
+}
+
+TEST(Dress, RefusesALeafPictureThatIsNone) {
+  TreeParams params;
+  params.leaf.images.color = "data:image/png;base64,AAAA";
+  params.bark_images.color = "http://example.org/x.png";
+  const std::vector<Issue> issues = check(params, Limits{});
+  ASSERT_FALSE(issues.empty());
+  EXPECT_EQ(issues.front().pointer, "/bark_images/color");
+}
+
+}  // namespace
+}  // namespace seedmesh::tree
