@@ -195,13 +195,13 @@ void say(std::vector<std::string>& out, std::uint64_t count, const char* what) {
   if (count) out.push_back(std::to_string(count) + " " + what);
 }
 
-std::vector<std::string> faults_of(const MeshMeasures& m, bool is_double_sided) {
+std::vector<std::string> faults_of(const MeshMeasures& m) {
   std::vector<std::string> out;
   say(out, m.bad_indices, "indices beyond the vertices");
   say(out, m.not_finite, "numbers that are not finite");
   say(out, m.negative_zeros, "negative zeros");
   say(out, m.zero_area, "triangles without area");
-  say(out, is_double_sided ? 0 : m.flipped_corners, "corners turned against their triangle");
+  say(out, m.flipped_corners, "corners turned against their triangle");
   say(out, m.not_unit, "normals that are not of unit length");
   say(out, m.unused, "unused vertices");
   say(out, m.duplicates * 1000 > m.vertices ? m.duplicates : 0, "duplicate vertices");
@@ -249,28 +249,35 @@ MeshMeasures measure(const std::vector<const Mesh*>& primitives) {
   return m;
 }
 
-std::vector<std::string> faults(const Mesh& mesh) { return faults_of(measure({&mesh}), false); }
+std::vector<std::string> faults(const Mesh& mesh) { return faults_of(measure({&mesh})); }
 
 std::vector<std::string> faults(const Model& model) {
   std::vector<std::string> out;
   check_nodes(model, out);
   for (const MeshGroup& group : model.meshes) {
     std::vector<const Mesh*> primitives;
-    bool is_double_sided = true;
+    std::vector<const Mesh*> double_sided;  ///< which have no inside that a corner could be turned to
     std::uint64_t wide = 0;
     for (const Primitive& primitive : group.primitives) {
       primitives.push_back(&primitive.mesh);
       if (primitive.material != -1 && !holds(model.materials, primitive.material)) {
         out.push_back(group.name + ": a primitive names a material that is not there");
       }
-      is_double_sided = is_double_sided && holds(model.materials, primitive.material) &&
-                        model.materials[static_cast<std::size_t>(primitive.material)].double_sided;
+      if (holds(model.materials, primitive.material) &&
+          model.materials[static_cast<std::size_t>(primitive.material)].double_sided)
+        double_sided.push_back(&primitive.mesh);
       if (primitive.mesh.position.empty()) out.push_back(group.name + ": an empty primitive");
       if (!primitive.mesh.index.wide.empty() && primitive.mesh.position.size() <= 65'535) ++wide;
     }
     say(out, wide, "primitives with indices wider than need be");
-    for (const std::string& fault : faults_of(measure(primitives), is_double_sided))
-      out.push_back(group.name + ": " + fault);
+    MeshMeasures measures = measure(primitives);
+    MeshMeasures forgiven;
+    for (const Mesh* mesh : double_sided) {
+      if (measures.bad_indices == 0 && mesh->topology == Topology::triangles)
+        measure_triangles(*mesh, forgiven);
+    }
+    measures.flipped_corners -= std::min(measures.flipped_corners, forgiven.flipped_corners);
+    for (const std::string& fault : faults_of(measures)) out.push_back(group.name + ": " + fault);
   }
   return out;
 }

@@ -109,9 +109,8 @@ struct Batch {
 
 class Assembly {
  public:
-  Assembly(const SceneParams& params, const Ground& ground, const Planting& planting, const Casting& casting,
-           Job& job)
-      : params_(params), ground_(ground), planting_(planting), casting_(casting), job_(job) {
+  Assembly(const SceneParams& params, const Plan& plan, Job& job)
+      : params_(params), ground_(plan.ground), planting_(plan.planting), casting_(plan.casting), job_(job) {
     model_.name = "scene";
     Node root;
     root.name = "scene";
@@ -119,7 +118,7 @@ class Assembly {
   }
 
   Model assemble(Pieces pieces) {
-    for (std::size_t i = 0; i < pieces.models.size(); ++i) cast_warnings(pieces.models[i]);
+    for (Model& made : pieces.models) cast_warnings(made);
     append(model_, std::move(pieces.ground), 0, {});
     groups_.resize(pieces.models.size());
     std::size_t layer = 0;
@@ -179,8 +178,7 @@ class Assembly {
       if (use->texture >= 0)
         use->texture = add_texture(made.textures[static_cast<std::size_t>(use->texture)]);
     }
-    for (std::size_t i = 0; i < owned_.size(); ++i) {
-      const auto [index, owner] = owned_[i];
+    for (const auto& [index, owner] : owned_) {
       const Seeds seeds = owner == layer ? Seeds::may_differ : Seeds::must_agree;
       if (is_same(model_.materials[static_cast<std::size_t>(index)], material, seeds)) return index;
     }
@@ -280,9 +278,8 @@ class Assembly {
 
 }  // namespace
 
-Model assembled(const SceneParams& params, const Ground& ground, const Planting& planting,
-                const Casting& casting, Pieces pieces, Job& job) {
-  return Assembly(params, ground, planting, casting, job).assemble(std::move(pieces));
+Model assembled(const SceneParams& params, const Plan& plan, Pieces pieces, Job& job) {
+  return Assembly(params, plan, job).assemble(std::move(pieces));
 }
 
 }  // namespace seedmesh::scene

@@ -5,6 +5,13 @@
 
 namespace seedmesh::scene {
 
+/// Everything that was found out before models were made. Does not own it.
+struct Plan {
+  const Ground& ground;
+  const Planting& planting;
+  const Casting& casting;
+};
+
 struct Pieces {
   Model ground;
   std::vector<Model> models;  ///< by Casting::casts
@@ -13,7 +20,6 @@ struct Pieces {
 /// Nodes: "scene" - ground; "scene" - layer - model, with its copies in groups by area. Materials that differ
 /// in nothing but the seed of their texture are one within a layer, and equal ones everywhere. Extras tell of
 /// each layer how many stand and of how many models.
-Model assembled(const SceneParams& params, const Ground& ground, const Planting& planting,
-                const Casting& casting, Pieces pieces, Job& job);
+Model assembled(const SceneParams& params, const Plan& plan, Pieces pieces, Job& job);
 
 }  // namespace seedmesh::scene

@@ -51,6 +51,8 @@ class Checker {
     const Json parameters = Json::parse(terrain.parameters);
     if (parameters.value("shape", "plane") != "plane")
       add("/terrain/parameters/shape", "found a sphere; the ground of a scene is a plane");
+    if (parameters.contains("onto"))
+      add("/terrain/parameters/onto", "the ground of a scene is laid on no model");
   }
 
   /// A scene nowhere inside of the request, however deep.

@@ -200,9 +200,9 @@ class Planter {
           most - tried, std::max({static_cast<std::size_t>(math::to_int64(likely)), missing, least_batch}));
       Array<Stand> stands =
           place.method == SceneMethod::scatter
-              ? scattered(part, tried, batch, rng, job_)
+              ? scattered(part, {tried, batch}, rng, job_)
               : clustered(part, {static_cast<std::size_t>(place.clusters->count), place.clusters->radius},
-                          tried, batch, rng, job_);
+                          {tried, batch}, rng, job_);
       tried += batch;
       sift(stands, layer, rules);
       all.append(stands.span().subspan(0, std::min(missing, stands.size())));

@@ -45,7 +45,7 @@ Result<Model> generate(const SceneParams& params, Job& job) {
   Result<Model> made = ground->model(params, job);
   if (!made) return made;
   pieces.ground = std::move(*made);
-  return assembled(params, *ground, planting, casting, std::move(pieces), job);
+  return assembled(params, {*ground, planting, casting}, std::move(pieces), job);
 }
 
 Result<Json> derive(const SceneParams& params, Job& job) {

@@ -26,15 +26,15 @@ void refuse_more_than(double most, const Job& job) {
   }
 }
 
-/// `count` stands of a series, each from its own stream by `place`.
+/// Stands of a series, each from its own stream by `place`.
 template <class Place>
-Array<Stand> series(std::uint64_t first, std::size_t count, Rng rng, const Job& job, const Place& place) {
-  refuse_more_than(static_cast<double>(count), job);
-  Array<Stand> stands(job, count, Stand{});
-  parallel_for(job, count, stands_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+Array<Stand> series(Stretch stretch, Rng rng, const Job& job, const Place& place) {
+  refuse_more_than(static_cast<double>(stretch.count), job);
+  Array<Stand> stands(job, stretch.count, Stand{});
+  parallel_for(job, stretch.count, stands_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     job.check();
     for (std::size_t i = begin; i < end; ++i) {
-      Rng own = rng.at(first + i);
+      Rng own = rng.at(stretch.first + i);
       stands[i].key = own.key();
       stands[i].at = place(own);
     }
@@ -49,18 +49,18 @@ glm::dvec2 drawn_place(const Extent& part, Rng& rng) {
 
 }  // namespace
 
-Array<Stand> scattered(const Extent& part, std::uint64_t first, std::size_t count, Rng rng, const Job& job) {
-  return series(first, count, rng, job, [&](Rng& own) { return drawn_place(part, own); });
+Array<Stand> scattered(const Extent& part, Stretch stretch, Rng rng, const Job& job) {
+  return series(stretch, rng, job, [&](Rng& own) { return drawn_place(part, own); });
 }
 
-Array<Stand> clustered(const Extent& part, const ClusterPlan& plan, std::uint64_t first, std::size_t count,
-                       Rng rng, const Job& job) {
+Array<Stand> clustered(const Extent& part, const ClusterPlan& plan, Stretch stretch, Rng rng,
+                       const Job& job) {
   std::vector<glm::dvec2> middles;
   for (std::size_t i = 0; i < plan.clusters; ++i) {
     Rng own = rng.at("middle").at(i);
     middles.push_back(drawn_place(part, own));
   }
-  return series(first, count, rng, job, [&](Rng& own) {
+  return series(stretch, rng, job, [&](Rng& own) {
     const glm::dvec2 middle = middles[own.below(static_cast<std::uint32_t>(middles.size()))];
     const double x = normal(own, 0, plan.radius);
     return middle + glm::dvec2(x, normal(own, 0, plan.radius));

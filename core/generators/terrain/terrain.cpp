@@ -256,6 +256,13 @@ std::optional<Error> refusal(const TerrainParams& params, const Limits& limits) 
   return Error{Code::invalid, std::move(issues)};
 }
 
+Error no_rtin_of(const Field& field) {
+  return Error{Code::invalid,
+               {{"/mesh", "rtin wants a square of 2^n + 1 samples a side and this image has " +
+                              std::to_string(field.width) + " x " + std::to_string(field.depth) +
+                              "; resample it, or use greedy"}}};
+}
+
 double mean_of(const Array<float>& heights) {
   double sum = 0;
   for (const float height : heights) sum += static_cast<double>(height);
@@ -275,17 +282,15 @@ Result<Model> generate(const TerrainParams& params, Job& job) {
   const Result<Field> field = field_of(params, job);
   if (!field) return field.error();
   if (params.onto) return clad_model(params, *field, job);
-  return dressed(params, *field, job);
+  if (params.mesh == TerrainMesh::rtin && !fits_rtin(field->width, field->depth)) {
+    return no_rtin_of(*field);
+  }
+  job.progress("mesh", 0);
+  return Dressing(params, *field, job).dress();
 }
 
 Result<Model> dressed(const TerrainParams& params, const Field& field, Job& job) {
-  if (params.mesh == TerrainMesh::rtin && !fits_rtin(field.width, field.depth)) {
-    return Error{Code::invalid,
-                 {{"/mesh", "rtin wants a square of 2^n + 1 samples a side and this image has " +
-                                std::to_string(field.width) + " x " + std::to_string(field.depth) +
-                                "; resample it, or use greedy"}}};
-  }
-  job.progress("mesh", 0);
+  if (params.mesh == TerrainMesh::rtin && !fits_rtin(field.width, field.depth)) return no_rtin_of(field);
   return Dressing(params, field, job).dress();
 }
 

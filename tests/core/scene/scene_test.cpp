@@ -299,7 +299,7 @@ TEST(Scene, GivesAListWithTheFilesOfItsModels) {
   ASSERT_EQ(list["placements"].size(), answer["placements"].size());
   for (std::size_t i = 0; i < answer["placements"].size(); ++i) {
     EXPECT_EQ(list["placements"][i]["model"], answer["placements"][i]["model"]);
-    for (int k = 0; k < 4; ++k) {
+    for (std::size_t k = 0; k < 4; ++k) {
       EXPECT_FLOAT_EQ(list["placements"][i]["rotation"][k].get<float>(),
                       answer["placements"][i]["rotation"][k].get<float>());
     }

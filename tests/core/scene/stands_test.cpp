@@ -111,14 +111,14 @@ TEST(PoissonDisk, RefusesMorePlacesThanTheLimitBeforeItMakesAny) {
 }
 
 TEST(Scatter, ContinuesItsSeries) {
-  const Array<Stand> all = scattered(square(10), 0, 100, Rng(1), any_job());
-  const Array<Stand> later = scattered(square(10), 60, 40, Rng(1), any_job(4));
+  const Array<Stand> all = scattered(square(10), {0, 100}, Rng(1), any_job());
+  const Array<Stand> later = scattered(square(10), {60, 40}, Rng(1), any_job(4));
   for (std::size_t i = 0; i < later.size(); ++i) EXPECT_EQ(all[60 + i].at, later[i].at);
 }
 
 TEST(Clusters, AreDenserThanChance) {
   const Extent ground = square(100);
-  const Array<Stand> stands = clustered(ground, {8, 3}, 0, 2000, Rng(2), any_job());
+  const Array<Stand> stands = clustered(ground, {8, 3}, {0, 2000}, Rng(2), any_job());
   // Mean distance to the nearest other one: of 2,000 places by chance 0.5 / sqrt(density) = 1.12 m.
   Neighbours places(ground, 2, any_job());
   for (std::size_t i = 0; i < stands.size(); ++i) places.add(stands[i].at, static_cast<std::uint32_t>(i));
