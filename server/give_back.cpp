@@ -3,15 +3,18 @@
 #include <malloc.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <fstream>
+#include <utility>
 
 namespace seedmesh {
 namespace {
 
 constexpr std::chrono::seconds pause{1};
 constexpr std::int64_t worth = 8 << 20;  ///< bytes of growth
+constexpr int longest_wait = 10;         ///< looks, where requests never pause
 
 std::int64_t resident() {
   std::int64_t whole = 0, pages = 0;
@@ -27,7 +30,8 @@ void trim() {
 
 }  // namespace
 
-GiveBack::GiveBack() : thread_([this] { look(); }) {}
+GiveBack::GiveBack(std::function<Activity()> activity)
+    : activity_(std::move(activity)), thread_([this] { look(); }) {}
 
 GiveBack::~GiveBack() {
   {
@@ -40,17 +44,24 @@ GiveBack::~GiveBack() {
 
 void GiveBack::look() {
   std::unique_lock lock(mutex_);
-  std::int64_t least = resident();
+  std::int64_t after = resident(), least = after;  // after the last time, and ever
+  std::uint64_t answered = 0;
+  int waited = 0;
   while (!ending_changed_.wait_for(lock, pause, [this] { return ending_; })) {
     const std::int64_t now = resident();
-    if (now < least + worth) {
-      if (now < least) least = now;
-      continue;
-    }
+    const Activity activity = activity_();
+    least = std::min(least, now);
+    ++waited;
+    const bool grown = now >= after + worth;
+    const bool rested = activity.answered != answered && now >= least + worth &&
+                        (activity.in_flight == 0 || waited >= longest_wait);
+    if (!grown && !rested) continue;
     lock.unlock();
     trim();
-    least = resident();
     lock.lock();
+    after = resident();
+    answered = activity.answered;
+    waited = 0;
   }
 }
 
