@@ -32,10 +32,10 @@ async function good_client(server, ended) {
 
 const resident = (server) => server.metric('process_resident_memory_bytes');
 
-/** The least that is seen within eight seconds, or what is `enough`: what the process needs, not what it was about to give back. */
+/** The least that is seen within twelve seconds, or what is `enough`: what the process needs, not what it was about to give back. */
 async function settled(server, enough = 0) {
   let least = Infinity;
-  for (let i = 0; i < 32 && least > enough; ++i) {
+  for (let i = 0; i < 48 && least > enough; ++i) {
     least = Math.min(least, await resident(server));
     await sleep(250);
   }
