@@ -136,7 +136,8 @@ async function random_requests() {
   judge(!statuses.has(500), 'no request is answered 500');
   judge(![...statuses.keys()].some((key) => ['ECONNREFUSED', 'ECONNRESET', 'EPIPE'].includes(key)), 'no accepted request is lost');
   judge(open === 0 && longest < 30_000 && busy === 0, 'nothing hangs, which would be six times the time limit');
-  judge(ratio < 1.25, `memory does not grow (${ratio.toFixed(2)})`);
+  // In less than a minute caches are still being filled.
+  judge(ratio < (seconds >= 60 ? 1.25 : 2), `memory does not grow (${ratio.toFixed(2)})`);
   judge(files < 40, 'no descriptor is left open');
   if (server.stderr) console.log(server.stderr.slice(-3000));
 }
