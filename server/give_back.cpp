@@ -3,15 +3,19 @@
 #include <malloc.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
+#include <utility>
 
 namespace seedmesh {
 namespace {
 
 constexpr std::chrono::seconds pause{1};
 constexpr std::int64_t worth = 8 << 20;  ///< bytes of growth
+constexpr int longest_wait = 10;         ///< looks, where requests never pause
 
 std::int64_t resident() {
   std::int64_t whole = 0, pages = 0;
@@ -27,7 +31,19 @@ void trim() {
 
 }  // namespace
 
-GiveBack::GiveBack() : thread_([this] { look(); }) {}
+void keep_little_memory(int workers) {
+#ifdef __GLIBC__
+  const auto unless_set = [](const char* variable, int parameter, int value) {
+    if (!std::getenv(variable)) ::mallopt(parameter, value);
+  };
+  unless_set("MALLOC_ARENA_MAX", M_ARENA_MAX, std::max(4, 2 * workers));
+  unless_set("MALLOC_MMAP_THRESHOLD_", M_MMAP_THRESHOLD, 1 << 20);
+  unless_set("MALLOC_TRIM_THRESHOLD_", M_TRIM_THRESHOLD, 1 << 20);
+#endif
+}
+
+GiveBack::GiveBack(std::function<Activity()> activity)
+    : activity_(std::move(activity)), thread_([this] { look(); }) {}
 
 GiveBack::~GiveBack() {
   {
@@ -40,17 +56,24 @@ GiveBack::~GiveBack() {
 
 void GiveBack::look() {
   std::unique_lock lock(mutex_);
-  std::int64_t least = resident();
+  std::int64_t after = resident(), least = after;  // after the last time, and ever
+  std::uint64_t answered = 0;
+  int waited = 0;
   while (!ending_changed_.wait_for(lock, pause, [this] { return ending_; })) {
     const std::int64_t now = resident();
-    if (now < least + worth) {
-      if (now < least) least = now;
-      continue;
-    }
+    const Activity activity = activity_();
+    least = std::min(least, now);
+    ++waited;
+    const bool grown = now >= after + worth;
+    const bool rested = activity.answered != answered && now >= least + worth &&
+                        (activity.in_flight == 0 || waited >= longest_wait);
+    if (!grown && !rested) continue;
     lock.unlock();
     trim();
-    least = resident();
     lock.lock();
+    after = resident();
+    answered = activity.answered;
+    waited = 0;
   }
 }
 

@@ -85,6 +85,7 @@ http::Response fail(const Service& service, const http::Request& request, const 
 void record(Service& service, const http::Exchange& exchange) {
   const http::Request& request = exchange.request;
   const http::Response& response = exchange.response;
+  ++service.answered;
   service.metrics.answered(response.route, response.status, exchange.seconds, exchange.sent);
   const auto level = response.status == 500   ? Log::Level::error
                      : is_probe(request.path) ? Log::Level::debug
@@ -114,6 +115,7 @@ std::string url_of(const Config& config, int port) {
 }  // namespace
 
 int serve(const Config& config, const std::vector<std::string>& warnings) {
+  keep_little_memory(config.threads);
   ::signal(SIGPIPE, SIG_IGN);
   sigset_t ending;
   ::sigemptyset(&ending);
@@ -147,7 +149,9 @@ int serve(const Config& config, const std::vector<std::string>& warnings) {
              {"engine", engine_version()},
              {"threads", config.threads}});
 
-  const GiveBack give_back;
+  const GiveBack give_back([&] {
+    return GiveBack::Activity{service.answered.load(), service.in_flight.load()};
+  });
   std::thread listening([&] { listener.run(); });
   int signal = 0;
   ::sigwait(&ending, &signal);

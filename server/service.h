@@ -87,6 +87,7 @@ struct Service {
   FixedTexts texts;
   const Pages pages;
   std::atomic<std::int64_t> in_flight{0};
+  std::atomic<std::uint64_t> answered{0};
   std::atomic<bool> draining{false};
 };
 

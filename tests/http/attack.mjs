@@ -32,10 +32,10 @@ async function good_client(server, ended) {
 
 const resident = (server) => server.metric('process_resident_memory_bytes');
 
-/** The least that is seen within eight seconds, or what is `enough`: what the process needs, not what it was about to give back. */
+/** The least that is seen within twelve seconds, or what is `enough`: what the process needs, not what it was about to give back. */
 async function settled(server, enough = 0) {
   let least = Infinity;
-  for (let i = 0; i < 32 && least > enough; ++i) {
+  for (let i = 0; i < 48 && least > enough; ++i) {
     least = Math.min(least, await resident(server));
     await sleep(250);
   }
@@ -52,17 +52,17 @@ for (const each of presets.slice(0, 40)) await server.get(`/v1/presets/${each.na
 const made = await server.get(`/v1/presets/${preset}.glb`, own);
 const permalink = made.headers['content-location'].split('?')[0];
 
-const calm = await good_client(server, sleep(2000));
-const calm_95 = quantile(calm.times, 0.95);
-// On a machine that is busy with other things, three times its own calm counts.
-const allowed = Math.max(most_milliseconds, 3 * calm_95);
 const start = await settled(server);
-console.log(`calm: good client median ${quantile(calm.times, 0.5).toFixed(1)} ms, 95 % below ${calm_95.toFixed(1)} ms; ${(start / 1e6).toFixed(0)} MB resident`);
-if (allowed > most_milliseconds) console.log(`this machine is busy: ${allowed.toFixed(0)} ms are allowed instead of ${most_milliseconds} ms`);
+console.log(`at the start ${(start / 1e6).toFixed(0)} MB are resident`);
 
 const verdicts = [];
 const names = JSON.parse(execFileSync(process.execPath, [attackers, '--list'])).filter((name) => (only ? name.includes(only) : name !== guessing));
 for (const name of names) {
+  const { times: calm } = await good_client(server, sleep(1000));
+  // On a machine that is so busy with other things that it cannot answer without an attack either, the median counts, and may be
+  // three times what it has just been.
+  const busy = quantile(calm, 0.95) > most_milliseconds / 2;
+  const allowed = busy ? Math.max(most_milliseconds, 3 * quantile(calm, 0.5)) : most_milliseconds;
   const child = spawn(process.execPath, [attackers, name, String(server.port), String(seconds), preset, permalink], { stdio: ['ignore', 'pipe', 'inherit'] });
   let out = '';
   child.stdout.on('data', (bytes) => { out += bytes; });
@@ -73,11 +73,11 @@ for (const name of names) {
   const { times, statuses } = await good_client(server, ended);
   clearInterval(watching);
   const after = await settled(server, most_growth * start);
-  const late = quantile(times, 0.95), bad = [...statuses].filter(([status]) => status !== 200);
+  const late = quantile(times, busy ? 0.5 : 0.95), bad = [...statuses].filter(([status]) => status !== 200);
   const growth = after / start, got = out ? JSON.parse(out) : { connections: 0, sent: 0, statuses: {} };
   const sound = out && late <= allowed && bad.length === 0 && growth <= most_growth;
   verdicts.push(sound);
-  console.log(`${sound ? 'ok    ' : 'BROKEN'} ${name}: good client median ${quantile(times, 0.5).toFixed(1)} ms, 95 % ${late.toFixed(1)} ms, worst ${Math.max(...times).toFixed(0)} ms, ${times.length} asked` +
+  console.log(`${sound ? 'ok    ' : 'BROKEN'} ${name}: good client median ${quantile(times, 0.5).toFixed(1)} ms, 95 % ${quantile(times, 0.95).toFixed(1)} ms, worst ${Math.max(...times).toFixed(0)} ms, ${times.length} asked ${busy ? ` (busy machine: median judged, ${allowed.toFixed(0)} ms allowed; calm median ${quantile(calm, 0.5).toFixed(1)}, 95 % ${quantile(calm, 0.95).toFixed(1)})` : ''}` +
     `${bad.length ? `, ${bad.map(([status, count]) => `${count} x ${status}`).join(', ')}` : ''}; memory at most ${(peak / 1e6).toFixed(0)} MB, then ${growth.toFixed(2)} of the start;` +
     ` attackers: ${got.connections} connections, ${(got.sent / 1e6).toFixed(1)} MB, answers ${JSON.stringify(got.statuses)}`);
 }

@@ -1,12 +1,13 @@
 #!/usr/bin/env node
-// Three replicas behind HAProxy and behind nginx, with the configuration that deploy/ ships: one is killed, all are restarted one by one,
+// Three replicas behind HAProxy, nginx and Varnish, with the configuration that deploy/ ships: one is killed, all are restarted one by one,
 // under load; and a Redis that dies while they share it.
-//   cluster.mjs [seconds of each load]
+//   cluster.mjs [seconds of each load] [haproxy, nginx or varnish alone]
 import { execFileSync, spawn } from 'node:child_process';
 import fs from 'node:fs';
 import http from 'node:http';
 import os from 'node:os';
 import path from 'node:path';
+import zlib from 'node:zlib';
 import { ask, program, rehearsal, serve, sleep, until } from './support.mjs';
 
 const seconds = Number(process.argv[2] ?? 6);
@@ -42,6 +43,7 @@ function adapted(name, replicas, changes) {
   return file;
 }
 
+const only = process.argv[3];
 const balancers = {
   haproxy: (replicas) => start('haproxy', ['-db', '-f', adapted('haproxy/haproxy.cfg', replicas, [
     ['bind :8000', `bind 127.0.0.1:${front}`],
@@ -59,6 +61,14 @@ const balancers = {
       ['  access_log off;', `  access_log off; client_body_temp_path ${folder}/body; proxy_temp_path ${folder}/proxy; fastcgi_temp_path ${folder}/f; uwsgi_temp_path ${folder}/u; scgi_temp_path ${folder}/s;`]])]);
   },
 };
+
+/** A replica that ends with us at the latest. */
+async function replica_of(file, its_flags) {
+  const server = await serve(file, its_flags);
+  children.add(server.child);
+  server.ended.then(() => children.delete(server.child));
+  return server;
+}
 
 const flags = (port) => ['--port', String(port), '--threads', '2', '--queue', '64', '--drain-delay', '1.5', '--log-level', 'error'];
 const through = { port: front };
@@ -106,7 +116,7 @@ async function with_balancer(name) {
   const ports = [];
   let replicas = [];
   for (let i = 0; i < 3; ++i) {
-    const replica = await serve(rehearsal, flags(0).slice(2));
+    const replica = await replica_of(rehearsal, flags(0).slice(2));
     ports.push(replica.port);
     replicas.push(replica);
   }
@@ -129,16 +139,16 @@ async function with_balancer(name) {
   const second = await map_of_urls();
   const dead = first.filter((each, i) => second[i] !== each), gone = new Set(dead);
   judge(gone.size === 1 && !second.includes([...gone][0]) && dead.length === first.filter((each) => each === dead[0]).length, `${name}: exactly the ${dead.length} URLs of the dead one have moved`);
-  replicas[0] = await serve(rehearsal, flags(ports[0]));
-  await sleep(name === 'nginx' ? 6000 : 2500);  // until it is asked again
+  replicas[0] = await replica_of(rehearsal, flags(ports[0]));
+  await sleep(3000);  // until it is asked again
   judge((await map_of_urls()).every((each, i) => each === first[i]), `${name}: back again, it has its own URLs`);
 
   const rolling = await under_load(async () => {
     for (let i = 0; i < 3; ++i) {
       const { status } = await replicas[i].stop();
       if (status !== 0) judge(false, `${name}: a replica ends with ${status}`);
-      replicas[i] = await serve(rehearsal, flags(ports[i]));
-      await sleep(name === 'nginx' ? 1000 : 2000);
+      replicas[i] = await replica_of(rehearsal, flags(ports[i]));
+      await sleep(2500);
     }
     await sleep(seconds * 200);
   });
@@ -147,19 +157,52 @@ async function with_balancer(name) {
   if (name === 'nginx') {
     const models = async () => (await Promise.all(replicas.map((each) => each.metric('seedmesh_models_total')))).reduce((a, b) => a + b, 0);
     const before = await models();
-    const same = await Promise.all(Array.from({ length: 50 }, () => ask(through, 'GET', target(777_777, 300))));
-    judge(same.every((answer) => answer.status === 200) && (await models()) === before + 1, `nginx: 50 equal requests at once are made ${(await models()) - before} time(s)`);
-    const again = await ask(through, 'GET', target(777_777, 300), { headers: { 'if-none-match': same[0].headers.etag } });
-    judge(again.status === 304, 'nginx: a client that has the model is told so');
+    const { engine } = (await replicas[0].get('/version')).json;
+    const token = zlib.deflateRawSync(JSON.stringify({ engine, generator: 'rehearsal', parameters: { bytes: 2000, milliseconds: 300 }, seed: 777_777 })).toString('base64url');
+    const link = `/v1/models/${token}.glb`;
+    const same = await Promise.all(Array.from({ length: 50 }, () => ask(through, 'GET', link)));
+    const made = (await models()) - before;
+    judge(same.every((answer) => answer.status === 200) && made === 1, `nginx: 50 equal requests at once are made ${made} time(s) (${[...new Set(same.map((answer) => `${answer.status} ${answer.headers['x-cache']}`))]})`);
+    judge((await ask(through, 'GET', link)).headers['x-cache'] === 'HIT', 'nginx: what it has it does not ask for again');
+    const again = await ask(through, 'GET', link, { headers: { 'if-none-match': same[0].headers.etag } });
+    judge(again.status === 304, `nginx: a client that has the model is told so (${again.status})`);
   }
   child.kill('SIGTERM');
   await child.gone;
   for (const replica of replicas) await replica.stop();
 }
 
+async function with_varnish() {
+  if (!there('varnishd')) { console.log('varnish is not installed: ./dev setup cluster'); verdicts.push(false); return; }
+  const replicas = [];
+  for (let i = 0; i < 3; ++i) replicas.push(await replica_of(rehearsal, flags(0).slice(2)));
+  const vcl = adapted('varnish/default.vcl', [], replicas.map((each, i) => [`.host = "seedmesh-${i + 1}"; .port = "8080";`, `.host = "127.0.0.1"; .port = "${each.port}";`]));
+  const child = start('varnishd', ['-F', '-a', `127.0.0.1:${front}`, '-f', vcl, '-n', path.join(folder, 'varnish'), '-s', 'malloc,64m', '-T', 'none']);
+  await until(async () => (await ask(through, 'GET', target(1)).catch(() => ({}))).status === 200);
+  const models = async () => (await Promise.all(replicas.map((each) => each.metric('seedmesh_models_total')))).reduce((a, b) => a + b, 0);
+  const before = await models();
+  const { engine } = (await replicas[0].get('/version')).json;
+  const link = `/v1/models/${zlib.deflateRawSync(JSON.stringify({ engine, generator: 'rehearsal', parameters: { bytes: 2000, milliseconds: 300 }, seed: 888_888 })).toString('base64url')}.glb`;
+  const same = await Promise.all(Array.from({ length: 50 }, () => ask(through, 'GET', link)));
+  const made = (await models()) - before;
+  judge(same.every((answer) => answer.status === 200) && made === 1, `varnish: 50 equal requests at once are made ${made} time(s)`);
+  const again = await ask(through, 'GET', link, { headers: { 'if-none-match': same[0].headers.etag } });
+  judge(again.status === 304 && (await ask(through, 'GET', link)).headers['x-cache'] === 'HIT', 'varnish: what it has it does not ask for again, and who has it is told so');
+  const posted = await ask(through, 'POST', '/v1/generate', { body: { generator: 'rehearsal', seed: 5 } });
+  judge(posted.status === 200 && (await ask(through, 'GET', '/metrics')).status === 404, 'varnish: what is posted passes, metrics do not');
+  replicas[0].child.kill('SIGKILL');
+  await sleep(2500);  // three probes
+  let failed = 0;
+  for (let seed = 0; seed < 60; ++seed) if ((await ask(through, 'GET', target(seed, 0))).status !== 200) ++failed;
+  judge(failed === 0, `varnish: with one of three dead ${failed} of 60 requests fail`);
+  child.kill('SIGTERM');
+  await child.gone;
+  for (const replica of replicas.slice(1)) await replica.stop();
+}
+
 async function same_bytes_everywhere() {
   const replicas = [];
-  for (const threads of ['1', '2', '4']) replicas.push(await serve(program, ['--threads', threads, '--log-level', 'error']));
+  for (const threads of ['1', '2', '4']) replicas.push(await replica_of(program, ['--threads', threads, '--log-level', 'error']));
   const names = (await replicas[0].get('/v1/presets')).json.presets.map((each) => each.name).filter((_, i) => i % 15 === 0);
   let links = 0, unequal = 0;
   for (const name of names) {
@@ -181,7 +224,7 @@ async function shared_cache() {
   const redis = start('redis-server', ['--port', '0', '--unixsocket', socket, '--save', '', '--appendonly', 'no', '--maxmemory', '64mb', '--maxmemory-policy', 'allkeys-lru', '--dir', folder]);
   await until(() => fs.existsSync(socket));
   const replicas = [];
-  for (let i = 0; i < 2; ++i) replicas.push(await serve(rehearsal, ['--threads', '2', '--redis-url', `unix://${socket}`, '--log-level', 'error']));
+  for (let i = 0; i < 2; ++i) replicas.push(await replica_of(rehearsal, ['--threads', '2', '--redis-url', `unix://${socket}`, '--log-level', 'error']));
   for (const replica of replicas) await until(async () => (await replica.metric('seedmesh_shared_cache_connections')) === 4);
   for (let seed = 0; seed < 200; ++seed) await replicas[0].get(target(seed, 0));
   await until(async () => (await replicas[0].metric('seedmesh_shared_cache_writes_total')) === 200);
@@ -205,8 +248,11 @@ async function shared_cache() {
 
 try {
   await same_bytes_everywhere();
-  for (const name of Object.keys(balancers)) await with_balancer(name);
+  for (const name of Object.keys(balancers)) if (!only || only === name) await with_balancer(name);
+  if (!only || only === 'varnish') await with_varnish();
   await shared_cache();
+} catch (error) {
+  judge(false, `nothing unforeseen: ${error.stack}`);
 } finally {
   for (const child of children) child.kill('SIGKILL');
   if (verdicts.every(Boolean)) fs.rmSync(folder, { recursive: true, force: true }); else console.log(`logs are in ${folder}`);

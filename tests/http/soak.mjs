@@ -2,6 +2,7 @@
 // Overload, then a long time of random requests: valid ones from the presets with drawn values, the same with something spoilt, and
 // hostile ones. No crash, no hang, no growth, no 500.
 //   soak.mjs [seconds of random requests] [seconds of overload] [seed]
+import os from 'node:os';
 import { ask, program, raw, rehearsal, serve, sleep } from './support.mjs';
 
 const seconds = Number(process.argv[2] ?? 30), overload_seconds = Number(process.argv[3] ?? 10);
@@ -17,7 +18,7 @@ const judge = (sound, sentence) => { verdicts.push(sound); console.log(`${sound 
 
 async function overload() {
   const work = 40, threads = 2, queue = 8, capacity = threads / (work / 1000);
-  const server = await serve(rehearsal, ['--threads', String(threads), '--queue', String(queue), '--cache-bytes', '0', '--log-level', 'error']);
+  const server = await serve(rehearsal, ['--threads', String(threads), '--queue', String(queue), '--connections', '4096', '--cache-bytes', '0', '--log-level', 'error']);
   const one = async (number) => {
     const begun = performance.now();
     const answer = await ask(server, 'POST', '/v1/generate', { body: { generator: 'rehearsal', seed: number, parameters: { milliseconds: work, bytes: 20_000 } } }).catch((error) => ({ status: error.code, headers: {} }));
@@ -25,6 +26,9 @@ async function overload() {
   };
   const calm = [];
   for (let i = 0; i < 10; ++i) calm.push((await one(i)).milliseconds);
+  // Others that want this machine's cores take their share of the time.
+  const busy = Math.max(1, os.loadavg()[0] / os.cpus().length), at_once = 100 * busy, soon = 50 * busy;
+  if (busy > 1.5) console.log(`this machine has ${busy.toFixed(1)} times as much to do as cores to do it: times are judged by that`);
   const before = await server.metric('process_resident_memory_bytes');
   const pending = [], health = [];
   const begun = performance.now(), every = 1000 / (10 * capacity);
@@ -50,8 +54,8 @@ async function overload() {
   judge(accepted.length + refused.length === answers.length, `every request is answered 200 or 429 (${[...new Set(answers.map((answer) => answer.status))]})`);
   judge(accepted.length > 0.6 * capacity * overload_seconds, 'the workers go on at no less than six tenths of their capacity');
   judge(late < bound, `accepted requests keep their latency (below ${bound.toFixed(0)} ms)`);
-  judge(refused.every((answer) => answer.retry >= 1) && quick < 100, 'the rest is told at once, with Retry-After');
-  judge(quantile(health, 0.95) < 50, 'health answers below 50 ms');
+  judge(refused.every((answer) => answer.retry >= 1) && quick < at_once, `the rest is told at once, with Retry-After (below ${at_once.toFixed(0)} ms)`);
+  judge(quantile(health, 0.95) < soon, `health answers at once (below ${soon.toFixed(0)} ms)`);
   judge(most_memory < before * 1.5 + 20e6, 'memory is bounded');
 }
 
@@ -131,8 +135,9 @@ async function random_requests() {
   judge(final > 0 && status === 0, `the service lives on, and ends with 0 (${status})`);
   judge(!statuses.has(500), 'no request is answered 500');
   judge(![...statuses.keys()].some((key) => ['ECONNREFUSED', 'ECONNRESET', 'EPIPE'].includes(key)), 'no accepted request is lost');
-  judge(open === 0 && longest < 12_000 && busy === 0, 'nothing hangs');
-  judge(ratio < 1.25, `memory does not grow (${ratio.toFixed(2)})`);
+  judge(open === 0 && longest < 30_000 && busy === 0, 'nothing hangs, which would be six times the time limit');
+  // In less than a minute caches are still being filled.
+  judge(ratio < (seconds >= 60 ? 1.25 : 2), `memory does not grow (${ratio.toFixed(2)})`);
   judge(files < 40, 'no descriptor is left open');
   if (server.stderr) console.log(server.stderr.slice(-3000));
 }

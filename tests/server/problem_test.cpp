@@ -50,5 +50,14 @@ TEST(Problem, SaysWhenToComeBack) {
   EXPECT_EQ(response.type, "application/problem+json");
 }
 
+TEST(LimitOf, IsOneWordOfABoundedSet) {
+  const auto limit = [](const char* message) { return limit_of(problem_of({Code::limit, {{"", message}}})); };
+  EXPECT_EQ(limit("needs at least 7 modules; the limit is 5"), "modules");
+  EXPECT_EQ(limit("needs at least 7 triangles; the limit is 5"), "triangles");
+  EXPECT_EQ(limit("needs at least 7 output bytes; the limit is 5"), "output");
+  EXPECT_EQ(limit("needs at least 7 bytes of memory; the limit is 5"), "memory");
+  EXPECT_EQ(limit("something else"), "other");
+}
+
 }  // namespace
 }  // namespace seedmesh
