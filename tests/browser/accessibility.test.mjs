@@ -17,12 +17,12 @@ before(async () => {
 after(async () => { await browser?.close(); await server?.stop(); });
 
 /** Evaluated by the debugger, which the page's policy does not bind. */
-async function passes(page, words) {
+async function passes(page, words, within = 'html') {
   await page.evaluate(axe);
-  const { violations, passes } = await page.evaluate((tags) => axe.run(document, { runOnly: tags }), tags);
+  const { violations, passes } = await page.evaluate(({ tags, within }) => axe.run(document.querySelector(within), { runOnly: tags }), { tags, within });
   const told = violations.map((each) => `${each.id}: ${each.nodes.map((node) => `${node.html} ${node.failureSummary}`).join('; ')}`);
   assert.deepEqual(told, [], words);
-  assert.ok(passes.length > 20);
+  assert.ok(passes.length > (within === 'html' ? 20 : 4));
 }
 
 for (const colorScheme of ['light', 'dark']) {
@@ -31,7 +31,8 @@ for (const colorScheme of ['light', 'dark']) {
     await passes(page, 'gallery');
     for (const menu of ['seeds-menu', 'code-menu', 'download-menu', 'view-menu']) {
       await page.click(`#${menu} > summary`);
-      await passes(page, menu);
+      // What an open menu half covers is out of reach until it is closed, and so is no target.
+      await passes(page, menu, `#${menu}`);
     }
     await page.keyboard.press('Escape');
     await page.click('#compare');
