@@ -107,7 +107,7 @@ test('a stranger picks the oak, ages and seasons a tree, breaks and mends a gram
     await choose('growing_tree');
     const grown = await triangles();
     const age = field(page, '/parameters/age').locator('input[type=number]');
-    await until_shown(page, async () => age.fill(String(Number(await age.inputValue()) / 2)));
+    await until_shown(page, () => age.fill('4'));
     assert.ok(await triangles() < grown);
   });
   await t.test('a grammar is broken, read at its place, and mended by undo', async () => {

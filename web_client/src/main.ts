@@ -56,7 +56,9 @@ let checked: Fault[] = [];
 /** The model that is shown is not the one that the link meant: that has to stay readable. */
 let link_is_damaged = false;
 let waiting: ((drawn: boolean) => void)[] = [];
+/** The schema of the form, and of which generator it is. */
 let schema: Schema | null = null;
+let schema_of = '';
 /** The formats and motions that models can have. */
 let formats = ['glb'];
 let motions: string[] = [];
@@ -155,10 +157,11 @@ function refuse(next: Refusal): void {
 async function draw_parameters(state: State, signal: AbortSignal): Promise<void> {
   const { generator } = state.request;
   const [known, { draw_form, keep_place, about }] = await Promise.all([
-    persist(() => get_schema(generator, signal), signal), persist(() => import('./form/form'), signal)]);
+    schema && schema_of === generator ? schema : persist(() => get_schema(generator, signal), signal), persist(() => import('./form/form'), signal)]);
   const { request, base } = store.current ?? state;
   if (signal.aborted || request.generator !== generator) return;
   schema = known;
+  schema_of = generator;
   const restore = keep_place(part('parameters'));
   form = draw_form(schema, request.parameters, base.parameters, '/parameters', (parameters) => store.edit({ parameters }));
   part('parameters').replaceChildren(el('h2', { class: 'unseen' }, 'Parameters'), about(generator, schema, state.description), form.element);
@@ -182,7 +185,6 @@ store.subscribe((state, cause) => {
   if (cause === 'open') {
     keep_camera = false;
     form = null;
-    schema = null;
     refusal = null;
     checked = [];
   } else {
