@@ -22,7 +22,8 @@ async function passes(page, words, within = 'html') {
   const { violations, passes } = await page.evaluate(({ tags, within }) => axe.run(document.querySelector(within), { runOnly: tags }), { tags, within });
   const told = violations.map((each) => `${each.id}: ${each.nodes.map((node) => `${node.html} ${node.failureSummary}`).join('; ')}`);
   assert.deepEqual(told, [], words);
-  assert.ok(passes.length > (within === 'html' ? 20 : 4));
+  // Beside an open dialog or menu there is little to look at.
+  assert.ok(passes.length >= 5, `${words}: ${passes.length} rules`);
 }
 
 for (const colorScheme of ['light', 'dark']) {

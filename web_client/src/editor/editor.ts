@@ -30,7 +30,7 @@ export const make_editor: MakeEditor = (options: CodeOptions, vocabulary: Vocabu
   const root = host.attachShadow({ mode: 'open' });
   const validity = new Compartment();
   const valid = (is: boolean): ReturnType<typeof EditorView.contentAttributes.of> =>
-    EditorView.contentAttributes.of({ 'aria-label': options.label, 'aria-invalid': String(!is), autocapitalize: 'off' });
+    EditorView.contentAttributes.of({ 'aria-label': options.label, 'aria-invalid': String(!is), autocapitalize: 'off', tabindex: '0' });
 
   const view = new EditorView({
     root,
