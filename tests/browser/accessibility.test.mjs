@@ -46,7 +46,7 @@ for (const colorScheme of ['light', 'dark']) {
     await page.waitForFunction(() => document.getElementById('nine-dialog').dataset.filled === '9');
     await passes(page, 'nine seeds');
     await page.keyboard.press('Escape');
-    await page.setInputFiles('#file', { name: 'letter.txt', mimeType: 'text/plain', buffer: Buffer.from('Dear all,') });
+    await page.setInputFiles('#file', { name: 'letter.txt', mimeType: 'text/plain', buffer: Buffer.from('Dear all,\nthis is a letter.\n') });
     await page.waitForSelector('#import-dialog[open]');
     await passes(page, 'a file that nobody understands');
     await page.keyboard.press('Escape');
