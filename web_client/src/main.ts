@@ -182,20 +182,23 @@ store.subscribe((state, cause) => {
   seed.show(state.request.seed);
   part('title').textContent = state.title;
   gallery?.mark(state.preset);
-  if (cause === 'open') {
+  const is_new = cause === 'open' || cause === 'return';
+  if (cause === 'return') begin_opening();
+  if (is_new) {
     keep_camera = false;
     form = null;
     refusal = null;
     checked = [];
-  } else {
+  }
+  if (cause !== 'open') {
     link_is_damaged = false;
     address.follow(state);
     forget_hint();
   }
   if (cause !== 'edit') quietly(draw_parameters(state, opening.signal));
-  tools?.follow(state, cause === 'open');
+  tools?.follow(state, is_new);
   checker.ask(state.request);
-  grow(state.request, cause === 'open' ? 'now' : 'soon');
+  grow(state.request, is_new ? 'now' : 'soon');
 });
 
 async function load_tools(signal: AbortSignal): Promise<void> {

@@ -99,6 +99,8 @@ export function wire_status(): Status {
     shown(statistics) {
       part('statistics').hidden = false;
       part('triangles').textContent = grouped(statistics.triangles);
+      part('warnings-box').hidden = statistics.warnings === 0;
+      part('warnings').textContent = grouped(statistics.warnings);
       part('bytes').textContent = size_of(statistics.bytes);
       part('bytes').title = `${grouped(statistics.bytes)} bytes`;
       part('bytes').dataset['bytes'] = String(statistics.bytes);
