@@ -17,6 +17,21 @@ export interface GroundMarks { places: [number, number][]; chosen: number }
 const is_pair = (schema: Schema): boolean => schema.type === 'array' && schema.minItems === 2 && schema.maxItems === 2;
 const tenth = (value: number): number => Math.round(value * 100) / 100;
 
+const is_on = (button: HTMLElement): boolean => button.getAttribute('aria-pressed') === 'true';
+
+/** What a plain click in the picture does: plant, move the chosen one, or, with neither on, choose. */
+function ways_to_click(is_one_chosen: boolean): { plant: HTMLElement; move: HTMLElement } {
+  const plant = el('button', { type: 'button', 'aria-pressed': 'false', title: 'A right click plants at any time' }, 'Plant by click');
+  const move = el('button', { type: 'button', 'aria-pressed': 'false', disabled: !is_one_chosen }, 'Move by click');
+  for (const [button, other] of [[plant, move], [move, plant]] as const) {
+    button.addEventListener('click', () => {
+      button.setAttribute('aria-pressed', String(!is_on(button)));
+      other.setAttribute('aria-pressed', 'false');
+    });
+  }
+  return { plant, move };
+}
+
 export const placement_field: Draw = (place) => {
   let chosen = -1;
   return redrawable((redraw) => {
@@ -39,16 +54,7 @@ export const placement_field: Draw = (place) => {
     const tell = (): void => { place.value = [...entries]; place.change(place.value); drawn.now(place.value); };
     const done = (focus: string): void => { tell(); redraw(focus); };
 
-    const plant = el('button', { type: 'button', 'aria-pressed': 'false', title: 'A right click plants at any time' }, 'Plant by click');
-    const move = el('button', { type: 'button', 'aria-pressed': 'false', disabled: chosen < 0 }, 'Move by click');
-    for (const [button, other] of [[plant, move], [move, plant]] as const) {
-      button.addEventListener('click', () => {
-        const on = button.getAttribute('aria-pressed') !== 'true';
-        button.setAttribute('aria-pressed', String(on));
-        other.setAttribute('aria-pressed', 'false');
-      });
-    }
-    const is_on = (button: HTMLElement): boolean => button.getAttribute('aria-pressed') === 'true';
+    const { plant, move } = ways_to_click(chosen >= 0);
 
     const clicked = (event: Event): void => {
       if (!box.isConnected) { picture.removeEventListener('ground-click', clicked); return; }
