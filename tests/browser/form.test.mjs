@@ -228,7 +228,9 @@ test('no name of a parameter occurs in the source of the client', () => {
   const common = new Set(['width', 'style', 'step', 'value', 'name', 'color', 'text', 'span', 'role', 'map', 'form', 'start', 'center', 'position', 'direction',
     'grid', 'cell', 'reach', 'low', 'high', 'glb',
     // The name of a DOM event, coordinates, a widget of the schema, a list of the vocabulary.
-    'drop', 'x', 'z', 'image', 'functions']);
+    'drop', 'x', 'z', 'image', 'functions',
+    // Classes and parts of the page.
+    'soft', 'shown', 'at', 'near', 'place', 'picture', 'fold']);
   assert.ok(names.has('productions'));
   for (const name of names) {
     assert.doesNotMatch(source, new RegExp(`parameters(\\.|\\[['"])${name}\\b`), name);
