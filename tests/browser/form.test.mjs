@@ -29,6 +29,14 @@ const kiln_schema = {
       oneOf: [{ type: 'number', minimum: 0, maximum: 90 }, { type: 'object', properties: { left: { type: 'number', default: 5 }, right: { type: 'number', default: 5 } } }],
     },
     pots: { title: 'Pots', type: 'array', default: [], items: { title: 'Pot', type: 'object', required: ['size'], properties: { size: { title: 'Size', type: 'number', default: 3 } } }, 'x-group': 'Clay' },
+    pull: { title: 'Pull', type: 'array', minItems: 3, maxItems: 3, items: { type: 'number' }, default: [0, -1, 0], 'x-unit': 'm', 'x-group': 'Clay' },
+    glazes: { title: 'Glazes', type: 'array', items: { type: 'string', 'x-widget': 'color' }, default: ['#ff0000', '#00ff00'], 'x-group': 'Clay' },
+    print: { title: 'Print', type: 'string', 'x-widget': 'image', 'x-group': 'Clay' },
+    inset: { title: 'Inset', type: 'object', 'x-widget': 'request', properties: { preset: { type: 'string' }, seed: { type: 'integer' } }, 'x-group': 'Clay' },
+    shelf: {
+      title: 'Shelf', type: 'array', 'x-widget': 'placement', default: [], 'x-group': 'Clay',
+      items: { title: 'Pot', type: 'object', required: ['spot'], properties: { spot: { title: 'Spot', type: 'array', minItems: 2, maxItems: 2, items: { type: 'number' }, 'x-unit': 'm' }, years: { title: 'Years', type: 'number', default: 1 } } },
+    },
     odd: { title: 'Odd', 'x-group': 'Clay', 'x-advanced': true },
   },
 };
@@ -99,6 +107,53 @@ test('maps, lists and two forms of one value can be changed and taken back', { t
   await at('pots').locator('summary').click();
   assert.deepEqual((await sends(() => at('pots/0/size').locator('input[type=number]').fill('4'))).pots, [{ size: 4 }]);
   assert.deepEqual((await sends(() => at('pots').getByRole('button', { name: 'Remove Pot 0' }).click())).pots, []);
+});
+
+test('vectors, colours, pictures and requests have fields of their own', { timeout: 300_000 }, async () => {
+  const { page, sends, at } = await open_kiln();
+  assert.deepEqual(await at('pull').locator('input').evaluateAll((each) => each.map((input) => input.getAttribute('aria-label'))), ['Pull, x', 'Pull, y', 'Pull, z']);
+  assert.deepEqual((await sends(() => at('pull').getByLabel('Pull, y').fill('2.5'))).pull, [0, 2.5, 0]);
+  assert.ok(!('pull' in (await sends(() => at('pull').getByRole('button', { name: 'Reset Pull' }).click()))));
+  assert.deepEqual((await sends(() => at('glazes').getByLabel('Glazes 2', { exact: true }).fill('#0000ff'))).glazes, ['#ff0000', '#0000ff']);
+  assert.deepEqual((await sends(() => at('glazes').getByRole('button', { name: 'Remove Glazes 1' }).click())).glazes, ['#0000ff']);
+  assert.deepEqual((await sends(() => at('glazes').getByRole('button', { name: 'Add colour' }).click())).glazes, ['#0000ff', '#0000ff']);
+  const png = 'iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==';
+  const printed = await sends(() => at('print').locator('.picture-drop').evaluate((area, png) => {
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File([Uint8Array.from(atob(png), (each) => each.charCodeAt(0))], 'dot.png', { type: 'image/png' }));
+    area.dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, cancelable: true }));
+  }, png));
+  assert.equal(printed.print, `data:image/png;base64,${png}`);
+  assert.equal(await at('print').locator('img').evaluate(async (each) => { await each.decode(); return each.naturalWidth; }), 1);
+  assert.ok(!('print' in (await sends(() => at('print').getByRole('button', { name: 'Remove Print' }).click()))));
+  await at('inset').locator('select').scrollIntoViewIfNeeded();
+  await at('inset').locator('option[value=koch_snowflake]').waitFor({ state: 'attached' });
+  assert.deepEqual((await sends(() => at('inset').locator('select').selectOption('koch_snowflake'))).inset, { preset: 'koch_snowflake' });
+  assert.equal(await at('inset').locator('img').getAttribute('src'), './thumbnails/koch_snowflake.webp');
+  assert.deepEqual(page.faults, []);
+});
+
+test('places are planted, chosen, moved and taken away in the picture', { timeout: 300_000 }, async () => {
+  const { page, sends, at } = await open_kiln();
+  await page.click('#hint-away');
+  const canvas = page.locator('#picture');
+  const [first] = (await sends(() => canvas.click({ button: 'right', position: { x: 140, y: 230 } }))).shelf;
+  assert.deepEqual(Object.keys(first), ['spot']);
+  assert.equal((await sends(() => at('shelf/0/years').locator('input[type=number]').fill('30'))).shelf[0].years, 30);
+  await at('shelf').getByRole('button', { name: 'Plant by click' }).click();
+  const two = (await sends(() => canvas.click({ position: { x: 300, y: 230 } }))).shelf;
+  assert.equal(two.length, 2);
+  assert.equal(two[1].years, 30, 'like the one that was chosen');
+  assert.ok(two[1].spot[0] > first.spot[0], 'further to the right');
+  // A click chooses the nearest; the buttons start anew with the list.
+  await canvas.click({ position: { x: 140, y: 230 } });
+  assert.match(await at('shelf').locator('.chosen').textContent(), /^Pot 1/);
+  await at('shelf').getByRole('button', { name: 'Move by click' }).click();
+  const moved = (await sends(() => canvas.click({ position: { x: 220, y: 240 } }))).shelf;
+  assert.equal(moved.length, 2);
+  assert.notDeepEqual(moved[0].spot, first.spot);
+  assert.equal((await sends(() => at('shelf').getByRole('button', { name: 'Remove Pot 1' }).click())).shelf.length, 1);
+  assert.deepEqual(page.faults, []);
 });
 
 test('reset returns one field to what the request was opened with', { timeout: 300_000 }, async () => {
@@ -173,7 +228,9 @@ test('no name of a parameter occurs in the source of the client', () => {
   const common = new Set(['width', 'style', 'step', 'value', 'name', 'color', 'text', 'span', 'role', 'map', 'form', 'start', 'center', 'position', 'direction',
     'grid', 'cell', 'reach', 'low', 'high', 'glb',
     // The name of a DOM event, coordinates, a widget of the schema, a list of the vocabulary.
-    'drop', 'x', 'z', 'image', 'functions']);
+    'drop', 'x', 'z', 'image', 'functions',
+    // Classes and parts of the page.
+    'soft', 'shown', 'at', 'near', 'place', 'picture', 'fold']);
   assert.ok(names.has('productions'));
   for (const name of names) {
     assert.doesNotMatch(source, new RegExp(`parameters(\\.|\\[['"])${name}\\b`), name);

@@ -83,3 +83,56 @@ test('a newcomer grows a tree, mends a production and shares the result', { time
   });
   assert.deepEqual(page.faults, []);
 });
+
+test('a stranger picks the oak, ages and seasons a tree, breaks and mends a grammar, undoes and shares', { timeout: 600_000 }, async (t) => {
+  const page = await open(browser, server.url, { permissions: ['clipboard-read', 'clipboard-write'] });
+  const triangles = async () => Number((await statistics(page)).triangles.replaceAll(',', ''));
+  const choose = async (name) => {
+    await page.click('#tab-gallery');
+    await until_shown(page, () => page.click(`[data-preset="${name}"]`));
+    await open_parameters(page);
+  };
+
+  await t.test('the oak in winter has no leaves', async () => {
+    await choose('oak');
+    const summer = await triangles();
+    await until_shown(page, () => field(page, '/parameters/season').locator('select').selectOption({ label: 'winter' }));
+    assert.ok(await triangles() < summer);
+  });
+  await t.test('undo brings the summer back', async () => {
+    await until_shown(page, () => page.click('#undo'));
+    assert.equal(await field(page, '/parameters/season').locator('select option:checked').textContent(), 'summer');
+  });
+  await t.test('a plant is made younger', async () => {
+    await choose('growing_tree');
+    const grown = await triangles();
+    const age = field(page, '/parameters/age').locator('input[type=number]');
+    await until_shown(page, () => age.fill('4'));
+    assert.ok(await triangles() < grown);
+  });
+  await t.test('a grammar is broken, read at its place, and mended by undo', async () => {
+    const productions = field(page, '/parameters/productions');
+    const whole = await written(productions);
+    await page.waitForTimeout(800);
+    await write(productions, `${whole}(`);
+    await until_state(page, 'refused');
+    assert.match(await productions.locator('.spot').first().textContent(), /^Line \d+, column \d+: /);
+    await until_shown(page, () => page.click('#undo'));
+    assert.equal(await written(productions), whole);
+    assert.equal(await page.textContent('#alert'), '');
+  });
+  await t.test('a fresh browser shows the same from the link', async () => {
+    await page.click('#copy-link');
+    await page.waitForFunction(() => document.getElementById('status').textContent.startsWith('The link is copied'));
+    const link = await page.evaluate(() => navigator.clipboard.readText());
+    const other_browser = await launch();
+    try {
+      const other = await open(other_browser, link);
+      assert.deepEqual(await statistics(other), await statistics(page));
+      assert.ok(difference(await picture(page), await picture(other)) < 0.002);
+    } finally {
+      await other_browser.close();
+    }
+  });
+  assert.deepEqual(page.faults, []);
+});

@@ -41,8 +41,11 @@ test('undo and redo go through the edits, and a slider in motion is one', { time
   await until_shown(page, () => page.click('#redo'));
   assert.equal(await page.inputValue('#seed'), '8');
   await until_shown(page, async () => { await page.click('#tab-gallery'); await page.click('[data-preset="koch_snowflake"]'); });
+  const preset_hash = new URL(page.url()).hash;
   await until_shown(page, () => page.click('#undo'));
   assert.equal(await page.inputValue('#seed'), '8', 'a preset that was opened is undone too');
+  await page.waitForFunction((hash) => location.hash !== hash, preset_hash);
+  assert.equal(request_of(new URL(page.url()).hash).seed, 8, 'and the address follows');
 });
 
 test('seeds so far can be taken again', { timeout: 200_000 }, async () => {
@@ -136,6 +139,17 @@ test('zip, picture and request are saved', { timeout: 300_000 }, async () => {
   assert.deepEqual(JSON.parse(json.bytes), small_tree);
   const [download] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('Control+s')]);
   assert.equal(download.suggestedFilename(), 'seedmesh-3.json');
+});
+
+test('a request that is too long for a link is said to be', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address, clipboard);
+  let text = '';
+  for (let value = 1; text.length < 60_000; value = (value * 48271) % 2147483647) text += value.toString(36);
+  const long = { ...small_tree, parameters: { ...small_tree.parameters, materials: [{ name: 'bark', images: { color: `data:image/png;base64,${text}` } }] } };
+  await page.setInputFiles('#file', { name: 'long.json', mimeType: 'application/json', buffer: Buffer.from(JSON.stringify(long)) });
+  await page.waitForFunction(() => location.hash === '');
+  await page.click('#copy-link');
+  await page.waitForFunction(() => /too long for a link/.test(document.getElementById('alert').textContent));
 });
 
 /** Drops a file onto the page as a hand would. */

@@ -2,7 +2,7 @@
 import { Busy, Gone, generate, in_format, type Request } from './api';
 import { curl_of, javascript_of, python_of } from './commands';
 import { el, part } from './dom';
-import { link_to } from './link';
+import { link_to, longest_link } from './link';
 
 export interface Context {
   request(): Request | null;
@@ -34,6 +34,10 @@ export function wire_copies(context: Context): void {
     part(id).addEventListener('click', () => { const request = context.request(); if (request) void act(request); });
   on('copy-link', async (request) => {
     const link = await link_to(request);
+    if (link.length > longest_link) {
+      context.fail(`This request is too long for a link: ${link.length} characters. Save it as JSON instead, which opens here by drop.`);
+      return;
+    }
     const warning = link.length > long_link ? `. It has ${link.length} characters: some programs cut it. The request as JSON is safer` : '';
     await copy(link, `The link is copied${warning}`, context);
   });

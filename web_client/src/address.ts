@@ -1,6 +1,6 @@
 /** The address tells what is shown: `#…` carries a request, and so does each entry of the browser's history. */
 import { get_preset, type Preset } from './api';
-import { pack, unpack } from './link';
+import { longest_link, pack, unpack } from './link';
 import type { State, Store } from './state';
 
 interface Memory { preset: string | null }
@@ -80,11 +80,13 @@ export class Address {
   }
 
   private async write(state: State, how: 'push' | 'replace'): Promise<void> {
-    const text = `#${await pack(state.request)}`;
+    const packed = `#${await pack(state.request)}`;
     if (this.context.store.current !== state) return;
-    this.drawn_for = text;
+    // What no address holds is not half in it: the page says so where the link is copied.
+    this.drawn_for = packed.length <= longest_link ? packed : '';
     const memory: Memory = { preset: state.preset };
-    if (how === 'push') history.pushState(memory, '', text);
-    else history.replaceState(memory, '', text);
+    const address = this.drawn_for || location.pathname + location.search;
+    if (how === 'push') history.pushState(memory, '', address);
+    else history.replaceState(memory, '', address);
   }
 }

@@ -1,6 +1,9 @@
 /** A request as text in the page's own address. The link carries all; no server keeps it. */
 import { complete, type Request } from './api';
 
+/** Browsers and what is between them and the reader cut longer addresses; a request with a picture is longer. */
+export const longest_link = 32_000;
+
 async function through(bytes: Uint8Array<ArrayBuffer>, stream: CompressionStream | DecompressionStream): Promise<ArrayBuffer> {
   return new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer();
 }

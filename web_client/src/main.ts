@@ -56,7 +56,9 @@ let checked: Fault[] = [];
 /** The model that is shown is not the one that the link meant: that has to stay readable. */
 let link_is_damaged = false;
 let waiting: ((drawn: boolean) => void)[] = [];
+/** The schema of the form, and of which generator it is. */
 let schema: Schema | null = null;
+let schema_of = '';
 /** The formats and motions that models can have. */
 let formats = ['glb'];
 let motions: string[] = [];
@@ -155,10 +157,11 @@ function refuse(next: Refusal): void {
 async function draw_parameters(state: State, signal: AbortSignal): Promise<void> {
   const { generator } = state.request;
   const [known, { draw_form, keep_place, about }] = await Promise.all([
-    persist(() => get_schema(generator, signal), signal), persist(() => import('./form/form'), signal)]);
+    schema && schema_of === generator ? schema : persist(() => get_schema(generator, signal), signal), persist(() => import('./form/form'), signal)]);
   const { request, base } = store.current ?? state;
   if (signal.aborted || request.generator !== generator) return;
   schema = known;
+  schema_of = generator;
   const restore = keep_place(part('parameters'));
   form = draw_form(schema, request.parameters, base.parameters, '/parameters', (parameters) => store.edit({ parameters }));
   part('parameters').replaceChildren(el('h2', { class: 'unseen' }, 'Parameters'), about(generator, schema, state.description), form.element);
@@ -179,21 +182,23 @@ store.subscribe((state, cause) => {
   seed.show(state.request.seed);
   part('title').textContent = state.title;
   gallery?.mark(state.preset);
-  if (cause === 'open') {
+  const is_new = cause === 'open' || cause === 'return';
+  if (cause === 'return') begin_opening();
+  if (is_new) {
     keep_camera = false;
     form = null;
-    schema = null;
     refusal = null;
     checked = [];
-  } else {
+  }
+  if (cause !== 'open') {
     link_is_damaged = false;
     address.follow(state);
     forget_hint();
   }
   if (cause !== 'edit') quietly(draw_parameters(state, opening.signal));
-  tools?.follow(state, cause === 'open');
+  tools?.follow(state, is_new);
   checker.ask(state.request);
-  grow(state.request, cause === 'open' ? 'now' : 'soon');
+  grow(state.request, is_new ? 'now' : 'soon');
 });
 
 async function load_tools(signal: AbortSignal): Promise<void> {

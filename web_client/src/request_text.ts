@@ -89,7 +89,7 @@ export function wire_request_text(write: (request: Request) => void): RequestTex
       if (editor) return;
       load_editor().then((make) => {
         if (editor) return;
-        editor = make({ notation: 'json', label: 'Request as JSON', text: written(current ?? {}), dark: false, change: (text) => void changed(text) });
+        editor = make({ notation: 'json', label: 'Request as JSON', text: written(current ?? {}), change: (text) => void changed(text) });
         place.replaceChildren(editor.host);
         mark();
       }, () => place.replaceChildren(el('p', { class: 'soft' }, 'The editor cannot be fetched: the server does not answer. Open this page of the panel again to try once more.')));

@@ -22,6 +22,8 @@ export interface Result {
 
 /** Texts are cut here; the whole can be copied out of the answer of the server. */
 const longest = 4000;
+/** A hand that moves a slider rests this long before the server is asked. */
+const debounce = 200;
 
 export function wire_result(overlay: Overlay | null, lead: (line: number) => void): Result {
   const page = part('result');
@@ -30,6 +32,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
   let in_sight = false;
   let running = new AbortController();
   let shapes: ShapeList | null = null;
+  let timer = 0;
 
   async function ask(): Promise<void> {
     if (!in_sight || !request || shown_for === request) return;
@@ -73,7 +76,8 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
     open(now) { in_sight = now; void ask(); },
     follow(state) {
       request = state.request;
-      void ask();
+      clearTimeout(timer);
+      timer = window.setTimeout(() => void ask(), debounce);
     },
     drawn() { shapes?.lay_over(); },
     picked(index) { shapes?.pick(index); },

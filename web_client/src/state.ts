@@ -3,9 +3,9 @@ import type { Request } from './api';
 
 /**
  * edit: a field or the seed; write: the whole request by another hand than the form's (its JSON, undo), so that the form
- * is drawn anew; open: another request altogether.
+ * is drawn anew; open: another request altogether; return: another one that was shown before, by undo or redo.
  */
-export type Cause = 'open' | 'edit' | 'write';
+export type Cause = 'open' | 'edit' | 'write' | 'return';
 
 export interface State {
   readonly request: Request;
@@ -81,7 +81,7 @@ export class Store {
     if (!next || !this.state) return;
     to.push(this.state);
     this.last_edit = 0;
-    this.tell(next, next.base === this.state.base ? 'write' : 'open');
+    this.tell(next, next.base === this.state.base ? 'write' : 'return');
   }
 
   private tell(state: State, cause: Cause): void {

@@ -96,14 +96,7 @@ export function wire_status(): Status {
           was_waiting = false;
       }
     },
-    shown(statistics) {
-      part('statistics').hidden = false;
-      part('triangles').textContent = grouped(statistics.triangles);
-      part('bytes').textContent = size_of(statistics.bytes);
-      part('bytes').title = `${grouped(statistics.bytes)} bytes`;
-      part('bytes').dataset['bytes'] = String(statistics.bytes);
-      part('milliseconds').textContent = `${statistics.milliseconds < 10 ? statistics.milliseconds.toFixed(1) : grouped(Math.round(statistics.milliseconds))} ms`;
-    },
+    shown: show_statistics,
     faults(detail, homeless, in_fields, lead) {
       if (detail === '') {
         alert.replaceChildren();
@@ -133,6 +126,17 @@ export function wire_status(): Status {
       else say('The picture is back');
     },
   };
+}
+
+function show_statistics(statistics: Statistics): void {
+  part('statistics').hidden = false;
+  part('triangles').textContent = grouped(statistics.triangles);
+  part('warnings-box').hidden = statistics.warnings === 0;
+  part('warnings').textContent = grouped(statistics.warnings);
+  part('bytes').textContent = size_of(statistics.bytes);
+  part('bytes').title = `${grouped(statistics.bytes)} bytes`;
+  part('bytes').dataset['bytes'] = String(statistics.bytes);
+  part('milliseconds').textContent = `${statistics.milliseconds < 10 ? statistics.milliseconds.toFixed(1) : grouped(Math.round(statistics.milliseconds))} ms`;
 }
 
 export function size_of(bytes: number): string {

@@ -4,7 +4,7 @@ import { defaultKeymap, history, historyKeymap } from '@codemirror/commands';
 import { StreamLanguage, bracketMatching, type StreamParser } from '@codemirror/language';
 import { lintKeymap, setDiagnostics, type Diagnostic } from '@codemirror/lint';
 import { Annotation, Compartment, EditorState } from '@codemirror/state';
-import { EditorView, drawSelection, keymap, lineNumbers } from '@codemirror/view';
+import { EditorView, keymap, lineNumbers } from '@codemirror/view';
 import type { Vocabulary } from '../api';
 import { completions } from './complete';
 import type { CodeEditor, CodeOptions, MakeEditor } from './load';
@@ -30,7 +30,7 @@ export const make_editor: MakeEditor = (options: CodeOptions, vocabulary: Vocabu
   const root = host.attachShadow({ mode: 'open' });
   const validity = new Compartment();
   const valid = (is: boolean): ReturnType<typeof EditorView.contentAttributes.of> =>
-    EditorView.contentAttributes.of({ 'aria-label': options.label, 'aria-invalid': String(!is), autocapitalize: 'off' });
+    EditorView.contentAttributes.of({ 'aria-label': options.label, 'aria-invalid': String(!is), autocapitalize: 'off', tabindex: '0' });
 
   const view = new EditorView({
     root,
@@ -38,7 +38,7 @@ export const make_editor: MakeEditor = (options: CodeOptions, vocabulary: Vocabu
     state: EditorState.create({
       doc: options.text,
       extensions: [
-        lineNumbers(), history(), drawSelection(), bracketMatching(), look, colours,
+        lineNumbers(), history(), bracketMatching(), look, colours,
         StreamLanguage.define(parser_for(options.notation, words)),
         options.notation === 'json' ? [] : autocompletion({ override: [completions(words, options.notation)], icons: false }),
         // Tab is left to the page: whoever came by keyboard gets out again.

@@ -11,7 +11,6 @@ export interface CodeOptions {
   text: string;
   /** Only what a hand has changed is told. */
   change(text: string): void;
-  dark: boolean;
 }
 
 export interface CodeEditor {
@@ -25,13 +24,18 @@ export interface CodeEditor {
 }
 
 export type MakeEditor = (options: CodeOptions, vocabulary: Vocabulary) => CodeEditor;
+type Make = (options: CodeOptions) => CodeEditor;
+let ready: Make | null = null;
 
-let loading: Promise<(options: CodeOptions) => CodeEditor> | null = null;
+/** What `load_editor` has given before; null until then. */
+export const loaded_editor = (): Make | null => ready;
+
+let loading: Promise<Make> | null = null;
 
 /** Rejects where the server is gone; the next call tries again. */
-export function load_editor(): Promise<(options: CodeOptions) => CodeEditor> {
+export function load_editor(): Promise<Make> {
   loading ??= Promise.all([import('./editor'), get_vocabulary().catch((): Vocabulary => ({}))])
-    .then(([{ make_editor }, vocabulary]) => (options: CodeOptions) => make_editor(options, vocabulary));
+    .then(([{ make_editor }, vocabulary]) => (ready = (options: CodeOptions) => make_editor(options, vocabulary)));
   loading.catch(() => { loading = null; });
   return loading;
 }

@@ -3,6 +3,7 @@ import type { Fault } from '../api';
 import { el } from '../dom';
 import { Board, type Draw, type Place } from './field';
 import { list_field, map_field, member_fields, object_field, variant_field } from './group_fields';
+import { placement_field } from './placement_field';
 import { colors_field, image_field, request_field, vector_field } from './row_fields';
 import { is_members, type Members, type Schema } from './schema';
 import { choice_field, color_field, json_field, number_field, switch_field, word_field } from './simple_fields';
@@ -32,7 +33,7 @@ function field_for(schema: Schema): Draw {
       if (schema['x-widget'] === 'color') return color_field;
       if (schema['x-widget'] === 'image') return image_field;
       return schema['x-grammar'] && schema['x-grammar'] !== 'expression' ? text_field : word_field;
-    case 'array': return list_for(schema);
+    case 'array': return schema['x-widget'] === 'placement' ? placement_field : list_for(schema);
     case 'object':
       if (schema['x-widget'] === 'request') return request_field;
       if (schema.properties) return object_field;

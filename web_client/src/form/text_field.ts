@@ -4,7 +4,7 @@
  */
 import type { Fault } from '../api';
 import { el } from '../dom';
-import { load_editor, when_seen, type Mark } from '../editor/load';
+import { load_editor, loaded_editor, when_seen, type CodeEditor, type CodeOptions, type Mark } from '../editor/load';
 import { frame, type Draw, type Place } from './field';
 import { redrawable } from './simple_fields';
 import { code_face, plain_face, type Face } from './text_faces';
@@ -56,16 +56,13 @@ export const text_field: Draw = (place) =>
     };
     place.board.add(place.pointer, show);
 
-    if (notation !== undefined) when_seen(plain.element, () => void become_code().catch(() => { /* The text area does as well. */ }));
-    async function become_code(): Promise<void> {
-      const make = await load_editor();
+    const become_code = (make: (options: CodeOptions) => CodeEditor): void => {
       const has_focus = plain.area === document.activeElement;
       const [from, to] = [plain.area.selectionStart, plain.area.selectionEnd];
       const editor = make({
-        notation: notation ?? '', label: place.label, text: plain.text(), dark: false,
+        notation: notation ?? '', label: place.label, text: plain.text(),
         change(text) { show([]); take(text); },
       });
-      editor.host.classList.toggle('one-line', one_line);
       face = code_face(editor);
       // A shape tells the line of its rule.
       editor.host.addEventListener('go-line', (event) => {
@@ -76,7 +73,10 @@ export const text_field: Draw = (place) =>
       drawn.no_control();
       show(known);
       if (has_focus) face.go(from, to);
-    }
+    };
+    const loaded = loaded_editor();
+    if (notation !== undefined && loaded) become_code(loaded);
+    else if (notation !== undefined) when_seen(plain.element, () => void load_editor().then(become_code, () => { /* The text area does as well. */ }));
     return drawn.element;
   });
 

@@ -35,6 +35,15 @@ export function draw_boxes(boxes: ScopeBox[], color_of: (index: number) => numbe
   return group;
 }
 
+/** Takes lines away and gives their memory back. */
+export function drop_boxes(drawn: Group | null): void {
+  drawn?.removeFromParent();
+  for (const each of drawn?.children ?? []) {
+    (each as LineSegments).geometry.dispose();
+    ((each as LineSegments).material as LineBasicMaterial).dispose();
+  }
+}
+
 /** The smallest box that a ray meets; -1 where it meets none. A flat scope is given a little depth. */
 export function box_at(boxes: ScopeBox[], ray: Ray): number {
   let found = -1, least = Infinity;

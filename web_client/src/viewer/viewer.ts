@@ -1,8 +1,9 @@
 /** The picture. Draws when something changed, never otherwise; keeps one model and lets go of the one before. */
 import { Box3, NeutralToneMapping, PCFShadowMap, PerspectiveCamera, Raycaster, Scene, Spherical, Vector2, Vector3, WebGLRenderer, type Group } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { box_at, draw_boxes, type ScopeBox } from './boxes';
+import { box_at, draw_boxes, drop_boxes, type ScopeBox } from './boxes';
 import { corners_of, stand_back, usual_direction } from './frame';
+import { wire_ground } from './ground';
 import { Levels, Model } from './model';
 import { Modes, type Mode } from './modes';
 import { Motion } from './motion';
@@ -41,6 +42,7 @@ export class Viewer {
   private divider = 0.5;
   private variant: string | null = null;
   private boxes: { scopes: ScopeBox[]; drawn: Group } | null = null;
+  private marks: Group | null = null;
   private box = new Box3(new Vector3(-1, 0, -1), new Vector3(1, 2, 1));
   private points = corners_of(this.box);
   private touched = false;
@@ -72,6 +74,8 @@ export class Viewer {
     canvas.addEventListener('webglcontextlost', (event) => { event.preventDefault(); this.on_context(true); });
     canvas.addEventListener('webglcontextrestored', () => { this.renderer.shadowMap.needsUpdate = true; this.on_context(false); this.draw(); });
     canvas.addEventListener('click', (event) => this.pick(event));
+    wire_ground(canvas, { camera: this.camera, model: () => this.model?.root ?? null, floor: () => this.stage.floor },
+      (places, chosen) => this.set_marks(draw_boxes(places, (index) => (index === chosen ? 3 : 1))));
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
     this.set_theme(look.dark);
     this.resize();
@@ -84,6 +88,7 @@ export class Viewer {
     if (this.variant !== null && model.variants.includes(this.variant)) await model.wear(this.variant);
     this.let_go();
     this.model = model;
+    if (!keep_camera) this.set_marks(null);
     this.scene.add(model.root);
     this.motion.take(model);
     const grown = model.box.getSize(new Vector3()).length() / this.box.getSize(new Vector3()).length();
@@ -234,9 +239,16 @@ export class Viewer {
 
   /** Boxes of shapes over the model; null takes them away. */
   set_boxes(scopes: ScopeBox[] | null, color_of: (index: number) => number = () => 0): void {
-    this.boxes?.drawn.removeFromParent();
+    drop_boxes(this.boxes?.drawn ?? null);
     this.boxes = scopes ? { scopes, drawn: draw_boxes(scopes, color_of) } : null;
     if (this.boxes) this.scene.add(this.boxes.drawn);
+    this.draw();
+  }
+
+  private set_marks(marks: Group | null): void {
+    drop_boxes(this.marks);
+    this.marks = marks;
+    if (marks) this.scene.add(marks);
     this.draw();
   }
 
