@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 #include "core/base/math.h"
 #include "core/geom/crowd.h"
@@ -146,25 +147,29 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
   const Chains chains = link_chains(limbs, job);
   std::vector<Trust> trust(chains.head.size(), options.weld ? Trust::full : Trust::closed);
   if (options.overlaps) distrust_overlaps(limbs, chains, scale, job, trust);
+  std::optional<GraftWriter> last;
   for (int round = 0;; ++round) {
     if (round == 2 * rounds) std::fill(trust.begin(), trust.end(), Trust::none);
-    if (options.joints) options.joints->clear();
     GraftWriter writer({limbs, chains, scale, options, trust}, job);
-    writer.write_all();
+    writer.write_all(last ? &*last : nullptr);
     if (writer.settle(trust, round >= rounds) == 0) {
       if (counts) *counts = writer.counts();
       // Rings of more corners than a cache has entries come in once more.
       const bool is_ordered = 10 * writer.wide_corners() < writer.corners();
-      const bool is_doubtful = writer.has_threads();
+      const GraftCounts made = writer.counts();
+      const bool is_doubtful = writer.has_threads() || 2 * made.closed > made.limbs;
       const auto fallen_back =
           static_cast<std::uint32_t>(std::count(trust.begin(), trust.end(), Trust::none));
       Mesh mesh = writer.take();
+      if (options.joints) *options.joints = writer.take_joints();
+      last.reset();
       append_leftover(mesh, Leftover(limbs, chains, trust, scale.box), options, job);
       refuse_crowds(mesh, scale, is_doubtful || fallen_back > 0, job);
       if (counts) counts->fallen_back = fallen_back;
       mesh.cache_ordered = is_ordered;
       return mesh;
     }
+    last.emplace(std::move(writer));
   }
 }
 
