@@ -17,6 +17,8 @@ namespace {
 // A limb whose faces look inward is made again closed, and if that does not help by skin(); from this round
 // on at once by skin(), and after twice as many the whole.
 constexpr int rounds = 4;
+// Where more than one limb of so many is left to skin(), it is looked whether they lie in heaps.
+constexpr std::uint32_t doubtful = 20;
 
 /// The limbs that skin() must make, each with a root of its own where it begins. At most so many joints at
 /// once that their numbers fit Mesh::bone.
@@ -157,14 +159,15 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
       // Rings of more corners than a cache has entries come in once more.
       const bool is_ordered = 10 * writer.wide_corners() < writer.corners();
       const GraftCounts made = writer.counts();
-      const bool is_doubtful = writer.has_threads() || 2 * made.closed > made.limbs;
       const auto fallen_back =
           static_cast<std::uint32_t>(std::count(trust.begin(), trust.end(), Trust::none));
+      const bool is_doubtful =
+          writer.has_threads() || 2 * made.closed > made.limbs || doubtful * fallen_back > made.limbs;
       Mesh mesh = writer.take();
       if (options.joints) *options.joints = writer.take_joints();
       last.reset();
       append_leftover(mesh, Leftover(limbs, chains, trust, scale.box), options, job);
-      refuse_crowds(mesh, scale, is_doubtful || fallen_back > 0, job);
+      refuse_crowds(mesh, scale, is_doubtful, job);
       if (counts) counts->fallen_back = fallen_back;
       mesh.cache_ordered = is_ordered;
       return mesh;

@@ -46,7 +46,8 @@ bool GraftWriter::has_same_loop(std::uint32_t limb, const GraftWriter& last) con
   }
   for (std::uint32_t i = 0; i < now.count; ++i) {
     const LoopVertex &a = loop_vertices_[now.first + i], &b = last.loop_vertices_[then.first + i];
-    if (a.position != b.position || a.angle != b.angle || a.reach != b.reach || a.joint != b.joint) return false;
+    if (a.position != b.position || a.angle != b.angle || a.reach != b.reach || a.joint != b.joint)
+      return false;
   }
   return true;
 }

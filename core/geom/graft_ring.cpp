@@ -82,7 +82,7 @@ std::uint32_t GraftWriter::ring_corner(const Plane& plane, float angle, glm::vec
                        static_cast<float>(math::cos(at)) / factor;
     normal -= (plane.v * direction.x - plane.u * direction.y) * fall;
   }
-  return vertex(plane.centre + out * (plane.radius * factor), math::unit(normal, out),
+  return vertex(plane.centre + out * (plane.radius * factor), math::quick_unit(normal, out),
                 {(turns_ > 0 ? turns_ : plane.radius) * angle, plane.v_at}, none);
 }
 

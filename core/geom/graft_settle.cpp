@@ -65,9 +65,9 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
       if (group_[i] == none || !touched_[group_[i] / 2]) continue;
       // The mean of both surfaces, whatever the size of their faces.
       const std::size_t parent = group_[i] & ~std::uint32_t{1};
-      const glm::vec3 one = math::unit(group_normal_[parent], glm::vec3{0});
-      const glm::vec3 other = math::unit(group_normal_[parent + 1], glm::vec3{0});
-      mesh_.normal[i] = math::unit(one + other, glm::vec3{0, 1, 0}) + 0.0F;
+      const glm::vec3 one = math::quick_unit(group_normal_[parent], glm::vec3{0});
+      const glm::vec3 other = math::quick_unit(group_normal_[parent + 1], glm::vec3{0});
+      mesh_.normal[i] = math::quick_unit(one + other, glm::vec3{0, 1, 0}) + 0.0F;
     }
   }
   const float least = 2 * least_area * context_.scale.size * context_.scale.size;

@@ -143,9 +143,7 @@ void GraftWriter::write_limb(std::uint32_t limb) {
           std::max(context_.limbs.radius[context_.limbs.parent[head]], least_length * scale.apart)) {
     return;
   }
-  kind_[limb] = is_root    ? Kind::root
-                : !has_loop ? Kind::closed
-                            : (loop.is_fork ? Kind::fork : Kind::collar);
+  kind_[limb] = is_root ? Kind::root : !has_loop ? Kind::closed : (loop.is_fork ? Kind::fork : Kind::collar);
 
   const std::uint64_t hash = key_at(context_.limbs.key.empty() ? head : context_.limbs.key[head], 0x62AF7);
   if (!is_root && !has_loop) {

@@ -28,7 +28,8 @@ Limbs spiral(const Job& job, double steepest) {
     for (int k = 0; k < 4; ++k) {
       at += glm::vec3(along * 0.3) + glm::vec3(0, 0.05F, 0);
       limb = maker.grow(limb, at, {0.6F * thick, 0.5F * thick});
-      maker.branch(limb, at + glm::vec3(0.2F * static_cast<float>(k - 1), 0.3F, 0.1F), {0.2F * thick, 0.1F * thick});
+      maker.branch(limb, at + glm::vec3(0.2F * static_cast<float>(k - 1), 0.3F, 0.1F),
+                   {0.2F * thick, 0.1F * thick});
     }
   }
   return std::move(maker.limbs);
