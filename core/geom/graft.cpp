@@ -106,6 +106,19 @@ void append(Mesh& to, const Mesh& from) {
   for (const std::uint32_t index : from.index.wide) to.index.wide.push_back(first + index);
 }
 
+/// Limbs much thicker than long that bend sharply can be too much for skin(), too.
+void refuse_inward_faces(const Mesh& mesh) {
+  for (std::size_t t = 0; t + 2 < mesh.index.wide.size(); t += 3) {
+    const std::uint32_t* corner = mesh.index.wide.data() + t;
+    const glm::vec3& a = mesh.position[corner[0]];
+    const glm::vec3 face = glm::cross(mesh.position[corner[1]] - a, mesh.position[corner[2]] - a);
+    for (int k = 0; k < 3; ++k) {
+      if (glm::dot(face, mesh.normal[corner[k]]) < 0)
+        Job::refuse("a limb bends so sharply for its thickness that its bark would look inward");
+    }
+  }
+}
+
 /// What skin() makes of the limbs that nothing else can be made of.
 void append_leftover(Mesh& mesh, Leftover limbs, const GraftOptions& options, Job& job) {
   std::vector<std::uint32_t> was;
@@ -120,6 +133,7 @@ void append_leftover(Mesh& mesh, Leftover limbs, const GraftOptions& options, Jo
       plain.bones = number;
     }
     for (const Bark& bark : skin(others, plain, job)) {
+      refuse_inward_faces(bark.mesh);
       append(mesh, bark.mesh);
       if (!options.joints) continue;
       for (std::size_t i = 0; i < bark.mesh.position.size(); ++i)
