@@ -91,4 +91,12 @@ inline double quick_acos(double x) {
   return quick_atan2(std::sqrt(rest > 0 ? rest : 0), x);
 }
 
+/// math::unit for vectors of ordinary size; that of others is left to it.
+inline glm::vec3 quick_unit(const glm::vec3& v, const glm::vec3& otherwise) {
+  const float square = v.x * v.x + v.y * v.y + v.z * v.z;
+  if (!(square > 1e-30F && square < 1e30F)) return unit(v, otherwise);
+  const float length = std::sqrt(square);
+  return {v.x / length, v.y / length, v.z / length};
+}
+
 }  // namespace seedmesh::math

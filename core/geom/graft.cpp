@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 #include "core/base/math.h"
 #include "core/geom/crowd.h"
@@ -16,6 +17,8 @@ namespace {
 // A limb whose faces look inward is made again closed, and if that does not help by skin(); from this round
 // on at once by skin(), and after twice as many the whole.
 constexpr int rounds = 4;
+// Where more than one limb of so many is left to skin(), it is looked whether they lie in heaps.
+constexpr std::uint32_t doubtful = 20;
 
 /// The limbs that skin() must make, each with a root of its own where it begins. At most so many joints at
 /// once that their numbers fit Mesh::bone.
@@ -103,6 +106,19 @@ void append(Mesh& to, const Mesh& from) {
   for (const std::uint32_t index : from.index.wide) to.index.wide.push_back(first + index);
 }
 
+/// Limbs much thicker than long that bend sharply can be too much for skin(), too.
+void refuse_inward_faces(const Mesh& mesh) {
+  for (std::size_t t = 0; t + 2 < mesh.index.wide.size(); t += 3) {
+    const std::uint32_t* corner = mesh.index.wide.data() + t;
+    const glm::vec3& a = mesh.position[corner[0]];
+    const glm::vec3 face = glm::cross(mesh.position[corner[1]] - a, mesh.position[corner[2]] - a);
+    for (int k = 0; k < 3; ++k) {
+      if (glm::dot(face, mesh.normal[corner[k]]) < 0)
+        Job::refuse("a limb bends so sharply for its thickness that its bark would look inward");
+    }
+  }
+}
+
 /// What skin() makes of the limbs that nothing else can be made of.
 void append_leftover(Mesh& mesh, Leftover limbs, const GraftOptions& options, Job& job) {
   std::vector<std::uint32_t> was;
@@ -117,6 +133,7 @@ void append_leftover(Mesh& mesh, Leftover limbs, const GraftOptions& options, Jo
       plain.bones = number;
     }
     for (const Bark& bark : skin(others, plain, job)) {
+      refuse_inward_faces(bark.mesh);
       append(mesh, bark.mesh);
       if (!options.joints) continue;
       for (std::size_t i = 0; i < bark.mesh.position.size(); ++i)
@@ -146,25 +163,30 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
   const Chains chains = link_chains(limbs, job);
   std::vector<Trust> trust(chains.head.size(), options.weld ? Trust::full : Trust::closed);
   if (options.overlaps) distrust_overlaps(limbs, chains, scale, job, trust);
+  std::optional<GraftWriter> last;
   for (int round = 0;; ++round) {
     if (round == 2 * rounds) std::fill(trust.begin(), trust.end(), Trust::none);
-    if (options.joints) options.joints->clear();
     GraftWriter writer({limbs, chains, scale, options, trust}, job);
-    writer.write_all();
+    writer.write_all(last ? &*last : nullptr);
     if (writer.settle(trust, round >= rounds) == 0) {
       if (counts) *counts = writer.counts();
       // Rings of more corners than a cache has entries come in once more.
       const bool is_ordered = 10 * writer.wide_corners() < writer.corners();
-      const bool is_doubtful = writer.has_threads();
+      const GraftCounts made = writer.counts();
       const auto fallen_back =
           static_cast<std::uint32_t>(std::count(trust.begin(), trust.end(), Trust::none));
+      const bool is_doubtful =
+          writer.has_threads() || 2 * made.closed > made.limbs || doubtful * fallen_back > made.limbs;
       Mesh mesh = writer.take();
+      if (options.joints) *options.joints = writer.take_joints();
+      last.reset();
       append_leftover(mesh, Leftover(limbs, chains, trust, scale.box), options, job);
-      refuse_crowds(mesh, scale, is_doubtful || fallen_back > 0, job);
+      refuse_crowds(mesh, scale, is_doubtful, job);
       if (counts) counts->fallen_back = fallen_back;
       mesh.cache_ordered = is_ordered;
       return mesh;
     }
+    last.emplace(std::move(writer));
   }
 }
 

@@ -56,7 +56,7 @@ std::uint32_t GraftWriter::vertex(const glm::vec3& position, const glm::vec3& no
   mesh_.normal.push_back(normal + 0.0F);
   mesh_.uv[0].push_back(glm::vec2(uv.x, uv.y * context_.options.v_scale) + 0.0F);
   group_.push_back(group);
-  if (context_.options.joints) context_.options.joints->push_back(joint_);
+  if (context_.options.joints) joints_.push_back(joint_);
   return index;
 }
 
@@ -82,7 +82,7 @@ std::uint32_t GraftWriter::ring_corner(const Plane& plane, float angle, glm::vec
                        static_cast<float>(math::cos(at)) / factor;
     normal -= (plane.v * direction.x - plane.u * direction.y) * fall;
   }
-  return vertex(plane.centre + out * (plane.radius * factor), math::unit(normal, out),
+  return vertex(plane.centre + out * (plane.radius * factor), math::quick_unit(normal, out),
                 {(turns_ > 0 ? turns_ : plane.radius) * angle, plane.v_at}, none);
 }
 

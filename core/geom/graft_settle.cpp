@@ -10,55 +10,81 @@ namespace {
 // Area of a face that cannot be told from none, as a share of the squared size of the model.
 constexpr float least_area = 4e-12F;
 
+// A normal nearer to the plane of its face than this may be found on the other side by who reckons otherwise.
+constexpr float least_cosine = 1e-4F;
+
 }  // namespace
 
-std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
-  const auto& index = mesh_.index.wide;
-  const auto& position = mesh_.position;
-  const auto face = [&](std::size_t t) {
-    const glm::vec3 &a = position[index[3 * t]], &b = position[index[3 * t + 1]],
-                    &c = position[index[3 * t + 2]];
-    return glm::cross(b - a, c - a);
-  };
-  const std::size_t count = index.size() / 3;
-  if (!loop_vertices_.empty()) {
-    for (std::size_t t = 0; t < count; ++t) {
-      const std::uint32_t groups[3] = {group_[index[3 * t]], group_[index[3 * t + 1]],
-                                       group_[index[3 * t + 2]]};
-      if ((groups[0] & groups[1] & groups[2]) == none) continue;
-      const glm::vec3 normal = face(t);
-      const float size = std::sqrt(glm::dot(normal, normal));
-      if (!(size > 0)) continue;
-      for (std::size_t corner = 0; corner < 3; ++corner) {
-        if (groups[corner] == none) continue;
-        // By the angle of the face there, so that it does not matter how the surface is cut into triangles.
-        const glm::vec3& here = position[index[3 * t + corner]];
-        const glm::vec3 one = position[index[3 * t + (corner + 1) % 3]] - here;
-        const glm::vec3 other = position[index[3 * t + (corner + 2) % 3]] - here;
-        const auto angle = static_cast<float>(
-            math::quick_atan2(static_cast<double>(size), static_cast<double>(glm::dot(one, other))));
-        group_normal_[groups[corner]] += normal * (angle / size);
-      }
+glm::vec3 GraftWriter::face(std::size_t triangle) const {
+  const std::uint32_t* corner = mesh_.index.wide.data() + 3 * triangle;
+  const glm::vec3& a = mesh_.position[corner[0]];
+  return glm::cross(mesh_.position[corner[1]] - a, mesh_.position[corner[2]] - a);
+}
+
+/// What a limb's faces give to the normals of the loops that they touch.
+void GraftWriter::add_loop_normals(std::size_t limb) {
+  for (std::size_t t = begin_[limb].triangle; t < begin_[limb + 1].triangle; ++t) {
+    const std::uint32_t* index = mesh_.index.wide.data() + 3 * t;
+    const std::uint32_t groups[3] = {group_[index[0]], group_[index[1]], group_[index[2]]};
+    if ((groups[0] & groups[1] & groups[2]) == none) continue;
+    const glm::vec3 normal = face(t);
+    const float size = std::sqrt(glm::dot(normal, normal));
+    if (!(size > 0)) continue;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      if (groups[corner] == none || !touched_[groups[corner] / 2]) continue;
+      // By the angle of the face there, so that it does not matter how the surface is cut into triangles.
+      const glm::vec3& here = mesh_.position[index[corner]];
+      const glm::vec3 one = mesh_.position[index[(corner + 1) % 3]] - here;
+      const glm::vec3 other = mesh_.position[index[(corner + 2) % 3]] - here;
+      const auto angle = static_cast<float>(
+          math::quick_atan2(static_cast<double>(size), static_cast<double>(glm::dot(one, other))));
+      group_normal_[groups[corner]] += normal * (angle / size);
     }
-    for (std::size_t i = 0; i < group_.size(); ++i) {
-      if (group_[i] == none) continue;
+  }
+}
+
+std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
+  mark_touched();
+  const std::size_t count = begin_.size() - 1;
+  // Limbs that were written, and those whose loops they share.
+  std::vector<std::uint8_t> concerned(dirty_);
+  for (std::size_t limb = 0; limb < count && !parent_.empty(); ++limb) {
+    if (parent_[limb] == none) continue;
+    concerned[limb] |= dirty_[parent_[limb]];
+    concerned[parent_[limb]] |= dirty_[limb];
+  }
+  for (std::size_t pair = 0; pair < touched_.size(); ++pair) {
+    if (touched_[pair]) group_normal_[2 * pair] = group_normal_[2 * pair + 1] = glm::vec3(0);
+  }
+  for (std::size_t limb = 0; limb < count; ++limb) {
+    if (concerned[limb] && !group_limb_.empty()) add_loop_normals(limb);
+  }
+  for (std::size_t limb = 0; limb < count; ++limb) {
+    if (!concerned[limb]) continue;
+    for (std::size_t i = begin_[limb].vertex; i < begin_[limb + 1].vertex; ++i) {
+      if (group_[i] == none || !touched_[group_[i] / 2]) continue;
       // The mean of both surfaces, whatever the size of their faces.
       const std::size_t parent = group_[i] & ~std::uint32_t{1};
-      const glm::vec3 one = math::unit(group_normal_[parent], glm::vec3{0});
-      const glm::vec3 other = math::unit(group_normal_[parent + 1], glm::vec3{0});
-      mesh_.normal[i] = math::unit(one + other, glm::vec3{0, 1, 0}) + 0.0F;
+      const glm::vec3 one = math::quick_unit(group_normal_[parent], glm::vec3{0});
+      const glm::vec3 other = math::quick_unit(group_normal_[parent + 1], glm::vec3{0});
+      mesh_.normal[i] = math::quick_unit(one + other, glm::vec3{0, 1, 0}) + 0.0F;
     }
   }
   const float least = 2 * least_area * context_.scale.size * context_.scale.size;
+  const auto& index = mesh_.index.wide;
   std::size_t bad = 0;
-  for (std::size_t limb = 0; limb + 1 < first_triangle_.size(); ++limb) {
+  for (std::size_t limb = 0; limb < count; ++limb) {
     if (limb % 64 == 0) job_.check();
+    if (!concerned[limb]) continue;
     bool is_bad = false;
-    for (std::size_t t = first_triangle_[limb]; t < first_triangle_[limb + 1]; ++t) {
+    for (std::size_t t = begin_[limb].triangle; t < begin_[limb + 1].triangle; ++t) {
       const glm::vec3 normal = face(t);
-      bool is_sound = glm::dot(normal, normal) > least * least;
-      for (std::size_t corner = 0; is_sound && corner < 3; ++corner)
-        is_sound = glm::dot(normal, mesh_.normal[index[3 * t + corner]]) > 0;
+      const float size = glm::dot(normal, normal);
+      bool is_sound = size > least * least;
+      for (std::size_t corner = 0; is_sound && corner < 3; ++corner) {
+        const float over = glm::dot(normal, mesh_.normal[index[3 * t + corner]]);
+        is_sound = over > 0 && over * over > least_cosine * least_cosine * size;
+      }
       if (is_sound) continue;
       // The fault of the openings that it touches, if it touches any.
       bool touches = false;

@@ -51,7 +51,13 @@ std::vector<std::vector<glm::vec2>> circles_up_to(int most) {
 }  // namespace
 
 GraftWriter::GraftWriter(const Context& context, Job& job)
-    : context_(context), job_(job), triangles_(job, Resource::triangles), group_(job), group_normal_(job) {
+    : context_(context),
+      job_(job),
+      triangles_(job, Resource::triangles),
+      group_(job),
+      group_normal_(job),
+      joints_(job),
+      trust_(context.trust) {
   const Limbs& limbs = context.limbs;
   mesh_.position = Array<glm::vec3>(job);
   mesh_.normal = Array<glm::vec3>(job);
@@ -78,14 +84,30 @@ GraftWriter::GraftWriter(const Context& context, Job& job)
   }
 }
 
-void GraftWriter::write_all() {
+void GraftWriter::write_all(const GraftWriter* last) {
   const std::size_t count = context_.chains.head.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    first_triangle_.push_back(static_cast<std::uint32_t>(mesh_.index.wide.size() / 3));
-    if (i % 64 == 0) job_.check();
-    if (context_.trust[i] != Trust::none) write_limb(static_cast<std::uint32_t>(i));
+  kind_.assign(count, Kind::none);
+  dirty_.assign(count, last ? 0 : 1);
+  if (last) {
+    find_parents();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (trust_[i] == last->trust_[i]) continue;
+      dirty_[i] = 1;
+      if (parent_[i] != none) dirty_[parent_[i]] = 1;
+    }
   }
-  first_triangle_.push_back(static_cast<std::uint32_t>(mesh_.index.wide.size() / 3));
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto limb = static_cast<std::uint32_t>(i);
+    begin_.push_back(here());
+    if (i % 64 == 0) job_.check();
+    if (last && !dirty_[i] && !has_same_loop(limb, *last)) dirty_[i] = 1;
+    if (!dirty_[i]) {
+      copy_limb(limb, *last);
+    } else if (trust_[i] != Trust::none) {
+      write_limb(limb);
+    }
+  }
+  begin_.push_back(here());
 }
 
 /// Three, or an even number, so that rings of different limbs meet corner to corner.
@@ -121,8 +143,7 @@ void GraftWriter::write_limb(std::uint32_t limb) {
           std::max(context_.limbs.radius[context_.limbs.parent[head]], least_length * scale.apart)) {
     return;
   }
-  ++counts_.limbs;
-  if (!is_root) ++(has_loop ? (loop.is_fork ? counts_.forks : counts_.collars) : counts_.closed);
+  kind_[limb] = is_root ? Kind::root : !has_loop ? Kind::closed : (loop.is_fork ? Kind::fork : Kind::collar);
 
   const std::uint64_t hash = key_at(context_.limbs.key.empty() ? head : context_.limbs.key[head], 0x62AF7);
   if (!is_root && !has_loop) {

@@ -26,18 +26,21 @@ class GraftWriter {
   };
   GraftWriter(const Context& context, Job& job);
 
-  void write_all();
+  /// `last`: the writer of the round before, whose limbs are copied where nothing about them has changed since;
+  /// null: there is none.
+  void write_all(const GraftWriter* last);
 
-  /// Makes the normals of loops, then looks at every triangle. Lowers the trust in limbs with faces that look
-  /// against a normal or have no area, at once to none where `is_late`; returns how many.
+  /// Makes the normals of loops, then looks at every triangle that was written. Lowers the trust in limbs with
+  /// faces that look against a normal or have no area, at once to none where `is_late`; returns how many faces.
   std::size_t settle(std::vector<Trust>& trust, bool is_late);
 
-  const GraftCounts& counts() const { return counts_; }
+  GraftCounts counts() const;
   /// Vertices on rings, and those of them on rings of more corners than a vertex cache holds.
   std::size_t corners() const { return corners_; }
   /// Limbs not much thicker than what can be told from a line.
   bool has_threads() const { return has_threads_; }
   std::size_t wide_corners() const { return wide_corners_; }
+  Array<std::uint32_t> take_joints() { return std::move(joints_); }
   Mesh take() { return std::move(mesh_); }
 
  private:
@@ -79,6 +82,21 @@ class GraftWriter {
     bool is_fork = false;
   };
 
+  /// Where what belongs to a limb begins.
+  struct Begin {
+    std::uint32_t vertex = 0, triangle = 0, group = 0, loop_vertex = 0;
+    std::uint32_t corners = 0, wide_corners = 0;
+  };
+  enum class Kind : std::uint8_t { none, root, collar, fork, closed };
+
+  void find_parents();
+  bool has_same_loop(std::uint32_t limb, const GraftWriter& last) const;
+  void copy_limb(std::uint32_t limb, const GraftWriter& last);
+  void mark_touched();
+  void add_loop_normals(std::size_t limb);
+  Begin here() const;
+  glm::vec3 face(std::size_t triangle) const;
+
   void write_limb(std::uint32_t limb);
   void plan_children(float start);
   Bud bud_of(std::uint32_t child) const;
@@ -113,14 +131,19 @@ class GraftWriter {
       group_;  ///< of each vertex; those on a loop share a normal: even the parent's, odd the child's
   Array<glm::vec3> group_normal_;
   std::vector<std::uint32_t> group_limb_;      ///< the child of each pair of groups
-  std::vector<std::uint32_t> first_triangle_;  ///< of each limb
+  std::vector<Begin> begin_;                   ///< of each limb, and of the end
+  std::vector<Kind> kind_;                     ///< of each limb
+  std::vector<std::uint32_t> parent_;          ///< of each limb; empty where all are dirty
+  std::vector<std::uint8_t> dirty_;            ///< limbs that were not copied
+  std::vector<std::uint8_t> touched_;          ///< pairs of groups of a dirty limb
+  Array<std::uint32_t> joints_;                ///< of each vertex, where options.joints wants them
+  std::vector<Trust> trust_;                   ///< as it was when this was written
   std::vector<std::uint32_t> first_child_, next_sibling_;
   std::vector<Loop> loops_;
   std::vector<LoopVertex> loop_vertices_;
   std::vector<std::vector<glm::vec2>> circles_;  ///< corners by number
   std::vector<float> corner_radius_;             ///< from which on a limb has 4, 5, ... corners
   float thickest_ = 0;
-  GraftCounts counts_;
 
   // Of the limb being written.
   GraftAxis axis_;

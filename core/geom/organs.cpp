@@ -5,8 +5,8 @@
 #include <cstring>
 #include <map>
 
-#include "core/base/math.h"
 #include "core/base/parallel.h"
+#include "core/base/quick_math.h"
 #include "core/base/rng.h"
 
 namespace seedmesh {
@@ -117,8 +117,8 @@ class Placer {
     for (std::size_t i = 0; i < vertices; ++i) {
       out_.position[first + i] = organ.position + stretch * surface_.position[i];
       const glm::vec3 normal =
-          is_even ? surface_.normal[i] : math::unit(surface_.normal[i] * inverse, {0, 0, 1});
-      out_.normal[first + i] = math::unit(turn * normal, {0, 1, 0});
+          is_even ? surface_.normal[i] : math::quick_unit(surface_.normal[i] * inverse, {0, 0, 1});
+      out_.normal[first + i] = math::quick_unit(turn * normal, {0, 1, 0});
     }
     if (!surface_.tangent.empty()) place_tangents(first, turn, stretch);
     if (!out_.uv[0].empty())
@@ -148,8 +148,8 @@ class Placer {
     for (std::size_t i = 0; i < surface_.tangent.size(); ++i) {
       const glm::vec3 normal = out_.normal[first + i];
       const glm::vec3 along = stretch * glm::vec3(surface_.tangent[i]);
-      out_.tangent[first + i] =
-          glm::vec4(math::unit(along - normal * glm::dot(along, normal), turn[0]), surface_.tangent[i].w);
+      out_.tangent[first + i] = glm::vec4(math::quick_unit(along - normal * glm::dot(along, normal), turn[0]),
+                                          surface_.tangent[i].w);
     }
   }
 
@@ -167,19 +167,19 @@ class Placer {
   void follow_crown(std::size_t first, std::size_t first_corner) const {
     for (std::size_t i = 0; i < surface_.position.size(); ++i) {
       const glm::vec3 own = out_.normal[first + i];
-      glm::vec3 outward = math::unit(out_.position[first + i] - *options_.crown, own);
+      glm::vec3 outward = math::quick_unit(out_.position[first + i] - *options_.crown, own);
       if (glm::dot(outward, own) < 0) outward = -outward;
-      out_.normal[first + i] = math::unit(own + (outward - own) * options_.crown_share, own);
+      out_.normal[first + i] = math::quick_unit(own + (outward - own) * options_.crown_share, own);
     }
     for (std::size_t i = 0; i < surface_.index.wide.size(); i += 3) {
       const std::uint32_t* corner = out_.index.wide.data() + first_corner + i;
       const glm::vec3 a = out_.position[corner[0]];
       const glm::vec3 face =
-          math::unit(glm::cross(out_.position[corner[1]] - a, out_.position[corner[2]] - a), {0, 1, 0});
+          math::quick_unit(glm::cross(out_.position[corner[1]] - a, out_.position[corner[2]] - a), {0, 1, 0});
       for (int k = 0; k < 3; ++k) {
         glm::vec3& normal = out_.normal[corner[k]];
         const float over = glm::dot(normal, face);
-        if (over < 0.1F) normal = math::unit(normal + face * (0.15F - over), face);
+        if (over < 0.1F) normal = math::quick_unit(normal + face * (0.15F - over), face);
       }
     }
   }

@@ -8,13 +8,13 @@ namespace {
 constexpr ImportFormat rows[] = {
     {"cpfg", "cpfg .l", "An L-system with its decomposition, homomorphism and macros.", "text/plain",
      import_cpfg},
-    {"ez_tree", "ez-tree JSON", "Its options become a tree of the model weber_penn.", "application/json",
-     import_ez_tree},
     {"fractint", "Fractint .l", "An entry becomes an L-system in the plane.", "text/plain", import_fractint},
     {"houdini", "Houdini L-System node", "Parameters and rules, with what Houdini flips flipped back.",
      "text/plain", import_houdini},
     {"proctree", "proctree JSON", "Its 22 parameters become a tree of the model proctree.",
      "application/json", import_proctree},
+    {"ez_tree", "ez-tree JSON", "Its options become a tree of the model weber_penn.", "application/json",
+     import_ez_tree},
 };
 
 }  // namespace

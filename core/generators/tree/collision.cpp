@@ -126,6 +126,9 @@ void add_collision(Model& model, const Limbs& limbs, Job& job) {
     cut(limbs, chains, each.head, 0.5F * least_share * trunk, bodies);
   }
   if (bodies.size() > most_bodies) bodies.resize(most_bodies);
+  if (bodies.empty()) return;
+  const auto material = static_cast<int>(model.materials.size());
+  model.materials.emplace_back().name = "collision";
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Node node;
     node.name = name_of(job.demand().collision, i + 1);
@@ -133,8 +136,7 @@ void add_collision(Model& model, const Limbs& limbs, Job& job) {
     node.collision = CollisionShape::convex;
     node.mesh = static_cast<int>(model.meshes.size());
     MeshGroup group{"collision", {}};
-    group.primitives.push_back(
-        {prism(bodies[i], job), model.nodes.size() > 0 && !model.materials.empty() ? 0 : -1, {}});
+    group.primitives.push_back({prism(bodies[i], job), material, {}});
     job.spend(Resource::triangles, group.primitives.back().mesh.elements());
     model.nodes.push_back(std::move(node));
     model.meshes.push_back(std::move(group));

@@ -121,10 +121,6 @@ class Grower {
     return pitch(around, math::quick_sincos_degrees(-l.curve_v));
   }
 
-  double declination(const Frame& frame) const {
-    return math::degrees(math::quick_acos(std::clamp(frame.heading.y, -1.0, 1.0)));
-  }
-
   /// How many children a whole stem bears.
   double children_of(const Stem& stem) const {
     if (is_last(stem)) {
@@ -150,7 +146,6 @@ class Grower {
   Frame child_frame(const Stem& stem, const Bud& bud, const Rng& rng) const;
   bool prune(Stem& child) const;
   bool fits(const Stem& stem) const;
-  Frame to_light(Frame leaf, const glm::dvec3& position) const;
 
   const TreeParams& p_;
   std::array<WeberPennLevel, 4> levels_;
@@ -240,7 +235,7 @@ void Grower::split(Stem& stem, Frame& frame, const glm::dvec3& at, int segment, 
   if (clones == 0) return;
   const Rng rng = stem.rng.at("split").at(static_cast<std::uint64_t>(segment));
   const int left = std::max(1, l.curve_res - segment - 1);
-  const double down = declination(frame);
+  const double down = declination_of(frame);
   stem.share /= clones + 1;
   stem.readiness = at_base ? stem.readiness : 0.5;
   const auto part = [&](int number) {
@@ -378,19 +373,6 @@ bool Grower::fits(const Stem& stem) const {
   return true;
 }
 
-/// Turns a leaf's upper side outward and up: the section on leaf orientation of the paper.
-Frame Grower::to_light(Frame leaf, const glm::dvec3& position) const {
-  if (p_.LeafBend == 0) return leaf;
-  double outward = math::quick_atan2(position.z, position.x) - math::quick_atan2(leaf.up.z, leaf.up.x);
-  if (outward > math::pi) outward -= 2 * math::pi;
-  if (outward < -math::pi) outward += 2 * math::pi;
-  leaf = rotated(leaf, {0, 1, 0}, math::quick_sincos(-p_.LeafBend * outward));
-  const double aside = std::sqrt(leaf.up.x * leaf.up.x + leaf.up.z * leaf.up.z);
-  if (aside < 1e-9) return leaf;
-  const glm::dvec3 level_axis = glm::dvec3{-leaf.up.z, 0, leaf.up.x} / aside;
-  return rotated(leaf, level_axis, math::quick_sincos(p_.LeafBend * math::quick_atan2(aside, leaf.up.y)));
-}
-
 void Grower::leaf(const Stem& stem, const Bud& bud) {
   const Rng rng = chances_.leaves.at(stem.rng.key()).at(static_cast<std::uint64_t>(bud.number));
   SkeletonWriter::Leaf leaf;
@@ -403,7 +385,7 @@ void Grower::leaf(const Stem& stem, const Bud& bud) {
   } else {
     leaf.frame = child_frame(stem, bud, rng);
   }
-  leaf.frame = to_light(leaf.frame, bud.position);
+  leaf.frame = to_light(leaf.frame, bud.position, p_.LeafBend);
   if (leaf.frame.up.y < 0) leaf.frame = {leaf.frame.heading, -leaf.frame.left, -leaf.frame.up};
   leaf.position = bud.position;
   leaf.length = p_.LeafScale;

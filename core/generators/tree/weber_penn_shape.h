@@ -4,7 +4,7 @@
 /// metres, angles in degrees as in the paper.
 #include <array>
 
-#include "generated/params/tree.h"
+#include "core/generators/tree/growth_context.h"
 
 namespace seedmesh::tree {
 
@@ -33,5 +33,11 @@ double flared(double flare, double z);
 /// True where a point lies within the envelope; `aside` from the axis and `height` above the ground of a tree
 /// that is `scale` high.
 bool is_in_envelope(const TreeParams& params, double scale, double aside, double height);
+
+/// A leaf's frame with its upper side turned outward and up by the share `bend`, at a place about the trunk.
+Frame to_light(Frame leaf, const glm::dvec3& position, double bend);
+
+/// Degrees between a frame's heading and the sky.
+double declination_of(const Frame& frame);
 
 }  // namespace seedmesh::tree

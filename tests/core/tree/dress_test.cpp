@@ -186,6 +186,10 @@ TEST(Dress, CallsCollisionBodiesAsEachEngineWantsThem) {
     const Model model = made(small_tree(), {.collision = convention});
     const Mesh& body = mesh_of(model, name);
     EXPECT_TRUE(faults(body).empty());
+    const int material =
+        model.meshes[static_cast<std::size_t>(node(model, name).mesh)].primitives[0].material;
+    EXPECT_TRUE(model.materials[static_cast<std::size_t>(material)].recipe.kind.empty())
+        << "no uv, no picture";
     const MeshMeasures measures = measure({&body});
     EXPECT_EQ(measures.open_edges, 0U);
     EXPECT_GT(measures.volume, 0);
