@@ -75,8 +75,15 @@ class Placer {
           is_even ? surface_.normal[i] : math::unit(surface_.normal[i] * inverse, {0, 0, 1});
       out_.normal[first + i] = math::unit(turn * normal, {0, 1, 0});
     }
+    if (!out_.bone.empty()) {
+      const bool stands_free = organ.limb_joint == Limbs::none;
+      std::fill_n(out_.bone.data() + first, vertices,
+                  stands_free ? std::uint16_t{0} : options_.bones[organ.limb_joint]);
+    }
     if (!out_.uv[0].empty())
       std::memcpy(out_.uv[0].data() + first, surface_.uv[0].data(), surface_.uv[0].bytes());
+    if (!out_.color.empty())
+      std::memcpy(out_.color.data() + first, surface_.color.data(), surface_.color.bytes());
     const std::size_t corners = surface_.index.wide.size(), first_corner = number * corners;
     const auto shift = static_cast<std::uint32_t>(first);
     for (std::size_t i = 0; i < corners; ++i)
@@ -120,6 +127,7 @@ Mesh room_for(const Mesh& surface, std::size_t count, Job& job) {
   mesh.position = Array<glm::vec3>(job, vertices);
   mesh.normal = Array<glm::vec3>(job, vertices);
   if (!surface.uv[0].empty()) mesh.uv[0] = Array<glm::vec2>(job, vertices);
+  if (!surface.color.empty()) mesh.color = Array<glm::u8vec4>(job, vertices);
   mesh.index.wide = Array<std::uint32_t>(job, surface.index.wide.size() * count);
   mesh.cache_ordered = surface.cache_ordered;
   return mesh;
@@ -132,6 +140,10 @@ std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& op
   for (const Group& group : groups_of(organs, options, job)) {
     const Mesh& surface = options.surfaces[group.surface];
     foliage.push_back({group.surface, group.color, room_for(surface, group.organs.size(), job)});
+    if (!options.bones.empty()) {
+      Mesh& mesh = foliage.back().mesh;
+      mesh.bone = Array<std::uint16_t>(job, mesh.position.size());
+    }
     const Placer placer(surface, options, foliage.back().mesh);
     parallel_for(job, group.organs.size(), organs_a_chunk,
                  [&](std::size_t begin, std::size_t end, std::size_t) {

@@ -24,7 +24,8 @@ struct FoliagePlaces {
 };
 
 struct FoliageOptions {
-  /// By Organ::surface; borrowed. Each has positions, normals and wide indices, and may have uv[0].
+  /// By Organ::surface; borrowed. Each has positions, normals and wide indices, and may have uv[0]
+  /// and colours.
   std::span<const Mesh> surfaces;
   /// The diagonal of the whole model. Organs smaller than a 5,000th of it are passed over: whoever welds
   /// vertices at a millionth of the diagonal would make points of their triangles.
@@ -34,6 +35,8 @@ struct FoliageOptions {
   /// back side round.
   std::optional<glm::vec3> crown;
   float crown_share = 0.75F;
+  /// Of each joint that organs stand on (Organ::limb_joint), what moves it; fills Mesh::bone.
+  std::span<const std::uint16_t> bones = {};
 };
 
 /// One Foliage for each surface and colour in use, both rising. Organs that stand exactly on an earlier one

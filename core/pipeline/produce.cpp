@@ -42,8 +42,11 @@ const OwnForm* own_form_of(const Request& request) {
   return nullptr;
 }
 
-/// Generators point into their parameters; a request holds these under "/parameters".
-std::string in_request(std::string pointer) { return pointer.empty() ? pointer : "/parameters" + pointer; }
+/// Generators point into their parameters; a request holds these under "/parameters". What is wrong with the
+/// wanted output stands beside them.
+std::string in_request(std::string pointer) {
+  return pointer.empty() || pointer.starts_with("/output/") ? pointer : "/parameters" + pointer;
+}
 
 Error in_request(Error error) {
   for (Issue& issue : error.issues) issue.pointer = in_request(std::move(issue.pointer));
