@@ -154,13 +154,15 @@ MeshGroup joined(const Model& model, const Copies& copies, std::size_t level, Jo
   std::vector<std::vector<Placed>> groups;
   for (std::size_t i = 0; i < copies.nodes.size(); ++i) {
     const Node& node = model.nodes[copies.nodes[i]];
-    const int shown = level == 0 || node.lods.empty() ? node.mesh : node.lods[std::min(level, node.lods.size()) - 1];
+    const int shown =
+        level == 0 || node.lods.empty() ? node.mesh : node.lods[std::min(level, node.lods.size()) - 1];
     for (const Primitive& primitive : model.meshes[static_cast<std::size_t>(shown)].primitives) {
       const Mesh& mesh = primitive.mesh;
       if (mesh.elements() == 0) continue;
       job.spend(Resource::triangles, (copies.places[i].size() - 1) * mesh.elements());
       const auto [found, is_new] = numbers.try_emplace(
-          {primitive.material, primitive.variant_materials, mesh.topology, attributes_of(mesh)}, groups.size());
+          {primitive.material, primitive.variant_materials, mesh.topology, attributes_of(mesh)},
+          groups.size());
       if (is_new) groups.emplace_back();
       for (const glm::dmat4& place : copies.places[i]) groups[found->second].push_back({&primitive, &place});
     }
@@ -217,7 +219,8 @@ void merge_copies(Model& model, Job& job) {
   Node all;
   all.name = "copies";
   std::vector<MeshGroup> levels;
-  for (std::size_t level = 0; level < copies.levels; ++level) levels.push_back(joined(model, copies, level, job));
+  for (std::size_t level = 0; level < copies.levels; ++level)
+    levels.push_back(joined(model, copies, level, job));
   std::vector<bool> merged(model.meshes.size(), false), emptied(model.nodes.size(), false);
   for (const std::size_t number : copies.nodes) {
     Node& node = model.nodes[number];
@@ -228,8 +231,8 @@ void merge_copies(Model& model, Job& job) {
     node.lods.clear();
     node.instances.transforms.clear();
   }
-  const bool has_root = !model.nodes.empty() && model.nodes[0].parent < 0 && !emptied[0] && !moving(model)[0] &&
-                        matrix_of(model.nodes[0].transform) == glm::dmat4(1);
+  const bool has_root = !model.nodes.empty() && model.nodes[0].parent < 0 && !emptied[0] &&
+                        !moving(model)[0] && matrix_of(model.nodes[0].transform) == glm::dmat4(1);
   if (has_root) all.parent = 0;
   drop_bare(model, emptied);
   for (const Node& node : model.nodes) {  // what still stands somewhere

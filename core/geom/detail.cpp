@@ -44,7 +44,7 @@ float thickest(const Limbs& limbs) {
   return most;
 }
 
-Limbs prune(const Limbs& limbs, float thinnest, Job& job) {
+Limbs prune(const Limbs& limbs, float thinnest, Job& job, Array<std::uint16_t>* bone) {
   const std::size_t size = limbs.size();
   Array<std::uint8_t> stays(job, size, std::uint8_t{0});
   for (std::size_t i = size; i-- > 0;) {  // children before parents
@@ -71,6 +71,7 @@ Limbs prune(const Limbs& limbs, float thinnest, Job& job) {
   for (std::uint32_t& parent : kept.parent) moved(parent);
   kept.anchor = chosen(limbs.anchor, new_place, count, job);
   for (std::uint32_t& anchor : kept.anchor) moved(anchor);
+  if (bone) *bone = chosen(*bone, new_place, count, job);
   return kept;
 }
 

@@ -30,8 +30,8 @@ class Detail {
 };
 
 /// Limbs without internodes that are thinner than `thinnest` at both ends and carry none that is not. What is
-/// left keeps its order.
-Limbs prune(const Limbs& limbs, float thinnest, Job& job);
+/// left keeps its order. `bone`, where it is not null, is of each joint, and becomes that of what is left.
+Limbs prune(const Limbs& limbs, float thinnest, Job& job, Array<std::uint16_t>* bone = nullptr);
 
 /// The greatest radius of an internode.
 float thickest(const Limbs& limbs);

@@ -128,11 +128,7 @@ class Placer {
     for (std::size_t i = 0; i < corners; ++i)
       out_.index.wide[first_corner + i] = surface_.index.wide[i] + shift;
     if (options_.crown) follow_crown(first, first_corner);
-    if (!out_.color.empty()) {
-      const auto shade =
-          static_cast<std::uint8_t>(255.0F - 255.0F * options_.tint * fraction(key_at(organ.key, 0x7147)));
-      std::fill_n(out_.color.data() + first, vertices, glm::u8vec4(shade, shade, shade, 255));
-    }
+    if (!out_.color.empty()) place_colors(organ, first);
     if (!out_.bone.empty()) std::fill_n(out_.bone.data() + first, vertices, bone_of(organ));
     if (options_.wind) place_wind(organ, first);
   }
@@ -142,6 +138,17 @@ class Placer {
 
   std::uint16_t bone_of(const Organ& organ) const {
     return organ.limb_joint == Limbs::none ? std::uint16_t{0} : options_.bones[organ.limb_joint];
+  }
+
+  void place_colors(const Organ& organ, std::size_t first) const {
+    const float shade = 1.0F - options_.tint * fraction(key_at(organ.key, 0x7147));
+    const auto dimmed = [&](std::uint8_t value) {
+      return static_cast<std::uint8_t>(static_cast<float>(value) * shade);
+    };
+    for (std::size_t i = 0; i < surface_.position.size(); ++i) {
+      const glm::u8vec4 own = surface_.color.empty() ? glm::u8vec4(255) : surface_.color[i];
+      out_.color[first + i] = {dimmed(own.r), dimmed(own.g), dimmed(own.b), own.a};
+    }
   }
 
   void place_tangents(std::size_t first, const glm::mat3& turn, const glm::mat3& stretch) const {
@@ -198,7 +205,7 @@ Mesh room_for(const Mesh& surface, std::size_t count, const FoliageOptions& opti
   mesh.normal = Array<glm::vec3>(job, vertices);
   if (!surface.uv[0].empty()) mesh.uv[0] = Array<glm::vec2>(job, vertices);
   if (!surface.tangent.empty()) mesh.tangent = Array<glm::vec4>(job, vertices);
-  if (options.tint > 0) mesh.color = Array<glm::u8vec4>(job, vertices);
+  if (options.tint > 0 || !surface.color.empty()) mesh.color = Array<glm::u8vec4>(job, vertices);
   if (!options.bones.empty()) mesh.bone = Array<std::uint16_t>(job, vertices);
   if (options.wind) {
     for (const std::size_t set : {2U, 3U}) mesh.uv[set] = Array<glm::vec2>(job, vertices);

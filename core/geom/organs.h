@@ -25,7 +25,8 @@ struct FoliagePlaces {
 };
 
 struct FoliageOptions {
-  /// By Organ::surface; borrowed. Each has positions, normals and wide indices, and may have uv[0].
+  /// By Organ::surface; borrowed. Each has positions, normals and wide indices, and may have uv[0]
+  /// and colours.
   std::span<const Mesh> surfaces;
   /// The diagonal of the whole model. Organs smaller than a 5,000th of it are passed over: whoever welds
   /// vertices at a millionth of the diagonal would make points of their triangles.

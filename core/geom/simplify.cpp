@@ -15,10 +15,10 @@ namespace seedmesh {
 namespace {
 
 constexpr std::uint32_t none = 0xFFFFFFFFU;
-constexpr double border_weight = 10;    ///< of the planes that stand on a border, to that of faces
-constexpr double length_weight = 1e-6;  ///< prefers short edges where everything is flat
-constexpr double least_turn = 0.2;      ///< cosine between a face before and after
-constexpr double least_height = 1e-3;   ///< of a triangle, to its longest side
+constexpr double border_weight = 10;      ///< of the planes that stand on a border, to that of faces
+constexpr double length_weight = 1e-6;    ///< prefers short edges where everything is flat
+constexpr double least_turn = 0.2;        ///< cosine between a face before and after
+constexpr double least_height = 1e-3;     ///< of a triangle, to its longest side
 constexpr std::uint32_t most_faces = 96;  ///< round a vertex that is looked at
 
 /// Sum of squared distances to planes, as the ten numbers of a symmetric matrix.
@@ -33,8 +33,9 @@ struct Quadric {
     for (std::size_t i = 0; i < 10; ++i) q[i] += other.q[i];
   }
   double at(const glm::dvec3& p) const {
-    return q[0] * p.x * p.x + 2 * q[1] * p.x * p.y + 2 * q[2] * p.x * p.z + 2 * q[3] * p.x + q[4] * p.y * p.y +
-           2 * q[5] * p.y * p.z + 2 * q[6] * p.y + q[7] * p.z * p.z + 2 * q[8] * p.z + q[9];
+    return q[0] * p.x * p.x + 2 * q[1] * p.x * p.y + 2 * q[2] * p.x * p.z + 2 * q[3] * p.x +
+           q[4] * p.y * p.y + 2 * q[5] * p.y * p.z + 2 * q[6] * p.y + q[7] * p.z * p.z + 2 * q[8] * p.z +
+           q[9];
   }
 };
 
@@ -51,8 +52,17 @@ struct Wish {
 class Net {
  public:
   Net(std::span<Mesh* const> meshes, const std::vector<bool>& fixed, Job& job)
-      : job_(job), position_(job), normal_(job), corner_(job), point_of_(job), next_(job), head_(job), stamp_(job),
-        locked_(job), quadric_(job), heap_(job) {
+      : job_(job),
+        position_(job),
+        normal_(job),
+        corner_(job),
+        point_of_(job),
+        next_(job),
+        head_(job),
+        stamp_(job),
+        locked_(job),
+        quadric_(job),
+        heap_(job) {
     read(meshes, fixed);
     find_points();
     link();
@@ -116,9 +126,8 @@ class Net {
       const glm::vec3& p = position_[v];
       return std::tie(p.x, p.y, p.z);
     };
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return key(a) != key(b) ? key(a) < key(b) : a < b;
-    });
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
     point_of_.resize(position_.size());
     Array<std::uint8_t> locked(job_);
     for (std::size_t i = 0; i < order.size(); ++i) {
@@ -214,8 +223,9 @@ class Net {
       const glm::dvec3 way = at_[ring[i]] - at_[from];
       Quadric sum = quadric_[from];
       sum.add(quadric_[ring[i]]);
-      ways[i] = {std::max(0.0, sum.at(at_[ring[i]])) + length_weight * glm::dot(way, way) * glm::dot(way, way),
-                 ring[i]};
+      ways[i] = {
+          std::max(0.0, sum.at(at_[ring[i]])) + length_weight * glm::dot(way, way) * glm::dot(way, way),
+          ring[i]};
     }
     std::sort(ways.begin(), ways.begin() + count);
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -275,10 +285,11 @@ class Net {
   bool is_sound(std::uint32_t from, std::uint32_t to, std::pair<std::uint32_t, std::uint32_t> rest,
                 const std::array<std::uint32_t, 3>& corners) const {
     const glm::dvec3 &b = at_[rest.first], &d = at_[rest.second];
-    const glm::dvec3 old = glm::cross(b - at_[from], d - at_[from]), now = glm::cross(b - at_[to], d - at_[to]);
+    const glm::dvec3 old = glm::cross(b - at_[from], d - at_[from]),
+                     now = glm::cross(b - at_[to], d - at_[to]);
     const double now2 = glm::dot(now, now), turn = glm::dot(old, now);
-    const double longest = std::max({glm::dot(b - at_[to], b - at_[to]), glm::dot(d - at_[to], d - at_[to]),
-                                     glm::dot(b - d, b - d)});
+    const double longest = std::max(
+        {glm::dot(b - at_[to], b - at_[to]), glm::dot(d - at_[to], d - at_[to]), glm::dot(b - d, b - d)});
     if (!(now2 > least_height * least_height * longest * longest)) return false;
     if (!(turn > 0) || turn * turn < least_turn * least_turn * now2 * glm::dot(old, old)) return false;
     for (const std::uint32_t corner : corners) {

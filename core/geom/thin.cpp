@@ -33,9 +33,8 @@ std::vector<std::uint32_t> least_at_position(const Mesh& mesh) {
     const glm::vec3& p = mesh.position[v];
     return std::tuple(p.x + 0.0F, p.y + 0.0F, p.z + 0.0F);
   };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return at(a) != at(b) ? at(a) < at(b) : a < b;
-  });
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return at(a) != at(b) ? at(a) < at(b) : a < b; });
   for (std::size_t i = 0; i < order.size(); ++i) {
     least[order[i]] = i > 0 && at(order[i]) == at(order[i - 1]) ? least[order[i - 1]] : order[i];
   }
@@ -79,7 +78,8 @@ Pieces pieces_of(const Mesh& mesh, const Job& job) {
     }
   }
   pieces.triangles.assign(pieces.first.size(), 0);
-  for (std::size_t i = 0; i < mesh.index.size(); i += 3) ++pieces.triangles[pieces.of_vertex[mesh.index.at(i)]];
+  for (std::size_t i = 0; i < mesh.index.size(); i += 3)
+    ++pieces.triangles[pieces.of_vertex[mesh.index.at(i)]];
   return pieces;
 }
 
@@ -90,7 +90,8 @@ struct Areas {
 };
 
 Areas areas_of(const Mesh& mesh, const Pieces& pieces) {
-  Areas areas{std::vector<double>(pieces.first.size(), 0), std::vector<glm::dvec3>(pieces.first.size(), glm::dvec3(0))};
+  Areas areas{std::vector<double>(pieces.first.size(), 0),
+              std::vector<glm::dvec3>(pieces.first.size(), glm::dvec3(0))};
   for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
     const glm::dvec3 a(mesh.position[mesh.index.at(i)]);
     const glm::dvec3 across = glm::cross(glm::dvec3(mesh.position[mesh.index.at(i + 1)]) - a,
@@ -146,9 +147,8 @@ void thin_sheets(Mesh& mesh, std::uint64_t target, const Job& job) {
   std::iota(order.begin(), order.end(), 0U);
   std::vector<std::uint64_t> keys;
   for (const std::uint32_t vertex : pieces.first) keys.push_back(place_key(mesh.position[vertex]));
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return keys[a] != keys[b] ? keys[a] < keys[b] : a < b;
-  });
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return keys[a] != keys[b] ? keys[a] < keys[b] : a < b; });
   std::vector<bool> stays(order.size(), false);
   std::uint64_t kept = 0, pieces_kept = 0;
   for (const std::uint32_t piece : order) {
@@ -159,7 +159,8 @@ void thin_sheets(Mesh& mesh, std::uint64_t target, const Job& job) {
     stays[piece] = true;
   }
   const float growth = std::min(
-      largest_growth, static_cast<float>(std::sqrt(static_cast<double>(mesh.elements()) / static_cast<double>(kept))));
+      largest_growth,
+      static_cast<float>(std::sqrt(static_cast<double>(mesh.elements()) / static_cast<double>(kept))));
   for (std::size_t v = 0; v < mesh.position.size(); ++v) {
     const std::uint32_t piece = pieces.of_vertex[v];
     if (!stays[piece] || v == pieces.first[piece]) continue;

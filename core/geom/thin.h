@@ -7,7 +7,8 @@
 
 namespace seedmesh {
 
-/// Is the mesh made of many small sheets that do not hang together: leaves, cards, blades? Nine in ten are enough.
+/// Is the mesh made of many small sheets that do not hang together: leaves, cards, blades? Nine in ten are
+/// enough.
 bool is_foliage(const Mesh& mesh, const Job& job);
 
 /// Keeps so many of the sheets, chosen by their place, that at most `target` triangles are left, at least one

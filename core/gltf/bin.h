@@ -17,7 +17,7 @@ enum class Pool {
   vertex8,
   vertex12,
   vertex16,
-  octahedral8,   ///< only where it will be compressed, as the three below
+  octahedral8,  ///< only where it will be compressed, as the three below
   exponential8,
   sequence2,  ///< indices that are no triangles
   sequence4,
@@ -33,7 +33,6 @@ std::uint32_t stride_of(Pool pool);
 
 /// What the pool is for, as OpenGL numbers it; 0 for neither vertices nor indices.
 int target_of(Pool pool);
-
 
 /// The pool of a vertex attribute, or of indices, by the stride (and the filter).
 Pool vertex_pool(const Column& column);

@@ -31,8 +31,8 @@ struct Column {
   Slice slice = {};
   Component component = Component::f32;
   Lanes lanes = Lanes::scalar;
-  std::size_t count = 0;          ///< elements of `lanes` numbers each; never 0 in a document
-  bool normalized = false;        ///< integers stand for 0..1, or -1..1 with a sign
+  std::size_t count = 0;    ///< elements of `lanes` numbers each; never 0 in a document
+  bool normalized = false;  ///< integers stand for 0..1, or -1..1 with a sign
   Filter filter = Filter::none;
   std::optional<Box> range = {};  ///< where glTF wants it (positions, key times: in x)
 

@@ -138,7 +138,8 @@ void append_view(std::string& out, const Bin::View& plain, const Bin::View& stor
   append_member(out, ",\"byteOffset\":", compressed ? fallback : stored.offset);
   append_member(out, ",\"byteLength\":", plain.length);
   if (compressed) {
-    if (mode_of(plain.pool) == Mode::attributes) append_member(out, ",\"byteStride\":", stride_of(plain.pool));
+    if (mode_of(plain.pool) == Mode::attributes)
+      append_member(out, ",\"byteStride\":", stride_of(plain.pool));
     append_member(out, ",\"target\":", static_cast<std::uint64_t>(target_of(plain.pool)));
     append_extension(out, plain, stored);
   }

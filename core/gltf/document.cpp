@@ -216,7 +216,8 @@ class Describer {
   std::vector<int> lods_of(const Node& node, int mesh) {
     std::vector<int> lods;
     for (const int lod : node.lods) {
-      if (mesh >= 0 && !columns_.meshes[static_cast<std::size_t>(lod)].empty()) lods.push_back(meshes_.use(lod));
+      if (mesh >= 0 && !columns_.meshes[static_cast<std::size_t>(lod)].empty())
+        lods.push_back(meshes_.use(lod));
     }
     return lods;
   }
@@ -224,7 +225,8 @@ class Describer {
   template <class T>
   int add_column(Array<T> values, Component component, Lanes lanes) {
     const std::size_t count = values.size();
-    copy_columns_.push_back({.slice = keep(std::move(values)), .component = component, .lanes = lanes, .count = count});
+    copy_columns_.push_back(
+        {.slice = keep(std::move(values)), .component = component, .lanes = lanes, .count = count});
     Column& column = copy_columns_.back();
     column.normalized = component == Component::i16;
     return accessors_.add(vertex_pool(column), column);
@@ -248,7 +250,8 @@ class Describer {
         const glm::quat& q = copies[i].rotation;
         for (int lane = 0; lane < 4; ++lane) {
           const float value = lane == 0 ? q.x : lane == 1 ? q.y : lane == 2 ? q.z : q.w;
-          rotation[i][lane] = static_cast<std::int16_t>(std::floor(std::clamp(value, -1.0F, 1.0F) * 32'767 + 0.5F));
+          rotation[i][lane] =
+              static_cast<std::int16_t>(std::floor(std::clamp(value, -1.0F, 1.0F) * 32'767 + 0.5F));
         }
       }
       accessors.rotation = add_column(std::move(rotation), Component::i16, Lanes::vec4);

@@ -15,7 +15,9 @@ constexpr float most_steps = 65'534;  ///< one less than 16 bits hold: the origi
 /// Meshes in sets, each named by its least member.
 class Sets {
  public:
-  explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  explicit Sets(std::size_t size) : parent_(size) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
   std::size_t of(std::size_t member) {
     while (parent_[member] != member) member = parent_[member] = parent_[parent_[member]];
     return member;
@@ -41,7 +43,8 @@ Sets shared(const Model& model) {
   std::vector<int> first_of_skin(model.skins.size(), -1);
   for (const Node& node : model.nodes) {
     const std::vector<int> meshes = shown_by(node);
-    for (const int mesh : meshes) sets.join(static_cast<std::size_t>(meshes.front()), static_cast<std::size_t>(mesh));
+    for (const int mesh : meshes)
+      sets.join(static_cast<std::size_t>(meshes.front()), static_cast<std::size_t>(mesh));
     if (node.skin < 0 || meshes.empty()) continue;
     int& first = first_of_skin[static_cast<std::size_t>(node.skin)];
     if (first < 0) first = meshes.front();
@@ -61,7 +64,8 @@ Grid grid_of(const Box& box) {
   }
   Grid grid;
   grid.step = std::ldexp(1.0F, exponent);
-  for (int axis = 0; axis < 3; ++axis) grid.origin[axis] = std::floor(box.min[axis] / grid.step) * grid.step + 0.0F;
+  for (int axis = 0; axis < 3; ++axis)
+    grid.origin[axis] = std::floor(box.min[axis] / grid.step) * grid.step + 0.0F;
   return grid;
 }
 

@@ -261,7 +261,7 @@ class NodeWriter {
   const Model& model_;
   const Shown& shown_;
   Family family_;
-  std::size_t next_copy_, next_level_ = 0;  ///< numbers of nodes that come behind those of the model
+  std::size_t next_copy_, next_level_ = 0;      ///< numbers of nodes that come behind those of the model
   std::unordered_set<std::string_view> names_;  ///< of the model's nodes, if any node is copied
 };
 

@@ -23,9 +23,9 @@ struct Shown {
 };
 
 /// Appends the JSON array of all nodes: first those of the model, in its order, then the copies that stand
-/// for instances, as children of their node and named after it ("window_0"), all of them sharing its mesh, and
-/// last the coarser levels ("bark_LOD1") of both kinds, which MSFT_lod names and no scene shows.
-/// Identity transforms are left out. Spends the bytes of the text from `job`.
+/// for instances, as children of their node and named after it ("window_0"), all of them sharing its mesh,
+/// and last the coarser levels ("bark_LOD1") of both kinds, which MSFT_lod names and no scene shows. Identity
+/// transforms are left out. Spends the bytes of the text from `job`.
 void append_nodes(std::string& out, const Model& model, const Shown& shown, Job& job);
 
 }  // namespace seedmesh::gltf

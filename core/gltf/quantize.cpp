@@ -68,7 +68,8 @@ void quantize_directions(Column& column, Job& job) {
     const double u = below ? (1 - std::abs(y)) * (x >= 0 ? 1 : -1) : x;
     const double v = below ? (1 - std::abs(x)) * (y >= 0 ? 1 : -1) : y;
     const double w = has_sign ? static_cast<double>(load<glm::vec4>(column.slice, i).w) : 0;
-    packed[i] = {signed_of(u, normal_bits), signed_of(v, normal_bits), signed_of(1, normal_bits), signed_of(w, 16)};
+    packed[i] = {signed_of(u, normal_bits), signed_of(v, normal_bits), signed_of(1, normal_bits),
+                 signed_of(w, 16)};
   }
   column.slice = keep(std::move(packed));
   column.component = Component::i16;
@@ -110,7 +111,8 @@ void quantize_uv(Column& column, Job& job) {
   for (std::size_t i = 0; i < packed.size(); ++i) {
     const double value = std::ldexp(static_cast<double>(load<float>(column.slice, i)), -exponent);
     const auto mantissa = static_cast<std::int32_t>(std::floor(value + 0.5));
-    packed[i] = static_cast<std::uint32_t>(exponent) << 24U | (static_cast<std::uint32_t>(mantissa) & 0xFFFFFFU);
+    packed[i] =
+        static_cast<std::uint32_t>(exponent) << 24U | (static_cast<std::uint32_t>(mantissa) & 0xFFFFFFU);
   }
   column.slice = keep(std::move(packed));
   column.filter = Filter::exponential;
@@ -148,8 +150,8 @@ std::size_t join_equal(const Part& part, Array<std::uint32_t>& corners, Job& job
   for (const Column& column : part.columns)
     streams.push_back({column.slice.bytes.data(), column.stride(), column.stride()});
   Array<unsigned> place(job, vertices), first(job, vertices, 0xFFFFFFFFU);
-  const std::size_t kept = meshopt_generateVertexRemapMulti(place.data(), corners.data(), corners.size(), vertices,
-                                                            streams.data(), streams.size());
+  const std::size_t kept = meshopt_generateVertexRemapMulti(place.data(), corners.data(), corners.size(),
+                                                            vertices, streams.data(), streams.size());
   if (kept == vertices) return kept;
   constexpr unsigned unused = 0xFFFFFFFFU;
   for (std::size_t i = 0; i < vertices; ++i) {
@@ -164,7 +166,8 @@ void drop_flat(const Column& position, Array<std::uint32_t>& corners) {
   std::size_t kept = 0;
   for (std::size_t t = 0; t + 2 < corners.size(); t += 3) {
     glm::i64vec3 p[3];
-    for (std::size_t c = 0; c < 3; ++c) p[c] = glm::i64vec3(load<glm::u16vec4>(position.slice, corners[t + c]));
+    for (std::size_t c = 0; c < 3; ++c)
+      p[c] = glm::i64vec3(load<glm::u16vec4>(position.slice, corners[t + c]));
     const glm::i64vec3 a = p[1] - p[0], b = p[2] - p[0];
     const glm::i64vec3 across(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
     if (across == glm::i64vec3(0)) continue;
@@ -179,8 +182,8 @@ std::uint64_t word_of(const Column& position, std::uint32_t vertex) {
   return std::uint64_t{p.x} << 32U | std::uint64_t{p.y} << 16U | p.z;
 }
 
-/// Where a thin piece has become flat, its two sides are the same triangle turned round: both go. Of triangles
-/// that are there twice one stays.
+/// Where a thin piece has become flat, its two sides are the same triangle turned round: both go. Of
+/// triangles that are there twice one stays.
 void drop_folds(const Column& position, Array<std::uint32_t>& corners) {
   struct Face {
     std::array<std::uint64_t, 3> at;  ///< rising
@@ -242,7 +245,8 @@ Slice picked(const Column& column, const Array<std::uint32_t>& vertices, Job& jo
   }
 }
 
-/// Vertices in the order of their first use, without those that nobody uses; indices as narrow as they can be.
+/// Vertices in the order of their first use, without those that nobody uses; indices as narrow as they can
+/// be.
 void rewrite(Part& part, Array<std::uint32_t>& corners, Job& job) {
   constexpr std::uint32_t unused = 0xFFFFFFFFU;
   Array<std::uint32_t> place(job, part.columns.front().count, unused), vertices(job);
@@ -281,7 +285,8 @@ void rewrite(Part& part, Array<std::uint32_t>& corners, Job& job) {
 void clean_points(Part& part, Job& job) {
   const std::size_t count = part.columns.front().count;
   Array<std::uint32_t> corners(job, (count + 2) / 3 * 3);  // the library counts in triangles
-  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(std::min(i, count - 1));
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    corners[i] = static_cast<std::uint32_t>(std::min(i, count - 1));
   if (join_equal(part, corners, job) == count) return;
   Array<std::uint32_t> kept(job);
   for (std::size_t i = 0; i < count; ++i) {

@@ -19,9 +19,9 @@ struct Grid {
 std::vector<Grid> lay_grids(Model& model);
 
 /// Turns the columns to 16 bits, with the filters of EXT_meshopt_compression: normals and tangents
-/// octahedral with 10 bits an axis, texture coordinates outside 0..1 exponential with steps of 2^-14. Vertices
-/// that became equal are joined, triangles whose corners became one point or one line go, and so do parts
-/// without any triangle left. Linear time.
+/// octahedral with 10 bits an axis, texture coordinates outside 0..1 exponential with steps of 2^-14.
+/// Vertices that became equal are joined, triangles whose corners became one point or one line go, and so do
+/// parts without any triangle left. Linear time.
 void quantize(Columns& columns, const std::vector<Grid>& grids, Job& job);
 
 }  // namespace seedmesh::gltf

@@ -12,11 +12,12 @@ namespace seedmesh {
 /// whose nodes have coarser levels also name_LOD1.gltf, name_LOD1.bin and so on, which share the textures.
 enum class Container { glb, gltf, zip };
 
-/// What a file says in words that core glTF 2.0 does not have. Who cannot read such a word would show something
-/// else, so the file requires it; only MSFT_lod may be overlooked: the finest level is then shown alone.
+/// What a file says in words that core glTF 2.0 does not have. Who cannot read such a word would show
+/// something else, so the file requires it; only MSFT_lod may be overlooked: the finest level is then shown
+/// alone.
 struct Dialect {
-  /// KHR_mesh_quantization and EXT_meshopt_compression: positions of 16 bits on a grid of the mesh (steps of a
-  /// power of two, alike for meshes alike in size, so that their common edges stay common), normals and
+  /// KHR_mesh_quantization and EXT_meshopt_compression: positions of 16 bits on a grid of the mesh (steps of
+  /// a power of two, alike for meshes alike in size, so that their common edges stay common), normals and
   /// tangents of 10 bits an octahedral axis, texture coordinates of 16 bits, or of 2^-14 outside 0..1. What
   /// becomes equal is one vertex, what loses its area is left out. Lossless from there on.
   bool compressed = false;
@@ -30,11 +31,11 @@ struct WriteOptions {
   Dialect dialect = {};
 };
 
-/// Writes the whole model; takes it over, since the payload points into its arrays. Every accessor has min and max where glTF wants them, every view of vertices or indices
-/// its target, everything is aligned to 4. Without a dialect core glTF 2.0: instances become nodes that share a
-/// mesh; extensions (unlit, variants) are never required. What no node shows (meshes, materials, textures, skins)
-/// is left out; a model without meshes gives a scene without any. Model::extras and warnings go to
-/// asset.extras.
+/// Writes the whole model; takes it over, since the payload points into its arrays. Every accessor has min
+/// and max where glTF wants them, every view of vertices or indices its target, everything is aligned to 4.
+/// Without a dialect core glTF 2.0: instances become nodes that share a mesh; extensions (unlit, variants)
+/// are never required. What no node shows (meshes, materials, textures, skins) is left out; a model without
+/// meshes gives a scene without any. Model::extras and warnings go to asset.extras.
 ///
 /// Promises of the caller, kept by finish(): names are UTF-8, unique and not empty; no number is NaN or
 /// infinite; Mesh::bounds fits or is {0,0}. A node with a skin has joints and weights in all its primitives

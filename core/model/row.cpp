@@ -34,7 +34,8 @@ void share_textures(Model& model) {
   std::vector<std::shared_ptr<const Image>> kept;
   for (std::size_t i = 0; i < model.textures.size(); ++i) {
     const auto known = std::find_if(kept.begin(), kept.end(), [&](const auto& each) {
-      return each == model.textures[i] || (each->mime == model.textures[i]->mime && each->bytes == model.textures[i]->bytes);
+      return each == model.textures[i] ||
+             (each->mime == model.textures[i]->mime && each->bytes == model.textures[i]->bytes);
     });
     place[i] = static_cast<int>(known - kept.begin());
     if (known == kept.end()) kept.push_back(model.textures[i]);

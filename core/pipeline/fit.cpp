@@ -21,7 +21,9 @@ std::uint64_t triangles_of(const MeshGroup& group) {
   return triangles;
 }
 
-std::uint64_t copies_of(const Node& node) { return std::max<std::size_t>(1, node.instances.transforms.size()); }
+std::uint64_t copies_of(const Node& node) {
+  return std::max<std::size_t>(1, node.instances.transforms.size());
+}
 
 /// The mesh that a node shows at a level; those with fewer levels show their coarsest.
 int mesh_at(const Node& node, std::size_t level) {
@@ -76,7 +78,8 @@ std::vector<Family> families_of(Model& model, const Job& job) {
   std::vector<bool> plain(model.nodes.size()), together(model.meshes.size(), false);
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Node& node = model.nodes[i];
-    plain[i] = is_identity(node.transform) && (node.parent < 0 || plain[static_cast<std::size_t>(node.parent)]);
+    plain[i] =
+        is_identity(node.transform) && (node.parent < 0 || plain[static_cast<std::size_t>(node.parent)]);
     if (node.mesh < 0) continue;
     uses[static_cast<std::size_t>(node.mesh)] += copies_of(node);
     together[static_cast<std::size_t>(node.mesh)] = plain[i] && node.instances.transforms.empty();
@@ -108,8 +111,8 @@ std::uint64_t triangles_of(const Family& family, bool foliage) {
   return triangles;
 }
 
-/// What is no foliage, with at most `wanted` triangles if that can be: simpler, and without its smallest pieces
-/// where that is not enough.
+/// What is no foliage, with at most `wanted` triangles if that can be: simpler, and without its smallest
+/// pieces where that is not enough.
 void coarsen_limbs(Family& family, std::uint64_t wanted, Job& job) {
   const std::uint64_t leaves = triangles_of(family, true);
   const std::uint64_t left = simplify(family.meshes, leaves + wanted, family.foliage, job) - leaves;
@@ -159,13 +162,14 @@ std::optional<Issue> fit(Model& model, std::uint64_t most, int lods, Job& job) {
   if (drawn_at(model, 0) > most) coarsen_all(model, most, job);
   const std::uint64_t drawn = drawn_at(model, 0);
   if (drawn > most) {
-    return Issue{pointer, "the model has " + std::to_string(drawn) + " triangles where it is coarsest; found a budget of " +
-                              std::to_string(most)};
+    return Issue{pointer, "the model has " + std::to_string(drawn) +
+                              " triangles where it is coarsest; found a budget of " + std::to_string(most)};
   }
   if (levels_of(model) < wanted && levels >= wanted) {
-    return Issue{pointer, "the finest level that has at most " + std::to_string(most) + " triangles is number " +
-                              std::to_string(level) + ", which leaves " + std::to_string(levels - level) +
-                              " levels of detail; found " + std::to_string(lods) + " wanted"};
+    return Issue{pointer, "the finest level that has at most " + std::to_string(most) +
+                              " triangles is number " + std::to_string(level) + ", which leaves " +
+                              std::to_string(levels - level) + " levels of detail; found " +
+                              std::to_string(lods) + " wanted"};
   }
   return std::nullopt;
 }

@@ -42,8 +42,11 @@ const OwnForm* own_form_of(const Request& request) {
   return nullptr;
 }
 
-/// Generators point into their parameters; a request holds these under "/parameters".
-std::string in_request(std::string pointer) { return pointer.empty() ? pointer : "/parameters" + pointer; }
+/// Generators point into their parameters; a request holds these under "/parameters". What is wrong with the
+/// wanted output stands beside them.
+std::string in_request(std::string pointer) {
+  return pointer.empty() || pointer.starts_with("/output/") ? pointer : "/parameters" + pointer;
+}
 
 Error in_request(Error error) {
   for (Issue& issue : error.issues) issue.pointer = in_request(std::move(issue.pointer));
@@ -139,7 +142,8 @@ constexpr std::uint64_t most_parts = 400;
 
 Demand demand_of(const OutputParams& output) {
   return {.lods = output.max_triangles ? levels_to_choose_from : output.lods,
-          .share_organs = output.instancing == OutputInstancing::nodes || output.instancing == OutputInstancing::gpu,
+          .share_organs =
+              output.instancing == OutputInstancing::nodes || output.instancing == OutputInstancing::gpu,
           .growth = output.animation == OutputParams::Animation::growth,
           .wind = output.wind == OutputWind::weights,
           .collision = static_cast<CollisionNames>(output.collision)};
@@ -152,9 +156,9 @@ Result<Model> generate(const Request& request, Job& job) {
   Result<Model> model = request.body().generator->generate(request.body().params, job);
   if (!model) return in_request(std::move(model).error());
   if (output.lods > 1 && !has_levels(*model)) {
-    return Error{Code::invalid,
-                 {{"/output/lods", "found " + std::to_string(output.lods) +
-                                       " levels of detail; this model has one"}}};
+    return Error{
+        Code::invalid,
+        {{"/output/lods", "found " + std::to_string(output.lods) + " levels of detail; this model has one"}}};
   }
   return model;
 }
@@ -188,8 +192,8 @@ void merge_where_wanted(Model& model, const Request& request, Job& job) {
 WriteOptions write_options(const Request& request, const Form& form) {
   const OutputParams& output = request.body().output;
   const Profile& profile = profile_of(output.profile);
-  const bool by_itself = output.instancing == OutputInstancing::auto_ && profile.prefers_gpu &&
-                         !request.body().generator->parts;
+  const bool by_itself =
+      output.instancing == OutputInstancing::auto_ && profile.prefers_gpu && !request.body().generator->parts;
   return {.container = form.container,
           .generator = "Seedmesh " + std::string(program_version()),
           .dialect = {.compressed = profile.compressed,
@@ -247,7 +251,8 @@ Result<std::string> validate(const Request& request, Job& job) {
     const OutputParams& output = request.body().output;
     if (std::optional<Estimate>& estimate = appraisal->estimate) {
       const auto variants = static_cast<std::uint64_t>(output.variants);
-      *estimate = {estimate->triangles * variants, estimate->bytes * variants, estimate->exact && variants == 1};
+      *estimate = {estimate->triangles * variants, estimate->bytes * variants,
+                   estimate->exact && variants == 1};
       const auto most = static_cast<std::uint64_t>(output.max_triangles.value_or(0));
       if (most > 0 && estimate->triangles > most) {
         *estimate = {most, estimate->bytes / estimate->triangles * most, false};

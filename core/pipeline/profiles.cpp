@@ -126,7 +126,7 @@ const Profile& profile_of(OutputProfile name) {
                        [name](const Profile& each) { return each.name == name; });
 }
 
-std::string profiles_where(bool Profile::* reads) {
+std::string profiles_where(bool Profile::*reads) {
   std::string list;
   for (const Profile& each : profiles) {
     if (each.*reads) list += (list.empty() ? "" : ", ") + std::string(text_of(each.name));
@@ -145,7 +145,8 @@ void name_for(Model& model, OutputProfile profile) {
     node.name = nodes.unique(name);
   }
   for (MeshGroup& group : model.meshes) group.name = meshes.unique(group.name);
-  for (Material& material : model.materials) material.name = materials.unique(spelled(material.name, profile));
+  for (Material& material : model.materials)
+    material.name = materials.unique(spelled(material.name, profile));
   for (Animation& animation : model.animations) {
     std::string name = spelled(animation.name, profile);
     if (profile == OutputProfile::godot && name == "wind") name += "-loop";

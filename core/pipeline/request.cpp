@@ -80,8 +80,10 @@ void check_profile(const OutputParams& output, Faults& faults) {
                                     profiles_where(&Profile::lods_inside)});
   }
   if (output.instancing == OutputInstancing::gpu && !profile.gpu_instances) {
-    faults.add({"/output/instancing", "found gpu with " + named + ", whose readers do not all take it; expected one of the profiles " +
-                                          profiles_where(&Profile::gpu_instances)});
+    faults.add(
+        {"/output/instancing", "found gpu with " + named +
+                                   ", whose readers do not all take it; expected one of the profiles " +
+                                   profiles_where(&Profile::gpu_instances)});
   }
 }
 
@@ -93,8 +95,8 @@ void check_output(const OutputParams& output, std::uint64_t seed, Faults& faults
   }
   const auto more = static_cast<std::uint64_t>(output.variants - 1);
   if (seed + more < seed) {
-    faults.add({"/output/variants", "found " + std::to_string(output.variants) +
-                                        " seeds, of which some would be 2^64 or more"});
+    faults.add({"/output/variants",
+                "found " + std::to_string(output.variants) + " seeds, of which some would be 2^64 or more"});
   }
   check_profile(output, faults);
 }

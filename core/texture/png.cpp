@@ -92,7 +92,9 @@ bool write_head(Writer& writer, const PictureView& picture, PngEffort effort) {
   png_set_compression_mem_level(writer.png, 8);
   png_set_compression_strategy(writer.png, effort == PngEffort::quick ? 3 : 1);  // Z_RLE, Z_FILTERED
   png_set_filter(writer.png, PNG_FILTER_TYPE_BASE,
-                 effort == PngEffort::fast ? PNG_FILTER_UP : PNG_FILTER_PAETH);
+                 effort == PngEffort::fast    ? PNG_FILTER_UP
+                 : effort == PngEffort::quick ? PNG_FILTER_SUB
+                                              : PNG_FILTER_PAETH);
   png_write_info(writer.png, writer.info);
   if (picture.bits == 16 && little_endian) png_set_swap(writer.png);
   return true;

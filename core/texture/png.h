@@ -37,7 +37,7 @@ struct Picture {
 
 /// What a file is for: `fast` (level 1, filter Up) for heights, whose noise no level compresses well;
 /// `small` (level 6, filter Paeth) for pictures that are kept and sent often; `quick` (runs only, filter
-/// Paeth) for made textures: twice as fast as `fast` at colours, and no larger.
+/// Sub) for made textures: a third faster than with Paeth, a tenth larger; four times as fast as `small`.
 enum class PngEffort { fast, small, quick };
 
 /// A PNG file. Both sides are at least 1 and the bytes fit the size (asserted). About 50 ns a 16-bit grey

@@ -51,19 +51,16 @@ SkinOptions skin_options(const LsystemParams& params, const Detail& detail) {
   return options;
 }
 
-/// Lines have no bark that bones could move; organs and coarser levels have no bones.
+/// Lines have no bark that bones could move, and a mesh that nodes share cannot have bones of its own.
 std::optional<GrowthPlan> growth_of(const Skeleton& skeleton, const LsystemParams& params, Job& job) {
   if (!job.demand().growth) return std::nullopt;
   if (params.style == LsystemParams::Style::lines) {
     Job::reject({"/style", "found lines, which do not grow; the growth animation needs tubes"});
   }
-  if (!skeleton.organs.organ.empty()) {
+  if (!skeleton.organs.organ.empty() && job.demand().share_organs) {
     Job::reject(
-        {"/surfaces",
-         "found organs, which no bone moves; the growth animation needs a plant of limbs and polygons"});
-  }
-  if (job.demand().lods > 1) {
-    Job::reject({"", "found several levels of detail; the growth animation needs one"});
+        {"/output/instancing",
+         "found organs that share a mesh, which no bone moves; the growth animation needs auto or merge"});
   }
   return plan_growth(skeleton.limbs, {}, job);
 }
@@ -78,11 +75,15 @@ void add_bark(Model& model, Limbs limbs, std::span<const std::uint16_t> bones, c
   add_meshes(model, "bark", skin(limbs, options, job), Sides::one, wardrobe);
   if (static_cast<int>(model.nodes.size()) == finest) return;
   const float most = thickest(limbs);
+  Array<std::uint16_t> own_bones(job);
+  own_bones.append(bones);
   for (int level = 1; level < job.demand().lods; ++level) {
     const Detail detail(level);
-    limbs = prune(limbs, detail.thinnest() * most, job);
+    limbs = prune(limbs, detail.thinnest() * most, job, &own_bones);
     MeshGroup group{"bark_LOD" + std::to_string(level), {}};
-    for (Bark& part : skin(limbs, skin_options(params, detail), job)) {
+    SkinOptions coarser = skin_options(params, detail);
+    coarser.bones = own_bones.span();
+    for (Bark& part : skin(limbs, coarser, job)) {
       group.primitives.push_back({std::move(part.mesh), wardrobe.material(part.color, Sides::one), {}});
     }
     if (group.primitives.empty()) return;
@@ -128,7 +129,7 @@ Model dress(Skeleton skeleton, const LsystemParams& params, Job& job) {
     add_meshes(model, "lines", wires(std::exchange(skeleton.limbs, Limbs(job)), job), Sides::one, wardrobe);
   }
   add_meshes(model, "surfaces", polygons(skeleton.outlines, job, bones), Sides::both, wardrobe);
-  add_organs(model, skeleton.organs, params, size, wardrobe, job);
+  add_organs(model, {skeleton.organs, size, bones}, params, wardrobe, job);
   if (growth) add_growth(model, *growth);
   if (empty) {
     model.warnings.push_back(

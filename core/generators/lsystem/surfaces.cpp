@@ -1,11 +1,16 @@
 #include "core/generators/lsystem/surfaces.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "core/base/math.h"
+#include "core/generators/child.h"
 #include "core/geom/detail.h"
+#include "core/geom/flatten.h"
 #include "core/geom/leaf_mesh.h"
 #include "core/geom/organs.h"
+#include "core/gltf/read.h"
 #include "core/texture/leaf.h"
 
 namespace seedmesh::lsystem {
@@ -14,7 +19,7 @@ namespace {
 using Shape = LsystemShape;
 
 bool is_leaf(const LsystemSurface& surface) {
-  return surface.shape != Shape::fruit && surface.shape != Shape::patches;
+  return surface.shape != Shape::fruit && surface.shape != Shape::patches && surface.shape != Shape::model;
 }
 
 // The shapes that are leaves stand in the schema in the order of LeafShape.
@@ -79,29 +84,132 @@ TextureRecipe recipe_of(const LsystemSurface& surface) {
   return {std::string(texture::leaf_kind(leaf_shape(surface), shows_twig(surface))), 0, {}};
 }
 
+Mesh copy_of(const Mesh& mesh, const Job& job) {
+  Mesh copy;
+  const auto copied = [&job](const auto& from, auto& to) {
+    to = std::decay_t<decltype(from)>(job);
+    to.append(from.span());
+  };
+  copied(mesh.position, copy.position);
+  copied(mesh.normal, copy.normal);
+  copied(mesh.uv[0], copy.uv[0]);
+  copied(mesh.color, copy.color);
+  copied(mesh.index.wide, copy.index.wide);
+  return copy;
+}
+
+/// A model that is a surface: a primitive for each of its materials, which are in the plant's list by now.
+using Guests = std::map<std::string, std::vector<Primitive>>;
+
+Model guest_of(const LsystemSurface& surface, const std::string& name, Job& job) {
+  const std::string at = "/surfaces/" + name;
+  const Rng place = job.rng().at("surface").at(name);
+  Result<Model> model = surface.model ? generate_child(*surface.model, at + "/model", place, job)
+                                      : read_glb(*surface.glb, at + "/glb", job);
+  if (!model) Job::reject(model.error().issues.front());
+  return std::move(*model);
+}
+
+/// Moves materials, textures and warnings of a guest into the plant.
+std::vector<Primitive> settled(Model guest, Model& model, const std::string& pointer, Job& job) {
+  std::vector<Primitive> parts = flatten(guest, job);
+  std::erase_if(parts, [](const Primitive& part) {
+    return part.mesh.topology != Topology::triangles || part.mesh.elements() == 0;
+  });
+  if (parts.empty())
+    Job::reject({pointer, "found a model without triangles, which no surface can be made of"});
+  const auto materials = static_cast<int>(model.materials.size()),
+             textures = static_cast<int>(model.textures.size());
+  for (Material& material : guest.materials) {
+    for (TextureUse* use :
+         {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
+          &material.occlusion_texture, &material.emissive_texture}) {
+      if (use->texture >= 0) use->texture += textures;
+    }
+    model.materials.push_back(std::move(material));
+  }
+  model.textures.insert(model.textures.end(), guest.textures.begin(), guest.textures.end());
+  model.warnings.insert(model.warnings.end(), guest.warnings.begin(), guest.warnings.end());
+  for (Primitive& part : parts) {
+    if (part.material >= 0) part.material += materials;
+    if (part.mesh.normal.empty()) Job::reject({pointer, "found a model without normals"});
+  }
+  return parts;
+}
+
+/// The guests that organs stand for, each made once.
+Guests guests_of(Model& model, const Organs& organs, const LsystemParams& params, Job& job) {
+  std::vector<bool> used(params.surfaces.size(), false);
+  for (const Organ& organ : organs.organ) used[organ.surface] = true;
+  Guests guests;
+  std::size_t number = 0;
+  for (const auto& [name, surface] : params.surfaces) {
+    if (surface.shape == Shape::model && used[number]) {
+      guests[name] = settled(guest_of(surface, name, job), model, "/surfaces/" + name, job);
+    }
+    ++number;
+  }
+  return guests;
+}
+
+/// Meshes of organs, one or more for each surface of the request.
 struct Sheets {
   std::vector<Mesh> meshes;
   std::vector<TextureRecipe> recipes;
   std::vector<Sides> sides;
   std::vector<std::string> names;
+  std::vector<int> materials;        ///< -1: by the look of the organ
+  std::vector<std::uint32_t> first;  ///< of each surface; one more at the end
+
+  void add(Mesh mesh, const LsystemSurface& surface, const std::string& name, int material) {
+    meshes.push_back(std::move(mesh));
+    recipes.push_back(recipe_of(surface));
+    sides.push_back(surface.shape == Shape::fruit ? Sides::one : Sides::both);
+    names.push_back(name);
+    materials.push_back(material);
+  }
+  int material(std::uint32_t sheet, std::int16_t color, Wardrobe& wardrobe) const {
+    return materials[sheet] >= 0 ? materials[sheet] : wardrobe.material(color, sides[sheet], recipes[sheet]);
+  }
 };
 
-Sheets sheets_of(const LsystemParams& params, const Detail& detail, const Job& job) {
+Sheets sheets_of(const LsystemParams& params, const Guests& guests, const Detail& detail, const Job& job) {
   Sheets sheets;
   for (const auto& [name, surface] : params.surfaces) {
-    sheets.meshes.push_back(mesh_of(surface, detail, job));
-    sheets.recipes.push_back(recipe_of(surface));
-    sheets.sides.push_back(surface.shape == Shape::fruit ? Sides::one : Sides::both);
-    sheets.names.push_back(name);
+    sheets.first.push_back(static_cast<std::uint32_t>(sheets.meshes.size()));
+    if (surface.shape != Shape::model) {
+      sheets.add(mesh_of(surface, detail, job), surface, name, -1);
+      continue;
+    }
+    const auto guest = guests.find(name);
+    if (guest == guests.end()) continue;
+    for (const Primitive& part : guest->second)
+      sheets.add(copy_of(part.mesh, job), surface, name, part.material);
   }
+  sheets.first.push_back(static_cast<std::uint32_t>(sheets.meshes.size()));
   return sheets;
 }
 
-FoliageOptions options_of(const Sheets& sheets, const Organs& organs, const LsystemParams& params,
-                          float size) {
+/// Organs of surfaces as organs of sheets: one for each.
+Organs on_sheets(const Organs& organs, const Sheets& sheets, const Job& job) {
+  Organs all(job);
+  for (Organ organ : organs.organ) {
+    const std::uint32_t surface = organ.surface;
+    for (organ.surface = sheets.first[surface]; organ.surface < sheets.first[surface + 1]; ++organ.surface) {
+      Organ own = organ;
+      if (sheets.materials[organ.surface] >= 0) own.color = 0;
+      all.organ.push_back(own);
+    }
+  }
+  return all;
+}
+
+FoliageOptions options_of(const Sheets& sheets, const Foliated& foliated, const LsystemParams& params) {
+  const Organs& organs = foliated.organs;
   FoliageOptions options;
   options.surfaces = sheets.meshes;
-  options.model_size = size;
+  options.model_size = foliated.size;
+  options.bones = foliated.bones;
   if (params.crown_normals > 0 && organs.organ.size() > 0) {
     Box box{organs.organ[0].position, organs.organ[0].position};
     for (const Organ& organ : organs.organ) {
@@ -125,20 +233,20 @@ std::string level_name(const std::string& name, int level) {
   return level == 0 ? name : name + "_LOD" + std::to_string(level);
 }
 
-void add_merged(Model& model, const Organs& organs, const LsystemParams& params, float size,
+void add_merged(Model& model, const Foliated& foliated, const LsystemParams& params, const Guests& guests,
                 Wardrobe& wardrobe, Job& job) {
   Node node;
   node.name = "organs";
   node.parent = 0;
   for (int level = 0; level < job.demand().lods; ++level) {
     const Detail detail(level);
-    const Sheets sheets = sheets_of(params, detail, job);
-    Organs own = looking(organs, wardrobe, job);
+    const Sheets sheets = sheets_of(params, guests, detail, job);
+    Organs own = looking(foliated.organs, wardrobe, job);
     thin_out(own, detail.every());
     MeshGroup group{level_name(node.name, level), {}};
-    for (Foliage& part : place_organs(own, options_of(sheets, own, params, size), job)) {
-      const int material =
-          wardrobe.material(part.color, sheets.sides[part.surface], sheets.recipes[part.surface]);
+    const FoliageOptions options = options_of(sheets, {own, foliated.size, foliated.bones}, params);
+    for (Foliage& part : place_organs(on_sheets(own, sheets, job), options, job)) {
+      const int material = sheets.material(part.surface, part.color, wardrobe);
       group.primitives.push_back({std::move(part.mesh), material, {}});
     }
     if (group.primitives.empty()) continue;
@@ -153,34 +261,21 @@ void add_merged(Model& model, const Organs& organs, const LsystemParams& params,
   if (node.mesh >= 0) model.nodes.push_back(std::move(node));
 }
 
-Mesh copy_of(const Mesh& mesh, const Job& job) {
-  Mesh copy;
-  const auto copied = [&job](const auto& from, auto& to) {
-    to = std::decay_t<decltype(from)>(job);
-    to.append(from.span());
-  };
-  copied(mesh.position, copy.position);
-  copied(mesh.normal, copy.normal);
-  copied(mesh.uv[0], copy.uv[0]);
-  copied(mesh.index.wide, copy.index.wide);
-  return copy;
-}
-
 /// One node for each surface and look, which the writer turns to as many as there are places.
-void add_shared(Model& model, const Organs& organs, const LsystemParams& params, float size,
+void add_shared(Model& model, const Foliated& foliated, const LsystemParams& params, const Guests& guests,
                 Wardrobe& wardrobe, Job& job) {
   std::vector<Sheets> levels;
   for (int level = 0; level < job.demand().lods; ++level)
-    levels.push_back(sheets_of(params, Detail(level), job));
-  const Organs own = looking(organs, wardrobe, job);
+    levels.push_back(sheets_of(params, guests, Detail(level), job));
+  const Organs own = looking(foliated.organs, wardrobe, job);
   const Sheets& finest = levels.front();
-  for (FoliagePlaces& places : organ_places(own, options_of(finest, own, params, size), job)) {
+  const FoliageOptions options = options_of(finest, {own, foliated.size, {}}, params);
+  for (FoliagePlaces& places : organ_places(on_sheets(own, finest, job), options, job)) {
     Node node;
     node.name = finest.names[places.surface];
     node.parent = 0;
     node.instances.transforms = std::move(places.places);
-    const int material =
-        wardrobe.material(places.color, finest.sides[places.surface], finest.recipes[places.surface]);
+    const int material = finest.material(places.surface, places.color, wardrobe);
     for (std::size_t level = 0; level < levels.size(); ++level) {
       const int mesh = static_cast<int>(model.meshes.size());
       model.meshes.push_back({level_name(node.name, static_cast<int>(level)), {}});
@@ -208,16 +303,30 @@ void check_surfaces(const LsystemParams& params, std::vector<Issue>& issues) {
       issues.push_back({at, "found patches beside the shape \"" + std::string(text_of(surface.shape)) +
                                 "\"; expected the shape \"patches\""});
     }
+    const int models = (surface.model ? 1 : 0) + (surface.glb ? 1 : 0);
+    const bool is_model = surface.shape == Shape::model;
+    if (models != (is_model ? 1 : 0)) {
+      issues.push_back({"/surfaces/" + name,
+                        is_model ? "found " + std::to_string(models) +
+                                       " models; the shape \"model\" needs either model or glb"
+                                 : "found a model beside the shape \"" + std::string(text_of(surface.shape)) +
+                                       "\"; expected the shape \"model\""});
+    }
+    if (surface.glb && !is_glb_uri(*surface.glb)) {
+      issues.push_back(
+          {"/surfaces/" + name + "/glb", "expected a GLB as \"data:model/gltf-binary;base64,…\""});
+    }
   }
 }
 
-void add_organs(Model& model, const Organs& organs, const LsystemParams& params, float size,
-                Wardrobe& wardrobe, Job& job) {
-  if (organs.organ.empty()) return;
+void add_organs(Model& model, const Foliated& foliated, const LsystemParams& params, Wardrobe& wardrobe,
+                Job& job) {
+  if (foliated.organs.organ.empty()) return;
+  const Guests guests = guests_of(model, foliated.organs, params, job);
   if (job.demand().share_organs) {
-    add_shared(model, organs, params, size, wardrobe, job);
+    add_shared(model, foliated, params, guests, wardrobe, job);
   } else {
-    add_merged(model, organs, params, size, wardrobe, job);
+    add_merged(model, foliated, params, guests, wardrobe, job);
   }
 }
 

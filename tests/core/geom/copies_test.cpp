@@ -21,7 +21,8 @@ Mesh cube(const Job& job, float half) {
       n[axis] = side;
       u[(axis + 1) % 3] = 1;
       v[(axis + 2) % 3] = side;
-      for (const glm::vec2 corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
+      for (const glm::vec2 corner :
+           {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
         mesh.position.push_back((n + corner.x * u + corner.y * v) * half);
         mesh.normal.push_back(n);
       }
@@ -92,7 +93,8 @@ TEST(Copies, KeepTheirCoarserLevels) {
 TEST(Copies, LeaveWhatMoves) {
   Job job(1, Job::Options{});
   Model model = house(job);
-  model.animations.push_back({"swing", {{0, 1}}, {{1, Path::translation, Interpolation::linear, 0, {0, 0, 0, 1, 1, 1}}}});
+  model.animations.push_back(
+      {"swing", {{0, 1}}, {{1, Path::translation, Interpolation::linear, 0, {0, 0, 0, 1, 1, 1}}}});
   merge_copies(model, job);
   EXPECT_EQ(model.nodes[1].mesh, 1);
   EXPECT_FALSE(model.meshes[1].primitives.empty());

@@ -85,7 +85,8 @@ TEST(Simplify, KeepsAClosedSurfaceClosed) {
   all.push_back(std::move(mesh));
   Model model = model_of(std::move(all));
   finish(model, job);
-  for (const std::string& fault : faults(model)) {  // the order of what is left is no better than that of what was given
+  for (const std::string& fault :
+       faults(model)) {  // the order of what is left is no better than that of what was given
     EXPECT_NE(fault.find("cache misses"), std::string::npos) << fault;
   }
 }

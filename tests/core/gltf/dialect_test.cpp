@@ -38,9 +38,10 @@ class Decoded {
   /// Bytes of a view as they are after decoding and filtering.
   std::vector<unsigned char> view(std::size_t number) const {
     const json& extension = json_["bufferViews"][number]["extensions"]["EXT_meshopt_compression"];
-    const auto count = extension["count"].get<std::size_t>(), stride = extension["byteStride"].get<std::size_t>();
-    const auto* data =
-        reinterpret_cast<const unsigned char*>(bytes_.data()) + bin_ + extension["byteOffset"].get<std::size_t>();
+    const auto count = extension["count"].get<std::size_t>(),
+               stride = extension["byteStride"].get<std::size_t>();
+    const auto* data = reinterpret_cast<const unsigned char*>(bytes_.data()) + bin_ +
+                       extension["byteOffset"].get<std::size_t>();
     const auto size = extension["byteLength"].get<std::size_t>();
     std::vector<unsigned char> out(count * stride);
     const std::string mode = extension["mode"];
@@ -60,7 +61,8 @@ class Decoded {
     const json& row = accessor(number);
     const std::vector<unsigned char> bytes = view(row["bufferView"].get<std::size_t>());
     std::vector<T> values(row["count"].get<std::size_t>());
-    std::memcpy(values.data(), bytes.data() + row.value("byteOffset", std::size_t{0}), values.size() * sizeof(T));
+    std::memcpy(values.data(), bytes.data() + row.value("byteOffset", std::size_t{0}),
+                values.size() * sizeof(T));
     return values;
   }
 
@@ -93,7 +95,8 @@ Mesh ball(const Job& job, float radius, glm::vec3 middle) {
   constexpr std::uint32_t around = 24, up = 12;
   for (std::uint32_t i = 0; i <= up; ++i) {
     for (std::uint32_t k = 0; k <= around; ++k) {
-      const float a = static_cast<float>(k) / around * 6.2831853F, b = static_cast<float>(i) / up * 3.1415927F;
+      const float a = static_cast<float>(k) / around * 6.2831853F,
+                  b = static_cast<float>(i) / up * 3.1415927F;
       const glm::vec3 n(std::sin(b) * std::cos(a), std::cos(b), std::sin(b) * std::sin(a));
       mesh.position.push_back(middle + radius * n);
       mesh.normal.push_back(n);
@@ -250,7 +253,8 @@ TEST(Instances, AreReadByNodesAndArraysAlike) {
   for (std::size_t i = 0; i < given.size(); ++i) {
     const glm::vec4 q = glm::vec4(rotation[i]) / 32767.0F;
     for (std::size_t v = 0; v < positions.size(); ++v) {
-      const glm::vec3 is = translation[i] + glm::quat(q.w, q.x, q.y, q.z) * (scale[i] * glm::vec3(positions[v]));
+      const glm::vec3 is =
+          translation[i] + glm::quat(q.w, q.x, q.y, q.z) * (scale[i] * glm::vec3(positions[v]));
       const glm::vec3 was = given[i].translation + given[i].rotation * (given[i].scale * plain.position[v]);
       EXPECT_LT(glm::length(is - was), 1e-3F);
     }
@@ -279,7 +283,8 @@ TEST(Levels, OfCopiesAreNodesOfTheirOwn) {
     const json& node = document["nodes"][2 + copy];
     EXPECT_THAT(node["extensions"]["MSFT_lod"]["ids"], ElementsAre(7 + 2 * copy, 8 + 2 * copy));
     for (const json& id : node["extensions"]["MSFT_lod"]["ids"]) {
-      EXPECT_EQ(document["nodes"][id.get<std::size_t>()].value("translation", json()), node.value("translation", json()));
+      EXPECT_EQ(document["nodes"][id.get<std::size_t>()].value("translation", json()),
+                node.value("translation", json()));
     }
   }
 }

@@ -388,12 +388,14 @@ TEST(Write, LeavesSamplesForTheKhronosValidator) {
   for (auto& [name, model] : dialect_samples(fresh)) {
     Job each = job();
     const WriteOptions options{Container::glb, "seedmesh test", {true, true, true}};
-    std::ofstream(folder / (name + "_web.glb"), std::ios::binary) << write(std::move(model), options, each).text();
+    std::ofstream(folder / (name + "_web.glb"), std::ios::binary)
+        << write(std::move(model), options, each).text();
   }
   for (auto& [name, model] : dialect_samples(fresh)) {
     Job each = job();
     const WriteOptions options{Container::glb, "seedmesh test", {false, true, true}};
-    std::ofstream(folder / (name + "_unity.glb"), std::ios::binary) << write(std::move(model), options, each).text();
+    std::ofstream(folder / (name + "_unity.glb"), std::ios::binary)
+        << write(std::move(model), options, each).text();
   }
   Job text_job = job();
   const std::filesystem::path file = folder / "textured.gltf";

@@ -1,7 +1,11 @@
 /// Organs, generalized cylinders, looks and levels of detail of the generator.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
 
 #include "core/generators/lsystem/lsystem.h"
 #include "core/schema/faults.h"
@@ -158,6 +162,143 @@ TEST(Levels, FallInTrianglesAndKeepTheLeafArea) {
       EXPECT_LT(now, before) << name;
       before = now;
     }
+  }
+}
+
+constexpr const char* guest_tree =
+    R"json({"axiom":"F(1)[+(60)~ball(2)]F(1)~ball","sides":4,
+            "surfaces":{"ball":{"shape":"model","size":0.5,
+              "model":{"generator":"fractal","parameters":{"element":"cube","iterations":1}}}}})json";
+
+TEST(Guests, AreOrgansWithTheirOwnMaterials) {
+  const Model model = model_of(guest_tree);
+  const Node* organs = node_named(model, "organs");
+  ASSERT_TRUE(organs);
+  const MeshGroup& group = model.meshes[static_cast<std::size_t>(organs->mesh)];
+  ASSERT_FALSE(group.primitives.empty());
+  for (const Primitive& primitive : group.primitives) {
+    ASSERT_GE(primitive.material, 0);
+    EXPECT_LT(static_cast<std::size_t>(primitive.material), model.materials.size());
+  }
+}
+
+TEST(Guests, AreTwiceAsLargeWhereTheyAreAskedToBe) {
+  const auto size_at = [](const char* axiom) {
+    const std::string text = std::string(R"json({"axiom":")json") + axiom +
+                             R"json(","surfaces":{"ball":{"shape":"model","size":0.5,
+        "model":{"generator":"fractal","parameters":{"element":"cube","iterations":0}}}}})json";
+    const Model model = model_of(text.c_str());
+    const Box box = bounds_of(first_mesh(model, *node_named(model, "organs")).position.span());
+    return box.max - box.min;
+  };
+  EXPECT_NEAR(size_at("~ball").x, 0.5, 1e-6);
+  EXPECT_NEAR(size_at("~ball(2)").x, 1, 1e-6);
+}
+
+TEST(Guests, AreOneModelAndNothingElse) {
+  EXPECT_EQ(issues_of(R"({"axiom":"F","surfaces":{"b":{"shape":"model"}}})")[0].pointer, "/surfaces/b");
+  EXPECT_EQ(
+      issues_of(
+          R"({"axiom":"F","surfaces":{"b":{"shape":"kite","glb":"data:model/gltf-binary;base64,AA=="}}})")[0]
+          .pointer,
+      "/surfaces/b");
+  EXPECT_EQ(issues_of(R"({"axiom":"F","surfaces":{"b":{"shape":"model","glb":"leaf.glb"}}})")[0].pointer,
+            "/surfaces/b/glb");
+}
+
+TEST(Guests, AreRefusedWhereTheirBytesAreNoMesh) {
+  Job job(1, Job::Options{});
+  const LsystemParams params = params_of(
+      R"json({"axiom":"F~b","surfaces":{"b":{"shape":"model","glb":"data:model/gltf-binary;base64,AAAA"}}})json");
+  try {
+    const Result<Model> model = generate(params, job);
+    FAIL() << "it was taken";
+  } catch (const Stop& stop) {
+    EXPECT_EQ(stop.issue().pointer, "/surfaces/b/glb");
+  }
+}
+
+constexpr const char* leafy =
+    R"json({"axiom":"F(2)[+(40)F(1)~leaf]F(1)[-(40)F(1)~leaf]F(1)~leaf","width":0.1,"sides":8,
+            "surfaces":{"leaf":{"shape":"kite"}}})json";
+
+TEST(GrowthOfOrgans, GivesEachTheBoneOfItsLimb) {
+  const Model model = model_of(leafy, {.growth = true});
+  const Node* organs = node_named(model, "organs");
+  ASSERT_TRUE(organs);
+  EXPECT_GE(organs->skin, 0);
+  const Mesh& mesh = first_mesh(model, *organs);
+  ASSERT_EQ(mesh.bone.size(), mesh.position.size());
+  std::set<std::uint16_t> bones(mesh.bone.begin(), mesh.bone.end());
+  EXPECT_GE(bones.size(), 3U);  // three leaves on three limbs
+  EXPECT_FALSE(bones.contains(0));
+}
+
+TEST(GrowthOfOrgans, HasTheSameBonesAtEveryLevel) {
+  const Model still = model_of(leafy, {.lods = 3});
+  const Model model = model_of(leafy, {.lods = 3, .growth = true});
+  ASSERT_EQ(model.skins.size(), 1U);
+  for (const char* name : {"bark", "organs"}) {
+    const Node* node = node_named(model, name);
+    ASSERT_TRUE(node);
+    ASSERT_EQ(node->lods.size(), node_named(still, name)->lods.size());
+    for (const int lod : node->lods) {
+      for (const Primitive& primitive : model.meshes[static_cast<std::size_t>(lod)].primitives) {
+        ASSERT_EQ(primitive.mesh.bone.size(), primitive.mesh.position.size());
+        for (const std::uint16_t bone : primitive.mesh.bone) EXPECT_LT(bone, model.skins[0].joints.size());
+      }
+    }
+  }
+}
+
+TEST(GrowthOfOrgans, IsRefusedWhereTheyShareAMesh) {
+  Job job(1, Job::Options{});
+  job.set_demand({.share_organs = true, .growth = true});
+  try {
+    const Result<Model> model = generate(params_of(leafy), job);
+    FAIL() << "it was taken";
+  } catch (const Stop& stop) {
+    EXPECT_EQ(stop.issue().pointer, "/output/instancing");
+  }
+}
+
+/// Where the model is seen from a side, in cells of a grid: by its triangles' corners and middles.
+std::set<std::pair<int, int>> silhouette(const Model& model, std::size_t level, float cell) {
+  std::set<std::pair<int, int>> cells;
+  for (const Node& node : model.nodes) {
+    if (node.mesh < 0) continue;
+    const int shown =
+        level == 0 || node.lods.empty() ? node.mesh : node.lods[std::min(level, node.lods.size()) - 1];
+    for (const Primitive& primitive : model.meshes[static_cast<std::size_t>(shown)].primitives) {
+      const Mesh& mesh = primitive.mesh;
+      for (std::size_t i = 0; i + 2 < mesh.index.size(); i += 3) {
+        const glm::vec3 a = mesh.position[mesh.index.at(i)], b = mesh.position[mesh.index.at(i + 1)],
+                        c = mesh.position[mesh.index.at(i + 2)];
+        for (int s = 0; s <= 8; ++s) {
+          for (int t = 0; s + t <= 8; ++t) {
+            const glm::vec3 p =
+                a + (b - a) * (static_cast<float>(s) / 8) + (c - a) * (static_cast<float>(t) / 8);
+            cells.emplace(static_cast<int>(std::floor(p.x / cell)), static_cast<int>(std::floor(p.y / cell)));
+          }
+        }
+      }
+    }
+  }
+  return cells;
+}
+
+TEST(Levels, HaveOneSilhouette) {
+  const Model model = model_of(
+      R"json({"axiom":"A(1,0.12)","iterations":6,"sides":12,
+              "productions":["A(l,w) -> !(w)F(l)[+(28)A(l*0.75,w*0.7)][-(33)A(l*0.7,w*0.7)]"]})json",
+      {.lods = 5});
+  const auto finest = silhouette(model, 0, 0.1F);
+  for (std::size_t level = 1; level < 5; ++level) {
+    const auto coarser = silhouette(model, level, 0.1F);
+    std::size_t common = 0;
+    for (const auto& cell : coarser) common += finest.contains(cell) ? 1U : 0U;
+    EXPECT_GT(common, coarser.size() * 9 / 10) << level;  // hardly anything outside of the finest
+    EXPECT_GT(common, finest.size() * 7 / 10) << level;   // and most of it covered: thin twigs go
   }
 }
 

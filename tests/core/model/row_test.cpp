@@ -29,7 +29,8 @@ Model plant(const Job& job, float width, std::uint64_t texture_seed, const char*
 TEST(Row, StandsModelsBesideEachOther) {
   const Job job(1, Job::Options{});
   std::vector<Model> models;
-  for (int i = 0; i < 3; ++i) models.push_back(plant(job, static_cast<float>(1 + i), static_cast<std::uint64_t>(i), "summer"));
+  for (int i = 0; i < 3; ++i)
+    models.push_back(plant(job, static_cast<float>(1 + i), static_cast<std::uint64_t>(i), "summer"));
   const Model row = row_of(std::move(models));
   ASSERT_EQ(row.nodes.size(), 6U);
   EXPECT_EQ(row.nodes[0].transform.translation.x, 0);

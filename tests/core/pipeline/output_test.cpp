@@ -80,7 +80,8 @@ TEST(Output, RefusesLevelsThatNobodyWouldRead) {
     EXPECT_THAT(refused("hutsko_tree", output + R"(,"format":"zip"})"), IsEmpty()) << profile;
   }
   for (const char* profile : {"web", "unity"}) {
-    const json document = made("hutsko_tree", std::string(R"({"lods":3,"profile":")") + profile + "\"}").document;
+    const json document =
+        made("hutsko_tree", std::string(R"({"lods":3,"profile":")") + profile + "\"}").document;
     EXPECT_THAT(document["extensionsUsed"], Contains("MSFT_lod")) << profile;
   }
 }
@@ -96,7 +97,8 @@ TEST(Output, PutsCopiesOnTheGpuOnlyWhereThatIsRead) {
   }
   for (const char* profile : {"web", "unity", "blender"}) {
     const std::string output = std::string(R"({"instancing":"gpu","profile":")") + profile + "\"}";
-    EXPECT_THAT(required(made("copies_of_a_plant", output).document), Contains("EXT_mesh_gpu_instancing")) << profile;
+    EXPECT_THAT(required(made("copies_of_a_plant", output).document), Contains("EXT_mesh_gpu_instancing"))
+        << profile;
   }
 }
 
@@ -113,7 +115,8 @@ TEST(Output, ChoosesByItselfHowCopiesAreWritten) {
 }
 
 TEST(Output, SetsVariantsSideBySide) {
-  const Made one = made("leafy_birch", R"({"textures":16})"), four = made("leafy_birch", R"({"textures":16,"variants":4})");
+  const Made one = made("leafy_birch", R"({"textures":16})"),
+             four = made("leafy_birch", R"({"textures":16,"variants":4})");
   EXPECT_EQ(four.document["materials"].size(), one.document["materials"].size());
   EXPECT_EQ(four.document["images"].size(), one.document["images"].size());
   EXPECT_EQ(four.document["meshes"].size(), 4 * one.document["meshes"].size());
@@ -137,11 +140,13 @@ TEST(Output, HoldsABudgetOfTriangles) {
   ASSERT_GT(whole, 20'000U);
   for (const int most : {20'000, 9'000, 3'000}) {
     const std::uint64_t drawn =
-        made("growing_tree", R"({"animation":"none","max_triangles":)" + std::to_string(most) + "}").statistics.triangles;
+        made("growing_tree", R"({"animation":"none","max_triangles":)" + std::to_string(most) + "}")
+            .statistics.triangles;
     EXPECT_LE(drawn, static_cast<std::uint64_t>(most));
     EXPECT_GT(drawn, static_cast<std::uint64_t>(most / 2));
   }
-  EXPECT_EQ(made("growing_tree", R"({"animation":"none","max_triangles":1000000})").statistics.triangles, whole);
+  EXPECT_EQ(made("growing_tree", R"({"animation":"none","max_triangles":1000000})").statistics.triangles,
+            whole);
 }
 
 TEST(Output, HoldsTheBudgetOfAllVariantsTogether) {
@@ -156,10 +161,11 @@ TEST(Output, RefusesABudgetThatCannotBeHeld) {
 
 TEST(Output, RefusesWhatAFormThatIsNoModelHasNoUseFor) {
   EXPECT_THAT(
-      refused("alps",
-              R"({"format":"r16","profile":"web","variants":2,"max_triangles":5,"instancing":"merge","tangents":"none"})"),
-      UnorderedElementsAre("/output/profile", "/output/variants", "/output/max_triangles", "/output/instancing",
-                           "/output/tangents"));
+      refused(
+          "alps",
+          R"({"format":"r16","profile":"web","variants":2,"max_triangles":5,"instancing":"merge","tangents":"none"})"),
+      UnorderedElementsAre("/output/profile", "/output/variants", "/output/max_triangles",
+                           "/output/instancing", "/output/tangents"));
 }
 
 TEST(Output, SpeaksOfVariantsInTheEstimate) {
