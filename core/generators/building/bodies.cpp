@@ -66,7 +66,7 @@ struct Bucket {
 
 class Assembly {
  public:
-  Assembly(Model& model, const Shapes& shapes, Looks& looks, std::span<const Asset> assets, Job& job)
+  Assembly(Model& model, const Shapes& shapes, Looks& looks, std::span<Asset> assets, Job& job)
       : model_(model), shapes_(shapes), looks_(looks), assets_(assets), job_(job) {}
 
   void run(Sharing sharing) {
@@ -76,23 +76,34 @@ class Assembly {
     model_.nodes.push_back(std::move(root));
     root_ = static_cast<int>(model_.nodes.size()) - 1;
     const bool few = sharing == Sharing::few && bodies_.size() <= most_nodes;
-    std::vector<Body> merged;
-    if (sharing == Sharing::nodes || few) {
-      std::vector<Body> single;
-      for (const Body& body : bodies_) {
-        const bool is_textured = body.material >= 0 && looks_.tile_of(body.material) != nullptr;
-        (is_textured ? merged : single).push_back(body);
-      }
-      share(single);
-    } else {
-      merged = std::move(bodies_);
+    std::vector<Body> merged, single;
+    for (const Body& body : bodies_) {
+      const Shape& shape = shapes_.shapes[body.shape];
+      const bool is_textured = body.material >= 0 && looks_.tile_of(body.material) != nullptr;
+      const bool is_own = is_asset(shape) && !is_part(shape);  // the request's own models keep their form
+      (is_own || ((sharing == Sharing::nodes || few) && !is_textured) ? single : merged).push_back(body);
     }
+    share(single);
     if (!merged.empty()) merge(merged);
   }
 
  private:
   bool is_asset(const Shape& shape) const { return (shape.geometry & asset_bit) != 0; }
-  const Asset& asset_of(const Shape& shape) const { return assets_[shape.geometry & ~asset_bit]; }
+  bool is_part(const Shape& shape) const {
+    return is_asset(shape) && assets_[shape.geometry & ~asset_bit].row != nullptr;
+  }
+  /// A built-in part is made for the size of the scope, and once for equal ones.
+  Asset& asset_of(const Shape& shape) {
+    Asset& asset = assets_[shape.geometry & ~asset_bit];
+    if (asset.row == nullptr) return asset;
+    const auto [found, is_new] = parts_.try_emplace({shape.geometry, rounded(shape.size)});
+    if (!is_new) return found->second;
+    Asset& made = found->second;
+    made.size = shape.size;
+    for (PartPiece& piece : make_part(*asset.row, shape.size, {}, job_))
+      made.primitives.push_back({std::move(piece.mesh), looks_.material_of_role(piece.role), {}});
+    return made;
+  }
 
   /// What is drawn, its material, and the extent of all.
   void gather() {
@@ -235,7 +246,8 @@ class Assembly {
     for (const Body& body : bodies) {
       const Shape& shape = shapes_.shapes[body.shape];
       // A turned box is the same box; an asset is scaled by its node.
-      const Key key{shape.geometry, is_asset(shape) ? std::array<std::int64_t, 3>{} : rounded(shape.size),
+      const bool is_scaled = is_asset(shape) && !is_part(shape);
+      const Key key{shape.geometry, is_scaled ? std::array<std::int64_t, 3>{} : rounded(shape.size),
                     body.material};
       const auto [found, is_new] = places.try_emplace(key, groups.size());
       if (is_new) groups.emplace_back(body.shape, std::vector<Transform>{});
@@ -260,7 +272,7 @@ class Assembly {
     }
   }
 
-  Transform transform_of(const Shape& shape) const {
+  Transform transform_of(const Shape& shape) {
     const glm::dmat3& axes = shapes_.axes[shape.axes];
     Transform transform;
     transform.rotation = glm::quat(glm::quat_cast(axes));
@@ -283,24 +295,21 @@ class Assembly {
     return scale;
   }
 
+  /// Each asset is shown by one mesh, each part by one for each size: what was made moves there.
   int add_asset_mesh(const Shape& shape) {
-    const std::uint32_t index = shape.geometry & ~asset_bit;
-    const auto found = asset_meshes_.find(index);
-    if (found != asset_meshes_.end()) return found->second;
     MeshGroup group;
-    group.name = shapes_.asset_names[index];
-    for (const Primitive& primitive : asset_of(shape).primitives) {
-      Primitive copy;
-      copy.material = primitive.material;
-      copy.mesh = empty_mesh(!primitive.mesh.uv[0].empty());
-      copy.mesh.topology = primitive.mesh.topology;
-      append_asset(primitive.mesh, copy.mesh, glm::dmat3(1), glm::dvec3(1), glm::dvec3(0));
-      group.primitives.push_back(std::move(copy));
+    group.name = shapes_.asset_names[shape.geometry & ~asset_bit];
+    Asset& asset = asset_of(shape);
+    group.primitives = std::move(asset.primitives);
+    if (is_part(shape)) {
+      for (Primitive& primitive : group.primitives) {
+        const glm::dvec2* const tile = looks_.tile_of(primitive.material);
+        if (tile == nullptr) primitive.mesh.uv[0] = {};
+        for (glm::vec2& uv : primitive.mesh.uv[0]) uv /= glm::vec2(*tile);
+      }
     }
     model_.meshes.push_back(std::move(group));
-    const int made = static_cast<int>(model_.meshes.size()) - 1;
-    asset_meshes_.emplace(index, made);
-    return made;
+    return static_cast<int>(model_.meshes.size()) - 1;
   }
 
   int add_shared_mesh(const Shape& shape) {
@@ -318,17 +327,15 @@ class Assembly {
     return static_cast<int>(model_.meshes.size()) - 1;
   }
 
-  static void append_asset(const Mesh& from, Mesh& to, const glm::dmat3& axes, const glm::dvec3& scale,
-                           const glm::dvec3& at) {
+  /// Texture coordinates of parts are in metres, those of materials in tiles.
+  static void append_part(const Mesh& from, Mesh& to, const glm::dmat3& axes, const glm::dvec3& at,
+                          const glm::dvec2* tile) {
     const auto base = static_cast<std::uint32_t>(to.position.size());
     for (std::size_t i = 0; i < from.position.size(); ++i) {
-      to.position.push_back(glm::vec3(at + axes * (scale * glm::dvec3(from.position[i]))));
-      if (!from.normal.empty())
-        to.normal.push_back(
-            glm::vec3(math::unit(axes * (glm::dvec3(from.normal[i]) / scale), glm::dvec3(0, 1, 0))));
-      if (!to.uv[0].empty() || base == 0) {
-        if (!from.uv[0].empty()) to.uv[0].push_back(from.uv[0][i]);
-      }
+      to.position.push_back(glm::vec3(at + axes * glm::dvec3(from.position[i])));
+      to.normal.push_back(glm::vec3(math::unit(axes * glm::dvec3(from.normal[i]), glm::dvec3(0, 1, 0))));
+      if (tile == nullptr) continue;
+      to.uv[0].push_back(from.uv[0].empty() ? glm::vec2(0) : from.uv[0][i] / glm::vec2(*tile));
     }
     for (std::size_t i = 0; i < from.index.size(); ++i) to.index.wide.push_back(base + from.index.at(i));
   }
@@ -419,6 +426,10 @@ class Assembly {
   }
 
   void merge(std::vector<Body>& bodies) {
+    for (const Body& body : bodies) {
+      if (is_part(shapes_.shapes[body.shape]))
+        asset_of(shapes_.shapes[body.shape]);  // its materials come to be
+    }
     const std::uint32_t layers = put_in_layers(bodies);
     const std::size_t materials = model_.materials.size();
     std::vector<Bucket> buckets(layers * materials);
@@ -450,12 +461,9 @@ class Assembly {
       const glm::dmat3& axes = shapes_.axes[shape.axes];
       if ((++done & 4095U) == 0) job_.check();
       if (is_asset(shape)) {
-        const Asset& asset = asset_of(shape);
-        const glm::dvec3 scale = scale_of(shape, asset);
-        for (const Primitive& primitive : asset.primitives) {
-          Bucket& bucket =
-              buckets[body.layer * materials + static_cast<std::size_t>(std::max(primitive.material, 0))];
-          append_asset(primitive.mesh, bucket.mesh, axes, scale, shape.origin - axes * (scale * asset.low));
+        for (const Primitive& primitive : asset_of(shape).primitives) {
+          Bucket& bucket = buckets[body.layer * materials + static_cast<std::size_t>(primitive.material)];
+          append_part(primitive.mesh, bucket.mesh, axes, shape.origin, looks_.tile_of(primitive.material));
           bucket.has_solids = true;
         }
         continue;
@@ -487,7 +495,7 @@ class Assembly {
   Model& model_;
   const Shapes& shapes_;
   Looks& looks_;
-  std::span<const Asset> assets_;
+  std::span<Asset> assets_;
   Job& job_;
   int root_ = -1;
   std::vector<Body> bodies_;
@@ -496,13 +504,13 @@ class Assembly {
   Patch patch_;
   std::vector<glm::dvec3> smooth_;
   std::vector<std::uint32_t> triangles_, place_;
-  std::map<std::uint32_t, int> asset_meshes_;
+  std::map<std::pair<std::uint32_t, std::array<std::int64_t, 3>>, Asset> parts_;
 };
 
 }  // namespace
 
-void add_bodies(Model& model, const Shapes& shapes, Looks& looks, std::span<const Asset> assets,
-                Sharing sharing, Job& job) {
+void add_bodies(Model& model, const Shapes& shapes, Looks& looks, std::span<Asset> assets, Sharing sharing,
+                Job& job) {
   Assembly(model, shapes, looks, assets, job).run(sharing);
 }
 

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "core/generators/building/looks.h"
+#include "core/generators/building/parts/parts.h"
 #include "core/generators/building/shapes.h"
 #include "core/model/model.h"
 
@@ -12,6 +13,8 @@ namespace seedmesh::building {
 struct Asset {
   glm::dvec3 low{0}, size{1};
   std::vector<Primitive> primitives;  ///< materials are those of the model
+  const PartRow* row =
+      nullptr;  ///< a built-in part: made for each size that is asked for, without primitives
 };
 
 enum class Sharing {
@@ -24,7 +27,7 @@ constexpr std::size_t most_nodes = 400;
 /// Adds a node "building" with all active shapes below it. Shapes without an area are passed over. Merged
 /// shapes that touch go to different layers, so that in every mesh an edge lies in at most two triangles.
 /// Spends Resource::triangles. Cost: about 0.4 microseconds a box.
-void add_bodies(Model& model, const Shapes& shapes, Looks& looks, std::span<const Asset> assets,
-                Sharing sharing, Job& job);
+void add_bodies(Model& model, const Shapes& shapes, Looks& looks, std::span<Asset> assets, Sharing sharing,
+                Job& job);
 
 }  // namespace seedmesh::building

@@ -135,6 +135,9 @@ struct Work {
 void add_asset(Work& work, const std::string& name, Model own, Job& job) {
   Asset asset;
   asset.primitives = flatten(own, job);
+  if (std::erase_if(asset.primitives,
+                    [](const Primitive& p) { return p.mesh.topology != Topology::triangles; }) > 0)
+    own.warnings.push_back({"/assets/" + name, "lines and points of the asset are left out", 0, 0});
   const auto materials = static_cast<int>(work.model.materials.size()),
              textures = static_cast<int>(work.model.textures.size());
   for (Material& material : own.materials) {
@@ -174,11 +177,18 @@ std::optional<Error> add_assets(Work& work, const BuildingParams& params, Job& j
     if (!own) return std::move(own).error();
     add_asset(work, name, std::move(*own), job);
   }
+  for (const PartRow& row : part_rows()) {
+    work.boxes.push_back({std::string(row.name), glm::dvec3(0), row.size});
+    Asset asset;
+    asset.size = row.size;
+    asset.row = &row;
+    work.assets.push_back(std::move(asset));
+  }
   return std::nullopt;
 }
 
 Shapes shapes_of(Work& work, const BuildingParams& params, Job& job) {
-  Plan plan;
+  Task plan;
   plan.grammar = &work.grammar;
   plan.text = rules_of(params);
   Solid footprint;
@@ -197,6 +207,7 @@ Shapes shapes_of(Work& work, const BuildingParams& params, Job& job) {
   if (params.repeat)
     plan.rounding = *params.repeat == BuildingRepeat::ceil ? Rounding::ceil : Rounding::nearest;
   plan.assets = work.boxes;
+  plan.own_assets = params.assets.size();
   return derive_shapes(plan, job);
 }
 

@@ -43,6 +43,8 @@ glm::dmat3 frame_of(const glm::dvec3& normal, const glm::dvec3& first_edge) {
 std::uint32_t Deriver::classes_of(const State& face) const {
   const glm::dvec3 n = glm::transpose(out_.axes[seen_->axes]) * out_.axes[face.axes][2];
   std::uint32_t classes = face_all;
+  if (face.tag == face_is_inside) classes |= face_inside;
+  if (face.tag == face_is_border) classes |= face_border;
   const glm::dvec3 a = glm::abs(n);
   if (a.y >= a.x && a.y >= a.z) {
     classes |= n.y > 0 ? face_top : face_bottom;
@@ -115,6 +117,7 @@ void Deriver::solid_faces(const State& state, std::vector<State>& out) {
           return (p.x < 1e-9 || p.x > 1 - 1e-9) && (p.y < 1e-9 || p.y > 1 - 1e-9);
         });
     made.geometry = is_rectangle ? box_geometry : add_solid(std::move(face));
+    made.tag = each.tag;
     out.push_back(made);
   }
 }

@@ -27,13 +27,14 @@ class Cutter {
 
   /// Cells of one level fill `room` from `at` on.
   void level(std::uint32_t first, std::uint32_t count, double at, double room) {
+    const double end = std::min(at + room, length_);
     const Sums sums = sums_of(first, count);
     Plan plan = plan_of(first, count, sums, room);
     for (std::uint32_t i = first; i < first + count && !is_full_ && wanted_ <= most_; ++i) {
       const Cell& cell = cells_[i];
       if (!cell.is_group) {
         const double size = cell.measure == Measure::floating ? cell.size * plan.stretch : fixed(cell);
-        place(cell, at, size);
+        place(cell, at, size, end);
         at += std::max(0.0, size);
         continue;
       }
@@ -52,7 +53,7 @@ class Cutter {
           for (std::uint32_t c = cell.first; c < cell.first + cell.count; ++c) {
             const double size =
                 cells_[c].measure == Measure::floating ? cells_[c].size * plan.stretch : fixed(cells_[c]);
-            place(cells_[c], p, size);
+            place(cells_[c], p, size, end);
             p += std::max(0.0, size);
           }
         }
@@ -129,14 +130,14 @@ class Cutter {
     return plan;
   }
 
-  void place(const Cell& cell, double at, double size) {
-    if (!(size > eps_) || is_full_) return;
-    if (at >= length_ - eps_) {
-      is_full_ = true;
+  /// `end` is where the cells of this level stop; what reaches beyond is cut off there.
+  void place(const Cell& cell, double at, double size, double end) {
+    if (!(size > eps_) || is_full_ || at >= end - eps_) {
+      is_full_ |= at >= length_ - eps_;
       return;
     }
     if (++wanted_ > most_) return;
-    out_.push_back({at, at + size > length_ - eps_ ? length_ - at : size, cell.part});
+    out_.push_back({at, at + size > end - eps_ ? end - at : size, cell.part});
   }
 
   std::span<const Cell> cells_;

@@ -7,7 +7,7 @@
 
 namespace seedmesh::building {
 
-Deriver::Deriver(const Plan& plan, const Context* first, Job& job)
+Deriver::Deriver(const Task& plan, const Context* first, Job& job)
     : plan_(plan),
       grammar_(*plan.grammar),
       first_(first),
@@ -159,7 +159,7 @@ Shapes Deriver::run() {
   return std::move(out_);
 }
 
-Shapes derive_shapes(const Plan& plan, Job& job) {
+Shapes derive_shapes(const Task& plan, Job& job) {
   const Grammar& grammar = *plan.grammar;
   if (grammar.queries.empty() && !grammar.listens_to_snaps) return Deriver(plan, nullptr, job).run();
   Deriver first(plan, nullptr, job);

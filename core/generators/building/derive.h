@@ -23,11 +23,11 @@ namespace seedmesh::building {
 
 /// An asset by name: the box it has by itself. `place` is its number with asset_bit.
 struct AssetBox {
-  std::string name;
+  std::string name;  ///< of an asset of the request, or else of a built-in part
   glm::dvec3 low{0}, size{1};
 };
 
-struct Plan {
+struct Task {
   const Grammar* grammar = nullptr;
   std::string_view text;                     ///< the rules, for line and column
   glm::dvec3 size{0};                        ///< of the first shape
@@ -38,10 +38,11 @@ struct Plan {
   bool is_sequential = false, is_depth_first = false;
   std::optional<Rounding> rounding;
   std::span<const AssetBox> assets;
+  std::size_t own_assets = 0;  ///< the first of them are the request's own
 };
 
 constexpr std::uint16_t deepest_shape = 1'000;
 
-Shapes derive_shapes(const Plan& plan, Job& job);
+Shapes derive_shapes(const Task& task, Job& job);
 
 }  // namespace seedmesh::building

@@ -11,7 +11,7 @@ namespace seedmesh::building {
 class Deriver {
  public:
   /// `first` is what the first pass made, or null in that pass.
-  Deriver(const Plan& plan, const Context* first, Job& job);
+  Deriver(const Task& plan, const Context* first, Job& job);
   Shapes run();
   std::vector<SnapPlane> take_snaps() { return std::move(snaps_); }
 
@@ -21,6 +21,7 @@ class Deriver {
     glm::dvec3 origin{0}, size{0};
     std::uint32_t axes = 0, geometry = box_geometry, style = 0;
     std::uint32_t split_index = 0, split_total = 0, comp_index = 0, comp_total = 0;
+    std::uint8_t tag = 0;  ///< of a face while a component split looks at it
   };
   /// One successor on the way: whose it is, and where its random numbers hang.
   struct Frame {
@@ -71,6 +72,12 @@ class Deriver {
   void color(const Step& step, State& state);
   void set(const Step& step, State& state);
   void report(const Step& step);
+
+  // Mass (mass.cpp)
+  void take_solid(State& state, Solid solid);
+  void roof_over(const Step& step, State& state);
+  void offset_face(const Step& step, State& state);
+  void set_back(const Step& step, const State& state, const Frame& frame, std::uint64_t key);
   void snap(const Step& step, const State& state);
   void split(const Step& step, const State& state, const Frame& frame, std::uint64_t key);
   void repeat(const Step& step, const State& state, const Frame& frame, std::uint64_t key);
@@ -95,7 +102,7 @@ class Deriver {
   double area(const State& state) const;
   double volume(const State& state) const;
 
-  const Plan& plan_;
+  const Task& plan_;
   const Grammar& grammar_;
   const Context* first_;
   Job& job_;

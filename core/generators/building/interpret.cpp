@@ -264,6 +264,31 @@ void Deriver::run_step(const Step& step, State& state, const Frame& frame, std::
     case Op::taper:
       is_pending = true;
       return taper(step, state);
+    case Op::roof_hip:
+    case Op::roof_gable:
+    case Op::roof_pyramid:
+    case Op::roof_shed:
+    case Op::roof_mansard:
+    case Op::roof_gambrel:
+      is_pending = true;
+      return roof_over(step, state);
+    case Op::roof: {
+      is_pending = false;
+      State roof = state;
+      roof_over(step, roof);
+      Frame own = frame;
+      own.key = key;
+      return run_body(grammar_.parts[step.first_part].body, roof, own);
+    }
+    case Op::offset:
+      is_pending = true;
+      return offset_face(step, state);
+    case Op::setback:
+    case Op::shape_l:
+    case Op::shape_u:
+    case Op::shape_o:
+      is_pending = false;
+      return set_back(step, state, frame, key);
     case Op::insert:
       is_pending = true;
       return insert(step, state);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/generators/building/parts/parts.h"
 #include "core/schema/color.h"
 #include "core/texture/data_uri.h"
 #include "generated/params/building.h"
@@ -112,6 +113,8 @@ int Looks::material_of(const Shape& shape) {
   return found->second;
 }
 
+int Looks::material_of_role(std::string_view role) { return make(std::string(role), nullptr); }
+
 int Looks::make(const std::string& name, const std::string* color) {
   const auto given = params_.materials.find(name);
   // A name that says nothing takes the colour in force, one that is known keeps its own.
@@ -123,7 +126,12 @@ int Looks::make(const std::string& name, const std::string* color) {
   if (!is_new) return found->second;
   Material material;
   material.name = name;
-  const Look& look = known != nullptr ? *known : looks[0];
+  Look look = known != nullptr ? *known : looks[0];
+  for (const PartMaterial& part : part_materials()) {
+    if (known == nullptr && part.role == name)
+      look = {part.role, *color_of(part.color), static_cast<double>(part.roughness),
+              static_cast<double>(part.metallic), 1};
+  }
   paint(material, takes_color ? *color_of(*color) : look.color);
   material.roughness = static_cast<float>(look.roughness);
   material.metallic = static_cast<float>(look.metallic);

@@ -20,6 +20,8 @@ class Looks {
  public:
   Looks(Model& model, const BuildingParams& params, const Shapes& shapes, const Job& job);
   int material_of(const Shape& shape);
+  /// Of a role of a built-in part.
+  int material_of_role(std::string_view role);
   /// Metres of one tile, where the material has images: texture coordinates are needed then.
   const glm::dvec2* tile_of(int material) const;
 

@@ -5,6 +5,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/building/deriver.h"
+#include "core/generators/building/parts/parts.h"
 #include "core/schema/color.h"
 
 namespace seedmesh::building {
@@ -21,6 +22,15 @@ glm::dmat3 turn(int axis, double degrees) {
   m[v][u] = -a.sin;
   m[v][v] = a.cos;
   return m;
+}
+
+/// For the message: every name that i() knows.
+std::string part_names() {
+  std::string names = "cube, cylinder, cone, sphere, pyramid, prism, triangular_prism";
+  for (const PartRow& row : part_rows()) {
+    if (names.find(row.name) == std::string::npos) names += ", " + std::string(row.name);
+  }
+  return names;
 }
 
 std::string channel(double value) {
@@ -179,8 +189,8 @@ std::uint32_t Deriver::named_solid(std::string_view name) {
     Solid (*make)();
   };
   static constexpr Named bodies[] = {{"cylinder", cylinder}, {"pyramid", pyramid},
-                                    {"prism", prism},       {"triangular_prism", triangular_prism},
-                                    {"sphere", sphere},     {"cone", cone}};
+                                     {"prism", prism},       {"triangular_prism", triangular_prism},
+                                     {"sphere", sphere},     {"cone", cone}};
   if (name == "cube" || name == "box") return box_geometry;
   const auto found = named_.find(name);
   if (found != named_.end()) return found->second;
@@ -199,17 +209,18 @@ void Deriver::insert(const Step& step, State& state) {
   if (const std::size_t dot = name.find('.'); dot != std::string::npos) name.resize(dot);
   glm::dvec3 own(1), low(0);
   std::uint32_t geometry = none;
+  const std::size_t given_assets = plan_.own_assets;
   for (std::size_t i = 0; i < plan_.assets.size() && geometry == none; ++i) {
+    // Bodies that can be cut come before parts that cannot, and after what the request brings.
+    if (i == given_assets && (geometry = named_solid(name)) != none) break;
     if (plan_.assets[i].name != name) continue;
     geometry = asset_bit | static_cast<std::uint32_t>(i);
     own = plan_.assets[i].size;
     low = plan_.assets[i].low;
   }
-  if (geometry == none) geometry = named_solid(name);
   if (geometry == none)
-    reject(step.offset, "there is no part \"" + name +
-                            "\": neither an asset of the request nor one of cube, cylinder, cone, sphere, "
-                            "pyramid, prism, triangular_prism");
+    reject(step.offset,
+           "there is no part \"" + name + "\": neither an asset of the request nor one of " + part_names());
   const int given = dimension(state.size);
   glm::dvec3 size = state.size;
   if (given == 0) {

@@ -20,6 +20,7 @@ constexpr ClassName class_names[] = {
     {"right", face_right},   {"top", face_top},           {"bottom", face_bottom},
     {"side", face_side},     {"all", face_all},           {"horizontal", face_horizontal},
     {"aslant", face_aslant}, {"vertical", face_vertical}, {"nutant", face_nutant},
+    {"inside", face_inside}, {"border", face_border},
 };
 constexpr ClassName old_names[] = {
     {"faces", face_all},          {"face", face_all},          {"sidefaces", face_side},
@@ -234,7 +235,8 @@ void Parser::operation_step(const OperationRow& row, std::vector<Step>& out) {
   grammar_.arguments.insert(grammar_.arguments.end(), list.begin(), list.end());
   if (row.braces != Braces::absent) {
     if (!is_here("{")) {
-      fault(here(), "found " + lang::in_quotes(here()) + ", expected `{` after " + lang::in_quotes(row.name) + "(...)");
+      fault(here(), "found " + lang::in_quotes(here()) + ", expected `{` after " + lang::in_quotes(row.name) +
+                        "(...)");
       return;
     }
     const std::size_t close = tokens_.partner(at_);
@@ -259,11 +261,12 @@ void Parser::operation_step(const OperationRow& row, std::vector<Step>& out) {
             parts.push_back(part);
           }
         }
-      } else if (row.op == Op::repeat) {
+      } else if (row.op == Op::repeat || row.op == Op::roof) {
         Part part;
         part.body = bodies.front();
         if (bodies.size() > 1)
-          fault(token, "Repeat has one successor, found " + std::to_string(bodies.size()));
+          fault(token,
+                lang::in_quotes(row.name) + " has one successor, found " + std::to_string(bodies.size()));
         parts.assign(1, part);
       } else {
         std::size_t next = 0;
@@ -478,8 +481,13 @@ void Parser::selectors(std::vector<Part>& out) {
   do {
     Part part;
     part.offset = offset_here();
+    if (tokens_.is_name(at_, "street") && tokens_.is(at_ + 1, "."))
+      at_ += 2;  // a lot without streets: its own sides
     const Token& token = here();
-    if (token.kind == TokenKind::number) {
+    if (token.kind == TokenKind::name && (token.text == "remainder" || token.text == "shape")) {
+      part.is_remainder = token.text == "remainder";
+      part.classes = part.is_remainder ? 0U : static_cast<std::uint32_t>(face_all);
+    } else if (token.kind == TokenKind::number) {
       part.classes = face_all;
       part.index = static_cast<std::int32_t>(std::clamp(token.number, 0.0, 1e9));
     } else {

@@ -18,7 +18,10 @@ struct Loop {
 struct Face {
   std::uint32_t first_loop = 0, loop_count = 0;  ///< the outer loop first
   bool is_round = false;                         ///< part of a curved surface: normals are smoothed
+  std::uint8_t tag = 0;                          ///< what an offset made it: face_is_inside, face_is_border
 };
+
+constexpr std::uint8_t face_is_inside = 1, face_is_border = 2;
 
 struct Solid {
   std::vector<glm::dvec3> points;

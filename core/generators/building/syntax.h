@@ -145,7 +145,9 @@ enum FaceClass : std::uint32_t {
   face_vertical = 256,
   face_nutant = 512,
   face_side = 1024,
-  face_all = 2048
+  face_all = 2048,
+  face_inside = 4096,
+  face_border = 8192
 };
 
 /// A cell of a split, or a selector of a component split.

@@ -29,7 +29,8 @@ std::vector<Cell> repeated(const std::vector<Cell>& inner) {
   return cells;
 }
 
-std::vector<double> repeat(const std::vector<Cell>& inner, double length, Rounding rounding = Rounding::nearest) {
+std::vector<double> repeat(const std::vector<Cell>& inner, double length,
+                           Rounding rounding = Rounding::nearest) {
   const std::vector<Cell> cells = repeated(inner);
   std::vector<Cut> cuts;
   double wanted = 0;
@@ -97,7 +98,8 @@ TEST(Cuts, NeverLeaveAGapOrOverlap) {
     bool floats = false;
     for (std::uint32_t i = 0; i < top; ++i) {
       if (rng.below(3) == 0) {
-        cells[i] = {.is_group = true, .first = static_cast<std::uint32_t>(cells.size()), .count = 1 + rng.below(3)};
+        cells[i] = {
+            .is_group = true, .first = static_cast<std::uint32_t>(cells.size()), .count = 1 + rng.below(3)};
         const std::uint32_t count = cells[i].count, first = cells[i].first;
         for (std::uint32_t k = 0; k < count; ++k) cells.push_back(random_cell());
         if (rng.below(3) == 0) {

@@ -1,0 +1,336 @@
+#include "core/generators/building/building.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/generators/building/operations.h"
+#include "core/geom/finish.h"
+#include "generated/params/building.h"
+#include "tests/support/mesh_faults.h"
+
+namespace seedmesh::building {
+namespace {
+
+BuildingParams with(std::string rules, std::array<double, 3> size = {10, 10, 10}) {
+  BuildingParams params;
+  params.rules = std::move(rules);
+  params.size = size;
+  return params;
+}
+
+Json derived(const BuildingParams& params, std::uint64_t seed = 0) {
+  Job job(seed, Job::Options{});
+  const Result<Json> answer = derive(params, job);
+  if (answer) return *answer;
+  ADD_FAILURE() << answer.error().issues.front().message;
+  return {{"shapes", Json::array()}, {"warnings", Json::array()}, {"reports", Json::object()}};
+}
+
+/// Symbols of the active shapes, in order, with a blank between.
+std::string active(const Json& answer) {
+  std::string out;
+  for (const Json& shape : answer["shapes"]) {
+    if (shape["active"]) out += (out.empty() ? "" : " ") + shape["symbol"].get<std::string>();
+  }
+  return out;
+}
+
+std::string leaves(const std::string& rules, std::array<double, 3> size = {10, 10, 10},
+                   std::uint64_t seed = 0) {
+  return active(derived(with(rules, size), seed));
+}
+
+std::vector<double> sizes(const Json& answer, int axis) {
+  std::vector<double> out;
+  for (const Json& shape : answer["shapes"]) {
+    if (shape["active"]) out.push_back(shape["scope"]["size"][static_cast<std::size_t>(axis)]);
+  }
+  return out;
+}
+
+/// "line:column message" of the first fault.
+std::string fault(const std::string& rules) {
+  const std::vector<Issue> issues = check(with(rules), Limits{});
+  if (issues.empty()) return "none";
+  return std::to_string(issues[0].line) + ":" + std::to_string(issues[0].column) + " " + issues[0].message;
+}
+
+std::string refusal(const BuildingParams& params, const Limits& limits = {}) {
+  Job::Options options;
+  options.limits = limits;
+  Job job(0, options);
+  try {
+    const Result<Json> answer = derive(params, job);
+    return answer ? "none" : answer.error().issues.front().message;
+  } catch (const Stop& stop) {
+    return std::to_string(stop.issue().line) + ":" + std::to_string(stop.issue().column) + " " +
+           stop.issue().message;
+  }
+}
+
+Model model_of(const BuildingParams& params, std::uint64_t seed = 0) {
+  Job job(seed, Job::Options{});
+  Result<Model> model = generate(params, job);
+  if (!model) {
+    ADD_FAILURE() << model.error().issues.front().message;
+    return {};
+  }
+  finish(*model, job);
+  return std::move(*model);
+}
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(BuildingRules, ReadBothNotationsIntoTheSame) {
+  EXPECT_EQ(leaves("A ~> Subdiv(\"X\", 2, 1r, 0.5*Scope.sx){ B. | C. | D. }"), "B C D");
+  EXPECT_EQ(leaves("A --> split(x){ 2: B. | ~1: C. | '0.5: D. }"), "B C D");
+}
+
+TEST(BuildingRules, MayShareALine) {
+  EXPECT_EQ(leaves("1: A ~> B C 2: B ~> D. D. 3: C : Scope.sx > 1 ~> E. C ~> F."), "D D E");
+}
+
+TEST(BuildingRules, KnowRulesOfTheThesis) {
+  // Rules 4.2 to 4.6 of Kogovšek, with their labels.
+  EXPECT_EQ(leaves("0: A ~> facade(Scope.sy) 1: facade(h) : h >= 9 ~> floor(h/3) floor(h/3) floor(h/3) : 0.9 "
+                   "2: floor(h) ~> tile."),
+            "tile tile tile");
+  EXPECT_EQ(leaves("3: facade ~> Subdiv(\"Y\", 3.5, 0.3, 3r, 3){ floor. | ledge. | floor. | floor. }"),
+            "floor ledge floor floor");
+  EXPECT_EQ(leaves("4: floor ~> Repeat(\"X\", 2){ B. }"), "B B B B B");
+  EXPECT_EQ(leaves("5: a ~> Comp(\"faces\"){ A. }"), "A A A A A A");
+  EXPECT_EQ(leaves("5: a ~> Comp(\"edge\", 3){ B. }"), "B");
+}
+
+TEST(BuildingRules, TakeTheFirstCaseThatHolds) {
+  const std::string rules = "A --> case scope.sx > 20: B. case scope.sx > 5: C. else: D.";
+  EXPECT_EQ(leaves(rules, {30, 1, 1}), "B");
+  EXPECT_EQ(leaves(rules, {10, 1, 1}), "C");
+  EXPECT_EQ(leaves(rules, {1, 1, 1}), "D");
+}
+
+TEST(BuildingRules, ChooseByWeight) {
+  int count = 0;
+  for (std::uint64_t seed = 0; seed < 2000; ++seed)
+    count += leaves("A ~> B. : 0.3  A ~> C. : 0.7", {1, 1, 1}, seed) == "B";
+  EXPECT_NEAR(count, 600, 80);
+  count = 0;
+  for (std::uint64_t seed = 0; seed < 2000; ++seed)
+    count += leaves("A --> 30%: B. 50%: C. else: D.", {1, 1, 1}, seed) == "D";
+  EXPECT_NEAR(count, 400, 70);
+}
+
+TEST(BuildingRules, KnowAttributesConstantsAndFunctions) {
+  BuildingParams params = with(
+      "attr width = half * 2  const half = base / 2  attr base = 3\n"
+      "grown(x, y) = case x > 2: x + y else: y\n"
+      "A --> split(x){ width: B. | grown(base, 1): C. }");
+  EXPECT_THAT(sizes(derived(params), 0), ElementsAre(3, 4));
+  params.attributes["base"] = 1.0;
+  EXPECT_THAT(sizes(derived(params), 0), ElementsAre(1, 1));
+  params.attributes["nothing"] = 1.0;
+  EXPECT_EQ(check(params, Limits{}).front().pointer, "/attributes/nothing");
+}
+
+TEST(BuildingRules, HoldAttributesToTheirAnnotations) {
+  BuildingParams params = with("@Range(1, 5) attr w = 2 @Enum(\"a\", \"b\") attr s = \"a\" A --> B.");
+  params.attributes = {{"w", 9.0}, {"s", std::string("c")}};
+  std::vector<std::string> pointers;
+  for (const Issue& issue : check(params, Limits{})) pointers.push_back(issue.pointer);
+  EXPECT_THAT(pointers, ElementsAre("/attributes/s", "/attributes/w"));
+}
+
+TEST(BuildingRules, CompareTexts) {
+  EXPECT_EQ(leaves("attr style = \"old\" A --> case style == \"old\": B. else: C."), "B");
+}
+
+TEST(BuildingRules, TellFaultsWithLineAndColumn) {
+  EXPECT_THAT(fault("A --> split(q){ 1: B. }"), HasSubstr("1:14 found the axis `q`"));
+  EXPECT_THAT(fault("A -->\n  split(x){ hight: B. }"), HasSubstr("2:13 unknown name `hight`"));
+  EXPECT_THAT(fault("A --> extrud(3) B."), HasSubstr("did you mean `extrude`?"));
+  EXPECT_THAT(fault("A --> [ B."), HasSubstr("is not closed"));
+  EXPECT_THAT(fault("A(h) --> B. C --> A"), HasSubstr("`A` takes 1 parameters, found 0"));
+  EXPECT_THAT(fault("A --> comp(f){ frnt: B. }"), HasSubstr("expected a selector"));
+  EXPECT_EQ(check(with("A --> split(q){ 1: B. }\nB --> Roof(\"x\") C\nD --> size("), Limits{}).size(), 4U);
+}
+
+TEST(BuildingRules, WarnOfSymbolsWithoutARuleUnlessAPointSaysSo) {
+  EXPECT_EQ(derived(with("A --> B C."))["warnings"].size(), 1U);
+  EXPECT_EQ(derived(with("A --> B. C."))["warnings"].size(), 0U);
+}
+
+TEST(BuildingRules, RefuseWhatHasNoEnd) {
+  EXPECT_THAT(refusal(with("A --> B\nB --> A")), HasSubstr("without an end"));
+  EXPECT_THAT(refusal(with("A --> A A")), HasSubstr("1:1 `A` stands 1,000 shapes deep"));
+  EXPECT_THAT(refusal(with("A --> split(x){ 0.000000001: B. }*")), HasSubstr("1:7 this split makes"));
+  EXPECT_THAT(refusal(with("A --> s(1 / (scope.sx - 10), 1, 1) B.")), HasSubstr("divided by 0"));
+}
+
+TEST(BuildingRules, LeaveAShapeWholeThatAlwaysCutsItself) {
+  const Json answer = derived(with("A --> split(x){ '0.1:A | '0.1:B. }*", {1, 1, 1}));
+  EXPECT_EQ(active(answer), "A B A B A B A B A B");
+  EXPECT_THAT(answer["warnings"][0]["message"].get<std::string>(), HasSubstr("left whole"));
+}
+
+TEST(BuildingScope, MovesTurnsAndCenters) {
+  const Json answer =
+      derived(with("A ~> S(0.8*Scope.sx, Scope.sy, 0.8*Scope.sz) center(xz) extrude(20) Env  Env ~> "
+                   "Repeat(\"Y\", 4){ Floor. }",
+                   {30, 0, 20}));
+  EXPECT_EQ(active(answer), "Floor Floor Floor Floor Floor");
+  const Json& env = answer["shapes"][1]["scope"];
+  EXPECT_EQ(env["size"], Json::array({24, 20, 16}));
+  EXPECT_EQ(env["origin"], Json::array({-12, 0, -8}));
+  const Json turned = derived(with("A ~> R(0, 90, 0) B.", {2, 3, 4}))["shapes"][1]["scope"];
+  EXPECT_EQ(turned["axes"][0], Json::array({0, 0, -1}));
+}
+
+TEST(BuildingScope, FitsPartsWhereSizesAreLeftOpen) {
+  EXPECT_EQ(derived(with("A ~> S(8, 8, 0) i(\"cube\")"))["shapes"][1]["scope"]["size"],
+            Json::array({8, 8, 8}));
+}
+
+TEST(BuildingComponents, TakeFacesOnceInTheOrderOfSelectors) {
+  EXPECT_EQ(leaves("A --> comp(f){ front: F. | side: S. | top: T. | all: R. }"), "F S S S T R");
+  const Json answer = derived(with("A --> comp(f){ right: F. }", {2, 3, 4}));
+  EXPECT_EQ(answer["shapes"][1]["scope"]["size"], Json::array({4, 3, 0}));
+  EXPECT_EQ(answer["shapes"][1]["scope"]["axes"][2], Json::array({1, 0, 0}));
+}
+
+TEST(BuildingReports, SumUp) {
+  const Json report =
+      derived(with("A --> split(x){ 2: report(\"length\", scope.sx) B. }*"))["reports"]["length"];
+  EXPECT_EQ(report["count"], 5);
+  EXPECT_EQ(report["sum"], 10);
+  EXPECT_EQ(report["min"], 2);
+}
+
+TEST(BuildingQueries, SeeWhatTheFirstPassMade) {
+  const std::string rules =
+      "A ~> [ S(4, 4, 4) mass ] T(2, 0, 1) S(4, 4, 2) mass  mass ~> Comp(\"sidefaces\"){ face }\n"
+      "face : Shape.occ(\"noparent\") != \"none\" ~> wall.  face ~> window.";
+  // The left face of the second lies inside the first; the right face of the first is partly covered.
+  EXPECT_EQ(leaves(rules), "window wall window window wall window wall wall");
+}
+
+TEST(BuildingSnaps, DrawBordersToLines) {
+  const std::string rules =
+      "A ~> [ T(3, 0, 0) S(1, 1, 1) Snap(\"X\") NIL ] Subdiv(\"XS\", 1r, 1r, 1r){ B. | C. | D. }";
+  EXPECT_THAT(sizes(derived(with(rules)), 0), ElementsAre(3, 1, 6));
+}
+
+TEST(BuildingOrder, ShowsInTheStepsAlone) {
+  const std::string rules = "A --> B C  B --> D. D.  C --> E. E. E.";
+  BuildingParams params = with(rules);
+  params.iterations = 2;
+  params.derivation = {BuildingOrder::breadth, BuildingMode::parallel};
+  EXPECT_EQ(active(derived(params)), "D D E E E");
+  params.derivation = {BuildingOrder::depth, BuildingMode::sequential};
+  EXPECT_EQ(active(derived(params)), "C D D");
+  params.iterations = 3;
+  EXPECT_EQ(active(derived(params)), "D D E E E");
+}
+
+TEST(BuildingRandomness, HangsOnThePlace) {
+  const std::string before = "A --> split(x){ 1: B }* B --> 50%: C. else: D.";
+  const std::string after = "A --> split(x){ 1: B }* B --> 50%: C. else: E(rand()) E(x) --> F.";
+  std::string expected = leaves(before);
+  std::replace(expected.begin(), expected.end(), 'D', 'F');
+  EXPECT_EQ(leaves(after), expected);
+}
+
+double volume(const BuildingParams& params) {
+  double sum = 0;
+  const Model model = model_of(params);
+  for (const Node& node : model.nodes) {
+    if (node.mesh < 0) continue;
+    const double copies = std::max<double>(1, static_cast<double>(node.instances.transforms.size()));
+    for (const Primitive& primitive : model.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+      const Mesh& mesh = primitive.mesh;
+      for (std::size_t t = 0; t < mesh.index.size(); t += 3) {
+        const glm::dvec3 a = mesh.position[mesh.index.at(t)], b = mesh.position[mesh.index.at(t + 1)],
+                         c = mesh.position[mesh.index.at(t + 2)];
+        sum += copies * glm::dot(a, glm::cross(b, c)) / 6;
+      }
+    }
+  }
+  return sum;
+}
+
+TEST(BuildingBodies, KeepTheirVolumeHoweverTheyAreCut) {
+  for (const char* body : {"cube", "cylinder", "pyramid", "prism", "triangular_prism", "cone", "sphere"}) {
+    const std::string insert = std::string("A --> i(\"") + body + "\")";
+    const double whole = volume(with(insert + " B.", {4, 6, 5}));
+    ASSERT_GT(whole, 10) << body;
+    for (const char* axis : {"x", "y", "z"}) {
+      const BuildingParams cut =
+          with(insert + " split(" + axis + "){ 0.7: B. | ~1: C. | '0.21: D. }", {4, 6, 5});
+      EXPECT_NEAR(volume(cut), whole, 1e-4 * whole) << body << " across " << axis;
+      const Model model = model_of(cut);
+      EXPECT_THAT(faults(model), testing::IsEmpty()) << body << " across " << axis;
+    }
+  }
+}
+
+TEST(BuildingBodies, CutFootprintsWithCourtyards) {
+  BuildingParams params = with("Lot --> extrude(3) split(x){ ~1: split(z){ ~1: B. }* }*");
+  params.footprint = {{{0, 0}, {10, 0}, {10, 8}, {6, 8}, {6, 6}, {4, 6}, {4, 8}, {0, 8}},
+                      {{2.5, 2.5}, {7.5, 2.5}, {7.5, 4.5}, {2.5, 4.5}}};
+  EXPECT_NEAR(volume(params), 3 * (80 - 4 - 10), 1e-3);
+  EXPECT_THAT(faults(model_of(params)), testing::IsEmpty());
+}
+
+TEST(BuildingBodies, StandOnFootprintsOrAreRefused) {
+  BuildingParams params = with("Lot --> extrude(3) B.");
+  params.footprint = {{{0, 0}, {10, 10}, {10, 0}, {0, 4}}};
+  EXPECT_EQ(check(params, Limits{}).front().pointer, "/footprint/0/2");
+  params.footprint = {{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {{20, 20}, {21, 20}, {21, 21}}};
+  EXPECT_EQ(check(params, Limits{}).front().pointer, "/footprint/1");
+}
+
+TEST(BuildingBodies, ShareMeshesWhileTheyAreFewAndMergeThemWhenTheyAreMany) {
+  const Model few = model_of(with("A --> split(x){ 1: B. }*"));
+  EXPECT_EQ(few.meshes.size(), 1U);
+  const Model many = model_of(with("A --> split(x){ 0.5: split(y){ 0.5: B. }* }* ", {20, 20, 1}));
+  EXPECT_THAT(faults(many), testing::IsEmpty());
+  EXPECT_LE(many.meshes.size(), 8U);
+  EXPECT_EQ(count(many).triangles, 40U * 40U * 12U);
+}
+
+TEST(BuildingRoofs, CloseOverEveryPlan) {
+  for (const char* roof : {"roofHip(35, 0.3)", "roofGable(40, 0.3, 0.2)", "roofPyramid(45)", "roofShed(15)",
+                           "roofMansard(70, 20, 1.2, 0.3)", "roofGambrel(60, 25)"}) {
+    BuildingParams params =
+        with(std::string("Lot --> extrude(3) comp(f){ top: Top | all: Wall. } Top --> ") + roof + " Roof.");
+    params.footprint = {{{0, 0}, {12, 0}, {12, 6}, {6, 6}, {6, 12}, {0, 12}}};
+    const Model model = model_of(params);
+    EXPECT_THAT(faults(model), testing::IsEmpty()) << roof;
+    EXPECT_GT(bounds_of(model).max.y, 3.5F) << roof;
+  }
+}
+
+TEST(BuildingPlans, AddUpToTheWhole) {
+  for (const char* operation :
+       {"setback(1){ front: B | left: B | remainder: B }", "shapeL(2, 1){ shape: B | remainder: B }",
+        "shapeU(2, 1, 1){ shape: B | remainder: B }", "shapeO(2, 1, 2, 1){ shape: B | remainder: B }",
+        "offset(-1) comp(f){ inside: B | border: B }"}) {
+    const std::string rules = std::string("A --> ") + operation + " B --> report(\"area\", geometry.area) C.";
+    EXPECT_NEAR(derived(with(rules, {10, 0, 8}))["reports"]["area"]["sum"].get<double>(), 80, 1e-6)
+        << operation;
+  }
+}
+
+TEST(BuildingOperations, RunTheExamplesOfTheirRows) {
+  for (const OperationRow& row : operations()) {
+    const Json answer = derived(with(std::string(row.example), {6, 6, 6}));
+    EXPECT_FALSE(active(answer).empty()) << row.name;
+    EXPECT_TRUE(answer["warnings"].empty()) << row.name << ": " << answer["warnings"].dump();
+  }
+}
+
+}  // namespace
+}  // namespace seedmesh::building
