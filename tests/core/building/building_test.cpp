@@ -332,5 +332,46 @@ TEST(BuildingOperations, RunTheExamplesOfTheirRows) {
   }
 }
 
+/// Rules with letters left out, doubled and swapped: each ends in a refusal or in a model, and soon.
+TEST(BuildingRules, SurviveDamage) {
+  const std::string rules =
+      "@Range(1, 9) attr h = 6 const k = case h > 3: 2 else: 1\n"
+      "f(x) = 30%: x else: x * k\n"
+      "Lot --> extrude(h) comp(f){ side: Facade | top: [ roofHip(30, 0.3) Roof. ] offset(-1, inside) Court. "
+      "| 0: NIL }\n"
+      "Facade --> split(y){ { ~f(2): Floor | 0.2: Ledge. }* | '0.1: i(\"cylinder\") }\n"
+      "Floor --> case scope.sx > 3: split(x, noAdjust){ ~1: Wall. | 1: Window(1) }* else: Wall.\n"
+      "1: Window(a) : Shape.occ(\"noparent\") == \"none\" ~> T(0, 0, -0.1) S(1r, 1r, 0.05) I(\"window\") : "
+      "0.5 ~> Wall. : 0.5\n"
+      "2: Window(a) ~> Subdiv(\"XS\", 1r, { 2, 1r }*){ A. | B. | C. } Comp(\"edges\"){ D. } setback(1){ "
+      "front: E. | remainder: report(\"r\") F. }\n";
+  const std::string letters = "(){}[]|:~'*.,\"+-/<>= \nr1A%@#";
+  Rng rng(5);
+  Job::Options options;
+  options.limits.shapes = 20'000;
+  options.limits.triangles = 200'000;
+  for (int trial = 0; trial < 4'000; ++trial) {
+    std::string text = rules;
+    for (std::uint32_t k = 1 + rng.below(4); k-- > 0;) {
+      const std::size_t at = rng.below(static_cast<std::uint32_t>(text.size()));
+      const std::size_t span = 1 + rng.below(rng.below(8) == 0 ? 60 : 3);
+      const std::uint32_t kind = rng.below(3);
+      if (kind == 0) text.erase(at, span);
+      if (kind == 1) text.insert(at, text.substr(rng.below(static_cast<std::uint32_t>(text.size())), span));
+      if (kind == 2) text[at] = letters[rng.below(static_cast<std::uint32_t>(letters.size()))];
+    }
+    BuildingParams params = with(text, {8, 0, 6});
+    if (trial % 3 == 0) params.iterations = 4;
+    const bool sound = check(params, Limits{}).empty();
+    Job job(1, options);
+    try {
+      const Result<Model> model = generate(params, job);
+      EXPECT_EQ(static_cast<bool>(model), sound) << text;
+    } catch (const Stop&) {
+      EXPECT_TRUE(sound) << text;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace seedmesh::building
