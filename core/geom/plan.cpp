@@ -148,6 +148,7 @@ class Bridges {
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t r = 1; r < rings.size(); ++r) {
       std::vector<std::uint32_t>& ring = rings[r];
+      if (ring.size() < 3 || outline_.size() < 3) continue;
       std::rotate(ring.begin(), std::max_element(ring.begin(), ring.end(), [&](auto a, auto b) {
                     return points_[a].x < points_[b].x;
                   }),

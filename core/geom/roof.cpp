@@ -40,7 +40,9 @@ class RoofMaker {
     drop_ = 0;
     outward_.assign(count_, 0);
     std::optional<RoofSurface> body;
-    switch (options_.kind) {
+    const std::vector<PlanFault> faults = faults_of(plan_);
+    if (!faults.empty()) roof_.warnings.push_back("no roof stands over this outline: " + faults[0].message);
+    switch (faults.empty() ? options_.kind : RoofKind::flat) {
       case RoofKind::flat: break;
       case RoofKind::shed: body = shed(); break;
       case RoofKind::pyramid: body = pyramid(); break;
@@ -50,7 +52,7 @@ class RoofMaker {
       add_body(*body);
       roof_.height = height_of(*body);
     } else {
-      if (options_.kind != RoofKind::flat)
+      if (options_.kind != RoofKind::flat && faults.empty())
         roof_.warnings.push_back("no roof of this kind could be made over this plan; it is flat");
       is_flat_ = true;
       outward_.assign(count_, options_.overhang);
@@ -60,7 +62,8 @@ class RoofMaker {
       body = plane_surface(base_, level);
       add_faces(*body, false, 0);
     }
-    if (options_.overhang > 0 || options_.verge > 0 || options_.thickness > 0) add_cover();
+    const bool has_cover = options_.overhang > 0 || options_.verge > 0 || options_.thickness > 0;
+    if (has_cover && faults.empty()) add_cover();
     return std::move(roof_);
   }
 

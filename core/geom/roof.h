@@ -68,7 +68,7 @@ struct Roof {
   std::vector<std::string> warnings;
 };
 
-/// A plan without faults. Every roof is checked (straight_skeleton.h); one that fails is made again from a
+/// Over a plan with faults there is one level face and a warning. Every roof is checked (straight_skeleton.h); one that fails is made again from a
 /// plan shaken by a millionth, and then flat with a warning. A flat roof without thickness is one face that looks up,
 /// no solid.
 Roof roof(const Plan& plan, const RoofOptions& options, const Job& job);

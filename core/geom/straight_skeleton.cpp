@@ -242,11 +242,24 @@ bool make_faces(Wavefront& front, Skeleton& skeleton) {
   return true;
 }
 
+/// Rings of three points and more, none of which repeats the one before it.
+bool has_edges(const Plan& plan) {
+  if (plan.rings.empty()) return false;
+  for (const PlanRing& ring : plan.rings) {
+    if (ring.size() < 3) return false;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const double length = glm::length(ring[(i + 1) % ring.size()] - ring[i]);
+      if (!(length > 0) || !std::isfinite(length)) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 Skeleton straight_skeleton(const Plan& plan, const SkeletonOptions& options, const Job& job) {
   Skeleton skeleton;
-  if (plan.rings.empty()) return skeleton;
+  if (!has_edges(plan)) return skeleton;
   // Near the origin, where numbers are finest.
   const dvec2 origin = plan.rings[0][0];
   Plan local = plan;

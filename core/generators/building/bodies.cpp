@@ -230,7 +230,10 @@ class Assembly {
     if (is_part(shape)) {
       for (Primitive& primitive : group.primitives) {
         const glm::dvec2* const tile = looks_.tile_of(primitive.material);
-        if (tile == nullptr) primitive.mesh.uv[0] = {};
+        if (tile == nullptr) {
+          primitive.mesh.uv[0] = {};
+          weld(primitive.mesh, job_);  // where only the texture had differed
+        }
         for (glm::vec2& uv : primitive.mesh.uv[0]) uv /= glm::vec2(*tile);
       }
     }

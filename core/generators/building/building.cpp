@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/generators/building/blueprints/blueprints.h"
 #include "core/generators/building/bodies.h"
 #include "core/generators/building/derive.h"
 #include "core/generators/building/ground.h"
@@ -57,12 +58,25 @@ void check_attribute(const Attribute* attribute, const std::string& name, double
                                    std::to_string(attribute->choices.size()) + " that @Enum names"});
 }
 
+/// The rules of the request or of its blueprint.
+std::string_view rules_of(const BuildingParams& params) {
+  if (params.rules) return *params.rules;
+  return params.blueprint ? blueprint_named(text_of(*params.blueprint))->rules : std::string_view();
+}
+
 /// The rules read, and all that is wrong with the parameters around them.
 Grammar read(const BuildingParams& params, std::vector<Issue>& issues) {
   std::vector<lang::Fault> faults;
-  Grammar grammar = read_rules(params.rules, params.start.value_or(""), faults);
+  if (params.rules && params.blueprint)
+    issues.push_back({"/blueprint", "found rules and a blueprint, expected one of them"});
+  if (!params.rules && !params.blueprint) {
+    issues.push_back({"", "found neither \"rules\" nor \"blueprint\", expected one of them"});
+    return {};
+  }
+  const std::string_view rules = rules_of(params);
+  Grammar grammar = read_rules(rules, params.start.value_or(""), faults);
   for (const lang::Fault& fault : faults)
-    issues.push_back(issue_at("/rules", params.rules, fault.offset, fault.message));
+    issues.push_back(issue_at("/rules", rules, fault.offset, fault.message));
   if (faults.empty() && grammar.start == none) {
     issues.push_back({"/start", "there is no symbol \"" + params.start.value_or("") + "\" in the rules"});
   } else if (faults.empty()) {
@@ -176,7 +190,7 @@ std::optional<Error> add_assets(Work& work, const BuildingParams& params, Job& j
 Shapes shapes_of(Work& work, const BuildingParams& params, Job& job) {
   Task plan;
   plan.grammar = &work.grammar;
-  plan.text = params.rules;
+  plan.text = rules_of(params);
   Solid footprint;
   if (!params.footprint.empty()) {
     footprint = footprint_of(params.footprint, plan.origin, plan.size);

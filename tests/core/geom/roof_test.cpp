@@ -193,6 +193,30 @@ TEST(Roof, PyramidOverAPlanThatHidesItselfBecomesAHip) {
   EXPECT_EQ(open_edges(made, false), 0);
 }
 
+TEST(Roof, OverAnythingElseIsLevelWithAWarning) {
+  const Job job = job_of();
+  Rng rng(31);
+  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+    Rng here = rng.at(seed);
+    Plan plan;
+    for (std::uint32_t r = 0; r < 1 + here.below(3); ++r) {
+      plan.rings.emplace_back();
+      for (std::uint32_t i = 0; i < here.below(9); ++i) plan.rings.back().emplace_back(here.below(5), here.below(5));
+    }
+    if (plan.rings[0].empty() || faults_of(plan).empty()) continue;
+    for (const RoofKind kind : {RoofKind::hip, RoofKind::gable, RoofKind::shed, RoofKind::pyramid, RoofKind::mansard}) {
+      RoofOptions options = options_of(kind, 40);
+      options.overhang = 0.3;
+      EXPECT_EQ(roof(plan, options, job).warnings.size(), 1U) << seed;
+    }
+    const std::vector<double> distances(edge_count(plan), 0.5);
+    setback(plan, distances, job);
+    outset(plan, distances, job);
+    gable_edges(plan, job);
+    triangulate(plan);
+  }
+}
+
 TEST(Roof, IsClosedAndCoversTenThousandRandomPlans) {
   const Job job = job_of();
   Rng rng(21);
