@@ -124,7 +124,11 @@ void Parser::settle_attributes() {
 void Parser::settle_attribute(std::size_t index) {
   Declaration& declaration = declarations_[index];
   if (declaration.state == 2) return;
-  if (declaration.state == 1 || depth_ > 200) {
+  if (depth_ > 200) {
+    fault(tokens_.at(declaration.from), "more than 200 attributes need each other in a row");
+    return;
+  }
+  if (declaration.state == 1) {
     fault(tokens_.at(declaration.from), "the value of `" + declaration.name + "` depends on itself");
     return;
   }
