@@ -139,7 +139,7 @@ std::vector<PartPiece> make_balcony(const dvec3& size, const PartOptions& option
   const auto post = [&](double x, double z, double half) {
     out.box("metal", {x - half, 0.5 * slab, z - half}, {x + half, low + 0.5 * rail, z + half});
   };
-  const int across = count_of(size.x - 2 * middle, 0.16, 1, 200), along = count_of(size.z - middle, 0.16, 1, 60);
+  const int across = count_of(size.x - 2 * middle, 0.2, 1, 200), along = count_of(size.z - middle, 0.2, 1, 60);
   for (int i = 0; i <= across; ++i)
     post(middle + (size.x - 2 * middle) * i / across, size.z - middle, i == 0 || i == across ? 2 * bar / 1.5 : bar);
   for (int i = 0; i < along; ++i) {
