@@ -35,7 +35,7 @@ bool finite(const Model& model) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   BuildingParams params;
-  params.rules.assign(reinterpret_cast<const char*>(data), size);
+  params.rules = std::string(reinterpret_cast<const char*>(data), size);
   params.size = {10, size % 2 == 0 ? 0.0 : 6.0, 8};
   if (size % 3 == 0) params.footprint = {{{0, 0}, {8, 0}, {8, 3}, {3, 3}, {3, 8}, {0, 8}}};
   if (size % 5 == 0) params.iterations = 5;

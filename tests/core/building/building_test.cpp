@@ -235,6 +235,32 @@ TEST(BuildingOrder, ShowsInTheStepsAlone) {
   EXPECT_EQ(active(derived(params)), "D D E E E");
 }
 
+TEST(BuildingRestrictions, HoldRulesToTheirKind) {
+  BuildingParams params = with("A --> B. A");
+  params.iterations = 3;
+  params.restrict = BuildingRestrict::unimarker;
+  EXPECT_EQ(active(derived(params)), "B B B A");
+  params.rules = "A --> B. A A";
+  EXPECT_EQ(check(params, Limits{}).front().column, 12);
+  params.restrict = BuildingRestrict::non_erasing;
+  EXPECT_TRUE(check(params, Limits{}).empty());
+  params.rules = "A --> NIL";
+  EXPECT_EQ(check(params, Limits{}).front().column, 7);
+}
+
+/// Gips: a square with a marker becomes a square with half as large a one in it, turned by 45 degrees.
+TEST(BuildingRestrictions, EmbedSquares) {
+  BuildingParams params =
+      with("M ~> [ square. ] S(0.5^0.5*Scope.sx, 1r, 0.5^0.5*Scope.sz) center(xz) R(0, 45, 0, scopeCenter) M",
+           {1, 0, 1});
+  params.iterations = 5;
+  params.restrict = BuildingRestrict::unimarker;
+  const Json answer = derived(params);
+  const std::vector<double> sides = sizes(answer, 0);
+  ASSERT_EQ(sides.size(), 6U);
+  EXPECT_NEAR(sides[4], 0.25, 1e-12);
+}
+
 TEST(BuildingRandomness, HangsOnThePlace) {
   const std::string before = "A --> split(x){ 1: B }* B --> 50%: C. else: D.";
   const std::string after = "A --> split(x){ 1: B }* B --> 50%: C. else: E(rand()) E(x) --> F.";
