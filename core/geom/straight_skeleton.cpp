@@ -172,8 +172,9 @@ class FaceMaker {
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto low = [&](std::size_t i) { return std::min(loop[i].x, loop[(i + 1) % count].x); };
     const auto high = [&](std::size_t i) { return std::max(loop[i].x, loop[(i + 1) % count].x); };
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return std::pair{low(a), a} < std::pair{low(b), b}; });
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return std::pair{low(a), a} < std::pair{low(b), b};
+    });
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t k = i + 1; k < count && low(order[k]) <= high(order[i]); ++k) {
         const std::size_t p = order[i], q = order[k];

@@ -21,9 +21,9 @@ using testing::SizeIs;
 
 const std::map<std::string, Json>& lots() {
   static const std::map<std::string, Json> all{
-      {"church", {12, 0, 30}},         {"factory", {40, 0, 22}},      {"house", {11, 0, 9}},
-      {"office_tower", {30, 0, 18}},   {"parisian_block", {30, 0, 16}}, {"skyscraper", {32, 0, 32}},
-      {"temple", {16, 0, 32}},         {"terraced_house", {32, 0, 10}}, {"villa", {22, 0, 14}},
+      {"church", {12, 0, 30}},       {"factory", {40, 0, 22}},        {"house", {11, 0, 9}},
+      {"office_tower", {30, 0, 18}}, {"parisian_block", {30, 0, 16}}, {"skyscraper", {32, 0, 32}},
+      {"temple", {16, 0, 32}},       {"terraced_house", {32, 0, 10}}, {"villa", {22, 0, 14}},
       {"warehouse", {42, 0, 26}}};
   return all;
 }
@@ -103,18 +103,21 @@ TEST(Blueprints, AreTheTenOfTheSchema) {
 TEST(Blueprints, TakeThePlaceOfRulesAndOnlyThat) {
   EXPECT_FALSE(model_of({{"blueprint", "house"}, {"rules", "A --> B."}}, 0));
   EXPECT_FALSE(model_of(Json::object(), 0));
-  EXPECT_FALSE(model_of({{"blueprint", "house"}, {"attributes", {{"height", 3}}}}, 0)) << "a house has floors";
+  EXPECT_FALSE(model_of({{"blueprint", "house"}, {"attributes", {{"height", 3}}}}, 0))
+      << "a house has floors";
 }
 
 TEST(Blueprints, AreSoundForManySeeds) {
   for (const auto& [name, size] : lots()) {
-    for (std::uint64_t seed = 0; seed < 6; ++seed) expect_sound(request(name), seed, name + " " + std::to_string(seed));
+    for (std::uint64_t seed = 0; seed < 6; ++seed)
+      expect_sound(request(name), seed, name + " " + std::to_string(seed));
   }
 }
 
 TEST(Blueprints, StandOnFootprintsOfAnyForm) {
   const Json l = Json::parse("[[[-14,-10],[14,-10],[14,2],[2,2],[2,12],[-14,12]]]");
-  const Json court = Json::parse("[[[-20,-16],[20,-16],[20,10],[14,16],[-20,16]],[[-7,-4],[7,-4],[7,4],[-7,4]]]");
+  const Json court =
+      Json::parse("[[[-20,-16],[20,-16],[20,10],[14,16],[-20,16]],[[-7,-4],[7,-4],[7,4],[-7,4]]]");
   for (const auto& [name, size] : lots()) {
     for (const Json& footprint : {l, court}) {
       const Result<Model> model = model_of({{"blueprint", name}, {"footprint", footprint}}, 1);
@@ -126,8 +129,8 @@ TEST(Blueprints, StandOnFootprintsOfAnyForm) {
 
 /// Every attribute at its ends and with each of its choices; one of them must show in the shapes.
 TEST(Blueprints, HeedEveryAttribute) {
-  const std::regex range(R"(@Range\(([-0-9.]+), ([-0-9.]+)\) attr (\w+))"), choice(R"(@Enum\(([^)]*)\) attr (\w+))"),
-      word(R"re("(\w+)")re");
+  const std::regex range(R"(@Range\(([-0-9.]+), ([-0-9.]+)\) attr (\w+))"),
+      choice(R"(@Enum\(([^)]*)\) attr (\w+))"), word(R"re("(\w+)")re");
   for (const Blueprint& blueprint : blueprints()) {
     const std::string rules(blueprint.rules);
     std::map<std::string, std::vector<Json>> values;
@@ -158,7 +161,8 @@ TEST(Blueprints, HeedEveryAttribute) {
             for (const glm::vec3& p : primitive.mesh.position) sum += p.x * 3 + p.y * 5 + p.z * 7;
           }
         }
-        results.insert(result + std::to_string(seedmesh::count(*model).triangles) + " " + std::to_string(sum));
+        results.insert(result + std::to_string(seedmesh::count(*model).triangles) + " " +
+                       std::to_string(sum));
       }
       EXPECT_GT(results.size(), 1U) << blueprint.name << " " << attribute;
     }
