@@ -52,8 +52,8 @@ bool do_meet(const Side& a, const Side& b, double reach) {
   const double c = cross(a.to - a.from, b.from - a.from), d = cross(a.to - a.from, b.to - a.from);
   const double e = cross(b.to - b.from, a.from - b.from), f = cross(b.to - b.from, a.to - b.from);
   if (((c > 0) != (d > 0)) && ((e > 0) != (f > 0))) return true;
-  return distance_to(a.from, b) <= reach || distance_to(a.to, b) <= reach || distance_to(b.from, a) <= reach ||
-         distance_to(b.to, a) <= reach;
+  return distance_to(a.from, b) <= reach || distance_to(a.to, b) <= reach ||
+         distance_to(b.from, a) <= reach || distance_to(b.to, a) <= reach;
 }
 
 /// Whether `next` runs back along the side before it.
@@ -88,8 +88,9 @@ void find_meetings(const Plan& plan, double reach, std::vector<PlanFault>& fault
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto low = [&](std::size_t i) { return std::min(sides[i].from.x, sides[i].to.x); };
   const auto high = [&](std::size_t i) { return std::max(sides[i].from.x, sides[i].to.x); };
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return std::pair{low(a), a} < std::pair{low(b), b}; });
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair{low(a), a} < std::pair{low(b), b};
+  });
   for (std::size_t i = 0; i < order.size(); ++i) {
     for (std::size_t k = i + 1; k < order.size() && low(order[k]) <= high(order[i]) + reach; ++k) {
       const Side &a = sides[std::min(order[i], order[k])], &b = sides[std::max(order[i], order[k])];
@@ -112,9 +113,7 @@ void find_meetings(const Plan& plan, double reach, std::vector<PlanFault>& fault
 }
 
 void find_lost_holes(const Plan& plan, std::vector<PlanFault>& faults) {
-  const auto is_in = [&](std::size_t ring, const dvec2& p) {
-    return contains(Plan{{plan.rings[ring]}}, p);
-  };
+  const auto is_in = [&](std::size_t ring, const dvec2& p) { return contains(Plan{{plan.rings[ring]}}, p); };
   for (std::uint32_t r = 1; r < plan.rings.size() && faults.size() < most_faults; ++r) {
     const dvec2 p = plan.rings[r][0];
     if (!is_in(0, p)) {
@@ -123,9 +122,9 @@ void find_lost_holes(const Plan& plan, std::vector<PlanFault>& faults) {
     }
     for (std::uint32_t other = 1; other < plan.rings.size(); ++other) {
       if (other == r || !is_in(other, p)) continue;
-      faults.push_back({r, 0,
-                        "ring " + std::to_string(r) + " is a hole inside of the hole of ring " +
-                            std::to_string(other)});
+      faults.push_back(
+          {r, 0,
+           "ring " + std::to_string(r) + " is a hole inside of the hole of ring " + std::to_string(other)});
       break;
     }
   }
@@ -148,9 +147,10 @@ class Bridges {
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t r = 1; r < rings.size(); ++r) {
       std::vector<std::uint32_t>& ring = rings[r];
-      std::rotate(ring.begin(), std::max_element(ring.begin(), ring.end(), [&](auto a, auto b) {
-                    return points_[a].x < points_[b].x;
-                  }),
+      if (ring.size() < 3 || outline_.size() < 3) continue;
+      std::rotate(ring.begin(),
+                  std::max_element(ring.begin(), ring.end(),
+                                   [&](auto a, auto b) { return points_[a].x < points_[b].x; }),
                   ring.end());
       order.emplace_back(-points_[ring[0]].x, r);
     }
@@ -184,8 +184,8 @@ class Bridges {
       best = x;
       found = b.x > a.x ? (i + 1) % count : i;
     }
-    // Points in the triangle between p, where the look ends, and the candidate hide it; the one nearest to the
-    // line of sight is seen.
+    // Points in the triangle between p, where the look ends, and the candidate hide it; the one nearest to
+    // the line of sight is seen.
     const dvec2 end{best, p.y}, candidate = points_[outline_[found]];
     double flattest = 1e300;
     std::size_t seen = found;
@@ -228,7 +228,8 @@ std::vector<PlanFault> faults_of(const Plan& plan) {
   for (std::uint32_t r = 0; r < plan.rings.size(); ++r) {
     for (std::uint32_t i = 0; i < plan.rings[r].size() && faults.size() < most_faults; ++i) {
       const dvec2 p = plan.rings[r][i];
-      if (!std::isfinite(p.x) || !std::isfinite(p.y)) faults.push_back({r, i, name_of(r, i) + " is not finite"});
+      if (!std::isfinite(p.x) || !std::isfinite(p.y))
+        faults.push_back({r, i, name_of(r, i) + " is not finite"});
     }
   }
   if (!faults.empty()) return faults;
@@ -261,6 +262,15 @@ double area(const Plan& plan) {
   double sum = 0;
   for (const PlanRing& ring : plan.rings) sum += signed_area(ring);
   return sum;
+}
+
+dvec2 centroid_of(std::span<const dvec2> ring) {
+  dvec2 sum{0};
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const dvec2 a = ring[i] - ring[0], b = ring[(i + 1) % ring.size()] - ring[0];
+    sum += (a + b) * cross(a, b);
+  }
+  return ring[0] + sum / (6 * signed_area(ring));
 }
 
 std::uint32_t edge_count(const Plan& plan) {

@@ -17,8 +17,8 @@ namespace seedmesh {
 using PlanRing = std::vector<glm::dvec2>;
 
 /// rings[0] is the outside, counter-clockwise; the others are holes, clockwise: the inside is always to the
-/// left. No ring repeats its first point at its end. Edge i of a ring goes from its point i to the next; edges
-/// are numbered through all rings, in order.
+/// left. No ring repeats its first point at its end. Edge i of a ring goes from its point i to the next;
+/// edges are numbered through all rings, in order.
 struct Plan {
   std::vector<PlanRing> rings;
 };
@@ -31,11 +31,11 @@ struct PlanFault {
   std::string message;  ///< "crosses the edge from point 3 of ring 0"
 };
 
-/// Every fault that keeps a plan from being one: fewer than three points, numbers that are not finite, a point
-/// that is repeated (nearer than a millionth of the diagonal), a ring without area, edges that cross or touch,
-/// a hole that lies outside, or inside another hole. A ring whose last point is its first is taken as closed
-/// twice and is a fault (see `read_plan`); the direction of rings is none. Sweeps over x: about n log n for
-/// what is met in practice.
+/// Every fault that keeps a plan from being one: fewer than three points, numbers that are not finite, a
+/// point that is repeated (nearer than a millionth of the diagonal), a ring without area, edges that cross or
+/// touch, a hole that lies outside, or inside another hole. A ring whose last point is its first is taken as
+/// closed twice and is a fault (see `read_plan`); the direction of rings is none. Sweeps over x: about n log
+/// n for what is met in practice.
 std::vector<PlanFault> faults_of(const Plan& plan);
 
 /// Rings as users write them: a last point equal to the first (GeoJSON) goes, and rings are turned as Plan
@@ -44,6 +44,8 @@ Plan read_plan(std::vector<PlanRing> rings);
 
 double signed_area(std::span<const glm::dvec2> ring);
 double area(const Plan& plan);
+/// Of the area, which is not nothing.
+glm::dvec2 centroid_of(std::span<const glm::dvec2> ring);
 std::uint32_t edge_count(const Plan& plan);
 /// The two ends of an edge by its number through all rings.
 std::pair<glm::dvec2, glm::dvec2> edge_of(const Plan& plan, std::uint32_t edge);
@@ -71,7 +73,7 @@ struct PlanStrip {
 
 struct Setback {
   std::vector<DerivedPlan> remainder;  ///< what is left inside: none, one, or several
-  std::vector<PlanStrip> strips;       ///< what was taken, by edge; together with the remainder the whole plan
+  std::vector<PlanStrip> strips;  ///< what was taken, by edge; together with the remainder the whole plan
 };
 
 /// Moves edge i inwards by distances[i] >= 0 (one number for each edge), all at once and with their

@@ -19,8 +19,8 @@ constexpr double steep_share = 0.3;
 constexpr double plain_thickness = 0.12;
 // Points nearer than this share of the diagonal become one.
 constexpr double weld_share = 2e-6;
-// The cover's underside lies so far below the slopes that it rests on, or, where it ends at a wall and would lie
-// in the wall's plane, so far above them: no two faces of a roof coincide.
+// The cover's underside lies so far below the slopes that it rests on, or, where it ends at a wall and would
+// lie in the wall's plane, so far above them: no two faces of a roof coincide.
 constexpr double sunk = 0.02;
 constexpr double lifted = 0.002;
 // Angles nearer to the upright are upright.
@@ -40,17 +40,26 @@ class RoofMaker {
     drop_ = 0;
     outward_.assign(count_, 0);
     std::optional<RoofSurface> body;
-    switch (options_.kind) {
-      case RoofKind::flat: break;
-      case RoofKind::shed: body = shed(); break;
-      case RoofKind::pyramid: body = pyramid(); break;
-      default: body = slopes(); break;
+    const std::vector<PlanFault> faults = faults_of(plan_);
+    if (!faults.empty()) roof_.warnings.push_back("no roof stands over this outline: " + faults[0].message);
+    switch (faults.empty() ? options_.kind : RoofKind::flat) {
+      case RoofKind::flat:
+        break;
+      case RoofKind::shed:
+        body = shed();
+        break;
+      case RoofKind::pyramid:
+        body = pyramid();
+        break;
+      default:
+        body = slopes();
+        break;
     }
     if (body) {
       add_body(*body);
       roof_.height = height_of(*body);
     } else {
-      if (options_.kind != RoofKind::flat)
+      if (options_.kind != RoofKind::flat && faults.empty())
         roof_.warnings.push_back("no roof of this kind could be made over this plan; it is flat");
       is_flat_ = true;
       outward_.assign(count_, options_.overhang);
@@ -60,7 +69,8 @@ class RoofMaker {
       body = plane_surface(base_, level);
       add_faces(*body, false, 0);
     }
-    if (options_.overhang > 0 || options_.verge > 0 || options_.thickness > 0) add_cover();
+    const bool has_cover = options_.overhang > 0 || options_.verge > 0 || options_.thickness > 0;
+    if (has_cover && faults.empty()) add_cover();
     return std::move(roof_);
   }
 
@@ -147,7 +157,7 @@ class RoofMaker {
   }
 
   std::optional<RoofSurface> pyramid() {
-    for (const dvec2 middle : {average(), centre()}) {
+    for (const dvec2 middle : {average(), centroid_of(plan_.rings[0])}) {
       const auto [a, b] = edge_of(plan_, 0);
       const double reach = cross((b - a) / glm::length(b - a), middle - a);
       const double height = options_.height ? *options_.height : reach * tangent_of(options_.angle);
@@ -169,16 +179,6 @@ class RoofMaker {
     dvec2 sum{0};
     for (const dvec2& p : plan_.rings[0]) sum += p;
     return sum / static_cast<double>(plan_.rings[0].size());
-  }
-
-  dvec2 centre() const {
-    const PlanRing& ring = plan_.rings[0];
-    dvec2 sum{0};
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const dvec2 a = ring[i] - ring[0], b = ring[(i + 1) % ring.size()] - ring[0];
-      sum += (a + b) * cross(a, b);
-    }
-    return ring[0] + sum / (6 * signed_area(ring));
   }
 
   std::optional<RoofSurface> shed() {
@@ -307,8 +307,7 @@ class RoofMaker {
     if (is_level) return made;
     made.along = raised(face.direction, 0);
     const dvec2 inwards{-face.direction.y, face.direction.x};
-    made.normal =
-        math::unit(glm::cross(made.along, raised(inwards * face.speed, 1)), {0, 1, 0});
+    made.normal = math::unit(glm::cross(made.along, raised(inwards * face.speed, 1)), {0, 1, 0});
     return made;
   }
 

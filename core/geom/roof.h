@@ -1,11 +1,11 @@
 #pragma once
 /// Roofs over any plan, courtyards included: the planes that rise from the eaves, cut where they meet.
 ///
-/// Space: `raised` of plan.h; height 0 is where the walls end. Two closed solids may come out. The body stands
-/// on the plan: its slopes, its upright gables, and its base at height 0 looking down; without the base it
-/// closes walls that have no top. With an overhang (or a thickness) there is a cover on top of it: a shell
-/// that follows the slopes outwards over the walls, with an underside (soffit) and an edge (fascia). The two
-/// share no plane, so both may stand in one mesh.
+/// Space: `raised` of plan.h; height 0 is where the walls end. Two closed solids may come out. The body
+/// stands on the plan: its slopes, its upright gables, and its base at height 0 looking down; without the
+/// base it closes walls that have no top. With an overhang (or a thickness) there is a cover on top of it: a
+/// shell that follows the slopes outwards over the walls, with an underside (soffit) and an edge (fascia).
+/// The two share no plane, so both may stand in one mesh.
 #include <array>
 #include <optional>
 
@@ -29,12 +29,12 @@ struct RoofOptions {
   double angle = 0.6;            ///< radians, 0 < angle < pi/2; of the lower slope for mansard and gambrel
   std::optional<double> height;  ///< of the highest point instead of `angle`
   double upper_angle = 0.35;     ///< mansard, gambrel: of the upper slope
-  double break_height = 0;       ///< mansard, gambrel: where it changes; 0: at three tenths of the way inwards
-  double overhang = 0;           ///< metres along the slope, past the eaves
-  double verge = 0;              ///< metres past upright ends, level
-  double thickness = 0;          ///< of the cover, upright; 0 with an overhang means 0.12
-  std::optional<double> flat_top;  ///< hip, gable, mansard, gambrel: cut off level at this height
-  std::uint32_t low_edge = 0;      ///< shed
+  double break_height = 0;  ///< mansard, gambrel: where it changes; 0: at three tenths of the way inwards
+  double overhang = 0;      ///< metres along the slope, past the eaves
+  double verge = 0;         ///< metres past upright ends, level
+  double thickness = 0;     ///< of the cover, upright; 0 with an overhang means 0.12
+  std::optional<double> flat_top;     ///< hip, gable, mansard, gambrel: cut off level at this height
+  std::uint32_t low_edge = 0;         ///< shed
   std::vector<std::uint32_t> gables;  ///< gable, gambrel: edges with upright ends; empty: chosen by shape
   std::vector<double> edge_angles;    ///< hip, gable: one for each edge; pi/2 is upright; empty: `angle`
 };
@@ -57,7 +57,8 @@ struct RoofFace {
   std::vector<std::uint32_t> outline;
   std::vector<std::vector<std::uint32_t>> holes;
   glm::dvec3 normal{0, 1, 0};  ///< unit
-  glm::dvec3 along{1, 0, 0};   ///< unit, level, in the face: along the eave, so that `normal` x `along` points up the slope
+  glm::dvec3 along{
+      1, 0, 0};  ///< unit, level, in the face: along the eave, so that `normal` x `along` points up the slope
 };
 
 struct Roof {
@@ -68,9 +69,9 @@ struct Roof {
   std::vector<std::string> warnings;
 };
 
-/// A plan without faults. Every roof is checked (straight_skeleton.h); one that fails is made again from a
-/// plan shaken by a millionth, and then flat with a warning. A flat roof without thickness is one face that looks up,
-/// no solid.
+/// Over a plan with faults there is one level face and a warning. Every roof is checked
+/// (straight_skeleton.h); one that fails is made again from a plan shaken by a millionth, and then flat with
+/// a warning. A flat roof without thickness is one face that looks up, no solid.
 Roof roof(const Plan& plan, const RoofOptions& options, const Job& job);
 
 /// The edges that `RoofKind::gable` makes upright when none are named: of the hip roof, the ends whose slope

@@ -42,8 +42,8 @@ std::optional<RoofSurface> sloped_surface(const RoofBase& base, const std::vecto
 /// there, or the plan has holes.
 std::optional<RoofSurface> fan_surface(const RoofBase& base, const glm::dvec3& apex);
 
-/// One plane, at height 0 along `at` in `direction`, with `tangent` up to its left; and the upright faces below
-/// it down to base.height (none where `is_bare`).
+/// One plane, at height 0 along `at` in `direction`, with `tangent` up to its left; and the upright faces
+/// below it down to base.height (none where `is_bare`).
 struct RoofPlane {
   glm::dvec2 at{0}, direction{1, 0};
   double tangent = 0;

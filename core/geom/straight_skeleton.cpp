@@ -172,8 +172,9 @@ class FaceMaker {
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto low = [&](std::size_t i) { return std::min(loop[i].x, loop[(i + 1) % count].x); };
     const auto high = [&](std::size_t i) { return std::max(loop[i].x, loop[(i + 1) % count].x); };
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return std::pair{low(a), a} < std::pair{low(b), b}; });
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return std::pair{low(a), a} < std::pair{low(b), b};
+    });
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t k = i + 1; k < count && low(order[k]) <= high(order[i]); ++k) {
         const std::size_t p = order[i], q = order[k];
@@ -242,11 +243,24 @@ bool make_faces(Wavefront& front, Skeleton& skeleton) {
   return true;
 }
 
+/// Rings of three points and more, none of which repeats the one before it.
+bool has_edges(const Plan& plan) {
+  if (plan.rings.empty()) return false;
+  for (const PlanRing& ring : plan.rings) {
+    if (ring.size() < 3) return false;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const double length = glm::length(ring[(i + 1) % ring.size()] - ring[i]);
+      if (!(length > 0) || !std::isfinite(length)) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 Skeleton straight_skeleton(const Plan& plan, const SkeletonOptions& options, const Job& job) {
   Skeleton skeleton;
-  if (plan.rings.empty()) return skeleton;
+  if (!has_edges(plan)) return skeleton;
   // Near the origin, where numbers are finest.
   const dvec2 origin = plan.rings[0][0];
   Plan local = plan;

@@ -2,9 +2,9 @@
 /// The weighted straight skeleton of a plan: every edge moves inwards at its own speed, corners stay mitred,
 /// and the trace of the corners cuts the plan into one face for each edge.
 ///
-/// Aichholzer, Aurenhammer, Alberts and Gaertner, "A novel type of skeleton for polygons", 1995; weights as in
-/// Biedl et al., "Weighted straight skeletons in the plane", 2015. Events that fall on one time and place are
-/// resolved together, by sorting what leaves the place round it, as in Kelly and Wonka, "Interactive
+/// Aichholzer, Aurenhammer, Alberts and Gaertner, "A novel type of skeleton for polygons", 1995; weights as
+/// in Biedl et al., "Weighted straight skeletons in the plane", 2015. Events that fall on one time and place
+/// are resolved together, by sorting what leaves the place round it, as in Kelly and Wonka, "Interactive
 /// architectural modeling with procedural extrusions", 2011.
 #include <limits>
 
@@ -31,7 +31,7 @@ struct SkeletonFront {
 
 struct Skeleton {
   std::vector<glm::dvec3> node;  ///< x, y in plan and the time, in z; first the points of the plan, in order
-  std::vector<SkeletonFace> faces;  ///< by edge, rising; an edge may have several
+  std::vector<SkeletonFace> faces;    ///< by edge, rising; an edge may have several
   std::vector<SkeletonFront> fronts;  ///< at the end time; empty where everything has met before
   /// True when every face passed the check: a simple outline, turned rightly, in the plane of its edge; and
   /// the areas of all faces and of what is left add up to the plan. Where false the rest is of no use.
@@ -44,9 +44,10 @@ struct SkeletonOptions {
   double end_time = std::numeric_limits<double>::infinity();
 };
 
-/// Rings without faults (plan.h), but they need not be nested: the inside is to the left of each. So a single
-/// clockwise ring grows outwards; then the end time must be finite. About n log n steps that look at n edges
-/// each: 20 us for a house, 50 ms for 1,000 corners. Looks at the job's stop and deadline.
+/// Rings without faults (plan.h; others give nothing sound), but they need not be nested: the inside is to
+/// the left of each. So a single clockwise ring grows outwards; then the end time must be finite. About n log
+/// n steps that look at n edges each: 20 us for a house, 50 ms for 1,000 corners. Looks at the job's stop and
+/// deadline.
 Skeleton straight_skeleton(const Plan& plan, const SkeletonOptions& options, const Job& job);
 
 }  // namespace seedmesh

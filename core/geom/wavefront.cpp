@@ -142,8 +142,7 @@ void Wavefront::expect_hit(std::uint32_t corner, std::uint32_t edge) {
   const double time = now_ + std::max(ahead, 0.0) / closing;
   if (time > end_time_ + soon_) return;
   // What has just parted here is not meeting.
-  if (time <= now_ + 2 * soon_ &&
-      (corners_[e.start].node == c.node || corners_[e.end].node == c.node)) {
+  if (time <= now_ + 2 * soon_ && (corners_[e.start].node == c.node || corners_[e.end].node == c.node)) {
     return;
   }
   const double at = glm::dot(line.direction, place_at(corner, time));

@@ -6,11 +6,12 @@
 
 namespace seedmesh {
 
-/// Edges, and corners between two of them, that change only at events: an edge shrinks to nothing, or a corner
-/// runs into an edge. Everything that happens at one time is resolved at once, place by place: trajectories
-/// end there, edges of no length go, edges that lie on each other the other way round go as a ridge, and
-/// what is left round a place is joined again so that the inside stays to the left. As each place has as many edges
-/// that end as edges that begin, the outline is closed at all times, whatever rounding does.
+/// Edges, and corners between two of them, that change only at events: an edge shrinks to nothing, or a
+/// corner runs into an edge. Everything that happens at one time is resolved at once, place by place:
+/// trajectories end there, edges of no length go, edges that lie on each other the other way round go as a
+/// ridge, and what is left round a place is joined again so that the inside stays to the left. As each place
+/// has as many edges that end as edges that begin, the outline is closed at all times, whatever rounding
+/// does.
 class Wavefront {
  public:
   /// A line that moves along its normal.
@@ -95,17 +96,17 @@ class Wavefront {
   void close_fronts();
 
   double end_time_, now_ = 0;
-  double near_ = 0;       ///< places nearer than this are one
-  double soon_ = 0;       ///< times nearer than this are one
-  double fastest_ = 0;    ///< speed of an edge
+  double near_ = 0;     ///< places nearer than this are one
+  double soon_ = 0;     ///< times nearer than this are one
+  double fastest_ = 0;  ///< speed of an edge
   const Job& job_;
   std::uint64_t looks_ = 0;
   std::vector<Corner> corners_;
   std::vector<Edge> edges_;
   std::priority_queue<Event> events_;
-  std::vector<std::uint32_t> open_;       ///< edges with an open end
-  std::vector<std::uint32_t> hitters_;    ///< corners that may run into edges
-  std::vector<std::uint32_t> fresh_;      ///< corners made since `expect`
+  std::vector<std::uint32_t> open_;     ///< edges with an open end
+  std::vector<std::uint32_t> hitters_;  ///< corners that may run into edges
+  std::vector<std::uint32_t> fresh_;    ///< corners made since `expect`
   struct Joint {
     std::uint32_t in, out, node;
   };

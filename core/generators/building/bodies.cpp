@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/base/math.h"
-#include "core/base/rng.h"
+#include "core/generators/building/layers.h"
+#include "core/generators/building/patch.h"
 #include "core/geom/weld.h"
 
 namespace seedmesh::building {
 namespace {
 
-constexpr std::uint32_t most_layers = 64;
 constexpr double least_area = 4e-12;  ///< of a triangle, by the square of the model's diagonal
 
 /// A shape that is drawn.
@@ -21,41 +20,6 @@ struct Body {
   std::uint32_t shape = 0;
   std::uint16_t layer = 0;
   std::int32_t material = 0;
-};
-
-/// The corners and triangles of one body in its own frame: what a mesh is filled with.
-struct Patch {
-  std::vector<glm::dvec3> position, normal;
-  std::vector<std::uint32_t> index;
-  void clear() {
-    position.clear();
-    normal.clear();
-    index.clear();
-  }
-};
-
-struct CornerMask {
-  std::uint64_t key = 0, layers = 0;
-};
-
-/// Which layers have a corner at a place already. Open addressing; keys are never 0.
-class CornerBook {
- public:
-  CornerBook(const Job& job, std::size_t corners)
-      : slots_(job, std::bit_ceil(corners * 2 + 64), CornerMask{}) {}
-  std::uint64_t& layers(std::uint64_t key) {
-    const std::size_t mask = slots_.size() - 1;
-    for (std::size_t i = mix(key) & mask;; i = (i + 1) & mask) {
-      if (slots_[i].key == key) return slots_[i].layers;
-      if (slots_[i].key == 0) {
-        slots_[i].key = key;
-        return slots_[i].layers;
-      }
-    }
-  }
-
- private:
-  Array<CornerMask> slots_;
 };
 
 struct Bucket {
@@ -75,7 +39,7 @@ class Assembly {
     root.name = "building";
     model_.nodes.push_back(std::move(root));
     root_ = static_cast<int>(model_.nodes.size()) - 1;
-    const bool few = sharing == Sharing::few && bodies_.size() <= most_nodes;
+    const bool few = sharing == Sharing::few && draws() <= most_nodes;
     std::vector<Body> merged, single;
     for (const Body& body : bodies_) {
       const Shape& shape = shapes_.shapes[body.shape];
@@ -103,6 +67,17 @@ class Assembly {
     for (PartPiece& piece : make_part(*asset.row, shape.size, {}, job_))
       made.primitives.push_back({std::move(piece.mesh), looks_.material_of_role(piece.role), {}});
     return made;
+  }
+
+  /// How many primitives nodes would show.
+  std::size_t draws() {
+    if (bodies_.size() > most_nodes) return bodies_.size();
+    std::size_t sum = 0;
+    for (const Body& body : bodies_) {
+      const Shape& shape = shapes_.shapes[body.shape];
+      sum += is_asset(shape) ? asset_of(shape).primitives.size() : 1;
+    }
+    return sum;
   }
 
   /// What is drawn, its material, and the extent of all.
@@ -148,62 +123,13 @@ class Assembly {
           is_asset(shapes_.shapes[body.shape]) ? -1 : looks_.material_of(shapes_.shapes[body.shape]);
   }
 
-  void box_patch(const glm::dvec3& size, Patch& patch) const {
-    const int flat = dimension(size) == 2 ? flat_axis(size) : -1;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (flat >= 0 && axis != flat) continue;
-      const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-      for (const int side : {0, 1}) {
-        if (flat >= 0 && side == 0) continue;
-        const auto base = static_cast<std::uint32_t>(patch.position.size());
-        glm::dvec3 normal(0);
-        normal[axis] = side == 1 ? 1 : -1;
-        for (int k = 0; k < 4; ++k) {
-          glm::dvec3 p(0);
-          p[axis] = side == 1 ? size[axis] : 0;
-          const bool second = k == 1 || k == 2, third = k >= 2;
-          p[side == 1 ? u : v] = second ? size[side == 1 ? u : v] : 0;
-          p[side == 1 ? v : u] = third ? size[side == 1 ? v : u] : 0;
-          patch.position.push_back(p);
-          patch.normal.push_back(normal);
-        }
-        for (const std::uint32_t k : {0U, 1U, 2U, 0U, 2U, 3U}) patch.index.push_back(base + k);
-      }
-    }
-  }
-
-  void solid_patch(const Solid& solid, const glm::dvec3& size, Patch& patch) {
-    smooth_.assign(solid.points.size(), glm::dvec3(0));
-    for (const Face& face : solid.faces) {
-      if (!face.is_round) continue;
-      const glm::dvec3 normal = math::unit(area_vector(solid, face, size), glm::dvec3(0));
-      const Loop& loop = solid.loops[face.first_loop];
-      for (std::uint32_t i = 0; i < loop.count; ++i) smooth_[solid.corners[loop.first + i]] += normal;
-    }
-    for (const Face& face : solid.faces) {
-      const glm::dvec3 normal = math::unit(area_vector(solid, face, size), glm::dvec3(0));
-      if (normal == glm::dvec3(0)) continue;
-      triangles_.clear();
-      triangulate(solid, face, size, triangles_);
-      place_.assign(solid.points.size(), none);
-      for (const std::uint32_t point : triangles_) {
-        if (place_[point] == none) {
-          place_[point] = static_cast<std::uint32_t>(patch.position.size());
-          patch.position.push_back(solid.points[point] * size);
-          patch.normal.push_back(face.is_round ? math::unit(smooth_[point], normal) : normal);
-        }
-        patch.index.push_back(place_[point]);
-      }
-    }
-  }
-
   /// The body in the frame of its scope.
   void fill(const Shape& shape, Patch& patch) {
     patch.clear();
     if (shape.geometry == box_geometry)
-      box_patch(shape.size, patch);
+      patches_.box(shape.size, patch);
     else
-      solid_patch(shapes_.solid_of(shape.geometry), shape.size, patch);
+      patches_.solid(shapes_.solid_of(shape.geometry), shape.size, patch);
   }
 
   std::size_t triangles_of(const Shape& shape) {
@@ -304,7 +230,10 @@ class Assembly {
     if (is_part(shape)) {
       for (Primitive& primitive : group.primitives) {
         const glm::dvec2* const tile = looks_.tile_of(primitive.material);
-        if (tile == nullptr) primitive.mesh.uv[0] = {};
+        if (tile == nullptr) {
+          primitive.mesh.uv[0] = {};
+          weld(primitive.mesh, job_);  // where only the texture had differed
+        }
         for (glm::vec2& uv : primitive.mesh.uv[0]) uv /= glm::vec2(*tile);
       }
     }
@@ -367,70 +296,19 @@ class Assembly {
 
   // Merged meshes
 
-  std::uint64_t key_of(const glm::dvec3& point) const {
-    const glm::dvec3 cell = (point - low_) / (1e-5 * diagonal_) + 2.5;
-    std::uint64_t key = 0;
-    for (int axis = 0; axis < 3; ++axis)
-      key = key << 21U | static_cast<std::uint64_t>(std::clamp(cell[axis], 0.0, 2e6));
-    return key + 1;
-  }
-
-  void corners_of(const Shape& shape, std::vector<std::uint64_t>& keys) const {
-    keys.clear();
-    const glm::dmat3& axes = shapes_.axes[shape.axes];
-    const auto add = [&](const glm::dvec3& unit) {
-      keys.push_back(key_of(shape.origin + axes * (unit * shape.size)));
-    };
-    if (shape.geometry == box_geometry || is_asset(shape)) {
-      const int x = shape.size.x != 0 ? 2 : 1, y = shape.size.y != 0 ? 2 : 1, z = shape.size.z != 0 ? 2 : 1;
-      for (int i = 0; i < x; ++i) {
-        for (int j = 0; j < y; ++j) {
-          for (int k = 0; k < z; ++k) add({i, j, k});
-        }
-      }
-    } else {
-      for (const glm::dvec3& p : shapes_.solid_of(shape.geometry).points) add(p);
-    }
-  }
-
-  /// The lowest layer in which no body has a corner in common with this one.
-  std::uint32_t put_in_layers(std::vector<Body>& bodies) {
-    std::size_t corners = 0;
-    for (const Body& body : bodies) {
-      const Shape& shape = shapes_.shapes[body.shape];
-      corners += shape.geometry == box_geometry || is_asset(shape)
-                     ? 8
-                     : shapes_.solid_of(shape.geometry).points.size();
-    }
-    CornerBook book(job_, corners);
-    std::vector<std::uint64_t> keys;
-    std::vector<std::uint64_t*> masks;
-    std::uint32_t layers = 0;
-    std::size_t done = 0;
-    for (Body& body : bodies) {
-      corners_of(shapes_.shapes[body.shape], keys);
-      std::uint64_t taken = 0;
-      masks.clear();
-      for (const std::uint64_t key : keys) {
-        masks.push_back(&book.layers(key));
-        taken |= *masks.back();
-      }
-      const auto layer =
-          std::min<std::uint32_t>(static_cast<std::uint32_t>(std::countr_one(taken)), most_layers - 1);
-      for (std::uint64_t* mask : masks) *mask |= std::uint64_t{1} << layer;
-      body.layer = static_cast<std::uint16_t>(layer);
-      layers = std::max(layers, layer + 1);
-      if ((++done & 4095U) == 0) job_.check();
-    }
-    return layers;
-  }
-
   void merge(std::vector<Body>& bodies) {
     for (const Body& body : bodies) {
       if (is_part(shapes_.shapes[body.shape]))
         asset_of(shapes_.shapes[body.shape]);  // its materials come to be
     }
-    const std::uint32_t layers = put_in_layers(bodies);
+    std::vector<std::uint32_t> drawn;
+    for (const Body& body : bodies) drawn.push_back(body.shape);
+    const std::vector<std::uint8_t> layer_of = layers_of(shapes_, drawn, low_, diagonal_, job_);
+    std::uint32_t layers = 0;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      bodies[i].layer = layer_of[i];
+      layers = std::max<std::uint32_t>(layers, layer_of[i] + 1U);
+    }
     const std::size_t materials = model_.materials.size();
     std::vector<Bucket> buckets(layers * materials);
     std::size_t triangles = 0;
@@ -502,8 +380,7 @@ class Assembly {
   double diagonal_ = 1, least_ = 0;
   glm::dvec3 low_{0};
   Patch patch_;
-  std::vector<glm::dvec3> smooth_;
-  std::vector<std::uint32_t> triangles_, place_;
+  PatchMaker patches_;
   std::map<std::pair<std::uint32_t, std::array<std::int64_t, 3>>, Asset> parts_;
 };
 

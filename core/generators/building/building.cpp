@@ -7,6 +7,7 @@
 #include "core/generators/building/bodies.h"
 #include "core/generators/building/derive.h"
 #include "core/generators/building/ground.h"
+#include "core/generators/building/kinds.h"
 #include "core/generators/building/operations.h"
 #include "core/generators/child.h"
 #include "core/geom/flatten.h"
@@ -77,6 +78,10 @@ Grammar read(const BuildingParams& params, std::vector<Issue>& issues) {
   Grammar grammar = read_rules(rules, params.start.value_or(""), faults);
   for (const lang::Fault& fault : faults)
     issues.push_back(issue_at("/rules", rules, fault.offset, fault.message));
+  if (faults.empty() && params.restrict != BuildingRestrict::none) {
+    for (const lang::Fault& fault : faults_of_kind(grammar, params.restrict == BuildingRestrict::unimarker))
+      issues.push_back(issue_at("/rules", rules, fault.offset, fault.message));
+  }
   if (faults.empty() && grammar.start == none) {
     issues.push_back({"/start", "there is no symbol \"" + params.start.value_or("") + "\" in the rules"});
   } else if (faults.empty()) {

@@ -213,7 +213,8 @@ class Clipper {
   /// The cut segments, the other way round, are the border of the caps.
   void cap() {
     std::multimap<std::uint32_t, std::uint32_t> next;
-    for (const auto& [from, to] : cuts_) {
+    for (const std::pair<std::uint32_t, std::uint32_t>& cut : cuts_) {
+      const std::uint32_t from = cut.first, to = cut.second;
       if (from == to) continue;
       // A face that lies along the plane has run this edge the other way: both together are nothing.
       const auto range = next.equal_range(from);

@@ -86,7 +86,7 @@ double Deriver::number(const Value& given) {
   }
   if (std::abs(result) > longest) {
     if (const std::string* text = out_.texts.of(result))
-      reject(given.offset, "found the text \"" + *text + "\", expected a number");
+      reject(given.offset, "found the text " + lang::in_quotes(*text) + ", expected a number");
     reject(given.offset, "the value is beyond 10,000 km");
   }
   return result;

@@ -59,7 +59,9 @@ std::vector<std::string_view> built_in_materials() {
 }
 
 void check_looks(const BuildingParams& params, std::vector<Issue>& issues) {
-  for (const auto& [name, given] : params.materials) {
+  for (const auto& entry : params.materials) {
+    const std::string& name = entry.first;
+    const BuildingMaterial& given = entry.second;
     if (!given.images) continue;
     const auto check = [&](const std::string& uri, const char* member) {
       if (uri.empty()) return;

@@ -219,8 +219,8 @@ void Deriver::insert(const Step& step, State& state) {
     low = plan_.assets[i].low;
   }
   if (geometry == none)
-    reject(step.offset,
-           "there is no part \"" + name + "\": neither an asset of the request nor one of " + part_names());
+    reject(step.offset, "there is no part " + lang::in_quotes(name) +
+                            ": neither an asset of the request nor one of " + part_names());
   const int given = dimension(state.size);
   glm::dvec3 size = state.size;
   if (given == 0) {
@@ -253,7 +253,7 @@ void Deriver::color(const Step& step, State& state) {
   } else {
     const std::string& code = text(a[0]);
     if (!color_of(code))
-      reject(a[0].value.offset, "found \"" + code + "\", expected a colour as \"#rrggbb\"");
+      reject(a[0].value.offset, "found " + lang::in_quotes(code) + ", expected a colour as \"#rrggbb\"");
     style.color = text_number(a[0]);
   }
   state.style = style_with(style);
@@ -266,7 +266,8 @@ void Deriver::set(const Step& step, State& state) {
   if (name == "material.name" || name == "material.color") {
     const double given = text_number(a[1]);
     if (name == "material.color" && !color_of(*out_.texts.of(given)))
-      reject(a[1].value.offset, "found \"" + *out_.texts.of(given) + "\", expected a colour as \"#rrggbb\"");
+      reject(a[1].value.offset,
+             "found " + lang::in_quotes(*out_.texts.of(given)) + ", expected a colour as \"#rrggbb\"");
     (name == "material.name" ? style.material : style.color) = given;
   } else {
     const auto found = std::ranges::find(grammar_.attributes, name, &Attribute::name);

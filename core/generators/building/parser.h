@@ -36,6 +36,9 @@ class Tokens {
   std::vector<std::size_t> partner_;
 };
 
+/// Different questions to other shapes that rules may ask.
+constexpr std::uint32_t most_queries = 32;
+
 class Parser {
  public:
   Parser(std::string_view text, Grammar& grammar, std::vector<lang::Fault>& faults);

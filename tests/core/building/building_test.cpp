@@ -235,6 +235,32 @@ TEST(BuildingOrder, ShowsInTheStepsAlone) {
   EXPECT_EQ(active(derived(params)), "D D E E E");
 }
 
+TEST(BuildingRestrictions, HoldRulesToTheirKind) {
+  BuildingParams params = with("A --> B. A");
+  params.iterations = 3;
+  params.restrict = BuildingRestrict::unimarker;
+  EXPECT_EQ(active(derived(params)), "B B B A");
+  params.rules = "A --> B. A A";
+  EXPECT_EQ(check(params, Limits{}).front().column, 12);
+  params.restrict = BuildingRestrict::non_erasing;
+  EXPECT_TRUE(check(params, Limits{}).empty());
+  params.rules = "A --> NIL";
+  EXPECT_EQ(check(params, Limits{}).front().column, 7);
+}
+
+/// Gips: a square with a marker becomes a square with half as large a one in it, turned by 45 degrees.
+TEST(BuildingRestrictions, EmbedSquares) {
+  BuildingParams params =
+      with("M ~> [ square. ] S(0.5^0.5*Scope.sx, 1r, 0.5^0.5*Scope.sz) center(xz) R(0, 45, 0, scopeCenter) M",
+           {1, 0, 1});
+  params.iterations = 5;
+  params.restrict = BuildingRestrict::unimarker;
+  const Json answer = derived(params);
+  const std::vector<double> sides = sizes(answer, 0);
+  ASSERT_EQ(sides.size(), 6U);
+  EXPECT_NEAR(sides[4], 0.25, 1e-12);
+}
+
 TEST(BuildingRandomness, HangsOnThePlace) {
   const std::string before = "A --> split(x){ 1: B }* B --> 50%: C. else: D.";
   const std::string after = "A --> split(x){ 1: B }* B --> 50%: C. else: E(rand()) E(x) --> F.";
@@ -329,6 +355,47 @@ TEST(BuildingOperations, RunTheExamplesOfTheirRows) {
     const Json answer = derived(with(std::string(row.example), {6, 6, 6}));
     EXPECT_FALSE(active(answer).empty()) << row.name;
     EXPECT_TRUE(answer["warnings"].empty()) << row.name << ": " << answer["warnings"].dump();
+  }
+}
+
+/// Rules with letters left out, doubled and swapped: each ends in a refusal or in a model, and soon.
+TEST(BuildingRules, SurviveDamage) {
+  const std::string rules =
+      "@Range(1, 9) attr h = 6 const k = case h > 3: 2 else: 1\n"
+      "f(x) = 30%: x else: x * k\n"
+      "Lot --> extrude(h) comp(f){ side: Facade | top: [ roofHip(30, 0.3) Roof. ] offset(-1, inside) Court. "
+      "| 0: NIL }\n"
+      "Facade --> split(y){ { ~f(2): Floor | 0.2: Ledge. }* | '0.1: i(\"cylinder\") }\n"
+      "Floor --> case scope.sx > 3: split(x, noAdjust){ ~1: Wall. | 1: Window(1) }* else: Wall.\n"
+      "1: Window(a) : Shape.occ(\"noparent\") == \"none\" ~> T(0, 0, -0.1) S(1r, 1r, 0.05) I(\"window\") : "
+      "0.5 ~> Wall. : 0.5\n"
+      "2: Window(a) ~> Subdiv(\"XS\", 1r, { 2, 1r }*){ A. | B. | C. } Comp(\"edges\"){ D. } setback(1){ "
+      "front: E. | remainder: report(\"r\") F. }\n";
+  const std::string letters = "(){}[]|:~'*.,\"+-/<>= \nr1A%@#";
+  Rng rng(5);
+  Job::Options options;
+  options.limits.shapes = 20'000;
+  options.limits.triangles = 200'000;
+  for (int trial = 0; trial < 4'000; ++trial) {
+    std::string text = rules;
+    for (std::uint32_t k = 1 + rng.below(4); k-- > 0;) {
+      const std::size_t at = rng.below(static_cast<std::uint32_t>(text.size()));
+      const std::size_t span = 1 + rng.below(rng.below(8) == 0 ? 60 : 3);
+      const std::uint32_t kind = rng.below(3);
+      if (kind == 0) text.erase(at, span);
+      if (kind == 1) text.insert(at, text.substr(rng.below(static_cast<std::uint32_t>(text.size())), span));
+      if (kind == 2) text[at] = letters[rng.below(static_cast<std::uint32_t>(letters.size()))];
+    }
+    BuildingParams params = with(text, {8, 0, 6});
+    if (trial % 3 == 0) params.iterations = 4;
+    const bool sound = check(params, Limits{}).empty();
+    Job job(1, options);
+    try {
+      const Result<Model> model = generate(params, job);
+      EXPECT_EQ(static_cast<bool>(model), sound) << text;
+    } catch (const Stop&) {
+      EXPECT_TRUE(sound) << text;
+    }
   }
 }
 

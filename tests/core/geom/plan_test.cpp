@@ -103,8 +103,18 @@ TEST(PlanOffset, KeepsTheEdgeThatEachEdgeCameOf) {
 
 TEST(PlanOffset, FallsApartWhereAPlanIsNarrow) {
   const Job job = job_of();
-  const Plan dumbbell = plan_of({{0, 0}, {4, 0}, {4, 1.5}, {8, 1.5}, {8, 0}, {12, 0}, {12, 4}, {8, 4}, {8, 2.5},
-                                 {4, 2.5}, {4, 4}, {0, 4}});
+  const Plan dumbbell = plan_of({{0, 0},
+                                 {4, 0},
+                                 {4, 1.5},
+                                 {8, 1.5},
+                                 {8, 0},
+                                 {12, 0},
+                                 {12, 4},
+                                 {8, 4},
+                                 {8, 2.5},
+                                 {4, 2.5},
+                                 {4, 4},
+                                 {0, 4}});
   const auto parts = offset(dumbbell, -1, job);
   ASSERT_THAT(parts, SizeIs(2));
   EXPECT_NEAR(area(parts[0].plan), 4, 1e-9);

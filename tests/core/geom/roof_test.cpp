@@ -112,7 +112,8 @@ TEST(Roof, GableEndsAreNamedOrFoundOnAnLAndATriangle) {
   const Plan l = plan_of({{0, 0}, {12, 0}, {12, 5}, {5, 5}, {5, 10}, {0, 10}});
   EXPECT_THAT(gable_edges(l, job), ElementsAre(1U, 4U));
   EXPECT_THAT(gable_edges(plan_of({{0, 0}, {4, 0}, {0, 3}}), job), SizeIs(1));
-  EXPECT_THAT(gable_edges(plan_of({{0, 0}, {10, 0}, {10, 3}, {10, 6}, {0, 6}}), job), ElementsAre(1U, 2U, 4U));
+  EXPECT_THAT(gable_edges(plan_of({{0, 0}, {10, 0}, {10, 3}, {10, 6}, {0, 6}}), job),
+              ElementsAre(1U, 2U, 4U));
   RoofOptions options = options_of(RoofKind::gable);
   options.gables = {0};
   const Roof made = roof(rectangle(10, 6), options, job);
@@ -156,8 +157,8 @@ TEST(Roof, GambrelHasEndsOfFiveCorners) {
 
 TEST(Roof, ReachesAHeightThatIsGiven) {
   const Job job = job_of();
-  for (const RoofKind kind : {RoofKind::hip, RoofKind::gable, RoofKind::pyramid, RoofKind::shed, RoofKind::mansard,
-                              RoofKind::gambrel}) {
+  for (const RoofKind kind : {RoofKind::hip, RoofKind::gable, RoofKind::pyramid, RoofKind::shed,
+                              RoofKind::mansard, RoofKind::gambrel}) {
     RoofOptions options = options_of(kind, 60);
     options.height = 4;
     EXPECT_NEAR(roof(rectangle(14, 9), options, job).height, 4, 1e-9) << static_cast<int>(kind);
@@ -167,8 +168,8 @@ TEST(Roof, ReachesAHeightThatIsGiven) {
 TEST(Roof, CoverHangsOverAndIsClosed) {
   const Job job = job_of();
   const Plan l = plan_of({{0, 0}, {12, 0}, {12, 5}, {5, 5}, {5, 10}, {0, 10}});
-  for (const RoofKind kind : {RoofKind::flat, RoofKind::hip, RoofKind::gable, RoofKind::shed, RoofKind::mansard,
-                              RoofKind::gambrel, RoofKind::pyramid}) {
+  for (const RoofKind kind : {RoofKind::flat, RoofKind::hip, RoofKind::gable, RoofKind::shed,
+                              RoofKind::mansard, RoofKind::gambrel, RoofKind::pyramid}) {
     RoofOptions options = options_of(kind, 35);
     options.overhang = 0.5;
     options.verge = 0.3;
@@ -193,15 +194,43 @@ TEST(Roof, PyramidOverAPlanThatHidesItselfBecomesAHip) {
   EXPECT_EQ(open_edges(made, false), 0);
 }
 
+TEST(Roof, OverAnythingElseIsLevelWithAWarning) {
+  const Job job = job_of();
+  Rng rng(31);
+  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+    Rng here = rng.at(seed);
+    Plan plan;
+    for (std::uint32_t r = 0; r < 1 + here.below(3); ++r) {
+      plan.rings.emplace_back();
+      for (std::uint32_t i = 0; i < here.below(9); ++i)
+        plan.rings.back().emplace_back(here.below(5), here.below(5));
+    }
+    if (plan.rings[0].empty() || faults_of(plan).empty()) continue;
+    for (const RoofKind kind :
+         {RoofKind::hip, RoofKind::gable, RoofKind::shed, RoofKind::pyramid, RoofKind::mansard}) {
+      RoofOptions options = options_of(kind, 40);
+      options.overhang = 0.3;
+      EXPECT_EQ(roof(plan, options, job).warnings.size(), 1U) << seed;
+    }
+    const std::vector<double> distances(edge_count(plan), 0.5);
+    setback(plan, distances, job);
+    outset(plan, distances, job);
+    gable_edges(plan, job);
+    triangulate(plan);
+  }
+}
+
 TEST(Roof, IsClosedAndCoversTenThousandRandomPlans) {
   const Job job = job_of();
   Rng rng(21);
   int flat = 0, bare = 0, faulty = 0;
-  constexpr std::array kinds{RoofKind::hip, RoofKind::gable, RoofKind::mansard, RoofKind::gambrel, RoofKind::shed};
+  constexpr std::array kinds{RoofKind::hip, RoofKind::gable, RoofKind::mansard, RoofKind::gambrel,
+                             RoofKind::shed};
   for (std::uint64_t seed = 0; seed < 10'000; ++seed) {
     Rng here = rng.at(seed);
-    const Plan plan = seed % 2 ? random_star(here, 3 + static_cast<std::uint32_t>(seed / 2 % 20), seed % 4 == 1)
-                               : random_blocks(here, 2 + static_cast<int>(seed / 2 % 7));
+    const Plan plan = seed % 2
+                          ? random_star(here, 3 + static_cast<std::uint32_t>(seed / 2 % 20), seed % 4 == 1)
+                          : random_blocks(here, 2 + static_cast<int>(seed / 2 % 7));
     RoofOptions options = options_of(kinds[seed % kinds.size()], here.uniform(20, 60));
     options.overhang = seed % 3 == 0 ? 0.2 : 0;
     const Roof made = roof(plan, options, job);

@@ -41,12 +41,27 @@ TEST(StraightSkeleton, AgreesWithKnownRoofs) {
   const std::vector<Known> all{
       {"square", {{0, 0}, {10, 0}, {10, 10}, {0, 10}}, 5, 166.666667, 4, 1},
       {"L", {{0, 0}, {10, 0}, {10, 5}, {5, 5}, {5, 10}, {0, 10}}, 2.5, 83.333333, 6, 3},
-      {"dormer", {{0, 0}, {20, 0}, {20, 10}, {12, 10}, {12, 12}, {8, 12}, {8, 10}, {0, 10}}, 5, 424.666667, 8, 5},
+      {"dormer",
+       {{0, 0}, {20, 0}, {20, 10}, {12, 10}, {12, 12}, {8, 12}, {8, 10}, {0, 10}},
+       5,
+       424.666667,
+       8,
+       5},
       {"collinear", {{0, 0}, {5, 0}, {10, 0}, {10, 6}, {5, 6}, {0, 6}}, 3, 72, 6, 3},
       {"3-4-5", {{0, 0}, {4, 0}, {0, 3}}, 1, 2, 3, 1},
       {"crash",
-       {{7481, 274}, {10509, 115}, {10555, 964}, {7481, 1126}, {7481, 1866}, {4356, 1866}, {4356, -1896}, {7481, -1896}},
-       1562.5, -1, 8, 5}};
+       {{7481, 274},
+        {10509, 115},
+        {10555, 964},
+        {7481, 1126},
+        {7481, 1866},
+        {4356, 1866},
+        {4356, -1896},
+        {7481, -1896}},
+       1562.5,
+       -1,
+       8,
+       5}};
   for (const Known& known : all) {
     const Plan plan = plan_of(known.ring);
     const Skeleton skeleton = straight_skeleton(plan, {}, job_of());
@@ -101,8 +116,8 @@ TEST(StraightSkeleton, DoesNotEndWithoutMotion) {
   EXPECT_FALSE(straight_skeleton(rectangle(3, 2), {speed}, job_of()).is_sound);
 }
 
-/// Heights of nodes are the distance to the line of the edge over its speed; neighbours share their nodes; the
-/// areas add up (is_sound).
+/// Heights of nodes are the distance to the line of the edge over its speed; neighbours share their nodes;
+/// the areas add up (is_sound).
 void expect_sound(const Plan& plan, std::span<const double> speed, std::uint64_t seed) {
   const Skeleton skeleton = straight_skeleton(plan, {speed}, job_of());
   ASSERT_TRUE(skeleton.is_sound) << seed;
@@ -133,8 +148,9 @@ TEST(StraightSkeleton, IsSoundOverTenThousandRandomPlans) {
   Rng rng(11);
   for (std::uint64_t seed = 0; seed < 10'000; ++seed) {
     Rng here = rng.at(seed);
-    const Plan plan = seed % 2 ? random_star(here, 3 + static_cast<std::uint32_t>(seed / 2 % 24), seed % 4 == 1)
-                               : random_blocks(here, 2 + static_cast<int>(seed / 2 % 8));
+    const Plan plan = seed % 2
+                          ? random_star(here, 3 + static_cast<std::uint32_t>(seed / 2 % 24), seed % 4 == 1)
+                          : random_blocks(here, 2 + static_cast<int>(seed / 2 % 8));
     expect_sound(plan, {}, seed);
     if (testing::Test::HasFatalFailure()) return;
   }
@@ -146,8 +162,9 @@ TEST(StraightSkeleton, IsSoundWithSpeedsOfEachEdgeOrSaysNo) {
   int unsound = 0;
   for (std::uint64_t seed = 0; seed < 4000; ++seed) {
     Rng here = rng.at(seed);
-    const Plan plan = seed % 2 ? random_star(here, 3 + static_cast<std::uint32_t>(seed / 2 % 24), seed % 4 == 1)
-                               : random_blocks(here, 2 + static_cast<int>(seed / 2 % 8));
+    const Plan plan = seed % 2
+                          ? random_star(here, 3 + static_cast<std::uint32_t>(seed / 2 % 24), seed % 4 == 1)
+                          : random_blocks(here, 2 + static_cast<int>(seed / 2 % 8));
     std::vector<double> speed;
     for (std::uint32_t i = 0; i < edge_count(plan); ++i)
       speed.push_back(seed % 3 ? here.uniform(0.5, 2) : 0.5 * (1 + here.below(3)));

@@ -6,7 +6,8 @@ namespace seedmesh::building {
 
 const Blueprint* blueprint_named(std::string_view name) {
   const std::span<const Blueprint> all = blueprints();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Blueprint& each) { return each.name == name; });
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Blueprint& each) { return each.name == name; });
   return found == all.end() ? nullptr : &*found;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-/// Rule files that come with the program: the blueprints. Each *.cga of this folder is one, by its file's name.
+/// Rule files that come with the program: the blueprints. Each *.cga of this folder is one, by its file's
+/// name.
 #include <span>
 #include <string_view>
 

@@ -54,20 +54,30 @@ std::vector<PartPiece> make_door(const dvec3& size, const PartOptions& options, 
   const double frame = frame_width(size, options, 0.08), depth = 0.7 * size.z;
   const double right = size.x - frame, top = size.y - frame;
   out.push("frame",
-           Plan{{{{0, 0}, {frame, 0}, {frame, top}, {right, top}, {right, 0}, {size.x, 0}, {size.x, size.y}, {0, size.y}}}},
+           Plan{{{{0, 0},
+                  {frame, 0},
+                  {frame, top},
+                  {right, top},
+                  {right, 0},
+                  {size.x, 0},
+                  {size.x, size.y},
+                  {0, size.y}}}},
            {Along::z, 0, depth});
   // One leaf, or two where the door is wide.
   const int leaves = size.x > 0.75 * size.y ? 2 : 1;
-  const double gap = 0.1 * frame, width = (right - frame) / leaves, leaf_back = 0.25 * depth, leaf_front = 0.75 * depth;
+  const double gap = 0.1 * frame, width = (right - frame) / leaves, leaf_back = 0.25 * depth,
+               leaf_front = 0.75 * depth;
   for (int leaf = 0; leaf < leaves; ++leaf) {
     const double x = frame + leaf * width, inner = leaf > 0 ? gap : -0.3 * frame;
     const double outer = leaf + 1 < leaves ? gap : -0.3 * frame;
-    const dvec3 low{x + inner, 0.004 * size.y, leaf_back}, high{x + width - outer, top + 0.3 * frame, leaf_front};
+    const dvec3 low{x + inner, 0.004 * size.y, leaf_back},
+        high{x + width - outer, top + 0.3 * frame, leaf_front};
     out.box("door", low, high);
     // Two fields that stand out a little.
     const double side = 0.17 * width, field = leaf_front + 0.12 * depth;
     for (const dvec2 span : {dvec2(0.1, 0.42), dvec2(0.52, 0.9)}) {
-      out.box("door", {x + side, span.x * top, leaf_front - 0.1 * depth}, {x + width - side, span.y * top, field});
+      out.box("door", {x + side, span.x * top, leaf_front - 0.1 * depth},
+              {x + width - side, span.y * top, field});
     }
     // The handle: a stem from the leaf, and a square bar.
     const double side_of_lock = leaf % 2 == 0 ? x + 0.93 * width : x + 0.07 * width;
@@ -86,13 +96,22 @@ std::vector<PartPiece> make_dormer(const dvec3& size, const PartOptions& options
   const double angle = options.angle > 0 ? options.angle : math::pi / 4;
   const double middle = 0.5 * size.x, rise = std::min(middle * math::tan(angle), 0.6 * size.y);
   const double eave = size.y - rise, thick = 0.06 * size.y, inset = 0.06 * size.x, front = 0.93 * size.z;
-  out.push("roof", Plan{{{{0, eave - thick}, {middle, size.y - thick}, {size.x, eave - thick}, {size.x, eave},
-                          {middle, size.y}, {0, eave}}}},
+  out.push("roof",
+           Plan{{{{0, eave - thick},
+                  {middle, size.y - thick},
+                  {size.x, eave - thick},
+                  {size.x, eave},
+                  {middle, size.y},
+                  {0, eave}}}},
            {Along::z, 0, size.z});
   // Walls end in the middle of the roof's thickness.
   const double slope = rise / middle, shoulder = eave - 0.5 * thick + slope * inset;
   out.push("wall",
-           Plan{{{{inset, 0}, {size.x - inset, 0}, {size.x - inset, shoulder}, {middle, size.y - 0.5 * thick}, {inset, shoulder}}}},
+           Plan{{{{inset, 0},
+                  {size.x - inset, 0},
+                  {size.x - inset, shoulder},
+                  {middle, size.y - 0.5 * thick},
+                  {inset, shoulder}}}},
            {Along::z, 0.02 * size.z, front});
   const double left = 0.25 * size.x, sill = 0.12 * size.y, head = std::min(shoulder, 0.75 * size.y);
   add_window(out, {left, sill, front - 0.04 * size.z}, {size.x - left, head, 0.98 * size.z}, options);

@@ -8,6 +8,7 @@ using PartMaker = std::vector<PartPiece>(const glm::dvec3& size, const PartOptio
 
 PartMaker make_window, make_door, make_dormer;
 PartMaker make_box, make_wall, make_floor, make_cylinder, make_prism, make_pyramid, make_triangular_prism;
-PartMaker make_tower, make_bell, make_factory_roof, make_chimney, make_ledge, make_balcony, make_column, make_stairs;
+PartMaker make_tower, make_bell, make_factory_roof, make_chimney, make_ledge, make_balcony, make_column,
+    make_stairs;
 
 }  // namespace seedmesh::building

@@ -18,13 +18,18 @@ constexpr double smooth = 0.766;
 
 dvec3 placed(Along along, const dvec2& p, double depth) {
   switch (along) {
-    case Along::x: return {depth, p.y, -p.x};
-    case Along::y: return {p.x, depth, -p.y};
-    default: return {p.x, p.y, depth};
+    case Along::x:
+      return {depth, p.y, -p.x};
+    case Along::y:
+      return {p.x, depth, -p.y};
+    default:
+      return {p.x, p.y, depth};
   }
 }
 
-dvec3 axis_of(Along along) { return along == Along::x ? dvec3{1, 0, 0} : along == Along::y ? dvec3{0, 1, 0} : dvec3{0, 0, 1}; }
+dvec3 axis_of(Along along) {
+  return along == Along::x ? dvec3{1, 0, 0} : along == Along::y ? dvec3{0, 1, 0} : dvec3{0, 0, 1};
+}
 
 /// Texture coordinates in metres: v is the height wherever a face is not level.
 dvec2 texture(const dvec3& p, const dvec3& normal) {
@@ -108,7 +113,8 @@ void PartWriter::turn(std::string_view role, const std::vector<ProfilePoint>& pr
   Mesh& mesh = mesh_of(role);
   const double mean = 0.5 * (turn.radius.x + turn.radius.y);
   const auto direction = [&](std::size_t i) {
-    const dvec2 d{(profile[i + 1].radius - profile[i].radius) * mean, profile[i + 1].height - profile[i].height};
+    const dvec2 d{(profile[i + 1].radius - profile[i].radius) * mean,
+                  profile[i + 1].height - profile[i].height};
     return d / glm::length(d);
   };
   double v = 0;
@@ -117,7 +123,8 @@ void PartWriter::turn(std::string_view role, const std::vector<ProfilePoint>& pr
     std::array<dvec2, 2> slope{direction(s), direction(s)};
     if (s > 0 && glm::dot(slope[0], direction(s - 1)) > smooth) slope[0] += direction(s - 1);
     if (s + 2 < profile.size() && glm::dot(slope[1], direction(s + 1)) > smooth) slope[1] += direction(s + 1);
-    const double rise = glm::length(dvec2((ends[1].radius - ends[0].radius) * mean, ends[1].height - ends[0].height));
+    const double rise =
+        glm::length(dvec2((ends[1].radius - ends[0].radius) * mean, ends[1].height - ends[0].height));
     const auto first = static_cast<std::uint32_t>(mesh.position.size());
     const bool has_low = ends[0].radius > 0, has_high = ends[1].radius > 0;
     // At an apex each side has a point of its own, with the normal of its middle.
@@ -126,11 +133,13 @@ void PartWriter::turn(std::string_view role, const std::vector<ProfilePoint>& pr
         const bool is_apex = !(ends[row].radius > 0);
         if (is_apex && i == columns) continue;
         const math::SinCos at = math::sincos_degrees(360.0 * (i % columns + (is_apex ? 0.5 : 0)) / sides);
-        const dvec3 normal{turn.radius.y * slope[row].y * at.cos, -turn.radius.x * turn.radius.y * slope[row].x / mean,
+        const dvec3 normal{turn.radius.y * slope[row].y * at.cos,
+                           -turn.radius.x * turn.radius.y * slope[row].x / mean,
                            turn.radius.x * slope[row].y * at.sin};
-        mesh.position.push_back(glm::vec3(turn.foot + dvec3(turn.radius.x * ends[row].radius * at.cos, ends[row].height,
-                                                            turn.radius.y * ends[row].radius * at.sin)) +
-                                0.0F);
+        mesh.position.push_back(
+            glm::vec3(turn.foot + dvec3(turn.radius.x * ends[row].radius * at.cos, ends[row].height,
+                                        turn.radius.y * ends[row].radius * at.sin)) +
+            0.0F);
         mesh.normal.push_back(glm::vec3(math::unit(normal, {0, 1, 0})) + 0.0F);
         mesh.uv[0].push_back({static_cast<float>(-2 * math::pi * mean * (i + (is_apex ? 0.5 : 0)) / sides),
                               static_cast<float>(v + row * rise)});
@@ -140,11 +149,13 @@ void PartWriter::turn(std::string_view role, const std::vector<ProfilePoint>& pr
     const std::uint32_t second = first + columns + (has_low ? 1 : 0);
     for (std::uint32_t i = 0; i < columns; ++i) {
       if (has_low) {
-        for (const std::uint32_t corner : {first + i, second + i, first + i + 1}) mesh.index.wide.push_back(corner);
+        for (const std::uint32_t corner : {first + i, second + i, first + i + 1})
+          mesh.index.wide.push_back(corner);
       }
       if (has_high) {
         const std::uint32_t low = has_low ? first + i + 1 : first + i;
-        for (const std::uint32_t corner : {low, second + i, second + i + 1}) mesh.index.wide.push_back(corner);
+        for (const std::uint32_t corner : {low, second + i, second + i + 1})
+          mesh.index.wide.push_back(corner);
       }
     }
   }

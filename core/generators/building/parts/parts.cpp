@@ -10,14 +10,23 @@ namespace seedmesh::building {
 namespace {
 
 constexpr std::array<PartRow, 18> rows{{
-    {"balcony", "A slab with a railing on three sides; its back is at the wall.", {2.4, 1.15, 1}, make_balcony},
+    {"balcony",
+     "A slab with a railing on three sides; its back is at the wall.",
+     {2.4, 1.15, 1},
+     make_balcony},
     {"bell", "A church bell with clapper and yoke.", {1, 1.1, 1}, make_bell},
     {"box", "A box.", {1, 1, 1}, make_box},
-    {"chimney", "Brick with a slab and pots; a round stack where it is more than five times as high as wide.", {0.8, 1.6, 0.6}, make_chimney},
+    {"chimney",
+     "Brick with a slab and pots; a round stack where it is more than five times as high as wide.",
+     {0.8, 1.6, 0.6},
+     make_chimney},
     {"column", "A round column with base and capital.", {0.6, 4, 0.6}, make_column},
     {"cylinder", "An upright cylinder.", {1, 1, 1}, make_cylinder},
     {"door", "A door in its frame, with a handle; two leaves where it is wide.", {1, 2.1, 0.2}, make_door},
-    {"dormer", "A window with walls and a roof of its own, to stand out of a slope.", {1.6, 2, 2}, make_dormer},
+    {"dormer",
+     "A window with walls and a roof of its own, to stand out of a slope.",
+     {1.6, 2, 2},
+     make_dormer},
     {"factory_roof", "Four teeth with glass on their upright side.", {20, 3, 10}, make_factory_roof},
     {"floor", "A slab.", {4, 0.3, 4}, make_floor},
     {"ledge", "A moulding along a wall; its back is at the wall.", {4, 0.3, 0.3}, make_ledge},
@@ -52,11 +61,13 @@ constexpr std::array<PartMaterial, 14> materials{{
 std::span<const PartRow> part_rows() { return rows; }
 
 const PartRow* part_named(std::string_view name) {
-  const auto row = std::find_if(rows.begin(), rows.end(), [&](const PartRow& each) { return each.name == name; });
+  const auto row =
+      std::find_if(rows.begin(), rows.end(), [&](const PartRow& each) { return each.name == name; });
   return row == rows.end() ? nullptr : &*row;
 }
 
-std::vector<PartPiece> make_part(const PartRow& row, const glm::dvec3& size, const PartOptions& options, Job& job) {
+std::vector<PartPiece> make_part(const PartRow& row, const glm::dvec3& size, const PartOptions& options,
+                                 Job& job) {
   std::vector<PartPiece> pieces = row.make(size, options, job);
   for (PartPiece& piece : pieces) weld(piece.mesh, job);
   return pieces;

@@ -20,9 +20,11 @@ struct PartPiece {
 
 /// What can be turned about a part besides its size. Each part reads what its row names.
 struct PartOptions {
-  double angle = 0;   ///< radians: pyramid and prism none; roofs of tower, dormer: of their slope (0: 45 degrees)
-  int count = 0;      ///< sides of cylinder, column, bell; steps of stairs; panes of a window; saw teeth; 0: by size
-  double frame = 0;   ///< metres: of a window's or door's frame, a balcony's rail; 0: by size
+  double angle =
+      0;  ///< radians: pyramid and prism none; roofs of tower, dormer: of their slope (0: 45 degrees)
+  int count =
+      0;  ///< sides of cylinder, column, bell; steps of stairs; panes of a window; saw teeth; 0: by size
+  double frame = 0;  ///< metres: of a window's or door's frame, a balcony's rail; 0: by size
 };
 
 struct PartRow {

@@ -31,7 +31,9 @@ std::vector<PartPiece> make_floor(const dvec3& size, const PartOptions&, Job& jo
 std::vector<PartPiece> make_cylinder(const dvec3& size, const PartOptions& options, Job& job) {
   PartWriter out(job);
   out.turn("wall", {{0, 0}, {1, 0}, {1, size.y}, {0, size.y}},
-           {{0.5 * size.x, 0, 0.5 * size.z}, {0.5 * size.x, 0.5 * size.z}, options.count > 0 ? options.count : 24});
+           {{0.5 * size.x, 0, 0.5 * size.z},
+            {0.5 * size.x, 0.5 * size.z},
+            options.count > 0 ? options.count : 24});
   return out.take();
 }
 
@@ -43,7 +45,8 @@ std::vector<PartPiece> make_prism(const dvec3& size, const PartOptions&, Job& jo
   std::vector<dvec3> floor, top;
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t next = (i + 1) % 4;
-    out.face("roof", {raised(low[i], 0), raised(low[next], 0), raised(high[next], size.y), raised(high[i], size.y)});
+    out.face("roof",
+             {raised(low[i], 0), raised(low[next], 0), raised(high[next], size.y), raised(high[i], size.y)});
     floor.insert(floor.begin(), raised(low[i], 0));
     top.push_back(raised(high[i], size.y));
   }

@@ -36,8 +36,8 @@ MeshMeasures measure_of(const Model& model) {
 void expect_sound(const PartRow& row, const glm::dvec3& size, const PartOptions& options) {
   Job job = job_of();
   const Model model = model_of(make_part(row, size, options, job));
-  const std::string place = std::string(row.name) + " " + std::to_string(size.x) + " " + std::to_string(size.y) +
-                            " " + std::to_string(size.z);
+  const std::string place = std::string(row.name) + " " + std::to_string(size.x) + " " +
+                            std::to_string(size.y) + " " + std::to_string(size.z);
   for (const std::string& fault : faults(model))
     EXPECT_THAT(fault, testing::HasSubstr("cache misses")) << place;
   const MeshMeasures m = measure_of(model);
@@ -65,7 +65,8 @@ TEST(Parts, AreNamedInOrderAndHaveMaterials) {
     before = row.name;
     EXPECT_EQ(part_named(row.name), &row);
     Job job = job_of();
-    for (const PartPiece& piece : make_part(row, row.size, {}, job)) EXPECT_EQ(roles.count(piece.role), 1U) << piece.role;
+    for (const PartPiece& piece : make_part(row, row.size, {}, job))
+      EXPECT_EQ(roles.count(piece.role), 1U) << piece.role;
   }
   EXPECT_EQ(part_named("portcullis"), nullptr);
 }
@@ -92,7 +93,8 @@ TEST(Parts, AreSoundAtAnySizeAndOption) {
 TEST(Parts, WindowHasAFrameAndGlassAndADoorAHandle) {
   Job job = job_of();
   std::set<std::string_view> window, door;
-  for (const PartPiece& piece : make_part(*part_named("window"), {1, 1.4, 0.1}, {}, job)) window.insert(piece.role);
+  for (const PartPiece& piece : make_part(*part_named("window"), {1, 1.4, 0.1}, {}, job))
+    window.insert(piece.role);
   for (const PartPiece& piece : make_part(*part_named("door"), {1, 2, 0.2}, {}, job)) door.insert(piece.role);
   EXPECT_THAT(window, testing::ElementsAre("frame", "glass"));
   EXPECT_THAT(door, testing::ElementsAre("door", "frame", "metal"));

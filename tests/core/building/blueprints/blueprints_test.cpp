@@ -1,0 +1,230 @@
+#include "core/generators/building/blueprints/blueprints.h"
+
+#include <gmock/gmock.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+
+#include "core/generators/building/building.h"
+#include "core/generators/child.h"
+#include "core/geom/finish.h"
+#include "generated/params/building.h"
+#include "tests/support/mesh_faults.h"
+
+namespace seedmesh::building {
+namespace {
+
+using testing::IsEmpty;
+using testing::SizeIs;
+
+const std::map<std::string, Json>& lots() {
+  static const std::map<std::string, Json> all{
+      {"church", {12, 0, 30}},       {"factory", {40, 0, 22}},        {"house", {11, 0, 9}},
+      {"office_tower", {30, 0, 18}}, {"parisian_block", {30, 0, 16}}, {"skyscraper", {32, 0, 32}},
+      {"temple", {16, 0, 32}},       {"terraced_house", {32, 0, 10}}, {"villa", {22, 0, 14}},
+      {"warehouse", {42, 0, 26}}};
+  return all;
+}
+
+Json request(std::string_view name) {
+  return {{"blueprint", std::string(name)}, {"size", lots().at(std::string(name))}};
+}
+
+Result<Model> model_of(const Json& json, std::uint64_t seed) {
+  Faults faults;
+  const Generator* generator = find_generator("building");
+  const Generator::Params params = read_parameters(*generator, json, "", Limits{}, faults);
+  if (!faults.empty()) return Error{Code::invalid, faults.take()};
+  Job job(seed, Job::Options{});
+  try {
+    Result<Model> model = generator->generate(params, job);
+    if (model) finish(*model, job);
+    return model;
+  } catch (const Stop& stop) {
+    return Error{stop.code(), {stop.issue()}};
+  }
+}
+
+Json shapes_of(const Json& json, std::uint64_t seed) {
+  Faults faults;
+  const BuildingParams params = read_building(json, "", faults);
+  EXPECT_TRUE(faults.empty());
+  Job job(seed, Job::Options{});
+  Result<Json> derived = derive(params, job);
+  EXPECT_TRUE(derived);
+  return (*derived)["shapes"];
+}
+
+/// Of shapes that were replaced: what a rule's brackets leave has the rule's name too.
+int count(const Json& shapes, std::string_view symbol) {
+  int sum = 0;
+  for (const Json& shape : shapes) sum += shape["symbol"] == symbol && !shape["active"].get<bool>();
+  return sum;
+}
+
+/// Where the only shape of a symbol begins, and the way it looks.
+struct Place {
+  double x = 0, z = 0, out_x = 0, out_z = 0;
+};
+Place place_of(const Json& shapes, std::string_view symbol) {
+  for (const Json& shape : shapes) {
+    if (shape["symbol"] != symbol || shape["active"].get<bool>()) continue;
+    const Json& scope = shape["scope"];
+    return {scope["origin"][0], scope["origin"][2], scope["axes"][2][0], scope["axes"][2][2]};
+  }
+  ADD_FAILURE() << "no " << symbol;
+  return {};
+}
+
+void expect_sound(const Json& json, std::uint64_t seed, const std::string& place) {
+  const Result<Model> model = model_of(json, seed);
+  if (!model) {
+    ADD_FAILURE() << place << ": " << model.error().issues[0].message;
+    return;
+  }
+  EXPECT_GT(seedmesh::count(*model).triangles, 50U) << place;
+  EXPECT_THAT(faults(*model), IsEmpty()) << place;
+  EXPECT_THAT(model->warnings, IsEmpty()) << place << ": " << model->warnings[0].message;
+}
+
+TEST(Blueprints, AreTheTenOfTheSchema) {
+  std::set<std::string_view> names;
+  for (const Blueprint& blueprint : blueprints()) {
+    names.insert(blueprint.name);
+    EXPECT_EQ(lots().count(std::string(blueprint.name)), 1U) << blueprint.name;
+    EXPECT_EQ(blueprint_named(blueprint.name), &blueprint);
+  }
+  EXPECT_THAT(names, SizeIs(10));
+  EXPECT_EQ(blueprint_named("igloo"), nullptr);
+}
+
+TEST(Blueprints, TakeThePlaceOfRulesAndOnlyThat) {
+  EXPECT_FALSE(model_of({{"blueprint", "house"}, {"rules", "A --> B."}}, 0));
+  EXPECT_FALSE(model_of(Json::object(), 0));
+  EXPECT_FALSE(model_of({{"blueprint", "house"}, {"attributes", {{"height", 3}}}}, 0))
+      << "a house has floors";
+}
+
+TEST(Blueprints, AreSoundForManySeeds) {
+  for (const auto& [name, size] : lots()) {
+    for (std::uint64_t seed = 0; seed < 6; ++seed)
+      expect_sound(request(name), seed, name + " " + std::to_string(seed));
+  }
+}
+
+TEST(Blueprints, StandOnFootprintsOfAnyForm) {
+  const Json l = Json::parse("[[[-14,-10],[14,-10],[14,2],[2,2],[2,12],[-14,12]]]");
+  const Json court =
+      Json::parse("[[[-20,-16],[20,-16],[20,10],[14,16],[-20,16]],[[-7,-4],[7,-4],[7,4],[-7,4]]]");
+  for (const auto& [name, size] : lots()) {
+    for (const Json& footprint : {l, court}) {
+      const Result<Model> model = model_of({{"blueprint", name}, {"footprint", footprint}}, 1);
+      ASSERT_TRUE(model) << name << ": " << model.error().issues[0].message;
+      EXPECT_GT(seedmesh::count(*model).triangles, 50U) << name;
+    }
+  }
+}
+
+/// Every attribute at its ends and with each of its choices; one of them must show in the shapes.
+TEST(Blueprints, HeedEveryAttribute) {
+  const std::regex range(R"(@Range\(([-0-9.]+), ([-0-9.]+)\) attr (\w+))"),
+      choice(R"(@Enum\(([^)]*)\) attr (\w+))"), word(R"re("(\w+)")re");
+  for (const Blueprint& blueprint : blueprints()) {
+    const std::string rules(blueprint.rules);
+    std::map<std::string, std::vector<Json>> values;
+    for (std::sregex_iterator it(rules.begin(), rules.end(), range), end; it != end; ++it) {
+      values[(*it)[3]] = {std::stod((*it)[1]), std::stod((*it)[2])};
+    }
+    for (std::sregex_iterator it(rules.begin(), rules.end(), choice), end; it != end; ++it) {
+      const std::string list = (*it)[1];
+      for (std::sregex_iterator w(list.begin(), list.end(), word); w != std::sregex_iterator(); ++w)
+        values[(*it)[2]].push_back((*w)[1].str());
+    }
+    EXPECT_GE(values.size(), 4U) << blueprint.name;
+    for (const auto& [attribute, given] : values) {
+      std::set<std::string> results;
+      for (const Json& value : given) {
+        Json json = request(blueprint.name);
+        for (const std::size_t axis : {0U, 2U}) json["size"][axis] = 0.7 * json["size"][axis].get<double>();
+        json["attributes"] = {{attribute, value}};
+        const Result<Model> model = model_of(json, 5);
+        ASSERT_TRUE(model) << blueprint.name << " " << attribute << "=" << value.dump() << ": "
+                           << model.error().issues[0].message;
+        std::string result;
+        for (const Material& material : model->materials)
+          result += material.name + std::to_string(material.base_color.x) + " ";
+        double sum = 0;
+        for (const MeshGroup& group : model->meshes) {
+          for (const Primitive& primitive : group.primitives) {
+            for (const glm::vec3& p : primitive.mesh.position) sum += p.x * 3 + p.y * 5 + p.z * 7;
+          }
+        }
+        results.insert(result + std::to_string(seedmesh::count(*model).triangles) + " " +
+                       std::to_string(sum));
+      }
+      EXPECT_GT(results.size(), 1U) << blueprint.name << " " << attribute;
+    }
+  }
+}
+
+TEST(Blueprints, HouseHasItsDoorAnywhereInTheFrontAndWindowsAtRandom) {
+  std::set<int> doors, windows;
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    const Json shapes = shapes_of(request("house"), seed);
+    EXPECT_EQ(count(shapes, "DoorLeaf"), 1) << seed;
+    const Place door = place_of(shapes, "Door");
+    EXPECT_NEAR(door.out_z, 1, 1e-9) << seed;
+    doors.insert(door.x < -2 ? -1 : door.x > 2 ? 1 : 0);
+    windows.insert(count(shapes, "Window"));
+  }
+  EXPECT_THAT(doors, SizeIs(3));
+  EXPECT_GT(windows.size(), 4U);
+}
+
+TEST(Blueprints, ChurchHasItsDoorInTheTowerOrASide) {
+  std::map<int, int> sides;
+  std::set<int> windows;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const Json shapes = shapes_of(request("church"), seed);
+    EXPECT_EQ(count(shapes, "Portal"), 1) << seed;
+    EXPECT_EQ(count(shapes, "Bell"), 1) << seed;
+    const Place door = place_of(shapes, "Portal");
+    ++sides[door.out_z > 0.5 ? 0 : door.out_x > 0.5 ? 1 : -1];
+    windows.insert(count(shapes, "TallWindow"));
+  }
+  EXPECT_THAT(sides, SizeIs(3));
+  EXPECT_GT(windows.size(), 3U);
+}
+
+TEST(Blueprints, FactoryHasFourTeethAndItsGateAnywhere) {
+  std::set<int> gates, windows;
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    const Json shapes = shapes_of(request("factory"), seed);
+    EXPECT_EQ(count(shapes, "Tooth"), 4) << seed;
+    EXPECT_EQ(count(shapes, "GateLeaf"), 1) << seed;
+    gates.insert(static_cast<int>(place_of(shapes, "Gate").x / 8));
+    windows.insert(count(shapes, "Window"));
+  }
+  EXPECT_GT(gates.size(), 3U);
+  EXPECT_GT(windows.size(), 3U);
+}
+
+TEST(Blueprints, SkyscraperHasEitherRoofAndADoorOnAnySide) {
+  std::set<bool> roofs;
+  std::set<std::pair<int, int>> sides;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const Json shapes = shapes_of(
+        {{"blueprint", "skyscraper"}, {"size", {14, 0, 14}}, {"attributes", {{"height", 30}}}}, seed);
+    roofs.insert(count(shapes, "Mast") == 1);
+    EXPECT_EQ(count(shapes, "Entrance"), 1) << seed;
+    const Place door = place_of(shapes, "Entrance");
+    sides.emplace(static_cast<int>(1.5 * door.out_x), static_cast<int>(1.5 * door.out_z));
+  }
+  EXPECT_THAT(roofs, SizeIs(2));
+  EXPECT_THAT(sides, SizeIs(4));
+}
+
+}  // namespace
+}  // namespace seedmesh::building

@@ -1,0 +1,53 @@
+/// The notations of buildings and all that runs behind them: the input is the rules. Under small limits every
+/// input ends soon, in a refusal or in a model of finite numbers.
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "core/generators/building/building.h"
+#include "generated/params/building.h"
+
+namespace {
+
+using namespace seedmesh;
+
+Job::Options small() {
+  Job::Options options;
+  options.limits.shapes = 20'000;
+  options.limits.triangles = 200'000;
+  options.limits.memory_bytes = std::uint64_t{256} << 20U;
+  return options;
+}
+
+bool finite(const Model& model) {
+  for (const MeshGroup& group : model.meshes) {
+    for (const Primitive& primitive : group.primitives) {
+      for (const glm::vec3& at : primitive.mesh.position) {
+        if (!std::isfinite(at.x) || !std::isfinite(at.y) || !std::isfinite(at.z)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  BuildingParams params;
+  params.rules = std::string(reinterpret_cast<const char*>(data), size);
+  params.size = {10, size % 2 == 0 ? 0.0 : 6.0, 8};
+  if (size % 3 == 0) params.footprint = {{{0, 0}, {8, 0}, {8, 3}, {3, 3}, {3, 8}, {0, 8}}};
+  if (size % 5 == 0) params.iterations = 5;
+  params.derivation.mode = size % 7 == 0 ? BuildingMode::sequential : BuildingMode::parallel;
+  Job job(size, small());
+  const bool sound = building::check(params, job.limits()).empty();
+  try {
+    const Result<Model> model = building::generate(params, job);
+    if (model && (!sound || !finite(*model))) std::abort();
+    if (!model && sound) std::abort();
+  } catch (const Stop&) {
+    // A limit, or a fault that only the run shows; whoever runs a request tells the caller.
+  }
+  return 0;
+}
