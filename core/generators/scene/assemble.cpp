@@ -7,6 +7,7 @@
 
 #include "core/base/math.h"
 #include "core/geom/flatten.h"
+#include "core/geom/weld.h"
 #include "core/model/append.h"
 #include "core/schema/json.h"
 #include "generated/params/scene.h"
@@ -95,6 +96,7 @@ std::vector<std::vector<Primitive>> levels_made(Model& model, Job& job) {
     }
     for (Node& node : model.nodes) node.mesh = mesh_at(node, level);
     made.push_back(flatten(model, job));
+    for (Primitive& each : made.back()) weld(each.mesh, job);  // parts that touch have corners in common
     for (std::size_t i = 0; i < model.nodes.size(); ++i) model.nodes[i].mesh = finest[i];
   }
   return made;
