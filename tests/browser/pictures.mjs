@@ -1,4 +1,4 @@
-// ./dev pictures [preset...]: pictures for docs/pictures and thumbnails for the gallery, taken from the running page.
+// ./dev pictures [preset...|page]: pictures for docs/pictures and thumbnails for the gallery, taken from the running page.
 //
 // The page is opened as `/?stage&quality=high`: nothing but the model, on a transparent ground, with shadows and
 // smoothing. Which model is said by the fragment, as in any link. All presets get a thumbnail of 192 x 144; those
@@ -63,7 +63,7 @@ try {
   await take(browser, server, shown, { width: 960, height: 640 }, async (name, png) => {
     fs.writeFileSync(path.join(pictures, `${name}.webp`), await to_webp(scaler, png, { width: 960, height: 640, quality: 0.82 }));
   });
-  if (wanted.length === 0) {
+  if (wanted.length === 0 || wanted.includes('page')) {
     const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, colorScheme: 'light' });
     await page.goto(`${server.url}/?quality=high`);
     await until_state(page, 'ready');

@@ -117,7 +117,8 @@ async function show(made: Made, request: Request): Promise<void> {
   show_faults();
   if (viewer && !link_is_damaged) status.faults('', [], 0, () => {});
   last = { bytes: made.bytes, model: null, triangles };
-  if (viewer && (triangles < heavy || (await status.ask(`This model has ${grouped(triangles)} triangles.`, 'Draw it')))) {
+  const staged = document.body.classList.contains('stage');
+  if (viewer && (triangles < heavy || staged || (await status.ask(`This model has ${grouped(triangles)} triangles.`, 'Draw it')))) {
     last.model = await viewer.show(made.bytes, keep_camera);
     keep_camera = true;
     tools?.shown(last.model, triangles);
