@@ -26,12 +26,13 @@ class GraftWriter {
   };
   GraftWriter(const Context& context, Job& job);
 
-  /// `last`: the writer of the round before, whose limbs are copied where nothing about them has changed since;
-  /// null: there is none.
+  /// `last`: the writer of the round before, whose limbs are copied where nothing about them has changed
+  /// since; null: there is none.
   void write_all(const GraftWriter* last);
 
-  /// Makes the normals of loops, then looks at every triangle that was written. Lowers the trust in limbs with
-  /// faces that look against a normal or have no area, at once to none where `is_late`; returns how many faces.
+  /// Makes the normals of loops, then looks at every triangle that was written. Lowers the trust in limbs
+  /// with faces that look against a normal or have no area, at once to none where `is_late`; returns how many
+  /// faces.
   std::size_t settle(std::vector<Trust>& trust, bool is_late);
 
   GraftCounts counts() const;
@@ -130,14 +131,14 @@ class GraftWriter {
   Array<std::uint32_t>
       group_;  ///< of each vertex; those on a loop share a normal: even the parent's, odd the child's
   Array<glm::vec3> group_normal_;
-  std::vector<std::uint32_t> group_limb_;      ///< the child of each pair of groups
-  std::vector<Begin> begin_;                   ///< of each limb, and of the end
-  std::vector<Kind> kind_;                     ///< of each limb
-  std::vector<std::uint32_t> parent_;          ///< of each limb; empty where all are dirty
-  std::vector<std::uint8_t> dirty_;            ///< limbs that were not copied
-  std::vector<std::uint8_t> touched_;          ///< pairs of groups of a dirty limb
-  Array<std::uint32_t> joints_;                ///< of each vertex, where options.joints wants them
-  std::vector<Trust> trust_;                   ///< as it was when this was written
+  std::vector<std::uint32_t> group_limb_;  ///< the child of each pair of groups
+  std::vector<Begin> begin_;               ///< of each limb, and of the end
+  std::vector<Kind> kind_;                 ///< of each limb
+  std::vector<std::uint32_t> parent_;      ///< of each limb; empty where all are dirty
+  std::vector<std::uint8_t> dirty_;        ///< limbs that were not copied
+  std::vector<std::uint8_t> touched_;      ///< pairs of groups of a dirty limb
+  Array<std::uint32_t> joints_;            ///< of each vertex, where options.joints wants them
+  std::vector<Trust> trust_;               ///< as it was when this was written
   std::vector<std::uint32_t> first_child_, next_sibling_;
   std::vector<Loop> loops_;
   std::vector<LoopVertex> loop_vertices_;

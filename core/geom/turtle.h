@@ -55,8 +55,8 @@ class Turtle {
   void set_elasticity(std::int64_t tropism, double elasticity);
   void change_elasticity(std::int64_t tropism, double steps);
 
-  /// Writes of each joint where it is, its parent and its colour, and leaves the other arrays empty: enough for
-  /// wires(). Before the first segment.
+  /// Writes of each joint where it is, its parent and its colour, and leaves the other arrays empty: enough
+  /// for wires(). Before the first segment.
   void draw_wires() { draws_wires_ = true; }
 
   /// Writes Limbs::anchor from now on, for whoever moves limbs afterwards. Before the first segment.

@@ -240,8 +240,7 @@ std::vector<Bark> drawn(const Limbs& limbs, Limbs* spent, Job& job) {
   const bool merges = has_repeated_places(limbs, survey, job);
   if (merges || !is_plain(limbs, survey, job)) return named_wires(limbs, merges, job);
   std::vector<Bark> barks;
-  barks.push_back(
-      plain_wires(limbs, spent ? std::move(spent->position) : Array<glm::vec3>(), survey, job));
+  barks.push_back(plain_wires(limbs, spent ? std::move(spent->position) : Array<glm::vec3>(), survey, job));
   return barks;
 }
 
