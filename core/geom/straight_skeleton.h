@@ -46,7 +46,7 @@ struct SkeletonOptions {
 
 /// Rings without faults (plan.h; others give nothing sound), but they need not be nested: the inside is to
 /// the left of each. So a single clockwise ring grows outwards; then the end time must be finite. About n log
-/// n steps that look at n edges each: 20 us for a house, 50 ms for 1,000 corners. Looks at the job's stop and
+/// n steps that look at n edges each. Looks at the job's stop and
 /// deadline.
 Skeleton straight_skeleton(const Plan& plan, const SkeletonOptions& options, const Job& job);
 
