@@ -64,9 +64,9 @@ class Join {
     const double determinant = glm::determinant(linear);
     const glm::dmat3 normal_turn = determinant != 0 ? glm::transpose(glm::inverse(linear)) : linear;
     for (const glm::vec3& p : from.position)
-      mesh_.position.push_back(glm::vec3(part.matrix * glm::dvec4(glm::dvec3(p), 1)));
+      mesh_.position.push_back(glm::vec3(part.matrix * glm::dvec4(glm::dvec3(p), 1)) + 0.0F);
     for (const glm::vec3& n : from.normal)
-      mesh_.normal.push_back(glm::vec3(math::unit(normal_turn * glm::dvec3(n), {0, 1, 0})));
+      mesh_.normal.push_back(glm::vec3(math::unit(normal_turn * glm::dvec3(n), {0, 1, 0})) + 0.0F);
     if (has_normal_ && from.normal.empty()) append_or_fill(mesh_.normal, from.normal, count, {0, 1, 0});
     if (has_uv_) append_or_fill(mesh_.uv[0], from.uv[0], count, {0, 0});
     if (has_color_) append_or_fill(mesh_.color, from.color, count, {255, 255, 255, 255});
