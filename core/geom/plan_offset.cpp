@@ -45,7 +45,7 @@ bool is_none_positive(std::span<const double> distances) {
   return std::none_of(distances.begin(), distances.end(), [](double d) { return d > 0; });
 }
 
-PlanRing ring_of(const Skeleton& skeleton, const std::vector<std::uint32_t>& nodes) {
+PlanRing ring_of(const StraightSkeleton& skeleton, const std::vector<std::uint32_t>& nodes) {
   PlanRing ring;
   for (const std::uint32_t node : nodes) ring.emplace_back(skeleton.node[node]);
   return ring;
@@ -59,7 +59,7 @@ Setback setback(const Plan& plan, std::span<const double> distances, const Job& 
     result.remainder.push_back(itself(plan));
     return result;
   }
-  const Skeleton skeleton = straight_skeleton(plan, {distances, 1}, job);
+  const StraightSkeleton skeleton = straight_skeleton(plan, {distances, 1}, job);
   if (!skeleton.is_sound) {
     result.remainder.push_back(itself(plan));
     return result;
@@ -93,7 +93,7 @@ std::vector<DerivedPlan> outset(const Plan& plan, std::span<const double> distan
     }
     first += count;
   }
-  const Skeleton skeleton = straight_skeleton(turned, {speed, 1}, job);
+  const StraightSkeleton skeleton = straight_skeleton(turned, {speed, 1}, job);
   if (!skeleton.is_sound) return {itself(plan)};
   std::vector<Loop> loops;
   for (const SkeletonFront& front : skeleton.fronts) {

@@ -65,7 +65,7 @@ Plan straightened(const Plan& plan, std::vector<Side>& sides) {
 std::vector<std::uint32_t> gable_edges(const Plan& plan, const Job& job) {
   std::vector<Side> sides;
   const Plan simple = straightened(plan, sides);
-  const Skeleton skeleton = straight_skeleton(simple, {}, job);
+  const StraightSkeleton skeleton = straight_skeleton(simple, {}, job);
   if (!skeleton.is_sound) return {};
   std::vector<std::uint32_t> ends;
   for (const SkeletonFace& face : skeleton.faces) {

@@ -60,7 +60,7 @@ class Stages {
     }
     std::vector<double> speed;
     for (const std::uint32_t edge : base.source) speed.push_back(stages_[stage].speed[edge]);
-    Skeleton skeleton;
+    StraightSkeleton skeleton;
     for (int round = 0; round <= most_shakes && !skeleton.is_sound; ++round)
       skeleton = straight_skeleton(shaken(base.plan, round), {speed, stages_[stage].rise}, job_);
     if (!skeleton.is_sound) return false;
@@ -88,7 +88,7 @@ class Stages {
     return go_on(base, skeleton, number, stage);
   }
 
-  static dvec2 step_direction(const Skeleton& skeleton, const SkeletonFace& face) {
+  static dvec2 step_direction(const StraightSkeleton& skeleton, const SkeletonFace& face) {
     dvec2 widest{1, 0};
     double best = 0;
     const dvec2 first(skeleton.node[face.outline[0]]);
@@ -108,7 +108,7 @@ class Stages {
   }
 
   /// The next stage, from what this one has left.
-  bool go_on(const RoofBase& base, const Skeleton& skeleton, const std::vector<std::uint32_t>& number,
+  bool go_on(const RoofBase& base, const StraightSkeleton& skeleton, const std::vector<std::uint32_t>& number,
              std::size_t stage) {
     struct Left {
       RoofBase base;

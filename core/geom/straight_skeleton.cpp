@@ -200,13 +200,13 @@ class FaceMaker {
   double scale_;
 };
 
-double plan_area(const Skeleton& skeleton, const std::vector<std::uint32_t>& loop) {
+double plan_area(const StraightSkeleton& skeleton, const std::vector<std::uint32_t>& loop) {
   std::vector<dvec2> points;
   for (const std::uint32_t node : loop) points.emplace_back(skeleton.node[node]);
   return 0.5 * twice_area(points);
 }
 
-bool is_area_kept(const Skeleton& skeleton, double expected, double scale) {
+bool is_area_kept(const StraightSkeleton& skeleton, double expected, double scale) {
   double area = 0;
   for (const SkeletonFace& face : skeleton.faces) {
     const double outer = plan_area(skeleton, face.outline);
@@ -218,7 +218,7 @@ bool is_area_kept(const Skeleton& skeleton, double expected, double scale) {
   return std::abs(area - expected) <= area_share * scale * scale;
 }
 
-bool make_faces(Wavefront& front, Skeleton& skeleton) {
+bool make_faces(Wavefront& front, StraightSkeleton& skeleton) {
   const std::vector<std::uint32_t> same = weld(front.nodes, same_node * front.scale);
   std::vector<std::vector<Wavefront::Border>> borders(front.sources.size());
   for (const Wavefront::Border& border : front.borders) {
@@ -258,8 +258,8 @@ bool has_edges(const Plan& plan) {
 
 }  // namespace
 
-Skeleton straight_skeleton(const Plan& plan, const SkeletonOptions& options, const Job& job) {
-  Skeleton skeleton;
+StraightSkeleton straight_skeleton(const Plan& plan, const SkeletonOptions& options, const Job& job) {
+  StraightSkeleton skeleton;
   if (!has_edges(plan)) return skeleton;
   // Near the origin, where numbers are finest.
   const dvec2 origin = plan.rings[0][0];

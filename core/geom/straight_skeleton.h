@@ -29,7 +29,7 @@ struct SkeletonFront {
   std::vector<std::uint32_t> edge;  ///< edge[i], the one that moved, goes from point i to the next
 };
 
-struct Skeleton {
+struct StraightSkeleton {
   std::vector<glm::dvec3> node;  ///< x, y in plan and the time, in z; first the points of the plan, in order
   std::vector<SkeletonFace> faces;    ///< by edge, rising; an edge may have several
   std::vector<SkeletonFront> fronts;  ///< at the end time; empty where everything has met before
@@ -48,6 +48,6 @@ struct SkeletonOptions {
 /// the left of each. So a single clockwise ring grows outwards; then the end time must be finite. About n log
 /// n steps that look at n edges each. Looks at the job's stop and
 /// deadline.
-Skeleton straight_skeleton(const Plan& plan, const SkeletonOptions& options, const Job& job);
+StraightSkeleton straight_skeleton(const Plan& plan, const SkeletonOptions& options, const Job& job);
 
 }  // namespace seedmesh

@@ -11,14 +11,14 @@ using testing::SizeIs;
 
 Job job_of() { return Job(1, Job::Options{}); }
 
-double highest(const Skeleton& skeleton) {
+double highest(const StraightSkeleton& skeleton) {
   double time = 0;
   for (const glm::dvec3& node : skeleton.node) time = std::max(time, node.z);
   return time;
 }
 
 /// Volume under the roof of slope 1.
-double volume(const Skeleton& skeleton) {
+double volume(const StraightSkeleton& skeleton) {
   double sum = 0;
   for (const SkeletonFace& face : skeleton.faces) {
     const glm::dvec3 a = skeleton.node[face.outline[0]];
@@ -64,7 +64,7 @@ TEST(StraightSkeleton, AgreesWithKnownRoofs) {
        5}};
   for (const Known& known : all) {
     const Plan plan = plan_of(known.ring);
-    const Skeleton skeleton = straight_skeleton(plan, {}, job_of());
+    const StraightSkeleton skeleton = straight_skeleton(plan, {}, job_of());
     ASSERT_TRUE(skeleton.is_sound) << known.name;
     EXPECT_THAT(skeleton.faces, SizeIs(known.faces)) << known.name;
     EXPECT_NEAR(highest(skeleton), known.height, 1e-6 * known.height) << known.name;
@@ -82,7 +82,7 @@ TEST(StraightSkeleton, AgreesWithKnownRoofs) {
 
 TEST(StraightSkeleton, RunsRoundACourtyard) {
   const Plan plan = plan_of({{0, 0}, {12, 0}, {12, 12}, {0, 12}}, {{{4, 4}, {8, 4}, {8, 8}, {4, 8}}});
-  const Skeleton skeleton = straight_skeleton(plan, {}, job_of());
+  const StraightSkeleton skeleton = straight_skeleton(plan, {}, job_of());
   ASSERT_TRUE(skeleton.is_sound);
   EXPECT_THAT(skeleton.faces, SizeIs(8));
   EXPECT_NEAR(highest(skeleton), 2, 1e-9);
@@ -91,7 +91,7 @@ TEST(StraightSkeleton, RunsRoundACourtyard) {
 
 TEST(StraightSkeleton, LeavesAnEdgeOfSpeedNothingUpright) {
   const std::vector<double> speed{1, 0, 1, 0};
-  const Skeleton skeleton = straight_skeleton(rectangle(10, 6), {speed}, job_of());
+  const StraightSkeleton skeleton = straight_skeleton(rectangle(10, 6), {speed}, job_of());
   ASSERT_TRUE(skeleton.is_sound);
   ASSERT_THAT(skeleton.faces, SizeIs(4));
   EXPECT_THAT(skeleton.faces[1].outline, SizeIs(3));
@@ -103,7 +103,7 @@ TEST(StraightSkeleton, LeavesAnEdgeOfSpeedNothingUpright) {
 TEST(StraightSkeleton, MakesAStepWhereOneLineHasTwoSpeeds) {
   const Plan plan = plan_of({{0, 0}, {5, 0}, {10, 0}, {10, 6}, {0, 6}});
   const std::vector<double> speed{1, 2, 1, 1, 1};
-  const Skeleton skeleton = straight_skeleton(plan, {speed}, job_of());
+  const StraightSkeleton skeleton = straight_skeleton(plan, {speed}, job_of());
   ASSERT_TRUE(skeleton.is_sound);
   const auto step = std::find_if(skeleton.faces.begin(), skeleton.faces.end(),
                                  [](const SkeletonFace& face) { return face.is_step; });
@@ -119,7 +119,7 @@ TEST(StraightSkeleton, DoesNotEndWithoutMotion) {
 /// Heights of nodes are the distance to the line of the edge over its speed; neighbours share their nodes;
 /// the areas add up (is_sound).
 void expect_sound(const Plan& plan, std::span<const double> speed, std::uint64_t seed) {
-  const Skeleton skeleton = straight_skeleton(plan, {speed}, job_of());
+  const StraightSkeleton skeleton = straight_skeleton(plan, {speed}, job_of());
   ASSERT_TRUE(skeleton.is_sound) << seed;
   double sum = 0;
   const double scale = diagonal_of(plan);
@@ -179,7 +179,7 @@ TEST(StraightSkeleton, IsSoundWithSpeedsOfEachEdgeOrSaysNo) {
 }
 
 TEST(StraightSkeleton, MeetsAThousandCornersQuickly) {
-  const Skeleton skeleton = straight_skeleton(random_star(Rng(4), 1000, false), {}, job_of());
+  const StraightSkeleton skeleton = straight_skeleton(random_star(Rng(4), 1000, false), {}, job_of());
   EXPECT_TRUE(skeleton.is_sound);
 }
 
