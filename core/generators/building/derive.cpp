@@ -66,15 +66,7 @@ bool Deriver::has_rule(const Shape& shape) const {
   return shape.is_active && !shape.is_leaf && !grammar_.symbols[shape.symbol].rules.empty();
 }
 
-/// Replaces a shape; false where no rule holds, and then it is a leaf.
-bool Deriver::expand(std::uint32_t index) {
-  const Choice* const choice = choose(index);
-  if (choice == nullptr) {
-    out_.shapes[index].is_leaf = true;
-    return false;
-  }
-  const Shape shape = out_.shapes[index];
-  out_.shapes[index].is_active = false;
+Deriver::State Deriver::state_of(const Shape& shape) {
   State state;
   state.origin = shape.origin;
   state.size = shape.size;
@@ -85,6 +77,19 @@ bool Deriver::expand(std::uint32_t index) {
   state.split_total = shape.split_total;
   state.comp_index = shape.comp_index;
   state.comp_total = shape.comp_total;
+  return state;
+}
+
+/// Replaces a shape; false where no rule holds, and then it is a leaf.
+bool Deriver::expand(std::uint32_t index) {
+  const Choice* const choice = choose(index);
+  if (choice == nullptr) {
+    out_.shapes[index].is_leaf = true;
+    return false;
+  }
+  const Shape shape = out_.shapes[index];
+  out_.shapes[index].is_active = false;
+  const State state = state_of(shape);
   run_choice(*choice, state, {index, shape.key, state});
   return true;
 }

@@ -23,6 +23,7 @@ class Deriver {
     std::uint32_t split_index = 0, split_total = 0, comp_index = 0, comp_total = 0;
     std::uint8_t tag = 0;  ///< of a face while a component split looks at it
   };
+  static State state_of(const Shape& shape);  ///< as its rule begins
   /// One successor on the way: whose it is, and where its random numbers hang.
   struct Frame {
     std::uint32_t shape = 0;  ///< whose rule this is

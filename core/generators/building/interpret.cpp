@@ -117,16 +117,7 @@ const Choice* Deriver::choose(std::uint32_t index) {
         rule.parameter_count == shape.parameter_count)
       return &grammar_.choices[branch.first_choice];
   }
-  State state;
-  state.origin = shape.origin;
-  state.size = shape.size;
-  state.axes = shape.axes;
-  state.geometry = shape.geometry;
-  state.style = shape.style;
-  state.split_index = shape.split_index;
-  state.split_total = shape.split_total;
-  state.comp_index = shape.comp_index;
-  state.comp_total = shape.comp_total;
+  State state = state_of(shape);
   look_at(state, index);
   return choose_in(symbol.rules, shape.parameter_count, shape.key);
 }
