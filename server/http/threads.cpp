@@ -36,7 +36,11 @@ void Threads::work(Workers::iterator self) {
     if (!wanted) {
       if (threads_.size() <= always_kept) continue;
       --idle_;
+      Workers before;
+      before.swap(ended_);
       ended_.splice(ended_.end(), threads_, self);
+      lock.unlock();
+      for (std::thread& thread : before) thread.join();
       return;
     }
     if (tasks_.empty()) return;

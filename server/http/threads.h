@@ -41,7 +41,7 @@ class Threads {
   std::condition_variable ready_;
   std::deque<std::function<void()>> tasks_;
   Workers threads_;
-  Workers ended_;  ///< to be joined by the next who starts one
+  Workers ended_;  ///< to be joined by the next that ends or by who starts one
   std::size_t idle_ = 0;
   bool ending_ = false;
 };
