@@ -65,6 +65,7 @@ Limbs prune(const Limbs& limbs, float thinnest, Job& job, Array<std::uint16_t>* 
   kept.color = chosen(limbs.color, new_place, count, job);
   kept.order = chosen(limbs.order, new_place, count, job);
   kept.frame = chosen(limbs.frame, new_place, count, job);
+  kept.contour = chosen(limbs.contour, new_place, count, job);
   kept.birth = chosen(limbs.birth, new_place, count, job);
   kept.key = chosen(limbs.key, new_place, count, job);
   const auto moved = [&](std::uint32_t& joint) { joint = joint == Limbs::none ? joint : new_place[joint]; };

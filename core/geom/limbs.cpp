@@ -11,6 +11,7 @@ Limbs::Limbs(const Job& job)
       color(job),
       order(job),
       frame(job),
+      contour(job),
       birth(job),
       key(job),
       anchor(job) {}

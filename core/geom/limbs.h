@@ -23,7 +23,9 @@ struct Limbs {
   Array<std::uint8_t> starts_limb;  ///< 1: begins a side branch at its parent
   Array<std::int16_t> color;        ///< the turtle's colour index; material of the internode
   Array<std::uint16_t> order;       ///< 0 trunk, 1 its branches, ... (Gravelius)
-  Array<glm::quat> frame;    ///< rotation that takes +Y to heading, -X to left, +Z to up; optional (empty)
+  Array<glm::quat> frame;  ///< rotation that takes +Y to heading, -X to left, +Z to up; optional (empty)
+  Array<std::uint8_t>
+      contour;  ///< the cross-section at the joint, 0 a circle, others count the caller's; optional (empty)
   Array<float> birth;        ///< age in iterations at which the internode appears; optional (empty)
   Array<std::uint64_t> key;  ///< identity for randomness by place; optional (empty)
   Array<std::uint32_t>

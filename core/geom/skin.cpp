@@ -42,6 +42,14 @@ class Checked {
   unsigned steps_ = 0;
 };
 
+int least_of(const SkinOptions& options) { return static_cast<int>(least_sides(options.contours)); }
+
+/// By how many sides the lengths are chosen that count as nothing.
+int finest_sides(const SkinOptions& options) {
+  if (options.contours.empty()) return options.sides;
+  return std::max(options.sides, fineness(options.contours, static_cast<std::uint32_t>(options.sides)));
+}
+
 /// The radius that a limb begins with.
 float first_radius(const Limbs& limbs, const Chains& chains, std::uint32_t head) {
   const std::uint32_t joint = limbs.parent[head] == Limbs::none ? chains.next[head] : head;
@@ -142,8 +150,8 @@ TubeCursor cursor_at(Mesh& mesh, const TubeCount& place) {
 void write_tubes(Plan& plan, const Limbs& limbs, const SkinOptions& options, const Job& job,
                  std::vector<Bark>& barks) {
   std::vector<TubeTables> tables(static_cast<std::size_t>(options.sides) + 1);
-  for (int sides = options.adapt ? 3 : options.sides; sides <= options.sides; ++sides) {
-    tables[static_cast<std::size_t>(sides)] = TubeTables(CrossSection(options, sides));
+  for (int sides = options.adapt ? least_of(options) : options.sides; sides <= options.sides; ++sides) {
+    tables[static_cast<std::size_t>(sides)] = TubeTables(CrossSection(options, sides), options.contours);
   }
   parallel_for(
       job, plan.chains.head.size(), plan.chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
@@ -195,13 +203,13 @@ Palette::Palette(const Limbs& limbs) {
 
 int sides_of_limb(const SkinOptions& options, float radius, float most) {
   const float share = most > 0 ? std::sqrt(std::min(1.0F, radius / most)) : 1.0F;
-  return std::max(3, static_cast<int>(share * static_cast<float>(options.sides) + 0.5F));
+  return std::max(least_of(options), static_cast<int>(share * static_cast<float>(options.sides) + 0.5F));
 }
 
 std::vector<Bark> skin(const Limbs& limbs, const SkinOptions& options, Job& job) {
-  assert(options.sides >= 3 && options.sides <= 64 && options.stacks >= 1);
+  assert(options.sides >= least_of(options) && options.sides <= 64 && options.stacks >= 1);
   if (limbs.size() == 0) return {};
-  const Scale scale = scale_of(limbs, options.sides);
+  const Scale scale = scale_of(limbs, finest_sides(options));
   Plan plan(limbs, find_chains(limbs, scale, job), scale);
   for (const std::uint32_t head : plan.chains.head) {
     if (options.adapt) plan.thickest = std::max(plan.thickest, first_radius(limbs, plan.chains, head));
@@ -219,7 +227,7 @@ std::uint64_t skin_triangles(const Limbs& limbs, const SkinOptions& options) {
   Limits own;
   own.memory_bytes = std::numeric_limits<std::uint64_t>::max();
   Job job(0, {.limits = own});
-  const Scale scale = scale_of(limbs, options.sides);
+  const Scale scale = scale_of(limbs, finest_sides(options));
   Plan plan(limbs, link_chains(limbs, job), scale);
   for (const std::uint32_t head : plan.chains.head) {
     if (options.adapt) plan.thickest = std::max(plan.thickest, first_radius(limbs, plan.chains, head));

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "core/geom/contour.h"
 #include "core/geom/limbs.h"
 #include "core/model/mesh.h"
 
@@ -20,6 +21,10 @@ struct SkinOptions {
   /// Fewer sides for limbs that begin thinner than the thickest (by the root of the ratio), fewer rings for
   /// internodes shorter than a tenth of the model.
   bool adapt = false;
+  /// What Limbs::contour counts from 1. They follow the turtle's frame (Limbs::frame), by which a limb may
+  /// twist 45 degrees an internode and as much as it is long for its radius; sides are never fewer than
+  /// points.
+  std::span<const Contour> contours = {};
 };
 
 /// Sides of a limb that begins with `radius`, the thickest of the model beginning with `most`.

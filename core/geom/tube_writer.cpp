@@ -52,10 +52,12 @@ std::vector<TubeTables::Column> columns_of(const CrossSection& section, std::uin
 
 }  // namespace
 
-TubeTables::TubeTables(const CrossSection& section)
+TubeTables::TubeTables(const CrossSection& section, std::span<const Contour> outlines)
     : columns(columns_of(section, widest_column)), narrow_columns(columns_of(section, widest_cold_column)) {
   for (std::uint32_t i = 0; i < section.sides; ++i)
     circle.push_back(circle_point(2 * math::pi * i / section.sides));
+  if (!outlines.empty()) contours.push_back(corners_of_circle(section.sides));
+  for (const Contour& outline : outlines) contours.push_back(corners_of(outline, section.sides));
   const double side = 2 * math::pi / section.sides;
   for (std::uint32_t i = 0; i < phase_count; ++i) {
     coarse_phases.push_back(circle_point(side * (i + 0.5) / phase_count));
@@ -100,6 +102,7 @@ TubeWriter::Ring TubeWriter::plain_ring(const glm::vec3& centre, float radius, f
   ring.v = v;
   ring.joint = internode_.joint;
   ring.next_color = internode_.color;
+  ring.contour = last_contour(internode_.joint);
   return ring;
 }
 
@@ -128,6 +131,7 @@ void TubeWriter::open(const Internode& first, Opening opening) {
   begin_piece(first.color);
   const std::uint64_t hash = hash_of(first.joint);
   start_frame(first.along, hash);
+  turn_to_left(true);
   is_waiting_ = opening != Opening::point;
   switch (opening) {
     case Opening::point:
@@ -139,12 +143,14 @@ void TubeWriter::open(const Internode& first, Opening opening) {
       const bool is_revisit = context_.chains.mark[context_.limbs.parent[first.joint]] & revisit;
       const float up = is_revisit ? std::min(nudge(hash, radius_), 0.2F * first.length) : 0;
       waiting_ = plain_ring(first.from + first.along * up, radius_, v_so_far_);
+      waiting_.contour = first_contour(first.joint);
       write_disc(waiting_);
       break;
     }
     case Opening::branch: {
       const float back = nudge(hash, radius_), cone = cap_share * radius_;
       waiting_ = plain_ring(first.from - first.along * back, radius_, v_so_far_ - back * by_length_);
+      waiting_.contour = first_contour(first.joint);
       waiting_.before = slope_of(0, radius_, cone);
       piece_.start_apex = write_apex(waiting_.centre - first.along * cone, -first.along,
                                      {half_round(radius_), waiting_.v - cone * by_length_});
@@ -181,6 +187,7 @@ void TubeWriter::join(const Turn& turn, const Internode& next) {
   ring.joint = internode_.joint;  // the older one: the younger is a point there before it grows
   ring.before = slope;
   ring.next_color = next.color;
+  ring.contour = last_contour(internode_.joint);
   waiting_ = ring;
   is_waiting_ = true;
 
@@ -193,6 +200,7 @@ void TubeWriter::join(const Turn& turn, const Internode& next) {
   internode_ = next;
   radius_ = next.base;
   reach_ = turn.reach;
+  turn_to_left(false);
   pace_picture(next);
 }
 
@@ -246,6 +254,9 @@ void TubeWriter::write_inner_rings(const Taper& taper) {
     const float radius = radius_ + (taper.end - radius_) * share;
     Ring ring = plain_ring(internode_.from + internode_.along * at, radius, v_so_far_ + at * by_length_);
     ring.before = slope;
+    ring.next_contour = ring.contour;
+    ring.contour = first_contour(internode_.joint);
+    if (ring.contour != ring.next_contour) ring.blend = at / taper.length;
     write_ring(ring, slope);
   }
 }
@@ -256,7 +267,7 @@ void TubeWriter::write_disc(const Ring& ring) {
   const std::uint32_t centre = write_apex(ring.centre, normal, {0, 0});
   const std::size_t rim = here_->vertex;
   for (std::uint32_t k = 0; k < section_.sides; ++k) {
-    const glm::vec2 at = tables().circle[k];
+    const glm::vec2 at = has_contours() ? corner(ring, k).at : tables().circle[k];
     here_->position[rim + k] = (ring.centre + 0.0F) + ring.side_u * at.x + ring.side_v * at.y;
     here_->normal[rim + k] = normal;
     if (here_->uv) here_->uv[rim + k] = at * ring.radius;
@@ -277,6 +288,13 @@ void TubeWriter::write_ring(const Ring& ring, Slope after) {
   if (ring.before != after) {
     const Slope both = ring.before + after;
     slope = both * (1 / std::sqrt(glm::dot(both, both)));
+  }
+  if (has_contours()) {
+    write_contour(ring, slope);
+    write_bones(here_->vertex, section_.corners, ring.joint);
+    here_->vertex += section_.corners;
+    ++piece_.rings;
+    return;
   }
   // Adding 0 makes -0 a 0, here once for all corners: a sum that starts with anything but -0 never becomes
   // -0.

@@ -14,12 +14,13 @@ namespace seedmesh {
 /// Tables that all tubes of one skin() share: no trigonometry per ring, no division per index.
 struct TubeTables {
   TubeTables() = default;
-  explicit TubeTables(const CrossSection& section);
+  TubeTables(const CrossSection& section, std::span<const Contour> outlines);
 
   /// Quads of a tube next to each other, six corners each, counted from the lower ring's first vertex. Their
   /// triangles run along the limb together, so that two rings at a time stay in the vertex cache.
   using Column = std::vector<std::uint32_t>;
   std::vector<glm::vec2> circle;                      ///< cosine and sine of each corner
+  std::vector<std::vector<ContourCorner>> contours;   ///< the circle's and SkinOptions::contours; else empty
   std::vector<glm::vec2> coarse_phases, fine_phases;  ///< the angles a tube may start with
   std::vector<Column>
       columns;  ///< for tubes that begin with a fan, which brings the first ring into the cache
@@ -76,6 +77,8 @@ class TubeWriter {
     std::uint32_t joint = 0;  ///< the internode that it moves with
     Slope before{0};          ///< 0: nothing before, a hard edge
     std::int16_t next_color = 0;
+    std::uint8_t contour = 0, next_contour = 0;
+    float blend = 0;  ///< how much of the next
   };
 
   /// The flank of the current internode: from the ring where it begins to radius `end` at `length`; inner
@@ -94,6 +97,12 @@ class TubeWriter {
   Ring plain_ring(const glm::vec3& centre, float radius, float v) const;
   void start_frame(const glm::vec3& along, std::uint64_t hash);
   const TubeTables& tables() const { return context_.tables[section_.sides]; }
+  bool has_contours() const { return !tables().contours.empty(); }
+  std::uint8_t first_contour(std::uint32_t joint) const;
+  std::uint8_t last_contour(std::uint32_t joint) const;
+  void turn_to_left(bool at_once);
+  ContourCorner corner(const Ring& ring, std::uint32_t k) const;
+  void write_contour(const Ring& ring, Slope after);
   void pace_picture(const Internode& internode);
   void begin_piece(std::int16_t color);
   void end_piece();

@@ -109,6 +109,10 @@ std::uint32_t Turtle::add_joint(const glm::dvec3& at, std::uint32_t parent, std:
   limbs.base_radius.push_back(goes_on ? limbs.radius[parent] : radius);
   limbs.starts_limb.push_back(parent != Limbs::none && state_.begins_branch ? 1 : 0);
   limbs.order.push_back(state_.order);
+  if (draws_contours_) {
+    limbs.contour.push_back(state_.contour);
+    limbs.frame.push_back(quaternion(reorthonormalise(state_.frame)));
+  }
   if (tracks_anchors_) limbs.anchor.push_back(parent == Limbs::none ? state_.last : Limbs::none);
   if (key != 0 && limbs.key.empty()) {  // the first key of all: joints so far have none
     for (std::uint32_t joint = 0; joint < own; ++joint) limbs.key.push_back(0);
@@ -161,6 +165,7 @@ void Turtle::begin_sweep() {
   state_.is_sweeping = true;
   state_.control = state_.position;
   state_.control_heading = state_.frame.heading;
+  state_.control_left = state_.frame.left;
   state_.control_width = state_.width;
 }
 
@@ -181,15 +186,21 @@ void Turtle::set_control(std::int64_t strips, std::uint64_t key) {
       if (i == count) state_.position = here.position;
       state_.width = here.control_width + (here.width - here.control_width) * rise;
       const glm::dvec3 step = state_.position - from;
+      if (draws_contours_) {
+        const glm::dvec3 left = here.control_left + (here.frame.left - here.control_left) * rise;
+        state_.frame = reorthonormalise({math::unit(step, here.frame.heading), left, here.frame.up});
+      }
       add_segment(from, std::sqrt(glm::dot(step, step)),
                   key == 0 ? 0 : key_at(key, static_cast<std::uint64_t>(i)));
       from = state_.position;
     }
     state_.position = here.position;
     state_.width = here.width;
+    state_.frame = here.frame;
   }
   state_.control = here.position;
   state_.control_heading = here.frame.heading;
+  state_.control_left = here.frame.left;
   state_.control_width = here.width;
 }
 

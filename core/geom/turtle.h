@@ -59,6 +59,9 @@ class Turtle {
   /// for wires(). Before the first segment.
   void draw_wires() { draws_wires_ = true; }
 
+  /// Writes Limbs::contour and Limbs::frame from now on. Before the first segment.
+  void draw_contours() { draws_contours_ = true; }
+
   /// Writes Limbs::anchor from now on, for whoever moves limbs afterwards. Before the first segment.
   void track_anchors() { tracks_anchors_ = true; }
 
@@ -95,6 +98,8 @@ class Turtle {
   bool mirrored() const { return state_.mirrored; }
   void mirror() { state_.mirrored = !state_.mirrored; }
 
+  void set_contour(std::uint8_t contour) { state_.contour = contour; }
+
   void set_color(std::int64_t color);
   std::int16_t color() const { return state_.color; }
 
@@ -116,9 +121,10 @@ class Turtle {
     std::uint16_t order = 0;
     std::int16_t color = 0;
     std::uint16_t rotations = 0;  ///< of `frame` since it was last made orthonormal, and more
+    std::uint8_t contour = 0;
     bool mirrored = false;
     bool is_sweeping = false;
-    glm::dvec3 control{0}, control_heading{0};  ///< the last control point
+    glm::dvec3 control{0}, control_heading{0}, control_left{0};  ///< the last control point
     double control_width = 0;
     bool begins_branch = false;  ///< the next internode starts a limb of its own
   };
@@ -145,6 +151,7 @@ class Turtle {
   std::optional<Tropisms> tropisms_;
   bool tracks_anchors_ = false;
   bool draws_wires_ = false;
+  bool draws_contours_ = false;
 };
 
 }  // namespace seedmesh

@@ -51,6 +51,11 @@ constexpr CommandRow rows[] = {
      "@Gsf&(30)f@Gc(5)@Ge"},
     {"@Ge", Command::sweep_end, "", 0, 0,
      "Sets the last control point of the generalized cylinder here and ends it.", "@Gsf(2)@Ge"},
+    {"@#", Command::contour, "(number)", 1, 1,
+     "Chooses the cross-section from here on: number so and so of `contours`, 0 the circle; limbs blend one "
+     "into "
+     "the next.",
+     "@Gs@#(0)f(2)@Ge"},
     {"%", Command::cut, "", 0, 0, "Cuts the rest of its branch away in the step after it was written.",
      "F[+F%F]F"},
     {"@M", Command::move_to, "(x,y,z)", 3, 3, "Moves to a point, in metres from the start, without drawing.",

@@ -55,6 +55,7 @@ enum class Command : std::uint8_t {
   sweep_begin,
   sweep_control,
   sweep_end,
+  contour,
   enter_frame,
   draw_frame,
 };

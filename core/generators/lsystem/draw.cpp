@@ -51,6 +51,7 @@ Drawing::Drawing(const Grammar& grammar, const LsystemParams& params, Skeleton* 
   if (!tropisms.empty()) turtle_.set_tropisms(std::move(tropisms));
   const bool moves = params.weather || params.environment || job.demand().growth;
   if (moves) turtle_.track_anchors();
+  if (!params.contours.empty()) turtle_.draw_contours();
   const bool has_own_widths = params.width_rule == LsystemParams::WidthRule::symbols ||
                               params.width_rule == LsystemParams::WidthRule::decrement;
   if (params.style == LsystemParams::Style::lines && has_own_widths && !moves) turtle_.draw_wires();
@@ -169,6 +170,16 @@ void Drawing::set_width(const Kind& kind, const double* parameters, double chang
   turtle_.set_width(grown_.share == 1 ? wanted : width + grown_.share * (wanted - width));
 }
 
+void Drawing::set_contour(double number) {
+  const std::int64_t wanted = math::to_int64(number);
+  const auto count = static_cast<std::int64_t>(params_.contours.size());
+  if (wanted < 0 || wanted > count) {
+    Job::reject({"", "found @#(" + std::to_string(wanted) + "); expected 0, the circle, to " +
+                         std::to_string(count) + ", the last of `contours`"});
+  }
+  turtle_.set_contour(static_cast<std::uint8_t>(wanted));
+}
+
 /// A scale for all three directions, or one for each: across, along and above the organ.
 void Drawing::place(const Kind& kind, const double* parameters, std::uint64_t key) {
   if (kind.surface == Kind::none) return;
@@ -276,6 +287,8 @@ void Drawing::obey(const Kind& kind, const double* parameters, std::uint64_t key
       return turtle_.set_control(kind.arity > 0 ? math::to_int64(parameters[0]) : 8, key);
     case Command::sweep_end:
       return turtle_.end_sweep(key);
+    case Command::contour:
+      return set_contour(parameters[0]);
     case Command::organ:
       return place(kind, parameters, key);
     case Command::enter_frame:

@@ -52,6 +52,7 @@ class Drawing {
   math::SinCos leftward(math::SinCos angle) const;
   double length(const Kind& kind, const double* parameters, std::uint64_t key) const;
   void place(const Kind& kind, const double* parameters, std::uint64_t key);
+  void set_contour(double number);
   void set_width(const Kind& kind, const double* parameters, double change);
 
   const Grammar& grammar_;

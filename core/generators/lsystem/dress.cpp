@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/generators/lsystem/contours.h"
 #include "core/generators/lsystem/surfaces.h"
 #include "core/geom/detail.h"
 #include "core/geom/grow.h"
@@ -42,9 +43,11 @@ void add_meshes(Model& model, const char* name, std::vector<Bark> parts, Sides s
   }
 }
 
-SkinOptions skin_options(const LsystemParams& params, const Detail& detail) {
+SkinOptions skin_options(const LsystemParams& params, std::span<const Contour> contours,
+                         const Detail& detail) {
   SkinOptions options;
-  options.sides = detail.sides(params.sides);
+  options.contours = contours;
+  options.sides = std::max(detail.sides(params.sides), static_cast<int>(least_sides(contours)));
   options.stacks = detail.stacks(params.stacks);
   options.wrap = wraps_pictures(params);
   options.adapt = params.adapt || detail.level() > 0;
@@ -70,7 +73,8 @@ std::optional<GrowthPlan> growth_of(const Skeleton& skeleton, const LsystemParam
 void add_bark(Model& model, Limbs limbs, std::span<const std::uint16_t> bones, const LsystemParams& params,
               Wardrobe& wardrobe, Job& job) {
   const int finest = static_cast<int>(model.nodes.size());
-  SkinOptions options = skin_options(params, Detail(0));
+  const std::vector<Contour> contours = contours_of(params);
+  SkinOptions options = skin_options(params, contours, Detail(0));
   options.bones = bones;
   add_meshes(model, "bark", skin(limbs, options, job), Sides::one, wardrobe);
   if (static_cast<int>(model.nodes.size()) == finest) return;
@@ -81,7 +85,7 @@ void add_bark(Model& model, Limbs limbs, std::span<const std::uint16_t> bones, c
     const Detail detail(level);
     limbs = prune(limbs, detail.thinnest() * most, job, &own_bones);
     MeshGroup group{"bark_LOD" + std::to_string(level), {}};
-    SkinOptions coarser = skin_options(params, detail);
+    SkinOptions coarser = skin_options(params, contours, detail);
     coarser.bones = own_bones.span();
     for (Bark& part : skin(limbs, coarser, job)) {
       group.primitives.push_back({std::move(part.mesh), wardrobe.material(part.color, Sides::one), {}});

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "core/generators/lsystem/contours.h"
 #include "core/generators/lsystem/draw.h"
 #include "core/generators/lsystem/dress.h"
 #include "core/generators/lsystem/free.h"
@@ -164,6 +165,7 @@ std::vector<Issue> check(const LsystemParams& params, const Limits& limits) {
   check_environment(params, issues);
   check_looks(params, issues);
   check_surfaces(params, issues);
+  check_contours(params, issues);
   return issues;
 }
 

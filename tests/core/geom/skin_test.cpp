@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cstring>
 #include <numeric>
 
@@ -227,6 +228,89 @@ TEST(Skin, HasNoFaultOnThousandsOfRandomSkeletons) {
     EXPECT_THAT(faults(model_of(std::move(barks))), IsEmpty())
         << "seed " << seed << " sides " << options.sides;
   }
+}
+
+/// An outline in sight of the middle, its points at random distances from it.
+Contour random_contour(Rng& rng) {
+  const std::uint32_t count = 3 + rng.below(10);
+  std::vector<glm::dvec2> outline;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const math::SinCos at = math::sincos(2 * math::pi * (i + rng.uniform(0, 0.4)) / count);
+    outline.push_back(glm::dvec2(at.cos, at.sin) * rng.uniform(0.4, 0.99));
+  }
+  if (rng.below(2)) std::reverse(outline.begin(), outline.end());
+  EXPECT_EQ(contour_fault(outline), std::nullopt);
+  return make_contour(outline);
+}
+
+TEST(Skin, IsClosedWhateverCrossSectionsItsLimbsHave) {
+  Job job = job_of();
+  Rng rng(78);
+  for (std::uint64_t seed = 0; seed < 800; ++seed) {
+    Limbs limbs = random_limbs(job, seed);
+    const std::vector<Contour> contours{random_contour(rng), random_contour(rng)};
+    for (std::size_t i = 0; i < limbs.size(); ++i) {
+      limbs.contour.push_back(static_cast<std::uint8_t>(rng.below(3)));
+      Frame frame;
+      for (int turns = 0; turns < 3; ++turns) {
+        frame =
+            roll(seedmesh::turn(frame, math::sincos(rng.uniform(-4, 4))), math::sincos(rng.uniform(-4, 4)));
+      }
+      limbs.frame.push_back(quaternion(frame));
+    }
+    const SkinOptions options{.sides = 12 + static_cast<int>(rng.below(12)),
+                              .stacks = rng.below(3) ? 1 : 1 + static_cast<int>(rng.below(6)),
+                              .uv = rng.below(4) != 0,
+                              .contours = contours};
+    const auto barks = skin(limbs, options, job);
+    const MeshMeasures measures = measure_all(barks);
+    EXPECT_EQ(measures.open_edges, 0U) << "seed " << seed;
+    for (const Bark& bark : barks) {
+      for (const glm::vec3& normal : bark.mesh.normal)
+        ASSERT_NEAR(glm::dot(normal, normal), 1, 1e-4) << "seed " << seed;
+    }
+  }
+}
+
+TEST(Skin, KeepsEveryPointOfACrossSectionAndBlendsFromOneToTheNext) {
+  Job job = job_of();
+  const std::vector<glm::dvec2> square{{0.7, 0.7}, {-0.7, 0.7}, {-0.7, -0.7}, {0.7, -0.7}};
+  const std::vector<Contour> contours{make_contour(square)};
+  Limbs limbs = limb_through(job, {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}}, 1);
+  for (const int contour : {1, 1, 0}) {
+    limbs.contour.push_back(static_cast<std::uint8_t>(contour));
+    limbs.frame.push_back(quaternion(Frame{}));
+  }
+  const auto barks = skin(limbs, {.sides = 8, .contours = contours}, job);
+  ASSERT_THAT(barks, SizeIs(1));
+  EXPECT_THAT(faults(barks[0].mesh), IsEmpty());
+  const auto has = [&](const glm::vec3& place) {
+    return std::any_of(barks[0].mesh.position.begin(), barks[0].mesh.position.end(),
+                       [&](const glm::vec3& at) { return glm::dot(at - place, at - place) < 1e-10F; });
+  };
+  for (const float height : {0.0F, 1.0F}) {
+    for (const glm::dvec2& corner : square) EXPECT_TRUE(has({corner.x, height, corner.y}));
+  }
+  for (const glm::vec3& at : barks[0].mesh.position) {  // the circle's ring stands below the tip's cone
+    if (at.y > 1.01F && at.y < 1.99F) {
+      EXPECT_NEAR(at.x * at.x + at.z * at.z, 1, 1e-5);
+    }
+  }
+}
+
+TEST(Contour, NamesThePointAtWhichAnOutlineIsAtFault) {
+  using Outline = std::vector<glm::dvec2>;
+  EXPECT_EQ(contour_fault(Outline{{1, 0}, {0, 1}, {-1, -1}}), "point 2 lies outside the circle of radius 1");
+  EXPECT_EQ(contour_fault(Outline{{1, 0}, {0.99, 0.005}, {-0.5, 0.5}, {0, -1}}),
+            "point 0 is closer than 0.02 to the next");
+  EXPECT_THAT(*contour_fault(Outline{{0.5, 0.5}, {0.9, 0.1}, {0.5, 0.4}, {0.2, 0.9}}),
+              testing::HasSubstr("cannot be seen"));
+  Outline twice;
+  for (int i = 0; i < 10; ++i) {
+    const math::SinCos at = math::sincos_degrees(72.0 * i + i);
+    twice.emplace_back(at.cos * 0.9, at.sin * 0.9);
+  }
+  EXPECT_THAT(*contour_fault(twice), testing::HasSubstr("more than once"));
 }
 
 TEST(Skin, HasNoFaultOnCurvesThatComeBackToTheirOwnCorners) {

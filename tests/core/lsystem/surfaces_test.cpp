@@ -146,6 +146,23 @@ TEST(Sweep, LeavesBranchesAsTheyAre) {
   EXPECT_EQ((*derived)["turtle"]["segments"], 8 + 1 + 8);
 }
 
+TEST(Sweep, RefusesACrossSectionThatIsNotThere) {
+  Job job(1, Job::Options{});
+  const auto params = params_of(R"({"axiom":"@Gs@#(2)f(1)@Ge","contours":[[[1,0],[0,1],[-1,0],[0,-1]]]})");
+  try {
+    (void)generate(params, job);
+    FAIL() << "made all the same";
+  } catch (const Stop& stop) {
+    EXPECT_THAT(stop.what(), testing::HasSubstr("found @#(2); expected 0, the circle, to 1"));
+  }
+}
+
+TEST(Sweep, RefusesACrossSectionThatGoesRoundNothing) {
+  const auto issues = check(params_of(R"({"axiom":"F","contours":[[[1,0],[0.9,0.3],[0.8,0.1]]]})"), Limits{});
+  ASSERT_THAT(issues, SizeIs(1));
+  EXPECT_EQ(issues[0].pointer, "/contours/0");
+}
+
 TEST(Levels, FallInTrianglesAndKeepTheLeafArea) {
   const Model model = model_of(
       R"json({"axiom":"A(1,0.1)",
