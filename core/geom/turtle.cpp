@@ -100,8 +100,14 @@ std::uint32_t Turtle::add_joint(const glm::dvec3& at, std::uint32_t parent, std:
   const auto own = static_cast<std::uint32_t>(limbs.size());
   limbs.position.push_back(stored(at));
   limbs.parent.push_back(parent);
+  if (draws_wires_) {
+    if (state_.color != 0 && limbs.color.empty()) {  // the first that is not 0
+      for (std::uint32_t joint = 0; joint < own; ++joint) limbs.color.push_back(0);
+    }
+    if (state_.color != 0 || !limbs.color.empty()) limbs.color.push_back(state_.color);
+    return own;
+  }
   limbs.color.push_back(state_.color);
-  if (draws_wires_) return own;
   const double width = state_.width - thinner_;
   const auto radius = static_cast<float>(width > 0 ? width / 2 : 0);
   const bool goes_on = parent != Limbs::none && !state_.begins_branch;
@@ -139,6 +145,7 @@ void Turtle::push() {
     Job::refuse("brackets nest deeper than " + std::to_string(job_.limits().bracket_depth));
   }
   stack_.push_back(state_);
+  if (state_.is_sweeping) controls_.push_back(control_);
   if (tropisms_) tropisms_->push();
   state_.is_sweeping = false;
   state_.begins_branch = state_.joint != Limbs::none;
@@ -149,6 +156,10 @@ void Turtle::pop() {
   if (stack_.empty()) return;
   state_ = stack_.back();
   stack_.pop_back();
+  if (state_.is_sweeping) {
+    control_ = controls_.back();
+    controls_.pop_back();
+  }
   if (tropisms_) tropisms_->pop();
 }
 
@@ -163,31 +174,31 @@ void Turtle::place_organ(std::uint32_t surface, const glm::dvec3& scale, std::in
 
 void Turtle::begin_sweep() {
   state_.is_sweeping = true;
-  state_.control = state_.position;
-  state_.control_heading = state_.frame.heading;
-  state_.control_left = state_.frame.left;
-  state_.control_width = state_.width;
+  control_.position = state_.position;
+  control_.heading = state_.frame.heading;
+  control_.left = state_.frame.left;
+  control_.width = state_.width;
 }
 
 void Turtle::set_control(std::int64_t strips, std::uint64_t key) {
   if (!state_.is_sweeping) return;
   const State here = state_;
-  const glm::dvec3 span = here.position - here.control;
+  const glm::dvec3 span = here.position - control_.position;
   const double reach = std::sqrt(glm::dot(span, span));
   if (reach > 0) {
-    const glm::dvec3 leave = here.control_heading * reach, arrive = here.frame.heading * reach;
+    const glm::dvec3 leave = control_.heading * reach, arrive = here.frame.heading * reach;
     const auto count = std::clamp<std::int64_t>(strips, 1, most_strips);
-    glm::dvec3 from = here.control;
+    glm::dvec3 from = control_.position;
     for (std::int64_t i = 1; i <= count; ++i) {
       const double t = static_cast<double>(i) / static_cast<double>(count), t2 = t * t, t3 = t2 * t;
       const double rise = 3 * t2 - 2 * t3;
-      state_.position =
-          here.control * (1 - rise) + here.position * rise + leave * (t3 - 2 * t2 + t) + arrive * (t3 - t2);
+      state_.position = control_.position * (1 - rise) + here.position * rise + leave * (t3 - 2 * t2 + t) +
+                        arrive * (t3 - t2);
       if (i == count) state_.position = here.position;
-      state_.width = here.control_width + (here.width - here.control_width) * rise;
+      state_.width = control_.width + (here.width - control_.width) * rise;
       const glm::dvec3 step = state_.position - from;
       if (draws_contours_) {
-        const glm::dvec3 left = here.control_left + (here.frame.left - here.control_left) * rise;
+        const glm::dvec3 left = control_.left + (here.frame.left - control_.left) * rise;
         state_.frame = reorthonormalise({math::unit(step, here.frame.heading), left, here.frame.up});
       }
       add_segment(from, std::sqrt(glm::dot(step, step)),
@@ -198,10 +209,10 @@ void Turtle::set_control(std::int64_t strips, std::uint64_t key) {
     state_.width = here.width;
     state_.frame = here.frame;
   }
-  state_.control = here.position;
-  state_.control_heading = here.frame.heading;
-  state_.control_left = here.frame.left;
-  state_.control_width = here.width;
+  control_.position = here.position;
+  control_.heading = here.frame.heading;
+  control_.left = here.frame.left;
+  control_.width = here.width;
 }
 
 void Turtle::end_sweep(std::uint64_t key) {

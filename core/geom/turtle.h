@@ -37,9 +37,15 @@ class Turtle {
   void walk_plain(double length);
   void move_to(const glm::dvec3& position);
 
-  void turn(math::SinCos angle) { face(seedmesh::turn(state_.frame, angle)); }    ///< left, about up
-  void pitch(math::SinCos angle) { face(seedmesh::pitch(state_.frame, angle)); }  ///< down, about left
-  void roll(math::SinCos angle) { face(seedmesh::roll(state_.frame, angle)); }    ///< left, about heading
+  void turn(math::SinCos angle) {
+    rotate(state_.frame.heading, state_.frame.left, angle);
+  }  ///< left, about up
+  void pitch(math::SinCos angle) {
+    rotate(state_.frame.up, state_.frame.heading, angle);
+  }  ///< down, about left
+  void roll(math::SinCos angle) {
+    rotate(state_.frame.left, state_.frame.up, angle);
+  }  ///< left, about heading
   void turn_around() { state_.frame = seedmesh::turn_around(state_.frame); }
   void upright() { state_.frame = seedmesh::upright(state_.frame); }
   void head(const glm::dvec3& direction);  ///< heads along it and rolls upright
@@ -55,8 +61,8 @@ class Turtle {
   void set_elasticity(std::int64_t tropism, double elasticity);
   void change_elasticity(std::int64_t tropism, double steps);
 
-  /// Writes of each joint where it is, its parent and its colour, and leaves the other arrays empty: enough
-  /// for wires(). Before the first segment.
+  /// Writes of each joint where it is, its parent and, where any is not 0, its colour, and leaves the other
+  /// arrays empty: enough for wires(). Before the first segment.
   void draw_wires() { draws_wires_ = true; }
 
   /// Writes Limbs::contour and Limbs::frame from now on. Before the first segment.
@@ -124,13 +130,22 @@ class Turtle {
     std::uint8_t contour = 0;
     bool mirrored = false;
     bool is_sweeping = false;
-    glm::dvec3 control{0}, control_heading{0}, control_left{0};  ///< the last control point
-    double control_width = 0;
     bool begins_branch = false;  ///< the next internode starts a limb of its own
   };
 
-  void face(const Frame& frame) {
-    state_.frame = ++state_.rotations % rotations_until_drift == 0 ? reorthonormalise(frame) : frame;
+  /// The last control point of a generalized cylinder.
+  struct Control {
+    glm::dvec3 position{0}, heading{0}, left{0};
+    double width = 0;
+  };
+
+  /// Turns one axis toward another, as turn(), pitch() and roll() of frame.h do. In place and one axis after
+  /// the other, for whole frames copied right after their parts were written make the processor wait.
+  void rotate(glm::dvec3& from, glm::dvec3& to, const math::SinCos& angle) {
+    const glm::dvec3 turned = from * angle.cos + to * angle.sin;
+    to = to * angle.cos - from * angle.sin;
+    from = turned;
+    if (++state_.rotations % rotations_until_drift == 0) state_.frame = reorthonormalise(state_.frame);
   }
   void advance(double length);
   void add_segment(const glm::dvec3& from, double length, std::uint64_t key);
@@ -140,6 +155,8 @@ class Turtle {
   Job& job_;
   State state_;
   std::vector<State> stack_;
+  Control control_;                ///< while is_sweeping
+  std::vector<Control> controls_;  ///< of the states on the stack that are
   struct Polygon {
     Array<glm::dvec3> vertices;
     std::uint32_t joint;  ///< the turtle's last one when it was opened
