@@ -27,8 +27,8 @@ struct Turn {
   float reach = 0;   ///< how far the ring leans along either internode
 };
 
-enum class Opening { root, branch, point };
-enum class Closing { tip, cap, point };
+enum class TubeOpening { root, branch, point };
+enum class TubeClosing { tip, cap, point };
 
 /// Reads the internodes of one limb, passing over what is not skinned: no length, no radius, drawn before.
 class InternodeReader {
@@ -116,8 +116,8 @@ class TurnJudge {
   Ring last_;
 };
 
-/// Walks one limb and tells the sink of each tube in order: open(internode, Opening), then for each further
-/// internode join(turn, next), and close(Closing, free length of the last internode).
+/// Walks one limb and tells the sink of each tube in order: open(internode, TubeOpening), then for each
+/// further internode join(turn, next), and close(TubeClosing, free length of the last internode).
 template <class Sink>
 void walk_limb(InternodeReader reader, TurnJudge judge, const Chains& chains, const Scale& scale,
                Sink& sink) {
@@ -126,7 +126,9 @@ void walk_limb(InternodeReader reader, TurnJudge judge, const Chains& chains, co
   while (more) {
     judge.open();
     float radius = a.base;
-    sink.open(a, radius < scale.thinnest ? Opening::point : a.at_root ? Opening::root : Opening::branch);
+    sink.open(a, radius < scale.thinnest ? TubeOpening::point
+                 : a.at_root             ? TubeOpening::root
+                                         : TubeOpening::branch);
     Turn turn;
     while ((more = reader.read(b)) && b.follows && judge.allows(a, b, radius, turn)) {
       sink.join(turn, b);
@@ -134,9 +136,9 @@ void walk_limb(InternodeReader reader, TurnJudge judge, const Chains& chains, co
       a = b;
     }
     const bool is_covered = (more && b.follows) || (chains.mark[a.joint] & fork);
-    sink.close(a.end < scale.thinnest ? Closing::point
-               : is_covered           ? Closing::cap
-                                      : Closing::tip,
+    sink.close(a.end < scale.thinnest ? TubeClosing::point
+               : is_covered           ? TubeClosing::cap
+                                      : TubeClosing::tip,
                judge.free_of(a));
     a = b;
   }

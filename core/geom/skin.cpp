@@ -23,7 +23,7 @@ template <class Sink>
 class Checked {
  public:
   Checked(Sink& sink, const Job& job) : sink_(sink), job_(job) {}
-  void open(const Internode& first, Opening opening) {
+  void open(const Internode& first, TubeOpening opening) {
     count();
     sink_.open(first, opening);
   }
@@ -31,7 +31,7 @@ class Checked {
     count();
     sink_.join(turn, next);
   }
-  void close(Closing closing, float free) { sink_.close(closing, free); }
+  void close(TubeClosing closing, float free) { sink_.close(closing, free); }
 
  private:
   void count() {

@@ -65,12 +65,12 @@ class TubeCounter {
 
   void begin_limb(int sides) { section_ = CrossSection(options_, sides); }
 
-  void open(const Internode& first, Opening opening) {
+  void open(const Internode& first, TubeOpening opening) {
     here_ = &counts_[palette_.slot(first.color)];
-    here_->vertices += opening == Opening::root ? section_.sides + 1 : 1;
+    here_->vertices += opening == TubeOpening::root ? section_.sides + 1 : 1;
     here_->triangles += section_.sides;
     has_ring_ = false;
-    if (opening != Opening::point) ring();
+    if (opening != TubeOpening::point) ring();
     begin(first, 0);
   }
 
@@ -85,11 +85,11 @@ class TubeCounter {
     begin(next, turn.reach);
   }
 
-  void close(Closing closing, float free) {
-    const float end = closing == Closing::point ? 0 : end_;
-    const float room = closing == Closing::tip ? free - tip_length(end_, free) : free;
+  void close(TubeClosing closing, float free) {
+    const float end = closing == TubeClosing::point ? 0 : end_;
+    const float room = closing == TubeClosing::tip ? free - tip_length(end_, free) : free;
     rings(inner_rings(options_, scale_, {radius_, end}, room));
-    if (closing != Closing::point) ring();
+    if (closing != TubeClosing::point) ring();
     here_->vertices += 1;
     here_->triangles += section_.sides;
   }

@@ -123,7 +123,7 @@ void TubeWriter::pace_picture(const Internode& internode) {
   by_length_ = std::min(turns_ / (round * radius), most_hurry * slowest_);
 }
 
-void TubeWriter::open(const Internode& first, Opening opening) {
+void TubeWriter::open(const Internode& first, TubeOpening opening) {
   internode_ = first;
   radius_ = first.base;
   reach_ = 0;
@@ -132,14 +132,14 @@ void TubeWriter::open(const Internode& first, Opening opening) {
   const std::uint64_t hash = hash_of(first.joint);
   start_frame(first.along, hash);
   turn_to_left(true);
-  is_waiting_ = opening != Opening::point;
+  is_waiting_ = opening != TubeOpening::point;
   switch (opening) {
-    case Opening::point:
+    case TubeOpening::point:
       radius_ = 0;
       // Points may share a place, but not all of a vertex: that would be a vertex twice in one mesh.
       piece_.start_apex = write_apex(first.from - first.along * nudge(hash, 0), -first.along, {0, v_so_far_});
       break;
-    case Opening::root: {
+    case TubeOpening::root: {
       const bool is_revisit = context_.chains.mark[context_.limbs.parent[first.joint]] & revisit;
       const float up = is_revisit ? std::min(nudge(hash, radius_), 0.2F * first.length) : 0;
       waiting_ = plain_ring(first.from + first.along * up, radius_, v_so_far_);
@@ -147,7 +147,7 @@ void TubeWriter::open(const Internode& first, Opening opening) {
       write_disc(waiting_);
       break;
     }
-    case Opening::branch: {
+    case TubeOpening::branch: {
       const float back = nudge(hash, radius_), cone = cap_share * radius_;
       waiting_ = plain_ring(first.from - first.along * back, radius_, v_so_far_ - back * by_length_);
       waiting_.contour = first_contour(first.joint);
@@ -204,12 +204,12 @@ void TubeWriter::join(const Turn& turn, const Internode& next) {
   pace_picture(next);
 }
 
-void TubeWriter::close(Closing closing, float free) {
+void TubeWriter::close(TubeClosing closing, float free) {
   const glm::vec3 along = internode_.along;
-  const float end = closing == Closing::point ? 0 : internode_.end;
+  const float end = closing == TubeClosing::point ? 0 : internode_.end;
   const std::uint64_t hash = hash_of(internode_.joint);
-  const float cone = closing == Closing::tip ? tip_length(end, free) : cap_share * end;
-  const float ring_at = closing == Closing::tip ? internode_.length - cone : internode_.length;
+  const float cone = closing == TubeClosing::tip ? tip_length(end, free) : cap_share * end;
+  const float ring_at = closing == TubeClosing::tip ? internode_.length - cone : internode_.length;
   const Slope slope = slope_of(radius_, end, ring_at);
   write_waiting(slope);
   write_inner_rings({end, ring_at, reach_, ring_at});
@@ -217,18 +217,18 @@ void TubeWriter::close(Closing closing, float free) {
   v_so_far_ += internode_.length * by_length_;
   glm::vec3 apex = internode_.to;
   if (context_.chains.mark[internode_.joint] & revisit) apex += along * nudge(hash, 0);
-  if (closing != Closing::point) {
+  if (closing != TubeClosing::point) {
     const bool is_revisit = context_.chains.mark[internode_.joint] & revisit;
-    const float nudged = closing == Closing::cap ? nudge(hash, end)
-                         : is_revisit            ? -0.25F * cone * fraction(hash)
-                                                 : 0;
+    const float nudged = closing == TubeClosing::cap ? nudge(hash, end)
+                         : is_revisit                ? -0.25F * cone * fraction(hash)
+                                                     : 0;
     Ring ring = plain_ring(internode_.from + along * (ring_at + nudged), end,
                            v_so_far_ - (internode_.length - ring_at) * by_length_);
     ring.before = slope;
-    if (closing == Closing::cap) apex = ring.centre + along * cone;
+    if (closing == TubeClosing::cap) apex = ring.centre + along * cone;
     write_ring(ring, slope_of(end, 0, cone));
   }
-  const float v = closing == Closing::cap ? v_so_far_ + cone * by_length_ : v_so_far_;
+  const float v = closing == TubeClosing::cap ? v_so_far_ + cone * by_length_ : v_so_far_;
   piece_.end_apex = write_apex(apex, along, {half_round(end), v});
   end_piece();
 }

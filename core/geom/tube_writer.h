@@ -59,9 +59,9 @@ class TubeWriter {
     turns_ = 0;
   }
 
-  void open(const Internode& first, Opening opening);
+  void open(const Internode& first, TubeOpening opening);
   void join(const Turn& turn, const Internode& next);
-  void close(Closing closing, float free);
+  void close(TubeClosing closing, float free);
 
  private:
   /// A cone's flank: cosine and sine of the angle by which its normals lean toward the limb's end.

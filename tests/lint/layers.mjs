@@ -2,7 +2,8 @@
 // Checks every #include "..." of core/, server/ and api_schema/ against the table of rooms in docs/architecture.md, so that the
 // drawing of the house and the test of it are one text. A row reads: | `core/geom` | holds | `model`, `schema` |
 // A room may include itself, the rooms named in its row, and whatever those may include.
-// Also here, since it reads the same files: how long a file may grow, unfinished words, libraries that have one seam.
+// Also here, since it reads the same files: how long a file may grow, unfinished words, libraries that have one seam, and that no
+// two files define types of one name in one namespace, which no compiler or linker tells and which breaks programs at random.
 import fs from 'node:fs';
 import path from 'node:path';
 
@@ -89,6 +90,35 @@ function faults_of(rooms, file) {
   return faults;
 }
 
+/** Every type that is defined outside of functions, other types and unnamed namespaces: its full name and line. */
+function* types_of(file) {
+  const namespaces = [];
+  const lines = fs.readFileSync(path.join(root, file), 'utf8').split('\n');
+  for (const [index, line] of lines.entries()) {
+    const opened = /^namespace( [\w:]+)? \{/.exec(line);
+    if (opened && !line.includes('}')) namespaces.push(opened[1]?.trim() ?? '');
+    if (/^\}\s*\/\/ namespace/.test(line)) namespaces.pop();
+    const type = /^(?:class|struct|union|enum(?: class)?) (\w+)(?: final)?(?:\s*:(?!:)[^;]*)?\s*(?:\{.*)?$/.exec(line);
+    if (!type || namespaces.includes('')) continue;
+    yield { name: [...namespaces, type[1]].join('::'), line: index + 1 };
+  }
+}
+
+/** Types that two files define. */
+function repeated_types(files) {
+  const places = new Map();
+  const faults = [];
+  for (const file of files) {
+    for (const { name, line } of types_of(file)) {
+      const first = places.get(name);
+      if (first && first.file !== file) faults.push(`${file}:${line}: ${name} is also defined in ${first.file}:${first.line}`);
+      places.set(name, first ?? { file, line });
+    }
+  }
+  if (places.size < 100) faults.push('no types were found to compare');
+  return faults;
+}
+
 const rooms = read_rooms(fs.readFileSync(path.join(root, 'docs/architecture.md'), 'utf8'));
 const files = ['core', 'server', 'api_schema'].flatMap((folder) => [...files_below(folder)]);
 let failed = 0;
@@ -96,6 +126,10 @@ for (const file of files) {
   const faults = faults_of(rooms, file);
   failed += faults.length ? 1 : 0;
   for (const fault of faults) console.log(fault);
+}
+for (const fault of repeated_types(files)) {
+  console.log(fault);
+  failed += 1;
 }
 if (rooms.size < 5) {
   console.log('docs/architecture.md: the table of rooms was not found');
