@@ -168,7 +168,8 @@ class Dressing {
       if (at.x == 0 || at.z == 0 || at.x == field_.width - 1 || at.z == field_.depth - 1)
         rim.push_back(sample);
     }
-    return {reduced_mesh(field_, std::move(plan), colors_, shading_, job_), std::move(rim)};
+    const Coarse coarse{shading_, params_.mesh == TerrainMesh::grid ? 1 << level : 1, all};
+    return {reduced_mesh(field_, std::move(plan), colors_, coarse, job_), std::move(rim)};
   }
 
   void add_pieces(Model& model, int ground) {
@@ -193,7 +194,7 @@ class Dressing {
       note(level, plan);
       if (plan.index.size() / 3 >= triangles) continue;
       triangles = plan.index.size() / 3;
-      Mesh mesh = reduced_mesh(field_, std::move(plan), colors_, shading_, job_);
+      Mesh mesh = reduced_mesh(field_, std::move(plan), colors_, {shading_, 1 << level, part}, job_);
       show(model.nodes[static_cast<std::size_t>(node)],
            add_mesh(model, level_name(name, level), std::move(mesh), ground));
     }

@@ -92,6 +92,21 @@ float least_around(const Field& field, std::int32_t x, std::int32_t z, const glm
   return least;
 }
 
+bool on_border(const Window& part, Place at) {
+  return at.x == part.x || at.z == part.z || at.x == part.x + part.width - 1 ||
+         at.z == part.z + part.depth - 1;
+}
+
+/// The slope between samples so far to either side, as far as there are any.
+glm::vec2 wide_slope(const Field& field, Place at, std::int32_t reach) {
+  const std::int32_t m = field.margin;
+  const std::int32_t west = std::max(at.x - reach, -m), east = std::min(at.x + reach, field.width - 1 + m);
+  const std::int32_t north = std::max(at.z - reach, -m), south = std::min(at.z + reach, field.depth - 1 + m);
+  const auto per_cell = static_cast<float>(1 / field.cell);
+  return {(field.at(east, at.z) - field.at(west, at.z)) * per_cell / static_cast<float>(east - west),
+          (field.at(at.x, south) - field.at(at.x, north)) * per_cell / static_cast<float>(south - north)};
+}
+
 /// leaning_back() for the normals of a reduced mesh, over the triangles that it has.
 void lean_back(Mesh& mesh, const Job& job) {
   Array<float> least(job, mesh.position.size(), 0.0F);
@@ -256,8 +271,8 @@ Mesh grid_mesh(const Field& field, const Window& part, const Array<glm::u8vec4>&
   return mesh;
 }
 
-Mesh reduced_mesh(const Field& field, Triangulation plan, const Array<glm::u8vec4>& colors, Shading shading,
-                  Job& job) {
+Mesh reduced_mesh(const Field& field, Triangulation plan, const Array<glm::u8vec4>& colors,
+                  const Coarse& coarse, Job& job) {
   order_for_cache(plan, job);
   const std::size_t count = plan.samples.size();
   const Ground ground(field);
@@ -270,13 +285,15 @@ Mesh reduced_mesh(const Field& field, Triangulation plan, const Array<glm::u8vec
     if (i % 4096 == 0) job.check();
     const Place at = place_of(plan.samples[i], field.width);
     mesh.position[i] = {ground.x(at.x), field.at(at.x, at.z), ground.z(at.z)};
-    mesh.normal[i] = normal_of(slopes_of(field, at.z).at(at.x));
+    mesh.normal[i] = normal_of(coarse.reach > 1 && !on_border(coarse.part, at)
+                                   ? wide_slope(field, at, coarse.reach)
+                                   : slopes_of(field, at.z).at(at.x));
     mesh.uv[0][i] = {ground.u(at.x), ground.v(at.z)};
     if (!colors.empty()) mesh.color[i] = colors[plan.samples[i]];
   }
   mesh.index.wide = std::move(plan.index);
   mesh.cache_ordered = true;
-  if (shading == Shading::upright) {
+  if (coarse.shading == Shading::upright) {
     make_upright(mesh, job);
   } else {
     lean_back(mesh, job);
