@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/base/parallel.h"
 #include "core/generators/terrain/decimate.h"
 #include "core/generators/terrain/maps.h"
 #include "core/generators/terrain/plan.h"
@@ -173,14 +174,21 @@ class Dressing {
   }
 
   void add_pieces(Model& model, int ground) {
+    std::vector<Window> parts;
     for (std::int32_t z = 0; z < field_.depth - 1; z += piece) {
-      for (std::int32_t x = 0; x < field_.width - 1; x += piece) {
-        const Window part{x, z, std::min(piece, field_.width - 1 - x) + 1,
-                          std::min(piece, field_.depth - 1 - z) + 1};
-        const std::string name = "ground_" + std::to_string(x / piece) + "_" + std::to_string(z / piece);
-        const int mesh = add_mesh(model, name, grid_mesh(field_, part, colors_, shading_, job_), ground);
-        add_levels_of_piece(model, add_child(model, name, mesh), part, ground);
-      }
+      for (std::int32_t x = 0; x < field_.width - 1; x += piece)
+        parts.push_back(
+            {x, z, std::min(piece, field_.width - 1 - x) + 1, std::min(piece, field_.depth - 1 - z) + 1});
+    }
+    std::vector<Mesh> meshes(parts.size());
+    parallel_for(job_, parts.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
+      meshes[i] = grid_mesh(field_, parts[i], colors_, shading_, job_);
+    });
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const std::string name =
+          "ground_" + std::to_string(parts[i].x / piece) + "_" + std::to_string(parts[i].z / piece);
+      const int mesh = add_mesh(model, name, std::move(meshes[i]), ground);
+      add_levels_of_piece(model, add_child(model, name, mesh), parts[i], ground);
     }
   }
 
