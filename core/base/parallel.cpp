@@ -48,16 +48,33 @@ void run(int threads, std::size_t chunks, const std::function<void(std::size_t)>
 }
 #endif
 
+/// Set on a thread that runs a chunk: what is cut into chunks within one has no threads left.
+thread_local bool in_a_chunk = false;
+
+class InAChunk {
+ public:
+  InAChunk() : before_(in_a_chunk) { in_a_chunk = true; }
+  ~InAChunk() { in_a_chunk = before_; }
+  InAChunk(const InAChunk&) = delete;
+  InAChunk& operator=(const InAChunk&) = delete;
+
+ private:
+  bool before_;
+};
+
 }  // namespace
 
 void parallel_for(const Job& job, std::size_t count, std::size_t chunk,
                   const std::function<void(std::size_t, std::size_t, std::size_t)>& body) {
   const std::size_t chunks = chunk_count(count, chunk);
   const auto each = [&](std::size_t i) { body(i * chunk, std::min(count, (i + 1) * chunk), i); };
-  if (job.threads() <= 1 || chunks <= 1) {
+  if (job.threads() <= 1 || chunks <= 1 || in_a_chunk) {
     for (std::size_t i = 0; i < chunks; ++i) each(i);
   } else {
-    run(job.threads(), chunks, each);
+    run(job.threads(), chunks, [&](std::size_t i) {
+      const InAChunk mark;
+      each(i);
+    });
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/model/widen.h"
 #include "core/schema/nearest.h"
 
 namespace seedmesh {
@@ -97,7 +98,9 @@ Result<Model> generate_child(const Child& child, const std::string& pointer, Rng
   Call call(child, pointer, place, job);
   call.job.set_demand(demand);
   Result<Model> model = call.run<Model>(call.generator->generate);
-  if (model) call.point(model->warnings);
+  if (!model) return model;
+  widen(*model, job);
+  call.point(model->warnings);
   return model;
 }
 

@@ -23,7 +23,7 @@ namespace {
 /// What a generator can do beyond making a still model.
 struct Traits {
   bool grows = false, sways = false, has_collision = false;
-  bool parts = false;
+  bool parts = false, joins_triangles = false;
 };
 
 /// The functions of one generator as the compiler sees them, turned to those of a row.
@@ -58,6 +58,7 @@ struct Row {
             .sways = traits.sways,
             .has_collision = traits.has_collision,
             .parts = traits.parts,
+            .joins_triangles = traits.joins_triangles,
             .read = read,
             .write = write,
             .check = check,
@@ -69,22 +70,38 @@ struct Row {
 
   /// For those that have forms of their own.
   template <auto encode_own>
-  static constexpr Generator named(std::string_view name, std::span<const OwnForm> forms) {
-    Generator generator = named(name);
+  static constexpr Generator named(std::string_view name, std::span<const OwnForm> forms,
+                                   Traits traits = {}) {
+    Generator generator = named(name, traits);
     generator.forms = forms;
-    generator.encode = [](const Params& params, std::string_view format, Job& job) {
-      return encode_own(own(params), format, job);
+    generator.encode = [](const Params& params, const WantedForm& form, Job& job) {
+      if constexpr (requires { encode_own(own(params), form, job); }) {
+        return encode_own(own(params), form, job);
+      } else {
+        return encode_own(own(params), form.format, job);
+      }
+    };
+    return generator;
+  }
+
+  /// For those whose forms and parameters may not fit.
+  template <auto encode_own, auto check_form_own>
+  static constexpr Generator named(std::string_view name, std::span<const OwnForm> forms,
+                                   Traits traits = {}) {
+    Generator generator = named<encode_own>(name, forms, traits);
+    generator.check_form = [](const Params& params, const WantedForm& form) {
+      return check_form_own(own(params), form);
     };
     return generator;
   }
 };
 
 constexpr OwnForm terrain_forms[] = {
-    {"png16", "image/png", "png"},
+    {"png16", "image/png", "png", true},
     {"png8", "image/png", "png"},
     {"rgb24", "image/png", "png"},
     {"rgba32", "image/png", "png"},
-    {"r16", "application/octet-stream", "r16"},
+    {"r16", "application/octet-stream", "r16", true},
 };
 
 constexpr OwnForm fractal_forms[] = {
@@ -105,7 +122,8 @@ constexpr Generator rows[] = {
     Row<FractalParams, read_fractal, write_fractal, fractal::check, fractal::generate, fractal::derive,
         fractal::appraise, fractal::vocabulary>::named<fractal::encode>("fractal", fractal_forms),
     Row<TerrainParams, read_terrain, write_terrain, terrain::check, terrain::generate, terrain::derive,
-        terrain::appraise, terrain::vocabulary>::named<terrain::encode>("terrain", terrain_forms),
+        terrain::appraise, terrain::vocabulary>::named<terrain::encode, terrain::check_form>(
+        "terrain", terrain_forms, {.joins_triangles = true}),
     Row<BuildingParams, read_building, write_building, building::check, building::generate, building::derive,
         building::appraise, building::vocabulary>::named("building", {.parts = true}),
     Row<SceneParams, read_scene, write_scene, scene::check, scene::generate, scene::derive, scene::appraise,

@@ -10,18 +10,12 @@
 #include "core/base/array.h"
 #include "core/base/job.h"
 #include "core/generators/appraisal.h"
+#include "core/generators/form.h"
 #include "core/schema/child.h"
 #include "core/schema/faults.h"
 #include "core/schema/json.h"
 
 namespace seedmesh {
-
-/// A form of an answer that is no model: a height map, a cloud of points.
-struct OwnForm {
-  std::string_view format;  ///< as output.format names it
-  std::string_view media_type;
-  std::string_view extension;
-};
 
 /// The functions of one generator, with its parameters behind a pointer that only they know the type of.
 struct Generator {
@@ -36,6 +30,8 @@ struct Generator {
   bool sways = false;          ///< writes wind weights where it asks for them
   bool has_collision = false;  ///< makes collision shapes where it asks for them
   bool parts = false;  ///< what it repeats are parts of one thing, which beyond 400 are merged by material
+  /// Its meshes fit a budget of triangles better where triangles are joined than at a level of detail.
+  bool joins_triangles = false;
 
   /// From JSON that stands at `pointer`. Gives parameters even where there are faults: refused members have
   /// defaults. An empty `settle` leaves requests inside as they are. Callers use read_parameters of child.h.
@@ -53,7 +49,10 @@ struct Generator {
 
   /// Forms beside those of models, and what makes one of them; null where there are none.
   std::span<const OwnForm> forms = {};
-  Result<Array<std::uint8_t>> (*encode)(const Params& params, std::string_view format, Job& job) = nullptr;
+  Result<Array<std::uint8_t>> (*encode)(const Params& params, const WantedForm& form, Job& job) = nullptr;
+  /// Faults between parameters and one of these forms; pointers relative to the parameters, or below
+  /// "/output/". Null: there are none.
+  std::vector<Issue> (*check_form)(const Params& params, const WantedForm& form) = nullptr;
 };
 
 /// In the order of the menu.

@@ -17,6 +17,7 @@ namespace {
 // Entries of the smallest vertex caches in use.
 constexpr unsigned cache_entries = 16;
 // Floats that are looked through at once for -0.
+constexpr std::size_t many_meshes = 16;
 constexpr std::size_t float_chunk = std::size_t{1} << 16U;
 
 // What Godot makes of a node whose name ends so after '-', '_' or '$': a collision body, a rigid body,
@@ -159,19 +160,27 @@ void name_everything(Model& model) {
   for (Material& material : model.materials) material.name = materials.unique(material.name, "material");
 }
 
+void finish(Mesh& mesh, const Job& job) {
+  order_for_cache(mesh, job);
+  narrow(mesh, job);
+  clear_negative_zeros(mesh, job);
+  mesh.bounds = bounds_in_parallel(mesh.position, job);
+  job.check();
+}
+
 }  // namespace
 
 void finish(Model& model, Job& job) {
   drop_empty_meshes(model);
+  std::vector<Mesh*> meshes;
   for (MeshGroup& group : model.meshes) {
-    for (Primitive& primitive : group.primitives) {
-      order_for_cache(primitive.mesh, job);
-      narrow(primitive.mesh, job);
-      clear_negative_zeros(primitive.mesh, job);
-      primitive.mesh.bounds = bounds_in_parallel(primitive.mesh.position, job);
-      job.check();
-    }
+    for (Primitive& primitive : group.primitives) meshes.push_back(&primitive.mesh);
   }
+  // Many meshes side by side; of few, each by all threads.
+  const std::size_t together = meshes.size() >= many_meshes ? 1 : std::max<std::size_t>(1, meshes.size());
+  parallel_for(job, meshes.size(), together, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) finish(*meshes[i], job);
+  });
   name_everything(model);
 }
 

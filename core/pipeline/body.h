@@ -16,6 +16,10 @@ struct Request::Body {
   std::string canonical;
 };
 
+inline WantedForm wanted_form(const OutputParams& output) {
+  return {text_of(output.format), text_of(output.profile)};
+}
+
 /// Reads a whole request that is JSON already. Every fault at once, as Code::invalid.
 Result<Request> read_request_body(const Json& json, const Limits& limits);
 

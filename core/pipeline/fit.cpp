@@ -6,6 +6,7 @@
 
 #include "core/geom/simplify.h"
 #include "core/geom/thin.h"
+#include "core/model/widen.h"
 
 namespace seedmesh {
 namespace {
@@ -154,6 +155,7 @@ void coarsen_all(Model& model, std::uint64_t most, Job& job) {
 }  // namespace
 
 std::optional<Issue> fit(Model& model, std::uint64_t most, int lods, Job& job) {
+  widen(model, job);
   const auto wanted = static_cast<std::size_t>(lods);
   const std::size_t levels = levels_of(model);
   std::size_t level = 0;

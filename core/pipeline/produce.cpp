@@ -124,7 +124,7 @@ Result<Product> produce_own(const Request& request, const OwnForm& form, Job& jo
   demand.tangents = request.body().output.tangents == OutputTangents::auto_;
   job.set_demand(demand);
   Result<Array<std::uint8_t>> file =
-      request.body().generator->encode(request.body().params, form.format, job);
+      request.body().generator->encode(request.body().params, wanted_form(request.body().output), job);
   if (!file) return in_request(std::move(file).error());
   job.spend(Resource::output_bytes, file->size());
   Product product;
@@ -140,8 +140,9 @@ Result<Product> produce_own(const Request& request, const OwnForm& form, Job& jo
 /// Parts of one thing that are repeated more often than this are merged by material.
 constexpr std::uint64_t most_parts = 400;
 
-Demand demand_of(const OutputParams& output) {
-  return {.lods = output.max_triangles ? levels_to_choose_from : output.lods,
+Demand demand_of(const OutputParams& output, const Generator& generator) {
+  const bool chooses = output.max_triangles && (output.lods > 1 || !generator.joins_triangles);
+  return {.lods = chooses ? levels_to_choose_from : output.lods,
           .share_organs =
               output.instancing == OutputInstancing::nodes || output.instancing == OutputInstancing::gpu,
           .growth = output.animation == OutputParams::Animation::growth,
@@ -152,7 +153,7 @@ Demand demand_of(const OutputParams& output) {
 /// The model of one seed, as its generator makes it.
 Result<Model> generate(const Request& request, Job& job) {
   const OutputParams& output = request.body().output;
-  job.set_demand(demand_of(output));
+  job.set_demand(demand_of(output, *request.body().generator));
   Result<Model> model = request.body().generator->generate(request.body().params, job);
   if (!model) return in_request(std::move(model).error());
   if (output.lods > 1 && !has_levels(*model)) {

@@ -101,13 +101,26 @@ void check_output(const OutputParams& output, std::uint64_t seed, Faults& faults
   check_profile(output, faults);
 }
 
-/// A form that is no model has no use for what only models have.
-void check_own_form(const Generator& generator, const OutputParams& output, Faults& faults) {
+/// A form that is no model has no use for what only models have, and the parameters must suit it.
+void check_own_form(const Generator& generator, const Generator::Params& params, const OutputParams& output,
+                    Faults& faults) {
   const std::string_view format = text_of(output.format);
   const auto is_own = [format](const OwnForm& form) { return form.format == format; };
-  if (std::none_of(generator.forms.begin(), generator.forms.end(), is_own)) return;
+  const auto own = std::find_if(generator.forms.begin(), generator.forms.end(), is_own);
+  if (own == generator.forms.end()) return;
+  // Where parameters are refused already, others stand in for them.
+  const bool sound = std::none_of(faults.issues().begin(), faults.issues().end(), [](const Issue& issue) {
+    return issue.pointer.starts_with("/parameters");
+  });
+  if (params && generator.check_form && sound) {
+    for (Issue& issue : generator.check_form(params, wanted_form(output))) {
+      if (!issue.pointer.starts_with("/output/")) issue.pointer = "/parameters" + issue.pointer;
+      faults.add(std::move(issue));
+    }
+  }
   Json options = write_output(output);
   options.erase("format");
+  if (own->has_profiles) options.erase("profile");
   for (const auto& [name, value] : options.items()) {
     faults.add({"/output/" + name, "found " + value.dump() + " with the format " + std::string(format) +
                                        ", which is no model and has no such option"});
@@ -136,7 +149,7 @@ Result<Request> read_request_body(const Json& json, const Limits& limits) {
   }
   if (body.generator) {
     add_form_fault(*body.generator, frame.output, faults);
-    check_own_form(*body.generator, frame.output, faults);
+    check_own_form(*body.generator, body.params, frame.output, faults);
   }
   if (body.generator && !body.generator->grows && frame.output.animation == OutputParams::Animation::growth) {
     faults.add({"/output/animation",
@@ -171,7 +184,7 @@ Result<Request> with_format(const Request& request, std::string_view format) {
   body.output = read_output(output, "/output", faults);
   if (faults.empty()) add_form_fault(*body.generator, body.output, faults);
   if (faults.empty()) check_output(body.output, body.seed, faults);
-  if (faults.empty()) check_own_form(*body.generator, body.output, faults);
+  if (faults.empty()) check_own_form(*body.generator, body.params, body.output, faults);
   if (!faults.empty()) return Error{Code::invalid, faults.take()};
   body.canonical = canonical_request(body);
   return Request(std::make_shared<const Request::Body>(std::move(body)));

@@ -1,11 +1,13 @@
 /// How fast fields, erosion and meshes are made. On two threads, by the clock on the wall; `bytes` are those
 /// of the result, which bench.mjs compares with copying as many.
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
 
+#include "core/generators/terrain/faults.h"
 #include "core/generators/terrain/filters.h"
 #include "core/generators/terrain/noise.h"
 #include "core/generators/terrain/subdivide.h"
@@ -75,12 +77,44 @@ void bench_fields() {
   line("65536 droplets 513", "droplets", 65'536, 4.0 * 513 * 513, seconds);
 }
 
+/// Value noise of eight octaves, sample for sample that of peer_terrain.mjs, whose figures are of it too.
+Field peer_hills() {
+  constexpr std::int32_t side = 1025;
+  constexpr double gain = 0.525;
+  Field field(roomy(), side, side, 0);
+  for (float& height : field.heights) height = 0;
+  const auto hash = [](double x, double z, int octave) {
+    const auto whole = [](double number) {
+      return static_cast<std::uint32_t>(static_cast<std::int32_t>(number));
+    };
+    std::uint32_t bits = whole(x) * 374761393U ^ whole(z) * 668265263U ^
+                         static_cast<std::uint32_t>(octave) * 2147483647U;
+    bits = (bits ^ static_cast<std::uint32_t>(static_cast<std::int32_t>(bits) >> 13)) * 1274126177U;
+    return (bits ^ static_cast<std::uint32_t>(static_cast<std::int32_t>(bits) >> 16)) / 4294967296.0;
+  };
+  const auto ease = [](double t) { return t * t * t * (t * (t * 6 - 15) + 10); };
+  double cell = side / 3.0, weight = 1;
+  for (int octave = 0; octave < 8; ++octave, cell /= 2, weight *= gain) {
+    for (std::int32_t z = 0; z < side; ++z) {
+      for (std::int32_t x = 0; x < side; ++x) {
+        const double fx = x / cell, fz = z / cell, i = std::floor(fx), j = std::floor(fz);
+        const double u = ease(fx - i), v = ease(fz - j);
+        const double north = hash(i, j, octave) * (1 - u) + hash(i + 1, j, octave) * u;
+        const double south = hash(i, j + 1, octave) * (1 - u) + hash(i + 1, j + 1, octave) * u;
+        float& height = field.at(x, z);
+        height = static_cast<float>(static_cast<double>(height) + weight * (north * (1 - v) + south * v));
+      }
+    }
+  }
+  return field;
+}
+
 using Reducer = Triangulation (*)(const Field&, double, Border, Job&);
 void bench_reduced(const std::string& name, Reducer reduce) {
-  const Field field = hills(1025);
+  const Field field = peer_hills();
   const Job job = roomy();
   const Range range = range_of(field, job);
-  const double error = 0.002 * static_cast<double>(range.high - range.low);
+  const double error = 0.002 * (static_cast<double>(range.high) - static_cast<double>(range.low));
   double triangles = 0, vertices = 0;
   const double seconds = timed([&] {
     Job own = roomy();
@@ -91,9 +125,25 @@ void bench_reduced(const std::string& name, Reducer reduce) {
   line(name, "reduced triangles", triangles, 12 * triangles + 4 * vertices, seconds);
 }
 
-void bench_mesh() {
-  const Result<Request> request =
-      read_request(R"({"generator":"terrain","parameters":{"iterations":12,"palette":"none"}})", Limits{});
+/// Faults that slope over two samples, as those of the peer do.
+void bench_faults() {
+  constexpr std::int32_t side = 257;
+  const FaultPlan plan{.planned = 362, .greatest = 10, .step = FaultStep::cosine, .width = 2};
+  const double cells = double{side} * side;
+  const double seconds =
+      timed([&] { faulted(plan, {0, 0, side, side}, {0, 0, side, side}, 1, Rng(1), roomy()); });
+  line("362 faults 257", "cells and faults", cells * plan.planned, 4 * cells, seconds);
+}
+
+void bench_smoothing() {
+  Field field = hills(4097);
+  const double cells = 4097.0 * 4097;
+  line("smooth 4097", "cells", cells, 4 * cells, timed([&] { smooth(field, 40, roomy()); }));
+}
+
+/// A request by its whole way, with what it makes counted in `unit`: triangles, or else samples.
+void bench_request(const char* name, const char* unit, const char* json, double samples) {
+  const Result<Request> request = read_request(json, Limits{});
   if (!request) std::abort();
   double bytes = 0, triangles = 0;
   const double seconds = timed([&] {
@@ -103,7 +153,7 @@ void bench_mesh() {
     bytes = static_cast<double>(product->payload.size());
     triangles = static_cast<double>(product->statistics.triangles);
   });
-  line("diamond-square 4097 to GLB", "grid triangles", triangles, bytes, seconds);
+  line(name, unit, samples > 0 ? samples : triangles, bytes, seconds);
 }
 
 }  // namespace
@@ -111,7 +161,20 @@ void bench_mesh() {
 int main() {
   bench_copy();
   bench_fields();
+  bench_faults();
+  bench_smoothing();
   bench_reduced("RTIN 1025 at .002", rtin);
   bench_reduced("greedy 1025 at .002", greedy);
-  bench_mesh();
+  bench_request("diamond-square 4097 to GLB", "grid triangles",
+                R"({"generator":"terrain","parameters":{"iterations":12,"palette":"none"}})", 0);
+  bench_request("four levels of 2049 to GLB", "grid triangles",
+                R"({"generator":"terrain","parameters":{"iterations":11,"palette":"none"},
+                    "output":{"profile":"unity","lods":4}})",
+                0);
+  bench_request("diamond-square 4097 to r16", "cells",
+                R"({"generator":"terrain","parameters":{"iterations":12},"output":{"format":"r16"}})",
+                4097.0 * 4097);
+  bench_request("diamond-square 1025 to PNG of 16 bits", "cells",
+                R"({"generator":"terrain","parameters":{"iterations":10},"output":{"format":"png16"}})",
+                1025.0 * 1025);
 }

@@ -1,9 +1,12 @@
 /// Faults between parameters; see plan.h.
+#include <array>
 #include <initializer_list>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/generators/terrain/plan.h"
 #include "core/generators/terrain/triangulation.h"
+#include "core/schema/json.h"
 #include "generated/params/terrain.h"
 
 namespace seedmesh::terrain {
@@ -110,10 +113,18 @@ class Check {
     }
     if (params_.normalise && params_.normalise->low > params_.normalise->high)
       fault("/normalise/low", "the lowest height is above the highest");
+    if (params_.normalise) rising("/normalise/from", params_.normalise->from);
+    if (params_.terraces) rising("/terraces/from", params_.terraces->from);
+    if (params_.island && params_.island->floor && params_.island->depth)
+      fault("/island/depth", "the floor says already how deep the rim lies");
     if (params_.image && params_.image->low == params_.image->high)
       fault("/image/high", "low and high are the same height");
     const TerrainHeightmap& map = params_.heightmap;
     if (map.low && map.high && *map.low >= *map.high) fault("/heightmap/low", "low is not below high");
+  }
+
+  void rising(const char* pointer, const std::optional<std::array<double, 2>>& pair) {
+    if (pair && (*pair)[0] >= (*pair)[1]) fault(pointer, "the first height is not below the second");
   }
 
   void sphere() {
@@ -147,8 +158,9 @@ class Check {
     using enum TerrainAlgorithm;
     if (is({image})) return fault("/tile", "an image is one piece");
     const bool faults = is({fault_formation, poisson_faulting});
-    if (!faults && params_.tile->across)
-      fault("/tile/across", "this world has no end; across belongs to fault_formation and poisson_faulting");
+    if (!faults && params_.tile->across && !params_.island)
+      fault("/tile/across",
+            "this world has no end; across belongs to fault_formation and poisson_faulting, and to an island");
     const int across = params_.tile->across.value_or(1);
     if (faults && (params_.tile->x < 0 || params_.tile->x >= across))
       fault("/tile/x",
@@ -164,17 +176,36 @@ class Check {
       fault("/corners", "corners of a tile belong to its neighbours too and are drawn from the seed");
     if (params_.grid)
       fault("/grid", "start heights of a tile belong to its neighbours too and are drawn from the seed");
-    const auto refuse = [&](bool given, const char* pointer) {
-      if (given)
-        fault(pointer,
-              "this filter looks at the whole field, so that tiles would not meet; thermal does not");
-    };
-    refuse(params_.smooth > 0, "/smooth");
-    refuse(params_.normalise.has_value(), "/normalise");
-    refuse(params_.island.has_value(), "/island");
-    refuse(params_.terraces.has_value(), "/terraces");
-    refuse(params_.hydraulic.has_value(), "/hydraulic");
-    refuse(params_.resample.has_value(), "/resample");
+    tile_filters(faults);
+  }
+
+  /// Filters of tiles look no farther than a tile can see, or know the whole world beforehand.
+  void tile_filters(bool faults) {
+    constexpr int farthest_smooth = 256;
+    if (smooth_reach(params_.smooth) > farthest_smooth)
+      fault("/smooth", "found " + Json(params_.smooth).dump() + " %, which carries a height farther than " +
+                           std::to_string(farthest_smooth) +
+                           " samples, deep into the next tile; tiles take at most 93.7 %");
+    if (params_.normalise && !params_.normalise->from)
+      fault("/normalise",
+            "\"from\" is missing: a tile does not know the lowest and the highest height of its neighbours");
+    if (params_.terraces && !params_.terraces->from)
+      fault("/terraces",
+            "\"from\" is missing: a tile does not know the lowest and the highest height of its neighbours");
+    if (params_.island && !params_.island->floor)
+      fault("/island", "\"floor\" is missing: a tile does not know the lowest height of its neighbours");
+    if (params_.island && !faults && !params_.tile->across)
+      fault("/tile", "\"across\" is missing: it says how many tiles the island fills");
+    if (params_.hydraulic && params_.hydraulic->method == TerrainMethod::droplets)
+      fault("/hydraulic",
+            "drops change the ground for those that fall after them, batch by batch, so that what one does is "
+            "felt many tiles away; erode one field and cut that, or use thermal");
+    if (params_.hydraulic && params_.hydraulic->method == TerrainMethod::stream_power)
+      fault("/hydraulic",
+            "a river depends on all the ground that it drains, which no tile sees; erode one field and cut "
+            "that, or use thermal");
+    if (params_.resample)
+      fault("/resample", "samples of tiles lie where the world has them; choose resolution or iterations");
   }
 
   void hydraulic() {

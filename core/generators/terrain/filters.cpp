@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
@@ -16,14 +18,16 @@ constexpr std::size_t columns_a_chunk = 256;
 // Rows that are smoothed side by side: each step of a row waits for the one before.
 constexpr std::size_t rows_at_once = 8;
 
-/// body(row of heights, z) for every row, in parallel.
+/// body(row of heights, z) for every row, in parallel; those of the margin too, with what they have of it.
 template <class Body>
 void each_row(Field& field, const Job& job, const Body& body) {
-  parallel_for(job, static_cast<std::size_t>(field.depth), rows_a_chunk,
+  parallel_for(job, static_cast<std::size_t>(field.rows()), rows_a_chunk,
                [&](std::size_t begin, std::size_t end, std::size_t) {
                  job.check();
-                 for (auto z = static_cast<std::int32_t>(begin); z < static_cast<std::int32_t>(end); ++z)
-                   body(field.row(z), z);
+                 for (std::size_t row = begin; row < end; ++row) {
+                   const std::int32_t z = static_cast<std::int32_t>(row) - field.margin;
+                   body(field.row(z) - field.margin, z);
+                 }
                });
 }
 
@@ -86,6 +90,56 @@ void slip_row(const float* const rows[3], float* out, std::int32_t width, const 
   out[last] = total(last, last - 1, last);
 }
 
+double rim_height(const Field& field, const IslandPlan& plan, const Job& job) {
+  if (plan.floor) return *plan.floor;
+  const Range range = range_of(field, job);
+  return range.low - plan.depth.value_or((static_cast<double>(range.high) - range.low) / 4);
+}
+
+/// The recursion h[i] = k h[i-1] + (1 - k) h[i], started `reach` samples before: weights that fall by k from
+/// sample to sample, what is left on the last.
+class Tail {
+ public:
+  explicit Tail(double percent) {
+    const double k = percent / 100;
+    const std::int32_t reach = smooth_reach(percent);
+    double weight = 1 - k;
+    for (std::int32_t i = 0; i < reach; ++i, weight *= k) weights_.push_back(static_cast<float>(weight));
+    weights_.push_back(static_cast<float>(weight / (1 - k)));
+  }
+
+  /// A line, from the samples behind each (way -1) or before it (way 1); the ends go on beyond them.
+  void gather_line(const float* from, std::size_t count, int way, float* padded, float* out) const {
+    const std::size_t reach = weights_.size() - 1;
+    std::fill(padded, padded + reach, from[0]);
+    std::copy(from, from + count, padded + reach);
+    std::fill(padded + reach + count, padded + 2 * reach + count, from[count - 1]);
+    std::fill(out, out + count, 0.0F);
+    for (std::size_t i = 0; i <= reach; ++i) {
+      const float* start = way < 0 ? padded + (reach - i) : padded + (reach + i);
+      const float weight = weights_[i];
+      for (std::size_t x = 0; x < count; ++x) out[x] += weight * start[x];
+    }
+  }
+
+  /// Row z of the whole array, from the rows behind or before it.
+  void gather_row(const Field& field, std::size_t z, int way, float* out) const {
+    const auto wide = static_cast<std::size_t>(field.stride()), deep = static_cast<std::size_t>(field.rows());
+    std::fill(out, out + wide, 0.0F);
+    for (std::size_t i = 0; i < weights_.size(); ++i) {
+      const std::size_t at = way < 0 ? (z > i ? z - i : 0) : std::min(z + i, deep - 1);
+      const float* row = field.heights.data() + at * wide;
+      const float weight = weights_[i];
+      for (std::size_t x = 0; x < wide; ++x) out[x] += weight * row[x];
+    }
+  }
+
+  std::size_t reach() const { return weights_.size() - 1; }
+
+ private:
+  std::vector<float> weights_;
+};
+
 }  // namespace
 
 void smooth(Field& field, double percent, const Job& job) {
@@ -103,27 +157,69 @@ void smooth(Field& field, double percent, const Job& job) {
                });
 }
 
-void normalise(Field& field, double low, double high, const Job& job) {
-  const Range range = range_of(field, job);
-  const double span = static_cast<double>(range.high) - range.low;
-  const double scale = span > 0 ? (high - low) / span : 0;
+std::int32_t smooth_reach(double percent) {
+  if (percent <= 0) return 0;
+  if (percent >= 100) return std::numeric_limits<std::int32_t>::max();
+  return math::to_int32(std::ceil(24 * math::log(2) / -math::log(percent / 100)));
+}
+
+void smooth_by_place(Field& field, double percent, const Job& job) {
+  if (percent <= 0) return;
+  const Tail tail(percent);
+  const auto wide = static_cast<std::size_t>(field.stride()), deep = static_cast<std::size_t>(field.rows());
+  parallel_for(job, deep, rows_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    std::vector<float> padded(wide + 2 * tail.reach()), line(wide);
+    for (std::size_t z = begin; z < end; ++z) {
+      job.check();
+      float* row = field.heights.data() + z * wide;
+      for (const int way : {-1, 1}) {
+        tail.gather_line(row, wide, way, padded.data(), line.data());
+        std::copy(line.begin(), line.end(), row);
+      }
+    }
+  });
+  Array<float> next(job, field.heights.size());
+  for (const int way : {-1, 1}) {
+    parallel_for(job, deep, rows_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+      for (std::size_t z = begin; z < end; ++z) {
+        job.check();
+        tail.gather_row(field, z, way, next.data() + z * wide);
+      }
+    });
+    std::swap(field.heights, next);
+  }
+}
+
+void stretch(Field& field, const Heights& from, const Heights& to, const Job& job) {
+  const double span = from.high - from.low;
+  const double scale = span > 0 ? (to.high - to.low) / span : 0;
+  const std::int32_t count = field.stride();
   each_row(field, job, [&](float* row, std::int32_t) {
-    for (std::int32_t x = 0; x < field.width; ++x)
-      row[x] = static_cast<float>(low + (static_cast<double>(row[x]) - range.low) * scale);
+    for (std::int32_t x = 0; x < count; ++x)
+      row[x] = static_cast<float>(to.low + (static_cast<double>(row[x]) - from.low) * scale);
   });
 }
 
-void terrace(Field& field, int count, double sharpness, const Job& job) {
+void normalise(Field& field, double low, double high, const Job& job) {
   const Range range = range_of(field, job);
-  const float step = (range.high - range.low) / static_cast<float>(count);
+  stretch(field, {static_cast<double>(range.low), static_cast<double>(range.high)}, {low, high}, job);
+}
+
+void terrace(Field& field, const TerracePlan& plan, const Job& job) {
+  const Range range = plan.from ? Range{static_cast<float>(plan.from->low), static_cast<float>(plan.from->high)}
+                                : range_of(field, job);
+  const float step = (range.high - range.low) / static_cast<float>(plan.count);
   if (!(step > 0)) return;
   // Within a step the height rises as t^p: p = 1 leaves it, a large p keeps it low until the cliff.
-  const double power = 1 / std::max(1e-3, 1 - sharpness);
-  const bool cliffs = sharpness >= 1;
+  const double power = 1 / std::max(1e-3, 1 - plan.sharpness);
+  const bool cliffs = plan.sharpness >= 1;
+  // The highest point of a whole field is the end of its last step, not the start of another.
+  const float last = plan.from ? std::numeric_limits<float>::max() : static_cast<float>(plan.count - 1);
+  const std::int32_t count = field.stride();
   each_row(field, job, [&](float* row, std::int32_t) {
-    for (std::int32_t x = 0; x < field.width; ++x) {
+    for (std::int32_t x = 0; x < count; ++x) {
       const float place = (row[x] - range.low) / step;
-      const float whole = std::min(std::floor(place), static_cast<float>(count - 1));
+      const float whole = std::min(std::floor(place), last);
       const double t = static_cast<double>(place - whole);
       const double raised = cliffs ? (t >= 1 ? 1 : 0) : math::pow(std::clamp(t, 0.0, 1.0), power);
       row[x] = range.low + step * (whole + static_cast<float>(raised));
@@ -132,26 +228,29 @@ void terrace(Field& field, int count, double sharpness, const Job& job) {
 }
 
 void sink_rim(Field& field, const IslandPlan& plan, Rng rng, const Job& job) {
-  const Range range = range_of(field, job);
-  const double depth = plan.depth.value_or((static_cast<double>(range.high) - range.low) / 4);
-  const auto floor_height = static_cast<float>(range.low - depth);
-  const double middle_x = (field.width - 1) / 2.0, middle_z = (field.depth - 1) / 2.0;
+  const auto floor_height = static_cast<float>(rim_height(field, plan, job));
+  const bool alone = plan.side == 0;
+  const double middle_x = static_cast<double>(alone ? field.width - 1 : plan.side - 1) / 2.0,
+               middle_z = static_cast<double>(alone ? field.depth - 1 : plan.side - 1) / 2.0;
   const double half = std::min(middle_x, middle_z);
-  const Window window{0, 0, field.width, field.depth};
+  const std::int32_t m = field.margin, count = field.stride();
+  const Window window{plan.x - m, plan.z - m, count, field.rows()};
   NoisePlan coast;
   coast.octaves = 5;
   coast.amplitude = plan.roughness * 0.6;
   coast.wavelength = half * 0.9;
   const Field ragged = noisy(coast, window, 1, rng.at("coast"), job);
   each_row(field, job, [&](float* row, std::int32_t z) {
-    for (std::int32_t x = 0; x < field.width; ++x) {
-      const double dx = (x - middle_x) / half, dz = (z - middle_z) / half;
+    for (std::int32_t i = 0; i < count; ++i) {
+      const double dx = (static_cast<double>(plan.x + i - m) - middle_x) / half,
+                   dz = (static_cast<double>(plan.z + z) - middle_z) / half;
       // The coast is where the share is one half; a third of the reach lies on either side of it.
-      const double away = std::sqrt(dx * dx + dz * dz) / plan.reach + static_cast<double>(ragged.at(x, z));
+      const double away =
+          std::sqrt(dx * dx + dz * dz) / plan.reach + static_cast<double>(ragged.at(i, z + m));
       const double t = std::clamp((1.35 - away) / 0.7, 0.0, 1.0);
       const double rim = std::clamp((1.0 - std::max(std::abs(dx), std::abs(dz))) / 0.12, 0.0, 1.0);
       const double share = t * t * (3 - 2 * t) * (rim * rim * (3 - 2 * rim));
-      row[x] = floor_height + (row[x] - floor_height) * static_cast<float>(share);
+      row[i] = floor_height + (row[i] - floor_height) * static_cast<float>(share);
     }
   });
 }

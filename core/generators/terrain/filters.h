@@ -13,16 +13,42 @@ namespace seedmesh::terrain {
 /// About 3 ns a sample.
 void smooth(Field& field, double percent, const Job& job);
 
-/// Stretches the heights to [low, high]; a field that is even becomes `low`.
+/// How many samples away smooth_by_place() looks: where k^reach falls below 2^-24, the last bit of a float.
+std::int32_t smooth_reach(double percent);
+
+/// The same low-pass for a piece of an endless field: the recursion starts smooth_reach() samples before each
+/// sample, so that it depends on those at most so far away along either axis, and not on where the piece
+/// begins. Samples nearer than that to the rim of the margin are not what they would be. About 0.5 ns a
+/// sample and sample of reach.
+void smooth_by_place(Field& field, double percent, const Job& job);
+
+/// Two heights.
+struct Heights {
+  double low = 0, high = 0;
+};
+
+/// Stretches the heights, margin too, so that `from` becomes `to`; what lies outside goes on in the same line.
+void stretch(Field& field, const Heights& from, const Heights& to, const Job& job);
+
+/// Stretches the heights to [low, high]; a field that is even becomes `low`. Margin 0.
 void normalise(Field& field, double low, double high, const Job& job);
 
-/// `count` steps between lowest and highest height. sharpness 0 leaves the heights, 1 makes them steps.
-void terrace(Field& field, int count, double sharpness, const Job& job);
+struct TerracePlan {
+  int count = 8;         ///< steps between the lowest and the highest height
+  double sharpness = 0;  ///< 0 leaves the heights, 1 makes them steps
+  /// Counted between these heights, with more steps of the same height outside; none: those of the field,
+  /// whose margin is 0 then.
+  std::optional<Heights> from = {};
+};
+void terrace(Field& field, const TerracePlan& plan, const Job& job);
 
 struct IslandPlan {
   double reach = 0.8;                ///< of half the smaller side: where the coast lies
   std::optional<double> depth = {};  ///< of the rim below the lowest height; none: a quarter of the range
   double roughness = 0;              ///< how much the coast leaves the circle, 0 to 1
+  std::optional<double> floor = {};  ///< the height of the rim, in place of a depth; a margin needs it
+  /// Samples a side of the ground that the island fills, and where in it sample (0, 0) lies; 0: the field.
+  std::int64_t side = 0, x = 0, z = 0;
 };
 void sink_rim(Field& field, const IslandPlan& plan, Rng rng, const Job& job);
 

@@ -255,10 +255,11 @@ struct Candidate {
 
 }  // namespace
 
-Triangulation greedy(const Field& field, double max_error, Border border, Job& job) {
+Triangulation greedy(const Field& field, const Tolerance& tolerance, Border border, Job& job) {
   Network network(field, job);
+  const double max_error = tolerance.inside;
   const bool with_border = border == Border::by_error;
-  if (!with_border) insert_border(network, field, max_error);
+  if (!with_border) insert_border(network, field, tolerance.border);
   std::vector<Candidate> heap;
   for (std::size_t count = 0;; ++count) {
     if (count % look == 0) job.check();
@@ -280,6 +281,10 @@ Triangulation greedy(const Field& field, double max_error, Border border, Job& j
     heap.pop_back();
     network.insert(t, network.worst(t));
   }
+}
+
+Triangulation greedy(const Field& field, double max_error, Border border, Job& job) {
+  return greedy(field, Tolerance{max_error, max_error}, border, job);
 }
 
 }  // namespace seedmesh::terrain

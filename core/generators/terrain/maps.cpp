@@ -6,6 +6,7 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
+#include "core/generators/terrain/engines.h"
 #include "core/generators/terrain/flow.h"
 #include "core/generators/terrain/noise.h"
 #include "core/generators/terrain/plan.h"
@@ -148,6 +149,58 @@ Array<std::uint8_t> file_of(const texture::Picture& picture, const Job& job) {
   return texture::encode_png(picture.view(), texture::PngEffort::small, job);
 }
 
+/// A normal map, colours or splat weights.
+Array<std::uint8_t> picture_file(const TerrainParams& params, const Field& field, const Range& range,
+                                 const Job& job) {
+  const TerrainHeightmap& given = params.heightmap;
+  const Sites sites(field, place_of(params), job.rng().at("terrain"), job);
+  const Looks looks(palette_of(params), params.tile ? nominal_range(params) : range,
+                    static_cast<float>(params.water_level.value_or(static_cast<double>(range.low))));
+  const std::int32_t side = params.texture > 0 ? params.texture : std::min(field.width, 4096);
+  if (given.map == TerrainMap::normal) return file_of(normal_picture(field, sites, side, job), job);
+  if (given.map == TerrainMap::color) return file_of(color_picture(field, sites, looks, side, job), job);
+  return file_of(splat_picture(field, sites, looks, side, job), job);
+}
+
+Encoding encoding_of(std::string_view format, const TerrainHeightmap& given) {
+  if (format == "png16") return Encoding::grey16;
+  if (format == "png8") return Encoding::grey8;
+  if (format == "rgb24") return Encoding::rgb24;
+  if (format == "rgba32") return Encoding::rgba32;
+  return given.byte_order == TerrainByteOrder::little ? Encoding::raw_little : Encoding::raw_big;
+}
+
+/// Where a field that has the wrong size can be given another.
+const char* size_pointer(const TerrainParams& params) {
+  return params.resample ? "/resample" : "/output/profile";
+}
+
+/// What the engine of the profile does not take.
+void engine_faults(const TerrainParams& params, const WantedForm& form, std::vector<Issue>& faults) {
+  const auto fault = [&](const char* pointer, std::string message) {
+    faults.push_back({pointer, std::move(message)});
+  };
+  const std::string profile(form.profile);
+  const std::optional<Engine> engine = engine_of(form.profile);
+  if (!engine)
+    return fault("/output/profile",
+                 "found " + profile + "; height maps have the conventions of core, unity and unreal");
+  const TerrainHeightmap& given = params.heightmap;
+  if (engine == Engine::unity && form.format != "r16")
+    fault("/output/format", "found " + std::string(form.format) + "; Unity reads raw heights: r16");
+  if (given.map != TerrainMap::height)
+    fault("/heightmap/map", "found " + std::string(text_of(given.map)) + "; the profile " + profile +
+                                " is about heights, other maps have the profile core");
+  if (given.byte_order != TerrainByteOrder::little)
+    fault("/heightmap/byte_order", "found big; the profile " + profile + " has the low byte first");
+  if (engine == Engine::unity && given.flip)
+    fault("/heightmap/flip", "the profile unity has the southern row first as it is");
+  if (params.algorithm == TerrainAlgorithm::image) return;  // whose size is known when it is read
+  const int side = finished_side(params);
+  if (std::string wrong = misfit(*engine, side, side); !wrong.empty())
+    fault(size_pointer(params), std::move(wrong));
+}
+
 }  // namespace
 
 Array<std::uint8_t> encoded(const Numbers& numbers, Encoding encoding, const Job& job) {
@@ -246,45 +299,55 @@ texture::Picture ground_texture(GroundKind kind, std::int32_t side, Rng rng, con
   });
 }
 
-Result<Array<std::uint8_t>> map_file(const TerrainParams& params, std::string_view format, Job& job) {
+std::vector<Issue> form_faults(const TerrainParams& params, const WantedForm& form) {
+  std::vector<Issue> faults;
+  const auto fault = [&](const char* pointer, std::string message) {
+    faults.push_back({pointer, std::move(message)});
+  };
   const TerrainHeightmap& given = params.heightmap;
   if (params.shape == TerrainShape::sphere)
-    return refused("/shape", "a sphere has no height map; its forms are glb, gltf and zip");
-  if (is_picture(given.map) && format != "png8")
-    return refused("/heightmap/map", std::string(text_of(given.map)) +
-                                         " is a picture in colours, which the format png8 holds; found " +
-                                         std::string(format));
+    fault("/shape", "a sphere has no height map; its forms are glb, gltf and zip");
+  if (is_picture(given.map) && form.format != "png8")
+    fault("/heightmap/map", std::string(text_of(given.map)) +
+                                " is a picture in colours, which the format png8 holds; found " +
+                                std::string(form.format));
+  if (is_picture(given.map) && given.flip)
+    fault("/heightmap/flip", "found true with the map " + std::string(text_of(given.map)) +
+                                 ", a picture for texture coordinates, which begin in the north-west");
   if (given.map == TerrainMap::water && !params.water_level)
-    return refused("/heightmap/map", "there is no water; give a water_level");
+    fault("/heightmap/map", "there is no water; give a water_level");
+  if (params.tile && given.map == TerrainMap::height && (!given.low || !given.high))
+    fault("/heightmap",
+          "low and high are missing: tiles of one world need the same, or their heights would not meet");
+  if (form.profile != "core") engine_faults(params, form, faults);
+  return faults;
+}
+
+Result<Array<std::uint8_t>> map_file(const TerrainParams& params, const WantedForm& form, Job& job) {
+  if (std::vector<Issue> faults = form_faults(params, form); !faults.empty())
+    return Error{Code::invalid, std::move(faults)};
+  const TerrainHeightmap& given = params.heightmap;
   const Rng rng = job.rng().at("terrain");
   if (is_ground(given.map)) {
     const auto kind =
         static_cast<GroundKind>(static_cast<int>(given.map) - static_cast<int>(TerrainMap::rock));
     return file_of(ground_texture(kind, params.texture > 0 ? params.texture : ground_side, rng, job), job);
   }
-  if (params.tile && given.map == TerrainMap::height && (!given.low || !given.high))
-    return refused(
-        "/heightmap",
-        "low and high are missing: tiles of one world need the same, or their heights would not meet");
   job.progress("derive", 0);
   Result<Field> made = field_of(params, job);
   if (!made) return made.error();
-  const Field& field = *made;
-  const Range range = range_of(field, job);
-  if (is_picture(given.map)) {
-    const Sites sites(field, place_of(params), rng, job);
-    const Looks looks(palette_of(params), params.tile ? nominal_range(params) : range,
-                      static_cast<float>(params.water_level.value_or(static_cast<double>(range.low))));
-    const std::int32_t side = params.texture > 0 ? params.texture : std::min(field.width, 4096);
-    if (given.map == TerrainMap::normal) return file_of(normal_picture(field, sites, side, job), job);
-    if (given.map == TerrainMap::color) return file_of(color_picture(field, sites, looks, side, job), job);
-    return file_of(splat_picture(field, sites, looks, side, job), job);
+  const std::optional<Engine> engine = engine_of(form.profile);
+  if (engine) {
+    if (std::string wrong = misfit(*engine, made->width, made->depth); !wrong.empty())
+      return refused(size_pointer(params), std::move(wrong));
   }
+  const Range range = range_of(*made, job);
+  if (is_picture(given.map)) return picture_file(params, *made, range, job);
   job.progress("encode", 0);
   Numbers numbers;
-  numbers.width = field.width;
-  numbers.depth = field.depth;
-  numbers.flip = given.flip;
+  numbers.width = made->width;
+  numbers.depth = made->depth;
+  numbers.flip = given.flip || engine == Engine::unity;
   if (given.map == TerrainMap::height) {
     numbers.values = cropped(std::move(*made), 0, job).heights;
     numbers.low = given.low.value_or(static_cast<double>(range.low));
@@ -292,14 +355,9 @@ Result<Array<std::uint8_t>> map_file(const TerrainParams& params, std::string_vi
     if (numbers.low > numbers.high)
       return refused("/heightmap", "low is above the highest height or high below the lowest");
   } else {
-    numbers.values = mask_of(params, field, job);
+    numbers.values = mask_of(params, *made, job);
   }
-  Encoding encoding = given.byte_order == TerrainByteOrder::little ? Encoding::raw_little : Encoding::raw_big;
-  if (format == "png16") encoding = Encoding::grey16;
-  if (format == "png8") encoding = Encoding::grey8;
-  if (format == "rgb24") encoding = Encoding::rgb24;
-  if (format == "rgba32") encoding = Encoding::rgba32;
-  return encoded(numbers, encoding, job);
+  return encoded(numbers, encoding_of(form.format, given), job);
 }
 
 }  // namespace seedmesh::terrain

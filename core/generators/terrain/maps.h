@@ -1,8 +1,9 @@
 #pragma once
 /// Fields as pictures: heights and masks in the encodings of engines, colours, normals and splat weights.
-#include <string_view>
+#include <vector>
 
 #include "core/base/result.h"
+#include "core/generators/form.h"
 #include "core/generators/terrain/colors.h"
 #include "core/generators/terrain/field.h"
 #include "core/texture/png.h"
@@ -38,7 +39,12 @@ texture::Picture splat_picture(const Field& field, const Sites& sites, const Loo
 enum class GroundKind { rock, grass, sand, snow };
 texture::Picture ground_texture(GroundKind kind, std::int32_t side, Rng rng, const Job& job);
 
-/// What the format of that name holds of a request: a whole file. Issues point into the parameters.
-Result<Array<std::uint8_t>> map_file(const TerrainParams& params, std::string_view format, Job& job);
+/// What keeps a form from holding what the parameters ask for; pointers relative to them, or to the whole
+/// request where they begin with "/output/". Sizes of images are not known here.
+std::vector<Issue> form_faults(const TerrainParams& params, const WantedForm& form);
+
+/// What a form holds of a request without such faults: a whole file. Issues as above, and of images that
+/// cannot be read or do not fit.
+Result<Array<std::uint8_t>> map_file(const TerrainParams& params, const WantedForm& form, Job& job);
 
 }  // namespace seedmesh::terrain

@@ -83,13 +83,44 @@ DropletPlan droplet_plan(const TerrainParams& params, const Field& field) {
   return plan;
 }
 
+Heights heights_of(const std::array<double, 2>& pair) { return {pair[0], pair[1]}; }
+
+IslandPlan island_plan(const TerrainParams& params) {
+  const TerrainIsland& given = *params.island;
+  IslandPlan plan;
+  plan.reach = given.reach;
+  plan.depth = given.depth;
+  plan.roughness = given.roughness;
+  plan.floor = given.floor;
+  if (params.tile) {
+    plan.side = params.tile->across.value_or(1) * tile_step(params) + 1;
+    plan.x = params.tile->x * tile_step(params);
+    plan.z = params.tile->z * tile_step(params);
+  }
+  return plan;
+}
+
+TerracePlan terrace_plan(const TerrainParams& params) {
+  TerracePlan plan;
+  plan.count = params.terraces->count;
+  plan.sharpness = params.terraces->sharpness;
+  if (params.terraces->from) plan.from = heights_of(*params.terraces->from);
+  return plan;
+}
+
 void filter(const TerrainParams& params, Field& field, Rng rng, const Job& job) {
-  smooth(field, params.smooth, job);
-  if (params.normalise) normalise(field, params.normalise->low, params.normalise->high, job);
-  if (params.island)
-    sink_rim(field, {params.island->reach, params.island->depth, params.island->roughness}, rng.at("island"),
-             job);
-  if (params.terraces) terrace(field, params.terraces->count, params.terraces->sharpness, job);
+  if (params.tile) {
+    smooth_by_place(field, params.smooth, job);
+  } else {
+    smooth(field, params.smooth, job);
+  }
+  if (params.normalise && params.normalise->from) {
+    stretch(field, heights_of(*params.normalise->from), {params.normalise->low, params.normalise->high}, job);
+  } else if (params.normalise) {
+    normalise(field, params.normalise->low, params.normalise->high, job);
+  }
+  if (params.island) sink_rim(field, island_plan(params), rng.at("island"), job);
+  if (params.terraces) terrace(field, terrace_plan(params), job);
   if (params.thermal)
     slip(field,
          {params.thermal->iterations, math::tan(math::radians(params.thermal->talus)), params.thermal->rate},
@@ -104,6 +135,22 @@ void filter(const TerrainParams& params, Field& field, Rng rng, const Job& job) 
                 params.hydraulic->area_exponent.value_or(defaults.area_exponent)},
                job);
   }
+}
+
+/// Heights before any filter.
+Range raw_range(const TerrainParams& params) {
+  const auto amplitude = static_cast<float>(amplitude_of(params));
+  if (is_fault(params)) {
+    const FaultPlan plan = fault_plan(params);
+    const double sum = (plan.greatest + plan.least) / 2 * plan.planned + plan.greatest * plan.extra;
+    const auto typical = static_cast<float>(
+        plan.kind == FaultKind::one_sided ? sum / 2 : sum / std::sqrt(all_iterations(params) + 1.0));
+    return plan.kind == FaultKind::one_sided ? Range{0, typical} : Range{-typical, typical};
+  }
+  if (params.algorithm == Algorithm::fbm &&
+      params.noise.value_or(TerrainNoise::rolling) == TerrainNoise::ridged)
+    return {0, 1.8F * amplitude};
+  return {-1.2F * amplitude, 1.2F * amplitude};
 }
 
 }  // namespace
@@ -193,18 +240,12 @@ int finished_side(const TerrainParams& params) {
 }
 
 Range nominal_range(const TerrainParams& params) {
-  const auto amplitude = static_cast<float>(amplitude_of(params));
-  if (is_fault(params)) {
-    const FaultPlan plan = fault_plan(params);
-    const double sum = (plan.greatest + plan.least) / 2 * plan.planned + plan.greatest * plan.extra;
-    const auto typical = static_cast<float>(
-        plan.kind == FaultKind::one_sided ? sum / 2 : sum / std::sqrt(all_iterations(params) + 1.0));
-    return plan.kind == FaultKind::one_sided ? Range{0, typical} : Range{-typical, typical};
-  }
-  if (params.algorithm == Algorithm::fbm &&
-      params.noise.value_or(TerrainNoise::rolling) == TerrainNoise::ridged)
-    return {0, 1.8F * amplitude};
-  return {-1.2F * amplitude, 1.2F * amplitude};
+  Range range = raw_range(params);
+  if (params.normalise)
+    range = {static_cast<float>(params.normalise->low), static_cast<float>(params.normalise->high)};
+  if (params.island && params.island->floor)
+    range.low = std::min(range.low, static_cast<float>(*params.island->floor));
+  return range;
 }
 
 PaletteName palette_of(const TerrainParams& params) { return static_cast<PaletteName>(params.palette); }
@@ -220,8 +261,9 @@ Result<Field> field_of(const TerrainParams& params, Job& job) {
     filter(params, *field, rng, job);
     return params.resample ? resampled(*field, *params.resample, job) : std::move(*field);
   }
-  // A tile sees as far into its neighbours as loose rock comes from, and one sample more for normals.
-  const std::int32_t margin = params.tile ? 1 + (params.thermal ? params.thermal->iterations : 0) : 0;
+  // A tile sees as far into its neighbours as its filters do, and one sample more for normals.
+  const std::int32_t margin =
+      params.tile ? 1 + smooth_reach(params.smooth) + (params.thermal ? params.thermal->iterations : 0) : 0;
   Field field = raw_field(params, margin, rng, job);
   field.margin = margin;
   field.width -= 2 * margin;
@@ -232,9 +274,13 @@ Result<Field> field_of(const TerrainParams& params, Job& job) {
   return params.resample ? resampled(field, *params.resample, job) : std::move(field);
 }
 
-Planet planet_of(const TerrainParams& params, Job& job) {
+std::int32_t planet_side(const TerrainParams& params, int level) {
+  return std::max(1, (made_side(params) - 1) >> level) + 1;
+}
+
+Planet planet_of(const TerrainParams& params, int level, Job& job) {
   const Rng rng = job.rng().at("terrain");
-  Planet planet = sphere_of(made_side(params), params.size / 2, job);
+  Planet planet = sphere_of(planet_side(params, level), params.size / 2, job);
   if (params.algorithm == Algorithm::fbm) {
     noise_sphere(planet, noise_plan(params), rng, job);
   } else {

@@ -50,7 +50,10 @@ std::vector<Issue> faults_between(const TerrainParams& params, const Limits& lim
 /// The field with all its filters; margin 1 where it is a tile, else 0. Issues: an image that cannot be read.
 Result<Field> field_of(const TerrainParams& params, Job& job);
 
-/// The planetoid.
-Planet planet_of(const TerrainParams& params, Job& job);
+/// Points along an edge of the cube of a planetoid's coarser level; level 0 has those of the request.
+std::int32_t planet_side(const TerrainParams& params, int level);
+
+/// The planetoid at a level of detail: the same heights at fewer points.
+Planet planet_of(const TerrainParams& params, int level, Job& job);
 
 }  // namespace seedmesh::terrain

@@ -3,11 +3,11 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
+#include "core/generators/terrain/ground.h"
 #include "core/generators/terrain/scan.h"
 
 namespace seedmesh::terrain {
@@ -20,21 +20,8 @@ constexpr std::int32_t band = 6;
 constexpr float gentle = 0.7F;
 // How far from behind a triangle a normal keeps.
 constexpr float clear = 0.95F;
-
-/// Where samples lie.
-struct Ground {
-  explicit Ground(const Field& given)
-      : field(given),
-        west(-(given.width - 1) / 2.0 * given.cell),
-        north(-(given.depth - 1) / 2.0 * given.cell) {}
-  float x(std::int32_t i) const { return static_cast<float>(west + i * field.cell); }
-  float z(std::int32_t j) const { return static_cast<float>(north + j * field.cell); }
-  float u(std::int32_t i) const { return static_cast<float>(static_cast<double>(i) / (field.width - 1)); }
-  float v(std::int32_t j) const { return static_cast<float>(static_cast<double>(j) / (field.depth - 1)); }
-
-  const Field& field;
-  double west, north;
-};
+// Vertices that indices of 16 bits can name; the last value restarts a strip.
+constexpr std::size_t most_narrow = 65'535;
 
 /// Slopes along a row of the part, from both neighbours where they are.
 struct Slopes {
@@ -90,6 +77,21 @@ float least_around(const Field& field, std::int32_t x, std::int32_t z, const glm
     }
   }
   return least;
+}
+
+bool on_border(const Window& part, Place at) {
+  return at.x == part.x || at.z == part.z || at.x == part.x + part.width - 1 ||
+         at.z == part.z + part.depth - 1;
+}
+
+/// The slope between samples so far to either side, as far as there are any.
+glm::vec2 wide_slope(const Field& field, Place at, std::int32_t reach) {
+  const std::int32_t m = field.margin;
+  const std::int32_t west = std::max(at.x - reach, -m), east = std::min(at.x + reach, field.width - 1 + m);
+  const std::int32_t north = std::max(at.z - reach, -m), south = std::min(at.z + reach, field.depth - 1 + m);
+  const auto per_cell = static_cast<float>(1 / field.cell);
+  return {(field.at(east, at.z) - field.at(west, at.z)) * per_cell / static_cast<float>(east - west),
+          (field.at(at.x, south) - field.at(at.x, north)) * per_cell / static_cast<float>(south - north)};
 }
 
 /// leaning_back() for the normals of a reduced mesh, over the triangles that it has.
@@ -182,17 +184,18 @@ float fill_row(const Ground& ground, const Window& part, std::int32_t j, const A
   return steepest * slopes.per_cell;
 }
 
-/// Triangles of the rows [begin, end) of squares of one band of columns.
-void fill_band(const Field& field, const Window& part, std::int32_t first, std::int32_t last,
-               std::int32_t begin, std::int32_t end, std::uint32_t* out) {
+/// Triangles of all rows of squares of one band of columns.
+template <class Index>
+void fill_band(const Field& field, const Window& part, std::int32_t first, std::int32_t last, Index* out) {
   const auto wide = static_cast<std::uint32_t>(part.width);
   const auto left = static_cast<std::int32_t>(part.x), top = static_cast<std::int32_t>(part.z);
-  for (std::int32_t j = begin; j < end; ++j) {
+  for (std::int32_t j = 0; j < part.depth - 1; ++j) {
     const float* north = field.row(top + j) + left;
     const float* south = field.row(top + j + 1) + left;
     for (std::int32_t i = first; i < last; ++i, out += 6) {
-      const std::uint32_t nw = static_cast<std::uint32_t>(j) * wide + static_cast<std::uint32_t>(i);
-      const std::uint32_t ne = nw + 1, sw = nw + wide, se = sw + 1;
+      const std::uint32_t corner = static_cast<std::uint32_t>(j) * wide + static_cast<std::uint32_t>(i);
+      const auto nw = static_cast<Index>(corner), ne = static_cast<Index>(corner + 1),
+                 sw = static_cast<Index>(corner + wide), se = static_cast<Index>(corner + wide + 1);
       const bool falls = std::abs(north[i] - south[i + 1]) <= std::abs(north[i + 1] - south[i]);
       out[0] = nw;
       out[1] = sw;
@@ -204,16 +207,92 @@ void fill_band(const Field& field, const Window& part, std::int32_t first, std::
   }
 }
 
+template <class Index>
+void fill_triangles(const Field& field, const Window& part, Array<Index>& out, const Job& job) {
+  const auto wide = static_cast<std::size_t>(part.width), deep = static_cast<std::size_t>(part.depth);
+  out = Array<Index>(job, 6 * (wide - 1) * (deep - 1));
+  parallel_for(job, chunk_count(wide - 1, static_cast<std::size_t>(band)), 1,
+               [&](std::size_t number, std::size_t, std::size_t) {
+                 job.check();
+                 const std::int32_t first = static_cast<std::int32_t>(number) * band;
+                 fill_band(field, part, first, std::min(first + band, part.width - 1),
+                           out.data() + 6 * static_cast<std::size_t>(first) * (deep - 1));
+               });
+}
+
+/// leaning_back() for normals[i] at columns x + i of row z, with all that least_around() looks at, but four
+/// columns side by side: slopes east and south of a square are chosen apart, so that the smallest product of
+/// both is the sum of the smallest of each.
+void lean_back_run(const Field& field, std::int32_t x, std::int32_t z, std::size_t count,
+                   glm::vec3* normals) {
+  constexpr std::size_t run = 64;
+  float own_x[run], own_z[run], length[run];
+  const auto per_cell = static_cast<float>(1 / field.cell);
+  const auto smaller = [](float a, float b) { return b < a ? b : a; };
+  for (std::size_t first = 0; first < count; first += run) {
+    const std::size_t many = std::min(run, count - first);
+    const std::ptrdiff_t start = x + static_cast<std::ptrdiff_t>(first);
+    const float* north = field.row(z - 1) + start;
+    const float* here = field.row(z) + start;
+    const float* south = field.row(z + 1) + start;
+    for (std::size_t i = 0; i < many; ++i) {
+      const glm::vec3& normal = normals[first + i];
+      own_x[i] = -normal.x / normal.y;
+      own_z[i] = -normal.z / normal.y;
+    }
+    for (std::size_t k = 0; k < many; ++k) {
+      const auto i = static_cast<std::ptrdiff_t>(k);
+      const auto east = [&](const float* row, std::ptrdiff_t at) {
+        return (row[at + 1] - row[at]) * per_cell * own_x[k];
+      };
+      const auto down = [&](const float* upper, const float* lower, std::ptrdiff_t at) {
+        return (lower[at] - upper[at]) * per_cell * own_z[k];
+      };
+      const float north_west = east(north, i - 1), north_east = east(north, i);
+      const float west = east(here, i - 1), towards_east = east(here, i);
+      const float south_west = east(south, i - 1), south_east = east(south, i);
+      const float up_west = down(north, here, i - 1), up = down(north, here, i),
+                  up_east = down(north, here, i + 1);
+      const float down_west = down(here, south, i - 1), below = down(here, south, i),
+                  down_east = down(here, south, i + 1);
+      const float nw = smaller(north_west, west) + smaller(up_west, up);
+      const float ne = smaller(north_east, towards_east) + smaller(up, up_east);
+      const float sw = smaller(west, south_west) + smaller(down_west, below);
+      const float se = smaller(towards_east, south_east) + smaller(below, down_east);
+      const float least = smaller(smaller(smaller(nw, ne), smaller(sw, se)), 0.0F);
+      const float shorter = clear / -least;
+      const float factor = least <= -clear ? shorter : 1.0F;
+      own_x[k] *= factor;
+      own_z[k] *= factor;
+      length[k] = std::sqrt(1 + (own_x[k] * own_x[k] + own_z[k] * own_z[k]));
+    }
+    for (std::size_t i = 0; i < many; ++i)
+      normals[first + i] = {-own_x[i] / length[i], 1 / length[i], -own_z[i] / length[i]};
+  }
+}
+
 void lean_back_rows(const Field& field, const Window& part, Mesh& mesh, const Job& job) {
+  const std::int32_t m = field.margin, left = static_cast<std::int32_t>(part.x);
+  const std::int32_t west = left > -m ? 0 : 1, east = left + part.width < field.width + m ? 0 : 1;
   const auto wide = static_cast<std::size_t>(part.width);
   parallel_for(job, static_cast<std::size_t>(part.depth), rows_a_chunk,
                [&](std::size_t begin, std::size_t end, std::size_t) {
                  job.check();
-                 for (std::size_t i = begin * wide; i < end * wide; ++i) {
-                   const auto x = static_cast<std::int32_t>(part.x) + static_cast<std::int32_t>(i % wide);
-                   const auto z = static_cast<std::int32_t>(part.z) + static_cast<std::int32_t>(i / wide);
-                   const glm::vec2 slope = slope_of(mesh.normal[i]);
-                   mesh.normal[i] = leaning_back(slope, least_around(field, x, z, slope));
+                 for (std::size_t j = begin; j < end; ++j) {
+                   const std::int32_t z = static_cast<std::int32_t>(part.z) + static_cast<std::int32_t>(j);
+                   glm::vec3* normals = mesh.normal.data() + j * wide;
+                   const auto by_itself = [&](std::int32_t i) {
+                     const glm::vec2 slope = slope_of(normals[i]);
+                     normals[i] = leaning_back(slope, least_around(field, left + i, z, slope));
+                   };
+                   if (z - 1 < -m || z + 1 > field.depth - 1 + m || part.width < 3) {
+                     for (std::int32_t i = 0; i < part.width; ++i) by_itself(i);
+                     continue;
+                   }
+                   if (west > 0) by_itself(0);
+                   if (east > 0) by_itself(part.width - 1);
+                   lean_back_run(field, left + west, z, wide - static_cast<std::size_t>(west + east),
+                                 normals + west);
                  }
                });
 }
@@ -229,7 +308,6 @@ Mesh grid_mesh(const Field& field, const Window& part, const Array<glm::u8vec4>&
   mesh.uv[0] = Array<glm::vec2>(job, wide * deep);
   if (shading == Shading::smooth) mesh.normal = Array<glm::vec3>(job, wide * deep);
   if (!colors.empty()) mesh.color = Array<glm::u8vec4>(job, wide * deep);
-  mesh.index.wide = Array<std::uint32_t>(job, 6 * (wide - 1) * (deep - 1));
 
   const Ground ground(field);
   std::vector<float> steepest(chunk_count(deep, rows_a_chunk), 0.0F);
@@ -239,14 +317,11 @@ Mesh grid_mesh(const Field& field, const Window& part, const Array<glm::u8vec4>&
       steepest[chunk] =
           std::max(steepest[chunk], fill_row(ground, part, static_cast<std::int32_t>(j), colors, mesh));
   });
-  const std::size_t bands = chunk_count(wide - 1, static_cast<std::size_t>(band));
-  parallel_for(job, bands, 1, [&](std::size_t begin, std::size_t, std::size_t) {
-    job.check();
-    const std::int32_t first = static_cast<std::int32_t>(begin) * band,
-                       last = std::min(first + band, part.width - 1);
-    fill_band(field, part, first, last, 0, part.depth - 1,
-              mesh.index.wide.data() + 6 * static_cast<std::size_t>(first) * (deep - 1));
-  });
+  if (wide * deep <= most_narrow) {
+    fill_triangles(field, part, mesh.index.small, job);
+  } else {
+    fill_triangles(field, part, mesh.index.wide, job);
+  }
   mesh.cache_ordered = true;
   if (shading == Shading::upright) {
     make_upright(mesh, job);
@@ -256,8 +331,8 @@ Mesh grid_mesh(const Field& field, const Window& part, const Array<glm::u8vec4>&
   return mesh;
 }
 
-Mesh reduced_mesh(const Field& field, Triangulation plan, const Array<glm::u8vec4>& colors, Shading shading,
-                  Job& job) {
+Mesh reduced_mesh(const Field& field, Triangulation plan, const Array<glm::u8vec4>& colors,
+                  const Coarse& coarse, Job& job) {
   order_for_cache(plan, job);
   const std::size_t count = plan.samples.size();
   const Ground ground(field);
@@ -270,101 +345,19 @@ Mesh reduced_mesh(const Field& field, Triangulation plan, const Array<glm::u8vec
     if (i % 4096 == 0) job.check();
     const Place at = place_of(plan.samples[i], field.width);
     mesh.position[i] = {ground.x(at.x), field.at(at.x, at.z), ground.z(at.z)};
-    mesh.normal[i] = normal_of(slopes_of(field, at.z).at(at.x));
+    mesh.normal[i] = normal_of(coarse.reach > 1 && !on_border(coarse.part, at)
+                                   ? wide_slope(field, at, coarse.reach)
+                                   : slopes_of(field, at.z).at(at.x));
     mesh.uv[0][i] = {ground.u(at.x), ground.v(at.z)};
     if (!colors.empty()) mesh.color[i] = colors[plan.samples[i]];
   }
   mesh.index.wide = std::move(plan.index);
   mesh.cache_ordered = true;
-  if (shading == Shading::upright) {
+  if (coarse.shading == Shading::upright) {
     make_upright(mesh, job);
   } else {
     lean_back(mesh, job);
   }
-  return mesh;
-}
-
-Array<std::uint32_t> border_samples(const Field& field, const Job& job) {
-  Array<std::uint32_t> all(job);
-  const auto wide = static_cast<std::uint32_t>(field.width), deep = static_cast<std::uint32_t>(field.depth);
-  all.reserve(std::size_t{2} * (wide + deep));
-  for (std::uint32_t z = 0; z < deep; ++z) {
-    for (std::uint32_t x = 0; x < wide; x += z == 0 || z == deep - 1 ? 1 : wide - 1)
-      all.push_back(z * wide + x);
-  }
-  return all;
-}
-
-Mesh walls(const Field& field, const Array<std::uint32_t>& samples, const WallPlan& plan, Job& job) {
-  const std::int32_t east = field.width - 1, south = field.depth - 1;
-  struct Side {
-    glm::vec3 outward;
-    bool along_x, forward;  ///< how the border runs with the ground on its left, seen from above
-    std::int32_t line;
-  };
-  // Counter-clockwise from above: south-west to south-east, up the east, back along the north, down the west.
-  const std::array<Side, 4> sides{{{{0, 0, 1}, true, true, south},
-                                   {{1, 0, 0}, false, false, east},
-                                   {{0, 0, -1}, true, false, 0},
-                                   {{-1, 0, 0}, false, true, 0}}};
-  const Ground ground(field);
-  Mesh mesh;
-  mesh.position = Array<glm::vec3>(job);
-  mesh.normal = Array<glm::vec3>(job);
-  mesh.index.wide = Array<std::uint32_t>(job);
-  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    for (const std::uint32_t i : {a, b, c}) mesh.index.wide.push_back(i);
-  };
-  std::vector<glm::vec3> foot;
-  for (const Side& side : sides) {
-    std::vector<Place> line;
-    for (const std::uint32_t sample : samples) {
-      const Place at = place_of(sample, field.width);
-      if ((side.along_x ? at.z : at.x) == side.line) line.push_back(at);
-    }
-    std::sort(line.begin(), line.end(), [&](Place a, Place b) {
-      const std::int32_t difference = side.along_x ? a.x - b.x : a.z - b.z;
-      return side.forward ? difference < 0 : difference > 0;
-    });
-    job.spend(Resource::triangles, 2 * (line.size() - 1) + (plan.closed ? line.size() - 1 : 0));
-    const auto first = static_cast<std::uint32_t>(mesh.position.size());
-    for (const Place at : line) {
-      const glm::vec3 top(ground.x(at.x), field.at(at.x, at.z), ground.z(at.z));
-      const float down = plan.closed ? plan.floor : top.y - static_cast<float>(plan.depth);
-      mesh.position.push_back(top);
-      mesh.position.push_back({top.x, down, top.z});
-      mesh.normal.push_back(side.outward);
-      mesh.normal.push_back(side.outward);
-      if (!(at == line.back())) foot.push_back({top.x, down, top.z});
-    }
-    for (std::uint32_t i = 0; i + 1 < line.size(); ++i) {
-      const std::uint32_t a = first + 2 * i;
-      quad(a, a + 1, a + 2);
-      quad(a + 2, a + 1, a + 3);
-    }
-  }
-  if (plan.closed) {
-    const auto first = static_cast<std::uint32_t>(mesh.position.size());
-    const auto count = static_cast<std::uint32_t>(foot.size());
-    for (const glm::vec3& at : foot) mesh.position.push_back(at);
-    mesh.position.push_back({0, plan.floor, 0});
-    for (std::uint32_t i = 0; i <= count; ++i) mesh.normal.push_back({0, -1, 0});
-    for (std::uint32_t i = 0; i < count; ++i) quad(first + i, first + count, first + (i + 1) % count);
-  }
-  return mesh;
-}
-
-Mesh sheet(const Field& field, float level, Job& job) {
-  job.spend(Resource::triangles, 2);
-  const Ground ground(field);
-  const std::int32_t east = field.width - 1, south = field.depth - 1;
-  Mesh mesh;
-  mesh.position = Array<glm::vec3>(job);
-  mesh.normal = Array<glm::vec3>(job, 4, glm::vec3(0, 1, 0));
-  mesh.index.wide = Array<std::uint32_t>(job);
-  for (const Place at : {Place{0, 0}, Place{0, south}, Place{east, south}, Place{east, 0}})
-    mesh.position.push_back({ground.x(at.x), level, ground.z(at.z)});
-  for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.index.wide.push_back(i);
   return mesh;
 }
 

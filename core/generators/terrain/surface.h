@@ -14,14 +14,21 @@ enum class Shading {
 };
 
 /// The samples of `part` as two triangles a square, cut along the diagonal that is closer to level; in an
-/// order that a vertex cache of 16 likes. `colors`: empty, or of all samples. Spends triangles. About 10 ns a
+/// order that a vertex cache of 16 likes; its indices have 16 bits where they can. `colors`: empty, or of all samples. Spends triangles. About 10 ns a
 /// sample.
 Mesh grid_mesh(const Field& field, const Window& part, const Array<glm::u8vec4>& colors, Shading shading,
                Job& job);
 
+/// How far apart the samples are that a coarse mesh has its slopes from.
+struct Coarse {
+  Shading shading = Shading::smooth;
+  std::int32_t reach = 1;  ///< samples to either side
+  Window part = {};        ///< on whose border it is 1 nevertheless, so that neighbours look alike there
+};
+
 /// A reduced mesh. About 50 ns a triangle.
-Mesh reduced_mesh(const Field& field, Triangulation plan, const Array<glm::u8vec4>& colors, Shading shading,
-                  Job& job);
+Mesh reduced_mesh(const Field& field, Triangulation plan, const Array<glm::u8vec4>& colors,
+                  const Coarse& coarse, Job& job);
 
 /// Walls down from the border, looking outwards. `samples` are those of the border that the mesh has, in any
 /// order. `depth` below each sample, or down to the level `floor` with a floor below, which closes the mesh.

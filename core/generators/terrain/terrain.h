@@ -7,11 +7,11 @@
 ///
 /// Out: one root node "terrain", the middle of the field at the origin, heights as they are, north towards
 /// -Z. docs/terrain.md tells every choice.
-#include <span>
-#include <string_view>
+#include <vector>
 
 #include "core/base/job.h"
 #include "core/generators/appraisal.h"
+#include "core/generators/form.h"
 #include "core/model/model.h"
 #include "core/schema/json.h"
 
@@ -33,8 +33,9 @@ Result<Model> generate(const TerrainParams& params, Job& job);
 /// Issues: a mesh that does not fit the field.
 Result<Model> dressed(const TerrainParams& params, const Field& field, Job& job);
 
-/// {width, height, min, max, mean, heights, warnings}: heights in metres, row by row from north-west, for
-/// fields of at most 257 x 257; null beyond, and for spheres.
+/// {width, height, min, max, mean, heights, engines, warnings}: heights in metres, row by row from
+/// north-west, for fields of at most 257 x 257; null beyond, and for spheres. `engines`: what is typed in
+/// beside the height map of the request (engines.h); null for spheres, and for tiles without low and high.
 Result<Json> derive(const TerrainParams& params, Job& job);
 
 /// Triangles of a grid or sphere, without making anything; reduced meshes cannot be told beforehand.
@@ -43,7 +44,11 @@ Result<Appraisal> appraise(const TerrainParams& params, const Job& job);
 /// No notation, hence no words.
 Json vocabulary();
 
-/// The request as a file of another kind than a model: "png16", "png8", "rgb24", "rgba32" or "r16".
-Result<Array<std::uint8_t>> encode(const TerrainParams& params, std::string_view format, Job& job);
+/// The request as a file of another kind than a model: "png16", "png8", "rgb24", "rgba32" or "r16"; by the
+/// conventions of the profiles core, unity or unreal.
+Result<Array<std::uint8_t>> encode(const TerrainParams& params, const WantedForm& form, Job& job);
+
+/// What keeps such a form from holding what the parameters ask for.
+std::vector<Issue> check_form(const TerrainParams& params, const WantedForm& form);
 
 }  // namespace seedmesh::terrain

@@ -18,6 +18,11 @@ struct Triangulation {
 /// they were made with; `by_error` treats it like the inside.
 enum class Border { by_error, whole };
 
+/// How far off a mesh may be, in metres; apart for the border where that is to fit meshes of other levels.
+struct Tolerance {
+  double inside = 0, border = 0;
+};
+
 /// Is the field a square of 2^n + 1 samples, as rtin() wants it?
 bool fits_rtin(std::int32_t width, std::int32_t depth);
 
@@ -30,8 +35,9 @@ Triangulation rtin(const Field& field, double max_error, Border border, Job& job
 /// Greedy insertion into a Delaunay triangulation (Garland and Heckbert, "Fast polygonal approximation of
 /// terrains and height fields", 1995): the sample that is off most, anywhere, comes next. About half the
 /// triangles of rtin() at the same error, at about 1 microsecond each. A `whole` border keeps those samples
-/// of it that a greedy line along it would need by the same bound, which depend on the border alone. Spends
-/// triangles.
+/// of it that a greedy line along it would need by the border's bound, which depend on the border alone.
+/// Spends triangles.
+Triangulation greedy(const Field& field, const Tolerance& tolerance, Border border, Job& job);
 Triangulation greedy(const Field& field, double max_error, Border border, Job& job);
 
 /// The greatest vertical distance between a sample and the mesh, in metres; about 2 ns a sample.

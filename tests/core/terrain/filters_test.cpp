@@ -54,6 +54,42 @@ TEST(Smooth, LeavesAnEvenFieldAsItIs) {
   EXPECT_THAT(values(field), Each(DoubleNear(5, 1e-5)));
 }
 
+TEST(SmoothByPlace, IsTheFilterOfAnEndlessField) {
+  const Field raw = hills(257);
+  for (const double percent : {20.0, 60.0, 90.0}) {
+    Field whole = hills(257), piece = hills(257);
+    smooth(whole, percent, any_job());
+    smooth_by_place(piece, percent, any_job());
+    const std::int32_t reach = std::min(smooth_reach(percent), 120);
+    for (std::int32_t z = reach; z < 257 - reach; ++z) {
+      for (std::int32_t x = reach; x < 257 - reach; ++x)
+        ASSERT_NEAR(piece.at(x, z), whole.at(x, z), 1e-4 * (1 + std::abs(raw.at(x, z)))) << percent;
+    }
+  }
+}
+
+TEST(SmoothByPlace, DoesNotDependOnWhereThePieceBegins) {
+  const auto cut = [](const Field& field, std::int32_t left, std::int32_t top, std::int32_t side) {
+    return field_from(side, side, [&](int x, int z) { return field.at(left + x, top + z); });
+  };
+  const Field all = hills(129);
+  const std::int32_t reach = smooth_reach(50);
+  Field one = cut(all, 0, 0, 100), other = cut(all, 20, 13, 100);
+  smooth_by_place(one, 50, any_job(1));
+  smooth_by_place(other, 50, any_job(8));
+  for (std::int32_t z = 13 + reach; z < 100 - reach; ++z) {
+    for (std::int32_t x = 20 + reach; x < 100 - reach; ++x)
+      ASSERT_EQ(one.at(x, z), other.at(x - 20, z - 13));
+  }
+}
+
+TEST(SmoothByPlace, ReachesFartherTheMoreItSmooths) {
+  EXPECT_EQ(smooth_reach(0), 0);
+  EXPECT_EQ(smooth_reach(50), 24);
+  EXPECT_LE(smooth_reach(93.7), 256);
+  EXPECT_GT(smooth_reach(93.8), 256);
+}
+
 TEST(Normalise, StretchesToTheRange) {
   Field field = hills(33);
   normalise(field, -3, 12, any_job());
@@ -67,15 +103,21 @@ TEST(Normalise, StretchesToTheRange) {
 
 TEST(Terraces, AreStepsWhereTheyAreSharp) {
   Field field = field_from(101, 2, [](int x, int) { return x; });
-  terrace(field, 4, 1, any_job());
+  terrace(field, {4, 1}, any_job());
   for (int x = 0; x < 100; ++x) ASSERT_FLOAT_EQ(field.at(x, 0), static_cast<float>(x / 25 * 25)) << x;
   EXPECT_FLOAT_EQ(field.at(100, 0), 100);
+}
+
+TEST(Terraces, GoOnOutsideTheHeightsTheyAreCountedBetween) {
+  Field field = field_from(61, 2, [](int x, int) { return x - 20; });
+  terrace(field, {.count = 2, .sharpness = 1, .from = Heights{0, 20}}, any_job());
+  for (int x = 0; x < 61; ++x) ASSERT_FLOAT_EQ(field.at(x, 0), 10 * std::floor(static_cast<float>(x - 20) / 10)) << x;
 }
 
 TEST(Terraces, LeaveTheFieldWhereTheyAreNot) {
   Field field = hills(33);
   const std::vector<double> before = values(field);
-  terrace(field, 5, 0, any_job());
+  terrace(field, {5, 0}, any_job());
   EXPECT_THAT(values(field), Pointwise(DoubleNear(1e-4), before));
 }
 

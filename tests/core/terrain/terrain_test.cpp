@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/generators/terrain/engines.h"
 #include "core/generators/terrain/image.h"
 #include "core/generators/terrain/plan.h"
 #include "core/geom/finish.h"
@@ -138,9 +139,37 @@ TEST(Terrain, MakesPlanetoidsThatAreClosed) {
   }
 }
 
+/// What a tile can bear beside nothing.
+using Treatment = void (*)(TerrainParams& params);
+const std::pair<const char*, Treatment> treatments[] = {
+    {"bare", [](TerrainParams&) {}},
+    {"worn",
+     [](TerrainParams& params) {
+       params.thermal.emplace();
+       params.thermal->iterations = 9;
+       params.thermal->talus = 5;
+     }},
+    {"smoothed", [](TerrainParams& params) { params.smooth = 70; }},
+    {"all",
+     [](TerrainParams& params) {
+       params.smooth = 30;
+       params.normalise.emplace();
+       params.normalise->from = {{-10, 10}};
+       params.normalise->low = 0;
+       params.normalise->high = 40;
+       params.island.emplace();
+       params.island->floor = -5;
+       params.tile->across = 8;
+       params.terraces.emplace();
+       params.terraces->from = {{0, 40}};
+       params.thermal.emplace();
+       params.thermal->iterations = 3;
+     }},
+};
+
 TEST(Tiles, ShareHeightsAndNormalsAlongEveryBorder) {
   for (const TerrainAlgorithm algorithm : all) {
-    for (const bool eroded : {false, true}) {
+    for (const auto& [name, treat] : treatments) {
       const auto tile = [&](int x, int z) {
         TerrainParams params = small(algorithm);
         params.tile.emplace();
@@ -148,11 +177,8 @@ TEST(Tiles, ShareHeightsAndNormalsAlongEveryBorder) {
         params.tile->z = z;
         if (algorithm == TerrainAlgorithm::fault_formation || algorithm == TerrainAlgorithm::poisson_faulting)
           params.tile->across = 8;
-        if (eroded) {
-          params.thermal.emplace();
-          params.thermal->iterations = 9;
-          params.thermal->talus = 5;
-        }
+        treat(params);
+        EXPECT_THAT(pointers(params), IsEmpty()) << name;
         return model_of(params);
       };
       const Model here = tile(3, 5), east = tile(4, 5), south = tile(3, 6);
@@ -161,13 +187,26 @@ TEST(Tiles, ShareHeightsAndNormalsAlongEveryBorder) {
       const Mesh& c = south.meshes[0].primitives[0].mesh;
       ASSERT_EQ(a.position.size(), 33U * 33);
       for (std::size_t i = 0; i < 33; ++i) {
-        ASSERT_EQ(a.position[i * 33 + 32].y, b.position[i * 33].y) << text_of(algorithm);
-        ASSERT_EQ(a.normal[i * 33 + 32], b.normal[i * 33]) << text_of(algorithm);
-        ASSERT_EQ(a.position[32 * 33 + i].y, c.position[i].y) << text_of(algorithm);
-        ASSERT_EQ(a.normal[32 * 33 + i], c.normal[i]) << text_of(algorithm);
+        ASSERT_EQ(a.position[i * 33 + 32].y, b.position[i * 33].y) << text_of(algorithm) << name;
+        ASSERT_EQ(a.normal[i * 33 + 32], b.normal[i * 33]) << text_of(algorithm) << name;
+        ASSERT_EQ(a.position[32 * 33 + i].y, c.position[i].y) << text_of(algorithm) << name;
+        ASSERT_EQ(a.normal[32 * 33 + i], c.normal[i]) << text_of(algorithm) << name;
       }
     }
   }
+}
+
+TEST(Tiles, OfAnIslandAreSeaBeyondIt) {
+  TerrainParams params = small(TerrainAlgorithm::fbm);
+  params.tile.emplace();
+  params.tile->across = 4;
+  params.island.emplace();
+  params.island->floor = -7;
+  params.tile->x = 4;
+  for (const float height : heights_of(params).heights) ASSERT_EQ(height, -7);
+  params.tile->x = params.tile->z = 2;
+  const Field middle = heights_of(params);
+  EXPECT_GT(range_of(middle, any_job()).high, -7);
 }
 
 TEST(HeightMap, WrittenAndReadAgainGivesTheSameField) {
@@ -187,7 +226,7 @@ TEST(HeightMap, WrittenAndReadAgainGivesTheSameField) {
     Job job = any_job();
     params.heightmap.byte_order =
         each.encoding == TerrainEncoding::r16_big ? TerrainByteOrder::big : TerrainByteOrder::little;
-    const Result<Array<std::uint8_t>> file = encode(params, each.format, job);
+    const Result<Array<std::uint8_t>> file = encode(params, {each.format}, job);
     ASSERT_TRUE(file);
     TerrainParams reading;
     reading.algorithm = TerrainAlgorithm::image;
@@ -206,18 +245,110 @@ TEST(HeightMap, WrittenAndReadAgainGivesTheSameField) {
     reading.heightmap = params.heightmap;
     reading.heightmap.low = reading.image->low;
     reading.heightmap.high = reading.image->high;
-    const Result<Array<std::uint8_t>> twice = encode(reading, each.format, job);
+    const Result<Array<std::uint8_t>> twice = encode(reading, {each.format}, job);
     ASSERT_TRUE(twice);
     EXPECT_TRUE(std::ranges::equal(*file, *twice)) << each.format;
   }
 }
 
+TEST(HeightMap, OfAnEngineReadAsTheEngineReadsItGivesTheSameField) {
+  for (const auto& [profile, format] :
+       {std::pair{"unreal", "r16"}, {"unreal", "png16"}, {"unity", "r16"}, {"core", "r16"}}) {
+    TerrainParams params = small(TerrainAlgorithm::fbm);
+    params.resolution = std::string_view(profile) == "unreal" ? 64 : 65;
+    if (std::string_view(profile) == "unreal") params.resample = 61;  // 15 quads, 2 sections, 2 components
+    const Field field = heights_of(params);
+    Job job = any_job();
+    const Result<Array<std::uint8_t>> file = encode(params, {format, profile}, job);
+    ASSERT_TRUE(file) << profile;
+    const Result<Json> told = derive(params, job);
+    ASSERT_TRUE(told);
+    const Json& unreal = (*told)["engines"]["unreal"];
+    const Json& unity = (*told)["engines"]["unity"];
+    EXPECT_TRUE((*told)["engines"][std::string_view(profile) == "unreal" ? "unreal" : "unity"]["fits"]);
+    std::vector<std::uint16_t> values;
+    if (std::string_view(format) == "png16") {
+      const Result<texture::Picture> picture = texture::decode_png(std::as_bytes(file->span()), {}, job);
+      ASSERT_TRUE(picture);
+      for (std::size_t i = 0; i < field.heights.size(); ++i)
+        values.push_back(static_cast<std::uint16_t>(picture->channel(i)));
+    } else {
+      for (std::size_t i = 0; i < file->size(); i += 2)
+        values.push_back(static_cast<std::uint16_t>((*file)[i] | (*file)[i + 1] << 8U));
+    }
+    ASSERT_EQ(values.size(), field.heights.size());
+    const double step = (range_of(field, job).high - range_of(field, job).low) / 65535.0;
+    for (std::int32_t z = 0; z < field.depth; ++z) {
+      for (std::int32_t x = 0; x < field.width; ++x) {
+        const bool south_first = std::string_view(profile) == "unity";
+        const std::int32_t row = south_first ? field.depth - 1 - z : z;
+        const double value = values[static_cast<std::size_t>(row * field.width + x)];
+        const double height =
+            std::string_view(profile) == "unreal"
+                ? unreal["location_z"].get<double>() / 100 +
+                      (value - 32768) / 128 * unreal["scale"][2].get<double>() / 100
+                : unity["position_y"].get<double>() + value / 65535 * unity["size"][1].get<double>();
+        ASSERT_NEAR(height, static_cast<double>(field.at(x, z)), 0.51 * step + 1e-5) << profile << format;
+      }
+    }
+  }
+}
+
+TEST(HeightMap, IsRefusedInSizesAndFormsThatAnEngineDoesNotTake) {
+  const auto refusals = [](const TerrainParams& params, const char* format, const char* profile) {
+    std::vector<std::string> texts;
+    for (const Issue& issue : check_form(params, {format, profile}))
+      texts.push_back(issue.pointer + ": " + issue.message);
+    return texts;
+  };
+  TerrainParams params = small(TerrainAlgorithm::fbm);
+  params.resolution = 1025;
+  EXPECT_THAT(refusals(params, "r16", "unity"), IsEmpty());
+  EXPECT_THAT(refusals(params, "r16", "unreal"),
+              ElementsAre(::testing::AllOf(HasSubstr("/output/profile: found 1025 samples; Unreal takes"),
+                                           HasSubstr("resample to 1021 or 1055"))));
+  params.resample = 1009;
+  EXPECT_THAT(refusals(params, "png16", "unreal"), IsEmpty());
+  EXPECT_THAT(refusals(params, "r16", "unity"),
+              ElementsAre(::testing::AllOf(HasSubstr("/resample: found 1009 samples"),
+                                           HasSubstr("resample to 513 or 1025"))));
+  EXPECT_THAT(refusals(params, "r16", "godot"), ElementsAre(HasSubstr("/output/profile: found godot")));
+  params.resample = 1025;
+  params.heightmap.flip = true;
+  params.heightmap.byte_order = TerrainByteOrder::big;
+  EXPECT_THAT(refusals(params, "png16", "unity"),
+              ElementsAre(HasSubstr("/output/format: found png16"), HasSubstr("/heightmap/byte_order"),
+                          HasSubstr("/heightmap/flip")));
+  params = small(TerrainAlgorithm::fbm);
+  params.heightmap.map = TerrainMap::normal;
+  params.heightmap.flip = true;
+  EXPECT_THAT(refusals(params, "png8", "core"), ElementsAre(HasSubstr("/heightmap/flip")));
+}
+
+TEST(Engines, TakeTheSidesThatTheirManualsName) {
+  for (const int side : {127, 253, 505, 1009, 2017, 4033, 8129}) EXPECT_TRUE(takes_side(Engine::unreal, side));
+  for (const int side : {33, 65, 129, 257, 513, 1025, 2049, 4097}) {
+    EXPECT_TRUE(takes_side(Engine::unity, side));
+    EXPECT_FALSE(takes_side(Engine::unreal, side) && side > 1025);
+  }
+  EXPECT_THAT(nearest_sides(Engine::unity, 20), ElementsAre(33));
+  EXPECT_THAT(nearest_sides(Engine::unity, 9000), ElementsAre(4097));
+  EXPECT_THAT(nearest_sides(Engine::unreal, 1009), ElementsAre(1009));
+}
+
+TEST(Engines, AreToldUnrealsScaleOf600Metres) {
+  const Json settings = engine_settings({1009, 1009, 2, 0, 600});
+  EXPECT_NEAR(settings["unreal"]["scale"][2].get<double>(), 117.19, 0.01);
+  EXPECT_EQ(settings["unreal"]["scale"][0], 200);
+  EXPECT_EQ(settings["unity"]["size"][0], 2016);
+}
+
 TEST(HeightMap, TurnsItsRowsOverWhereItIsTold) {
   TerrainParams params = small(TerrainAlgorithm::diamond_square);
   Job job = any_job();
-  const Result<Array<std::uint8_t>> upright = encode(params, "r16", job);
+  const Result<Array<std::uint8_t>> upright = encode(params, {"r16"}, job);
   params.heightmap.flip = true;
-  const Result<Array<std::uint8_t>> turned = encode(params, "r16", job);
+  const Result<Array<std::uint8_t>> turned = encode(params, {"r16"}, job);
   ASSERT_TRUE(upright && turned);
   for (std::size_t z = 0; z < 33; ++z) {
     for (std::size_t i = 0; i < 66; ++i) ASSERT_EQ((*upright)[z * 66 + i], (*turned)[(32 - z) * 66 + i]);
@@ -232,7 +363,7 @@ TEST(HeightMap, HoldsMasksAndPicturesToo) {
         TerrainMap::color, TerrainMap::splat, TerrainMap::rock, TerrainMap::snow}) {
     params.heightmap.map = map;
     Job job = any_job();
-    const Result<Array<std::uint8_t>> file = encode(params, "png8", job);
+    const Result<Array<std::uint8_t>> file = encode(params, {"png8"}, job);
     ASSERT_TRUE(file) << text_of(map);
     const Result<texture::Picture> picture = texture::decode_png(std::as_bytes(file->span()), {}, job);
     ASSERT_TRUE(picture);
@@ -248,12 +379,12 @@ TEST(HeightMap, OfATileAsksForARangeThatAllTilesShare) {
   TerrainParams params = small(TerrainAlgorithm::fbm);
   params.tile.emplace();
   Job job = any_job();
-  const Result<Array<std::uint8_t>> file = encode(params, "r16", job);
+  const Result<Array<std::uint8_t>> file = encode(params, {"r16"}, job);
   ASSERT_FALSE(file);
   EXPECT_EQ(file.error().issues.front().pointer, "/heightmap");
   params.heightmap.low = -50;
   params.heightmap.high = 50;
-  EXPECT_TRUE(encode(params, "r16", job));
+  EXPECT_TRUE(encode(params, {"r16"}, job));
 }
 
 TEST(Checks, RefuseWhatTheAlgorithmDoesNotHave) {
@@ -292,11 +423,30 @@ TEST(Checks, RefuseFiltersThatWouldOpenTheBordersOfTiles) {
   TerrainParams params = small(TerrainAlgorithm::diamond_square);
   params.tile.emplace();
   params.tile->across = 3;
-  params.smooth = 20;
+  params.smooth = 94;
   params.corners = {{1, 2, 3, 4}};
   params.edge = TerrainEdge::avg3;
+  params.normalise.emplace();
+  params.terraces.emplace();
   params.hydraulic.emplace();
-  EXPECT_THAT(pointers(params), ElementsAre("/tile/across", "/edge", "/corners", "/smooth", "/hydraulic"));
+  EXPECT_THAT(pointers(params), ElementsAre("/tile/across", "/edge", "/corners", "/smooth", "/normalise",
+                                            "/terraces", "/hydraulic"));
+  params = small(TerrainAlgorithm::diamond_square);
+  params.tile.emplace();
+  params.island.emplace();
+  EXPECT_THAT(pointers(params), ElementsAre("/island", "/tile"));
+}
+
+TEST(Checks, RefuseHeightsThatDoNotRise) {
+  TerrainParams params = small(TerrainAlgorithm::fbm);
+  params.normalise.emplace();
+  params.normalise->from = {{3, 3}};
+  params.terraces.emplace();
+  params.terraces->from = {{5, 4}};
+  params.island.emplace();
+  params.island->floor = -2;
+  params.island->depth = 2;
+  EXPECT_THAT(pointers(params), ElementsAre("/normalise/from", "/terraces/from", "/island/depth"));
 }
 
 TEST(Checks, RefuseOnASphereWhatBelongsToThePlane) {

@@ -184,13 +184,13 @@ TEST(Surface, IsSoundOnGentleAndOnRoughGround) {
   const Array<glm::u8vec4> plain;
   for (const Field& field : {hills(65), rough(65)}) {
     Job job = any_job();
-    EXPECT_EQ(faults_of(grid_mesh(field, {0, 0, 65, 65}, plain, Shading::smooth, job)),
+    EXPECT_EQ(faults_of(grid_mesh(field, {0, 0, 65, 65}, plain, {}, job)),
               std::vector<std::string>{});
     EXPECT_EQ(faults_of(grid_mesh(field, {0, 0, 65, 65}, plain, Shading::upright, job)),
               std::vector<std::string>{});
     for (const auto& [name, reduce] : reducers) {
       EXPECT_EQ(faults_of(reduced_mesh(field, reduce(field, 0.4, Border::by_error, job), plain,
-                                       Shading::smooth, job)),
+                                       {}, job)),
                 std::vector<std::string>{})
           << name;
     }
@@ -210,9 +210,9 @@ TEST(Surface, IsClosedByWallsAndAFloor) {
     if (at.x == 0 || at.z == 0 || at.x == 32 || at.z == 32) border.push_back(sample);
   }
   const std::pair<Mesh, Mesh> solids[] = {
-      {grid_mesh(field, {0, 0, 33, 33}, plain, Shading::smooth, job),
+      {grid_mesh(field, {0, 0, 33, 33}, plain, {}, job),
        walls(field, border_samples(field, job), plan, job)},
-      {reduced_mesh(field, std::move(coarse), plain, Shading::smooth, job), walls(field, border, plan, job)}};
+      {reduced_mesh(field, std::move(coarse), plain, {}, job), walls(field, border, plan, job)}};
   double mean = 0;
   for (const float h : field.heights)
     mean += static_cast<double>(h) / static_cast<double>(field.heights.size());
@@ -240,8 +240,8 @@ TEST(Surface, LooksAlikeFromBothSidesOfABorderBetweenTiles) {
   const Field west = tile(0), east = tile(64);
   const Array<glm::u8vec4> plain;
   Job job = any_job();
-  const Mesh a = grid_mesh(west, {0, 0, 65, 65}, plain, Shading::smooth, job);
-  const Mesh b = grid_mesh(east, {0, 0, 65, 65}, plain, Shading::smooth, job);
+  const Mesh a = grid_mesh(west, {0, 0, 65, 65}, plain, {}, job);
+  const Mesh b = grid_mesh(east, {0, 0, 65, 65}, plain, {}, job);
   for (std::size_t z = 0; z < 65; ++z) {
     EXPECT_EQ(a.position[z * 65 + 64].y, b.position[z * 65].y);
     EXPECT_EQ(a.normal[z * 65 + 64], b.normal[z * 65]);

@@ -1,0 +1,368 @@
+#include "core/generators/terrain/dress.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/base/parallel.h"
+#include "core/generators/terrain/decimate.h"
+#include "core/generators/terrain/maps.h"
+#include "core/generators/terrain/plan.h"
+#include "core/generators/terrain/scan.h"
+#include "core/generators/terrain/surface.h"
+#include "generated/params/terrain.h"
+
+namespace seedmesh::terrain {
+namespace {
+
+// Squares a side of a piece of a large grid, whose vertices indices of 16 bit can name.
+constexpr std::int32_t piece = 254;
+constexpr std::size_t most_narrow = 65'535;
+
+Material ground_material() {
+  Material material;
+  material.name = "ground";
+  material.roughness = 0.95F;
+  return material;
+}
+
+Material wall_material() {
+  Material material;
+  material.name = "earth";
+  material.base_color = {linear_of_srgb(104), linear_of_srgb(88), linear_of_srgb(72), 1};
+  material.roughness = 1;
+  return material;
+}
+
+Material water_material() {
+  Material material;
+  material.name = "water";
+  material.base_color = {linear_of_srgb(38), linear_of_srgb(92), linear_of_srgb(120), 0.78F};
+  material.roughness = 0.08F;
+  material.alpha_mode = AlphaMode::blend;
+  return material;
+}
+
+int add_material(Model& model, Material material) {
+  model.materials.push_back(std::move(material));
+  return static_cast<int>(model.materials.size()) - 1;
+}
+
+int add_mesh(Model& model, std::string name, Mesh mesh, int material) {
+  MeshGroup group;
+  group.name = std::move(name);
+  group.primitives.push_back({std::move(mesh), material, {}});
+  model.meshes.push_back(std::move(group));
+  return static_cast<int>(model.meshes.size()) - 1;
+}
+
+int add_child(Model& model, std::string name, int mesh) {
+  Node node;
+  node.name = std::move(name);
+  node.parent = 0;
+  node.mesh = mesh;
+  model.nodes.push_back(std::move(node));
+  return static_cast<int>(model.nodes.size()) - 1;
+}
+
+std::string level_name(const std::string& name, int level) {
+  return level == 0 ? name : name + "_LOD" + std::to_string(level);
+}
+
+int add_texture(Model& model, std::string name, const texture::Picture& picture, Job& job) {
+  const Array<std::uint8_t> file = texture::encode_png(picture.view(), texture::PngEffort::small, job);
+  auto image = std::make_shared<Image>();
+  image->name = std::move(name);
+  image->bytes.assign(file.begin(), file.end());
+  model.textures.push_back(std::move(image));
+  return static_cast<int>(model.textures.size()) - 1;
+}
+
+/// Heights, looks and meshes of one request on their way into a model.
+class Dressing {
+ public:
+  Dressing(const TerrainParams& params, const Field& field, Job& job)
+      : params_(params),
+        field_(field),
+        job_(job),
+        range_(range_of(field, job)),
+        level_(static_cast<float>(params.water_level.value_or(static_cast<double>(range_.low)))),
+        sites_(field, place_of(params), job.rng().at("terrain"), job),
+        looks_(palette_of(params), params.tile ? nominal_range(params) : range_, level_),
+        shading_(params.texture > 0 ? Shading::upright : Shading::smooth) {}
+
+  Model dress() {
+    Model model;
+    model.name = "terrain";
+    Node root;
+    root.name = "terrain";
+    model.nodes.push_back(std::move(root));
+    const int ground = add_material(model, ground_material());
+    if (params_.texture > 0) {
+      add_pictures(model, ground);
+    } else if (params_.palette != TerrainPalette::none) {
+      colors_ = vertex_colors(field_, sites_, looks_, job_);
+    }
+    add_ground(model, ground);
+    add_water(model);
+    return model;
+  }
+
+ private:
+  void add_pictures(Model& model, int ground) {
+    if (params_.palette != TerrainPalette::none) {
+      const texture::Picture colors = color_picture(field_, sites_, looks_, params_.texture, job_);
+      model.materials[static_cast<std::size_t>(ground)].base_color_texture = {
+          add_texture(model, "ground_color", colors, job_), 0, false};
+    }
+    const texture::Picture normals = normal_picture(field_, sites_, params_.texture, job_);
+    model.materials[static_cast<std::size_t>(ground)].normal_texture = {
+        add_texture(model, "ground_normal", normals, job_), 0, false};
+  }
+
+  void add_ground(Model& model, int ground) {
+    const std::size_t samples =
+        static_cast<std::size_t>(field_.width) * static_cast<std::size_t>(field_.depth);
+    if (params_.mesh == TerrainMesh::grid && !params_.base && samples > most_narrow) {
+      add_pieces(model, ground);
+      if (params_.skirt > 0)
+        add_child(model, "skirt",
+                  add_mesh(model, "skirt", wall_mesh(border_samples(field_, job_)),
+                           add_material(model, wall_material())));
+      return tell_levels(model);
+    }
+    const bool walled = params_.skirt > 0 || params_.base;
+    int earth = -1;
+    for (int level = 0; level < job_.demand().lods; ++level) {
+      Ground made = whole_ground(level, model);
+      if (level > 0 && made.mesh.elements() >= coarsest_) break;
+      coarsest_ = made.mesh.elements();
+      const int mesh = add_mesh(model, level_name("ground", level), std::move(made.mesh), ground);
+      if (walled) {
+        if (earth < 0) earth = add_material(model, wall_material());
+        model.meshes[static_cast<std::size_t>(mesh)].primitives.push_back(
+            {wall_mesh(made.border), earth, {}});
+      }
+      show(model.nodes[0], mesh);
+    }
+    tell_levels(model);
+  }
+
+  /// A ground of one piece and the samples of its border.
+  struct Ground {
+    Mesh mesh;
+    Array<std::uint32_t> border;
+  };
+
+  Ground whole_ground(int level, Model& model) {
+    const Window all{0, 0, field_.width, field_.depth};
+    if (params_.mesh == TerrainMesh::grid && level == 0)
+      return {grid_mesh(field_, all, colors_, shading_, job_), border_samples(field_, job_)};
+    const Border border = params_.tile ? Border::whole : Border::by_error;
+    Triangulation plan = params_.mesh == TerrainMesh::grid
+                             ? decimated(field_, all, 1 << level, border, job_)
+                             : reduced(level, border, model);
+    if (params_.mesh == TerrainMesh::grid) note(level, plan);
+    Array<std::uint32_t> rim(job_);
+    for (const std::uint32_t sample : plan.samples) {
+      const Place at = place_of(sample, field_.width);
+      if (at.x == 0 || at.z == 0 || at.x == field_.width - 1 || at.z == field_.depth - 1)
+        rim.push_back(sample);
+    }
+    const Coarse coarse{shading_, params_.mesh == TerrainMesh::grid ? 1 << level : 1, all};
+    return {reduced_mesh(field_, std::move(plan), colors_, coarse, job_), std::move(rim)};
+  }
+
+  void add_pieces(Model& model, int ground) {
+    std::vector<Window> parts;
+    for (std::int32_t z = 0; z < field_.depth - 1; z += piece) {
+      for (std::int32_t x = 0; x < field_.width - 1; x += piece)
+        parts.push_back(
+            {x, z, std::min(piece, field_.width - 1 - x) + 1, std::min(piece, field_.depth - 1 - z) + 1});
+    }
+    std::vector<Mesh> meshes(parts.size());
+    parallel_for(job_, parts.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
+      meshes[i] = grid_mesh(field_, parts[i], colors_, shading_, job_);
+    });
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const std::string name =
+          "ground_" + std::to_string(parts[i].x / piece) + "_" + std::to_string(parts[i].z / piece);
+      const int mesh = add_mesh(model, name, std::move(meshes[i]), ground);
+      add_levels_of_piece(model, add_child(model, name, mesh), parts[i], ground);
+    }
+  }
+
+  /// Borders keep all their samples: neighbours fit together whatever level each of them shows.
+  void add_levels_of_piece(Model& model, int node, const Window& part, int ground) {
+    const std::string name = model.nodes[static_cast<std::size_t>(node)].name;
+    std::size_t triangles = 2 * static_cast<std::size_t>(part.width - 1) *
+                            static_cast<std::size_t>(part.depth - 1);
+    for (int level = 1; level < job_.demand().lods; ++level) {
+      Triangulation plan = decimated(field_, part, 1 << level, Border::whole, job_);
+      note(level, plan);
+      if (plan.index.size() / 3 >= triangles) continue;
+      triangles = plan.index.size() / 3;
+      Mesh mesh = reduced_mesh(field_, std::move(plan), colors_, {shading_, 1 << level, part}, job_);
+      show(model.nodes[static_cast<std::size_t>(node)],
+           add_mesh(model, level_name(name, level), std::move(mesh), ground));
+    }
+  }
+
+  static void show(Node& node, int mesh) {
+    if (node.mesh < 0) {
+      node.mesh = mesh;
+    } else {
+      node.lods.push_back(mesh);
+    }
+  }
+
+  /// Counts what a level, or a piece of it, is off and how many triangles it has.
+  void note(int level, const Triangulation& plan) {
+    const auto number = static_cast<std::size_t>(level);
+    if (notes_.size() <= number) notes_.resize(number + 1);
+    notes_[number].error = std::max(notes_[number].error, measured_error(field_, plan, job_));
+    notes_[number].triangles += plan.index.size() / 3;
+  }
+
+  void tell_levels(Model& model) const {
+    Json levels = Json::array();
+    for (std::size_t i = 1; i < notes_.size(); ++i)
+      levels.push_back({{"max_error", notes_[i].error}, {"triangles", notes_[i].triangles}});
+    if (!levels.empty()) model.nodes[0].extras.push_back({"levels", levels.dump()});
+  }
+
+  Triangulation reduced(int level, Border border, Model& model) {
+    const double finest = params_.max_error.value_or(params_.size / 1000);
+    const double max_error = finest * (1 << level);
+    Triangulation plan = params_.mesh == TerrainMesh::rtin
+                             ? rtin(field_, max_error, border, job_)
+                             : greedy(field_, Tolerance{max_error, finest}, border, job_);
+    if (level > 0) {
+      note(level, plan);
+      return plan;
+    }
+    const Json reached{{"max_error", measured_error(field_, plan, job_)},
+                       {"triangles", plan.index.size() / 3},
+                       {"grid_triangles", 2 * std::int64_t{field_.width - 1} * (field_.depth - 1)}};
+    model.nodes[0].extras.push_back({"reduced", reached.dump()});
+    return plan;
+  }
+
+  Mesh wall_mesh(const Array<std::uint32_t>& border) {
+    WallPlan plan;
+    plan.depth = params_.skirt;
+    plan.closed = params_.base.has_value();
+    plan.floor = static_cast<float>(static_cast<double>(range_.low) - params_.base.value_or(0));
+    return walls(field_, border, plan, job_);
+  }
+
+  void add_water(Model& model) {
+    if (!params_.water_level) return;
+    if (level_ <= range_.low) {
+      model.warnings.push_back(
+          {"/water_level", "all ground lies above the water, so that there is none; the lowest height is " +
+                               std::to_string(range_.low) + " m"});
+      return;
+    }
+    const int water = add_material(model, water_material());
+    add_child(model, "water", add_mesh(model, "water", sheet(field_, level_, job_), water));
+  }
+
+  const TerrainParams& params_;
+  const Field& field_;
+  Job& job_;
+  Range range_;
+  float level_;
+  Sites sites_;
+  Looks looks_;
+  Shading shading_;
+  Array<glm::u8vec4> colors_;
+  std::size_t coarsest_ = 0;  ///< triangles of the coarsest level so far
+  struct Note {
+    double error = 0;
+    std::size_t triangles = 0;
+  };
+  std::vector<Note> notes_;  ///< by level; that of the finest stays empty
+};
+
+class PlanetDressing {
+ public:
+  PlanetDressing(const TerrainParams& params, Job& job) : params_(params), job_(job) {}
+
+  Model dress() {
+    Planet planet = planet_of(params_, 0, job_);
+    job_.progress("mesh", 0);
+    const Range range = range_of(planet);
+    const auto level = static_cast<float>(params_.water_level.value_or(static_cast<double>(range.low)));
+    const Looks looks(palette_of(params_), range, level);
+    Model model;
+    model.name = "terrain";
+    Node root;
+    root.name = "terrain";
+    model.nodes.push_back(std::move(root));
+    add_ground(model, std::move(planet), looks);
+    if (params_.water_level && level > range.low) {
+      add_sea(model, level);
+    } else if (params_.water_level) {
+      model.warnings.push_back(
+          {"/water_level", "all ground lies above the water, so that there is none; the lowest height is " +
+                               std::to_string(range.low) + " m"});
+    }
+    return model;
+  }
+
+ private:
+  void add_ground(Model& model, Planet planet, const Looks& looks) {
+    const int ground = add_material(model, ground_material());
+    const Looks* colors = params_.palette == TerrainPalette::none ? nullptr : &looks;
+    for (int level = 0; level < job_.demand().lods; ++level) {
+      if (level > 0) {
+        if (planet_side(params_, level) == planet.side) break;
+        planet = planet_of(params_, level, job_);
+      }
+      Mesh mesh = planet_mesh(planet, colors, job_.rng().at("terrain"), job_);
+      mesh.cache_ordered = level == 0;  // its order suits large faces
+      const int number = add_mesh(model, level_name("planet", level), std::move(mesh), ground);
+      if (level == 0) {
+        model.nodes[0].mesh = number;
+      } else {
+        model.nodes[0].lods.push_back(number);
+      }
+    }
+  }
+
+  void add_sea(Model& model, float level_of_water) {
+    constexpr std::int32_t most = 65;
+    const int water = add_material(model, water_material());
+    std::int32_t before = 0;
+    int node = -1;
+    for (int level = 0; level < job_.demand().lods; ++level) {
+      const std::int32_t own = std::min(planet_side(params_, level), ((most - 1) >> level) + 1);
+      if (own == before) break;
+      before = own;
+      Planet sea = sphere_of(own, params_.size / 2, job_);
+      for (float& height : sea.height) height = level_of_water;
+      Mesh mesh = planet_mesh(sea, nullptr, job_.rng(), job_);
+      mesh.cache_ordered = level == 0;
+      const int number = add_mesh(model, level_name("water", level), std::move(mesh), water);
+      if (node < 0) {
+        node = add_child(model, "water", number);
+      } else {
+        model.nodes[static_cast<std::size_t>(node)].lods.push_back(number);
+      }
+    }
+  }
+
+  const TerrainParams& params_;
+  Job& job_;
+};
+
+}  // namespace
+
+Model dressed_field(const TerrainParams& params, const Field& field, Job& job) {
+  return Dressing(params, field, job).dress();
+}
+
+Model dressed_planet(const TerrainParams& params, Job& job) { return PlanetDressing(params, job).dress(); }
+
+}  // namespace seedmesh::terrain
