@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <limits>
@@ -54,7 +55,7 @@ class Typing {
   void text(Type& type, const std::string& name) {
     if (type.schema.contains("enum")) {
       set(type, Kind::choice, unit_.prefix + name);
-      unit_.declared.push_back(type);
+      declare(type);
     } else if (type.schema.value("pattern", "") == seedmesh::schema::forms::color.pattern) {
       set(type, Kind::color, "Color");
     } else {
@@ -86,7 +87,19 @@ class Typing {
     set(type, Kind::structure, unit_.prefix + name);
     for (const auto& [key, property] : type.schema["properties"].items())
       type.members.push_back(member(type, key, property));
-    unit_.declared.push_back(type);
+    declare(type);
+  }
+
+  /// What several places refer to is declared once.
+  void declare(const Type& type) {
+    const auto known = std::ranges::find(unit_.declared, type.cpp, &Type::cpp);
+    if (known == unit_.declared.end()) return unit_.declared.push_back(type);
+    const auto keywords = [](const Type& each) {
+      Schema rest = each.schema;
+      for (const char* word : {"title", "description", "default", "examples"}) rest.erase(word);
+      return rest;
+    };
+    if (keywords(*known) != keywords(type)) throw SchemaError("two different types are called " + type.cpp);
   }
 
   Member member(const Type& owner, const std::string& key, const Schema& property) {

@@ -7,6 +7,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/building/layers.h"
+#include "core/generators/building/mesh_writer.h"
 #include "core/generators/building/patch.h"
 #include "core/geom/weld.h"
 
@@ -60,11 +61,12 @@ class Assembly {
   Asset& asset_of(const Shape& shape) {
     Asset& asset = assets_[shape.geometry & ~asset_bit];
     if (asset.row == nullptr) return asset;
-    const auto [found, is_new] = parts_.try_emplace({shape.geometry, rounded(shape.size)});
+    const std::uint32_t options = shapes_.styles[shape.style].options;
+    const auto [found, is_new] = parts_.try_emplace({shape.geometry, options, rounded(shape.size)});
     if (!is_new) return found->second;
     Asset& made = found->second;
     made.size = shape.size;
-    for (PartPiece& piece : make_part(*asset.row, shape.size, {}, job_))
+    for (PartPiece& piece : make_part(*asset.row, shape.size, shapes_.part_options[options], job_))
       made.primitives.push_back({std::move(piece.mesh), looks_.material_of_role(piece.role), {}});
     return made;
   }
@@ -157,6 +159,7 @@ class Assembly {
     std::uint32_t geometry;
     std::array<std::int64_t, 3> size;
     std::int32_t material;
+    std::uint32_t options;  ///< of a part
     friend auto operator<=>(const Key&, const Key&) = default;
   };
 
@@ -174,7 +177,7 @@ class Assembly {
       // A turned box is the same box; an asset is scaled by its node.
       const bool is_scaled = is_asset(shape) && !is_part(shape);
       const Key key{shape.geometry, is_scaled ? std::array<std::int64_t, 3>{} : rounded(shape.size),
-                    body.material};
+                    body.material, is_part(shape) ? shapes_.styles[shape.style].options : 0U};
       const auto [found, is_new] = places.try_emplace(key, groups.size());
       if (is_new) groups.emplace_back(body.shape, std::vector<Transform>{});
       groups[found->second].second.push_back(transform_of(shape));
@@ -247,7 +250,7 @@ class Assembly {
     Primitive primitive;
     primitive.material = looks_.material_of(shape);
     primitive.mesh = empty_mesh(false);
-    append(patch_, primitive.mesh, glm::dmat3(1), glm::dvec3(0), nullptr);
+    append(patch_, primitive.mesh, glm::dmat3(1), glm::dvec3(0), {});
     if (shape.geometry != box_geometry) weld(primitive.mesh, job_);
     MeshGroup group;
     group.name = looks_.symbol(shape);
@@ -256,42 +259,9 @@ class Assembly {
     return static_cast<int>(model_.meshes.size()) - 1;
   }
 
-  /// Texture coordinates of parts are in metres, those of materials in tiles.
-  static void append_part(const Mesh& from, Mesh& to, const glm::dmat3& axes, const glm::dvec3& at,
-                          const glm::dvec2* tile) {
-    const auto base = static_cast<std::uint32_t>(to.position.size());
-    for (std::size_t i = 0; i < from.position.size(); ++i) {
-      to.position.push_back(glm::vec3(at + axes * glm::dvec3(from.position[i])));
-      to.normal.push_back(glm::vec3(math::unit(axes * glm::dvec3(from.normal[i]), glm::dvec3(0, 1, 0))));
-      if (tile == nullptr) continue;
-      to.uv[0].push_back(from.uv[0].empty() ? glm::vec2(0) : from.uv[0][i] / glm::vec2(*tile));
-    }
-    for (std::size_t i = 0; i < from.index.size(); ++i) to.index.wide.push_back(base + from.index.at(i));
-  }
-
-  /// Texture coordinates in tiles: level distance along the wall and height, so that neighbours go on.
-  static glm::vec2 texture_at(const glm::dvec3& p, const glm::dvec3& n, const glm::dvec2& tile) {
-    glm::dvec3 x = glm::cross(glm::dvec3(0, 1, 0), n);
-    if (glm::dot(x, x) < 1e-9) x = glm::dvec3(1, 0, 0);
-    x = math::unit(x, glm::dvec3(1, 0, 0));
-    const glm::dvec3 y = glm::cross(n, x);
-    return {static_cast<float>(glm::dot(p, x) / tile.x), static_cast<float>(-glm::dot(p, y) / tile.y)};
-  }
-
-  static void append(const Patch& patch, Mesh& mesh, const glm::dmat3& axes, const glm::dvec3& origin,
-                     const glm::dvec2* tile) {
-    const auto base = static_cast<std::uint32_t>(mesh.position.size());
-    const std::size_t count = patch.position.size();
-    glm::vec3* position = mesh.position.extend(count);
-    glm::vec3* normal = mesh.normal.extend(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const glm::dvec3 at = origin + axes * patch.position[i], n = axes * patch.normal[i];
-      position[i] = glm::vec3(at);
-      normal[i] = glm::vec3(n);
-      if (tile != nullptr) mesh.uv[0].push_back(texture_at(at, n, *tile));
-    }
-    std::uint32_t* index = mesh.index.wide.extend(patch.index.size());
-    for (std::size_t i = 0; i < patch.index.size(); ++i) index[i] = base + patch.index[i];
+  Texturing texturing_of(const Shape& shape, int material) const {
+    const std::uint32_t projection = shapes_.styles[shape.style].projection;
+    return {looks_.tile_of(material), projection == 0 ? nullptr : &shapes_.projections[projection - 1]};
   }
 
   // Merged meshes
@@ -348,7 +318,7 @@ class Assembly {
       }
       Bucket& bucket = buckets[body.layer * materials + static_cast<std::size_t>(body.material)];
       fill(shape, patch_);
-      append(patch_, bucket.mesh, axes, shape.origin, looks_.tile_of(body.material));
+      append(patch_, bucket.mesh, axes, shape.origin, texturing_of(shape, body.material));
     }
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
       MeshGroup group;
@@ -381,7 +351,7 @@ class Assembly {
   glm::dvec3 low_{0};
   Patch patch_;
   PatchMaker patches_;
-  std::map<std::pair<std::uint32_t, std::array<std::int64_t, 3>>, Asset> parts_;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::array<std::int64_t, 3>>, Asset> parts_;
 };
 
 }  // namespace

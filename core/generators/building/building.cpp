@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/generators/building/blueprints/blueprints.h"
 #include "core/generators/building/bodies.h"
+#include "core/generators/building/check.h"
 #include "core/generators/building/derive.h"
 #include "core/generators/building/ground.h"
-#include "core/generators/building/kinds.h"
 #include "core/generators/building/operations.h"
+#include "core/generators/building/picture_shapes.h"
 #include "core/generators/child.h"
 #include "core/geom/flatten.h"
 #include "core/gltf/read.h"
@@ -19,119 +19,10 @@ namespace {
 
 constexpr std::size_t most_listed = 100'000;  ///< shapes in the answer of derive
 
-/// A text as a JSON Pointer token.
-std::string escaped(const std::string& name) {
-  std::string out;
-  for (const char c : name) {
-    if (c == '~')
-      out += "~0";
-    else if (c == '/')
-      out += "~1";
-    else
-      out += c;
-  }
-  return out;
-}
-
-double number_of(Texts& texts, const std::variant<double, std::string, bool>& given) {
-  if (const auto* text = std::get_if<std::string>(&given)) return texts.number_of(*text);
-  if (const auto* flag = std::get_if<bool>(&given)) return *flag ? 1 : 0;
-  return std::get<double>(given);
-}
-
-void check_attribute(const Attribute* attribute, const std::string& name, double number, bool is_text,
-                     std::vector<Issue>& issues) {
-  const std::string pointer = "/attributes/" + escaped(name);
-  if (attribute == nullptr || attribute->is_constant) {
-    issues.push_back({pointer, attribute == nullptr
-                                   ? "the rules declare no attribute of this name"
-                                   : "the rules declare this name as a constant, which no request sets"});
-    return;
-  }
-  if (attribute->has_range && (is_text || number < attribute->low || number > attribute->high)) {
-    issues.push_back({pointer, "found " + (is_text ? std::string("a text") : Json(number).dump()) +
-                                   ", expected a number from " + Json(attribute->low).dump() + " to " +
-                                   Json(attribute->high).dump()});
-  }
-  if (!attribute->choices.empty() &&
-      std::ranges::find(attribute->choices, number) == attribute->choices.end())
-    issues.push_back({pointer, "found a value that is none of the " +
-                                   std::to_string(attribute->choices.size()) + " that @Enum names"});
-}
-
-/// The rules of the request or of its blueprint.
-std::string_view rules_of(const BuildingParams& params) {
-  if (params.rules) return *params.rules;
-  return params.blueprint ? blueprint_named(text_of(*params.blueprint))->rules : std::string_view();
-}
-
-/// The rules read, and all that is wrong with the parameters around them.
-Grammar read(const BuildingParams& params, std::vector<Issue>& issues) {
-  std::vector<lang::Fault> faults;
-  if (params.rules && params.blueprint)
-    issues.push_back({"/blueprint", "found rules and a blueprint, expected one of them"});
-  if (!params.rules && !params.blueprint) {
-    issues.push_back({"", "found neither \"rules\" nor \"blueprint\", expected one of them"});
-    return {};
-  }
-  const std::string_view rules = rules_of(params);
-  Grammar grammar = read_rules(rules, params.start.value_or(""), faults);
-  for (const lang::Fault& fault : faults)
-    issues.push_back(issue_at("/rules", rules, fault.offset, fault.message));
-  if (faults.empty() && params.restrict != BuildingRestrict::none) {
-    for (const lang::Fault& fault : faults_of_kind(grammar, params.restrict == BuildingRestrict::unimarker))
-      issues.push_back(issue_at("/rules", rules, fault.offset, fault.message));
-  }
-  if (faults.empty() && grammar.start == none) {
-    issues.push_back({"/start", "there is no symbol \"" + params.start.value_or("") + "\" in the rules"});
-  } else if (faults.empty()) {
-    const Symbol& start = grammar.symbols[grammar.start];
-    if (start.rules.empty()) {
-      issues.push_back({"/start", "there is no rule for the symbol \"" + start.name + "\""});
-    } else if (std::ranges::all_of(start.rules,
-                                   [&](std::uint32_t r) { return grammar.rules[r].parameter_count > 0; })) {
-      issues.push_back(
-          {params.start ? "/start" : "/rules",
-           "the rules of \"" + start.name +
-               "\" have parameters, which the first shape has not; begin with a rule that gives them"});
-    }
-  }
-  for (const auto& [name, given] : params.attributes) {
-    const auto found = std::ranges::find(grammar.attributes, name, &Attribute::name);
-    const Attribute* const attribute = found == grammar.attributes.end() ? nullptr : &*found;
-    if (faults.empty())
-      check_attribute(attribute, name, number_of(grammar.texts, given), given.index() == 1, issues);
-  }
-  return grammar;
-}
-
-std::vector<Issue> check_all(const BuildingParams& params, const Limits& limits, Grammar& grammar) {
-  std::vector<Issue> issues;
-  grammar = read(params, issues);
-  if (!params.footprint.empty()) {
-    const std::vector<Issue> more = check_footprint(params.footprint);
-    issues.insert(issues.end(), more.begin(), more.end());
-  } else if (dimension({params.size[0], params.size[1], params.size[2]}) < 2) {
-    issues.push_back({"/size", "at least two of the three sizes are above 0"});
-  }
-  if (params.iterations && static_cast<std::uint32_t>(*params.iterations) > limits.iterations) {
-    issues.push_back({"/iterations", "found " + std::to_string(*params.iterations) + ", expected at most " +
-                                         std::to_string(limits.iterations)});
-  }
-  for (const auto& [name, asset] : params.assets) {
-    if (asset.model.has_value() == asset.glb.has_value())
-      issues.push_back({"/assets/" + name, std::string("found ") + (asset.model ? "both" : "neither") +
-                                               " of \"model\" and \"glb\", expected one of them"});
-    else if (asset.glb && !is_glb_uri(*asset.glb))
-      issues.push_back({"/assets/" + name + "/glb", "expected a GLB as \"data:model/gltf-binary;base64,…\""});
-  }
-  check_looks(params, issues);
-  return issues;
-}
-
 /// Everything between the parameters and the shapes.
 struct Work {
   Grammar grammar;
+  PictureGrammar pictures;  ///< where there is a shape grammar
   std::vector<AssetBox> boxes;
   std::vector<Asset> assets;
   Model model;  ///< materials and textures of assets, and warnings
@@ -193,6 +84,12 @@ std::optional<Error> add_assets(Work& work, const BuildingParams& params, Job& j
 }
 
 Shapes shapes_of(Work& work, const BuildingParams& params, Job& job) {
+  if (params.shape_grammar) {
+    const bool is_parallel = params.derivation.mode == BuildingMode::parallel;
+    const DerivedPicture derived = derive_picture(work.pictures, params.iterations, is_parallel, job);
+    work.grammar = grammar_of_names(work.pictures);
+    return shapes_of_picture(work.pictures, derived, *params.shape_grammar, job);
+  }
   Task plan;
   plan.grammar = &work.grammar;
   plan.text = rules_of(params);
@@ -282,12 +179,13 @@ void append(std::vector<Warning>& to, const std::vector<Warning>& from) {
 
 std::vector<Issue> check(const BuildingParams& params, const Limits& limits) {
   Grammar grammar;
-  return check_all(params, limits, grammar);
+  PictureGrammar pictures;
+  return check_all(params, limits, grammar, pictures);
 }
 
 Result<Model> generate(const BuildingParams& params, Job& job) {
   Work work;
-  std::vector<Issue> issues = check_all(params, job.limits(), work.grammar);
+  std::vector<Issue> issues = check_all(params, job.limits(), work.grammar, work.pictures);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   job.progress("derive", 0);
   if (auto refused = add_assets(work, params, job)) return std::move(*refused);
@@ -307,7 +205,7 @@ Result<Model> generate(const BuildingParams& params, Job& job) {
 
 Result<Json> derive(const BuildingParams& params, Job& job) {
   Work work;
-  std::vector<Issue> issues = check_all(params, job.limits(), work.grammar);
+  std::vector<Issue> issues = check_all(params, job.limits(), work.grammar, work.pictures);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   if (auto refused = add_assets(work, params, job)) return std::move(*refused);
   const Shapes shapes = shapes_of(work, params, job);
@@ -329,7 +227,8 @@ Result<Json> derive(const BuildingParams& params, Job& job) {
 Result<Appraisal> appraise(const BuildingParams& params, const Job& job) {
   Appraisal appraisal;
   Grammar grammar;
-  std::vector<Issue> issues = check_all(params, job.limits(), grammar);
+  PictureGrammar pictures;
+  std::vector<Issue> issues = check_all(params, job.limits(), grammar, pictures);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   appraisal.warnings = grammar.warnings;
   return appraisal;

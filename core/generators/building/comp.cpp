@@ -41,7 +41,14 @@ glm::dmat3 frame_of(const glm::dvec3& normal, const glm::dvec3& first_edge) {
 
 /// Classes of a face by its z axis, seen from the scope that is taken apart (face.axes are in it already).
 std::uint32_t Deriver::classes_of(const State& face) const {
-  const glm::dvec3 n = glm::transpose(out_.axes[seen_->axes]) * out_.axes[face.axes][2];
+  const glm::dmat3& axes = out_.axes[seen_->axes];
+  glm::dvec3 n = glm::transpose(axes) * out_.axes[face.axes][2];
+  if (seen_->roof_up != no_roof) {
+    // A roof over a face that lies is told by the world's upright, whichever axis of its scope that is.
+    const int up = seen_->roof_up, u = (up + 1) % 3, v = (up + 2) % 3;
+    const double height = out_.axes[face.axes][2].y;
+    n = up == 1 ? glm::dvec3(n.x, height, n.z) : glm::dvec3(n[u], height, -n[v]);
+  }
   std::uint32_t classes = face_all;
   if (face.tag == face_is_inside) classes |= face_inside;
   if (face.tag == face_is_border) classes |= face_border;
@@ -109,6 +116,7 @@ void Deriver::solid_faces(const State& state, std::vector<State>& out) {
     fit(face, low, extent);
     if (extent.x == 0 || extent.y == 0) continue;
     State made = state;
+    made.roof_up = no_roof;
     made.origin = state.origin + out_.axes[state.axes] * (base + frame * low);
     made.axes = add_axes(out_.axes[state.axes] * frame);
     made.size = {extent.x, extent.y, 0};
@@ -161,6 +169,7 @@ void Deriver::edges_and_corners(const State& state, int kind, std::vector<State>
     }
     State made = state;
     made.geometry = box_geometry;
+    made.roof_up = no_roof;
     made.origin = state.origin + out_.axes[state.axes] * a;
     made.axes = add_axes(out_.axes[state.axes] * frame);
     made.size = {kind == 1 ? glm::length(b - a) : 0.0, 0, 0};

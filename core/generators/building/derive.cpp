@@ -18,6 +18,7 @@ Deriver::Deriver(const Task& plan, const Context* first, Job& job)
   for (int axis = 0; axis < 3; ++axis) squares_[static_cast<std::size_t>(axis)] = square(axis);
   for (const AssetBox& asset : plan.assets) out_.asset_names.push_back(asset.name);
   styles_.emplace(Style{}, 0);
+  part_options_.emplace(PartOptions{}, 0);
   out_.texts = grammar_.texts;
 }
 
@@ -77,6 +78,7 @@ Deriver::State Deriver::state_of(const Shape& shape) {
   state.split_total = shape.split_total;
   state.comp_index = shape.comp_index;
   state.comp_total = shape.comp_total;
+  state.roof_up = shape.roof_up;
   return state;
 }
 

@@ -22,6 +22,7 @@ class Deriver {
     std::uint32_t axes = 0, geometry = box_geometry, style = 0;
     std::uint32_t split_index = 0, split_total = 0, comp_index = 0, comp_total = 0;
     std::uint8_t tag = 0;  ///< of a face while a component split looks at it
+    std::uint8_t roof_up = no_roof;
   };
   static State state_of(const Shape& shape);  ///< as its rule begins
   /// One successor on the way: whose it is, and where its random numbers hang.
@@ -70,9 +71,23 @@ class Deriver {
   void extrude(const Step& step, State& state);
   void taper(const Step& step, State& state);
   void insert(const Step& step, State& state);
+  std::uint32_t options_of(const Step& step);
   void color(const Step& step, State& state);
   void set(const Step& step, State& state);
   void report(const Step& step);
+
+  // Frames (frames.cpp)
+  Solid solid_of(const State& state);
+  void reframe(State& state, const glm::dmat3& axes);
+  void align_to_axes(const Step& step, State& state);
+  void align_to_geometry(const Step& step, State& state);
+  void setup_projection(const Step& step, State& state);
+  void project_uv(const Step& step, State& state);
+  State along_texture(const Step& step, const State& state, int& axis, double& unit);
+
+  // Areas (area.cpp)
+  void split_area(const Step& step, const State& state, const Frame& frame, std::uint64_t key);
+  void inner_rectangle(const Step& step, const State& state, const Frame& frame, std::uint64_t key);
 
   // Mass (mass.cpp)
   void take_solid(State& state, Solid solid);
@@ -82,8 +97,10 @@ class Deriver {
   void snap(const Step& step, const State& state);
   void split(const Step& step, const State& state, const Frame& frame, std::uint64_t key);
   void repeat(const Step& step, const State& state, const Frame& frame, std::uint64_t key);
+  /// The pieces of `whole`, in its unit; sizes are worked out once, before any piece comes to be.
+  std::vector<Cut> cuts_of(const Step& step, double whole);
   void pieces(const Step& step, const State& state, const Frame& frame, std::uint64_t key,
-              std::span<const Cut> cuts);
+              std::span<const Cut> cuts, int axis);
   void snapped(const Step& step, const State& state, std::vector<double>& lines) const;
   void comp(const Step& step, const State& state, const Frame& frame, std::uint64_t key);
   void components(const State& state, int kind, std::vector<State>& out);
@@ -117,6 +134,7 @@ class Deriver {
   bool is_finishing_ = false;
   std::map<Style, std::uint32_t> styles_;
   std::map<std::vector<double>, std::uint32_t> attribute_sets_;
+  std::map<PartOptions, std::uint32_t> part_options_;
   std::map<std::string, std::uint32_t, std::less<>> named_;
   std::array<Solid, 3> squares_;
   std::unordered_map<std::uint64_t, std::uint32_t> turned_;  ///< axes and side: axes of the faces of boxes

@@ -63,6 +63,7 @@ double Deriver::value(const Value& value) {
     const std::uint32_t index = grammar_.query_uses[value.first_query + i];
     double answer = 0;
     const Query& query = grammar_.queries[index];
+    if (query.kind == Query::Kind::visible) answer = 1;  // nothing is in the way in the first pass
     if (first_ != nullptr) {
       std::vector<std::uint64_t> lineage;
       for (std::uint32_t s = seen_shape_; s != none; s = out_.shapes[s].parent)
@@ -238,9 +239,24 @@ void Deriver::run_step(const Step& step, State& state, const Frame& frame, std::
       return center(step, state, frame);
     case Op::mirror_scope:
       return mirror(state);
+    case Op::align_to_axes:
+      return align_to_axes(step, state);
+    case Op::align_to_geometry:
+    case Op::align_to_box:
+      return align_to_geometry(step, state);
+    case Op::setup_projection:
+      return setup_projection(step, state);
+    case Op::project_uv:
+      return project_uv(step, state);
     case Op::split:
       is_pending = false;
       return split(step, state, frame, key);
+    case Op::split_area:
+      is_pending = false;
+      return split_area(step, state, frame, key);
+    case Op::inner_rectangle:
+      is_pending = false;
+      return inner_rectangle(step, state, frame, key);
     case Op::repeat:
       is_pending = false;
       return repeat(step, state, frame, key);
@@ -323,6 +339,7 @@ std::uint32_t Deriver::add(const State& state, const Frame& frame, std::uint64_t
   shape.split_total = state.split_total;
   shape.comp_index = state.comp_index;
   shape.comp_total = state.comp_total;
+  shape.roof_up = state.roof_up;
   meter_.spend();
   out_.shapes.push_back(shape);
   return static_cast<std::uint32_t>(out_.shapes.size()) - 1;

@@ -103,7 +103,8 @@ void Parser::settle_endless(const Symbol& symbol) {
   };
   for (std::uint32_t i = 0; i < choice.step_count; ++i) {
     const Step& step = grammar_.steps[choice.first_step + i];
-    if (step.op == Op::split || step.op == Op::repeat) search(search, step.first_part, step.part_count);
+    if (step.op == Op::split || step.op == Op::split_area || step.op == Op::repeat)
+      search(search, step.first_part, step.part_count);
   }
 }
 

@@ -219,6 +219,7 @@ void Deriver::roof_over(const Step& step, State& state) {
     add_roof(solid, made, plane);
   }
   take_solid(state, std::move(solid));
+  state.roof_up = static_cast<std::uint8_t>(plane.w);
 }
 
 /// offset(d), offset(d, inside), offset(d, border): the faces moved, or what lies between.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/base/math.h"
 
@@ -136,9 +137,77 @@ bool Context::counts(const Query& query, std::uint32_t index) const {
   return grammar_->symbols[shape.symbol].name == query.target;
 }
 
+bool Context::is_family(std::uint32_t self, std::uint32_t other) const {
+  if (self == none) return false;
+  const bool is_below = rank_[other] >= rank_[self] && rank_[other] < last_[self];
+  const bool is_above = rank_[self] >= rank_[other] && rank_[self] < last_[other];
+  return is_below || is_above;
+}
+
+Scope Context::scope_of(std::uint32_t index) const {
+  const Shape& shape = shapes_.shapes[index];
+  return {shape.origin, shape.size, shapes_.axes[shape.axes]};
+}
+
+const Solid* Context::solid_of(std::uint32_t index) const {
+  const std::uint32_t geometry = shapes_.shapes[index].geometry;
+  return geometry == box_geometry || (geometry & asset_bit) != 0 ? nullptr : &shapes_.solid_of(geometry);
+}
+
+template <class Body>
+void Context::near(const glm::dvec3& low, const glm::dvec3& high, Job& job, Body&& body) const {
+  const glm::dvec3 last(static_cast<double>(cells_.x), static_cast<double>(cells_.y),
+                        static_cast<double>(cells_.z));
+  const glm::ivec3 a(glm::clamp((low - low_) / cell_ - 1e-3, glm::dvec3(0), last - 1.0));
+  const glm::ivec3 b(glm::clamp((high - low_) / cell_ + 1e-3, glm::dvec3(0), last - 1.0));
+  std::uint64_t looked = 0;
+  for (int z = a.z; z <= b.z; ++z) {
+    for (int y = a.y; y <= b.y; ++y) {
+      for (int x = a.x; x <= b.x; ++x) {
+        const std::uint32_t cell = cell_of({x, y, z});
+        for (std::uint32_t m = first_[cell]; m < first_[cell + 1]; ++m) {
+          if ((++looked & 4095U) == 0) job.check();
+          if (!body(candidates_[members_[m]].shape)) return;
+        }
+      }
+    }
+  }
+}
+
+/// The sight line in pieces of a cell's length, so that only what lies along it is looked at.
+bool Context::is_visible(const Query& query, const Scope& scope, std::uint32_t self, Job& job) const {
+  const glm::dvec3 from = center_of(scope);
+  double least = 1e300;
+  std::uint32_t target = none;
+  glm::dvec3 to(0);
+  for (std::uint32_t i = 0; i < shapes_.shapes.size(); ++i) {
+    if ((i & 4095U) == 4095U) job.check();
+    if (!counts(query, i) || is_family(self, i) || dimension(shapes_.shapes[i].size) == 0) continue;
+    const glm::dvec3 p = nearest_point(scope_of(i), from);
+    const double distance = glm::length(p - from);
+    if (distance >= least) continue;
+    least = distance;
+    target = i;
+    to = p;
+  }
+  if (target == none) return false;
+  if (candidates_.empty()) return true;
+  const double step = std::max({cell_.x, cell_.y, cell_.z});
+  const auto pieces = std::clamp(std::ceil(least / step), 1.0, 1000.0);
+  bool is_free = true;
+  for (double k = 0; k < pieces && is_free; ++k) {
+    const glm::dvec3 a = from + (to - from) * (k / pieces), b = from + (to - from) * ((k + 1) / pieces);
+    near(glm::min(a, b), glm::max(a, b), job, [&](std::uint32_t other) {
+      if (is_family(self, other) || is_family(target, other)) return true;
+      is_free = !is_met(from, to, solid_of(other), scope_of(other), skin);
+      return is_free;
+    });
+  }
+  return is_free;
+}
+
 double Context::answer(const Query& query, const Scope& scope, std::span<const std::uint64_t> lineage,
                        Job& job) const {
-  if (candidates_.empty()) return 0;
   // Who asks, in the first pass: itself, or the nearest ancestor that was there too.
   std::uint32_t self = none;
   for (const std::uint64_t key : lineage) {
@@ -147,45 +216,36 @@ double Context::answer(const Query& query, const Scope& scope, std::span<const s
     self = found->second;
     break;
   }
+  if (query.kind == Query::Kind::visible) return is_visible(query, scope, self, job) ? 1 : 0;
+  if (candidates_.empty()) return 0;
   glm::dvec3 low, high;
   box_around(scope, low, high);
-  const glm::ivec3 a =
-      glm::clamp(glm::ivec3(glm::max((low - low_) / cell_ - 1e-3, glm::dvec3(0))), glm::ivec3(0), cells_ - 1);
-  const glm::ivec3 b =
-      glm::clamp(glm::ivec3(glm::clamp((high - low_) / cell_ + 1e-3, glm::dvec3(0), glm::dvec3(64))),
-                 glm::ivec3(0), cells_ - 1);
   Cover cover = Cover::free;
-  std::uint64_t looked = 0;
-  for (int z = a.z; z <= b.z; ++z) {
-    for (int y = a.y; y <= b.y; ++y) {
-      for (int x = a.x; x <= b.x; ++x) {
-        const std::uint32_t cell = cell_of({x, y, z});
-        for (std::uint32_t m = first_[cell]; m < first_[cell + 1]; ++m) {
-          if ((++looked & 4095U) == 0) job.check();
-          const Candidate& candidate = candidates_[members_[m]];
-          const std::uint32_t other = candidate.shape;
-          if (self != none) {
-            const bool is_below = rank_[other] >= rank_[self] && rank_[other] < last_[self];
-            const bool is_above = rank_[self] >= rank_[other] && rank_[self] < last_[other];
-            if (is_below || is_above) continue;
-          }
-          if (!counts(query, other)) continue;
-          const Shape& shape = shapes_.shapes[other];
-          const Scope box{shape.origin, shape.size, shapes_.axes[shape.axes]};
-          const double distance = gap(scope, box);
-          if (query.kind == Query::Kind::touches) {
-            if (std::abs(distance) <= skin) return 1;
-            continue;
-          }
-          if (distance > -skin && !(dimension(scope.size) < 3 && distance < skin && contains(box, scope)))
-            continue;
-          if (query.kind == Query::Kind::overlaps) return 1;
-          if (contains(box, scope)) return query.kind == Query::Kind::inside ? 1 : 2;
-          cover = Cover::part;
-        }
-      }
+  std::optional<double> answer;
+  near(low, high, job, [&](std::uint32_t other) {
+    if (is_family(self, other) || !counts(query, other)) return true;
+    const Scope box = scope_of(other);
+    const double distance = gap(scope, box);
+    if (query.kind == Query::Kind::touches) {
+      if (std::abs(distance) <= skin) answer = 1;
+      return !answer;
     }
-  }
+    if (distance > -skin && !(dimension(scope.size) < 3 && distance < skin && contains(box, scope)))
+      return true;
+    bool is_full = contains(box, scope);
+    if (const Solid* solid = solid_of(other); solid != nullptr && dimension(scope.size) >= 2) {
+      const double share = share_inside(scope, *solid, box);
+      if (share < 1e-6) return true;
+      is_full = share > 1 - 1e-4;
+    }
+    if (query.kind == Query::Kind::overlaps)
+      answer = 1;
+    else if (is_full)
+      answer = query.kind == Query::Kind::inside ? 1 : 2;
+    cover = Cover::part;
+    return !answer;
+  });
+  if (answer) return *answer;
   return query.kind == Query::Kind::occlusion ? static_cast<double>(cover) : 0;
 }
 

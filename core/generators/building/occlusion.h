@@ -3,11 +3,14 @@
 /// pass of the derivation (derive.h), so that they do not depend on any order.
 ///
 /// Only closed shapes with a volume are in the way: leaves, and (for "all", "noparent" and names) the shapes
-/// they were made of. Ancestors and descendants of who asks never count. A solid is taken as the box of its
-/// scope, like Scope.occ of Müller et al. 2006.
+/// they were made of. Ancestors and descendants of who asks never count. Boxes are tested as boxes; what else
+/// is closed (roofs, cut solids, cylinders) is cut to the box of who asks. touches() knows boxes alone.
+/// visible("street"): is the shortest straight line free from the middle of who asks to the nearest shape of
+/// that name, flat ones too? No such shape: no.
 #include <map>
 #include <unordered_map>
 
+#include "core/generators/building/cover.h"
 #include "core/generators/building/shapes.h"
 
 namespace seedmesh::building {
@@ -19,11 +22,6 @@ struct SnapPlane {
 };
 
 enum class Cover : std::uint8_t { free, part, full };
-
-struct Scope {
-  glm::dvec3 origin{0}, size{0};
-  glm::dmat3 axes{1};
-};
 
 class Context {
  public:
@@ -40,6 +38,14 @@ class Context {
     glm::dvec3 low{0}, high{0};  ///< axis-aligned box around it
   };
   bool counts(const Query& query, std::uint32_t shape) const;
+  bool is_family(std::uint32_t self, std::uint32_t other) const;
+  Scope scope_of(std::uint32_t shape) const;
+  /// Null: a box.
+  const Solid* solid_of(std::uint32_t shape) const;
+  bool is_visible(const Query& query, const Scope& scope, std::uint32_t self, Job& job) const;
+  /// Each candidate that has a cell between low and high, perhaps more than once; until `body` says false.
+  template <class Body>
+  void near(const glm::dvec3& low, const glm::dvec3& high, Job& job, Body&& body) const;
 
   Shapes shapes_;
   std::vector<SnapPlane> snaps_;

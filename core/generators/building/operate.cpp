@@ -237,6 +237,33 @@ void Deriver::insert(const Step& step, State& state) {
   }
   state.size = size;
   state.geometry = geometry;
+  state.roof_up = no_roof;
+  const std::uint32_t options = (geometry & asset_bit) != 0 ? options_of(step) : 0;
+  if (options == out_.styles[state.style].options) return;
+  Style style = out_.styles[state.style];
+  style.options = options;
+  state.style = style_with(style);
+}
+
+/// i("stairs", 12), i("window", 6, 0.08), i("tower", 0, 0, 60): what can be turned about a part.
+std::uint32_t Deriver::options_of(const Step& step) {
+  const Argument* a = &grammar_.arguments[step.first_argument];
+  PartOptions options;
+  const auto given = [&](std::uint32_t i, double most, const char* what) {
+    if (i >= step.argument_count) return 0.0;
+    const double value = number(a[i].value);
+    if (!(value >= 0 && value <= most))
+      reject(a[i].value.offset, std::string(what) + " lies between 0 (by the size) and " +
+                                    std::to_string(math::to_int32(most)) + ", found " + std::to_string(value));
+    return value;
+  };
+  options.count = math::to_int32(given(1, 1'000, "the count of a part"));
+  options.frame = given(2, 10, "the frame of a part");
+  options.angle = math::radians(given(3, 85, "the angle of a part"));
+  const auto [found, is_new] =
+      part_options_.try_emplace(options, static_cast<std::uint32_t>(out_.part_options.size()));
+  if (is_new) out_.part_options.push_back(options);
+  return found->second;
 }
 
 void Deriver::color(const Step& step, State& state) {

@@ -14,7 +14,7 @@ struct OperationRow {
   std::string_view name;
   Op op;
   /// A letter an argument: n length or number, w word or text, t text (an expression that gives one), h an
-  /// angle or byHeight(...). What stands behind | may be left out.
+  /// angle or byHeight(...), i a word or a whole number. What stands behind | may be left out.
   std::string_view arguments;
   Braces braces;
   std::string_view parameters;  ///< their names, as the docs print them

@@ -34,14 +34,19 @@ constexpr ClassName old_names[] = {
 void Parser::settle_axis(const OperationRow& row, Step& step, const std::vector<Argument>& list) {
   if (list.empty() || list[0].word == none) return;
   const std::string& word = grammar_.words[list[0].word];
-  if (row.op == Op::split || row.op == Op::repeat) {
+  if (row.op == Op::split || row.op == Op::split_area || row.op == Op::repeat) {
+    if (row.op == Op::split && (word == "u" || word == "v")) return settle_texture_axis(step, list);
     const char letter = word.empty() ? ' ' : static_cast<char>(word[0] | 0x20);
-    const bool listens = word.size() == 2 && word[1] == 'S';
+    const bool listens = row.op != Op::split_area && word.size() == 2 && word[1] == 'S';
     if (letter < 'x' || letter > 'z' || (word.size() != 1 && !listens)) {
-      fault(tokens_.at(at_ - 1), "found the axis " + lang::in_quotes(word) + ", expected x, y or z");
+      fault(tokens_.at(at_ - 1), "found the axis " + lang::in_quotes(word) +
+                                       (row.op == Op::split ? ", expected x, y, z, u or v"
+                                                            : ", expected x, y or z"));
       return;
     }
     step.axis = static_cast<std::uint8_t>(letter - 'x');
+    if (list.size() > 2 && row.op == Op::split)
+      fault(tokens_.at(at_ - 1), "a set of texture coordinates goes with the axes u and v");
     step.listens = listens;
     grammar_.listens_to_snaps |= listens;
     step.is_2006 = row.op == Op::repeat;
@@ -68,6 +73,19 @@ void Parser::settle_axis(const OperationRow& row, Step& step, const std::vector<
     else
       step.axis = static_cast<std::uint8_t>(found - std::begin(kinds));
   }
+}
+
+/// split(u), split(v, unitSpace, 0)
+void Parser::settle_texture_axis(Step& step, const std::vector<Argument>& list) {
+  step.axis = grammar_.words[list[0].word] == "u" ? axis_u : axis_v;
+  if (list.size() > 1 && list[1].word != none) {
+    const std::string& space = grammar_.words[list[1].word];
+    step.in_metres = space == "unitSpace";
+    if (!step.in_metres && space != "uvSpace")
+      fault(tokens_.at(at_ - 1), "found " + lang::in_quotes(space) + ", expected uvSpace or unitSpace");
+  }
+  if (list.size() > 2 && (!list[2].value.expression.is_constant || list[2].value.expression.value != 0))
+    fault(tokens_.at(at_ - 1), "there is one set of texture coordinates, number 0");
 }
 
 /// size : successor | { ... }* | ...

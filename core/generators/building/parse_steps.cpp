@@ -263,7 +263,7 @@ void Parser::operation_step(const OperationRow& row, std::vector<Step>& out) {
       at_ = std::max(at_, std::min(close, tokens_.end()));
     }
     take("}");
-    if (row.op == Op::split && row.braces == Braces::cells && is_here("*")) {
+    if (row.braces == Braces::cells && is_here("*")) {
       ++at_;
       Part group;
       group.is_group = true;
@@ -336,7 +336,13 @@ Argument Parser::word_argument() {
 }
 
 Argument Parser::argument(char kind) {
-  if (kind == 'w') return word_argument();
+  if (kind == 'i' && here().kind == TokenKind::number) {
+    Argument index;
+    index.word = word_of(here().text);
+    ++at_;
+    return index;
+  }
+  if (kind == 'w' || kind == 'i') return word_argument();
   Argument argument;
   if (take("'"))
     argument.measure = Measure::relative;

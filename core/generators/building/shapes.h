@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/array.h"
+#include "core/generators/building/parts/parts.h"
 #include "core/generators/building/solid.h"
 #include "core/generators/building/syntax.h"
 
@@ -15,6 +16,8 @@ namespace seedmesh::building {
 
 constexpr std::uint32_t box_geometry = 0;  ///< the whole scope, or the rectangle that a size of 0 leaves
 constexpr std::uint32_t asset_bit = 0x80000000U;  ///< geometry that is an asset: its place with this bit
+
+constexpr std::uint8_t no_roof = 3;
 
 /// A scope with what fills it. Scope: from `origin` along the columns of the axes by `size`. Its geometry
 /// lies in it as in the unit cube. 112 bytes.
@@ -29,6 +32,7 @@ struct Shape {
   std::uint8_t parameter_count = 0;
   bool is_active = true;  ///< part of the result
   bool is_leaf = false;   ///< no rule is looked for
+  std::uint8_t roof_up = no_roof;  ///< of a roof: the axis of its scope that is up
 };
 
 /// What shapes inherit besides their place. Equal ones are one.
@@ -36,9 +40,18 @@ struct Style {
   double color = 0;     ///< text of "#rrggbb", 0: none
   double material = 0;  ///< text of its name, 0: none
   double label = 0;
-  std::uint32_t attributes = 0;  ///< into Shapes::attribute_sets
+  std::uint32_t attributes = 0;         ///< into Shapes::attribute_sets
+  std::uint32_t projection_set_up = 0;  ///< into Shapes::projections, from 1; 0: none
+  std::uint32_t projection = 0;         ///< the one in force
+  std::uint32_t options = 0;            ///< of a part: into Shapes::part_options
 
   friend auto operator<=>(const Style&, const Style&) = default;
+};
+
+/// Texture coordinates of a point in the world: dot(u, p) + u_at and dot(v, p) + v_at, in tiles.
+struct Projection {
+  glm::dvec3 u{0}, v{0};
+  double u_at = 0, v_at = 0;
 };
 
 /// count, sum, least and greatest of what was reported under one key.
@@ -54,6 +67,8 @@ struct Shapes {
   std::vector<std::unique_ptr<const Solid>> solids;  ///< geometry 1 is the first
   std::vector<Style> styles{Style{}};
   std::vector<std::vector<double>> attribute_sets;
+  std::vector<Projection> projections;
+  std::vector<PartOptions> part_options{PartOptions{}};
   std::map<std::string, Report> reports;
   std::vector<std::string> asset_names;  ///< of geometry with asset_bit
   Texts texts;

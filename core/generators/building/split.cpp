@@ -30,14 +30,7 @@ void Deriver::snapped(const Step& step, const State& state, std::vector<double>&
               lines.end());
 }
 
-void Deriver::split(const Step& step, const State& state, const Frame& frame, std::uint64_t key) {
-  if ((state.geometry & asset_bit) != 0) reject(step.offset, "an inserted asset cannot be cut");
-  const double whole = state.size[step.axis];
-  if (!(whole > 0)) {
-    warn(step.offset, "the shape has no size along the axis of this split, so that nothing comes of it");
-    return;
-  }
-  // Sizes are worked out once, before any piece comes to be.
+std::vector<Cut> Deriver::cuts_of(const Step& step, double whole) {
   cells_.clear();
   const auto fill = [&](auto&& self, std::uint32_t first_part, std::uint32_t count) -> std::uint32_t {
     const auto first = static_cast<std::uint32_t>(cells_.size());
@@ -75,6 +68,25 @@ void Deriver::split(const Step& step, const State& state, const Frame& frame, st
                                      std::to_string(job_.limits().shapes) + " in all");
     throw Stop(Code::limit, issue);
   }
+  return cuts;
+}
+
+void Deriver::split(const Step& step, const State& given, const Frame& frame, std::uint64_t key) {
+  if ((given.geometry & asset_bit) != 0) reject(step.offset, "an inserted asset cannot be cut");
+  int axis = step.axis;
+  double unit = 1;  // metres
+  const bool is_texture = step.axis >= axis_u;
+  const State turned = is_texture ? along_texture(step, given, axis, unit) : State{};
+  const State& state = is_texture ? turned : given;
+  const double whole = state.size[axis];
+  if (!(whole > 0)) {
+    warn(step.offset, "the shape has no size along the axis of this split, so that nothing comes of it");
+    return;
+  }
+  std::vector<Cut> cuts = cuts_of(step, whole / unit);
+  if (unit != 1) {
+    for (Cut& each : cuts) each = {each.start * unit, each.size * unit, each.part};
+  }
   std::vector<double> lines;
   snapped(step, state, lines);
   std::size_t moved = 1;  // each line draws the nearest border that is still free
@@ -90,7 +102,7 @@ void Deriver::split(const Step& step, const State& state, const Frame& frame, st
     cuts[best] = {line, end - line, cuts[best].part};
     moved = best + 1;
   }
-  pieces(step, state, frame, key, cuts);
+  pieces(step, state, frame, key, cuts, axis);
   spare_cuts_.push_back(std::move(cuts));
 }
 
@@ -128,13 +140,12 @@ void Deriver::repeat(const Step& step, const State& state, const Frame& frame, s
       cuts.push_back({from, to - from, step.first_part});
     }
   }
-  pieces(step, state, frame, key, cuts);
+  pieces(step, state, frame, key, cuts, step.axis);
 }
 
 /// The successors of the pieces, each with its own place for random numbers.
 void Deriver::pieces(const Step& step, const State& state, const Frame& frame, std::uint64_t key,
-                     std::span<const Cut> cuts) {
-  const int axis = step.axis;
+                     std::span<const Cut> cuts, int axis) {
   const bool is_box = state.geometry == box_geometry;
   const Solid* solid = is_box ? nullptr : &out_.solid_of(state.geometry);
   const double whole = state.size[axis];

@@ -52,7 +52,7 @@ enum Slot : std::uint32_t {
 
 /// A question to the other shapes: Scope.occ("noparent"), overlaps(), ...
 struct Query {
-  enum class Kind : std::uint8_t { occlusion, inside, overlaps, touches };
+  enum class Kind : std::uint8_t { occlusion, inside, overlaps, touches, visible };
   Kind kind = Kind::occlusion;
   std::string target;  ///< "all", "active", "noparent", or a symbol or label
   std::uint32_t slot = 0;
@@ -83,11 +83,12 @@ enum class Op : std::uint8_t {
   size,
   rotate,
   center,
-  translate_in,
-  rotate_in,
-  scale_in,
   mirror_scope,
+  align_to_axes,
+  align_to_geometry,
+  align_to_box,
   split,
+  split_area,
   repeat,
   comp,
   snap,
@@ -110,7 +111,6 @@ enum class Op : std::uint8_t {
   place,
   color,
   material,
-  texture,
   set,
   setup_projection,
   project_uv,
@@ -129,8 +129,12 @@ struct Step {
   bool keeps_slab = false;   ///< of a split: noAdjust
   bool listens = false;      ///< of a split: to snap lines
   bool is_2006 = false;      ///< of a repeat: written as Repeat(...)
-  std::uint8_t axis = 0;
+  bool in_metres = false;    ///< of a split along u or v: unitSpace
+  std::uint8_t axis = 0;     ///< x, y, z, or of a split axis_u, axis_v
 };
+
+/// The axes of texture space, as axes of a split.
+constexpr std::uint8_t axis_u = 3, axis_v = 4;
 
 /// What a selector of a component split takes; bits of Selector::classes.
 enum FaceClass : std::uint32_t {

@@ -299,6 +299,8 @@ std::size_t Parser::write_query(Writing& writing, std::span<const Token> tokens,
   Query::Kind kind;
   if (name == "scope.occ" || name == "shape.occ") {
     kind = Query::Kind::occlusion;
+  } else if (name == "scope.visible" || name == "shape.visible") {
+    kind = Query::Kind::visible;
   } else if (name == "inside") {
     kind = Query::Kind::inside;
   } else if (name == "overlaps") {

@@ -25,6 +25,8 @@ struct PartOptions {
   int count =
       0;  ///< sides of cylinder, column, bell; steps of stairs; panes of a window; saw teeth; 0: by size
   double frame = 0;  ///< metres: of a window's or door's frame, a balcony's rail; 0: by size
+
+  friend auto operator<=>(const PartOptions&, const PartOptions&) = default;
 };
 
 struct PartRow {

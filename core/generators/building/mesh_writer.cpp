@@ -1,0 +1,66 @@
+#include "core/generators/building/mesh_writer.h"
+
+#include <cmath>
+
+#include "core/base/math.h"
+
+namespace seedmesh::building {
+namespace {
+
+/// A face that turns farther than this from the plane of a projection has no coordinates by it: they would
+/// all lie on a line.
+constexpr double least_facing = 0.05;
+
+/// Texture coordinates in tiles: level distance along the wall and height, so that neighbours go on.
+glm::vec2 texture_at(const glm::dvec3& p, const glm::dvec3& n, const glm::dvec2& tile) {
+  glm::dvec3 x = glm::cross(glm::dvec3(0, 1, 0), n);
+  if (glm::dot(x, x) < 1e-9) x = glm::dvec3(1, 0, 0);
+  x = math::unit(x, glm::dvec3(1, 0, 0));
+  const glm::dvec3 y = glm::cross(n, x);
+  return {static_cast<float>(glm::dot(p, x) / tile.x), static_cast<float>(-glm::dot(p, y) / tile.y)};
+}
+
+bool is_facing(const Projection& projection, const glm::dvec3& normal) {
+  const glm::dvec3 out = math::unit(glm::cross(projection.u, projection.v), normal);
+  return std::abs(glm::dot(out, normal)) > least_facing;
+}
+
+}  // namespace
+
+void append(const Patch& patch, Mesh& mesh, const glm::dmat3& axes, const glm::dvec3& origin,
+            const Texturing& texturing) {
+  const auto base = static_cast<std::uint32_t>(mesh.position.size());
+  const std::size_t count = patch.position.size();
+  glm::vec3* position = mesh.position.extend(count);
+  glm::vec3* normal = mesh.normal.extend(count);
+  const Projection* const projection = texturing.projection;
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec3 at = origin + axes * patch.position[i], n = axes * patch.normal[i];
+    position[i] = glm::vec3(at);
+    normal[i] = glm::vec3(n);
+    if (texturing.tile == nullptr) continue;
+    if (projection != nullptr && is_facing(*projection, n)) {
+      // v runs up here and down in glTF.
+      mesh.uv[0].push_back({static_cast<float>(glm::dot(projection->u, at) + projection->u_at),
+                            static_cast<float>(-glm::dot(projection->v, at) - projection->v_at)});
+    } else {
+      mesh.uv[0].push_back(texture_at(at, n, *texturing.tile));
+    }
+  }
+  std::uint32_t* index = mesh.index.wide.extend(patch.index.size());
+  for (std::size_t i = 0; i < patch.index.size(); ++i) index[i] = base + patch.index[i];
+}
+
+void append_part(const Mesh& from, Mesh& to, const glm::dmat3& axes, const glm::dvec3& at,
+                 const glm::dvec2* tile) {
+  const auto base = static_cast<std::uint32_t>(to.position.size());
+  for (std::size_t i = 0; i < from.position.size(); ++i) {
+    to.position.push_back(glm::vec3(at + axes * glm::dvec3(from.position[i])));
+    to.normal.push_back(glm::vec3(math::unit(axes * glm::dvec3(from.normal[i]), glm::dvec3(0, 1, 0))));
+    if (tile == nullptr) continue;
+    to.uv[0].push_back(from.uv[0].empty() ? glm::vec2(0) : from.uv[0][i] / glm::vec2(*tile));
+  }
+  for (std::size_t i = 0; i < from.index.size(); ++i) to.index.wide.push_back(base + from.index.at(i));
+}
+
+}  // namespace seedmesh::building

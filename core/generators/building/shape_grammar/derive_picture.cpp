@@ -1,0 +1,308 @@
+/// Where rules fit, and what comes of them.
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/base/math.h"
+#include "core/generators/building/shape_grammar/anchors.h"
+#include "core/generators/building/shape_grammar/shape_grammar.h"
+
+namespace seedmesh::building {
+namespace {
+
+constexpr std::uint64_t most_steps = 100'000;
+constexpr std::size_t most_matches = 1'000'000;  ///< places where rules fit at a time
+constexpr double smallest = 1e-5;                ///< of the picture: what is smaller is not found
+constexpr double farthest = 1e6;                 ///< metres
+
+/// A place where a rule fits, with the wholes that it takes there.
+struct PictureMatch {
+  std::size_t pair = 0;
+  Similarity place;
+  std::vector<std::uint32_t> markers, solids;
+};
+
+glm::dmat3 frame_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, bool is_flat) {
+  const glm::dvec3 x = math::unit(b - a, glm::dvec3(1, 0, 0));
+  const glm::dvec3 z =
+      is_flat ? glm::dvec3(0, 1, 0) : math::unit(glm::cross(x, c - a), glm::dvec3(0, 1, 0));
+  return {x, glm::cross(z, x), z};
+}
+
+class PictureRun {
+ public:
+  PictureRun(const PictureGrammar& grammar, Job& job)
+      : grammar_(grammar), job_(job), meter_(job, Resource::shapes) {
+    out_.picture = grammar.initial;
+    meter_.spend(out_.picture.lines.size() + out_.picture.markers.size() + out_.picture.solids.size());
+    for (const PicturePair& pair : grammar.pairs) {
+      bool is_told = false;
+      anchors_.push_back(anchors_of_left(pair.left, grammar.is_flat, is_told));
+      double extent = 0;
+      for (const PictureAnchor& each : anchors_.back())
+        extent = std::max(extent, glm::length(each.at - anchors_.back().front().at));
+      extents_.push_back(extent);
+    }
+  }
+
+  DerivedPicture run(std::optional<int> steps, bool is_parallel) {
+    const Rng chance = job_.rng().at("shape grammar");
+    for (std::uint64_t step = 0; !steps || step < static_cast<std::uint64_t>(*steps); ++step) {
+      if (step >= most_steps)
+        Job::refuse("the rules fit 100,000 times and more; give iterations or a rule that ends it",
+                    "/shape_grammar/rules");
+      find_matches();
+      const Rng here = chance.at(step);
+      out_.fits_nowhere = step == 0 && matches_.empty();
+      if (matches_.empty() || !(is_parallel ? apply_all(here) : apply_one(here))) break;
+      ++out_.steps;
+      job_.check();
+    }
+    return std::move(out_);
+  }
+
+ private:
+  // Finding
+
+  void find_matches() {
+    reach_ = std::max(reach_of(out_.picture), 1e-9);
+    near_ = 1e-7 * reach_;
+    candidates_.clear();
+    counts_.clear();
+    has_crossings_ = false;
+    for (const PictureAnchor& each : anchors_of_wholes(out_.picture)) enter(each);
+    for (const PictureAnchor& each : ends_of(out_.picture.lines)) enter(each);
+    // Crossings are worked out where a rule needs them; until then they count as many.
+    counts_[anchor_crossing] = out_.picture.lines.size() * 2 + 1;
+    counts_[anchor_end] = out_.picture.lines.size() * 4 + 2;
+    matches_.clear();
+    for (std::size_t i = 0; i < grammar_.pairs.size(); ++i) {
+      if (grammar_.pairs[i].weight > 0) match(i);
+    }
+  }
+
+  void enter(const PictureAnchor& anchor) {
+    candidates_[anchor.kind].push_back(anchor);
+    ++counts_[anchor.kind];
+  }
+
+  const std::vector<PictureAnchor>& candidates(std::uint32_t kind) {
+    if (kind == anchor_crossing && !has_crossings_) {
+      has_crossings_ = true;
+      candidates_[kind] = crossings_of(out_.picture.lines, near_, &job_);
+      // Where several pairs cross in one place it counts once.
+      std::vector<PictureAnchor>& all = candidates_[kind];
+      std::ranges::stable_sort(all, [](const PictureAnchor& a, const PictureAnchor& b) {
+        return a.at.x != b.at.x ? a.at.x < b.at.x : a.at.z != b.at.z ? a.at.z < b.at.z : a.at.y < b.at.y;
+      });
+      all.erase(std::unique(all.begin(), all.end(),
+                            [&](const PictureAnchor& a, const PictureAnchor& b) {
+                              return glm::length(a.at - b.at) <= near_;
+                            }),
+                all.end());
+    }
+    return candidates_[kind];
+  }
+
+  void match(std::size_t index) {
+    const std::array<PictureAnchor, 3> left = chosen_anchors(anchors_[index], grammar_.is_flat, counts_);
+    const double base = glm::length(left[1].at - left[0].at);
+    if (!(base > 0)) return;
+    const auto of_same_owner = [&](std::size_t k, const PictureAnchor& found, std::size_t other,
+                                   const PictureAnchor& other_found) {
+      return left[k].owner == no_owner || left[other].owner == no_owner ||
+             (left[k].owner == left[other].owner) == (found.owner == other_found.owner);
+    };
+    const std::vector<PictureAnchor> first = candidates(left[0].kind), second = candidates(left[1].kind);
+    const std::vector<PictureAnchor> third =
+        grammar_.is_flat ? std::vector<PictureAnchor>(1) : candidates(left[2].kind);
+    for (const PictureAnchor& p : first) {
+      for (const PictureAnchor& q : second) {
+        look();
+        if (!of_same_owner(1, q, 0, p)) continue;
+        const double scale = glm::length(q.at - p.at) / base;
+        if (!(scale * extents_[index] > smallest * reach_)) continue;
+        const double near = near_of(index, scale);
+        for (const PictureAnchor& r : third) {
+          if (!grammar_.is_flat) {
+            look();
+            if (!of_same_owner(2, r, 0, p) || !of_same_owner(2, r, 1, q)) continue;
+            if (std::abs(glm::length(r.at - p.at) - scale * glm::length(left[2].at - left[0].at)) > near ||
+                std::abs(glm::length(r.at - q.at) - scale * glm::length(left[2].at - left[1].at)) > near)
+              continue;
+          }
+          try_place(index, {left[0].at, left[1].at, left[2].at}, {p.at, q.at, r.at}, scale);
+        }
+      }
+    }
+  }
+
+  void look() {
+    if ((++looked_ & 4095U) == 0) job_.check();
+  }
+
+  double near_of(std::size_t index, double scale) const {
+    return 1e-5 * scale * extents_[index] + 1e-11 * reach_;
+  }
+
+  void try_place(std::size_t index, const std::array<glm::dvec3, 3>& from,
+                 const std::array<glm::dvec3, 3>& to, double scale) {
+    const glm::dmat3 own = glm::transpose(frame_of(from[0], from[1], from[2], grammar_.is_flat));
+    glm::dmat3 there = frame_of(to[0], to[1], to[2], grammar_.is_flat);
+    for (const bool is_mirrored : {false, true}) {
+      if (is_mirrored && !grammar_.mirrors) break;
+      // In the plane the axis beside the line is turned over, in space the one out of the triangle.
+      if (is_mirrored) there[grammar_.is_flat ? 1 : 2] = -there[grammar_.is_flat ? 1 : 2];
+      PictureMatch found;
+      found.pair = index;
+      found.place.turn = there * own;
+      found.place.scale = scale;
+      found.place.shift = to[0] - found.place.turn * (scale * from[0]);
+      if (fits(index, near_of(index, scale), found)) keep(std::move(found));
+    }
+  }
+
+  /// Is the whole left shape there?
+  bool fits(std::size_t index, double near, PictureMatch& match) {
+    const ShapePicture& left = grammar_.pairs[index].left;
+    const ShapePicture& picture = out_.picture;
+    for (const PictureMarker& each : left.markers) {
+      const PictureMarker marker = match.place.of(each);
+      const auto found = std::ranges::find_if(
+          picture.markers, [&](const PictureMarker& other) { return are_equal(other, marker, near); });
+      if (found == picture.markers.end()) return false;
+      match.markers.push_back(static_cast<std::uint32_t>(found - picture.markers.begin()));
+    }
+    for (const PictureSolid& each : left.solids) {
+      const PictureSolid solid = match.place.of(each);
+      const auto found = std::ranges::find_if(
+          picture.solids, [&](const PictureSolid& other) { return are_equal(other, solid, near); });
+      if (found == picture.solids.end()) return false;
+      match.solids.push_back(static_cast<std::uint32_t>(found - picture.solids.begin()));
+    }
+    return std::ranges::all_of(left.lines, [&](const PictureLine& line) {
+      return contains(picture.lines, match.place.of(line), near);
+    });
+  }
+
+  /// A left shape that is symmetrical fits in several ways at one place; those that give the same count once.
+  void keep(PictureMatch match) {
+    const auto is_same = [&](const PictureMatch& other) {
+      return other.pair == match.pair && other.markers == match.markers && other.solids == match.solids &&
+             glm::length(other.place.shift - match.place.shift) <= near_ &&
+             glm::length(other.place.turn[0] - match.place.turn[0]) <= 1e-6 &&
+             glm::length(other.place.turn[1] - match.place.turn[1]) <= 1e-6 &&
+             glm::length(other.place.turn[2] - match.place.turn[2]) <= 1e-6;
+    };
+    // Only the latest can be the same: they come of the same points.
+    const std::size_t from = matches_.size() > 64 ? matches_.size() - 64 : 0;
+    if (std::any_of(matches_.begin() + static_cast<std::ptrdiff_t>(from), matches_.end(), is_same)) return;
+    if (matches_.size() == most_matches)
+      Job::refuse("the rules fit at more than 1,000,000 places at a time", "/shape_grammar/rules");
+    matches_.push_back(std::move(match));
+  }
+
+  // Applying
+
+  bool apply_one(Rng chance) {
+    std::vector<double> weights(grammar_.pairs.size(), 0.0);
+    for (const PictureMatch& match : matches_) weights[match.pair] = grammar_.pairs[match.pair].weight;
+    double sum = 0;
+    for (const double weight : weights) sum += weight;
+    double at = chance.unit() * sum;
+    std::size_t pair = matches_.back().pair;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      if (weights[i] <= 0) continue;
+      at -= weights[i];
+      if (at >= 0) continue;
+      pair = i;
+      break;
+    }
+    const auto count =
+        static_cast<std::uint32_t>(std::ranges::count(matches_, pair, &PictureMatch::pair));
+    std::uint32_t skip = chance.below(count);
+    for (const PictureMatch& match : matches_) {
+      if (match.pair != pair || skip-- > 0) continue;
+      apply(std::span(&match, 1));
+      return true;
+    }
+    return false;
+  }
+
+  /// Matches in an order by chance and weight, as many as share no marker and no solid.
+  bool apply_all(Rng chance) {
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < matches_.size(); ++i) {
+      Rng own = chance.at(i);
+      order.emplace_back(-math::log(1 - own.unit()) / grammar_.pairs[matches_[i].pair].weight, i);
+    }
+    std::ranges::stable_sort(order);
+    std::vector<bool> taken_markers(out_.picture.markers.size()), taken_solids(out_.picture.solids.size());
+    std::vector<PictureMatch> chosen;
+    for (const auto& [key, i] : order) {
+      PictureMatch& match = matches_[i];
+      const bool is_taken =
+          std::ranges::any_of(match.markers, [&](std::uint32_t m) { return taken_markers[m]; }) ||
+          std::ranges::any_of(match.solids, [&](std::uint32_t s) { return taken_solids[s]; });
+      if (is_taken) continue;
+      for (const std::uint32_t m : match.markers) taken_markers[m] = true;
+      for (const std::uint32_t s : match.solids) taken_solids[s] = true;
+      chosen.push_back(std::move(match));
+    }
+    apply(chosen);
+    return true;
+  }
+
+  void apply(std::span<const PictureMatch> matches) {
+    ShapePicture& picture = out_.picture;
+    std::vector<bool> gone_markers(picture.markers.size()), gone_solids(picture.solids.size());
+    for (const PictureMatch& match : matches) {
+      for (const std::uint32_t m : match.markers) gone_markers[m] = true;
+      for (const std::uint32_t s : match.solids) gone_solids[s] = true;
+      for (const PictureLine& line : grammar_.pairs[match.pair].left.lines) {
+        remove_line(picture.lines, match.place.of(line), near_);
+        look();
+      }
+    }
+    std::size_t at = 0;
+    std::erase_if(picture.markers, [&](const PictureMarker&) { return gone_markers[at++]; });
+    at = 0;
+    std::erase_if(picture.solids, [&](const PictureSolid&) { return gone_solids[at++]; });
+    for (const PictureMatch& match : matches) {
+      const PicturePair& pair = grammar_.pairs[match.pair];
+      ++out_.uses[pair.name];
+      ShapePicture made;
+      for (const PictureLine& line : pair.right.lines) made.lines.push_back(match.place.of(line));
+      for (const PictureMarker& marker : pair.right.markers) made.markers.push_back(match.place.of(marker));
+      for (const PictureSolid& solid : pair.right.solids) made.solids.push_back(match.place.of(solid));
+      meter_.spend(made.lines.size() + made.markers.size() + made.solids.size());
+      if (!(reach_of(made) <= farthest))
+        Job::reject({"/shape_grammar/rules/" + std::to_string(match.pair),
+                     "the picture grows beyond 1,000 km by this rule"});
+      add(picture, made, near_);
+      if ((++added_ & 15U) == 0) job_.check();
+    }
+  }
+
+  const PictureGrammar& grammar_;
+  Job& job_;
+  Meter meter_;
+  DerivedPicture out_;
+  std::vector<std::vector<PictureAnchor>> anchors_;  ///< of each left shape
+  std::vector<double> extents_;
+  std::map<std::uint32_t, std::vector<PictureAnchor>> candidates_;
+  std::map<std::uint32_t, std::size_t> counts_;
+  std::vector<PictureMatch> matches_;
+  double reach_ = 1, near_ = 0;
+  bool has_crossings_ = false;
+  std::uint64_t looked_ = 0, added_ = 0;
+};
+
+}  // namespace
+
+DerivedPicture derive_picture(const PictureGrammar& grammar, std::optional<int> steps, bool is_parallel,
+                              Job& job) {
+  return PictureRun(grammar, job).run(steps, is_parallel);
+}
+
+}  // namespace seedmesh::building

@@ -1,0 +1,309 @@
+/// Parameters -> PictureGrammar: coordinates worked out, families put in, left shapes and restrictions judged.
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "core/generators/building/shape_grammar/anchors.h"
+#include "core/generators/building/shape_grammar/shape_grammar.h"
+#include "core/lang/expression.h"
+#include "generated/params/building.h"
+
+namespace seedmesh::building {
+namespace {
+
+using Number = std::variant<double, std::string>;
+using Numbers = std::vector<Number>;
+
+constexpr std::size_t most_elements = 20'000;
+constexpr int deepest_family = 16;
+constexpr double farthest = 1e6;  ///< metres
+
+std::uint32_t place_in(std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) names.push_back(name);
+  return static_cast<std::uint32_t>(std::ranges::find(names, name) - names.begin());
+}
+
+glm::dmat3 turned(int axis, double degrees) {
+  const math::SinCos a = math::sincos_degrees(degrees);
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  glm::dmat3 m(1);
+  m[u][u] = a.cos;
+  m[u][v] = a.sin;
+  m[v][u] = -a.sin;
+  m[v][v] = a.cos;
+  return m;
+}
+
+class PictureReader {
+ public:
+  PictureReader(const BuildingShapeGrammar& given, PictureGrammar& grammar, std::vector<Issue>& issues)
+      : given_(given), grammar_(grammar), issues_(issues), is_flat_(given.dimensions == 2) {}
+
+  /// The elements of `picture`, which stands at `pointer`, moved by `place`.
+  void read(const BuildingPicture& picture, const std::string& pointer, ShapePicture& out) {
+    ShapePicture raw;
+    read(picture, picture.parameters, pointer, {}, raw);
+    const double near = 1e-7 * std::max(reach_of(raw), 1e-9);
+    add(out, raw, near);
+  }
+
+ private:
+  using Values = std::map<std::string, double>;
+
+  void fault(const std::string& pointer, std::string message) {
+    if (issues_.size() < 100) issues_.push_back({pointer, std::move(message)});
+  }
+
+  double number(const Number& given, const Values& values, const std::string& pointer) {
+    double result = 0;
+    if (const auto* text = std::get_if<std::string>(&given)) {
+      lang::Names names;
+      for (const auto& [name, value] : values) names.bind_constant(name, value);
+      std::vector<lang::Fault> faults;
+      const std::vector<lang::Token> tokens = lang::tokenize(*text, 0, text->size(), faults);
+      lang::Program program;
+      std::size_t at = 0;
+      const lang::Expression expression = program.parse(tokens, at, names, faults);
+      if (faults.empty() && at + 1 < tokens.size())
+        faults.push_back({tokens[at].offset, "found " + in_quotes(tokens[at]) + " behind the expression"});
+      if (faults.empty() && !expression.is_constant)
+        faults.push_back({0, "a coordinate does not depend on chance"});
+      for (const lang::Fault& each : faults) {
+        if (issues_.size() < 100) issues_.push_back(issue_at(pointer, *text, each.offset, each.message));
+      }
+      if (faults.empty()) result = expression.value;
+    } else {
+      result = std::get<double>(given);
+    }
+    if (std::isfinite(result) && std::abs(result) <= farthest) return result;
+    fault(pointer, std::isfinite(result) ? "the value is beyond 1,000 km" : "the value is no finite number");
+    return 0;
+  }
+
+  /// Two or three coordinates as a place; none are the origin.
+  glm::dvec3 point(const Numbers& given, const Values& values, const std::string& pointer) {
+    const std::size_t wanted = is_flat_ ? 2 : 3;
+    if (given.empty()) return glm::dvec3(0);
+    if (given.size() != wanted) {
+      fault(pointer, "found " + std::to_string(given.size()) + " coordinates, expected " +
+                         std::to_string(wanted) + " as \"dimensions\" says");
+      return glm::dvec3(0);
+    }
+    glm::dvec3 p(0);
+    for (std::size_t i = 0; i < wanted; ++i)
+      p[static_cast<int>(i)] = number(given[i], values, pointer + "/" + std::to_string(i));
+    return is_flat_ ? glm::dvec3(p.x, 0, -p.y) : p;
+  }
+
+  glm::dmat3 turn(const Numbers& given, const Values& values, const std::string& pointer) {
+    if (given.empty()) return glm::dmat3(1);
+    if (given.size() == 1) return turned(1, number(given[0], values, pointer + "/0"));
+    if (given.size() == 2 || is_flat_) {
+      fault(pointer, "found " + std::to_string(given.size()) + " angles, expected " +
+                         (is_flat_ ? "one" : "one or three"));
+      return glm::dmat3(1);
+    }
+    glm::dmat3 m(1);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      m = turned(axis, number(given[i], values, pointer + "/" + std::to_string(i))) * m;
+    }
+    return m;
+  }
+
+  glm::dvec3 size(const BuildingBody& body, const Values& values, const std::string& pointer) {
+    const std::size_t wanted = is_flat_ ? 2 : 3;
+    glm::dvec3 size(1);
+    if (body.size.size() > 1 && body.size.size() != wanted) {
+      fault(pointer, "found " + std::to_string(body.size.size()) + " sizes, expected one or " +
+                         std::to_string(wanted));
+      return size;
+    }
+    for (std::size_t i = 0; i < body.size.size(); ++i) {
+      const double each = number(body.size[i], values, pointer + "/" + std::to_string(i));
+      if (!(each > 0)) fault(pointer + "/" + std::to_string(i), "a size is above 0");
+      size[is_flat_ && i == 1 ? 2 : static_cast<int>(i)] = each;
+    }
+    if (body.size.size() == 1) size = glm::dvec3(size.x);
+    if (is_flat_) size.y = 0;
+    return size;
+  }
+
+  void read_solid(const BuildingBody& body, const Values& values, const std::string& pointer,
+                  const Similarity& place, ShapePicture& out) {
+    PictureSolid solid;
+    solid.kind = static_cast<SolidKind>(body.solid);
+    solid.material = place_in(grammar_.materials, body.material);
+    solid.base = point(body.at, values, pointer + "/at");
+    solid.axes = turn(body.turn, values, pointer + "/turn");
+    solid.size = size(body, values, pointer + "/size");
+    const bool is_round = solid.kind == SolidKind::cylinder || solid.kind == SolidKind::cone ||
+                          solid.kind == SolidKind::sphere;
+    if (is_flat_ && solid.kind != SolidKind::box && solid.kind != SolidKind::cylinder)
+      fault(pointer + "/solid", "a picture of two dimensions has solids of the kinds box and cylinder");
+    if (is_round && solid.size.x != solid.size.z)
+      fault(pointer + "/size", "a round solid is as deep as it is wide");
+    if (solid.kind == SolidKind::sphere && solid.size.x != solid.size.y)
+      fault(pointer + "/size", "a sphere is as high as it is wide");
+    out.solids.push_back(place.of(solid));
+  }
+
+  void read(const BuildingPicture& picture, const Values& values, const std::string& pointer,
+            const Similarity& place, ShapePicture& out) {
+    for (std::size_t r = 0; r < picture.lines.size(); ++r) {
+      const auto& row = picture.lines[r];
+      const std::string at = pointer + "/lines/" + std::to_string(r);
+      glm::dvec3 last(0);
+      for (std::size_t i = 0; i < row.size() && count(at); ++i) {
+        const glm::dvec3 next = place.of(point(row[i], values, at + "/" + std::to_string(i)));
+        if (i > 0) out.lines.push_back({last, next});
+        last = next;
+      }
+    }
+    for (std::size_t i = 0; i < picture.solids.size(); ++i) {
+      const std::string at = pointer + "/solids/" + std::to_string(i);
+      if (count(at)) read_solid(picture.solids[i], values, at, place, out);
+    }
+    for (std::size_t i = 0; i < picture.markers.size(); ++i) {
+      const BuildingMarker& given = picture.markers[i];
+      const std::string at = pointer + "/markers/" + std::to_string(i);
+      if (!count(at)) return;
+      PictureMarker marker;
+      marker.label = place_in(grammar_.labels, given.name);
+      marker.count = static_cast<std::uint32_t>(given.points.size());
+      for (std::uint32_t k = 0; k < marker.count; ++k)
+        marker.points[k] =
+            place.of(point(given.points[k], values, at + "/points/" + std::to_string(k)));
+      out.markers.push_back(marker);
+    }
+    for (std::size_t i = 0; i < picture.shapes.size(); ++i) {
+      const std::string at = pointer + "/shapes/" + std::to_string(i);
+      if (!count(at)) return;
+      read_member(picture.shapes[i], values, at, place, out);
+    }
+  }
+
+  /// A member of a family: its variables get the values of this use, or else its own.
+  void read_member(const BuildingMember& member, const Values& values, const std::string& pointer,
+                   const Similarity& place, ShapePicture& out) {
+    const auto found = given_.shapes.find(member.shape);
+    if (found == given_.shapes.end())
+      return fault(pointer + "/shape", "there is no family \"" + member.shape + "\" in \"shapes\"");
+    Values own = found->second.parameters;
+    for (const auto& [name, value] : member.values) {
+      const std::string at = pointer + "/values/" + name;
+      if (!own.contains(name))
+        fault(at, "the family \"" + member.shape + "\" has no parameter of this name");
+      own[name] = number(value, values, at);
+    }
+    const double scale = number(member.scale, values, pointer + "/scale");
+    if (!(scale > 0)) return fault(pointer + "/scale", "a scale is above 0");
+    const glm::dmat3 rotation = turn(member.turn, values, pointer + "/turn");
+    const glm::dvec3 at = point(member.at, values, pointer + "/at");
+    glm::dmat3 flip(1);
+    if (member.mirror) flip[0][0] = -1;
+    if (++depth_ > deepest_family) {
+      fault(pointer + "/shape", "families stand in each other more than " + std::to_string(deepest_family) +
+                                    " deep");
+    } else {
+      const Similarity inner{place.turn * rotation * flip, place.scale * scale, place.of(at)};
+      read(found->second, own, "/shape_grammar/shapes/" + member.shape, inner, out);
+    }
+    --depth_;
+  }
+
+  bool count(const std::string& pointer) {
+    if (++elements_ == most_elements + 1)
+      fault(pointer, "more than " + std::to_string(most_elements) + " elements with this one");
+    return elements_ <= most_elements;
+  }
+
+  const BuildingShapeGrammar& given_;
+  PictureGrammar& grammar_;
+  std::vector<Issue>& issues_;
+  bool is_flat_;
+  int depth_ = 0;
+  std::size_t elements_ = 0;
+};
+
+std::string text_of(const glm::dvec3& p, bool is_flat) {
+  const auto shown = [](double x) {
+    std::string text = std::to_string(x + 0.0);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.ends_with('.')) text.pop_back();
+    return text;
+  };
+  return is_flat ? "(" + shown(p.x) + ", " + shown(-p.z) + ")"
+                 : "(" + shown(p.x) + ", " + shown(p.y) + ", " + shown(p.z) + ")";
+}
+
+/// Gips 1974, Kogovšek 2014: what terminals of the left shape the right one has not, and too many markers.
+void judge(const PicturePair& pair, const std::string& pointer, bool is_flat, PictureRestriction restriction,
+           std::vector<Issue>& issues) {
+  const double near = 1e-6 * std::max(reach_of(pair.left), 1e-9);
+  for (const PictureLine& line : pair.left.lines) {
+    if (!contains(pair.right.lines, line, near))
+      issues.push_back({pointer + "/pair/1", "the line from " + text_of(line.from, is_flat) + " to " +
+                                                 text_of(line.to, is_flat) +
+                                                 " of the left shape is not in the right one, which a "
+                                                 "non-erasing grammar does not allow"});
+  }
+  for (const PictureSolid& solid : pair.left.solids) {
+    if (std::ranges::none_of(pair.right.solids,
+                             [&](const PictureSolid& each) { return are_equal(each, solid, near); }))
+      issues.push_back({pointer + "/pair/1", "the solid at " + text_of(solid.base, is_flat) +
+                                                 " of the left shape is not in the right one, which a "
+                                                 "non-erasing grammar does not allow"});
+  }
+  if (restriction != PictureRestriction::unimarker) return;
+  const auto markers = [](const ShapePicture& picture) { return std::to_string(picture.markers.size()); };
+  if (pair.left.markers.size() != 1)
+    issues.push_back({pointer + "/pair/0", "found " + markers(pair.left) +
+                                               " markers, expected one on the left in a unimarker grammar"});
+  if (pair.right.markers.size() > 1)
+    issues.push_back({pointer + "/pair/1", "found " + markers(pair.right) +
+                                               " markers, expected at most one on the right in a unimarker "
+                                               "grammar"});
+}
+
+}  // namespace
+
+PictureGrammar read_pictures(const BuildingShapeGrammar& given, PictureRestriction restriction,
+                             std::vector<Issue>& issues) {
+  PictureGrammar grammar;
+  grammar.is_flat = given.dimensions == 2;
+  grammar.mirrors = given.mirror;
+  const std::size_t before = issues.size();
+  PictureReader reader(given, grammar, issues);
+  for (std::size_t i = 0; i < given.initial.size(); ++i)
+    reader.read(given.initial[i], "/shape_grammar/initial/" + std::to_string(i), grammar.initial);
+  for (std::size_t i = 0; i < given.rules.size(); ++i) {
+    const std::string pointer = "/shape_grammar/rules/" + std::to_string(i);
+    PicturePair pair;
+    pair.name = given.rules[i].name.empty() ? "rule " + std::to_string(i + 1) : given.rules[i].name;
+    pair.weight = given.rules[i].weight;
+    reader.read(given.rules[i].pair[0], pointer + "/pair/0", pair.left);
+    reader.read(given.rules[i].pair[1], pointer + "/pair/1", pair.right);
+    grammar.pairs.push_back(std::move(pair));
+  }
+  if (issues.size() > before) return grammar;
+  for (std::size_t i = 0; i < grammar.pairs.size(); ++i) {
+    const std::string pointer = "/shape_grammar/rules/" + std::to_string(i);
+    bool is_told = false;
+    anchors_of_left(grammar.pairs[i].left, grammar.is_flat, is_told);
+    if (!is_told)
+      issues.push_back({pointer + "/pair/0",
+                        std::string("the place of this shape cannot be told: expected ") +
+                            (grammar.is_flat ? "two points" : "three points that are not in a line") +
+                            " of markers, corners of solids, or crossings or ends of lines"});
+    if (restriction != PictureRestriction::any)
+      judge(grammar.pairs[i], pointer, grammar.is_flat, restriction, issues);
+  }
+  if (restriction == PictureRestriction::unimarker && grammar.initial.markers.size() != 1)
+    issues.push_back({"/shape_grammar/initial", "found " + std::to_string(grammar.initial.markers.size()) +
+                                                    " markers, expected one in a unimarker grammar"});
+  return grammar;
+}
+
+}  // namespace seedmesh::building
