@@ -1,5 +1,5 @@
 #pragma once
-/// Four pictures side by side, cut out by alpha, as a texture.
+/// Pictures side by side, cut out by alpha, as a texture.
 #include <memory>
 #include <string>
 

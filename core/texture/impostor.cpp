@@ -15,13 +15,12 @@
 namespace seedmesh::texture {
 namespace {
 
-constexpr std::size_t views = 4;        ///< three upright, one from above
+constexpr std::size_t views = 3;
 constexpr std::uint32_t samples = 4;    ///< of a texel, each way
 constexpr std::uint32_t edges = 32;  ///< of a cell, one is free on each side, so that neighbours do not bleed in
 constexpr float impostor_roughness = 0.9F;
 
 ViewFrame frame_of(std::size_t view) {
-  if (view == 3) return {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
   const math::SinCos turn = math::sincos_degrees(60.0 * static_cast<double>(view));
   return {{turn.cos, 0, -turn.sin}, {0, 1, 0}, {turn.sin, 0, turn.cos}};
 }
@@ -42,10 +41,9 @@ void each_mesh(const Model& model, const std::vector<ImpostorRecipe::Part>& part
   }
 }
 
-/// What the four pictures show, and how high most of it is.
+/// What the pictures show.
 struct Windows {
   std::array<ViewWindow, views> of;
-  double height = 0;
   bool is_flat = true;
 };
 
@@ -55,7 +53,6 @@ Windows windows_of(const Model& model, const std::vector<ImpostorRecipe::Part>& 
   windows.of.fill({glm::dvec2(far), glm::dvec2(-far)});
   std::array<ViewFrame, views> frames;
   for (std::size_t view = 0; view < views; ++view) frames[view] = frame_of(view);
-  double heights = 0, covered = 0;
   each_mesh(model, parts, [&](const Primitive& primitive, const glm::mat4& at) {
     const Mesh& mesh = primitive.mesh;
     job.check();
@@ -66,23 +63,14 @@ Windows windows_of(const Model& model, const std::vector<ImpostorRecipe::Part>& 
         windows.of[view] = {glm::min(windows.of[view].low, seen), glm::max(windows.of[view].high, seen)};
       }
     }
-    for (std::size_t i = 0; i + 2 < mesh.index.size(); i += 3) {
-      std::array<glm::dvec3, 3> p;
-      for (std::size_t c = 0; c < 3; ++c)
-        p[c] = glm::dvec3(glm::vec3(at * glm::vec4(mesh.position[mesh.index.at(i + c)], 1)));
-      const glm::dvec3 across = glm::cross(p[1] - p[0], p[2] - p[0]);
-      covered += std::abs(across.y);
-      heights += std::abs(across.y) * (p[0].y + p[1].y + p[2].y) / 3;
-    }
   });
-  windows.height = covered > 0 ? heights / covered : 0;
   windows.is_flat = std::any_of(windows.of.begin(), windows.of.end(), [](const ViewWindow& window) {
     return !(window.high.x > window.low.x) || !(window.high.y > window.low.y);
   });
   return windows;
 }
 
-/// The corner of a picture in its atlas, in cells.
+/// The corner of a picture in its atlas, in cells: the fourth stays free.
 glm::uvec2 cell_of(std::size_t view) {
   return {static_cast<std::uint32_t>(view % 2), static_cast<std::uint32_t>(view / 2)};
 }
@@ -98,10 +86,9 @@ Mesh quads_of(const Windows& windows, const Job& job) {
     const ViewFrame frame = frame_of(view);
     const ViewWindow& window = windows.of[view];
     const auto first = static_cast<std::uint32_t>(mesh.position.size());
-    const glm::dvec3 origin = view == 3 ? glm::dvec3(0, windows.height, 0) : glm::dvec3(0);
     for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1), glm::dvec2(0, 1)}) {
       const glm::dvec2 place = window.low + (window.high - window.low) * corner;
-      mesh.position.push_back(glm::vec3(origin + frame.right * place.x + frame.up * place.y) + 0.0F);
+      mesh.position.push_back(glm::vec3(frame.right * place.x + frame.up * place.y) + 0.0F);
       mesh.normal.push_back(glm::vec3(frame.towards) + 0.0F);
       const glm::vec2 inside =
           inset + glm::vec2(static_cast<float>(corner.x), static_cast<float>(1 - corner.y)) * (1 - 2 * inset);
@@ -219,7 +206,7 @@ struct Scenery {
   const Job& job;
 };
 
-/// One of the four pictures, in its cell.
+/// One of the pictures, in its cell.
 void draw_view(const Scenery& scenery, const std::vector<ImpostorRecipe::Part>& parts, std::size_t view,
                const ViewWindow& window, Atlas& atlas) {
   const std::uint32_t cell = atlas.size() / 2, edge = cell / edges, inside = cell - 2 * edge;

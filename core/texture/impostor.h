@@ -1,7 +1,7 @@
 #pragma once
-/// Impostors: pictures that stand for a plant that is far away. Three upright quads cross in its axis and a
-/// level one lies at the height of most of it; each shows the plant from its own side, and from behind the
-/// same mirrored. One atlas holds the four pictures; alpha cuts them out.
+/// Impostors: pictures that stand for a plant that is far away. Three upright quads cross in its axis; each
+/// shows the plant from its own side, and from behind the same mirrored. One atlas holds the three pictures;
+/// alpha cuts them out.
 ///
 /// After Maciel and Shirley, "Visual navigation of large environments using textured clusters", 1995, in the
 /// form that engines draw without a shader of their own.
@@ -17,9 +17,9 @@
 
 namespace seedmesh::texture {
 
-constexpr std::uint64_t triangles_of_impostor = 8;
+constexpr std::uint64_t triangles_of_impostor = 6;
 
-/// Adds a mesh of 8 triangles that stands for `parts`, in their frame, and its material. Returns the mesh's
+/// Adds a mesh of 6 triangles that stands for `parts`, in their frame, and its material. Returns the mesh's
 /// number; -1 where the parts have no triangles, or no extent. Linear in the vertices of the parts.
 int add_impostor(Model& model, std::vector<ImpostorRecipe::Part> parts, const std::string& name, Job& job);
 
