@@ -23,6 +23,7 @@ namespace {
 /// What a generator can do beyond making a still model.
 struct Traits {
   bool grows = false, sways = false, has_collision = false;
+  bool has_impostor = false, keeps_budget = false;
   bool parts = false, joins_triangles = false;
 };
 
@@ -57,6 +58,8 @@ struct Row {
             .grows = traits.grows,
             .sways = traits.sways,
             .has_collision = traits.has_collision,
+            .has_impostor = traits.has_impostor,
+            .keeps_budget = traits.keeps_budget,
             .parts = traits.parts,
             .joins_triangles = traits.joins_triangles,
             .read = read,
@@ -116,9 +119,10 @@ constexpr OwnForm scene_forms[] = {
 
 constexpr Generator rows[] = {
     Row<LsystemParams, read_lsystem, write_lsystem, lsystem::check, lsystem::generate, lsystem::derive,
-        lsystem::appraise, lsystem::vocabulary>::named("lsystem", {.grows = true}),
+        lsystem::appraise, lsystem::vocabulary>::named("lsystem", {.grows = true, .has_impostor = true}),
     Row<TreeParams, read_tree, write_tree, tree::check, tree::generate, tree::derive, tree::appraise,
-        tree::vocabulary>::named("tree", {.grows = true, .sways = true, .has_collision = true}),
+        tree::vocabulary>::named("tree",
+                            {.grows = true, .sways = true, .has_collision = true, .has_impostor = true}),
     Row<FractalParams, read_fractal, write_fractal, fractal::check, fractal::generate, fractal::derive,
         fractal::appraise, fractal::vocabulary>::named<fractal::encode>("fractal", fractal_forms),
     Row<TerrainParams, read_terrain, write_terrain, terrain::check, terrain::generate, terrain::derive,
@@ -127,7 +131,8 @@ constexpr Generator rows[] = {
     Row<BuildingParams, read_building, write_building, building::check, building::generate, building::derive,
         building::appraise, building::vocabulary>::named("building", {.parts = true}),
     Row<SceneParams, read_scene, write_scene, scene::check, scene::generate, scene::derive, scene::appraise,
-        scene::vocabulary>::named<scene::encode>("scene", scene_forms),
+        scene::vocabulary>::named<scene::encode>("scene", scene_forms,
+                                           {.grows = true, .has_impostor = true, .keeps_budget = true}),
 };
 
 }  // namespace

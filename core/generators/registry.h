@@ -29,6 +29,8 @@ struct Generator {
   bool grows = false;          ///< makes the animation "growth" where Job::demand() asks for it
   bool sways = false;          ///< writes wind weights where it asks for them
   bool has_collision = false;  ///< makes collision shapes where it asks for them
+  bool has_impostor = false;   ///< its models can be shown by pictures of them
+  bool keeps_budget = false;   ///< chooses levels of detail itself to have Job::demand().most_triangles
   bool parts = false;  ///< what it repeats are parts of one thing, which beyond 400 are merged by material
   /// Its meshes fit a budget of triangles better where triangles are joined than at a level of detail.
   bool joins_triangles = false;

@@ -41,8 +41,9 @@ void drop_empty_meshes(Model& model) {
   }
   model.meshes = std::move(kept);
   for (Node& node : model.nodes) {
-    for (int& lod : node.lods) lod = new_place[static_cast<std::size_t>(lod)];
-    std::erase(node.lods, -1);
+    const auto is_empty_now = [&](int lod) { return lod >= 0 && new_place[static_cast<std::size_t>(lod)] < 0; };
+    std::erase_if(node.lods, is_empty_now);
+    for (int& lod : node.lods) lod = lod < 0 ? lod : new_place[static_cast<std::size_t>(lod)];
     if (node.mesh >= 0) node.mesh = new_place[static_cast<std::size_t>(node.mesh)];
     if (node.mesh < 0 && !node.lods.empty()) {
       node.mesh = node.lods.front();

@@ -216,7 +216,7 @@ class Describer {
   std::vector<int> lods_of(const Node& node, int mesh) {
     std::vector<int> lods;
     for (const int lod : node.lods) {
-      if (mesh >= 0 && !columns_.meshes[static_cast<std::size_t>(lod)].empty())
+      if (mesh >= 0 && (lod < 0 || !columns_.meshes[static_cast<std::size_t>(lod)].empty()))
         lods.push_back(meshes_.use(lod));
     }
     return lods;

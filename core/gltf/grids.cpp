@@ -34,6 +34,7 @@ class Sets {
 
 std::vector<int> shown_by(const Node& node) {
   std::vector<int> meshes = node.lods;
+  std::erase(meshes, -1);
   if (node.mesh >= 0) meshes.push_back(node.mesh);
   return meshes;
 }

@@ -50,11 +50,14 @@ std::string_view name_of(CollisionShape shape) {
 }
 
 /// Shares of the screen's height below which the next level is shown; the last is never left for nothing.
-void append_coverage(std::string& out, std::size_t levels) {
+/// A picture takes over where it is about as large as it is sharp.
+void append_coverage(std::string& out, const Node& node, std::size_t levels) {
   constexpr std::array<std::string_view, 5> shares = {"0.5", "0.25", "0.12", "0.06", "0.03"};
+  constexpr std::size_t of_impostor = 2;
   for (std::size_t i = 0; i + 1 < levels; ++i) {
     out += i == 0 ? '[' : ',';
-    out += shares[std::min(i, shares.size() - 1)];
+    const bool is_last = node.has_impostor && i + 2 == levels;
+    out += shares[std::min(is_last ? std::max(i, of_impostor) : i, shares.size() - 1)];
   }
   out += ",0]";
 }
@@ -78,7 +81,7 @@ void append_extras(std::string& out, const Node& node, std::size_t levels) {
   }
   if (levels > 1) {
     append_name("MSFT_screencoverage");
-    append_coverage(out, levels);
+    append_coverage(out, node, levels);
   }
   if (before == ',') out += '}';
 }
@@ -137,7 +140,11 @@ class NodeWriter {
       append_transform(out_, node.instances.transforms[i]);
       append_shown(number, shown_.meshes[number]);
       append_extensions(number, false, levels(number));
-      if (levels(number) > 0) append_extras(out_, Node{}, 1 + levels(number));
+      if (levels(number) > 0) {
+        Node copy;
+        copy.has_impostor = node.has_impostor;
+        append_extras(out_, copy, 1 + levels(number));
+      }
       out_ += '}';
       meter.step();
     }
@@ -177,7 +184,7 @@ class NodeWriter {
         open(level_name(itself ? node.name : copy_name(node.name, i), level + 1));
         append_transform(out_, itself ? node.transform : node.instances.transforms[i]);
         append_shown(number, shown_.lods[number][level]);
-        append_extensions(number, itself, 0);
+        append_extensions(number, itself && shown_.lods[number][level] >= 0, 0);
         out_ += '}';
         meter.step();
       }

@@ -15,7 +15,8 @@ void shift(int& index, std::size_t by) {
   if (index >= 0) index += static_cast<int>(by);
 }
 
-void shift(Material& material, std::size_t textures) {
+void shift(Material& material, std::size_t textures, std::size_t meshes) {
+  for (ImpostorRecipe::Part& part : material.impostor.parts) shift(part.mesh, meshes);
   for (TextureUse* use :
        {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
         &material.occlusion_texture, &material.emissive_texture}) {
@@ -62,7 +63,7 @@ void append(Model& model, Model other, int parent, const Transform& at) {
       for (int& material : primitive.variant_materials) shift(material, materials);
     }
   }
-  for (Material& material : other.materials) shift(material, textures);
+  for (Material& material : other.materials) shift(material, textures, meshes);
   for (Skin& skin : other.skins) {
     for (int& joint : skin.joints) shift(joint, nodes);
     shift(skin.skeleton, nodes);

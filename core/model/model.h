@@ -37,6 +37,16 @@ struct TextureRecipe {
   glm::vec3 factor{1};  ///< linear; multiplies what is painted, so that several looks share one picture
 };
 
+/// A picture of meshes of the model from several sides, drawn once these have their textures
+/// (core/texture/impostor.h).
+struct ImpostorRecipe {
+  struct Part {
+    int mesh = -1;    ///< into Model::meshes
+    glm::mat4 at{1};  ///< where it stands in the frame of the impostor
+  };
+  std::vector<Part> parts;  ///< empty: none
+};
+
 enum class AlphaMode { opaque, mask, blend };
 
 struct Material {
@@ -52,6 +62,7 @@ struct Material {
   bool double_sided = false;
   bool unlit = false;    ///< KHR_materials_unlit, never required
   TextureRecipe recipe;  ///< used up by paint()
+  ImpostorRecipe impostor;  ///< used up by draw_impostors()
 };
 
 struct Primitive {
@@ -90,7 +101,8 @@ struct Node {
   int parent = -1;
   Transform transform;
   int mesh = -1;          ///< into Model::meshes
-  std::vector<int> lods;  ///< coarser meshes after `mesh`, finest first
+  std::vector<int> lods;  ///< coarser meshes after `mesh`, finest first; -1: there the node shows nothing
+  bool has_impostor = false;  ///< the last of `lods` is a picture of the whole, or nothing beside it
   int skin = -1;
   Instances instances;  ///< empty: the node stands once
   CollisionShape collision = CollisionShape::none;

@@ -18,6 +18,7 @@ bool same(const TextureUse& a, const TextureUse& b) {
 
 /// Equal in all but the seed of the textures.
 bool alike(const Material& a, const Material& b) {
+  if (!a.impostor.parts.empty() || !b.impostor.parts.empty()) return false;
   const auto plain = [](const Material& m) {
     return std::tie(m.name, m.base_color, m.metallic, m.roughness, m.emissive, m.alpha_mode, m.alpha_cutoff,
                     m.double_sided, m.unlit, m.recipe.kind, m.recipe.color);

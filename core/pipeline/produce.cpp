@@ -11,6 +11,7 @@
 #include "core/pipeline/body.h"
 #include "core/pipeline/fit.h"
 #include "core/pipeline/profiles.h"
+#include "core/texture/impostor.h"
 #include "core/texture/paint.h"
 
 namespace seedmesh {
@@ -140,14 +141,21 @@ Result<Product> produce_own(const Request& request, const OwnForm& form, Job& jo
 /// Parts of one thing that are repeated more often than this are merged by material.
 constexpr std::uint64_t most_parts = 400;
 
+static_assert(static_cast<int>(OutputInstancing::merge) == static_cast<int>(CopyForm::merge));
+
 Demand demand_of(const OutputParams& output, const Generator& generator) {
-  const bool chooses = output.max_triangles && (output.lods > 1 || !generator.joins_triangles);
-  return {.lods = chooses ? levels_to_choose_from : output.lods,
+  const bool budget_here = output.max_triangles && !generator.keeps_budget &&
+                           (output.lods > 1 || !generator.joins_triangles);
+  return {.lods = budget_here ? levels_to_choose_from : output.lods,
           .share_organs =
               output.instancing == OutputInstancing::nodes || output.instancing == OutputInstancing::gpu,
           .growth = output.animation == OutputParams::Animation::growth,
           .wind = output.wind == OutputWind::weights,
-          .collision = static_cast<CollisionNames>(output.collision)};
+          .collision = static_cast<CollisionNames>(output.collision),
+          .textures = texture_size(output),
+          .impostor = output.impostor,
+          .copies = static_cast<CopyForm>(output.instancing),
+          .most_triangles = static_cast<std::uint64_t>(output.max_triangles.value_or(0))};
 }
 
 /// The model of one seed, as its generator makes it.
@@ -190,6 +198,20 @@ void merge_where_wanted(Model& model, const Request& request, Job& job) {
   if (instancing == OutputInstancing::merge || crowded) merge_copies(model, job);
 }
 
+/// Pictures as the coarsest level where they are wanted; those that a scene has chosen in any case.
+std::optional<Issue> add_impostors(Model& model, const Request& request, Job& job) {
+  const OutputParams& output = request.body().output;
+  const int size = texture_size(output);
+  const bool is_scene = request.body().generator->keeps_budget;
+  if (output.impostor && !is_scene && texture::add_impostor_levels(model, job) == 0) {
+    return Issue{"/output/impostor",
+                 "the model has no mesh that stands still by itself, which an impostor could take the place "
+                 "of; expected `instancing` auto"};
+  }
+  texture::draw_impostors(model, is_scene ? std::max(size / 2, 64) : size, job);
+  return std::nullopt;
+}
+
 WriteOptions write_options(const Request& request, const Form& form) {
   const OutputParams& output = request.body().output;
   const Profile& profile = profile_of(output.profile);
@@ -212,12 +234,15 @@ Result<Product> produce(const Request& request, Job& job, TextureStore* texture_
     if (!model) return std::move(model).error();
     if (output.max_triangles) {
       const auto most = static_cast<std::uint64_t>(*output.max_triangles);
-      if (std::optional<Issue> issue = fit(*model, most, output.lods, job)) {
+      const bool has_impostors = output.impostor && request.body().generator->keeps_budget;
+      if (std::optional<Issue> issue = fit(*model, most, output.lods + (has_impostors ? 1 : 0), job)) {
         return Error{Code::limit, {*std::move(issue)}};
       }
     }
     merge_where_wanted(*model, request, job);
     texture::paint(*model, texture_size(output), texture_store, job);
+    if (std::optional<Issue> issue = add_impostors(*model, request, job))
+      return Error{Code::invalid, {*std::move(issue)}};
     if (output.tangents == OutputTangents::auto_) add_tangents(*model, job);
     finish(*model, job);
     name_for(*model, output.profile);

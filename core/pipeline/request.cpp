@@ -13,6 +13,8 @@
 namespace seedmesh {
 namespace {
 
+constexpr std::int32_t least_impostor = 64;  ///< texels of a side
+
 std::string canonical_request(const Request::Body& body) {
   Json json = {{"generator", body.generator->name}};
   RequestParams frame;
@@ -79,12 +81,33 @@ void check_profile(const OutputParams& output, Faults& faults) {
                                     ", which hold one; expected the format zip, or one of the profiles " +
                                     profiles_where(&Profile::lods_inside)});
   }
+  if (output.impostor && output.format != OutputFormat::zip && !profile.lods_inside) {
+    faults.add({"/output/impostor", "found a level of detail in the format " +
+                                        std::string(text_of(output.format)) + " with " + named +
+                                        ", which hold one; expected the format zip, or one of the profiles " +
+                                        profiles_where(&Profile::lods_inside)});
+  }
   if (output.instancing == OutputInstancing::gpu && !profile.gpu_instances) {
     faults.add(
         {"/output/instancing", "found gpu with " + named +
                                    ", whose readers do not all take it; expected one of the profiles " +
                                    profiles_where(&Profile::gpu_instances)});
   }
+}
+
+/// A picture needs texels, and something that stands still.
+void check_impostor(const Generator& generator, const OutputParams& output, Faults& faults) {
+  if (!output.impostor) return;
+  const auto refuse = [&faults](std::string message) { faults.add({"/output/impostor", std::move(message)}); };
+  const auto* size = std::get_if<std::int32_t>(&output.textures);
+  if (!generator.has_impostor) refuse("the generator " + std::string(generator.name) + " makes no impostors");
+  if (!size) refuse("found an impostor and no textures; it is one");
+  if (size && *size < least_impostor) {
+    refuse("found textures of " + std::to_string(*size) + " texels; expected at least " +
+           std::to_string(least_impostor));
+  }
+  if (output.animation == OutputParams::Animation::growth)
+    refuse("found an impostor and the growth animation; a picture does not grow");
 }
 
 /// What the schema cannot say of the output.
@@ -150,6 +173,7 @@ Result<Request> read_request_body(const Json& json, const Limits& limits) {
   if (body.generator) {
     add_form_fault(*body.generator, frame.output, faults);
     check_own_form(*body.generator, body.params, frame.output, faults);
+    check_impostor(*body.generator, frame.output, faults);
   }
   if (body.generator && !body.generator->grows && frame.output.animation == OutputParams::Animation::growth) {
     faults.add({"/output/animation",

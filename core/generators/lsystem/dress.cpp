@@ -65,7 +65,7 @@ std::optional<GrowthPlan> growth_of(const Skeleton& skeleton, const LsystemParam
         {"/output/instancing",
          "found organs that share a mesh, which no bone moves; the growth animation needs auto or merge"});
   }
-  return plan_growth(skeleton.limbs, {}, job);
+  return plan_growth(skeleton.limbs, {.most_bones = job.demand().most_bones}, job);
 }
 
 /// The bark with its coarser levels. Takes the limbs: their memory goes back before polygons and writer need

@@ -6,10 +6,14 @@
 #include <tuple>
 
 #include "core/base/math.h"
+#include "core/generators/registry.h"
+#include "core/generators/scene/grow.h"
+#include "core/generators/scene/levels.h"
 #include "core/geom/flatten.h"
 #include "core/geom/weld.h"
 #include "core/model/append.h"
 #include "core/schema/json.h"
+#include "core/texture/impostor.h"
 #include "generated/params/scene.h"
 
 namespace seedmesh::scene {
@@ -102,12 +106,35 @@ std::vector<std::vector<Primitive>> levels_made(Model& model, Job& job) {
   return made;
 }
 
-/// Copies of one model in one square of the ground.
+/// Copies of one model at one level in one square of the ground.
 struct Batch {
   std::uint32_t cast;
+  std::uint32_t level;
   std::uint32_t chunk;
   Transform transform;
 };
+
+std::uint64_t triangles_of(const MeshGroup& group) {
+  std::uint64_t triangles = 0;
+  for (const Primitive& each : group.primitives)
+    triangles += each.mesh.topology == Topology::triangles ? each.mesh.elements() : 0;
+  return triangles;
+}
+
+Box box_of(const MeshGroup& group) {
+  std::optional<Box> all;
+  for (const Primitive& each : group.primitives) {
+    const Box box = bounds_of(each.mesh.position.span());
+    all = all ? Box{glm::min(all->min, box.min), glm::max(all->max, box.max)} : box;
+  }
+  return all.value_or(Box{});
+}
+
+/// Plants can; a house looks flat.
+bool can_be_picture(const Child& request) {
+  const Generator* generator = find_generator(request.generator);
+  return generator && generator->has_impostor;
+}
 
 class Assembly {
  public:
@@ -122,12 +149,18 @@ class Assembly {
   Model assemble(Pieces pieces) {
     for (Model& made : pieces.models) cast_warnings(made);
     append(model_, std::move(pieces.ground), 0, {});
+    const std::uint64_t others = count(model_).triangles;
     groups_.resize(pieces.models.size());
     std::size_t layer = 0;
     for (std::size_t i = 0; i < pieces.models.size(); ++i) {
       while (layer + 1 < casting_.layers.size() && casting_.layers[layer + 1].first <= i) ++layer;
       add_cast(i, layer, pieces.models[i]);
       pieces.models[i] = Model{};
+    }
+    if (chooses_levels(params_, job_.demand())) {
+      std::vector<Stature> statures;
+      for (const Group& group : groups_) statures.push_back(group.stature);
+      levels_ = levels_of(params_, {ground_, planting_, casting_}, statures, others, job_);
     }
     Json told = Json::array();
     for (std::size_t i = 0; i < params_.layers.size(); ++i) told.push_back(add_layer(i));
@@ -138,8 +171,9 @@ class Assembly {
 
  private:
   struct Group {
-    std::vector<int> meshes;  ///< finest first
-    std::uint64_t triangles = 0;
+    std::vector<int> meshes;  ///< finest first, last of all the picture where there is one
+    Stature stature;
+    Grower grower;            ///< without joints: it stands still
   };
 
   /// Variants of a model warn alike.
@@ -155,22 +189,53 @@ class Assembly {
     std::vector<int> materials;
     for (Material& material : made.materials)
       materials.push_back(add_material(std::move(material), made, layer));
+    Group& own = groups_[number];
+    const std::string& name = casting_.casts[number].name;
+    if (Taken growing = taken_to_grow(made); !growing.grower.joints.empty()) {
+      own.grower = std::move(growing.grower);
+      own.grower.mesh = add_mesh(name + "_growing", std::move(growing.primitives), materials);
+    }
     std::vector<std::vector<Primitive>> levels = levels_made(made, job_);
     for (std::size_t level = 0; level < levels.size(); ++level) {
-      MeshGroup group;
-      group.name = casting_.casts[number].name + (level > 0 ? "_LOD" + std::to_string(level) : "");
-      for (Primitive& each : levels[level]) {
-        if (each.mesh.elements() == 0) continue;
-        if (each.material >= 0) each.material = materials[static_cast<std::size_t>(each.material)];
-        each.variant_materials.clear();
-        if (level == 0 && each.mesh.topology == Topology::triangles)
-          groups_[number].triangles += each.mesh.elements();
-        group.primitives.push_back(std::move(each));
-      }
-      if (group.primitives.empty()) continue;
-      groups_[number].meshes.push_back(static_cast<int>(model_.meshes.size()));
-      model_.meshes.push_back(std::move(group));
+      const int mesh =
+          add_mesh(name + (level > 0 ? "_LOD" + std::to_string(level) : ""), std::move(levels[level]), materials);
+      if (mesh < 0) continue;
+      own.meshes.push_back(mesh);
+      own.stature.triangles.push_back(triangles_of(model_.meshes[static_cast<std::size_t>(mesh)]));
     }
+    if (!own.meshes.empty()) measure(own, casting_.casts[number]);
+  }
+
+  /// The primitives with the scene's materials; -1 where there is nothing.
+  int add_mesh(std::string name, std::vector<Primitive> primitives, const std::vector<int>& materials) {
+    MeshGroup group{std::move(name), {}};
+    for (Primitive& each : primitives) {
+      if (each.mesh.elements() == 0) continue;
+      if (each.material >= 0) each.material = materials[static_cast<std::size_t>(each.material)];
+      each.variant_materials.clear();
+      group.primitives.push_back(std::move(each));
+    }
+    if (group.primitives.empty()) return -1;
+    model_.meshes.push_back(std::move(group));
+    return static_cast<int>(model_.meshes.size()) - 1;
+  }
+
+  /// Its size, and a picture of it where that is wanted and less than its coarsest mesh.
+  void measure(Group& own, const Cast& cast) {
+    const Demand& demand = job_.demand();
+    const bool has_picture = wants_pictures(params_, demand) && can_be_picture(cast.request) &&
+                             own.stature.triangles.back() > texture::triangles_of_impostor;
+    if (!has_picture && !chooses_levels(params_, demand)) return;
+    const Box box = box_of(model_.meshes[static_cast<std::size_t>(own.meshes.front())]);
+    const glm::dvec3 size(box.max - box.min);
+    own.stature.radius = glm::length(size) / 2;
+    own.stature.middle = static_cast<double>(box.min.y + box.max.y) / 2;
+    if (!has_picture) return;
+    const int picture = texture::add_impostor(
+        model_, {{.mesh = own.meshes.front(), .at = glm::mat4(1)}}, cast.name + "_impostor", job_);
+    if (picture < 0) return;
+    own.meshes.push_back(picture);
+    own.stature.has_picture = true;
   }
 
   int add_material(Material material, const Model& made, std::size_t layer) {
@@ -216,25 +281,59 @@ class Assembly {
     for (std::size_t i = 0; i < stands.size(); ++i) {
       if (i % 4096 == 0) job_.check();
       const std::uint32_t cast = casting_.cast_of(number, stands[i]);
-      triangles += groups_[cast].triangles;
-      batches.push_back({cast, chunk_of(stands[i].at), transform_of(stands[i], layer, ground_)});
+      const std::uint32_t level = levels_.empty() ? 0 : levels_[number][i];
+      const Transform at = transform_of(stands[i], layer, ground_);
+      triangles += add_growing(cast, i, at, parent);
+      if (groups_[cast].meshes.empty()) continue;
+      triangles += groups_[cast].stature.triangles_at(level);
+      batches.push_back({cast, level, chunk_of(stands[i].at), at});
     }
     std::stable_sort(batches.begin(), batches.end(), [](const Batch& a, const Batch& b) {
-      return std::tie(a.cast, a.chunk) < std::tie(b.cast, b.chunk);
+      return std::tie(a.cast, a.level, a.chunk) < std::tie(b.cast, b.level, b.chunk);
     });
-    std::size_t models = 0;
-    std::uint32_t last = 0xFFFFFFFFU;
     for (std::size_t begin = 0; begin < batches.size();) {
       std::size_t end = begin;
       while (end < batches.size() && batches[end].cast == batches[begin].cast &&
-             batches[end].chunk == batches[begin].chunk)
+             batches[end].level == batches[begin].level && batches[end].chunk == batches[begin].chunk)
         ++end;
       add_batch({batches.data() + begin, end - begin}, parent);
-      models += batches[begin].cast != last ? 1U : 0U;
-      last = batches[begin].cast;
       begin = end;
     }
-    return {{"name", name}, {"placed", stands.size()}, {"models", models}, {"triangles", triangles}};
+    Json told = {
+        {"name", name}, {"placed", stands.size()}, {"models", models_of(number)}, {"triangles", triangles}};
+    if (!levels_.empty()) told["levels"] = levels_told(batches);
+    return told;
+  }
+
+  /// How many models of a layer stand somewhere.
+  std::size_t models_of(std::size_t layer) const {
+    std::set<std::uint32_t> seen;
+    for (const Stand& stand : planting_.layers[layer]) seen.insert(casting_.cast_of(layer, stand));
+    return seen.size();
+  }
+
+  /// How many stand there at each level, and as pictures.
+  Json levels_told(const std::vector<Batch>& batches) const {
+    std::vector<std::size_t> meshes;
+    std::size_t pictures = 0;
+    for (const Batch& each : batches) {
+      const Stature& stature = groups_[each.cast].stature;
+      if (each.level >= stature.triangles.size()) {
+        ++pictures;
+        continue;
+      }
+      if (each.level >= meshes.size()) meshes.resize(each.level + 1, 0);
+      ++meshes[each.level];
+    }
+    return {{"meshes", meshes}, {"impostors", pictures}};
+  }
+
+  /// Its triangles; 0 where the model does not grow.
+  std::uint64_t add_growing(std::uint32_t cast, std::size_t number, const Transform& at, int parent) {
+    Grower& grower = groups_[cast].grower;
+    if (grower.mesh < 0) return 0;
+    add_grower(model_, grower, casting_.casts[cast].name + "_" + std::to_string(number), at, parent);
+    return triangles_of(model_.meshes[static_cast<std::size_t>(grower.mesh)]);
   }
 
   std::uint32_t chunk_of(const glm::dvec2& p) const {
@@ -255,9 +354,17 @@ class Assembly {
       node.name += "_" + std::to_string(batch.front().chunk % across) + "_" +
                    std::to_string(batch.front().chunk / across);
     }
+    const std::size_t level = batch.front().level, meshes = group.stature.triangles.size();
+    if (level > 0) node.name += level < meshes ? "_LOD" + std::to_string(level) : "_impostor";
     node.parent = parent;
-    node.mesh = group.meshes.front();
-    node.lods.assign(group.meshes.begin() + 1, group.meshes.end());
+    node.mesh = group.meshes[level];
+    const auto wanted = static_cast<std::size_t>(job_.demand().lods);
+    for (std::size_t i = level + 1; i < std::min(level + wanted, meshes); ++i)
+      node.lods.push_back(group.meshes[i]);
+    if (job_.demand().impostor && group.stature.has_picture && level < meshes) {
+      node.lods.push_back(group.meshes.back());
+      node.has_impostor = true;
+    }
     if (batch.size() == 1) {
       node.transform = batch.front().transform;
     } else {
@@ -274,6 +381,7 @@ class Assembly {
   Job& job_;
   Model model_;
   std::vector<Group> groups_;
+  Levels levels_;  ///< empty: all stand at the finest
   std::vector<std::pair<int, std::size_t>> owned_;  ///< materials and the layer that brought them
   std::set<std::tuple<std::string, std::string, int, int>> seen_;
 };

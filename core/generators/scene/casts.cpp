@@ -216,15 +216,15 @@ void refuse_too_many(const Casting& casting, const Job& job) {
 }
 
 Result<std::vector<Model>> models_of(const Casting& casting, const std::vector<std::uint8_t>& wanted,
-                                     int levels, Job& job) {
-  Demand demand;
-  demand.lods = levels;
+                                     const Demand& demand, Job& job) {
   std::vector<std::optional<Result<Model>>> made(casting.casts.size());
   parallel_for(job, made.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
       if (wanted[i] == 0) continue;
       const Cast& cast = casting.casts[i];
-      made[i].emplace(generate_child(cast.request, cast.pointer, Rng(0), job, demand));
+      Demand own = demand;
+      own.growth = demand.growth && find_generator(cast.request.generator)->grows;
+      made[i].emplace(generate_child(cast.request, cast.pointer, Rng(0), job, own));
     }
   });
   std::vector<Model> models(made.size());

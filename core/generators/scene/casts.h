@@ -58,8 +58,8 @@ bool is_whole(std::string_view generator, std::string_view path);
 void refuse_too_many(const Casting& casting, const Job& job);
 
 /// The models of all casts that are wanted, in their order, made on all threads of the job; none finished,
-/// and those that are not wanted empty. `levels`: of detail.
+/// and those that are not wanted empty. `demand`: of plants; other models are made without growth.
 Result<std::vector<Model>> models_of(const Casting& casting, const std::vector<std::uint8_t>& wanted,
-                                     int levels, Job& job);
+                                     const Demand& demand, Job& job);
 
 }  // namespace seedmesh::scene

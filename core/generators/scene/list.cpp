@@ -144,7 +144,7 @@ Result<Array<std::uint8_t>> placement_list(const SceneParams& params, const Grou
   list.payload.add("\n]}\n");
   entries.push_back(std::move(list));
   Result<std::vector<Model>> made =
-      models_of(casting, std::vector<std::uint8_t>(casting.casts.size(), 1), 1, job);
+      models_of(casting, std::vector<std::uint8_t>(casting.casts.size(), 1), {}, job);
   if (!made) return std::move(made).error();
   for (std::size_t i = 0; i < casting.casts.size(); ++i)
     entries.push_back({"models/" + casting.casts[i].name + ".glb", file_of(std::move((*made)[i]), job)});

@@ -6,6 +6,9 @@
 
 #include "core/generators/child.h"
 #include "core/generators/scene/assemble.h"
+#include "core/generators/scene/estimate.h"
+#include "core/generators/scene/grow.h"
+#include "core/generators/scene/levels.h"
 #include "core/generators/scene/list.h"
 #include "generated/params/scene.h"
 
@@ -16,6 +19,27 @@ std::optional<Error> refusal(const SceneParams& params, const Limits& limits) {
   std::vector<Issue> issues = check(params, limits);
   if (issues.empty()) return std::nullopt;
   return Error{Code::invalid, std::move(issues)};
+}
+
+/// What of the wanted answer and the parameters does not go together.
+std::vector<Issue> conflicts(const SceneParams& params, const Demand& demand) {
+  std::vector<Issue> issues;
+  const auto add = [&issues](const char* pointer, std::string message) {
+    issues.push_back({pointer, std::move(message), 0, 0});
+  };
+  const std::string levels = "found " + std::to_string(demand.lods) + " levels of detail";
+  if (params.camera && demand.lods > 1)
+    add("/output/lods", levels + " and a camera, which chooses one for each place");
+  if (params.camera && demand.impostor)
+    add("/output/impostor", "found a level of detail and a camera, which chooses one for each place");
+  if (demand.copies == CopyForm::merge && wants_pictures(params, demand))
+    add("/output/instancing", "found merge; a mesh of all copies has no pictures of each");
+  if (!demand.growth) return issues;
+  if (demand.lods > 1) add("/output/lods", levels + "; plants of a scene that grow have one");
+  if (params.camera) add("/camera", "a camera chooses levels of detail; plants that grow have one");
+  if (demand.copies == CopyForm::gpu)
+    add("/output/instancing", "found gpu; copies that are arrays have no bones, and cannot grow");
+  return issues;
 }
 
 std::vector<std::uint8_t> used_casts(const Planting& planting, const Casting& casting) {
@@ -30,6 +54,8 @@ std::vector<std::uint8_t> used_casts(const Planting& planting, const Casting& ca
 
 Result<Model> generate(const SceneParams& params, Job& job) {
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
+  std::vector<Issue> issues = conflicts(params, job.demand());
+  if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   job.progress("derive", 0);
   const Casting casting = casting_of(params, job);
   refuse_too_many(casting, job);
@@ -38,8 +64,15 @@ Result<Model> generate(const SceneParams& params, Job& job) {
   const Planting planting = plant(params, *ground, job);
   job.progress("mesh", 0);
   Pieces pieces;
-  Result<std::vector<Model>> models =
-      models_of(casting, used_casts(planting, casting), job.demand().lods, job);
+  Demand demand;
+  demand.lods = levels_made_of(params, job.demand());
+  demand.growth = job.demand().growth;
+  if (demand.growth) {
+    const Result<std::uint32_t> bones = bones_for({*ground, planting, casting});
+    if (!bones) return bones.error();
+    demand.most_bones = *bones;
+  }
+  Result<std::vector<Model>> models = models_of(casting, used_casts(planting, casting), demand, job);
   if (!models) return std::move(models).error();
   pieces.models = std::move(*models);
   Result<Model> made = ground->model(params, job);
@@ -62,13 +95,16 @@ Result<Appraisal> appraise(const SceneParams& params, const Job& job) {
   const Casting casting = casting_of(params, job);
   refuse_too_many(casting, job);
   std::set<std::pair<std::string, std::string>> seen;
+  std::vector<std::optional<Estimate>> estimates;
   for (const Cast& cast : casting.casts) {
     Result<Appraisal> own = appraise_child(cast.request, cast.pointer, Rng(0), job);
     if (!own) return own;
+    estimates.push_back(own->estimate);
     for (Warning& each : own->warnings) {
       if (seen.insert({each.pointer, each.message}).second) appraisal.warnings.push_back(std::move(each));
     }
   }
+  appraisal.estimate = estimate_of(params, casting, estimates, job);
   return appraisal;
 }
 
@@ -76,6 +112,8 @@ Json vocabulary() { return Json::object(); }
 
 Result<Array<std::uint8_t>> encode(const SceneParams& params, std::string_view, Job& job) {
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
+  if (params.camera)
+    return Error{Code::invalid, {{"/camera", "has no effect on a list of placements", 0, 0}}};
   job.progress("derive", 0);
   const Casting casting = casting_of(params, job);
   refuse_too_many(casting, job);

@@ -37,8 +37,8 @@ Result<Model> generate(const SceneParams& params, Job& job);
 /// model as a request that can be made alone; placements null where there are more than most_told.
 Result<Json> derive(const SceneParams& params, Job& job);
 
-/// Warnings of the models; triangles where all of them can tell theirs and the ground is level. Refuses what
-/// is too large together.
+/// Warnings of the models, and an estimate where all of them and the ground can tell theirs (estimate.h).
+/// Refuses what is too large together.
 Result<Appraisal> appraise(const SceneParams& params, const Job& job);
 
 /// No notation, hence no words.

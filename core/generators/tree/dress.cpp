@@ -114,7 +114,7 @@ Model dress(Skeleton skeleton, const TreeParams& params, Job& job) {
       Job::reject({"", "found several levels of detail; the growth animation needs one", 0, 0});
     if (job.demand().share_organs)
       Job::reject({"", "found leaves as nodes; the growth animation needs them merged", 0, 0});
-    motion.growth = plan_growth(skeleton.limbs, {}, job);
+    motion.growth = plan_growth(skeleton.limbs, {.most_bones = job.demand().most_bones}, job);
   }
   if (job.demand().wind) motion.wind.emplace(skeleton.limbs, job);
   add_bark(model, skeleton.limbs, params, motion, job);

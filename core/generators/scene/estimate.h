@@ -1,0 +1,21 @@
+#pragma once
+/// What a scene will have, before anything is placed or made.
+#include <optional>
+
+#include "core/base/job.h"
+#include "core/generators/appraisal.h"
+#include "core/generators/scene/casts.h"
+
+namespace seedmesh::scene {
+
+/// How many of a layer stand, at most, where all of `extent` suits it: the number that is asked for, or that
+/// its pattern has room for.
+double expected_stands(const SceneLayer& layer, const Extent& extent);
+
+/// Every model by itself (`estimates`, by Casting::casts) as often as it stands, and the ground; nothing
+/// where one of them cannot tell. Exact where each place is given and each model is exact. Bytes: each model
+/// once, and a node for each place.
+std::optional<Estimate> estimate_of(const SceneParams& params, const Casting& casting,
+                                    const std::vector<std::optional<Estimate>>& estimates, const Job& job);
+
+}  // namespace seedmesh::scene

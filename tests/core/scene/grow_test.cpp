@@ -1,0 +1,135 @@
+/// Scenes in which everything grows.
+#include "core/generators/scene/grow.h"
+
+#include <map>
+#include <set>
+
+#include "tests/core/scene/support.h"
+
+namespace seedmesh {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+Json bed() {
+  const Json tree = {{"preset", "proctree_0"}, {"parameters", {{"mLevels", 3}, {"mSegments", 4}}}};
+  const Json herb = {{"generator", "lsystem"},
+                     {"parameters", {{"axiom", "A"}, {"productions", {"A -> F[+A][-A]"}}, {"iterations", 4}}}};
+  const Json positions = {{"method", "positions"},
+                          {"positions", {{{"at", {-4, 0}}}, {{"at", {4, 0}}}, {{"at", {0, 4}}, {"age", 6}}}}};
+  return {{"ground", {{"size", 20}}},
+          {"layers",
+           {{{"name", "tree"}, {"model", tree}, {"variants", 1}, {"place", positions}},
+            {{"name", "herb"}, {"model", herb}, {"variants", 2}, {"place", {{"distance", 4}}}},
+            {{"name", "stone"}, {"model", cube(0.4)}, {"variants", 1}, {"place", {{"distance", 5}}}}}}};
+}
+
+Result<Model> growing(const Json& json, Demand demand = {}) {
+  const Generator::Params params = read_scene_params(json);
+  Job job(1, Job::Options{});
+  demand.growth = true;
+  job.set_demand(demand);
+  try {
+    Result<Model> model = scene::generate(own(params), job);
+    if (model) finish(*model, job);
+    return model;
+  } catch (const Stop& stop) {
+    return Error{stop.code(), {stop.issue()}};
+  }
+}
+
+std::vector<std::string> pointers_of(const Result<Model>& model) {
+  std::vector<std::string> all;
+  if (model) return all;
+  for (const Issue& issue : model.error().issues) all.push_back(issue.pointer);
+  return all;
+}
+
+TEST(GrowingScene, GivesEveryPlantBonesOfItsOwnAndSharesItsMesh) {
+  const Result<Model> model = growing(bed());
+  ASSERT_TRUE(model);
+  EXPECT_THAT(faults(*model), IsEmpty());
+  const Planted made = planted(bed());
+  std::set<int> meshes, joints;
+  std::size_t plants = 0, bones = 0;
+  for (const Node& node : model->nodes) {
+    if (node.skin < 0) continue;
+    ++plants;
+    EXPECT_EQ(node.parent, -1);
+    meshes.insert(node.mesh);
+    const Skin& skin = model->skins[static_cast<std::size_t>(node.skin)];
+    joints.insert(skin.joints.begin(), skin.joints.end());
+    bones += skin.joints.size();
+  }
+  EXPECT_EQ(plants, made.layer(0).size() + made.layer(1).size());
+  EXPECT_EQ(meshes.size(), 4U);  // a tree, another of its own age, two herbs
+  EXPECT_EQ(joints.size(), bones) << "no bone belongs to two plants";
+  ASSERT_EQ(model->animations.size(), 1U);
+  EXPECT_EQ(model->animations[0].name, "growth");
+}
+
+TEST(GrowingScene, EndsInTheStillScene) {
+  const Result<Model> model = growing(bed());
+  ASSERT_TRUE(model);
+  for (const Channel& channel : model->animations.at(0).channels) {
+    const std::vector<float>& times = model->animations[0].times.at(static_cast<std::size_t>(channel.times));
+    ASSERT_EQ(channel.values.size(), 3 * times.size());
+    for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_EQ(channel.values[channel.values.size() - 3 + axis], 1);
+  }
+  const Result<Model> still = scene_of(bed());
+  ASSERT_TRUE(still);
+  EXPECT_EQ(count(*model).triangles, count(*still).triangles);
+}
+
+TEST(GrowingScene, SharesKeyTimesBetweenThePlantsOfAModel) {
+  const Result<Model> model = growing(bed());
+  ASSERT_TRUE(model);
+  // Each of the four models has at most one list of times for each of its 24 classes of birth.
+  EXPECT_LE(model->animations.at(0).times.size(), 4U * 24U);
+}
+
+TEST(GrowingScene, LeavesStonesStill) {
+  const Result<Model> model = growing(bed());
+  ASSERT_TRUE(model);
+  bool found = false;
+  for (const Node& node : model->nodes) {
+    if (!node.name.starts_with("stone_")) continue;
+    found = true;
+    EXPECT_EQ(node.skin, -1);
+    EXPECT_FALSE(node.instances.transforms.empty());
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST(GrowingScene, GivesManyPlantsFewBonesEach) {
+  Json json = bed();
+  json["layers"] = {json["layers"][1]};
+  json["layers"][0]["place"] = {{"method", "scatter"}, {"count", 3000}};
+  const Result<Model> model = growing(json);
+  ASSERT_TRUE(model);
+  std::size_t bones = 0;
+  for (const Skin& skin : model->skins) bones += skin.joints.size();
+  EXPECT_EQ(model->skins.size(), 3000U);
+  EXPECT_LE(bones, scene::most_joints);
+  json["layers"][0]["place"]["count"] = 12'001;
+  EXPECT_THAT(pointers_of(growing(json)), ElementsAre("/output/animation"));
+}
+
+TEST(GrowingScene, IsRefusedWithWhatCannotGrow) {
+  Demand demand;
+  demand.copies = CopyForm::gpu;
+  EXPECT_THAT(pointers_of(growing(bed(), demand)), ElementsAre("/output/instancing"));
+  demand = {};
+  demand.lods = 2;
+  EXPECT_THAT(pointers_of(growing(bed(), demand)), ElementsAre("/output/lods"));
+  Json json = bed();
+  json["camera"] = {{"position", {0, 2, 10}}};
+  EXPECT_THAT(pointers_of(growing(json)), ElementsAre("/camera"));
+  json = bed();
+  json["layers"][1]["model"]["parameters"]["style"] = "lines";
+  EXPECT_THAT(pointers_of(growing(json)), ElementsAre("/layers/1/model/parameters/style"));
+}
+
+}  // namespace
+}  // namespace seedmesh

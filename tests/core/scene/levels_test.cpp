@@ -1,0 +1,183 @@
+/// Levels of detail by distance and by budget.
+#include <map>
+
+#include "core/pipeline.h"
+#include "tests/core/scene/support.h"
+
+namespace seedmesh {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+Json grove(double size = 200) {
+  return {{"ground", {{"size", size}}},
+          {"layers",
+           {{{"name", "tree"},
+             {"model", {{"preset", "proctree_0"}, {"parameters", {{"mLevels", 3}, {"mSegments", 6}}}}},
+             {"variants", 2},
+             {"place", {{"method", "poisson"}, {"distance", 9}}}}}}};
+}
+
+Json seen_from(Json scene, double x, double y, double z) {
+  scene["camera"] = {{"position", {x, y, z}}};
+  return scene;
+}
+
+/// A model of the scene with a demand of the pipeline.
+Result<Model> demanded(const Json& json, const Demand& demand) {
+  const Generator::Params params = read_scene_params(json);
+  Job job(1, Job::Options{});
+  job.set_demand(demand);
+  try {
+    return scene::generate(own(params), job);
+  } catch (const Stop& stop) {
+    return Error{stop.code(), {stop.issue()}};
+  }
+}
+
+Demand demand_of(int lods, bool impostor = false, CopyForm copies = CopyForm::any) {
+  Demand demand;
+  demand.lods = lods;
+  demand.impostor = impostor;
+  demand.copies = copies;
+  return demand;
+}
+
+struct Shown {
+  double distance;
+  std::size_t triangles;
+};
+
+/// Every copy: how far from the camera, and what its mesh has.
+std::vector<Shown> copies_of(const Model& model, const glm::vec3& camera) {
+  std::vector<Shown> shown;
+  for (const Node& node : model.nodes) {
+    if (node.mesh < 0 || node.name == "ground") continue;
+    std::size_t triangles = 0;
+    for (const Primitive& each : model.meshes[static_cast<std::size_t>(node.mesh)].primitives)
+      triangles += each.mesh.elements();
+    std::vector<Transform> copies = node.instances.transforms;
+    if (copies.empty()) copies.push_back(node.transform);
+    for (const Transform& copy : copies)
+      shown.push_back({static_cast<double>(glm::length(copy.translation - camera)), triangles});
+  }
+  return shown;
+}
+
+std::vector<std::string> pointers_of(const Result<Model>& model) {
+  std::vector<std::string> all;
+  if (model) return all;
+  for (const Issue& issue : model.error().issues) all.push_back(issue.pointer);
+  return all;
+}
+
+TEST(SceneLevels, BecomeCoarserWithDistanceAndPicturesInTheEnd) {
+  const glm::vec3 camera(0, 2, 100);
+  const Result<Model> model = demanded(seen_from(grove(), 0, 2, 100), {});
+  ASSERT_TRUE(model);
+  std::map<std::size_t, std::pair<double, double>> range;  // by triangles: the nearest and the farthest
+  for (const Shown& each : copies_of(*model, camera)) {
+    auto& [near, far] = range.try_emplace(each.triangles, each.distance, each.distance).first->second;
+    near = std::min(near, each.distance);
+    far = std::max(far, each.distance);
+  }
+  ASSERT_GE(range.size(), 4U);
+  EXPECT_EQ(range.begin()->first, 6U) << "the farthest are pictures";
+  EXPECT_GT(range.begin()->second.first, range.rbegin()->second.second) << "and farther than all of the finest";
+}
+
+TEST(SceneLevels, LeaveEveryPlantWhereItIs) {
+  const Result<Model> model = demanded(seen_from(grove(), 0, 2, 100), {});
+  ASSERT_TRUE(model);
+  EXPECT_EQ(copies_of(*model, {}).size(), planted(grove()).layer(0).size());
+}
+
+TEST(SceneLevels, HaveNoPicturesWhereTheyAreNotWantedOrThereAreNoTextures) {
+  Json json = seen_from(grove(), 0, 2, 100);
+  Demand bare;
+  bare.textures = 0;
+  for (const bool by_texture : {true, false}) {
+    if (!by_texture) json["camera"]["impostors"] = false;
+    const Result<Model> model = demanded(json, by_texture ? bare : Demand{});
+    ASSERT_TRUE(model);
+    for (const Shown& each : copies_of(*model, {})) EXPECT_GT(each.triangles, 6U);
+  }
+}
+
+TEST(SceneLevels, KeepABudgetAndUseMostOfIt) {
+  std::uint64_t finest = 0;
+  {
+    const Result<Model> whole = demanded(grove(), {});
+    ASSERT_TRUE(whole);
+    finest = count(*whole).triangles;
+  }
+  for (const double share : {0.9, 0.6}) {
+    for (const bool with_camera : {false, true}) {
+      Demand demand;
+      demand.most_triangles = static_cast<std::uint64_t>(static_cast<double>(finest) * share);
+      if (with_camera) demand.most_triangles /= 8;
+      const Result<Model> model = demanded(with_camera ? seen_from(grove(), 0, 2, 60) : grove(), demand);
+      ASSERT_TRUE(model);
+      const std::uint64_t drawn = count(*model).triangles;
+      EXPECT_LE(drawn, demand.most_triangles);
+      if (!with_camera) {
+        EXPECT_GT(drawn, demand.most_triangles * 9 / 10);
+      }
+    }
+  }
+}
+
+TEST(SceneLevels, TellHowManyStandAtEach) {
+  const Result<Model> model = demanded(seen_from(grove(), 0, 2, 100), {});
+  ASSERT_TRUE(model);
+  for (const Extra& extra : model->extras) {
+    if (extra.name != "layers") continue;
+    const Json layer = Json::parse(extra.json)[0];
+    std::size_t sum = layer["levels"]["impostors"];
+    for (const Json& each : layer["levels"]["meshes"]) sum += each.get<std::size_t>();
+    EXPECT_EQ(sum, layer["placed"].get<std::size_t>());
+    EXPECT_EQ(layer["triangles"].get<std::uint64_t>() + 2, count(*model).triangles);
+  }
+}
+
+TEST(SceneLevels, AreRefusedBesideACamera) {
+  const Json json = seen_from(grove(), 0, 2, 100);
+  EXPECT_THAT(pointers_of(demanded(json, demand_of(3))), ElementsAre("/output/lods"));
+  EXPECT_THAT(pointers_of(demanded(json, demand_of(1, true))), Contains("/output/impostor"));
+  EXPECT_THAT(pointers_of(demanded(json, demand_of(1, false, CopyForm::merge))), ElementsAre("/output/instancing"));
+}
+
+TEST(SceneLevels, EndInAPictureWhereThatIsWanted) {
+  const Result<Model> model = demanded(grove(60), demand_of(2, true));
+  ASSERT_TRUE(model);
+  std::size_t plants = 0;
+  for (const Node& node : model->nodes) {
+    if (node.mesh < 0 || node.name == "ground") continue;
+    ASSERT_EQ(node.lods.size(), 2U);
+    EXPECT_TRUE(node.has_impostor);
+    ++plants;
+  }
+  EXPECT_EQ(plants, 2U);
+}
+
+TEST(SceneLevels, GiveTheSameBytesWithAnyNumberOfThreads) {
+  const auto file = [](int threads) {
+    const Json body = {{"generator", "scene"},
+                       {"seed", 5},
+                       {"parameters", seen_from(grove(120), 0, 2, 60)},
+                       {"output", {{"textures", 128}, {"max_triangles", 150'000}}}};
+    const Result<Request> request = read_request(body.dump(), Limits{});
+    EXPECT_TRUE(request);
+    Job job = job_of(5, threads);
+    const Result<Product> product = produce(*request, job);
+    EXPECT_TRUE(product) << product.error().issues.front().message;
+    EXPECT_LE(product->statistics.triangles, 150'000U);
+    return product->payload.text();
+  };
+  EXPECT_EQ(file(1), file(8));
+}
+
+}  // namespace
+}  // namespace seedmesh
