@@ -50,9 +50,54 @@ void drop_empty_meshes(Model& model) {
   }
 }
 
+/// A mesh that is one piece again and again, as leaves are: how much of it one piece is.
+struct Repeats {
+  std::size_t vertices = 0, corners = 0;  ///< 0: it is not
+};
+
+/// Pieces are looked for up to so many corners, and so many times.
+constexpr std::size_t most_repeated = 4096;
+constexpr int most_tries = 32;
+
+bool uses_all(std::span<const std::uint32_t> index, std::size_t vertices) {
+  std::vector<bool> used(vertices, false);
+  for (const std::uint32_t i : index) used[i] = true;
+  return std::find(used.begin(), used.end(), false) == used.end();
+}
+
+Repeats repeats_of(const Array<std::uint32_t>& index, std::size_t vertices) {
+  std::uint32_t most = 0;
+  int tries = 0;
+  for (std::size_t corners = 0; corners + 3 <= std::min(index.size() / 2 + 3, most_repeated); corners += 3) {
+    const std::uint32_t* corner = index.data() + corners;
+    const std::uint32_t piece = most + 1;
+    if (corners > 0 && std::min({corner[0], corner[1], corner[2]}) == piece) {
+      const std::size_t times = index.size() / corners;
+      bool repeats = times * corners == index.size() && times * piece == vertices;
+      for (std::size_t i = corners; repeats && i < index.size(); ++i)
+        repeats = index[i] == index[i - corners] + piece;
+      if (repeats && uses_all(index.span().first(corners), piece)) return {piece, corners};
+      if (++tries == most_tries) break;
+    }
+    most = std::max({most, corner[0], corner[1], corner[2]});
+  }
+  return {};
+}
+
+/// Vertex i of each `piece` goes to new_place[i] of it; those that have no place go.
 template <class T>
 void reorder(Array<T>& values, const Array<std::uint32_t>& new_place, std::size_t used, const Job& job) {
+  const std::size_t piece = new_place.size();
   if (values.empty()) return;
+  if (piece < values.size()) {
+    std::vector<T> own(piece);
+    for (std::size_t first = 0; first < values.size(); first += piece) {
+      T* at = values.data() + first;
+      std::copy_n(at, piece, own.data());
+      for (std::size_t i = 0; i < piece; ++i) at[new_place[i]] = own[i];
+    }
+    return;
+  }
   Array<T> moved(job, used);
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (new_place[i] < used) moved[new_place[i]] = values[i];
@@ -65,13 +110,26 @@ void order_for_cache(Mesh& mesh, const Job& job) {
   if (mesh.cache_ordered || mesh.topology != Topology::triangles || mesh.index.wide.empty()) return;
   job.check();
   Array<std::uint32_t>& index = mesh.index.wide;
-  const std::size_t vertices = mesh.position.size();
-  Array<std::uint32_t> ordered(job, index.size());
-  meshopt_optimizeVertexCacheFifo(ordered.data(), index.data(), index.size(), vertices, cache_entries);
-  Array<std::uint32_t> new_place(job, vertices);
+  // The order of the whole is that of one piece, repeated.
+  Repeats piece = repeats_of(index, mesh.position.size());
+  if (piece.corners == 0) piece = {mesh.position.size(), index.size()};
+  Array<std::uint32_t> ordered(job, piece.corners);
+  meshopt_optimizeVertexCacheFifo(ordered.data(), index.data(), piece.corners, piece.vertices, cache_entries);
+  Array<std::uint32_t> new_place(job, piece.vertices);
   const std::size_t used =
-      meshopt_optimizeVertexFetchRemap(new_place.data(), ordered.data(), ordered.size(), vertices);
-  for (std::size_t i = 0; i < ordered.size(); ++i) index[i] = new_place[ordered[i]];
+      meshopt_optimizeVertexFetchRemap(new_place.data(), ordered.data(), piece.corners, piece.vertices);
+  bool is_ordered = true;
+  for (std::size_t i = 0; i < piece.corners; ++i) {
+    ordered[i] = new_place[ordered[i]];
+    is_ordered = is_ordered && ordered[i] == index[i];
+  }
+  mesh.cache_ordered = true;
+  if (is_ordered && used == piece.vertices) return;
+  std::uint32_t shift = 0;
+  for (std::size_t first = 0; first < index.size(); first += piece.corners) {
+    for (std::size_t i = 0; i < piece.corners; ++i) index[first + i] = ordered[i] + shift;
+    shift += static_cast<std::uint32_t>(piece.vertices);
+  }
   reorder(mesh.position, new_place, used, job);
   reorder(mesh.normal, new_place, used, job);
   for (auto& uv : mesh.uv) reorder(uv, new_place, used, job);
@@ -80,7 +138,6 @@ void order_for_cache(Mesh& mesh, const Job& job) {
   reorder(mesh.joints, new_place, used, job);
   reorder(mesh.weights, new_place, used, job);
   reorder(mesh.bone, new_place, used, job);
-  mesh.cache_ordered = true;
 }
 
 /// Reads everything and, in the common case, writes nothing.
