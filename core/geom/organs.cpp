@@ -8,6 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/base/quick_math.h"
 #include "core/base/rng.h"
+#include "core/geom/four.h"
 
 namespace seedmesh {
 namespace {
@@ -185,11 +186,16 @@ class Placer {
   void follow_crown(const glm::vec3* position, glm::vec3* normal) const {
     const glm::vec3 middle = *options_.crown;
     const float share = options_.crown_share;
-    for (std::size_t i = 0; i < surface_.position.size(); ++i) {
-      const glm::vec3 own = normal[i];
-      glm::vec3 outward = math::quick_unit(position[i] - middle, own);
-      if (glm::dot(outward, own) < 0) outward = -outward;
-      normal[i] = math::quick_unit(own + (outward - own) * share, own);
+    const std::size_t vertices = surface_.position.size();
+    for (std::size_t i = 0; i < vertices; i += Four::size) {
+      const std::size_t count = std::min(Four::size, vertices - i);
+      if (turn_outward(position + i, normal + i, count)) continue;
+      for (std::size_t k = i; k < i + count; ++k) {
+        const glm::vec3 own = normal[k];
+        glm::vec3 outward = math::quick_unit(position[k] - middle, own);
+        if (glm::dot(outward, own) < 0) outward = -outward;
+        normal[k] = math::quick_unit(own + (outward - own) * share, own);
+      }
     }
     const std::uint32_t* corner = surface_.index.wide.data();
     for (const std::uint32_t* end = corner + surface_.index.wide.size(); corner != end; corner += 3) {
@@ -202,6 +208,31 @@ class Placer {
         if (over < 0.1F) here = math::quick_unit(here + face * (0.15F - over), face);
       }
     }
+  }
+
+  /// The same for up to four normals at once. False: they are left as they are, for there is one without a
+  /// direction.
+  bool turn_outward(const glm::vec3* position, glm::vec3* normal, std::size_t count) const {
+    const glm::vec3 middle = *options_.crown;
+    const float share = options_.crown_share;
+    const Four own(normal, count), at(position, count);
+    Four out, mixed;
+    for (std::size_t k = 0; k < Four::size; ++k) {
+      out.x[k] = at.x[k] - middle.x;
+      out.y[k] = at.y[k] - middle.y;
+      out.z[k] = at.z[k] - middle.z;
+    }
+    if (!to_units(out)) return false;
+    for (std::size_t k = 0; k < Four::size; ++k) {
+      const float over = out.x[k] * own.x[k] + out.y[k] * own.y[k] + out.z[k] * own.z[k];
+      const float side = over < 0 ? -1.0F : 1.0F;
+      mixed.x[k] = own.x[k] + (side * out.x[k] - own.x[k]) * share;
+      mixed.y[k] = own.y[k] + (side * out.y[k] - own.y[k]) * share;
+      mixed.z[k] = own.z[k] + (side * out.z[k] - own.z[k]) * share;
+    }
+    if (!to_units(mixed)) return false;
+    for (std::size_t k = 0; k < count; ++k) normal[k] = mixed[k];
+    return true;
   }
 
   const Mesh& surface_;
