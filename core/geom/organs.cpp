@@ -213,25 +213,15 @@ class Placer {
   /// The same for up to four normals at once. False: they are left as they are, for there is one without a
   /// direction.
   bool turn_outward(const glm::vec3* position, glm::vec3* normal, std::size_t count) const {
-    const glm::vec3 middle = *options_.crown;
-    const float share = options_.crown_share;
-    const Four own(normal, count), at(position, count);
-    Four out, mixed;
-    for (std::size_t k = 0; k < Four::size; ++k) {
-      out.x[k] = at.x[k] - middle.x;
-      out.y[k] = at.y[k] - middle.y;
-      out.z[k] = at.z[k] - middle.z;
-    }
+    const glm::vec3& middle = *options_.crown;
+    const Four own = Four::of(normal, count), at = Four::of(position, count);
+    Four out{at.x - middle.x, at.y - middle.y, at.z - middle.z};
     if (!to_units(out)) return false;
-    for (std::size_t k = 0; k < Four::size; ++k) {
-      const float over = out.x[k] * own.x[k] + out.y[k] * own.y[k] + out.z[k] * own.z[k];
-      const float side = over < 0 ? -1.0F : 1.0F;
-      mixed.x[k] = own.x[k] + (side * out.x[k] - own.x[k]) * share;
-      mixed.y[k] = own.y[k] + (side * out.y[k] - own.y[k]) * share;
-      mixed.z[k] = own.z[k] + (side * out.z[k] - own.z[k]) * share;
-    }
+    const FourFloats one{1, 1, 1, 1};
+    out = scaled(out, chosen(dot(out, own) < 0.0F, -one, one));
+    Four mixed = sum(own, scaled(difference(out, own), one * options_.crown_share));
     if (!to_units(mixed)) return false;
-    for (std::size_t k = 0; k < count; ++k) normal[k] = mixed[k];
+    for (std::size_t k = 0; k < count; ++k) normal[k] = mixed.at(k);
     return true;
   }
 

@@ -42,45 +42,21 @@ glm::vec4 tangent_of(const glm::vec3& normal, const Sums& sums) {
 
 /// tangent_of() four vertices at once; false: one of them has no direction of its own.
 bool write_four(const glm::vec3* normals, const Sums* sums, glm::vec4* out) {
-  const Four n(normals, Four::size);
-  Four u, v, flat;
-  alignas(16) float largest[Four::size], length[Four::size], sign[Four::size];
-  for (std::size_t k = 0; k < Four::size; ++k) {
-    u.x[k] = sums[k].u.x;
-    u.y[k] = sums[k].u.y;
-    u.z[k] = sums[k].u.z;
-    v.x[k] = sums[k].v.x;
-    v.y[k] = sums[k].v.y;
-    v.z[k] = sums[k].v.z;
-  }
-  int good = 0;
-  for (std::size_t k = 0; k < Four::size; ++k) {
-    const float over = n.x[k] * u.x[k] + n.y[k] * u.y[k] + n.z[k] * u.z[k];
-    flat.x[k] = u.x[k] - n.x[k] * over;
-    flat.y[k] = u.y[k] - n.y[k] * over;
-    flat.z[k] = u.z[k] - n.z[k] * over;
-    const float a = std::abs(flat.x[k]), b = std::abs(flat.y[k]), c = std::abs(flat.z[k]);
-    const float more = a < b ? b : a;
-    largest[k] = more < c ? c : more;
-    const float square = flat.x[k] * flat.x[k] + flat.y[k] * flat.y[k] + flat.z[k] * flat.z[k];
-    const float whole = u.x[k] * u.x[k] + u.y[k] * u.y[k] + u.z[k] * u.z[k];
-    good += square > 1e-8F * whole && largest[k] > 0 && largest[k] <= std::numeric_limits<float>::max() ? 1 : 0;
-  }
-  if (good != static_cast<int>(Four::size)) return false;
-  for (std::size_t k = 0; k < Four::size; ++k) {
-    flat.x[k] /= largest[k];
-    flat.y[k] /= largest[k];
-    flat.z[k] /= largest[k];
-    length[k] = std::sqrt(flat.x[k] * flat.x[k] + flat.y[k] * flat.y[k] + flat.z[k] * flat.z[k]);
-    flat.x[k] /= length[k];
-    flat.y[k] /= length[k];
-    flat.z[k] /= length[k];
-    const float side = (n.y[k] * flat.z[k] - flat.y[k] * n.z[k]) * v.x[k] +
-                       (n.z[k] * flat.x[k] - flat.z[k] * n.x[k]) * v.y[k] +
-                       (n.x[k] * flat.y[k] - flat.x[k] * n.y[k]) * v.z[k];
-    sign[k] = side > 0 ? -1.0F : 1.0F;
-  }
-  for (std::size_t k = 0; k < Four::size; ++k) out[k] = {flat.x[k], flat.y[k], flat.z[k], sign[k]};
+  const Four n = Four::of(normals);
+  const Sums &a = sums[0], &b = sums[1], &c = sums[2], &d = sums[3];
+  const Four u{{a.u.x, b.u.x, c.u.x, d.u.x}, {a.u.y, b.u.y, c.u.y, d.u.y}, {a.u.z, b.u.z, c.u.z, d.u.z}};
+  const Four v{{a.v.x, b.v.x, c.v.x, d.v.x}, {a.v.y, b.v.y, c.v.y, d.v.y}, {a.v.z, b.v.z, c.v.z, d.v.z}};
+  const Four flat = difference(u, scaled(n, dot(n, u)));
+  const Four sizes{magnitude(flat.x), magnitude(flat.y), magnitude(flat.z)};
+  const FourFloats more = chosen(sizes.x < sizes.y, sizes.y, sizes.x);
+  const FourFloats largest = chosen(more < sizes.z, sizes.z, more);
+  const FourFlags good = (dot(flat, flat) > 1e-8F * dot(u, u)) & (largest > 0.0F) &
+                         (largest <= std::numeric_limits<float>::max());
+  if (!all_of(good)) return false;
+  const Four reduced = divided(flat, largest), tangent = divided(reduced, root(dot(reduced, reduced)));
+  const FourFlags mirrored = dot(cross(n, tangent), v) > 0.0F;
+  for (std::size_t k = 0; k < Four::size; ++k)
+    out[k] = {tangent.x[k], tangent.y[k], tangent.z[k], mirrored[k] ? -1.0F : 1.0F};
   return true;
 }
 
