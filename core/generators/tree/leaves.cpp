@@ -54,7 +54,7 @@ void fit(Organs& organs, const TreeParams& params, const Mesh& leaf, const Job& 
   for (std::size_t i = 0; i < organs.organ.size(); ++i) {
     if (i % 4096 == 0) job.check();
     Organ organ = organs.organ[i];
-    if (density < 1 && static_cast<double>(key_at(organ.key, 0xDE45) >> 11U) * 0x1p-53 >= density) continue;
+    if (!is_drawn(organ.key, density)) continue;
     const float width = organ.scale.x * size / across, length = organ.scale.y * size;
     organ.scale = {width, length, is_round ? width : length};
     organs.organ[kept++] = organ;

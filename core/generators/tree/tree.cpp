@@ -20,10 +20,11 @@ std::uint64_t seed_of(const TreeParams& params, std::uint64_t seed) {
   return static_cast<std::uint64_t>(params.mSeed);
 }
 
-Skeleton grow(const TreeParams& params, Job& job) {
+/// With leaves up to the share `density`.
+Skeleton grow(const TreeParams& params, double density, Job& job) {
   job.progress("derive", 0);
   Skeleton skeleton(job);
-  SkeletonWriter writer(skeleton, job);
+  SkeletonWriter writer(skeleton, job, density);
   const Chances chances(params.seeds, seed_of(params, job.seed()));
   switch (params.model) {
     case TreeModel::weber_penn:
@@ -112,7 +113,7 @@ std::vector<Issue> check(const TreeParams& params, const Limits&) {
 }
 
 Result<Model> generate(const TreeParams& params, Job& job) {
-  Skeleton skeleton = grow(params, job);
+  Skeleton skeleton = grow(params, has_leaves(params) ? params.leaf.density : 0, job);
   job.progress("mesh", 0);
   Model model = dress(std::move(skeleton), params, job);
   model.warnings = warnings_of(params);
@@ -120,7 +121,7 @@ Result<Model> generate(const TreeParams& params, Job& job) {
 }
 
 Result<Json> derive(const TreeParams& params, Job& job) {
-  const Skeleton skeleton = grow(params, job);
+  const Skeleton skeleton = grow(params, 1, job);
   const Limbs& limbs = skeleton.limbs;
   Json levels = Json::array();
   std::uint64_t count = 0;

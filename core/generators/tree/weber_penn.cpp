@@ -375,6 +375,7 @@ bool Grower::fits(const Stem& stem) const {
 
 void Grower::leaf(const Stem& stem, const Bud& bud) {
   const Rng rng = chances_.leaves.at(stem.rng.key()).at(static_cast<std::uint64_t>(bud.number));
+  if (!writer_.wants_leaf(rng.key())) return;
   SkeletonWriter::Leaf leaf;
   if (p_.Leaves < 0) {
     const WeberPennLevel& l = level(stem.level + 1);
