@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/generators/tree/range.h"
 #include "core/geom/detail.h"
 #include "core/geom/leaf_mesh.h"
 #include "core/texture/leaf.h"
@@ -48,7 +49,7 @@ void fit(Organs& organs, const TreeParams& params, const Mesh& leaf, const Job& 
   const float across = std::max(1e-3F, box.max.x - box.min.x);
   const TreeBuild build = build_of(params);
   const bool is_round = build == TreeBuild::cross || build == TreeBuild::bunch;
-  const double density = params.leaf.density;
+  const double density = drawn_leaves(params);
   const auto size = static_cast<float>(params.leaf.size / std::sqrt(std::max(density, 1e-3)));
   std::size_t kept = 0;
   for (std::size_t i = 0; i < organs.organ.size(); ++i) {
