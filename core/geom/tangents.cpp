@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "core/base/math.h"
 #include "core/geom/four.h"
+#include "core/geom/repeats.h"
 
 namespace seedmesh {
 namespace {
@@ -60,14 +62,20 @@ bool write_four(const glm::vec3* normals, const Sums* sums, glm::vec4* out) {
   return true;
 }
 
+/// Part of a mesh: its triangles, and its vertices from `first` on.
 template <class Index>
-void sum_up(const Mesh& mesh, const Array<Index>& index, const Array<glm::vec2>& uv, Array<Sums>& sums,
-            const Job& job) {
-  for (std::size_t i = 0; i + 2 < index.size(); i += 3) {
-    if (i % 3072 == 0) job.check();
-    const Index corner[3] = {index[i], index[i + 1], index[i + 2]};
-    const glm::vec3 a = mesh.position[corner[1]] - mesh.position[corner[0]];
-    const glm::vec3 b = mesh.position[corner[2]] - mesh.position[corner[0]];
+struct Piece {
+  std::span<const Index> index;
+  std::size_t first = 0;
+};
+
+template <class Index>
+void sum_up(const Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>& uv, std::span<Sums> sums) {
+  const glm::vec3* position = mesh.position.data();
+  for (std::size_t i = 0; i + 2 < piece.index.size(); i += 3) {
+    const Index corner[3] = {piece.index[i], piece.index[i + 1], piece.index[i + 2]};
+    const glm::vec3 a = position[corner[1]] - position[corner[0]];
+    const glm::vec3 b = position[corner[2]] - position[corner[0]];
     const glm::vec2 s = uv[corner[1]] - uv[corner[0]], t = uv[corner[2]] - uv[corner[0]];
     const float area = s.x * t.y - s.y * t.x;
     if (area == 0) continue;
@@ -75,27 +83,42 @@ void sum_up(const Mesh& mesh, const Array<Index>& index, const Array<glm::vec2>&
     const float sign = area < 0 ? -1.0F : 1.0F;
     const glm::vec3 along_u = (a * t.y - b * s.y) * sign, along_v = (b * s.x - a * t.x) * sign;
     for (const Index k : corner) {
-      sums[k].u += along_u;
-      sums[k].v += along_v;
+      sums[k - piece.first].u += along_u;
+      sums[k - piece.first].v += along_v;
     }
+  }
+}
+
+/// The tangents of `vertices` vertices that no triangle shares with others; `sums` has room for them.
+template <class Index>
+void add_tangents(Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>& uv, std::span<Sums> sums) {
+  std::fill(sums.begin(), sums.end(), Sums{});
+  sum_up(mesh, piece, uv, sums);
+  const glm::vec3* normal = mesh.normal.data() + piece.first;
+  glm::vec4* tangent = mesh.tangent.data() + piece.first;
+  for (std::size_t i = 0; i < sums.size(); i += Four::size) {
+    if (i + Four::size <= sums.size() && write_four(normal + i, sums.data() + i, tangent + i)) continue;
+    const std::size_t end = std::min(i + Four::size, sums.size());
+    for (std::size_t k = i; k < end; ++k) tangent[k] = tangent_of(normal[k], sums[k]);
   }
 }
 
 void add_tangents(Mesh& mesh, const Array<glm::vec2>& uv, const Job& job) {
   const std::size_t vertices = mesh.position.size();
-  Array<Sums> sums(job, vertices, Sums{});
-  if (mesh.index.small.empty()) {
-    sum_up(mesh, mesh.index.wide, uv, sums, job);
-  } else {
-    sum_up(mesh, mesh.index.small, uv, sums, job);
-  }
   mesh.tangent = Array<glm::vec4>(job, vertices);
-  for (std::size_t i = 0; i < vertices; i += Four::size) {
-    if (i + Four::size <= vertices &&
-        write_four(mesh.normal.data() + i, sums.data() + i, mesh.tangent.data() + i))
-      continue;
-    const std::size_t end = std::min(i + Four::size, vertices);
-    for (std::size_t k = i; k < end; ++k) mesh.tangent[k] = tangent_of(mesh.normal[k], sums[k]);
+  if (!mesh.index.small.empty()) {
+    Array<Sums> sums(job, vertices);
+    return add_tangents(mesh, Piece<std::uint16_t>{mesh.index.small.span(), 0}, uv, sums.span());
+  }
+  // Leaf by leaf, so that the sums take no memory to speak of.
+  Repeats one = repeats_of(mesh.index.wide, vertices);
+  if (one.corners == 0) one = {vertices, mesh.index.wide.size()};
+  Array<Sums> sums(job, one.vertices);
+  const std::span<const std::uint32_t> index = mesh.index.wide.span();
+  for (std::size_t piece = 0; piece * one.vertices < vertices; ++piece) {
+    if (piece % 256 == 0) job.check();
+    add_tangents(mesh, Piece<std::uint32_t>{index.subspan(piece * one.corners, one.corners), piece * one.vertices},
+                 uv, sums.span());
   }
 }
 

@@ -97,11 +97,13 @@ int main(int argc, char** argv) {
     return 0;
   }
   // First, while this process is small: a child starts with its parent's memory.
-  bench_memory("an oak of 650,000 triangles", R"({"preset":"oak"})",
+  bench_memory("an oak with mesh leaves", R"({"preset":"oak"})",
                R"({"preset":"oak","parameters":{"leaf":{"build":"mesh"}}})");
-  bench_memory("a row of 8 oaks", R"({"preset":"oak"})", R"({"preset":"oak","output":{"variants":8}})");
-  bench_memory("a birch with mesh leaves", R"({"preset":"birch"})",
-               R"({"preset":"birch","parameters":{"leaf":{"build":"mesh"}}})");
+  bench_memory("a row of 12 oaks", R"({"preset":"oak"})", R"({"preset":"oak","output":{"variants":12}})");
+  bench_memory("three birches with mesh leaves", R"({"preset":"birch"})",
+               R"({"preset":"birch","parameters":{"leaf":{"build":"mesh"}},"output":{"variants":3}})");
+  bench_tree("20,000 triangles",
+             R"({"preset":"quaking_aspen","parameters":{"1Branches":22,"2Branches":18,"Leaves":22}})", 41);
   for (const char* preset : {"quaking_aspen", "oak", "birch", "black_oak", "black_tupelo", "weeping_willow",
                              "proctree_0", "proctree_3", "spruce"})
     bench_tree(preset, preset_text(preset));
