@@ -1,11 +1,9 @@
 #include "core/geom/crowd.h"
 
 #include <algorithm>
-#include <cmath>
-#include <vector>
+#include <cstdint>
 
-#include "core/base/math.h"
-#include "core/base/rng.h"
+#include "core/base/array.h"
 
 namespace seedmesh {
 namespace {
@@ -13,82 +11,128 @@ namespace {
 constexpr std::uint32_t none = 0xFFFFFFFFU;
 // Cells are so many reaches wide, so that few points have to look into a second one.
 constexpr double cell_width = 8;
+// Cells farther out are one.
+constexpr double most_cell = 1e15;
+// Edges from one point are compared with each other up to so many, and sorted where there are more.
+constexpr std::uint32_t few = 24;
+
+/// The whole number below x, which is far from the borders of its type.
+std::int64_t floor_of(double x) {
+  const auto whole = static_cast<std::int64_t>(x);
+  return whole - (static_cast<double>(whole) > x ? 1 : 0);
+}
 
 /// Gives points nearer than the reach to an earlier one that one's number.
 class Welder {
  public:
   Welder(double reach, std::size_t most, const Job& job)
-      : reach_(reach), first_(job), next_(job), points_(job) {
+      : squared_(reach * reach), by_cell_(1 / (cell_width * reach)), next_(job), points_(job) {
     std::size_t size = 16;
     while (size < 2 * most) size *= 2;
     first_ = Array<std::uint32_t>(job, size, none);
+    mask_ = size - 1;
     next_.reserve(most);
     points_.reserve(most);
   }
 
   std::uint32_t number(const glm::vec3& point) {
-    const glm::dvec3 at = glm::dvec3(point) / (cell_width * reach_);
-    const glm::dvec3 low = glm::floor(at - 1 / cell_width), high = glm::floor(at + 1 / cell_width);
-    for (double z = low.z; z <= high.z; ++z) {
-      for (double y = low.y; y <= high.y; ++y) {
-        for (double x = low.x; x <= high.x; ++x) {
-          for (std::uint32_t id = first_[slot({x, y, z})]; id != none; id = next_[id]) {
+    const glm::dvec3 at = glm::dvec3(point) * by_cell_;
+    std::int64_t low[3], high[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      const double bounded = at[axis] > -most_cell ? std::min(at[axis], most_cell) : -most_cell;
+      low[axis] = floor_of(bounded - 1 / cell_width);
+      high[axis] = floor_of(bounded + 1 / cell_width);
+      here_[axis] = floor_of(bounded);
+    }
+    for (std::int64_t z = low[2]; z <= high[2]; ++z) {
+      for (std::int64_t y = low[1]; y <= high[1]; ++y) {
+        for (std::int64_t x = low[0]; x <= high[0]; ++x) {
+          for (std::uint32_t id = first_[slot(x, y, z)]; id != none; id = next_[id]) {
             const glm::dvec3 apart = glm::dvec3(points_[id]) - glm::dvec3(point);
-            if (glm::dot(apart, apart) <= reach_ * reach_) return id;
+            if (glm::dot(apart, apart) <= squared_) return id;
           }
         }
       }
     }
     const auto id = static_cast<std::uint32_t>(points_.size());
-    std::uint32_t& first = first_[slot(glm::floor(at))];
+    std::uint32_t& first = first_[slot(here_[0], here_[1], here_[2])];
     next_.push_back(first);
     first = id;
     points_.push_back(point);
     return id;
   }
+  std::size_t size() const { return points_.size(); }
 
  private:
-  std::size_t slot(const glm::dvec3& cell) const {
-    std::uint64_t key = 0;
-    for (int axis = 0; axis < 3; ++axis)
-      key = mix(key ^ static_cast<std::uint64_t>(math::to_int64(cell[axis])));
-    return key & (first_.size() - 1);
+  std::size_t slot(std::int64_t x, std::int64_t y, std::int64_t z) const {
+    const std::uint64_t key = static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15U ^
+                              static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4FU ^
+                              static_cast<std::uint64_t>(z) * 0x165667B19E3779F9U;
+    return (key ^ key >> 29U) * 0xBF58476D1CE4E5B9U >> 20U & mask_;
   }
 
-  double reach_;
+  double squared_, by_cell_;
+  std::int64_t here_[3] = {0, 0, 0};
+  std::size_t mask_ = 0;
   Array<std::uint32_t> first_, next_;
   Array<glm::vec3> points_;
 };
+
+/// Calls `each(from, to)` for the three edges of every triangle that is one after welding.
+template <class Each>
+void for_edges(const Mesh& mesh, const Array<std::uint32_t>& id, const Each& each) {
+  for (std::size_t t = 0; t + 2 < mesh.index.size(); t += 3) {
+    const std::uint32_t corner[3] = {id[mesh.index.at(t)], id[mesh.index.at(t + 1)],
+                                     id[mesh.index.at(t + 2)]};
+    if (corner[0] == corner[1] || corner[1] == corner[2] || corner[0] == corner[2]) continue;
+    each(corner[0], corner[1]);
+    each(corner[1], corner[2]);
+    each(corner[2], corner[0]);
+  }
+}
+
+bool has_twice(std::uint32_t* ends, std::uint32_t count) {
+  if (count > few) {
+    std::sort(ends, ends + count);
+    return std::adjacent_find(ends, ends + count) != ends + count;
+  }
+  for (std::uint32_t i = 1; i < count; ++i) {
+    for (std::uint32_t k = 0; k < i; ++k) {
+      if (ends[k] == ends[i]) return true;
+    }
+  }
+  return false;
+}
 
 }  // namespace
 
 bool is_crowded(const Mesh& mesh, float reach, const Job& job) {
   if (mesh.position.empty() || !(reach > 0)) return false;
-  Welder welder(static_cast<double>(reach), mesh.position.size(), job);
-  Array<std::uint32_t> id(job, mesh.position.size());
-  for (std::size_t i = 0; i < id.size(); ++i) {
-    if (i % 4096 == 0) job.check();
-    id[i] = welder.number(mesh.position[i]);
-  }
-  // The lower end, the higher, and in the last bit the direction.
-  Array<std::uint64_t> edges(job);
-  edges.reserve(mesh.index.size());
-  for (std::size_t t = 0; t + 2 < mesh.index.size(); t += 3) {
-    const std::uint32_t corner[3] = {id[mesh.index.at(t)], id[mesh.index.at(t + 1)],
-                                     id[mesh.index.at(t + 2)]};
-    if (corner[0] == corner[1] || corner[1] == corner[2] || corner[0] == corner[2]) continue;
-    for (int k = 0; k < 3; ++k) {
-      const std::uint64_t p = corner[k], q = corner[(k + 1) % 3];
-      edges.push_back(std::min(p, q) << 33U | std::max(p, q) << 1U | (p < q ? 1U : 0U));
+  const std::size_t count = mesh.position.size();
+  Array<std::uint32_t> id(job, count);
+  std::size_t points = 0;
+  {
+    Welder welder(static_cast<double>(reach), count, job);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i % 4096 == 0) job.check();
+      id[i] = welder.number(mesh.position[i]);
     }
+    points = welder.size();
   }
-  job.check();
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t i = 0; i < edges.size();) {
-    std::size_t times = 0, upward = 0;
-    for (const std::uint64_t edge = edges[i] >> 1U; i < edges.size() && edges[i] >> 1U == edge; ++i, ++times)
-      upward += edges[i] & 1U;
-    if (times > 2 || (times == 2 && upward != 1)) return true;
+  // More than two triangles at an edge, or two that do not face the same way, give an edge that goes twice in
+  // one direction. Edges by where they begin:
+  Array<std::uint32_t> first(job, points + 1, 0U);
+  for_edges(mesh, id, [&](std::uint32_t from, std::uint32_t) { ++first[from]; });
+  std::uint32_t sum = 0;
+  for (std::uint32_t& each : first) {
+    sum += each;
+    each = sum;
+  }
+  Array<std::uint32_t> end(job, sum);
+  for_edges(mesh, id, [&](std::uint32_t from, std::uint32_t to) { end[--first[from]] = to; });
+  for (std::size_t i = 0; i < points; ++i) {
+    if (i % 4096 == 0) job.check();
+    if (has_twice(end.data() + first[i], first[i + 1] - first[i])) return true;
   }
   return false;
 }

@@ -53,6 +53,13 @@ Limbs prune(const Limbs& limbs, float thinnest, Job& job, Array<std::uint16_t>* 
     if (std::max(limbs.radius[i], limbs.base_radius[i]) >= thinnest) stays[i] = 1;
     if (stays[i]) stays[limbs.parent[i]] = 1;
   }
+  KeptLimbs kept = keep(limbs, stays, job);
+  if (bone) *bone = chosen(*bone, kept.new_place, static_cast<std::uint32_t>(kept.limbs.size()), job);
+  return std::move(kept.limbs);
+}
+
+KeptLimbs keep(const Limbs& limbs, const Array<std::uint8_t>& stays, Job& job) {
+  const std::size_t size = limbs.size();
   Array<std::uint32_t> new_place(job, size);
   std::uint32_t count = 0;
   for (std::size_t i = 0; i < size; ++i) new_place[i] = stays[i] ? count++ : Limbs::none;
@@ -72,8 +79,7 @@ Limbs prune(const Limbs& limbs, float thinnest, Job& job, Array<std::uint16_t>* 
   for (std::uint32_t& parent : kept.parent) moved(parent);
   kept.anchor = chosen(limbs.anchor, new_place, count, job);
   for (std::uint32_t& anchor : kept.anchor) moved(anchor);
-  if (bone) *bone = chosen(*bone, new_place, count, job);
-  return kept;
+  return {std::move(kept), std::move(new_place)};
 }
 
 }  // namespace seedmesh

@@ -33,6 +33,14 @@ class Detail {
 /// left keeps its order. `bone`, where it is not null, is of each joint, and becomes that of what is left.
 Limbs prune(const Limbs& limbs, float thinnest, Job& job, Array<std::uint16_t>* bone = nullptr);
 
+/// The joints whose `stays` is not 0, in their order, and the new number of each old joint (`none` of those
+/// that go). Who stays must have a parent that does.
+struct KeptLimbs {
+  Limbs limbs;
+  Array<std::uint32_t> new_place;
+};
+KeptLimbs keep(const Limbs& limbs, const Array<std::uint8_t>& stays, Job& job);
+
 /// The greatest radius of an internode.
 float thickest(const Limbs& limbs);
 

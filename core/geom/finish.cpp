@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "core/base/parallel.h"
+#include "core/geom/repeats.h"
 
 namespace seedmesh {
 namespace {
@@ -52,9 +53,20 @@ void drop_empty_meshes(Model& model) {
   }
 }
 
+/// Vertex i of each `piece` goes to new_place[i] of it; those that have no place go.
 template <class T>
 void reorder(Array<T>& values, const Array<std::uint32_t>& new_place, std::size_t used, const Job& job) {
+  const std::size_t piece = new_place.size();
   if (values.empty()) return;
+  if (piece < values.size()) {
+    std::vector<T> own(piece);
+    for (std::size_t first = 0; first < values.size(); first += piece) {
+      T* at = values.data() + first;
+      std::copy_n(at, piece, own.data());
+      for (std::size_t i = 0; i < piece; ++i) at[new_place[i]] = own[i];
+    }
+    return;
+  }
   Array<T> moved(job, used);
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (new_place[i] < used) moved[new_place[i]] = values[i];
@@ -67,13 +79,26 @@ void order_for_cache(Mesh& mesh, const Job& job) {
   if (mesh.cache_ordered || mesh.topology != Topology::triangles || mesh.index.wide.empty()) return;
   job.check();
   Array<std::uint32_t>& index = mesh.index.wide;
-  const std::size_t vertices = mesh.position.size();
-  Array<std::uint32_t> ordered(job, index.size());
-  meshopt_optimizeVertexCacheFifo(ordered.data(), index.data(), index.size(), vertices, cache_entries);
-  Array<std::uint32_t> new_place(job, vertices);
+  // The order of the whole is that of one piece, repeated.
+  Repeats piece = repeats_of(index, mesh.position.size());
+  if (piece.corners == 0) piece = {mesh.position.size(), index.size()};
+  Array<std::uint32_t> ordered(job, piece.corners);
+  meshopt_optimizeVertexCacheFifo(ordered.data(), index.data(), piece.corners, piece.vertices, cache_entries);
+  Array<std::uint32_t> new_place(job, piece.vertices);
   const std::size_t used =
-      meshopt_optimizeVertexFetchRemap(new_place.data(), ordered.data(), ordered.size(), vertices);
-  for (std::size_t i = 0; i < ordered.size(); ++i) index[i] = new_place[ordered[i]];
+      meshopt_optimizeVertexFetchRemap(new_place.data(), ordered.data(), piece.corners, piece.vertices);
+  bool is_ordered = true;
+  for (std::size_t i = 0; i < piece.corners; ++i) {
+    ordered[i] = new_place[ordered[i]];
+    is_ordered = is_ordered && ordered[i] == index[i];
+  }
+  mesh.cache_ordered = true;
+  if (is_ordered && used == piece.vertices) return;
+  std::uint32_t shift = 0;
+  for (std::size_t first = 0; first < index.size(); first += piece.corners) {
+    for (std::size_t i = 0; i < piece.corners; ++i) index[first + i] = ordered[i] + shift;
+    shift += static_cast<std::uint32_t>(piece.vertices);
+  }
   reorder(mesh.position, new_place, used, job);
   reorder(mesh.normal, new_place, used, job);
   for (auto& uv : mesh.uv) reorder(uv, new_place, used, job);
@@ -82,7 +107,6 @@ void order_for_cache(Mesh& mesh, const Job& job) {
   reorder(mesh.joints, new_place, used, job);
   reorder(mesh.weights, new_place, used, job);
   reorder(mesh.bone, new_place, used, job);
-  mesh.cache_ordered = true;
 }
 
 /// Reads everything and, in the common case, writes nothing.

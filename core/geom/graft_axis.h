@@ -21,6 +21,13 @@ struct GraftAxis {
 
   /// The piece that holds `s`, looked for from piece `from`.
   std::size_t piece_at(float s, std::size_t from) const;
+  /// piece_at(s, 0), looked for near `hint`: of two pieces that meet at `s` the first.
+  std::size_t first_piece_at(float s, std::size_t hint) const {
+    std::size_t piece = hint < pieces() ? hint : pieces() - 1;
+    while (piece > 0 && s <= at[piece]) --piece;
+    while (piece + 1 < pieces() && s > at[piece + 1]) ++piece;
+    return piece;
+  }
   float radius_at(float s, std::size_t piece) const {
     const float share = (s - at[piece]) / (at[piece + 1] - at[piece]);
     return radius[piece] + (radius[piece + 1] - radius[piece]) * share;

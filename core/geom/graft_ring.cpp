@@ -62,14 +62,12 @@ std::uint32_t GraftWriter::vertex(const glm::vec3& position, const glm::vec3& no
 
 /// u round the limb and v along it.
 glm::vec2 GraftWriter::picture_at(float radius, float angle, float at) const {
-  return {(turns_ > 0 ? turns_ : radius) * angle, axis_.v_at(at, axis_.piece_at(at, 0))};
+  return {(turns_ > 0 ? turns_ : radius) * angle, axis_.v_at(at, axis_.first_piece_at(at, near_piece_))};
 }
 
 /// The joint whose internode holds the length `at`; of two that meet there the older one.
 void GraftWriter::stand_at(float at) {
-  std::size_t piece = axis_.piece_at(at, 0);
-  if (piece > 0 && at <= axis_.at[piece]) --piece;
-  joint_ = axis_.joint[piece + 1];
+  joint_ = axis_.joint[axis_.first_piece_at(at, near_piece_) + 1];
 }
 
 std::uint32_t GraftWriter::ring_corner(const Plane& plane, float angle, glm::vec2 direction) {
@@ -109,7 +107,7 @@ std::uint32_t GraftWriter::vertex_of(Mark& mark, const Plane& plane, bool is_bey
   const float angle = mark.angle + (is_beyond ? 2 * pi : 0);
   if (mark.point) {
     const float height = std::clamp(mark.point->height, 0.0F, axis_.length());
-    const float radius = axis_.radius_at(height, axis_.piece_at(height, 0));
+    const float radius = axis_.radius_at(height, axis_.first_piece_at(height, near_piece_));
     made = vertex(mark.point->position, {0, 0, 0}, picture_at(radius, angle, mark.point->height), mark.group);
   } else {
     made = ring_corner(plane, angle, mark.direction);

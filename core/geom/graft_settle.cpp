@@ -13,29 +13,31 @@ constexpr float least_area = 4e-12F;
 // A normal nearer to the plane of its face than this may be found on the other side by who reckons otherwise.
 constexpr float least_cosine = 1e-4F;
 
-}  // namespace
-
-glm::vec3 GraftWriter::face(std::size_t triangle) const {
-  const std::uint32_t* corner = mesh_.index.wide.data() + 3 * triangle;
-  const glm::vec3& a = mesh_.position[corner[0]];
-  return glm::cross(mesh_.position[corner[1]] - a, mesh_.position[corner[2]] - a);
+/// At right angles to a triangle, as long as twice its area.
+glm::vec3 face(const glm::vec3* position, const std::uint32_t* corner) {
+  const glm::vec3 a = position[corner[0]];
+  return glm::cross(position[corner[1]] - a, position[corner[2]] - a);
 }
+
+}  // namespace
 
 /// What a limb's faces give to the normals of the loops that they touch.
 void GraftWriter::add_loop_normals(std::size_t limb) {
+  const std::uint32_t* corners = mesh_.index.wide.data();
+  const glm::vec3* position = mesh_.position.data();
   for (std::size_t t = begin_[limb].triangle; t < begin_[limb + 1].triangle; ++t) {
-    const std::uint32_t* index = mesh_.index.wide.data() + 3 * t;
+    const std::uint32_t* index = corners + 3 * t;
     const std::uint32_t groups[3] = {group_[index[0]], group_[index[1]], group_[index[2]]};
     if ((groups[0] & groups[1] & groups[2]) == none) continue;
-    const glm::vec3 normal = face(t);
+    const glm::vec3 normal = face(position, index);
     const float size = std::sqrt(glm::dot(normal, normal));
     if (!(size > 0)) continue;
     for (std::size_t corner = 0; corner < 3; ++corner) {
       if (groups[corner] == none || !touched_[groups[corner] / 2]) continue;
       // By the angle of the face there, so that it does not matter how the surface is cut into triangles.
-      const glm::vec3& here = mesh_.position[index[corner]];
-      const glm::vec3 one = mesh_.position[index[(corner + 1) % 3]] - here;
-      const glm::vec3 other = mesh_.position[index[(corner + 2) % 3]] - here;
+      const glm::vec3 here = position[index[corner]];
+      const glm::vec3 one = position[index[(corner + 1) % 3]] - here;
+      const glm::vec3 other = position[index[(corner + 2) % 3]] - here;
       const auto angle = static_cast<float>(
           math::quick_atan2(static_cast<double>(size), static_cast<double>(glm::dot(one, other))));
       group_normal_[groups[corner]] += normal * (angle / size);
@@ -71,25 +73,28 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
     }
   }
   const float least = 2 * least_area * context_.scale.size * context_.scale.size;
-  const auto& index = mesh_.index.wide;
+  const std::uint32_t* index = mesh_.index.wide.data();
+  const glm::vec3 *position = mesh_.position.data(), *normals = mesh_.normal.data();
+  const float flattest = least_cosine * least_cosine, least_square = least * least;
   std::size_t bad = 0;
   for (std::size_t limb = 0; limb < count; ++limb) {
     if (limb % 64 == 0) job_.check();
     if (!concerned[limb]) continue;
     bool is_bad = false;
     for (std::size_t t = begin_[limb].triangle; t < begin_[limb + 1].triangle; ++t) {
-      const glm::vec3 normal = face(t);
+      const std::uint32_t* corner_at = index + 3 * t;
+      const glm::vec3 normal = face(position, corner_at);
       const float size = glm::dot(normal, normal);
-      bool is_sound = size > least * least;
-      for (std::size_t corner = 0; is_sound && corner < 3; ++corner) {
-        const float over = glm::dot(normal, mesh_.normal[index[3 * t + corner]]);
-        is_sound = over > 0 && over * over > least_cosine * least_cosine * size;
+      bool is_sound = size > least_square;
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const float over = glm::dot(normal, normals[corner_at[corner]]);
+        is_sound = is_sound & (over > 0) & (over * over > flattest * size);
       }
       if (is_sound) continue;
       // The fault of the openings that it touches, if it touches any.
       bool touches = false;
       for (std::size_t corner = 0; corner < 3; ++corner) {
-        const std::uint32_t group = group_[index[3 * t + corner]];
+        const std::uint32_t group = group_[corner_at[corner]];
         if (group == none) continue;
         touches = true;
         Trust& child = trust[group_limb_[group / 2]];

@@ -28,6 +28,8 @@ constexpr float most_lead = 0.5F;
 constexpr float thread = 8;
 // A child thinner than so many of the least radius is not worth an opening.
 constexpr float least_opened = 3;
+// What is reserved at first; most trees of fine twigs need about as much.
+constexpr std::size_t vertices_a_joint = 4, triangles_a_joint = 5;
 // Of a ring that a vertex cache of 16 entries still holds when the next ring needs it.
 constexpr std::size_t cached_corners = 13;
 
@@ -63,6 +65,7 @@ GraftWriter::GraftWriter(const Context& context, Job& job)
   mesh_.normal = Array<glm::vec3>(job);
   mesh_.uv[0] = Array<glm::vec2>(job);
   mesh_.index.wide = Array<std::uint32_t>(job);
+  reserve(vertices_a_joint * limbs.size(), triangles_a_joint * limbs.size());
   for (std::size_t i = 0; i < limbs.size(); ++i) {
     if (limbs.parent[i] != Limbs::none) thickest_ = std::max(thickest_, limbs.base_radius[i]);
   }
@@ -84,11 +87,30 @@ GraftWriter::GraftWriter(const Context& context, Job& job)
   }
 }
 
+void GraftWriter::reserve(std::size_t vertices, std::size_t triangles) {
+  mesh_.position.reserve(vertices);
+  mesh_.normal.reserve(vertices);
+  mesh_.uv[0].reserve(vertices);
+  group_.reserve(vertices);
+  if (context_.options.joints) joints_.reserve(vertices);
+  mesh_.index.wide.reserve(3 * triangles);
+}
+
+Mesh GraftWriter::take() {
+  mesh_.position.shrink_to_fit();
+  mesh_.normal.shrink_to_fit();
+  mesh_.uv[0].shrink_to_fit();
+  mesh_.index.wide.shrink_to_fit();
+  return std::move(mesh_);
+}
+
 void GraftWriter::write_all(const GraftWriter* last) {
   const std::size_t count = context_.chains.head.size();
   kind_.assign(count, Kind::none);
   dirty_.assign(count, last ? 0 : 1);
   if (last) {
+    reserve(last->mesh_.position.size() + last->mesh_.position.size() / 16,
+            (last->mesh_.index.wide.size() + last->mesh_.index.wide.size() / 16) / 3);
     find_parents();
     for (std::size_t i = 0; i < count; ++i) {
       if (trust_[i] == last->trust_[i]) continue;
@@ -165,6 +187,7 @@ void GraftWriter::write_limb(std::uint32_t limb) {
             glm::cross(axis_.along[0], first) * static_cast<float>(turn.sin);
   }
   axis_.carry(first);
+  near_piece_ = 0;
   turns_ = context_.options.wrap ? turns_of(axis_.radius[0]) : 0;
   axis_.stretch(turns_);
   least_sides_ = 3;
@@ -286,6 +309,7 @@ void GraftWriter::begin_loop(const Loop& loop) {
 }
 
 void GraftWriter::write_band(const Band& band) {
+  near_piece_ = band.piece;
   stand_at(band.at);
   if (band.openings.empty()) {
     plain_ring(plane_of(band), upper_);

@@ -42,7 +42,7 @@ class GraftWriter {
   bool has_threads() const { return has_threads_; }
   std::size_t wide_corners() const { return wide_corners_; }
   Array<std::uint32_t> take_joints() { return std::move(joints_); }
-  Mesh take() { return std::move(mesh_); }
+  Mesh take();
 
  private:
   static constexpr std::uint32_t none = Limbs::none;
@@ -90,13 +90,13 @@ class GraftWriter {
   };
   enum class Kind : std::uint8_t { none, root, collar, fork, closed };
 
+  void reserve(std::size_t vertices, std::size_t triangles);
   void find_parents();
   bool has_same_loop(std::uint32_t limb, const GraftWriter& last) const;
   void copy_limb(std::uint32_t limb, const GraftWriter& last);
   void mark_touched();
   void add_loop_normals(std::size_t limb);
   Begin here() const;
-  glm::vec3 face(std::size_t triangle) const;
 
   void write_limb(std::uint32_t limb);
   void plan_children(float start);
@@ -152,6 +152,7 @@ class GraftWriter {
   Corners below_, lower_, upper_;
   std::vector<Mark> marks_;
   std::vector<std::uint32_t> lower_order_, upper_order_;
+  std::size_t near_piece_ = 0;  ///< of the axis, near what is written
   float seam_ = 0;
   glm::vec2 seam_turn_{1, 0};  ///< its cosine and sine
   int least_sides_ = 3, loop_sides_ = 0;

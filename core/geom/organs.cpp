@@ -8,6 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/base/quick_math.h"
 #include "core/base/rng.h"
+#include "core/geom/four.h"
 
 namespace seedmesh {
 namespace {
@@ -112,22 +113,19 @@ class Placer {
     const std::size_t vertices = surface_.position.size(), first = number * vertices;
     const glm::mat3 turn = glm::mat3_cast(organ.frame);
     const glm::mat3 stretch{turn[0] * organ.scale.x, turn[1] * organ.scale.y, turn[2] * organ.scale.z};
-    const bool is_even = organ.scale.x == organ.scale.y && organ.scale.y == organ.scale.z;
-    const glm::vec3 inverse = 1.0F / organ.scale;
-    for (std::size_t i = 0; i < vertices; ++i) {
-      out_.position[first + i] = organ.position + stretch * surface_.position[i];
-      const glm::vec3 normal =
-          is_even ? surface_.normal[i] : math::quick_unit(surface_.normal[i] * inverse, {0, 0, 1});
-      out_.normal[first + i] = math::quick_unit(turn * normal, {0, 1, 0});
-    }
+    const glm::vec3* from = surface_.position.data();
+    glm::vec3* position = out_.position.data() + first;
+    for (std::size_t i = 0; i < vertices; ++i) position[i] = organ.position + stretch * from[i];
+    place_normals(organ, turn, out_.normal.data() + first);
     if (!surface_.tangent.empty()) place_tangents(first, turn, stretch);
     if (!out_.uv[0].empty())
       std::memcpy(out_.uv[0].data() + first, surface_.uv[0].data(), surface_.uv[0].bytes());
-    const std::size_t corners = surface_.index.wide.size(), first_corner = number * corners;
+    const std::size_t corners = surface_.index.wide.size();
     const auto shift = static_cast<std::uint32_t>(first);
-    for (std::size_t i = 0; i < corners; ++i)
-      out_.index.wide[first_corner + i] = surface_.index.wide[i] + shift;
-    if (options_.crown) follow_crown(first, first_corner);
+    const std::uint32_t* corner = surface_.index.wide.data();
+    std::uint32_t* index = out_.index.wide.data() + number * corners;
+    for (std::size_t i = 0; i < corners; ++i) index[i] = corner[i] + shift;
+    if (options_.crown) follow_crown(position, out_.normal.data() + first);
     if (!out_.color.empty()) place_colors(organ, first);
     if (!out_.bone.empty()) std::fill_n(out_.bone.data() + first, vertices, bone_of(organ));
     if (options_.wind) place_wind(organ, first);
@@ -138,6 +136,20 @@ class Placer {
 
   std::uint16_t bone_of(const Organ& organ) const {
     return organ.limb_joint == Limbs::none ? std::uint16_t{0} : options_.bones[organ.limb_joint];
+  }
+
+  void place_normals(const Organ& organ, const glm::mat3& turn, glm::vec3* normal) const {
+    const bool is_even = organ.scale.x == organ.scale.y && organ.scale.y == organ.scale.z;
+    const glm::vec3 inverse = 1.0F / organ.scale;
+    const glm::vec3* from = surface_.normal.data();
+    for (std::size_t i = 0; i < surface_.normal.size(); ++i) {
+      if (i > 0 && from[i] == from[i - 1]) {  // flat, as most leaves are
+        normal[i] = normal[i - 1];
+        continue;
+      }
+      const glm::vec3 own = is_even ? from[i] : math::quick_unit(from[i] * inverse, {0, 0, 1});
+      normal[i] = math::quick_unit(turn * own, {0, 1, 0});
+    }
   }
 
   void place_colors(const Organ& organ, std::size_t first) const {
@@ -171,24 +183,46 @@ class Placer {
 
   /// Vertices keep to the side of all their faces: the mean of an organ's own normal and the crown's is taken
   /// on the side where the organ's is, and only as far as no face would look away from it.
-  void follow_crown(std::size_t first, std::size_t first_corner) const {
-    for (std::size_t i = 0; i < surface_.position.size(); ++i) {
-      const glm::vec3 own = out_.normal[first + i];
-      glm::vec3 outward = math::quick_unit(out_.position[first + i] - *options_.crown, own);
-      if (glm::dot(outward, own) < 0) outward = -outward;
-      out_.normal[first + i] = math::quick_unit(own + (outward - own) * options_.crown_share, own);
-    }
-    for (std::size_t i = 0; i < surface_.index.wide.size(); i += 3) {
-      const std::uint32_t* corner = out_.index.wide.data() + first_corner + i;
-      const glm::vec3 a = out_.position[corner[0]];
-      const glm::vec3 face =
-          math::quick_unit(glm::cross(out_.position[corner[1]] - a, out_.position[corner[2]] - a), {0, 1, 0});
-      for (int k = 0; k < 3; ++k) {
-        glm::vec3& normal = out_.normal[corner[k]];
-        const float over = glm::dot(normal, face);
-        if (over < 0.1F) normal = math::quick_unit(normal + face * (0.15F - over), face);
+  void follow_crown(const glm::vec3* position, glm::vec3* normal) const {
+    const glm::vec3 middle = *options_.crown;
+    const float share = options_.crown_share;
+    const std::size_t vertices = surface_.position.size();
+    for (std::size_t i = 0; i < vertices; i += Four::size) {
+      const std::size_t count = std::min(Four::size, vertices - i);
+      if (turn_outward(position + i, normal + i, count)) continue;
+      for (std::size_t k = i; k < i + count; ++k) {
+        const glm::vec3 own = normal[k];
+        glm::vec3 outward = math::quick_unit(position[k] - middle, own);
+        if (glm::dot(outward, own) < 0) outward = -outward;
+        normal[k] = math::quick_unit(own + (outward - own) * share, own);
       }
     }
+    const std::uint32_t* corner = surface_.index.wide.data();
+    for (const std::uint32_t* end = corner + surface_.index.wide.size(); corner != end; corner += 3) {
+      const glm::vec3 a = position[corner[0]];
+      const glm::vec3 face =
+          math::quick_unit(glm::cross(position[corner[1]] - a, position[corner[2]] - a), {0, 1, 0});
+      for (int k = 0; k < 3; ++k) {
+        glm::vec3& here = normal[corner[k]];
+        const float over = glm::dot(here, face);
+        if (over < 0.1F) here = math::quick_unit(here + face * (0.15F - over), face);
+      }
+    }
+  }
+
+  /// The same for up to four normals at once. False: they are left as they are, for there is one without a
+  /// direction.
+  bool turn_outward(const glm::vec3* position, glm::vec3* normal, std::size_t count) const {
+    const glm::vec3& middle = *options_.crown;
+    const Four own = Four::of(normal, count), at = Four::of(position, count);
+    Four out{at.x - middle.x, at.y - middle.y, at.z - middle.z};
+    if (!to_units(out)) return false;
+    const FourFloats one{1, 1, 1, 1};
+    out = scaled(out, chosen(dot(out, own) < 0.0F, -one, one));
+    Four mixed = sum(own, scaled(difference(out, own), one * options_.crown_share));
+    if (!to_units(mixed)) return false;
+    for (std::size_t k = 0; k < count; ++k) normal[k] = mixed.at(k);
+    return true;
   }
 
   const Mesh& surface_;

@@ -1,8 +1,13 @@
 #include "core/geom/tangents.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 
 #include "core/base/math.h"
+#include "core/geom/four.h"
+#include "core/geom/repeats.h"
 
 namespace seedmesh {
 namespace {
@@ -13,34 +18,107 @@ glm::vec3 any_across(const glm::vec3& normal) {
   return math::unit(glm::cross(normal, axis), {0, 0, 1});
 }
 
-void add_tangents(Mesh& mesh, const Array<glm::vec2>& uv, const Job& job) {
-  const std::size_t vertices = mesh.position.size();
-  mesh.tangent = Array<glm::vec4>(job, vertices, glm::vec4(0));
-  Array<glm::vec3> bitangent(job, vertices, glm::vec3(0));
-  for (std::size_t i = 0; i + 2 < mesh.index.size(); i += 3) {
-    if (i % 3072 == 0) job.check();
-    const std::uint32_t corner[3] = {mesh.index.at(i), mesh.index.at(i + 1), mesh.index.at(i + 2)};
-    const glm::vec3 a = mesh.position[corner[1]] - mesh.position[corner[0]];
-    const glm::vec3 b = mesh.position[corner[2]] - mesh.position[corner[0]];
+/// math::unit, here inline; `otherwise` is asked only when it is needed.
+template <class Otherwise>
+glm::vec3 unit_or(const glm::vec3& v, const Otherwise& otherwise) {
+  const float largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (!(largest > 0) || !std::isfinite(largest)) return otherwise();
+  const glm::vec3 scaled = v / largest;
+  return scaled / std::sqrt(scaled.x * scaled.x + scaled.y * scaled.y + scaled.z * scaled.z);
+}
+
+/// Along u and along v, summed over the triangles at a vertex.
+struct Sums {
+  glm::vec3 u{0}, v{0};
+};
+
+glm::vec4 tangent_of(const glm::vec3& normal, const Sums& sums) {
+  const glm::vec3 flat = sums.u - normal * glm::dot(normal, sums.u);
+  const bool is_none = glm::dot(flat, flat) <= 1e-8F * glm::dot(sums.u, sums.u);
+  const auto across = [&] { return any_across(normal); };
+  const glm::vec3 tangent = is_none ? across() : unit_or(flat, across);
+  // v grows down the picture, and the bitangent points up it.
+  const float w = glm::dot(glm::cross(normal, tangent), sums.v) > 0 ? -1.0F : 1.0F;
+  return {tangent, w};
+}
+
+/// tangent_of() four vertices at once; false: one of them has no direction of its own.
+bool write_four(const glm::vec3* normals, const Sums* sums, glm::vec4* out) {
+  const Four n = Four::of(normals);
+  const Sums &a = sums[0], &b = sums[1], &c = sums[2], &d = sums[3];
+  const Four u{{a.u.x, b.u.x, c.u.x, d.u.x}, {a.u.y, b.u.y, c.u.y, d.u.y}, {a.u.z, b.u.z, c.u.z, d.u.z}};
+  const Four v{{a.v.x, b.v.x, c.v.x, d.v.x}, {a.v.y, b.v.y, c.v.y, d.v.y}, {a.v.z, b.v.z, c.v.z, d.v.z}};
+  const Four flat = difference(u, scaled(n, dot(n, u)));
+  const Four sizes{magnitude(flat.x), magnitude(flat.y), magnitude(flat.z)};
+  const FourFloats more = chosen(sizes.x < sizes.y, sizes.y, sizes.x);
+  const FourFloats largest = chosen(more < sizes.z, sizes.z, more);
+  const FourFlags good = (dot(flat, flat) > 1e-8F * dot(u, u)) & (largest > 0.0F) &
+                         (largest <= std::numeric_limits<float>::max());
+  if (!all_of(good)) return false;
+  const Four reduced = divided(flat, largest), tangent = divided(reduced, root(dot(reduced, reduced)));
+  const FourFlags mirrored = dot(cross(n, tangent), v) > 0.0F;
+  for (std::size_t k = 0; k < Four::size; ++k)
+    out[k] = {tangent.x[k], tangent.y[k], tangent.z[k], mirrored[k] ? -1.0F : 1.0F};
+  return true;
+}
+
+/// Part of a mesh: its triangles, and its vertices from `first` on.
+template <class Index>
+struct Piece {
+  std::span<const Index> index;
+  std::size_t first = 0;
+};
+
+template <class Index>
+void sum_up(const Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>& uv, std::span<Sums> sums) {
+  const glm::vec3* position = mesh.position.data();
+  for (std::size_t i = 0; i + 2 < piece.index.size(); i += 3) {
+    const Index corner[3] = {piece.index[i], piece.index[i + 1], piece.index[i + 2]};
+    const glm::vec3 a = position[corner[1]] - position[corner[0]];
+    const glm::vec3 b = position[corner[2]] - position[corner[0]];
     const glm::vec2 s = uv[corner[1]] - uv[corner[0]], t = uv[corner[2]] - uv[corner[0]];
     const float area = s.x * t.y - s.y * t.x;
     if (area == 0) continue;
     // Not divided by the area in the picture but by its sign: large triangles count more.
     const float sign = area < 0 ? -1.0F : 1.0F;
     const glm::vec3 along_u = (a * t.y - b * s.y) * sign, along_v = (b * s.x - a * t.x) * sign;
-    for (const std::uint32_t k : corner) {
-      mesh.tangent[k] += glm::vec4(along_u, 0);
-      bitangent[k] += along_v;
+    for (const Index k : corner) {
+      sums[k - piece.first].u += along_u;
+      sums[k - piece.first].v += along_v;
     }
   }
-  for (std::size_t i = 0; i < vertices; ++i) {
-    const glm::vec3 normal = mesh.normal[i], sum = glm::vec3(mesh.tangent[i]);
-    const glm::vec3 flat = sum - normal * glm::dot(normal, sum);
-    const bool is_none = glm::dot(flat, flat) <= 1e-8F * glm::dot(sum, sum);
-    const glm::vec3 tangent = is_none ? any_across(normal) : math::unit(flat, any_across(normal));
-    // v grows down the picture, and the bitangent points up it.
-    const float w = glm::dot(glm::cross(normal, tangent), bitangent[i]) > 0 ? -1.0F : 1.0F;
-    mesh.tangent[i] = glm::vec4(tangent, w);
+}
+
+/// The tangents of `vertices` vertices that no triangle shares with others; `sums` has room for them.
+template <class Index>
+void add_tangents(Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>& uv, std::span<Sums> sums) {
+  std::fill(sums.begin(), sums.end(), Sums{});
+  sum_up(mesh, piece, uv, sums);
+  const glm::vec3* normal = mesh.normal.data() + piece.first;
+  glm::vec4* tangent = mesh.tangent.data() + piece.first;
+  for (std::size_t i = 0; i < sums.size(); i += Four::size) {
+    if (i + Four::size <= sums.size() && write_four(normal + i, sums.data() + i, tangent + i)) continue;
+    const std::size_t end = std::min(i + Four::size, sums.size());
+    for (std::size_t k = i; k < end; ++k) tangent[k] = tangent_of(normal[k], sums[k]);
+  }
+}
+
+void add_tangents(Mesh& mesh, const Array<glm::vec2>& uv, const Job& job) {
+  const std::size_t vertices = mesh.position.size();
+  mesh.tangent = Array<glm::vec4>(job, vertices);
+  if (!mesh.index.small.empty()) {
+    Array<Sums> sums(job, vertices);
+    return add_tangents(mesh, Piece<std::uint16_t>{mesh.index.small.span(), 0}, uv, sums.span());
+  }
+  // Leaf by leaf, so that the sums take no memory to speak of.
+  Repeats one = repeats_of(mesh.index.wide, vertices);
+  if (one.corners == 0) one = {vertices, mesh.index.wide.size()};
+  Array<Sums> sums(job, one.vertices);
+  const std::span<const std::uint32_t> index = mesh.index.wide.span();
+  for (std::size_t piece = 0; piece * one.vertices < vertices; ++piece) {
+    if (piece % 256 == 0) job.check();
+    add_tangents(mesh, Piece<std::uint32_t>{index.subspan(piece * one.corners, one.corners), piece * one.vertices},
+                 uv, sums.span());
   }
 }
 

@@ -13,7 +13,8 @@ const { MeshStandardMaterial } = await import('three');
 const { GLTFExporter } = await import('three/examples/jsm/exporters/GLTFExporter.js');
 
 /** The preset of ours that a row is compared with -> theirs. */
-const pairs = { oak: 'Oak Large', birch: 'Aspen Large', proctree_0: 'Oak Small', spruce: 'Pine Large', quaking_aspen: 'Ash Large' };
+const pairs = { oak: 'Oak Large', birch: 'Aspen Large', proctree_0: 'Oak Small', spruce: 'Pine Large', quaking_aspen: 'Ash Large',
+  black_oak: 'Oak Large', black_tupelo: 'Ash Large', weeping_willow: 'Ash Medium', proctree_3: 'Ash Small', '20,000 triangles': 'Ash Medium' };
 
 const seconds_of = async (work) => {
   const start = process.cpuUsage();

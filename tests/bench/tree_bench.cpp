@@ -1,6 +1,13 @@
 /// From the text of a request to the bytes of a GLB for trees of each model: time a triangle, bark and leaves
-/// together. Textures are kept from one request to the next, as the server keeps them.
+/// together. Textures are kept from one request to the next, as the server keeps them. And how much memory big
+/// trees take beside their own size.
+///
+///   tree_bench [preset [rounds]]: one preset alone, for a profiler
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <string>
 
@@ -26,27 +33,78 @@ class Kept : public TextureStore {
   std::map<std::string, std::shared_ptr<const void>> all_;
 };
 
+Kept& textures() {
+  static Kept kept;
+  return kept;
+}
+
 std::uint64_t triangles_of(const std::string& text) {
-  static Kept textures;
   const Result<Request> request = read_request(text, Limits{});
   if (!request) std::abort();
   Job job(request->seed(), Job::Options{});
-  const Result<Product> product = produce(*request, job, &textures);
+  const Result<Product> product = produce(*request, job, &textures());
   if (!product) std::abort();
   return product->statistics.triangles;
 }
 
-void bench_tree(const std::string& preset) {
-  const std::string text = "{\"preset\":\"" + preset + "\"}";
+std::string preset_text(const std::string& preset) { return "{\"preset\":\"" + preset + "\"}"; }
+
+void bench_tree(const std::string& name, const std::string& text, int rounds = 15) {
   const std::uint64_t triangles = triangles_of(text);
-  const double seconds = bench::median_seconds<bench::CpuClock>(15, [&] { triangles_of(text); });
-  bench::report("tree to GLB: " + preset, "triangles", static_cast<double>(triangles), seconds);
+  const double seconds = bench::median_seconds<bench::CpuClock>(rounds, [&] { triangles_of(text); });
+  bench::report("tree to GLB: " + name, "triangles", static_cast<double>(triangles), seconds);
+}
+
+/// A figure of /proc/self/status in bytes.
+double status_bytes(const std::string& key) {
+  std::ifstream file("/proc/self/status");
+  for (std::string line; std::getline(file, line);) {
+    if (line.compare(0, key.size(), key) == 0)
+      return std::strtod(line.c_str() + key.size() + 1, nullptr) * 1024;
+  }
+  return 0;
+}
+
+/// In a process of its own, which has made a small tree with the same textures before.
+void bench_memory(const std::string& name, const std::string& small, const std::string& text) {
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child == 0) {
+    triangles_of(small);
+    const Result<Request> request = read_request(text, Limits{});
+    if (!request) _exit(1);
+    Job job(request->seed(), Job::Options{});
+    std::ofstream("/proc/self/clear_refs") << "5";  // the peak begins anew
+    const double idle = status_bytes("VmRSS");
+    const Result<Product> product = produce(*request, job, &textures());
+    if (!product) _exit(1);
+    std::printf("{\"name\":\"memory: %s\",\"unit\":\"bytes\",\"amount\":%llu,\"peak_less_idle\":%.0f}\n",
+                name.c_str(), static_cast<unsigned long long>(product->payload.size()),
+                status_bytes("VmHWM") - idle);
+    std::fflush(stdout);
+    _exit(0);
+  }
+  int status = 1;
+  waitpid(child, &status, 0);
+  if (status != 0) std::abort();
 }
 
 }  // namespace
 
-int main() {
-  for (const char* preset :
-       {"quaking_aspen", "oak", "birch", "weeping_willow", "proctree_0", "proctree_3", "spruce"})
-    bench_tree(preset);
+int main(int argc, char** argv) {
+  if (argc > 1) {
+    bench_tree(argv[1], preset_text(argv[1]), argc > 2 ? std::atoi(argv[2]) : 15);
+    return 0;
+  }
+  // First, while this process is small: a child starts with its parent's memory.
+  bench_memory("an oak with mesh leaves", R"({"preset":"oak"})",
+               R"({"preset":"oak","parameters":{"leaf":{"build":"mesh"}}})");
+  bench_memory("a row of 12 oaks", R"({"preset":"oak"})", R"({"preset":"oak","output":{"variants":12}})");
+  bench_memory("three birches with mesh leaves", R"({"preset":"birch"})",
+               R"({"preset":"birch","parameters":{"leaf":{"build":"mesh"}},"output":{"variants":3}})");
+  bench_tree("20,000 triangles",
+             R"({"preset":"quaking_aspen","parameters":{"1Branches":22,"2Branches":18,"Leaves":22}})", 41);
+  for (const char* preset : {"quaking_aspen", "oak", "birch", "black_oak", "black_tupelo", "weeping_willow",
+                             "proctree_0", "proctree_3", "spruce"})
+    bench_tree(preset, preset_text(preset));
 }

@@ -7,6 +7,7 @@
 #include "core/generators/tree/collision.h"
 #include "core/generators/tree/leaves.h"
 #include "core/generators/tree/looks.h"
+#include "core/generators/tree/range.h"
 #include "core/generators/tree/weber_penn_shape.h"
 #include "core/geom/detail.h"
 #include "core/geom/graft.h"
@@ -27,11 +28,12 @@ bool may_overlap(const TreeParams& params) {
 
 GraftOptions graft_options(const TreeParams& params, const Detail& detail) {
   GraftOptions options;
-  options.sides = detail.sides(sides_of(params));
+  const double seen = shares_at(params).sides;
+  options.sides = std::max(3, math::to_int32(detail.sides(sides_of(params)) * seen));
   options.weld = params.weld;
   options.thinnest = static_cast<float>(params.twig_radius);
   options.wrap = has_bark_picture(params);
-  if (params.model == TreeModel::weber_penn && params.LobeDepth > 0 && detail.level() < 2) {
+  if (params.model == TreeModel::weber_penn && params.LobeDepth > 0 && detail.level() < 2 && seen >= 1) {
     options.lobes = params.Lobes;
     options.lobe_depth = static_cast<float>(params.LobeDepth);
   }
@@ -44,19 +46,23 @@ GraftOptions graft_options(const TreeParams& params, const Detail& detail) {
 struct Motion {
   std::optional<GrowthPlan> growth;
   std::optional<WindField> wind;
-  bool is_any() const { return growth || wind; }
+  std::span<const std::uint16_t> bones() const {
+    return growth ? growth->bone.span() : std::span<const std::uint16_t>{};
+  }
 };
 
-Mesh bark_of(const Limbs& limbs, const GraftOptions& wanted, const Motion& motion, Job& job) {
+/// `bones` of each joint, or empty; `wind` may be null.
+Mesh bark_of(const Limbs& limbs, const GraftOptions& wanted, std::span<const std::uint16_t> bones,
+             const WindField* wind, Job& job) {
   GraftOptions options = wanted;
   Array<std::uint32_t> joints(job);
-  if (motion.is_any()) options.joints = &joints;
+  if (wind || !bones.empty()) options.joints = &joints;
   Mesh mesh = graft(limbs, options, job);
-  if (motion.growth) {
+  if (!bones.empty()) {
     mesh.bone = Array<std::uint16_t>(job, mesh.position.size());
-    for (std::size_t i = 0; i < joints.size(); ++i) mesh.bone[i] = motion.growth->bone[joints[i]];
+    for (std::size_t i = 0; i < joints.size(); ++i) mesh.bone[i] = bones[joints[i]];
   }
-  if (motion.wind) add_wind(mesh, joints, *motion.wind, job);
+  if (wind) add_wind(mesh, joints, *wind, job);
   return mesh;
 }
 
@@ -71,12 +77,14 @@ void add_bark(Model& model, const Limbs& limbs, const TreeParams& params, const 
     const GraftOptions options = graft_options(params, detail);
     Mesh mesh;
     if (level == 0) {
-      mesh = bark_of(limbs, options, motion, job);
+      mesh = bark_of(limbs, options, motion.bones(), motion.wind ? &*motion.wind : nullptr, job);
     } else {
-      const Limbs kept = prune(limbs, detail.thinnest() * most, job);
-      Motion own;
-      if (motion.wind) own.wind.emplace(kept, job, &*motion.wind);
-      mesh = bark_of(kept, options, own, job);
+      Array<std::uint16_t> bones(job);
+      bones.append(motion.bones());
+      const Limbs kept = prune(limbs, detail.thinnest() * most, job, motion.growth ? &bones : nullptr);
+      std::optional<WindField> wind;
+      if (motion.wind) wind.emplace(kept, job, &*motion.wind);
+      mesh = bark_of(kept, options, bones.span(), wind ? &*wind : nullptr, job);
     }
     if (mesh.position.empty()) continue;
     const int number = static_cast<int>(model.meshes.size());
@@ -110,8 +118,6 @@ Model dress(Skeleton skeleton, const TreeParams& params, Job& job) {
   model.nodes.push_back(std::move(root));
   Motion motion;
   if (job.demand().growth) {
-    if (job.demand().lods > 1)
-      Job::reject({"", "found several levels of detail; the growth animation needs one", 0, 0});
     if (job.demand().share_organs)
       Job::reject({"", "found leaves as nodes; the growth animation needs them merged", 0, 0});
     motion.growth = plan_growth(skeleton.limbs, {.most_bones = job.demand().most_bones}, job);

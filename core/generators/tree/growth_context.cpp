@@ -24,14 +24,15 @@ Frame headed(const Frame& frame, const glm::dvec3& heading) {
   return {heading, aside, glm::cross(heading, aside)};
 }
 
-SkeletonWriter::SkeletonWriter(Skeleton& skeleton, Job& job)
+SkeletonWriter::SkeletonWriter(Skeleton& skeleton, Job& job, double density)
     : limbs_(skeleton.limbs),
       organs_(skeleton.organs),
       job_(job),
       modules_(job, Resource::modules),
       shapes_(job, Resource::shapes),
       most_joints_(job.limits().triangles / least_triangles_a_joint),
-      most_leaves_(job.limits().triangles / least_triangles_a_leaf) {}
+      most_leaves_(job.limits().triangles / least_triangles_a_leaf),
+      density_(density) {}
 
 std::uint32_t SkeletonWriter::add(const Joint& joint) {
   modules_.spend();
@@ -50,12 +51,17 @@ std::uint32_t SkeletonWriter::add(const Joint& joint) {
   return static_cast<std::uint32_t>(limbs_.size() - 1);
 }
 
-void SkeletonWriter::add(const Leaf& leaf) {
+bool SkeletonWriter::wants_leaf(std::uint64_t key) {
   shapes_.spend();
-  if (organs_.organ.size() >= most_leaves_) {
+  if (leaves_ >= most_leaves_) {
     Job::refuse("the tree has more than " + std::to_string(most_leaves_) +
                 " leaves, which would pass the limit of triangles");
   }
+  ++leaves_;
+  return is_drawn(key, density_);
+}
+
+void SkeletonWriter::add(const Leaf& leaf) {
   Organ organ;
   organ.frame = quaternion(leaf.frame);
   organ.position = glm::vec3(leaf.position);

@@ -26,11 +26,17 @@ Frame rotated(const Frame& frame, const glm::dvec3& axis, const math::SinCos& an
 /// A frame whose heading is `heading`, turned the least from `frame`.
 Frame headed(const Frame& frame, const glm::dvec3& heading);
 
+/// Is a leaf among the share `density` that is drawn?
+inline bool is_drawn(std::uint64_t key, double density) {
+  return density >= 1 || static_cast<double>(key_at(key, 0xDE45) >> 11U) * 0x1p-53 < density;
+}
+
 /// Appends to a skeleton. Every joint is spent as a module, and refused where its bark would pass the limit
 /// of triangles, so that a hostile request ends early and small.
 class SkeletonWriter {
  public:
-  SkeletonWriter(Skeleton& skeleton, Job& job);
+  /// Leaves beyond the share `density` are counted, but not made.
+  SkeletonWriter(Skeleton& skeleton, Job& job, double density = 1);
 
   struct Joint {
     std::uint32_t parent = Limbs::none;
@@ -49,6 +55,8 @@ class SkeletonWriter {
     std::uint32_t joint = Limbs::none;
     std::uint64_t key = 0;
   };
+  /// Counts a leaf. False: it is none of those that are drawn, and need not be made.
+  bool wants_leaf(std::uint64_t key);
   void add(const Leaf& leaf);
 
   /// The radius at the far end of a joint's internode.
@@ -60,7 +68,8 @@ class SkeletonWriter {
   Organs& organs_;
   Job& job_;
   Meter modules_, shapes_;
-  std::uint64_t most_joints_, most_leaves_;
+  std::uint64_t most_joints_, most_leaves_, leaves_ = 0;
+  double density_;
 };
 
 }  // namespace seedmesh::tree

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/generators/tree/range.h"
 #include "core/geom/detail.h"
 #include "core/geom/leaf_mesh.h"
 #include "core/texture/leaf.h"
@@ -48,13 +49,13 @@ void fit(Organs& organs, const TreeParams& params, const Mesh& leaf, const Job& 
   const float across = std::max(1e-3F, box.max.x - box.min.x);
   const TreeBuild build = build_of(params);
   const bool is_round = build == TreeBuild::cross || build == TreeBuild::bunch;
-  const double density = params.leaf.density;
+  const double density = drawn_leaves(params);
   const auto size = static_cast<float>(params.leaf.size / std::sqrt(std::max(density, 1e-3)));
   std::size_t kept = 0;
   for (std::size_t i = 0; i < organs.organ.size(); ++i) {
     if (i % 4096 == 0) job.check();
     Organ organ = organs.organ[i];
-    if (density < 1 && static_cast<double>(key_at(organ.key, 0xDE45) >> 11U) * 0x1p-53 >= density) continue;
+    if (!is_drawn(organ.key, density)) continue;
     const float width = organ.scale.x * size / across, length = organ.scale.y * size;
     organ.scale = {width, length, is_round ? width : length};
     organs.organ[kept++] = organ;

@@ -159,6 +159,8 @@ void Forker::fork(const Node& node) {
 
 /// A square of twice mTwigScale that begins a little before the branch does.
 void Forker::twig(const Node& node, const Node& child, std::uint32_t joint) {
+  const std::uint64_t key = chances_.leaves.at(child.rng.key()).key();
+  if (!writer_.wants_leaf(key)) return;
   const glm::dvec3 ahead = unit(child.head - node.head);
   const glm::dvec3 behind = unit(node.head - node.tail);
   const glm::dvec3 normal = math::unit(glm::cross(behind, ahead), glm::dvec3{0, 0, 1});
@@ -171,7 +173,7 @@ void Forker::twig(const Node& node, const Node& child, std::uint32_t joint) {
   leaf.length = 2 * p_.mTwigScale;
   leaf.width = 2 * p_.mTwigScale;
   leaf.joint = joint;
-  leaf.key = chances_.leaves.at(child.rng.key()).key();
+  leaf.key = key;
   writer_.add(leaf);
 }
 

@@ -191,6 +191,7 @@ void Sculptor::leaves(const Limb& limb, const std::vector<Limb>& stations,
     std::size_t at = 0;
     while (at + 1 < shares.size() && shares[at] < share - 1e-9) ++at;
     const Rng own = rng.at(static_cast<std::uint64_t>(i));
+    if (!writer_.wants_leaf(own.key())) continue;
     const double around = 137.5 * i + spread(own.at("around"), 20);
     SkeletonWriter::Leaf leaf;
     leaf.frame = pitch(roll(stations[at].frame, math::quick_sincos_degrees(around)),

@@ -7,6 +7,7 @@
 #include "core/generators/tree/dress.h"
 #include "core/generators/tree/looks.h"
 #include "core/generators/tree/proctree.h"
+#include "core/generators/tree/range.h"
 #include "core/generators/tree/roots.h"
 #include "core/generators/tree/sculpt.h"
 #include "core/generators/tree/weber_penn.h"
@@ -20,10 +21,11 @@ std::uint64_t seed_of(const TreeParams& params, std::uint64_t seed) {
   return static_cast<std::uint64_t>(params.mSeed);
 }
 
-Skeleton grow(const TreeParams& params, Job& job) {
+/// With leaves up to the share `density`.
+Skeleton grow(const TreeParams& params, double density, Job& job) {
   job.progress("derive", 0);
   Skeleton skeleton(job);
-  SkeletonWriter writer(skeleton, job);
+  SkeletonWriter writer(skeleton, job, density);
   const Chances chances(params.seeds, seed_of(params, job.seed()));
   switch (params.model) {
     case TreeModel::weber_penn:
@@ -47,6 +49,7 @@ enum class Owner { all, weber_penn, proctree, sculpt };
 
 Owner owner_of(const std::string& name) {
   if (name == "sculpt") return Owner::sculpt;
+  if (name == "sway") return Owner::weber_penn;
   const auto first = static_cast<unsigned char>(name[0]);
   if (first == 'm' && name.size() > 1 && name[1] >= 'A' && name[1] <= 'Z') return Owner::proctree;
   const bool is_published = (first >= '0' && first <= '9') || (first >= 'A' && first <= 'Z');
@@ -112,7 +115,8 @@ std::vector<Issue> check(const TreeParams& params, const Limits&) {
 }
 
 Result<Model> generate(const TreeParams& params, Job& job) {
-  Skeleton skeleton = grow(params, job);
+  Skeleton skeleton = grow(params, drawn_leaves(params), job);
+  degrade(skeleton, params, job);
   job.progress("mesh", 0);
   Model model = dress(std::move(skeleton), params, job);
   model.warnings = warnings_of(params);
@@ -120,7 +124,7 @@ Result<Model> generate(const TreeParams& params, Job& job) {
 }
 
 Result<Json> derive(const TreeParams& params, Job& job) {
-  const Skeleton skeleton = grow(params, job);
+  const Skeleton skeleton = grow(params, 1, job);
   const Limbs& limbs = skeleton.limbs;
   Json levels = Json::array();
   std::uint64_t count = 0;

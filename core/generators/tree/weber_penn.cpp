@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/generators/tree/sway.h"
 #include "core/generators/tree/weber_penn_shape.h"
 
 namespace seedmesh::tree {
@@ -106,6 +107,21 @@ class Grower {
       curve -= math::degrees(p_.AttractionUp * declination * std::clamp(frame.up.y, -1.0, 1.0)) / l.curve_res;
     }
     return pitch(frame, math::quick_sincos_degrees(std::clamp(curve, -170.0, 170.0)));
+  }
+
+  /// In the wind. Stems are pruned in still air.
+  Frame swayed_at(const Stem& stem, const Frame& frame, int segment) const {
+    if (p_.sway.wind == 0 && p_.sway.gust == 0) return frame;
+    Rng chance = stem.rng.at("sway");
+    SwayingStem swaying;
+    swaying.length = stem.length;
+    swaying.base_radius = stem.radius;
+    swaying.segments = level(stem.level).curve_res;
+    swaying.offset_x = chance.uniform(0, 2 * math::pi);
+    swaying.offset_y = chance.uniform(0, 2 * math::pi);
+    const double z = static_cast<double>(segment) / swaying.segments;
+    const double radius = tapered(level(stem.level).taper, stem.radius, stem.length, z);
+    return swayed(frame, sway_angles(p_.sway, swaying, z, radius));
   }
 
   int pieces(const Stem& stem) const {
@@ -285,7 +301,7 @@ void Grower::grow(const Stem& given) {
   Frame frame = stem.frame;
   glm::dvec3 at = stem.position;
   for (int segment = stem.segment; segment < l.curve_res; ++segment) {
-    if (segment > stem.segment) frame = turned(stem, frame, segment);
+    if (segment > stem.segment) frame = swayed_at(stem, turned(stem, frame, segment), segment);
     walk_segment(stem, frame, segment, at, buds);
     if (segment + 1 < l.curve_res) split(stem, frame, at, segment, last_joint_);
   }
@@ -375,6 +391,7 @@ bool Grower::fits(const Stem& stem) const {
 
 void Grower::leaf(const Stem& stem, const Bud& bud) {
   const Rng rng = chances_.leaves.at(stem.rng.key()).at(static_cast<std::uint64_t>(bud.number));
+  if (!writer_.wants_leaf(rng.key())) return;
   SkeletonWriter::Leaf leaf;
   if (p_.Leaves < 0) {
     const WeberPennLevel& l = level(stem.level + 1);

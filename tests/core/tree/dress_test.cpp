@@ -140,6 +140,35 @@ TEST(Dress, GrowsBarkAndLeavesWithOneSkeletonOfBones) {
   }
 }
 
+TEST(Dress, GrowsEveryLevelOfDetailWithTheSameBones) {
+  const Model model = made(small_tree(), {.lods = 3, .growth = true});
+  ASSERT_EQ(model.skins.size(), 1U);
+  EXPECT_TRUE(faults(model).empty());
+  for (const char* name : {"bark", "leaves"}) {
+    const Node& shown = node(model, name);
+    EXPECT_EQ(shown.skin, 0);
+    ASSERT_EQ(shown.lods.size(), 2U);
+    for (const int lod : shown.lods) {
+      const Mesh& mesh = model.meshes[static_cast<std::size_t>(lod)].primitives.front().mesh;
+      ASSERT_EQ(mesh.bone.size(), mesh.position.size());
+      for (const std::uint16_t bone : mesh.bone) ASSERT_LT(bone, model.skins.front().joints.size());
+    }
+  }
+}
+
+TEST(Dress, DegradesATreeThatIsSeenFromAfar) {
+  TreeParams params = small_tree();
+  params.branches_1 = 30;
+  params.branches_2 = 20;
+  const Model near = made(params);
+  params.range = 400;
+  const Model far = made(params);
+  EXPECT_TRUE(faults(far).empty());
+  EXPECT_LT(4 * mesh_of(far, "bark").elements(), mesh_of(near, "bark").elements());
+  EXPECT_LT(4 * mesh_of(far, "leaves").elements(), mesh_of(near, "leaves").elements());
+  EXPECT_NEAR(area_of(mesh_of(far, "leaves")) / area_of(mesh_of(near, "leaves")), 1, 0.12);
+}
+
 TEST(Dress, MovesTheRimOfACollarWithTheOlderLimbAlone) {
   const Model model = made(small_tree(), {.growth = true});
   const Mesh& bark = mesh_of(model, "bark");

@@ -1,0 +1,56 @@
+#pragma once
+/// Four vectors side by side, reckoned with at once (vector extensions of GCC and Clang). Every lane is
+/// reckoned exactly as glm and math.h reckon one vector, so that the bits are the same either way.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+namespace seedmesh {
+
+using FourFloats = float __attribute__((vector_size(16)));
+using FourFlags = std::int32_t __attribute__((vector_size(16)));  ///< -1 where true
+
+inline FourFloats chosen(FourFlags flags, FourFloats yes, FourFloats no) {
+  return reinterpret_cast<FourFloats>((reinterpret_cast<FourFlags>(yes) & flags) |
+                                      (reinterpret_cast<FourFlags>(no) & ~flags));
+}
+inline bool all_of(FourFlags flags) { return (flags[0] & flags[1] & flags[2] & flags[3]) != 0; }
+inline FourFloats root(FourFloats v) {
+  return FourFloats{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
+}
+inline FourFloats magnitude(FourFloats v) {
+  return reinterpret_cast<FourFloats>(reinterpret_cast<FourFlags>(v) & 0x7FFFFFFF);
+}
+
+struct Four {
+  static constexpr std::size_t size = 4;
+  FourFloats x, y, z;
+
+  /// The first `count` (1..4) of `from`; the last fills the rest.
+  static Four of(const glm::vec3* from, std::size_t count = size) {
+    const glm::vec3 &a = from[0], &b = from[count > 1 ? 1 : 0], &c = from[count > 2 ? 2 : count - 1],
+                    &d = from[count - 1];
+    return {FourFloats{a.x, b.x, c.x, d.x}, FourFloats{a.y, b.y, c.y, d.y}, FourFloats{a.z, b.z, c.z, d.z}};
+  }
+  glm::vec3 at(std::size_t k) const { return {x[k], y[k], z[k]}; }
+};
+
+inline FourFloats dot(const Four& a, const Four& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Four scaled(const Four& v, FourFloats by) { return {v.x * by, v.y * by, v.z * by}; }
+inline Four divided(const Four& v, FourFloats by) { return {v.x / by, v.y / by, v.z / by}; }
+inline Four sum(const Four& a, const Four& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Four difference(const Four& a, const Four& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Four cross(const Four& a, const Four& b) {
+  return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
+}
+
+/// math::quick_unit of each; false: one is too short or too long for it, and `v` is as it was.
+inline bool to_units(Four& v) {
+  const FourFloats square = dot(v, v);
+  if (!all_of((square > 1e-30F) & (square < 1e30F))) return false;
+  v = divided(v, root(square));
+  return true;
+}
+
+}  // namespace seedmesh

@@ -1,0 +1,41 @@
+#include "core/geom/repeats.h"
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+namespace seedmesh {
+namespace {
+
+// Pieces are looked for up to so many corners, and so many times.
+constexpr std::size_t most_repeated = 4096;
+constexpr int most_tries = 32;
+
+bool uses_all(std::span<const std::uint32_t> index, std::size_t vertices) {
+  std::vector<bool> used(vertices, false);
+  for (const std::uint32_t i : index) used[i] = true;
+  return std::find(used.begin(), used.end(), false) == used.end();
+}
+
+}  // namespace
+
+Repeats repeats_of(const Array<std::uint32_t>& index, std::size_t vertices) {
+  std::uint32_t most = 0;
+  int tries = 0;
+  for (std::size_t corners = 0; corners + 3 <= std::min(index.size() / 2 + 3, most_repeated); corners += 3) {
+    const std::uint32_t* corner = index.data() + corners;
+    const std::uint32_t piece = most + 1;
+    if (corners > 0 && std::min({corner[0], corner[1], corner[2]}) == piece) {
+      const std::size_t times = index.size() / corners;
+      bool repeats = times * corners == index.size() && times * piece == vertices;
+      for (std::size_t i = corners; repeats && i < index.size(); ++i)
+        repeats = index[i] == index[i - corners] + piece;
+      if (repeats && uses_all(index.span().first(corners), piece)) return {piece, corners};
+      if (++tries == most_tries) break;
+    }
+    most = std::max({most, corner[0], corner[1], corner[2]});
+  }
+  return {};
+}
+
+}  // namespace seedmesh
