@@ -91,6 +91,7 @@ const core: Core = {
   store, viewer, high, status, seed, tabs,
   bytes: () => last?.bytes ?? null,
   grow_again: () => { if (store.current) grow(store.current.request, 'now'); },
+  preview: (request) => grow(request, 'now'),
   drawn: () => new Promise((resolve) => {
     if (document.body.dataset['state'] === 'ready') resolve(true);
     else waiting.push(resolve);
@@ -215,6 +216,7 @@ async function load_tools(signal: AbortSignal): Promise<void> {
 async function start(): Promise<void> {
   wire_hint();
   part('cancel').addEventListener('click', () => grower.cancel());
+  addEventListener('tell', (event) => status.say((event as CustomEvent<string>).detail));
   const again = (): void => { patience.nudge(); grower.again(); };
   part('again').addEventListener('click', again);
   addEventListener('online', () => { if (['gone', 'full'].includes(document.body.dataset['state'] ?? '')) again(); });

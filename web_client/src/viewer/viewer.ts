@@ -45,6 +45,8 @@ export class Viewer {
   private marks: Group | null = null;
   private box = new Box3(new Vector3(-1, 0, -1), new Vector3(1, 2, 1));
   private points = corners_of(this.box);
+  /** The camera stays where it is, whatever is shown: a model that grows shall be seen to grow. */
+  held = false;
   private touched = false;
   private covered: number;
   private frame = 0;
@@ -75,7 +77,7 @@ export class Viewer {
     canvas.addEventListener('webglcontextrestored', () => { this.renderer.shadowMap.needsUpdate = true; this.on_context(false); this.draw(); });
     canvas.addEventListener('click', (event) => this.pick(event));
     wire_ground(canvas, { camera: this.camera, model: () => this.model?.root ?? null, floor: () => this.stage.floor },
-      (places, chosen) => this.set_marks(draw_boxes(places, (index) => (index === chosen ? 3 : 1))));
+      (places, chosen) => this.set_marks(places.length > 0 ? draw_boxes(places, (index) => (index === chosen ? 3 : 1)) : null));
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
     this.set_theme(look.dark);
     this.resize();
@@ -88,7 +90,6 @@ export class Viewer {
     if (this.variant !== null && model.variants.includes(this.variant)) await model.wear(this.variant);
     this.let_go();
     this.model = model;
-    if (!keep_camera) this.set_marks(null);
     this.scene.add(model.root);
     this.motion.take(model);
     const grown = model.box.getSize(new Vector3()).length() / this.box.getSize(new Vector3()).length();
@@ -97,7 +98,8 @@ export class Viewer {
     this.stage.surround(model.box);
     this.walker.land(model.root, this.stage.floor, model.box.getSize(new Vector3()).length() / 2);
     this.dress();
-    if (!keep_camera || !this.touched || grown > 2 || grown < 0.5) this.fit();
+    if (!this.held && (!keep_camera || !this.touched || grown > 2 || grown < 0.5)) this.fit();
+    this.canvas.dispatchEvent(new CustomEvent('ground-changed'));
     await this.drawn();
     return model;
   }
@@ -246,6 +248,7 @@ export class Viewer {
   }
 
   private set_marks(marks: Group | null): void {
+    if (!marks && !this.marks) return;
     drop_boxes(this.marks);
     this.marks = marks;
     if (marks) this.scene.add(marks);
