@@ -11,7 +11,7 @@ import type { Schema } from './form/schema';
 import { draw_gallery, type Gallery } from './gallery';
 import { Grower, Patience } from './grower';
 import { forget_hint, wire_hint } from './hint';
-import { for_view } from './for_view';
+import { for_view, type Motion } from './for_view';
 import { wire_seed } from './seed';
 import { is_high, make_viewer } from './setup';
 import { Store, type State } from './state';
@@ -61,7 +61,7 @@ let schema: Schema | null = null;
 let schema_of = '';
 /** The formats and motions that models can have. */
 let formats = ['glb'];
-let motions: string[] = [];
+let motions: Motion[] = [];
 
 const persist = <T>(task: () => Promise<T>, signal: AbortSignal): Promise<T> =>
   patience.persist(task, (reason, until) => status.phase({ kind: 'waiting', reason, until }), signal);
@@ -230,7 +230,8 @@ async function start(): Promise<void> {
 
   const output = await persist(() => get_schema('output', signal), signal);
   formats = output['x-formats'] ?? formats;
-  motions = (output.properties?.['animation']?.enum ?? []).map(String).filter((name) => name !== 'none');
+  motions = ['animation', 'wind'].flatMap((member) =>
+    (output.properties?.[member]?.enum ?? []).map(String).filter((value) => value !== 'none').map((value) => ({ member, value })));
   explain();
 }
 

@@ -6,6 +6,7 @@ import type { Fault, Request } from './api';
 import { save_picture, save_request, wire_copies, wire_downloads } from './actions';
 import { part } from './dom';
 import type { Schema } from './form/schema';
+import type { Motion } from './for_view';
 import { wire_growth, type GrowthAsk } from './growth';
 import { is_typing, wire_help } from './help';
 import { levels_of, motions_of } from './levels';
@@ -49,9 +50,9 @@ export interface Tools {
   shown(model: Model, triangles: number): void;
   show_faults(faults: Fault[]): void;
   page(page: Page): void;
-  offer(formats: string[], motions: string[]): void;
+  offer(formats: string[], motions: Motion[]): void;
   /** The motion that the view asks for. */
-  motion(): string | null;
+  motion(): Motion | null;
 }
 
 export function wire_tools(core: Core): Tools {
@@ -84,7 +85,7 @@ export function wire_tools(core: Core): Tools {
     high: core.high, levels: () => levels_of(store.current!.request), animate: core.grow_again, fail: actions.fail,
   });
   const motion = viewer && wire_motion(viewer);
-  let motions: string[] = [];
+  let motions: Motion[] = [];
 
   // Which motions there are is asked when somebody looks for them, once for each request that is opened.
   let asked_for: Request | null = null;

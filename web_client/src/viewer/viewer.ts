@@ -25,8 +25,8 @@ export class Viewer {
   on_context: (lost: boolean) => void = () => {};
   /** Called with the scope box that was pointed at; -1 for none. */
   on_pick: (index: number) => void = () => {};
-  /** Called after each picture with the time that its drawing took, in milliseconds. */
-  on_drawn: (milliseconds: number) => void = () => {};
+  /** Called after each picture with the time that its drawing took, and the time since the one before while pictures follow each other, in milliseconds. */
+  on_drawn: (milliseconds: number, frame: number | null) => void = () => {};
   readonly motion = new Motion();
   readonly walker: Walker;
   private readonly renderer: WebGLRenderer;
@@ -50,6 +50,8 @@ export class Viewer {
   private touched = false;
   private covered: number;
   private frame = 0;
+  private last_begin = 0;
+  private readonly still: boolean;
   /** Part of the height that nothing covers. */
   private free = 1;
 
@@ -57,6 +59,7 @@ export class Viewer {
     const high = look.quality === 'high';
     this.canvas = canvas;
     this.covered = look.covered;
+    this.still = look.still;
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: high, powerPreference: 'high-performance' });
     this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.toneMappingExposure = 1;
@@ -154,7 +157,7 @@ export class Viewer {
     const models = await levels_of(bytes);
     if (this.variant !== null) await Promise.all(models.map((model) => model.wear(this.variant)));
     this.levels?.dispose();
-    this.levels = new Levels(models);
+    this.levels = new Levels(models, this.still);
     return models.map((model) => model.triangles);
   }
 
@@ -170,6 +173,9 @@ export class Viewer {
     }
     this.dress();
   }
+
+  /** Whether nothing shall move by itself. */
+  get is_still(): boolean { return this.still; }
 
   /** The level that is in sight; null where there are no levels. */
   get level(): number | null { return this.levels?.in_sight ?? null; }
@@ -349,14 +355,15 @@ export class Viewer {
     // While the motion dies down this asks for the next picture by the event "change".
     if (this.walker.gait === 'orbit') this.controls.update();
     const goes_on = [this.walker.step(), this.motion.step()].some(Boolean);
-    const is_other_level = this.levels?.at(this.camera.position.distanceTo(this.controls.target)) ?? false;
-    if (this.motion.is_running || is_other_level) this.renderer.shadowMap.needsUpdate = true;
+    const detail = this.levels?.at(this.camera.position.distanceTo(this.controls.target));
+    if (this.motion.is_running || detail?.changed) this.renderer.shadowMap.needsUpdate = true;
     if (!this.renderer.getContext().isContextLost()) {
       if (this.other) this.render_both(this.other);
       else this.renderer.render(this.scene, this.camera);
-      this.on_drawn(performance.now() - begin);
+      this.on_drawn(performance.now() - begin, begin - this.last_begin < 1000 ? begin - this.last_begin : null);
+      this.last_begin = begin;
     }
-    if (goes_on) this.draw();
+    if (goes_on || detail?.fading) this.draw();
   }
 
   /** The other model left of the divider, the model right of it. */
