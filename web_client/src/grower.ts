@@ -6,6 +6,7 @@ export type Phase =
   | { kind: 'ready' }
   | { kind: 'refused'; refusal: Refusal }
   | { kind: 'waiting'; reason: 'full' | 'gone'; until: number }
+  | { kind: 'locked' }
   | { kind: 'stopped' };
 
 /** A hand that moves a slider rests this long before the server is asked. */
@@ -79,6 +80,8 @@ export class Grower {
     this.tell({ kind: 'growing', share: null });
     this.timer = window.setTimeout(() => void this.run(request), when === 'now' ? 0 : debounce);
   }
+
+  get is_running(): boolean { return this.running !== null; }
 
   cancel(): void {
     this.abort();
