@@ -24,7 +24,8 @@ export interface Fault {
 /** A symbol, an operation or a function of a notation. */
 export interface Word { symbol?: string; name?: string; parameters?: string; text?: string; example?: string }
 
-export type Vocabulary = Record<string, Word[]>;
+/** Lists of words, or of names alone. */
+export type Vocabulary = Record<string, (Word | string)[]>;
 
 export interface Check { warnings: Fault[]; estimate: { triangles: number; bytes: number; exact: boolean } | null }
 
