@@ -2,8 +2,8 @@
  * Brings the parts together. The address tells what is shown: `#…` carries a request; in the query `quality=low` or
  * `quality=high` chooses how it is drawn, and `stage` leaves only the picture, for making pictures.
  */
-import { Locked, Refusal, get_presets, get_schema, type Fault, type Made, type Preset, type Request } from './api';
-import { Address } from './address';
+import { Locked, Refusal, get_preset, get_presets, get_schema, type Fault, type Made, type Preset, type Request } from './api';
+import { Address, first_shown } from './address';
 import { Checker, joined } from './checker';
 import { el, grouped, part, rounded } from './dom';
 import type { Form } from './form/form';
@@ -26,6 +26,19 @@ import './style/layout.css';
 import './style/gallery.css';
 import './style/form.css';
 import './style/view.css';
+
+/** Begun now, and taken by whoever asks first: the server answers while the picture is set up. */
+function begun<T>(task: () => Promise<T>): (again: () => Promise<T>) => Promise<T> {
+  let early: Promise<T> | null = task();
+  early.catch(() => { /* Whoever takes it is told. */ });
+  return (again) => {
+    const taken = early ?? again();
+    early = null;
+    return taken;
+  };
+}
+const early_presets = begun(get_presets);
+const early_first = location.hash.length > 1 ? null : begun(() => get_preset(first_shown));
 
 /** A model of more triangles is drawn only when asked for: it can cost a browser its picture. */
 const heavy = 3_000_000;
@@ -96,6 +109,7 @@ const begin_opening = (): AbortSignal => {
 const address = new Address({
   store, persist,
   presets: () => presets,
+  get_preset: (name, signal) => (name === first_shown && early_first ? early_first(() => get_preset(name, signal)) : get_preset(name, signal)),
   begin: begin_opening,
   damaged() {
     link_is_damaged = true;
@@ -243,7 +257,7 @@ async function start(): Promise<void> {
   addEventListener('hashchange', () => { if (address.is_foreign) opening_of(() => address.open()); });
 
   const { signal } = new AbortController();
-  presets = await persist(() => get_presets(signal), signal);
+  presets = await persist(() => early_presets(() => get_presets(signal)), signal);
   gallery = draw_gallery(part('gallery'), presets, (preset) => { gallery?.mark(preset.name); forget_hint(); opening_of(() => address.choose(preset)); });
   opening_of(() => address.open());
   quietly(load_tools(signal));

@@ -51,6 +51,8 @@ export class Viewer {
   private covered: number;
   private frame = 0;
   private last_begin = 0;
+  /** The model was not drawn yet. */
+  private is_new = false;
   private readonly still: boolean;
   /** Part of the height that nothing covers. */
   private free = 1;
@@ -89,10 +91,14 @@ export class Viewer {
 
   /** Takes a GLB in place of the model that is shown. The camera stays where a hand has put it. */
   async show(bytes: ArrayBuffer, keep_camera: boolean): Promise<Model> {
+    const begin = performance.now();
     const model = await Model.from(bytes);
+    performance.clearMeasures('seedmesh-read');
+    performance.measure('seedmesh-read', { start: begin });
     if (this.variant !== null && model.variants.includes(this.variant)) await model.wear(this.variant);
     this.let_go();
     this.model = model;
+    this.is_new = true;
     this.scene.add(model.root);
     this.motion.take(model);
     const grown = model.box.getSize(new Vector3()).length() / this.box.getSize(new Vector3()).length();
@@ -360,6 +366,11 @@ export class Viewer {
     if (!this.renderer.getContext().isContextLost()) {
       if (this.other) this.render_both(this.other);
       else this.renderer.render(this.scene, this.camera);
+      if (this.is_new) {
+        this.is_new = false;
+        performance.clearMeasures('seedmesh-draw');
+        performance.measure('seedmesh-draw', { start: begin });
+      }
       this.on_drawn(performance.now() - begin, begin - this.last_begin < 1000 ? begin - this.last_begin : null);
       this.last_begin = begin;
     }
