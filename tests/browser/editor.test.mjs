@@ -81,6 +81,45 @@ test('completion offers the words of the vocabulary with their text', { timeout:
   assert.ok((await options.allTextContents()).every((text) => turtle.some((each) => text.startsWith(each.symbol))));
 });
 
+test('rules of buildings have colours, completion and faults of their own notation', { timeout: 300_000 }, async () => {
+  const rules = 'Lot --> extrude(9) comp(f) { side : floor | top : Roof. }\nfloor --> split(\"y\") { ~3 : Band }*\nBand --> color(\"#aa8866\") Wall.';
+  const house = { generator: 'building', seed: 1, parameters: { rules, start: 'Lot', size: [8, 0, 6] } };
+  const page = await open(browser, `${server.url}/${fragment_of(house)}`);
+  await open_parameters(page);
+  const text = page.locator('[data-pointer^="/parameters/"]').filter({ has: page.locator('.cm-content') }).first();
+  await code(text).waitFor();
+  const colours = await code(text).evaluate((content) => [...content.querySelectorAll('.cm-line span')].map((span) => [span.textContent, getComputedStyle(span).color]));
+  const of = (word) => colours.find(([text]) => text === word)?.[1];
+  for (const [one, other] of [['extrude', 'Lot'], ['extrude', '9'], ['split', 'Band'], ['-->', 'Lot'], ['"y"', 'split']]) {
+    assert.ok(of(one) && of(other), `${one} and ${other} in ${JSON.stringify(colours)}`);
+    assert.notEqual(of(one), of(other), `${one} and ${other}`);
+  }
+  const { building_operations: operations, building_materials: materials } = (await server.get('/v1/vocabulary')).json;
+  const options = page.locator('.cm-tooltip-autocomplete li');
+  const type_at_end = async (words) => { await code(text).click(); await page.keyboard.press('Control+End'); await page.keyboard.type(words); await options.first().waitFor(); };
+  await type_at_end('\nRoof --> roofHi');
+  assert.match(await options.first().textContent(), /^roofHip/);
+  await page.locator('.cm-completionInfo').waitFor();
+  assert.ok((await page.textContent('.cm-completionInfo')).startsWith(operations.find((each) => each.name === 'roofHip').text));
+  await page.waitForTimeout(150);
+  await page.keyboard.press('Enter');
+  assert.match(await written(text), /roofHip\($/);
+  await page.keyboard.type('30) material("sla');
+  await options.first().waitFor();
+  assert.deepEqual(await options.allTextContents(), materials.filter((name) => name.includes('sla')));
+  await page.waitForTimeout(150);
+  await page.keyboard.press('Enter');
+  await page.keyboard.press('Escape');
+  await until_shown(page, () => page.keyboard.type('") Tiles.'));
+  await write(text, rules.replace('extrude(9)', 'extrude(9'));
+  await until_state(page, 'refused');
+  await text.locator('.cm-lintRange-error').first().waitFor();
+  assert.match(await text.locator('.spot').first().textContent(), /^Line 1, column \d+: /);
+  await until_shown(page, () => write(text, rules));
+  assert.equal(await text.locator('.spot:not(.mild)').count(), 0);
+  assert.deepEqual(page.faults, []);
+});
+
 test('what the server says of a text is underlined at its line and column, warnings too', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   await open_parameters(page);

@@ -87,6 +87,80 @@ test('levels of detail are fetched, counted, chosen, and change with the distanc
   assert.deepEqual(page.faults, []);
 });
 
+test('by distance one level gives way to the next by dots, and the time of a picture is told', { timeout: 300_000 }, async () => {
+  const page = await open(browser, `${server.url}/${fragment_of({ ...small_tree, parameters: { ...small_tree.parameters, sides: 12, iterations: 2 } })}`, { reducedMotion: 'no-preference' });
+  await choose(page, '#detail', 'ask');
+  await page.waitForFunction(() => document.querySelector('#detail').value === 'auto');
+  const level = () => page.evaluate(() => Number(/level (\d)$/.exec(document.getElementById('drawn').textContent)?.[1] ?? -1));
+  assert.match(await page.textContent('#drawn'), /^[\d.]+ ms(, frame [\d.]+ ms)?, level 0$/);
+  // Every program that is drawn with while one level gives way names the dots.
+  await page.evaluate(() => {
+    window.fades = [];
+    const { uniform2fv, uniform2f } = WebGL2RenderingContext.prototype;
+    WebGL2RenderingContext.prototype.uniform2f = function (place, x, y) { window.fades.push([x, y]); return uniform2f.call(this, place, x, y); };
+    WebGL2RenderingContext.prototype.uniform2fv = function (place, value) { window.fades.push([...value]); return uniform2fv.call(this, place, value); };
+  });
+  await page.focus('#picture');
+  for (let step = 0; step < 9; step += 1) await page.keyboard.press('-');
+  await page.waitForFunction(() => / level 1$/.test(document.getElementById('drawn').textContent));
+  await page.waitForFunction(() => window.fades.some(([from, to]) => from === 0 && to > 0 && to < 1) && window.fades.some(([from, to]) => from > 0 && from < 1 && to === 2));
+  assert.match(await page.textContent('#drawn'), /frame [\d.]+ ms/);
+  for (let step = 0; step < 9; step += 1) await page.keyboard.press('+');
+  await page.waitForFunction(() => / level 0$/.test(document.getElementById('drawn').textContent));
+  assert.equal(await level(), 0);
+  // It comes to rest.
+  await page.waitForFunction(() => new Promise((resolve) => {
+    const text = document.getElementById('drawn').textContent;
+    setTimeout(() => resolve(text === document.getElementById('drawn').textContent), 700);
+  }));
+  assert.deepEqual(page.faults, []);
+});
+
+test('whoever wants less motion gets levels at once, and wind on demand alone', { timeout: 300_000 }, async () => {
+  const page = await open(browser, `${server.url}/${fragment_of(leafy)}`, { reducedMotion: 'reduce' });
+  await page.click('#view-menu > summary');
+  await page.waitForFunction(() => [...document.querySelectorAll('#motion-kind option')].some((option) => option.textContent === 'Wind'));
+  await until_shown(page, () => page.selectOption('#motion-kind', { label: 'Wind' }));
+  await page.keyboard.press('Escape');
+  assert.equal(await page.textContent('#motion-play'), 'Play');
+  await page.click('#motion-play');
+  await page.waitForFunction((first) => document.getElementById('motion-now').textContent !== first, await page.textContent('#motion-now'));
+  await page.click('#motion-play');
+  assert.equal(await page.textContent('#motion-play'), 'Play');
+});
+
+test('a tree sways in the wind by the weights of its file, its wires and normals too', { timeout: 300_000 }, async () => {
+  const page = await open(browser, `${server.url}/?quality=low${fragment_of(leafy)}`, { reducedMotion: 'no-preference' });
+  const asked = [];
+  page.on('request', (request) => { if (request.url().endsWith('/v1/generate')) asked.push(JSON.parse(request.postData()).output); });
+  await page.click('#view-menu > summary');
+  await page.waitForFunction(() => [...document.querySelectorAll('#motion-kind option')].some((option) => option.textContent === 'Wind'));
+  await until_shown(page, () => page.selectOption('#motion-kind', { label: 'Wind' }));
+  await page.keyboard.press('Escape');
+  assert.equal(asked.at(-1).wind, 'weights');
+  await page.waitForFunction(() => document.getElementById('motion-play').textContent === 'Stop');
+  const first = await page.textContent('#motion-now');
+  await page.waitForFunction((first) => document.getElementById('motion-now').textContent !== first, first);
+  await page.click('#motion-play');
+  await page.click('#grid');
+  await page.click('#figure');
+  await page.locator('#motion-time').fill('0');
+  await changes(page, 'another moment', () => page.locator('#motion-time').fill('330'), 0.002);
+  await page.locator('#motion-time').fill('0');
+  const start = await picture(page);
+  await page.locator('#motion-time').fill('1000');
+  assert.ok(difference(start, await picture(page), 0.04) < 0.002, 'the loop has no seam');
+  for (const mode of ['normals', 'uv']) {
+    await choose(page, '#shading', mode);
+    await page.locator('#motion-time').fill('0');
+    await changes(page, `another moment, ${mode}`, () => page.locator('#motion-time').fill('330'), 0.002);
+  }
+  await until_shown(page, () => page.fill('#seed', '5'));
+  assert.equal(asked.at(-1).wind, 'weights', 'the wind stays');
+  assert.ok(await page.isVisible('#motion'));
+  assert.deepEqual(page.faults, []);
+});
+
 test('a model is shown in the materials of another season without asking the server', { timeout: 300_000 }, async () => {
   const page = await open(browser, `${server.url}/${fragment_of(leafy)}`);
   const asked = [];

@@ -1,5 +1,5 @@
 /** The address tells what is shown: `#…` carries a request, and so does each entry of the browser's history. */
-import { get_preset, type Preset } from './api';
+import type { Preset, Request } from './api';
 import { longest_link, pack, unpack } from './link';
 import type { State, Store } from './state';
 
@@ -8,6 +8,7 @@ interface Memory { preset: string | null }
 interface Context {
   store: Store;
   presets(): Preset[];
+  get_preset(name: string, signal: AbortSignal): Promise<Request>;
   /** Begins to open something else; what is still being opened is given up. */
   begin(): AbortSignal;
   persist<T>(task: () => Promise<T>, signal: AbortSignal): Promise<T>;
@@ -16,7 +17,7 @@ interface Context {
 }
 
 /** What a visitor sees first, where the server has it. */
-const first_shown = 'kogovsek_grm';
+export const first_shown = 'kogovsek_grm';
 
 export class Address {
   private drawn_for = '';
@@ -55,7 +56,7 @@ export class Address {
 
   private async open_preset(preset: Preset): Promise<void> {
     const signal = this.context.begin();
-    const request = await this.context.persist(() => get_preset(preset.name, signal), signal);
+    const request = await this.context.persist(() => this.context.get_preset(preset.name, signal), signal);
     this.context.store.open(request, { preset: preset.name, title: preset.title, description: preset.description });
   }
 

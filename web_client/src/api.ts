@@ -1,5 +1,6 @@
 /** What the server offers, as api_schema/openapi.json describes it. Addresses are relative, so any path prefix works. */
 import type { Schema } from './form/schema';
+import { has_key, key_fields, unlock } from './key';
 
 export interface Request {
   generator: string;
@@ -23,7 +24,8 @@ export interface Fault {
 /** A symbol, an operation or a function of a notation. */
 export interface Word { symbol?: string; name?: string; parameters?: string; text?: string; example?: string }
 
-export type Vocabulary = Record<string, Word[]>;
+/** Lists of words, or of names alone. */
+export type Vocabulary = Record<string, (Word | string)[]>;
 
 export interface Check { warnings: Fault[]; estimate: { triangles: number; bytes: number; exact: boolean } | null }
 
@@ -41,6 +43,9 @@ export class Refusal extends Error {
     this.faults = problem.errors ?? [];
   }
 }
+
+/** The service is closed to whoever shows no key, or the wrong one. */
+export class Locked extends Refusal {}
 
 /** The server is full or about to end: to be asked again, after `seconds` where it said so. */
 export class Busy extends Error {
@@ -64,8 +69,9 @@ async function problem_of(response: Response): Promise<Problem> {
 
 async function call(address: string, init: RequestInit = {}): Promise<Response> {
   let response: Response;
+  const shown = has_key();
   try {
-    response = await fetch(address, init);
+    response = await fetch(address, { ...init, headers: { ...init.headers, ...key_fields() } });
   } catch (error) {
     if (init.signal?.aborted) throw error;
     throw new Gone('The server does not answer.');
@@ -74,6 +80,13 @@ async function call(address: string, init: RequestInit = {}): Promise<Response> 
   if (response.status === 429 || response.status === 503) {
     const seconds = Number(response.headers.get('Retry-After') ?? NaN);
     throw new Busy((await problem_of(response)).detail ?? '', Number.isFinite(seconds) ? seconds : null);
+  }
+  if (response.status === 401 || response.status === 403) {
+    const problem = await problem_of(response);
+    const opened = await unlock(response.status, shown);
+    init.signal?.throwIfAborted();
+    if (opened) return call(address, init);
+    throw response.status === 401 ? new Locked(problem) : new Refusal(problem);
   }
   if (response.status === 502) throw new Gone('The server does not answer.');
   throw new Refusal(await problem_of(response));

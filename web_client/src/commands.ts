@@ -1,12 +1,16 @@
 /** A request as a program that saves its model: written out, never run. */
 import { in_format, type Request } from './api';
+import { has_key } from './key';
+
+/** The key itself stays out of what is copied: it is read from here when the program runs. */
+const key_variable = 'SEEDMESH_KEY';
 
 const address = (): string => new URL('v1/generate', location.href.split(/[?#]/)[0]).href;
 
 /** For a POSIX shell. */
 export function curl_of(request: Request): string {
   const quote = (text: string): string => `'${text.replaceAll("'", `'\\''`)}'`;
-  return `curl --fail-with-body -o model.glb -H 'Content-Type: application/json' -d ${quote(JSON.stringify(in_format(request, 'glb')))} ${quote(address())}`;
+  return `curl --fail-with-body -o model.glb -H 'Content-Type: application/json'${has_key() ? ` -H "Authorization: Bearer $${key_variable}"` : ''} -d ${quote(JSON.stringify(in_format(request, 'glb')))} ${quote(address())}`;
 }
 
 /** JSON as a Python literal: what differs are three words. Strings keep their escapes, which both read alike. */
@@ -27,7 +31,7 @@ function python_literal(value: unknown, indent: string): string {
 /** Nothing but the standard library. */
 export function python_of(request: Request): string {
   return `import json
-import urllib.error
+${has_key() ? 'import os\n' : ''}import urllib.error
 import urllib.request
 
 request = ${python_literal(in_format(request, 'glb'), '')}
@@ -35,7 +39,7 @@ request = ${python_literal(in_format(request, 'glb'), '')}
 call = urllib.request.Request(
     ${JSON.stringify(address())},
     data=json.dumps(request).encode(),
-    headers={"Content-Type": "application/json"},
+    headers={"Content-Type": "application/json"${has_key() ? `, "Authorization": "Bearer " + os.environ["${key_variable}"]` : ''}},
 )
 try:
     with urllib.request.urlopen(call) as answer, open("model.glb", "wb") as file:
@@ -53,7 +57,7 @@ const request = ${JSON.stringify(in_format(request, 'glb'), null, 2)};
 
 const answer = await fetch(${JSON.stringify(address())}, {
   method: 'POST',
-  headers: { 'Content-Type': 'application/json' },
+  headers: { 'Content-Type': 'application/json'${has_key() ? `, Authorization: \`Bearer \${process.env.${key_variable}}\`` : ''} },
   body: JSON.stringify(request),
 });
 if (!answer.ok) throw new Error(await answer.text());

@@ -6,10 +6,17 @@ export type Phase =
   | { kind: 'ready' }
   | { kind: 'refused'; refusal: Refusal }
   | { kind: 'waiting'; reason: 'full' | 'gone'; until: number }
+  | { kind: 'locked' }
   | { kind: 'stopped' };
 
-/** A hand that moves a slider rests this long before the server is asked. */
+/** The first change after a rest is asked for at once; while a hand moves on, the server is asked when it rests this long. */
 const debounce = 150;
+/** The parts of the way from a change to its model, in the browser's own list of times: the last of each. */
+export function measured(name: string, start: number, end = performance.now()): void {
+  performance.clearMeasures(`seedmesh-${name}`);
+  performance.measure(`seedmesh-${name}`, { start, end });
+}
+
 /** A model that took longer is made under the event stream, which tells the progress at the cost of a second request. */
 const slow = 400;
 const longest_wait = 30_000;
@@ -63,6 +70,8 @@ export class Grower {
   private timer = 0;
   private last: Request | null = null;
   private last_took = 0;
+  /** When the last change was made, on the clock of the page. */
+  private asked = -Infinity;
   private readonly patience = new Patience();
   private readonly tell: (phase: Phase) => void;
   private readonly show: (made: Made, request: Request) => Promise<void>;
@@ -74,11 +83,16 @@ export class Grower {
 
   /** The last request wins: what runs for an earlier one is broken off, in the server too. */
   ask(request: Request, when: 'now' | 'soon'): void {
+    const now = performance.now();
+    const rested = now - this.asked > debounce;
+    this.asked = now;
     this.last = request;
     this.abort();
     this.tell({ kind: 'growing', share: null });
-    this.timer = window.setTimeout(() => void this.run(request), when === 'now' ? 0 : debounce);
+    this.timer = window.setTimeout(() => void this.run(request), when === 'now' || rested ? 0 : debounce);
   }
+
+  get is_running(): boolean { return this.running !== null; }
 
   cancel(): void {
     this.abort();
@@ -101,13 +115,18 @@ export class Grower {
     const controller = new AbortController();
     const { signal } = controller;
     this.running = controller;
+    const { asked } = this;
+    const sent = performance.now();
     try {
       const made = await this.patience.persist(
         () => this.fetch(in_format(request, 'glb'), signal),
         (reason, until) => this.tell({ kind: 'waiting', reason, until }),
         signal,
       );
+      measured('wait', asked, sent);
+      measured('answer', sent);
       await this.show(made, request);
+      measured('all', asked);
       signal.throwIfAborted();
       this.tell({ kind: 'ready' });
     } catch (error) {

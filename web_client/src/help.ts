@@ -8,6 +8,7 @@ export const keys: [string, [string, string][]][] = [
   ['On the picture', [
     ['Arrows', 'Turn'], ['+ −', 'Zoom'], ['F', 'Show all'], ['W', 'Wireframe'], ['G', 'Grid'], ['H', 'Person of 1.8 m'], ['R', 'Another seed'],
     ['N', 'Shaded, flat, normals, squares'], ['C', 'Compare with this model'], ['P', 'Save the picture'], ['[ ]', 'A step back, a step on'], ['Space', 'Play or stop the motion'],
+    ['Right click', 'Plant, where the form has a list of places'], ['Delete', 'Take the chosen place away'],
   ]],
   ['On foot and in flight', [['W A S D', 'Go'], ['Q Z', 'Rise, sink (in flight)'], ['Page up, down', 'Rise, sink'], ['Arrows', 'Turn the head'], ['Shift', 'Faster'], ['Esc', 'Back to turning']]],
   ['In the gallery', [['Arrows', 'From card to card'], ['Enter', 'Open']]],

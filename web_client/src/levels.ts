@@ -1,5 +1,6 @@
 /** What the viewer asks the server for besides the model itself: levels of detail, and which motions there are. */
 import { Refusal, check, generate, type Request } from './api';
+import { moved, type Motion } from './for_view';
 
 /** The most that the service makes. */
 const most_levels = 5;
@@ -16,10 +17,10 @@ export async function levels_of(request: Request): Promise<ArrayBuffer> {
 }
 
 /** Which of the motions the generator can make, as far as its word about a request goes. */
-export async function motions_of(request: Request, motions: string[]): Promise<string[]> {
-  const can = await Promise.all(motions.map(async (animation) => {
+export async function motions_of(request: Request, motions: Motion[]): Promise<Motion[]> {
+  const can = await Promise.all(motions.map(async (motion) => {
     try {
-      await check({ ...request, output: { ...request.output, animation } });
+      await check({ ...request, output: moved(request.output, motion) ?? {} });
       return true;
     } catch (error) {
       return error instanceof Refusal && !error.faults.some((fault) => fault.pointer.startsWith('/output'));

@@ -2,8 +2,8 @@
  * Brings the parts together. The address tells what is shown: `#…` carries a request; in the query `quality=low` or
  * `quality=high` chooses how it is drawn, and `stage` leaves only the picture, for making pictures.
  */
-import { Refusal, get_presets, get_schema, type Fault, type Made, type Preset, type Request } from './api';
-import { Address } from './address';
+import { Locked, Refusal, get_preset, get_presets, get_schema, type Fault, type Made, type Preset, type Request } from './api';
+import { Address, first_shown } from './address';
 import { Checker, joined } from './checker';
 import { el, grouped, part, rounded } from './dom';
 import type { Form } from './form/form';
@@ -11,7 +11,8 @@ import type { Schema } from './form/schema';
 import { draw_gallery, type Gallery } from './gallery';
 import { Grower, Patience } from './grower';
 import { forget_hint, wire_hint } from './hint';
-import { for_view } from './for_view';
+import { reopen } from './key';
+import { for_view, type Motion } from './for_view';
 import { wire_seed } from './seed';
 import { is_high, make_viewer } from './setup';
 import { Store, type State } from './state';
@@ -26,6 +27,19 @@ import './style/gallery.css';
 import './style/form.css';
 import './style/view.css';
 
+/** Begun now, and taken by whoever asks first: the server answers while the picture is set up. */
+function begun<T>(task: () => Promise<T>): (again: () => Promise<T>) => Promise<T> {
+  let early: Promise<T> | null = task();
+  early.catch(() => { /* Whoever takes it is told. */ });
+  return (again) => {
+    const taken = early ?? again();
+    early = null;
+    return taken;
+  };
+}
+const early_presets = begun(get_presets);
+const early_first = location.hash.length > 1 ? null : begun(() => get_preset(first_shown));
+
 /** A model of more triangles is drawn only when asked for: it can cost a browser its picture. */
 const heavy = 3_000_000;
 
@@ -36,8 +50,10 @@ const high = is_high();
 const viewer = make_viewer(status, high);
 const seed = wire_seed((value) => store.edit({ seed: value }));
 const grower = new Grower((phase) => {
-  status.phase(phase);
-  if (phase.kind === 'refused') refuse(phase.refusal);
+  // A question for a key stands until it is answered, whatever else begins.
+  if (!is_locked || phase.kind !== 'growing') status.phase(phase);
+  if (phase.kind === 'refused' && phase.refusal instanceof Locked) locked(phase.refusal, () => grower.again());
+  else if (phase.kind === 'refused') refuse(phase.refusal);
   if (phase.kind === 'ready' || phase.kind === 'refused') settle(phase.kind === 'ready');
 }, show);
 const checker = new Checker((faults) => { checked = faults; show_faults(); });
@@ -55,20 +71,33 @@ let refusal: Refusal | null = null;
 let checked: Fault[] = [];
 /** The model that is shown is not the one that the link meant: that has to stay readable. */
 let link_is_damaged = false;
+let is_locked = false;
 let waiting: ((drawn: boolean) => void)[] = [];
 /** The schema of the form, and of which generator it is. */
 let schema: Schema | null = null;
 let schema_of = '';
 /** The formats and motions that models can have. */
 let formats = ['glb'];
-let motions: string[] = [];
+let motions: Motion[] = [];
 
 const persist = <T>(task: () => Promise<T>, signal: AbortSignal): Promise<T> =>
   patience.persist(task, (reason, until) => status.phase({ kind: 'waiting', reason, until }), signal);
 
-const quietly = (task: Promise<void>): void => {
-  task.catch((error: unknown) => { if (error instanceof Refusal) refuse(error); });
+const quietly = (task: Promise<void>, again = (): void => {}): void => {
+  task.catch((error: unknown) => {
+    if (error instanceof Locked) locked(error, again);
+    else if (error instanceof Refusal) refuse(error);
+  });
 };
+
+/** What opens something can be tried once more, when there is a key. */
+const opening_of = (open: () => Promise<void>): void => quietly(open(), () => opening_of(open));
+
+/** Without a key there is nothing to show; the way to it stays. */
+function locked(why: Locked, again: () => void): void {
+  status.phase({ kind: 'refused', refusal: why });
+  status.faults(why.message, [], 0, () => { reopen(); status.faults('', [], 0, () => {}); again(); }, 'Enter a key');
+}
 
 const begin_opening = (): AbortSignal => {
   opening.abort();
@@ -80,6 +109,7 @@ const begin_opening = (): AbortSignal => {
 const address = new Address({
   store, persist,
   presets: () => presets,
+  get_preset: (name, signal) => (name === first_shown && early_first ? early_first(() => get_preset(name, signal)) : get_preset(name, signal)),
   begin: begin_opening,
   damaged() {
     link_is_damaged = true;
@@ -91,6 +121,7 @@ const core: Core = {
   store, viewer, high, status, seed, tabs,
   bytes: () => last?.bytes ?? null,
   grow_again: () => { if (store.current) grow(store.current.request, 'now'); },
+  preview: (request) => grow(request, 'now'),
   drawn: () => new Promise((resolve) => {
     if (document.body.dataset['state'] === 'ready') resolve(true);
     else waiting.push(resolve);
@@ -215,20 +246,26 @@ async function load_tools(signal: AbortSignal): Promise<void> {
 async function start(): Promise<void> {
   wire_hint();
   part('cancel').addEventListener('click', () => grower.cancel());
+  addEventListener('locked', (event) => {
+    is_locked = (event as CustomEvent<boolean>).detail;
+    status.phase(is_locked ? { kind: 'locked' } : grower.is_running ? { kind: 'growing', share: null } : { kind: 'ready' });
+  });
+  addEventListener('tell', (event) => status.say((event as CustomEvent<string>).detail));
   const again = (): void => { patience.nudge(); grower.again(); };
   part('again').addEventListener('click', again);
   addEventListener('online', () => { if (['gone', 'full'].includes(document.body.dataset['state'] ?? '')) again(); });
-  addEventListener('hashchange', () => { if (address.is_foreign) quietly(address.open()); });
+  addEventListener('hashchange', () => { if (address.is_foreign) opening_of(() => address.open()); });
 
   const { signal } = new AbortController();
-  presets = await persist(() => get_presets(signal), signal);
-  gallery = draw_gallery(part('gallery'), presets, (preset) => { gallery?.mark(preset.name); forget_hint(); quietly(address.choose(preset)); });
-  quietly(address.open());
+  presets = await persist(() => early_presets(() => get_presets(signal)), signal);
+  gallery = draw_gallery(part('gallery'), presets, (preset) => { gallery?.mark(preset.name); forget_hint(); opening_of(() => address.choose(preset)); });
+  opening_of(() => address.open());
   quietly(load_tools(signal));
 
   const output = await persist(() => get_schema('output', signal), signal);
   formats = output['x-formats'] ?? formats;
-  motions = (output.properties?.['animation']?.enum ?? []).map(String).filter((name) => name !== 'none');
+  motions = ['animation', 'wind'].flatMap((member) =>
+    (output.properties?.[member]?.enum ?? []).map(String).filter((value) => value !== 'none').map((value) => ({ member, value })));
   explain();
 }
 

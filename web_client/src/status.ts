@@ -13,8 +13,8 @@ export interface Status {
   shown(statistics: Statistics): void;
   /** A word that goes away by itself. */
   say(text: string): void;
-  /** Faults that no field shows, and how many the fields show; none takes the alert away. */
-  faults(detail: string, homeless: Fault[], in_fields: number, lead: () => void): void;
+  /** Faults that no field shows, and how many the fields show; none takes the alert away. `way` names another way out than the fields. */
+  faults(detail: string, homeless: Fault[], in_fields: number, lead: () => void, way?: string): void;
   lost(lost: boolean): void;
   /** A question with one way on; what happens next in the page answers it with no. */
   ask(question: string, yes: string): Promise<boolean>;
@@ -82,6 +82,7 @@ export function wire_status(): Status {
       progress.hidden = true;
       switch (phase.kind) {
         case 'waiting': waiting(phase.reason, phase.until); break;
+        case 'locked': show('The service asks for a key'); break;
         case 'stopped':
           again.textContent = 'Grow again';
           show('Stopped. The last model stays', [again]);
@@ -97,16 +98,16 @@ export function wire_status(): Status {
       }
     },
     shown: show_statistics,
-    faults(detail, homeless, in_fields, lead) {
+    faults(detail, homeless, in_fields, lead, way) {
       if (detail === '') {
         alert.replaceChildren();
         return;
       }
-      const go = el('button', { type: 'button', onclick: lead }, 'Show');
+      const go = el('button', { type: 'button', onclick: lead }, way ?? 'Show');
       alert.replaceChildren(
         el('p', {}, detail),
         ...homeless.map((fault) => el('p', {}, fault.pointer ? `${fault.pointer}: ${fault.message}` : fault.message)),
-        ...(in_fields > 0 ? [go] : []),
+        ...(in_fields > 0 || way !== undefined ? [go] : []),
       );
     },
     ask(question, yes) {

@@ -6,6 +6,8 @@ import type { Fault, Request } from './api';
 import { save_picture, save_request, wire_copies, wire_downloads } from './actions';
 import { part } from './dom';
 import type { Schema } from './form/schema';
+import type { Motion } from './for_view';
+import { wire_growth, type GrowthAsk } from './growth';
 import { is_typing, wire_help } from './help';
 import { levels_of, motions_of } from './levels';
 import { wire_menus } from './menu';
@@ -33,6 +35,8 @@ export interface Core {
   /** The GLB that is shown. */
   bytes(): ArrayBuffer | null;
   grow_again(): void;
+  /** Shows another request than the page's own, which stays. */
+  preview(request: Request): void;
   /** Ends when the model of the last change is drawn; false where it was refused. */
   drawn(): Promise<boolean>;
   open(request: Request, title: string): void;
@@ -46,9 +50,9 @@ export interface Tools {
   shown(model: Model, triangles: number): void;
   show_faults(faults: Fault[]): void;
   page(page: Page): void;
-  offer(formats: string[], motions: string[]): void;
+  offer(formats: string[], motions: Motion[]): void;
   /** The motion that the view asks for. */
-  motion(): string | null;
+  motion(): Motion | null;
 }
 
 export function wire_tools(core: Core): Tools {
@@ -72,11 +76,16 @@ export function wire_tools(core: Core): Tools {
     },
     drawn: core.drawn,
   });
+  const growth = wire_growth({
+    request: actions.request, preview: core.preview, back: core.grow_again, drawn: core.drawn,
+    hold: (on) => { if (viewer) viewer.held = on; },
+  });
+  part('parameters').addEventListener('grow', (event) => growth.start((event as CustomEvent<GrowthAsk>).detail));
   const view_menu = viewer && wire_view_menu(viewer, {
     high: core.high, levels: () => levels_of(store.current!.request), animate: core.grow_again, fail: actions.fail,
   });
   const motion = viewer && wire_motion(viewer);
-  let motions: string[] = [];
+  let motions: Motion[] = [];
 
   // Which motions there are is asked when somebody looks for them, once for each request that is opened.
   let asked_for: Request | null = null;
@@ -107,6 +116,7 @@ export function wire_tools(core: Core): Tools {
     follow(state, is_new) {
       part<HTMLButtonElement>('undo').disabled = !store.can_undo;
       part<HTMLButtonElement>('redo').disabled = !store.can_redo;
+      growth.leave();
       steps.follow(state);
       request_text.follow(state);
       result.follow(state);

@@ -1,5 +1,6 @@
 /** What the picture can show besides: shading, materials, levels of detail, motion, light, sky, camera. */
 import { el, fresh_id, grouped, part, rounded } from './dom';
+import type { Motion } from './for_view';
 import type { Model } from './viewer/model';
 import type { Mode } from './viewer/modes';
 import type { Viewer } from './viewer/viewer';
@@ -8,8 +9,8 @@ import type { Gait } from './viewer/walker';
 interface Context {
   /** The zip with levels of detail of the model that is shown; fewer than asked for where it has no more. */
   levels(): Promise<ArrayBuffer>;
-  /** Shows the model with this motion; null for a still one. */
-  animate(motion: string | null): void;
+  /** Shows the model with the motion that was chosen. */
+  animate(): void;
   fail(text: string): void;
   high: boolean;
 }
@@ -18,8 +19,8 @@ export interface ViewMenu {
   /** Another model is shown. */
   shown(model: Model, triangles: number): void;
   /** The motions that the model can have. */
-  offer_motions(motions: string[]): void;
-  motion(): string | null;
+  offer_motions(motions: Motion[]): void;
+  motion(): Motion | null;
   next_mode(): void;
   leave_gait(): void;
 }
@@ -58,7 +59,7 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
   const shading = choice('Shading', 'shading', (value) => viewer.set_mode(value as Mode));
   shading.offer(modes);
   const material = choice('Materials', 'material-set', (value) => void viewer.set_variant(value || null));
-  const motion = choice('Motion', 'motion-kind', (value) => context.animate(value || null));
+  const motion = choice('Motion', 'motion-kind', (value) => { viewer.motion.begins = value !== '' && !viewer.is_still; context.animate(); });
   const level = choice('Level of detail', 'detail', (value) => void choose_level(value));
   const gait = choice('Camera', 'gait', (value) => {
     viewer.set_gait(value as Gait);
@@ -68,6 +69,9 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
   gait.offer(gaits);
   let triangles = 0;
   let counts: number[] | null = null;
+  let motions: Motion[] = [];
+
+  const times = tick('Time to draw', 'show-drawn', false, (on) => { part('drawn-box').hidden = !on; });
 
   part('view-options').append(
     shading.row, material.row, motion.row, level.row, gait.row,
@@ -76,7 +80,7 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
     tick('Light', 'light-on', true, (on) => { sun.on = on; viewer.set_sun(sun); }),
     range('Light from', 0, 360, sun.turn, (value) => { sun.turn = value; viewer.set_sun(sun); }),
     range('Height of light', 1, 90, sun.height, (value) => { sun.height = value; viewer.set_sun(sun); }),
-    tick('Time to draw', 'show-drawn', false, (on) => { part('drawn-box').hidden = !on; }));
+    times);
   viewer.walker.on_move = (place, heading) => {
     part('whereabouts').textContent = `x ${place.x.toFixed(1)}, y ${place.y.toFixed(1)}, z ${place.z.toFixed(1)} m · ${Math.round(heading)}° · ${rounded(viewer.measures.size.y)} m high`;
   };
@@ -97,6 +101,8 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
       label_levels();
       level.select.value = 'auto';
       viewer.choose_level('auto');
+      // What a level is good for shows in the time of a picture.
+      if (part('drawn-box').hidden) times.querySelector('input')?.click();
     } catch (error) {
       context.fail(`No levels: ${(error as Error).message}`);
       level.select.value = '';
@@ -114,11 +120,13 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
       material.row.hidden = model.variants.length === 0;
       material.offer([['', 'As asked for'], ...model.variants.map((name): [string, string] => [name, name])]);
     },
-    offer_motions(motions) {
+    offer_motions(next) {
+      motions = next;
       motion.row.hidden = motions.length === 0;
-      motion.offer([['', 'Still'], ...motions.map((name): [string, string] => [name, name.replace(/^./, (first) => first.toUpperCase())])]);
+      // A clip is called by its value; weights are for what they are made for.
+      motion.offer([['', 'Still'], ...motions.map(({ member, value }): [string, string] => [value, (member === 'animation' ? value : member).replace(/^./, (first) => first.toUpperCase())])]);
     },
-    motion: () => motion.select.value || null,
+    motion: () => motions.find((each) => each.value === motion.select.value) ?? null,
     next_mode() {
       shading.select.selectedIndex = (shading.select.selectedIndex + 1) % modes.length;
       viewer.set_mode(shading.select.value as Mode);
@@ -156,8 +164,8 @@ export function wire_motion(viewer: Viewer): { shown(model: Model): void; play()
   });
   return {
     shown(model) {
-      bar.hidden = model.clips.length === 0;
-      if (model.clips.length > 0) tell(time.valueAsNumber / 1000);
+      bar.hidden = model.clips.length === 0 && !model.sways;
+      if (!bar.hidden) tell(time.valueAsNumber / 1000);
     },
     play: flip,
   };

@@ -57,5 +57,9 @@ export function wire_view(viewer: Viewer, acts: Acts): void {
     act();
   });
   const drawn = part('drawn');
-  viewer.on_drawn = (milliseconds) => { drawn.textContent = `${milliseconds < 10 ? milliseconds.toFixed(1) : Math.round(milliseconds)} ms`; };
+  const time = (milliseconds: number): string => `${milliseconds < 10 ? milliseconds.toFixed(1) : Math.round(milliseconds)} ms`;
+  viewer.on_drawn = (milliseconds, frame) => {
+    const level = viewer.level === null ? '' : `, level ${viewer.level}`;
+    drawn.textContent = `${time(milliseconds)}${frame === null ? '' : `, frame ${time(frame)}`}${level}`;
+  };
 }

@@ -15,6 +15,8 @@ export function completions(words: Words, notation: string): (context: Completio
   const of_symbols: Completion[] = [...words.symbols].map(([label, word]) => ({ label, type: 'keyword', ...told(word) }));
   const of_functions: Completion[] = [...words.functions].map(([label, word]) => ({ label, type: 'function', apply: `${label}(`, ...told(word) }));
   const is_symbolic = notation !== 'cga';
+  const of_operations = of_symbols.map((each): Completion => (each.detail ? { ...each, apply: `${each.label}(` } : each));
+  const of_names: Completion[] = words.quoted.map((label) => ({ label, type: 'text' }));
   return (context) => {
     const line = context.state.doc.lineAt(context.pos);
     const before = line.text.slice(0, context.pos - line.from);
@@ -25,11 +27,14 @@ export function completions(words: Words, notation: string): (context: Completio
       if (!at && !context.explicit) return null;
       return { from: at?.from ?? context.pos, options: of_symbols, filter: at !== null };
     }
+    const quote = is_symbolic ? null : /"([^"]*)$/.exec(before);
+    if (quote && (before.match(/"/g)?.length ?? 0) % 2 === 1)
+      return { from: context.pos - (quote[1]?.length ?? 0), options: of_names, validFor: /^[^"]*$/ };
     const word = context.matchBefore(/[\p{L}_$][\p{L}\p{N}_$.]*/u);
     if (!word && !context.explicit) return null;
     const own = [...new Set(context.state.doc.toString().match(/[\p{L}_$][\p{L}\p{N}_$]{1,}/gu) ?? [])]
       .filter((name) => !words.functions.has(name) && !words.symbols.has(name) && name !== word?.text)
       .map((label): Completion => ({ label, type: 'variable' }));
-    return { from: word?.from ?? context.pos, options: [...(is_symbolic ? [] : of_symbols), ...of_functions, ...(is_symbolic ? [] : own)], validFor: /^[\p{L}\p{N}_$.]*$/u };
+    return { from: word?.from ?? context.pos, options: [...(is_symbolic ? [] : of_operations), ...of_functions, ...(is_symbolic ? [] : own)], validFor: /^[\p{L}\p{N}_$.]*$/u };
   };
 }

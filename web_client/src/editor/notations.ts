@@ -76,9 +76,11 @@ export const shape_rules = (words: Words): StreamParser<Line> => ({
     if (stream.match(number)) return 'number';
     const word = stream.match(name) as RegExpMatchArray | null;
     if (word) {
-      if (words.functions.has(word[0])) return 'function';
-      if (words.symbols.has(word[0])) return 'turtle';
-      return /^\s*(?:\([^)]*\))?\s*(?::[^-=~]*)?(?:-{1,2}>|~>|→|=)/.test(stream.string.slice(stream.pos)) ? 'module' : 'word';
+      const after = stream.string.slice(stream.pos);
+      // What a rule defines is its own, even where an operation or a function has the same name.
+      if (/^\s*(?:\([^)]*\))?\s*(?::[^-=~]*)?(?:-{1,2}>|~>|→|=(?!=))/.test(after)) return 'module';
+      if (words.functions.has(word[0]) && /^\s*\(/.test(after)) return 'function';
+      return words.symbols.has(word[0]) ? 'turtle' : 'word';
     }
     if (stream.match(/^[[\]{}|]/)) return 'branch';
     if (stream.match(/^[()]/)) return 'paren';

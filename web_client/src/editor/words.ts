@@ -5,6 +5,8 @@ export interface Words {
   /** Symbols and operations, by how they are written. */
   symbols: Map<string, Word>;
   functions: Map<string, Word>;
+  /** What stands between quotes: lists of names alone. */
+  quoted: string[];
 }
 
 const written = (word: Word): string => word.symbol ?? word.name ?? '';
@@ -14,17 +16,18 @@ const written = (word: Word): string => word.symbol ?? word.name ?? '';
  * are names of other things.
  */
 export function words_for(notation: string, vocabulary: Vocabulary): Words {
-  const lists = Object.values(vocabulary).filter((list): list is Word[] => Array.isArray(list));
+  const all = Object.values(vocabulary).filter((list) => Array.isArray(list));
+  const quoted = all.flatMap((list) => list.filter((word) => typeof word === 'string'));
+  const lists = all.map((list) => list.filter((word) => typeof word !== 'string'));
   const functions = new Map<string, Word>();
   const symbols = new Map<string, Word>();
-  for (const word of vocabulary['functions'] ?? []) functions.set(written(word), word);
+  for (const word of (vocabulary['functions'] ?? []).filter((word) => typeof word !== 'string')) functions.set(written(word), word);
   const by_symbol = notation !== 'cga';
   for (const list of lists) {
-    if (list === vocabulary['functions']) continue;
     for (const word of list) {
-      if (word.text === undefined || (word.symbol !== undefined) !== by_symbol) continue;
+      if (functions.get(written(word)) === word || word.text === undefined || (word.symbol !== undefined) !== by_symbol) continue;
       symbols.set(written(word), word);
     }
   }
-  return { symbols, functions };
+  return { symbols, functions, quoted };
 }

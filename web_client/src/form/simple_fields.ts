@@ -31,6 +31,15 @@ export function slider_span(schema: Schema, value: number): { low: number; high:
   return { low: Math.max(minimum, minimum < 0 ? -reach : 0), high: Math.min(maximum, reach), step };
 }
 
+/** Asks the page to let grow by this number, up to what it is, or to what the schema has as an example. */
+function grow_button(place: Place): HTMLElement {
+  return el('button', { type: 'button', class: 'grow', title: 'Lets it grow up to this number', 'aria-label': `Grow by ${place.label}`, onclick(event) {
+    const value = shown(place), full = place.schema.examples?.[0];
+    const detail = { pointer: place.pointer, until: typeof value === 'number' && value > 0 ? value : Number(full ?? 1), label: place.label };
+    event.target?.dispatchEvent(new CustomEvent('grow', { bubbles: true, detail }));
+  } }, 'Grow');
+}
+
 export const number_field: Draw = (place) =>
   redrawable((redraw) => {
     const value = shown(place);
@@ -39,7 +48,8 @@ export const number_field: Draw = (place) =>
     const box = el('input', { type: 'number', step, value: typeof value === 'number' ? value : '', inputmode: 'decimal' });
     const slider = el('input', { type: 'range', min: low, max: high, step, value: known, 'aria-label': `${place.label}, slider` });
     const unit = place.schema['x-unit'];
-    const body = el('div', { class: 'number' }, slider, el('span', { class: 'box' }, box, unit ? el('span', { class: 'unit' }, unit) : null));
+    const body = el('div', { class: 'number' }, slider, el('span', { class: 'box' }, box, unit ? el('span', { class: 'unit' }, unit) : null),
+      place.schema['x-widget'] === 'growth' && grow_button(place));
     const drawn = frame(place, box, body, redraw);
     const take = (next: number): void => {
       place.value = next;

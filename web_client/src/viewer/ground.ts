@@ -1,16 +1,18 @@
 /** Clicks on the ground, told to whoever listens on the canvas, and marks that stand there. */
 import { Plane, Raycaster, Vector2, Vector3, type Object3D, type PerspectiveCamera } from 'three';
-import type { GroundClick, GroundMarks } from '../form/placement_field';
+import type { GroundClick, GroundMarks } from '../form/planting';
 import type { ScopeBox } from './boxes';
 
 /** A hand trembles by so many pixels. */
 const tremor = 5;
+/** A finger that rests so long, in milliseconds, asks for what a right click does. */
+const long_press = 500;
 
 interface Scene { camera: PerspectiveCamera; model(): Object3D | null; floor(): number }
 
 export function wire_ground(canvas: HTMLCanvasElement, scene: Scene, mark: (boxes: ScopeBox[], chosen: number) => void): void {
-  let down: { x: number; y: number } | null = null;
-  canvas.addEventListener('pointerdown', (event) => { down = { x: event.clientX, y: event.clientY }; });
+  let down: { x: number; y: number; at: number } | null = null;
+  canvas.addEventListener('pointerdown', (event) => { down = event.isPrimary ? { x: event.clientX, y: event.clientY, at: event.timeStamp } : null; });
   canvas.addEventListener('pointerup', (event) => {
     if (!down || Math.hypot(event.clientX - down.x, event.clientY - down.y) > tremor) return;
     const area = canvas.getBoundingClientRect();
@@ -20,16 +22,18 @@ export function wire_ground(canvas: HTMLCanvasElement, scene: Scene, mark: (boxe
     const met = (model && caster.intersectObject(model, true)[0]?.point)
       ?? caster.ray.intersectPlane(new Plane(new Vector3(0, 1, 0), -scene.floor()), new Vector3());
     if (!met) return;
-    const reach = scene.camera.position.distanceTo(met) * 0.03;
-    const detail: GroundClick = { x: met.x, z: met.z, button: event.button, touch: event.pointerType === 'touch', reach };
+    const is_long = event.pointerType === 'touch' && event.timeStamp - down.at > long_press;
+    const detail: GroundClick = { x: met.x, z: met.z, button: is_long ? 2 : event.button, reach: scene.camera.position.distanceTo(met) * 0.03 };
     canvas.dispatchEvent(new CustomEvent('ground-click', { detail }));
   });
   canvas.addEventListener('mark-ground', (event) => {
     const { places, chosen } = (event as CustomEvent<GroundMarks>).detail;
-    const tall = Math.max(1, scene.camera.position.length() * 0.06), thin = tall * 0.08;
-    mark(places.map(([x, z]) => ({
-      origin: [x - thin / 2, height_at(scene, x, z), z - thin / 2], axes: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], size: [thin, tall, thin],
-    })), chosen);
+    mark(places.map(([x, z], index) => {
+      const low = height_at(scene, x, z);
+      const far = scene.camera.position.distanceTo(new Vector3(x, low, z));
+      const tall = far * (index === chosen ? 0.07 : 0.035), thin = far * 0.004;
+      return { origin: [x - thin / 2, low, z - thin / 2], axes: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], size: [thin, tall, thin] };
+    }), chosen);
   });
 }
 

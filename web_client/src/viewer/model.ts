@@ -1,9 +1,10 @@
 /** A glTF as the viewer keeps it: its parts, its clips, and the sets of materials that it can wear. */
 import {
-  Box3, Material, Mesh, Texture, Vector3, type AnimationClip, type BufferGeometry, type Object3D,
+  BasicDepthPacking, Box3, Material, Mesh, MeshDepthMaterial, Texture, Vector3, type AnimationClip, type BufferGeometry, type Object3D,
 } from 'three';
 import { GLTFLoader, type GLTF } from 'three/addons/loaders/GLTFLoader.js';
 import { corners_of, points_of } from './frame';
+import { patch, whole, type Fade } from './patch';
 
 const variants_word = 'KHR_materials_variants';
 
@@ -23,6 +24,10 @@ export class Model {
   readonly box: Box3;
   /** Points that stand for the outline. */
   readonly points: Vector3[];
+  /** Whether its vertices say how they move in the wind. */
+  sways = false;
+  /** Set where it is one of several levels. */
+  fade: Fade | null = null;
   private readonly gltf: GLTF;
   private readonly own = new Map<Mesh, Material | Material[]>();
 
@@ -38,6 +43,12 @@ export class Model {
     this.points = points_of(this.root);
     if (this.points.length === 0) this.points = corners_of(this.box);
     this.each_mesh((mesh) => {
+      if (mesh.geometry.getAttribute('uv2') && mesh.geometry.getAttribute('uv3')) {
+        this.sways = true;
+        // Shadows sway too.
+        mesh.customDepthMaterial = new MeshDepthMaterial({ depthPacking: BasicDepthPacking });
+        patch(mesh.customDepthMaterial, true, null);
+      }
       mesh.castShadow = true;
       mesh.receiveShadow = true;
       this.own.set(mesh, mesh.material);
@@ -83,6 +94,11 @@ export class Model {
     await Promise.all(changes);
   }
 
+  /** Lets a material of this model do what the model does. */
+  prepare(material: Material): void {
+    patch(material, this.sways, this.fade);
+  }
+
   get triangles(): number {
     let count = 0;
     this.each_mesh((mesh) => {
@@ -97,6 +113,7 @@ export class Model {
     this.root.traverse((part) => {
       const { geometry, material } = part as Mesh;
       geometry?.dispose();
+      part.customDepthMaterial?.dispose();
       // What a mesh wears for a while (normals, squares) belongs to the viewer.
       for (const each of [this.own.get(part as Mesh) ?? material ?? []].flat() as Material[]) {
         for (const value of Object.values(each)) if (value instanceof Texture) value.dispose();
@@ -109,43 +126,73 @@ export class Model {
 const triangles_of = (geometry: BufferGeometry): number =>
   Math.floor((geometry.index?.count ?? geometry.getAttribute('position')?.count ?? 0) / 3);
 
-/** The levels of one model, from fine to coarse, one of which is in sight. */
+/** A level gives way to the next in so many milliseconds. */
+const fade_time = 400;
+
+/** The levels of one model, from fine to coarse, one of which is in sight, or two while one gives way to the other. */
 export class Levels {
   readonly models: Model[];
+  private readonly still: boolean;
   private near = 0;
   private now = 0;
+  private before = -1;
+  private began = 0;
 
-  constructor(models: Model[]) {
+  /** `still` exchanges them at once. */
+  constructor(models: Model[], still: boolean) {
     this.models = models;
+    this.still = still;
+    for (const model of models) model.fade = whole();
   }
 
   /** A level by number, or "auto": the first up to the distance `near`, and each doubling takes the next. */
   choose(level: number | 'auto', parent: Object3D, near: number): void {
     for (const model of this.models) parent.add(model.root);
     this.near = level === 'auto' ? near : 0;
-    this.show(level === 'auto' ? 0 : level);
+    this.show(level === 'auto' ? 0 : level, false);
   }
 
-  /** Called before each picture; true where another level came into sight. */
-  at(distance: number): boolean {
-    if (this.near === 0) return false;
+  /** Called before each picture; tells whether another level came into sight, and whether there is more to show. */
+  at(distance: number): { changed: boolean; fading: boolean } {
+    const ended = this.go_on();
+    if (this.near === 0) return { changed: ended, fading: this.before >= 0 };
     const wanted = Math.max(0, Math.ceil(Math.log2(distance / this.near)));
     // On the way in a tenth more is asked for, so that a camera on the border does not flicker.
     const closer = Math.max(0, Math.ceil(Math.log2((distance * 1.1) / this.near)));
     const next = Math.min(wanted < this.now ? closer : wanted, this.models.length - 1);
-    if (next === this.now) return false;
-    this.show(next);
-    return true;
+    if (next !== this.now) this.show(next, !this.still);
+    return { changed: ended || next !== this.now, fading: this.before >= 0 };
   }
 
   get in_sight(): number { return this.now; }
+  get is_fading(): boolean { return this.before >= 0; }
 
   dispose(): void {
     for (const model of this.models) model.dispose();
   }
 
-  private show(level: number): void {
-    this.now = Math.min(level, this.models.length - 1);
-    this.models.forEach((model, index) => { model.root.visible = index === this.now; });
+  private show(level: number, fades: boolean): void {
+    const next = Math.min(level, this.models.length - 1);
+    this.before = fades && next !== this.now ? this.now : -1;
+    this.began = performance.now();
+    this.now = next;
+    this.models.forEach((model, index) => {
+      model.root.visible = index === next || index === this.before;
+      model.fade?.value.set(0, 2);
+    });
+    this.go_on();
+  }
+
+  /** The next moment of the fade; true in its last. */
+  private go_on(): boolean {
+    const from = this.models[this.before], to = this.models[this.now];
+    if (!from || !to) return false;
+    const share = (performance.now() - this.began) / fade_time;
+    to.fade?.value.set(0, share < 1 ? share : 2);
+    from.fade?.value.set(share, 2);
+    if (share < 1) return false;
+    from.root.visible = false;
+    this.before = -1;
+    return true;
   }
 }

@@ -4,6 +4,7 @@ import {
   type Material, type MeshStandardMaterial, type Object3D,
 } from 'three';
 import type { Model } from './model';
+import { patch } from './patch';
 
 export type Mode = 'shaded' | 'flat' | 'normals' | 'uv';
 
@@ -59,6 +60,9 @@ export class Modes {
   private dress_mesh(model: Model, mesh: Mesh): void {
     const own = model.own_material(mesh);
     mesh.material = this.mode === 'normals' ? this.normals : this.mode === 'uv' ? this.unwrapped() : own;
+    for (const material of [own].flat()) model.prepare(material);
+    // What all models share fades with none of them.
+    if (model.sways) for (const material of [this.normals, this.squares, this.wire]) if (material) patch(material, true, null);
     for (const material of [own, mesh.material].flat() as MeshStandardMaterial[]) {
       const flat = this.mode === 'flat';
       if ('flatShading' in material && material.flatShading !== flat && material !== (this.normals as Material)) {

@@ -1,6 +1,10 @@
-/** A clip of the model: stands at a share of its length, or runs. */
+/** What moves the model: a clip, which stands at a share of its length or runs; or else the wind, which blows in a loop. */
 import type { AnimationClip, Interpolant, KeyframeTrack, Mesh, Object3D, Quaternion, Vector3 } from 'three';
 import type { Model } from './model';
+import { gust } from './patch';
+
+/** Seconds until the wind begins again. */
+const loop = 10;
 
 type Keyed = KeyframeTrack & { createInterpolant(): Interpolant };
 
@@ -26,27 +30,36 @@ function channels_of(root: Object3D, clip: AnimationClip): Channel[] {
 export class Motion {
   /** Called with the share that is shown while it runs. */
   on_time: (share: number) => void = () => {};
+  /** The wind blows as soon as a model comes that has weights for it. */
+  begins = false;
   private channels: Channel[] = [];
+  private blows = false;
   private duration = 0;
   private running = false;
   private last = 0;
   private share = 1;
 
-  get has_clip(): boolean { return this.channels.length > 0; }
+  get has_clip(): boolean { return this.channels.length > 0 || this.blows; }
   get is_running(): boolean { return this.running; }
   get seconds(): number { return this.duration; }
 
   take(model: Model | null): void {
     const clip = model?.clips[0];
-    this.running = false;
+    this.blows = !clip && model !== null && model.sways;
+    this.running = this.blows && (this.running || this.begins);
+    this.begins = false;
+    this.last = performance.now();
     this.channels = model && clip ? channels_of(model.root, clip) : [];
-    this.duration = clip?.duration ?? 0;
+    this.duration = this.blows ? loop : clip?.duration ?? 0;
+    const height = model ? model.box.max.y - model.box.min.y : 0;
+    gust.value.set(0, this.blows ? height * 0.07 : 0, this.blows ? height * 0.006 : 0);
     this.stand(this.share);
   }
 
   /** 0 is the first moment, 1 the last. */
   stand(share: number): void {
     this.share = share;
+    gust.value.x = share * 2 * Math.PI;
     for (const { curve, set } of this.channels) set(curve.evaluate(share * this.duration) as ArrayLike<number>);
   }
 
@@ -60,7 +73,8 @@ export class Motion {
   step(): boolean {
     if (!this.running) return false;
     const now = performance.now();
-    this.stand(Math.min(1, this.share + (now - this.last) / 1000 / Math.max(this.duration, 1e-3)));
+    const next = this.share + (now - this.last) / 1000 / Math.max(this.duration, 1e-3);
+    this.stand(this.blows ? next % 1 : Math.min(1, next));
     this.last = now;
     if (this.share >= 1) this.running = false;
     this.on_time(this.share);

@@ -25,8 +25,8 @@ export class Viewer {
   on_context: (lost: boolean) => void = () => {};
   /** Called with the scope box that was pointed at; -1 for none. */
   on_pick: (index: number) => void = () => {};
-  /** Called after each picture with the time that its drawing took, in milliseconds. */
-  on_drawn: (milliseconds: number) => void = () => {};
+  /** Called after each picture with the time that its drawing took, and the time since the one before while pictures follow each other, in milliseconds. */
+  on_drawn: (milliseconds: number, frame: number | null) => void = () => {};
   readonly motion = new Motion();
   readonly walker: Walker;
   private readonly renderer: WebGLRenderer;
@@ -45,9 +45,15 @@ export class Viewer {
   private marks: Group | null = null;
   private box = new Box3(new Vector3(-1, 0, -1), new Vector3(1, 2, 1));
   private points = corners_of(this.box);
+  /** The camera stays where it is, whatever is shown: a model that grows shall be seen to grow. */
+  held = false;
   private touched = false;
   private covered: number;
   private frame = 0;
+  private last_begin = 0;
+  /** The model was not drawn yet. */
+  private is_new = false;
+  private readonly still: boolean;
   /** Part of the height that nothing covers. */
   private free = 1;
 
@@ -55,6 +61,7 @@ export class Viewer {
     const high = look.quality === 'high';
     this.canvas = canvas;
     this.covered = look.covered;
+    this.still = look.still;
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: high, powerPreference: 'high-performance' });
     this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.toneMappingExposure = 1;
@@ -75,7 +82,7 @@ export class Viewer {
     canvas.addEventListener('webglcontextrestored', () => { this.renderer.shadowMap.needsUpdate = true; this.on_context(false); this.draw(); });
     canvas.addEventListener('click', (event) => this.pick(event));
     wire_ground(canvas, { camera: this.camera, model: () => this.model?.root ?? null, floor: () => this.stage.floor },
-      (places, chosen) => this.set_marks(draw_boxes(places, (index) => (index === chosen ? 3 : 1))));
+      (places, chosen) => this.set_marks(places.length > 0 ? draw_boxes(places, (index) => (index === chosen ? 3 : 1)) : null));
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
     this.set_theme(look.dark);
     this.resize();
@@ -84,11 +91,14 @@ export class Viewer {
 
   /** Takes a GLB in place of the model that is shown. The camera stays where a hand has put it. */
   async show(bytes: ArrayBuffer, keep_camera: boolean): Promise<Model> {
+    const begin = performance.now();
     const model = await Model.from(bytes);
+    performance.clearMeasures('seedmesh-read');
+    performance.measure('seedmesh-read', { start: begin });
     if (this.variant !== null && model.variants.includes(this.variant)) await model.wear(this.variant);
     this.let_go();
     this.model = model;
-    if (!keep_camera) this.set_marks(null);
+    this.is_new = true;
     this.scene.add(model.root);
     this.motion.take(model);
     const grown = model.box.getSize(new Vector3()).length() / this.box.getSize(new Vector3()).length();
@@ -97,7 +107,8 @@ export class Viewer {
     this.stage.surround(model.box);
     this.walker.land(model.root, this.stage.floor, model.box.getSize(new Vector3()).length() / 2);
     this.dress();
-    if (!keep_camera || !this.touched || grown > 2 || grown < 0.5) this.fit();
+    if (!this.held && (!keep_camera || !this.touched || grown > 2 || grown < 0.5)) this.fit();
+    this.canvas.dispatchEvent(new CustomEvent('ground-changed'));
     await this.drawn();
     return model;
   }
@@ -152,7 +163,7 @@ export class Viewer {
     const models = await levels_of(bytes);
     if (this.variant !== null) await Promise.all(models.map((model) => model.wear(this.variant)));
     this.levels?.dispose();
-    this.levels = new Levels(models);
+    this.levels = new Levels(models, this.still);
     return models.map((model) => model.triangles);
   }
 
@@ -168,6 +179,9 @@ export class Viewer {
     }
     this.dress();
   }
+
+  /** Whether nothing shall move by itself. */
+  get is_still(): boolean { return this.still; }
 
   /** The level that is in sight; null where there are no levels. */
   get level(): number | null { return this.levels?.in_sight ?? null; }
@@ -246,6 +260,7 @@ export class Viewer {
   }
 
   private set_marks(marks: Group | null): void {
+    if (!marks && !this.marks) return;
     drop_boxes(this.marks);
     this.marks = marks;
     if (marks) this.scene.add(marks);
@@ -346,14 +361,20 @@ export class Viewer {
     // While the motion dies down this asks for the next picture by the event "change".
     if (this.walker.gait === 'orbit') this.controls.update();
     const goes_on = [this.walker.step(), this.motion.step()].some(Boolean);
-    const is_other_level = this.levels?.at(this.camera.position.distanceTo(this.controls.target)) ?? false;
-    if (this.motion.is_running || is_other_level) this.renderer.shadowMap.needsUpdate = true;
+    const detail = this.levels?.at(this.camera.position.distanceTo(this.controls.target));
+    if (this.motion.is_running || detail?.changed) this.renderer.shadowMap.needsUpdate = true;
     if (!this.renderer.getContext().isContextLost()) {
       if (this.other) this.render_both(this.other);
       else this.renderer.render(this.scene, this.camera);
-      this.on_drawn(performance.now() - begin);
+      if (this.is_new) {
+        this.is_new = false;
+        performance.clearMeasures('seedmesh-draw');
+        performance.measure('seedmesh-draw', { start: begin });
+      }
+      this.on_drawn(performance.now() - begin, begin - this.last_begin < 1000 ? begin - this.last_begin : null);
+      this.last_begin = begin;
     }
-    if (goes_on) this.draw();
+    if (goes_on || detail?.fading) this.draw();
   }
 
   /** The other model left of the divider, the model right of it. */
