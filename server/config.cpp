@@ -105,6 +105,14 @@ std::string set_host(Config& config, std::string_view given) {
   return {};
 }
 
+Setting file(std::string name, std::string text, std::string Config::*member) {
+  const auto set = [=](Config& config, std::string_view given) -> std::string {
+    config.*member = given;
+    return {};
+  };
+  return {std::move(name), std::move(text), set, getter(member)};
+}
+
 /// A list or an address with a reader of its own in keys.h; secrets may stand in a file
 /// ("@/run/secrets/keys").
 template <class Value, class Read>
@@ -192,6 +200,9 @@ const std::vector<Setting>& table() {
            10),
       real("redis-lifetime", "Seconds that the shared cache keeps a model.", &Config::redis_lifetime, 1, 1e9),
       bytes("redis-value", "Largest model that the shared cache is given.", &Config::redis_value, 1'024),
+      file("tls-certificate", "Certificate and its chain in PEM: HTTPS is spoken instead of HTTP.",
+           &Config::tls_certificate),
+      file("tls-key", "The certificate's key in PEM.", &Config::tls_key),
       count("max-modules", "Modules one request may derive.", &Limits::modules, 1, 1'000'000'000'000),
       count("max-shapes", "Shapes one request may derive.", &Limits::shapes, 1, 1'000'000'000'000),
       count("max-triangles", "Triangles one request may make.", &Limits::triangles, 1, 4'000'000'000),
@@ -319,6 +330,21 @@ static void read_config_file(ConfigResult& result, const std::string& name) {
   }
 }
 
+static void read_certificate(ConfigResult& result) {
+  Config& config = result.config;
+  if (config.tls_certificate.empty() && config.tls_key.empty()) return;
+  if (config.tls_certificate.empty() || config.tls_key.empty()) {
+    result.faults.push_back("tls-certificate and tls-key are needed together");
+    return;
+  }
+  auto read = http::TlsIdentity::read(config.tls_certificate, config.tls_key);
+  if (auto* fault = std::get_if<std::string>(&read)) {
+    result.faults.push_back("tls: " + *fault);
+  } else {
+    config.tls = std::get<0>(std::move(read));
+  }
+}
+
 /// The file that flags or else environment name; "" where none is.
 static std::string config_file(const std::vector<std::string>& environment,
                                const std::vector<std::pair<std::string, std::string>>& flags) {
@@ -351,6 +377,7 @@ ConfigResult load_config(const std::vector<std::string>& environment,
   if (result.config.link_lifetime > 0 && result.config.signing_keys.empty()) {
     result.faults.push_back("link-lifetime is set, but there are no signing-keys: links would hold for ever");
   }
+  read_certificate(result);
   if (result.config.threads == 0) result.config.threads = usable_cores();
   return result;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/job.h"
+#include "server/http/tls.h"
 #include "server/keys.h"
 #include "server/redis_address.h"
 
@@ -37,12 +38,14 @@ struct Config {
   std::vector<SigningKey> signing_keys;
   double link_lifetime = 0;  ///< seconds that permalinks of a signing service hold; 0 = for ever
   bool only_presets = false;
-  std::vector<std::string> generators;     ///< that may be asked for; empty = all
-  std::vector<std::string> cors_origins;   ///< whose pages may read answers; "*" = all
-  std::optional<RedisAddress> redis;       ///< of the shared cache
-  double redis_timeout = 0.1;              ///< seconds for one exchange with it
-  double redis_lifetime = 604'800;         ///< seconds that it keeps a model
-  std::uint64_t redis_value = 32U << 20U;  ///< largest model that it is given
+  std::vector<std::string> generators;           ///< that may be asked for; empty = all
+  std::vector<std::string> cors_origins;         ///< whose pages may read answers; "*" = all
+  std::optional<RedisAddress> redis;             ///< of the shared cache
+  double redis_timeout = 0.1;                    ///< seconds for one exchange with it
+  double redis_lifetime = 604'800;               ///< seconds that it keeps a model
+  std::uint64_t redis_value = 32U << 20U;        ///< largest model that it is given
+  std::string tls_certificate, tls_key;          ///< files
+  std::shared_ptr<const http::TlsIdentity> tls;  ///< what load_config has read there; null: plain HTTP
   Limits limits;
 };
 

@@ -32,6 +32,7 @@ http::ListenerOptions listener_options(const Config& config) {
   options.host = config.host;
   options.port = config.port;
   options.limits.body = config.body_limit;
+  options.tls = config.tls;
   options.body_memory = config.body_memory;
   options.connections = static_cast<std::size_t>(config.connections);
   options.head_time = whole_seconds(config.head_timeout);
@@ -109,7 +110,7 @@ void record(Service& service, const http::Exchange& exchange) {
 
 std::string url_of(const Config& config, int port) {
   const std::string host = config.host.find(':') == std::string::npos ? config.host : "[" + config.host + "]";
-  return "http://" + host + ":" + std::to_string(port);
+  return (config.tls ? "https://" : "http://") + host + ":" + std::to_string(port);
 }
 
 }  // namespace
@@ -181,8 +182,10 @@ int healthcheck(const Config& config) {
     const std::string_view request = "GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
     char answer[16] = {};
     healthy = ::connect(socket, address->ai_addr, address->ai_addrlen) == 0 &&
-              ::send(socket, request.data(), request.size(), MSG_NOSIGNAL) > 0 &&
-              ::recv(socket, answer, 12, MSG_WAITALL) == 12 && std::string_view(answer) == "HTTP/1.1 200";
+              (config.tls ? http::ask_over_tls(socket, request, 12) == "HTTP/1.1 200"
+                          : ::send(socket, request.data(), request.size(), MSG_NOSIGNAL) > 0 &&
+                                ::recv(socket, answer, 12, MSG_WAITALL) == 12 &&
+                                std::string_view(answer) == "HTTP/1.1 200");
     ::close(socket);
   }
   ::freeaddrinfo(found);

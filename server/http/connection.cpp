@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t small_piece = 16 * 1'024;
 constexpr std::size_t read_size = 16 * 1'024;
+constexpr std::size_t encrypted_at_once = 64 * 1'024;
 
 int milliseconds_until(Connection::Clock::time_point until) {
   using namespace std::chrono;
@@ -24,9 +25,12 @@ int milliseconds_until(Connection::Clock::time_point until) {
 
 }  // namespace
 
-Connection::Connection(int socket, int drain) : socket_(socket), drain_(drain) {}
+Connection::Connection(int socket, int drain, const TlsIdentity* identity) : socket_(socket), drain_(drain) {
+  if (identity) tls_.emplace(*identity);
+}
 
 Connection::~Connection() {
+  say_goodbye();
   // The watch may still hold the socket in its poll for a moment; a close alone would leave the client
   // waiting until then.
   ::shutdown(socket_, SHUT_WR);
@@ -60,18 +64,40 @@ bool Connection::wait_for_request(Clock::time_point until) {
   }
 }
 
+bool Connection::shake_hands(Clock::time_point until) {
+  while (tls_ && !tls_->is_open()) {
+    if (!receive(until)) return false;
+  }
+  return true;
+}
+
 bool Connection::fill(Clock::time_point until) {
   if (consumed_ == buffer_.size()) {
     buffer_.clear();
     consumed_ = 0;
   }
   const std::size_t before = buffer_.size();
+  while (buffer_.size() == before) {
+    if (!receive(until)) return buffer_.size() > before;
+  }
+  return true;
+}
+
+/// Reads what is there, or waits for it; with TLS that need not be a byte for us.
+bool Connection::receive(Clock::time_point until) {
   while (true) {
     char bytes[read_size];
     const ssize_t got = ::recv(socket_, bytes, sizeof(bytes), MSG_DONTWAIT);
     if (got > 0) {
-      buffer_.append(bytes, static_cast<std::size_t>(got));
-      return buffer_.size() > before;
+      const std::string_view wire(bytes, static_cast<std::size_t>(got));
+      if (!tls_) {
+        buffer_.append(wire);
+        return true;
+      }
+      const bool goes_on = tls_->take(wire, buffer_);
+      const bool told = send_wire(tls_->pending(), {});
+      tls_->sent();
+      return goes_on && told;
     }
     if (got == 0) return false;
     if (errno == EINTR) continue;
@@ -110,6 +136,26 @@ bool Connection::flush() {
 }
 
 bool Connection::send_all(std::string_view first, std::string_view second) {
+  if (tls_) return send_encrypted(first) && send_encrypted(second);
+  return send_wire(first, second);
+}
+
+/// Piece by piece, so that a large answer is not there twice.
+bool Connection::send_encrypted(std::string_view plain) {
+  while (!broken_ && !plain.empty()) {
+    const std::string_view piece = plain.substr(0, encrypted_at_once);
+    if (!tls_->put(piece)) {
+      broken_ = true;
+      break;
+    }
+    if (send_wire(tls_->pending(), {})) sent_ += piece.size();
+    tls_->sent();
+    plain.remove_prefix(piece.size());
+  }
+  return !broken_;
+}
+
+bool Connection::send_wire(std::string_view first, std::string_view second) {
   while (!broken_ && !(first.empty() && second.empty())) {
     iovec pieces[2] = {{const_cast<char*>(first.data()), first.size()},
                        {const_cast<char*>(second.data()), second.size()}};
@@ -122,7 +168,7 @@ bool Connection::send_all(std::string_view first, std::string_view second) {
       broken_ = true;  // gone, or it did not read for as long as SO_SNDTIMEO allows
       break;
     }
-    sent_ += static_cast<std::uint64_t>(sent);
+    if (!tls_) sent_ += static_cast<std::uint64_t>(sent);
     const std::size_t of_first = std::min(first.size(), static_cast<std::size_t>(sent));
     first.remove_prefix(of_first);
     second.remove_prefix(static_cast<std::size_t>(sent) - of_first);
@@ -130,7 +176,17 @@ bool Connection::send_all(std::string_view first, std::string_view second) {
   return !broken_;
 }
 
+/// Ends the session without waiting.
+void Connection::say_goodbye() {
+  if (!tls_ || broken_) return;
+  tls_->end();
+  const std::string_view last = tls_->pending();
+  if (::send(socket_, last.data(), last.size(), MSG_NOSIGNAL | MSG_DONTWAIT) < 0) broken_ = true;
+  tls_->sent();
+}
+
 void Connection::linger(std::size_t most) {
+  say_goodbye();
   if (broken_ || ::shutdown(socket_, SHUT_WR) != 0) return;
   const auto until = Clock::now() + std::chrono::seconds(2);
   buffer_.clear();

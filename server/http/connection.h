@@ -4,8 +4,11 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "server/http/tls.h"
 
 namespace seedmesh::http {
 
@@ -13,14 +16,18 @@ class Connection {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `drain` is a file descriptor that becomes readable when idle connections shall end.
-  Connection(int socket, int drain);
+  /// `drain` is a file descriptor that becomes readable when idle connections shall end. With an `identity`
+  /// the client has to speak TLS.
+  Connection(int socket, int drain, const TlsIdentity* identity = nullptr);
   ~Connection();
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
   int socket() const { return socket_; }
   std::string remote() const;
+
+  /// Agrees with the client on keys; false when it does not in time. Nothing to do without TLS.
+  bool shake_hands(Clock::time_point until);
 
   /// Waits for the first byte of a request; false when the client leaves, the time is over or the service
   /// drains.
@@ -43,10 +50,15 @@ class Connection {
   void linger(std::size_t most);
 
  private:
+  bool receive(Clock::time_point until);
   bool send_all(std::string_view first, std::string_view second);
+  bool send_encrypted(std::string_view plain);
+  bool send_wire(std::string_view first, std::string_view second);
+  void say_goodbye();
 
   int socket_;
   int drain_;
+  std::optional<TlsSession> tls_;
   std::string buffer_;
   std::size_t consumed_ = 0;
   std::string queued_;

@@ -226,11 +226,12 @@ class Listener::Server : public httplib::Server {
   }
 
   bool process_and_close_socket(socket_t socket) override {
-    Connection connection(socket, drain_);
+    Connection connection(socket, drain_, options_.tls.get());
     if (full_here()) {
-      turn_away(connection);
+      if (!options_.tls) turn_away(connection);  // hands are not shaken on the accepting thread
       return true;
     }
+    if (!connection.shake_hands(Connection::Clock::now() + options_.head_time)) return true;
     while (connection.wait_for_request(Connection::Clock::now() + options_.idle_time)) {
       if (!serve_one(connection)) break;
     }

@@ -12,6 +12,7 @@
 
 #include "server/http/head.h"
 #include "server/http/message.h"
+#include "server/http/tls.h"
 
 namespace seedmesh::http {
 
@@ -19,7 +20,8 @@ struct ListenerOptions {
   std::string host = "127.0.0.1";
   int port = 8080;  ///< 0 = any that is free
   HeadLimits limits;
-  std::size_t connections = 512;  ///< at once; one more is answered 503 at once
+  std::shared_ptr<const TlsIdentity> tls;  ///< null: plain HTTP
+  std::size_t connections = 512;           ///< at once; one more is answered 503 at once
   std::uint64_t body_memory =
       256U << 20U;  ///< for the bodies of all requests together; one more is answered 503
   std::chrono::seconds head_time{10};

@@ -19,7 +19,7 @@ const seams = [
   [/^(oneapi\/)?tbb(\/|\.h)/, /^core\/base\/parallel\.cpp$/],
   [/^png\.h$/, /^core\/(texture\/|pipeline\/engine\.cpp)/],
   [/^random$/, /^server\//],
-  [/^openssl\//, /^server\/signature\.cpp$/],
+  [/^openssl\//, /^server\/(signature|http\/tls)\.cpp$/],
   [/^hiredis\//, /^server\/shared_cache\.cpp$/],
   [/^(brotli\/|zstd\.h$)/, /^server\/(compress|embed_assets)\.cpp$/],
 ];
