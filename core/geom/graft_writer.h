@@ -83,6 +83,12 @@ class GraftWriter {
     bool is_fork = false;
   };
 
+  /// A face at a loop: its unit normal, and the groups of its corners or none.
+  struct LoopFace {
+    glm::vec3 normal{0};
+    std::uint32_t group[3] = {none, none, none};
+  };
+
   /// Where what belongs to a limb begins.
   struct Begin {
     std::uint32_t vertex = 0, triangle = 0, group = 0, loop_vertex = 0;
@@ -95,7 +101,8 @@ class GraftWriter {
   bool has_same_loop(std::uint32_t limb, const GraftWriter& last) const;
   void copy_limb(std::uint32_t limb, const GraftWriter& last);
   void mark_touched();
-  void add_loop_normals(std::size_t limb);
+  void add_loop_normals(std::size_t limb, std::vector<LoopFace>& faces);
+  void ease_loop_normals(const std::vector<LoopFace>& faces);
   Begin here() const;
 
   void write_limb(std::uint32_t limb);

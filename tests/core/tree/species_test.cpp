@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/generators/tree/weber_penn_shape.h"
+#include "core/geom/graft.h"
 #include "tests/core/tree/support.h"
 
 namespace seedmesh::tree {
@@ -116,6 +117,29 @@ TEST(Species, DivideTheTrunkOfTheWillowAndTheOakAtTheirFirstSegment) {
     EXPECT_GE(stems(tree.limbs(), 0).size(), 3U) << "the trunk and its two clones at least";
     EXPECT_GT(tree.organs().organ.size(), 1000U);
   }
+}
+
+/// Limbs that are closed where they begin, for want of room, as a share of all.
+double closed_share(const std::string& name) {
+  const TreeParams params = species(name);
+  Job job(4, Job::Options{});
+  const Skeleton skeleton = skeleton_of(params, 4, job);
+  GraftOptions options;
+  options.sides = params.sides;
+  options.thinnest = static_cast<float>(params.twig_radius);
+  GraftCounts counts;
+  graft(skeleton.limbs, options, job, &counts);
+  return static_cast<double>(counts.closed + counts.fallen_back) / counts.limbs;
+}
+
+TEST(Species, GrowAlmostAllTheirLimbsOutOfTheirParents) {
+  EXPECT_LT(closed_share("quaking_aspen"), 0.06);
+  EXPECT_LT(closed_share("birch"), 0.08);
+  EXPECT_LT(closed_share("maple"), 0.1);
+  EXPECT_LT(closed_share("poplar"), 0.1);
+  EXPECT_LT(closed_share("black_tupelo"), 0.12);
+  EXPECT_LT(closed_share("black_oak"), 0.2) << "stems that split by ten degrees";
+  EXPECT_LT(closed_share("spruce"), 0.3) << "whorls";
 }
 
 TEST(Species, KeepTheWillowInsideItsEnvelope) {
