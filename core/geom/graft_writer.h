@@ -38,8 +38,6 @@ class GraftWriter {
   GraftCounts counts() const;
   /// Vertices on rings, and those of them on rings of more corners than a vertex cache holds.
   std::size_t corners() const { return corners_; }
-  /// Limbs not much thicker than what can be told from a line.
-  bool has_threads() const { return has_threads_; }
   std::size_t wide_corners() const { return wide_corners_; }
   Array<std::uint32_t> take_joints() { return std::move(joints_); }
   Mesh take();
@@ -166,7 +164,6 @@ class GraftWriter {
   float turns_ = 0;             ///< of the picture round the limb, by a radian; 0: u is in metres
   std::uint32_t joint_ = none;  ///< what the vertices being written move with
   std::size_t corners_ = 0, wide_corners_ = 0;
-  bool has_threads_ = false;
 };
 
 }  // namespace seedmesh
