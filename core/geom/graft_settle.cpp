@@ -51,11 +51,12 @@ void GraftWriter::add_loop_normals(std::size_t limb, std::vector<LoopFace>& face
   }
 }
 
-/// Where a limb leaves at a narrow angle, the mean of both surfaces may look away from one of their faces; the
-/// normal gives way, so that the limb need not.
+/// Where a limb leaves at a narrow angle, the mean of both surfaces may look away from one of their faces;
+/// the normal gives way, so that the limb need not.
 void GraftWriter::ease_loop_normals(const std::vector<LoopFace>& faces) {
   const auto looks_away = [&](const LoopFace& face, std::uint32_t group) {
-    return group != none && touched_[group / 2] && glm::dot(group_normal_[group & ~1U], face.normal) < least_lean;
+    return group != none && touched_[group / 2] &&
+           glm::dot(group_normal_[group & ~1U], face.normal) < least_lean;
   };
   std::vector<std::uint8_t> strained(touched_.size(), 0);
   for (const LoopFace& face : faces) {
@@ -75,7 +76,8 @@ void GraftWriter::ease_loop_normals(const std::vector<LoopFace>& faces) {
       for (const std::uint32_t group : face.group) {
         if (!looks_away(face, group)) continue;
         glm::vec3& normal = group_normal_[group & ~1U];
-        normal = math::quick_unit(normal + face.normal * (wanted_lean - glm::dot(normal, face.normal)), normal);
+        normal =
+            math::quick_unit(normal + face.normal * (wanted_lean - glm::dot(normal, face.normal)), normal);
         turns = true;
       }
     }

@@ -64,7 +64,8 @@ std::size_t pieces_of(const Mesh& mesh) {
     return place->second;
   };
   for (std::size_t i = 0; i + 2 < mesh.index.size(); i += 3) {
-    const std::size_t a = point(mesh.index.at(i)), b = point(mesh.index.at(i + 1)), c = point(mesh.index.at(i + 2));
+    const std::size_t a = point(mesh.index.at(i)), b = point(mesh.index.at(i + 1)),
+                      c = point(mesh.index.at(i + 2));
     stands_for[find(b)] = find(a);
     stands_for[find(c)] = find(a);
   }
@@ -83,8 +84,8 @@ TEST(Graft, HasOnePieceAndOneForEachLimbThatIsClosed) {
   }
 }
 
-/// A limb of three corners at a narrow angle: the mean of the normals of both surfaces looks away from its long
-/// faces.
+/// A limb of three corners at a narrow angle: the mean of the normals of both surfaces looks away from its
+/// long faces.
 TEST(Graft, TurnsTheNormalsOfANarrowCollarRatherThanCloseIt) {
   Job job(1, Job::Options{});
   SkeletonMaker maker(job);

@@ -109,8 +109,8 @@ TEST(Species, BearLeavesByWhereTheirTwigStands) {
   }
 }
 
-/// Limbs of one order that grow from one lower, so that clones of a stem, which share its children with it, are
-/// counted once.
+/// Limbs of one order that grow from one lower, so that clones of a stem, which share its children with it,
+/// are counted once.
 std::size_t families(const Limbs& limbs, int order) {
   std::size_t count = 0;
   for (std::size_t i = 1; i < limbs.size(); ++i) {
