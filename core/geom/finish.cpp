@@ -74,41 +74,6 @@ void reorder(Array<T>& values, const Array<std::uint32_t>& new_place, std::size_
   values = std::move(moved);
 }
 
-/// Triangles in an order that a vertex cache likes, vertices in the order of their first use; unused ones go.
-void order_for_cache(Mesh& mesh, const Job& job) {
-  if (mesh.cache_ordered || mesh.topology != Topology::triangles || mesh.index.wide.empty()) return;
-  job.check();
-  Array<std::uint32_t>& index = mesh.index.wide;
-  // The order of the whole is that of one piece, repeated.
-  Repeats piece = repeats_of(index, mesh.position.size());
-  if (piece.corners == 0) piece = {mesh.position.size(), index.size()};
-  Array<std::uint32_t> ordered(job, piece.corners);
-  meshopt_optimizeVertexCacheFifo(ordered.data(), index.data(), piece.corners, piece.vertices, cache_entries);
-  Array<std::uint32_t> new_place(job, piece.vertices);
-  const std::size_t used =
-      meshopt_optimizeVertexFetchRemap(new_place.data(), ordered.data(), piece.corners, piece.vertices);
-  bool is_ordered = true;
-  for (std::size_t i = 0; i < piece.corners; ++i) {
-    ordered[i] = new_place[ordered[i]];
-    is_ordered = is_ordered && ordered[i] == index[i];
-  }
-  mesh.cache_ordered = true;
-  if (is_ordered && used == piece.vertices) return;
-  std::uint32_t shift = 0;
-  for (std::size_t first = 0; first < index.size(); first += piece.corners) {
-    for (std::size_t i = 0; i < piece.corners; ++i) index[first + i] = ordered[i] + shift;
-    shift += static_cast<std::uint32_t>(piece.vertices);
-  }
-  reorder(mesh.position, new_place, used, job);
-  reorder(mesh.normal, new_place, used, job);
-  for (auto& uv : mesh.uv) reorder(uv, new_place, used, job);
-  reorder(mesh.color, new_place, used, job);
-  reorder(mesh.tangent, new_place, used, job);
-  reorder(mesh.joints, new_place, used, job);
-  reorder(mesh.weights, new_place, used, job);
-  reorder(mesh.bone, new_place, used, job);
-}
-
 /// Reads everything and, in the common case, writes nothing.
 template <class T>
 void clear_negative_zeros(Array<T>& values, const Job& job) {
@@ -194,6 +159,40 @@ void finish(Mesh& mesh, const Job& job) {
 }
 
 }  // namespace
+
+void order_for_cache(Mesh& mesh, const Job& job) {
+  if (mesh.cache_ordered || mesh.topology != Topology::triangles || mesh.index.wide.empty()) return;
+  job.check();
+  Array<std::uint32_t>& index = mesh.index.wide;
+  // The order of the whole is that of one piece, repeated.
+  Repeats piece = repeats_of(index, mesh.position.size());
+  if (piece.corners == 0) piece = {mesh.position.size(), index.size()};
+  Array<std::uint32_t> ordered(job, piece.corners);
+  meshopt_optimizeVertexCacheFifo(ordered.data(), index.data(), piece.corners, piece.vertices, cache_entries);
+  Array<std::uint32_t> new_place(job, piece.vertices);
+  const std::size_t used =
+      meshopt_optimizeVertexFetchRemap(new_place.data(), ordered.data(), piece.corners, piece.vertices);
+  bool is_ordered = true;
+  for (std::size_t i = 0; i < piece.corners; ++i) {
+    ordered[i] = new_place[ordered[i]];
+    is_ordered = is_ordered && ordered[i] == index[i];
+  }
+  mesh.cache_ordered = true;
+  if (is_ordered && used == piece.vertices) return;
+  std::uint32_t shift = 0;
+  for (std::size_t first = 0; first < index.size(); first += piece.corners) {
+    for (std::size_t i = 0; i < piece.corners; ++i) index[first + i] = ordered[i] + shift;
+    shift += static_cast<std::uint32_t>(piece.vertices);
+  }
+  reorder(mesh.position, new_place, used, job);
+  reorder(mesh.normal, new_place, used, job);
+  for (auto& uv : mesh.uv) reorder(uv, new_place, used, job);
+  reorder(mesh.color, new_place, used, job);
+  reorder(mesh.tangent, new_place, used, job);
+  reorder(mesh.joints, new_place, used, job);
+  reorder(mesh.weights, new_place, used, job);
+  reorder(mesh.bone, new_place, used, job);
+}
 
 void finish(Model& model, Job& job) {
   drop_empty_meshes(model);

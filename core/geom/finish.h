@@ -9,4 +9,8 @@ namespace seedmesh {
 /// materials).
 void finish(Model& model, Job& job);
 
+/// Triangles in an order that a vertex cache likes, vertices in the order of their first use; unused ones go.
+/// Nothing where the mesh says that it is so. For who makes many copies of a mesh.
+void order_for_cache(Mesh& mesh, const Job& job);
+
 }  // namespace seedmesh

@@ -17,8 +17,6 @@ namespace {
 // A limb whose faces look inward is made again closed, and if that does not help by skin(); from this round
 // on at once by skin(), and after twice as many the whole.
 constexpr int rounds = 4;
-// Where more than one limb of so many is left to skin(), it is looked whether they lie in heaps.
-constexpr std::uint32_t doubtful = 20;
 
 /// The limbs that skin() must make, each with a root of its own where it begins. At most so many joints at
 /// once that their numbers fit Mesh::bone.
@@ -142,10 +140,8 @@ void append_leftover(Mesh& mesh, Leftover limbs, const GraftOptions& options, Jo
   }
 }
 
-/// Limbs as thin as threads, and those that even skin() made, may touch in points that a reader takes for
-/// one.
-void refuse_crowds(const Mesh& mesh, const Scale& scale, bool is_doubtful, const Job& job) {
-  if (!is_doubtful) return;
+/// Limbs that go through each other may touch in points that a reader takes for one.
+void refuse_crowds(const Mesh& mesh, const Scale& scale, const Job& job) {
   const Box box = bounds_of(mesh.position.span());
   if (!is_crowded(mesh, 1e-6F * std::min(scale.size, glm::length(box.max - box.min)), job)) return;
   Job::refuse(
@@ -172,16 +168,13 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
       if (counts) *counts = writer.counts();
       // Rings of more corners than a cache has entries come in once more.
       const bool is_ordered = 10 * writer.wide_corners() < writer.corners();
-      const GraftCounts made = writer.counts();
       const auto fallen_back =
           static_cast<std::uint32_t>(std::count(trust.begin(), trust.end(), Trust::none));
-      const bool is_doubtful =
-          writer.has_threads() || 2 * made.closed > made.limbs || doubtful * fallen_back > made.limbs;
       Mesh mesh = writer.take();
       if (options.joints) *options.joints = writer.take_joints();
       last.reset();
       append_leftover(mesh, Leftover(limbs, chains, trust, scale.box), options, job);
-      refuse_crowds(mesh, scale, is_doubtful, job);
+      refuse_crowds(mesh, scale, job);
       if (counts) counts->fallen_back = fallen_back;
       mesh.cache_ordered = is_ordered;
       return mesh;

@@ -89,7 +89,6 @@ void GraftWriter::copy_limb(std::uint32_t limb, const GraftWriter& last) {
   kind_[limb] = last.kind_[limb];
   corners_ += to.corners - from.corners;
   wide_corners_ += to.wide_corners - from.wide_corners;
-  has_threads_ = has_threads_ || last.has_threads_;
 }
 
 /// Pairs of groups that belong to a limb that was written, as parent or as child.

@@ -83,38 +83,43 @@ bool GraftPlan::open(const GraftAxis& axis, std::size_t at_point, Bud bud) {
     return fork_at(axis, at_point, even);
   };
   if (share >= fork_share) wanted = fork();
-  if (!wanted) wanted = collar(axis, at_point, bud);
-  if (!wanted && share >= least_fork_share && share < fork_share) wanted = fork();
-  if (!wanted) return false;
+  if (wanted && put(axis, at_point, *wanted)) return true;
+  const bool has_forked = share >= fork_share;
+  wanted = collar(axis, at_point, bud);
+  if (!wanted && share >= least_fork_share && !has_forked) wanted = fork();
+  return wanted && put(axis, at_point, *wanted);
+}
 
-  const auto after = std::lower_bound(band.begin(), band.end(), wanted->at,
+/// On a ring that is there, or on one of its own. False: there is no room.
+bool GraftPlan::put(const GraftAxis& axis, std::size_t at_point, Opening& wanted) {
+  const auto after = std::lower_bound(band.begin(), band.end(), wanted.at,
                                       [](const Band& there, float at) { return there.at < at; });
   auto place = static_cast<std::size_t>(after - band.begin());
   const auto number = static_cast<std::uint32_t>(opening.size());
-  if (!wanted->is_fork) {
+  if (!wanted.is_fork) {
     for (std::size_t near = place > 0 ? place - 1 : 0; near < std::min(place + 1, band.size()); ++near) {
       Band& there = band[near];
-      if (there.is_bend || !joins(*wanted, there)) continue;
+      if (there.is_bend || !joins(wanted, there)) continue;
       const bool has_room =
-          wanted->low > (near > 0 ? band[near - 1].high : start_) + margin(axis, wanted->at) &&
-          wanted->high < (near + 1 < band.size() ? band[near + 1].low : tip_) - margin(axis, wanted->at);
+          wanted.low > (near > 0 ? band[near - 1].high : start_) + margin(axis, wanted.at) &&
+          wanted.high < (near + 1 < band.size() ? band[near + 1].low : tip_) - margin(axis, wanted.at);
       if (!has_room) continue;
-      there.low = std::min(there.low, wanted->low);
-      there.high = std::max(there.high, wanted->high);
+      there.low = std::min(there.low, wanted.low);
+      there.high = std::max(there.high, wanted.high);
       there.openings.push_back(number);
-      opening.push_back(std::move(*wanted));
+      opening.push_back(std::move(wanted));
       return true;
     }
   }
-  if (!fits(axis, *wanted, place)) return false;
+  if (!fits(axis, wanted, place)) return false;
   Band made;
-  made.at = wanted->at;
-  made.low = wanted->low;
-  made.high = wanted->high;
-  made.is_bend = wanted->is_fork;
-  made.piece = wanted->is_fork ? at_point : axis.piece_at(wanted->at, wanted->piece);
+  made.at = wanted.at;
+  made.low = wanted.low;
+  made.high = wanted.high;
+  made.is_bend = wanted.is_fork;
+  made.piece = wanted.is_fork ? at_point : axis.piece_at(wanted.at, wanted.piece);
   made.openings.push_back(number);
-  opening.push_back(std::move(*wanted));
+  opening.push_back(std::move(wanted));
   band.insert(band.begin() + static_cast<std::ptrdiff_t>(place), std::move(made));
   return true;
 }

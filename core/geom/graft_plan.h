@@ -30,6 +30,7 @@ struct GraftPlan {
   void complete(const GraftAxis& axis, bool has_first);
 
  private:
+  bool put(const GraftAxis& axis, std::size_t at_point, Opening& wanted);
   bool fits(const GraftAxis& axis, const Opening& opening, std::size_t place) const;
   float margin(const GraftAxis& axis, float at) const;
   bool joins(const Opening& opening, const Band& band) const;

@@ -66,9 +66,7 @@ glm::vec2 GraftWriter::picture_at(float radius, float angle, float at) const {
 }
 
 /// The joint whose internode holds the length `at`; of two that meet there the older one.
-void GraftWriter::stand_at(float at) {
-  joint_ = axis_.joint[axis_.first_piece_at(at, near_piece_) + 1];
-}
+void GraftWriter::stand_at(float at) { joint_ = axis_.joint[axis_.first_piece_at(at, near_piece_) + 1]; }
 
 std::uint32_t GraftWriter::ring_corner(const Plane& plane, float angle, glm::vec2 direction) {
   const float factor = ribbed(angle);

@@ -13,6 +13,11 @@ constexpr float least_area = 4e-12F;
 // A normal nearer to the plane of its face than this may be found on the other side by who reckons otherwise.
 constexpr float least_cosine = 1e-4F;
 
+// Normals of loops that come nearer than this to the plane of a face, or behind it, are turned toward it by a
+// little more, again and again.
+constexpr float least_lean = 0.03F, wanted_lean = 0.06F;
+constexpr int most_turns = 24;
+
 /// At right angles to a triangle, as long as twice its area.
 glm::vec3 face(const glm::vec3* position, const std::uint32_t* corner) {
   const glm::vec3 a = position[corner[0]];
@@ -21,8 +26,8 @@ glm::vec3 face(const glm::vec3* position, const std::uint32_t* corner) {
 
 }  // namespace
 
-/// What a limb's faces give to the normals of the loops that they touch.
-void GraftWriter::add_loop_normals(std::size_t limb) {
+/// What a limb's faces give to the normals of the loops that they touch. These faces are noted in `faces`.
+void GraftWriter::add_loop_normals(std::size_t limb, std::vector<LoopFace>& faces) {
   const std::uint32_t* corners = mesh_.index.wide.data();
   const glm::vec3* position = mesh_.position.data();
   for (std::size_t t = begin_[limb].triangle; t < begin_[limb + 1].triangle; ++t) {
@@ -32,6 +37,7 @@ void GraftWriter::add_loop_normals(std::size_t limb) {
     const glm::vec3 normal = face(position, index);
     const float size = std::sqrt(glm::dot(normal, normal));
     if (!(size > 0)) continue;
+    faces.push_back({normal * (1 / size), {groups[0], groups[1], groups[2]}});
     for (std::size_t corner = 0; corner < 3; ++corner) {
       if (groups[corner] == none || !touched_[groups[corner] / 2]) continue;
       // By the angle of the face there, so that it does not matter how the surface is cut into triangles.
@@ -41,6 +47,39 @@ void GraftWriter::add_loop_normals(std::size_t limb) {
       const auto angle = static_cast<float>(
           math::quick_atan2(static_cast<double>(size), static_cast<double>(glm::dot(one, other))));
       group_normal_[groups[corner]] += normal * (angle / size);
+    }
+  }
+}
+
+/// Where a limb leaves at a narrow angle, the mean of both surfaces may look away from one of their faces;
+/// the normal gives way, so that the limb need not.
+void GraftWriter::ease_loop_normals(const std::vector<LoopFace>& faces) {
+  const auto looks_away = [&](const LoopFace& face, std::uint32_t group) {
+    return group != none && touched_[group / 2] &&
+           glm::dot(group_normal_[group & ~1U], face.normal) < least_lean;
+  };
+  std::vector<std::uint8_t> strained(touched_.size(), 0);
+  for (const LoopFace& face : faces) {
+    for (const std::uint32_t group : face.group) {
+      if (looks_away(face, group)) strained[group / 2] = 1;
+    }
+  }
+  std::vector<LoopFace> hard;
+  for (const LoopFace& face : faces) {
+    const auto is_strained = [&](std::uint32_t group) { return group != none && strained[group / 2]; };
+    if (std::any_of(std::begin(face.group), std::end(face.group), is_strained)) hard.push_back(face);
+  }
+  bool turns = !hard.empty();
+  for (int turn = 0; turns && turn < most_turns; ++turn) {
+    turns = false;
+    for (const LoopFace& face : hard) {
+      for (const std::uint32_t group : face.group) {
+        if (!looks_away(face, group)) continue;
+        glm::vec3& normal = group_normal_[group & ~1U];
+        normal =
+            math::quick_unit(normal + face.normal * (wanted_lean - glm::dot(normal, face.normal)), normal);
+        turns = true;
+      }
     }
   }
 }
@@ -58,18 +97,23 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
   for (std::size_t pair = 0; pair < touched_.size(); ++pair) {
     if (touched_[pair]) group_normal_[2 * pair] = group_normal_[2 * pair + 1] = glm::vec3(0);
   }
+  std::vector<LoopFace> faces;
   for (std::size_t limb = 0; limb < count; ++limb) {
-    if (concerned[limb] && !group_limb_.empty()) add_loop_normals(limb);
+    if (concerned[limb] && !group_limb_.empty()) add_loop_normals(limb, faces);
   }
+  for (std::size_t pair = 0; pair < touched_.size(); ++pair) {
+    if (!touched_[pair]) continue;
+    // The mean of both surfaces, whatever the size of their faces. From here on the even group has it.
+    const glm::vec3 one = math::quick_unit(group_normal_[2 * pair], glm::vec3{0});
+    const glm::vec3 other = math::quick_unit(group_normal_[2 * pair + 1], glm::vec3{0});
+    group_normal_[2 * pair] = math::quick_unit(one + other, glm::vec3{0, 1, 0});
+  }
+  ease_loop_normals(faces);
   for (std::size_t limb = 0; limb < count; ++limb) {
     if (!concerned[limb]) continue;
     for (std::size_t i = begin_[limb].vertex; i < begin_[limb + 1].vertex; ++i) {
       if (group_[i] == none || !touched_[group_[i] / 2]) continue;
-      // The mean of both surfaces, whatever the size of their faces.
-      const std::size_t parent = group_[i] & ~std::uint32_t{1};
-      const glm::vec3 one = math::quick_unit(group_normal_[parent], glm::vec3{0});
-      const glm::vec3 other = math::quick_unit(group_normal_[parent + 1], glm::vec3{0});
-      mesh_.normal[i] = math::quick_unit(one + other, glm::vec3{0, 1, 0}) + 0.0F;
+      mesh_.normal[i] = group_normal_[group_[i] & ~1U] + 0.0F;
     }
   }
   const float least = 2 * least_area * context_.scale.size * context_.scale.size;

@@ -24,8 +24,6 @@ constexpr float cap_share = 0.5F;
 // Triangles between two rings follow the shorter diagonal as long as neither ring is ahead by more, in
 // radians.
 constexpr float most_lead = 0.5F;
-// Limbs that begin thinner than so many of the least radius may touch each other.
-constexpr float thread = 8;
 // A child thinner than so many of the least radius is not worth an opening.
 constexpr float least_opened = 3;
 // What is reserved at first; most trees of fine twigs need about as much.
@@ -153,7 +151,6 @@ void GraftWriter::write_limb(std::uint32_t limb) {
   const std::uint32_t head = context_.chains.head[limb];
   if (!axis_.read(context_.limbs, context_.chains, head, scale.shortest)) return;
   if (axis_.radius[0] < std::max(2 * scale.thinnest, context_.options.thinnest)) return;
-  has_threads_ = has_threads_ || axis_.radius[0] < thread * scale.thinnest;
   for (float& radius : axis_.radius) radius = std::max(radius, 2 * scale.thinnest);
   const bool is_root = context_.limbs.parent[head] == Limbs::none;
   const Loop& loop = loops_[limb];

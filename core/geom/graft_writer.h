@@ -38,8 +38,6 @@ class GraftWriter {
   GraftCounts counts() const;
   /// Vertices on rings, and those of them on rings of more corners than a vertex cache holds.
   std::size_t corners() const { return corners_; }
-  /// Limbs not much thicker than what can be told from a line.
-  bool has_threads() const { return has_threads_; }
   std::size_t wide_corners() const { return wide_corners_; }
   Array<std::uint32_t> take_joints() { return std::move(joints_); }
   Mesh take();
@@ -83,6 +81,12 @@ class GraftWriter {
     bool is_fork = false;
   };
 
+  /// A face at a loop: its unit normal, and the groups of its corners or none.
+  struct LoopFace {
+    glm::vec3 normal{0};
+    std::uint32_t group[3] = {none, none, none};
+  };
+
   /// Where what belongs to a limb begins.
   struct Begin {
     std::uint32_t vertex = 0, triangle = 0, group = 0, loop_vertex = 0;
@@ -95,7 +99,8 @@ class GraftWriter {
   bool has_same_loop(std::uint32_t limb, const GraftWriter& last) const;
   void copy_limb(std::uint32_t limb, const GraftWriter& last);
   void mark_touched();
-  void add_loop_normals(std::size_t limb);
+  void add_loop_normals(std::size_t limb, std::vector<LoopFace>& faces);
+  void ease_loop_normals(const std::vector<LoopFace>& faces);
   Begin here() const;
 
   void write_limb(std::uint32_t limb);
@@ -159,7 +164,6 @@ class GraftWriter {
   float turns_ = 0;             ///< of the picture round the limb, by a radian; 0: u is in metres
   std::uint32_t joint_ = none;  ///< what the vertices being written move with
   std::size_t corners_ = 0, wide_corners_ = 0;
-  bool has_threads_ = false;
 };
 
 }  // namespace seedmesh

@@ -117,7 +117,8 @@ void add_tangents(Mesh& mesh, const Array<glm::vec2>& uv, const Job& job) {
   const std::span<const std::uint32_t> index = mesh.index.wide.span();
   for (std::size_t piece = 0; piece * one.vertices < vertices; ++piece) {
     if (piece % 256 == 0) job.check();
-    add_tangents(mesh, Piece<std::uint32_t>{index.subspan(piece * one.corners, one.corners), piece * one.vertices},
+    add_tangents(mesh,
+                 Piece<std::uint32_t>{index.subspan(piece * one.corners, one.corners), piece * one.vertices},
                  uv, sums.span());
   }
 }

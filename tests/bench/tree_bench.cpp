@@ -1,6 +1,6 @@
 /// From the text of a request to the bytes of a GLB for trees of each model: time a triangle, bark and leaves
-/// together. Textures are kept from one request to the next, as the server keeps them. And how much memory big
-/// trees take beside their own size.
+/// together. Textures are kept from one request to the next, as the server keeps them. And how much memory
+/// big trees take beside their own size.
 ///
 ///   tree_bench [preset [rounds]]: one preset alone, for a profiler
 #include <sys/wait.h>

@@ -5,6 +5,7 @@
 
 #include "core/generators/tree/range.h"
 #include "core/geom/detail.h"
+#include "core/geom/finish.h"
 #include "core/geom/leaf_mesh.h"
 #include "core/texture/leaf.h"
 
@@ -40,7 +41,9 @@ Mesh leaf_of(const TreeParams& params, int level, const Job& job) {
   form.coarseness = std::min(coarsest, leaf.coarseness + level);
   const bool is_twig = form.build == LeafBuild::twig || form.build == LeafBuild::bunch;
   form.twig_leaves = texture::leaf_picture(texture::leaf_kind(form.shape, is_twig)).count;
-  return leaf_mesh(form, job);
+  Mesh mesh = leaf_mesh(form, job);
+  order_for_cache(mesh, job);
+  return mesh;
 }
 
 /// Organs come with the width and length of a leaf; a leaf's mesh is 1 long and has a width of its own.

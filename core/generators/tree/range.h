@@ -1,6 +1,6 @@
 #pragma once
-/// What is left of a tree that is seen from afar: Weber and Penn, "Creation and Rendering of Realistic Trees",
-/// SIGGRAPH 1995, section 4.9 (degradation at range), for an image 1,000 pixels high of 60 degrees.
+/// What is left of a tree that is seen from afar: Weber and Penn, "Creation and Rendering of Realistic
+/// Trees", SIGGRAPH 1995, section 4.9 (degradation at range), for an image 1,000 pixels high of 60 degrees.
 #include "core/generators/tree/growth_context.h"
 
 namespace seedmesh::tree {
@@ -12,7 +12,7 @@ struct RangeShares {
   double sides = 1;     ///< of the corners of cross-sections: whole to 300 m, a sixth from 800 m on
   double branches = 1;  ///< main branches: whole to 300 m, none from 900 m on
   double twigs = 1;     ///< limbs of branches: whole to 50 m, none from 100 m on
-  double leaves = 1;  ///< whole to a quarter of 200 m (100 m in spring), then fewer, an eighth at least; larger
+  double leaves = 1;    ///< whole to 50 m (25 m in spring), then fewer, an eighth at least; larger
 };
 RangeShares shares_at(const TreeParams& params);
 

@@ -14,8 +14,8 @@ struct SwayingStem {
 
 /// Degrees by which the segment that begins at share `z` of the stem, where it is `radius` thick, turns about
 /// its two axes: with a0 = 4 length (1 - z) / radius, a1 = a0 wind / 50, a2 = a0 gust / 50 + a1 / 2 and
-/// b = offset + base_radius / length time / 15 these are (a1 sin b + a2 sin 0.7 b) / segments. No stem turns by
-/// more than 90 degrees in all, a bound that the paper does not have.
+/// b = offset + base_radius / length time / 15 these are (a1 sin b + a2 sin 0.7 b) / segments. No stem turns
+/// by more than 90 degrees in all, a bound that the paper does not have.
 struct SwayAngles {
   double x = 0, y = 0;
 };

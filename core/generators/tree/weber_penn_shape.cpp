@@ -71,8 +71,35 @@ double flared(double flare, double z) {
   return 1 + flare * (math::pow(100, y) - 1) / 100;
 }
 
+namespace {
+
+/// Bernoulli's bounds of base^power for a base in 0 .. 1, a little wider than they are: most points are seen
+/// to be inside or outside the envelope without the power itself.
+struct PowerBounds {
+  double low = 0, high = 1 + 1e-9;
+};
+PowerBounds bounds_of_power(double base, double power) {
+  PowerBounds bounds;
+  if (power > 1 || base <= 0) return bounds;
+  bounds.low = (1 - 1e-9) / (1 + power * (1 / base - 1));
+  bounds.high = (1 + 1e-9) * (1 - power * (1 - base));
+  return bounds;
+}
+
+}  // namespace
+
 bool is_in_envelope(const TreeParams& params, double scale, double aside, double height) {
   const double ratio = (scale - height) / (scale * (1 - params.BaseSize));
+  if (ratio > 0 && ratio < 1) {
+    const double peak = 1 - params.PruneWidthPeak;
+    const bool is_above = ratio < peak;
+    const PowerBounds bounds = is_above    ? bounds_of_power(ratio / peak, params.PrunePowerHigh)
+                               : peak >= 1 ? PowerBounds{}
+                                           : bounds_of_power((1 - ratio) / (1 - peak), params.PrunePowerLow);
+    const double width = aside / scale;
+    if (width < params.PruneWidth * bounds.low) return true;
+    if (width >= params.PruneWidth * bounds.high) return false;
+  }
   return aside / scale < params.PruneWidth * shape_ratio(params, 8, ratio);
 }
 

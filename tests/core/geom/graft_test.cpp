@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <tuple>
+#include <vector>
 
 #include "core/base/quick_math.h"
 #include "tests/core/geom/skeletons.h"
@@ -44,6 +47,63 @@ TEST(Graft, MakesOneClosedSurfaceOfLimbsThatHaveRoom) {
   EXPECT_GT(counts.collars + counts.forks, 60U);
   EXPECT_GT(counts.closed, 0U) << "some leave too flat";
   EXPECT_EQ(counts.limbs, 1 + counts.collars + counts.forks + counts.closed);
+}
+
+/// How many pieces a surface has, its vertices welded by position.
+std::size_t pieces_of(const Mesh& mesh) {
+  std::map<std::tuple<float, float, float>, std::size_t> points;
+  std::vector<std::size_t> stands_for;
+  const auto find = [&](std::size_t i) {
+    while (stands_for[i] != i) i = stands_for[i] = stands_for[stands_for[i]];
+    return i;
+  };
+  const auto point = [&](std::uint32_t vertex) {
+    const glm::vec3 p = mesh.position[vertex];
+    const auto [place, is_new] = points.try_emplace({p.x, p.y, p.z}, stands_for.size());
+    if (is_new) stands_for.push_back(stands_for.size());
+    return place->second;
+  };
+  for (std::size_t i = 0; i + 2 < mesh.index.size(); i += 3) {
+    const std::size_t a = point(mesh.index.at(i)), b = point(mesh.index.at(i + 1)),
+                      c = point(mesh.index.at(i + 2));
+    stands_for[find(b)] = find(a);
+    stands_for[find(c)] = find(a);
+  }
+  std::size_t pieces = 0;
+  for (std::size_t i = 0; i < stands_for.size(); ++i) pieces += stands_for[i] == i ? 1U : 0U;
+  return pieces;
+}
+
+TEST(Graft, HasOnePieceAndOneForEachLimbThatIsClosed) {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    Job job(seed, Job::Options{});
+    GraftCounts counts;
+    const Mesh mesh = graft(spiral(job, 30 + 10 * static_cast<double>(seed)), {}, job, &counts);
+    const std::uint32_t roots = counts.limbs - counts.collars - counts.forks - counts.closed;
+    EXPECT_EQ(pieces_of(mesh), roots + counts.closed + counts.fallen_back);
+  }
+}
+
+/// A limb of three corners at a narrow angle: the mean of the normals of both surfaces looks away from its
+/// long faces.
+TEST(Graft, TurnsTheNormalsOfANarrowCollarRatherThanCloseIt) {
+  Job job(1, Job::Options{});
+  SkeletonMaker maker(job);
+  std::uint32_t trunk = maker.root({0, 0, 0});
+  std::size_t twigs = 0;
+  for (int i = 1; i < 12; ++i) {
+    const auto height = static_cast<float>(i);
+    trunk = maker.grow(trunk, {0, height, 0}, {0.1F, 0.1F});
+    if (i == 11) break;
+    const float side = i % 2 ? 1.0F : -1.0F;
+    maker.branch(trunk, glm::vec3{side * 1.2F, height + 1.5F, 0.1F}, {0.035F, 0.01F});
+    ++twigs;
+  }
+  GraftCounts counts;
+  const Mesh mesh = graft(maker.limbs, {}, job, &counts);
+  EXPECT_TRUE(faults(mesh).empty());
+  EXPECT_EQ(counts.collars, twigs);
+  EXPECT_EQ(pieces_of(mesh), 1U);
 }
 
 TEST(Graft, StaysSoundWhateverTheLimbsAre) {

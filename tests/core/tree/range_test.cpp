@@ -18,7 +18,8 @@ TreeParams at_range(double range) {
 }
 
 struct Degraded {
-  explicit Degraded(const TreeParams& params) : job(7, Job::Options{}), skeleton(skeleton_of(params, 7, job)) {
+  explicit Degraded(const TreeParams& params)
+      : job(7, Job::Options{}), skeleton(skeleton_of(params, 7, job)) {
     degrade(skeleton, params, job);
   }
   std::set<std::uint64_t> keys(int order) const {

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/generators/tree/weber_penn_shape.h"
+#include "core/geom/graft.h"
 #include "tests/core/tree/support.h"
 
 namespace seedmesh::tree {
@@ -108,6 +109,50 @@ TEST(Species, BearLeavesByWhereTheirTwigStands) {
   }
 }
 
+/// Limbs of one order that grow from one lower, so that clones of a stem, which share its children with it,
+/// are counted once.
+std::size_t families(const Limbs& limbs, int order) {
+  std::size_t count = 0;
+  for (std::size_t i = 1; i < limbs.size(); ++i) {
+    if (limbs.starts_limb[i] && limbs.order[i] == order && limbs.order[limbs.parent[i]] < order) ++count;
+  }
+  return count;
+}
+
+TEST(Species, ShareTheChildrenOfAStemAmongItsClones) {
+  // The oak is not pruned: its stems bear what the formula says, but for the rounding of each clone's share.
+  const TreeParams oak = species("black_oak");
+  const Skeletons tree(oak, 4);
+  const auto levels = weber_penn_levels(oak);
+  const auto stems_of_trunk = static_cast<double>(stems(tree.limbs(), 0).size());
+  const auto first = static_cast<double>(families(tree.limbs(), 1));
+  EXPECT_NEAR(first, levels[1].branches, stems_of_trunk);
+  // Each limb of the first order bears a fifth of 120 at least and 120 at most, and each twig 25 leaves where
+  // it stands at its parent's tip and half as many at its foot.
+  const auto second = static_cast<double>(families(tree.limbs(), 2));
+  EXPECT_GT(second, 0.2 * levels[2].branches * first);
+  EXPECT_LT(second, levels[2].branches * first);
+  const auto leaves = static_cast<double>(tree.organs().organ.size());
+  EXPECT_GT(leaves, (0.5 * oak.Leaves - 1) * second);
+  EXPECT_LT(leaves, (oak.Leaves + 1) * second);
+}
+
+TEST(Species, LoseLimbsByPruningAlone) {
+  TreeParams willow = species("weeping_willow");
+  const Skeletons pruned(willow, 4);
+  willow.PruneRatio = 0;
+  const Skeletons free(willow, 4);
+  const auto levels = weber_penn_levels(willow);
+  const auto stems_of_trunk = static_cast<double>(stems(free.limbs(), 0).size());
+  EXPECT_NEAR(static_cast<double>(families(free.limbs(), 1)), levels[1].branches, stems_of_trunk);
+  EXPECT_LE(families(pruned.limbs(), 1), families(free.limbs(), 1));
+  EXPECT_LT(families(pruned.limbs(), 3), families(free.limbs(), 3));
+  const auto last = static_cast<double>(families(pruned.limbs(), 3));
+  const auto leaves = static_cast<double>(pruned.organs().organ.size());
+  EXPECT_GT(leaves, (0.5 * willow.Leaves - 1) * last);
+  EXPECT_LT(leaves, (willow.Leaves + 1) * last);
+}
+
 TEST(Species, DivideTheTrunkOfTheWillowAndTheOakAtTheirFirstSegment) {
   for (const char* name : {"weeping_willow", "black_oak"}) {
     const TreeParams params = species(name);
@@ -116,6 +161,29 @@ TEST(Species, DivideTheTrunkOfTheWillowAndTheOakAtTheirFirstSegment) {
     EXPECT_GE(stems(tree.limbs(), 0).size(), 3U) << "the trunk and its two clones at least";
     EXPECT_GT(tree.organs().organ.size(), 1000U);
   }
+}
+
+/// Limbs that are closed where they begin, for want of room, as a share of all.
+double closed_share(const std::string& name) {
+  const TreeParams params = species(name);
+  Job job(4, Job::Options{});
+  const Skeleton skeleton = skeleton_of(params, 4, job);
+  GraftOptions options;
+  options.sides = params.sides;
+  options.thinnest = static_cast<float>(params.twig_radius);
+  GraftCounts counts;
+  graft(skeleton.limbs, options, job, &counts);
+  return static_cast<double>(counts.closed + counts.fallen_back) / counts.limbs;
+}
+
+TEST(Species, GrowAlmostAllTheirLimbsOutOfTheirParents) {
+  EXPECT_LT(closed_share("quaking_aspen"), 0.06);
+  EXPECT_LT(closed_share("birch"), 0.08);
+  EXPECT_LT(closed_share("maple"), 0.1);
+  EXPECT_LT(closed_share("poplar"), 0.1);
+  EXPECT_LT(closed_share("black_tupelo"), 0.12);
+  EXPECT_LT(closed_share("black_oak"), 0.2) << "stems that split by ten degrees";
+  EXPECT_LT(closed_share("spruce"), 0.3) << "whorls";
 }
 
 TEST(Species, KeepTheWillowInsideItsEnvelope) {
