@@ -333,7 +333,7 @@ Mesh grid_mesh(const Field& field, const Window& part, const Array<glm::u8vec4>&
 
 Mesh reduced_mesh(const Field& field, Triangulation plan, const Array<glm::u8vec4>& colors,
                   const Coarse& coarse, Job& job) {
-  order_for_cache(plan, job);
+  if (!coarse.ordered) order_for_cache(plan, job);
   const std::size_t count = plan.samples.size();
   const Ground ground(field);
   Mesh mesh;
