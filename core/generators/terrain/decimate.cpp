@@ -116,9 +116,9 @@ class Weave {
   void stitch(const std::vector<Place>& outer, const std::vector<Place>& inner, std::int32_t Place::*axis) {
     std::size_t i = 0, j = 0;
     while (i + 1 < outer.size() || j + 1 < inner.size()) {
-      const bool inner_next = i + 1 == outer.size() ||
-                              (j + 1 < inner.size() &&
-                               2 * (outer[i].*axis) >= inner[j].*axis + inner[j + 1].*axis);
+      const bool inner_next =
+          i + 1 == outer.size() ||
+          (j + 1 < inner.size() && 2 * (outer[i].*axis) >= inner[j].*axis + inner[j + 1].*axis);
       if (inner_next) {
         triangle(outer[i], inner[j], inner[j + 1]);
         ++j;

@@ -159,9 +159,8 @@ class Dressing {
     if (params_.mesh == TerrainMesh::grid && level == 0)
       return {grid_mesh(field_, all, colors_, shading_, job_), border_samples(field_, job_)};
     const Border border = params_.tile ? Border::whole : Border::by_error;
-    Triangulation plan = params_.mesh == TerrainMesh::grid
-                             ? decimated(field_, all, 1 << level, border, job_)
-                             : reduced(level, border, model);
+    Triangulation plan = params_.mesh == TerrainMesh::grid ? decimated(field_, all, 1 << level, border, job_)
+                                                           : reduced(level, border, model);
     if (params_.mesh == TerrainMesh::grid) note(level, note_of(plan));
     Array<std::uint32_t> rim(job_);
     for (const std::uint32_t sample : plan.samples) {
@@ -296,7 +295,7 @@ class Dressing {
   Shading shading_;
   Array<glm::u8vec4> colors_;
   std::size_t coarsest_ = 0;  ///< triangles of the coarsest level so far
-  std::vector<Note> notes_;  ///< by level; that of the finest stays empty
+  std::vector<Note> notes_;   ///< by level; that of the finest stays empty
 };
 
 class PlanetDressing {

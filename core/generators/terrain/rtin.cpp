@@ -137,7 +137,8 @@ class Leaves {
       }
     }
     out.halves.push_back(Half::of(a, b, c));
-    const bool doubtful = level > 0 && farthest[static_cast<std::size_t>(level)] * (error + rounding_) >= threshold_;
+    const bool doubtful =
+        level > 0 && farthest[static_cast<std::size_t>(level)] * (error + rounding_) >= threshold_;
     out.fresh.push_back(doubtful ? 1 : 0);
   }
 

@@ -14,8 +14,8 @@ enum class Shading {
 };
 
 /// The samples of `part` as two triangles a square, cut along the diagonal that is closer to level; in an
-/// order that a vertex cache of 16 likes; its indices have 16 bits where they can. `colors`: empty, or of all samples. Spends triangles. About 10 ns a
-/// sample.
+/// order that a vertex cache of 16 likes; its indices have 16 bits where they can. `colors`: empty, or of all
+/// samples. Spends triangles. About 10 ns a sample.
 Mesh grid_mesh(const Field& field, const Window& part, const Array<glm::u8vec4>& colors, Shading shading,
                Job& job);
 

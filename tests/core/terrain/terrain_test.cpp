@@ -326,7 +326,8 @@ TEST(HeightMap, IsRefusedInSizesAndFormsThatAnEngineDoesNotTake) {
 }
 
 TEST(Engines, TakeTheSidesThatTheirManualsName) {
-  for (const int side : {127, 253, 505, 1009, 2017, 4033, 8129}) EXPECT_TRUE(takes_side(Engine::unreal, side));
+  for (const int side : {127, 253, 505, 1009, 2017, 4033, 8129})
+    EXPECT_TRUE(takes_side(Engine::unreal, side));
   for (const int side : {33, 65, 129, 257, 513, 1025, 2049, 4097}) {
     EXPECT_TRUE(takes_side(Engine::unity, side));
     EXPECT_FALSE(takes_side(Engine::unreal, side) && side > 1025);
