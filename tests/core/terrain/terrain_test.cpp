@@ -169,7 +169,9 @@ const std::pair<const char*, Treatment> treatments[] = {
 
 TEST(Tiles, ShareHeightsAndNormalsAlongEveryBorder) {
   for (const TerrainAlgorithm algorithm : all) {
-    for (const auto& [name, treat] : treatments) {
+    for (const auto& treatment : treatments) {
+      const char* name = treatment.first;
+      const Treatment treat = treatment.second;
       const auto tile = [&](int x, int z) {
         TerrainParams params = small(algorithm);
         params.tile.emplace();

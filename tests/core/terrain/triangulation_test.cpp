@@ -102,7 +102,9 @@ TEST(ReducedMesh, OfTheGreedyKindIsSmaller) {
 
 TEST(ReducedMesh, SharesItsBorderWithTheNeighbour) {
   const Field west = hills(129), east = hills(129, 128);
-  for (const auto& [name, reduce] : reducers) {
+  for (const auto& reducer : reducers) {
+    const char* name = reducer.first;
+    const Reducer reduce = reducer.second;
     Job job = any_job();
     const auto column = [&](const Field& field, std::uint32_t x, double error) {
       const Triangulation mesh = reduce(field, error, Border::whole, job);
