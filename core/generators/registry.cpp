@@ -126,8 +126,9 @@ constexpr Generator rows[] = {
     Row<FractalParams, read_fractal, write_fractal, fractal::check, fractal::generate, fractal::derive,
         fractal::appraise, fractal::vocabulary>::named<fractal::encode>("fractal", fractal_forms),
     Row<TerrainParams, read_terrain, write_terrain, terrain::check, terrain::generate, terrain::derive,
-        terrain::appraise, terrain::vocabulary>::named<terrain::encode, terrain::check_form>(
-        "terrain", terrain_forms, {.joins_triangles = true}),
+        terrain::appraise,
+        terrain::vocabulary>::named<terrain::encode, terrain::check_form>("terrain", terrain_forms,
+                                                                          {.joins_triangles = true}),
     Row<BuildingParams, read_building, write_building, building::check, building::generate, building::derive,
         building::appraise, building::vocabulary>::named("building", {.parts = true}),
     Row<SceneParams, read_scene, write_scene, scene::check, scene::generate, scene::derive, scene::appraise,

@@ -87,8 +87,8 @@ Field peer_hills() {
     const auto whole = [](double number) {
       return static_cast<std::uint32_t>(static_cast<std::int32_t>(number));
     };
-    std::uint32_t bits = whole(x) * 374761393U ^ whole(z) * 668265263U ^
-                         static_cast<std::uint32_t>(octave) * 2147483647U;
+    std::uint32_t bits =
+        whole(x) * 374761393U ^ whole(z) * 668265263U ^ static_cast<std::uint32_t>(octave) * 2147483647U;
     bits = (bits ^ static_cast<std::uint32_t>(static_cast<std::int32_t>(bits) >> 13)) * 1274126177U;
     return (bits ^ static_cast<std::uint32_t>(static_cast<std::int32_t>(bits) >> 16)) / 4294967296.0;
   };
@@ -130,8 +130,9 @@ void bench_faults() {
   constexpr std::int32_t side = 257;
   const FaultPlan plan{.planned = 362, .greatest = 10, .step = FaultStep::cosine, .width = 2};
   const double cells = double{side} * side;
-  const double seconds =
-      timed([&] { faulted(plan, {0, 0, side, side}, {0, 0, side, side}, 1, Rng(1), roomy()); });
+  const double seconds = timed([&] {
+    faulted(plan, {0, 0, side, side}, {0, 0, side, side}, 1, Rng(1), roomy());
+  });
   line("362 faults 257", "cells and faults", cells * plan.planned, 4 * cells, seconds);
 }
 
@@ -158,23 +159,44 @@ void bench_request(const char* name, const char* unit, const char* json, double 
 
 }  // namespace
 
-int main() {
-  bench_copy();
-  bench_fields();
-  bench_faults();
-  bench_smoothing();
-  bench_reduced("RTIN 1025 at .002", rtin);
-  bench_reduced("greedy 1025 at .002", greedy);
-  bench_request("diamond-square 4097 to GLB", "grid triangles",
-                R"({"generator":"terrain","parameters":{"iterations":12,"palette":"none"}})", 0);
-  bench_request("four levels of 2049 to GLB", "grid triangles",
-                R"({"generator":"terrain","parameters":{"iterations":11,"palette":"none"},
-                    "output":{"profile":"unity","lods":4}})",
-                0);
-  bench_request("diamond-square 4097 to r16", "cells",
-                R"({"generator":"terrain","parameters":{"iterations":12},"output":{"format":"r16"}})",
-                4097.0 * 4097);
-  bench_request("diamond-square 1025 to PNG of 16 bits", "cells",
-                R"({"generator":"terrain","parameters":{"iterations":10},"output":{"format":"png16"}})",
-                1025.0 * 1025);
+// terrain_bench [words of a name]
+int main(int argc, char** argv) {
+  struct Bench {
+    const char* name;
+    void (*run)();
+  };
+  const Bench all[] = {
+      {"copying", bench_copy},
+      {"fields", bench_fields},
+      {"faults", bench_faults},
+      {"smooth", bench_smoothing},
+      {"rtin", [] { bench_reduced("RTIN 1025 at .002", rtin); }},
+      {"greedy", [] { bench_reduced("greedy 1025 at .002", greedy); }},
+      {"grid",
+       [] {
+         bench_request("diamond-square 4097 to GLB", "grid triangles",
+                       R"({"generator":"terrain","parameters":{"iterations":12,"palette":"none"}})", 0);
+       }},
+      {"levels",
+       [] {
+         bench_request("four levels of 2049 to GLB", "grid triangles",
+                       R"({"generator":"terrain","parameters":{"iterations":11,"palette":"none"},
+                           "output":{"profile":"unity","lods":4}})",
+                       0);
+       }},
+      {"maps",
+       [] {
+         bench_request("diamond-square 4097 to r16", "cells",
+                       R"({"generator":"terrain","parameters":{"iterations":12},"output":{"format":"r16"}})",
+                       4097.0 * 4097);
+         bench_request(
+             "diamond-square 1025 to PNG of 16 bits", "cells",
+             R"({"generator":"terrain","parameters":{"iterations":10},"output":{"format":"png16"}})",
+             1025.0 * 1025);
+       }},
+  };
+  const std::string words = argc > 1 ? argv[1] : "";
+  for (const Bench& bench : all) {
+    if (std::string(bench.name).find(words) != std::string::npos) bench.run();
+  }
 }

@@ -159,8 +159,9 @@ class Check {
     if (is({image})) return fault("/tile", "an image is one piece");
     const bool faults = is({fault_formation, poisson_faulting});
     if (!faults && params_.tile->across && !params_.island)
-      fault("/tile/across",
-            "this world has no end; across belongs to fault_formation and poisson_faulting, and to an island");
+      fault(
+          "/tile/across",
+          "this world has no end; across belongs to fault_formation and poisson_faulting, and to an island");
     const int across = params_.tile->across.value_or(1);
     if (faults && (params_.tile->x < 0 || params_.tile->x >= across))
       fault("/tile/x",
@@ -197,9 +198,10 @@ class Check {
     if (params_.island && !faults && !params_.tile->across)
       fault("/tile", "\"across\" is missing: it says how many tiles the island fills");
     if (params_.hydraulic && params_.hydraulic->method == TerrainMethod::droplets)
-      fault("/hydraulic",
-            "drops change the ground for those that fall after them, batch by batch, so that what one does is "
-            "felt many tiles away; erode one field and cut that, or use thermal");
+      fault(
+          "/hydraulic",
+          "drops change the ground for those that fall after them, batch by batch, so that what one does is "
+          "felt many tiles away; erode one field and cut that, or use thermal");
     if (params_.hydraulic && params_.hydraulic->method == TerrainMethod::stream_power)
       fault("/hydraulic",
             "a river depends on all the ground that it drains, which no tile sees; erode one field and cut "

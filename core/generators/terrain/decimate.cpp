@@ -11,6 +11,7 @@ namespace seedmesh::terrain {
 namespace {
 
 constexpr std::uint32_t unnamed = 0xFFFFFFFFU;
+constexpr std::size_t band = 6;  // squares: both rows of samples around them fit into a cache of 16 vertices
 using Lines = std::vector<std::int32_t>;
 
 /// Which samples of a line of `squares` + 1 stay, its ends among them.
@@ -55,20 +56,14 @@ class Weave {
     mesh_.index.reserve(3 * triangles);
   }
 
-  /// Two triangles for each square between these columns and rows.
+  /// Two triangles for each square between these columns and rows, in bands that a vertex cache likes.
   void squares(const Lines& columns, const Lines& rows) {
-    for (std::size_t j = 0; j + 1 < rows.size(); ++j) {
+    for (std::size_t first = 0; first + 1 < columns.size(); first += band) {
+      const std::size_t last = std::min(first + band, columns.size() - 1);
       job_.check();
-      for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
-        const Place nw{columns[i], rows[j]}, ne{columns[i + 1], rows[j]}, sw{columns[i], rows[j + 1]},
-            se{columns[i + 1], rows[j + 1]};
-        if (std::abs(height(nw) - height(se)) <= std::abs(height(ne) - height(sw))) {
-          triangle(nw, sw, se);
-          triangle(nw, se, ne);
-        } else {
-          triangle(nw, sw, ne);
-          triangle(ne, sw, se);
-        }
+      for (std::size_t j = 0; j + 1 < rows.size(); ++j) {
+        for (std::size_t i = first; i < last; ++i)
+          square({columns[i], rows[j]}, {columns[i + 1], rows[j + 1]});
       }
     }
   }
@@ -100,6 +95,17 @@ class Weave {
     return name;
   }
 
+  void square(Place nw, Place se) {
+    const Place ne{se.x, nw.z}, sw{nw.x, se.z};
+    if (std::abs(height(nw) - height(se)) <= std::abs(height(ne) - height(sw))) {
+      triangle(nw, sw, se);
+      triangle(nw, se, ne);
+    } else {
+      triangle(nw, sw, ne);
+      triangle(ne, sw, se);
+    }
+  }
+
   void triangle(Place a, Place b, Place c) {
     if (turn(a, b, c) < 0) std::swap(b, c);
     for (const Place at : {a, b, c}) mesh_.index.push_back(name(at));
@@ -110,9 +116,9 @@ class Weave {
   void stitch(const std::vector<Place>& outer, const std::vector<Place>& inner, std::int32_t Place::*axis) {
     std::size_t i = 0, j = 0;
     while (i + 1 < outer.size() || j + 1 < inner.size()) {
-      const bool inner_next = i + 1 == outer.size() ||
-                              (j + 1 < inner.size() &&
-                               2 * (outer[i].*axis) >= inner[j].*axis + inner[j + 1].*axis);
+      const bool inner_next =
+          i + 1 == outer.size() ||
+          (j + 1 < inner.size() && 2 * (outer[i].*axis) >= inner[j].*axis + inner[j + 1].*axis);
       if (inner_next) {
         triangle(outer[i], inner[j], inner[j + 1]);
         ++j;

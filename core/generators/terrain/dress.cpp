@@ -159,17 +159,17 @@ class Dressing {
     if (params_.mesh == TerrainMesh::grid && level == 0)
       return {grid_mesh(field_, all, colors_, shading_, job_), border_samples(field_, job_)};
     const Border border = params_.tile ? Border::whole : Border::by_error;
-    Triangulation plan = params_.mesh == TerrainMesh::grid
-                             ? decimated(field_, all, 1 << level, border, job_)
-                             : reduced(level, border, model);
-    if (params_.mesh == TerrainMesh::grid) note(level, plan);
+    Triangulation plan = params_.mesh == TerrainMesh::grid ? decimated(field_, all, 1 << level, border, job_)
+                                                           : reduced(level, border, model);
+    if (params_.mesh == TerrainMesh::grid) note(level, note_of(plan));
     Array<std::uint32_t> rim(job_);
     for (const std::uint32_t sample : plan.samples) {
       const Place at = place_of(sample, field_.width);
       if (at.x == 0 || at.z == 0 || at.x == field_.width - 1 || at.z == field_.depth - 1)
         rim.push_back(sample);
     }
-    const Coarse coarse{shading_, params_.mesh == TerrainMesh::grid ? 1 << level : 1, all};
+    const bool is_grid = params_.mesh == TerrainMesh::grid;
+    const Coarse coarse{shading_, is_grid ? 1 << level : 1, all, is_grid};
     return {reduced_mesh(field_, std::move(plan), colors_, coarse, job_), std::move(rim)};
   }
 
@@ -180,32 +180,45 @@ class Dressing {
         parts.push_back(
             {x, z, std::min(piece, field_.width - 1 - x) + 1, std::min(piece, field_.depth - 1 - z) + 1});
     }
-    std::vector<Mesh> meshes(parts.size());
-    parallel_for(job_, parts.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
-      meshes[i] = grid_mesh(field_, parts[i], colors_, shading_, job_);
-    });
+    std::vector<Piece> pieces(parts.size());
+    parallel_for(job_, parts.size(), 1,
+                 [&](std::size_t i, std::size_t, std::size_t) { pieces[i] = made_piece(parts[i]); });
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const std::string name =
           "ground_" + std::to_string(parts[i].x / piece) + "_" + std::to_string(parts[i].z / piece);
-      const int mesh = add_mesh(model, name, std::move(meshes[i]), ground);
-      add_levels_of_piece(model, add_child(model, name, mesh), parts[i], ground);
+      Piece& made = pieces[i];
+      const int node = add_child(model, name, -1);
+      for (std::size_t k = 0; k < made.meshes.size(); ++k)
+        show(model.nodes[static_cast<std::size_t>(node)],
+             add_mesh(model, level_name(name, static_cast<int>(k)), std::move(made.meshes[k]), ground));
+      for (std::size_t k = 0; k < made.notes.size(); ++k) note(static_cast<int>(k), made.notes[k]);
     }
   }
 
+  /// What a level is off and how many triangles it has.
+  struct Note {
+    double error = 0;
+    std::size_t triangles = 0;
+  };
+
+  struct Piece {
+    std::vector<Mesh> meshes;  ///< finest first
+    std::vector<Note> notes;   ///< by level; that of the finest stays empty
+  };
+
   /// Borders keep all their samples: neighbours fit together whatever level each of them shows.
-  void add_levels_of_piece(Model& model, int node, const Window& part, int ground) {
-    const std::string name = model.nodes[static_cast<std::size_t>(node)].name;
-    std::size_t triangles = 2 * static_cast<std::size_t>(part.width - 1) *
-                            static_cast<std::size_t>(part.depth - 1);
+  Piece made_piece(const Window& part) {
+    Piece made;
+    made.meshes.push_back(grid_mesh(field_, part, colors_, shading_, job_));
+    made.notes.resize(1);
     for (int level = 1; level < job_.demand().lods; ++level) {
       Triangulation plan = decimated(field_, part, 1 << level, Border::whole, job_);
-      note(level, plan);
-      if (plan.index.size() / 3 >= triangles) continue;
-      triangles = plan.index.size() / 3;
-      Mesh mesh = reduced_mesh(field_, std::move(plan), colors_, {shading_, 1 << level, part}, job_);
-      show(model.nodes[static_cast<std::size_t>(node)],
-           add_mesh(model, level_name(name, level), std::move(mesh), ground));
+      made.notes.push_back(note_of(plan));
+      if (plan.index.size() / 3 >= made.meshes.back().elements()) continue;
+      const Coarse coarse{shading_, 1 << level, part, true};
+      made.meshes.push_back(reduced_mesh(field_, std::move(plan), colors_, coarse, job_));
     }
+    return made;
   }
 
   static void show(Node& node, int mesh) {
@@ -216,12 +229,16 @@ class Dressing {
     }
   }
 
-  /// Counts what a level, or a piece of it, is off and how many triangles it has.
-  void note(int level, const Triangulation& plan) {
+  Note note_of(const Triangulation& plan) const {
+    return {measured_error(field_, plan, job_), plan.index.size() / 3};
+  }
+
+  /// Adds what one of the pieces of a level, or the only one, is off and has.
+  void note(int level, const Note& own) {
     const auto number = static_cast<std::size_t>(level);
     if (notes_.size() <= number) notes_.resize(number + 1);
-    notes_[number].error = std::max(notes_[number].error, measured_error(field_, plan, job_));
-    notes_[number].triangles += plan.index.size() / 3;
+    notes_[number].error = std::max(notes_[number].error, own.error);
+    notes_[number].triangles += own.triangles;
   }
 
   void tell_levels(Model& model) const {
@@ -238,7 +255,7 @@ class Dressing {
                              ? rtin(field_, max_error, border, job_)
                              : greedy(field_, Tolerance{max_error, finest}, border, job_);
     if (level > 0) {
-      note(level, plan);
+      note(level, note_of(plan));
       return plan;
     }
     const Json reached{{"max_error", measured_error(field_, plan, job_)},
@@ -278,11 +295,7 @@ class Dressing {
   Shading shading_;
   Array<glm::u8vec4> colors_;
   std::size_t coarsest_ = 0;  ///< triangles of the coarsest level so far
-  struct Note {
-    double error = 0;
-    std::size_t triangles = 0;
-  };
-  std::vector<Note> notes_;  ///< by level; that of the finest stays empty
+  std::vector<Note> notes_;   ///< by level; that of the finest stays empty
 };
 
 class PlanetDressing {

@@ -25,7 +25,8 @@ bool takes_side(Engine engine, int side);
 /// long, as far as there are such.
 std::vector<int> nearest_sides(Engine engine, int side);
 
-/// What is wrong with a field of `width` by `depth` samples, in words that name sides that fit; empty: nothing.
+/// What is wrong with a field of `width` by `depth` samples, in words that name sides that fit; empty:
+/// nothing.
 std::string misfit(Engine engine, int width, int depth);
 
 /// What the file of a field means: metres between samples, heights of the least and the greatest value.

@@ -206,8 +206,9 @@ void normalise(Field& field, double low, double high, const Job& job) {
 }
 
 void terrace(Field& field, const TerracePlan& plan, const Job& job) {
-  const Range range = plan.from ? Range{static_cast<float>(plan.from->low), static_cast<float>(plan.from->high)}
-                                : range_of(field, job);
+  const Range range = plan.from
+                          ? Range{static_cast<float>(plan.from->low), static_cast<float>(plan.from->high)}
+                          : range_of(field, job);
   const float step = (range.high - range.low) / static_cast<float>(plan.count);
   if (!(step > 0)) return;
   // Within a step the height rises as t^p: p = 1 leaves it, a large p keeps it low until the cliff.

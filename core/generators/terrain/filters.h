@@ -27,7 +27,8 @@ struct Heights {
   double low = 0, high = 0;
 };
 
-/// Stretches the heights, margin too, so that `from` becomes `to`; what lies outside goes on in the same line.
+/// Stretches the heights, margin too, so that `from` becomes `to`; what lies outside goes on in the same
+/// line.
 void stretch(Field& field, const Heights& from, const Heights& to, const Job& job);
 
 /// Stretches the heights to [low, high]; a field that is even becomes `low`. Margin 0.

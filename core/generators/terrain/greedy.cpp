@@ -33,6 +33,7 @@ class Network {
       : field_(field),
         meter_(job, Resource::triangles),
         samples_(job),
+        places_(job),
         corners_(job),
         twins_(job),
         worst_(job),
@@ -70,11 +71,13 @@ class Network {
     return t;
   }
 
-  /// Triangles that changed since the last call; each once.
-  std::vector<std::uint32_t> take_changed() {
-    std::sort(changed_.begin(), changed_.end());
-    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
-    return std::exchange(changed_, {});
+  /// Triangles that changed since the last call, each once; until the next call.
+  const std::vector<std::uint32_t>& take_changed() {
+    taken_.swap(changed_);
+    changed_.clear();
+    std::sort(taken_.begin(), taken_.end());
+    taken_.erase(std::unique(taken_.begin(), taken_.end()), taken_.end());
+    return taken_;
   }
 
   /// Finds the sample of triangle t that is off most. Samples of the border count where `with_border`.
@@ -121,10 +124,11 @@ class Network {
  private:
   static std::uint32_t next(std::uint32_t edge) { return edge % 3 == 2 ? edge - 2 : edge + 1; }
   static std::uint32_t before(std::uint32_t edge) { return edge % 3 == 0 ? edge + 2 : edge - 1; }
-  Place corner(std::uint32_t edge) const { return place_of(samples_[corners_[edge]], field_.width); }
+  Place corner(std::uint32_t edge) const { return places_[corners_[edge]]; }
 
   std::uint32_t add_sample(Place at) {
     samples_.push_back(static_cast<std::uint32_t>(at.z * field_.width + at.x));
+    places_.push_back(at);
     return static_cast<std::uint32_t>(samples_.size() - 1);
   }
   std::uint32_t add_triangle(const std::array<std::uint32_t, 3>& vertices,
@@ -203,10 +207,12 @@ class Network {
 
   const Field& field_;
   Meter meter_;
-  Array<std::uint32_t> samples_, corners_, twins_;
+  Array<std::uint32_t> samples_;
+  Array<Place> places_;  ///< of the samples
+  Array<std::uint32_t> corners_, twins_;
   Array<Place> worst_;
   Array<float> errors_;
-  std::vector<std::uint32_t> changed_, left_;
+  std::vector<std::uint32_t> changed_, taken_, left_;
 };
 
 /// The samples of one side of the border that a greedy line along it needs, ends left out.

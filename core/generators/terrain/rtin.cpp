@@ -1,153 +1,20 @@
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/generators/terrain/rtin_errors.h"
 #include "core/generators/terrain/scan.h"
 #include "core/generators/terrain/triangulation.h"
 
 namespace seedmesh::terrain {
 namespace {
 
-constexpr std::size_t rows_a_chunk = 64;
 constexpr std::size_t triangles_a_chunk = 4096;
 constexpr std::uint32_t unnamed = 0xFFFFFFFFU;
-constexpr float needed = std::numeric_limits<float>::infinity();
-
-/// Rows of a pass over the samples (first + i * step), in parallel where there are many.
-template <class Body>
-void each_step(const Job& job, std::int32_t first, std::int32_t last, std::int32_t step, const Body& body) {
-  if (last < first) return;
-  const auto count = static_cast<std::size_t>((last - first) / step) + 1;
-  parallel_for(job, count, rows_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
-    job.check();
-    for (std::size_t i = begin; i < end; ++i) body(first + static_cast<std::int32_t>(i) * step);
-  });
-}
-
-/// For every sample how far off the mesh may be where the triangles that it halves are left whole: of the
-/// sample itself and of all below it.
-class Errors {
- public:
-  Errors(const Field& field, const Job& job)
-      : field_(field), job_(job), side_(field.width), errors_(job, field.heights.size(), 0.0F) {
-    for (std::int32_t step = 1; step < side_ - 1; step *= 2) {
-      sides(step);
-      centres(step);
-    }
-  }
-
-  float at(std::int32_t x, std::int32_t z) const { return errors_[place(x, z)]; }
-
-  /// Puts a sample into every mesh, and with it all whose triangles must be halved before.
-  void need(Place sample) {
-    std::vector<Place> left{sample};
-    while (!left.empty()) {
-      const Place at = left.back();
-      left.pop_back();
-      if (errors_[place(at.x, at.z)] == needed) continue;
-      errors_[place(at.x, at.z)] = needed;
-      parents(at, left);
-    }
-  }
-
- private:
-  std::size_t place(std::int32_t x, std::int32_t z) const {
-    return static_cast<std::size_t>(z) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(x);
-  }
-  float height(std::int32_t x, std::int32_t z) const { return field_.at(x, z); }
-
-  /// Midpoints of the sides of squares of 2 * step: below them are the centres of squares of `step`.
-  void sides(std::int32_t step) {
-    each_step(job_, 0, side_ - 1, step, [&](std::int32_t z) {
-      const bool along = z / step % 2 == 0;  // a side from west to east
-      const std::int32_t half = step / 2;
-      float* row = errors_.data() + place(0, z);
-      const float* here = field_.row(z);
-      const auto worst = [&](std::int32_t x, float own) {
-        if (half == 0) return own;
-        if (z > 0) {
-          const float* above = errors_.data() + place(0, z - half);
-          if (x > 0) own = std::max(own, above[x - half]);
-          if (x < side_ - 1) own = std::max(own, above[x + half]);
-        }
-        if (z < side_ - 1) {
-          const float* below = errors_.data() + place(0, z + half);
-          if (x > 0) own = std::max(own, below[x - half]);
-          if (x < side_ - 1) own = std::max(own, below[x + half]);
-        }
-        return own;
-      };
-      if (along) {
-        for (std::int32_t x = step; x < side_; x += 2 * step)
-          row[x] = worst(x, std::abs((here[x - step] + here[x + step]) * 0.5F - here[x]));
-      } else {
-        const float* above = field_.row(z - step);
-        const float* below = field_.row(z + step);
-        for (std::int32_t x = 0; x < side_; x += 2 * step)
-          row[x] = worst(x, std::abs((above[x] + below[x]) * 0.5F - here[x]));
-      }
-    });
-  }
-
-  /// Is the long side of the square around (x, z) that from north-west to south-east?
-  static bool runs_south_east(std::int32_t x, std::int32_t z, std::int32_t step) {
-    return (x / step / 2 + z / step / 2) % 2 == 0;
-  }
-
-  void centres(std::int32_t step) {
-    each_step(job_, step, side_ - 1, 2 * step, [&](std::int32_t z) {
-      float* row = errors_.data() + place(0, z);
-      const float* above = errors_.data() + place(0, z - step);
-      const float* below = errors_.data() + place(0, z + step);
-      const float* north = field_.row(z - step);
-      const float* here = field_.row(z);
-      const float* south = field_.row(z + step);
-      for (std::int32_t x = step; x < side_; x += 2 * step) {
-        const float ends = runs_south_east(x, z, step) ? north[x - step] + south[x + step]
-                                                       : north[x + step] + south[x - step];
-        const float own = std::abs(ends * 0.5F - here[x]);
-        row[x] =
-            std::max(std::max(own, std::max(row[x - step], row[x + step])), std::max(above[x], below[x]));
-      }
-    });
-  }
-
-  /// The samples that must be in the mesh before this one can be.
-  void parents(Place at, std::vector<Place>& out) const {
-    std::int32_t step = 1;
-    while (((at.x | at.z) & step) == 0 && step < side_) step *= 2;
-    if (step >= side_ - 1) return;  // a corner, which every mesh has
-    const auto add = [&](std::int32_t x, std::int32_t z) {
-      if (x >= 0 && z >= 0 && x < side_ && z < side_) out.push_back({x, z});
-    };
-    const bool odd_x = (at.x & step) != 0, odd_z = (at.z & step) != 0;
-    if (odd_x && odd_z) {
-      // A centre: the corners off its long side, themselves midpoints of sides of squares twice as large.
-      if (2 * step >= side_ - 1) return;
-      if (runs_south_east(at.x, at.z, step)) {
-        add(at.x + step, at.z - step);
-        add(at.x - step, at.z + step);
-      } else {
-        add(at.x - step, at.z - step);
-        add(at.x + step, at.z + step);
-      }
-    } else if (odd_x) {
-      add(at.x, at.z - step);
-      add(at.x, at.z + step);
-    } else {
-      add(at.x - step, at.z);
-      add(at.x + step, at.z);
-    }
-  }
-
-  const Field& field_;
-  const Job& job_;
-  std::int32_t side_;
-  Array<float> errors_;
-};
 
 /// A triangle of the hierarchy: its long side is a-b and its right angle at c, clockwise seen from above.
 /// Fields have at most 16,385 samples a side.
@@ -163,24 +30,45 @@ struct Half {
   Place c() const { return {cx, cz}; }
 };
 
+/// How far a sample that comes with a halving of this level inside a triangle can be off the triangle, in
+/// errors of its middle. It is off the line between two earlier samples by one error at most: the apex of
+/// the level before last, and an end of a long side that is older still.
+constexpr std::size_t most_levels = 32;
+constexpr std::array<float, most_levels> farthest_by_level() {
+  std::array<float, most_levels> all{};
+  for (std::size_t i = 1; i < most_levels; ++i)
+    all[i] = 1 + ((i > 2 ? all[i - 2] : 0) + (i > 3 ? all[i - 3] : 0)) / 2;
+  return all;
+}
+constexpr std::array<float, most_levels> farthest = farthest_by_level();
+
 Place middle_of(Place a, Place b) { return {(a.x + b.x) / 2, (a.z + b.z) / 2}; }
 
 /// The triangles that are left whole, in the order of the hierarchy, and which of them nobody has looked at.
+/// They are kept in parts, the subtrees of one depth, so that all threads can work on them.
 class Leaves {
  public:
-  Leaves(const Field& field, Errors& errors, double max_error, Job& job)
+  struct Part {
+    Array<Half> halves;
+    Array<std::uint8_t> fresh;  ///< of each: 1 where samples inside are still to be compared
+  };
+
+  Leaves(const Field& field, RtinErrors& errors, double max_error, Job& job)
       : field_(field),
         errors_(errors),
         max_error_(max_error),
         threshold_(static_cast<float>(max_error)),
+        rounding_(rounding_of(range_of(field, job), threshold_)),
         job_(job),
-        meter_(job, Resource::triangles),
-        halves_(job),
-        fresh_(job) {
+        meter_(job, Resource::triangles) {
     const std::int32_t last = field.width - 1;
-    descend({0, 0}, {last, last}, {last, 0});
-    descend({last, last}, {0, 0}, {0, last});
-    meter_.spend(halves_.size());
+    std::vector<Half> roots;
+    plant({0, 0}, {last, last}, {last, 0}, depth_of_parts, roots);
+    plant({last, last}, {0, 0}, {0, last}, depth_of_parts, roots);
+    for (std::size_t i = 0; i < roots.size(); ++i)
+      parts_.push_back({Array<Half>(job), Array<std::uint8_t>(job)});
+    each_part([&](Part& part, std::size_t i) { descend(roots[i], part); });
+    meter_.spend(count());
   }
 
   /// Divides until no sample is off its triangle by more than the bound: what is off is put into the mesh and
@@ -189,35 +77,83 @@ class Leaves {
     while (need_what_is_off()) divide();
   }
 
-  const Array<Half>& halves() const { return halves_; }
+  const std::vector<Part>& parts() const { return parts_; }
+  std::size_t count() const {
+    std::size_t sum = 0;
+    for (const Part& part : parts_) sum += part.halves.size();
+    return sum;
+  }
 
  private:
-  void descend(Place a, Place b, Place c) {
+  static constexpr int depth_of_parts = 7;
+
+  template <class Body>
+  void each_part(const Body& body) {
+    parallel_for(job_, parts_.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
+      job_.check();
+      body(parts_[i], i);
+    });
+  }
+
+  static bool divisible(Place a, Place c) { return std::abs(a.x - c.x) + std::abs(a.z - c.z) > 1; }
+  bool divided(Place a, Place b, Place c) const {
     const Place middle = middle_of(a, b);
-    const bool divisible = std::abs(a.x - c.x) + std::abs(a.z - c.z) > 1;
-    if (divisible && errors_.at(middle.x, middle.z) > threshold_) {
-      descend(c, a, middle);
-      descend(b, c, middle);
+    return divisible(a, c) && errors_.at(middle.x, middle.z) > threshold_;
+  }
+
+  /// The triangles so deep in the hierarchy, or the leaves above.
+  void plant(Place a, Place b, Place c, int depth, std::vector<Half>& out) const {
+    if (depth == 0 || !divided(a, b, c)) {
+      out.push_back(Half::of(a, b, c));
       return;
     }
-    halves_.push_back(Half::of(a, b, c));
-    fresh_.push_back(divisible ? 1 : 0);
+    const Place middle = middle_of(a, b);
+    plant(c, a, middle, depth - 1, out);
+    plant(b, c, middle, depth - 1, out);
+  }
+
+  /// How far the rounding of heights and errors may carry an error, generously.
+  static float rounding_of(const Range& range, float threshold) {
+    return (std::max(std::abs(range.low), std::abs(range.high)) * 2 + threshold) * 0x1p-21F;
+  }
+
+  void descend(const Half& half, Part& out) const {
+    const Place a = half.a(), b = half.b(), c = half.c();
+    const auto area = static_cast<std::uint64_t>(std::abs(turn(a, c, b)));  // a power of two
+    descend(a, b, c, std::countr_zero(area), out);
+  }
+
+  /// `level`: how often the triangle can be halved. Where the bound on what lies inside is small enough
+  /// nobody has to look.
+  void descend(Place a, Place b, Place c, int level, Part& out) const {
+    float error = 0;
+    if (level > 0) {
+      const Place middle = middle_of(a, b);
+      error = errors_.at(middle.x, middle.z);
+      if (error > threshold_) {
+        descend(c, a, middle, level - 1, out);
+        descend(b, c, middle, level - 1, out);
+        return;
+      }
+    }
+    out.halves.push_back(Half::of(a, b, c));
+    const bool doubtful =
+        level > 0 && farthest[static_cast<std::size_t>(level)] * (error + rounding_) >= threshold_;
+    out.fresh.push_back(doubtful ? 1 : 0);
   }
 
   bool need_what_is_off() {
-    std::vector<std::vector<Place>> off(chunk_count(halves_.size(), triangles_a_chunk));
-    parallel_for(job_, halves_.size(), triangles_a_chunk,
-                 [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-                   job_.check();
-                   for (std::size_t i = begin; i < end; ++i) {
-                     if (fresh_[i] != 0) look(halves_[i], off[chunk]);
-                     fresh_[i] = 0;
-                   }
-                 });
+    std::vector<std::vector<Place>> off(parts_.size());
+    each_part([&](Part& part, std::size_t number) {
+      for (std::size_t i = 0; i < part.halves.size(); ++i) {
+        if (part.fresh[i] != 0) look(part.halves[i], off[number]);
+        part.fresh[i] = 0;
+      }
+    });
     bool found = false;
     for (const std::vector<Place>& places : off) {
       for (const Place at : places) {
-        if (errors_.at(at.x, at.z) == needed) continue;  // a corner, off by rounding alone
+        if (errors_.at(at.x, at.z) == RtinErrors::needed) continue;  // a corner, off by rounding alone
         errors_.need(at);
         found = true;
       }
@@ -226,16 +162,35 @@ class Leaves {
   }
 
   void divide() {
-    const Array<Half> before = std::exchange(halves_, halves_.like<Half>());
-    fresh_.clear();
-    halves_.reserve(before.size() + before.size() / 8);
-    fresh_.reserve(before.size() + before.size() / 8);
-    for (const Half& half : before) {
-      const std::size_t first = halves_.size();
-      descend(half.a(), half.b(), half.c());
-      if (halves_.size() == first + 1) fresh_.back() = 0;  // still whole, and looked at before
+    const std::size_t before = count();
+    each_part([&](Part& part, std::size_t) { divide(part); });
+    meter_.spend(count() - before);
+    errors_.forget_touched();
+  }
+
+  bool newly_divided(const Half& half) const {
+    const Place middle = middle_of(half.a(), half.b());
+    return errors_.touched(middle.x, middle.z) && divided(half.a(), half.b(), half.c());
+  }
+
+  /// What is still whole was looked at before.
+  void divide(Part& part) const {
+    const auto changed = [&](const Half& half) { return newly_divided(half); };
+    const Half* next = std::find_if(part.halves.begin(), part.halves.end(), changed);
+    if (next == part.halves.end()) return;
+    const Array<Half> before = std::exchange(part.halves, part.halves.like<Half>());
+    part.halves.reserve(before.size() + before.size() / 4);
+    part.fresh.clear();
+    part.fresh.reserve(before.size() + before.size() / 4);
+    for (const Half* from = before.begin();;) {
+      const auto whole = static_cast<std::size_t>(next - from);
+      part.halves.append({from, whole});
+      std::fill_n(part.fresh.extend(whole), whole, std::uint8_t{0});
+      if (next == before.end()) return;
+      descend(*next, part);
+      from = next + 1;
+      next = std::find_if(from, before.end(), changed);
     }
-    meter_.spend(halves_.size() - before.size());
   }
 
   void look(const Half& half, std::vector<Place>& off) const {
@@ -259,21 +214,21 @@ class Leaves {
   }
 
   const Field& field_;
-  Errors& errors_;
+  RtinErrors& errors_;
   double max_error_;
-  float threshold_;
+  float threshold_, rounding_;
   Job& job_;
   Meter meter_;
-  Array<Half> halves_;
-  Array<std::uint8_t> fresh_;  ///< of each: 1 where samples inside are still to be compared
+  std::vector<Part> parts_;
 };
 
 /// Names the samples by their first use.
-Triangulation named(const Array<Half>& halves, const Field& field, const Job& job) {
+Triangulation named(const Leaves& leaves, const Field& field, const Job& job) {
   Array<std::uint32_t> names(job, field.heights.size(), unnamed);
+  const std::size_t count = leaves.count();
   Triangulation mesh{Array<std::uint32_t>(job), Array<std::uint32_t>(job)};
-  mesh.index = Array<std::uint32_t>(job, 3 * halves.size());
-  mesh.samples.reserve(halves.size() / 2 + halves.size() / 8);
+  mesh.index = Array<std::uint32_t>(job, 3 * count);
+  mesh.samples.reserve(count / 2 + count / 8);
   const auto name = [&](Place at) {
     const auto sample = static_cast<std::uint32_t>(at.z * field.width + at.x);
     if (names[sample] == unnamed) {
@@ -283,13 +238,16 @@ Triangulation named(const Array<Half>& halves, const Field& field, const Job& jo
     return names[sample];
   };
   std::uint32_t* index = mesh.index.data();
-  for (const Half& half : halves) {
-    const Place a = half.a(), b = half.b(), c = half.c();
-    index[0] = name(a);
-    index[1] = name(c);
-    index[2] = name(b);
-    if (turn(a, c, b) < 0) std::swap(index[1], index[2]);
-    index += 3;
+  for (const Leaves::Part& part : leaves.parts()) {
+    job.check();
+    for (const Half& half : part.halves) {
+      const Place a = half.a(), b = half.b(), c = half.c();
+      index[0] = name(a);
+      index[1] = name(c);
+      index[2] = name(b);
+      if (turn(a, c, b) < 0) std::swap(index[1], index[2]);
+      index += 3;
+    }
   }
   mesh.samples.shrink_to_fit();
   return mesh;
@@ -302,7 +260,7 @@ bool fits_rtin(std::int32_t width, std::int32_t depth) {
 }
 
 Triangulation rtin(const Field& field, double max_error, Border border, Job& job) {
-  Errors errors(field, job);
+  RtinErrors errors(field, job);
   const std::int32_t last = field.width - 1;
   if (border == Border::whole) {
     for (std::int32_t i = 0; i <= last; ++i) {
@@ -311,7 +269,7 @@ Triangulation rtin(const Field& field, double max_error, Border border, Job& job
   }
   Leaves leaves(field, errors, max_error, job);
   leaves.settle();
-  return named(leaves.halves(), field, job);
+  return named(leaves, field, job);
 }
 
 double measured_error(const Field& field, const Triangulation& mesh, const Job& job) {

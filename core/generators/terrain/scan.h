@@ -63,6 +63,11 @@ class EdgeWalk {
   EdgeWalk(Place top, Place bottom) : x_(top.x), height_(bottom.z - top.z) {
     if (height_ == 0) return;
     const std::int32_t dx = bottom.x - top.x;
+    if (dx == 0) return;
+    if (dx == height_ || dx == -height_) {  // those of right triangles, without a division
+      whole_ = dx > 0 ? 1 : -1;
+      return;
+    }
     whole_ = dx / height_;
     rest_ = dx % height_;
     if (rest_ < 0) {

@@ -333,7 +333,7 @@ Mesh grid_mesh(const Field& field, const Window& part, const Array<glm::u8vec4>&
 
 Mesh reduced_mesh(const Field& field, Triangulation plan, const Array<glm::u8vec4>& colors,
                   const Coarse& coarse, Job& job) {
-  order_for_cache(plan, job);
+  if (!coarse.ordered) order_for_cache(plan, job);
   const std::size_t count = plan.samples.size();
   const Ground ground(field);
   Mesh mesh;
@@ -345,9 +345,9 @@ Mesh reduced_mesh(const Field& field, Triangulation plan, const Array<glm::u8vec
     if (i % 4096 == 0) job.check();
     const Place at = place_of(plan.samples[i], field.width);
     mesh.position[i] = {ground.x(at.x), field.at(at.x, at.z), ground.z(at.z)};
-    mesh.normal[i] = normal_of(coarse.reach > 1 && !on_border(coarse.part, at)
-                                   ? wide_slope(field, at, coarse.reach)
-                                   : slopes_of(field, at.z).at(at.x));
+    mesh.normal[i] =
+        normal_of(coarse.reach > 1 && !on_border(coarse.part, at) ? wide_slope(field, at, coarse.reach)
+                                                                  : slopes_of(field, at.z).at(at.x));
     mesh.uv[0][i] = {ground.u(at.x), ground.v(at.z)};
     if (!colors.empty()) mesh.color[i] = colors[plan.samples[i]];
   }

@@ -14,8 +14,8 @@ enum class Shading {
 };
 
 /// The samples of `part` as two triangles a square, cut along the diagonal that is closer to level; in an
-/// order that a vertex cache of 16 likes; its indices have 16 bits where they can. `colors`: empty, or of all samples. Spends triangles. About 10 ns a
-/// sample.
+/// order that a vertex cache of 16 likes; its indices have 16 bits where they can. `colors`: empty, or of all
+/// samples. Spends triangles. About 10 ns a sample.
 Mesh grid_mesh(const Field& field, const Window& part, const Array<glm::u8vec4>& colors, Shading shading,
                Job& job);
 
@@ -24,6 +24,7 @@ struct Coarse {
   Shading shading = Shading::smooth;
   std::int32_t reach = 1;  ///< samples to either side
   Window part = {};        ///< on whose border it is 1 nevertheless, so that neighbours look alike there
+  bool ordered = false;    ///< the triangles are in an order that a vertex cache likes, samples by first use
 };
 
 /// A reduced mesh. About 50 ns a triangle.

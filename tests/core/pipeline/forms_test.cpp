@@ -58,5 +58,74 @@ TEST(Forms, MakeOneFileOfTheirMediaType) {
   EXPECT_EQ(png->payload.text().substr(1, 3), "PNG");
 }
 
+std::vector<std::string> pointers_of(const char* json) {
+  const Result<Request> request = read_request(json, Limits{});
+  std::vector<std::string> pointers;
+  if (!request) {
+    for (const Issue& issue : request.error().issues) pointers.push_back(issue.pointer);
+  }
+  return pointers;
+}
+
+TEST(Forms, FollowTheConventionsOfAnEngineWhereTheyHaveAny) {
+  EXPECT_THAT(pointers_of(R"({"generator":"terrain","parameters":{"iterations":5},
+                              "output":{"format":"r16","profile":"unity"}})"),
+              ::testing::IsEmpty());
+  EXPECT_THAT(pointers_of(R"({"generator":"terrain","parameters":{"iterations":5},
+                              "output":{"format":"r16","profile":"unreal"}})"),
+              ::testing::ElementsAre("/output/profile"));
+  EXPECT_THAT(pointers_of(R"({"generator":"terrain","parameters":{"resample":100},
+                              "output":{"format":"r16","profile":"unity","lods":1}})"),
+              ::testing::ElementsAre("/parameters/resample"));
+  EXPECT_THAT(pointers_of(R"({"generator":"terrain","output":{"format":"png8","profile":"unity"}})"),
+              ::testing::Contains("/output/profile"));
+  EXPECT_THAT(pointers_of(R"({"generator":"fractal","parameters":{},
+                              "output":{"format":"ply","profile":"unity"}})"),
+              ::testing::Contains("/output/profile"));
+}
+
+TEST(Forms, ThatDoNotSuitTheParametersAreRefusedBeforeAnythingIsMade) {
+  EXPECT_THAT(pointers_of(R"({"generator":"terrain","parameters":{"algorithm":"fbm","shape":"sphere"},
+                              "output":{"format":"png16"}})"),
+              ::testing::ElementsAre("/parameters/shape"));
+  const Result<Request> model =
+      read_request(R"({"generator":"terrain","parameters":{"algorithm":"fbm","shape":"sphere"}})", Limits{});
+  ASSERT_TRUE(model);
+  EXPECT_FALSE(with_format(*model, "r16"));
+}
+
+std::uint64_t triangles_of(const char* json) {
+  const Result<Request> request = read_request(json, Limits{});
+  EXPECT_TRUE(request);
+  Job job(0, Job::Options{});
+  const Result<Product> product = produce(*request, job);
+  EXPECT_TRUE(product);
+  return product ? product->statistics.triangles : 0;
+}
+
+TEST(Levels, OfTerrainMeetABudgetTogether) {
+  // A budget alone joins triangles; with levels, the finest that fits comes first and others follow it.
+  const std::uint64_t joined = triangles_of(
+      R"({"generator":"terrain","parameters":{"iterations":7},"output":{"max_triangles":20000}})");
+  EXPECT_GT(joined, 15'000U);
+  EXPECT_LE(joined, 20'000U);
+  EXPECT_EQ(triangles_of(R"({"generator":"terrain","parameters":{"iterations":7},
+                             "output":{"max_triangles":20000,"lods":3,"profile":"unity"}})"),
+            8192U);
+}
+
+TEST(Levels, AreRefusedWhereATerrainHasNone) {
+  const Result<Request> request = read_request(
+      R"({"generator":"terrain","parameters":{"algorithm":"fbm","resolution":17,
+          "onto":{"mapping":"normal_map","model":{"generator":"fractal","parameters":{"iterations":0}}}},
+          "output":{"lods":2,"profile":"unity"}})",
+      Limits{});
+  ASSERT_TRUE(request);
+  Job job(0, Job::Options{});
+  const Result<Product> product = produce(*request, job);
+  ASSERT_FALSE(product);
+  EXPECT_EQ(product.error().issues.front().pointer, "/output/lods");
+}
+
 }  // namespace
 }  // namespace seedmesh

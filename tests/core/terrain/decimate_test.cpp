@@ -22,7 +22,8 @@ using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 Field waves(std::int32_t width, std::int32_t depth) {
-  return field_from(width, depth, [](int x, int z) { return 4 * std::sin(x * 0.21) + 3 * std::cos(z * 0.17); });
+  return field_from(width, depth,
+                    [](int x, int z) { return 4 * std::sin(x * 0.21) + 3 * std::cos(z * 0.17); });
 }
 
 /// Every place of the part is covered once, and no triangle is turned over.
@@ -150,7 +151,8 @@ TEST(TerrainLevels, HaveFewerTrianglesEachAndNoFaults) {
 }
 
 TEST(TerrainLevels, LeaveTheFinestAsItIsWithoutThem) {
-  const Model one = with_levels(small(TerrainMesh::greedy), 1), three = with_levels(small(TerrainMesh::greedy), 3);
+  const Model one = with_levels(small(TerrainMesh::greedy), 1),
+              three = with_levels(small(TerrainMesh::greedy), 3);
   const Mesh& a = one.meshes[0].primitives[0].mesh;
   const Mesh& b = three.meshes[0].primitives[0].mesh;
   EXPECT_TRUE(std::ranges::equal(a.position, b.position));
@@ -231,7 +233,8 @@ TEST(TerrainLevels, OfTilesFitTogetherWhateverEachShows) {
     const Model west = tile(0), east = tile(1);
     const auto heights = [](const Model& model, std::size_t level, float x) {
       std::vector<std::pair<float, float>> line;
-      for (const glm::vec3& at : along(model.meshes[level].primitives[0].mesh, x)) line.push_back({at.z, at.y});
+      for (const glm::vec3& at : along(model.meshes[level].primitives[0].mesh, x))
+        line.push_back({at.z, at.y});
       return line;
     };
     const auto wanted = heights(west, 0, 100);

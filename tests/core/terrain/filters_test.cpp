@@ -78,8 +78,7 @@ TEST(SmoothByPlace, DoesNotDependOnWhereThePieceBegins) {
   smooth_by_place(one, 50, any_job(1));
   smooth_by_place(other, 50, any_job(8));
   for (std::int32_t z = 13 + reach; z < 100 - reach; ++z) {
-    for (std::int32_t x = 20 + reach; x < 100 - reach; ++x)
-      ASSERT_EQ(one.at(x, z), other.at(x - 20, z - 13));
+    for (std::int32_t x = 20 + reach; x < 100 - reach; ++x) ASSERT_EQ(one.at(x, z), other.at(x - 20, z - 13));
   }
 }
 
@@ -111,7 +110,8 @@ TEST(Terraces, AreStepsWhereTheyAreSharp) {
 TEST(Terraces, GoOnOutsideTheHeightsTheyAreCountedBetween) {
   Field field = field_from(61, 2, [](int x, int) { return x - 20; });
   terrace(field, {.count = 2, .sharpness = 1, .from = Heights{0, 20}}, any_job());
-  for (int x = 0; x < 61; ++x) ASSERT_FLOAT_EQ(field.at(x, 0), 10 * std::floor(static_cast<float>(x - 20) / 10)) << x;
+  for (int x = 0; x < 61; ++x)
+    ASSERT_FLOAT_EQ(field.at(x, 0), 10 * std::floor(static_cast<float>(x - 20) / 10)) << x;
 }
 
 TEST(Terraces, LeaveTheFieldWhereTheyAreNot) {

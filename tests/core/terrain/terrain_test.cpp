@@ -169,7 +169,9 @@ const std::pair<const char*, Treatment> treatments[] = {
 
 TEST(Tiles, ShareHeightsAndNormalsAlongEveryBorder) {
   for (const TerrainAlgorithm algorithm : all) {
-    for (const auto& [name, treat] : treatments) {
+    for (const auto& treatment : treatments) {
+      const char* name = treatment.first;
+      const Treatment treat = treatment.second;
       const auto tile = [&](int x, int z) {
         TerrainParams params = small(algorithm);
         params.tile.emplace();
@@ -326,7 +328,8 @@ TEST(HeightMap, IsRefusedInSizesAndFormsThatAnEngineDoesNotTake) {
 }
 
 TEST(Engines, TakeTheSidesThatTheirManualsName) {
-  for (const int side : {127, 253, 505, 1009, 2017, 4033, 8129}) EXPECT_TRUE(takes_side(Engine::unreal, side));
+  for (const int side : {127, 253, 505, 1009, 2017, 4033, 8129})
+    EXPECT_TRUE(takes_side(Engine::unreal, side));
   for (const int side : {33, 65, 129, 257, 513, 1025, 2049, 4097}) {
     EXPECT_TRUE(takes_side(Engine::unity, side));
     EXPECT_FALSE(takes_side(Engine::unreal, side) && side > 1025);

@@ -102,7 +102,9 @@ TEST(ReducedMesh, OfTheGreedyKindIsSmaller) {
 
 TEST(ReducedMesh, SharesItsBorderWithTheNeighbour) {
   const Field west = hills(129), east = hills(129, 128);
-  for (const auto& [name, reduce] : reducers) {
+  for (const auto& reducer : reducers) {
+    const char* name = reducer.first;
+    const Reducer reduce = reducer.second;
     Job job = any_job();
     const auto column = [&](const Field& field, std::uint32_t x, double error) {
       const Triangulation mesh = reduce(field, error, Border::whole, job);
@@ -184,13 +186,11 @@ TEST(Surface, IsSoundOnGentleAndOnRoughGround) {
   const Array<glm::u8vec4> plain;
   for (const Field& field : {hills(65), rough(65)}) {
     Job job = any_job();
-    EXPECT_EQ(faults_of(grid_mesh(field, {0, 0, 65, 65}, plain, {}, job)),
-              std::vector<std::string>{});
+    EXPECT_EQ(faults_of(grid_mesh(field, {0, 0, 65, 65}, plain, {}, job)), std::vector<std::string>{});
     EXPECT_EQ(faults_of(grid_mesh(field, {0, 0, 65, 65}, plain, Shading::upright, job)),
               std::vector<std::string>{});
     for (const auto& [name, reduce] : reducers) {
-      EXPECT_EQ(faults_of(reduced_mesh(field, reduce(field, 0.4, Border::by_error, job), plain,
-                                       {}, job)),
+      EXPECT_EQ(faults_of(reduced_mesh(field, reduce(field, 0.4, Border::by_error, job), plain, {}, job)),
                 std::vector<std::string>{})
           << name;
     }
@@ -210,8 +210,7 @@ TEST(Surface, IsClosedByWallsAndAFloor) {
     if (at.x == 0 || at.z == 0 || at.x == 32 || at.z == 32) border.push_back(sample);
   }
   const std::pair<Mesh, Mesh> solids[] = {
-      {grid_mesh(field, {0, 0, 33, 33}, plain, {}, job),
-       walls(field, border_samples(field, job), plan, job)},
+      {grid_mesh(field, {0, 0, 33, 33}, plain, {}, job), walls(field, border_samples(field, job), plan, job)},
       {reduced_mesh(field, std::move(coarse), plain, {}, job), walls(field, border, plan, job)}};
   double mean = 0;
   for (const float h : field.heights)
