@@ -15,7 +15,7 @@ constexpr std::int64_t one = 16;  ///< a sample in fixed-point numbers
 // Beyond this a place is off the picture anyway, and products of two still fit 64 bits.
 constexpr double farthest = 1 << 24;
 // What looks down gets less of the sky. Without it a crown is flat.
-constexpr double light_below = 0.55, light_above = 1;
+constexpr double light_below = 0.7, light_above = 1;
 
 std::int64_t fixed(double samples) {
   return math::to_int64(std::floor(std::clamp(samples, -farthest, farthest) * one + 0.5));
