@@ -78,12 +78,12 @@ struct Demand {
   bool growth = false;        ///< the animation "growth"
   bool wind = false;          ///< wind weights in TEXCOORD_2 and TEXCOORD_3
   CollisionNames collision = CollisionNames::none;
-  int textures = 512;              ///< texels of a side; 0: none
-  bool tangents = true;            ///< for forms that hold models themselves
-  bool impostor = false;           ///< a picture as the coarsest level of each plant of a scene
-  CopyForm copies = CopyForm::any;     ///< of a scene
+  int textures = 512;                ///< texels of a side; 0: none
+  bool tangents = true;              ///< for forms that hold models themselves
+  bool impostor = false;             ///< a picture as the coarsest level of each plant of a scene
+  CopyForm copies = CopyForm::any;   ///< of a scene
   std::uint64_t most_triangles = 0;  ///< of whoever keeps a budget by itself; 0: as many as there are
-  std::uint32_t most_bones = 240;  ///< of the animation "growth"
+  std::uint32_t most_bones = 240;    ///< of the animation "growth"
 };
 
 /// The context of one request. Safe to use from the worker threads of that request.

@@ -73,9 +73,7 @@ class Darts {
   struct Spot {
     std::uint32_t x, z;
   };
-  std::size_t cell_of(const Spot& spot) const {
-    return std::size_t{spot.z + rim} * stride_ + spot.x + rim;
-  }
+  std::size_t cell_of(const Spot& spot) const { return std::size_t{spot.z + rim} * stride_ + spot.x + rim; }
 
   void list_phase(std::uint32_t phase) {
     Array<Spot>& list = open_[phase];
