@@ -122,7 +122,7 @@ constexpr Generator rows[] = {
         lsystem::appraise, lsystem::vocabulary>::named("lsystem", {.grows = true, .has_impostor = true}),
     Row<TreeParams, read_tree, write_tree, tree::check, tree::generate, tree::derive, tree::appraise,
         tree::vocabulary>::named("tree",
-                            {.grows = true, .sways = true, .has_collision = true, .has_impostor = true}),
+                                 {.grows = true, .sways = true, .has_collision = true, .has_impostor = true}),
     Row<FractalParams, read_fractal, write_fractal, fractal::check, fractal::generate, fractal::derive,
         fractal::appraise, fractal::vocabulary>::named<fractal::encode>("fractal", fractal_forms),
     Row<TerrainParams, read_terrain, write_terrain, terrain::check, terrain::generate, terrain::derive,
@@ -133,7 +133,7 @@ constexpr Generator rows[] = {
         building::appraise, building::vocabulary>::named("building", {.parts = true}),
     Row<SceneParams, read_scene, write_scene, scene::check, scene::generate, scene::derive, scene::appraise,
         scene::vocabulary>::named<scene::encode>("scene", scene_forms,
-                                           {.grows = true, .has_impostor = true, .keeps_budget = true}),
+                                                 {.grows = true, .has_impostor = true, .keeps_budget = true}),
 };
 
 }  // namespace

@@ -42,7 +42,9 @@ void drop_empty_meshes(Model& model) {
   }
   model.meshes = std::move(kept);
   for (Node& node : model.nodes) {
-    const auto is_empty_now = [&](int lod) { return lod >= 0 && new_place[static_cast<std::size_t>(lod)] < 0; };
+    const auto is_empty_now = [&](int lod) {
+      return lod >= 0 && new_place[static_cast<std::size_t>(lod)] < 0;
+    };
     std::erase_if(node.lods, is_empty_now);
     for (int& lod : node.lods) lod = lod < 0 ? lod : new_place[static_cast<std::size_t>(lod)];
     if (node.mesh >= 0) node.mesh = new_place[static_cast<std::size_t>(node.mesh)];

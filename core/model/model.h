@@ -60,8 +60,8 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5F;
   bool double_sided = false;
-  bool unlit = false;    ///< KHR_materials_unlit, never required
-  TextureRecipe recipe;  ///< used up by paint()
+  bool unlit = false;       ///< KHR_materials_unlit, never required
+  TextureRecipe recipe;     ///< used up by paint()
   ImpostorRecipe impostor;  ///< used up by draw_impostors()
 };
 
@@ -100,8 +100,8 @@ struct Node {
   std::string name;
   int parent = -1;
   Transform transform;
-  int mesh = -1;          ///< into Model::meshes
-  std::vector<int> lods;  ///< coarser meshes after `mesh`, finest first; -1: there the node shows nothing
+  int mesh = -1;              ///< into Model::meshes
+  std::vector<int> lods;      ///< coarser meshes after `mesh`, finest first; -1: there the node shows nothing
   bool has_impostor = false;  ///< the last of `lods` is a picture of the whole, or nothing beside it
   int skin = -1;
   Instances instances;  ///< empty: the node stands once

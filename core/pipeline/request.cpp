@@ -98,7 +98,9 @@ void check_profile(const OutputParams& output, Faults& faults) {
 /// A picture needs texels, and something that stands still.
 void check_impostor(const Generator& generator, const OutputParams& output, Faults& faults) {
   if (!output.impostor) return;
-  const auto refuse = [&faults](std::string message) { faults.add({"/output/impostor", std::move(message)}); };
+  const auto refuse = [&faults](std::string message) {
+    faults.add({"/output/impostor", std::move(message)});
+  };
   const auto* size = std::get_if<std::int32_t>(&output.textures);
   if (!generator.has_impostor) refuse("the generator " + std::string(generator.name) + " makes no impostors");
   if (!size) refuse("found an impostor and no textures; it is one");

@@ -16,8 +16,9 @@ namespace seedmesh::texture {
 namespace {
 
 constexpr std::size_t views = 3;
-constexpr std::uint32_t samples = 4;    ///< of a texel, each way
-constexpr std::uint32_t edges = 32;  ///< of a cell, one is free on each side, so that neighbours do not bleed in
+constexpr std::uint32_t samples = 4;  ///< of a texel, each way
+constexpr std::uint32_t edges =
+    32;  ///< of a cell, one is free on each side, so that neighbours do not bleed in
 constexpr float impostor_roughness = 0.9F;
 
 ViewFrame frame_of(std::size_t view) {
@@ -269,7 +270,9 @@ void draw_impostors(Model& model, int size, Job& job) {
   std::vector<Atlas> atlases;
   for (std::size_t i = 0; i < wanted.size(); ++i) atlases.emplace_back(static_cast<std::uint32_t>(size), job);
   std::vector<Windows> windows(wanted.size());
-  const auto parts_of = [&](std::size_t i) -> const auto& { return model.materials[wanted[i]].impostor.parts; };
+  const auto parts_of = [&](std::size_t i) -> const auto& {
+    return model.materials[wanted[i]].impostor.parts;
+  };
   parallel_for(job, wanted.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) windows[i] = windows_of(model, parts_of(i), job);
   });

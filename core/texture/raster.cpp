@@ -14,8 +14,9 @@ namespace {
 constexpr std::int64_t one = 16;  ///< a sample in fixed-point numbers
 // Beyond this a place is off the picture anyway, and products of two still fit 64 bits.
 constexpr double farthest = 1 << 24;
-// What looks down gets less of the sky. Without it a crown is flat.
-constexpr double light_below = 0.55, light_above = 1;
+// What looks down gets less of the sky, and what lies deep in a crown too. Without that a crown is flat.
+constexpr double light_below = 0.8, light_above = 1;
+constexpr double light_behind = 0.7;
 
 std::int64_t fixed(double samples) {
   return math::to_int64(std::floor(std::clamp(samples, -farthest, farthest) * one + 0.5));
@@ -56,11 +57,13 @@ Canvas::Corner Canvas::corner_of(const Mesh& mesh, std::uint32_t vertex, const g
   corner.x = fixed((glm::dot(p, frame_.right) - window_.low.x) / size.x * width_);
   corner.y = fixed((window_.high.y - glm::dot(p, frame_.up)) / size.y * height_);
   corner.depth = glm::dot(p, frame_.towards);
+  const double near = std::clamp(corner.depth / size.x + 0.5, 0.0, 1.0);
+  corner.light = light_behind + (1 - light_behind) * near;
   if (!mesh.normal.empty()) {
     const glm::dvec3 normal =
         math::unit(glm::dvec3(glm::mat3(at) * mesh.normal[vertex]), glm::dvec3(frame_.towards));
     const double facing = glm::dot(normal, frame_.towards) < 0 ? -1 : 1;
-    corner.light = light_below + (light_above - light_below) * (0.5 + 0.5 * facing * normal.y);
+    corner.light *= light_below + (light_above - light_below) * (0.5 + 0.5 * facing * normal.y);
   }
   if (!mesh.uv[0].empty()) corner.uv = glm::dvec2(mesh.uv[0][vertex]);
   if (!mesh.color.empty()) corner.color = glm::dvec3(glm::u8vec3(mesh.color[vertex])) / 255.0;

@@ -44,9 +44,7 @@ class Canvas {
   std::uint32_t width() const { return width_; }
   std::uint32_t height() const { return height_; }
   /// Row 0 is at the top.
-  const Sample& at(std::uint32_t x, std::uint32_t y) const {
-    return samples_[std::size_t{y} * width_ + x];
-  }
+  const Sample& at(std::uint32_t x, std::uint32_t y) const { return samples_[std::size_t{y} * width_ + x]; }
 
  private:
   /// A corner as the picture sees it.

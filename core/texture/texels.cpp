@@ -105,7 +105,8 @@ glm::u16vec4 Texels::at(const glm::dvec2& uv, std::size_t level, bool repeat) co
     const double inside = repeat ? share - std::floor(share) : std::clamp(share, 0.0, 1.0);
     return std::min(math::to_uint32(inside * size), size - 1);
   };
-  glm::u16vec4 texel = from.texels[std::size_t{place(uv.y, from.height)} * from.width + place(uv.x, from.width)];
+  glm::u16vec4 texel =
+      from.texels[std::size_t{place(uv.y, from.height)} * from.width + place(uv.x, from.width)];
   if (texel.w < from.cutoff) texel.w = 0;
   return texel;
 }

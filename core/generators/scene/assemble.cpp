@@ -9,8 +9,7 @@
 #include "core/generators/registry.h"
 #include "core/generators/scene/grow.h"
 #include "core/generators/scene/levels.h"
-#include "core/geom/flatten.h"
-#include "core/geom/weld.h"
+#include "core/generators/scene/looks.h"
 #include "core/model/append.h"
 #include "core/schema/json.h"
 #include "core/texture/impostor.h"
@@ -19,99 +18,15 @@
 namespace seedmesh::scene {
 namespace {
 
-bool is_same(const TextureUse& a, const TextureUse& b) {
-  return a.texture == b.texture && a.uv_set == b.uv_set && a.repeat == b.repeat;
-}
-
-enum class Seeds { must_agree, may_differ };
-
-/// Names aside, but for the seeds of recipes where these may differ.
-bool is_same(const Material& a, const Material& b, Seeds seeds) {
-  const bool same_recipe = a.recipe.kind == b.recipe.kind && a.recipe.color == b.recipe.color &&
-                           (seeds == Seeds::may_differ || a.recipe.seed == b.recipe.seed);
-  return same_recipe && a.base_color == b.base_color && a.metallic == b.metallic &&
-         a.roughness == b.roughness && a.emissive == b.emissive && a.alpha_mode == b.alpha_mode &&
-         a.alpha_cutoff == b.alpha_cutoff && a.double_sided == b.double_sided && a.unlit == b.unlit &&
-         is_same(a.base_color_texture, b.base_color_texture) && is_same(a.normal_texture, b.normal_texture) &&
-         is_same(a.metallic_roughness_texture, b.metallic_roughness_texture) &&
-         is_same(a.occlusion_texture, b.occlusion_texture) && is_same(a.emissive_texture, b.emissive_texture);
-}
-
-bool is_plain(const Transform& t) {
-  return t.translation == glm::vec3(0) && t.rotation == glm::quat(1, 0, 0, 0) && t.scale == glm::vec3(1);
-}
-
-/// Do all nodes show their meshes where they are?
-bool is_plain(const Model& model) {
-  return std::all_of(model.nodes.begin(), model.nodes.end(), [](const Node& node) {
-    return is_plain(node.transform) && node.instances.transforms.empty() && node.skin < 0;
-  });
-}
-
-std::size_t levels_of(const Model& model) {
-  std::size_t levels = 0;
-  for (const Node& node : model.nodes) levels = std::max(levels, node.lods.size());
-  return levels + 1;
-}
-
-/// What a node shows at a level: a mesh that has fewer levels shows its coarsest.
-int mesh_at(const Node& node, std::size_t level) {
-  if (level == 0 || node.lods.empty()) return node.mesh;
-  return node.lods[std::min(level, node.lods.size()) - 1];
-}
-
-/// Does a level after this one show a mesh that this one shows?
-bool is_shown_again(const Model& model, std::size_t level, std::size_t levels) {
-  std::set<int> here;
-  for (const Node& node : model.nodes) here.insert(mesh_at(node, level));
-  here.erase(-1);
-  for (std::size_t later = level + 1; later < levels; ++later) {
-    for (const Node& node : model.nodes) {
-      if (here.contains(mesh_at(node, later))) return true;
-    }
-  }
-  return false;
-}
-
-/// What the nodes show at a level, taken out of the model; a mesh that two of them show in one place once.
-std::vector<Primitive> taken(Model& model, std::size_t level) {
-  std::vector<Primitive> primitives;
-  std::set<int> seen;
-  for (const Node& node : model.nodes) {
-    const int mesh = mesh_at(node, level);
-    if (mesh < 0 || !seen.insert(mesh).second) continue;
-    for (Primitive& each : model.meshes[static_cast<std::size_t>(mesh)].primitives)
-      primitives.push_back(std::move(each));
-  }
-  return primitives;
-}
-
-/// One mesh for each level of a model, with that model's own materials.
-std::vector<std::vector<Primitive>> levels_made(Model& model, Job& job) {
-  const std::size_t levels = levels_of(model);
-  const bool plain = is_plain(model);
-  std::vector<int> finest;
-  for (const Node& node : model.nodes) finest.push_back(node.mesh);
-  std::vector<std::vector<Primitive>> made;
-  for (std::size_t level = 0; level < levels; ++level) {
-    if (plain && !is_shown_again(model, level, levels)) {
-      made.push_back(taken(model, level));
-      continue;
-    }
-    for (Node& node : model.nodes) node.mesh = mesh_at(node, level);
-    made.push_back(flatten(model, job));
-    for (Primitive& each : made.back()) weld(each.mesh, job);  // parts that touch have corners in common
-    for (std::size_t i = 0; i < model.nodes.size(); ++i) model.nodes[i].mesh = finest[i];
-  }
-  return made;
-}
-
-/// Copies of one model at one level in one square of the ground.
-struct Batch {
+/// What a stand shows, and in which square of the ground.
+struct Copy {
   std::uint32_t cast;
-  std::uint32_t level;
-  std::uint32_t chunk;
-  Transform transform;
+  std::uint16_t level, chunk;
+  std::uint32_t stand;
+
+  bool goes_with(const Copy& other) const {
+    return cast == other.cast && level == other.level && chunk == other.chunk;
+  }
 };
 
 std::uint64_t triangles_of(const MeshGroup& group) {
@@ -173,7 +88,7 @@ class Assembly {
   struct Group {
     std::vector<int> meshes;  ///< finest first, last of all the picture where there is one
     Stature stature;
-    Grower grower;            ///< without joints: it stands still
+    Grower grower;  ///< without joints: it stands still
   };
 
   /// Variants of a model warn alike.
@@ -197,8 +112,8 @@ class Assembly {
     }
     std::vector<std::vector<Primitive>> levels = levels_made(made, job_);
     for (std::size_t level = 0; level < levels.size(); ++level) {
-      const int mesh =
-          add_mesh(name + (level > 0 ? "_LOD" + std::to_string(level) : ""), std::move(levels[level]), materials);
+      const int mesh = add_mesh(name + (level > 0 ? "_LOD" + std::to_string(level) : ""),
+                                std::move(levels[level]), materials);
       if (mesh < 0) continue;
       own.meshes.push_back(mesh);
       own.stature.triangles.push_back(triangles_of(model_.meshes[static_cast<std::size_t>(mesh)]));
@@ -231,8 +146,8 @@ class Assembly {
     own.stature.radius = glm::length(size) / 2;
     own.stature.middle = static_cast<double>(box.min.y + box.max.y) / 2;
     if (!has_picture) return;
-    const int picture = texture::add_impostor(
-        model_, {{.mesh = own.meshes.front(), .at = glm::mat4(1)}}, cast.name + "_impostor", job_);
+    const int picture = texture::add_impostor(model_, {{.mesh = own.meshes.front(), .at = glm::mat4(1)}},
+                                              cast.name + "_impostor", job_);
     if (picture < 0) return;
     own.meshes.push_back(picture);
     own.stature.has_picture = true;
@@ -275,33 +190,30 @@ class Assembly {
     node.name = name;
     node.parent = 0;
     model_.nodes.push_back(std::move(node));
-    std::vector<Batch> batches;
-    batches.reserve(stands.size());
+    Array<Copy> copies(job_);
+    copies.reserve(stands.size());
     std::uint64_t triangles = 0;
     for (std::size_t i = 0; i < stands.size(); ++i) {
       if (i % 4096 == 0) job_.check();
       const std::uint32_t cast = casting_.cast_of(number, stands[i]);
-      const std::uint32_t level = levels_.empty() ? 0 : levels_[number][i];
-      const Transform at = transform_of(stands[i], layer, ground_);
-      triangles += add_growing(cast, i, at, parent);
+      const std::uint16_t level = levels_.empty() ? std::uint16_t{0} : levels_[number][i];
+      triangles += add_growing(cast, number, i, parent);
       if (groups_[cast].meshes.empty()) continue;
       triangles += groups_[cast].stature.triangles_at(level);
-      batches.push_back({cast, level, chunk_of(stands[i].at), at});
+      copies.push_back({cast, level, chunk_of(stands[i].at), static_cast<std::uint32_t>(i)});
     }
-    std::stable_sort(batches.begin(), batches.end(), [](const Batch& a, const Batch& b) {
-      return std::tie(a.cast, a.level, a.chunk) < std::tie(b.cast, b.level, b.chunk);
+    std::sort(copies.begin(), copies.end(), [](const Copy& a, const Copy& b) {
+      return std::tie(a.cast, a.level, a.chunk, a.stand) < std::tie(b.cast, b.level, b.chunk, b.stand);
     });
-    for (std::size_t begin = 0; begin < batches.size();) {
+    for (std::size_t begin = 0; begin < copies.size();) {
       std::size_t end = begin;
-      while (end < batches.size() && batches[end].cast == batches[begin].cast &&
-             batches[end].level == batches[begin].level && batches[end].chunk == batches[begin].chunk)
-        ++end;
-      add_batch({batches.data() + begin, end - begin}, parent);
+      while (end < copies.size() && copies[end].goes_with(copies[begin])) ++end;
+      add_copies(copies.span().subspan(begin, end - begin), number, parent);
       begin = end;
     }
     Json told = {
         {"name", name}, {"placed", stands.size()}, {"models", models_of(number)}, {"triangles", triangles}};
-    if (!levels_.empty()) told["levels"] = levels_told(batches);
+    if (!levels_.empty()) told["levels"] = levels_told(copies);
     return told;
   }
 
@@ -313,48 +225,54 @@ class Assembly {
   }
 
   /// How many stand there at each level, and as pictures.
-  Json levels_told(const std::vector<Batch>& batches) const {
+  Json levels_told(const Array<Copy>& copies) const {
     std::vector<std::size_t> meshes;
     std::size_t pictures = 0;
-    for (const Batch& each : batches) {
+    for (const Copy& each : copies) {
       const Stature& stature = groups_[each.cast].stature;
       if (each.level >= stature.triangles.size()) {
         ++pictures;
         continue;
       }
-      if (each.level >= meshes.size()) meshes.resize(each.level + 1, 0);
+      if (each.level >= meshes.size()) meshes.resize(std::size_t{each.level} + 1, 0);
       ++meshes[each.level];
     }
     return {{"meshes", meshes}, {"impostors", pictures}};
   }
 
   /// Its triangles; 0 where the model does not grow.
-  std::uint64_t add_growing(std::uint32_t cast, std::size_t number, const Transform& at, int parent) {
+  std::uint64_t add_growing(std::uint32_t cast, std::size_t layer, std::size_t stand, int parent) {
     Grower& grower = groups_[cast].grower;
     if (grower.mesh < 0) return 0;
-    add_grower(model_, grower, casting_.casts[cast].name + "_" + std::to_string(number), at, parent);
+    add_grower(model_, grower, casting_.casts[cast].name + "_" + std::to_string(stand),
+               place_of(layer, stand), parent);
     return triangles_of(model_.meshes[static_cast<std::size_t>(grower.mesh)]);
   }
 
-  std::uint32_t chunk_of(const glm::dvec2& p) const {
+  Transform place_of(std::size_t layer, std::size_t stand) const {
+    return transform_of(planting_.layers[layer][stand], params_.layers[layer], ground_);
+  }
+
+  std::uint16_t chunk_of(const glm::dvec2& p) const {
     const glm::dvec2 share = (p - ground_.extent().min) / ground_.extent().size();
     const auto part = [&](double value) {
       return math::to_uint32(std::clamp(value * params_.chunks, 0.0, params_.chunks - 1.0));
     };
-    return part(share.y) * static_cast<std::uint32_t>(params_.chunks) + part(share.x);
+    return static_cast<std::uint16_t>(part(share.y) * static_cast<std::uint32_t>(params_.chunks) +
+                                      part(share.x));
   }
 
-  void add_batch(std::span<const Batch> batch, int parent) {
-    const Group& group = groups_[batch.front().cast];
+  void add_copies(std::span<const Copy> copies, std::size_t layer, int parent) {
+    const Group& group = groups_[copies.front().cast];
     if (group.meshes.empty()) return;
     const auto across = static_cast<std::uint32_t>(params_.chunks);
     Node node;
-    node.name = casting_.casts[batch.front().cast].name;
+    node.name = casting_.casts[copies.front().cast].name;
     if (across > 1) {
-      node.name += "_" + std::to_string(batch.front().chunk % across) + "_" +
-                   std::to_string(batch.front().chunk / across);
+      node.name += "_" + std::to_string(copies.front().chunk % across) + "_" +
+                   std::to_string(copies.front().chunk / across);
     }
-    const std::size_t level = batch.front().level, meshes = group.stature.triangles.size();
+    const std::size_t level = copies.front().level, meshes = group.stature.triangles.size();
     if (level > 0) node.name += level < meshes ? "_LOD" + std::to_string(level) : "_impostor";
     node.parent = parent;
     node.mesh = group.meshes[level];
@@ -365,11 +283,11 @@ class Assembly {
       node.lods.push_back(group.meshes.back());
       node.has_impostor = true;
     }
-    if (batch.size() == 1) {
-      node.transform = batch.front().transform;
+    if (copies.size() == 1) {
+      node.transform = place_of(layer, copies.front().stand);
     } else {
-      node.instances.transforms.reserve(batch.size());
-      for (const Batch& each : batch) node.instances.transforms.push_back(each.transform);
+      node.instances.transforms.reserve(copies.size());
+      for (const Copy& each : copies) node.instances.transforms.push_back(place_of(layer, each.stand));
     }
     model_.nodes.push_back(std::move(node));
   }
@@ -381,7 +299,7 @@ class Assembly {
   Job& job_;
   Model model_;
   std::vector<Group> groups_;
-  Levels levels_;  ///< empty: all stand at the finest
+  Levels levels_;                                   ///< empty: all stand at the finest
   std::vector<std::pair<int, std::size_t>> owned_;  ///< materials and the layer that brought them
   std::set<std::tuple<std::string, std::string, int, int>> seen_;
 };

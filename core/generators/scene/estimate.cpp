@@ -106,8 +106,8 @@ std::optional<Estimate> estimate_of(const SceneParams& params, const Casting& ca
     }
     for (std::uint32_t cast = casts.first; cast < casts.first + casts.count; ++cast) {
       variants += static_cast<double>(estimates[cast]->triangles) / casts.count;
-      exact = exact && estimates[cast]->exact &&
-              estimates[cast]->triangles == estimates[casts.first]->triangles;
+      exact =
+          exact && estimates[cast]->exact && estimates[cast]->triangles == estimates[casts.first]->triangles;
     }
     const double stands = expected_stands(params.layers[i], extent);
     exact = exact && params.layers[i].place.method == SceneMethod::positions;

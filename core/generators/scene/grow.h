@@ -13,11 +13,11 @@ constexpr std::size_t most_joints = 24'000;
 
 /// What a plant needs to grow, and its mesh with the bones in it. Empty joints: it stands still.
 struct Grower {
-  int mesh = -1;               ///< into the meshes of the scene
-  std::vector<Node> joints;    ///< parents by their number here, -1: the place
+  int mesh = -1;             ///< into the meshes of the scene
+  std::vector<Node> joints;  ///< parents by their number here, -1: the place
   std::vector<glm::mat4> inverse_bind;
-  Animation animation;         ///< channels by the numbers of joints
-  int times = -1;              ///< where its key times begin in the scene's animation
+  Animation animation;  ///< channels by the numbers of joints
+  int times = -1;       ///< where its key times begin in the scene's animation
 };
 
 /// Takes skin, animation and the primitives that they move out of the model, materials as they are numbered

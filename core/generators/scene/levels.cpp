@@ -21,8 +21,8 @@ constexpr int halvings = 30;
 
 /// Places with the share of the screen that each fills.
 struct Views {
-  std::vector<Array<float>> share;           ///< by layer and stand
-  std::vector<Array<std::uint16_t>> cast;    ///< likewise
+  std::vector<Array<float>> share;         ///< by layer and stand
+  std::vector<Array<std::uint16_t>> cast;  ///< likewise
 };
 
 std::size_t level_at(const Stature& stature, double share) {
@@ -108,9 +108,10 @@ void each_level(const Views& views, const std::vector<Stature>& statures, double
 
 std::uint64_t drawn_with(const Views& views, const std::vector<Stature>& statures, double factor) {
   std::uint64_t drawn = 0;
-  each_level(views, statures, factor, [&](std::size_t, std::size_t, const Stature& stature, std::size_t level) {
-    drawn += stature.triangles_at(level);
-  });
+  each_level(views, statures, factor,
+             [&](std::size_t, std::size_t, const Stature& stature, std::size_t level) {
+               drawn += stature.triangles_at(level);
+             });
   return drawn;
 }
 
@@ -151,13 +152,13 @@ Levels levels_of(const SceneParams& params, const Plan& plan, const std::vector<
                  std::uint64_t others, const Job& job) {
   const Views views = views_of(params, plan, statures, job);
   const std::uint64_t most = job.demand().most_triangles;
-  const double factor =
-      most > 0 ? factor_for(views, statures, most > others ? most - others : 0, job) : 1;
+  const double factor = most > 0 ? factor_for(views, statures, most > others ? most - others : 0, job) : 1;
   Levels levels;
   for (const Array<float>& layer : views.share) levels.emplace_back(job, layer.size(), std::uint8_t{0});
-  each_level(views, statures, factor, [&](std::size_t layer, std::size_t i, const Stature&, std::size_t level) {
-    levels[layer][i] = static_cast<std::uint8_t>(level);
-  });
+  each_level(views, statures, factor,
+             [&](std::size_t layer, std::size_t i, const Stature&, std::size_t level) {
+               levels[layer][i] = static_cast<std::uint8_t>(level);
+             });
   return levels;
 }
 

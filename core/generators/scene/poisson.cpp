@@ -69,42 +69,48 @@ class Darts {
   }
 
  private:
+  /// A cell by its column and row: divisions would cost a third of the whole.
+  struct Spot {
+    std::uint32_t x, z;
+  };
+  std::size_t cell_of(const Spot& spot) const { return std::size_t{spot.z + rim} * stride_ + spot.x + rim; }
+
   void list_phase(std::uint32_t phase) {
-    Array<std::uint32_t>& list = open_[phase];
-    list = Array<std::uint32_t>(job_);
+    Array<Spot>& list = open_[phase];
+    list = Array<Spot>(job_);
     list.reserve(std::size_t{(wide_ + 2) / apart} * ((deep_ + 2) / apart));
     for (std::uint32_t z = phase / apart; z < deep_; z += apart) {
-      for (std::uint32_t x = phase % apart; x < wide_; x += apart)
-        list.push_back((z + rim) * stride_ + x + rim);
+      for (std::uint32_t x = phase % apart; x < wide_; x += apart) list.push_back({x, z});
     }
   }
 
-  std::uint64_t key_of(std::uint32_t cell) const {
-    const auto x = static_cast<std::uint64_t>(first_x_) + cell % stride_ - rim;
-    const auto z = static_cast<std::uint64_t>(first_z_) + cell / stride_ - rim;
+  std::uint64_t key_of(const Spot& spot) const {
+    const auto x = static_cast<std::uint64_t>(first_x_) + spot.x;
+    const auto z = static_cast<std::uint64_t>(first_z_) + spot.z;
     return key_at(rng_.key(), x << 32U | z);
   }
 
   void throw_phase(std::uint32_t phase, int round) {
-    Array<std::uint32_t>& list = open_[phase];
+    Array<Spot>& list = open_[phase];
     job_.check();
     parallel_for(job_, list.size(), cells_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
       for (std::size_t i = begin; i < end; ++i) throw_dart(list[i], round);
     });
     std::size_t kept = 0;
-    for (const std::uint32_t cell : list) {
-      if (point_[cell].x == open_cell) list[kept++] = cell;
+    for (const Spot& spot : list) {
+      if (point_[cell_of(spot)].x == open_cell) list[kept++] = spot;
     }
     list.resize(kept);
   }
 
-  void throw_dart(std::uint32_t cell, int round) {
+  void throw_dart(const Spot& spot, int round) {
+    const std::size_t cell = cell_of(spot);
     const std::uint64_t bits =
-        mix(key_of(cell) + 0x9E3779B97F4A7C15U * static_cast<std::uint64_t>(round + 1));
+        mix(key_of(spot) + 0x9E3779B97F4A7C15U * static_cast<std::uint64_t>(round + 1));
     const double u = static_cast<double>(bits >> 32U) * 0x1p-32;
     const double v = static_cast<double>(bits & 0xFFFFFFFFU) * 0x1p-32;
-    const double west = cell_ * (static_cast<double>(first_x_) + cell % stride_ - rim);
-    const double north = cell_ * (static_cast<double>(first_z_) + cell / stride_ - rim);
+    const double west = cell_ * (static_cast<double>(first_x_) + spot.x);
+    const double north = cell_ * (static_cast<double>(first_z_) + spot.z);
     const glm::vec2 dart(static_cast<float>(west + u * cell_), static_cast<float>(north + v * cell_));
     const glm::dvec2 at = whole_.min + glm::dvec2(dart);
     if (!part_.holds(at)) return;
@@ -132,12 +138,15 @@ class Darts {
     for (const glm::vec2& point : point_) count += point.x < nowhere ? 1U : 0U;
     Array<Stand> stands(job_);
     stands.reserve(count);
-    for (std::size_t cell = 0; cell < point_.size(); ++cell) {
-      if (!(point_[cell].x < nowhere)) continue;
-      Stand stand;
-      stand.at = whole_.min + glm::dvec2(point_[cell]);
-      stand.key = key_of(static_cast<std::uint32_t>(cell));
-      stands.push_back(stand);
+    for (std::uint32_t z = 0; z < deep_; ++z) {
+      for (std::uint32_t x = 0; x < wide_; ++x) {
+        const glm::vec2& point = point_[cell_of({x, z})];
+        if (!(point.x < nowhere)) continue;
+        Stand stand;
+        stand.at = whole_.min + glm::dvec2(point);
+        stand.key = key_of({x, z});
+        stands.push_back(stand);
+      }
     }
     return stands;
   }
@@ -150,7 +159,7 @@ class Darts {
   std::int64_t first_x_ = 0, first_z_ = 0;
   std::uint32_t wide_ = 0, deep_ = 0, stride_ = 0;
   Array<glm::vec2> point_;  ///< from the corner of `whole`; one a cell
-  std::array<Array<std::uint32_t>, 9> open_;
+  std::array<Array<Spot>, 9> open_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/base/parallel.h"
 #include "core/generators/child.h"
 #include "core/generators/scene/assemble.h"
 #include "core/generators/scene/estimate.h"
@@ -72,12 +73,19 @@ Result<Model> generate(const SceneParams& params, Job& job) {
     if (!bones) return bones.error();
     demand.most_bones = *bones;
   }
-  Result<std::vector<Model>> models = models_of(casting, used_casts(planting, casting), demand, job);
-  if (!models) return std::move(models).error();
-  pieces.models = std::move(*models);
-  Result<Model> made = ground->model(params, job);
-  if (!made) return made;
-  pieces.ground = std::move(*made);
+  // A reduced mesh of the ground is long work that cannot be cut: models are made beside it.
+  std::optional<Result<std::vector<Model>>> models;
+  std::optional<Result<Model>> made;
+  parallel_for(job, 2, 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t part = begin; part < end; ++part) {
+      if (part == 0) made.emplace(ground->model(params, job));
+      if (part == 1) models.emplace(models_of(casting, used_casts(planting, casting), demand, job));
+    }
+  });
+  if (!*models) return std::move(*models).error();
+  if (!*made) return std::move(*made);
+  pieces.models = std::move(**models);
+  pieces.ground = std::move(**made);
   return assembled(params, {*ground, planting, casting}, std::move(pieces), job);
 }
 

@@ -64,6 +64,44 @@ std::vector<std::string> required(const json& document) {
   return document.value("extensionsRequired", std::vector<std::string>());
 }
 
+TEST(Impostors, AreRefusedWhereNothingCanBeOne) {
+  EXPECT_THAT(refused("proctree_0", R"({"impostor":true})"), ElementsAre("/output/impostor"));
+  EXPECT_THAT(refused("menger_sponge", R"({"impostor":true,"profile":"web"})"),
+              ElementsAre("/output/impostor"));
+  EXPECT_THAT(refused("proctree_0", R"({"impostor":true,"profile":"web","textures":"none"})"),
+              ElementsAre("/output/impostor"));
+  EXPECT_THAT(refused("proctree_0", R"({"impostor":true,"profile":"web","textures":32})"),
+              ElementsAre("/output/impostor"));
+  EXPECT_THAT(refused("growing_tree", R"({"impostor":true,"profile":"web"})"),
+              ElementsAre("/output/impostor"));
+}
+
+TEST(Impostors, AreTheCoarsestLevelOfTheWholeTree) {
+  const json document =
+      made("proctree_0", R"({"impostor":true,"profile":"unity","lods":2,"textures":64})").document;
+  const json& nodes = document["nodes"];
+  std::size_t with_levels = 0, pictures = 0;
+  for (const json& node : nodes) {
+    if (!node.contains("extensions") || !node["extensions"].contains("MSFT_lod")) continue;
+    ++with_levels;
+    const json& levels = node["extensions"]["MSFT_lod"]["ids"];
+    ASSERT_EQ(levels.size(), 2U);
+    EXPECT_EQ(node["extras"]["MSFT_screencoverage"], json::parse("[0.5,0.12,0]"));
+    pictures += nodes[levels[1].get<std::size_t>()].contains("mesh") ? 1 : 0;
+  }
+  EXPECT_EQ(with_levels, 2U);  // bark and leaves
+  EXPECT_EQ(pictures, 1U) << "one of them shows the picture, the other nothing";
+}
+
+TEST(Impostors, AreMadeOfEveryVariant) {
+  const json document =
+      made("proctree_0", R"({"impostor":true,"profile":"unity","variants":3,"textures":64})").document;
+  std::size_t pictures = 0;
+  for (const json& material : document["materials"])
+    pictures += material["name"].get<std::string>().find("impostor") != std::string::npos ? 1 : 0;
+  EXPECT_EQ(pictures, 3U);
+}
+
 TEST(Output, RequiresNothingBeyondCoreOfWhoDoesNotReadIt) {
   for (const char* profile : {"core", "unity", "unreal", "godot", "blender"}) {
     const json document = made("hutsko_tree", std::string(R"({"profile":")") + profile + "\"}").document;

@@ -14,8 +14,9 @@ using testing::IsEmpty;
 
 Json bed() {
   const Json tree = {{"preset", "proctree_0"}, {"parameters", {{"mLevels", 3}, {"mSegments", 4}}}};
-  const Json herb = {{"generator", "lsystem"},
-                     {"parameters", {{"axiom", "A"}, {"productions", {"A -> F[+A][-A]"}}, {"iterations", 4}}}};
+  const Json herb = {
+      {"generator", "lsystem"},
+      {"parameters", {{"axiom", "A"}, {"productions", {"A -> F[+A][-A]"}}, {"iterations", 4}}}};
   const Json positions = {{"method", "positions"},
                           {"positions", {{{"at", {-4, 0}}}, {{"at", {4, 0}}}, {{"at", {0, 4}}, {"age", 6}}}}};
   return {{"ground", {{"size", 20}}},
@@ -75,7 +76,8 @@ TEST(GrowingScene, EndsInTheStillScene) {
   for (const Channel& channel : model->animations.at(0).channels) {
     const std::vector<float>& times = model->animations[0].times.at(static_cast<std::size_t>(channel.times));
     ASSERT_EQ(channel.values.size(), 3 * times.size());
-    for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_EQ(channel.values[channel.values.size() - 3 + axis], 1);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      EXPECT_EQ(channel.values[channel.values.size() - 3 + axis], 1);
   }
   const Result<Model> still = scene_of(bed());
   ASSERT_TRUE(still);

@@ -85,7 +85,8 @@ TEST(SceneLevels, BecomeCoarserWithDistanceAndPicturesInTheEnd) {
   }
   ASSERT_GE(range.size(), 4U);
   EXPECT_EQ(range.begin()->first, 6U) << "the farthest are pictures";
-  EXPECT_GT(range.begin()->second.first, range.rbegin()->second.second) << "and farther than all of the finest";
+  EXPECT_GT(range.begin()->second.first, range.rbegin()->second.second)
+      << "and farther than all of the finest";
 }
 
 TEST(SceneLevels, LeaveEveryPlantWhereItIs) {
@@ -146,7 +147,8 @@ TEST(SceneLevels, AreRefusedBesideACamera) {
   const Json json = seen_from(grove(), 0, 2, 100);
   EXPECT_THAT(pointers_of(demanded(json, demand_of(3))), ElementsAre("/output/lods"));
   EXPECT_THAT(pointers_of(demanded(json, demand_of(1, true))), Contains("/output/impostor"));
-  EXPECT_THAT(pointers_of(demanded(json, demand_of(1, false, CopyForm::merge))), ElementsAre("/output/instancing"));
+  EXPECT_THAT(pointers_of(demanded(json, demand_of(1, false, CopyForm::merge))),
+              ElementsAre("/output/instancing"));
 }
 
 TEST(SceneLevels, EndInAPictureWhereThatIsWanted) {

@@ -1,0 +1,97 @@
+#include "core/generators/scene/looks.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/geom/flatten.h"
+#include "core/geom/weld.h"
+
+namespace seedmesh::scene {
+namespace {
+
+bool is_same(const TextureUse& a, const TextureUse& b) {
+  return a.texture == b.texture && a.uv_set == b.uv_set && a.repeat == b.repeat;
+}
+
+bool is_plain(const Transform& t) {
+  return t.translation == glm::vec3(0) && t.rotation == glm::quat(1, 0, 0, 0) && t.scale == glm::vec3(1);
+}
+
+/// Do all nodes show their meshes where they are?
+bool is_plain(const Model& model) {
+  return std::all_of(model.nodes.begin(), model.nodes.end(), [](const Node& node) {
+    return is_plain(node.transform) && node.instances.transforms.empty() && node.skin < 0;
+  });
+}
+
+std::size_t levels_of(const Model& model) {
+  std::size_t levels = 0;
+  for (const Node& node : model.nodes) levels = std::max(levels, node.lods.size());
+  return levels + 1;
+}
+
+/// What a node shows at a level: a mesh that has fewer levels shows its coarsest.
+int mesh_at(const Node& node, std::size_t level) {
+  if (level == 0 || node.lods.empty()) return node.mesh;
+  return node.lods[std::min(level, node.lods.size()) - 1];
+}
+
+/// Does a level after this one show a mesh that this one shows?
+bool is_shown_again(const Model& model, std::size_t level, std::size_t levels) {
+  std::set<int> here;
+  for (const Node& node : model.nodes) here.insert(mesh_at(node, level));
+  here.erase(-1);
+  for (std::size_t later = level + 1; later < levels; ++later) {
+    for (const Node& node : model.nodes) {
+      if (here.contains(mesh_at(node, later))) return true;
+    }
+  }
+  return false;
+}
+
+/// What the nodes show at a level, taken out of the model; a mesh that two of them show in one place once.
+std::vector<Primitive> taken(Model& model, std::size_t level) {
+  std::vector<Primitive> primitives;
+  std::set<int> seen;
+  for (const Node& node : model.nodes) {
+    const int mesh = mesh_at(node, level);
+    if (mesh < 0 || !seen.insert(mesh).second) continue;
+    for (Primitive& each : model.meshes[static_cast<std::size_t>(mesh)].primitives)
+      primitives.push_back(std::move(each));
+  }
+  return primitives;
+}
+
+}  // namespace
+
+bool is_same(const Material& a, const Material& b, Seeds seeds) {
+  const bool same_recipe = a.recipe.kind == b.recipe.kind && a.recipe.color == b.recipe.color &&
+                           (seeds == Seeds::may_differ || a.recipe.seed == b.recipe.seed);
+  return same_recipe && a.base_color == b.base_color && a.metallic == b.metallic &&
+         a.roughness == b.roughness && a.emissive == b.emissive && a.alpha_mode == b.alpha_mode &&
+         a.alpha_cutoff == b.alpha_cutoff && a.double_sided == b.double_sided && a.unlit == b.unlit &&
+         is_same(a.base_color_texture, b.base_color_texture) && is_same(a.normal_texture, b.normal_texture) &&
+         is_same(a.metallic_roughness_texture, b.metallic_roughness_texture) &&
+         is_same(a.occlusion_texture, b.occlusion_texture) && is_same(a.emissive_texture, b.emissive_texture);
+}
+
+std::vector<std::vector<Primitive>> levels_made(Model& model, Job& job) {
+  const std::size_t levels = levels_of(model);
+  const bool plain = is_plain(model);
+  std::vector<int> finest;
+  for (const Node& node : model.nodes) finest.push_back(node.mesh);
+  std::vector<std::vector<Primitive>> made;
+  for (std::size_t level = 0; level < levels; ++level) {
+    if (plain && !is_shown_again(model, level, levels)) {
+      made.push_back(taken(model, level));
+      continue;
+    }
+    for (Node& node : model.nodes) node.mesh = mesh_at(node, level);
+    made.push_back(flatten(model, job));
+    for (Primitive& each : made.back()) weld(each.mesh, job);  // parts that touch have corners in common
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) model.nodes[i].mesh = finest[i];
+  }
+  return made;
+}
+
+}  // namespace seedmesh::scene

@@ -1,0 +1,18 @@
+#pragma once
+/// A model as a scene takes it: one mesh a level, and materials that others may have too.
+#include <vector>
+
+#include "core/base/job.h"
+#include "core/model/model.h"
+
+namespace seedmesh::scene {
+
+enum class Seeds { must_agree, may_differ };
+
+/// Names aside, but for the seeds of recipes where these may differ.
+bool is_same(const Material& a, const Material& b, Seeds seeds);
+
+/// One mesh for each level of a model, taken out of it, with that model's own materials.
+std::vector<std::vector<Primitive>> levels_made(Model& model, Job& job);
+
+}  // namespace seedmesh::scene
