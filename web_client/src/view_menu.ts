@@ -75,6 +75,7 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
 
   part('view-options').append(
     shading.row, material.row, motion.row, level.row, gait.row,
+    tick('Edges of shapes', 'edges', false, (on) => viewer.set_edges(on)),
     tick('Sky', 'sky', false, (on) => viewer.set_sky(on)),
     tick('Shadow', 'shadow', context.high, (on) => viewer.set_shadow(on)),
     tick('Light', 'light-on', true, (on) => { sun.on = on; viewer.set_sun(sun); }),

@@ -146,6 +146,12 @@ export class Viewer {
     this.dress();
   }
 
+  /** Lines where faces meet at an angle. */
+  set_edges(on: boolean): void {
+    this.modes.edges = on;
+    this.dress();
+  }
+
   set_mode(mode: Mode): void {
     this.modes.mode = mode;
     this.dress();
