@@ -120,6 +120,7 @@ test('a stranger picks the oak, ages and seasons a tree, breaks and mends a gram
   });
   await t.test('a grammar is broken, read at its place, and mended by undo', async () => {
     const productions = field(page, '/parameters/productions');
+    await productions.scrollIntoViewIfNeeded();
     const whole = await written(productions);
     await page.waitForTimeout(800);
     await write(productions, `${whole}(`);
@@ -131,6 +132,7 @@ test('a stranger picks the oak, ages and seasons a tree, breaks and mends a gram
   });
   await t.test('and mended by hand', async () => {
     const productions = field(page, '/parameters/productions');
+    await productions.scrollIntoViewIfNeeded();
     const whole = await written(productions);
     await page.waitForTimeout(800);
     await write(productions, `${whole}[`);
