@@ -12,7 +12,7 @@ import { draw_gallery, type Gallery } from './gallery';
 import { Grower, Patience } from './grower';
 import { forget_hint, wire_hint } from './hint';
 import { reopen } from './key';
-import { for_view, type Motion } from './for_view';
+import { for_view, motions_in, type Motion } from './for_view';
 import { wire_seed } from './seed';
 import { is_high, make_viewer } from './setup';
 import { Store, type State } from './state';
@@ -265,8 +265,7 @@ async function start(): Promise<void> {
 
   const output = await persist(() => get_schema('output', signal), signal);
   formats = output['x-formats'] ?? formats;
-  motions = ['animation', 'wind'].flatMap((member) =>
-    (output.properties?.[member]?.enum ?? []).map(String).filter((value) => value !== 'none').map((value) => ({ member, value })));
+  motions = motions_in(output);
   explain();
 }
 

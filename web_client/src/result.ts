@@ -25,7 +25,7 @@ const longest = 4000;
 /** A hand that moves a slider rests this long before the server is asked. */
 const debounce = 200;
 
-/** `rules` gives the text of rules in the request that is shown, where it has one. */
+/** The last gives the text of rules in the request that is shown, where it has one. */
 export function wire_result(overlay: Overlay | null, lead: (line: number) => void, rules: () => string): Result {
   const page = part('result');
   let request: Request | null = null;
