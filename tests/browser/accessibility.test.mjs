@@ -76,6 +76,55 @@ for (const colorScheme of ['light', 'dark']) {
   });
 }
 
+const garden = {
+  generator: 'scene', seed: 5, parameters: { ground: { size: 30 }, layers: [
+    { name: 'stone', model: { generator: 'fractal', parameters: { iterations: 1 } }, place: { method: 'positions', positions: [{ at: [-4, 0] }, { at: [4, 2] }] } }] },
+};
+const house = { generator: 'building', seed: 1, parameters: { rules: 'Lot --> extrude(6) Mass\nMass --> comp(f) { side : Wall. | top : Lid. }', start: 'Lot', size: [8, 0, 6] } };
+const leafy = { generator: 'tree', seed: 2, parameters: { model: 'weber_penn', Levels: 2, Leaves: 8, sides: 4 }, output: { textures: 'none' } };
+
+for (const colorScheme of ['light', 'dark']) {
+  test(`axe finds nothing in scenes, buildings, maps and motions, ${colorScheme}`, { timeout: 600_000 }, async () => {
+    const page = await open(browser, `${server.url}/${fragment_of(garden)}`, { colorScheme, viewport: { width: 1000, height: 600 } });
+    const show = (request) => until_shown(page, () => page.evaluate((hash) => { location.hash = hash; }, fragment_of(request)));
+    await open_parameters(page);
+    await page.locator('details.entry > summary').first().click();
+    await page.locator('.placed button').first().click();
+    await page.getByRole('button', { name: 'Plant by click' }).click();
+    await passes(page, 'a list of places');
+    await field(page, '/parameters/age').getByRole('button', { name: 'Grow by Age' }).click();
+    await page.click('#growth-play');
+    await passes(page, 'growth');
+    await show(house);
+    await page.click('#tab-result');
+    await page.check('#show-shapes');
+    await page.locator('#picture').click({ position: { x: 320, y: 250 } });
+    await page.waitForSelector('.picked h4');
+    await passes(page, 'shapes');
+    await show({ generator: 'terrain', seed: 1, parameters: { algorithm: 'diamond_square', iterations: 3 } });
+    await page.waitForSelector('.height-map');
+    await passes(page, 'a map of heights');
+    await show(leafy);
+    await page.click('#view-menu > summary');
+    await page.waitForFunction(() => [...document.querySelectorAll('#motion-kind option')].some((option) => option.textContent === 'Wind'));
+    await until_shown(page, () => page.selectOption('#motion-kind', { label: 'Wind' }));
+    await page.selectOption('#detail', 'ask');
+    await page.waitForFunction(() => document.getElementById('detail').value === 'auto');
+    await passes(page, 'the menu of the view', '#view-menu');
+    await page.keyboard.press('Escape');
+    await page.click('#motion-play');
+    await passes(page, 'motion and levels');
+    await page.route('**/v1/generate', async (route) => {
+      const response = await route.fetch();
+      await route.fulfill({ response, headers: { ...response.headers(), 'seedmesh-triangles': '5000000' } });
+    });
+    await page.fill('#seed', '4');
+    await until_state(page, 'asking');
+    await passes(page, 'a question');
+    assert.deepEqual(page.faults, []);
+  });
+}
+
 test('axe finds nothing on a narrow screen', { timeout: 300_000 }, async () => {
   const page = await open(browser, address, { viewport: { width: 360, height: 640 }, hasTouch: true, isMobile: true });
   await passes(page, 'gallery');
@@ -88,6 +137,7 @@ test('axe finds nothing on a narrow screen', { timeout: 300_000 }, async () => {
   await page.click('#tab-request');
   await code(page.locator('#request')).waitFor();
   await passes(page, 'the JSON');
+  assert.ok(await page.evaluate(() => [...document.querySelectorAll('.tools, .bar, .panel')].every((each) => each.getBoundingClientRect().right <= innerWidth)));
   for (const menu of ['seeds-menu', 'code-menu', 'download-menu', 'view-menu']) {
     await page.click(`#${menu} > summary`);
     const body = await page.locator(`#${menu} .menu-body`).boundingBox();

@@ -230,6 +230,8 @@ test('no name of a parameter occurs in the source of the client', () => {
     'grid', 'cell', 'reach', 'low', 'high', 'glb',
     // The name of a DOM event, coordinates, a widget of the schema, a list of the vocabulary.
     'drop', 'x', 'z', 'image', 'functions',
+    // A type of input, three's word for a dependency, a member of the answer of derive, a class.
+    'range', 'material', 'shapes', 'pair',
     // Classes and parts of the page.
     'soft', 'shown', 'at', 'near', 'place', 'picture', 'fold']);
   assert.ok(names.has('productions'));

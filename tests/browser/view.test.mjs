@@ -305,6 +305,48 @@ test('shapes lie over the model as boxes, and one that is pointed at tells what 
   await changes(page, 'no boxes', () => page.uncheck('#show-shapes'));
 });
 
+test('a part of a building that is pointed at leads to its rule, and its edges are drawn apart from triangles', { timeout: 300_000 }, async () => {
+  const rules = 'Lot --> extrude(6) Mass\n\nMass --> comp(f) { side : Wall | top : Lid. }\nWall --> color("#aa8866") Face.';
+  const page = await open(browser, `${server.url}/${fragment_of({ generator: 'building', seed: 1, parameters: { rules, start: 'Lot', size: [8, 0, 6] } })}`);
+  await page.click('#hint-away');
+  await open_menu(page);
+  await changes(page, 'edges', () => switch_to(page, '#edges', true));
+  await switch_to(page, '#edges', false);
+  await page.click('#tab-result');
+  await page.waitForSelector('#show-shapes');
+  await page.check('#show-shapes');
+  await page.selectOption('#shape-kind', '=Mass');
+  await page.locator('#picture').click({ position: { x: 180, y: 130 } });
+  await page.waitForSelector('.picked h4');
+  assert.equal(await page.textContent('.picked h4'), 'Mass');
+  const told = await page.textContent('.picked');
+  for (const words of ['Lot', 'Mass --> comp(f)', '8 × 6 × 6 m']) assert.ok(told.includes(words), `${words} in ${told}`);
+  await page.getByRole('button', { name: '3', exact: true }).click();
+  assert.ok(await page.isVisible('#parameters'));
+  assert.deepEqual(page.faults, []);
+});
+
+test('what stands many times is drawn at once', { timeout: 300_000 }, async () => {
+  const stone = { generator: 'fractal', parameters: { iterations: 1 } };
+  const field_of = (count) => ({ generator: 'scene', seed: 3, parameters: { ground: { size: 60 }, layers: [{ name: 'stone', model: stone, variants: 2, place: { method: 'scatter', count } }] } });
+  const page = await open(browser, `${server.url}/?quality=low${fragment_of(field_of(300))}`);
+  const calls = await page.evaluate(() => new Promise((resolve) => {
+    let count = 0;
+    for (const name of ['drawElements', 'drawArrays', 'drawElementsInstanced', 'drawArraysInstanced']) {
+      const draw = WebGL2RenderingContext.prototype[name];
+      WebGL2RenderingContext.prototype[name] = function (...args) { count += 1; return draw.apply(this, args); };
+    }
+    document.getElementById('fit').click();
+    requestAnimationFrame(() => requestAnimationFrame(() => resolve(count)));
+  }));
+  assert.ok(calls > 0 && calls < 60, `${calls} calls for 300 stones`);
+  await open_menu(page);
+  const made = number((await page.locator('#detail option').first().textContent()).split('·')[1]);
+  assert.equal(made, number((await statistics(page)).triangles));
+  await changes(page, 'wires', () => page.click('#wireframe'));
+  assert.deepEqual(page.faults, []);
+});
+
 test('a heavy model is drawn only when asked for', { timeout: 200_000 }, async () => {
   const page = await open(browser, address, { before: (page) => page.route('**/v1/generate', async (route) => {
     const response = await route.fetch();

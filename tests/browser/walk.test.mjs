@@ -103,6 +103,14 @@ test('a stranger picks the oak, ages and seasons a tree, breaks and mends a gram
     await until_shown(page, () => page.click('#undo'));
     assert.equal(await field(page, '/parameters/season').locator('select option:checked').textContent(), 'summer');
   });
+  await t.test('the oak at six years is smaller', async () => {
+    const grown = await triangles();
+    const height = async () => Number(/([\d.]+) × [\d.]+ m/.exec(await page.textContent('#measures'))[1]);
+    const tall = await height();
+    const age = field(page, '/parameters/age').locator('input[type=number]');
+    await until_shown(page, () => age.fill('6'));
+    assert.ok(await triangles() < grown && await height() < tall);
+  });
   await t.test('a plant is made younger', async () => {
     await choose('growing_tree');
     const grown = await triangles();
@@ -112,6 +120,7 @@ test('a stranger picks the oak, ages and seasons a tree, breaks and mends a gram
   });
   await t.test('a grammar is broken, read at its place, and mended by undo', async () => {
     const productions = field(page, '/parameters/productions');
+    await productions.scrollIntoViewIfNeeded();
     const whole = await written(productions);
     await page.waitForTimeout(800);
     await write(productions, `${whole}(`);
@@ -120,6 +129,16 @@ test('a stranger picks the oak, ages and seasons a tree, breaks and mends a gram
     await until_shown(page, () => page.click('#undo'));
     assert.equal(await written(productions), whole);
     assert.equal(await page.textContent('#alert'), '');
+  });
+  await t.test('and mended by hand', async () => {
+    const productions = field(page, '/parameters/productions');
+    await productions.scrollIntoViewIfNeeded();
+    const whole = await written(productions);
+    await page.waitForTimeout(800);
+    await write(productions, `${whole}[`);
+    await until_state(page, 'refused');
+    await until_shown(page, () => write(productions, whole));
+    assert.equal(await productions.locator('.spot').count(), 0);
   });
   await t.test('a fresh browser shows the same from the link', async () => {
     await page.click('#copy-link');

@@ -170,6 +170,11 @@ test('a request that is dropped or chosen is opened', { timeout: 300_000 }, asyn
     await chooser.setFiles({ name: 'other.json', mimeType: 'application/json', buffer: Buffer.from('{"preset": "koch_snowflake", "seed": 5}') });
   });
   assert.equal(await page.inputValue('#seed'), '5');
+  await until_shown(page, async () => {
+    const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.keyboard.press('Control+o')]);
+    await chooser.setFiles({ name: 'third.json', mimeType: 'application/json', buffer: Buffer.from('{"preset": "koch_snowflake", "seed": 6}') });
+  });
+  assert.equal(await page.inputValue('#seed'), '6');
   await page.waitForFunction(() => location.hash.length > 50);
   assert.equal(request_of(new URL(page.url()).hash).generator, 'lsystem');
 });

@@ -1,8 +1,15 @@
 /** The request as the page draws it: one level, in core glTF, which needs no decoder; moved as the view wants it. */
 import type { Request } from './api';
+import type { Schema } from './form/schema';
 
-/** A member of the output that lets the model move, and its value: a clip, or weights for the wind. */
-export interface Motion { member: string; value: string }
+/** A member of the output that lets the model move, its value, and how a menu calls it: a clip, or weights by which the page lets it sway. */
+export interface Motion { member: string; value: string; label: string }
+
+/** What the schema of the output marks as motions. */
+export const motions_in = (output: Schema): Motion[] => Object.entries(output.properties ?? {})
+  .filter(([, schema]) => schema['x-widget'] === 'motion' || schema['x-widget'] === 'wind-weights')
+  .flatMap(([member, schema]) => (schema.enum ?? []).map(String).filter((value) => value !== schema.default)
+    .map((value) => ({ member, value, label: schema['x-widget'] === 'wind-weights' ? 'Wind' : value.replace(/^./, (first) => first.toUpperCase()) })));
 
 export const moved = (output: Request['output'], motion: Motion): Request['output'] => ({ ...output, [motion.member]: motion.value });
 

@@ -12,7 +12,7 @@ import { draw_gallery, type Gallery } from './gallery';
 import { Grower, Patience } from './grower';
 import { forget_hint, wire_hint } from './hint';
 import { reopen } from './key';
-import { for_view, type Motion } from './for_view';
+import { for_view, motions_in, type Motion } from './for_view';
 import { wire_seed } from './seed';
 import { is_high, make_viewer } from './setup';
 import { Store, type State } from './state';
@@ -186,7 +186,7 @@ function refuse(next: Refusal): void {
 }
 
 /** The form of the request's generator; drawn once for each request that is opened, and when another hand wrote it. */
-async function draw_parameters(state: State, signal: AbortSignal): Promise<void> {
+async function draw_parameters(state: State, is_new: boolean, signal: AbortSignal): Promise<void> {
   const { generator } = state.request;
   const [known, { draw_form, keep_place, about }] = await Promise.all([
     schema && schema_of === generator ? schema : persist(() => get_schema(generator, signal), signal), persist(() => import('./form/form'), signal)]);
@@ -198,6 +198,7 @@ async function draw_parameters(state: State, signal: AbortSignal): Promise<void>
   form = draw_form(schema, request.parameters, base.parameters, '/parameters', (parameters) => store.edit({ parameters }));
   part('parameters').replaceChildren(el('h2', { class: 'unseen' }, 'Parameters'), about(generator, schema, state.description), form.element);
   restore();
+  if (is_new) part('parameters').scrollTop = 0;
   explain();
   // The answer may have come before the form.
   if (refusal) refuse(refusal);
@@ -227,7 +228,7 @@ store.subscribe((state, cause) => {
     address.follow(state);
     forget_hint();
   }
-  if (cause !== 'edit') quietly(draw_parameters(state, opening.signal));
+  if (cause !== 'edit') quietly(draw_parameters(state, is_new, opening.signal));
   tools?.follow(state, is_new);
   checker.ask(state.request);
   grow(state.request, is_new ? 'now' : 'soon');
@@ -264,8 +265,7 @@ async function start(): Promise<void> {
 
   const output = await persist(() => get_schema('output', signal), signal);
   formats = output['x-formats'] ?? formats;
-  motions = ['animation', 'wind'].flatMap((member) =>
-    (output.properties?.[member]?.enum ?? []).map(String).filter((value) => value !== 'none').map((value) => ({ member, value })));
+  motions = motions_in(output);
   explain();
 }
 

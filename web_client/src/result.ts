@@ -25,7 +25,8 @@ const longest = 4000;
 /** A hand that moves a slider rests this long before the server is asked. */
 const debounce = 200;
 
-export function wire_result(overlay: Overlay | null, lead: (line: number) => void): Result {
+/** The last gives the text of rules in the request that is shown, where it has one. */
+export function wire_result(overlay: Overlay | null, lead: (line: number) => void, rules: () => string): Result {
   const page = part('result');
   let request: Request | null = null;
   let shown_for: Request | null = null;
@@ -62,7 +63,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
       delete (rest as Members)['heights'];
     }
     if (is_shapes(rest['shapes'])) {
-      shapes = new ShapeList(rest['shapes'], overlay, lead);
+      shapes = new ShapeList(rest['shapes'], overlay, lead, rules);
       parts.push(shapes.element);
       delete rest['shapes'];
     }
@@ -84,7 +85,11 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
   };
 }
 
-const head = (): HTMLElement => el('p', { class: 'soft about' }, 'What the generator makes of the request before there is geometry.');
+const head = (): DocumentFragment => {
+  const both = document.createDocumentFragment();
+  both.append(el('h2', { class: 'unseen' }, 'Result'), el('p', { class: 'soft about' }, 'What the generator makes of the request before there is geometry.'));
+  return both;
+};
 const readable = (name: string): string => name.replaceAll('_', ' ').replace(/^./, (first) => first.toUpperCase());
 const is_vector = (value: unknown): value is number[] => Array.isArray(value) && value.length > 0 && value.length <= 4 && value.every((each) => typeof each === 'number');
 const figure = (value: number): string => (Number.isInteger(value) ? grouped(value) : rounded(value));

@@ -68,6 +68,10 @@ export function wire_tools(core: Core): Tools {
   const result = wire_result(viewer, (line) => {
     tabs.open('parameters');
     part('parameters').querySelector<HTMLElement>('.code-editor')?.dispatchEvent(new CustomEvent('go-line', { detail: line }));
+  }, () => {
+    const name = Object.entries(rules_schema?.properties ?? {}).find(([, member]) => member['x-grammar'] === 'cga')?.[0];
+    const text = name === undefined ? undefined : store.current?.request.parameters[name];
+    return typeof text === 'string' ? text : '';
   });
   const steps = wire_steps({
     edit(name, value) {
@@ -86,6 +90,7 @@ export function wire_tools(core: Core): Tools {
   });
   const motion = viewer && wire_motion(viewer);
   let motions: Motion[] = [];
+  let rules_schema: Schema | null = null;
 
   // Which motions there are is asked when somebody looks for them, once for each request that is opened.
   let asked_for: Request | null = null;
@@ -123,6 +128,7 @@ export function wire_tools(core: Core): Tools {
       if (is_new) view_menu?.offer_motions([]);
     },
     explain(schema) {
+      rules_schema = schema;
       steps.take(schema);
       if (store.current) steps.follow(store.current);
     },

@@ -75,6 +75,7 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
 
   part('view-options').append(
     shading.row, material.row, motion.row, level.row, gait.row,
+    tick('Edges of shapes', 'edges', false, (on) => viewer.set_edges(on)),
     tick('Sky', 'sky', false, (on) => viewer.set_sky(on)),
     tick('Shadow', 'shadow', context.high, (on) => viewer.set_shadow(on)),
     tick('Light', 'light-on', true, (on) => { sun.on = on; viewer.set_sun(sun); }),
@@ -123,8 +124,7 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
     offer_motions(next) {
       motions = next;
       motion.row.hidden = motions.length === 0;
-      // A clip is called by its value; weights are for what they are made for.
-      motion.offer([['', 'Still'], ...motions.map(({ member, value }): [string, string] => [value, (member === 'animation' ? value : member).replace(/^./, (first) => first.toUpperCase())])]);
+      motion.offer([['', 'Still'], ...motions.map(({ value, label }): [string, string] => [value, label])]);
     },
     motion: () => motions.find((each) => each.value === motion.select.value) ?? null,
     next_mode() {

@@ -1,5 +1,5 @@
 /** Where the camera has to stand to see a model whole. */
-import { Box3, Mesh, Vector3, type Object3D, type PerspectiveCamera } from 'three';
+import { Box3, Matrix4, Vector3, type InstancedMesh, type Mesh, type Object3D, type PerspectiveCamera } from 'three';
 
 /** Part of the picture that the model may fill. */
 const fill = 0.8;
@@ -29,9 +29,17 @@ export function points_of(model: Object3D): Vector3[] {
   model.traverse((part) => {
     const positions = (part as Mesh).geometry?.getAttribute('position');
     if (!positions) return;
-    const stride = Math.max(1, Math.floor(positions.count / most_points));
-    for (let index = 0; index < positions.count; index += stride)
-      points.push(new Vector3().fromBufferAttribute(positions, index).applyMatrix4(part.matrixWorld));
+    const copies = part as InstancedMesh;
+    const count = copies.isInstancedMesh ? copies.count : 1;
+    const stride = Math.max(1, Math.floor(positions.count * count / most_points));
+    const place = part.matrixWorld.clone(), of_copy = new Matrix4();
+    for (let index = 0; index < positions.count * count; index += stride) {
+      if (copies.isInstancedMesh) {
+        copies.getMatrixAt(Math.floor(index / positions.count), of_copy);
+        place.multiplyMatrices(part.matrixWorld, of_copy);
+      }
+      points.push(new Vector3().fromBufferAttribute(positions, index % positions.count).applyMatrix4(place));
+    }
   });
   return points;
 }

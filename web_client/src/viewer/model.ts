@@ -3,6 +3,7 @@ import {
   BasicDepthPacking, Box3, Material, Mesh, MeshDepthMaterial, Texture, Vector3, type AnimationClip, type BufferGeometry, type Object3D,
 } from 'three';
 import { GLTFLoader, type GLTF } from 'three/addons/loaders/GLTFLoader.js';
+import { gather_copies } from './copies';
 import { corners_of, points_of } from './frame';
 import { patch, whole, type Fade } from './patch';
 
@@ -38,6 +39,7 @@ export class Model {
     const json = gltf.parser.json as { extensions?: Record<string, { variants?: { name: string }[] }>; asset?: { extras?: { warnings?: Warning[] } } };
     this.variants = (json.extensions?.[variants_word]?.variants ?? []).map((each) => each.name);
     this.warnings = json.asset?.extras?.warnings ?? [];
+    if (this.clips.length === 0) gather_copies(this.root);
     this.box = new Box3().setFromObject(this.root);
     if (this.box.isEmpty()) this.box.set(new Vector3(-0.5, 0, -0.5), new Vector3(0.5, 1, 0.5));
     this.points = points_of(this.root);

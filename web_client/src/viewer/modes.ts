@@ -1,7 +1,7 @@
 /** Ways to look at a mesh other than in its own materials, and the lines over it. */
 import {
-  DataTexture, DoubleSide, Mesh, MeshBasicMaterial, MeshNormalMaterial, NearestFilter, LinearMipmapLinearFilter, RepeatWrapping, SRGBColorSpace,
-  type Material, type MeshStandardMaterial, type Object3D,
+  DataTexture, DoubleSide, EdgesGeometry, InstancedMesh, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshNormalMaterial, NearestFilter, LinearMipmapLinearFilter, RepeatWrapping, SRGBColorSpace,
+  type BufferGeometry, type Material, type MeshStandardMaterial, type Object3D,
 } from 'three';
 import type { Model } from './model';
 import { patch } from './patch';
@@ -36,13 +36,22 @@ function checker(): DataTexture {
   return texture;
 }
 
+/** Faces that meet at less, in degrees, are one rounded face. */
+const least_angle = 25;
+/** Edges are looked for among so many faces of a mesh, and drawn for so many copies. */
+const most_faces = 200_000, most_copies = 2000;
+
 export class Modes {
   mode: Mode = 'shaded';
   wireframe = false;
+  /** Lines where faces meet at an angle: what a shape is, apart from the triangles it is made of. */
+  edges = false;
+  readonly line = new LineBasicMaterial({ color: 0xd55e00, toneMapped: false });
   readonly wire = new MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.55 });
   private readonly normals = new MeshNormalMaterial({ side: DoubleSide });
   private squares: MeshBasicMaterial | null = null;
   private wires: Object3D[] = [];
+  private readonly edges_of = new WeakMap<BufferGeometry, EdgesGeometry>();
 
   /** Puts all on that is switched on. Called again whenever the model, its materials or a switch changes. */
   dress(models: Model[]): void {
@@ -53,7 +62,10 @@ export class Modes {
 
   /** Meshes that are lines over others; they are no part of the model. */
   forget(): void {
-    for (const wires of this.wires) wires.removeFromParent();
+    for (const wires of this.wires) {
+      wires.removeFromParent();
+      if (wires instanceof LineSegments) wires.geometry.dispose();
+    }
     this.wires = [];
   }
 
@@ -69,10 +81,11 @@ export class Modes {
         material.flatShading = flat;
         material.needsUpdate = true;
       }
-      material.polygonOffset = this.wireframe;
+      material.polygonOffset = this.wireframe || this.edges;
       material.polygonOffsetFactor = 1;
       material.polygonOffsetUnits = 1;
     }
+    if (this.edges) this.draw_edges(mesh);
     if (!this.wireframe) return;
     const wires = mesh.clone(false);
     wires.material = this.wire;
@@ -80,6 +93,26 @@ export class Modes {
     wires.userData = { helper: true };
     mesh.parent?.add(wires);
     this.wires.push(wires);
+  }
+
+  private draw_edges(mesh: Mesh): void {
+    const { geometry } = mesh;
+    if ((geometry.index?.count ?? geometry.getAttribute('position').count) / 3 > most_faces) return;
+    const edges = this.edges_of.get(geometry) ?? new EdgesGeometry(geometry, least_angle);
+    this.edges_of.set(geometry, edges);
+    const copies = mesh instanceof InstancedMesh ? Math.min(mesh.count, most_copies) : 1;
+    for (let index = 0; index < copies; index += 1) {
+      const lines = new LineSegments(edges, this.line);
+      lines.matrix.copy(mesh.matrix);
+      if (mesh instanceof InstancedMesh) {
+        mesh.getMatrixAt(index, lines.matrix);
+        lines.matrix.premultiply(mesh.matrix);
+      }
+      lines.matrixAutoUpdate = false;
+      lines.userData = { helper: true };
+      mesh.parent?.add(lines);
+      this.wires.push(lines);
+    }
   }
 
   private unwrapped(): MeshBasicMaterial {

@@ -1,7 +1,7 @@
 /** What moves the model: a clip, which stands at a share of its length or runs; or else the wind, which blows in a loop. */
 import type { AnimationClip, Interpolant, KeyframeTrack, Mesh, Object3D, Quaternion, Vector3 } from 'three';
 import type { Model } from './model';
-import { gust } from './patch';
+import { breeze } from './patch';
 
 /** Seconds until the wind begins again. */
 const loop = 10;
@@ -52,14 +52,14 @@ export class Motion {
     this.channels = model && clip ? channels_of(model.root, clip) : [];
     this.duration = this.blows ? loop : clip?.duration ?? 0;
     const height = model ? model.box.max.y - model.box.min.y : 0;
-    gust.value.set(0, this.blows ? height * 0.07 : 0, this.blows ? height * 0.006 : 0);
+    breeze.value.set(0, this.blows ? height * 0.07 : 0, this.blows ? height * 0.006 : 0);
     this.stand(this.share);
   }
 
   /** 0 is the first moment, 1 the last. */
   stand(share: number): void {
     this.share = share;
-    gust.value.x = share * 2 * Math.PI;
+    breeze.value.x = share * 2 * Math.PI;
     for (const { curve, set } of this.channels) set(curve.evaluate(share * this.duration) as ArrayLike<number>);
   }
 

@@ -5,7 +5,7 @@
 import { Vector2, Vector3, type Material, type WebGLProgramParametersWithUniforms } from 'three';
 
 /** x: the moment as an angle of a loop, y: how far the top of the model bends, in metres, z: how far a leaf flutters. Of all models. */
-export const gust = { value: new Vector3() };
+export const breeze = { value: new Vector3() };
 
 /** Which part of the dots of a model is drawn, from and to; all at (0, 2). */
 export type Fade = { value: Vector2 };
@@ -20,13 +20,13 @@ attribute vec2 uv2;
 #ifndef USE_UV3
 attribute vec2 uv3;
 #endif
-uniform vec3 gust;
+uniform vec3 breeze;
 vec3 sway(vec3 at) {
   float phase = uv3.x * 6.2832;
-  float lean = uv2.x * (0.65 + 0.25 * sin(gust.x) + 0.1 * sin(gust.x * 3.0));
-  float swing = uv2.y * (0.5 * sin(gust.x * 3.0 + phase) + 0.3 * sin(gust.x * 5.0 + phase * 2.0));
-  float flutter = uv3.y * sin(gust.x * 23.0 + phase * 5.0 + dot(at, vec3(2.1, 1.7, 2.9)));
-  return gust.y * (lean * vec3(0.8, -0.12 * uv2.x, 0.5) + swing * vec3(0.3, 0.18, -0.25)) + gust.z * flutter * vec3(0.5, 0.9, -0.5);
+  float lean = uv2.x * (0.65 + 0.25 * sin(breeze.x) + 0.1 * sin(breeze.x * 3.0));
+  float swing = uv2.y * (0.5 * sin(breeze.x * 3.0 + phase) + 0.3 * sin(breeze.x * 5.0 + phase * 2.0));
+  float flutter = uv3.y * sin(breeze.x * 23.0 + phase * 5.0 + dot(at, vec3(2.1, 1.7, 2.9)));
+  return breeze.y * (lean * vec3(0.8, -0.12 * uv2.x, 0.5) + swing * vec3(0.3, 0.18, -0.25)) + breeze.z * flutter * vec3(0.5, 0.9, -0.5);
 }
 `;
 
@@ -54,7 +54,7 @@ export function patch(material: Material, sways: boolean, fade: Fade | null): vo
   patched.set(material, { key, fade });
   material.onBeforeCompile = (program: WebGLProgramParametersWithUniforms) => {
     if (sways) {
-      program.uniforms['gust'] = gust;
+      program.uniforms['breeze'] = breeze;
       program.vertexShader = inserted(program.vertexShader, sway_head, '#include <project_vertex>', '  transformed += sway(transformed);');
     }
     if (fade) {

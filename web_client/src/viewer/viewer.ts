@@ -7,6 +7,7 @@ import { wire_ground } from './ground';
 import { Levels, Model } from './model';
 import { Modes, type Mode } from './modes';
 import { Motion } from './motion';
+import { draw_portrait } from './portrait';
 import { Stage, type Sun } from './stage';
 import { Walker, type Gait } from './walker';
 import { levels_of } from './zip';
@@ -53,7 +54,8 @@ export class Viewer {
   private last_begin = 0;
   /** The model was not drawn yet. */
   private is_new = false;
-  private readonly still: boolean;
+  /** Nothing shall move by itself. */
+  readonly is_still: boolean;
   /** Part of the height that nothing covers. */
   private free = 1;
 
@@ -61,7 +63,7 @@ export class Viewer {
     const high = look.quality === 'high';
     this.canvas = canvas;
     this.covered = look.covered;
-    this.still = look.still;
+    this.is_still = look.still;
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: high, powerPreference: 'high-performance' });
     this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.toneMappingExposure = 1;
@@ -146,6 +148,12 @@ export class Viewer {
     this.dress();
   }
 
+  /** Lines where faces meet at an angle. */
+  set_edges(on: boolean): void {
+    this.modes.edges = on;
+    this.dress();
+  }
+
   set_mode(mode: Mode): void {
     this.modes.mode = mode;
     this.dress();
@@ -163,7 +171,7 @@ export class Viewer {
     const models = await levels_of(bytes);
     if (this.variant !== null) await Promise.all(models.map((model) => model.wear(this.variant)));
     this.levels?.dispose();
-    this.levels = new Levels(models, this.still);
+    this.levels = new Levels(models, this.is_still);
     return models.map((model) => model.triangles);
   }
 
@@ -179,9 +187,6 @@ export class Viewer {
     }
     this.dress();
   }
-
-  /** Whether nothing shall move by itself. */
-  get is_still(): boolean { return this.still; }
 
   /** The level that is in sight; null where there are no levels. */
   get level(): number | null { return this.levels?.in_sight ?? null; }
@@ -290,27 +295,8 @@ export class Viewer {
    * only few of them.
    */
   async portrait(bytes: ArrayBuffer, width: number, height: number): Promise<HTMLCanvasElement> {
-    const model = await Model.from(bytes);
-    const picture = Object.assign(document.createElement('canvas'), { width, height });
-    const camera = new PerspectiveCamera(32, width / height);
-    stand_back(camera, model.points, usual_direction(model.box), 1);
-    const hidden = this.scene.children.filter((child) => child !== this.stage.group && child.visible);
-    for (const child of hidden) child.visible = false;
-    this.scene.add(model.root);
-    this.stage.surround(model.box);
-    this.stage.bare = true;
-    const size = this.renderer.getSize(new Vector2()), ratio = this.renderer.getPixelRatio();
-    this.renderer.setPixelRatio(1);
-    this.renderer.setSize(width, height, false);
-    this.renderer.shadowMap.needsUpdate = true;
-    this.renderer.render(this.scene, camera);
-    picture.getContext('2d')?.drawImage(this.renderer.domElement, 0, 0);
-    this.stage.bare = false;
-    model.dispose();
-    for (const child of hidden) child.visible = true;
+    const picture = draw_portrait(this.renderer, this.scene, this.stage, await Model.from(bytes), width, height);
     this.stage.surround(this.box);
-    this.renderer.setPixelRatio(ratio);
-    this.renderer.setSize(size.x, size.y, false);
     this.renderer.shadowMap.needsUpdate = true;
     this.render();
     return picture;
