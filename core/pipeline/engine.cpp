@@ -17,7 +17,7 @@
 namespace seedmesh {
 namespace {
 
-constexpr int engine_number = 2;
+constexpr int engine_number = 3;
 
 std::string made_version() {
   const auto part = [](const char* name, auto... numbers) {
