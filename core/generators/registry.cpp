@@ -107,7 +107,7 @@ constexpr Generator rows[] = {
     Row<TerrainParams, read_terrain, write_terrain, terrain::check, terrain::generate, terrain::derive,
         terrain::appraise, terrain::vocabulary>::named<terrain::encode>("terrain", terrain_forms),
     Row<BuildingParams, read_building, write_building, building::check, building::generate, building::derive,
-        building::appraise, building::vocabulary>::named("building", {.parts = true}),
+        building::appraise, building::vocabulary>::named("building", {.has_collision = true, .parts = true}),
     Row<SceneParams, read_scene, write_scene, scene::check, scene::generate, scene::derive, scene::appraise,
         scene::vocabulary>::named<scene::encode>("scene", scene_forms),
 };

@@ -39,6 +39,8 @@ struct Task {
   std::optional<Rounding> rounding;
   std::span<const AssetBox> assets;
   std::size_t own_assets = 0;  ///< the first of them are the request's own
+  bool keeps_masses = false;  ///< for collision bodies
+  std::uint64_t most_shapes = ~std::uint64_t{0};  ///< the derivation ends where there are more
 };
 
 constexpr std::uint16_t deepest_shape = 1'000;

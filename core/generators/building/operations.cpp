@@ -135,6 +135,50 @@ constexpr OperationRow rows[] = {
 
 std::span<const OperationRow> operations() { return rows; }
 
+std::string_view kind_of(Op op) {
+  switch (op) {
+    case Op::split:
+    case Op::split_area:
+    case Op::repeat:
+    case Op::comp:
+    case Op::snap:
+      return "cut";
+    case Op::extrude:
+    case Op::taper:
+    case Op::offset:
+    case Op::setback:
+    case Op::shape_l:
+    case Op::shape_u:
+    case Op::shape_o:
+    case Op::inner_rectangle:
+      return "mass";
+    case Op::roof_hip:
+    case Op::roof_gable:
+    case Op::roof_pyramid:
+    case Op::roof_shed:
+    case Op::roof_mansard:
+    case Op::roof_gambrel:
+    case Op::roof:
+      return "roof";
+    case Op::insert:
+    case Op::place:
+      return "part";
+    case Op::color:
+    case Op::material:
+      return "look";
+    case Op::setup_projection:
+    case Op::project_uv:
+      return "texture";
+    case Op::set:
+      return "attribute";
+    case Op::report:
+    case Op::label:
+      return "report";
+    default:
+      return "scope";
+  }
+}
+
 const OperationRow* find_operation(std::string_view name) {
   const auto* const found = std::find_if(std::begin(rows), std::end(rows),
                                          [&](const OperationRow& row) { return row.name == name; });

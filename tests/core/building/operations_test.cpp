@@ -5,6 +5,7 @@
 #include "core/generators/building/cover.h"
 #include "core/generators/building/inner_rectangle.h"
 #include "tests/core/building/rules.h"
+#include "tests/core/geom/plans.h"
 #include "tests/support/mesh_faults.h"
 
 namespace seedmesh::building {
@@ -65,6 +66,27 @@ TEST(InnerRectangle, IsAsLargeAsAnythingTriedInRandomBlocksWithHoles) {
     const double best = std::max({hole_low.x * depth, (width - hole_high.x) * depth, hole_low.y * width,
                                   (depth - hole_high.y) * width});
     EXPECT_NEAR(found.area(), best, 1e-9 * best) << trial;
+  }
+}
+
+/// Nothing is lost and nothing is there twice, however plans with courtyards are cut.
+TEST(Splits, OfTenThousandRandomPlansAddUp) {
+  Rng rng(77);
+  const std::array<const char*, 3> cells = {
+      "split(x){ ~1: split(z){ ~0.7: B | 0.9: B }* | 1.3: B | '0.2: B }",
+      "split(z){ { 1.1: B | ~2: split(y){ ~1: B }* }* | 0.4: B }",
+      "split(y){ '0.3: split(x){ 2: B }* | ~1: split(z, noAdjust){ ~3: B | ~1: B } }"};
+  for (std::uint64_t seed = 0; seed < 10'000; ++seed) {
+    Rng here = rng.at(seed);
+    const Plan plan = seed % 2 ? random_star(here, 3 + static_cast<std::uint32_t>(seed / 2 % 12), seed % 4 == 1)
+                               : random_blocks(here, 2 + static_cast<int>(seed / 2 % 4));
+    BuildingParams params = with(std::string("Lot --> extrude(3) ") + cells[seed % 3] +
+                                 " B --> report(\"v\", geometry.volume) C.");
+    for (const PlanRing& ring : plan.rings) {
+      auto& points = params.footprint.emplace_back();
+      for (const glm::dvec2& p : ring) points.push_back({p.x, -p.y});
+    }
+    EXPECT_NEAR(sum_of(derived(params), "v"), 3 * area(plan), 3e-7 * area(plan)) << seed;
   }
 }
 
@@ -188,6 +210,18 @@ TEST(Queries, TellWhetherAStreetIsInSight) {
   // The box of the prism is in the way, the prism is not.
   EXPECT_EQ(seen("[ T(-5, 0, 10) S(12, 12, 1) R(0, 0, 0) i(\"triangular_prism\") Wall. ]"), "Street Wall blind");
   EXPECT_EQ(leaves("A ~> F  F : Shape.visible(\"Street\") ~> sees.  F ~> blind."), "blind");
+}
+
+TEST(Vocabulary, HasExamplesThatRun) {
+  const Json all = vocabulary();
+  for (const char* list : {"building_operations", "building_words", "building_parts"}) {
+    EXPECT_GT(all[list].size(), 15U);
+    for (const Json& row : all[list]) {
+      EXPECT_FALSE(row["kind"].get<std::string>().empty());
+      EXPECT_FALSE(row["text"].get<std::string>().empty());
+      EXPECT_FALSE(active(derived(with(row["example"].get<std::string>(), {6, 6, 6}))).empty()) << row["name"];
+    }
+  }
 }
 
 TEST(Covers, AreSharesOfABox) {
