@@ -77,6 +77,7 @@ struct Demand {
   CollisionNames collision = CollisionNames::none;
   int textures = 512;    ///< texels of a side, for forms that hold models themselves; 0: none
   bool tangents = true;  ///< for these forms
+  bool merge_parts = false;  ///< what is repeated as one mesh a material, with no copies
 };
 
 /// The context of one request. Safe to use from the worker threads of that request.

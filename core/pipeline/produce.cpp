@@ -146,7 +146,8 @@ Demand demand_of(const OutputParams& output) {
               output.instancing == OutputInstancing::nodes || output.instancing == OutputInstancing::gpu,
           .growth = output.animation == OutputParams::Animation::growth,
           .wind = output.wind == OutputWind::weights,
-          .collision = static_cast<CollisionNames>(output.collision)};
+          .collision = static_cast<CollisionNames>(output.collision),
+          .merge_parts = output.instancing == OutputInstancing::merge};
 }
 
 /// The model of one seed, as its generator makes it.

@@ -209,7 +209,10 @@ std::vector<double> lods_of(const Grammar& grammar, const BuildingParams& params
   return lods;
 }
 
-Sharing sharing_of(const Demand& demand) { return demand.share_organs ? Sharing::nodes : Sharing::few; }
+Sharing sharing_of(const Demand& demand) {
+  if (demand.merge_parts) return Sharing::merged;
+  return demand.share_organs ? Sharing::nodes : Sharing::few;
+}
 
 /// Nodes whose meshes are the levels: the derivation runs again for each, with its value of `lod`.
 void add_levels(Model& model, Work& work, const BuildingParams& params, const Shapes& finest,

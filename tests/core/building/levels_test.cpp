@@ -56,6 +56,16 @@ TEST(Levels, AreMadeByTheGrammarsOwnAttribute) {
   for (const Node& node : demanded(with("A --> split(x){ 5: B. }*"), {.lods = 3}).nodes) EXPECT_TRUE(node.lods.empty());
 }
 
+TEST(Sharing, MergesFewBodiesWhereThatIsWanted) {
+  const BuildingParams params = with("A --> split(x){ 1: B. }*");
+  EXPECT_EQ(demanded(params, {}).meshes.size(), 1U);  // one box, ten copies
+  const Model merged = demanded(params, {.merge_parts = true});
+  EXPECT_EQ(merged.meshes.size(), 2U);  // neighbours that touch are in different layers
+  for (const Node& node : merged.nodes) EXPECT_TRUE(node.instances.transforms.empty());
+  EXPECT_EQ(triangles_of(merged, 0), 120U);
+  EXPECT_THAT(faults(merged), IsEmpty());
+}
+
 TEST(Levels, OfBlueprintsGetCoarserAndKeepTheirExtent) {
   for (const BuildingBlueprint blueprint :
        {BuildingBlueprint::house, BuildingBlueprint::skyscraper}) {
