@@ -325,7 +325,11 @@ Result<Appraisal> appraise(const BuildingParams& params, const Job& job) {
   appraisal.warnings = work.grammar.warnings;
   // A request that brings models of its own, or has more shapes than are made in an instant, is not estimated.
   if (!params.assets.empty()) return appraisal;
-  Job own = job.for_child(job.seed());
+  // A job of its own: what is looked at here is not spent. It ends by its limits.
+  job.check();
+  Job::Options options;
+  options.limits = job.limits();
+  Job own(job.seed(), options);
   if (auto refused = add_assets(work, params, own)) return std::move(*refused);
   const Shapes shapes = shapes_of(work, params, own, {.lod = {}, .most_shapes = most_appraised});
   append(appraisal.warnings, shapes.warnings);

@@ -11,7 +11,7 @@ namespace seedmesh::building {
 namespace {
 
 constexpr std::size_t most_bodies = 32, most_masses = 2'000, most_cuts = 6;
-constexpr double least_share = 1e-3, good_share = 0.92, least_gain = 0.04;
+constexpr double least_share = 1e-3, carried_share = 0.05, good_share = 0.92, least_gain = 0.04;
 
 /// A convex body, and the solid in it, in metres of the world.
 struct Mass {
@@ -29,15 +29,24 @@ Mass mass_of(Solid solid) {
   return mass;
 }
 
-/// What was taken apart into faces, and what is drawn whole.
+double box_volume(const glm::dvec3& size) { return size.x * size.y * size.z; }
+
+/// What was taken apart into faces, and what is drawn whole. What faces carry, windows or a roof, counts where
+/// it is large beside the rest.
 std::vector<TakenApart> masses_of(const Shapes& shapes) {
   std::vector<TakenApart> out = shapes.masses;
-  for (const Shape& shape : shapes.shapes) {
-    if (!shape.is_active || shape.is_carried || dimension(shape.size) < 3) continue;
-    const bool is_box = shape.geometry == box_geometry || (shape.geometry & asset_bit) != 0;
-    if (!is_box && !shapes.solid_of(shape.geometry).is_closed) continue;
-    if (out.size() == most_masses) break;
-    out.push_back({shape.origin, shape.size, shape.axes, shape.geometry});
+  double largest = 0;
+  for (const TakenApart& each : out) largest = std::max(largest, box_volume(each.size));
+  for (const bool is_carried : {false, true}) {
+    const double least = is_carried ? carried_share * largest : 0;
+    for (const Shape& shape : shapes.shapes) {
+      if (!shape.is_active || shape.is_carried != is_carried || dimension(shape.size) < 3) continue;
+      if (box_volume(shape.size) < least || out.size() == most_masses) continue;
+      const bool is_box = shape.geometry == box_geometry || (shape.geometry & asset_bit) != 0;
+      if (!is_box && !shapes.solid_of(shape.geometry).is_closed) continue;
+      out.push_back({shape.origin, shape.size, shape.axes, shape.geometry});
+      if (!is_carried) largest = std::max(largest, box_volume(shape.size));
+    }
   }
   return out;
 }

@@ -125,6 +125,16 @@ TEST(Collision, IsConvexBodiesAroundMasses) {
   EXPECT_EQ(volume_of_collision(demanded(house, {})), 0);
 }
 
+TEST(Collision, TakesARoofThatAFaceCarriesButNoWindow) {
+  const BuildingParams params = with(
+      "Lot --> extrude(6) comp(f){ top: roofGable(45) Roof. | side: split(x){ ~2: [ s('1, '1, 0.3) i(\"window\") ] "
+      "Wall. }* }",
+      {10, 0, 8});
+  std::vector<std::string> names;
+  EXPECT_NEAR(volume_of_collision(demanded(params, {.collision = CollisionNames::plain}), &names), 640, 1e-3);
+  EXPECT_EQ(names.size(), 2U);
+}
+
 TEST(Collision, CutsWhatIsFarFromConvex) {
   BuildingParams params = with("Lot --> extrude(3) comp(f){ all: Wall. }");
   params.footprint = {{{0, 0}, {10, 0}, {10, 2}, {2, 2}, {2, 10}, {0, 10}}};
@@ -179,6 +189,9 @@ TEST(Appraisals, EstimateWhatWillBeMade) {
     compare(params);
   }
   Job job(1, Job::Options{});
+  EXPECT_TRUE(appraise(with("A --> split(x){ 0.5: B. }*"), job)->estimate);
+  EXPECT_EQ(job.spent(Resource::shapes), 0U);  // nothing of it is spent
+  EXPECT_EQ(job.spent(Resource::triangles), 0U);
   EXPECT_FALSE(appraise(with("A --> split(x){ 0.01: split(y){ 0.01: B. }* }*"), job)->estimate);
 }
 
