@@ -169,6 +169,17 @@ std::string refusal(const std::string& text, std::uint64_t shapes) {
   }
 }
 
+TEST(ShapeGrammar, RefusesFamiliesThatUnfoldIntoTooMuch) {
+  std::string shapes = R"("a":{"lines":[[[0,0],[1,0]]]})";
+  for (char name = 'b'; name < 'p'; ++name) {
+    const std::string use = R"({"shape":")" + std::string(1, static_cast<char>(name - 1)) + R"("})";
+    shapes += std::string(",\"") + name + R"(":{"shapes":[)" + use + "," + use + "," + use + "," + use + "]}";
+  }
+  EXPECT_THAT(faults_of(R"({"shape_grammar":{"shapes":{)" + shapes +
+                        R"(},"rules":[{"pair":[{"lines":[[[0,0],[1,0]]]},{}]}],"initial":[{"shapes":[{"shape":"o"}]}]}})"),
+              testing::Contains(HasSubstr("more than 2000 elements")));
+}
+
 TEST(ShapeGrammar, StopsWhereItsRulesHaveNoEnd) {
   const std::string turns = R"({"pair":[{"markers":[{"name":"m","points":[[0,0],[1,0]]}]},
                                        {"markers":[{"name":"m","points":[[0,0],[0,1]]}]}]})";

@@ -44,7 +44,7 @@ enum class PictureRestriction { any, non_erasing, unimarker };
 /// Works out coordinates and members of families. Faults have pointers below /shape_grammar: unknown names,
 /// numbers that are none, left shapes whose place cannot be told, and what the restriction forbids: with
 /// non_erasing a line or solid of a left shape that the right one has not; with unimarker besides any number
-/// of markers but one on the left (and in the initial shape), and more than one on the right. At most 20,000
+/// of markers but one on the left (and in the initial shape), and more than one on the right. At most 2,000
 /// elements in all.
 PictureGrammar read_pictures(const BuildingShapeGrammar& given, PictureRestriction restriction,
                              std::vector<Issue>& issues);
