@@ -1,6 +1,6 @@
-/// The notations of buildings and all that runs behind them: the input is the rules, or where it begins with a
-/// brace the parameters as JSON (for shape grammars). Under small limits every input ends soon, in a refusal or
-/// in a model of finite numbers.
+/// The notations of buildings and all that runs behind them: the input is the rules, or where it begins with
+/// a brace the parameters as JSON (for shape grammars). Under small limits every input ends soon, in a
+/// refusal or in a model of finite numbers.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>

@@ -61,8 +61,7 @@ class Assembly {
   std::vector<int> level(Sharing sharing, std::size_t least) {
     gather();
     std::vector<Body> merged, single;
-    for (const Body& body : bodies_)
-      (is_own(shapes_.shapes[body.shape]) ? single : merged).push_back(body);
+    for (const Body& body : bodies_) (is_own(shapes_.shapes[body.shape]) ? single : merged).push_back(body);
     if (sharing != Sharing::merged) {
       begin();
       share(single);

@@ -222,8 +222,7 @@ void add_levels(Model& model, Work& work, const BuildingParams& params, const Sh
   for (const double lod : lods) {
     const Shapes shapes = shapes_of(work, params, job, {.lod = lod});
     looks.show(shapes);
-    levels.push_back(
-        add_level(model, shapes, looks, work.assets, Sharing::merged, levels[0].size(), job));
+    levels.push_back(add_level(model, shapes, looks, work.assets, Sharing::merged, levels[0].size(), job));
   }
   looks.show(finest);
   // A level of fewer bodies than the finest has layers is shown by halves of meshes.
@@ -323,7 +322,8 @@ Result<Appraisal> appraise(const BuildingParams& params, const Job& job) {
   std::vector<Issue> issues = check_all(params, job.limits(), work.grammar, work.pictures);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   appraisal.warnings = work.grammar.warnings;
-  // A request that brings models of its own, or has more shapes than are made in an instant, is not estimated.
+  // A request that brings models of its own, or has more shapes than are made in an instant, is not
+  // estimated.
   if (!params.assets.empty()) return appraisal;
   // A job of its own: what is looked at here is not spent. It ends by its limits.
   job.check();

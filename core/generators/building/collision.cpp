@@ -31,8 +31,8 @@ Mass mass_of(Solid solid) {
 
 double box_volume(const glm::dvec3& size) { return size.x * size.y * size.z; }
 
-/// What was taken apart into faces, and what is drawn whole. What faces carry, windows or a roof, counts where
-/// it is large beside the rest.
+/// What was taken apart into faces, and what is drawn whole. What faces carry, windows or a roof, counts
+/// where it is large beside the rest.
 std::vector<TakenApart> masses_of(const Shapes& shapes) {
   std::vector<TakenApart> out = shapes.masses;
   double largest = 0;
@@ -55,8 +55,7 @@ std::vector<TakenApart> masses_of(const Shapes& shapes) {
 bool holds(const Mass& mass, const Mass& other) {
   const double near = 0.01 * math::cbrt(mass.hull_volume);
   return std::ranges::all_of(mass.hull.faces, [&](const Face& face) {
-    const glm::dvec3 normal =
-        math::unit(area_vector(mass.hull, face, glm::dvec3(1)), glm::dvec3(0, 1, 0));
+    const glm::dvec3 normal = math::unit(area_vector(mass.hull, face, glm::dvec3(1)), glm::dvec3(0, 1, 0));
     const glm::dvec3 base = mass.hull.points[mass.hull.corners[mass.hull.loops[face.first_loop].first]];
     return std::ranges::all_of(other.hull.points,
                                [&](const glm::dvec3& p) { return glm::dot(normal, p - base) <= near; });
@@ -158,7 +157,8 @@ void add_collision(Model& model, const Shapes& shapes, Job& job) {
     Mass* worst = nullptr;
     for (Mass& mass : masses) {
       if (mass.is_done || mass.volume >= good_share * mass.hull_volume) continue;
-      if (worst == nullptr || mass.hull_volume - mass.volume > worst->hull_volume - worst->volume) worst = &mass;
+      if (worst == nullptr || mass.hull_volume - mass.volume > worst->hull_volume - worst->volume)
+        worst = &mass;
     }
     if (worst == nullptr) break;
     Mass other;
@@ -170,7 +170,8 @@ void add_collision(Model& model, const Shapes& shapes, Job& job) {
   std::ranges::stable_sort(masses, is_larger);
   if (masses.empty()) return;
   const double least = least_share * masses.front().hull_volume;
-  std::erase_if(masses, [&](const Mass& mass) { return mass.hull.faces.empty() || mass.hull_volume < least; });
+  std::erase_if(masses,
+                [&](const Mass& mass) { return mass.hull.faces.empty() || mass.hull_volume < least; });
   const auto material = static_cast<int>(model.materials.size());
   model.materials.emplace_back().name = "collision";
   for (std::size_t i = 0; i < masses.size(); ++i) {
@@ -180,8 +181,7 @@ void add_collision(Model& model, const Shapes& shapes, Job& job) {
     node.collision = CollisionShape::convex;
     node.mesh = static_cast<int>(model.meshes.size());
     MeshGroup group{"collision", {}};
-    group.primitives.push_back(
-        {mesh_of(masses[i].hull, job), material, {}});
+    group.primitives.push_back({mesh_of(masses[i].hull, job), material, {}});
     model.nodes.push_back(std::move(node));
     model.meshes.push_back(std::move(group));
   }

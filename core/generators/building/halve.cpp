@@ -31,9 +31,8 @@ Mesh part_of(const Mesh& mesh, std::size_t first, std::size_t last, const Job& j
 }  // namespace
 
 std::optional<MeshGroup> halve(MeshGroup& group, const Job& job) {
-  const auto largest = std::ranges::max_element(group.primitives, {}, [](const Primitive& each) {
-    return each.mesh.elements();
-  });
+  const auto largest = std::ranges::max_element(group.primitives, {},
+                                                [](const Primitive& each) { return each.mesh.elements(); });
   if (largest == group.primitives.end() || largest->mesh.elements() < 4) return std::nullopt;
   const std::size_t count = largest->mesh.elements(), half = count / 4 * 2;
   MeshGroup out{group.name, {}};

@@ -35,9 +35,7 @@ std::vector<std::uint32_t> outline_of(const std::vector<glm::dvec3>& points, std
                                       const glm::dvec3& normal, double near) {
   const glm::dvec3 x = math::unit(points[all[1]] - points[all[0]], glm::dvec3(1, 0, 0));
   const glm::dvec3 y = glm::cross(normal, x);
-  const auto at = [&](std::uint32_t i) {
-    return glm::dvec2(glm::dot(points[i], x), glm::dot(points[i], y));
-  };
+  const auto at = [&](std::uint32_t i) { return glm::dvec2(glm::dot(points[i], x), glm::dot(points[i], y)); };
   std::ranges::sort(all, [&](std::uint32_t a, std::uint32_t b) {
     const glm::dvec2 p = at(a), q = at(b);
     return p.x != q.x ? p.x < q.x : p.y < q.y;

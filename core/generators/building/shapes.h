@@ -30,8 +30,8 @@ struct Shape {
   std::uint32_t split_index = 0, split_total = 0, comp_index = 0, comp_total = 0;
   std::uint16_t depth = 0;
   std::uint8_t parameter_count = 0;
-  bool is_active = true;  ///< part of the result
-  bool is_leaf = false;   ///< no rule is looked for
+  bool is_active = true;           ///< part of the result
+  bool is_leaf = false;            ///< no rule is looked for
   std::uint8_t roof_up = no_roof;  ///< of a roof: the axis of its scope that is up
   bool is_carried = false;         ///< made of a face of a closed body, or stands on one
 };

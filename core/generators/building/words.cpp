@@ -69,7 +69,8 @@ constexpr WordRow words[] = {
      "An attribute of your own with this name tells levels of detail apart: output.lods runs the rules again "
      "with 1, 2 and so on more.",
      "@Range(0, 2) attr lod = 0  A --> case lod > 0: B. else: split(x){ ~1: C. }*"},
-    {"query", "Shape.occ", "none, part or full, as other closed shapes cover it: \"noparent\", \"active\", a name.",
+    {"query", "Shape.occ",
+     "none, part or full, as other closed shapes cover it: \"noparent\", \"active\", a name.",
      "A --> case Shape.occ(\"noparent\") == \"none\": B. else: C."},
     {"query", "Scope.occ", "As Shape.occ.", "A --> case Scope.occ(\"all\") == \"none\": B. else: C."},
     {"query", "Shape.visible", "Is the shortest straight line to the nearest shape of a name free?",

@@ -26,7 +26,8 @@ Model demanded(const BuildingParams& params, const Demand& demand) {
 }
 
 const std::vector<Primitive>& shown(const Model& model, const Node& node, std::size_t level) {
-  const int mesh = level == 0 || node.lods.empty() ? node.mesh : node.lods[std::min(level, node.lods.size()) - 1];
+  const int mesh =
+      level == 0 || node.lods.empty() ? node.mesh : node.lods[std::min(level, node.lods.size()) - 1];
   return model.meshes[static_cast<std::size_t>(mesh)].primitives;
 }
 
@@ -40,9 +41,10 @@ std::size_t triangles_of(const Model& model, std::size_t level) {
 }
 
 TEST(Levels, AreMadeByTheGrammarsOwnAttribute) {
-  const BuildingParams params =
-      with("@Range(0, 2) attr lod = 0\nA --> case lod == 2: B. case lod == 1: split(x){ 5: B. }* else: split(x){ 1: "
-           "B. }*");
+  const BuildingParams params = with(
+      "@Range(0, 2) attr lod = 0\nA --> case lod == 2: B. case lod == 1: split(x){ 5: B. }* else: split(x){ "
+      "1: "
+      "B. }*");
   const Model model = demanded(params, {.lods = 5});
   EXPECT_EQ(triangles_of(model, 0), 120U);
   EXPECT_EQ(triangles_of(model, 1), 24U);
@@ -53,7 +55,8 @@ TEST(Levels, AreMadeByTheGrammarsOwnAttribute) {
   coarse.attributes["lod"] = 1.0;
   EXPECT_EQ(demanded(coarse, {.lods = 5}).nodes[1].lods.size(), 1U);
   // Without the attribute there is one level, made of nodes as ever.
-  for (const Node& node : demanded(with("A --> split(x){ 5: B. }*"), {.lods = 3}).nodes) EXPECT_TRUE(node.lods.empty());
+  for (const Node& node : demanded(with("A --> split(x){ 5: B. }*"), {.lods = 3}).nodes)
+    EXPECT_TRUE(node.lods.empty());
 }
 
 TEST(Sharing, MergesFewBodiesWhereThatIsWanted) {
@@ -67,8 +70,7 @@ TEST(Sharing, MergesFewBodiesWhereThatIsWanted) {
 }
 
 TEST(Levels, OfBlueprintsGetCoarserAndKeepTheirExtent) {
-  for (const BuildingBlueprint blueprint :
-       {BuildingBlueprint::house, BuildingBlueprint::skyscraper}) {
+  for (const BuildingBlueprint blueprint : {BuildingBlueprint::house, BuildingBlueprint::skyscraper}) {
     BuildingParams params;
     params.blueprint = blueprint;
     const Model model = demanded(params, {.lods = 3});
@@ -117,17 +119,20 @@ double volume_of_collision(const Model& model, std::vector<std::string>* names =
 TEST(Collision, IsConvexBodiesAroundMasses) {
   std::vector<std::string> names;
   const BuildingParams house = with(
-      "Lot --> [ extrude(6) comp(f){ side: split(x){ ~2: [ t(0, 1, 0) s('1, 1, 0.3) i(\"window\") ] Wall. }* } ] t(0, 6, "
+      "Lot --> [ extrude(6) comp(f){ side: split(x){ ~2: [ t(0, 1, 0) s('1, 1, 0.3) i(\"window\") ] Wall. }* "
+      "} ] t(0, 6, "
       "0) roofGable(45) Roof.",
       {10, 0, 8});
-  EXPECT_NEAR(volume_of_collision(demanded(house, {.collision = CollisionNames::plain}), &names), 480 + 160, 1e-3);
+  EXPECT_NEAR(volume_of_collision(demanded(house, {.collision = CollisionNames::plain}), &names), 480 + 160,
+              1e-3);
   EXPECT_EQ(names, (std::vector<std::string>{"collision_01", "collision_02"}));
   EXPECT_EQ(volume_of_collision(demanded(house, {})), 0);
 }
 
 TEST(Collision, TakesARoofThatAFaceCarriesButNoWindow) {
   const BuildingParams params = with(
-      "Lot --> extrude(6) comp(f){ top: roofGable(45) Roof. | side: split(x){ ~2: [ s('1, '1, 0.3) i(\"window\") ] "
+      "Lot --> extrude(6) comp(f){ top: roofGable(45) Roof. | side: split(x){ ~2: [ s('1, '1, 0.3) "
+      "i(\"window\") ] "
       "Wall. }* }",
       {10, 0, 8});
   std::vector<std::string> names;
@@ -139,7 +144,8 @@ TEST(Collision, CutsWhatIsFarFromConvex) {
   BuildingParams params = with("Lot --> extrude(3) comp(f){ all: Wall. }");
   params.footprint = {{{0, 0}, {10, 0}, {10, 2}, {2, 2}, {2, 10}, {0, 10}}};
   std::vector<std::string> names;
-  EXPECT_NEAR(volume_of_collision(demanded(params, {.collision = CollisionNames::unreal}), &names), 108, 1e-3);
+  EXPECT_NEAR(volume_of_collision(demanded(params, {.collision = CollisionNames::unreal}), &names), 108,
+              1e-3);
   EXPECT_EQ(names, (std::vector<std::string>{"UCX_building_01", "UCX_building_02"}));
   params.footprint.push_back({{0.5, 0.5}, {0.5, 1.5}, {1.5, 1.5}, {1.5, 0.5}});
   EXPECT_NEAR(volume_of_collision(demanded(params, {.collision = CollisionNames::godot})), 105, 3.1);
@@ -155,8 +161,7 @@ TEST(Hull, HoldsAllPointsOfRandomClouds) {
     const Solid hull = hull_of(points);
     ASSERT_TRUE(hull.is_closed);
     for (const Face& face : hull.faces) {
-      const glm::dvec3 normal =
-          math::unit(area_vector(hull, face, glm::dvec3(1)), glm::dvec3(0, 1, 0));
+      const glm::dvec3 normal = math::unit(area_vector(hull, face, glm::dvec3(1)), glm::dvec3(0, 1, 0));
       const glm::dvec3 base = hull.points[hull.corners[hull.loops[face.first_loop].first]];
       for (const glm::dvec3& p : points) EXPECT_LT(glm::dot(normal, p - base), 1e-5);
     }
