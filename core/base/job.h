@@ -75,8 +75,8 @@ struct Demand {
   bool growth = false;        ///< the animation "growth"
   bool wind = false;          ///< wind weights in TEXCOORD_2 and TEXCOORD_3
   CollisionNames collision = CollisionNames::none;
-  int textures = 512;    ///< texels of a side, for forms that hold models themselves; 0: none
-  bool tangents = true;  ///< for these forms
+  int textures = 512;        ///< texels of a side, for forms that hold models themselves; 0: none
+  bool tangents = true;      ///< for these forms
   bool merge_parts = false;  ///< what is repeated as one mesh a material, with no copies
 };
 
