@@ -81,7 +81,7 @@ struct Demand {
   int textures = 512;                ///< texels of a side; 0: none
   bool tangents = true;              ///< for forms that hold models themselves
   bool impostor = false;             ///< a picture as the coarsest level of each plant of a scene
-  CopyForm copies = CopyForm::any;   ///< of a scene
+  CopyForm copies = CopyForm::any;   ///< of what is repeated in a scene or a building
   std::uint64_t most_triangles = 0;  ///< of whoever keeps a budget by itself; 0: as many as there are
   std::uint32_t most_bones = 240;    ///< of the animation "growth"
 };

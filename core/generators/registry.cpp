@@ -130,7 +130,7 @@ constexpr Generator rows[] = {
         terrain::vocabulary>::named<terrain::encode, terrain::check_form>("terrain", terrain_forms,
                                                                           {.joins_triangles = true}),
     Row<BuildingParams, read_building, write_building, building::check, building::generate, building::derive,
-        building::appraise, building::vocabulary>::named("building", {.parts = true}),
+        building::appraise, building::vocabulary>::named("building", {.has_collision = true, .parts = true}),
     Row<SceneParams, read_scene, write_scene, scene::check, scene::generate, scene::derive, scene::appraise,
         scene::vocabulary>::named<scene::encode>("scene", scene_forms,
                                                  {.grows = true, .has_impostor = true, .keeps_budget = true}),

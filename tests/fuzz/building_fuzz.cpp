@@ -1,8 +1,10 @@
-/// The notations of buildings and all that runs behind them: the input is the rules. Under small limits every
-/// input ends soon, in a refusal or in a model of finite numbers.
+/// The notations of buildings and all that runs behind them: the input is the rules, or where it begins with
+/// a brace the parameters as JSON (for shape grammars). Under small limits every input ends soon, in a
+/// refusal or in a model of finite numbers.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/generators/building/building.h"
@@ -34,18 +36,34 @@ bool finite(const Model& model) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
   BuildingParams params;
-  params.rules = std::string(reinterpret_cast<const char*>(data), size);
-  params.size = {10, size % 2 == 0 ? 0.0 : 6.0, 8};
-  if (size % 3 == 0) params.footprint = {{{0, 0}, {8, 0}, {8, 3}, {3, 3}, {3, 8}, {0, 8}}};
-  if (size % 5 == 0) params.iterations = 5;
-  params.derivation.mode = size % 7 == 0 ? BuildingMode::sequential : BuildingMode::parallel;
+  if (text.starts_with('{')) {
+    const Result<Json> json = parse_json(text);
+    if (!json) return 0;
+    Faults faults;
+    params = read_building(*json, "", faults);
+    // Requests inside and images are the business of other targets.
+    if (!faults.empty() || !params.assets.empty() || !params.materials.empty()) return 0;
+    if (!params.iterations || *params.iterations > 8) params.iterations = 8;
+  } else {
+    params.rules = text;
+    params.size = {10, size % 2 == 0 ? 0.0 : 6.0, 8};
+    if (size % 3 == 0) params.footprint = {{{0, 0}, {8, 0}, {8, 3}, {3, 3}, {3, 8}, {0, 8}}};
+    if (size % 5 == 0) params.iterations = 5;
+    params.derivation.mode = size % 7 == 0 ? BuildingMode::sequential : BuildingMode::parallel;
+  }
   Job job(size, small());
+  Demand demand;
+  demand.lods = size % 4 == 0 ? 3 : 1;
+  demand.collision = size % 3 == 0 ? CollisionNames::plain : CollisionNames::none;
+  job.set_demand(demand);
   const bool sound = building::check(params, job.limits()).empty();
   try {
     const Result<Model> model = building::generate(params, job);
     if (model && (!sound || !finite(*model))) std::abort();
     if (!model && sound) std::abort();
+    if (sound && size % 2 == 0 && !building::appraise(params, job)) std::abort();
   } catch (const Stop&) {
     // A limit, or a fault that only the run shows; whoever runs a request tells the caller.
   }

@@ -139,8 +139,7 @@ void Deriver::inner_rectangle(const Step& step, const State& given, const Frame&
         return clipped(solid, axis, share, sign);
       };
       const Solid right = best.low.x > 1e-9 * state.size[u] ? cut(whole, u, best.low.x, -1) : whole;
-      const Solid middle =
-          best.high.x < (1 - 1e-9) * state.size[u] ? cut(right, u, best.high.x, 1) : right;
+      const Solid middle = best.high.x < (1 - 1e-9) * state.size[u] ? cut(right, u, best.high.x, 1) : right;
       add(cut(whole, u, best.low.x, 1));
       add(cut(middle, v, best.low.y, 1));
       add(cut(middle, v, best.high.y, -1));

@@ -36,23 +36,54 @@ class Assembly {
 
   void run(Sharing sharing) {
     gather();
-    Node root;
-    root.name = "building";
-    model_.nodes.push_back(std::move(root));
-    root_ = static_cast<int>(model_.nodes.size()) - 1;
+    begin();
     const bool few = sharing == Sharing::few && draws() <= most_nodes;
     std::vector<Body> merged, single;
     for (const Body& body : bodies_) {
       const Shape& shape = shapes_.shapes[body.shape];
       const bool is_textured = body.material >= 0 && looks_.tile_of(body.material) != nullptr;
-      const bool is_own = is_asset(shape) && !is_part(shape);  // the request's own models keep their form
-      (is_own || ((sharing == Sharing::nodes || few) && !is_textured) ? single : merged).push_back(body);
+      (is_own(shape) || ((sharing == Sharing::nodes || few) && !is_textured) ? single : merged)
+          .push_back(body);
     }
     share(single);
-    if (!merged.empty()) merge(merged);
+    if (merged.empty()) return;
+    for (MeshGroup& group : merge(merged, 0)) {
+      Node node;
+      node.name = "layer";
+      node.parent = root_;
+      node.mesh = static_cast<int>(model_.meshes.size());
+      model_.meshes.push_back(std::move(group));
+      model_.nodes.push_back(std::move(node));
+    }
+  }
+
+  /// A mesh a layer.
+  std::vector<int> level(Sharing sharing, std::size_t least) {
+    gather();
+    std::vector<Body> merged, single;
+    for (const Body& body : bodies_) (is_own(shapes_.shapes[body.shape]) ? single : merged).push_back(body);
+    if (sharing != Sharing::merged) {
+      begin();
+      share(single);
+    }
+    std::vector<int> layers;
+    for (MeshGroup& group : merge(merged, least)) {
+      layers.push_back(static_cast<int>(model_.meshes.size()));
+      model_.meshes.push_back(std::move(group));
+    }
+    return layers;
   }
 
  private:
+  void begin() {
+    Node root;
+    root.name = "building";
+    model_.nodes.push_back(std::move(root));
+    root_ = static_cast<int>(model_.nodes.size()) - 1;
+  }
+
+  /// The request's own models keep their form.
+  bool is_own(const Shape& shape) const { return is_asset(shape) && !is_part(shape); }
   bool is_asset(const Shape& shape) const { return (shape.geometry & asset_bit) != 0; }
   bool is_part(const Shape& shape) const {
     return is_asset(shape) && assets_[shape.geometry & ~asset_bit].row != nullptr;
@@ -266,19 +297,18 @@ class Assembly {
 
   // Merged meshes
 
-  void merge(std::vector<Body>& bodies) {
+  /// A group a layer; none where nothing is drawn.
+  std::vector<MeshGroup> merge(std::vector<Body>& bodies, std::size_t least) {
+    std::vector<MeshGroup> groups;
     for (const Body& body : bodies) {
       if (is_part(shapes_.shapes[body.shape]))
         asset_of(shapes_.shapes[body.shape]);  // its materials come to be
     }
     std::vector<std::uint32_t> drawn;
     for (const Body& body : bodies) drawn.push_back(body.shape);
-    const std::vector<std::uint8_t> layer_of = layers_of(shapes_, drawn, low_, diagonal_, job_);
-    std::uint32_t layers = 0;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      bodies[i].layer = layer_of[i];
-      layers = std::max<std::uint32_t>(layers, layer_of[i] + 1U);
-    }
+    std::vector<std::uint8_t> layer_of = layers_of(shapes_, drawn, low_, diagonal_, job_);
+    const std::uint32_t layers = spread(layer_of, least);
+    for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].layer = layer_of[i];
     const std::size_t materials = model_.materials.size();
     std::vector<Bucket> buckets(layers * materials);
     std::size_t triangles = 0;
@@ -330,14 +360,9 @@ class Assembly {
         bucket.mesh.cache_ordered = !bucket.has_solids;
         group.primitives.push_back({std::move(bucket.mesh), static_cast<int>(m), {}});
       }
-      if (group.primitives.empty()) continue;
-      Node node;
-      node.name = "layer";
-      node.parent = root_;
-      node.mesh = static_cast<int>(model_.meshes.size());
-      model_.meshes.push_back(std::move(group));
-      model_.nodes.push_back(std::move(node));
+      if (!group.primitives.empty()) groups.push_back(std::move(group));
     }
+    return groups;
   }
 
   Model& model_;
@@ -359,6 +384,11 @@ class Assembly {
 void add_bodies(Model& model, const Shapes& shapes, Looks& looks, std::span<Asset> assets, Sharing sharing,
                 Job& job) {
   Assembly(model, shapes, looks, assets, job).run(sharing);
+}
+
+std::vector<int> add_level(Model& model, const Shapes& shapes, Looks& looks, std::span<Asset> assets,
+                           Sharing sharing, std::size_t least, Job& job) {
+  return Assembly(model, shapes, looks, assets, job).level(sharing, least);
 }
 
 }  // namespace seedmesh::building

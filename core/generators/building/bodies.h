@@ -30,4 +30,10 @@ constexpr std::size_t most_nodes = 400;
 void add_bodies(Model& model, const Shapes& shapes, Looks& looks, std::span<Asset> assets, Sharing sharing,
                 Job& job);
 
+/// All active shapes merged, for a level of detail: a mesh a layer, by their places in the model. Where
+/// `sharing` is not merged there is a node "building" too, with models of the request's own below it.
+/// `least`: so many layers, where there are as many bodies.
+std::vector<int> add_level(Model& model, const Shapes& shapes, Looks& looks, std::span<Asset> assets,
+                           Sharing sharing, std::size_t least, Job& job);
+
 }  // namespace seedmesh::building

@@ -1,13 +1,17 @@
 #include "core/generators/building/building.h"
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/generators/building/bodies.h"
 #include "core/generators/building/check.h"
+#include "core/generators/building/collision.h"
 #include "core/generators/building/derive.h"
+#include "core/generators/building/estimate.h"
 #include "core/generators/building/ground.h"
-#include "core/generators/building/operations.h"
+#include "core/generators/building/halve.h"
 #include "core/generators/building/picture_shapes.h"
 #include "core/generators/child.h"
 #include "core/geom/flatten.h"
@@ -18,6 +22,7 @@ namespace seedmesh::building {
 namespace {
 
 constexpr std::size_t most_listed = 100'000;  ///< shapes in the answer of derive
+constexpr std::string_view lod_attribute = "lod";
 
 /// Everything between the parameters and the shapes.
 struct Work {
@@ -83,7 +88,13 @@ std::optional<Error> add_assets(Work& work, const BuildingParams& params, Job& j
   return std::nullopt;
 }
 
-Shapes shapes_of(Work& work, const BuildingParams& params, Job& job) {
+/// What one derivation is asked for besides the request: the attribute `lod`, and an end to it.
+struct Wish {
+  std::optional<double> lod;
+  std::uint64_t most_shapes = ~std::uint64_t{0};
+};
+
+Shapes shapes_of(Work& work, const BuildingParams& params, Job& job, const Wish& wish = {}) {
   if (params.shape_grammar) {
     const bool is_parallel = params.derivation.mode == BuildingMode::parallel;
     const DerivedPicture derived = derive_picture(work.pictures, params.iterations, is_parallel, job);
@@ -103,6 +114,9 @@ Shapes shapes_of(Work& work, const BuildingParams& params, Job& job) {
   }
   for (const auto& [name, given] : params.attributes)
     plan.attributes.emplace(name, number_of(work.grammar.texts, given));
+  if (wish.lod) plan.attributes[std::string(lod_attribute)] = *wish.lod;
+  plan.most_shapes = wish.most_shapes;
+  plan.keeps_masses = job.demand().collision != CollisionNames::none;
   if (params.iterations) plan.iterations = *params.iterations;
   plan.is_sequential = params.derivation.mode == BuildingMode::sequential;
   plan.is_depth_first = params.derivation.order == BuildingOrder::depth;
@@ -171,6 +185,80 @@ std::vector<std::string> symbol_names(const Grammar& grammar) {
   return names;
 }
 
+/// Values of the grammar's own attribute `lod` for the levels behind the finest; none where there is no such
+/// attribute or one level alone is wanted. They end with its range.
+std::vector<double> lods_of(const Grammar& grammar, const BuildingParams& params, int levels) {
+  const auto found = std::ranges::find(grammar.attributes, lod_attribute, &Attribute::name);
+  if (levels < 2 || found == grammar.attributes.end() || found->is_constant ||
+      !found->value.expression.is_constant)
+    return {};
+  const auto given = params.attributes.find(std::string(lod_attribute));
+  double value = found->value.expression.value;
+  if (given != params.attributes.end()) {
+    const double* const number = std::get_if<double>(&given->second);
+    if (number == nullptr) return {};
+    value = *number;
+  }
+  std::vector<double> lods;
+  while (static_cast<int>(lods.size()) + 1 < levels) {
+    value += 1;
+    if (found->has_range && value > found->high) break;
+    if (!found->choices.empty() && std::ranges::find(found->choices, value) == found->choices.end()) break;
+    lods.push_back(value);
+  }
+  return lods;
+}
+
+Sharing sharing_of(const Demand& demand) {
+  if (demand.copies == CopyForm::merge) return Sharing::merged;
+  return demand.share_organs ? Sharing::nodes : Sharing::few;
+}
+
+/// Nodes whose meshes are the levels: the derivation runs again for each, with its value of `lod`.
+void add_levels(Model& model, Work& work, const BuildingParams& params, const Shapes& finest,
+                std::span<const double> lods, Looks& looks, Job& job) {
+  std::vector<std::vector<int>> levels;
+  levels.push_back(add_level(model, finest, looks, work.assets, Sharing::few, 0, job));
+  for (const double lod : lods) {
+    const Shapes shapes = shapes_of(work, params, job, {.lod = lod});
+    looks.show(shapes);
+    levels.push_back(add_level(model, shapes, looks, work.assets, Sharing::merged, levels[0].size(), job));
+  }
+  looks.show(finest);
+  // A level of fewer bodies than the finest has layers is shown by halves of meshes.
+  for (std::vector<int>& level : levels) {
+    for (std::size_t i = 0; i < level.size() && level.size() < levels[0].size();) {
+      std::optional<MeshGroup> half = halve(model.meshes[static_cast<std::size_t>(level[i])], job);
+      if (!half) {
+        ++i;
+        continue;
+      }
+      level.push_back(static_cast<int>(model.meshes.size()));
+      model.meshes.push_back(*std::move(half));
+    }
+  }
+  std::size_t layers = levels[0].size();
+  for (const std::vector<int>& level : levels) layers = std::min(layers, level.size());
+  if (layers == 0) return;
+  for (const std::vector<int>& level : levels) {
+    // And where it is too small for that, the others have no more meshes than it.
+    auto& last = model.meshes[static_cast<std::size_t>(level[layers - 1])].primitives;
+    for (std::size_t i = layers; i < level.size(); ++i) {
+      std::vector<Primitive> more =
+          std::exchange(model.meshes[static_cast<std::size_t>(level[i])].primitives, {});
+      std::ranges::move(more, std::back_inserter(last));
+    }
+  }
+  for (std::size_t i = 0; i < layers; ++i) {
+    Node node;
+    node.name = "layer";
+    node.parent = 0;
+    node.mesh = levels[0][i];
+    for (std::size_t level = 1; level < levels.size(); ++level) node.lods.push_back(levels[level][i]);
+    model.nodes.push_back(std::move(node));
+  }
+}
+
 void append(std::vector<Warning>& to, const std::vector<Warning>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
@@ -197,8 +285,12 @@ Result<Model> generate(const BuildingParams& params, Job& job) {
   append(model.warnings, shapes.warnings);
   Looks looks(model, params, shapes, job);
   looks.set_symbols(symbol_names(work.grammar));
-  add_bodies(model, shapes, looks, work.assets, job.demand().share_organs ? Sharing::nodes : Sharing::few,
-             job);
+  const std::vector<double> lods = lods_of(work.grammar, params, job.demand().lods);
+  if (lods.empty())
+    add_bodies(model, shapes, looks, work.assets, sharing_of(job.demand()), job);
+  else
+    add_levels(model, work, params, shapes, lods, looks, job);
+  add_collision(model, shapes, job);
   if (!shapes.reports.empty()) model.extras.push_back({"reports", described(shapes.reports).dump()});
   return model;
 }
@@ -226,35 +318,23 @@ Result<Json> derive(const BuildingParams& params, Job& job) {
 
 Result<Appraisal> appraise(const BuildingParams& params, const Job& job) {
   Appraisal appraisal;
-  Grammar grammar;
-  PictureGrammar pictures;
-  std::vector<Issue> issues = check_all(params, job.limits(), grammar, pictures);
+  Work work;
+  std::vector<Issue> issues = check_all(params, job.limits(), work.grammar, work.pictures);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
-  appraisal.warnings = grammar.warnings;
+  appraisal.warnings = work.grammar.warnings;
+  // A request that brings models of its own, or has more shapes than are made in an instant, is not
+  // estimated.
+  if (!params.assets.empty()) return appraisal;
+  // A job of its own: what is looked at here is not spent. It ends by its limits.
+  job.check();
+  Job::Options options;
+  options.limits = job.limits();
+  Job own(job.seed(), options);
+  if (auto refused = add_assets(work, params, own)) return std::move(*refused);
+  const Shapes shapes = shapes_of(work, params, own, {.lod = {}, .most_shapes = most_appraised});
+  append(appraisal.warnings, shapes.warnings);
+  if (shapes.shapes.size() <= most_appraised) appraisal.estimate = estimate_of(shapes, own);
   return appraisal;
-}
-
-Json vocabulary() {
-  Json rows = Json::array();
-  for (const OperationRow& row : operations()) {
-    std::size_t least = 0, most = 0;
-    bool is_optional = false;
-    for (const char c : row.arguments) {
-      is_optional |= c == '|';
-      if (c == '|') continue;
-      ++most;
-      if (!is_optional) ++least;
-    }
-    rows.push_back({{"name", row.name},
-                    {"parameters", row.parameters},
-                    {"arity", least},
-                    {"most", most},
-                    {"text", row.text},
-                    {"example", row.example}});
-  }
-  Json materials = Json::array();
-  for (const std::string_view name : built_in_materials()) materials.push_back(name);
-  return {{"building_operations", std::move(rows)}, {"building_materials", std::move(materials)}};
 }
 
 }  // namespace seedmesh::building

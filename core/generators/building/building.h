@@ -30,7 +30,7 @@ Result<Model> generate(const BuildingParams& params, Job& job);
 Result<Json> derive(const BuildingParams& params, Job& job);
 Result<Appraisal> appraise(const BuildingParams& params, const Job& job);
 
-/// Operations with arity, text and example; names of the built-in materials.
+/// Operations with kind, arity, text and example; other words of the rules; parts; names of materials.
 Json vocabulary();
 
 }  // namespace seedmesh::building

@@ -89,8 +89,9 @@ void check_alone(const BuildingParams& params, std::vector<Issue>& issues) {
   const BuildingParams plain;
   const auto refuse = [&](bool is_given, const char* name) {
     if (is_given)
-      issues.push_back({std::string("/") + name, "has no meaning for a shape grammar, which begins with its "
-                                                 "initial shape"});
+      issues.push_back({std::string("/") + name,
+                        "has no meaning for a shape grammar, which begins with its "
+                        "initial shape"});
   };
   refuse(params.rules.has_value(), "rules");
   refuse(params.blueprint.has_value(), "blueprint");

@@ -26,6 +26,8 @@ const std::array<Side, 6> sides = {{
     {{0, 0, 0}, {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}, 0, 2},
 }};
 
+constexpr std::size_t most_masses = 2'000;
+
 // Sines of 11.25 and 78.75 degrees, the borders of the classes by slope.
 constexpr double sine_low = 0.19509032201612825, sine_high = 0.98078528040323043;
 
@@ -230,6 +232,11 @@ void Deriver::comp(const Step& step, const State& state, const Frame& frame, std
   }
   std::vector<std::uint8_t> is_taken(all.size(), 0);
   Frame own = frame;
+  const bool is_body = dimension(state.size) == 3 &&
+                       (state.geometry == box_geometry || out_.solid_of(state.geometry).is_closed);
+  if (is_body && plan_.keeps_masses && !frame.is_carried && out_.masses.size() < most_masses)
+    out_.masses.push_back({state.origin, state.size, state.axes, state.geometry});
+  own.is_carried |= is_body;
   std::uint32_t place = 0;
   for (std::uint32_t p = 0; p < step.part_count; ++p) {
     const Part& part = grammar_.parts[step.first_part + p];

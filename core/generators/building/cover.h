@@ -17,7 +17,8 @@ double share_inside(const Scope& box, const Solid& solid, const Scope& other);
 
 /// Does the line from `from` to `to` meet the solid (null: the whole box `other`), its first and last part of
 /// `skin` metres left out?
-bool is_met(const glm::dvec3& from, const glm::dvec3& to, const Solid* solid, const Scope& other, double skin);
+bool is_met(const glm::dvec3& from, const glm::dvec3& to, const Solid* solid, const Scope& other,
+            double skin);
 
 /// The point of the box that is nearest.
 glm::dvec3 nearest_point(const Scope& box, const glm::dvec3& to);

@@ -92,14 +92,14 @@ bool Deriver::expand(std::uint32_t index) {
   const Shape shape = out_.shapes[index];
   out_.shapes[index].is_active = false;
   const State state = state_of(shape);
-  run_choice(*choice, state, {index, shape.key, state});
+  run_choice(*choice, state, {index, shape.key, state, shape.is_carried});
   return true;
 }
 
 void Deriver::finish_all() {
   is_finishing_ = true;
   std::vector<std::uint32_t> open{0};
-  while (!open.empty()) {
+  while (!open.empty() && out_.shapes.size() <= plan_.most_shapes) {
     const std::uint32_t index = open.back();
     open.pop_back();
     if (!has_rule(out_.shapes[index])) continue;
@@ -113,7 +113,7 @@ void Deriver::finish_all() {
 
 void Deriver::parallel(int rounds) {
   std::vector<std::uint32_t> open{0}, next;
-  for (int round = 0; round < rounds && !open.empty(); ++round) {
+  for (int round = 0; round < rounds && !open.empty() && out_.shapes.size() <= plan_.most_shapes; ++round) {
     next.clear();
     for (const std::uint32_t index : open) {
       const auto first = static_cast<std::uint32_t>(out_.shapes.size());
@@ -139,7 +139,7 @@ void Deriver::sequential(int steps) {
   std::map<std::int64_t, std::uint32_t> shapes_by_order;
   shapes_by_order.emplace(0, 0U);
   enter(0, 0);
-  for (int step = 0; step < steps && !open.empty();) {
+  for (int step = 0; step < steps && !open.empty() && out_.shapes.size() <= plan_.most_shapes;) {
     const auto [priority, order] = *open.begin();
     open.erase(open.begin());
     const std::uint32_t index = shapes_by_order[order];

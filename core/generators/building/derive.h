@@ -38,7 +38,9 @@ struct Task {
   bool is_sequential = false, is_depth_first = false;
   std::optional<Rounding> rounding;
   std::span<const AssetBox> assets;
-  std::size_t own_assets = 0;  ///< the first of them are the request's own
+  std::size_t own_assets = 0;                     ///< the first of them are the request's own
+  bool keeps_masses = false;                      ///< for collision bodies
+  std::uint64_t most_shapes = ~std::uint64_t{0};  ///< the derivation ends where there are more
 };
 
 constexpr std::uint16_t deepest_shape = 1'000;

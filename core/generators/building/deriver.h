@@ -30,6 +30,7 @@ class Deriver {
     std::uint32_t shape = 0;  ///< whose rule this is
     std::uint64_t key = 0;
     State before;  ///< when the rule or the bracket began: for center()
+    bool is_carried = false;
   };
 
   // Order (derive.cpp)

@@ -32,8 +32,8 @@ int up_axis(const std::string& word) {
   return word == "xUp" ? 0 : word == "yUp" ? 1 : word == "zUp" ? 2 : -1;
 }
 
-/// Axes with `up` on the named axis and `along` on the next one that lies level in the face: x, or y where x is
-/// up.
+/// Axes with `up` on the named axis and `along` on the next one that lies level in the face: x, or y where x
+/// is up.
 glm::dmat3 axes_with(int axis, const glm::dvec3& up, const glm::dvec3& along) {
   glm::dmat3 out(1);
   out[axis] = up;
@@ -77,11 +77,11 @@ void Deriver::reframe(State& state, const glm::dmat3& axes) {
   state.size = size;
   // A box that fills its new scope stays a box.
   const bool fills = was_box && std::ranges::all_of(solid.points, [](const glm::dvec3& p) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (p[axis] > 1e-9 && p[axis] < 1 - 1e-9) return false;
-    }
-    return true;
-  });
+                       for (int axis = 0; axis < 3; ++axis) {
+                         if (p[axis] > 1e-9 && p[axis] < 1 - 1e-9) return false;
+                       }
+                       return true;
+                     });
   state.geometry = fills ? box_geometry : add_solid(std::move(solid));
 }
 
@@ -103,15 +103,15 @@ void Deriver::align_to_geometry(const Step& step, State& state) {
     return i < step.argument_count ? grammar_.words[a[i].word] : std::string("any");
   };
   const int up = up_axis(word(0));
-  if (up < 0)
-    reject(step.offset, "found " + lang::in_quotes(word(0)) + ", expected xUp, yUp or zUp");
+  if (up < 0) reject(step.offset, "found " + lang::in_quotes(word(0)) + ", expected xUp, yUp or zUp");
   if ((state.geometry & asset_bit) != 0 || dimension(state.size) < 2) return;
   const auto number_of = [&](const std::string& text, std::size_t count) -> std::size_t {
     if (text == "any") return 0;
     std::size_t value = 0;
     for (const char c : text) {
       if (c < '0' || c > '9' || value > 1'000'000)
-        reject(step.offset, "found " + lang::in_quotes(text) + ", expected a number, any, largest or longest");
+        reject(step.offset,
+               "found " + lang::in_quotes(text) + ", expected a number, any, largest or longest");
       value = value * 10 + static_cast<std::size_t>(c - '0');
     }
     return std::min(value, count - 1);
@@ -133,8 +133,7 @@ void Deriver::align_to_geometry(const Step& step, State& state) {
   }
   const Face& face = solid.faces[chosen];
   const glm::dmat3 axes = out_.axes[state.axes];
-  const glm::dvec3 normal =
-      axes * math::unit(area_vector(solid, face, state.size), glm::dvec3(0, 1, 0));
+  const glm::dvec3 normal = axes * math::unit(area_vector(solid, face, state.size), glm::dvec3(0, 1, 0));
   const Loop& outer = solid.loops[face.first_loop];
   std::vector<glm::dvec3> corners;
   for (std::uint32_t i = 0; i < outer.count; ++i)
@@ -173,11 +172,11 @@ void Deriver::align_to_geometry(const Step& step, State& state) {
 /// setupProjection(0, scope.xy, ~2, 1.5, 0, 0): what u and v will be. It waits until projectUV.
 void Deriver::setup_projection(const Step& step, State& state) {
   const Argument* a = &grammar_.arguments[step.first_argument];
-  if (number(a[0].value) != 0)
-    reject(a[0].value.offset, "there is one set of texture coordinates, number 0");
+  if (number(a[0].value) != 0) reject(a[0].value.offset, "there is one set of texture coordinates, number 0");
   const std::string& word = grammar_.words[a[1].word];
   const std::size_t dot = word.find('.');
-  const std::string frame = word.substr(0, dot), letters = dot == std::string::npos ? "" : word.substr(dot + 1);
+  const std::string frame = word.substr(0, dot),
+                    letters = dot == std::string::npos ? "" : word.substr(dot + 1);
   const bool is_sound = (frame == "scope" || frame == "world") && letters.size() == 2 &&
                         letters[0] != letters[1] && letters[0] >= 'x' && letters[0] <= 'z' &&
                         letters[1] >= 'x' && letters[1] <= 'z';
@@ -224,8 +223,9 @@ Deriver::State Deriver::along_texture(const Step& step, const State& state, int&
   const Style& style = out_.styles[state.style];
   const std::uint32_t place = style.projection != 0 ? style.projection : style.projection_set_up;
   const glm::dmat3 axes = out_.axes[state.axes];
-  const glm::dvec3 gradient = place != 0 ? (is_u ? out_.projections[place - 1].u : out_.projections[place - 1].v)
-                                         : axes[is_u ? 0 : 1];
+  const glm::dvec3 gradient = place != 0
+                                  ? (is_u ? out_.projections[place - 1].u : out_.projections[place - 1].v)
+                                  : axes[is_u ? 0 : 1];
   glm::dvec3 along = gradient;
   const int flat = dimension(state.size) == 2 ? flat_axis(state.size) : -1;
   if (flat >= 0) along -= axes[flat] * glm::dot(axes[flat], along);

@@ -340,6 +340,7 @@ std::uint32_t Deriver::add(const State& state, const Frame& frame, std::uint64_t
   shape.comp_index = state.comp_index;
   shape.comp_total = state.comp_total;
   shape.roof_up = state.roof_up;
+  shape.is_carried = frame.is_carried;
   meter_.spend();
   out_.shapes.push_back(shape);
   return static_cast<std::uint32_t>(out_.shapes.size()) - 1;

@@ -95,4 +95,20 @@ std::vector<std::uint8_t> layers_of(const Shapes& shapes, std::span<const std::u
   return layers;
 }
 
+std::uint32_t spread(std::vector<std::uint8_t>& layers, std::size_t least) {
+  std::vector<std::size_t> count;
+  for (const std::uint8_t layer : layers) {
+    count.resize(std::max<std::size_t>(count.size(), layer + 1U), 0);
+    ++count[layer];
+  }
+  for (std::uint8_t& layer : layers) {
+    if (count.size() >= std::min<std::size_t>(least, most_layers)) break;
+    if (count[layer] < 2) continue;
+    --count[layer];
+    layer = static_cast<std::uint8_t>(count.size());
+    count.push_back(1);
+  }
+  return static_cast<std::uint32_t>(count.size());
+}
+
 }  // namespace seedmesh::building

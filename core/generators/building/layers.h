@@ -12,4 +12,8 @@ namespace seedmesh::building {
 std::vector<std::uint8_t> layers_of(const Shapes& shapes, std::span<const std::uint32_t> drawn,
                                     const glm::dvec3& low, double diagonal, Job& job);
 
+/// Gives layers of their own to shapes that have company, until there are `least` layers or all are alone.
+/// How many there are then.
+std::uint32_t spread(std::vector<std::uint8_t>& layers, std::size_t least);
+
 }  // namespace seedmesh::building

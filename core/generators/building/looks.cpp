@@ -75,7 +75,7 @@ void check_looks(const BuildingParams& params, std::vector<Issue>& issues) {
 }
 
 Looks::Looks(Model& model, const BuildingParams& params, const Shapes& shapes, const Job& job)
-    : model_(model), params_(params), shapes_(shapes) {
+    : model_(model), params_(params), shapes_(&shapes) {
   for (const auto& [name, given] : params.materials) {
     if (!given.images) continue;
     const std::string at = "/materials/" + name + "/images/";
@@ -96,10 +96,10 @@ int Looks::load(const std::string& uri, const std::string& name, const std::stri
 int Looks::material_of(const Shape& shape) {
   const auto [found, is_new] = made_.try_emplace({shape.style, shape.symbol}, -1);
   if (!is_new) return found->second;
-  const Style& style = shapes_.styles[shape.style];
-  const std::string* const color = shapes_.texts.of(style.color);
+  const Style& style = shapes_->styles[shape.style];
+  const std::string* const color = shapes_->texts.of(style.color);
   std::string name;
-  if (const std::string* given = shapes_.texts.of(style.material)) {
+  if (const std::string* given = shapes_->texts.of(style.material)) {
     name = *given;
   } else if (color != nullptr) {
     name = "color_" + lower(color->substr(1));

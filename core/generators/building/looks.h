@@ -19,6 +19,11 @@ namespace seedmesh::building {
 class Looks {
  public:
   Looks(Model& model, const BuildingParams& params, const Shapes& shapes, const Job& job);
+  /// Other shapes of the same request from here on, as those of another level of detail.
+  void show(const Shapes& shapes) {
+    shapes_ = &shapes;
+    made_.clear();
+  }
   int material_of(const Shape& shape);
   /// Of a role of a built-in part.
   int material_of_role(std::string_view role);
@@ -31,7 +36,7 @@ class Looks {
 
   Model& model_;
   const BuildingParams& params_;
-  const Shapes& shapes_;
+  const Shapes* shapes_;
   struct Pictures {
     int color = -1, normal = -1, surface = -1;
   };

@@ -254,7 +254,8 @@ std::uint32_t Deriver::options_of(const Step& step) {
     const double value = number(a[i].value);
     if (!(value >= 0 && value <= most))
       reject(a[i].value.offset, std::string(what) + " lies between 0 (by the size) and " +
-                                    std::to_string(math::to_int32(most)) + ", found " + std::to_string(value));
+                                    std::to_string(math::to_int32(most)) + ", found " +
+                                    std::to_string(value));
     return value;
   };
   options.count = math::to_int32(given(1, 1'000, "the count of a part"));

@@ -28,7 +28,8 @@ constexpr OperationRow rows[] = {
      "Turns the scope, but not its geometry, to the world's axes; or so that the axis named is upright.",
      "A --> r(0, 30, 0) s('1, 0, '1) alignScopeToAxes() B."},
     {"alignScopeToGeometry", Op::align_to_geometry, "w|ii", Braces::absent, "up, face, edge",
-     "Turns the scope to a face (a number or largest): the axis named as xUp, yUp or zUp looks out of it, and "
+     "Turns the scope to a face (a number or largest): the axis named as xUp, yUp or zUp looks out of it, "
+     "and "
      "another lies along an edge of it (a number or longest).",
      "A --> s('1, 0, '1) alignScopeToGeometry(zUp, 0, longest) B."},
     {"alignScopeToGeometryBBox", Op::align_to_box, "w", Braces::absent, "up",
@@ -40,7 +41,8 @@ constexpr OperationRow rows[] = {
      "(uvSpace) or metres (unitSpace).",
      "A --> split(x){ ~1: B. | { 0.5: C. | ~2: D. }* | ~1: B. }"},
     {"splitArea", Op::split_area, "w|w", Braces::cells, "axis, noAdjust",
-     "Cuts a face like split, where the sizes are areas.", "A --> s('1, 0, '1) splitArea(x){ 20: B. | ~1: C. }"},
+     "Cuts a face like split, where the sizes are areas.",
+     "A --> s('1, 0, '1) splitArea(x){ 20: B. | ~1: C. }"},
     {"Subdiv", Op::split, "w", Braces::names, "axis, sizes",
      "The split of 2006: sizes in the call, 3r for a share of what is left.",
      "A ~> Subdiv(\"X\", 2, 1r, 2){ B. | C. | B. }"},
@@ -77,7 +79,8 @@ constexpr OperationRow rows[] = {
     {"shapeO", Op::shape_o, "nnnn", Braces::selectors, "front, right, back, left", "A ring around a court.",
      "A --> s('1, 0, '1) shapeO(1, 1, 1, 1){ shape: B. | remainder: C. }"},
     {"innerRectangle", Op::inner_rectangle, "|w", Braces::selectors, "scope | edge",
-     "The largest rectangle inside a face, along the axes of its scope or along one of its long edges; and the "
+     "The largest rectangle inside a face, along the axes of its scope or along one of its long edges; and "
+     "the "
      "remainder, piece by piece.",
      "A --> s('1, 0, '1) innerRectangle(scope){ shape: B. | remainder: C. }"},
     {"roofHip", Op::roof_hip, "h|n", Braces::absent, "angle, overhang",
@@ -104,7 +107,8 @@ constexpr OperationRow rows[] = {
      "A ~> [ I(\"cube\") ] T(0, 3, 0) I(\"pyramid\")"},
     {"i", Op::insert, "t|nnn", Braces::absent, "name, count, frame, angle",
      "Makes a body, a part or an asset of the shape, fitted to its scope: where a size is 0 it follows from "
-     "the others. Of a part, 0 is by its size: how many panes, steps, sides or teeth, how wide the frame, how "
+     "the others. Of a part, 0 is by its size: how many panes, steps, sides or teeth, how wide the frame, "
+     "how "
      "steep the roof.",
      "A --> i(\"cylinder\")"},
     {"primitive", Op::insert, "t", Braces::absent, "name", "As i.", "A --> primitive(\"prism\")"},
@@ -114,7 +118,8 @@ constexpr OperationRow rows[] = {
      "The material by name: one of the request's, a built-in one, or a new one with the colour in force.",
      "A --> material(\"brick\") B."},
     {"setupProjection", Op::setup_projection, "nwnn|nn", Braces::absent, "set, axes, width, height, u, v",
-     "Says how images will lie: axes as scope.xy or world.xz, the size of a tile (~2 for whole tiles, '0.5 of "
+     "Says how images will lie: axes as scope.xy or world.xz, the size of a tile (~2 for whole tiles, '0.5 "
+     "of "
      "the scope), and how far they are moved. The set is 0.",
      "A --> comp(f){ front: setupProjection(0, scope.xy, ~2, 1) projectUV(0) B. }"},
     {"projectUV", Op::project_uv, "n", Braces::absent, "set",
@@ -134,6 +139,50 @@ constexpr OperationRow rows[] = {
 }  // namespace
 
 std::span<const OperationRow> operations() { return rows; }
+
+std::string_view kind_of(Op op) {
+  switch (op) {
+    case Op::split:
+    case Op::split_area:
+    case Op::repeat:
+    case Op::comp:
+    case Op::snap:
+      return "cut";
+    case Op::extrude:
+    case Op::taper:
+    case Op::offset:
+    case Op::setback:
+    case Op::shape_l:
+    case Op::shape_u:
+    case Op::shape_o:
+    case Op::inner_rectangle:
+      return "mass";
+    case Op::roof_hip:
+    case Op::roof_gable:
+    case Op::roof_pyramid:
+    case Op::roof_shed:
+    case Op::roof_mansard:
+    case Op::roof_gambrel:
+    case Op::roof:
+      return "roof";
+    case Op::insert:
+    case Op::place:
+      return "part";
+    case Op::color:
+    case Op::material:
+      return "look";
+    case Op::setup_projection:
+    case Op::project_uv:
+      return "texture";
+    case Op::set:
+      return "attribute";
+    case Op::report:
+    case Op::label:
+      return "report";
+    default:
+      return "scope";
+  }
+}
 
 const OperationRow* find_operation(std::string_view name) {
   const auto* const found = std::find_if(std::begin(rows), std::end(rows),

@@ -24,6 +24,9 @@ struct OperationRow {
 
 std::span<const OperationRow> operations();
 
+/// scope, cut, mass, roof, part, look, texture, attribute or report: a group for the reader.
+std::string_view kind_of(Op op);
+
 /// Null: there is no operation of this name.
 const OperationRow* find_operation(std::string_view name);
 

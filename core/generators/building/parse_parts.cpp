@@ -39,9 +39,9 @@ void Parser::settle_axis(const OperationRow& row, Step& step, const std::vector<
     const char letter = word.empty() ? ' ' : static_cast<char>(word[0] | 0x20);
     const bool listens = row.op != Op::split_area && word.size() == 2 && word[1] == 'S';
     if (letter < 'x' || letter > 'z' || (word.size() != 1 && !listens)) {
-      fault(tokens_.at(at_ - 1), "found the axis " + lang::in_quotes(word) +
-                                       (row.op == Op::split ? ", expected x, y, z, u or v"
-                                                            : ", expected x, y or z"));
+      fault(tokens_.at(at_ - 1),
+            "found the axis " + lang::in_quotes(word) +
+                (row.op == Op::split ? ", expected x, y, z, u or v" : ", expected x, y or z"));
       return;
     }
     step.axis = static_cast<std::uint8_t>(letter - 'x');

@@ -21,6 +21,7 @@ class PictureWriter {
     root.symbol = symbol_picture;
     root.key = key_;
     root.is_active = false;
+    root.size = glm::dvec3(0);
     out_.shapes.push_back(root);
     line_style_ = style_of(given.material);
     for (const std::string& name : pictures.materials) styles_.push_back(style_of(name));

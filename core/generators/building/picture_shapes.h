@@ -9,7 +9,8 @@ namespace seedmesh::building {
 Grammar grammar_of_names(const PictureGrammar& pictures);
 
 /// Below one inactive shape "picture": a bar for each line, each solid, and a ball for each marker where
-/// marker_size says so. Bars are as much longer than their lines as they are wide, so that corners are filled.
+/// marker_size says so. Bars are as much longer than their lines as they are wide, so that corners are
+/// filled.
 Shapes shapes_of_picture(const PictureGrammar& pictures, const DerivedPicture& derived,
                          const BuildingShapeGrammar& given, Job& job);
 

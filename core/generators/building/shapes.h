@@ -30,9 +30,10 @@ struct Shape {
   std::uint32_t split_index = 0, split_total = 0, comp_index = 0, comp_total = 0;
   std::uint16_t depth = 0;
   std::uint8_t parameter_count = 0;
-  bool is_active = true;  ///< part of the result
-  bool is_leaf = false;   ///< no rule is looked for
+  bool is_active = true;           ///< part of the result
+  bool is_leaf = false;            ///< no rule is looked for
   std::uint8_t roof_up = no_roof;  ///< of a roof: the axis of its scope that is up
+  bool is_carried = false;         ///< made of a face of a closed body, or stands on one
 };
 
 /// What shapes inherit besides their place. Equal ones are one.
@@ -46,6 +47,12 @@ struct Style {
   std::uint32_t options = 0;            ///< of a part: into Shapes::part_options
 
   friend auto operator<=>(const Style&, const Style&) = default;
+};
+
+/// A closed body that was taken apart into faces.
+struct TakenApart {
+  glm::dvec3 origin{0}, size{0};
+  std::uint32_t axes = 0, geometry = box_geometry;
 };
 
 /// Texture coordinates of a point in the world: dot(u, p) + u_at and dot(v, p) + v_at, in tiles.
@@ -68,6 +75,7 @@ struct Shapes {
   std::vector<Style> styles{Style{}};
   std::vector<std::vector<double>> attribute_sets;
   std::vector<Projection> projections;
+  std::vector<TakenApart> masses;  ///< those that nothing carries; where Task::keeps_masses asks for them
   std::vector<PartOptions> part_options{PartOptions{}};
   std::map<std::string, Report> reports;
   std::vector<std::string> asset_names;  ///< of geometry with asset_bit

@@ -5,6 +5,7 @@
 #include "core/generators/building/cover.h"
 #include "core/generators/building/inner_rectangle.h"
 #include "tests/core/building/rules.h"
+#include "tests/core/geom/plans.h"
 #include "tests/support/mesh_faults.h"
 
 namespace seedmesh::building {
@@ -68,6 +69,28 @@ TEST(InnerRectangle, IsAsLargeAsAnythingTriedInRandomBlocksWithHoles) {
   }
 }
 
+/// Nothing is lost and nothing is there twice, however plans with courtyards are cut.
+TEST(Splits, OfTenThousandRandomPlansAddUp) {
+  Rng rng(77);
+  const std::array<const char*, 3> cells = {
+      "split(x){ ~1: split(z){ ~0.7: B | 0.9: B }* | 1.3: B | '0.2: B }",
+      "split(z){ { 1.1: B | ~2: split(y){ ~1: B }* }* | 0.4: B }",
+      "split(y){ '0.3: split(x){ 2: B }* | ~1: split(z, noAdjust){ ~3: B | ~1: B } }"};
+  for (std::uint64_t seed = 0; seed < 10'000; ++seed) {
+    Rng here = rng.at(seed);
+    const Plan plan = seed % 2
+                          ? random_star(here, 3 + static_cast<std::uint32_t>(seed / 2 % 12), seed % 4 == 1)
+                          : random_blocks(here, 2 + static_cast<int>(seed / 2 % 4));
+    BuildingParams params = with(std::string("Lot --> extrude(3) ") + cells[seed % 3] +
+                                 " B --> report(\"v\", geometry.volume) C.");
+    for (const PlanRing& ring : plan.rings) {
+      auto& points = params.footprint.emplace_back();
+      for (const glm::dvec2& p : ring) points.push_back({p.x, -p.y});
+    }
+    EXPECT_NEAR(sum_of(derived(params), "v"), 3 * area(plan), 3e-7 * area(plan)) << seed;
+  }
+}
+
 TEST(AlignScope, TurnsTheScopeAndLeavesTheShape) {
   const Json to_axes = derived(with("A --> r(0, 90, 0) alignScopeToAxes() B.", {2, 3, 4}));
   EXPECT_EQ(to_axes["shapes"][1]["scope"]["axes"][0], Json::array({1, 0, 0}));
@@ -100,7 +123,8 @@ TEST(TextureSplits, FollowTheProjection) {
               ElementsAre(1.5, 8.5));
   // Across the scope: u runs along the diagonal of a wall that was turned away from the world's axes.
   const std::string slanted =
-      "A --> s('1, '1, 0) r(0, 0, 45, scopeCenter) setupProjection(0, world.xy, 1, 1) split(u){ { 1: report(\"area\", "
+      "A --> s('1, '1, 0) r(0, 0, 45, scopeCenter) setupProjection(0, world.xy, 1, 1) split(u){ { 1: "
+      "report(\"area\", "
       "geometry.area) B. }* }";
   const Json answer = derived(with(slanted, {4, 4, 4}));
   EXPECT_NEAR(sum_of(answer, "area"), 16, 1e-9);
@@ -113,10 +137,12 @@ TEST(TextureSplits, FollowTheProjection) {
 
 TEST(Projections, RunOverTheCellsOfAFacade) {
   const std::string picture =
-      "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJR"
+      "data:image/"
+      "png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJR"
       "U5ErkJggg==";
   BuildingParams params = with(
-      "A --> s('1, '1, 0) material(\"poster\") setupProjection(0, scope.xy, '1, '1) split(x){ { 2.5: projectUV(0) B. "
+      "A --> s('1, '1, 0) material(\"poster\") setupProjection(0, scope.xy, '1, '1) split(x){ { 2.5: "
+      "projectUV(0) B. "
       "}* }",
       {10, 4, 1});
   params.materials["poster"].images.emplace().color = picture;
@@ -139,13 +165,16 @@ TEST(Projections, RunOverTheCellsOfAFacade) {
 }
 
 TEST(Parts, AreTurnedByTheirOptions) {
-  const auto triangles = [](const std::string& rules) { return count(model_of(with(rules, {2, 2, 2}))).triangles; };
+  const auto triangles = [](const std::string& rules) {
+    return count(model_of(with(rules, {2, 2, 2}))).triangles;
+  };
   EXPECT_LT(triangles("A --> i(\"stairs\", 3)"), triangles("A --> i(\"stairs\", 12)"));
   EXPECT_LT(triangles("A --> i(\"window\", 1)"), triangles("A --> i(\"window\", 4)"));
   // Two sizes of steps in one model are two parts, and equal ones are one.
-  const Model both = model_of(with(
-      "A --> split(x){ 0.5: i(\"stairs\", 3) | 0.5: i(\"stairs\", 12) | 0.5: i(\"stairs\", 3) | 0.5: i(\"stairs\") }",
-      {2, 2, 2}));
+  const Model both =
+      model_of(with("A --> split(x){ 0.5: i(\"stairs\", 3) | 0.5: i(\"stairs\", 12) | 0.5: i(\"stairs\", 3) "
+                    "| 0.5: i(\"stairs\") }",
+                    {2, 2, 2}));
   EXPECT_EQ(both.meshes.size(), 3U);
   EXPECT_THAT(faults(both), IsEmpty());
   EXPECT_THAT(refusal(with("A --> i(\"stairs\", 2000)")), HasSubstr("between 0 (by the size) and 1000"));
@@ -158,16 +187,19 @@ TEST(Components, OfARoofAreToldByTheWorldsUpright) {
   // On a lot, whose scope is upright, and on the top of a mass, whose scope lies.
   EXPECT_EQ(leaves("Lot --> roofGable(60) Roof" + faces, {12, 0, 8}), expected);
   EXPECT_EQ(leaves("Lot --> extrude(3) comp(f){ top: roofGable(60) Roof }" + faces, {12, 0, 8}), expected);
-  EXPECT_EQ(leaves("Lot --> extrude(3) comp(f){ top: Roof(\"gable\", 60){ Roof } }" + faces, {12, 0, 8}), expected);
+  EXPECT_EQ(leaves("Lot --> extrude(3) comp(f){ top: Roof(\"gable\", 60){ Roof } }" + faces, {12, 0, 8}),
+            expected);
 }
 
 TEST(Queries, SeeTheRealSolidNotItsBox) {
-  // A gable of 45 degrees fills half of its box: a panel under the ridge is in it, one beside the ridge is not.
+  // A gable of 45 degrees fills half of its box: a panel under the ridge is in it, one beside the ridge is
+  // not.
   const std::string body = "[ t(0, 0, 0) s(10, 5, 10) i(\"triangular_prism\") Mass. ] ";
   const auto answer = [&](const std::string& panel) {
-    return leaves("A ~> " + body + panel +
-                  " P  P : Shape.occ(\"noparent\") == \"none\" ~> free.  P : Shape.occ(\"noparent\") == \"full\" ~> "
-                  "full.  P ~> part.");
+    return leaves(
+        "A ~> " + body + panel +
+        " P  P : Shape.occ(\"noparent\") == \"none\" ~> free.  P : Shape.occ(\"noparent\") == \"full\" ~> "
+        "full.  P ~> part.");
   };
   EXPECT_EQ(answer("T(4.5, 1, 4) S(1, 1, 1)"), "Mass full");
   EXPECT_EQ(answer("T(0.2, 4, 4) S(1, 0.8, 1)"), "Mass free");
@@ -186,8 +218,22 @@ TEST(Queries, TellWhetherAStreetIsInSight) {
   EXPECT_EQ(seen("[ T(0, 0, 10) S(10, 6, 1) Wall. ]"), "Street Wall blind");
   EXPECT_EQ(seen("[ T(8, 0, 10) S(2, 6, 1) Wall. ]"), "Street Wall sees");
   // The box of the prism is in the way, the prism is not.
-  EXPECT_EQ(seen("[ T(-5, 0, 10) S(12, 12, 1) R(0, 0, 0) i(\"triangular_prism\") Wall. ]"), "Street Wall blind");
+  EXPECT_EQ(seen("[ T(-5, 0, 10) S(12, 12, 1) R(0, 0, 0) i(\"triangular_prism\") Wall. ]"),
+            "Street Wall blind");
   EXPECT_EQ(leaves("A ~> F  F : Shape.visible(\"Street\") ~> sees.  F ~> blind."), "blind");
+}
+
+TEST(Vocabulary, HasExamplesThatRun) {
+  const Json all = vocabulary();
+  for (const char* list : {"building_operations", "building_words", "building_parts"}) {
+    EXPECT_GT(all[list].size(), 15U);
+    for (const Json& row : all[list]) {
+      EXPECT_FALSE(row["kind"].get<std::string>().empty());
+      EXPECT_FALSE(row["text"].get<std::string>().empty());
+      EXPECT_FALSE(active(derived(with(row["example"].get<std::string>(), {6, 6, 6}))).empty())
+          << row["name"];
+    }
+  }
 }
 
 TEST(Covers, AreSharesOfABox) {

@@ -35,7 +35,7 @@ inline std::string active(const Json& answer) {
 }
 
 inline std::string leaves(const std::string& rules, std::array<double, 3> size = {10, 10, 10},
-                   std::uint64_t seed = 0) {
+                          std::uint64_t seed = 0) {
   return active(derived(with(rules, size), seed));
 }
 

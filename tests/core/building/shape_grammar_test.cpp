@@ -59,14 +59,14 @@ const std::string mark_square =
 TEST(ShapeGrammar, FindsTheSquareThatTwoSquaresMakeWhereTheyOverlap) {
   const std::string two = R"({"shapes":[{"shape":"square","values":{"w":2,"h":2}},
                                       {"shape":"square","values":{"w":2,"h":2},"at":[1,1]}]})";
-  const Json answer = derived(
-      flat(mark_square, two, R"(,"iterations":1,"derivation":{"mode":"parallel"})"));
+  const Json answer = derived(flat(mark_square, two, R"(,"iterations":1,"derivation":{"mode":"parallel"})"));
   EXPECT_EQ(count(answer, "found"), 3U);
   EXPECT_EQ(count(answer, "line"), 8U);
 }
 
 TEST(ShapeGrammar, FindsLeftShapesTurnedScaledAndMirrored) {
-  const std::string flag = R"({"lines":[[[0,0],[0,2]],[[0,2],[1,2]]],"markers":[{"name":"a","points":[[0,0]]}]})";
+  const std::string flag =
+      R"({"lines":[[[0,0],[0,2]],[[0,2],[1,2]]],"markers":[{"name":"a","points":[[0,0]]}]})";
   const std::string rule = R"({"pair":[)" + flag + R"(,{"lines":[[[0,0],[0,2]]]}]})";
   const auto placed = [&](const std::string& member) {
     return R"({"shape_grammar":{"shapes":{"flag":)" + flag + R"(},"rules":[)" + rule +
@@ -99,8 +99,8 @@ TEST(ShapeGrammar, EmbedsSquaresAsGipsDid) {
   const std::string initial =
       R"({"shapes":[{"shape":"square","scale":8}],"markers":[{"name":"m","points":[[8,8]]}]})";
   for (int steps = 0; steps < 10; ++steps) {
-    const Json answer = derived(flat(rule, initial,
-                                     R"(,"restrict":"unimarker","iterations":)" + std::to_string(steps)));
+    const Json answer =
+        derived(flat(rule, initial, R"(,"restrict":"unimarker","iterations":)" + std::to_string(steps)));
     EXPECT_EQ(count(answer, "line"), 4U * static_cast<std::size_t>(steps + 1));
     EXPECT_EQ(count(answer, "m"), 1U);
   }
@@ -123,22 +123,25 @@ TEST(ShapeGrammar, MakesMembersOfFamiliesWithValuesOfTheirOwn) {
 }
 
 TEST(ShapeGrammar, RefusesWhatARestrictionForbidsByPointer) {
-  const std::string erases = R"({"pair":[{"shapes":[{"shape":"square"}],"markers":[{"name":"m","points":[[0,0]]}]},
+  const std::string erases =
+      R"({"pair":[{"shapes":[{"shape":"square"}],"markers":[{"name":"m","points":[[0,0]]}]},
                                         {"lines":[[[0,0],[1,0]]]}]})";
   const std::string initial = R"({"markers":[{"name":"m","points":[[0,0]]}]})";
   EXPECT_THAT(faults_of(flat(erases, initial)), IsEmpty());
   const std::vector<std::string> found = faults_of(flat(erases, initial, R"(,"restrict":"non_erasing")"));
   ASSERT_EQ(found.size(), 3U);
-  EXPECT_EQ(found[0],
-            "/shape_grammar/rules/0/pair/1 the line from (1, 0) to (1, 1) of the left shape is not in the right "
-            "one, which a non-erasing grammar does not allow");
+  EXPECT_EQ(
+      found[0],
+      "/shape_grammar/rules/0/pair/1 the line from (1, 0) to (1, 1) of the left shape is not in the right "
+      "one, which a non-erasing grammar does not allow");
   const std::string doubles =
       R"({"pair":[{"markers":[{"name":"m","points":[[0,0],[1,0]]}]},
         {"markers":[{"name":"m","points":[[0,0],[0,1]]},{"name":"m","points":[[1,0],[1,1]]}]}]})";
   EXPECT_THAT(faults_of(flat(doubles, initial, R"(,"restrict":"non_erasing")")), IsEmpty());
-  EXPECT_THAT(faults_of(flat(doubles, initial, R"(,"restrict":"unimarker")")),
-              ElementsAre("/shape_grammar/rules/0/pair/1 found 2 markers, expected at most one on the right in a "
-                          "unimarker grammar"));
+  EXPECT_THAT(
+      faults_of(flat(doubles, initial, R"(,"restrict":"unimarker")")),
+      ElementsAre("/shape_grammar/rules/0/pair/1 found 2 markers, expected at most one on the right in a "
+                  "unimarker grammar"));
 }
 
 TEST(ShapeGrammar, TellsFaultsByPointer) {
@@ -152,8 +155,8 @@ TEST(ShapeGrammar, TellsFaultsByPointer) {
               ElementsAre(HasSubstr("found 3 coordinates, expected 2")));
   EXPECT_THAT(faults_of(flat(mark_square, "{}", R"(,"rules":"A --> B.","start":"A")")),
               ElementsAre(HasSubstr("/rules has no meaning"), HasSubstr("/start has no meaning")));
-  EXPECT_THAT(faults_of(R"({"shape_grammar":{"shapes":{"a":{"shapes":[{"shape":"a"}]}},"rules":[)" + mark_square +
-                        R"(],"initial":[{"shapes":[{"shape":"a"}]}]}})"),
+  EXPECT_THAT(faults_of(R"({"shape_grammar":{"shapes":{"a":{"shapes":[{"shape":"a"}]}},"rules":[)" +
+                        mark_square + R"(],"initial":[{"shapes":[{"shape":"a"}]}]}})"),
               testing::Contains(HasSubstr("more than 16 deep")));
 }
 
@@ -167,6 +170,19 @@ std::string refusal(const std::string& text, std::uint64_t shapes) {
   } catch (const Stop& stop) {
     return stop.issue().message;
   }
+}
+
+TEST(ShapeGrammar, RefusesFamiliesThatUnfoldIntoTooMuch) {
+  std::string shapes = R"("a":{"lines":[[[0,0],[1,0]]]})";
+  for (char name = 'b'; name < 'p'; ++name) {
+    const std::string use = R"({"shape":")" + std::string(1, static_cast<char>(name - 1)) + R"("})";
+    shapes += std::string(",\"") + name + R"(":{"shapes":[)" + use + "," + use + "," + use + "," + use + "]}";
+  }
+  EXPECT_THAT(
+      faults_of(
+          R"({"shape_grammar":{"shapes":{)" + shapes +
+          R"(},"rules":[{"pair":[{"lines":[[[0,0],[1,0]]]},{}]}],"initial":[{"shapes":[{"shape":"o"}]}]}})"),
+      testing::Contains(HasSubstr("more than 2000 elements")));
 }
 
 TEST(ShapeGrammar, StopsWhereItsRulesHaveNoEnd) {
@@ -203,7 +219,8 @@ TEST(ShapeGrammar, KeepsLinesMaximal) {
       for (std::size_t c = 0; c < cells.size(); ++c) runs += cells[c] && (c == 0 || !cells[c - 1]);
       ASSERT_EQ(lines.size(), runs) << trial << " " << i;
       for (std::size_t c = 0; c < 19; ++c) {
-        const PictureLine cell{start + along * static_cast<double>(c), start + along * static_cast<double>(c + 1)};
+        const PictureLine cell{start + along * static_cast<double>(c),
+                               start + along * static_cast<double>(c + 1)};
         ASSERT_EQ(contains(lines, cell, 1e-7), cells[c]);
       }
     }

@@ -44,9 +44,8 @@ bool tells_a_place(const std::vector<PictureAnchor>& anchors, bool is_flat) {
   const glm::dvec3 first = anchors.front().at;
   const auto second = std::ranges::find_if(
       anchors, [&](const PictureAnchor& each) { return is_apart(each.at, first, extent); });
-  return std::ranges::any_of(anchors, [&](const PictureAnchor& each) {
-    return !is_in_line(first, second->at, each.at, extent);
-  });
+  return std::ranges::any_of(
+      anchors, [&](const PictureAnchor& each) { return !is_in_line(first, second->at, each.at, extent); });
 }
 
 }  // namespace

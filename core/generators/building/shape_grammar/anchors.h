@@ -18,7 +18,8 @@ constexpr std::uint32_t anchor_crossing = 0, anchor_end = 1;
 
 /// Of markers and solids alone.
 std::vector<PictureAnchor> anchors_of_wholes(const ShapePicture& picture);
-/// Where two lines cross or meet, ends included; each place once for each pair. Cost: the square of the lines.
+/// Where two lines cross or meet, ends included; each place once for each pair. Cost: the square of the
+/// lines.
 std::vector<PictureAnchor> crossings_of(const std::vector<PictureLine>& lines, double near, const Job* job);
 std::vector<PictureAnchor> ends_of(const std::vector<PictureLine>& lines);
 
@@ -26,8 +27,8 @@ std::vector<PictureAnchor> ends_of(const std::vector<PictureLine>& lines);
 /// `is_told`: two points, or in space three that are not in a line.
 std::vector<PictureAnchor> anchors_of_left(const ShapePicture& left, bool is_flat, bool& is_told);
 
-/// Three anchors that tell a similarity (two in the plane; the third repeats the second), by the kinds that the
-/// picture has fewest of.
+/// Three anchors that tell a similarity (two in the plane; the third repeats the second), by the kinds that
+/// the picture has fewest of.
 std::array<PictureAnchor, 3> chosen_anchors(const std::vector<PictureAnchor>& anchors, bool is_flat,
                                             const std::map<std::uint32_t, std::size_t>& counts);
 

@@ -24,8 +24,7 @@ struct PictureMatch {
 
 glm::dmat3 frame_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, bool is_flat) {
   const glm::dvec3 x = math::unit(b - a, glm::dvec3(1, 0, 0));
-  const glm::dvec3 z =
-      is_flat ? glm::dvec3(0, 1, 0) : math::unit(glm::cross(x, c - a), glm::dvec3(0, 1, 0));
+  const glm::dvec3 z = is_flat ? glm::dvec3(0, 1, 0) : math::unit(glm::cross(x, c - a), glm::dvec3(0, 1, 0));
   return {x, glm::cross(z, x), z};
 }
 
@@ -218,8 +217,7 @@ class PictureRun {
       pair = i;
       break;
     }
-    const auto count =
-        static_cast<std::uint32_t>(std::ranges::count(matches_, pair, &PictureMatch::pair));
+    const auto count = static_cast<std::uint32_t>(std::ranges::count(matches_, pair, &PictureMatch::pair));
     std::uint32_t skip = chance.below(count);
     for (const PictureMatch& match : matches_) {
       if (match.pair != pair || skip-- > 0) continue;

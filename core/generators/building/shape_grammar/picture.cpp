@@ -98,9 +98,8 @@ bool are_equal(const PictureMarker& a, const PictureMarker& b, double near) {
 
 bool are_equal(const PictureSolid& a, const PictureSolid& b, double near) {
   if (a.kind != b.kind || a.material != b.material) return false;
-  // A quick look before the points are worked out: none is farther from the base than the sizes together.
-  const double reach = a.size.x + a.size.y + a.size.z + b.size.x + b.size.y + b.size.z;
-  if (glm::length(a.base - b.base) > reach + near) return false;
+  // A quick look before the points are worked out: the middles of equal solids agree.
+  if (glm::length(in_solid(a, 0.5, 0.5, 0.5) - in_solid(b, 0.5, 0.5, 0.5)) > near) return false;
   double radius = 0, other = 0;
   const std::vector<KeyPoint> mine = key_points(a, radius), theirs = key_points(b, other);
   if (mine.size() != theirs.size() || std::abs(radius - other) > near) return false;

@@ -1,4 +1,5 @@
-/// Parameters -> PictureGrammar: coordinates worked out, families put in, left shapes and restrictions judged.
+/// Parameters -> PictureGrammar: coordinates worked out, families put in, left shapes and restrictions
+/// judged.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +15,7 @@ namespace {
 using Number = std::variant<double, std::string>;
 using Numbers = std::vector<Number>;
 
-constexpr std::size_t most_elements = 20'000;
+constexpr std::size_t most_elements = 2'000;  ///< each is compared with each
 constexpr int deepest_family = 16;
 constexpr double farthest = 1e6;  ///< metres
 
@@ -138,8 +139,8 @@ class PictureReader {
     solid.base = point(body.at, values, pointer + "/at");
     solid.axes = turn(body.turn, values, pointer + "/turn");
     solid.size = size(body, values, pointer + "/size");
-    const bool is_round = solid.kind == SolidKind::cylinder || solid.kind == SolidKind::cone ||
-                          solid.kind == SolidKind::sphere;
+    const bool is_round =
+        solid.kind == SolidKind::cylinder || solid.kind == SolidKind::cone || solid.kind == SolidKind::sphere;
     if (is_flat_ && solid.kind != SolidKind::box && solid.kind != SolidKind::cylinder)
       fault(pointer + "/solid", "a picture of two dimensions has solids of the kinds box and cylinder");
     if (is_round && solid.size.x != solid.size.z)
@@ -173,8 +174,7 @@ class PictureReader {
       marker.label = place_in(grammar_.labels, given.name);
       marker.count = static_cast<std::uint32_t>(given.points.size());
       for (std::uint32_t k = 0; k < marker.count; ++k)
-        marker.points[k] =
-            place.of(point(given.points[k], values, at + "/points/" + std::to_string(k)));
+        marker.points[k] = place.of(point(given.points[k], values, at + "/points/" + std::to_string(k)));
       out.markers.push_back(marker);
     }
     for (std::size_t i = 0; i < picture.shapes.size(); ++i) {
@@ -193,8 +193,7 @@ class PictureReader {
     Values own = found->second.parameters;
     for (const auto& [name, value] : member.values) {
       const std::string at = pointer + "/values/" + name;
-      if (!own.contains(name))
-        fault(at, "the family \"" + member.shape + "\" has no parameter of this name");
+      if (!own.contains(name)) fault(at, "the family \"" + member.shape + "\" has no parameter of this name");
       own[name] = number(value, values, at);
     }
     const double scale = number(member.scale, values, pointer + "/scale");
@@ -204,8 +203,8 @@ class PictureReader {
     glm::dmat3 flip(1);
     if (member.mirror) flip[0][0] = -1;
     if (++depth_ > deepest_family) {
-      fault(pointer + "/shape", "families stand in each other more than " + std::to_string(deepest_family) +
-                                    " deep");
+      fault(pointer + "/shape",
+            "families stand in each other more than " + std::to_string(deepest_family) + " deep");
     } else {
       const Similarity inner{place.turn * rotation * flip, place.scale * scale, place.of(at)};
       read(found->second, own, "/shape_grammar/shapes/" + member.shape, inner, out);
@@ -293,10 +292,10 @@ PictureGrammar read_pictures(const BuildingShapeGrammar& given, PictureRestricti
     bool is_told = false;
     anchors_of_left(grammar.pairs[i].left, grammar.is_flat, is_told);
     if (!is_told)
-      issues.push_back({pointer + "/pair/0",
-                        std::string("the place of this shape cannot be told: expected ") +
-                            (grammar.is_flat ? "two points" : "three points that are not in a line") +
-                            " of markers, corners of solids, or crossings or ends of lines"});
+      issues.push_back(
+          {pointer + "/pair/0", std::string("the place of this shape cannot be told: expected ") +
+                                    (grammar.is_flat ? "two points" : "three points that are not in a line") +
+                                    " of markers, corners of solids, or crossings or ends of lines"});
     if (restriction != PictureRestriction::any)
       judge(grammar.pairs[i], pointer, grammar.is_flat, restriction, issues);
   }

@@ -4,11 +4,12 @@
 ///
 ///   parameters -> PictureGrammar (read_pictures) -> Picture (derive_picture)
 ///
-/// A rule u -> v fits where a similarity t makes t(u) a part of the picture: each line of t(u) in a line, each
-/// marker and solid equal to one. Then the picture becomes (picture - t(u)) + t(v). Similarities are found from
-/// distinguished points (Krishnamurti, "The construction of shapes", 1981): points of markers, corners of
-/// solids, crossings of lines; two of them in the plane, three that are not in a line in space. Where a left
-/// shape has too few of them the ends of its lines count too, and its lines are then found as wholes.
+/// A rule u -> v fits where a similarity t makes t(u) a part of the picture: each line of t(u) in a line,
+/// each marker and solid equal to one. Then the picture becomes (picture - t(u)) + t(v). Similarities are
+/// found from distinguished points (Krishnamurti, "The construction of shapes", 1981): points of markers,
+/// corners of solids, crossings of lines; two of them in the plane, three that are not in a line in space.
+/// Where a left shape has too few of them the ends of its lines count too, and its lines are then found as
+/// wholes.
 ///
 /// What is smaller than 10^-5 of the picture is not found any more, so that a shape that goes on in smaller
 /// ones ends. Randomness: which rule (by weight) and which place, drawn by the number of the step.
@@ -44,7 +45,7 @@ enum class PictureRestriction { any, non_erasing, unimarker };
 /// Works out coordinates and members of families. Faults have pointers below /shape_grammar: unknown names,
 /// numbers that are none, left shapes whose place cannot be told, and what the restriction forbids: with
 /// non_erasing a line or solid of a left shape that the right one has not; with unimarker besides any number
-/// of markers but one on the left (and in the initial shape), and more than one on the right. At most 20,000
+/// of markers but one on the left (and in the initial shape), and more than one on the right. At most 2,000
 /// elements in all.
 PictureGrammar read_pictures(const BuildingShapeGrammar& given, PictureRestriction restriction,
                              std::vector<Issue>& issues);

@@ -1,0 +1,190 @@
+#include "core/generators/building/collision.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "core/generators/building/hull.h"
+#include "core/generators/building/patch.h"
+
+namespace seedmesh::building {
+namespace {
+
+constexpr std::size_t most_bodies = 32, most_masses = 2'000, most_cuts = 6;
+constexpr double least_share = 1e-3, carried_share = 0.05, good_share = 0.92, least_gain = 0.04;
+
+/// A convex body, and the solid in it, in metres of the world.
+struct Mass {
+  Solid solid, hull;
+  double volume = 0, hull_volume = 0;
+  bool is_done = false;  ///< no cut makes its hulls smaller
+};
+
+Mass mass_of(Solid solid) {
+  Mass mass;
+  mass.volume = volume_of(solid, glm::dvec3(1));
+  mass.hull = hull_of(solid.points);
+  mass.hull_volume = volume_of(mass.hull, glm::dvec3(1));
+  mass.solid = std::move(solid);
+  return mass;
+}
+
+double box_volume(const glm::dvec3& size) { return size.x * size.y * size.z; }
+
+/// What was taken apart into faces, and what is drawn whole. What faces carry, windows or a roof, counts
+/// where it is large beside the rest.
+std::vector<TakenApart> masses_of(const Shapes& shapes) {
+  std::vector<TakenApart> out = shapes.masses;
+  double largest = 0;
+  for (const TakenApart& each : out) largest = std::max(largest, box_volume(each.size));
+  for (const bool is_carried : {false, true}) {
+    const double least = is_carried ? carried_share * largest : 0;
+    for (const Shape& shape : shapes.shapes) {
+      if (!shape.is_active || shape.is_carried != is_carried || dimension(shape.size) < 3) continue;
+      if (box_volume(shape.size) < least || out.size() == most_masses) continue;
+      const bool is_box = shape.geometry == box_geometry || (shape.geometry & asset_bit) != 0;
+      if (!is_box && !shapes.solid_of(shape.geometry).is_closed) continue;
+      out.push_back({shape.origin, shape.size, shape.axes, shape.geometry});
+      if (!is_carried) largest = std::max(largest, box_volume(shape.size));
+    }
+  }
+  return out;
+}
+
+/// Does the hull hold all points of the other, to a hundredth of its size?
+bool holds(const Mass& mass, const Mass& other) {
+  const double near = 0.01 * math::cbrt(mass.hull_volume);
+  return std::ranges::all_of(mass.hull.faces, [&](const Face& face) {
+    const glm::dvec3 normal = math::unit(area_vector(mass.hull, face, glm::dvec3(1)), glm::dvec3(0, 1, 0));
+    const glm::dvec3 base = mass.hull.points[mass.hull.corners[mass.hull.loops[face.first_loop].first]];
+    return std::ranges::all_of(other.hull.points,
+                               [&](const glm::dvec3& p) { return glm::dot(normal, p - base) <= near; });
+  });
+}
+
+/// Two parts of a mass, by the cut that leaves the smallest hulls; false where none gains enough.
+bool cut_in_two(Mass& mass, Mass& other, Job& job) {
+  double best = mass.hull_volume * (1 - least_gain);
+  Mass low_part, high_part;
+  bool is_cut = false;
+  glm::dvec3 low(1e300), high(-1e300);
+  for (const glm::dvec3& p : mass.solid.points) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> places;
+    const double extent = high[axis] - low[axis];
+    for (const glm::dvec3& p : mass.solid.points) {
+      const double at = p[axis];
+      if (at > low[axis] + 0.02 * extent && at < high[axis] - 0.02 * extent) places.push_back(at);
+    }
+    std::ranges::sort(places);
+    places.erase(
+        std::unique(places.begin(), places.end(), [&](double a, double b) { return b - a < 0.01 * extent; }),
+        places.end());
+    const std::size_t every = 1 + places.size() / most_cuts;
+    for (std::size_t i = 0; i < places.size(); i += every) {
+      job.check();
+      Mass a = mass_of(clipped(mass.solid, axis, places[i], 1));
+      Mass b = mass_of(clipped(mass.solid, axis, places[i], -1));
+      const double sum = a.hull_volume + b.hull_volume;
+      if (a.hull.faces.empty() || b.hull.faces.empty() || sum >= best) continue;
+      best = sum;
+      low_part = std::move(a);
+      high_part = std::move(b);
+      is_cut = true;
+    }
+  }
+  if (!is_cut) return false;
+  mass = std::move(low_part);
+  other = std::move(high_part);
+  return true;
+}
+
+std::string name_of(CollisionNames names, std::size_t number) {
+  const std::string digits = (number < 10 ? "0" : "") + std::to_string(number);
+  switch (names) {
+    case CollisionNames::unreal:
+      return "UCX_building_" + digits;
+    case CollisionNames::godot:
+      return "collision_" + digits + "-convcolonly";
+    default:
+      return "collision_" + digits;
+  }
+}
+
+Mesh mesh_of(const Solid& hull, Job& job) {
+  Mesh mesh;
+  mesh.position = Array<glm::vec3>(job);
+  mesh.normal = Array<glm::vec3>(job);
+  mesh.index.wide = Array<std::uint32_t>(job);
+  Patch patch;
+  PatchMaker().solid(hull, glm::dvec3(1), patch);
+  job.spend(Resource::triangles, patch.index.size() / 3);
+  for (std::size_t i = 0; i < patch.position.size(); ++i) {
+    mesh.position.push_back(glm::vec3(patch.position[i]));
+    mesh.normal.push_back(glm::vec3(patch.normal[i]) + 0.0F);
+  }
+  for (const std::uint32_t i : patch.index) mesh.index.wide.push_back(i);
+  return mesh;
+}
+
+}  // namespace
+
+void add_collision(Model& model, const Shapes& shapes, Job& job) {
+  if (job.demand().collision == CollisionNames::none) return;
+  std::vector<Mass> masses;
+  for (const TakenApart& each : masses_of(shapes)) {
+    const bool is_box = each.geometry == box_geometry || (each.geometry & asset_bit) != 0;
+    Solid solid = is_box ? unit_box() : shapes.solid_of(each.geometry);
+    for (glm::dvec3& p : solid.points) p = each.origin + shapes.axes[each.axes] * (p * each.size);
+    masses.push_back(mass_of(std::move(solid)));
+    job.check();
+  }
+  const auto is_larger = [](const Mass& a, const Mass& b) { return a.hull_volume > b.hull_volume; };
+  std::ranges::stable_sort(masses, is_larger);
+  if (masses.size() > 2 * most_bodies) masses.resize(2 * most_bodies);
+  std::vector<Mass> outer;
+  for (Mass& mass : masses) {
+    if (outer.size() < most_bodies &&
+        std::ranges::none_of(outer, [&](const Mass& each) { return holds(each, mass); }))
+      outer.push_back(std::move(mass));
+  }
+  masses = std::move(outer);
+  // The worst is cut first, while there are bodies to spare.
+  while (masses.size() < most_bodies) {
+    Mass* worst = nullptr;
+    for (Mass& mass : masses) {
+      if (mass.is_done || mass.volume >= good_share * mass.hull_volume) continue;
+      if (worst == nullptr || mass.hull_volume - mass.volume > worst->hull_volume - worst->volume)
+        worst = &mass;
+    }
+    if (worst == nullptr) break;
+    Mass other;
+    if (cut_in_two(*worst, other, job))
+      masses.push_back(std::move(other));
+    else
+      worst->is_done = true;
+  }
+  std::ranges::stable_sort(masses, is_larger);
+  if (masses.empty()) return;
+  const double least = least_share * masses.front().hull_volume;
+  std::erase_if(masses,
+                [&](const Mass& mass) { return mass.hull.faces.empty() || mass.hull_volume < least; });
+  const auto material = static_cast<int>(model.materials.size());
+  model.materials.emplace_back().name = "collision";
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    Node node;
+    node.name = name_of(job.demand().collision, i + 1);
+    node.parent = 0;
+    node.collision = CollisionShape::convex;
+    node.mesh = static_cast<int>(model.meshes.size());
+    MeshGroup group{"collision", {}};
+    group.primitives.push_back({mesh_of(masses[i].hull, job), material, {}});
+    model.nodes.push_back(std::move(node));
+    model.meshes.push_back(std::move(group));
+  }
+}
+
+}  // namespace seedmesh::building
