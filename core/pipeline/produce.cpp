@@ -144,8 +144,8 @@ constexpr std::uint64_t most_parts = 400;
 static_assert(static_cast<int>(OutputInstancing::merge) == static_cast<int>(CopyForm::merge));
 
 Demand demand_of(const OutputParams& output, const Generator& generator) {
-  const bool budget_here = output.max_triangles && !generator.keeps_budget &&
-                           (output.lods > 1 || !generator.joins_triangles);
+  const bool budget_here =
+      output.max_triangles && !generator.keeps_budget && (output.lods > 1 || !generator.joins_triangles);
   return {.lods = budget_here ? levels_to_choose_from : output.lods,
           .share_organs =
               output.instancing == OutputInstancing::nodes || output.instancing == OutputInstancing::gpu,
