@@ -12,7 +12,7 @@ import { launch, until_shown, until_state } from './chromium.mjs';
 const root = path.resolve(import.meta.dirname, '../..');
 const thumbnails = path.join(root, 'web_client/public/thumbnails');
 const pictures = path.join(root, 'docs/pictures');
-const large = ['abop_1_24f', 'abop_1_25', 'abop_1_31b', 'abop_2_6b', 'abop_2_7b', 'abop_2_8b', 'fern_5_11c', 'hilbert_3d', 'kogovsek_2_8', 'kogovsek_2_9', 'kogovsek_2_10', 'kogovsek_2_11', 'kogovsek_2_12', 'kogovsek_2_13', 'kogovsek_grm', 'tajic_a', 'tunnel_natural'];
+const large = ['abop_1_24f', 'abop_1_25', 'abop_1_31b', 'abop_2_6b', 'abop_2_7b', 'abop_2_8b', 'fern_5_11c', 'hilbert_3d', 'kogovsek_2_8', 'kogovsek_2_9', 'kogovsek_2_10', 'kogovsek_2_11', 'kogovsek_2_12', 'kogovsek_2_13', 'kogovsek_grm', 'saguaro', 'tajic_a', 'tunnel_natural'];
 
 const fragment_of = (request) => `#${zlib.deflateRawSync(JSON.stringify(request)).toString('base64url')}`;
 
