@@ -37,7 +37,7 @@ const stand_ins: Record<string, string> = {
 };
 
 /** Extensions of glTF that the service writes, or that its readers may meet. */
-const kept_extensions = ['GLTFMeshGpuInstancing'];
+const kept_extensions = ['GLTFMeshGpuInstancing', 'GLTFMeshoptCompression'];
 
 /** The text of a GLSL program without comments and idle spaces. Lines stay where they count: at # words. */
 export function tight(glsl: string): string {
@@ -55,12 +55,12 @@ function slim_shader(file: string, code: string): string {
 }
 
 function slim_reader(code: string): string {
-  let left = 0;
+  const left = new Set<string>();
   const slim = code.replaceAll(/this\.register\( function \( parser \) \{\s*return new (\w+)\( parser[^)]*\);\s*\} \);/g, (whole, name: string) => {
-    if (kept_extensions.includes(name)) { left += 1; return whole; }
+    if (kept_extensions.includes(name)) { left.add(name); return whole; }
     return '';
   });
-  if (left !== kept_extensions.length || slim.length === code.length) throw new Error('GLTFLoader.js is not as slim_three.ts knows it');
+  if (left.size !== kept_extensions.length || slim.length === code.length) throw new Error('GLTFLoader.js is not as slim_three.ts knows it');
   return slim;
 }
 

@@ -1,25 +1,11 @@
 // The same tree at every level of detail from the same camera: its outline stays, its triangles fall.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { PNG } from 'pngjs';
-import { fragment_of, launch, open, program, serve } from './support.mjs';
+import { fragment_of, launch, open, outline, overlap, program, serve } from './support.mjs';
 
 let server, browser;
 before(async () => { server = await serve(program); browser = await launch(); });
 after(async () => { await browser?.close(); await server?.stop(); });
-
-/** Which pixels something stands on: the page draws on a transparent ground here. */
-function outline(png) {
-  const { data } = PNG.sync.read(png);
-  return Uint8Array.from({ length: data.length / 4 }, (_, pixel) => (data[pixel * 4 + 3] > 127 ? 1 : 0));
-}
-
-/** Pixels of both over pixels of either. */
-function overlap(a, b) {
-  let both = 0, either = 0;
-  a.forEach((is, pixel) => { both += is & b[pixel]; either += is | b[pixel]; });
-  return both / either;
-}
 
 const choose = (page, value) => page.evaluate((value) => new Promise((resolve) => {
   const select = document.getElementById('detail');

@@ -89,3 +89,16 @@ export function difference(a, b, threshold = 0.2) {
   assert.deepEqual([first.width, first.height], [second.width, second.height]);
   return pixelmatch(first.data, second.data, null, first.width, first.height, { threshold }) / (first.width * first.height);
 }
+
+/** Which pixels something stands on: the page draws on a transparent ground at `/?stage`. */
+export function outline(png) {
+  const { data } = PNG.sync.read(png);
+  return Uint8Array.from({ length: data.length / 4 }, (_, pixel) => (data[pixel * 4 + 3] > 127 ? 1 : 0));
+}
+
+/** Pixels of both over pixels of either. */
+export function overlap(a, b) {
+  let both = 0, either = 0;
+  a.forEach((is, pixel) => { both += is & b[pixel]; either += is | b[pixel]; });
+  return both / either;
+}

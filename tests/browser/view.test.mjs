@@ -4,7 +4,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { PNG } from 'pngjs';
-import { difference, field, fragment_of, launch, open, picture, program, serve, small_tree, statistics, until_shown } from './support.mjs';
+import { difference, field, fragment_of, launch, open, outline, overlap, picture, program, serve, small_tree, statistics, until_shown } from './support.mjs';
 
 let server, browser, address;
 before(async () => {
@@ -369,5 +369,29 @@ for (const name of ['koch_snowflake', 'menger_sponge', 'abop_1_24f']) {
     if (process.env.SEEDMESH_NEW_PICTURES) { fs.mkdirSync(kept, { recursive: true }); fs.writeFileSync(file, png); }
     const share = difference(fs.readFileSync(file), png);
     assert.ok(share < 0.02, `${share} of the picture differs`);
+  });
+}
+
+for (const name of ['oak', 'orchard', 'alps']) {
+  test(`${name} made for the web, compressed, looks as it does in core glTF`, { timeout: 120_000 }, async () => {
+    const request = (await server.get(`/v1/presets/${name}`)).json;
+    for (const word of ['title', 'description', 'tags']) delete request[word];
+    const pictures = [], compressed = [];
+    for (const profile of ['core', 'web']) {
+      const asked = { ...request, output: { ...request.output, profile } };
+      const kinds = [];
+      const before = async (opened) => opened.on('response', (answer) => {
+        kinds.push(answer.body().then((bytes) => bytes.subarray(0, 4).equals(Buffer.from('glTF')) && bytes.includes('EXT_meshopt_compression'), () => false));
+      });
+      const page = await open(browser, `${server.url}/?stage&quality=low${fragment_of(asked)}`, { before, viewport: { width: 480, height: 360 } });
+      pictures.push(outline(await page.screenshot({ omitBackground: true })));
+      compressed.push((await Promise.all(kinds)).includes(true));
+      assert.deepEqual(page.faults, []);
+      await page.context().close();
+    }
+    assert.deepEqual(compressed, [false, true]);
+    assert.ok(pictures[0].reduce((sum, each) => sum + each, 0) > 2000, 'there is a model');
+    const share = overlap(pictures[0], pictures[1]);
+    assert.ok(share > 0.97, `overlap ${share.toFixed(3)}`);
   });
 }

@@ -1,4 +1,4 @@
-/** The request as the page draws it: one level, in core glTF, which needs no decoder; moved as the view wants it. */
+/** The request as the page draws it: one level, for the web or in core glTF, since other profiles mean other programs; moved as the view wants it. */
 import type { Request } from './api';
 import type { Schema } from './form/schema';
 
@@ -14,7 +14,7 @@ export const motions_in = (output: Schema): Motion[] => Object.entries(output.pr
 export const moved = (output: Request['output'], motion: Motion): Request['output'] => ({ ...output, [motion.member]: motion.value });
 
 export function for_view(request: Request, motion: Motion | null): Request {
-  const { lods: _, profile: __, ...output } = request.output ?? {};
-  const still = { ...output, format: 'glb' };
+  const { lods: _, profile, ...output } = request.output ?? {};
+  const still = { ...output, ...(profile === 'web' ? { profile } : {}), format: 'glb' };
   return { ...request, output: motion ? moved(still, motion) ?? still : still };
 }

@@ -13,7 +13,15 @@ interface Mapping { material: number; variants: number[] }
 
 export interface Warning { pointer: string; message: string; line?: number; column?: number }
 
-const loader = new GLTFLoader();
+/** Fetched when a file is compressed. Plain JavaScript: the page's policy allows no WebAssembly. */
+const decoder = {
+  supported: true,
+  ready: Promise.resolve(),
+  decodeGltfBufferAsync: async (count: number, stride: number, source: Uint8Array, mode: string, filter?: string): Promise<Uint8Array> =>
+    (await import('../../node_modules/meshoptimizer/meshopt_decoder_reference.js')).MeshoptDecoder.decodeGltfBufferAsync(count, stride, source, mode, filter),
+};
+
+const loader = new GLTFLoader().setMeshoptDecoder(decoder as unknown as Parameters<GLTFLoader['setMeshoptDecoder']>[0]);  // all that the loader calls
 
 export class Model {
   readonly root: Object3D;
