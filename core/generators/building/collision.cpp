@@ -6,6 +6,7 @@
 #include "core/base/math.h"
 #include "core/generators/building/hull.h"
 #include "core/generators/building/patch.h"
+#include "core/model/collision_name.h"
 
 namespace seedmesh::building {
 namespace {
@@ -102,18 +103,6 @@ bool cut_in_two(Mass& mass, Mass& other, Job& job) {
   return true;
 }
 
-std::string name_of(CollisionNames names, std::size_t number) {
-  const std::string digits = (number < 10 ? "0" : "") + std::to_string(number);
-  switch (names) {
-    case CollisionNames::unreal:
-      return "UCX_building_" + digits;
-    case CollisionNames::godot:
-      return "collision_" + digits + "-convcolonly";
-    default:
-      return "collision_" + digits;
-  }
-}
-
 Mesh mesh_of(const Solid& hull, Job& job) {
   Mesh mesh;
   mesh.position = Array<glm::vec3>(job);
@@ -176,7 +165,7 @@ void add_collision(Model& model, const Shapes& shapes, Job& job) {
   model.materials.emplace_back().name = "collision";
   for (std::size_t i = 0; i < masses.size(); ++i) {
     Node node;
-    node.name = name_of(job.demand().collision, i + 1);
+    node.name = collision_name(job.demand().collision, "building", i + 1);
     node.parent = 0;
     node.collision = CollisionShape::convex;
     node.mesh = static_cast<int>(model.meshes.size());

@@ -6,6 +6,7 @@
 
 #include "core/base/quick_math.h"
 #include "core/geom/graft_axis.h"
+#include "core/model/collision_name.h"
 
 namespace seedmesh::tree {
 namespace {
@@ -86,18 +87,6 @@ Mesh prism(const Body& body, const Job& job) {
   return mesh;
 }
 
-std::string name_of(CollisionNames names, std::size_t number) {
-  const std::string digits = (number < 10 ? "0" : "") + std::to_string(number);
-  switch (names) {
-    case CollisionNames::unreal:
-      return "UCX_bark_" + digits;
-    case CollisionNames::godot:
-      return "collision_" + digits + "-convcolonly";
-    default:
-      return "collision_" + digits;
-  }
-}
-
 }  // namespace
 
 void add_collision(Model& model, const Limbs& limbs, Job& job) {
@@ -131,7 +120,7 @@ void add_collision(Model& model, const Limbs& limbs, Job& job) {
   model.materials.emplace_back().name = "collision";
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Node node;
-    node.name = name_of(job.demand().collision, i + 1);
+    node.name = collision_name(job.demand().collision, "bark", i + 1);
     node.parent = 0;
     node.collision = CollisionShape::convex;
     node.mesh = static_cast<int>(model.meshes.size());
