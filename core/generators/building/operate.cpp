@@ -6,23 +6,13 @@
 #include "core/base/math.h"
 #include "core/generators/building/deriver.h"
 #include "core/generators/building/parts/parts.h"
+#include "core/generators/building/turned.h"
 #include "core/schema/color.h"
 
 namespace seedmesh::building {
 namespace {
 
 constexpr std::uint64_t most_corners = 20'000'000;  ///< of all solids of a request
-
-glm::dmat3 turn(int axis, double degrees) {
-  const math::SinCos a = math::sincos_degrees(degrees);
-  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  glm::dmat3 m(1);
-  m[u][u] = a.cos;
-  m[u][v] = a.sin;
-  m[v][u] = -a.sin;
-  m[v][v] = a.cos;
-  return m;
-}
 
 /// For the message: every name that i() knows.
 std::string part_names() {
@@ -105,7 +95,7 @@ void Deriver::rotate(const Step& step, State& state) {
   glm::dmat3 m(1);
   for (int axis = 0; axis < 3; ++axis) {
     const double angle = number(a[axis].value);
-    if (angle != 0) m = turn(axis, angle) * m;
+    if (angle != 0) m = turned(axis, angle) * m;
   }
   const glm::dmat3 before = out_.axes[state.axes];
   glm::dvec3 pivot(0);

@@ -6,6 +6,7 @@
 #include "core/base/math.h"
 #include "core/generators/building/shape_grammar/anchors.h"
 #include "core/generators/building/shape_grammar/shape_grammar.h"
+#include "core/generators/building/turned.h"
 #include "core/lang/expression.h"
 #include "generated/params/building.h"
 
@@ -23,17 +24,6 @@ std::uint32_t place_in(std::vector<std::string>& names, const std::string& name)
   const auto found = std::ranges::find(names, name);
   if (found == names.end()) names.push_back(name);
   return static_cast<std::uint32_t>(std::ranges::find(names, name) - names.begin());
-}
-
-glm::dmat3 turned(int axis, double degrees) {
-  const math::SinCos a = math::sincos_degrees(degrees);
-  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  glm::dmat3 m(1);
-  m[u][u] = a.cos;
-  m[u][v] = a.sin;
-  m[v][u] = -a.sin;
-  m[v][v] = a.cos;
-  return m;
 }
 
 class PictureReader {
