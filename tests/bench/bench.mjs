@@ -32,8 +32,9 @@ const aims = {
   '100,000 trees on 1025 x 1025 for the web': { seconds: 2 },
   'one growth step of 50 trees': { seconds: 0.05 },
 };
-/** The programs that print figures, a line each. */
-const figures = ['lsystem', 'request', 'terrain', 'fractal', 'tree', 'scene'];
+/** The programs that print figures, a line each, and what runs beside them. */
+const figures = { lsystem: 'lindenmayer', request: null, terrain: 'terrain', fractal: 'manifold', tree: 'ez_tree', scene: null };
+const chosen = Object.keys(figures).filter((bench) => bench.includes(words));
 const nanoseconds_per_triangle = 30;
 const memory_ratio = 1.5;
 
@@ -92,8 +93,10 @@ function run_own() {
   const own = [];
   const peers = [];
   for (let launch = 0; launch < launches; launch += 1) {
-    for (const bench of figures) own.push(...lines_of(output_of(`${build}/bench/${bench}_bench`)));
-    for (const peer of ['lindenmayer', 'terrain', 'manifold', 'ez_tree']) peers.push(...lines_of(output_of(process.execPath, `tests/bench/peer_${peer}.mjs`)));
+    for (const bench of chosen) {
+      own.push(...lines_of(output_of(`${build}/bench/${bench}_bench`)));
+      if (figures[bench]) peers.push(...lines_of(output_of(process.execPath, `tests/bench/peer_${figures[bench]}.mjs`)));
+    }
   }
   const peer_of = gathered(peers), rows = gathered(own);
   const copy = rows.get('copying'), copying = copy && copy.bytes / copy.seconds;
@@ -102,7 +105,7 @@ function run_own() {
 
 /** The programs over Google Benchmark print tables of their own. */
 function run_library_benches() {
-  const own = new Set(figures.map((bench) => `${bench}_bench`));
+  const own = new Set(Object.keys(figures).map((bench) => `${bench}_bench`));
   const folder = `${build}/bench`;
   for (const name of fs.readdirSync(folder).filter((file) => file.endsWith('_bench') && !own.has(file) && file.includes(words)).sort()) {
     console.log(`\n--- ${name}`);
@@ -111,7 +114,7 @@ function run_library_benches() {
 }
 
 console.log(`${new Date().toISOString()}, ${process.platform} ${process.arch}`);
-const rows = words === '' || figures.join(' ').includes(words) ? run_own() : [];
+const rows = chosen.length > 0 ? run_own() : [];
 fs.mkdirSync('build', { recursive: true });
 fs.appendFileSync('build/bench.jsonl', rows.map((row) => `${JSON.stringify({ at: new Date().toISOString(), ...row })}\n`).join(''));
 run_library_benches();
