@@ -145,6 +145,8 @@ const grow = (request: Request, when: 'now' | 'soon'): void => grower.ask(for_vi
 async function show(made: Made, request: Request): Promise<void> {
   const { triangles } = made.statistics;
   refusal = null;
+  // What was made has no errors: the check of an earlier text may say so later than the model does.
+  checked = checked.filter((fault) => fault.mild);
   show_faults();
   if (viewer && !link_is_damaged) status.faults('', [], 0, () => {});
   last = { bytes: made.bytes, model: null, triangles };
