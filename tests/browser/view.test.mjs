@@ -290,8 +290,8 @@ test('heights are shown as a map with its size, figures and words as such', { ti
 test('shapes lie over the model as boxes, and one that is pointed at tells what it is', { timeout: 300_000 }, async () => {
   const axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
   const shapes = [
-    { id: 0, parent: null, symbol: 'Lot', parameters: {}, active: false, scope: { origin: [-5, 0, -5], axes, size: [10, 0, 10] } },
-    { id: 1, parent: 0, symbol: 'Wall', parameters: { bays: 3 }, active: true, rule: 'Lot --> Wall', line: 2, scope: { origin: [-5, -5, -5], axes, size: [10, 20, 10] } },
+    { id: 0, parent: null, symbol: 'Lot', parameters: {}, active: false, rule: 'Lot --> Wall', line: 2, choice: 3, scope: { origin: [-5, 0, -5], axes, size: [10, 0, 10] } },
+    { id: 1, parent: 0, symbol: 'Wall', parameters: { bays: 3 }, active: true, scope: { origin: [-5, -5, -5], axes, size: [10, 20, 10] } },
   ];
   const page = await open(browser, address, { before: (page) => page.route('**/v1/derive', (route) => route.fulfill({ json: { shapes, warnings: [], reports: { area: 12.5 } } })) });
   await page.click('#hint-away');
@@ -301,7 +301,7 @@ test('shapes lie over the model as boxes, and one that is pointed at tells what 
   await page.locator('#picture').click({ position: { x: 200, y: 200 } });
   await page.waitForSelector('.picked h4');
   const told = await page.textContent('.picked');
-  for (const words of ['Wall', 'Lot', 'Lot --> Wall', '10 × 20 × 10 m', '"bays":3']) assert.ok(told.includes(words), `${words} in ${told}`);
+  for (const words of ['Wall', 'Lot', 'Made byLot --> Wall (choice 3)', '10 × 20 × 10 m', '"bays":3']) assert.ok(told.includes(words), `${words} in ${told}`);
   await changes(page, 'no boxes', () => page.uncheck('#show-shapes'));
 });
 
@@ -320,7 +320,7 @@ test('a part of a building that is pointed at leads to its rule, and its edges a
   await page.waitForSelector('.picked h4');
   assert.equal(await page.textContent('.picked h4'), 'Mass');
   const told = await page.textContent('.picked');
-  for (const words of ['Lot', 'Mass --> comp(f)', '8 × 6 × 6 m']) assert.ok(told.includes(words), `${words} in ${told}`);
+  for (const words of ['Made byLot --> extrude(6) Mass', 'Replaced byMass --> comp(f)', '8 × 6 × 6 m']) assert.ok(told.includes(words), `${words} in ${told}`);
   await page.getByRole('button', { name: '3', exact: true }).click();
   assert.ok(await page.isVisible('#parameters'));
   assert.deepEqual(page.faults, []);

@@ -25,8 +25,8 @@ const longest = 4000;
 /** A hand that moves a slider rests this long before the server is asked. */
 const debounce = 200;
 
-/** The last gives the text of rules in the request that is shown, where it has one. */
-export function wire_result(overlay: Overlay | null, lead: (line: number) => void, rules: () => string): Result {
+/** `lead` opens a line of the rules; `has_rules`: the request that is shown brings them along. */
+export function wire_result(overlay: Overlay | null, lead: (line: number) => void, has_rules: () => boolean): Result {
   const page = part('result');
   let request: Request | null = null;
   let shown_for: Request | null = null;
@@ -63,7 +63,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
       delete (rest as Members)['heights'];
     }
     if (is_shapes(rest['shapes'])) {
-      shapes = new ShapeList(rest['shapes'], overlay, lead, rules);
+      shapes = new ShapeList(rest['shapes'], overlay, has_rules() ? lead : null);
       parts.push(shapes.element);
       delete rest['shapes'];
     }

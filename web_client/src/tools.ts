@@ -70,8 +70,7 @@ export function wire_tools(core: Core): Tools {
     part('parameters').querySelector<HTMLElement>('.code-editor')?.dispatchEvent(new CustomEvent('go-line', { detail: line }));
   }, () => {
     const name = Object.entries(rules_schema?.properties ?? {}).find(([, member]) => member['x-grammar'] === 'cga')?.[0];
-    const text = name === undefined ? undefined : store.current?.request.parameters[name];
-    return typeof text === 'string' ? text : '';
+    return name !== undefined && typeof store.current?.request.parameters[name] === 'string';
   });
   const steps = wire_steps({
     edit(name, value) {

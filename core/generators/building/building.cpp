@@ -12,6 +12,7 @@
 #include "core/generators/building/estimate.h"
 #include "core/generators/building/ground.h"
 #include "core/generators/building/halve.h"
+#include "core/generators/building/listing.h"
 #include "core/generators/building/picture_shapes.h"
 #include "core/generators/child.h"
 #include "core/geom/flatten.h"
@@ -91,6 +92,7 @@ std::optional<Error> add_assets(Work& work, const BuildingParams& params, Job& j
 /// What one derivation is asked for besides the request: the attribute `lod`, and an end to it.
 struct Wish {
   std::optional<double> lod;
+  bool is_listed = false;
   std::uint64_t most_shapes = ~std::uint64_t{0};
 };
 
@@ -116,6 +118,7 @@ Shapes shapes_of(Work& work, const BuildingParams& params, Job& job, const Wish&
     plan.attributes.emplace(name, number_of(work.grammar.texts, given));
   if (wish.lod) plan.attributes[std::string(lod_attribute)] = *wish.lod;
   plan.most_shapes = wish.most_shapes;
+  plan.keeps_choices = wish.is_listed;
   plan.keeps_masses = job.demand().collision != CollisionNames::none;
   if (params.iterations) plan.iterations = *params.iterations;
   plan.is_sequential = params.derivation.mode == BuildingMode::sequential;
@@ -125,58 +128,6 @@ Shapes shapes_of(Work& work, const BuildingParams& params, Job& job, const Wish&
   plan.assets = work.boxes;
   plan.own_assets = params.assets.size();
   return derive_shapes(plan, job);
-}
-
-Json vector(const glm::dvec3& v) { return Json::array({v.x + 0.0, v.y + 0.0, v.z + 0.0}); }
-
-Json described(const Shapes& shapes, const Grammar& grammar, std::uint32_t index) {
-  const Shape& shape = shapes.shapes[index];
-  const glm::dmat3& axes = shapes.axes[shape.axes];
-  Json parameters = Json::array();
-  for (std::uint32_t i = 0; i < shape.parameter_count; ++i) {
-    const double value = shapes.parameters[shape.first_parameter + i];
-    if (const std::string* text = shapes.texts.of(value))
-      parameters.push_back(*text);
-    else
-      parameters.push_back(value);
-  }
-  Json parent = nullptr;
-  if (shape.parent != none) parent = shape.parent;
-  return {{"id", index},
-          {"parent", std::move(parent)},
-          {"symbol", grammar.symbols[shape.symbol].name},
-          {"parameters", std::move(parameters)},
-          {"active", shape.is_active},
-          {"scope",
-           {{"origin", vector(shape.origin)},
-            {"axes", Json::array({vector(axes[0]), vector(axes[1]), vector(axes[2])})},
-            {"size", vector(shape.size)}}}};
-}
-
-Json described(const std::map<std::string, Report>& reports) {
-  Json out = Json::object();
-  for (const auto& [key, report] : reports) {
-    out[key] = {{"count", report.count},
-                {"sum", report.sum},
-                {"mean", report.sum / static_cast<double>(report.count)},
-                {"min", report.least},
-                {"max", report.greatest}};
-  }
-  return out;
-}
-
-Json described(const std::vector<Warning>& warnings) {
-  Json list = Json::array();
-  for (const Warning& warning : warnings) {
-    Json row = {{"pointer", warning.pointer.empty() ? "" : "/parameters" + warning.pointer},
-                {"message", warning.message}};
-    if (warning.line > 0) {
-      row["line"] = warning.line;
-      row["column"] = warning.column;
-    }
-    list.push_back(std::move(row));
-  }
-  return list;
 }
 
 std::vector<std::string> symbol_names(const Grammar& grammar) {
@@ -291,7 +242,7 @@ Result<Model> generate(const BuildingParams& params, Job& job) {
   else
     add_levels(model, work, params, shapes, lods, looks, job);
   add_collision(model, shapes, job);
-  if (!shapes.reports.empty()) model.extras.push_back({"reports", described(shapes.reports).dump()});
+  if (!shapes.reports.empty()) model.extras.push_back({"reports", listed(shapes.reports).dump()});
   return model;
 }
 
@@ -300,20 +251,16 @@ Result<Json> derive(const BuildingParams& params, Job& job) {
   std::vector<Issue> issues = check_all(params, job.limits(), work.grammar, work.pictures);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   if (auto refused = add_assets(work, params, job)) return std::move(*refused);
-  const Shapes shapes = shapes_of(work, params, job);
-  Json list = Json::array();
-  for (std::uint32_t i = 0; i < shapes.shapes.size() && i < most_listed; ++i) {
-    list.push_back(described(shapes, work.grammar, i));
-    if ((i & 4095U) == 0) job.check();
-  }
+  const Shapes shapes = shapes_of(work, params, job, {.lod = std::nullopt, .is_listed = true});
+  Json list = listed(shapes, work.grammar, rules_of(params), most_listed, job);
   std::vector<Warning> warnings = work.model.warnings;
   append(warnings, work.grammar.warnings);
   append(warnings, shapes.warnings);
   return Json{{"shapes", std::move(list)},
               {"count", shapes.shapes.size()},
               {"truncated", shapes.shapes.size() > most_listed},
-              {"reports", described(shapes.reports)},
-              {"warnings", described(warnings)}};
+              {"reports", listed(shapes.reports)},
+              {"warnings", listed(warnings)}};
 }
 
 Result<Appraisal> appraise(const BuildingParams& params, const Job& job) {

@@ -89,6 +89,10 @@ bool Deriver::expand(std::uint32_t index) {
     out_.shapes[index].is_leaf = true;
     return false;
   }
+  if (plan_.keeps_choices) {
+    if (out_.choices.size() <= index) out_.choices.resize(out_.shapes.size(), none);
+    out_.choices[index] = static_cast<std::uint32_t>(choice - grammar_.choices.data());
+  }
   const Shape shape = out_.shapes[index];
   out_.shapes[index].is_active = false;
   const State state = state_of(shape);

@@ -40,6 +40,7 @@ struct Task {
   std::span<const AssetBox> assets;
   std::size_t own_assets = 0;                     ///< the first of them are the request's own
   bool keeps_masses = false;                      ///< for collision bodies
+  bool keeps_choices = false;                     ///< for lists of shapes
   std::uint64_t most_shapes = ~std::uint64_t{0};  ///< the derivation ends where there are more
 };
 

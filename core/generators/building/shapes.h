@@ -81,6 +81,9 @@ struct Shapes {
   std::vector<std::string> asset_names;  ///< of geometry with asset_bit
   Texts texts;
   std::vector<Warning> warnings;
+  /// By shape, into Grammar::choices: what replaced it. Where Task::keeps_choices asks for them; it may end
+  /// before the shapes do, and `none` is no choice.
+  std::vector<std::uint32_t> choices;
 
   explicit Shapes(const Job& job) : shapes(job), parameters(job) {}
   const Solid& solid_of(std::uint32_t geometry) const { return *solids[geometry - 1]; }

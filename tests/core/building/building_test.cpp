@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/generators/building/operations.h"
 #include "core/geom/finish.h"
@@ -107,6 +108,29 @@ TEST(BuildingRules, LeaveAShapeWholeThatAlwaysCutsItself) {
   const Json answer = derived(with("A --> split(x){ '0.1:A | '0.1:B. }*", {1, 1, 1}));
   EXPECT_EQ(active(answer), "A B A B A B A B A B");
   EXPECT_THAT(answer["warnings"][0]["message"].get<std::string>(), HasSubstr("left whole"));
+}
+
+TEST(BuildingList, TellsTheRuleTheLineAndTheChoiceThatReplacedAShape) {
+  const Json shapes = derived(with("A ~> B C\n1: B : Scope.sx > 1 ~> D. : 0.9 ~> E. : 0.1 2: C ~>\n  F."))["shapes"];
+  EXPECT_EQ(shapes[0]["rule"], "A ~> B C");
+  EXPECT_EQ(shapes[0]["line"], 1);
+  EXPECT_FALSE(shapes[0].contains("choice"));
+  EXPECT_EQ(shapes[1]["symbol"], "B");
+  EXPECT_EQ(shapes[1]["rule"], "B : Scope.sx > 1 ~> D. : 0.9 ~> E. : 0.1");
+  EXPECT_EQ(shapes[1]["line"], 2);
+  EXPECT_EQ(shapes[2]["rule"], "C ~>");
+  for (std::uint32_t i = 3; i < shapes.size(); ++i) EXPECT_FALSE(shapes[i].contains("rule"));
+}
+
+TEST(BuildingList, CountsTheChoicesOfARule) {
+  std::set<int> seen;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Json answer = derived(with("A --> 50%: B.\n  50%: C."), seed);
+    const int choice = answer["shapes"][0]["choice"];
+    EXPECT_EQ(choice, answer["shapes"][1]["symbol"] == "B" ? 1 : 2);
+    seen.insert(choice);
+  }
+  EXPECT_EQ(seen, (std::set{1, 2}));
 }
 
 TEST(BuildingScope, MovesTurnsAndCenters) {

@@ -4,17 +4,10 @@ import { is_members } from '../form/schema';
 import type { Overlay } from '../result';
 import type { ScopeBox } from '../viewer/boxes';
 
-export interface Shape { id: number; parent?: number | null; symbol: string; parameters?: unknown; active?: boolean; rule?: string; line?: number; scope: ScopeBox }
+export interface Shape { id: number; parent?: number | null; symbol: string; parameters?: unknown; active?: boolean; rule?: string; line?: number; choice?: number; scope: ScopeBox }
 
 export const is_shapes = (value: unknown): value is Shape[] =>
   Array.isArray(value) && value.length > 0 && value.every((each) => is_members(each) && 'symbol' in each && is_members(each['scope']));
-
-/** Where the rules of a symbol begin in a text of rules, lines from 1, and how they read. */
-export function rules_of(symbol: string, text: string): { line: number; rule: string }[] {
-  const name = symbol.replaceAll(/[.*+?^${}()|[\]\\]/g, '\\$&');
-  const head = new RegExp(`^\\s*(?:\\d+\\s*:)?\\s*${name}\\s*(?:\\([^)]*\\))?\\s*(?::(?!=).*?)?(?:-{1,2}>|~>|→)`);
-  return text.split('\n').flatMap((rule, index) => (head.test(rule) ? [{ line: index + 1, rule: rule.trim() }] : []));
-}
 
 /** More boxes than these hide the model and each other. */
 const most = 20_000;
@@ -23,20 +16,17 @@ export class ShapeList {
   readonly element: HTMLElement;
   private readonly shapes: Shape[];
   private readonly overlay: Overlay | null;
-  private readonly lead: (line: number) => void;
-  private readonly text: () => string;
+  private readonly lead: ((line: number) => void) | null;
   private readonly told = el('div', { class: 'picked', role: 'status' });
   private readonly symbols: string[];
   private readonly on = el('input', { type: 'checkbox', class: 'switch', id: 'show-shapes' });
   private readonly kind = el('select', { id: 'shape-kind' });
   private seen: Shape[] = [];
 
-  /** `text` is the text of rules that made the shapes; empty where there is none. */
-  constructor(shapes: Shape[], overlay: Overlay | null, lead: (line: number) => void, text: () => string) {
+  constructor(shapes: Shape[], overlay: Overlay | null, lead: ((line: number) => void) | null) {
     this.shapes = shapes;
     this.overlay = overlay;
     this.lead = lead;
-    this.text = text;
     const counts = new Map<string, number>();
     for (const shape of shapes) counts.set(shape.symbol, (counts.get(shape.symbol) ?? 0) + 1);
     this.symbols = [...counts.keys()];
@@ -67,17 +57,19 @@ export class ShapeList {
       parents.unshift(parent.symbol);
       up = parent.parent;
     }
+    const { lead } = this;
+    const leading_to = (line: number): string | HTMLElement =>
+      lead ? el('button', { type: 'button', onclick: () => lead(line) }, String(line)) : String(line);
     const row = (name: string, value: string | HTMLElement): HTMLElement => el('div', {}, el('dt', {}, name), el('dd', {}, value));
-    // What the answer does not tell is looked up by the symbol.
-    const rules = shape.rule !== undefined || shape.line !== undefined ? [shape] : rules_of(shape.symbol, this.text());
-    const rule_rows = rules.flatMap(({ line, rule }) => [
-      ...(rule !== undefined ? [row('Rule', rule)] : []),
-      ...(line !== undefined ? [row('Line', el('button', { type: 'button', onclick: () => this.lead(line) }, String(line)))] : []),
-    ]);
+    const rule_rows = (words: string, from: Shape | undefined): HTMLElement[] => from?.rule === undefined ? [] : [
+      row(words, from.choice === undefined ? from.rule : `${from.rule} (choice ${from.choice})`),
+      ...(from.line === undefined ? [] : [row('Line', leading_to(from.line))]),
+    ];
     this.told.replaceChildren(el('h4', {}, shape.symbol), el('dl', { class: 'figures' },
       row('Number', String(shape.id)),
       ...(parents.length > 0 ? [row('Made of', parents.join(' › '))] : []),
-      ...rule_rows,
+      ...rule_rows('Made by', this.shapes.find((each) => each.id === shape.parent)),
+      ...rule_rows('Replaced by', shape),
       row('Size', shape.scope.size.map(rounded).join(' × ') + ' m'),
       row('Corner', shape.scope.origin.map(rounded).join(', ') + ' m'),
       ...(shape.parameters !== undefined && JSON.stringify(shape.parameters) !== '{}' && JSON.stringify(shape.parameters) !== '[]' ? [row('Parameters', JSON.stringify(shape.parameters))] : [])));
