@@ -25,14 +25,16 @@ std::string_view as_written(std::string_view rule, bool is_last) {
   const std::size_t end = rule.find_first_of("\r\n");
   std::string_view line = without_end(rule.substr(0, end), " \t");
   if (end != std::string_view::npos || is_last || !line.ends_with(':')) return line;
-  const std::string_view before = without_end(without_end(line.substr(0, line.size() - 1), " \t"), "0123456789");
+  const std::string_view before =
+      without_end(without_end(line.substr(0, line.size() - 1), " \t"), "0123456789");
   return without_end(before, " \t");
 }
 
 /// By choice: its rule. Choices of bodies that are nested in a successor have none.
 class RuleTable {
  public:
-  RuleTable(const Grammar& grammar, std::string_view text) : rule_of_(grammar.choices.size(), none), numbers_(grammar.choices.size(), 0) {
+  RuleTable(const Grammar& grammar, std::string_view text)
+      : rule_of_(grammar.choices.size(), none), numbers_(grammar.choices.size(), 0) {
     // Rules come as they are written, so that lines are counted once.
     std::size_t at = 0, line = 1;
     for (std::size_t r = 0; r < grammar.rules.size(); ++r) {

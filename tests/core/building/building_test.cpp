@@ -111,7 +111,8 @@ TEST(BuildingRules, LeaveAShapeWholeThatAlwaysCutsItself) {
 }
 
 TEST(BuildingList, TellsTheRuleTheLineAndTheChoiceThatReplacedAShape) {
-  const Json shapes = derived(with("A ~> B C\n1: B : Scope.sx > 1 ~> D. : 0.9 ~> E. : 0.1 2: C ~>\n  F."))["shapes"];
+  const Json shapes =
+      derived(with("A ~> B C\n1: B : Scope.sx > 1 ~> D. : 0.9 ~> E. : 0.1 2: C ~>\n  F."))["shapes"];
   EXPECT_EQ(shapes[0]["rule"], "A ~> B C");
   EXPECT_EQ(shapes[0]["line"], 1);
   EXPECT_FALSE(shapes[0].contains("choice"));
