@@ -88,8 +88,8 @@ void Parser::settle_texture_axis(Step& step, const std::vector<Argument>& list) 
     fault(tokens_.at(at_ - 1), "there is one set of texture coordinates, number 0");
 }
 
-/// size : successor | { ... }* | ...
-void Parser::cells(std::vector<Part>& out) {
+/// size : successor | { ... }* | ...  or, where the bodies stand apart,  3.5, 1r, { 2, 1r }*
+void Parser::cells(std::vector<Part>& out, bool have_bodies) {
   do {
     Part part;
     part.offset = offset_here();
@@ -97,9 +97,9 @@ void Parser::cells(std::vector<Part>& out) {
       if (!enter(here())) return;
       ++at_;
       std::vector<Part> inner;
-      cells(inner);
+      cells(inner, have_bodies);
       --depth_;
-      expect("}", "the cells");
+      expect("}", have_bodies ? "the cells" : "the sizes");
       if (!take("*")) fault(here(), "found " + in_quotes(here()) + ", expected `*` after the group");
       part.is_group = true;
       part.first_part = static_cast<std::uint32_t>(grammar_.parts.size());
@@ -107,35 +107,13 @@ void Parser::cells(std::vector<Part>& out) {
       grammar_.parts.insert(grammar_.parts.end(), inner.begin(), inner.end());
     } else {
       part.size = argument('n');
-      expect(":", "the size");
-      part.body = body();
+      if (have_bodies) {
+        expect(":", "the size");
+        part.body = body();
+      }
     }
     out.push_back(part);
-  } while (take("|"));
-}
-
-/// 3.5, 1r, { 2, 1r }*
-void Parser::size_list(std::vector<Part>& out) {
-  do {
-    Part part;
-    part.offset = offset_here();
-    if (is_here("{")) {
-      if (!enter(here())) return;
-      ++at_;
-      std::vector<Part> inner;
-      size_list(inner);
-      --depth_;
-      expect("}", "the sizes");
-      if (!take("*")) fault(here(), "found " + in_quotes(here()) + ", expected `*` after the group");
-      part.is_group = true;
-      part.part_count = static_cast<std::uint32_t>(inner.size());
-      part.first_part = static_cast<std::uint32_t>(grammar_.parts.size());
-      grammar_.parts.insert(grammar_.parts.end(), inner.begin(), inner.end());
-    } else {
-      part.size = argument('n');
-    }
-    out.push_back(part);
-  } while (take(","));
+  } while (take(have_bodies ? "|" : ","));
 }
 
 void Parser::fill_bodies(std::vector<Part>& parts, const std::vector<std::uint32_t>& bodies,

@@ -223,7 +223,7 @@ void Parser::operation_step(const OperationRow& row, std::vector<Step>& out) {
     const std::size_t close = tokens_.partner(at_);
     if (!enter(here())) return;
     ++at_;
-    if (row.braces == Braces::cells) cells(parts);
+    if (row.braces == Braces::cells) cells(parts, true);
     if (row.braces == Braces::selectors) selectors(parts);
     if (row.braces == Braces::names || (row.braces == Braces::one)) {
       std::vector<std::uint32_t> bodies;
@@ -292,7 +292,7 @@ bool Parser::arguments(const OperationRow& row, std::vector<Argument>& out, Step
   while (at_ < close) {
     const std::size_t before = at_;
     if (has_sizes && out.size() == 1) {
-      size_list(cells);
+      this->cells(cells, false);
       break;
     }
     if (out.size() < kinds.size())

@@ -92,8 +92,7 @@ class Parser {
   Argument word_argument();
   void settle_axis(const OperationRow& row, Step& step, const std::vector<Argument>& arguments);
   void settle_texture_axis(Step& step, const std::vector<Argument>& arguments);
-  void cells(std::vector<Part>& out);
-  void size_list(std::vector<Part>& out);
+  void cells(std::vector<Part>& out, bool have_bodies);
   void fill_bodies(std::vector<Part>& cells, const std::vector<std::uint32_t>& bodies, std::size_t& next);
   void selectors(std::vector<Part>& out);
   void old_selectors(Step& step, const std::vector<Argument>& arguments, std::vector<Part>& out);
