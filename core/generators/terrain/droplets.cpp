@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/array.h"
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 #include "core/generators/terrain/filters.h"
@@ -23,6 +24,9 @@ constexpr std::int32_t bands = 4;
 constexpr float gravity = 1;
 constexpr float least_slope = 0.005F;
 constexpr float greatest_speed = 2.5F;
+
+// A drop that has gone so many times along both sides of the field goes round in a hollow.
+constexpr double most_rounds = 4;
 
 /// Ground taken (negative) or laid down at a place, in units of a sample's width.
 struct Change {
@@ -59,9 +63,13 @@ struct Ground {
 class Drops {
  public:
   Drops(const Field& field, const DropletPlan& plan, Rng rng)
-      : field_(field), plan_(plan), rng_(rng), scale_(static_cast<float>(1 / field.cell)) {}
+      : field_(field),
+        plan_(plan),
+        rng_(rng),
+        scale_(static_cast<float>(1 / field.cell)),
+        steps_(static_cast<int>(std::min(plan.lifetime, most_rounds * (field.width + field.depth)))) {}
 
-  void run(std::size_t drop, std::vector<Change>& changes) const {
+  void run(std::size_t drop, Array<Change>& changes) const {
     Rng rng = rng_.at(drop);
     const auto wide = static_cast<float>(field_.width - 1), deep = static_cast<float>(field_.depth - 1);
     float x = static_cast<float>(rng.unit()) * wide, z = static_cast<float>(rng.unit()) * deep;
@@ -70,8 +78,7 @@ class Drops {
     float dx = 0, dz = 0, speed = 1, water = 1, load = 0;
     const auto inertia = static_cast<float>(plan_.inertia);
     Ground here = ground(x, z);
-    const int steps = static_cast<int>(math::to_int32(plan_.lifetime));
-    for (int step = 0; step < steps; ++step) {
+    for (int step = 0; step < steps_; ++step) {
       dx = dx * inertia - here.east * (1 - inertia);
       dz = dz * inertia - here.south * (1 - inertia);
       const float length = std::sqrt(dx * dx + dz * dz);
@@ -118,6 +125,7 @@ class Drops {
   const DropletPlan& plan_;
   Rng rng_;
   float scale_;
+  int steps_;
 };
 
 /// Adds changes, in their order, to the rows [begin, end).
@@ -161,20 +169,25 @@ void erode(Field& field, const DropletPlan& plan, Rng rng, const Job& job) {
   const auto total = static_cast<std::size_t>(plan.droplets);
   const std::int32_t band = (field.depth + bands - 1) / bands;
   const Range range = range_of(field, job);
-  std::vector<std::vector<Change>> changes(chunk_count(batch, drops_a_chunk));
+  std::vector<Array<Change>> changes;
+  for (std::size_t i = 0; i < chunk_count(batch, drops_a_chunk); ++i) changes.emplace_back(job);
   for (std::size_t first = 0; first < total; first += batch) {
     job.check();
     const std::size_t count = std::min(batch, total - first);
-    for (std::vector<Change>& list : changes) list.clear();
+    for (Array<Change>& list : changes) list.clear();
     const Drops drops(field, plan, rng.at("drops"));
     parallel_for(job, count, drops_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
-      for (std::size_t drop = begin; drop < end; ++drop) drops.run(first + drop, changes[index]);
+      for (std::size_t drop = begin; drop < end; ++drop) {
+        job.check();
+        drops.run(first + drop, changes[index]);
+      }
     });
     const Spread spread(field, range, brush, math::to_int32(std::ceil(radius)));
     parallel_for(job, static_cast<std::size_t>(bands), 1, [&](std::size_t begin, std::size_t, std::size_t) {
       const std::int32_t top = static_cast<std::int32_t>(begin) * band;
-      for (const std::vector<Change>& list : changes) {
-        for (const Change& change : list) spread.add(change, top, std::min(field.depth, top + band));
+      for (const Array<Change>& list : changes) {
+        job.check();
+        for (const Change& change : list.span()) spread.add(change, top, std::min(field.depth, top + band));
       }
     });
   }
