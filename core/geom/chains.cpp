@@ -149,6 +149,15 @@ Scale scale_of(const Limbs& limbs, int sides) {
   return scale;
 }
 
+std::uint64_t too_thin(const Limbs& limbs, int sides) {
+  const float thinnest = scale_of(limbs, sides).thinnest;
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    if (limbs.parent[i] != Limbs::none && std::max(limbs.base_radius[i], limbs.radius[i]) < thinnest) ++count;
+  }
+  return count;
+}
+
 Chains find_chains(const Limbs& limbs, const Scale& scale, Job& job) {
   Chains chains = empty_chains(limbs, job);
   ChainFinder(limbs, scale, job, chains).add_all(job);

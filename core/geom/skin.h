@@ -70,6 +70,9 @@ struct Bark {
 /// allocates. Runs on job.threads(); the result does not depend on it.
 std::vector<Bark> skin(const Limbs& limbs, const SkinOptions& options, Job& job);
 
+/// How many internodes skin() passes over because they are too thin for the size of the whole.
+std::uint64_t too_thin(const Limbs& limbs, int sides);
+
 /// The same skeleton as line segments (two vertices a segment, shared along limbs), one mesh for each colour
 /// index. Joints at one place share a vertex, except in models of more than 131,072 joints where next to none
 /// do and of more than 1,048,576. Limbs that are given away lend their memory to the mesh.

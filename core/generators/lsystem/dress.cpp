@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::uint64_t bytes_a_vertex = 32;  // position, normal, uv
 constexpr std::uint64_t bytes_a_triangle = 12;
+constexpr std::uint64_t worth_a_word = 100;  // fewer than one in so many is no loss
 
 /// What looks alike becomes one primitive.
 void choose_looks(Skeleton& skeleton, const Wardrobe& wardrobe) {
@@ -111,6 +112,17 @@ float size_of(const Skeleton& skeleton) {
   return box.min.x > box.max.x ? 0 : std::sqrt(glm::dot(extent, extent));
 }
 
+/// What of the limbs no tube shows.
+void warn_of_thin(Model& model, const Limbs& limbs, const LsystemParams& params) {
+  const std::uint64_t count = too_thin(limbs, params.sides);
+  if (count == 0 || count * worth_a_word < limbs.size()) return;
+  model.warnings.push_back({"/width",
+                            std::to_string(count) +
+                                " internodes are too thin beside the whole to be drawn as tubes and are left "
+                                "out; make them wider, or draw lines by `style`",
+                            0, 0});
+}
+
 }  // namespace
 
 Model dress(Skeleton skeleton, const LsystemParams& params, Job& job) {
@@ -128,6 +140,7 @@ Model dress(Skeleton skeleton, const LsystemParams& params, Job& job) {
   const std::optional<GrowthPlan> growth = growth_of(skeleton, params, job);
   const auto bones = growth ? growth->bone.span() : std::span<const std::uint16_t>{};
   if (tubes) {
+    warn_of_thin(model, skeleton.limbs, params);
     add_bark(model, std::exchange(skeleton.limbs, Limbs(job)), bones, params, wardrobe, job);
   } else {
     add_meshes(model, "lines", wires(std::exchange(skeleton.limbs, Limbs(job)), job), Sides::one, wardrobe);
@@ -138,6 +151,9 @@ Model dress(Skeleton skeleton, const LsystemParams& params, Job& job) {
   if (empty) {
     model.warnings.push_back(
         {"/axiom", "nothing was drawn: the last word has no F or G, no polygon and no organ", 0, 0});
+  } else if (model.meshes.empty() && model.warnings.empty()) {
+    model.warnings.push_back(
+        {"/axiom", "nothing was drawn: all that the last word draws has no length", 0, 0});
   }
   return model;
 }
@@ -148,13 +164,15 @@ std::uint64_t most_segments(const LsystemParams& params, const Limits& limits) {
          (2 * static_cast<std::uint64_t>(params.sides) * static_cast<std::uint64_t>(params.stacks));
 }
 
-Estimate estimate_of(std::uint64_t segments, const LsystemParams& params) {
+Estimate estimate_of(std::uint64_t segments, std::uint64_t limbs, const LsystemParams& params) {
   constexpr std::uint64_t document = 1500;  // the JSON part of a small model
-  if (params.style == LsystemParams::Style::lines) return {segments, document + segments * 20, false};
+  if (params.style == LsystemParams::Style::lines) return {0, document + segments * 20, false};
   const auto sides = static_cast<std::uint64_t>(params.sides);
   const std::uint64_t rings = segments * static_cast<std::uint64_t>(params.stacks);
-  const std::uint64_t triangles = 2 * sides * rings;
-  return {triangles, document + triangles * bytes_a_triangle + rings * (sides + 1) * bytes_a_vertex, false};
+  // A limb begins and ends in a cone.
+  const std::uint64_t triangles = 2 * sides * (rings + limbs);
+  const std::uint64_t vertices = (rings + 3 * limbs) * (sides + 1);
+  return {triangles, document + triangles * bytes_a_triangle + vertices * bytes_a_vertex, false};
 }
 
 }  // namespace seedmesh::lsystem
