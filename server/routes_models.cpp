@@ -156,10 +156,22 @@ bool is_extension(std::string_view text) {
   return std::find(std::begin(all), std::end(all), text) != std::end(all);
 }
 
+std::string_view format_of(std::string_view extension) { return extension == "png" ? "png16" : extension; }
+
 /// The request in the form that a URL's extension names.
 Result<Request> in_form(const Request& request, std::string_view extension) {
   if (extension == "json" || extension_of(request.format()) == extension) return request;
-  return with_format(request, extension == "png" ? "png16" : extension);
+  return with_format(request, format_of(extension));
+}
+
+/// Null where there is no such preset. What a query asks of the output may go with the form of the extension
+/// alone.
+std::optional<Result<Request>> preset_in_form(const Call& call, const std::string& name, Overrides overrides,
+                                              std::string_view extension) {
+  auto read = read_preset(name, overrides, call.service.config.limits);
+  if (!read || *read || extension.empty() || extension == "json") return read;
+  overrides.emplace_back("output.format", format_of(extension));
+  return read_preset(name, overrides, call.service.config.limits);
 }
 
 http::Response redirect_to_own(const Call& call, const Request& request, const std::string& extension) {
@@ -222,7 +234,7 @@ http::Response get_preset(Call& call) {
   const std::optional<Overrides> overrides = read_query(call.query());
   if (!overrides)
     return refuse(call, problem_of({Code::malformed, {{"", "The query has a malformed percent escape."}}}));
-  auto read = read_preset(name, *overrides, call.service.config.limits);
+  auto read = preset_in_form(call, name, *overrides, extension);
   if (!read) return refuse(call, problem(404, "There is no preset of this name."));
   if (!*read) return refuse(call, problem_of(read->error()));
   if (auto refusal = forbidden(call, **read)) return std::move(*refusal);
