@@ -102,7 +102,14 @@ function neighbour(cards: HTMLElement[], at: number, key: string): number | unde
 
 function card(preset: Preset, choose: () => void): HTMLElement {
   const picture = el('img', { src: `./thumbnails/${preset.name}.webp`, alt: '', width: 192, height: 144, loading: 'lazy', decoding: 'async' });
-  picture.addEventListener('error', () => picture.classList.add('missing'));
+  // A server that is gone comes back.
+  let wait = 5000;
+  picture.addEventListener('load', () => picture.classList.remove('missing'));
+  picture.addEventListener('error', () => {
+    picture.classList.add('missing');
+    setTimeout(() => { picture.src = picture.src; }, wait);
+    wait = Math.min(wait * 2, 120_000);
+  });
   return el('button', { type: 'button', class: 'card', 'aria-pressed': 'false', 'data-preset': preset.name, title: preset.description, onclick: choose },
     picture, el('span', {}, preset.title));
 }

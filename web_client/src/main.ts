@@ -69,8 +69,8 @@ let last: { bytes: ArrayBuffer; model: Model | null; triangles: number } | null 
 /** What the making of the model, and what the checking of the request had to say. */
 let refusal: Refusal | null = null;
 let checked: Fault[] = [];
-/** The model that is shown is not the one that the link meant: that has to stay readable. */
-let link_is_damaged = false;
+/** What was said of the model when it was opened, and has to stay readable when it is drawn. */
+let standing = '';
 let is_locked = false;
 let waiting: ((drawn: boolean) => void)[] = [];
 /** The schema of the form, and of which generator it is. */
@@ -102,19 +102,21 @@ function locked(why: Locked, again: () => void): void {
 const begin_opening = (): AbortSignal => {
   opening.abort();
   opening = new AbortController();
-  link_is_damaged = false;
+  standing = '';
   return opening.signal;
 };
+
+function stand(words: string): void {
+  standing = words;
+  status.faults(words, [], 0, () => {});
+}
 
 const address = new Address({
   store, persist,
   presets: () => presets,
   get_preset: (name, signal) => (name === first_shown && early_first ? early_first(() => get_preset(name, signal)) : get_preset(name, signal)),
   begin: begin_opening,
-  damaged() {
-    link_is_damaged = true;
-    status.faults('This link is damaged: it holds no whole request. Ask for it once more, or choose from the gallery.', [], 0, () => {});
-  },
+  damaged: () => stand('This link is damaged: it holds no whole request. Ask for it once more, or choose from the gallery.'),
 });
 
 const core: Core = {
@@ -126,9 +128,10 @@ const core: Core = {
     if (document.body.dataset['state'] === 'ready') resolve(true);
     else waiting.push(resolve);
   }),
-  open(request, title) {
+  open(request, title, words = '') {
     begin_opening();
     store.open(request, { preset: null, title, description: '' });
+    if (words) stand(words);
     tabs.open('parameters');
     quietly(address.push(null));
   },
@@ -148,7 +151,7 @@ async function show(made: Made, request: Request): Promise<void> {
   // What was made has no errors: the check of an earlier text may say so later than the model does.
   checked = checked.filter((fault) => fault.mild);
   show_faults();
-  if (viewer && !link_is_damaged) status.faults('', [], 0, () => {});
+  if (viewer && !standing) status.faults('', [], 0, () => {});
   last = { bytes: made.bytes, model: null, triangles };
   const staged = document.body.classList.contains('stage');
   if (viewer && (triangles < heavy || staged || (await status.ask(`This model has ${grouped(triangles)} triangles.`, 'Draw it')))) {
@@ -226,7 +229,7 @@ store.subscribe((state, cause) => {
     checked = [];
   }
   if (cause !== 'open') {
-    link_is_damaged = false;
+    standing = '';
     address.follow(state);
     forget_hint();
   }
@@ -248,7 +251,13 @@ async function load_tools(signal: AbortSignal): Promise<void> {
 
 async function start(): Promise<void> {
   wire_hint();
-  part('cancel').addEventListener('click', () => grower.cancel());
+  part('cancel').addEventListener('click', () => {
+    // Nothing is made: what is given up is the asking for what to make.
+    if (!grower.is_running) begin_opening();
+    grower.cancel();
+  });
+  // The address is the request's: a jump within the page must not be written there.
+  part('skip').addEventListener('click', (event) => { event.preventDefault(); part('picture').focus(); });
   addEventListener('locked', (event) => {
     is_locked = (event as CustomEvent<boolean>).detail;
     status.phase(is_locked ? { kind: 'locked' } : grower.is_running ? { kind: 'growing', share: null } : { kind: 'ready' });

@@ -6,7 +6,10 @@ import { Refusal, import_file, import_formats, whole, type Fault, type Request }
 import { el, part } from './dom';
 
 interface Context {
-  open(request: Request, title: string): void;
+  /** `words` stay over the model when it is drawn. */
+  open(request: Request, title: string, words?: string): void;
+  /** Ends when what was opened is drawn. */
+  drawn(): Promise<boolean>;
   say(text: string): void;
   fail(text: string): void;
 }
@@ -40,10 +43,13 @@ export function wire_files(context: Context): { choose(): void } {
 async function take(file: File, context: Context): Promise<void> {
   if (file.size > largest) { context.fail(`${file.name} is larger than 16 MB.`); return; }
   const text = await file.text();
+  if (text.includes('\0')) {
+    context.fail(file.type.startsWith('image/') ? `${file.name} is a picture: drop it on the field of the picture that it is for.` : `${file.name} is no text: neither a request nor a grammar.`);
+    return;
+  }
   const request = await as_request(text);
   if (request) {
-    context.open(request, title_of(file));
-    context.say(`${file.name} is opened`);
+    await opened(context, request, title_of(file), `${file.name} is opened`);
     return;
   }
   try {
@@ -85,9 +91,15 @@ const wants_entry = (refusal: Refusal): boolean => refusal.faults.some((fault) =
 
 async function accept(file: File, text: string, format: string, entry: string, context: Context): Promise<void> {
   const { request, warnings } = await import_file(text, format, entry);
-  context.open(request, entry || title_of(file));
-  context.say(warnings.length === 0 ? `${file.name} is imported from ${format}` : `${file.name} is imported from ${format} with ${warnings.length} warnings`);
-  if (warnings.length > 0) context.fail(`What ${file.name} says and a request cannot: ${warnings.map(told).join(' ')}`);
+  const lost = warnings.length === 0 ? '' : `What ${file.name} says and a request cannot: ${warnings.map(told).join(' ')}`;
+  await opened(context, request, entry || title_of(file),
+    `${file.name} is imported from ${format}${lost ? ` with ${warnings.length} warnings` : ''}`, lost);
+}
+
+/** What happens while the model is made would wipe the word away. */
+async function opened(context: Context, request: Request, title: string, word: string, lost = ''): Promise<void> {
+  context.open(request, title, lost);
+  if (await context.drawn()) context.say(word);
 }
 
 const told = (fault: Fault): string => (fault.line === undefined ? fault.message : `Line ${fault.line}, column ${fault.column ?? 1}: ${fault.message}.`);
@@ -111,8 +123,9 @@ function ask(file: File, text: string, attempts: Attempt[], context: Context): v
       (error: unknown) => tell(error instanceof Refusal ? error : new Refusal({ detail: String(error) })));
   });
   dialog.replaceChildren(
-    el('h2', { id: 'import-title' }, `${file.name} is not understood`),
-    el('p', { class: 'soft' }, 'It is no request, and no format takes it as it is.'),
+    ...(attempts[0] && wants_entry(attempts[0].refusal)
+      ? [el('h2', { id: 'import-title' }, `Which entry of ${file.name}?`), el('p', { class: 'soft' }, 'It holds several: name the one to import.')]
+      : [el('h2', { id: 'import-title' }, `${file.name} is not understood`), el('p', { class: 'soft' }, 'It is no request, and no format takes it as it is.')]),
     el('div', { class: 'row' }, el('label', { for: 'import-format' }, 'Format'), format, el('label', { for: 'import-entry' }, 'Entry'), entry),
     el('div', { role: 'status' }, list),
     el('div', { class: 'row end' }, again, el('button', { type: 'button', onclick: () => dialog.close() }, 'Close')));

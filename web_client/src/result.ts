@@ -14,7 +14,7 @@ export interface Overlay {
 export interface Result {
   /** Whether it is in sight: only then is the server asked. */
   open(in_sight: boolean): void;
-  follow(state: State): void;
+  follow(state: State, is_new: boolean): void;
   /** Another model is drawn: what lay over the one before is gone. */
   drawn(): void;
   picked(index: number): void;
@@ -33,6 +33,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
   let in_sight = false;
   let running = new AbortController();
   let shapes: ShapeList | null = null;
+  let is_unanswered = false;
   let timer = 0;
 
   async function ask(): Promise<void> {
@@ -41,6 +42,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
     running = new AbortController();
     const { signal } = running;
     const asked = request;
+    is_unanswered = false;
     page.dataset['for'] = '';
     try {
       const answer = await derive(asked, signal);
@@ -49,6 +51,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
     } catch (error) {
       if (signal.aborted) return;
       shapes = null;
+      is_unanswered = !(error instanceof Refusal);
       page.replaceChildren(head(), el('p', { class: 'soft' }, error instanceof Refusal ? `Nothing to show: ${error.message}` : 'The server does not answer.'));
     }
     page.dataset['for'] = String(asked.seed);
@@ -57,6 +60,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
   function draw(answer: Members): void {
     const rest = { ...answer };
     const parts: (HTMLElement | null)[] = [];
+    const before = shapes;
     shapes = null;
     if (is_heights(rest)) {
       parts.push(draw_map(rest));
@@ -64,6 +68,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
     }
     if (is_shapes(rest['shapes'])) {
       shapes = new ShapeList(rest['shapes'], overlay, has_rules() ? lead : null);
+      if (before) shapes.take_over(before);
       parts.push(shapes.element);
       delete rest['shapes'];
     }
@@ -75,12 +80,18 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
 
   return {
     open(now) { in_sight = now; void ask(); },
-    follow(state) {
+    follow(state, is_new) {
       request = state.request;
+      if (is_new) shapes = null;
       clearTimeout(timer);
       timer = window.setTimeout(() => void ask(), debounce);
     },
-    drawn() { shapes?.lay_over(); },
+    drawn() {
+      if (shapes) shapes.lay_over();
+      else overlay?.set_boxes(null);
+      // A server that makes models answers.
+      if (is_unanswered) void ask();
+    },
     picked(index) { shapes?.pick(index); },
   };
 }

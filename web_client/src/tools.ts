@@ -39,7 +39,8 @@ export interface Core {
   preview(request: Request): void;
   /** Ends when the model of the last change is drawn; false where it was refused. */
   drawn(): Promise<boolean>;
-  open(request: Request, title: string): void;
+  /** `words` stay over the model when it is drawn. */
+  open(request: Request, title: string, words?: string): void;
   search(): void;
 }
 
@@ -102,7 +103,7 @@ export function wire_tools(core: Core): Tools {
 
   wire_menus();
   wire_copies(actions);
-  const files = wire_files({ open: core.open, say: status.say, fail: actions.fail });
+  const files = wire_files({ open: core.open, drawn: core.drawn, say: status.say, fail: actions.fail });
   const help = wire_help();
   wire_keys(core, { open_file: files.choose, help: help.open, save() { if (store.current) save_request(store.current.request, actions); } });
   if (viewer) {
@@ -123,7 +124,7 @@ export function wire_tools(core: Core): Tools {
       growth.leave();
       steps.follow(state);
       request_text.follow(state);
-      result.follow(state);
+      result.follow(state, is_new);
       if (is_new) view_menu?.offer_motions([]);
     },
     explain(schema) {

@@ -41,6 +41,13 @@ export class ShapeList {
       el('p', { class: 'soft' }, 'With the boxes on, click a part of the model to read what it is.'), this.told);
   }
 
+  /** What was chosen in the list of the request before its last change. */
+  take_over(before: ShapeList): void {
+    this.on.checked = before.on.checked;
+    if ([...this.kind.options].some((option) => option.value === before.kind.value)) this.kind.value = before.kind.value;
+    if (this.on.checked) this.lay_over();
+  }
+
   lay_over(): void {
     const kind = this.kind.value;
     this.seen = this.shapes.filter((shape) => (kind === '' ? shape.active !== false : kind === '*' || `=${shape.symbol}` === kind)).slice(0, most);

@@ -13,6 +13,10 @@ export interface Place {
   /** What "reset" goes back to; undefined leaves the member out. */
   base: unknown;
   board: Board;
+  /** Whether it cannot be left out. */
+  required?: boolean;
+  /** The value of a member of the same object, or what the schema says for it. */
+  beside?(name: string): unknown;
   /** undefined takes the member out of the request. */
   change(value: unknown): void;
   /** Where more than the field itself has to be drawn anew after a reset. */

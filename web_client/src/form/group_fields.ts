@@ -21,6 +21,8 @@ export function member_fields(place: Place): { name: string; schema: Schema; ele
       value: members[name],
       base: base[name],
       board: place.board,
+      required: place.schema.required?.includes(name) ?? false,
+      beside: (other) => members[other] ?? place.schema.properties?.[other]?.default,
       change(value) {
         if (value === undefined) delete members[name];
         else members[name] = value;

@@ -4,8 +4,11 @@
  */
 import { part } from '../dom';
 
-/** What the picture tells of a click that was no drag: where on the ground, and how wide it may miss. A long press of a finger is a right click. */
-export interface GroundClick { x: number; z: number; button: number; reach: number }
+/**
+ * What the picture tells of a click that was no drag: where on the ground, how wide it may miss, and whether there is any ground. A long
+ * press of a finger is a right click.
+ */
+export interface GroundClick { x: number; z: number; button: number; reach: number; on_ground: boolean }
 /** What it is asked to mark; `chosen` counts among all places. */
 export interface GroundMarks { places: Spot[]; chosen: number }
 
@@ -91,18 +94,27 @@ function clicked(click: GroundClick): void {
   const spot: Spot = [hundredth(click.x), hundredth(click.z)];
   const planting = all.find(([, bed]) => bed.way === 'plant');
   const moving = all.find(([, bed]) => bed.way === 'move' && bed.chosen >= 0);
-  if (click.button === 2 || planting) {
+  const is_put = click.button === 2 || planting !== undefined || (click.button === 0 && moving !== undefined);
+  if (is_put && !click.on_ground) {
+    tell('There is no ground at this place');
+  } else if (click.button === 2 || planting) {
     // Where nothing was used yet, the list that has most is meant: the trees rather than the house.
     const fullest = [...all].sort((a, b) => b[1].places().length - a[1].places().length)[0];
     const taker = planting ?? all.find(([pointer]) => pointer === last_used) ?? (all.length === 1 || fullest?.[1].places().length ? fullest : undefined);
-    if (taker) { choose_only(taker[0], all); use(taker[0]); taker[1].plant(spot); }
-    else part('picture').dispatchEvent(new CustomEvent('tell', { bubbles: true, detail: 'Nothing here stands place by place yet. Add the first place in the form' }));
+    if (!taker) { tell('Nothing here stands place by place yet. Add the first place in the form'); return; }
+    choose_only(taker[0], all);
+    use(taker[0]);
+    taker[1].plant(spot);
+    // Who has another page open sees neither the list nor the marks.
+    if (!in_sight) tell(`Planted at ${spot.join(', ')} m, for the list under Parameters. Undo takes it away`);
   } else if (click.button === 0 && moving) {
     moving[1].move(spot);
   } else if (click.button === 0) {
     choose_nearest(click, all);
   }
 }
+
+const tell = (detail: string): void => void part('picture').dispatchEvent(new CustomEvent('tell', { bubbles: true, detail }));
 
 function choose_nearest(click: GroundClick, all: [string, Bed][]): void {
   let nearest: { pointer: string; bed: Bed; index: number } | null = null, least = click.reach;

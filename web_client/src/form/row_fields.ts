@@ -89,9 +89,10 @@ export const image_field: Draw = (place) =>
     open.addEventListener('click', () => choose.click());
     choose.addEventListener('change', () => void take(choose.files?.[0]));
     remove?.addEventListener('click', () => { place.value = undefined; place.change(undefined); redraw('button'); });
-    area.addEventListener('dragover', (event) => { event.preventDefault(); event.stopPropagation(); area.classList.add('over'); });
-    area.addEventListener('dragleave', () => area.classList.remove('over'));
-    area.addEventListener('drop', (event) => {
+    // A hand that misses the dashed box means it nevertheless.
+    drawn.element.addEventListener('dragover', (event) => { event.preventDefault(); event.stopPropagation(); area.classList.add('over'); });
+    drawn.element.addEventListener('dragleave', () => area.classList.remove('over'));
+    drawn.element.addEventListener('drop', (event) => {
       event.preventDefault();
       event.stopPropagation();
       area.classList.remove('over');

@@ -26,6 +26,8 @@ export interface Schema {
   'x-steps'?: boolean;
   'x-advanced'?: boolean;
   'x-widget'?: string;
+  /** The member beside this one that stands for it where it is left out: more than that is no more. */
+  'x-full'?: string;
   'x-grammar'?: string;
   /** Of the output: the formats of every model. Of a generator: those that it has besides. */
   'x-formats'?: string[];

@@ -5,6 +5,13 @@ import type { Schema } from './schema';
 
 const shown = (place: Place): unknown => place.value ?? place.schema.default;
 
+/** What stands for a number that is left out: another number of the request, or what the schema has as an example. */
+function stand_in(place: Place): number | undefined {
+  const full = place.schema['x-full'];
+  const other = full === undefined ? place.schema.examples?.[0] : place.beside?.(full);
+  return typeof other === 'number' ? other : undefined;
+}
+
 /** A field whose whole drawing can be made anew. */
 export function redrawable(make: (redraw: Redraw) => HTMLElement): HTMLElement {
   let element: HTMLElement;
@@ -18,24 +25,25 @@ export function redrawable(make: (redraw: Redraw) => HTMLElement): HTMLElement {
   return element;
 }
 
-/** What a slider spans. A range too wide to aim in is cut to the neighbourhood of the value. */
-export function slider_span(schema: Schema, value: number): { low: number; high: number; step: number } {
+/** What a slider spans: up to `full`, where more is no more. A range too wide to aim in is cut to the neighbourhood of the value. */
+export function slider_span(schema: Schema, value: number, full?: number): { low: number; high: number; step: number } {
   const { minimum = -Infinity, maximum = Infinity } = schema;
   const whole = schema.type === 'integer';
   const usual = typeof schema.default === 'number' ? schema.default : 0;
   const near = Math.max(Math.abs(value), Math.abs(usual)) || 1;
   const step = schema['x-step'] ?? (whole ? 1 : 10 ** Math.floor(Math.log10(near / 20)));
   if (schema['x-steps']) return { low: Math.max(minimum, 0), high: Math.min(maximum, Math.max(value + 2, 4)), step };
+  if (full !== undefined) return { low: Math.max(minimum, 0), high: Math.min(maximum, Math.max(value, full)), step };
   if ((maximum - minimum) / step <= 2000) return { low: minimum, high: maximum, step };
   const reach = Math.ceil((near * 3) / step) * step;
   return { low: Math.max(minimum, minimum < 0 ? -reach : 0), high: Math.min(maximum, reach), step };
 }
 
-/** Asks the page to let grow by this number, up to what it is, or to what the schema has as an example. */
+/** Asks the page to let grow by this number, up to what it is, or to what stands for it. */
 function grow_button(place: Place): HTMLElement {
   return el('button', { type: 'button', class: 'grow', title: 'Lets it grow up to this number', 'aria-label': `Grow by ${place.label}`, onclick(event) {
-    const value = shown(place), full = place.schema.examples?.[0];
-    const detail = { pointer: place.pointer, until: typeof value === 'number' && value > 0 ? value : Number(full ?? 1), label: place.label };
+    const value = shown(place);
+    const detail = { pointer: place.pointer, until: typeof value === 'number' && value > 0 ? value : stand_in(place) ?? 1, label: place.label };
     event.target?.dispatchEvent(new CustomEvent('grow', { bubbles: true, detail }));
   } }, 'Grow');
 }
@@ -43,9 +51,10 @@ function grow_button(place: Place): HTMLElement {
 export const number_field: Draw = (place) =>
   redrawable((redraw) => {
     const value = shown(place);
-    const known = typeof value === 'number' ? value : 0;
-    const { low, high, step } = slider_span(place.schema, known);
-    const box = el('input', { type: 'number', step, value: typeof value === 'number' ? value : '', inputmode: 'decimal' });
+    const usual = stand_in(place);
+    const known = typeof value === 'number' ? value : usual ?? 0;
+    const { low, high, step } = slider_span(place.schema, known, place.schema['x-full'] === undefined ? undefined : usual);
+    const box = el('input', { type: 'number', step, value: typeof value === 'number' ? value : '', placeholder: usual ?? 'unset', inputmode: 'decimal' });
     const slider = el('input', { type: 'range', min: low, max: high, step, value: known, 'aria-label': `${place.label}, slider` });
     const unit = place.schema['x-unit'];
     const body = el('div', { class: 'number' }, slider, el('span', { class: 'box' }, box, unit ? el('span', { class: 'unit' }, unit) : null),
@@ -70,14 +79,19 @@ export const number_field: Draw = (place) =>
 export const choice_field: Draw = (place) =>
   redrawable((redraw) => {
     const values = place.schema.enum ?? [];
-    const readable = (value: unknown): string => String(value).replaceAll('_', ' ');
-    const select = el('select', {}, ...values.map((value, index) =>
-      el('option', { value: index, selected: value === shown(place) }, readable(value))));
+    const value = shown(place);
+    const readable = (each: unknown): string => String(each).replaceAll('_', ' ');
+    const option = (each: unknown, words: string): HTMLElement => el('option', { value: String(each), selected: each === value }, words);
+    const select = el('select', {},
+      // What a request may leave out, and what it says wrongly, is not passed off as one of the choices.
+      (place.schema.default === undefined && !place.required) && el('option', { value: '', selected: value === undefined }, 'not set'),
+      (value !== undefined && !values.includes(value)) && el('option', { value: '?', selected: true, disabled: true }, `${readable(value)}: not known`),
+      ...values.map((each) => option(each, readable(each))));
     const drawn = frame(place, select, select, redraw);
     select.addEventListener('change', () => {
-      const value = values[select.selectedIndex];
-      place.change(value);
-      drawn.now(value);
+      const next = values.find((each) => String(each) === select.value);
+      place.change(next);
+      drawn.now(next);
     });
     return drawn.element;
   });
@@ -93,11 +107,16 @@ export const switch_field: Draw = (place) =>
 
 export const color_field: Draw = (place) =>
   redrawable((redraw) => {
-    const value = String(shown(place) ?? '#808080');
-    const well = el('input', { type: 'color', value, 'aria-label': `${place.label}, picker` });
-    const text = el('input', { type: 'text', value, size: 8, spellcheck: 'false', autocomplete: 'off' });
+    const value = String(shown(place) ?? '');
+    const well = el('input', { type: 'color', value: value || '#808080', class: value ? '' : 'unset', 'aria-label': `${place.label}, picker` });
+    const text = el('input', { type: 'text', value, size: 8, placeholder: 'not set', spellcheck: 'false', autocomplete: 'off' });
     const drawn = frame(place, text, el('div', { class: 'color' }, well, text), redraw);
-    const take = (next: string): void => { place.change(next); drawn.now(next); };
+    const take = (next: string): void => {
+      const colour = next === '' ? undefined : next;
+      well.classList.toggle('unset', colour === undefined);
+      place.change(colour);
+      drawn.now(colour);
+    };
     well.addEventListener('input', () => { text.value = well.value; take(well.value); });
     text.addEventListener('input', () => {
       if (/^#[0-9a-f]{6}$/i.test(text.value)) well.value = text.value;

@@ -19,11 +19,11 @@ export function wire_ground(canvas: HTMLCanvasElement, scene: Scene, mark: (boxe
     const caster = new Raycaster();
     caster.setFromCamera(new Vector2((event.clientX - area.left) / area.width * 2 - 1, 1 - (event.clientY - area.top) / area.height * 2), scene.camera);
     const model = scene.model();
-    const met = (model && caster.intersectObject(model, true)[0]?.point)
-      ?? caster.ray.intersectPlane(new Plane(new Vector3(0, 1, 0), -scene.floor()), new Vector3());
+    const hit = model && caster.intersectObject(model, true)[0]?.point;
+    const met = hit ?? caster.ray.intersectPlane(new Plane(new Vector3(0, 1, 0), -scene.floor()), new Vector3());
     if (!met) return;
     const is_long = event.pointerType === 'touch' && event.timeStamp - down.at > long_press;
-    const detail: GroundClick = { x: met.x, z: met.z, button: is_long ? 2 : event.button, reach: scene.camera.position.distanceTo(met) * 0.03 };
+    const detail: GroundClick = { x: met.x, z: met.z, button: is_long ? 2 : event.button, reach: scene.camera.position.distanceTo(met) * 0.03, on_ground: Boolean(hit) };
     canvas.dispatchEvent(new CustomEvent('ground-click', { detail }));
   });
   canvas.addEventListener('mark-ground', (event) => {
