@@ -9,9 +9,9 @@
 namespace seedmesh {
 
 struct Estimate {
-  std::uint64_t triangles = 0;  ///< or lines or points, where the model has no triangles
-  std::uint64_t bytes = 0;      ///< of the GLB
-  bool exact = false;
+  std::uint64_t triangles = 0;  ///< none, where the model is of lines or points
+  std::uint64_t bytes = 0;      ///< of the GLB, about
+  bool exact = false;           ///< the triangles are just so many
 };
 
 struct Appraisal {

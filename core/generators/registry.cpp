@@ -25,6 +25,7 @@ struct Traits {
   bool grows = false, sways = false, has_collision = false;
   bool has_impostor = false, keeps_budget = false;
   bool parts = false, joins_triangles = false;
+  bool has_levels = true;
 };
 
 /// The functions of one generator as the compiler sees them, turned to those of a row.
@@ -62,6 +63,7 @@ struct Row {
             .keeps_budget = traits.keeps_budget,
             .parts = traits.parts,
             .joins_triangles = traits.joins_triangles,
+            .has_levels = traits.has_levels,
             .read = read,
             .write = write,
             .check = check,
@@ -124,7 +126,8 @@ constexpr Generator rows[] = {
         tree::vocabulary>::named("tree",
                                  {.grows = true, .sways = true, .has_collision = true, .has_impostor = true}),
     Row<FractalParams, read_fractal, write_fractal, fractal::check, fractal::generate, fractal::derive,
-        fractal::appraise, fractal::vocabulary>::named<fractal::encode>("fractal", fractal_forms),
+        fractal::appraise, fractal::vocabulary>::named<fractal::encode>("fractal", fractal_forms,
+                                                                        {.has_levels = false}),
     Row<TerrainParams, read_terrain, write_terrain, terrain::check, terrain::generate, terrain::derive,
         terrain::appraise,
         terrain::vocabulary>::named<terrain::encode, terrain::check_form>("terrain", terrain_forms,

@@ -66,6 +66,7 @@ class HoudiniReader {
       parameters_["axiom"] = modules(*premise_, Place::word);
       out_.origins.push_back({"/parameters/axiom", premise_->from, false});
     }
+    if (is_bare_ && rules.empty()) source_.fault(premise_->from, "found no rule; expected such as `A=FA`");
     parameters_["productions"] = Json::array();
     for (const Line& each : rules) rule(each);
     return made();
@@ -93,12 +94,24 @@ class HoudiniReader {
       number(rest, value->second);
     } else if (equals_of(line) < line.to) {
       rules.push_back(line);
+    } else if (colon == line.to && begins_setting(line)) {
+      source_.fault(line.from, "found no colon; expected such as `Premise: A` or `Angle: 28`");
     } else if (!premise_ && colon == line.to) {
       premise_ = line;
+      is_bare_ = true;
     } else {
       source_.fault(line.from,
                     "found no parameter of the node and no rule; expected such as `Angle: 28` or `A=FA`");
     }
+  }
+
+  /// Whether the line begins with the name of a parameter and a blank.
+  bool begins_setting(Line line) const {
+    std::size_t end = line.from;
+    while (end < line.to && !is_blank(text_[end])) ++end;
+    if (end == line.to || end - line.from < 2) return false;
+    const std::string word = squeezed(text_.substr(line.from, end - line.from));
+    return word == "premise" || word == "rule" || word == "step" || values_.contains(word);
   }
 
   void number(Line line, double& value) {
@@ -316,6 +329,7 @@ class HoudiniReader {
   std::string_view text_;
   std::map<std::string, double> values_;
   std::optional<Line> premise_;
+  bool is_bare_ = false;  ///< the premise stands without its name
   std::set<std::pair<char, std::size_t>> arities_;
   std::set<char> warned_;
   Json parameters_ = Json::object();

@@ -17,6 +17,9 @@
 namespace seedmesh {
 namespace {
 
+/// Meshes that are quantised and compressed come to so small a part of their bytes, about.
+constexpr std::uint64_t compression = 4;
+
 struct Form {
   std::string_view name;
   Container container;
@@ -269,6 +272,11 @@ Result<std::string> derive(const Request& request, Job& job) {
   });
 }
 
+/// Whether the output holds the generator's own triangles, no more and no fewer.
+static bool leaves_meshes(const OutputParams& output) {
+  return !profile_of(output.profile).compressed && output.lods == 1 && !output.impostor;
+}
+
 Result<std::string> validate(const Request& request, Job& job) {
   return guarded<std::string>([&]() -> Result<std::string> {
     Result<Appraisal> appraisal = request.body().generator->appraise(request.body().params, job);
@@ -278,7 +286,8 @@ Result<std::string> validate(const Request& request, Job& job) {
     if (std::optional<Estimate>& estimate = appraisal->estimate) {
       const auto variants = static_cast<std::uint64_t>(output.variants);
       *estimate = {estimate->triangles * variants, estimate->bytes * variants,
-                   estimate->exact && variants == 1};
+                   estimate->exact && variants == 1 && leaves_meshes(output)};
+      if (profile_of(output.profile).compressed) estimate->bytes /= compression;
       const auto most = static_cast<std::uint64_t>(output.max_triangles.value_or(0));
       if (most > 0 && estimate->triangles > most) {
         *estimate = {most, estimate->bytes / estimate->triangles * most, false};

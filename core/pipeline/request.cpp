@@ -95,6 +95,12 @@ void check_profile(const OutputParams& output, Faults& faults) {
   }
 }
 
+void check_levels(const Generator& generator, const OutputParams& output, Faults& faults) {
+  if (output.lods == 1 || generator.has_levels) return;
+  faults.add({"/output/lods", "found " + std::to_string(output.lods) + " levels of detail; the generator " +
+                                  std::string(generator.name) + " makes one"});
+}
+
 /// A picture needs texels, and something that stands still.
 void check_impostor(const Generator& generator, const OutputParams& output, Faults& faults) {
   if (!output.impostor) return;
@@ -176,6 +182,7 @@ Result<Request> read_request_body(const Json& json, const Limits& limits) {
     add_form_fault(*body.generator, frame.output, faults);
     check_own_form(*body.generator, body.params, frame.output, faults);
     check_impostor(*body.generator, frame.output, faults);
+    check_levels(*body.generator, frame.output, faults);
   }
   if (body.generator && !body.generator->grows && frame.output.animation == OutputParams::Animation::growth) {
     faults.add({"/output/animation",

@@ -19,6 +19,9 @@ const kiln_schema = {
     vast: { type: 'number', minimum: 0, maximum: 1000000, default: 2, 'x-group': 'Fire' },
     lid: { title: 'Lid', type: 'boolean', default: false, 'x-group': 'Fire' },
     wood: { title: 'Wood', type: 'string', enum: ['dry_oak', 'pine'], default: 'pine', 'x-group': 'Fire' },
+    ash: { title: 'Ash', type: 'number', minimum: 0, maximum: 1000, 'x-step': 0.5, 'x-full': 'heat', 'x-widget': 'growth', 'x-group': 'Fire' },
+    flame: { title: 'Flame', type: 'string', enum: ['low', 'high'], 'x-group': 'Fire' },
+    slip: { title: 'Slip', type: 'string', 'x-widget': 'color', 'x-group': 'Clay' },
     glaze: { title: 'Glaze', type: 'string', 'x-widget': 'color', default: '#112233', 'x-group': 'Clay' },
     label: { title: 'Label', type: 'string', default: '', 'x-group': 'Clay' },
     marks: { title: 'Marks', type: 'array', items: { type: 'string' }, default: [], 'x-group': 'Clay' },
@@ -74,6 +77,22 @@ test('every kind of value has its control, in groups, with unit, range and help'
   assert.deepEqual(await at('wood').locator('option').allTextContents(), ['dry oak', 'pine']);
   assert.equal(await at('glaze').locator('input[type=color]').inputValue(), '#112233');
   assert.ok(await at('odd').isHidden(), 'what is advanced is folded away');
+  assert.deepEqual(page.faults, []);
+});
+
+test('what a request leaves out is shown as such, and at what stands for it', { timeout: 300_000 }, async () => {
+  const { page, sends, at } = await open_kiln({ wood: 'ivory' });
+  const ash = at('ash');
+  assert.deepEqual(await ash.locator('input[type=range]').evaluate((each) => [each.min, each.max, each.value]), ['0', '20', '20']);
+  assert.deepEqual(await ash.locator('input[type=number]').evaluate((each) => [each.value, each.placeholder]), ['', '20']);
+  assert.equal((await sends(() => ash.locator('input[type=range]').press('ArrowLeft'))).ash, 19.5);
+  assert.ok(await ash.getByRole('button', { name: 'Grow by Ash' }).isVisible());
+  const flame = at('flame').locator('select');
+  assert.equal(await flame.locator('option:checked').textContent(), 'not set');
+  assert.equal((await sends(() => flame.selectOption({ label: 'low' }))).flame, 'low');
+  assert.ok(!('flame' in await sends(() => flame.selectOption({ label: 'not set' }))));
+  assert.equal(await at('wood').locator('option:checked').textContent(), 'ivory: not known');
+  assert.equal(await at('slip').locator('input[type=text]').inputValue(), '');
   assert.deepEqual(page.faults, []);
 });
 

@@ -136,6 +136,15 @@ test('marks stand in the picture while the form is in sight', { timeout: 300_000
   assert.ok(share >= 0.0003, `${share} of the picture`);
 });
 
+test('what is planted with the gallery in sight is told, and nothing is planted beside the ground', { timeout: 300_000 }, async () => {
+  const { page, sends, canvas } = await open_garden();
+  await page.click('#tab-gallery');
+  assert.equal((await sends(() => canvas.click({ button: 'right', position: { x: 120, y: 260 } }))).flat().length, 3);
+  await page.waitForFunction(() => /^Planted at -?[\d.]+, -?[\d.]+ m/.test(document.getElementById('status').textContent));
+  await canvas.click({ button: 'right', position: { x: 5, y: 5 } });
+  await page.waitForFunction(() => document.getElementById('status').textContent.includes('no ground at this place'));
+});
+
 test('a tap plants, and a long press does without a switch', { timeout: 300_000 }, async () => {
   const { page, sends, bed, canvas } = await open_garden({ hasTouch: true });
   await bed(0).getByRole('button', { name: 'Plant by click' }).click();

@@ -50,6 +50,29 @@ test('a server that is gone is named, and the page goes on when it is back', { t
   assert.match(await page.getAttribute('#picture', 'aria-label'), /seed 5/);
 });
 
+test('cancel gives up a preset that a full server has not given', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  let is_full = true;
+  await page.route('**/v1/presets/koch_island*', (route) =>
+    (is_full ? route.fulfill({ status: 429, headers: { 'Retry-After': '1' }, contentType: 'application/problem+json', body: '{}' }) : route.continue()));
+  await page.click('[data-preset="koch_island"]');
+  await until_state(page, 'full');
+  await page.click('#cancel');
+  await until_state(page, 'stopped');
+  is_full = false;
+  await page.waitForTimeout(2500);
+  assert.equal(await page.evaluate(() => document.body.dataset.state), 'stopped');
+  assert.notEqual(await page.textContent('#title'), 'Koch island');
+});
+
+test('a thumbnail that an outage took is asked for again', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address, { before: (page) => page.route('**/thumbnails/*', (route) => route.abort(), { times: 1 }) });
+  const missing = page.locator('.card img.missing');
+  await page.waitForFunction(() => [...document.querySelectorAll('.card img')].filter((each) => each.complete && each.naturalWidth > 0).length > 3);
+  await page.waitForFunction(() => document.querySelectorAll('.card img.missing').length === 0, null, { timeout: 30_000 });
+  assert.equal(await missing.count(), 0);
+});
+
 test('a server that has ended is tried again on demand', { timeout: 200_000 }, async () => {
   const mortal = await serve(program);
   const page = await open(browser, `${mortal.url}/${fragment_of(small_tree)}`);

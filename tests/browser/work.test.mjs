@@ -153,11 +153,11 @@ test('a request that is too long for a link is said to be', { timeout: 200_000 }
 });
 
 /** Drops a file onto the page as a hand would. */
-const drop = (page, name, text) => page.evaluate(({ name, text }) => {
+const drop = (page, name, text, type = '') => page.evaluate(({ name, text, type }) => {
   const dataTransfer = new DataTransfer();
-  dataTransfer.items.add(new File([text], name));
-  for (const type of ['dragenter', 'dragover', 'drop']) document.body.dispatchEvent(new DragEvent(type, { dataTransfer, bubbles: true, cancelable: true }));
-}, { name, text });
+  dataTransfer.items.add(new File([text], name, { type }));
+  for (const each of ['dragenter', 'dragover', 'drop']) document.body.dispatchEvent(new DragEvent(each, { dataTransfer, bubbles: true, cancelable: true }));
+}, { name, text, type });
 
 test('a request that is dropped or chosen is opened', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
@@ -183,17 +183,22 @@ test('a file of another program is imported, and one that nobody understands is 
   const page = await open(browser, address);
   const koch = 'Koch1 {\n  Angle 6\n  Axiom F--F--F\n  F=F+F--F+F\n}\n';
   await until_shown(page, () => drop(page, 'koch.l', koch));
+  await page.waitForFunction(() => document.getElementById('status').textContent.includes('koch.l is imported from fractint'));
+  assert.match(await page.textContent('#alert'), /What koch\.l says and a request cannot: Line 1, column 1: an entry does not say how many steps/);
   assert.ok((await statistics(page)).bytes > 0);
   await page.waitForFunction(() => location.hash.length > 50);
   assert.match(JSON.stringify(request_of(new URL(page.url()).hash)), /F\+F--F\+F/);
   await drop(page, 'two.l', `${koch}Koch2 {\n  Angle 4\n  Axiom F\n  F=F+F-F\n}\n`);
   await page.waitForSelector('#import-dialog[open]');
+  assert.equal(await page.textContent('#import-title'), 'Which entry of two.l?');
   assert.match(await page.textContent('#import-dialog'), /Koch1, Koch2/);
   assert.equal(await page.inputValue('#import-format'), 'fractint');
   await page.fill('#import-entry', 'Koch2');
   await until_shown(page, () => page.click('#import-dialog button.first'));
   assert.ok(await page.isHidden('#import-dialog'));
   assert.equal(await page.textContent('#title'), 'Koch2');
+  await drop(page, 'photo.png', '\u0089PNG\0\0', 'image/png');
+  await page.waitForFunction(() => document.getElementById('alert').textContent.includes('photo.png is a picture'));
   await drop(page, 'letter.txt', 'Dear all,\nthis is a letter.\n');
   await page.waitForSelector('#import-dialog[open]');
   assert.match(await page.textContent('#import-dialog'), /Line \d+, column 1/);

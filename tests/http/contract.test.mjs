@@ -352,6 +352,13 @@ test('import tells line and column of what it does not understand', async () => 
   is_problem(await import_file('fractint', Buffer.from([0xff, 0xfe])), 400, 'malformed-request');
 });
 
+test('the extension of a preset goes with what its query asks of the output', async () => {
+  const zip = await server.get('/v1/presets/house.zip?output.lods=2');
+  assert.equal(zip.status, 200, zip.text?.slice(0, 300));
+  assert.equal(zip.type, 'application/zip');
+  is_problem(await server.get('/v1/presets/house.glb?output.lods=2'), 422, 'invalid-request');
+});
+
 // --- validate, derive ----------------------------------------------------------------------------------------------
 
 test('validate estimates without making anything, and lists every fault', async () => {

@@ -170,6 +170,12 @@ void check_element(const FractalParams& params, std::vector<Issue>& issues) {
   }
 }
 
+/// A copy that a map presses flat has fewer triangles than the element, or none.
+bool presses_nothing_flat(const Instructions& instructions) {
+  return std::ranges::none_of(instructions.maps,
+                              [](const Affine& map) { return glm::determinant(map.linear) == 0; });
+}
+
 /// Triangles and bytes of one stage.
 Estimate estimate_stage(const FractalParams& params, const Instructions& instructions, const Element& element,
                         int rounds, const Job& job) {
@@ -181,7 +187,10 @@ Estimate estimate_stage(const FractalParams& params, const Instructions& instruc
     return {2 * count, 62 * count + 1000, true};
   }
   const Plan plan = plan_of(instructions, element, rounds, job);
-  return {static_cast<std::uint64_t>(plan.pieces) * element.elements, plan.bytes + 1000, true};
+  const bool has_triangles = std::ranges::all_of(
+      element.primitives, [](const Primitive& p) { return p.mesh.topology == Topology::triangles; });
+  const std::uint64_t elements = static_cast<std::uint64_t>(plan.pieces) * element.elements;
+  return {has_triangles ? elements : 0, plan.bytes + 1000, presses_nothing_flat(instructions)};
 }
 
 Result<Appraisal> appraise_copies(const FractalParams& params, Job& job) {
@@ -272,7 +281,7 @@ Result<Appraisal> appraise(const FractalParams& params, const Job& job) {
       Job::refuse("needs " + std::to_string(points) + " points; the limit is " +
                       std::to_string(job.limits().triangles),
                   "/points");
-    appraisal.estimate = Estimate{points, 16 * points + 1000, true};
+    appraisal.estimate = Estimate{0, 16 * points + 1000, true};
   }
   return appraisal;
 }

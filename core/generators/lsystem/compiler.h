@@ -38,7 +38,7 @@ class Compiler {
   void read_alphabet();
   void check_symbol(const WrittenModule& module, Source& source) const;
   std::uint32_t surface_of(std::string_view symbol) const;
-  void check_surface(const WrittenModule& module, Source& source) const;
+  void check_surface(const WrittenModule& module, Source& source);
   void take_faults(Source& source);
   void read_axiom();
   void read_rules(const std::string& folder, const std::vector<std::string>& texts, Rules& rules);

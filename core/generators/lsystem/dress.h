@@ -12,6 +12,6 @@ Model dress(Skeleton skeleton, const LsystemParams& params, Job& job);
 std::uint64_t most_segments(const LsystemParams& params, const Limits& limits);
 
 /// Size of a model of so many drawn segments.
-Estimate estimate_of(std::uint64_t segments, const LsystemParams& params);
+Estimate estimate_of(std::uint64_t segments, std::uint64_t limbs, const LsystemParams& params);
 
 }  // namespace seedmesh::lsystem

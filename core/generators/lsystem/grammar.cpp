@@ -134,9 +134,16 @@ std::uint32_t Compiler::surface_of(std::string_view symbol) const {
   return static_cast<std::uint32_t>(std::distance(params_.surfaces.begin(), found));
 }
 
-/// A ~ of no surface is a slip wherever there are surfaces.
-void Compiler::check_surface(const WrittenModule& module, Source& source) const {
-  if (module.symbol != "~" || params_.surfaces.empty()) return;
+/// A ~ of no surface is a slip wherever there are surfaces; where there are none it may be a letter as
+/// others.
+void Compiler::check_surface(const WrittenModule& module, Source& source) {
+  if (module.symbol != "~") return;
+  if (params_.surfaces.empty()) {
+    const TextPlace place = place_of(source.text, module.offset);
+    grammar_.warnings.push_back(
+        {source.pointer, "found `~` and no `surfaces`: it draws nothing", place.line, place.column});
+    return;
+  }
   std::string known;
   for (const auto& [name, surface] : params_.surfaces) known += (known.empty() ? "~" : ", ~") + name;
   source.faults.push_back({module.offset, "found `~` without the name of a surface; there are " + known});

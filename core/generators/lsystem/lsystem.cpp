@@ -118,6 +118,14 @@ std::uint64_t drawn(const Grammar& grammar, const std::vector<std::uint64_t>& co
   return segments;
 }
 
+std::uint64_t branches(const Grammar& grammar, const std::vector<std::uint64_t>& counts) {
+  std::uint64_t sum = 0;
+  for (std::size_t kind = 0; kind < counts.size(); ++kind) {
+    if (grammar.kinds[kind].command == Command::push) sum += std::min(saturated, counts[kind]);
+  }
+  return sum;
+}
+
 /// Refuses what is sure to draw too much before it is drawn; what only shows on the way is refused there.
 void refuse_too_many_segments(const Grammar& grammar, const LsystemParams& params, Drawing& drawing,
                               const Job& job) {
@@ -251,7 +259,8 @@ Result<Appraisal> appraise(const LsystemParams& params, const Job& job) {
   if (Garden::needed(*grammar, params)) return appraisal;
   const std::vector<std::uint64_t> counts = exact_counts(*grammar, steps_of(params));
   if (!counts.empty() && grammar->interpretation.productions.empty()) {
-    appraisal.estimate = estimate_of(drawn(*grammar, counts), params);
+    const std::uint64_t segments = drawn(*grammar, counts);
+    appraisal.estimate = estimate_of(segments, std::min(segments, 1 + branches(*grammar, counts)), params);
   }
   return appraisal;
 }

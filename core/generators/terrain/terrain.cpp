@@ -68,6 +68,34 @@ std::optional<Error> refusal(const TerrainParams& params, const Limits& limits) 
   return Error{Code::invalid, std::move(issues)};
 }
 
+/// Of the whole grid, where the parameters tell it.
+std::uint64_t grid_triangles(const TerrainParams& params) {
+  const auto squares = static_cast<std::uint64_t>(finished_side(params) - 1);
+  if (params.shape == TerrainShape::sphere) return 12 * squares * squares;
+  std::uint64_t triangles = 2 * squares * squares;
+  if (params.skirt > 0) triangles += 8 * squares;
+  if (params.base) triangles += 12 * squares;
+  return triangles;
+}
+
+/// Rounds, and not samples, say how fine it is.
+bool is_subdivided(const TerrainParams& params) {
+  return params.algorithm == TerrainAlgorithm::triangular_edge ||
+         params.algorithm == TerrainAlgorithm::diamond_square ||
+         params.algorithm == TerrainAlgorithm::square_square;
+}
+
+/// Before the field is made, which may take seconds.
+void refuse_too_many(const TerrainParams& params, const Job& job) {
+  if (params.algorithm == TerrainAlgorithm::image || params.onto || params.mesh != TerrainMesh::grid) return;
+  const std::uint64_t triangles = grid_triangles(params), most = job.limits().triangles;
+  if (triangles <= most) return;
+  Job::refuse("needs " + std::to_string(triangles) + " triangles for the whole grid; the limit is " +
+                  std::to_string(most) +
+                  "; a reduced mesh (`mesh`) or a height map (`output.format`) needs fewer",
+              is_subdivided(params) ? "/iterations" : "/resolution");
+}
+
 Error no_rtin_of(const Field& field) {
   return Error{Code::invalid,
                {{"/mesh", "rtin wants a square of 2^n + 1 samples a side and this image has " +
@@ -89,6 +117,7 @@ std::vector<Issue> check(const TerrainParams& params, const Limits& limits) {
 
 Result<Model> generate(const TerrainParams& params, Job& job) {
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
+  refuse_too_many(params, job);
   job.progress("derive", 0);
   if (params.shape == TerrainShape::sphere) return dressed_planet(params, job);
   const Result<Field> field = field_of(params, job);
@@ -159,15 +188,12 @@ Result<Appraisal> appraise(const TerrainParams& params, const Job& job) {
     return appraisal;
   const auto squares = static_cast<std::uint64_t>(finished_side(params) - 1);
   Estimate estimate;
-  if (sphere) {
-    estimate.triangles = 12 * squares * squares;
-  } else {
-    estimate.triangles = 2 * squares * squares;
-    if (params.skirt > 0) estimate.triangles += 8 * squares;
-    if (params.base) estimate.triangles += 12 * squares;
-  }
+  estimate.triangles = grid_triangles(params);
+  refuse_too_many(params, job);
   estimate.exact = !params.water_level;
-  estimate.bytes = estimate.triangles / 2 * bytes_a_vertex + estimate.triangles * 6;
+  constexpr std::uint64_t document = 1200;
+  estimate.bytes =
+      document + (estimate.triangles / 2 + 2 * squares + 1) * bytes_a_vertex + estimate.triangles * 6;
   appraisal.estimate = estimate;
   return appraisal;
 }

@@ -37,6 +37,13 @@ TEST(Houdini, FlipsWhatHoudiniFlips) {
   EXPECT_THAT(told(result), IsEmpty());
 }
 
+TEST(Houdini, RefusesAParameterWithoutItsColonAndAPremiseWithoutRules) {
+  EXPECT_THAT(told(imported("houdini", "Premise A\nA=FA\n")), Contains(HasSubstr("found no colon")));
+  EXPECT_THAT(told(imported("houdini", "Premise: A\nGenerations 5\nA=FA\n")),
+              Contains(HasSubstr("found no colon")));
+  EXPECT_THAT(told(imported("houdini", "dear all\n")), Contains(HasSubstr("found no rule")));
+}
+
 TEST(Houdini, FlipsATurnInContextsToo) {
   const auto result = imported("houdini", "F+A\nF<+>A=-\nA = &A\nGenerations: 1\n");
   ASSERT_TRUE(result) << told(result)[0];

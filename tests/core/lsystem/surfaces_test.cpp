@@ -49,6 +49,22 @@ const Mesh& first_mesh(const Model& model, const Node& node) {
   return model.meshes[static_cast<std::size_t>(node.mesh)].primitives.front().mesh;
 }
 
+TEST(Tubes, WarnOfInternodesThatAreTooThinBesideTheWhole) {
+  const Model koch = model_of(R"({"axiom":"F","productions":["F -> F+F--F+F"],"angle":60,"iterations":9})");
+  ASSERT_EQ(koch.warnings.size(), 1U);
+  EXPECT_EQ(koch.warnings[0].pointer, "/width");
+  EXPECT_THAT(koch.warnings[0].message, testing::StartsWith("262144 internodes are too thin"));
+  EXPECT_TRUE(model_of(R"({"axiom":"F","productions":["F -> F+F--F+F"],"angle":60,"iterations":4})")
+                  .warnings.empty());
+}
+
+TEST(Organs, AreMissedWhereAnOrganIsAskedForAndThereAreNoSurfaces) {
+  const Model model = model_of(R"({"axiom":"F~F"})");
+  ASSERT_EQ(model.warnings.size(), 1U);
+  EXPECT_EQ(model.warnings[0].pointer, "/axiom");
+  EXPECT_EQ(model.warnings[0].column, 2);
+}
+
 TEST(Surfaces, StandWhereTheTurtleStandsAndPointAlongItsHeading) {
   const Model model = model_of(
       R"json({"axiom":"F(2)-(90)~leaf(0.5)","surfaces":{"leaf":{"shape":"kite","fold":0,"droop":0}}})json");

@@ -216,6 +216,24 @@ TEST(Output, SpeaksOfVariantsInTheEstimate) {
   EXPECT_EQ(triangles(R"({"max_triangles":77})"), 77U);
 }
 
+TEST(Output, SpeaksOfTrianglesAloneInTheEstimateAndOfExactOnesWhereTheyAre) {
+  const auto estimate = [](const std::string& preset, const std::string& output) {
+    const Result<Request> request = read_request(request_of(preset, output), Limits{});
+    Job job(0, Job::Options{});
+    return json::parse(*validate(*request, job))["estimate"];
+  };
+  EXPECT_EQ(estimate("fern_cloud", "{}")["triangles"], 0);
+  EXPECT_EQ(estimate("koch_curve_rounds", "{}")["triangles"], 0);
+  const json plain = estimate("menger_sponge", "{}"), web = estimate("menger_sponge", R"({"profile":"web"})");
+  EXPECT_EQ(plain["exact"], true);
+  EXPECT_EQ(web["exact"], false);
+  EXPECT_LT(web["bytes"], plain["bytes"]);
+}
+
+TEST(Output, RefusesLevelsOfDetailOfAGeneratorThatMakesOne) {
+  EXPECT_THAT(refused("menger_sponge", R"({"lods":3,"format":"zip"})"), ElementsAre("/output/lods"));
+}
+
 /// A trunk with a hull, as a generator leaves it.
 Model trunk() {
   Model model;

@@ -166,6 +166,21 @@ TEST(HydraulicErosion, WearsGroundDownWithinTheHeightsThereWere) {
   EXPECT_NE(values(field), values(before));
 }
 
+TEST(HydraulicErosion, EndsADropThatGoesRoundInAHollow) {
+  Field far = hills(33), farther = hills(33);
+  erode(far, {.droplets = 500, .lifetime = 4 * (33 + 33), .evaporation = 0}, Rng(3), any_job());
+  erode(farther, {.droplets = 500, .lifetime = 1e9, .evaporation = 0}, Rng(3), any_job());
+  EXPECT_EQ(values(far), values(farther));
+}
+
+TEST(HydraulicErosion, KeepsTheMemoryLimit) {
+  Field field = hills(513);
+  Job::Options options;
+  options.limits.memory_bytes = 1 << 20;
+  const Job job(0, options);
+  EXPECT_THROW(erode(field, {.droplets = 100'000, .lifetime = 1e9, .evaporation = 0}, Rng(3), job), Stop);
+}
+
 TEST(Drainage, LeavesEveryHollowByItsRim) {
   // A basin inside a wall that is lower in one place.
   const Field field = field_from(9, 9, [](int x, int z) {

@@ -102,6 +102,24 @@ TEST(Terrain, IsTheSameWithAnyNumberOfThreads) {
   }
 }
 
+TEST(Terrain, RefusesAGridOfTooManyTrianglesBeforeTheFieldIsMade) {
+  TerrainParams params;
+  params.iterations = 14;
+  Job job(0, Job::Options{});
+  for (const bool is_made : {true, false}) {
+    try {
+      if (is_made)
+        (void)generate(params, job);
+      else
+        (void)appraise(params, job);
+      ADD_FAILURE() << "it was taken";
+    } catch (const Stop& stop) {
+      EXPECT_EQ(stop.issue().pointer, "/iterations");
+      EXPECT_THAT(stop.issue().message, HasSubstr("536870912 triangles"));
+    }
+  }
+}
+
 TEST(Terrain, IsCutIntoPiecesOfNarrowIndicesWhereItIsLarge) {
   TerrainParams params;
   params.iterations = 9;
