@@ -21,41 +21,60 @@ class RtinErrors {
       : field_(field),
         job_(job),
         side_(field.width),
-        errors_(job, field.heights.size(), 0.0F),
-        cells_(static_cast<std::size_t>(side_ >> cell_bits) + 1),
-        touched_(cells_ * cells_, 0) {
+        errors_(job, static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), 0.0F) {
     for (std::int32_t step = 1; step < side_ - 1; step *= 2) {
       sides(step);
       centres(step);
     }
   }
 
-  float at(std::int32_t x, std::int32_t z) const { return errors_[place(x, z)]; }
+  /// By sample, row by row.
+  const float* data() const { return errors_.data(); }
+  float at(Place sample) const { return errors_[place(sample.x, sample.z)]; }
 
-  /// Puts a sample into every mesh, and with it all whose triangles must be halved before.
-  void need(Place sample) {
+  /// Puts a sample into every mesh, and with it all whose triangles must be halved before. What a mesh of the
+  /// bound `threshold` had is left alone: it had all that comes before, too. The others are added to `fresh`.
+  void need(Place sample, float threshold, std::vector<Place>& fresh) {
     left_.assign(1, sample);
     while (!left_.empty()) {
       const Place at = left_.back();
       left_.pop_back();
-      if (errors_[place(at.x, at.z)] == needed) continue;
-      errors_[place(at.x, at.z)] = needed;
-      touched_[cell(at.x, at.z)] = 1;
-      parents(at, left_);
+      float& error = errors_[place(at.x, at.z)];
+      if (error > threshold) continue;
+      error = needed;
+      fresh.push_back(at);
+      each_apex(at, [&](Place apex) { left_.push_back(apex); });
     }
   }
 
-  /// Was a sample near this one put in since forget_touched()? Tells without a look at the samples.
-  bool touched(std::int32_t x, std::int32_t z) const { return touched_[cell(x, z)] != 0; }
-  void forget_touched() { std::fill(touched_.begin(), touched_.end(), std::uint8_t{0}); }
+  /// The apexes of the triangles that a sample halves: they must be in the mesh before it can be. A corner of
+  /// the field, which every mesh has, halves none.
+  template <class Visit>
+  void each_apex(Place at, const Visit& visit) const {
+    std::int32_t step = 1;
+    while (((at.x | at.z) & step) == 0 && step < side_) step *= 2;
+    if (step >= side_ - 1) return;
+    const auto tell = [&](std::int32_t x, std::int32_t z) {
+      if (x >= 0 && z >= 0 && x < side_ && z < side_) visit(Place{x, z});
+    };
+    const bool odd_x = (at.x & step) != 0, odd_z = (at.z & step) != 0;
+    if (odd_x && odd_z) {
+      // A centre: the corners off its long side, themselves midpoints of sides of squares twice as large.
+      const std::int32_t south = runs_south_east(at.x, at.z, step) ? -step : step;
+      tell(at.x + step, at.z + south);
+      tell(at.x - step, at.z - south);
+    } else if (odd_x) {
+      tell(at.x, at.z - step);
+      tell(at.x, at.z + step);
+    } else {
+      tell(at.x - step, at.z);
+      tell(at.x + step, at.z);
+    }
+  }
 
  private:
   std::size_t place(std::int32_t x, std::int32_t z) const {
     return static_cast<std::size_t>(z) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(x);
-  }
-  static constexpr int cell_bits = 4;
-  std::size_t cell(std::int32_t x, std::int32_t z) const {
-    return static_cast<std::size_t>(z >> cell_bits) * cells_ + static_cast<std::size_t>(x >> cell_bits);
   }
 
   static constexpr std::size_t rows_a_chunk = 64;
@@ -127,41 +146,11 @@ class RtinErrors {
     });
   }
 
-  /// The samples that must be in the mesh before this one can be.
-  void parents(Place at, std::vector<Place>& out) const {
-    std::int32_t step = 1;
-    while (((at.x | at.z) & step) == 0 && step < side_) step *= 2;
-    if (step >= side_ - 1) return;  // a corner, which every mesh has
-    const auto add = [&](std::int32_t x, std::int32_t z) {
-      if (x >= 0 && z >= 0 && x < side_ && z < side_) out.push_back({x, z});
-    };
-    const bool odd_x = (at.x & step) != 0, odd_z = (at.z & step) != 0;
-    if (odd_x && odd_z) {
-      // A centre: the corners off its long side, themselves midpoints of sides of squares twice as large.
-      if (2 * step >= side_ - 1) return;
-      if (runs_south_east(at.x, at.z, step)) {
-        add(at.x + step, at.z - step);
-        add(at.x - step, at.z + step);
-      } else {
-        add(at.x - step, at.z - step);
-        add(at.x + step, at.z + step);
-      }
-    } else if (odd_x) {
-      add(at.x, at.z - step);
-      add(at.x, at.z + step);
-    } else {
-      add(at.x - step, at.z);
-      add(at.x + step, at.z);
-    }
-  }
-
   const Field& field_;
   const Job& job_;
   std::int32_t side_;
   Array<float> errors_;
-  std::size_t cells_;
-  std::vector<std::uint8_t> touched_;  ///< of each square of 16 samples
-  std::vector<Place> left_;            ///< of need(), kept for the next
+  std::vector<Place> left_;  ///< of need(), kept for the next
 };
 
 }  // namespace seedmesh::terrain
