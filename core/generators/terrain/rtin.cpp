@@ -27,6 +27,7 @@ constexpr std::array<float, most_levels> farthest_by_level() {
   return all;
 }
 constexpr std::array<float, most_levels> farthest = farthest_by_level();
+static_assert(farthest[1] == farthest[2]);
 
 /// Which triangles are left whole, so that no sample is off by more than the bound: what is off is put into
 /// the mesh, and the triangles that come of it are looked at anew.
@@ -39,7 +40,10 @@ class Settling {
         threshold_(static_cast<float>(max_error)),
         rounding_(rounding_of(range_of(field, job), threshold_)),
         job_(job),
-        meter_(job, Resource::triangles) {}
+        meter_(job, Resource::triangles) {
+    for (std::size_t level = 0; level < most_levels; ++level)
+      least_[level] = level == 0 ? RtinErrors::needed : threshold_ / farthest[level] - 2 * rounding_;
+  }
 
   void run(std::span<const Half> parts) {
     look_at_all(parts);
@@ -55,7 +59,7 @@ class Settling {
   }
 
  private:
-  static constexpr std::size_t fresh_a_chunk = 1024;
+  static constexpr std::size_t rows_a_chunk = 16, fresh_a_chunk = 1024;
 
   /// How far the rounding of heights and errors may carry an error, generously.
   static float rounding_of(const Range& range, float threshold) {
@@ -67,19 +71,45 @@ class Settling {
     return level > 0 && farthest[static_cast<std::size_t>(level)] * (error + rounding_) >= threshold_;
   }
 
+  /// Looks where a middle that is not in the mesh is doubtful: the triangles that it would halve are there if
+  /// their apexes are. Walking down to them would take longer than a look at all samples.
   void look_at_all(std::span<const Half> parts) {
-    off_.resize(parts.size());
     std::vector<std::size_t> counts(parts.size());
     parallel_for(job_, parts.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
-      job_.check();
-      std::size_t count = 0;
-      each_whole(errors_.data(), threshold_, parts[i], [&](const Half& half, float error) {
-        ++count;
-        if (doubtful(half.level, error)) look(places_of(half, field_.width), off_[i]);
-      });
-      counts[i] = count;
+      counts[i] = count_whole(errors_.data(), threshold_, parts[i], field_.width);
     });
     for (const std::size_t count : counts) meter_.spend(count);
+    const auto side = static_cast<std::size_t>(field_.width);
+    off_.assign(chunk_count(side, rows_a_chunk), {});
+    parallel_for(job_, side, rows_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+      job_.check();
+      for (std::size_t z = begin; z < end; ++z) look_at_row(static_cast<std::int32_t>(z), off_[chunk]);
+    });
+  }
+
+  void look_at_row(std::int32_t z, std::vector<Place>& off) const {
+    const float* row = errors_.data() + static_cast<std::size_t>(z) * static_cast<std::size_t>(field_.width);
+    const auto is_close = [&](float error, int level) {
+      return (error >= least_[static_cast<std::size_t>(level)]) & (error <= threshold_);
+    };
+    for (std::int32_t x = 0; z % 2 == 0 && x < field_.width; x += 2) {
+      const int level = errors_.level({x, z});
+      if (is_close(row[x], level)) look_around({x, z}, level, off);
+    }
+    // Of the lowest levels hardly any is close. Their bound is the same.
+    std::int32_t any = 0;
+    for (std::int32_t x = 0; x < field_.width; ++x) any |= is_close(row[x], 1) ? 1 : 0;
+    for (std::int32_t x = z % 2 == 0 ? 1 : 0; any != 0 && x < field_.width; x += z % 2 == 0 ? 2 : 1) {
+      if (is_close(row[x], 1)) look_around({x, z}, errors_.level({x, z}), off);
+    }
+  }
+
+  /// The triangles that a sample would halve.
+  void look_around(Place middle, int level, std::vector<Place>& off) const {
+    if (!doubtful(level, errors_.at(middle))) return;
+    errors_.each_apex(middle, [&](Place apex) {
+      if (errors_.at(apex) > threshold_ || errors_.is_corner(apex)) look(halved(middle, apex, level), off);
+    });
   }
 
   /// The triangles that samples new in the mesh have halved.
@@ -100,13 +130,15 @@ class Settling {
   }
 
   /// The triangle with this apex that `middle` halves.
-  void look_at_halves(Place middle, Place apex, std::vector<Place>& off) const {
+  static HalfPlaces halved(Place middle, Place apex, int level) {
     const std::int32_t x = apex.x - middle.x, z = apex.z - middle.z;
-    const Place a{middle.x + z, middle.z - x}, b{middle.x - z, middle.z + x};
-    const int level =
-        std::countr_zero(static_cast<std::uint64_t>(2 * (std::int64_t{x} * x + std::int64_t{z} * z)));
-    for (const HalfPlaces& half :
-         {HalfPlaces{apex, a, middle, level - 1}, HalfPlaces{b, apex, middle, level - 1}}) {
+    return {{middle.x + z, middle.z - x}, {middle.x - z, middle.z + x}, apex, level};
+  }
+
+  void look_at_halves(Place middle, Place apex, std::vector<Place>& off) const {
+    const HalfPlaces whole = halved(middle, apex, errors_.level(middle));
+    for (const HalfPlaces& half : {HalfPlaces{apex, whole.a, middle, whole.level - 1},
+                                   HalfPlaces{whole.b, apex, middle, whole.level - 1}}) {
       if (half.level == 0) continue;
       const float error = errors_.at({(half.a.x + half.b.x) / 2, (half.a.z + half.b.z) / 2});
       if (!(error > threshold_) && doubtful(half.level, error)) look(half, off);
@@ -137,6 +169,7 @@ class Settling {
   RtinErrors& errors_;
   double max_error_;
   float threshold_, rounding_;
+  std::array<float, most_levels> least_;  ///< errors that may be doubtful, by level; rounded downward
   Job& job_;
   Meter meter_;
   std::vector<std::vector<Place>> off_;  ///< by part or chunk

@@ -1,6 +1,7 @@
 #pragma once
 /// The errors that decide which triangles of a right-triangulated network are halved; for rtin.cpp.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -47,13 +48,21 @@ class RtinErrors {
     }
   }
 
+  bool is_corner(Place at) const { return step_of(at) == side_ - 1; }
+
+  /// How often the triangles that a sample halves can be halved; 0 of a corner of the field.
+  int level(Place at) const {
+    const std::int32_t step = step_of(at);
+    if (step == side_ - 1) return 0;
+    return 2 * std::countr_zero(static_cast<std::uint32_t>(step)) + ((at.x & at.z & step) != 0 ? 2 : 1);
+  }
+
   /// The apexes of the triangles that a sample halves: they must be in the mesh before it can be. A corner of
   /// the field, which every mesh has, halves none.
   template <class Visit>
   void each_apex(Place at, const Visit& visit) const {
-    std::int32_t step = 1;
-    while (((at.x | at.z) & step) == 0 && step < side_) step *= 2;
-    if (step >= side_ - 1) return;
+    const std::int32_t step = step_of(at);
+    if (step == side_ - 1) return;
     const auto tell = [&](std::int32_t x, std::int32_t z) {
       if (x >= 0 && z >= 0 && x < side_ && z < side_) visit(Place{x, z});
     };
@@ -73,6 +82,12 @@ class RtinErrors {
   }
 
  private:
+  /// Half the side of the squares that a sample was the middle or the middle of a side of.
+  std::int32_t step_of(Place at) const {
+    const std::int32_t bits = at.x | at.z | (side_ - 1);
+    return bits & -bits;
+  }
+
   std::size_t place(std::int32_t x, std::int32_t z) const {
     return static_cast<std::size_t>(z) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(x);
   }

@@ -86,6 +86,10 @@ void each_row_inside(const HalfPlaces& half, const Visit& visit) {
   }
 }
 
+/// How many triangles of the bound `threshold` are left whole within `root`, without a walk down to them:
+/// each sample of the mesh inside has halved two, one on an edge one.
+std::size_t count_whole(const float* errors, float threshold, const Half& root, std::int32_t side);
+
 /// The plane through its corners. The doubled area is a power of two: what is multiplied here is exact.
 inline Plane plane_of(const HalfPlaces& half, double ha, double hb, double hc) {
   const double share = 1.0 / static_cast<double>(std::int64_t{1} << half.level);

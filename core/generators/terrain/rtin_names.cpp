@@ -10,6 +10,16 @@ namespace {
 
 constexpr std::uint32_t unnamed = 0xFFFFFFFFU;
 
+/// visit(sample) from one end of an edge up to the other, which is left out.
+template <class Visit>
+void each_sample(std::uint32_t from, std::uint32_t to, std::int32_t side, const Visit& visit) {
+  const Place start = place_of(from, side), end = place_of(to, side);
+  const std::int32_t count = std::max(std::abs(end.x - start.x), std::abs(end.z - start.z));
+  const std::int64_t step = (std::int64_t{to} - from) / count;
+  std::int64_t sample = from;
+  for (std::int32_t i = 0; i < count; ++i, sample += step) visit(static_cast<std::uint32_t>(sample));
+}
+
 /// Every part names its samples from 0 on; what other parts named before is added when all are done. A sample
 /// on the border of parts belongs to the first of them, which uses it if any does.
 class Naming {
@@ -27,11 +37,8 @@ class Naming {
         used_(job) {}
 
   Triangulation run() {
-    each_part([&](std::size_t part) {
-      std::size_t count = 0;
-      each_whole(errors_, threshold_, parts_[part], [&](const Half&, float) { ++count; });
-      first_[part + 1] = count;
-    });
+    each_part(
+        [&](std::size_t part) { first_[part + 1] = count_whole(errors_, threshold_, parts_[part], side_); });
     for (std::size_t part = 0; part < parts_.size(); ++part) {
       first_[part + 1] += first_[part];
       share_border(part);
@@ -75,16 +82,12 @@ class Naming {
   }
 
   void share_edge(std::uint32_t from, std::uint32_t to, std::size_t part) {
-    const Place start = place_of(from, side_), end = place_of(to, side_);
-    const std::int32_t count = std::max(std::abs(end.x - start.x), std::abs(end.z - start.z));
-    const std::int64_t step = (std::int64_t{to} - from) / count;
-    std::int64_t sample = from;
-    for (std::int32_t i = 0; i < count; ++i, sample += step) {
-      std::uint32_t& name = names_[static_cast<std::size_t>(sample)];
-      if (name != unnamed) continue;
+    each_sample(from, to, side_, [&](std::uint32_t sample) {
+      std::uint32_t& name = names_[sample];
+      if (name != unnamed) return;
       name = is_shared | static_cast<std::uint32_t>(shared_.size());
       shared_.push_back({static_cast<std::uint32_t>(part), unnamed});
-    }
+    });
   }
 
   /// A polygon of n triangles has n + 2 corners at most.
@@ -146,6 +149,23 @@ class Naming {
 };
 
 }  // namespace
+
+std::size_t count_whole(const float* errors, float threshold, const Half& root, std::int32_t side) {
+  std::size_t all = 0, edges = 0;
+  each_row_inside(places_of(root, side), [&](std::int32_t z, std::int32_t first, std::int32_t last) {
+    const float* row = errors + static_cast<std::size_t>(z) * static_cast<std::size_t>(side);
+    std::uint32_t count = 0;
+    for (std::int32_t x = first; x <= last; ++x) count += row[x] > threshold ? 1U : 0U;
+    all += count;
+  });
+  const auto in_mesh = [&](std::uint32_t sample) { return errors[sample] > threshold ? 1U : 0U; };
+  const auto count_edge = [&](std::uint32_t sample) { edges += in_mesh(sample); };
+  each_sample(root.a, root.b, side, count_edge);
+  each_sample(root.b, root.c, side, count_edge);
+  each_sample(root.c, root.a, side, count_edge);
+  // A corner was counted both inside and on an edge; what it halved lies outside.
+  return 1 + 2 * all - edges - in_mesh(root.a) - in_mesh(root.b) - in_mesh(root.c);
+}
 
 Triangulation named(std::span<const Half> parts, const float* errors, float threshold, std::int32_t side,
                     const Job& job) {
