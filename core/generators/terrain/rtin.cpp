@@ -76,7 +76,7 @@ class Settling {
   void look_at_all(std::span<const Half> parts) {
     std::vector<std::size_t> counts(parts.size());
     parallel_for(job_, parts.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
-      counts[i] = count_whole(errors_.data(), threshold_, parts[i], field_.width);
+      counts[i] = count_whole(errors_, threshold_, parts[i]);
     });
     for (const std::size_t count : counts) meter_.spend(count);
     const auto side = static_cast<std::size_t>(field_.width);
@@ -88,7 +88,7 @@ class Settling {
   }
 
   void look_at_row(std::int32_t z, std::vector<Place>& off) const {
-    const float* row = errors_.data() + static_cast<std::size_t>(z) * static_cast<std::size_t>(field_.width);
+    const float* row = errors_.row(z);
     const auto is_close = [&](float error, int level) {
       return (error >= least_[static_cast<std::size_t>(level)]) & (error <= threshold_);
     };
@@ -193,9 +193,9 @@ Triangulation rtin(const Field& field, double max_error, Border border, Job& job
         errors.need(at, threshold, all);
     }
   }
-  const std::vector<Half> parts = parts_of(errors.data(), threshold, field.width, depth_of_parts);
+  const std::vector<Half> parts = parts_of(errors, threshold, depth_of_parts);
   Settling(field, errors, max_error, job).run(parts);
-  return named(parts, errors.data(), threshold, field.width, job);
+  return named(parts, errors, threshold, job);
 }
 
 double measured_error(const Field& field, const Triangulation& mesh, const Job& job) {

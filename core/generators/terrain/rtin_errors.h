@@ -12,6 +12,14 @@
 
 namespace seedmesh::terrain {
 
+/// Distance of rows in arrays by sample. Whole lines of the cache, and an odd number of them: rows that
+/// follow each other, as all do in small triangles, then have places of their own in it.
+constexpr std::int32_t stride_of(std::int32_t side) {
+  constexpr std::int32_t line = 16;
+  return (side + line - 1) / line * line;
+}
+static_assert(stride_of(1025) / 16 % 2 == 1);
+
 /// For every sample how far off the mesh may be where the triangles that it halves are left whole: of the
 /// sample itself and of all below it.
 class RtinErrors {
@@ -22,15 +30,18 @@ class RtinErrors {
       : field_(field),
         job_(job),
         side_(field.width),
-        errors_(job, static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), 0.0F) {
+        stride_(stride_of(side_)),
+        errors_(job, static_cast<std::size_t>(stride_) * static_cast<std::size_t>(side_), 0.0F) {
     for (std::int32_t step = 1; step < side_ - 1; step *= 2) {
       sides(step);
       centres(step);
     }
   }
 
-  /// By sample, row by row.
+  std::int32_t side() const { return side_; }
+  std::int32_t stride() const { return stride_; }
   const float* data() const { return errors_.data(); }
+  const float* row(std::int32_t z) const { return errors_.data() + place(0, z); }
   float at(Place sample) const { return errors_[place(sample.x, sample.z)]; }
 
   /// Puts a sample into every mesh, and with it all whose triangles must be halved before. What a mesh of the
@@ -89,7 +100,7 @@ class RtinErrors {
   }
 
   std::size_t place(std::int32_t x, std::int32_t z) const {
-    return static_cast<std::size_t>(z) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(x);
+    return static_cast<std::size_t>(z) * static_cast<std::size_t>(stride_) + static_cast<std::size_t>(x);
   }
 
   static constexpr std::size_t rows_a_chunk = 64;
@@ -163,7 +174,7 @@ class RtinErrors {
 
   const Field& field_;
   const Job& job_;
-  std::int32_t side_;
+  std::int32_t side_, stride_;
   Array<float> errors_;
   std::vector<Place> left_;  ///< of need(), kept for the next
 };

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/generators/terrain/scan.h"
+#include "core/generators/terrain/rtin_errors.h"
 
 namespace seedmesh::terrain {
 
-/// A triangle by the numbers of its samples, row by row: its long side is a-b and its right angle at c,
-/// clockwise seen from above, as both its halves then are.
+/// A triangle by the numbers x + z * stride of its samples (stride_of in rtin_errors.h): its long side is a-b
+/// and its right angle at c, clockwise seen from above, as both its halves then are.
 struct Half {
   std::uint32_t a = 0, b = 0, c = 0;
   int level = 0;  ///< how often it can be halved; the area is half a cell twice as often
@@ -21,24 +21,13 @@ struct Half {
   Half second() const { return {b, c, middle(), level - 1}; }
 };
 
-/// visit(half, error) for each triangle within `root` that is left whole where `threshold` may be passed
-/// nowhere, in the order of the hierarchy; the error is that of its middle, 0 where it cannot be halved.
-template <class Visit>
-void each_whole(const float* errors, float threshold, Half root, const Visit& visit) {
-  for (;;) {
-    const float error = root.level > 0 ? errors[root.middle()] : 0;
-    if (root.level == 0 || !(error > threshold)) return visit(root, error);
-    each_whole(errors, threshold, root.first(), visit);
-    root = root.second();
-  }
-}
-
 /// The triangles `depth` halvings below the two of the field, or those above that are left whole.
-inline std::vector<Half> parts_of(const float* errors, float threshold, std::int32_t side, int depth) {
+inline std::vector<Half> parts_of(const RtinErrors& all, float threshold, int depth) {
+  const float* errors = all.data();
   int level = 0;
-  for (std::int32_t i = 1; i < side - 1; i *= 2) level += 2;
-  const auto wide = static_cast<std::uint32_t>(side);
-  const std::uint32_t east = wide - 1, south = wide * east;
+  for (std::int32_t i = 1; i < all.side() - 1; i *= 2) level += 2;
+  const auto east = static_cast<std::uint32_t>(all.side() - 1);
+  const std::uint32_t south = static_cast<std::uint32_t>(all.stride()) * east;
   std::vector<Half> parts{{0, south + east, east, level}, {south + east, 0, south, level}};
   for (; depth > 0; --depth) {
     std::vector<Half> halves;
@@ -61,8 +50,8 @@ struct HalfPlaces {
   int level = 0;
 };
 
-inline HalfPlaces places_of(const Half& half, std::int32_t side) {
-  return {place_of(half.a, side), place_of(half.b, side), place_of(half.c, side), half.level};
+inline HalfPlaces places_of(const Half& half, std::int32_t stride) {
+  return {place_of(half.a, stride), place_of(half.b, stride), place_of(half.c, stride), half.level};
 }
 
 /// visit(z, first x, last x) for each row of the triangle, its edges included.
@@ -88,7 +77,7 @@ void each_row_inside(const HalfPlaces& half, const Visit& visit) {
 
 /// How many triangles of the bound `threshold` are left whole within `root`, without a walk down to them:
 /// each sample of the mesh inside has halved two, one on an edge one.
-std::size_t count_whole(const float* errors, float threshold, const Half& root, std::int32_t side);
+std::size_t count_whole(const RtinErrors& errors, float threshold, const Half& root);
 
 /// The plane through its corners. The doubled area is a power of two: what is multiplied here is exact.
 inline Plane plane_of(const HalfPlaces& half, double ha, double hb, double hc) {

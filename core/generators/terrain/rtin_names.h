@@ -8,9 +8,8 @@
 namespace seedmesh::terrain {
 
 /// Names the samples by their first use, in the order of the hierarchy. `parts` are all of the field, in
-/// order; `errors` by sample are those that a mesh of the bound `threshold` was settled with, so that no
+/// order; `errors` are those that a mesh of the bound `threshold` was settled with, so that no
 /// sample is a corner on one side of an edge alone. Runs on job.threads().
-Triangulation named(std::span<const Half> parts, const float* errors, float threshold, std::int32_t side,
-                    const Job& job);
+Triangulation named(std::span<const Half> parts, const RtinErrors& errors, float threshold, const Job& job);
 
 }  // namespace seedmesh::terrain
