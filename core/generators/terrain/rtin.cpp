@@ -74,17 +74,19 @@ class Settling {
   /// Looks where a middle that is not in the mesh is doubtful: the triangles that it would halve are there if
   /// their apexes are. Walking down to them would take longer than a look at all samples.
   void look_at_all(std::span<const Half> parts) {
+    const auto side = static_cast<std::size_t>(field_.width);
     std::vector<std::size_t> counts(parts.size());
-    parallel_for(job_, parts.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
-      counts[i] = count_whole(errors_, threshold_, parts[i]);
+    off_.assign(chunk_count(side, rows_a_chunk), {});
+    parallel_for(job_, off_.size() + parts.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
+      job_.check();
+      if (i >= off_.size()) {
+        counts[i - off_.size()] = count_whole(errors_, threshold_, parts[i - off_.size()]);
+        return;
+      }
+      const std::size_t end = std::min(side, (i + 1) * rows_a_chunk);
+      for (std::size_t z = i * rows_a_chunk; z < end; ++z) look_at_row(static_cast<std::int32_t>(z), off_[i]);
     });
     for (const std::size_t count : counts) meter_.spend(count);
-    const auto side = static_cast<std::size_t>(field_.width);
-    off_.assign(chunk_count(side, rows_a_chunk), {});
-    parallel_for(job_, side, rows_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-      job_.check();
-      for (std::size_t z = begin; z < end; ++z) look_at_row(static_cast<std::int32_t>(z), off_[chunk]);
-    });
   }
 
   void look_at_row(std::int32_t z, std::vector<Place>& off) const {

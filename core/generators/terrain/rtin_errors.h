@@ -103,17 +103,20 @@ class RtinErrors {
     return static_cast<std::size_t>(z) * static_cast<std::size_t>(stride_) + static_cast<std::size_t>(x);
   }
 
-  static constexpr std::size_t rows_a_chunk = 64;
+  static constexpr std::size_t rows_a_chunk = 64, shared_out = 512;
 
-  /// Rows of a pass over the samples (first + i * step), in parallel where there are many.
+  /// Rows of a pass over the samples (first + i * step), in parallel where there are many: each level has a
+  /// quarter of the work of that below, and waiting for each other takes time too.
   template <class Body>
   void each_step(const Job& job, std::int32_t first, std::int32_t last, std::int32_t step, const Body& body) {
     if (last < first) return;
     const auto count = static_cast<std::size_t>((last - first) / step) + 1;
-    parallel_for(job, count, rows_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
-      job.check();
-      for (std::size_t i = begin; i < end; ++i) body(first + static_cast<std::int32_t>(i) * step);
-    });
+    parallel_for(job, count, count < shared_out ? count : rows_a_chunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                   job.check();
+                   for (std::size_t i = begin; i < end; ++i)
+                     body(first + static_cast<std::int32_t>(i) * step);
+                 });
   }
 
   /// Midpoints of the sides of squares of 2 * step: below them are the centres of squares of `step`.
