@@ -2,6 +2,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -86,7 +87,7 @@ class Settling {
       const std::size_t end = std::min(side, (i + 1) * rows_a_chunk);
       for (std::size_t z = i * rows_a_chunk; z < end; ++z) look_at_row(static_cast<std::int32_t>(z), off_[i]);
     });
-    for (const std::size_t count : counts) meter_.spend(count);
+    meter_.spend(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
   }
 
   void look_at_row(std::int32_t z, std::vector<Place>& off) const {
@@ -128,7 +129,7 @@ class Settling {
                      });
                    }
                  });
-    for (const std::size_t count : counts) meter_.spend(count);
+    meter_.spend(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
   }
 
   /// The triangle with this apex that `middle` halves.
