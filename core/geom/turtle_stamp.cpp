@@ -24,6 +24,7 @@ void append_rest(Array<T>& to, const Array<T>& from, std::uint32_t first) {
 
 void Turtle::begin_stamp(const Turtle& like, Stamp& stamp) {
   places_ = &stamp.places_;
+  most_segments_ = like.most_segments_;
   state_ = like.state_;
   state_.position = glm::dvec3(0);
   state_.frame = Frame{};

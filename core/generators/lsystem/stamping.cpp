@@ -11,6 +11,7 @@ constexpr std::uint64_t worth_it = std::uint64_t{1} << 20U;  // modules of the w
 // A stamp is to stay in the processor's own memory, and drawing all of them to cost little.
 constexpr std::uint64_t least_of_stamp = 64, most_of_stamp = 8192;
 constexpr std::size_t most_stamps = 64;
+constexpr std::size_t most_pieces = std::size_t{1} << 16U;  // kinds times steps
 
 /// Does the symbol mean the same to a turtle that is turned and moved, and nothing to any but the turtle?
 bool moves_along(const Grammar& grammar, Command command) {
@@ -33,6 +34,7 @@ std::uint64_t sum(std::uint64_t a, std::uint64_t b) { return std::min(saturated,
 
 bool Stamping::fits(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps) {
   if (!grammar.is_free() || Drawing::needs_keys(grammar, params)) return false;
+  if ((std::size_t{steps} + 1) * grammar.kinds.size() > most_pieces) return false;
   const std::vector<std::uint64_t> counts = exact_counts(grammar, steps);
   std::uint64_t modules = 0;
   for (const std::uint64_t each : counts) modules = sum(modules, each);
