@@ -5,10 +5,6 @@
 namespace seedmesh {
 namespace {
 
-// Beyond this, positions stored as float squared in later stages would overflow; no model of anything is so
-// far away.
-constexpr double world = 1e15;
-
 glm::vec3 stored(const glm::dvec3& p) { return glm::vec3(p) + 0.0F; }  // -0 becomes 0
 
 // Internodes of a piece of a generalized cylinder where nothing else is said, and at most.
@@ -23,10 +19,17 @@ Turtle::Turtle(Skeleton* skeleton, double width, Job& job) : skeleton_(skeleton)
 void Turtle::advance(double length) {
   state_.position += length * state_.frame.heading;
   const glm::dvec3& p = state_.position;
-  if (!(std::abs(p.x) < world && std::abs(p.y) < world && std::abs(p.z) < world)) {
-    Job::reject({"", "the turtle went further than 1e15 metres from its start"});
-  }
+  if (!(std::abs(p.x) < world && std::abs(p.y) < world && std::abs(p.z) < world)) reject_place();
 }
+
+void Turtle::reject_place() { Job::reject({"", "the turtle went further than 1e15 metres from its start"}); }
+
+void Turtle::refuse_segments() const {
+  Job::refuse("draws more than " + std::to_string(most_segments_) + " segments, which pass the limit of " +
+              std::to_string(job_.limits().triangles) + " triangles");
+}
+
+void Turtle::refuse_joints() { Job::refuse("draws more segments than can be counted in 32 bits"); }
 
 void Turtle::draw(double length, std::uint64_t key) {
   if (!polygons_.empty()) return walk(length);
@@ -75,10 +78,7 @@ void Turtle::stand_up() {
 
 void Turtle::add_segment(const glm::dvec3& from, double length, std::uint64_t key) {
   const glm::dvec3& to = state_.position;
-  if (report_.segments == most_segments_) {
-    Job::refuse("draws more than " + std::to_string(most_segments_) + " segments, which pass the limit of " +
-                std::to_string(job_.limits().triangles) + " triangles");
-  }
+  if (report_.segments == most_segments_) refuse_segments();
   if (report_.segments++ == 0) report_.min = report_.max = from;
   report_.total_length += std::abs(length);
   report_.min = glm::min(report_.min, glm::min(from, to));
@@ -96,10 +96,11 @@ void Turtle::add_segment(const glm::dvec3& from, double length, std::uint64_t ke
 
 std::uint32_t Turtle::add_joint(const glm::dvec3& at, std::uint32_t parent, std::uint64_t key) {
   Limbs& limbs = skeleton_->limbs;
-  if (limbs.size() >= Limbs::none) Job::refuse("draws more segments than can be counted in 32 bits");
+  if (limbs.size() >= Limbs::none) refuse_joints();
   const auto own = static_cast<std::uint32_t>(limbs.size());
   limbs.position.push_back(stored(at));
   limbs.parent.push_back(parent);
+  if (places_) places_->push_back(at);
   if (draws_wires_) {
     if (state_.color != 0 && limbs.color.empty()) {  // the first that is not 0
       for (std::uint32_t joint = 0; joint < own; ++joint) limbs.color.push_back(0);

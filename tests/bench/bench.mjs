@@ -15,6 +15,8 @@ const aims = {
   'D0L bush n=8': { rate: 430e6, over_peer: 5 },
   'parametric tree 2.6a n=19': { rate: 25e6 },
   'context signal': { rate: 200e6 },
+  'Tajic A n=14, lines': { seconds: 0.3 },
+  'Tajic B n=14, lines': { seconds: 0.3 },
   // Terrain: seconds for the whole.
   'diamond-square 4097': { seconds: 0.06 },
   'fBm of 8 octaves 1025': { seconds: 30e-9 * 1025 * 1025 },

@@ -146,7 +146,7 @@ void bench_model(char system, std::uint32_t steps, LsystemParams::Style style) {
       std::string("Tajic ") + system + " n=" + std::to_string(steps) + (tubes ? ", tubes" : ", lines");
   std::uint64_t elements = 0;
   try {
-    const double seconds = bench::median_seconds<bench::CpuClock>(1, [&] {
+    const double seconds = bench::median_seconds<bench::CpuClock>(3, [&] {
       Job job(0, Job::Options{});
       const Result<Model> model = generate(params, job);
       if (!model) std::abort();

@@ -36,6 +36,12 @@ class Drawing {
   /// Where it starts, before anything is drawn.
   void start_at(const glm::dvec3& position) { turtle_.move_to(position); }
   const Turtle& turtle() const { return turtle_; }
+  /// Stamps (core/geom/turtle.h) of what is drawn here; `begin_stamp` of a drawing of the stamp's own.
+  bool can_stamp() const { return turtle_.can_stamp(); }
+  bool matches(const Turtle::Stamp& stamp) const { return turtle_.matches(stamp); }
+  void press(const Turtle::Stamp& stamp) { turtle_.press(stamp); }
+  void begin_stamp(const Drawing& like, Turtle::Stamp& stamp) { turtle_.begin_stamp(like.turtle_, stamp); }
+  void end_stamp(Turtle::Stamp& stamp) { turtle_.end_stamp(stamp); }
   void set_most_segments(std::uint64_t most) { turtle_.set_most_segments(most); }
 
  private:

@@ -2,11 +2,19 @@
 /// Derivation without the word: a context-free system is rewritten depth first, module by module, straight
 /// into whoever reads the result. Memory grows with the number of steps, not with the length of the word.
 /// Keys by place make the result equal to that of rewriting the whole word step by step.
+#include <concepts>
 #include <vector>
 
 #include "core/generators/lsystem/choose.h"
 
 namespace seedmesh::lsystem {
+
+/// A sink may take all that a module becomes off the derivation's hands: takes(kind, step), for a module that
+/// was written at `step` and will be rewritten, tells whether it did.
+template <class Sink>
+concept TakesWholes = requires(Sink& sink, KindId kind, std::uint32_t step) {
+  { sink.takes(kind, step) } -> std::same_as<bool>;
+};
 
 /// Sink: void module(KindId, const double* parameters, std::uint64_t key, std::uint32_t step): called in the
 /// order of the word; `step` is the derivation step that wrote the module (0: it stood in the axiom).
@@ -27,6 +35,9 @@ class FreeDerivation {
 
   void run() { write(grammar_.axiom, nullptr, job_.rng().key(), 0); }
 
+  /// What becomes of one module without parameters that was written at `step`.
+  void run(KindId kind, std::uint32_t step) { rewrite(kind, parameters_.data(), 0, step); }
+
  private:
   /// Writes a successor (or the axiom) that appears at `step`, rewriting each module up to the last step.
   void write(Range successor, const double* slots, std::uint64_t parent, std::uint32_t step) {
@@ -37,6 +48,9 @@ class FreeDerivation {
       const std::uint64_t key = keyed_ ? child_key(parent, *each) : 0;
       fill_arguments(grammar_, *each, slots, key, own);
       if (step < steps_ && rules_.rewrites(each->kind)) {
+        if constexpr (TakesWholes<Sink>) {
+          if (sink_.takes(each->kind, step)) continue;
+        }
         rewrite(each->kind, own, key, step);
       } else {
         meter_.spend();

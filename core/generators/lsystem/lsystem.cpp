@@ -15,6 +15,7 @@
 #include "core/generators/lsystem/looks.h"
 #include "core/generators/lsystem/shape.h"
 #include "core/generators/lsystem/sprout.h"
+#include "core/generators/lsystem/stamping.h"
 #include "core/generators/lsystem/surfaces.h"
 #include "core/generators/lsystem/text.h"
 #include "core/generators/lsystem/word.h"
@@ -78,6 +79,10 @@ void run(const Grammar& grammar, const LsystemParams& params, Sink& sink, Job& j
 /// Draws the plant at its age.
 void draw(const Grammar& grammar, const LsystemParams& params, Drawing& drawing, Job& job) {
   const double share = share_of(params);
+  if (share == 1 && drawing.can_stamp() && Stamping::fits(grammar, params, steps_of(params))) {
+    Stamping stamping(grammar, params, steps_of(params), drawing, job);
+    return run(grammar, params, stamping, job);
+  }
   if (share == 1) return run(grammar, params, drawing, job);
   const std::uint32_t whole = steps_of(params) - 1;
   Sprouting sprouting(grammar, drawing, whole, share);

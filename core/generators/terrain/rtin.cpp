@@ -2,34 +2,21 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <utility>
+#include <numeric>
+#include <span>
 #include <vector>
 
 #include "core/base/parallel.h"
 #include "core/generators/terrain/rtin_errors.h"
-#include "core/generators/terrain/scan.h"
+#include "core/generators/terrain/rtin_halves.h"
+#include "core/generators/terrain/rtin_names.h"
 #include "core/generators/terrain/triangulation.h"
 
 namespace seedmesh::terrain {
 namespace {
 
 constexpr std::size_t triangles_a_chunk = 4096;
-constexpr std::uint32_t unnamed = 0xFFFFFFFFU;
-
-/// A triangle of the hierarchy: its long side is a-b and its right angle at c, clockwise seen from above.
-/// Fields have at most 16,385 samples a side.
-struct Half {
-  std::int16_t ax, az, bx, bz, cx, cz;
-
-  static Half of(Place a, Place b, Place c) {
-    const auto narrow = [](std::int32_t i) { return static_cast<std::int16_t>(i); };
-    return {narrow(a.x), narrow(a.z), narrow(b.x), narrow(b.z), narrow(c.x), narrow(c.z)};
-  }
-  Place a() const { return {ax, az}; }
-  Place b() const { return {bx, bz}; }
-  Place c() const { return {cx, cz}; }
-};
-
+constexpr int depth_of_parts = 7;  // of the hierarchy; its subtrees there are shared out
 /// How far a sample that comes with a halving of this level inside a triangle can be off the triangle, in
 /// errors of its middle. It is off the line between two earlier samples by one error at most: the apex of
 /// the level before last, and an end of a long side that is older still.
@@ -41,19 +28,13 @@ constexpr std::array<float, most_levels> farthest_by_level() {
   return all;
 }
 constexpr std::array<float, most_levels> farthest = farthest_by_level();
+static_assert(farthest[1] == farthest[2]);
 
-Place middle_of(Place a, Place b) { return {(a.x + b.x) / 2, (a.z + b.z) / 2}; }
-
-/// The triangles that are left whole, in the order of the hierarchy, and which of them nobody has looked at.
-/// They are kept in parts, the subtrees of one depth, so that all threads can work on them.
-class Leaves {
+/// Which triangles are left whole, so that no sample is off by more than the bound: what is off is put into
+/// the mesh, and the triangles that come of it are looked at anew.
+class Settling {
  public:
-  struct Part {
-    Array<Half> halves;
-    Array<std::uint8_t> fresh;  ///< of each: 1 where samples inside are still to be compared
-  };
-
-  Leaves(const Field& field, RtinErrors& errors, double max_error, Job& job)
+  Settling(const Field& field, RtinErrors& errors, double max_error, Job& job)
       : field_(field),
         errors_(errors),
         max_error_(max_error),
@@ -61,148 +42,122 @@ class Leaves {
         rounding_(rounding_of(range_of(field, job), threshold_)),
         job_(job),
         meter_(job, Resource::triangles) {
-    const std::int32_t last = field.width - 1;
-    std::vector<Half> roots;
-    plant({0, 0}, {last, last}, {last, 0}, depth_of_parts, roots);
-    plant({last, last}, {0, 0}, {0, last}, depth_of_parts, roots);
-    for (std::size_t i = 0; i < roots.size(); ++i)
-      parts_.push_back({Array<Half>(job), Array<std::uint8_t>(job)});
-    each_part([&](Part& part, std::size_t i) { descend(roots[i], part); });
-    meter_.spend(count());
+    for (std::size_t level = 0; level < most_levels; ++level)
+      least_[level] = level == 0 ? RtinErrors::needed : threshold_ / farthest[level] - 2 * rounding_;
   }
 
-  /// Divides until no sample is off its triangle by more than the bound: what is off is put into the mesh and
-  /// the triangles that this divides are looked at anew.
-  void settle() {
-    while (need_what_is_off()) divide();
-  }
-
-  const std::vector<Part>& parts() const { return parts_; }
-  std::size_t count() const {
-    std::size_t sum = 0;
-    for (const Part& part : parts_) sum += part.halves.size();
-    return sum;
+  void run(std::span<const Half> parts) {
+    look_at_all(parts);
+    for (;;) {
+      fresh_.clear();
+      for (const std::vector<Place>& places : off_) {
+        for (const Place at : places)
+          errors_.need(at, threshold_, fresh_);  // a corner: off by rounding alone
+      }
+      if (fresh_.empty()) return;
+      look_at_fresh();
+    }
   }
 
  private:
-  static constexpr int depth_of_parts = 7;
-
-  template <class Body>
-  void each_part(const Body& body) {
-    parallel_for(job_, parts_.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
-      job_.check();
-      body(parts_[i], i);
-    });
-  }
-
-  static bool divisible(Place a, Place c) { return std::abs(a.x - c.x) + std::abs(a.z - c.z) > 1; }
-  bool divided(Place a, Place b, Place c) const {
-    const Place middle = middle_of(a, b);
-    return divisible(a, c) && errors_.at(middle.x, middle.z) > threshold_;
-  }
-
-  /// The triangles so deep in the hierarchy, or the leaves above.
-  void plant(Place a, Place b, Place c, int depth, std::vector<Half>& out) const {
-    if (depth == 0 || !divided(a, b, c)) {
-      out.push_back(Half::of(a, b, c));
-      return;
-    }
-    const Place middle = middle_of(a, b);
-    plant(c, a, middle, depth - 1, out);
-    plant(b, c, middle, depth - 1, out);
-  }
+  static constexpr std::size_t rows_a_chunk = 16, fresh_a_chunk = 1024;
 
   /// How far the rounding of heights and errors may carry an error, generously.
   static float rounding_of(const Range& range, float threshold) {
     return (std::max(std::abs(range.low), std::abs(range.high)) * 2 + threshold) * 0x1p-21F;
   }
 
-  void descend(const Half& half, Part& out) const {
-    const Place a = half.a(), b = half.b(), c = half.c();
-    const auto area = static_cast<std::uint64_t>(std::abs(turn(a, c, b)));  // a power of two
-    descend(a, b, c, std::countr_zero(area), out);
+  /// Where the bound on what lies inside a triangle is small enough nobody has to look.
+  bool doubtful(int level, float error) const {
+    return level > 0 && farthest[static_cast<std::size_t>(level)] * (error + rounding_) >= threshold_;
   }
 
-  /// `level`: how often the triangle can be halved. Where the bound on what lies inside is small enough
-  /// nobody has to look.
-  void descend(Place a, Place b, Place c, int level, Part& out) const {
-    float error = 0;
-    if (level > 0) {
-      const Place middle = middle_of(a, b);
-      error = errors_.at(middle.x, middle.z);
-      if (error > threshold_) {
-        descend(c, a, middle, level - 1, out);
-        descend(b, c, middle, level - 1, out);
+  /// Looks where a middle that is not in the mesh is doubtful: the triangles that it would halve are there if
+  /// their apexes are. Walking down to them would take longer than a look at all samples.
+  void look_at_all(std::span<const Half> parts) {
+    const auto side = static_cast<std::size_t>(field_.width);
+    std::vector<std::size_t> counts(parts.size());
+    off_.assign(chunk_count(side, rows_a_chunk), {});
+    parallel_for(job_, off_.size() + parts.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
+      job_.check();
+      if (i >= off_.size()) {
+        counts[i - off_.size()] = count_whole(errors_, threshold_, parts[i - off_.size()]);
         return;
       }
-    }
-    out.halves.push_back(Half::of(a, b, c));
-    const bool doubtful =
-        level > 0 && farthest[static_cast<std::size_t>(level)] * (error + rounding_) >= threshold_;
-    out.fresh.push_back(doubtful ? 1 : 0);
-  }
-
-  bool need_what_is_off() {
-    std::vector<std::vector<Place>> off(parts_.size());
-    each_part([&](Part& part, std::size_t number) {
-      for (std::size_t i = 0; i < part.halves.size(); ++i) {
-        if (part.fresh[i] != 0) look(part.halves[i], off[number]);
-        part.fresh[i] = 0;
-      }
+      const std::size_t end = std::min(side, (i + 1) * rows_a_chunk);
+      for (std::size_t z = i * rows_a_chunk; z < end; ++z) look_at_row(static_cast<std::int32_t>(z), off_[i]);
     });
-    bool found = false;
-    for (const std::vector<Place>& places : off) {
-      for (const Place at : places) {
-        if (errors_.at(at.x, at.z) == RtinErrors::needed) continue;  // a corner, off by rounding alone
-        errors_.need(at);
-        found = true;
-      }
+    meter_.spend(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
+  }
+
+  void look_at_row(std::int32_t z, std::vector<Place>& off) const {
+    const float* row = errors_.row(z);
+    const auto is_close = [&](float error, int level) {
+      return (error >= least_[static_cast<std::size_t>(level)]) & (error <= threshold_);
+    };
+    for (std::int32_t x = 0; z % 2 == 0 && x < field_.width; x += 2) {
+      const int level = errors_.level({x, z});
+      if (is_close(row[x], level)) look_around({x, z}, level, off);
     }
-    return found;
-  }
-
-  void divide() {
-    const std::size_t before = count();
-    each_part([&](Part& part, std::size_t) { divide(part); });
-    meter_.spend(count() - before);
-    errors_.forget_touched();
-  }
-
-  bool newly_divided(const Half& half) const {
-    const Place middle = middle_of(half.a(), half.b());
-    return errors_.touched(middle.x, middle.z) && divided(half.a(), half.b(), half.c());
-  }
-
-  /// What is still whole was looked at before.
-  void divide(Part& part) const {
-    const auto changed = [&](const Half& half) { return newly_divided(half); };
-    const Half* next = std::find_if(part.halves.begin(), part.halves.end(), changed);
-    if (next == part.halves.end()) return;
-    const Array<Half> before = std::exchange(part.halves, part.halves.like<Half>());
-    part.halves.reserve(before.size() + before.size() / 4);
-    part.fresh.clear();
-    part.fresh.reserve(before.size() + before.size() / 4);
-    for (const Half* from = before.begin();;) {
-      const auto whole = static_cast<std::size_t>(next - from);
-      part.halves.append({from, whole});
-      std::fill_n(part.fresh.extend(whole), whole, std::uint8_t{0});
-      if (next == before.end()) return;
-      descend(*next, part);
-      from = next + 1;
-      next = std::find_if(from, before.end(), changed);
+    // Of the lowest levels hardly any is close. Their bound is the same.
+    std::int32_t any = 0;
+    for (std::int32_t x = 0; x < field_.width; ++x) any |= is_close(row[x], 1) ? 1 : 0;
+    for (std::int32_t x = z % 2 == 0 ? 1 : 0; any != 0 && x < field_.width; x += z % 2 == 0 ? 2 : 1) {
+      if (is_close(row[x], 1)) look_around({x, z}, errors_.level({x, z}), off);
     }
   }
 
-  void look(const Half& half, std::vector<Place>& off) const {
+  /// The triangles that a sample would halve.
+  void look_around(Place middle, int level, std::vector<Place>& off) const {
+    if (!doubtful(level, errors_.at(middle))) return;
+    errors_.each_apex(middle, [&](Place apex) {
+      if (errors_.at(apex) > threshold_ || errors_.is_corner(apex)) look(halved(middle, apex, level), off);
+    });
+  }
+
+  /// The triangles that samples new in the mesh have halved.
+  void look_at_fresh() {
+    off_.assign(chunk_count(fresh_.size(), fresh_a_chunk), {});
+    std::vector<std::size_t> counts(off_.size());
+    parallel_for(job_, fresh_.size(), fresh_a_chunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                   job_.check();
+                   for (std::size_t i = begin; i < end; ++i) {
+                     errors_.each_apex(fresh_[i], [&](Place apex) {
+                       ++counts[chunk];
+                       look_at_halves(fresh_[i], apex, off_[chunk]);
+                     });
+                   }
+                 });
+    meter_.spend(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
+  }
+
+  /// The triangle with this apex that `middle` halves.
+  static HalfPlaces halved(Place middle, Place apex, int level) {
+    const std::int32_t x = apex.x - middle.x, z = apex.z - middle.z;
+    return {{middle.x + z, middle.z - x}, {middle.x - z, middle.z + x}, apex, level};
+  }
+
+  void look_at_halves(Place middle, Place apex, std::vector<Place>& off) const {
+    const HalfPlaces whole = halved(middle, apex, errors_.level(middle));
+    for (const HalfPlaces& half : {HalfPlaces{apex, whole.a, middle, whole.level - 1},
+                                   HalfPlaces{whole.b, apex, middle, whole.level - 1}}) {
+      if (half.level == 0) continue;
+      const float error = errors_.at({(half.a.x + half.b.x) / 2, (half.a.z + half.b.z) / 2});
+      if (!(error > threshold_) && doubtful(half.level, error)) look(half, off);
+    }
+  }
+
+  void look(const HalfPlaces& half, std::vector<Place>& off) const {
     const auto height = [&](Place at) { return static_cast<double>(field_.at(at.x, at.z)); };
-    const Place a = half.a(), b = half.b(), c = half.c();
-    if (std::abs(turn(a, c, b)) == 2) {  // one sample that is no corner
-      const Place middle = middle_of(a, b);
-      if (std::abs((height(a) + height(b)) / 2 - height(middle)) > max_error_) off.push_back(middle);
+    const double ha = height(half.a), hb = height(half.b);
+    if (half.level == 1) {  // one sample that is no corner
+      const Place middle{(half.a.x + half.b.x) / 2, (half.a.z + half.b.z) / 2};
+      if (std::abs((ha + hb) / 2 - height(middle)) > max_error_) off.push_back(middle);
       return;
     }
-    const Plane plane = Plane::through(a, b, c, height(a), height(b), height(c));
-    each_row_inside(a, b, c, [&](std::int32_t z, std::int32_t first, std::int32_t last) {
+    const Plane plane = plane_of(half, ha, hb, height(half.c));
+    each_row_inside(half, [&](std::int32_t z, std::int32_t first, std::int32_t last) {
       const float* row = field_.row(z);
       const double start = plane.base + plane.south * z;
       if (worst_of_row(row, start, plane.east, first, last) <= max_error_) return;
@@ -217,41 +172,12 @@ class Leaves {
   RtinErrors& errors_;
   double max_error_;
   float threshold_, rounding_;
+  std::array<float, most_levels> least_;  ///< errors that may be doubtful, by level; rounded downward
   Job& job_;
   Meter meter_;
-  std::vector<Part> parts_;
+  std::vector<std::vector<Place>> off_;  ///< by part or chunk
+  std::vector<Place> fresh_;             ///< new in the mesh since the last look
 };
-
-/// Names the samples by their first use.
-Triangulation named(const Leaves& leaves, const Field& field, const Job& job) {
-  Array<std::uint32_t> names(job, field.heights.size(), unnamed);
-  const std::size_t count = leaves.count();
-  Triangulation mesh{Array<std::uint32_t>(job), Array<std::uint32_t>(job)};
-  mesh.index = Array<std::uint32_t>(job, 3 * count);
-  mesh.samples.reserve(count / 2 + count / 8);
-  const auto name = [&](Place at) {
-    const auto sample = static_cast<std::uint32_t>(at.z * field.width + at.x);
-    if (names[sample] == unnamed) {
-      names[sample] = static_cast<std::uint32_t>(mesh.samples.size());
-      mesh.samples.push_back(sample);
-    }
-    return names[sample];
-  };
-  std::uint32_t* index = mesh.index.data();
-  for (const Leaves::Part& part : leaves.parts()) {
-    job.check();
-    for (const Half& half : part.halves) {
-      const Place a = half.a(), b = half.b(), c = half.c();
-      index[0] = name(a);
-      index[1] = name(c);
-      index[2] = name(b);
-      if (turn(a, c, b) < 0) std::swap(index[1], index[2]);
-      index += 3;
-    }
-  }
-  mesh.samples.shrink_to_fit();
-  return mesh;
-}
 
 }  // namespace
 
@@ -261,15 +187,18 @@ bool fits_rtin(std::int32_t width, std::int32_t depth) {
 
 Triangulation rtin(const Field& field, double max_error, Border border, Job& job) {
   RtinErrors errors(field, job);
-  const std::int32_t last = field.width - 1;
+  const auto threshold = static_cast<float>(max_error);
   if (border == Border::whole) {
+    const std::int32_t last = field.width - 1;
+    std::vector<Place> all;
     for (std::int32_t i = 0; i <= last; ++i) {
-      for (const Place at : {Place{i, 0}, Place{i, last}, Place{0, i}, Place{last, i}}) errors.need(at);
+      for (const Place at : {Place{i, 0}, Place{i, last}, Place{0, i}, Place{last, i}})
+        errors.need(at, threshold, all);
     }
   }
-  Leaves leaves(field, errors, max_error, job);
-  leaves.settle();
-  return named(leaves, field, job);
+  const std::vector<Half> parts = parts_of(errors, threshold, depth_of_parts);
+  Settling(field, errors, max_error, job).run(parts);
+  return named(parts, errors, threshold, job);
 }
 
 double measured_error(const Field& field, const Triangulation& mesh, const Job& job) {

@@ -1,6 +1,7 @@
 #pragma once
 /// The errors that decide which triangles of a right-triangulated network are halved; for rtin.cpp.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -10,6 +11,14 @@
 #include "core/generators/terrain/scan.h"
 
 namespace seedmesh::terrain {
+
+/// Distance of rows in arrays by sample. Whole lines of the cache, and an odd number of them: rows that
+/// follow each other, as all do in small triangles, then have places of their own in it.
+constexpr std::int32_t stride_of(std::int32_t side) {
+  constexpr std::int32_t line = 16;
+  return (side + line - 1) / line * line;
+}
+static_assert(stride_of(1025) / 16 % 2 == 1);
 
 /// For every sample how far off the mesh may be where the triangles that it halves are left whole: of the
 /// sample itself and of all below it.
@@ -21,54 +30,93 @@ class RtinErrors {
       : field_(field),
         job_(job),
         side_(field.width),
-        errors_(job, field.heights.size(), 0.0F),
-        cells_(static_cast<std::size_t>(side_ >> cell_bits) + 1),
-        touched_(cells_ * cells_, 0) {
+        stride_(stride_of(side_)),
+        errors_(job, static_cast<std::size_t>(stride_) * static_cast<std::size_t>(side_), 0.0F) {
     for (std::int32_t step = 1; step < side_ - 1; step *= 2) {
       sides(step);
       centres(step);
     }
   }
 
-  float at(std::int32_t x, std::int32_t z) const { return errors_[place(x, z)]; }
+  std::int32_t side() const { return side_; }
+  std::int32_t stride() const { return stride_; }
+  const float* data() const { return errors_.data(); }
+  const float* row(std::int32_t z) const { return errors_.data() + place(0, z); }
+  float at(Place sample) const { return errors_[place(sample.x, sample.z)]; }
 
-  /// Puts a sample into every mesh, and with it all whose triangles must be halved before.
-  void need(Place sample) {
+  /// Puts a sample into every mesh, and with it all whose triangles must be halved before. What a mesh of the
+  /// bound `threshold` had is left alone: it had all that comes before, too. The others are added to `fresh`.
+  void need(Place sample, float threshold, std::vector<Place>& fresh) {
     left_.assign(1, sample);
     while (!left_.empty()) {
       const Place at = left_.back();
       left_.pop_back();
-      if (errors_[place(at.x, at.z)] == needed) continue;
-      errors_[place(at.x, at.z)] = needed;
-      touched_[cell(at.x, at.z)] = 1;
-      parents(at, left_);
+      float& error = errors_[place(at.x, at.z)];
+      if (error > threshold) continue;
+      error = needed;
+      fresh.push_back(at);
+      each_apex(at, [&](Place apex) { left_.push_back(apex); });
     }
   }
 
-  /// Was a sample near this one put in since forget_touched()? Tells without a look at the samples.
-  bool touched(std::int32_t x, std::int32_t z) const { return touched_[cell(x, z)] != 0; }
-  void forget_touched() { std::fill(touched_.begin(), touched_.end(), std::uint8_t{0}); }
+  bool is_corner(Place at) const { return step_of(at) == side_ - 1; }
+
+  /// How often the triangles that a sample halves can be halved; 0 of a corner of the field.
+  int level(Place at) const {
+    const std::int32_t step = step_of(at);
+    if (step == side_ - 1) return 0;
+    return 2 * std::countr_zero(static_cast<std::uint32_t>(step)) + ((at.x & at.z & step) != 0 ? 2 : 1);
+  }
+
+  /// The apexes of the triangles that a sample halves: they must be in the mesh before it can be. A corner of
+  /// the field, which every mesh has, halves none.
+  template <class Visit>
+  void each_apex(Place at, const Visit& visit) const {
+    const std::int32_t step = step_of(at);
+    if (step == side_ - 1) return;
+    const auto tell = [&](std::int32_t x, std::int32_t z) {
+      if (x >= 0 && z >= 0 && x < side_ && z < side_) visit(Place{x, z});
+    };
+    const bool odd_x = (at.x & step) != 0, odd_z = (at.z & step) != 0;
+    if (odd_x && odd_z) {
+      // A centre: the corners off its long side, themselves midpoints of sides of squares twice as large.
+      const std::int32_t south = runs_south_east(at.x, at.z, step) ? -step : step;
+      tell(at.x + step, at.z + south);
+      tell(at.x - step, at.z - south);
+    } else if (odd_x) {
+      tell(at.x, at.z - step);
+      tell(at.x, at.z + step);
+    } else {
+      tell(at.x - step, at.z);
+      tell(at.x + step, at.z);
+    }
+  }
 
  private:
+  /// Half the side of the squares that a sample was the middle or the middle of a side of.
+  std::int32_t step_of(Place at) const {
+    const std::int32_t bits = at.x | at.z | (side_ - 1);
+    return bits & -bits;
+  }
+
   std::size_t place(std::int32_t x, std::int32_t z) const {
-    return static_cast<std::size_t>(z) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(x);
-  }
-  static constexpr int cell_bits = 4;
-  std::size_t cell(std::int32_t x, std::int32_t z) const {
-    return static_cast<std::size_t>(z >> cell_bits) * cells_ + static_cast<std::size_t>(x >> cell_bits);
+    return static_cast<std::size_t>(z) * static_cast<std::size_t>(stride_) + static_cast<std::size_t>(x);
   }
 
-  static constexpr std::size_t rows_a_chunk = 64;
+  static constexpr std::size_t rows_a_chunk = 64, shared_out = 512;
 
-  /// Rows of a pass over the samples (first + i * step), in parallel where there are many.
+  /// Rows of a pass over the samples (first + i * step), in parallel where there are many: each level has a
+  /// quarter of the work of that below, and waiting for each other takes time too.
   template <class Body>
   void each_step(const Job& job, std::int32_t first, std::int32_t last, std::int32_t step, const Body& body) {
     if (last < first) return;
     const auto count = static_cast<std::size_t>((last - first) / step) + 1;
-    parallel_for(job, count, rows_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
-      job.check();
-      for (std::size_t i = begin; i < end; ++i) body(first + static_cast<std::int32_t>(i) * step);
-    });
+    parallel_for(job, count, count < shared_out ? count : rows_a_chunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                   job.check();
+                   for (std::size_t i = begin; i < end; ++i)
+                     body(first + static_cast<std::int32_t>(i) * step);
+                 });
   }
 
   /// Midpoints of the sides of squares of 2 * step: below them are the centres of squares of `step`.
@@ -127,41 +175,11 @@ class RtinErrors {
     });
   }
 
-  /// The samples that must be in the mesh before this one can be.
-  void parents(Place at, std::vector<Place>& out) const {
-    std::int32_t step = 1;
-    while (((at.x | at.z) & step) == 0 && step < side_) step *= 2;
-    if (step >= side_ - 1) return;  // a corner, which every mesh has
-    const auto add = [&](std::int32_t x, std::int32_t z) {
-      if (x >= 0 && z >= 0 && x < side_ && z < side_) out.push_back({x, z});
-    };
-    const bool odd_x = (at.x & step) != 0, odd_z = (at.z & step) != 0;
-    if (odd_x && odd_z) {
-      // A centre: the corners off its long side, themselves midpoints of sides of squares twice as large.
-      if (2 * step >= side_ - 1) return;
-      if (runs_south_east(at.x, at.z, step)) {
-        add(at.x + step, at.z - step);
-        add(at.x - step, at.z + step);
-      } else {
-        add(at.x - step, at.z - step);
-        add(at.x + step, at.z + step);
-      }
-    } else if (odd_x) {
-      add(at.x, at.z - step);
-      add(at.x, at.z + step);
-    } else {
-      add(at.x - step, at.z);
-      add(at.x + step, at.z);
-    }
-  }
-
   const Field& field_;
   const Job& job_;
-  std::int32_t side_;
+  std::int32_t side_, stride_;
   Array<float> errors_;
-  std::size_t cells_;
-  std::vector<std::uint8_t> touched_;  ///< of each square of 16 samples
-  std::vector<Place> left_;            ///< of need(), kept for the next
+  std::vector<Place> left_;  ///< of need(), kept for the next
 };
 
 }  // namespace seedmesh::terrain

@@ -28,8 +28,8 @@ bool fits_rtin(std::int32_t width, std::int32_t depth);
 
 /// Right-triangulated irregular network (Evans, Kirkpatrick and Townsend, "Right-triangulated irregular
 /// networks", 2001): right triangles halved where they are off. Where the bound is still passed after the
-/// usual test of midpoints, the samples concerned are put in, until it holds. Cost: about 10 ns a sample and
-/// 15 ns a triangle. Spends triangles.
+/// usual test of midpoints, the samples concerned are put in, until it holds. Cost: 10 to
+/// 20 ns a sample. Spends triangles.
 Triangulation rtin(const Field& field, double max_error, Border border, Job& job);
 
 /// Greedy insertion into a Delaunay triangulation (Garland and Heckbert, "Fast polygonal approximation of

@@ -46,6 +46,45 @@ TEST_F(TurtleTest, RollsLeftTowardsUp) {
   expect_at(turtle.frame().left, {0, 0, 1});
 }
 
+TEST_F(TurtleTest, SetsDownWhatItDrewOnceWhereverItIs) {
+  const auto hook = [&](Turtle& each) {
+    each.draw(2, 0);
+    each.push();
+    each.turn(right_angle);
+    each.draw(1, 0);
+    each.pop();
+    each.pitch(right_angle);
+  };
+  turtle.draw(1, 0);
+  Turtle::Stamp stamp(job);
+  Turtle drawer(&stamp.skeleton, 0.2, job);
+  drawer.begin_stamp(turtle, stamp);
+  hook(drawer);
+  drawer.end_stamp(stamp);
+
+  Skeleton by_hand(job);
+  Turtle other(&by_hand, 0.2, job);
+  other.draw(1, 0);
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(turtle.matches(stamp));
+    turtle.press(stamp);
+    hook(other);
+  }
+  const Limbs &pressed = skeleton.limbs, &drawn = by_hand.limbs;
+  ASSERT_EQ(pressed.size(), drawn.size());
+  for (std::size_t joint = 0; joint < drawn.size(); ++joint) {
+    expect_at(pressed.position[joint], drawn.position[joint]);
+    EXPECT_EQ(pressed.parent[joint], drawn.parent[joint]);
+    EXPECT_EQ(pressed.order[joint], drawn.order[joint]);
+    EXPECT_EQ(pressed.starts_limb[joint], drawn.starts_limb[joint]);
+  }
+  expect_at(turtle.position(), other.position());
+  expect_at(turtle.frame().heading, other.frame().heading);
+  EXPECT_EQ(turtle.report().segments, 7U);
+  turtle.set_width(0.3);
+  EXPECT_FALSE(turtle.matches(stamp));
+}
+
 TEST_F(TurtleTest, ContinuesALimbAfterABranch) {
   turtle.draw(1, 0);
   turtle.push();

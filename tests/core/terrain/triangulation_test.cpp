@@ -61,6 +61,33 @@ TEST(ReducedMesh, OfARidgeHasSixTriangles) {
   EXPECT_LE(greedy(field, 0.1, Border::by_error, job).index.size() / 3, 6U);
 }
 
+/// No corner of a triangle lies within a side of another: sides inside are sides of two triangles, in
+/// opposite directions.
+TEST(ReducedMesh, HasNoCornerWithinASide) {
+  for (const auto& [name, reduce] : reducers) {
+    for (const std::int32_t side : {2, 3, 9, 129}) {
+      for (const double error : {0.0, 0.3, 4.0}) {
+        const Field field = rough(side);
+        Job job = any_job();
+        const Triangulation mesh = reduce(field, error, Border::by_error, job);
+        std::set<std::pair<std::uint32_t, std::uint32_t>> sides;
+        for (std::size_t i = 0; i < mesh.index.size(); ++i) {
+          const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
+          EXPECT_TRUE(sides.insert({mesh.index[i], mesh.index[next]}).second) << name;
+        }
+        const auto on_border = [&](std::uint32_t vertex) {
+          const Place at = place_of(mesh.samples[vertex], side);
+          return at.x == 0 || at.z == 0 || at.x == side - 1 || at.z == side - 1;
+        };
+        for (const auto& [from, to] : sides) {
+          const bool within = on_border(from) && on_border(to);
+          EXPECT_TRUE(within || sides.count({to, from}) == 1) << name << " of " << side << " at " << error;
+        }
+      }
+    }
+  }
+}
+
 TEST(ReducedMesh, KeepsItsBoundAtEverySample) {
   const std::function<Field()> fields[] = {
       [] { return hills(129); }, [] { return rough(65); },

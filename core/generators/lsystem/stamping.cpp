@@ -1,0 +1,106 @@
+#include "core/generators/lsystem/stamping.h"
+
+#include <algorithm>
+
+#include "core/generators/lsystem/growth.h"
+
+namespace seedmesh::lsystem {
+namespace {
+
+constexpr std::uint64_t worth_it = std::uint64_t{1} << 20U;  // modules of the word
+// A stamp is to stay in the processor's own memory, and drawing all of them to cost little.
+constexpr std::uint64_t least_of_stamp = 64, most_of_stamp = 8192;
+constexpr std::size_t most_stamps = 64;
+constexpr std::size_t most_pieces = std::size_t{1} << 16U;  // kinds times steps
+
+/// Does the symbol mean the same to a turtle that is turned and moved, and nothing to any but the turtle?
+bool moves_along(const Grammar& grammar, Command command) {
+  if (command == Command::cut) return !grammar.cuts;
+  if (command <= Command::turn_around) return true;
+  if (command >= Command::width_down && command <= Command::color_down) return true;
+  if (command >= Command::set_scale && command <= Command::mirror) return true;
+  return command == Command::push || command == Command::pop;
+}
+
+/// Brackets pair in every successor, but braces need not, and statements could write anything.
+bool is_written_plainly(const Rules& rules) {
+  return std::all_of(rules.productions.begin(), rules.productions.end(),
+                     [](const Production& each) { return each.code.count == 0; });
+}
+
+std::uint64_t sum(std::uint64_t a, std::uint64_t b) { return std::min(saturated, a + b); }
+
+}  // namespace
+
+bool Stamping::fits(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps) {
+  if (!grammar.is_free() || Drawing::needs_keys(grammar, params)) return false;
+  if ((std::size_t{steps} + 1) * grammar.kinds.size() > most_pieces) return false;
+  const std::vector<std::uint64_t> counts = exact_counts(grammar, steps);
+  std::uint64_t modules = 0;
+  for (const std::uint64_t each : counts) modules = sum(modules, each);
+  if (modules < worth_it) return false;
+  const auto has_parameters = [&](const Production& each) {
+    return grammar.kinds[each.predecessor].arity > 0;
+  };
+  const std::vector<Production>& productions = grammar.productions.productions;
+  return std::none_of(productions.begin(), productions.end(), has_parameters) &&
+         is_written_plainly(grammar.interpretation) &&
+         std::all_of(grammar.kinds.begin(), grammar.kinds.end(),
+                     [&](const Kind& kind) { return moves_along(grammar, kind.command); });
+}
+
+Stamping::Stamping(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps, Drawing& drawing,
+                   Job& job)
+    : grammar_(grammar),
+      params_(params),
+      steps_(steps),
+      drawing_(drawing),
+      job_(job),
+      meter_(job, Resource::modules),
+      pieces_((std::size_t{steps} + 1) * grammar.kinds.size()) {
+  count();
+}
+
+/// How many modules each symbol becomes in each number of steps.
+void Stamping::count() {
+  const Rules& rules = grammar_.productions;
+  for (std::uint32_t steps = 1; steps <= steps_; ++steps) {
+    for (std::size_t i = 0; i < grammar_.kinds.size(); ++i) {
+      const auto kind = static_cast<KindId>(i);
+      if (!rules.rewrites(kind)) continue;
+      std::uint64_t modules = 0;
+      for (const Template& each : grammar_.successor(rules.productions[rules.of_kind[kind].first].successor))
+        modules = sum(modules, piece(each.kind, steps - 1).modules);
+      piece(kind, steps).modules = modules;
+    }
+  }
+}
+
+bool Stamping::takes(KindId kind, std::uint32_t step) {
+  Piece& here = piece(kind, steps_ - step);
+  if (here.modules < least_of_stamp || here.modules > most_of_stamp) return false;
+  meter_.spend(here.modules);
+  for (const std::unique_ptr<Turtle::Stamp>& stamp : here.stamps) {
+    if (!drawing_.matches(*stamp)) continue;
+    drawing_.press(*stamp);
+    return true;
+  }
+  if (stamps_ == most_stamps) {
+    FreeDerivation<Drawing>(grammar_, steps_, false, job_, drawing_).run(kind, step);
+  } else {
+    drawing_.press(draw(kind, step, here));
+  }
+  return true;
+}
+
+const Turtle::Stamp& Stamping::draw(KindId kind, std::uint32_t step, Piece& piece) {
+  ++stamps_;
+  Turtle::Stamp& stamp = *piece.stamps.emplace_back(std::make_unique<Turtle::Stamp>(job_));
+  Drawing own(grammar_, params_, &stamp.skeleton, job_);
+  own.begin_stamp(drawing_, stamp);
+  FreeDerivation<Drawing>(grammar_, steps_, false, job_, own).run(kind, step);
+  own.end_stamp(stamp);
+  return stamp;
+}
+
+}  // namespace seedmesh::lsystem

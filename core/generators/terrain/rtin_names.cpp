@@ -1,0 +1,214 @@
+#include "core/generators/terrain/rtin_names.h"
+
+#include <cassert>
+
+#include "core/base/parallel.h"
+
+namespace seedmesh::terrain {
+namespace {
+
+constexpr std::uint32_t unnamed = 0xFFFFFFFFU;
+
+/// visit(sample) from one end of an edge up to the other, which is left out.
+template <class Visit>
+void each_sample(std::uint32_t from, std::uint32_t to, std::int32_t stride, const Visit& visit) {
+  const Place start = place_of(from, stride), end = place_of(to, stride);
+  const std::int32_t count = std::max(std::abs(end.x - start.x), std::abs(end.z - start.z));
+  const std::int64_t step = (std::int64_t{to} - from) / count;
+  std::int64_t sample = from;
+  for (std::int32_t i = 0; i < count; ++i, sample += step) visit(static_cast<std::uint32_t>(sample));
+}
+
+constexpr std::uint32_t is_shared = 0x80000000U;  // of a name: the rest is a place among the shared
+
+/// A sample on the border of parts: the part that names it, and its name there.
+struct Shared {
+  std::uint32_t part, name;
+};
+
+/// A sample on the way down the hierarchy, which triangles around remember the name of.
+struct Corner {
+  std::uint32_t sample, name = unnamed;
+};
+
+struct PartWriter {
+  std::uint32_t* names;
+  Shared* shared;
+  const float* errors;
+  float threshold;
+  std::uint32_t part;
+  std::uint32_t* out;   ///< the next triangle
+  std::uint32_t* used;  ///< the samples named here
+  std::uint32_t count = 0;
+
+  void write(Corner& a, Corner& b, Corner& c, int level) {
+    if (level > 0) {
+      Corner middle{(a.sample + b.sample) / 2};
+      if (errors[middle.sample] > threshold) {
+        write(c, a, middle, level - 1);
+        write(b, c, middle, level - 1);
+        return;
+      }
+    }
+    name(a);
+    name(c);
+    name(b);
+    out[0] = a.name;
+    out[1] = b.name;
+    out[2] = c.name;
+    out += 3;
+  }
+
+  void name(Corner& corner) {
+    if (corner.name == unnamed) corner.name = found(corner.sample);
+  }
+
+  std::uint32_t found(std::uint32_t sample) {
+    std::uint32_t& known = names[sample];
+    if ((known & is_shared) == 0) return known;
+    if (known == unnamed) return known = add(sample);
+    Shared& place = shared[known & ~is_shared];
+    if (place.part != part) return known;
+    if (place.name == unnamed) place.name = add(sample);
+    return place.name;
+  }
+
+  std::uint32_t add(std::uint32_t sample) {
+    used[count] = sample;
+    return count++;
+  }
+};
+
+/// Every part names its samples from 0 on; what other parts named before is added when all are done. A sample
+/// on the border of parts belongs to the first of them, which uses it if any does.
+class Naming {
+ public:
+  Naming(std::span<const Half> parts, const RtinErrors& errors, float threshold, const Job& job)
+      : parts_(parts),
+        errors_(errors),
+        threshold_(threshold),
+        job_(job),
+        names_(job, static_cast<std::size_t>(errors.side()) * static_cast<std::size_t>(errors.stride()),
+               unnamed),
+        shared_(job),
+        first_(parts.size() + 1),
+        own_(parts.size()),
+        used_(job) {}
+
+  Triangulation run() {
+    each_part([&](std::size_t part) { first_[part + 1] = count_whole(errors_, threshold_, parts_[part]); });
+    for (std::size_t part = 0; part < parts_.size(); ++part) {
+      first_[part + 1] += first_[part];
+      share_border(part);
+    }
+    Triangulation mesh{Array<std::uint32_t>(job_), Array<std::uint32_t>(job_, 3 * first_.back())};
+    used_.resize(first_.back() + 2 * parts_.size());
+    each_part([&](std::size_t part) { write(part, mesh.index.data() + 3 * first_[part]); });
+    std::size_t count = 0;
+    for (Own& own : own_) {
+      own.before = static_cast<std::uint32_t>(count);
+      count += own.count;
+    }
+    mesh.samples.resize(count);
+    each_part([&](std::size_t part) { join(part, mesh); });
+    return mesh;
+  }
+
+ private:
+  struct Own {
+    std::uint32_t count = 0, before = 0;
+  };
+
+  template <class Body>
+  void each_part(const Body& body) {
+    parallel_for(job_, parts_.size(), 1, [&](std::size_t part, std::size_t, std::size_t) {
+      job_.check();
+      body(part);
+    });
+  }
+
+  void share_border(std::size_t part) {
+    const Half& half = parts_[part];
+    share_edge(half.a, half.b, part);
+    share_edge(half.b, half.c, part);
+    share_edge(half.c, half.a, part);
+  }
+
+  void share_edge(std::uint32_t from, std::uint32_t to, std::size_t part) {
+    each_sample(from, to, errors_.stride(), [&](std::uint32_t sample) {
+      std::uint32_t& name = names_[sample];
+      if (name != unnamed) return;
+      name = is_shared | static_cast<std::uint32_t>(shared_.size());
+      shared_.push_back({static_cast<std::uint32_t>(part), unnamed});
+    });
+  }
+
+  /// A polygon of n triangles has n + 2 corners at most.
+  std::uint32_t* used(std::size_t part) { return used_.data() + first_[part] + 2 * part; }
+
+  /// Writes the part's own names, and of samples of others where their names will be found.
+  void write(std::size_t part, std::uint32_t* out) {
+    PartWriter writer{
+        names_.data(), shared_.data(), errors_.data(), threshold_, static_cast<std::uint32_t>(part),
+        out,           used(part)};
+    const Half& root = parts_[part];
+    Corner a{root.a}, b{root.b}, c{root.c};
+    writer.write(a, b, c, root.level);
+    own_[part].count = writer.count;
+  }
+
+  void join(std::size_t part, Triangulation& mesh) {
+    const Own own = own_[part];
+    const auto stride = static_cast<std::uint32_t>(errors_.stride());
+    const std::uint32_t margin = stride - static_cast<std::uint32_t>(errors_.side());
+    const std::uint32_t* list = used(part);
+    for (std::uint32_t i = 0; i < own.count; ++i)
+      mesh.samples[own.before + i] = list[i] - list[i] / stride * margin;
+    std::uint32_t* const end = mesh.index.data() + 3 * first_[part + 1];
+    for (std::uint32_t* at = mesh.index.data() + 3 * first_[part]; at != end; ++at) {
+      if ((*at & is_shared) == 0) {
+        *at += own.before;
+      } else {
+        const Shared& shared = shared_[*at & ~is_shared];
+        assert(shared.name != unnamed);
+        *at = shared.name + own_[shared.part].before;
+      }
+    }
+  }
+
+  std::span<const Half> parts_;
+  const RtinErrors& errors_;
+  float threshold_;
+  const Job& job_;
+  Array<std::uint32_t> names_;  ///< by sample
+  Array<Shared> shared_;
+  std::vector<std::size_t> first_;  ///< triangle of each part
+  std::vector<Own> own_;            ///< samples of each part
+  Array<std::uint32_t> used_;       ///< samples of all parts, each with room for as many as it may have
+};
+
+}  // namespace
+
+std::size_t count_whole(const RtinErrors& errors, float threshold, const Half& root) {
+  const std::int32_t stride = errors.stride();
+  std::size_t all = 0, edges = 0;
+  each_row_inside(places_of(root, stride), [&](std::int32_t z, std::int32_t first, std::int32_t last) {
+    const float* row = errors.row(z);
+    std::uint32_t count = 0;
+    for (std::int32_t x = first; x <= last; ++x) count += row[x] > threshold ? 1U : 0U;
+    all += count;
+  });
+  const auto in_mesh = [&](std::uint32_t sample) { return errors.data()[sample] > threshold ? 1U : 0U; };
+  const auto count_edge = [&](std::uint32_t sample) { edges += in_mesh(sample); };
+  each_sample(root.a, root.b, stride, count_edge);
+  each_sample(root.b, root.c, stride, count_edge);
+  each_sample(root.c, root.a, stride, count_edge);
+  // A corner was counted both inside and on an edge; what it halved lies outside.
+  return 1 + 2 * all - edges - in_mesh(root.a) - in_mesh(root.b) - in_mesh(root.c);
+}
+
+Triangulation named(std::span<const Half> parts, const RtinErrors& errors, float threshold, const Job& job) {
+  return Naming(parts, errors, threshold, job).run();
+}
+
+}  // namespace seedmesh::terrain
