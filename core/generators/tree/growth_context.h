@@ -21,7 +21,12 @@ struct Chances {
 inline double spread(Rng rng, double range) { return range == 0 ? 0 : rng.uniform(-range, range); }
 
 /// The frame turned about a unit axis.
-Frame rotated(const Frame& frame, const glm::dvec3& axis, const math::SinCos& angle);
+inline Frame rotated(const Frame& frame, const glm::dvec3& axis, const math::SinCos& angle) {
+  const auto turn = [&](const glm::dvec3& v) {
+    return v * angle.cos + glm::cross(axis, v) * angle.sin + axis * (glm::dot(axis, v) * (1 - angle.cos));
+  };
+  return {turn(frame.heading), turn(frame.left), turn(frame.up)};
+}
 
 /// A frame whose heading is `heading`, turned the least from `frame`.
 Frame headed(const Frame& frame, const glm::dvec3& heading);
@@ -58,6 +63,7 @@ class SkeletonWriter {
   /// Counts a leaf. False: it is none of those that are drawn, and need not be made.
   bool wants_leaf(std::uint64_t key);
   void add(const Leaf& leaf);
+  void add(const Organ& leaf) { organs_.organ.push_back(leaf); }
 
   /// The radius at the far end of a joint's internode.
   double radius(std::uint32_t joint) const { return static_cast<double>(limbs_.radius[joint]); }
