@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <optional>
 
 #include "core/base/math.h"
+#include "core/geom/apart.h"
 #include "core/geom/crowd.h"
 #include "core/geom/graft_plan.h"
 #include "core/geom/graft_writer.h"
@@ -140,10 +140,15 @@ void append_leftover(Mesh& mesh, Leftover limbs, const GraftOptions& options, Jo
   }
 }
 
-/// Limbs that go through each other may touch in points that a reader takes for one.
-void refuse_crowds(const Mesh& mesh, const Scale& scale, const Job& job) {
+/// Limbs that go through each other may touch in points that a reader takes for one. `twin` of the vertices
+/// that were grafted, as GraftWriter::Written has it; those from skin() have none.
+void refuse_crowds(const Mesh& mesh, const Array<std::uint8_t>& twin, const Scale& scale, const Job& job) {
   const Box box = bounds_of(mesh.position.span());
-  if (!is_crowded(mesh, 1e-6F * std::min(scale.size, glm::length(box.max - box.min)), job)) return;
+  const float reach = 1e-6F * std::min(scale.size, glm::length(box.max - box.min));
+  // A surface that was grafted is closed; what stands apart keeps it so.
+  const bool is_grafted = twin.size() == mesh.position.size();
+  if (is_grafted && stand_apart(mesh.position.span(), twin.span(), reach, job)) return;
+  if (!is_crowded(mesh, reach, job)) return;
   Job::refuse(
       "the limbs lie in heaps so dense, less than a millionth of the tree apart, that their bark is no "
       "surface; fewer or thicker limbs are needed");
@@ -159,28 +164,24 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
   const Chains chains = link_chains(limbs, job);
   std::vector<Trust> trust(chains.head.size(), options.weld ? Trust::full : Trust::closed);
   if (options.overlaps) distrust_overlaps(limbs, chains, scale, job, trust);
-  std::optional<GraftWriter> last;
-  for (int round = 0;; ++round) {
-    if (round == 2 * rounds) std::fill(trust.begin(), trust.end(), Trust::none);
-    GraftWriter writer({limbs, chains, scale, options, trust}, job);
-    writer.write_all(last ? &*last : nullptr);
-    if (writer.settle(trust, round >= rounds) == 0) {
-      if (counts) *counts = writer.counts();
-      // Rings of more corners than a cache has entries come in once more.
-      const bool is_ordered = 10 * writer.wide_corners() < writer.corners();
-      const auto fallen_back =
-          static_cast<std::uint32_t>(std::count(trust.begin(), trust.end(), Trust::none));
-      Mesh mesh = writer.take();
-      if (options.joints) *options.joints = writer.take_joints();
-      last.reset();
-      append_leftover(mesh, Leftover(limbs, chains, trust, scale.box), options, job);
-      refuse_crowds(mesh, scale, job);
-      if (counts) counts->fallen_back = fallen_back;
-      mesh.cache_ordered = is_ordered;
-      return mesh;
-    }
-    last.emplace(std::move(writer));
+  GraftWriter writer({limbs, chains, scale, options, trust}, job);
+  writer.write_round();
+  for (int round = 0; writer.settle(trust, round >= rounds) > 0; ++round) {
+    if (round + 1 == 2 * rounds) std::fill(trust.begin(), trust.end(), Trust::none);
+    writer.write_round();
   }
+  if (counts) *counts = writer.counts();
+  // Rings of more corners than a cache has entries come in once more.
+  const bool is_ordered = 10 * writer.wide_corners() < writer.corners();
+  const auto fallen_back = static_cast<std::uint32_t>(std::count(trust.begin(), trust.end(), Trust::none));
+  GraftWriter::Written written = writer.take();
+  Mesh mesh = std::move(written.mesh);
+  if (options.joints) *options.joints = std::move(written.joints);
+  append_leftover(mesh, Leftover(limbs, chains, trust, scale.box), options, job);
+  refuse_crowds(mesh, written.twin, scale, job);
+  if (counts) counts->fallen_back = fallen_back;
+  mesh.cache_ordered = is_ordered;
+  return mesh;
 }
 
 }  // namespace seedmesh

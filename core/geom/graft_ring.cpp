@@ -56,6 +56,7 @@ std::uint32_t GraftWriter::vertex(const glm::vec3& position, const glm::vec3& no
   mesh_.normal.push_back(normal + 0.0F);
   mesh_.uv[0].push_back(glm::vec2(uv.x, uv.y * context_.options.v_scale) + 0.0F);
   group_.push_back(group);
+  twin_.push_back(0);
   if (context_.options.joints) joints_.push_back(joint_);
   return index;
 }
@@ -110,6 +111,7 @@ std::uint32_t GraftWriter::vertex_of(Mark& mark, const Plane& plane, bool is_bey
   } else {
     made = ring_corner(plane, angle, mark.direction);
   }
+  if (mark.vertex[is_beyond ? 0 : 1] != none) mark_twin();
   return made;
 }
 
@@ -144,6 +146,7 @@ void GraftWriter::plain_ring(const Plane& plane, Corners& out) {
     const float angle = seam_ + step * static_cast<float>(i);
     out.push_back({angle, ring_corner(plane, angle, direction)});
   }
+  mark_twin();
 }
 
 /// A ring that others leave: `lower_` for the strip below, `upper_` for the one above, which differ there.

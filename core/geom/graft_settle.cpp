@@ -26,11 +26,38 @@ glm::vec3 face(const glm::vec3* position, const std::uint32_t* corner) {
 
 }  // namespace
 
+/// Limbs that were written, those that they grow from, and those that begin at one of them.
+void GraftWriter::find_concerned() {
+  concern_.assign(range_.size(), Concern::nothing);
+  for (std::size_t limb = 0; limb < range_.size(); ++limb) {
+    const std::uint32_t parent = parent_.empty() ? none : parent_[limb];
+    if (parent != none && dirty_[parent]) concern_[limb] = std::max(concern_[limb], Concern::loop);
+    if (!dirty_[limb]) continue;
+    concern_[limb] = Concern::all;
+    if (parent != none) concern_[parent] = Concern::all;
+  }
+}
+
+/// Is one of three corners of a loop that has changed?
+bool GraftWriter::is_touched(const std::uint32_t* corner) const {
+  return std::any_of(corner, corner + 3, [&](std::uint32_t vertex) {
+    return group_[vertex] != none && touched_[group_[vertex] / 2];
+  });
+}
+
+/// Up to where the triangles of a limb have to be looked at.
+std::uint32_t GraftWriter::last_triangle(std::size_t limb) const {
+  const Range& range = range_[limb];
+  return concern_[limb] == Concern::all    ? range.end.triangle
+         : concern_[limb] == Concern::loop ? range.first_end
+                                           : range.begin.triangle;
+}
+
 /// What a limb's faces give to the normals of the loops that they touch. These faces are noted in `faces`.
 void GraftWriter::add_loop_normals(std::size_t limb, std::vector<LoopFace>& faces) {
   const std::uint32_t* corners = mesh_.index.wide.data();
   const glm::vec3* position = mesh_.position.data();
-  for (std::size_t t = begin_[limb].triangle; t < begin_[limb + 1].triangle; ++t) {
+  for (std::size_t t = range_[limb].begin.triangle; t < last_triangle(limb); ++t) {
     const std::uint32_t* index = corners + 3 * t;
     const std::uint32_t groups[3] = {group_[index[0]], group_[index[1]], group_[index[2]]};
     if ((groups[0] & groups[1] & groups[2]) == none) continue;
@@ -84,22 +111,51 @@ void GraftWriter::ease_loop_normals(const std::vector<LoopFace>& faces) {
   }
 }
 
+/// Looks at the triangles of a limb; returns how many are bad.
+std::size_t GraftWriter::judge(std::size_t limb, std::vector<Trust>& trust, bool is_late) const {
+  const float least = 2 * least_area * context_.scale.size * context_.scale.size;
+  const std::uint32_t* index = mesh_.index.wide.data();
+  const glm::vec3 *position = mesh_.position.data(), *normals = mesh_.normal.data();
+  const float flattest = least_cosine * least_cosine, least_square = least * least;
+  std::size_t bad = 0;
+  bool is_bad = false;
+  for (std::size_t t = range_[limb].begin.triangle; t < last_triangle(limb); ++t) {
+    const std::uint32_t* corner_at = index + 3 * t;
+    if (!dirty_[limb] && !is_touched(corner_at)) continue;
+    const glm::vec3 normal = face(position, corner_at);
+    const float size = glm::dot(normal, normal);
+    bool is_sound = size > least_square;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const float over = glm::dot(normal, normals[corner_at[corner]]);
+      is_sound = is_sound & (over > 0) & (over * over > flattest * size);
+    }
+    if (is_sound) continue;
+    // The fault of the openings that it touches, if it touches any.
+    bool touches = false;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::uint32_t group = group_[corner_at[corner]];
+      if (group == none) continue;
+      touches = true;
+      Trust& child = trust[group_limb_[group / 2]];
+      child = std::max(child, is_late ? Trust::closed : Trust::detached);
+    }
+    is_bad = is_bad || !touches;
+    ++bad;
+  }
+  if (is_bad) trust[limb] = trust[limb] < Trust::closed && !is_late ? Trust::closed : Trust::none;
+  return bad;
+}
+
 std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
   mark_touched();
-  const std::size_t count = begin_.size() - 1;
-  // Limbs that were written, and those whose loops they share.
-  std::vector<std::uint8_t> concerned(dirty_);
-  for (std::size_t limb = 0; limb < count && !parent_.empty(); ++limb) {
-    if (parent_[limb] == none) continue;
-    concerned[limb] |= dirty_[parent_[limb]];
-    concerned[parent_[limb]] |= dirty_[limb];
-  }
+  const std::size_t count = range_.size();
+  find_concerned();
   for (std::size_t pair = 0; pair < touched_.size(); ++pair) {
     if (touched_[pair]) group_normal_[2 * pair] = group_normal_[2 * pair + 1] = glm::vec3(0);
   }
   std::vector<LoopFace> faces;
   for (std::size_t limb = 0; limb < count; ++limb) {
-    if (concerned[limb] && !group_limb_.empty()) add_loop_normals(limb, faces);
+    if (!group_limb_.empty()) add_loop_normals(limb, faces);
   }
   for (std::size_t pair = 0; pair < touched_.size(); ++pair) {
     if (!touched_[pair]) continue;
@@ -110,45 +166,19 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
   }
   ease_loop_normals(faces);
   for (std::size_t limb = 0; limb < count; ++limb) {
-    if (!concerned[limb]) continue;
-    for (std::size_t i = begin_[limb].vertex; i < begin_[limb + 1].vertex; ++i) {
+    if (concern_[limb] == Concern::nothing) continue;
+    const Range& range = range_[limb];
+    const std::uint32_t loop_end = range.begin.vertex + loops_[limb].count + 1;
+    const std::size_t end = std::min(range.end.vertex, concern_[limb] == Concern::all ? none : loop_end);
+    for (std::size_t i = range.begin.vertex; i < end; ++i) {
       if (group_[i] == none || !touched_[group_[i] / 2]) continue;
       mesh_.normal[i] = group_normal_[group_[i] & ~1U] + 0.0F;
     }
   }
-  const float least = 2 * least_area * context_.scale.size * context_.scale.size;
-  const std::uint32_t* index = mesh_.index.wide.data();
-  const glm::vec3 *position = mesh_.position.data(), *normals = mesh_.normal.data();
-  const float flattest = least_cosine * least_cosine, least_square = least * least;
   std::size_t bad = 0;
   for (std::size_t limb = 0; limb < count; ++limb) {
     if (limb % 64 == 0) job_.check();
-    if (!concerned[limb]) continue;
-    bool is_bad = false;
-    for (std::size_t t = begin_[limb].triangle; t < begin_[limb + 1].triangle; ++t) {
-      const std::uint32_t* corner_at = index + 3 * t;
-      const glm::vec3 normal = face(position, corner_at);
-      const float size = glm::dot(normal, normal);
-      bool is_sound = size > least_square;
-      for (std::size_t corner = 0; corner < 3; ++corner) {
-        const float over = glm::dot(normal, normals[corner_at[corner]]);
-        is_sound = is_sound & (over > 0) & (over * over > flattest * size);
-      }
-      if (is_sound) continue;
-      // The fault of the openings that it touches, if it touches any.
-      bool touches = false;
-      for (std::size_t corner = 0; corner < 3; ++corner) {
-        const std::uint32_t group = group_[corner_at[corner]];
-        if (group == none) continue;
-        touches = true;
-        Trust& child = trust[group_limb_[group / 2]];
-        child = std::max(child, is_late ? Trust::closed : Trust::detached);
-      }
-      is_bad = is_bad || !touches;
-      ++bad;
-    }
-    if (!is_bad) continue;
-    trust[limb] = trust[limb] < Trust::closed && !is_late ? Trust::closed : Trust::none;
+    bad += judge(limb, trust, is_late);
   }
   return bad;
 }

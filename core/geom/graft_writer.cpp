@@ -57,7 +57,7 @@ GraftWriter::GraftWriter(const Context& context, Job& job)
       group_(job),
       group_normal_(job),
       joints_(job),
-      trust_(context.trust) {
+      twin_(job) {
   const Limbs& limbs = context.limbs;
   mesh_.position = Array<glm::vec3>(job);
   mesh_.normal = Array<glm::vec3>(job);
@@ -75,6 +75,9 @@ GraftWriter::GraftWriter(const Context& context, Job& job)
     corner_radius_.push_back(thickest_ * static_cast<float>(share));
   }
   loops_.resize(count);
+  range_.resize(count);
+  kind_.assign(count, Kind::none);
+  dirty_.assign(count, 1);
   first_child_.assign(limbs.size(), none);
   next_sibling_.assign(count, none);
   for (std::size_t i = count; i-- > 0;) {
@@ -90,44 +93,9 @@ void GraftWriter::reserve(std::size_t vertices, std::size_t triangles) {
   mesh_.normal.reserve(vertices);
   mesh_.uv[0].reserve(vertices);
   group_.reserve(vertices);
+  twin_.reserve(vertices);
   if (context_.options.joints) joints_.reserve(vertices);
   mesh_.index.wide.reserve(3 * triangles);
-}
-
-Mesh GraftWriter::take() {
-  mesh_.position.shrink_to_fit();
-  mesh_.normal.shrink_to_fit();
-  mesh_.uv[0].shrink_to_fit();
-  mesh_.index.wide.shrink_to_fit();
-  return std::move(mesh_);
-}
-
-void GraftWriter::write_all(const GraftWriter* last) {
-  const std::size_t count = context_.chains.head.size();
-  kind_.assign(count, Kind::none);
-  dirty_.assign(count, last ? 0 : 1);
-  if (last) {
-    reserve(last->mesh_.position.size() + last->mesh_.position.size() / 16,
-            (last->mesh_.index.wide.size() + last->mesh_.index.wide.size() / 16) / 3);
-    find_parents();
-    for (std::size_t i = 0; i < count; ++i) {
-      if (trust_[i] == last->trust_[i]) continue;
-      dirty_[i] = 1;
-      if (parent_[i] != none) dirty_[parent_[i]] = 1;
-    }
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto limb = static_cast<std::uint32_t>(i);
-    begin_.push_back(here());
-    if (i % 64 == 0) job_.check();
-    if (last && !dirty_[i] && !has_same_loop(limb, *last)) dirty_[i] = 1;
-    if (!dirty_[i]) {
-      copy_limb(limb, *last);
-    } else if (trust_[i] != Trust::none) {
-      write_limb(limb);
-    }
-  }
-  begin_.push_back(here());
 }
 
 /// Three, or an even number, so that rings of different limbs meet corner to corner.
@@ -201,7 +169,10 @@ void GraftWriter::write_limb(std::uint32_t limb) {
   } else {
     begin_closed(is_root, limb);
   }
-  for (const Band& band : plan_.band) write_band(band);
+  for (const Band& band : plan_.band) {
+    write_band(band);
+    if (has_loop && &band == &plan_.band.front()) range_[limb].first_end = here().triangle;
+  }
   write_tip(end);
 }
 
@@ -271,6 +242,7 @@ void GraftWriter::begin_closed(bool is_root, std::uint32_t limb) {
       const glm::vec3 at = mesh_.position[below_[i].vertex];
       const glm::vec3 off = at - plane.centre;
       rim.push_back(vertex(at, -along, {glm::dot(off, plane.u), glm::dot(off, plane.v)}, none));
+      mark_twin();
     }
     for (std::size_t i = 0; i < rim.size(); ++i) triangle(centre, rim[(i + 1) % rim.size()], rim[i]);
     return;
@@ -299,6 +271,7 @@ void GraftWriter::begin_loop(const Loop& loop) {
     joint_ = at.joint;
     below_.push_back(
         {angle, vertex(at.position, {0, 0, 0}, picture_at(loop.radius, angle, at.reach), at.group)});
+    mark_twin();
   };
   for (const LoopVertex* each : order) add(*each, -each->angle);
   add(*order.front(), 2 * pi - order.front()->angle);

@@ -7,6 +7,7 @@
 
 #include "core/base/math.h"
 #include "core/geom/four.h"
+#include "core/geom/piece_tangents.h"
 #include "core/geom/repeats.h"
 
 namespace seedmesh {
@@ -115,7 +116,8 @@ void add_tangents(Mesh& mesh, const Array<glm::vec2>& uv, const Job& job) {
   if (one.corners == 0) one = {vertices, mesh.index.wide.size()};
   Array<Sums> sums(job, one.vertices);
   const std::span<const std::uint32_t> index = mesh.index.wide.span();
-  for (std::size_t piece = 0; piece * one.vertices < vertices; ++piece) {
+  const PieceTangents pieces(mesh, uv, one);
+  for (std::size_t piece = pieces.write_all(job); piece * one.vertices < vertices; ++piece) {
     if (piece % 256 == 0) job.check();
     add_tangents(mesh,
                  Piece<std::uint32_t>{index.subspan(piece * one.corners, one.corners), piece * one.vertices},
