@@ -16,7 +16,7 @@ constexpr float cell_width = 64, margin = 1.5F / cell_width;
 // Beyond so many cells along the diagonal a float could not tell where in its cell a point is.
 constexpr float most_cells = 20'000;
 // Bits for each point in the table of cells that are taken: few share one by chance.
-constexpr std::size_t bits_a_point = 32, least_bits = 1024, most_bits = std::size_t{1} << 30U;
+constexpr std::size_t bits_a_point = 16, least_bits = 1024, most_bits = std::size_t{1} << 30U;
 // More points than so many in one cell, or more than this share of all in cells with others, are a heap.
 constexpr std::size_t most_in_a_cell = 16, most_share = 4;
 // Of Array<std::uint32_t> slot: the point is a twin; it is near a border.

@@ -51,14 +51,15 @@ float GraftWriter::ribbed(float angle) const {
 
 std::uint32_t GraftWriter::vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv,
                                   std::uint32_t group) {
-  const auto index = static_cast<std::uint32_t>(mesh_.position.size());
-  mesh_.position.push_back(position + 0.0F);
-  mesh_.normal.push_back(normal + 0.0F);
-  mesh_.uv[0].push_back(glm::vec2(uv.x, uv.y * context_.options.v_scale) + 0.0F);
-  group_.push_back(group);
-  twin_.push_back(0);
-  if (context_.options.joints) joints_.push_back(joint_);
-  return index;
+  if (vertices_ == mesh_.position.size()) make_room(vertices_ + vertices_ / 2 + 64);
+  const std::size_t index = vertices_++;
+  mesh_.position[index] = position + 0.0F;
+  mesh_.normal[index] = normal + 0.0F;
+  mesh_.uv[0][index] = glm::vec2(uv.x, uv.y * context_.options.v_scale) + 0.0F;
+  group_[index] = group;
+  twin_[index] = 0;
+  if (context_.options.joints) joints_[index] = joint_;
+  return static_cast<std::uint32_t>(index);
 }
 
 /// u round the limb and v along it.

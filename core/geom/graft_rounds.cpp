@@ -6,8 +6,7 @@
 namespace seedmesh {
 
 GraftWriter::Place GraftWriter::here() const {
-  return {static_cast<std::uint32_t>(mesh_.position.size()),
-          static_cast<std::uint32_t>(mesh_.index.wide.size() / 3),
+  return {static_cast<std::uint32_t>(vertices_), static_cast<std::uint32_t>(mesh_.index.wide.size() / 3),
           static_cast<std::uint32_t>(group_normal_.size()), static_cast<std::uint32_t>(corners_),
           static_cast<std::uint32_t>(wide_corners_)};
 }
@@ -128,7 +127,7 @@ bool GraftWriter::is_in_order() const {
     if (range.begin.vertex != vertex) return false;
     vertex = range.end.vertex;
   }
-  return vertex == mesh_.position.size();
+  return vertex == vertices_;
 }
 
 /// Limb by limb; `from` is used up.
@@ -145,14 +144,15 @@ Array<T> GraftWriter::gathered(Array<T>& from, std::uint32_t Place::*what) const
 }
 
 GraftWriter::Written GraftWriter::take() {
-  group_ = {};
   if (is_in_order()) {
+    make_room(vertices_);
     mesh_.position.shrink_to_fit();
     mesh_.normal.shrink_to_fit();
     mesh_.uv[0].shrink_to_fit();
     mesh_.index.wide.shrink_to_fit();
     return {std::move(mesh_), std::move(joints_), std::move(twin_)};
   }
+  group_ = {};
   Written out;
   out.mesh.position = gathered(mesh_.position, &Place::vertex);
   out.mesh.normal = gathered(mesh_.normal, &Place::vertex);

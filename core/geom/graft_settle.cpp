@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/base/quick_math.h"
+#include "core/base/wide.h"
 #include "core/geom/graft_writer.h"
 
 namespace seedmesh {
@@ -25,6 +26,43 @@ glm::vec3 face(const glm::vec3* position, const std::uint32_t* corner) {
 }
 
 }  // namespace
+
+/// Faces side by side: their corners; then twice their area, the normals as long as that, the angles.
+struct GraftWriter::FaceBlock {
+  static constexpr std::size_t most = 16;
+  float corner[3][3][most];  ///< by corner and axis
+  float normal[3][most], size[most], angle[3][most];
+
+  void put(std::size_t lane, const glm::vec3* position, const std::uint32_t* of) {
+    for (int k = 0; k < 3; ++k) {
+      for (int axis = 0; axis < 3; ++axis) corner[k][axis][lane] = position[of[k]][axis];
+    }
+  }
+  glm::vec3 at(std::size_t k, std::size_t lane) const {
+    return {corner[k][0][lane], corner[k][1][lane], corner[k][2][lane]};
+  }
+};
+
+/// The angles at the corners, by which faces count, so that it does not matter how the surface is cut into
+/// triangles.
+SEEDMESH_WIDE void GraftWriter::weigh(FaceBlock& block) {
+  for (std::size_t l = 0; l < FaceBlock::most; ++l) {
+    const glm::vec3 p[3] = {block.at(0, l), block.at(1, l), block.at(2, l)};
+    const glm::vec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
+    const float size = std::sqrt(glm::dot(normal, normal));
+    block.normal[0][l] = normal.x;
+    block.normal[1][l] = normal.y;
+    block.normal[2][l] = normal.z;
+    block.size[l] = size;
+    const auto angle_at = [&](const glm::vec3& here, const glm::vec3& one, const glm::vec3& other) {
+      const float along = glm::dot(one - here, other - here);
+      return static_cast<float>(math::quick_atan2(static_cast<double>(size), static_cast<double>(along)));
+    };
+    block.angle[0][l] = angle_at(p[0], p[1], p[2]);
+    block.angle[1][l] = angle_at(p[1], p[2], p[0]);
+    block.angle[2][l] = angle_at(p[2], p[0], p[1]);
+  }
+}
 
 /// Limbs that were written, those that they grow from, and those that begin at one of them.
 void GraftWriter::find_concerned() {
@@ -53,28 +91,39 @@ std::uint32_t GraftWriter::last_triangle(std::size_t limb) const {
                                            : range.begin.triangle;
 }
 
-/// What a limb's faces give to the normals of the loops that they touch. These faces are noted in `faces`.
-void GraftWriter::add_loop_normals(std::size_t limb, std::vector<LoopFace>& faces) {
-  const std::uint32_t* corners = mesh_.index.wide.data();
-  const glm::vec3* position = mesh_.position.data();
-  for (std::size_t t = range_[limb].begin.triangle; t < last_triangle(limb); ++t) {
-    const std::uint32_t* index = corners + 3 * t;
-    const std::uint32_t groups[3] = {group_[index[0]], group_[index[1]], group_[index[2]]};
-    if ((groups[0] & groups[1] & groups[2]) == none) continue;
-    const glm::vec3 normal = face(position, index);
-    const float size = std::sqrt(glm::dot(normal, normal));
-    if (!(size > 0)) continue;
-    faces.push_back({normal * (1 / size), {groups[0], groups[1], groups[2]}});
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      if (groups[corner] == none || !touched_[groups[corner] / 2]) continue;
-      // By the angle of the face there, so that it does not matter how the surface is cut into triangles.
-      const glm::vec3 here = position[index[corner]];
-      const glm::vec3 one = position[index[(corner + 1) % 3]] - here;
-      const glm::vec3 other = position[index[(corner + 2) % 3]] - here;
-      const auto angle = static_cast<float>(
-          math::quick_atan2(static_cast<double>(size), static_cast<double>(glm::dot(one, other))));
-      group_normal_[groups[corner]] += normal * (angle / size);
+/// What the faces of all limbs give to the normals of the loops that they touch. These faces are noted in
+/// `faces`.
+void GraftWriter::add_loop_normals(std::vector<LoopFace>& faces) {
+  std::vector<std::uint32_t> corners;
+  for (std::size_t limb = 0; limb < range_.size(); ++limb) {
+    const std::uint32_t* corner = mesh_.index.wide.data() + std::size_t{3} * range_[limb].begin.triangle;
+    const std::uint32_t* end = mesh_.index.wide.data() + std::size_t{3} * last_triangle(limb);
+    for (; corner < end; corner += 3) {
+      if ((group_[corner[0]] & group_[corner[1]] & group_[corner[2]]) != none && is_touched(corner))
+        corners.insert(corners.end(), corner, corner + 3);
     }
+  }
+  faces.reserve(corners.size() / 3);
+  for (std::size_t first = 0; first < corners.size(); first += 3 * FaceBlock::most) {
+    const std::size_t count = std::min(FaceBlock::most, (corners.size() - first) / 3);
+    FaceBlock block;
+    for (std::size_t l = 0; l < FaceBlock::most; ++l)
+      block.put(l, mesh_.position.data(), corners.data() + first + 3 * std::min(l, count - 1));
+    weigh(block);
+    for (std::size_t l = 0; l < count; ++l) add_loop_face(block, l, corners.data() + first + 3 * l, faces);
+  }
+}
+
+/// `lane` of a block that has been weighed, with these corners.
+void GraftWriter::add_loop_face(const FaceBlock& block, std::size_t lane, const std::uint32_t* corner,
+                                std::vector<LoopFace>& faces) {
+  if (!(block.size[lane] > 0)) return;
+  const glm::vec3 normal{block.normal[0][lane], block.normal[1][lane], block.normal[2][lane]};
+  const std::uint32_t groups[3] = {group_[corner[0]], group_[corner[1]], group_[corner[2]]};
+  faces.push_back({normal * (1 / block.size[lane]), {groups[0], groups[1], groups[2]}});
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (groups[k] != none && touched_[groups[k] / 2])
+      group_normal_[groups[k]] += normal * (block.angle[k][lane] / block.size[lane]);
   }
 }
 
@@ -154,9 +203,7 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
     if (touched_[pair]) group_normal_[2 * pair] = group_normal_[2 * pair + 1] = glm::vec3(0);
   }
   std::vector<LoopFace> faces;
-  for (std::size_t limb = 0; limb < count; ++limb) {
-    if (!group_limb_.empty()) add_loop_normals(limb, faces);
-  }
+  if (!group_limb_.empty()) add_loop_normals(faces);
   for (std::size_t pair = 0; pair < touched_.size(); ++pair) {
     if (!touched_[pair]) continue;
     // The mean of both surfaces, whatever the size of their faces. From here on the even group has it.

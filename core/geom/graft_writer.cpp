@@ -63,7 +63,8 @@ GraftWriter::GraftWriter(const Context& context, Job& job)
   mesh_.normal = Array<glm::vec3>(job);
   mesh_.uv[0] = Array<glm::vec2>(job);
   mesh_.index.wide = Array<std::uint32_t>(job);
-  reserve(vertices_a_joint * limbs.size(), triangles_a_joint * limbs.size());
+  make_room(vertices_a_joint * limbs.size() + 64);
+  mesh_.index.wide.reserve(3 * triangles_a_joint * limbs.size());
   for (std::size_t i = 0; i < limbs.size(); ++i) {
     if (limbs.parent[i] != Limbs::none) thickest_ = std::max(thickest_, limbs.base_radius[i]);
   }
@@ -88,14 +89,14 @@ GraftWriter::GraftWriter(const Context& context, Job& job)
   }
 }
 
-void GraftWriter::reserve(std::size_t vertices, std::size_t triangles) {
-  mesh_.position.reserve(vertices);
-  mesh_.normal.reserve(vertices);
-  mesh_.uv[0].reserve(vertices);
-  group_.reserve(vertices);
-  twin_.reserve(vertices);
-  if (context_.options.joints) joints_.reserve(vertices);
-  mesh_.index.wide.reserve(3 * triangles);
+/// Makes room for so many vertices; what is beyond `vertices_` is not written yet.
+void GraftWriter::make_room(std::size_t vertices) {
+  mesh_.position.resize(vertices);
+  mesh_.normal.resize(vertices);
+  mesh_.uv[0].resize(vertices);
+  group_.resize(vertices);
+  twin_.resize(vertices);
+  if (context_.options.joints) joints_.resize(vertices);
 }
 
 /// Three, or an even number, so that rings of different limbs meet corner to corner.
@@ -199,12 +200,7 @@ Bud GraftWriter::bud_of(std::uint32_t child) const {
 }
 
 void GraftWriter::plan_children(float start) {
-  struct Wish {
-    std::size_t point;
-    Bud bud;
-    bool is_thick;
-  };
-  std::vector<Wish> wishes;
+  wishes_.clear();
   for (std::size_t point = 1; point + 1 < axis_.point.size(); ++point) {
     if (axis_.at[point] <= start) continue;
     for (std::uint32_t child = first_child_[axis_.joint[point]]; child != none;
@@ -215,12 +211,13 @@ void GraftWriter::plan_children(float start) {
           bud.radius < context_.options.thinnest)
         continue;
       bud.sides = corners_for(bud.radius);
-      wishes.push_back({point, bud, bud.radius > 0.5F * axis_.radius[point]});
+      bud.phases = &phases_;
+      wishes_.push_back({point, bud, bud.radius > 0.5F * axis_.radius[point]});
     }
   }
   // Thick ones first: a fork has one place only, a collar of a thin limb may give way.
   for (const bool thick : {true, false}) {
-    for (const Wish& wish : wishes) {
+    for (const Wish& wish : wishes_) {
       if (wish.is_thick == thick) plan_.open(axis_, wish.point, wish.bud);
     }
   }
@@ -263,7 +260,8 @@ void GraftWriter::begin_closed(bool is_root, std::uint32_t limb) {
 void GraftWriter::begin_loop(const Loop& loop) {
   // The child's angles run the other way round than the phases of its loop.
   below_.clear();
-  std::vector<const LoopVertex*> order;
+  std::vector<const LoopVertex*>& order = loop_order_;
+  order.clear();
   for (std::uint32_t i = 0; i < loop.count; ++i) order.push_back(&loop_vertices_[loop.first + i]);
   std::sort(order.begin(), order.end(),
             [](const LoopVertex* a, const LoopVertex* b) { return a->angle > b->angle; });
@@ -302,26 +300,29 @@ void GraftWriter::write_tip(float end_radius) {
 
 /// Triangles between two rings, by rising angle.
 void GraftWriter::strip(const Corners& below, const Corners& above) {
-  std::size_t i = 0, j = 0;
+  const std::size_t last_below = below.size() - 1, last_above = above.size() - 1;
+  const glm::vec3* position = mesh_.position.data();
+  triangles_.spend(last_below + last_above);
+  std::uint32_t* out = mesh_.index.wide.extend(3 * (last_below + last_above));
   const auto apart = [&](const Corner& a, const Corner& b) {
-    const glm::vec3 between = mesh_.position[a.vertex] - mesh_.position[b.vertex];
+    const glm::vec3 between = position[a.vertex] - position[b.vertex];
     return glm::dot(between, between);
   };
-  while (i + 1 < below.size() || j + 1 < above.size()) {
-    // The shorter diagonal, unless one side has fallen far behind.
-    bool take_below = j + 1 == above.size();
-    if (i + 1 < below.size() && j + 1 < above.size()) {
-      const float lead = below[i + 1].angle - above[j + 1].angle;
-      take_below = std::abs(lead) > most_lead ? lead < 0
-                                              : apart(below[i + 1], above[j]) < apart(below[i], above[j + 1]);
-    }
-    if (take_below) {
-      triangle(below[i].vertex, below[i + 1].vertex, above[j].vertex);
-      ++i;
-    } else {
-      triangle(below[i].vertex, above[j + 1].vertex, above[j].vertex);
-      ++j;
-    }
+  for (std::size_t i = 0, j = 0; i < last_below || j < last_above; out += 3) {
+    const Corner &a = below[i], &b = above[j];
+    const Corner &next_a = below[std::min(i + 1, last_below)], &next_b = above[std::min(j + 1, last_above)];
+    // The shorter diagonal, unless one side has fallen far behind. Chosen, not branched to: nobody can
+    // foresee which it is.
+    const float lead = next_a.angle - next_b.angle;
+    const bool is_shorter = apart(next_a, b) < apart(a, next_b);
+    const bool is_behind = lead<0, is_far = std::abs(lead)> most_lead;
+    const bool is_next = (is_far & is_behind) | (!is_far & is_shorter);
+    const bool take_below = (j == last_above) | ((i < last_below) & is_next);
+    out[0] = a.vertex;
+    out[1] = take_below ? next_a.vertex : next_b.vertex;
+    out[2] = b.vertex;
+    i += take_below ? 1 : 0;
+    j += take_below ? 0 : 1;
   }
 }
 

@@ -81,6 +81,13 @@ class GraftWriter {
     std::uint32_t group = none;
     std::uint32_t joint = none;  ///< of the parent
   };
+  /// An opening that is asked for.
+  struct Wish {
+    std::size_t point;
+    Bud bud;
+    bool is_thick;
+  };
+
   struct Loop {
     std::uint32_t first = none, count = 0;
     float radius = 0, reach = 0;
@@ -108,14 +115,18 @@ class GraftWriter {
   enum class Concern : std::uint8_t { nothing, loop, all };
   enum class Kind : std::uint8_t { none, root, collar, fork, closed };
 
-  void reserve(std::size_t vertices, std::size_t triangles);
+  void make_room(std::size_t vertices);
   void find_parents();
   void find_dirty();
   bool has_same_loop(const Loop& now, const Loop& then) const;
   void forget_loops(const Range& range);
   void keep_limb(std::uint32_t limb, const Loop& then);
   void mark_touched();
-  void add_loop_normals(std::size_t limb, std::vector<LoopFace>& faces);
+  struct FaceBlock;
+  static void weigh(FaceBlock& block);
+  void add_loop_normals(std::vector<LoopFace>& faces);
+  void add_loop_face(const FaceBlock& block, std::size_t lane, const std::uint32_t* corner,
+                     std::vector<LoopFace>& faces);
   void ease_loop_normals(const std::vector<LoopFace>& faces);
   std::size_t judge(std::size_t limb, std::vector<Trust>& trust, bool is_late) const;
   void find_concerned();
@@ -152,12 +163,13 @@ class GraftWriter {
   void strip(const Corners& below, const Corners& above);
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
   std::uint32_t vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv, std::uint32_t group);
-  void mark_twin() { twin_.back() = 1; }
+  void mark_twin() { twin_[vertices_ - 1] = 1; }
 
   Context context_;
   Job& job_;
   Meter triangles_;
-  Mesh mesh_;
+  Mesh mesh_;                 ///< with more room than `vertices_`
+  std::size_t vertices_ = 0;  ///< that are written
   Array<std::uint32_t>
       group_;  ///< of each vertex; those on a loop share a normal: even the parent's, odd the child's
   Array<glm::vec3> group_normal_;
@@ -184,6 +196,9 @@ class GraftWriter {
   Corners below_, lower_, upper_;
   std::vector<Mark> marks_;
   std::vector<std::uint32_t> lower_order_, upper_order_;
+  std::vector<Wish> wishes_;
+  std::vector<const LoopVertex*> loop_order_;
+  Phases phases_;
   std::size_t near_piece_ = 0;  ///< of the axis, near what is written
   float seam_ = 0;
   glm::vec2 seam_turn_{1, 0};  ///< its cosine and sine

@@ -15,6 +15,7 @@ namespace seedmesh {
 namespace {
 
 constexpr std::size_t organs_a_chunk = 512;
+constexpr std::size_t bits_an_organ = 16;
 constexpr float least_share = 2e-4F;  // of the model's size
 constexpr float least_extent = 1e-9F;
 
@@ -76,9 +77,46 @@ std::uint64_t place_of(const Organ& organ) {
   return mix(hash ^ word_of(organ.scale.y, organ.scale.z));
 }
 
+/// Tells which organs may stand where another does: those whose places have one bit in common of a table.
+class Crossroads {
+ public:
+  Crossroads(const Organs& organs, const Job& job) : organs_(organs) {
+    std::size_t size = 1024;
+    while (size < bits_an_organ * organs.organ.size()) size *= 2;
+    mask_ = size - 1;
+    taken_ = Array<std::uint64_t>(job, size / 64, std::uint64_t{0});
+    shared_ = Array<std::uint64_t>(job, size / 64, std::uint64_t{0});
+    for (const Organ& organ : organs.organ) {
+      const std::uint64_t bit = bit_of(organ);
+      shared_[bit / 64] |= taken_[bit / 64] & std::uint64_t{1} << bit % 64;
+      taken_[bit / 64] |= std::uint64_t{1} << bit % 64;
+    }
+  }
+  bool is_shared(const Organ& organ) const {
+    const std::uint64_t bit = bit_of(organ);
+    return (shared_[bit / 64] >> bit % 64 & 1U) != 0;
+  }
+  /// How many they are.
+  std::size_t count() const {
+    std::size_t shared = 0;
+    for (const Organ& organ : organs_.organ) shared += is_shared(organ) ? 1 : 0;
+    return shared;
+  }
+
+ private:
+  std::uint64_t bit_of(const Organ& organ) const {
+    return mix(word_of(organ.position.x, organ.position.y) ^ word_of(organ.position.z, 0) << 7U) & mask_;
+  }
+
+  const Organs& organs_;
+  std::uint64_t mask_ = 0;
+  Array<std::uint64_t> taken_, shared_;
+};
+
 std::vector<Group> groups_of(const Organs& organs, const FoliageOptions& options, const Job& job) {
   std::map<std::pair<std::uint32_t, std::int16_t>, std::vector<std::uint32_t>> by_look;
-  Seen seen(organs.organ.size(), job);
+  const Crossroads crossroads(organs, job);
+  Seen seen(crossroads.count(), job);
   std::vector<float> extents;
   for (const Mesh& surface : options.surfaces) {
     const Box box = bounds_of(surface.position.span());
@@ -92,7 +130,7 @@ std::vector<Group> groups_of(const Organs& organs, const FoliageOptions& options
     const Organ& organ = organs.organ[i];
     const float smallest = std::min({organ.scale.x, organ.scale.y, organ.scale.z}) * extents[organ.surface];
     if (!(smallest > std::max(least_share * options.model_size, least_extent))) continue;
-    if (!seen.insert(place_of(organ))) continue;
+    if (crossroads.is_shared(organ) && !seen.insert(place_of(organ))) continue;
     if (!members || look != std::pair{organ.surface, organ.color}) {
       look = {organ.surface, organ.color};
       members = &by_look[look];
