@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 #include "core/base/math.h"
 #include "core/geom/apart.h"
@@ -117,8 +119,24 @@ void refuse_inward_faces(const Mesh& mesh) {
   }
 }
 
+/// Marks in `twin`, which goes up to the vertices of the last part of a mesh, those of them that stand where
+/// others do.
+void add_twins(const Mesh& mesh, Array<std::uint8_t>& twin) {
+  const std::size_t first = twin.size(), count = mesh.position.size() - first;
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), first);
+  const auto place = [&](std::size_t i) {
+    const glm::vec3& p = mesh.position[i];
+    return std::tuple(p.x, p.y, p.z, i);
+  };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+  std::fill_n(twin.extend(count), count, std::uint8_t{0});
+  for (std::size_t i = 1; i < count; ++i)
+    twin[order[i]] = mesh.position[order[i]] == mesh.position[order[i - 1]] ? 1 : 0;
+}
+
 /// What skin() makes of the limbs that nothing else can be made of.
-void append_leftover(Mesh& mesh, Leftover limbs, const GraftOptions& options, Job& job) {
+void append_leftover(GraftWriter::Written& to, Leftover limbs, const GraftOptions& options, Job& job) {
   std::vector<std::uint32_t> was;
   std::vector<std::uint16_t> number;
   for (Limbs others = limbs.next(was, job); others.size() > 0; others = limbs.next(was, job)) {
@@ -132,7 +150,8 @@ void append_leftover(Mesh& mesh, Leftover limbs, const GraftOptions& options, Jo
     }
     for (const Bark& bark : skin(others, plain, job)) {
       refuse_inward_faces(bark.mesh);
-      append(mesh, bark.mesh);
+      append(to.mesh, bark.mesh);
+      add_twins(to.mesh, to.twin);
       if (!options.joints) continue;
       for (std::size_t i = 0; i < bark.mesh.position.size(); ++i)
         options.joints->push_back(bark.mesh.bone.empty() ? was.back() : was[bark.mesh.bone[i]]);
@@ -141,13 +160,12 @@ void append_leftover(Mesh& mesh, Leftover limbs, const GraftOptions& options, Jo
 }
 
 /// Limbs that go through each other may touch in points that a reader takes for one. `twin` of the vertices
-/// that were grafted, as GraftWriter::Written has it; those from skin() have none.
+/// as GraftWriter::Written has it.
 void refuse_crowds(const Mesh& mesh, const Array<std::uint8_t>& twin, const Scale& scale, const Job& job) {
   const Box box = bounds_of(mesh.position.span());
   const float reach = 1e-6F * std::min(scale.size, glm::length(box.max - box.min));
-  // A surface that was grafted is closed; what stands apart keeps it so.
-  const bool is_grafted = twin.size() == mesh.position.size();
-  if (is_grafted && stand_apart(mesh.position.span(), twin.span(), reach, job)) return;
+  // Each limb's surface is closed; what stands apart keeps it so.
+  if (stand_apart(mesh.position.span(), twin.span(), reach, job)) return;
   if (!is_crowded(mesh, reach, job)) return;
   Job::refuse(
       "the limbs lie in heaps so dense, less than a millionth of the tree apart, that their bark is no "
@@ -175,13 +193,12 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
   const bool is_ordered = 10 * writer.wide_corners() < writer.corners();
   const auto fallen_back = static_cast<std::uint32_t>(std::count(trust.begin(), trust.end(), Trust::none));
   GraftWriter::Written written = writer.take();
-  Mesh mesh = std::move(written.mesh);
   if (options.joints) *options.joints = std::move(written.joints);
-  append_leftover(mesh, Leftover(limbs, chains, trust, scale.box), options, job);
-  refuse_crowds(mesh, written.twin, scale, job);
+  append_leftover(written, Leftover(limbs, chains, trust, scale.box), options, job);
+  refuse_crowds(written.mesh, written.twin, scale, job);
   if (counts) counts->fallen_back = fallen_back;
-  mesh.cache_ordered = is_ordered;
-  return mesh;
+  written.mesh.cache_ordered = is_ordered;
+  return std::move(written.mesh);
 }
 
 }  // namespace seedmesh

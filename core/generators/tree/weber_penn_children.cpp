@@ -68,17 +68,12 @@ void WeberPennGrower::bear(const WeberPennStem& stem, const WeberPennBud& bud, d
   } else {
     child.length = child_max * (stem.length - 0.6 * bud.offset);
   }
-  const double thickest = radius_at(stem, bud.offset / stem.length);
-  const auto thicken = [&] {
-    const double ratio = std::max(0.0, child.length / stem.length);
-    child.radius = std::min(thickest, stem.radius * math::pow(ratio, p_.RatioPower));
-  };
-  thicken();
-  if (p_.PruneRatio > 0) {
-    if (!prune(child)) return;
-    thicken();
-  }
-  if (child.length > 0) waiting_.push_back(child);
+  if (p_.PruneRatio > 0 && !prune(child)) return;
+  if (!(child.length > 0)) return;
+  const double ratio = std::max(0.0, child.length / stem.length);
+  child.radius =
+      std::min(radius_at(stem, bud.offset / stem.length), stem.radius * math::pow(ratio, p_.RatioPower));
+  waiting_.push_back(child);
 }
 
 /// Shortens a stem to what stays within the envelope, as far as PruneRatio wants. False: nothing is left.
