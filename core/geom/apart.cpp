@@ -17,10 +17,10 @@ constexpr float cell_width = 64, margin = 1.5F / cell_width;
 constexpr float most_cells = 20'000;
 // Bits for each point in the table of cells that are taken: few share one by chance.
 constexpr std::size_t bits_a_point = 16, least_bits = 1024, most_bits = std::size_t{1} << 30U;
-// More points than so many in one cell, or more than this share of all in cells with others, are a heap.
-constexpr std::size_t most_in_a_cell = 16, most_share = 4;
-// Of Array<std::uint32_t> slot: the point is a twin; it is near a border.
-constexpr std::uint32_t passed_over = 0xFFFFFFFFU, at_border = 0x80000000U;
+// So many points in one cell are a heap, and are not compared one by one.
+constexpr std::size_t most_in_a_cell = 16;
+// Of a slot: the point is near a border.
+constexpr std::uint32_t at_border = 0x80000000U;
 
 class Cells {
  public:
@@ -91,34 +91,37 @@ struct Member {
   std::uint32_t point;
 };
 
-/// True where none of those in one cell are within the reach of each other; false too where it is not found
-/// out.
-bool keep_apart(std::vector<Member>& members, std::span<const glm::vec3> points, float reach) {
+/// Calls near(point) for those that are within the reach of another one in their cell.
+template <class Near>
+void find_near(std::vector<Member>& members, std::span<const glm::vec3> points, float reach, Near near) {
   std::sort(members.begin(), members.end(), [](const Member& a, const Member& b) {
     return a.cell != b.cell ? a.cell < b.cell : a.point < b.point;
   });
   const double squared = static_cast<double>(reach) * static_cast<double>(reach);
   for (std::size_t first = 0, end = 0; first < members.size(); first = end) {
     while (end < members.size() && members[end].cell == members[first].cell) ++end;
-    if (end - first > most_in_a_cell) return false;
+    const bool is_heap = end - first > most_in_a_cell;
     for (std::size_t i = first; i < end; ++i) {
-      for (std::size_t k = first; k < i; ++k) {
+      for (std::size_t k = first; k < (is_heap ? first + 1 : i); ++k) {
         const glm::dvec3 apart = glm::dvec3(points[members[i].point]) - glm::dvec3(points[members[k].point]);
-        if (glm::dot(apart, apart) <= squared) return false;
+        if (!is_heap && glm::dot(apart, apart) > squared) continue;
+        near(members[i].point);
+        near(members[k].point);
       }
     }
   }
-  return true;
 }
 
 }  // namespace
 
-bool stand_apart(std::span<const glm::vec3> points, std::span<const std::uint8_t> twin, float reach,
-                 const Job& job) {
-  if (points.empty() || !(reach > 0)) return true;
+Array<std::uint8_t> near_others(std::span<const glm::vec3> points, std::span<const std::uint8_t> twin,
+                                float reach, const Job& job) {
+  Array<std::uint8_t> found(job);
+  if (points.empty() || !(reach > 0)) return found;
   const Box box = bounds_of(points);
   const float cell = cell_width * reach;
-  if (!(glm::length(box.max - box.min) < most_cells * cell)) return false;
+  if (!(glm::length(box.max - box.min) < most_cells * cell))
+    return Array<std::uint8_t>(job, points.size(), std::uint8_t{1});
   int bits = 0;
   while ((std::size_t{1} << bits) < std::clamp(bits_a_point * points.size(), least_bits, most_bits)) ++bits;
   const Cells cells(box.min, cell, bits);
@@ -132,9 +135,8 @@ bool stand_apart(std::span<const glm::vec3> points, std::span<const std::uint8_t
   };
   job.check();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (twin[i]) {
-      slot[i] = passed_over;
-    } else if (slot[i] & at_border) {
+    if (twin[i]) continue;
+    if (slot[i] & at_border) {
       cells.each(points[i], take);
     } else {
       take(slot[i], 0);
@@ -142,13 +144,26 @@ bool stand_apart(std::span<const glm::vec3> points, std::span<const std::uint8_t
   }
   std::vector<Member> members;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (slot[i] == passed_over || (!(slot[i] & at_border) && !shared.has(slot[i]))) continue;
+    if (twin[i] || (!(slot[i] & at_border) && !shared.has(slot[i]))) continue;
     cells.each(points[i], [&](std::uint32_t at, std::uint64_t number) {
       if (shared.has(at)) members.push_back({number, static_cast<std::uint32_t>(i)});
     });
-    if (members.size() > 64 + points.size() / most_share) return false;
   }
-  return keep_apart(members, points, reach);
+  job.check();
+  Bits near(job, std::size_t{1} << bits);
+  bool any = false;
+  find_near(members, points, reach, [&](std::uint32_t point) {
+    any = true;
+    cells.each(points[point], [&](std::uint32_t at, std::uint64_t) { near.set(at); });
+  });
+  if (!any) return found;
+  found.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    bool is_near = false;
+    cells.each(points[i], [&](std::uint32_t at, std::uint64_t) { is_near = is_near || near.has(at); });
+    found[i] = is_near ? 1 : 0;
+  }
+  return found;
 }
 
 }  // namespace seedmesh

@@ -1,5 +1,5 @@
 #pragma once
-/// Do points keep a distance from each other?
+/// Which points keep no distance from others?
 #include <span>
 
 #include "core/base/job.h"
@@ -7,10 +7,9 @@
 
 namespace seedmesh {
 
-/// True only where no two points that are not twins are within `reach` of each other; `twin` is 1 for points
-/// that stand where one before them does. False where some are, or where finding out would take longer than
-/// is_crowded() does. 10 ns a point.
-bool stand_apart(std::span<const glm::vec3> points, std::span<const std::uint8_t> twin, float reach,
-                 const Job& job);
+/// Marks with 1 all points that are within `reach` of another, twins apart, and some that are not; `twin` is
+/// 1 for points that stand where one before them does. Nothing where there are none. 10 ns a point.
+Array<std::uint8_t> near_others(std::span<const glm::vec3> points, std::span<const std::uint8_t> twin,
+                                float reach, const Job& job);
 
 }  // namespace seedmesh

@@ -159,14 +159,39 @@ void append_leftover(GraftWriter::Written& to, Leftover limbs, const GraftOption
   }
 }
 
+/// The triangles that have a marked vertex.
+Mesh around(const Mesh& mesh, const Array<std::uint8_t>& marked, const Job& job) {
+  Mesh part;
+  part.position = Array<glm::vec3>(job);
+  part.index.wide = Array<std::uint32_t>(job);
+  const Array<std::uint32_t>& index = mesh.index.wide;
+  Array<std::uint32_t> number(job, mesh.position.size(), Limbs::none);
+  const auto is_wanted = [&](std::size_t t) {
+    return (marked[index[t]] | marked[index[t + 1]] | marked[index[t + 2]]) != 0;
+  };
+  for (std::size_t t = 0; t < index.size(); t += 3) {
+    for (std::size_t k = 0; k < 3 && is_wanted(t); ++k) number[index[t + k]] = 0;
+  }
+  // In their order, by which vertices are welded.
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (number[i] == Limbs::none) continue;
+    number[i] = static_cast<std::uint32_t>(part.position.size());
+    part.position.push_back(mesh.position[i]);
+  }
+  for (std::size_t t = 0; t < index.size(); t += 3) {
+    for (std::size_t k = 0; k < 3 && is_wanted(t); ++k) part.index.wide.push_back(number[index[t + k]]);
+  }
+  return part;
+}
+
 /// Limbs that go through each other may touch in points that a reader takes for one. `twin` of the vertices
 /// as GraftWriter::Written has it.
 void refuse_crowds(const Mesh& mesh, const Array<std::uint8_t>& twin, const Scale& scale, const Job& job) {
   const Box box = bounds_of(mesh.position.span());
   const float reach = 1e-6F * std::min(scale.size, glm::length(box.max - box.min));
-  // Each limb's surface is closed; what stands apart keeps it so.
-  if (stand_apart(mesh.position.span(), twin.span(), reach, job)) return;
-  if (!is_crowded(mesh, reach, job)) return;
+  // Each limb's surface is closed, and what stands apart keeps it so: faults are at what does not.
+  const Array<std::uint8_t> near = near_others(mesh.position.span(), twin.span(), reach, job);
+  if (near.empty() || !is_crowded(around(mesh, near, job), reach, job)) return;
   Job::refuse(
       "the limbs lie in heaps so dense, less than a millionth of the tree apart, that their bark is no "
       "surface; fewer or thicker limbs are needed");

@@ -145,15 +145,26 @@ void GraftWriter::ease_loop_normals(const std::vector<LoopFace>& faces) {
     const auto is_strained = [&](std::uint32_t group) { return group != none && strained[group / 2]; };
     if (std::any_of(std::begin(face.group), std::end(face.group), is_strained)) hard.push_back(face);
   }
+  // A face is looked at again only if one of its normals has turned since it was.
+  std::uint32_t step = 1;
+  std::vector<std::uint32_t> seen(hard.size(), 0), turned(touched_.size(), 1);
+  const auto has_turned = [&](const LoopFace& face, std::uint32_t since) {
+    return std::any_of(std::begin(face.group), std::end(face.group),
+                       [&](std::uint32_t group) { return group != none && turned[group / 2] >= since; });
+  };
   bool turns = !hard.empty();
   for (int turn = 0; turns && turn < most_turns; ++turn) {
     turns = false;
-    for (const LoopFace& face : hard) {
+    for (std::size_t i = 0; i < hard.size(); ++i) {
+      const LoopFace& face = hard[i];
+      if (!has_turned(face, seen[i])) continue;
+      seen[i] = ++step;
       for (const std::uint32_t group : face.group) {
         if (!looks_away(face, group)) continue;
         glm::vec3& normal = group_normal_[group & ~1U];
         normal =
             math::quick_unit(normal + face.normal * (wanted_lean - glm::dot(normal, face.normal)), normal);
+        turned[group / 2] = step;
         turns = true;
       }
     }
