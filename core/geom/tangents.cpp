@@ -4,8 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "core/base/math.h"
+#include "core/base/parallel.h"
 #include "core/geom/four.h"
 #include "core/geom/piece_tangents.h"
 #include "core/geom/repeats.h"
@@ -128,6 +131,7 @@ void add_tangents(Mesh& mesh, const Array<glm::vec2>& uv, const Job& job) {
 }  // namespace
 
 void add_tangents(Model& model, const Job& job) {
+  std::vector<std::pair<Mesh*, const Array<glm::vec2>*>> wanted;
   for (MeshGroup& group : model.meshes) {
     for (Primitive& primitive : group.primitives) {
       Mesh& mesh = primitive.mesh;
@@ -135,9 +139,12 @@ void add_tangents(Model& model, const Job& job) {
       const TextureUse& map = model.materials[static_cast<std::size_t>(primitive.material)].normal_texture;
       if (map.texture < 0 || !mesh.tangent.empty()) continue;
       const auto& uv = mesh.uv[static_cast<std::size_t>(map.uv_set)];
-      if (!uv.empty()) add_tangents(mesh, uv, job);
+      if (!uv.empty()) wanted.emplace_back(&mesh, &uv);
     }
   }
+  parallel_for(job, wanted.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) add_tangents(*wanted[i].first, *wanted[i].second, job);
+  });
 }
 
 }  // namespace seedmesh

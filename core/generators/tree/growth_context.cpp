@@ -44,14 +44,9 @@ std::uint32_t SkeletonWriter::add(const Joint& joint) {
   return static_cast<std::uint32_t>(limbs_.size() - 1);
 }
 
-bool SkeletonWriter::wants_leaf(std::uint64_t key) {
-  shapes_.spend();
-  if (leaves_ >= most_leaves_) {
-    Job::refuse("the tree has more than " + std::to_string(most_leaves_) +
-                " leaves, which would pass the limit of triangles");
-  }
-  ++leaves_;
-  return is_drawn(key, density_);
+void SkeletonWriter::refuse_leaves() const {
+  Job::refuse("the tree has more than " + std::to_string(most_leaves_) +
+              " leaves, which would pass the limit of triangles");
 }
 
 void SkeletonWriter::add(const Leaf& leaf) {

@@ -61,7 +61,12 @@ class SkeletonWriter {
     std::uint64_t key = 0;
   };
   /// Counts a leaf. False: it is none of those that are drawn, and need not be made.
-  bool wants_leaf(std::uint64_t key);
+  bool wants_leaf(std::uint64_t key) {
+    shapes_.spend();
+    if (leaves_ >= most_leaves_) refuse_leaves();
+    ++leaves_;
+    return is_drawn(key, density_);
+  }
   void add(const Leaf& leaf);
   void add(const Organ& leaf) { organs_.organ.push_back(leaf); }
 
@@ -70,6 +75,8 @@ class SkeletonWriter {
   Job& job() { return job_; }
 
  private:
+  [[noreturn]] void refuse_leaves() const;
+
   Limbs& limbs_;
   Organs& organs_;
   Job& job_;

@@ -129,7 +129,9 @@ double WeberPennGrower::walk_segment(WeberPennStem& stem, const Frame& axis, int
       }
       from += step;
       stem.carried_children = 0;
-      buds.push_back({frame, at + frame.heading * (from - along), Limbs::none, from, stem.children_before++});
+      const int number = stem.children_before++;
+      if (is_last(stem) && !wants_leaf(number)) continue;
+      put_bud(frame, at + frame.heading * (from - along), from, number);
       if (!is_last(stem)) stops.push_back(from);
     }
     stops.push_back(end);
@@ -213,6 +215,7 @@ void WeberPennGrower::grow(const WeberPennStem& given) {
   if (!(stem.length > 0)) return;
   last_joint_ = stem.joint;
   starts_ = true;
+  leaf_chance_ = chances_.leaves.at(stem.rng.key());
   bare_ = stem.level == 0 ? std::min(base_length(), 0.99 * stem.length) : 0;
   const double children = std::floor(children_of(stem) + 0.5);
   const bool is_fan = is_last(stem) && p_.Leaves < 0;
@@ -228,9 +231,10 @@ void WeberPennGrower::grow(const WeberPennStem& given) {
     walk_segment(stem, frame, segment, at);
     if (segment + 1 < l.curve_res) split(stem, frame, at, segment, last_joint_);
   }
-  if (is_fan) {
-    for (int i = 0; i < static_cast<int>(children); ++i)
-      buds_.push_back({frame, at, last_joint_, stem.length, i});
+  for (int i = 0; is_fan && i < static_cast<int>(children); ++i) {
+    if (!wants_leaf(i)) continue;
+    put_bud(frame, at, stem.length, i);
+    buds_.back().joint = last_joint_;
   }
   bear_all(stem, child_max);
 }

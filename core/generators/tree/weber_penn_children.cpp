@@ -97,9 +97,21 @@ bool WeberPennGrower::fits(const WeberPennStem& stem) const {
   return true;
 }
 
-void WeberPennGrower::leaf(const WeberPennStem& stem, const WeberPennBud& bud, const Rng& leaves) {
-  const Rng rng = leaves.at(static_cast<std::uint64_t>(bud.number));
-  if (!writer_.wants_leaf(rng.key())) return;
+/// Counts a leaf of the stem that grows. False: it is none of those that are drawn.
+bool WeberPennGrower::wants_leaf(int number) const {
+  return writer_.wants_leaf(leaf_chance_.at(static_cast<std::uint64_t>(number)).key());
+}
+
+void WeberPennGrower::put_bud(const Frame& frame, const glm::dvec3& position, double offset, int number) {
+  WeberPennBud& bud = buds_.emplace_back();  // in its place: there are many
+  bud.frame = frame;
+  bud.position = position;
+  bud.offset = offset;
+  bud.number = number;
+}
+
+void WeberPennGrower::leaf(const WeberPennStem& stem, const WeberPennBud& bud) {
+  const Rng rng = leaf_chance_.at(static_cast<std::uint64_t>(bud.number));
   if (p_.Leaves < 0) return fan_leaf(stem, bud, rng);
   const Stance stands = stance(stem, bud, rng);
   Organ& organ = leaves_[leaf_frames_.size()];
@@ -141,11 +153,12 @@ void WeberPennGrower::put_leaves() {
 }
 
 void WeberPennGrower::bear_all(const WeberPennStem& stem, double child_max) {
-  if (is_last(stem)) {
-    const Rng leaves = chances_.leaves.at(stem.rng.key());
-    for (const WeberPennBud& bud : buds_) leaf(stem, bud, leaves);
-  } else {
-    for (const WeberPennBud& bud : buds_) bear(stem, bud, child_max);
+  for (const WeberPennBud& bud : buds_) {
+    if (is_last(stem)) {
+      leaf(stem, bud);
+    } else {
+      bear(stem, bud, child_max);
+    }
   }
 }
 

@@ -72,7 +72,9 @@ class WeberPennGrower {
     double about = 0, down = 0;  ///< degrees
   };
   Stance stance(const WeberPennStem& stem, const WeberPennBud& bud, const Rng& rng) const;
-  void leaf(const WeberPennStem& stem, const WeberPennBud& bud, const Rng& leaves);
+  bool wants_leaf(int number) const;
+  void put_bud(const Frame& frame, const glm::dvec3& position, double offset, int number);
+  void leaf(const WeberPennStem& stem, const WeberPennBud& bud);
   void fan_leaf(const WeberPennStem& stem, const WeberPennBud& bud, const Rng& rng);
   void put_leaves();
 
@@ -88,6 +90,7 @@ class WeberPennGrower {
   std::uint32_t last_joint_ = Limbs::none;
   std::vector<WeberPennBud> buds_;
   std::vector<double> stops_;
+  Rng leaf_chance_{0};
   double spacing_ = 0, bare_ = 0;
   bool starts_ = false;
 };
