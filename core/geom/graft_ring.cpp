@@ -117,19 +117,25 @@ std::uint32_t GraftWriter::vertex_of(Mark& mark, const Plane& plane, bool is_bey
 }
 
 /// One side of a ring in order, from the corner that is nearest to the seam all round to it again.
-void GraftWriter::go_round(std::vector<std::uint32_t>& order, const Plane& plane, Corners& out) {
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return marks_[a].angle != marks_[b].angle ? marks_[a].angle < marks_[b].angle : a < b;
-  });
+void GraftWriter::go_round(Corners& order, const Plane& plane, Corners& out) {
+  // Few, and in order but for the points of loops.
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const Corner corner = order[i];
+    std::size_t k = i;
+    for (; k > 0 && (corner.angle < order[k - 1].angle ||
+                     (corner.angle == order[k - 1].angle && corner.vertex < order[k - 1].vertex));
+         --k)
+      order[k] = order[k - 1];
+    order[k] = corner;
+  }
   std::size_t start = 0;
   for (std::size_t i = 1; i < order.size(); ++i) {
-    if (std::abs(marks_[order[i]].angle - seam_) < std::abs(marks_[order[start]].angle - seam_)) start = i;
+    if (std::abs(order[i].angle - seam_) < std::abs(order[start].angle - seam_)) start = i;
   }
   out.clear();
-  for (std::size_t i = 0; i <= order.size(); ++i) {
-    const std::size_t at = (start + i) % order.size();
+  for (std::size_t i = 0, at = start; i <= order.size(); ++i, at = at + 1 == order.size() ? 0 : at + 1) {
     const bool is_beyond = at < start || i == order.size();
-    Mark& mark = marks_[order[at]];
+    Mark& mark = marks_[order[at].vertex];
     out.push_back({mark.angle + (is_beyond ? 2 * pi : 0), vertex_of(mark, plane, is_beyond)});
   }
 }
@@ -159,8 +165,8 @@ void GraftWriter::open_ring(const Plane& plane, const Band& band) {
   const float step = 2 * pi / static_cast<float>(sides);
   const auto& circle = circles_[static_cast<std::size_t>(sides)];
   const auto add = [&](const Mark& mark, bool below, bool above) {
-    if (below) lower_order_.push_back(static_cast<std::uint32_t>(marks_.size()));
-    if (above) upper_order_.push_back(static_cast<std::uint32_t>(marks_.size()));
+    if (below) lower_order_.push_back({mark.angle, static_cast<std::uint32_t>(marks_.size())});
+    if (above) upper_order_.push_back({mark.angle, static_cast<std::uint32_t>(marks_.size())});
     marks_.push_back(mark);
   };
   for (int i = 0; i < sides; ++i) {

@@ -19,12 +19,6 @@ constexpr float least_cosine = 1e-4F;
 constexpr float least_lean = 0.03F, wanted_lean = 0.06F;
 constexpr int most_turns = 24;
 
-/// At right angles to a triangle, as long as twice its area.
-glm::vec3 face(const glm::vec3* position, const std::uint32_t* corner) {
-  const glm::vec3 a = position[corner[0]];
-  return glm::cross(position[corner[1]] - a, position[corner[2]] - a);
-}
-
 }  // namespace
 
 /// Faces side by side: their corners; then twice their area, the normals as long as that, the angles.
@@ -32,10 +26,17 @@ struct GraftWriter::FaceBlock {
   static constexpr std::size_t most = 16;
   float corner[3][3][most];  ///< by corner and axis
   float normal[3][most], size[most], angle[3][most];
+  float own[3][3][most];  ///< normals at the corners
+  std::uint32_t is_bad[most];
 
   void put(std::size_t lane, const glm::vec3* position, const std::uint32_t* of) {
     for (int k = 0; k < 3; ++k) {
       for (int axis = 0; axis < 3; ++axis) corner[k][axis][lane] = position[of[k]][axis];
+    }
+  }
+  void put_own(std::size_t lane, const glm::vec3* normal_of, const std::uint32_t* of) {
+    for (int k = 0; k < 3; ++k) {
+      for (int axis = 0; axis < 3; ++axis) own[k][axis][lane] = normal_of[of[k]][axis];
     }
   }
   glm::vec3 at(std::size_t k, std::size_t lane) const {
@@ -95,12 +96,14 @@ std::uint32_t GraftWriter::last_triangle(std::size_t limb) const {
 /// `faces`.
 void GraftWriter::add_loop_normals(std::vector<LoopFace>& faces) {
   std::vector<std::uint32_t> corners;
+  corners.reserve(parent_.empty() ? mesh_.index.wide.size() : 0);
   for (std::size_t limb = 0; limb < range_.size(); ++limb) {
     const std::uint32_t* corner = mesh_.index.wide.data() + std::size_t{3} * range_[limb].begin.triangle;
     const std::uint32_t* end = mesh_.index.wide.data() + std::size_t{3} * last_triangle(limb);
     for (; corner < end; corner += 3) {
-      if ((group_[corner[0]] & group_[corner[1]] & group_[corner[2]]) != none && is_touched(corner))
-        corners.insert(corners.end(), corner, corner + 3);
+      if ((group_[corner[0]] & group_[corner[1]] & group_[corner[2]]) == none || !is_touched(corner))
+        continue;
+      for (int k = 0; k < 3; ++k) corners.push_back(corner[k]);
     }
   }
   faces.reserve(corners.size() / 3);
@@ -171,39 +174,64 @@ void GraftWriter::ease_loop_normals(const std::vector<LoopFace>& faces) {
   }
 }
 
+/// What is wrong with the faces of a block, which has the normals of their corners.
+SEEDMESH_WIDE void GraftWriter::look_at(FaceBlock& block, float least_square) {
+  constexpr float flattest = least_cosine * least_cosine;
+  for (std::size_t l = 0; l < FaceBlock::most; ++l) {
+    const glm::vec3 a = block.at(0, l);
+    const glm::vec3 normal = glm::cross(block.at(1, l) - a, block.at(2, l) - a);
+    const float size = glm::dot(normal, normal);
+    const auto looks_along = [&](std::size_t k) {
+      const glm::vec3 own{block.own[k][0][l], block.own[k][1][l], block.own[k][2][l]};
+      const float over = glm::dot(normal, own);
+      const bool is_before = over > 0, is_steep = over * over > flattest * size;
+      return is_before & is_steep;
+    };
+    const bool first = looks_along(0), second = looks_along(1), third = looks_along(2);
+    const bool has_area = size > least_square;
+    const bool is_sound = has_area & first & second & third;
+    block.is_bad[l] = is_sound ? 0U : 1U;
+  }
+}
+
 /// Looks at the triangles of a limb; returns how many are bad.
 std::size_t GraftWriter::judge(std::size_t limb, std::vector<Trust>& trust, bool is_late) const {
   const float least = 2 * least_area * context_.scale.size * context_.scale.size;
   const std::uint32_t* index = mesh_.index.wide.data();
-  const glm::vec3 *position = mesh_.position.data(), *normals = mesh_.normal.data();
-  const float flattest = least_cosine * least_cosine, least_square = least * least;
+  const std::size_t end = last_triangle(limb);
   std::size_t bad = 0;
   bool is_bad = false;
-  for (std::size_t t = range_[limb].begin.triangle; t < last_triangle(limb); ++t) {
-    const std::uint32_t* corner_at = index + 3 * t;
-    if (!dirty_[limb] && !is_touched(corner_at)) continue;
-    const glm::vec3 normal = face(position, corner_at);
-    const float size = glm::dot(normal, normal);
-    bool is_sound = size > least_square;
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const float over = glm::dot(normal, normals[corner_at[corner]]);
-      is_sound = is_sound & (over > 0) & (over * over > flattest * size);
+  for (std::size_t t = range_[limb].begin.triangle; t < end; t += FaceBlock::most) {
+    const std::size_t count = std::min(FaceBlock::most, end - t);
+    FaceBlock block;
+    for (std::size_t l = 0; l < FaceBlock::most; ++l) {
+      const std::uint32_t* corner = index + 3 * (t + std::min(l, count - 1));
+      block.put(l, mesh_.position.data(), corner);
+      block.put_own(l, mesh_.normal.data(), corner);
     }
-    if (is_sound) continue;
-    // The fault of the openings that it touches, if it touches any.
-    bool touches = false;
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const std::uint32_t group = group_[corner_at[corner]];
-      if (group == none) continue;
-      touches = true;
-      Trust& child = trust[group_limb_[group / 2]];
-      child = std::max(child, is_late ? Trust::closed : Trust::detached);
+    look_at(block, least * least);
+    for (std::size_t l = 0; l < count; ++l) {
+      const std::uint32_t* corner = index + 3 * (t + l);
+      if (!block.is_bad[l] || (!dirty_[limb] && !is_touched(corner))) continue;
+      is_bad = !blame(corner, trust, is_late) || is_bad;
+      ++bad;
     }
-    is_bad = is_bad || !touches;
-    ++bad;
   }
   if (is_bad) trust[limb] = trust[limb] < Trust::closed && !is_late ? Trust::closed : Trust::none;
   return bad;
+}
+
+/// A bad face is the fault of the openings that it touches. False: it touches none.
+bool GraftWriter::blame(const std::uint32_t* corner, std::vector<Trust>& trust, bool is_late) const {
+  bool touches = false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint32_t group = group_[corner[k]];
+    if (group == none) continue;
+    touches = true;
+    Trust& child = trust[group_limb_[group / 2]];
+    child = std::max(child, is_late ? Trust::closed : Trust::detached);
+  }
+  return touches;
 }
 
 std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {

@@ -26,8 +26,9 @@ constexpr float cap_share = 0.5F;
 constexpr float most_lead = 0.5F;
 // A child thinner than so many of the least radius is not worth an opening.
 constexpr float least_opened = 3;
-// What is reserved at first; most trees of fine twigs need about as much.
-constexpr std::size_t vertices_a_joint = 4, triangles_a_joint = 5;
+// What is reserved at first: most trees of fine twigs need about as much, and small ones of thick limbs twice
+// that.
+constexpr std::size_t vertices_a_joint = 4, triangles_a_joint = 5, more_vertices = std::size_t{1} << 15U;
 // Of a ring that a vertex cache of 16 entries still holds when the next ring needs it.
 constexpr std::size_t cached_corners = 13;
 
@@ -63,8 +64,9 @@ GraftWriter::GraftWriter(const Context& context, Job& job)
   mesh_.normal = Array<glm::vec3>(job);
   mesh_.uv[0] = Array<glm::vec2>(job);
   mesh_.index.wide = Array<std::uint32_t>(job);
-  make_room(vertices_a_joint * limbs.size() + 64);
-  mesh_.index.wide.reserve(3 * triangles_a_joint * limbs.size());
+  const std::size_t more = std::min(more_vertices, vertices_a_joint * limbs.size());
+  make_room(vertices_a_joint * limbs.size() + more + 64);
+  mesh_.index.wide.reserve(3 * (triangles_a_joint * limbs.size() + more + more / 2));
   for (std::size_t i = 0; i < limbs.size(); ++i) {
     if (limbs.parent[i] != Limbs::none) thickest_ = std::max(thickest_, limbs.base_radius[i]);
   }

@@ -124,6 +124,8 @@ class GraftWriter {
   void mark_touched();
   struct FaceBlock;
   static void weigh(FaceBlock& block);
+  static void look_at(FaceBlock& block, float least_square);
+  bool blame(const std::uint32_t* corner, std::vector<Trust>& trust, bool is_late) const;
   void add_loop_normals(std::vector<LoopFace>& faces);
   void add_loop_face(const FaceBlock& block, std::size_t lane, const std::uint32_t* corner,
                      std::vector<LoopFace>& faces);
@@ -157,7 +159,7 @@ class GraftWriter {
   void set_seam(float angle);
   std::uint32_t group_for(const LoopPoint& point, std::uint32_t child);
   std::uint32_t vertex_of(Mark& mark, const Plane& plane, bool is_beyond);
-  void go_round(std::vector<std::uint32_t>& order, const Plane& plane, Corners& out);
+  void go_round(Corners& order, const Plane& plane, Corners& out);
   void plain_ring(const Plane& plane, Corners& out);
   void open_ring(const Plane& plane, const Band& band);
   void strip(const Corners& below, const Corners& above);
@@ -195,7 +197,7 @@ class GraftWriter {
   GraftPlan plan_;
   Corners below_, lower_, upper_;
   std::vector<Mark> marks_;
-  std::vector<std::uint32_t> lower_order_, upper_order_;
+  Corners lower_order_, upper_order_;  ///< whose "vertex" is a mark
   std::vector<Wish> wishes_;
   std::vector<const LoopVertex*> loop_order_;
   Phases phases_;
