@@ -6,6 +6,7 @@
 ///
 /// Kernels: polynomials of FDLIBM (Sun Microsystems, 1993) for sine and cosine within an eighth of a turn,
 /// the rational function of Cephes (S. Moshier, 1989) for the arctangent up to 0.66.
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/math.h"
@@ -87,6 +88,16 @@ inline double quick_atan2(double y, double x) {
 inline double quick_acos(double x) {
   const double rest = 1 - x * x;
   return quick_atan2(std::sqrt(rest > 0 ? rest : 0), x);
+}
+
+/// math::unit, the same bits, inline; `otherwise()` is asked only when it is needed.
+template <class Vec, class Otherwise>
+Vec unit_or(const Vec& v, const Otherwise& otherwise) {
+  const auto largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (!(largest > 0) || !std::isfinite(largest)) return otherwise();
+  const Vec scaled = v / largest;  // keeps the squares inside the range of the type
+  const auto length = std::sqrt(scaled.x * scaled.x + scaled.y * scaled.y + scaled.z * scaled.z);
+  return scaled / length;
 }
 
 /// math::unit for vectors of ordinary size; that of others is left to it.

@@ -37,8 +37,8 @@ Cross cross_of(const glm::vec3& parent, const glm::vec3& child) {
   c.cosine = glm::dot(parent, child);
   c.sine = std::sqrt(std::max(0.0F, 1 - c.cosine * c.cosine));
   if (c.sine < 1e-3F) return c;
-  c.out = math::unit((child - parent * c.cosine) * (1 / c.sine), any_aside(parent));
-  c.top = math::unit((parent - child * c.cosine) * (1 / c.sine), any_aside(child));
+  c.out = math::unit_or((child - parent * c.cosine) * (1 / c.sine), [&] { return any_aside(parent); });
+  c.top = math::unit_or((parent - child * c.cosine) * (1 / c.sine), [&] { return any_aside(child); });
   c.aside = glm::cross(parent, c.out);
   return c;
 }

@@ -29,13 +29,13 @@ GraftWriter::Plane GraftWriter::plane_of(const Band& band) const {
   Plane plane = plane_at(band.at, band.piece);
   if (!band.is_bend || band.piece == 0) return plane;
   const glm::vec3 &before = axis_.along[band.piece - 1], &after = axis_.along[band.piece];
-  plane.tangent = math::unit(before + after, after);
+  plane.tangent = math::unit_or(before + after, [&] { return after; });
   // Halfway back from the frame of the later piece: the least turn that takes its axis to the tangent.
   const float cosine = glm::dot(after, plane.tangent);
   glm::vec3 u = axis_.u[band.piece];
   u -= (after + plane.tangent) * (glm::dot(u, plane.tangent) / (1 + cosine));
   u -= plane.tangent * glm::dot(u, plane.tangent);
-  plane.u = math::unit(u, any_aside(plane.tangent));
+  plane.u = math::unit_or(u, [&] { return any_aside(plane.tangent); });
   plane.v = glm::cross(plane.tangent, plane.u);
   const float length = axis_.at[band.piece] - axis_.at[band.piece - 1];
   plane.slope = 0.5F * (plane.slope + (axis_.radius[band.piece - 1] - axis_.radius[band.piece]) / length);

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/math.h"
 #include "core/base/parallel.h"
+#include "core/base/quick_math.h"
 #include "core/geom/four.h"
 #include "core/geom/piece_tangents.h"
 #include "core/geom/repeats.h"
@@ -22,15 +22,6 @@ glm::vec3 any_across(const glm::vec3& normal) {
   return math::unit(glm::cross(normal, axis), {0, 0, 1});
 }
 
-/// math::unit, here inline; `otherwise` is asked only when it is needed.
-template <class Otherwise>
-glm::vec3 unit_or(const glm::vec3& v, const Otherwise& otherwise) {
-  const float largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  if (!(largest > 0) || !std::isfinite(largest)) return otherwise();
-  const glm::vec3 scaled = v / largest;
-  return scaled / std::sqrt(scaled.x * scaled.x + scaled.y * scaled.y + scaled.z * scaled.z);
-}
-
 /// Along u and along v, summed over the triangles at a vertex.
 struct Sums {
   glm::vec3 u{0}, v{0};
@@ -40,7 +31,7 @@ glm::vec4 tangent_of(const glm::vec3& normal, const Sums& sums) {
   const glm::vec3 flat = sums.u - normal * glm::dot(normal, sums.u);
   const bool is_none = glm::dot(flat, flat) <= 1e-8F * glm::dot(sums.u, sums.u);
   const auto across = [&] { return any_across(normal); };
-  const glm::vec3 tangent = is_none ? across() : unit_or(flat, across);
+  const glm::vec3 tangent = is_none ? across() : math::unit_or(flat, across);
   // v grows down the picture, and the bitangent points up it.
   const float w = glm::dot(glm::cross(normal, tangent), sums.v) > 0 ? -1.0F : 1.0F;
   return {tangent, w};
