@@ -16,7 +16,7 @@ struct OrganLanes3 {
 class OrganBlock {
  public:
   /// Surfaces of more vertices or corners, and those with tangents, are placed one by one.
-  static constexpr std::size_t most_vertices = 32, most_corners = 96;
+  static constexpr std::size_t most_vertices = 96, most_corners = 512;
   static bool takes(const Mesh& surface) {
     return surface.position.size() <= most_vertices && surface.index.wide.size() <= most_corners &&
            surface.tangent.empty() && !surface.normal.empty();

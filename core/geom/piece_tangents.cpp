@@ -11,7 +11,7 @@
 namespace seedmesh {
 namespace {
 
-constexpr std::size_t lanes = 16, most_vertices = 32;
+constexpr std::size_t lanes = 16, most_vertices = 96;
 
 using Row = std::array<float, lanes>;
 struct Rows3 {
