@@ -12,9 +12,10 @@ namespace {
 
 // Page faults, not arithmetic, decide what big arrays cost, and huge pages save most of them. A block takes
 // whole huge pages from the first size on always; from the second on while the room that the rounding up
-// leaves empty stays below the third in the whole request. Smaller blocks are the heap's.
+// leaves empty stays below the third in the whole request. Smaller blocks are the heap's: a huge page is
+// cleared whole, and the heap has pages that were touched before.
 constexpr std::size_t always_mapped = std::size_t{4} << 20U;
-constexpr std::size_t mapped_at_best = std::size_t{256} << 10U;
+constexpr std::size_t mapped_at_best = std::size_t{2} << 20U;
 constexpr std::uint64_t most_slack = std::uint64_t{6} << 20U;
 
 #if defined(__linux__)

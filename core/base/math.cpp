@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/quick_math.h"
 #include "core/base/rng.h"
 
 namespace seedmesh {
@@ -53,23 +54,18 @@ Int clamp_to(double x) {
   if (x <= low) return std::numeric_limits<Int>::min();
   return static_cast<Int>(x);
 }
-
-template <class Vec>
-Vec unit_or(const Vec& v, const Vec& otherwise) {
-  const auto largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  if (!(largest > 0) || !std::isfinite(largest)) return otherwise;
-  const Vec scaled = v / largest;  // keeps the squares inside the range of the type
-  const auto length = std::sqrt(scaled.x * scaled.x + scaled.y * scaled.y + scaled.z * scaled.z);
-  return scaled / length;
-}
 }  // namespace
 
 std::int64_t to_int64(double x) { return clamp_to<std::int64_t>(x); }
 std::int32_t to_int32(double x) { return clamp_to<std::int32_t>(x); }
 std::uint32_t to_uint32(double x) { return clamp_to<std::uint32_t>(x); }
 
-glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& otherwise) { return unit_or(v, otherwise); }
-glm::vec3 unit(const glm::vec3& v, const glm::vec3& otherwise) { return unit_or(v, otherwise); }
+glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& otherwise) {
+  return unit_or(v, [&] { return otherwise; });
+}
+glm::vec3 unit(const glm::vec3& v, const glm::vec3& otherwise) {
+  return unit_or(v, [&] { return otherwise; });
+}
 
 }  // namespace math
 

@@ -6,6 +6,7 @@
 ///
 /// Kernels: polynomials of FDLIBM (Sun Microsystems, 1993) for sine and cosine within an eighth of a turn,
 /// the rational function of Cephes (S. Moshier, 1989) for the arctangent up to 0.66.
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/math.h"
@@ -35,13 +36,14 @@ inline SinCos kernel(double r) {
   return {sine, cosine};
 }
 
-/// The kernel's result turned by `quarters` right angles.
+/// The kernel's result turned by `quarters` right angles. Chosen, not branched to: nobody can foresee the
+/// quarter, and loops over many angles can be reckoned several at once.
 inline SinCos turned(const SinCos& a, double quarters) {
   const double rest = quarters - 4 * std::floor(0.25 * quarters);
-  if (rest < 0.5) return a;
-  if (rest < 1.5) return {a.cos, -a.sin};
-  if (rest < 2.5) return {-a.sin, -a.cos};
-  return {-a.cos, a.sin};
+  const bool is_odd = (rest > 0.5) & ((rest < 1.5) | (rest > 2.5));
+  const double sine = is_odd ? a.cos : a.sin, cosine = is_odd ? a.sin : a.cos;
+  const bool is_left = (rest > 0.5) & (rest < 2.5);
+  return {rest > 1.5 ? -sine : sine, is_left ? -cosine : cosine};
 }
 
 }  // namespace quick
@@ -61,12 +63,9 @@ inline SinCos quick_sincos_degrees(double degrees) {
 /// In (-pi, pi]; 0 for (0, 0).
 inline double quick_atan2(double y, double x) {
   const double a = std::abs(x), b = std::abs(y), most = a > b ? a : b, least = a > b ? b : a;
-  if (!(most > 0)) return 0;
-  double t = least / most, angle = 0;
-  if (t > 0.41421356237309503) {
-    t = (t - 1) / (t + 1);
-    angle = 0.25 * pi;
-  }
+  const double share = least / (most > 0 ? most : 1);
+  const bool is_steep = share > 0.41421356237309503;
+  const double t = (is_steep ? share - 1 : share) / (is_steep ? share + 1 : 1);
   const double z = t * t;
   const double above =
       (((-8.750608600031904122785e-1 * z - 1.615753718733365076637e1) * z - 7.500855792314704667340e1) * z -
@@ -79,16 +78,26 @@ inline double quick_atan2(double y, double x) {
        4.853903996359136964868e2) *
           z +
       1.945506571482613964425e2;
-  angle += t + t * (z * above / below);
-  if (b > a) angle = 0.5 * pi - angle;
-  if (x < 0) angle = pi - angle;
-  return y < 0 ? -angle : angle;
+  const double first = (is_steep ? 0.25 * pi : 0) + (t + t * (z * above / below));
+  const double second = b > a ? 0.5 * pi - first : first;
+  const double angle = x < 0 ? pi - second : second;
+  return most > 0 ? (y < 0 ? -angle : angle) : 0;
 }
 
 /// Of -1 .. 1.
 inline double quick_acos(double x) {
   const double rest = 1 - x * x;
   return quick_atan2(std::sqrt(rest > 0 ? rest : 0), x);
+}
+
+/// math::unit, the same bits, inline; `otherwise()` is asked only when it is needed.
+template <class Vec, class Otherwise>
+Vec unit_or(const Vec& v, const Otherwise& otherwise) {
+  const auto largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (!(largest > 0) || !std::isfinite(largest)) return otherwise();
+  const Vec scaled = v / largest;  // keeps the squares inside the range of the type
+  const auto length = std::sqrt(scaled.x * scaled.x + scaled.y * scaled.y + scaled.z * scaled.z);
+  return scaled / length;
 }
 
 /// math::unit for vectors of ordinary size; that of others is left to it.

@@ -63,29 +63,24 @@ inline glm::quat quaternion(const Frame& f) {
   const glm::dvec3& z = f.up;
   const double squares[4] = {1 + x.x + y.y + z.z, 1 + x.x - y.y - z.z, 1 - x.x + y.y - z.z,
                              1 - x.x - y.y + z.z};
-  int largest = 0;
-  for (int i = 1; i < 4; ++i) {
-    if (squares[i] > squares[largest]) largest = i;
-  }
-  const double four = 2 * std::sqrt(squares[largest]);  // four times the largest component
+  // Chosen, not branched to, so that many can be reckoned at once.
+  const bool is_x = squares[1] > squares[0];
+  const double most_of_two = is_x ? squares[1] : squares[0];
+  const bool is_y = squares[2] > most_of_two;
+  const double most_of_three = is_y ? squares[2] : most_of_two;
+  const bool is_z = squares[3] > most_of_three;
+  const double four = 2 * std::sqrt(is_z ? squares[3] : most_of_three);  // four times the largest component
+  const auto chosen = [&](double of_w, double of_x, double of_y, double of_z) {
+    return is_z ? of_z : is_y ? of_y : is_x ? of_x : of_w;
+  };
   const glm::dvec3 skew{y.z - z.y, z.x - x.z, x.y - y.x};
   const double xy = y.x + x.y, xz = z.x + x.z, yz = z.y + y.z;
-  glm::dvec4 q{0, 0, 0, 0};  // x y z w
-  switch (largest) {
-    case 0:
-      q = {skew.x, skew.y, skew.z, squares[0]};
-      break;
-    case 1:
-      q = {squares[1], xy, xz, skew.x};
-      break;
-    case 2:
-      q = {xy, squares[2], yz, skew.y};
-      break;
-    default:
-      q = {xz, yz, squares[3], skew.z};
-      break;
-  }
-  q = q / (q.w < 0 ? -four : four) + 0.0;  // + 0.0 makes -0 a 0
+  const double w = chosen(squares[0], skew.x, skew.y, skew.z);
+  const double by = w < 0 ? -four : four;
+  // + 0.0 makes -0 a 0
+  const glm::dvec4 q{chosen(skew.x, squares[1], xy, xz) / by + 0.0,
+                     chosen(skew.y, xy, squares[2], yz) / by + 0.0,
+                     chosen(skew.z, xz, yz, squares[3]) / by + 0.0, w / by + 0.0};
   return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)};
 }
 

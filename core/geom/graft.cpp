@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <optional>
+#include <numeric>
+#include <tuple>
 
 #include "core/base/math.h"
+#include "core/geom/apart.h"
 #include "core/geom/crowd.h"
 #include "core/geom/graft_plan.h"
 #include "core/geom/graft_writer.h"
@@ -117,8 +119,24 @@ void refuse_inward_faces(const Mesh& mesh) {
   }
 }
 
+/// Marks in `twin`, which goes up to the vertices of the last part of a mesh, those of them that stand where
+/// others do.
+void add_twins(const Mesh& mesh, Array<std::uint8_t>& twin) {
+  const std::size_t first = twin.size(), count = mesh.position.size() - first;
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), first);
+  const auto place = [&](std::size_t i) {
+    const glm::vec3& p = mesh.position[i];
+    return std::tuple(p.x, p.y, p.z, i);
+  };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+  std::fill_n(twin.extend(count), count, std::uint8_t{0});
+  for (std::size_t i = 1; i < count; ++i)
+    twin[order[i]] = mesh.position[order[i]] == mesh.position[order[i - 1]] ? 1 : 0;
+}
+
 /// What skin() makes of the limbs that nothing else can be made of.
-void append_leftover(Mesh& mesh, Leftover limbs, const GraftOptions& options, Job& job) {
+void append_leftover(GraftWriter::Written& to, Leftover limbs, const GraftOptions& options, Job& job) {
   std::vector<std::uint32_t> was;
   std::vector<std::uint16_t> number;
   for (Limbs others = limbs.next(was, job); others.size() > 0; others = limbs.next(was, job)) {
@@ -132,7 +150,8 @@ void append_leftover(Mesh& mesh, Leftover limbs, const GraftOptions& options, Jo
     }
     for (const Bark& bark : skin(others, plain, job)) {
       refuse_inward_faces(bark.mesh);
-      append(mesh, bark.mesh);
+      append(to.mesh, bark.mesh);
+      add_twins(to.mesh, to.twin);
       if (!options.joints) continue;
       for (std::size_t i = 0; i < bark.mesh.position.size(); ++i)
         options.joints->push_back(bark.mesh.bone.empty() ? was.back() : was[bark.mesh.bone[i]]);
@@ -140,10 +159,39 @@ void append_leftover(Mesh& mesh, Leftover limbs, const GraftOptions& options, Jo
   }
 }
 
-/// Limbs that go through each other may touch in points that a reader takes for one.
-void refuse_crowds(const Mesh& mesh, const Scale& scale, const Job& job) {
+/// The triangles that have a marked vertex.
+Mesh around(const Mesh& mesh, const Array<std::uint8_t>& marked, const Job& job) {
+  Mesh part;
+  part.position = Array<glm::vec3>(job);
+  part.index.wide = Array<std::uint32_t>(job);
+  const Array<std::uint32_t>& index = mesh.index.wide;
+  Array<std::uint32_t> number(job, mesh.position.size(), Limbs::none);
+  const auto is_wanted = [&](std::size_t t) {
+    return (marked[index[t]] | marked[index[t + 1]] | marked[index[t + 2]]) != 0;
+  };
+  for (std::size_t t = 0; t < index.size(); t += 3) {
+    for (std::size_t k = 0; k < 3 && is_wanted(t); ++k) number[index[t + k]] = 0;
+  }
+  // In their order, by which vertices are welded.
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (number[i] == Limbs::none) continue;
+    number[i] = static_cast<std::uint32_t>(part.position.size());
+    part.position.push_back(mesh.position[i]);
+  }
+  for (std::size_t t = 0; t < index.size(); t += 3) {
+    for (std::size_t k = 0; k < 3 && is_wanted(t); ++k) part.index.wide.push_back(number[index[t + k]]);
+  }
+  return part;
+}
+
+/// Limbs that go through each other may touch in points that a reader takes for one. `twin` of the vertices
+/// as GraftWriter::Written has it.
+void refuse_crowds(const Mesh& mesh, const Array<std::uint8_t>& twin, const Scale& scale, const Job& job) {
   const Box box = bounds_of(mesh.position.span());
-  if (!is_crowded(mesh, 1e-6F * std::min(scale.size, glm::length(box.max - box.min)), job)) return;
+  const float reach = 1e-6F * std::min(scale.size, glm::length(box.max - box.min));
+  // Each limb's surface is closed, and what stands apart keeps it so: faults are at what does not.
+  const Array<std::uint8_t> near = near_others(mesh.position.span(), twin.span(), reach, job);
+  if (near.empty() || !is_crowded(around(mesh, near, job), reach, job)) return;
   Job::refuse(
       "the limbs lie in heaps so dense, less than a millionth of the tree apart, that their bark is no "
       "surface; fewer or thicker limbs are needed");
@@ -159,28 +207,23 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
   const Chains chains = link_chains(limbs, job);
   std::vector<Trust> trust(chains.head.size(), options.weld ? Trust::full : Trust::closed);
   if (options.overlaps) distrust_overlaps(limbs, chains, scale, job, trust);
-  std::optional<GraftWriter> last;
-  for (int round = 0;; ++round) {
-    if (round == 2 * rounds) std::fill(trust.begin(), trust.end(), Trust::none);
-    GraftWriter writer({limbs, chains, scale, options, trust}, job);
-    writer.write_all(last ? &*last : nullptr);
-    if (writer.settle(trust, round >= rounds) == 0) {
-      if (counts) *counts = writer.counts();
-      // Rings of more corners than a cache has entries come in once more.
-      const bool is_ordered = 10 * writer.wide_corners() < writer.corners();
-      const auto fallen_back =
-          static_cast<std::uint32_t>(std::count(trust.begin(), trust.end(), Trust::none));
-      Mesh mesh = writer.take();
-      if (options.joints) *options.joints = writer.take_joints();
-      last.reset();
-      append_leftover(mesh, Leftover(limbs, chains, trust, scale.box), options, job);
-      refuse_crowds(mesh, scale, job);
-      if (counts) counts->fallen_back = fallen_back;
-      mesh.cache_ordered = is_ordered;
-      return mesh;
-    }
-    last.emplace(std::move(writer));
+  GraftWriter writer({limbs, chains, scale, options, trust}, job);
+  writer.write_round();
+  for (int round = 0; writer.settle(trust, round >= rounds) > 0; ++round) {
+    if (round + 1 == 2 * rounds) std::fill(trust.begin(), trust.end(), Trust::none);
+    writer.write_round();
   }
+  if (counts) *counts = writer.counts();
+  // Rings of more corners than a cache has entries come in once more.
+  const bool is_ordered = 10 * writer.wide_corners() < writer.corners();
+  const auto fallen_back = static_cast<std::uint32_t>(std::count(trust.begin(), trust.end(), Trust::none));
+  GraftWriter::Written written = writer.take();
+  if (options.joints) *options.joints = std::move(written.joints);
+  append_leftover(written, Leftover(limbs, chains, trust, scale.box), options, job);
+  refuse_crowds(written.mesh, written.twin, scale, job);
+  if (counts) counts->fallen_back = fallen_back;
+  written.mesh.cache_ordered = is_ordered;
+  return std::move(written.mesh);
 }
 
 }  // namespace seedmesh

@@ -43,7 +43,8 @@ struct GraftCounts {
 /// `wrap`), one seam.
 /// Heaps of limbs so dense that no surface is left are refused (Code::limit). `counts` may be null. Limbs
 /// that would break a guarantee are skinned by skin() instead. Spends Resource::triangles as it goes. One
-/// thread; about 40 bytes a vertex beside the mesh.
+/// thread; about 40 bytes a vertex beside the mesh, and the mesh once more where a limb had to be written
+/// anew.
 Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCounts* counts = nullptr);
 
 }  // namespace seedmesh

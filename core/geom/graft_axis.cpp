@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/math.h"
+#include "core/base/quick_math.h"
 
 namespace seedmesh {
 namespace {
@@ -69,7 +69,7 @@ void GraftAxis::carry(const glm::vec3& first) {
     glm::vec3 turned = u[i - 1];
     if (cosine > -0.999F) turned -= (a + b) * (glm::dot(u[i - 1], b) / (1 + cosine));
     turned -= b * glm::dot(turned, b);
-    u[i] = math::unit(turned, any_aside(b));
+    u[i] = math::unit_or(turned, [&] { return any_aside(b); });
   }
 }
 

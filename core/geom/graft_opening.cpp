@@ -37,8 +37,8 @@ Cross cross_of(const glm::vec3& parent, const glm::vec3& child) {
   c.cosine = glm::dot(parent, child);
   c.sine = std::sqrt(std::max(0.0F, 1 - c.cosine * c.cosine));
   if (c.sine < 1e-3F) return c;
-  c.out = math::unit((child - parent * c.cosine) * (1 / c.sine), any_aside(parent));
-  c.top = math::unit((parent - child * c.cosine) * (1 / c.sine), any_aside(child));
+  c.out = math::unit_or((child - parent * c.cosine) * (1 / c.sine), [&] { return any_aside(parent); });
+  c.top = math::unit_or((parent - child * c.cosine) * (1 / c.sine), [&] { return any_aside(child); });
   c.aside = glm::cross(parent, c.out);
   return c;
 }
@@ -53,6 +53,8 @@ void place(Opening& opening, std::vector<LoopPoint>& points) {
   opening.first = points[first];
   opening.last = points[last];
   const float ends = std::abs(points[first].phase);
+  opening.lower.reserve(points.size());
+  opening.upper.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i == first || i == last) continue;
     (std::abs(points[i].phase) < ends ? opening.upper : opening.lower).push_back(points[i]);
@@ -79,12 +81,21 @@ float angle_about(const GraftAxis& parent, std::size_t piece, const glm::vec3& o
 
 }  // namespace
 
-float corner_phase(int sides, int corner) {
+const std::vector<Phase>& Phases::of(int sides) {
+  const auto number = static_cast<std::size_t>(sides);
+  if (number >= by_sides_.size()) by_sides_.resize(number + 1);
+  std::vector<Phase>& phases = by_sides_[number];
+  if (!phases.empty()) return phases;
+  phases.reserve(number);
   const float step = 2 * pi / static_cast<float>(sides);
   const float first = sides % 4 == 2 ? 0.5F * step : 0;
-  float phase = first + step * static_cast<float>(corner);
-  if (phase > pi + 1e-4F) phase -= 2 * pi;
-  return phase;
+  for (int corner = 0; corner < sides; ++corner) {
+    float angle = first + step * static_cast<float>(corner);
+    if (angle > pi + 1e-4F) angle -= 2 * pi;
+    const math::SinCos at = math::quick_sincos(static_cast<double>(angle));
+    phases.push_back({angle, static_cast<float>(at.cos), static_cast<float>(at.sin)});
+  }
+  return phases;
 }
 
 std::optional<Opening> collar(const GraftAxis& parent, std::size_t at_point, const Bud& bud) {
@@ -111,11 +122,11 @@ std::optional<Opening> collar(const GraftAxis& parent, std::size_t at_point, con
       (parent.radius[piece + 1] - parent.radius[piece]) / (parent.at[piece + 1] - parent.at[piece]);
   const float out_of_top = glm::dot(cross.top, cross.out);
   std::vector<LoopPoint> points;
-  for (int i = 0; i < bud.sides; ++i) {
+  points.reserve(static_cast<std::size_t>(bud.sides));
+  for (const Phase& phase : bud.phases->of(bud.sides)) {
     LoopPoint point;
-    point.phase = corner_phase(bud.sides, i);
-    const math::SinCos at = math::quick_sincos(static_cast<double>(point.phase));
-    const float cosine = static_cast<float>(at.cos), sine = static_cast<float>(at.sin);
+    point.phase = phase.angle;
+    const float cosine = phase.cosine, sine = phase.sine;
     const float beside = wide * sine, before = wide * cosine * out_of_top;
     float radius = around;
     for (int step = 0; step < 3; ++step) {
@@ -164,11 +175,11 @@ std::optional<Opening> fork_at(const GraftAxis& parent, std::size_t at_point, co
                                crotch_share * bud.length / cosine_half});
   if (rise < least_parting * parting) return std::nullopt;
   std::vector<LoopPoint> points;
-  for (int i = 0; i < bud.sides; ++i) {
+  points.reserve(static_cast<std::size_t>(bud.sides));
+  for (const Phase& phase : bud.phases->of(bud.sides)) {
     LoopPoint point;
-    point.phase = corner_phase(bud.sides, i);
-    const math::SinCos at = math::quick_sincos(static_cast<double>(point.phase));
-    const float cosine = static_cast<float>(at.cos), sine = static_cast<float>(at.sin);
+    point.phase = phase.angle;
+    const float cosine = phase.cosine, sine = phase.sine;
     const glm::vec3 lean = cosine > 0 ? crotch * (rise * cosine) : outer * (-radius * mitre * cosine);
     const glm::vec3 off = cross.aside * (radius * sine) + lean;
     point.position = joint + off;

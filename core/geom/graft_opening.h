@@ -29,6 +29,21 @@ struct Opening {
   LoopPoint first, last;                ///< the ends, which lie on the ring
 };
 
+/// A corner of a cross-section: its angle about the axis.
+struct Phase {
+  float angle = 0, cosine = 1, sine = 0;
+};
+
+/// The angles at which a cross-section of so many sides has its corners: symmetric about 0, and with just one
+/// corner farthest to either side. Reckoned when they are first asked for.
+class Phases {
+ public:
+  const std::vector<Phase>& of(int sides);
+
+ private:
+  std::vector<std::vector<Phase>> by_sides_;
+};
+
 /// What is known of a child before its loop.
 struct Bud {
   std::uint32_t limb = 0;
@@ -36,11 +51,8 @@ struct Bud {
   float radius = 0, length = 0;  ///< length of the whole child
   float first_length = 0;        ///< of its first piece
   int sides = 3;
+  Phases* phases = nullptr;
 };
-
-/// The angles about its axis at which a cross-section of `sides` has its corners: symmetric about 0, and with
-/// just one corner farthest to either side.
-float corner_phase(int sides, int corner);
 
 /// A collar on the parent's piece after (or, for a limb that points back, before) its point `at_point`;
 /// nullopt where there is no room.

@@ -125,7 +125,8 @@ bool GraftPlan::put(const GraftAxis& axis, std::size_t at_point, Opening& wanted
 }
 
 void GraftPlan::complete(const GraftAxis& axis, bool has_first) {
-  std::vector<Band> all;
+  std::vector<Band>& all = all_;
+  all.clear();
   std::size_t next = 0;
   float high = start_;
   glm::vec3 heading = axis.along[0];
@@ -173,7 +174,7 @@ void GraftPlan::complete(const GraftAxis& axis, bool has_first) {
   }
   take_openings(tip_);
   all.push_back(plain(tip_, axis.pieces() - 1, false));
-  band = std::move(all);
+  std::swap(band, all);
 }
 
 }  // namespace seedmesh

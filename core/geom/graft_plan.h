@@ -35,6 +35,7 @@ struct GraftPlan {
   float margin(const GraftAxis& axis, float at) const;
   bool joins(const Opening& opening, const Band& band) const;
 
+  std::vector<Band> all_;  ///< of complete(), kept for its room
   float start_ = 0, tip_ = 0, apart_ = 0, bulge_ = 0;
 };
 

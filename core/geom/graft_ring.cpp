@@ -29,13 +29,13 @@ GraftWriter::Plane GraftWriter::plane_of(const Band& band) const {
   Plane plane = plane_at(band.at, band.piece);
   if (!band.is_bend || band.piece == 0) return plane;
   const glm::vec3 &before = axis_.along[band.piece - 1], &after = axis_.along[band.piece];
-  plane.tangent = math::unit(before + after, after);
+  plane.tangent = math::unit_or(before + after, [&] { return after; });
   // Halfway back from the frame of the later piece: the least turn that takes its axis to the tangent.
   const float cosine = glm::dot(after, plane.tangent);
   glm::vec3 u = axis_.u[band.piece];
   u -= (after + plane.tangent) * (glm::dot(u, plane.tangent) / (1 + cosine));
   u -= plane.tangent * glm::dot(u, plane.tangent);
-  plane.u = math::unit(u, any_aside(plane.tangent));
+  plane.u = math::unit_or(u, [&] { return any_aside(plane.tangent); });
   plane.v = glm::cross(plane.tangent, plane.u);
   const float length = axis_.at[band.piece] - axis_.at[band.piece - 1];
   plane.slope = 0.5F * (plane.slope + (axis_.radius[band.piece - 1] - axis_.radius[band.piece]) / length);
@@ -51,13 +51,15 @@ float GraftWriter::ribbed(float angle) const {
 
 std::uint32_t GraftWriter::vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv,
                                   std::uint32_t group) {
-  const auto index = static_cast<std::uint32_t>(mesh_.position.size());
-  mesh_.position.push_back(position + 0.0F);
-  mesh_.normal.push_back(normal + 0.0F);
-  mesh_.uv[0].push_back(glm::vec2(uv.x, uv.y * context_.options.v_scale) + 0.0F);
-  group_.push_back(group);
-  if (context_.options.joints) joints_.push_back(joint_);
-  return index;
+  if (vertices_ == mesh_.position.size()) make_room(vertices_ + vertices_ / 2 + 64);
+  const std::size_t index = vertices_++;
+  mesh_.position[index] = position + 0.0F;
+  mesh_.normal[index] = normal + 0.0F;
+  mesh_.uv[0][index] = glm::vec2(uv.x, uv.y * context_.options.v_scale) + 0.0F;
+  group_[index] = group;
+  twin_[index] = 0;
+  if (context_.options.joints) joints_[index] = joint_;
+  return static_cast<std::uint32_t>(index);
 }
 
 /// u round the limb and v along it.
@@ -110,23 +112,30 @@ std::uint32_t GraftWriter::vertex_of(Mark& mark, const Plane& plane, bool is_bey
   } else {
     made = ring_corner(plane, angle, mark.direction);
   }
+  if (mark.vertex[is_beyond ? 0 : 1] != none) mark_twin();
   return made;
 }
 
 /// One side of a ring in order, from the corner that is nearest to the seam all round to it again.
-void GraftWriter::go_round(std::vector<std::uint32_t>& order, const Plane& plane, Corners& out) {
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return marks_[a].angle != marks_[b].angle ? marks_[a].angle < marks_[b].angle : a < b;
-  });
+void GraftWriter::go_round(Corners& order, const Plane& plane, Corners& out) {
+  // Few, and in order but for the points of loops.
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const Corner corner = order[i];
+    std::size_t k = i;
+    for (; k > 0 && (corner.angle < order[k - 1].angle ||
+                     (corner.angle == order[k - 1].angle && corner.vertex < order[k - 1].vertex));
+         --k)
+      order[k] = order[k - 1];
+    order[k] = corner;
+  }
   std::size_t start = 0;
   for (std::size_t i = 1; i < order.size(); ++i) {
-    if (std::abs(marks_[order[i]].angle - seam_) < std::abs(marks_[order[start]].angle - seam_)) start = i;
+    if (std::abs(order[i].angle - seam_) < std::abs(order[start].angle - seam_)) start = i;
   }
   out.clear();
-  for (std::size_t i = 0; i <= order.size(); ++i) {
-    const std::size_t at = (start + i) % order.size();
+  for (std::size_t i = 0, at = start; i <= order.size(); ++i, at = at + 1 == order.size() ? 0 : at + 1) {
     const bool is_beyond = at < start || i == order.size();
-    Mark& mark = marks_[order[at]];
+    Mark& mark = marks_[order[at].vertex];
     out.push_back({mark.angle + (is_beyond ? 2 * pi : 0), vertex_of(mark, plane, is_beyond)});
   }
 }
@@ -144,6 +153,7 @@ void GraftWriter::plain_ring(const Plane& plane, Corners& out) {
     const float angle = seam_ + step * static_cast<float>(i);
     out.push_back({angle, ring_corner(plane, angle, direction)});
   }
+  mark_twin();
 }
 
 /// A ring that others leave: `lower_` for the strip below, `upper_` for the one above, which differ there.
@@ -155,8 +165,8 @@ void GraftWriter::open_ring(const Plane& plane, const Band& band) {
   const float step = 2 * pi / static_cast<float>(sides);
   const auto& circle = circles_[static_cast<std::size_t>(sides)];
   const auto add = [&](const Mark& mark, bool below, bool above) {
-    if (below) lower_order_.push_back(static_cast<std::uint32_t>(marks_.size()));
-    if (above) upper_order_.push_back(static_cast<std::uint32_t>(marks_.size()));
+    if (below) lower_order_.push_back({mark.angle, static_cast<std::uint32_t>(marks_.size())});
+    if (above) upper_order_.push_back({mark.angle, static_cast<std::uint32_t>(marks_.size())});
     marks_.push_back(mark);
   };
   for (int i = 0; i < sides; ++i) {

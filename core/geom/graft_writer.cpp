@@ -26,8 +26,9 @@ constexpr float cap_share = 0.5F;
 constexpr float most_lead = 0.5F;
 // A child thinner than so many of the least radius is not worth an opening.
 constexpr float least_opened = 3;
-// What is reserved at first; most trees of fine twigs need about as much.
-constexpr std::size_t vertices_a_joint = 4, triangles_a_joint = 5;
+// What is reserved at first: most trees of fine twigs need about as much, and small ones of thick limbs twice
+// that.
+constexpr std::size_t vertices_a_joint = 4, triangles_a_joint = 5, more_vertices = std::size_t{1} << 15U;
 // Of a ring that a vertex cache of 16 entries still holds when the next ring needs it.
 constexpr std::size_t cached_corners = 13;
 
@@ -57,13 +58,15 @@ GraftWriter::GraftWriter(const Context& context, Job& job)
       group_(job),
       group_normal_(job),
       joints_(job),
-      trust_(context.trust) {
+      twin_(job) {
   const Limbs& limbs = context.limbs;
   mesh_.position = Array<glm::vec3>(job);
   mesh_.normal = Array<glm::vec3>(job);
   mesh_.uv[0] = Array<glm::vec2>(job);
   mesh_.index.wide = Array<std::uint32_t>(job);
-  reserve(vertices_a_joint * limbs.size(), triangles_a_joint * limbs.size());
+  const std::size_t more = std::min(more_vertices, vertices_a_joint * limbs.size());
+  make_room(vertices_a_joint * limbs.size() + more + 64);
+  mesh_.index.wide.reserve(3 * (triangles_a_joint * limbs.size() + more + more / 2));
   for (std::size_t i = 0; i < limbs.size(); ++i) {
     if (limbs.parent[i] != Limbs::none) thickest_ = std::max(thickest_, limbs.base_radius[i]);
   }
@@ -75,6 +78,9 @@ GraftWriter::GraftWriter(const Context& context, Job& job)
     corner_radius_.push_back(thickest_ * static_cast<float>(share));
   }
   loops_.resize(count);
+  range_.resize(count);
+  kind_.assign(count, Kind::none);
+  dirty_.assign(count, 1);
   first_child_.assign(limbs.size(), none);
   next_sibling_.assign(count, none);
   for (std::size_t i = count; i-- > 0;) {
@@ -85,49 +91,14 @@ GraftWriter::GraftWriter(const Context& context, Job& job)
   }
 }
 
-void GraftWriter::reserve(std::size_t vertices, std::size_t triangles) {
-  mesh_.position.reserve(vertices);
-  mesh_.normal.reserve(vertices);
-  mesh_.uv[0].reserve(vertices);
-  group_.reserve(vertices);
-  if (context_.options.joints) joints_.reserve(vertices);
-  mesh_.index.wide.reserve(3 * triangles);
-}
-
-Mesh GraftWriter::take() {
-  mesh_.position.shrink_to_fit();
-  mesh_.normal.shrink_to_fit();
-  mesh_.uv[0].shrink_to_fit();
-  mesh_.index.wide.shrink_to_fit();
-  return std::move(mesh_);
-}
-
-void GraftWriter::write_all(const GraftWriter* last) {
-  const std::size_t count = context_.chains.head.size();
-  kind_.assign(count, Kind::none);
-  dirty_.assign(count, last ? 0 : 1);
-  if (last) {
-    reserve(last->mesh_.position.size() + last->mesh_.position.size() / 16,
-            (last->mesh_.index.wide.size() + last->mesh_.index.wide.size() / 16) / 3);
-    find_parents();
-    for (std::size_t i = 0; i < count; ++i) {
-      if (trust_[i] == last->trust_[i]) continue;
-      dirty_[i] = 1;
-      if (parent_[i] != none) dirty_[parent_[i]] = 1;
-    }
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto limb = static_cast<std::uint32_t>(i);
-    begin_.push_back(here());
-    if (i % 64 == 0) job_.check();
-    if (last && !dirty_[i] && !has_same_loop(limb, *last)) dirty_[i] = 1;
-    if (!dirty_[i]) {
-      copy_limb(limb, *last);
-    } else if (trust_[i] != Trust::none) {
-      write_limb(limb);
-    }
-  }
-  begin_.push_back(here());
+/// Makes room for so many vertices; what is beyond `vertices_` is not written yet.
+void GraftWriter::make_room(std::size_t vertices) {
+  mesh_.position.resize(vertices);
+  mesh_.normal.resize(vertices);
+  mesh_.uv[0].resize(vertices);
+  group_.resize(vertices);
+  twin_.resize(vertices);
+  if (context_.options.joints) joints_.resize(vertices);
 }
 
 /// Three, or an even number, so that rings of different limbs meet corner to corner.
@@ -201,7 +172,10 @@ void GraftWriter::write_limb(std::uint32_t limb) {
   } else {
     begin_closed(is_root, limb);
   }
-  for (const Band& band : plan_.band) write_band(band);
+  for (const Band& band : plan_.band) {
+    write_band(band);
+    if (has_loop && &band == &plan_.band.front()) range_[limb].first_end = here().triangle;
+  }
   write_tip(end);
 }
 
@@ -228,12 +202,7 @@ Bud GraftWriter::bud_of(std::uint32_t child) const {
 }
 
 void GraftWriter::plan_children(float start) {
-  struct Wish {
-    std::size_t point;
-    Bud bud;
-    bool is_thick;
-  };
-  std::vector<Wish> wishes;
+  wishes_.clear();
   for (std::size_t point = 1; point + 1 < axis_.point.size(); ++point) {
     if (axis_.at[point] <= start) continue;
     for (std::uint32_t child = first_child_[axis_.joint[point]]; child != none;
@@ -244,12 +213,13 @@ void GraftWriter::plan_children(float start) {
           bud.radius < context_.options.thinnest)
         continue;
       bud.sides = corners_for(bud.radius);
-      wishes.push_back({point, bud, bud.radius > 0.5F * axis_.radius[point]});
+      bud.phases = &phases_;
+      wishes_.push_back({point, bud, bud.radius > 0.5F * axis_.radius[point]});
     }
   }
   // Thick ones first: a fork has one place only, a collar of a thin limb may give way.
   for (const bool thick : {true, false}) {
-    for (const Wish& wish : wishes) {
+    for (const Wish& wish : wishes_) {
       if (wish.is_thick == thick) plan_.open(axis_, wish.point, wish.bud);
     }
   }
@@ -271,6 +241,7 @@ void GraftWriter::begin_closed(bool is_root, std::uint32_t limb) {
       const glm::vec3 at = mesh_.position[below_[i].vertex];
       const glm::vec3 off = at - plane.centre;
       rim.push_back(vertex(at, -along, {glm::dot(off, plane.u), glm::dot(off, plane.v)}, none));
+      mark_twin();
     }
     for (std::size_t i = 0; i < rim.size(); ++i) triangle(centre, rim[(i + 1) % rim.size()], rim[i]);
     return;
@@ -291,7 +262,8 @@ void GraftWriter::begin_closed(bool is_root, std::uint32_t limb) {
 void GraftWriter::begin_loop(const Loop& loop) {
   // The child's angles run the other way round than the phases of its loop.
   below_.clear();
-  std::vector<const LoopVertex*> order;
+  std::vector<const LoopVertex*>& order = loop_order_;
+  order.clear();
   for (std::uint32_t i = 0; i < loop.count; ++i) order.push_back(&loop_vertices_[loop.first + i]);
   std::sort(order.begin(), order.end(),
             [](const LoopVertex* a, const LoopVertex* b) { return a->angle > b->angle; });
@@ -299,6 +271,7 @@ void GraftWriter::begin_loop(const Loop& loop) {
     joint_ = at.joint;
     below_.push_back(
         {angle, vertex(at.position, {0, 0, 0}, picture_at(loop.radius, angle, at.reach), at.group)});
+    mark_twin();
   };
   for (const LoopVertex* each : order) add(*each, -each->angle);
   add(*order.front(), 2 * pi - order.front()->angle);
@@ -329,26 +302,29 @@ void GraftWriter::write_tip(float end_radius) {
 
 /// Triangles between two rings, by rising angle.
 void GraftWriter::strip(const Corners& below, const Corners& above) {
-  std::size_t i = 0, j = 0;
+  const std::size_t last_below = below.size() - 1, last_above = above.size() - 1;
+  const glm::vec3* position = mesh_.position.data();
+  triangles_.spend(last_below + last_above);
+  std::uint32_t* out = mesh_.index.wide.extend(3 * (last_below + last_above));
   const auto apart = [&](const Corner& a, const Corner& b) {
-    const glm::vec3 between = mesh_.position[a.vertex] - mesh_.position[b.vertex];
+    const glm::vec3 between = position[a.vertex] - position[b.vertex];
     return glm::dot(between, between);
   };
-  while (i + 1 < below.size() || j + 1 < above.size()) {
-    // The shorter diagonal, unless one side has fallen far behind.
-    bool take_below = j + 1 == above.size();
-    if (i + 1 < below.size() && j + 1 < above.size()) {
-      const float lead = below[i + 1].angle - above[j + 1].angle;
-      take_below = std::abs(lead) > most_lead ? lead < 0
-                                              : apart(below[i + 1], above[j]) < apart(below[i], above[j + 1]);
-    }
-    if (take_below) {
-      triangle(below[i].vertex, below[i + 1].vertex, above[j].vertex);
-      ++i;
-    } else {
-      triangle(below[i].vertex, above[j + 1].vertex, above[j].vertex);
-      ++j;
-    }
+  for (std::size_t i = 0, j = 0; i < last_below || j < last_above; out += 3) {
+    const Corner &a = below[i], &b = above[j];
+    const Corner &next_a = below[std::min(i + 1, last_below)], &next_b = above[std::min(j + 1, last_above)];
+    // The shorter diagonal, unless one side has fallen far behind. Chosen, not branched to: nobody can
+    // foresee which it is.
+    const float lead = next_a.angle - next_b.angle;
+    const bool is_shorter = apart(next_a, b) < apart(a, next_b);
+    const bool is_behind = lead<0, is_far = std::abs(lead)> most_lead;
+    const bool is_next = (is_far & is_behind) | (!is_far & is_shorter);
+    const bool take_below = (j == last_above) | ((i < last_below) & is_next);
+    out[0] = a.vertex;
+    out[1] = take_below ? next_a.vertex : next_b.vertex;
+    out[2] = b.vertex;
+    i += take_below ? 1 : 0;
+    j += take_below ? 0 : 1;
   }
 }
 

@@ -26,21 +26,28 @@ class GraftWriter {
   };
   GraftWriter(const Context& context, Job& job);
 
-  /// `last`: the writer of the round before, whose limbs are copied where nothing about them has changed
-  /// since; null: there is none.
-  void write_all(const GraftWriter* last);
+  /// Writes all limbs; the second time and on, those for which something has changed since, behind what is
+  /// there.
+  void write_round();
 
-  /// Makes the normals of loops, then looks at every triangle that was written. Lowers the trust in limbs
-  /// with faces that look against a normal or have no area, at once to none where `is_late`; returns how many
-  /// faces.
+  /// Makes the normals of loops, then looks at every triangle for which something has changed. Lowers the
+  /// trust in limbs with faces that look against a normal or have no area, at once to none where `is_late`;
+  /// returns how many faces.
   std::size_t settle(std::vector<Trust>& trust, bool is_late);
 
   GraftCounts counts() const;
   /// Vertices on rings, and those of them on rings of more corners than a vertex cache holds.
-  std::size_t corners() const { return corners_; }
-  std::size_t wide_corners() const { return wide_corners_; }
-  Array<std::uint32_t> take_joints() { return std::move(joints_); }
-  Mesh take();
+  std::size_t corners() const { return sum_of(&Place::corners); }
+  std::size_t wide_corners() const { return sum_of(&Place::wide_corners); }
+
+  /// What is left of all rounds, limb by limb.
+  struct Written {
+    Mesh mesh;
+    Array<std::uint32_t> joints;  ///< of each vertex, where options.joints wants them
+    /// Of each vertex, 1: it stands where one before it does, beyond the seam or as part of another limb.
+    Array<std::uint8_t> twin;
+  };
+  Written take();
 
  private:
   static constexpr std::uint32_t none = Limbs::none;
@@ -74,6 +81,13 @@ class GraftWriter {
     std::uint32_t group = none;
     std::uint32_t joint = none;  ///< of the parent
   };
+  /// An opening that is asked for.
+  struct Wish {
+    std::size_t point;
+    Bud bud;
+    bool is_thick;
+  };
+
   struct Loop {
     std::uint32_t first = none, count = 0;
     float radius = 0, reach = 0;
@@ -87,21 +101,44 @@ class GraftWriter {
     std::uint32_t group[3] = {none, none, none};
   };
 
-  /// Where what belongs to a limb begins.
-  struct Begin {
-    std::uint32_t vertex = 0, triangle = 0, group = 0, loop_vertex = 0;
+  /// A place in what is written.
+  struct Place {
+    std::uint32_t vertex = 0, triangle = 0, group = 0;
     std::uint32_t corners = 0, wide_corners = 0;
   };
+  /// What belongs to a limb; `first_end`: of the triangles at the loop that it begins with.
+  struct Range {
+    Place begin, end;
+    std::uint32_t first_end = 0;
+  };
+  /// What of a limb has to be looked at again: nothing, the faces at the loop that it begins with, all.
+  enum class Concern : std::uint8_t { nothing, loop, all };
   enum class Kind : std::uint8_t { none, root, collar, fork, closed };
 
-  void reserve(std::size_t vertices, std::size_t triangles);
+  void make_room(std::size_t vertices);
   void find_parents();
-  bool has_same_loop(std::uint32_t limb, const GraftWriter& last) const;
-  void copy_limb(std::uint32_t limb, const GraftWriter& last);
+  void find_dirty();
+  bool has_same_loop(const Loop& now, const Loop& then) const;
+  void forget_loops(const Range& range);
+  void keep_limb(std::uint32_t limb, const Loop& then);
   void mark_touched();
-  void add_loop_normals(std::size_t limb, std::vector<LoopFace>& faces);
+  struct FaceBlock;
+  static void weigh(FaceBlock& block);
+  static void look_at(FaceBlock& block, float least_square);
+  bool blame(const std::uint32_t* corner, std::vector<Trust>& trust, bool is_late) const;
+  void add_loop_normals(std::vector<LoopFace>& faces);
+  void add_loop_face(const FaceBlock& block, std::size_t lane, const std::uint32_t* corner,
+                     std::vector<LoopFace>& faces);
   void ease_loop_normals(const std::vector<LoopFace>& faces);
-  Begin here() const;
+  std::size_t judge(std::size_t limb, std::vector<Trust>& trust, bool is_late) const;
+  void find_concerned();
+  bool is_touched(const std::uint32_t* corner) const;
+  std::uint32_t last_triangle(std::size_t limb) const;
+  Place here() const;
+  std::uint32_t sum_of(std::uint32_t Place::*what) const;
+  bool is_in_order() const;
+  template <class T>
+  Array<T> gathered(Array<T>& from, std::uint32_t Place::*what) const;
 
   void write_limb(std::uint32_t limb);
   void plan_children(float start);
@@ -122,28 +159,32 @@ class GraftWriter {
   void set_seam(float angle);
   std::uint32_t group_for(const LoopPoint& point, std::uint32_t child);
   std::uint32_t vertex_of(Mark& mark, const Plane& plane, bool is_beyond);
-  void go_round(std::vector<std::uint32_t>& order, const Plane& plane, Corners& out);
+  void go_round(Corners& order, const Plane& plane, Corners& out);
   void plain_ring(const Plane& plane, Corners& out);
   void open_ring(const Plane& plane, const Band& band);
   void strip(const Corners& below, const Corners& above);
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
   std::uint32_t vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv, std::uint32_t group);
+  void mark_twin() { twin_[vertices_ - 1] = 1; }
 
   Context context_;
   Job& job_;
   Meter triangles_;
-  Mesh mesh_;
+  Mesh mesh_;                 ///< with more room than `vertices_`
+  std::size_t vertices_ = 0;  ///< that are written
   Array<std::uint32_t>
       group_;  ///< of each vertex; those on a loop share a normal: even the parent's, odd the child's
   Array<glm::vec3> group_normal_;
   std::vector<std::uint32_t> group_limb_;  ///< the child of each pair of groups
-  std::vector<Begin> begin_;               ///< of each limb, and of the end
+  std::vector<Range> range_;               ///< of each limb
   std::vector<Kind> kind_;                 ///< of each limb
-  std::vector<std::uint32_t> parent_;      ///< of each limb; empty where all are dirty
-  std::vector<std::uint8_t> dirty_;        ///< limbs that were not copied
+  std::vector<std::uint32_t> parent_;      ///< of each limb; empty in the first round, where all are dirty
+  std::vector<std::uint8_t> dirty_;        ///< limbs that were written in this round
   std::vector<std::uint8_t> touched_;      ///< pairs of groups of a dirty limb
-  Array<std::uint32_t> joints_;            ///< of each vertex, where options.joints wants them
-  std::vector<Trust> trust_;               ///< as it was when this was written
+  std::vector<Concern> concern_;           ///< of each limb
+  Array<std::uint32_t> joints_;            ///< as Written::joints
+  Array<std::uint8_t> twin_;               ///< as Written::twin
+  std::vector<Trust> trust_;               ///< as it was in the last round
   std::vector<std::uint32_t> first_child_, next_sibling_;
   std::vector<Loop> loops_;
   std::vector<LoopVertex> loop_vertices_;
@@ -156,7 +197,10 @@ class GraftWriter {
   GraftPlan plan_;
   Corners below_, lower_, upper_;
   std::vector<Mark> marks_;
-  std::vector<std::uint32_t> lower_order_, upper_order_;
+  Corners lower_order_, upper_order_;  ///< whose "vertex" is a mark
+  std::vector<Wish> wishes_;
+  std::vector<const LoopVertex*> loop_order_;
+  Phases phases_;
   std::size_t near_piece_ = 0;  ///< of the axis, near what is written
   float seam_ = 0;
   glm::vec2 seam_turn_{1, 0};  ///< its cosine and sine

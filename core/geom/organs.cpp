@@ -9,11 +9,13 @@
 #include "core/base/quick_math.h"
 #include "core/base/rng.h"
 #include "core/geom/four.h"
+#include "core/geom/organ_block.h"
 
 namespace seedmesh {
 namespace {
 
 constexpr std::size_t organs_a_chunk = 512;
+constexpr std::size_t bits_an_organ = 16;
 constexpr float least_share = 2e-4F;  // of the model's size
 constexpr float least_extent = 1e-9F;
 
@@ -75,9 +77,46 @@ std::uint64_t place_of(const Organ& organ) {
   return mix(hash ^ word_of(organ.scale.y, organ.scale.z));
 }
 
+/// Tells which organs may stand where another does: those whose places have one bit in common of a table.
+class Crossroads {
+ public:
+  Crossroads(const Organs& organs, const Job& job) : organs_(organs) {
+    std::size_t size = 1024;
+    while (size < bits_an_organ * organs.organ.size()) size *= 2;
+    mask_ = size - 1;
+    taken_ = Array<std::uint64_t>(job, size / 64, std::uint64_t{0});
+    shared_ = Array<std::uint64_t>(job, size / 64, std::uint64_t{0});
+    for (const Organ& organ : organs.organ) {
+      const std::uint64_t bit = bit_of(organ);
+      shared_[bit / 64] |= taken_[bit / 64] & std::uint64_t{1} << bit % 64;
+      taken_[bit / 64] |= std::uint64_t{1} << bit % 64;
+    }
+  }
+  bool is_shared(const Organ& organ) const {
+    const std::uint64_t bit = bit_of(organ);
+    return (shared_[bit / 64] >> bit % 64 & 1U) != 0;
+  }
+  /// How many they are.
+  std::size_t count() const {
+    std::size_t shared = 0;
+    for (const Organ& organ : organs_.organ) shared += is_shared(organ) ? 1 : 0;
+    return shared;
+  }
+
+ private:
+  std::uint64_t bit_of(const Organ& organ) const {
+    return mix(word_of(organ.position.x, organ.position.y) ^ word_of(organ.position.z, 0) << 7U) & mask_;
+  }
+
+  const Organs& organs_;
+  std::uint64_t mask_ = 0;
+  Array<std::uint64_t> taken_, shared_;
+};
+
 std::vector<Group> groups_of(const Organs& organs, const FoliageOptions& options, const Job& job) {
   std::map<std::pair<std::uint32_t, std::int16_t>, std::vector<std::uint32_t>> by_look;
-  Seen seen(organs.organ.size(), job);
+  const Crossroads crossroads(organs, job);
+  Seen seen(crossroads.count(), job);
   std::vector<float> extents;
   for (const Mesh& surface : options.surfaces) {
     const Box box = bounds_of(surface.position.span());
@@ -91,7 +130,7 @@ std::vector<Group> groups_of(const Organs& organs, const FoliageOptions& options
     const Organ& organ = organs.organ[i];
     const float smallest = std::min({organ.scale.x, organ.scale.y, organ.scale.z}) * extents[organ.surface];
     if (!(smallest > std::max(least_share * options.model_size, least_extent))) continue;
-    if (!seen.insert(place_of(organ))) continue;
+    if (crossroads.is_shared(organ) && !seen.insert(place_of(organ))) continue;
     if (!members || look != std::pair{organ.surface, organ.color}) {
       look = {organ.surface, organ.color};
       members = &by_look[look];
@@ -109,8 +148,31 @@ class Placer {
   Placer(const Mesh& surface, const FoliageOptions& options, Mesh& out)
       : surface_(surface), options_(options), out_(out) {}
 
-  void place(const Organ& organ, std::size_t number) const {
-    const std::size_t vertices = surface_.position.size(), first = number * vertices;
+  /// Organs `numbers[begin]` to `numbers[end - 1]` of `organs`.
+  void place_all(const Array<Organ>& organs, std::span<const std::uint32_t> numbers, std::size_t begin,
+                 std::size_t end) const {
+    const bool in_blocks = OrganBlock::takes(surface_);
+    OrganBlock block(surface_, options_);
+    for (std::size_t i = begin; i < end; i += organ_lanes) {
+      const std::size_t count = std::min(organ_lanes, end - i);
+      const bool is_reckoned = in_blocks && block.reckon(organs, numbers.subspan(i, count));
+      for (std::size_t k = 0; k < count; ++k) {
+        const Organ& organ = organs[numbers[i + k]];
+        const std::size_t first = (i + k) * surface_.position.size();
+        if (is_reckoned) {
+          block.write(k, out_.position.data() + first, out_.normal.data() + first);
+        } else {
+          place_shape(organ, first);
+        }
+        place_rest(organ, i + k, first);
+      }
+    }
+  }
+
+ private:
+  /// Positions and directions.
+  void place_shape(const Organ& organ, std::size_t first) const {
+    const std::size_t vertices = surface_.position.size();
     const glm::mat3 turn = glm::mat3_cast(organ.frame);
     const glm::mat3 stretch{turn[0] * organ.scale.x, turn[1] * organ.scale.y, turn[2] * organ.scale.z};
     const glm::vec3* from = surface_.position.data();
@@ -118,6 +180,11 @@ class Placer {
     for (std::size_t i = 0; i < vertices; ++i) position[i] = organ.position + stretch * from[i];
     place_normals(organ, turn, out_.normal.data() + first);
     if (!surface_.tangent.empty()) place_tangents(first, turn, stretch);
+    if (options_.crown) follow_crown(position, out_.normal.data() + first);
+  }
+
+  /// All else.
+  void place_rest(const Organ& organ, std::size_t number, std::size_t first) const {
     if (!out_.uv[0].empty())
       std::memcpy(out_.uv[0].data() + first, surface_.uv[0].data(), surface_.uv[0].bytes());
     const std::size_t corners = surface_.index.wide.size();
@@ -125,13 +192,11 @@ class Placer {
     const std::uint32_t* corner = surface_.index.wide.data();
     std::uint32_t* index = out_.index.wide.data() + number * corners;
     for (std::size_t i = 0; i < corners; ++i) index[i] = corner[i] + shift;
-    if (options_.crown) follow_crown(position, out_.normal.data() + first);
     if (!out_.color.empty()) place_colors(organ, first);
-    if (!out_.bone.empty()) std::fill_n(out_.bone.data() + first, vertices, bone_of(organ));
+    if (!out_.bone.empty()) std::fill_n(out_.bone.data() + first, surface_.position.size(), bone_of(organ));
     if (options_.wind) place_wind(organ, first);
   }
 
- private:
   static float fraction(std::uint64_t hash) { return static_cast<float>(hash >> 40U) * 0x1p-24F; }
 
   std::uint16_t bone_of(const Organ& organ) const {
@@ -157,8 +222,13 @@ class Placer {
     const auto dimmed = [&](std::uint8_t value) {
       return static_cast<std::uint8_t>(static_cast<float>(value) * shade);
     };
+    if (surface_.color.empty()) {
+      const std::uint8_t gray = dimmed(255);
+      std::fill_n(out_.color.data() + first, surface_.position.size(), glm::u8vec4(gray, gray, gray, 255));
+      return;
+    }
     for (std::size_t i = 0; i < surface_.position.size(); ++i) {
-      const glm::u8vec4 own = surface_.color.empty() ? glm::u8vec4(255) : surface_.color[i];
+      const glm::u8vec4 own = surface_.color[i];
       out_.color[first + i] = {dimmed(own.r), dimmed(own.g), dimmed(own.b), own.a};
     }
   }
@@ -260,7 +330,7 @@ std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& op
     parallel_for(job, group.organs.size(), organs_a_chunk,
                  [&](std::size_t begin, std::size_t end, std::size_t) {
                    job.check();
-                   for (std::size_t i = begin; i < end; ++i) placer.place(organs.organ[group.organs[i]], i);
+                   placer.place_all(organs.organ, group.organs, begin, end);
                  });
   }
   return foliage;

@@ -4,17 +4,33 @@
 #include <span>
 #include <vector>
 
+#include "core/base/wide.h"
+
 namespace seedmesh {
 namespace {
 
 // Pieces are looked for up to so many corners, and so many times.
 constexpr std::size_t most_repeated = 4096;
 constexpr int most_tries = 32;
+constexpr std::size_t stretch = 256;
 
 bool uses_all(std::span<const std::uint32_t> index, std::size_t vertices) {
   std::vector<bool> used(vertices, false);
   for (const std::uint32_t i : index) used[i] = true;
   return std::find(used.begin(), used.end(), false) == used.end();
+}
+
+/// Is each index but the first `corners` that of `corners` before it, and `piece` more?
+SEEDMESH_WIDE bool goes_on(const std::uint32_t* index, std::size_t count, std::size_t corners,
+                           std::uint32_t piece) {
+  // In stretches, so that an early difference ends it early.
+  for (std::size_t first = corners; first < count; first += stretch) {
+    std::uint32_t off = 0;
+    for (std::size_t i = first; i < std::min(count, first + stretch); ++i)
+      off |= index[i] - index[i - corners] - piece;
+    if (off != 0) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -28,8 +44,7 @@ Repeats repeats_of(const Array<std::uint32_t>& index, std::size_t vertices) {
     if (corners > 0 && std::min({corner[0], corner[1], corner[2]}) == piece) {
       const std::size_t times = index.size() / corners;
       bool repeats = times * corners == index.size() && times * piece == vertices;
-      for (std::size_t i = corners; repeats && i < index.size(); ++i)
-        repeats = index[i] == index[i - corners] + piece;
+      repeats = repeats && goes_on(index.data(), index.size(), corners, piece);
       if (repeats && uses_all(index.span().first(corners), piece)) return {piece, corners};
       if (++tries == most_tries) break;
     }

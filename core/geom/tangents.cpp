@@ -4,9 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
+#include <vector>
 
-#include "core/base/math.h"
+#include "core/base/parallel.h"
+#include "core/base/quick_math.h"
 #include "core/geom/four.h"
+#include "core/geom/piece_tangents.h"
 #include "core/geom/repeats.h"
 
 namespace seedmesh {
@@ -18,15 +22,6 @@ glm::vec3 any_across(const glm::vec3& normal) {
   return math::unit(glm::cross(normal, axis), {0, 0, 1});
 }
 
-/// math::unit, here inline; `otherwise` is asked only when it is needed.
-template <class Otherwise>
-glm::vec3 unit_or(const glm::vec3& v, const Otherwise& otherwise) {
-  const float largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  if (!(largest > 0) || !std::isfinite(largest)) return otherwise();
-  const glm::vec3 scaled = v / largest;
-  return scaled / std::sqrt(scaled.x * scaled.x + scaled.y * scaled.y + scaled.z * scaled.z);
-}
-
 /// Along u and along v, summed over the triangles at a vertex.
 struct Sums {
   glm::vec3 u{0}, v{0};
@@ -36,7 +31,7 @@ glm::vec4 tangent_of(const glm::vec3& normal, const Sums& sums) {
   const glm::vec3 flat = sums.u - normal * glm::dot(normal, sums.u);
   const bool is_none = glm::dot(flat, flat) <= 1e-8F * glm::dot(sums.u, sums.u);
   const auto across = [&] { return any_across(normal); };
-  const glm::vec3 tangent = is_none ? across() : unit_or(flat, across);
+  const glm::vec3 tangent = is_none ? across() : math::unit_or(flat, across);
   // v grows down the picture, and the bitangent points up it.
   const float w = glm::dot(glm::cross(normal, tangent), sums.v) > 0 ? -1.0F : 1.0F;
   return {tangent, w};
@@ -115,7 +110,8 @@ void add_tangents(Mesh& mesh, const Array<glm::vec2>& uv, const Job& job) {
   if (one.corners == 0) one = {vertices, mesh.index.wide.size()};
   Array<Sums> sums(job, one.vertices);
   const std::span<const std::uint32_t> index = mesh.index.wide.span();
-  for (std::size_t piece = 0; piece * one.vertices < vertices; ++piece) {
+  const PieceTangents pieces(mesh, uv, one);
+  for (std::size_t piece = pieces.write_all(job); piece * one.vertices < vertices; ++piece) {
     if (piece % 256 == 0) job.check();
     add_tangents(mesh,
                  Piece<std::uint32_t>{index.subspan(piece * one.corners, one.corners), piece * one.vertices},
@@ -126,6 +122,7 @@ void add_tangents(Mesh& mesh, const Array<glm::vec2>& uv, const Job& job) {
 }  // namespace
 
 void add_tangents(Model& model, const Job& job) {
+  std::vector<std::pair<Mesh*, const Array<glm::vec2>*>> wanted;
   for (MeshGroup& group : model.meshes) {
     for (Primitive& primitive : group.primitives) {
       Mesh& mesh = primitive.mesh;
@@ -133,9 +130,12 @@ void add_tangents(Model& model, const Job& job) {
       const TextureUse& map = model.materials[static_cast<std::size_t>(primitive.material)].normal_texture;
       if (map.texture < 0 || !mesh.tangent.empty()) continue;
       const auto& uv = mesh.uv[static_cast<std::size_t>(map.uv_set)];
-      if (!uv.empty()) add_tangents(mesh, uv, job);
+      if (!uv.empty()) wanted.emplace_back(&mesh, &uv);
     }
   }
+  parallel_for(job, wanted.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) add_tangents(*wanted[i].first, *wanted[i].second, job);
+  });
 }
 
 }  // namespace seedmesh

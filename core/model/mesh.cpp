@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/wide.h"
+
 namespace seedmesh {
 
 std::size_t Mesh::elements() const {
@@ -17,10 +19,37 @@ std::size_t Mesh::elements() const {
   return 0;
 }
 
+namespace {
+
+// Coordinates that are looked at side by side: whole vectors of any width, and whole points.
+constexpr std::size_t row = 24;
+
+/// Takes rows of coordinates into the least and greatest of each place of a row; returns how many.
+SEEDMESH_WIDE std::size_t take_rows(const float* at, std::size_t count, float* __restrict low,
+                                    float* __restrict high) {
+  std::size_t rows = 0;
+  for (; row * (rows + 1) <= count; ++rows, at += row) {
+    for (std::size_t k = 0; k < row; ++k) {
+      low[k] = at[k] < low[k] ? at[k] : low[k];
+      high[k] = high[k] < at[k] ? at[k] : high[k];
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
 Box bounds_of(std::span<const glm::vec3> position) {
   if (position.empty()) return {};
+  float low[row], high[row];
+  for (std::size_t k = 0; k < row; ++k) low[k] = high[k] = position[0][static_cast<int>(k % 3)];
+  const std::size_t rows = take_rows(&position[0].x, 3 * position.size(), low, high);
   Box box{position[0], position[0]};
-  for (const glm::vec3& p : position) {
+  for (std::size_t k = 0; k < row; k += 3) {
+    box.min = glm::min(box.min, glm::vec3(low[k], low[k + 1], low[k + 2]));
+    box.max = glm::max(box.max, glm::vec3(high[k], high[k + 1], high[k + 2]));
+  }
+  for (const glm::vec3& p : position.subspan(rows * row / 3)) {
     box.min = glm::min(box.min, p);
     box.max = glm::max(box.max, p);
   }

@@ -8,13 +8,6 @@ constexpr std::uint64_t least_triangles_a_joint = 6, least_triangles_a_leaf = 2;
 
 }  // namespace
 
-Frame rotated(const Frame& frame, const glm::dvec3& axis, const math::SinCos& angle) {
-  const auto turn = [&](const glm::dvec3& v) {
-    return v * angle.cos + glm::cross(axis, v) * angle.sin + axis * (glm::dot(axis, v) * (1 - angle.cos));
-  };
-  return {turn(frame.heading), turn(frame.left), turn(frame.up)};
-}
-
 Frame headed(const Frame& frame, const glm::dvec3& heading) {
   const glm::dvec3 left = glm::cross(frame.up, heading);
   const double size = glm::dot(left, left);
@@ -51,14 +44,9 @@ std::uint32_t SkeletonWriter::add(const Joint& joint) {
   return static_cast<std::uint32_t>(limbs_.size() - 1);
 }
 
-bool SkeletonWriter::wants_leaf(std::uint64_t key) {
-  shapes_.spend();
-  if (leaves_ >= most_leaves_) {
-    Job::refuse("the tree has more than " + std::to_string(most_leaves_) +
-                " leaves, which would pass the limit of triangles");
-  }
-  ++leaves_;
-  return is_drawn(key, density_);
+void SkeletonWriter::refuse_leaves() const {
+  Job::refuse("the tree has more than " + std::to_string(most_leaves_) +
+              " leaves, which would pass the limit of triangles");
 }
 
 void SkeletonWriter::add(const Leaf& leaf) {
@@ -68,7 +56,7 @@ void SkeletonWriter::add(const Leaf& leaf) {
   organ.scale = glm::vec3(leaf.width, leaf.length, leaf.length);
   organ.limb_joint = leaf.joint;
   organ.key = leaf.key;
-  organs_.organ.push_back(organ);
+  add(organ);
 }
 
 }  // namespace seedmesh::tree

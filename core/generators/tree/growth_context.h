@@ -21,7 +21,12 @@ struct Chances {
 inline double spread(Rng rng, double range) { return range == 0 ? 0 : rng.uniform(-range, range); }
 
 /// The frame turned about a unit axis.
-Frame rotated(const Frame& frame, const glm::dvec3& axis, const math::SinCos& angle);
+inline Frame rotated(const Frame& frame, const glm::dvec3& axis, const math::SinCos& angle) {
+  const auto turn = [&](const glm::dvec3& v) {
+    return v * angle.cos + glm::cross(axis, v) * angle.sin + axis * (glm::dot(axis, v) * (1 - angle.cos));
+  };
+  return {turn(frame.heading), turn(frame.left), turn(frame.up)};
+}
 
 /// A frame whose heading is `heading`, turned the least from `frame`.
 Frame headed(const Frame& frame, const glm::dvec3& heading);
@@ -56,14 +61,22 @@ class SkeletonWriter {
     std::uint64_t key = 0;
   };
   /// Counts a leaf. False: it is none of those that are drawn, and need not be made.
-  bool wants_leaf(std::uint64_t key);
+  bool wants_leaf(std::uint64_t key) {
+    shapes_.spend();
+    if (leaves_ >= most_leaves_) refuse_leaves();
+    ++leaves_;
+    return is_drawn(key, density_);
+  }
   void add(const Leaf& leaf);
+  void add(const Organ& leaf) { organs_.organ.push_back(leaf); }
 
   /// The radius at the far end of a joint's internode.
   double radius(std::uint32_t joint) const { return static_cast<double>(limbs_.radius[joint]); }
   Job& job() { return job_; }
 
  private:
+  [[noreturn]] void refuse_leaves() const;
+
   Limbs& limbs_;
   Organs& organs_;
   Job& job_;

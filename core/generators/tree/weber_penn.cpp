@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/generators/tree/sway.h"
-#include "core/generators/tree/weber_penn_shape.h"
+#include "core/generators/tree/weber_penn_grower.h"
 
 namespace seedmesh::tree {
 namespace {
@@ -14,171 +14,92 @@ namespace {
 constexpr int helix_pieces = 6;
 // The flare's curve is drawn through these shares of the trunk; it ends at an eighth.
 constexpr double flare_stations[] = {0.0, 1.0 / 128, 1.0 / 48, 1.0 / 24, 1.0 / 12, 1.0 / 8};
-// A pruned stem is tried at so much of its length again and again, and is left out below the least share.
-constexpr double prune_step = 0.9, prune_least = 0.15;
-
-struct Stem {
-  Frame frame;
-  glm::dvec3 position{0};
-  std::uint32_t joint = Limbs::none;  ///< it grows from
-  int level = 0;
-  double length = 0, radius = 0;
-  double offset = 0, parent_length = 0;  ///< where on its parent it stands
-  double parent_length_max = 0;          ///< the Lmax that its own length was made with
-  Rng rng{0};
-  // Of clones: where on the stem they begin, what is left of their turn, and their share of its children.
-  int segment = 0;
-  double uncurve = 0;
-  double share = 1;
-  double readiness = 1;
-  double carried_splits = 0;
-  double carried_children = 0.5;
-  int children_before = 0;
-};
-
-/// A child or leaf on a stem, before it is grown.
-struct Bud {
-  Frame frame;
-  glm::dvec3 position{0};
-  std::uint32_t joint = Limbs::none;
-  double offset = 0;
-  int number = 0;
-};
-
 std::uint64_t number_of(double x) { return static_cast<std::uint64_t>(math::to_int64(x)); }
 
-class Grower {
- public:
-  Grower(const TreeParams& params, const Chances& chances, SkeletonWriter& writer)
-      : p_(params), levels_(weber_penn_levels(params)), chances_(chances), writer_(writer) {}
+}  // namespace
 
-  void run() {
-    waiting_.push_back(trunk());
-    while (!waiting_.empty()) {
-      const Stem stem = waiting_.back();
-      waiting_.pop_back();
-      grow(stem);
-    }
+void WeberPennGrower::run() {
+  waiting_.push_back(trunk());
+  while (!waiting_.empty()) {
+    const WeberPennStem stem = waiting_.back();
+    waiting_.pop_back();
+    grow(stem);
   }
+  put_leaves();
+}
 
- private:
-  const WeberPennLevel& level(int n) const { return levels_[static_cast<std::size_t>(std::min(n, 3))]; }
-  bool is_last(const Stem& stem) const { return stem.level + 1 >= p_.Levels; }
-  double base_length() const { return p_.BaseSize * scale_; }
-  double segment_length(const Stem& stem) const { return stem.length / level(stem.level).curve_res; }
+WeberPennStem WeberPennGrower::trunk() {
+  WeberPennStem stem;
+  stem.rng = chances_.trunk;
+  scale_ = std::max(0.1 * p_.Scale, p_.Scale + spread(stem.rng.at("scale"), p_.ScaleV));
+  stem.length =
+      std::max(0.0, (levels_[0].length + spread(stem.rng.at("length"), levels_[0].length_v))) * scale_;
+  const double factor = std::max(0.05, p_.trunk_scale + spread(stem.rng.at("radius"), p_.trunk_scale_v));
+  stem.radius = stem.length * p_.Ratio * factor;
+  stem.parent_length = stem.length;
+  stem.parent_length_max = 1;
+  stem.frame = roll(Frame{}, math::quick_sincos_degrees(stem.rng.at("roll").uniform(0, 360)));
+  trunk_length_ = stem.length;
+  SkeletonWriter::Joint root;
+  root.radius = root.base_radius = radius_at(stem, 0);
+  root.key = stem.rng.key();
+  stem.joint = writer_.add(root);
+  return stem;
+}
 
-  Stem trunk() {
-    Stem stem;
-    stem.rng = chances_.trunk;
-    scale_ = std::max(0.1 * p_.Scale, p_.Scale + spread(stem.rng.at("scale"), p_.ScaleV));
-    stem.length =
-        std::max(0.0, (levels_[0].length + spread(stem.rng.at("length"), levels_[0].length_v))) * scale_;
-    const double factor = std::max(0.05, p_.trunk_scale + spread(stem.rng.at("radius"), p_.trunk_scale_v));
-    stem.radius = stem.length * p_.Ratio * factor;
-    stem.parent_length = stem.length;
-    stem.parent_length_max = 1;
-    stem.frame = roll(Frame{}, math::quick_sincos_degrees(stem.rng.at("roll").uniform(0, 360)));
-    trunk_length_ = stem.length;
-    SkeletonWriter::Joint root;
-    root.radius = root.base_radius = radius_at(stem, 0);
-    root.key = stem.rng.key();
-    stem.joint = writer_.add(root);
-    return stem;
+double WeberPennGrower::radius_at(const WeberPennStem& stem, double z) const {
+  const double radius = tapered(level(stem.level).taper, stem.radius, stem.length, z);
+  if (stem.level > 0) return radius;
+  return radius * flared(p_.Flare, z) * flared(p_.trunk_flare, z);
+}
+
+/// The turn from one segment to the next.
+Frame WeberPennGrower::turned(const WeberPennStem& stem, const Frame& frame, int segment) const {
+  const WeberPennLevel& l = level(stem.level);
+  double curve = l.curve / l.curve_res;
+  if (l.curve_back != 0 && l.curve_res > 1) {
+    curve = (2 * segment <= l.curve_res ? l.curve : l.curve_back) / (0.5 * l.curve_res);
   }
-
-  double radius_at(const Stem& stem, double z) const {
-    const double radius = tapered(level(stem.level).taper, stem.radius, stem.length, z);
-    if (stem.level > 0) return radius;
-    return radius * flared(p_.Flare, z) * flared(p_.trunk_flare, z);
+  if (l.curve_v > 0)
+    curve += spread(stem.rng.at("curve").at(static_cast<std::uint64_t>(segment)), l.curve_v) / l.curve_res;
+  curve -= stem.uncurve;
+  if (stem.level >= 2 && p_.AttractionUp != 0) {
+    const double declination = math::quick_acos(std::clamp(frame.heading.y, -1.0, 1.0));
+    curve -= math::degrees(p_.AttractionUp * declination * std::clamp(frame.up.y, -1.0, 1.0)) / l.curve_res;
   }
+  return pitch(frame, math::quick_sincos_degrees(std::clamp(curve, -170.0, 170.0)));
+}
 
-  /// The turn from one segment to the next.
-  Frame turned(const Stem& stem, const Frame& frame, int segment) const {
-    const WeberPennLevel& l = level(stem.level);
-    double curve = l.curve / l.curve_res;
-    if (l.curve_back != 0 && l.curve_res > 1) {
-      curve = (2 * segment <= l.curve_res ? l.curve : l.curve_back) / (0.5 * l.curve_res);
-    }
-    if (l.curve_v > 0)
-      curve += spread(stem.rng.at("curve").at(static_cast<std::uint64_t>(segment)), l.curve_v) / l.curve_res;
-    curve -= stem.uncurve;
-    if (stem.level >= 2 && p_.AttractionUp != 0) {
-      const double declination = math::quick_acos(std::clamp(frame.heading.y, -1.0, 1.0));
-      curve -= math::degrees(p_.AttractionUp * declination * std::clamp(frame.up.y, -1.0, 1.0)) / l.curve_res;
-    }
-    return pitch(frame, math::quick_sincos_degrees(std::clamp(curve, -170.0, 170.0)));
-  }
+/// In the wind. Stems are pruned in still air.
+Frame WeberPennGrower::swayed_at(const WeberPennStem& stem, const Frame& frame, int segment) const {
+  if (p_.sway.wind == 0 && p_.sway.gust == 0) return frame;
+  Rng chance = stem.rng.at("sway");
+  SwayingStem swaying;
+  swaying.length = stem.length;
+  swaying.base_radius = stem.radius;
+  swaying.segments = level(stem.level).curve_res;
+  swaying.offset_x = chance.uniform(0, 2 * math::pi);
+  swaying.offset_y = chance.uniform(0, 2 * math::pi);
+  const double z = static_cast<double>(segment) / swaying.segments;
+  const double radius = tapered(level(stem.level).taper, stem.radius, stem.length, z);
+  return swayed(frame, sway_angles(p_.sway, swaying, z, radius));
+}
 
-  /// In the wind. Stems are pruned in still air.
-  Frame swayed_at(const Stem& stem, const Frame& frame, int segment) const {
-    if (p_.sway.wind == 0 && p_.sway.gust == 0) return frame;
-    Rng chance = stem.rng.at("sway");
-    SwayingStem swaying;
-    swaying.length = stem.length;
-    swaying.base_radius = stem.radius;
-    swaying.segments = level(stem.level).curve_res;
-    swaying.offset_x = chance.uniform(0, 2 * math::pi);
-    swaying.offset_y = chance.uniform(0, 2 * math::pi);
-    const double z = static_cast<double>(segment) / swaying.segments;
-    const double radius = tapered(level(stem.level).taper, stem.radius, stem.length, z);
-    return swayed(frame, sway_angles(p_.sway, swaying, z, radius));
-  }
+int WeberPennGrower::pieces(const WeberPennStem& stem) const {
+  const WeberPennLevel& l = level(stem.level);
+  return l.curve_v < 0 ? std::max(1, (helix_pieces + l.curve_res - 1) / l.curve_res) : 1;
+}
 
-  int pieces(const Stem& stem) const {
-    const WeberPennLevel& l = level(stem.level);
-    return l.curve_v < 0 ? std::max(1, (helix_pieces + l.curve_res - 1) / l.curve_res) : 1;
-  }
-
-  /// The heading of one piece of a helix about the stem's axis.
-  Frame piece_frame(const Stem& stem, const Frame& axis, int piece) const {
-    const WeberPennLevel& l = level(stem.level);
-    if (l.curve_v >= 0) return axis;
-    const Frame around = roll(axis, math::quick_sincos_degrees(360.0 / helix_pieces * piece));
-    return pitch(around, math::quick_sincos_degrees(-l.curve_v));
-  }
-
-  /// How many children a whole stem bears.
-  double children_of(const Stem& stem) const {
-    if (is_last(stem)) {
-      const double most = std::abs(p_.Leaves);
-      if (p_.Leaves < 0) return most;
-      return most * shape_ratio(p_, 4, stem.parent_length > 0 ? stem.offset / stem.parent_length : 0);
-    }
-    const double most = level(stem.level + 1).branches;
-    if (stem.level == 0) return most;
-    if (stem.parent_length <= 0) return 0;
-    if (stem.level == 1) {
-      const double most_length = std::max(stem.parent_length_max, 1e-6);
-      return most * (0.2 + 0.8 * std::min(1.0, stem.length / stem.parent_length / most_length));
-    }
-    return most * (1 - 0.5 * stem.offset / stem.parent_length);
-  }
-
-  void grow(const Stem& stem);
-  double walk_segment(Stem& stem, const Frame& axis, int segment, glm::dvec3& at, std::vector<Bud>& buds);
-  void split(Stem& stem, Frame& frame, const glm::dvec3& at, int segment, std::uint32_t joint);
-  void bear(const Stem& stem, const Bud& bud, double child_max);
-  void leaf(const Stem& stem, const Bud& bud);
-  Frame child_frame(const Stem& stem, const Bud& bud, const Rng& rng) const;
-  bool prune(Stem& child) const;
-  bool fits(const Stem& stem) const;
-
-  const TreeParams& p_;
-  std::array<WeberPennLevel, 4> levels_;
-  const Chances& chances_;
-  SkeletonWriter& writer_;
-  std::vector<Stem> waiting_;
-  double scale_ = 0, trunk_length_ = 0;
-  // Of the stem that grows.
-  std::uint32_t last_joint_ = Limbs::none;
-  std::vector<double> stops_;
-  double spacing_ = 0, bare_ = 0;
-  bool starts_ = false;
-};
+/// The heading of one piece of a helix about the stem's axis.
+Frame WeberPennGrower::piece_frame(const WeberPennStem& stem, const Frame& axis, int piece) const {
+  const WeberPennLevel& l = level(stem.level);
+  if (l.curve_v >= 0) return axis;
+  const Frame around = roll(axis, math::quick_sincos_degrees(360.0 / helix_pieces * piece));
+  return pitch(around, math::quick_sincos_degrees(-l.curve_v));
+}
 
 /// From `from` to `to` shares of the stem, one joint at each; children's offsets are joints of the bark too.
-double Grower::walk_segment(Stem& stem, const Frame& axis, int segment, glm::dvec3& at,
-                            std::vector<Bud>& buds) {
+double WeberPennGrower::walk_segment(WeberPennStem& stem, const Frame& axis, int segment, glm::dvec3& at) {
   const double piece_length = segment_length(stem) / pieces(stem);
   const int first_piece = segment * pieces(stem);
   double along = segment * segment_length(stem);
@@ -187,6 +108,7 @@ double Grower::walk_segment(Stem& stem, const Frame& axis, int segment, glm::dve
     const double end =
         piece + 1 == first_piece + pieces(stem) ? (segment + 1) * segment_length(stem) : along + piece_length;
     std::vector<double>& stops = stops_;
+    std::vector<WeberPennBud>& buds = buds_;
     stops.clear();
     if (stem.level == 0) {
       for (const double share : flare_stations) {
@@ -207,7 +129,9 @@ double Grower::walk_segment(Stem& stem, const Frame& axis, int segment, glm::dve
       }
       from += step;
       stem.carried_children = 0;
-      buds.push_back({frame, at + frame.heading * (from - along), Limbs::none, from, stem.children_before++});
+      const int number = stem.children_before++;
+      if (is_last(stem) && !wants_leaf(number)) continue;
+      put_bud(frame, at + frame.heading * (from - along), from, number);
       if (!is_last(stem)) stops.push_back(from);
     }
     stops.push_back(end);
@@ -237,7 +161,8 @@ double Grower::walk_segment(Stem& stem, const Frame& axis, int segment, glm::dve
   return along;
 }
 
-void Grower::split(Stem& stem, Frame& frame, const glm::dvec3& at, int segment, std::uint32_t joint) {
+void WeberPennGrower::split(WeberPennStem& stem, Frame& frame, const glm::dvec3& at, int segment,
+                            std::uint32_t joint) {
   const WeberPennLevel& l = level(stem.level);
   const bool at_base = stem.level == 0 && segment == 0 && p_.base_splits > 0;
   int clones = 0;
@@ -267,7 +192,7 @@ void Grower::split(Stem& stem, Frame& frame, const glm::dvec3& at, int segment, 
     return std::pair{turned, angle / left};
   };
   for (int number = clones; number >= 1; --number) {
-    Stem clone = stem;
+    WeberPennStem clone = stem;
     const auto [turned, uncurve] = part(number);
     clone.frame = turned;
     clone.position = at;
@@ -284,12 +209,13 @@ void Grower::split(Stem& stem, Frame& frame, const glm::dvec3& at, int segment, 
   stem.uncurve += uncurve;
 }
 
-void Grower::grow(const Stem& given) {
-  Stem stem = given;
+void WeberPennGrower::grow(const WeberPennStem& given) {
+  WeberPennStem stem = given;
   const WeberPennLevel& l = level(stem.level);
   if (!(stem.length > 0)) return;
   last_joint_ = stem.joint;
   starts_ = true;
+  leaf_chance_ = chances_.leaves.at(stem.rng.key());
   bare_ = stem.level == 0 ? std::min(base_length(), 0.99 * stem.length) : 0;
   const double children = std::floor(children_of(stem) + 0.5);
   const bool is_fan = is_last(stem) && p_.Leaves < 0;
@@ -297,125 +223,24 @@ void Grower::grow(const Stem& given) {
   const double child_max =
       std::max(0.0, level(stem.level + 1).length +
                         spread(stem.rng.at("child_length"), level(stem.level + 1).length_v));
-  std::vector<Bud> buds;
+  buds_.clear();
   Frame frame = stem.frame;
   glm::dvec3 at = stem.position;
   for (int segment = stem.segment; segment < l.curve_res; ++segment) {
     if (segment > stem.segment) frame = swayed_at(stem, turned(stem, frame, segment), segment);
-    walk_segment(stem, frame, segment, at, buds);
+    walk_segment(stem, frame, segment, at);
     if (segment + 1 < l.curve_res) split(stem, frame, at, segment, last_joint_);
   }
-  if (is_fan) {
-    for (int i = 0; i < static_cast<int>(children); ++i)
-      buds.push_back({frame, at, last_joint_, stem.length, i});
+  for (int i = 0; is_fan && i < static_cast<int>(children); ++i) {
+    if (!wants_leaf(i)) continue;
+    put_bud(frame, at, stem.length, i);
+    buds_.back().joint = last_joint_;
   }
-  for (const Bud& bud : buds) {
-    if (is_last(stem)) {
-      leaf(stem, bud);
-    } else {
-      bear(stem, bud, child_max);
-    }
-  }
+  bear_all(stem, child_max);
 }
-
-Frame Grower::child_frame(const Stem& stem, const Bud& bud, const Rng& rng) const {
-  const WeberPennLevel& l = level(stem.level + 1);
-  const double vary = spread(rng.at("rotate"), l.rotate_v);
-  const double rotate =
-      l.rotate >= 0 ? bud.number * l.rotate + vary : (bud.number % 2) * 180.0 + l.rotate + vary;
-  double down = l.down_angle;
-  if (l.down_angle_v >= 0) {
-    down += spread(rng.at("down"), l.down_angle_v);
-  } else {
-    const double bare = stem.level == 0 ? base_length() : 0;
-    const double room = std::max(1e-9, stem.length - bare);
-    down += l.down_angle_v * (1 - 2 * shape_ratio(p_, 0, (stem.length - bud.offset) / room));
-  }
-  return pitch(roll(bud.frame, math::quick_sincos_degrees(rotate)), math::quick_sincos_degrees(down));
-}
-
-void Grower::bear(const Stem& stem, const Bud& bud, double child_max) {
-  const Rng parent =
-      stem.level == 0 ? chances_.branches.at(stem.segment == 0 ? 0 : stem.rng.key()) : stem.rng;
-  const Rng rng = parent.at("child").at(static_cast<std::uint64_t>(bud.number));
-  Stem child;
-  child.frame = child_frame(stem, bud, rng);
-  child.position = bud.position;
-  child.joint = bud.joint;
-  child.level = stem.level + 1;
-  child.offset = bud.offset;
-  child.parent_length = stem.length;
-  child.parent_length_max = child_max;
-  child.rng = rng;
-  child.carried_splits = rng.at("splits").uniform(-0.5, 0.5);
-  if (stem.level == 0) {
-    const double room = std::max(1e-9, trunk_length_ - base_length());
-    child.length =
-        stem.length * child_max * shape_ratio(p_, p_.crown_shape, (stem.length - bud.offset) / room);
-  } else {
-    child.length = child_max * (stem.length - 0.6 * bud.offset);
-  }
-  const double thickest = radius_at(stem, bud.offset / stem.length);
-  const auto thicken = [&] {
-    const double ratio = std::max(0.0, child.length / stem.length);
-    child.radius = std::min(thickest, stem.radius * math::pow(ratio, p_.RatioPower));
-  };
-  thicken();
-  if (p_.PruneRatio > 0) {
-    if (!prune(child)) return;
-    thicken();
-  }
-  if (child.length > 0) waiting_.push_back(child);
-}
-
-/// Shortens a stem to what stays within the envelope, as far as PruneRatio wants. False: nothing is left.
-bool Grower::prune(Stem& child) const {
-  const double whole = child.length;
-  Stem trial = child;
-  while (trial.length > prune_least * whole && !fits(trial)) trial.length *= prune_step;
-  const double fitted = trial.length > prune_least * whole ? trial.length : 0;
-  child.length = whole - (whole - fitted) * p_.PruneRatio;
-  return child.length > 1e-6 * whole;
-}
-
-bool Grower::fits(const Stem& stem) const {
-  glm::dvec3 at = stem.position;
-  Frame frame = stem.frame;
-  for (int segment = 0; segment < level(stem.level).curve_res; ++segment) {
-    if (segment > 0) frame = turned(stem, frame, segment);
-    at += frame.heading * segment_length(stem);
-    if (!is_in_envelope(p_, scale_, std::sqrt(at.x * at.x + at.z * at.z), at.y)) return false;
-  }
-  return true;
-}
-
-void Grower::leaf(const Stem& stem, const Bud& bud) {
-  const Rng rng = chances_.leaves.at(stem.rng.key()).at(static_cast<std::uint64_t>(bud.number));
-  if (!writer_.wants_leaf(rng.key())) return;
-  SkeletonWriter::Leaf leaf;
-  if (p_.Leaves < 0) {
-    const WeberPennLevel& l = level(stem.level + 1);
-    const double count = -p_.Leaves;
-    const double across = count > 1 ? l.rotate * (bud.number / (count - 1) - 0.5) : 0;
-    leaf.frame =
-        pitch(turn(bud.frame, math::quick_sincos_degrees(across)), math::quick_sincos_degrees(l.down_angle));
-  } else {
-    leaf.frame = child_frame(stem, bud, rng);
-  }
-  leaf.frame = to_light(leaf.frame, bud.position, p_.LeafBend);
-  if (leaf.frame.up.y < 0) leaf.frame = {leaf.frame.heading, -leaf.frame.left, -leaf.frame.up};
-  leaf.position = bud.position;
-  leaf.length = p_.LeafScale;
-  leaf.width = p_.LeafScale * p_.LeafScaleX;
-  leaf.joint = bud.joint;
-  leaf.key = rng.key();
-  writer_.add(leaf);
-}
-
-}  // namespace
 
 void grow_weber_penn(const TreeParams& params, const Chances& chances, SkeletonWriter& writer) {
-  Grower(params, chances, writer).run();
+  WeberPennGrower(params, chances, writer).run();
 }
 
 }  // namespace seedmesh::tree

@@ -103,32 +103,6 @@ bool is_in_envelope(const TreeParams& params, double scale, double aside, double
   return aside / scale < params.PruneWidth * shape_ratio(params, 8, ratio);
 }
 
-namespace {
-
-/// rotated() about the vertical.
-Frame turned_about_sky(const Frame& frame, const math::SinCos& angle) {
-  const auto turn = [&](const glm::dvec3& v) {
-    return glm::dvec3{v.x * angle.cos + v.z * angle.sin, v.y * angle.cos + v.y * (1 - angle.cos),
-                      v.z * angle.cos - v.x * angle.sin};
-  };
-  return {turn(frame.heading), turn(frame.left), turn(frame.up)};
-}
-
-}  // namespace
-
-// The section on leaf orientation of the paper.
-Frame to_light(Frame leaf, const glm::dvec3& position, double bend) {
-  if (bend == 0) return leaf;
-  double outward = math::quick_atan2(position.z, position.x) - math::quick_atan2(leaf.up.z, leaf.up.x);
-  if (outward > math::pi) outward -= 2 * math::pi;
-  if (outward < -math::pi) outward += 2 * math::pi;
-  leaf = turned_about_sky(leaf, math::quick_sincos(-bend * outward));
-  const double aside = std::sqrt(leaf.up.x * leaf.up.x + leaf.up.z * leaf.up.z);
-  if (aside < 1e-9) return leaf;
-  const glm::dvec3 level_axis = glm::dvec3{-leaf.up.z, 0, leaf.up.x} / aside;
-  return rotated(leaf, level_axis, math::quick_sincos(bend * math::quick_atan2(aside, leaf.up.y)));
-}
-
 double declination_of(const Frame& frame) {
   return math::degrees(math::quick_acos(std::clamp(frame.heading.y, -1.0, 1.0)));
 }

@@ -34,9 +34,6 @@ double flared(double flare, double z);
 /// that is `scale` high.
 bool is_in_envelope(const TreeParams& params, double scale, double aside, double height);
 
-/// A leaf's frame with its upper side turned outward and up by the share `bend`, at a place about the trunk.
-Frame to_light(Frame leaf, const glm::dvec3& position, double bend);
-
 /// Degrees between a frame's heading and the sky.
 double declination_of(const Frame& frame);
 

@@ -1,0 +1,169 @@
+#include "core/geom/apart.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/base/array.h"
+#include "core/base/wide.h"
+
+namespace seedmesh {
+namespace {
+
+// Points fall into cells so many reaches wide; nearer to a border than `margin` cells (a reach, and what
+// rounding may take from it) they are in both cells.
+constexpr float cell_width = 64, margin = 1.5F / cell_width;
+// Beyond so many cells along the diagonal a float could not tell where in its cell a point is.
+constexpr float most_cells = 20'000;
+// Bits for each point in the table of cells that are taken: few share one by chance.
+constexpr std::size_t bits_a_point = 16, least_bits = 1024, most_bits = std::size_t{1} << 30U;
+// So many points in one cell are a heap, and are not compared one by one.
+constexpr std::size_t most_in_a_cell = 16;
+// Of a slot: the point is near a border.
+constexpr std::uint32_t at_border = 0x80000000U;
+
+class Cells {
+ public:
+  Cells(const glm::vec3& low, float cell, int bits)
+      : low_(low), per_cell_(1 / cell), shift_(static_cast<std::uint32_t>(32 - bits)) {}
+
+  glm::vec3 place(const glm::vec3& point) const { return (point - low_) * per_cell_ + 1.0F; }
+
+  /// Below 2^bits, which is at most 2^31.
+  std::uint32_t slot(std::int32_t x, std::int32_t y, std::int32_t z) const {
+    std::uint32_t hash = static_cast<std::uint32_t>(x) * 0x9E3779B1U ^
+                         static_cast<std::uint32_t>(y) * 0x85EBCA77U ^
+                         static_cast<std::uint32_t>(z) * 0xC2B2AE3DU;
+    hash = (hash ^ hash >> 15U) * 0x2C1B3C6DU;
+    hash = (hash ^ hash >> 12U) * 0x297A2D39U;
+    return hash >> shift_;
+  }
+
+  /// The slot of each point's own cell, with the mark of those near a border.
+  void fill(std::span<const glm::vec3> points, std::uint32_t* out) const;
+
+  /// visit(slot, number) for every cell that is within the margin of a point.
+  template <class Visit>
+  void each(const glm::vec3& point, Visit visit) const {
+    const glm::vec3 at = place(point);
+    const glm::ivec3 low(at - margin), high(at + margin);
+    for (std::int32_t z = low.z; z <= high.z; ++z) {
+      for (std::int32_t y = low.y; y <= high.y; ++y) {
+        for (std::int32_t x = low.x; x <= high.x; ++x) {
+          visit(slot(x, y, z), static_cast<std::uint64_t>(x) | static_cast<std::uint64_t>(y) << 21U |
+                                   static_cast<std::uint64_t>(z) << 42U);
+        }
+      }
+    }
+  }
+
+ private:
+  glm::vec3 low_;
+  float per_cell_;
+  std::uint32_t shift_;
+};
+
+SEEDMESH_WIDE void Cells::fill(std::span<const glm::vec3> points, std::uint32_t* out) const {
+  const glm::vec3* point = points.data();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const glm::vec3 at = place(point[i]);
+    const auto x = static_cast<std::int32_t>(at.x), y = static_cast<std::int32_t>(at.y),
+               z = static_cast<std::int32_t>(at.z);
+    const float off = std::max({std::abs(at.x - static_cast<float>(x) - 0.5F),
+                                std::abs(at.y - static_cast<float>(y) - 0.5F),
+                                std::abs(at.z - static_cast<float>(z) - 0.5F)});
+    out[i] = slot(x, y, z) | (off > 0.5F - margin ? at_border : 0U);
+  }
+}
+
+class Bits {
+ public:
+  Bits(const Job& job, std::size_t count) : words_(job, count / 64, std::uint64_t{0}) {}
+  bool has(std::uint32_t i) const { return (words_[i / 64] >> i % 64 & 1U) != 0; }
+  void set(std::uint32_t i) { words_[i / 64] |= std::uint64_t{1} << i % 64; }
+
+ private:
+  Array<std::uint64_t> words_;
+};
+
+struct Member {
+  std::uint64_t cell;
+  std::uint32_t point;
+};
+
+/// Calls near(point) for those that are within the reach of another one in their cell.
+template <class Near>
+void find_near(std::vector<Member>& members, std::span<const glm::vec3> points, float reach, Near near) {
+  std::sort(members.begin(), members.end(), [](const Member& a, const Member& b) {
+    return a.cell != b.cell ? a.cell < b.cell : a.point < b.point;
+  });
+  const double squared = static_cast<double>(reach) * static_cast<double>(reach);
+  for (std::size_t first = 0, end = 0; first < members.size(); first = end) {
+    while (end < members.size() && members[end].cell == members[first].cell) ++end;
+    const bool is_heap = end - first > most_in_a_cell;
+    for (std::size_t i = first; i < end; ++i) {
+      for (std::size_t k = first; k < (is_heap ? first + 1 : i); ++k) {
+        const glm::dvec3 apart = glm::dvec3(points[members[i].point]) - glm::dvec3(points[members[k].point]);
+        if (!is_heap && glm::dot(apart, apart) > squared) continue;
+        near(members[i].point);
+        near(members[k].point);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Array<std::uint8_t> near_others(std::span<const glm::vec3> points, std::span<const std::uint8_t> twin,
+                                float reach, const Job& job) {
+  Array<std::uint8_t> found(job);
+  if (points.empty() || !(reach > 0)) return found;
+  const Box box = bounds_of(points);
+  const float cell = cell_width * reach;
+  if (!(glm::length(box.max - box.min) < most_cells * cell))
+    return Array<std::uint8_t>(job, points.size(), std::uint8_t{1});
+  int bits = 0;
+  while ((std::size_t{1} << bits) < std::clamp(bits_a_point * points.size(), least_bits, most_bits)) ++bits;
+  const Cells cells(box.min, cell, bits);
+  Array<std::uint32_t> slot(job, points.size());
+  cells.fill(points, slot.data());
+  // Cells that are taken, and those of them that are taken again.
+  Bits taken(job, std::size_t{1} << bits), shared(job, std::size_t{1} << bits);
+  const auto take = [&](std::uint32_t at, std::uint64_t) {
+    if (taken.has(at)) shared.set(at);
+    taken.set(at);
+  };
+  job.check();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (twin[i]) continue;
+    if (slot[i] & at_border) {
+      cells.each(points[i], take);
+    } else {
+      take(slot[i], 0);
+    }
+  }
+  std::vector<Member> members;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (twin[i] || (!(slot[i] & at_border) && !shared.has(slot[i]))) continue;
+    cells.each(points[i], [&](std::uint32_t at, std::uint64_t number) {
+      if (shared.has(at)) members.push_back({number, static_cast<std::uint32_t>(i)});
+    });
+  }
+  job.check();
+  Bits near(job, std::size_t{1} << bits);
+  bool any = false;
+  find_near(members, points, reach, [&](std::uint32_t point) {
+    any = true;
+    cells.each(points[point], [&](std::uint32_t at, std::uint64_t) { near.set(at); });
+  });
+  if (!any) return found;
+  found.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    bool is_near = false;
+    cells.each(points[i], [&](std::uint32_t at, std::uint64_t) { is_near = is_near || near.has(at); });
+    found[i] = is_near ? 1 : 0;
+  }
+  return found;
+}
+
+}  // namespace seedmesh

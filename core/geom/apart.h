@@ -1,0 +1,15 @@
+#pragma once
+/// Which points keep no distance from others?
+#include <span>
+
+#include "core/base/job.h"
+#include "core/model/mesh.h"
+
+namespace seedmesh {
+
+/// Marks with 1 all points that are within `reach` of another, twins apart, and some that are not; `twin` is
+/// 1 for points that stand where one before them does. Nothing where there are none. 10 ns a point.
+Array<std::uint8_t> near_others(std::span<const glm::vec3> points, std::span<const std::uint8_t> twin,
+                                float reach, const Job& job);
+
+}  // namespace seedmesh

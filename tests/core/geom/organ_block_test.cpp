@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "core/base/math.h"
+#include "core/base/rng.h"
+#include "core/geom/leaf_mesh.h"
+#include "core/geom/organs.h"
+#include "core/geom/tangents.h"
+
+namespace seedmesh {
+namespace {
+
+Job job_of() { return Job(1, Job::Options{}); }
+
+Organs organs_of(int count, const Job& job) {
+  Organs organs(job);
+  Rng rng(12);
+  for (int i = 0; i < count; ++i) {
+    Organ organ;
+    const auto number = [&](double low, double high) { return static_cast<float>(rng.uniform(low, high)); };
+    const glm::vec4 q{number(-1, 1), number(-1, 1), number(-1, 1), number(0.1, 1)};
+    const float size = std::sqrt(glm::dot(q, q));
+    organ.frame = glm::quat(q.w / size, q.x / size, q.y / size, q.z / size);
+    organ.position = {number(-3, 3), number(0, 5), number(-3, 3)};
+    const float length = number(0.05, 0.2);
+    organ.scale = i % 5 == 0 ? glm::vec3(length) : glm::vec3(number(0.02, 0.1), length, length);
+    organ.key = rng.next();
+    organs.organ.push_back(organ);
+  }
+  return organs;
+}
+
+FoliageOptions options_of(const Mesh& surface) {
+  FoliageOptions options;
+  options.surfaces = std::span(&surface, 1);
+  options.model_size = 8;
+  options.crown = glm::vec3(0, 2, 0);
+  options.tint = 0.2F;
+  return options;
+}
+
+template <class T>
+bool same_bytes(const Array<T>& a, const Array<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.bytes()) == 0;
+}
+
+Mesh leaf_of(LeafBuild build, const Job& job) {
+  LeafForm form;
+  form.build = build;
+  form.fold = 0.3;
+  form.droop = 0.4;
+  return leaf_mesh(form, job);
+}
+
+/// Surfaces with tangents are placed one by one.
+TEST(OrganBlock, PlacesLeavesToTheBitAsOneByOne) {
+  for (const LeafBuild build : {LeafBuild::card, LeafBuild::cross, LeafBuild::curved}) {
+    Job job = job_of();
+    const Mesh plain = leaf_of(build, job);
+    Mesh with_tangents = leaf_of(build, job);
+    with_tangents.tangent = Array<glm::vec4>(job, plain.position.size(), glm::vec4(1, 0, 0, 1));
+    const Organs organs = organs_of(45, job);
+    const auto blocks = place_organs(organs, options_of(plain), job);
+    const auto single = place_organs(organs, options_of(with_tangents), job);
+    ASSERT_EQ(blocks.size(), 1U);
+    ASSERT_EQ(single.size(), 1U);
+    EXPECT_TRUE(same_bytes(blocks[0].mesh.position, single[0].mesh.position));
+    EXPECT_TRUE(same_bytes(blocks[0].mesh.normal, single[0].mesh.normal));
+    EXPECT_TRUE(same_bytes(blocks[0].mesh.color, single[0].mesh.color));
+  }
+}
+
+TEST(OrganBlock, LeavesOutWhatStandsExactlyOnAnother) {
+  Job job = job_of();
+  const Mesh leaf = leaf_of(LeafBuild::card, job);
+  Organs organs = organs_of(40, job);
+  organs.organ.push_back(organs.organ[7]);
+  Organ turned = organs.organ[9];
+  turned.frame = organs.organ[10].frame;
+  organs.organ.push_back(turned);  // in the same place, but another way
+  const auto foliage = place_organs(organs, options_of(leaf), job);
+  EXPECT_EQ(foliage[0].mesh.position.size(), 41 * leaf.position.size());
+}
+
+Model model_of(Mesh mesh) {
+  Model model;
+  model.textures.push_back(std::make_shared<Image>());
+  model.materials.resize(1);
+  model.materials[0].normal_texture.texture = 0;
+  model.meshes.resize(1);
+  model.meshes[0].primitives.push_back({std::move(mesh), 0, {}});
+  return model;
+}
+
+TEST(PieceTangents, AreToTheBitThoseOfEachLeafByItself) {
+  Job job = job_of();
+  const Mesh leaf = leaf_of(LeafBuild::curved, job);
+  Organs organs = organs_of(50, job);
+  Model all = model_of(std::move(place_organs(organs, options_of(leaf), job)[0].mesh));
+  add_tangents(all, job);
+  const Array<glm::vec4>& tangents = all.meshes[0].primitives[0].mesh.tangent;
+  ASSERT_EQ(tangents.size(), 50 * leaf.position.size());
+  for (std::size_t i = 0; i < 50; ++i) {
+    Organs one(job);
+    one.organ.push_back(organs.organ[i]);
+    Model model = model_of(std::move(place_organs(one, options_of(leaf), job)[0].mesh));
+    add_tangents(model, job);
+    const Array<glm::vec4>& own = model.meshes[0].primitives[0].mesh.tangent;
+    EXPECT_EQ(std::memcmp(own.data(), tangents.data() + i * own.size(), own.bytes()), 0) << i;
+  }
+}
+
+}  // namespace
+}  // namespace seedmesh
