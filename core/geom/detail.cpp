@@ -30,10 +30,12 @@ Array<T> chosen(const Array<T>& values, const Array<std::uint32_t>& new_place, s
 int Detail::sides(int most) const { return std::max(3, shared_out(most, level_)); }
 int Detail::stacks(int most) const { return std::max(1, shared_out(most, level_)); }
 
-double Detail::every() const {
-  double every = 1;
-  for (int i = 0; i < level_; ++i) every *= 1.4;
-  return every;
+double Detail::organs() const { return 1 / std::sqrt(level_ + 1.0); }
+
+std::uint64_t Detail::bark(const Triangles& finest, std::uint64_t own_organs) const {
+  const auto part = static_cast<std::uint64_t>(level_) + 1;
+  const std::uint64_t all = (finest.bark + finest.organs) / part;
+  return std::max(all - std::min(all, own_organs), finest.bark / (part * part));
 }
 
 float thickest(const Limbs& limbs) {

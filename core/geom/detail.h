@@ -18,10 +18,14 @@ class Detail {
   /// Of `most` at level 0, rounded down; at least 3 and 1.
   int sides(int most) const;
   int stacks(int most) const;
-  /// Twigs thinner than this share of the thickest limb are left out.
-  float thinnest() const { return 0.015F * static_cast<float>(level_); }
-  /// One organ of so many stays, larger, for thin_out(): 1, 1.4, 1.96, 2.74, 3.84.
-  double every() const;
+  /// The share of the organs that stays: 1 / sqrt(level + 1).
+  double organs() const;
+  /// How many triangles the bark may have: with the organs 1 / (level + 1) of what the finest level has, as
+  /// far as these leave it room; at least 1 / (level + 1) squared of the finest bark.
+  struct Triangles {
+    std::uint64_t bark = 0, organs = 0;
+  };
+  std::uint64_t bark(const Triangles& finest, std::uint64_t own_organs) const;
   /// For LeafForm::coarseness.
   int coarseness() const { return level_; }
 
