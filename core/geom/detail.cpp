@@ -35,7 +35,7 @@ double Detail::organs() const { return 1 / std::sqrt(level_ + 1.0); }
 std::uint64_t Detail::bark(const Triangles& finest, std::uint64_t own_organs) const {
   const auto part = static_cast<std::uint64_t>(level_) + 1;
   const std::uint64_t all = (finest.bark + finest.organs) / part;
-  return std::max(all - std::min(all, own_organs), finest.bark / (part * part));
+  return std::max(all - std::min(all, own_organs), finest.bark / (2 * part));
 }
 
 float thickest(const Limbs& limbs) {

@@ -17,13 +17,14 @@ constexpr std::uint32_t most_score = 1023;
 constexpr double least_share = 0.4;
 // Limbs thinner than so many texels do not hide leaves.
 constexpr double least_width = 1.5;
-// A leaf grows in these steps, and by none where it would cover more ground that was bare than this share of
-// what it wins.
-constexpr float growths[] = {1.15F, 1.3F, 1.5F};
-constexpr int dear = 1;
+// How a leaf may grow, most first.
+constexpr float growths[] = {2.5F, 2.1F, 1.7F, 1.35F};
+
+// More views tell better what is missed from between them.
+constexpr std::size_t most_views = 12;
 
 int views_for(std::size_t organs) {
-  return static_cast<int>(std::clamp<std::size_t>(600'000 / std::max<std::size_t>(organs, 1), 2, 8));
+  return static_cast<int>(std::clamp<std::size_t>(600'000 / std::max<std::size_t>(organs, 1), 2, most_views));
 }
 
 Box box_of(const FoliageLevels::Plant& plant) {
@@ -79,38 +80,37 @@ FoliageLevels::FoliageLevels(const Plant& plant, Job& job)
   const Array<Organ>& organs = plant.organs.organ;
   for (std::size_t i = 0; i < organs.size(); ++i) {
     if (i % look_every == 0) job.check();
-    for (int view = 0; view < sights_.views(); ++view) {
-      cover(organs[i], view, 1, [&](std::size_t texel) {
-        std::uint16_t& count = leaves_[slot(view, texel)];
-        if (count < 0xFFFF) ++count;
-        sole(view, texel) ^= static_cast<std::uint32_t>(i);
-      });
-    }
+    cover(organs[i], 1, [&](std::size_t at) {
+      leaves_[at] = static_cast<std::uint16_t>(std::min(leaves_[at] + 1, 0xFFFF));
+      owner_[at] ^= static_cast<std::uint32_t>(i);
+    });
   }
   rank(plant.organs, job);
   owner_ = Array<std::uint32_t>(job);
 }
 
-/// Calls put(texel) once for each texel that the organ covers.
+/// Calls put(at) once for each texel of each view that the organ covers.
 template <class Put>
-void FoliageLevels::cover(const Organ& organ, int view, float growth, const Put& put) {
+void FoliageLevels::cover(const Organ& organ, float growth, const Put& put) {
   const Corners& corners = footprints_[organ.surface];
   const glm::mat3 axes = glm::mat3_cast(organ.frame);
   const glm::vec3 scale = growth * organ.scale;
-  const std::uint32_t stamp = ++stamps_;
-  if (stamp == 0) {
-    for (std::uint32_t& each : stamp_) each = 0;
-    stamps_ = 1;
-  }
-  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-    glm::dvec2 seen[3];
-    for (std::size_t k = 0; k < 3; ++k)
-      seen[k] = sights_.at(view, organ.position + axes * (scale * corners[i + k]));
-    Sights::fill(seen[0], seen[1], seen[2], [&](std::size_t texel) {
-      if (stamp_[texel] == stamps_) return;
-      stamp_[texel] = stamps_;
-      put(texel);
-    });
+  placed_.clear();
+  for (const glm::vec3& corner : corners) placed_.push_back(organ.position + axes * (scale * corner));
+  for (int view = 0; view < sights_.views(); ++view) {
+    if (++stamps_ == 0) {
+      for (std::uint32_t& each : stamp_) each = 0;
+      stamps_ = 1;
+    }
+    const std::size_t first = slot(view, 0);
+    for (std::size_t i = 0; i + 2 < placed_.size(); i += 3) {
+      Sights::fill(sights_.at(view, placed_[i]), sights_.at(view, placed_[i + 1]),
+                   sights_.at(view, placed_[i + 2]), [&](std::size_t texel) {
+                     if (stamp_[texel] == stamps_) return;
+                     stamp_[texel] = stamps_;
+                     put(first + texel);
+                   });
+    }
   }
 }
 
@@ -169,15 +169,11 @@ void FoliageLevels::rank(const Organs& organs, Job& job) {
   Array<std::uint16_t> left(job);
   left.append(leaves_.span());
   Array<std::uint32_t> score(job, count, 0U), order(job, count), next(job, count, none);
-  const auto is_sole = [&](int view, std::size_t texel) {
-    return left[slot(view, texel)] == 1 && limbs_[slot(view, texel)] == 0;
-  };
+  const auto is_sole = [&](std::size_t at) { return left[at] == 1 && limbs_[at] == 0; };
   for (std::uint32_t i = 0; i < count; ++i) {
     if (i % look_every == 0) job.check();
     order[i] = i;
-    for (int view = 0; view < sights_.views(); ++view) {
-      cover(organs.organ[i], view, 1, [&](std::size_t texel) { score[i] += is_sole(view, texel) ? 1 : 0; });
-    }
+    cover(organs.organ[i], 1, [&](std::size_t at) { score[i] += is_sole(at) ? 1 : 0; });
   }
   Array<std::uint64_t> hash(job, count);
   for (std::uint32_t i = 0; i < count; ++i) hash[i] = hash_of(organs.organ[i], i);
@@ -203,31 +199,32 @@ void FoliageLevels::rank(const Organs& organs, Job& job) {
       continue;
     }
     rank_[organ] = taken++;
-    for (int view = 0; view < sights_.views(); ++view) {
-      cover(organs.organ[organ], view, 1, [&](std::size_t texel) {
-        std::uint16_t& covering = left[slot(view, texel)];
-        sole(view, texel) ^= organ;
-        if (--covering == 1 && limbs_[slot(view, texel)] == 0) ++score[sole(view, texel)];
-      });
-    }
+    cover(organs.organ[organ], 1, [&](std::size_t at) {
+      owner_[at] ^= organ;
+      // Where more were than can be counted, nothing is missed.
+      if (left[at] != 0xFFFF && --left[at] == 1 && limbs_[at] == 0) ++score[owner_[at]];
+    });
   }
 }
 
+/// By how much the organ grows so that it wins most of what has lost its leaves, less what it would cover
+/// that was bare.
 float FoliageLevels::best_growth(const Organ& organ, const Array<std::uint8_t>& covered) {
+  const auto won_by = [&](float growth, int dear) {
+    int won = 0;
+    cover(organ, growth, [&](std::size_t at) {
+      if (covered[at] == 0) won += leaves_[at] > 0 ? 1 : -dear;
+    });
+    return won;
+  };
   float best = 1;
+  if (won_by(growths[0], 0) == 0) return best;  // most have nothing to win
   int most = 0;
   for (const float growth : growths) {
-    int won = 0;
-    for (int view = 0; view < sights_.views(); ++view) {
-      cover(organ, view, growth, [&](std::size_t texel) {
-        const std::size_t at = slot(view, texel);
-        if (covered[at] == 0) won += leaves_[at] > 0 ? 1 : -dear;
-      });
-    }
-    if (won > most) {
-      most = won;
-      best = growth;
-    }
+    const int won = won_by(growth, 1);
+    if (won <= most) continue;
+    most = won;
+    best = growth;
   }
   return best;
 }
@@ -239,8 +236,7 @@ Organs FoliageLevels::keep(const Organs& organs, double share, Job& job) {
   Array<std::uint8_t> covered(job, leaves_.size(), std::uint8_t{0});
   for (std::size_t i = 0; i < covered.size(); ++i) covered[i] = limbs_[i] > 0 ? 1 : 0;
   const auto draw = [&](const Organ& organ, float growth) {
-    for (int view = 0; view < sights_.views(); ++view)
-      cover(organ, view, growth, [&](std::size_t texel) { covered[slot(view, texel)] = 1; });
+    cover(organ, growth, [&](std::size_t at) { covered[at] = 1; });
   };
   for (std::size_t i = 0; i < organs.organ.size(); ++i) {
     if (rank_[i] < gone) continue;

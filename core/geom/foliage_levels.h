@@ -39,8 +39,7 @@ class FoliageLevels {
   using Corners = std::vector<glm::vec3>;  ///< three a triangle
 
   template <class Put>
-  void cover(const Organ& organ, int view, float growth, const Put& put);
-  std::uint32_t& sole(int view, std::size_t texel) { return owner_[slot(view, texel)]; }
+  void cover(const Organ& organ, float growth, const Put& put);
   static std::size_t slot(int view, std::size_t texel) {
     return static_cast<std::size_t>(view) * Sights::texels + texel;
   }
@@ -50,6 +49,7 @@ class FoliageLevels {
 
   Sights sights_;
   std::vector<Corners> footprints_;        ///< by surface
+  Corners placed_;                         ///< those of the organ that is looked at
   Array<std::uint16_t> leaves_, limbs_;    ///< how many cover each texel of each view
   Array<std::uint32_t> owner_;             ///< organs that cover it, their numbers combined by exclusive or
   Array<std::uint32_t> stamp_;             ///< of a texel: who covered it last, so that nobody does so twice

@@ -38,20 +38,21 @@ class Sights {
   /// Calls put(texel) for each texel whose middle lies in the triangle.
   template <class Put>
   static void fill(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const Put& put) {
-    const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    if (area == 0) return;
-    const double sign = area < 0 ? -1 : 1;
-    const int left = first(std::min({a.x, b.x, c.x})), right = last(std::max({a.x, b.x, c.x}));
-    const int low = first(std::min({a.y, b.y, c.y})), high = last(std::max({a.y, b.y, c.y}));
-    const auto side = [&](const glm::dvec2& from, const glm::dvec2& to, const glm::dvec2& p) {
-      return sign * ((to.x - from.x) * (p.y - from.y) - (to.y - from.y) * (p.x - from.x)) >= 0;
-    };
-    for (int y = low; y <= high; ++y) {
-      for (int x = left; x <= right; ++x) {
-        const glm::dvec2 p(x + 0.5, y + 0.5);
-        if (side(a, b, p) && side(b, c, p) && side(c, a, p))
-          put(static_cast<std::size_t>(y) * across + static_cast<std::size_t>(x));
-      }
+    const int low = first(std::min({a.y, b.y, c.y})), high = first(std::max({a.y, b.y, c.y}));
+    for (int y = low; y < high; ++y) {
+      const double middle = y + 0.5;
+      double left = across, right = 0;
+      const auto cross = [&](const glm::dvec2& from, const glm::dvec2& to) {
+        if ((from.y <= middle) == (to.y <= middle)) return;
+        const double x = from.x + (middle - from.y) * (to.x - from.x) / (to.y - from.y);
+        left = std::min(left, x);
+        right = std::max(right, x);
+      };
+      cross(a, b);
+      cross(b, c);
+      cross(c, a);
+      for (int x = first(left), end = first(right); x < end; ++x)
+        put(static_cast<std::size_t>(y) * across + static_cast<std::size_t>(x));
     }
   }
 
@@ -59,12 +60,9 @@ class Sights {
   struct View {
     glm::dvec3 right, up;
   };
-  /// The first and last texels whose middles are within.
+  /// The first texel whose middle is not below.
   static int first(double low) {
-    return math::to_int32(std::clamp(std::ceil(low - 0.5), 0.0, static_cast<double>(across)));
-  }
-  static int last(double high) {
-    return math::to_int32(std::clamp(std::floor(high - 0.5), -1.0, across - 1.0));
+    return static_cast<int>(std::ceil(std::clamp(low - 0.5, 0.0, static_cast<double>(across))));
   }
 
   std::vector<View> views_;

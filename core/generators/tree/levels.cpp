@@ -7,7 +7,7 @@ namespace seedmesh::tree {
 namespace {
 
 // Of the width of a card, what its picture fills.
-constexpr float filled_card = 0.8F;
+constexpr float filled_card = 0.7F;
 
 }  // namespace
 
