@@ -32,10 +32,9 @@ int Detail::stacks(int most) const { return std::max(1, shared_out(most, level_)
 
 double Detail::organs() const { return 1 / std::sqrt(level_ + 1.0); }
 
-std::uint64_t Detail::bark(const Triangles& finest, std::uint64_t own_organs) const {
-  const auto part = static_cast<std::uint64_t>(level_) + 1;
-  const std::uint64_t all = (finest.bark + finest.organs) / part;
-  return std::max(all - std::min(all, own_organs), finest.bark / (2 * part));
+std::uint64_t Detail::bark(std::uint64_t finest, double seen) const {
+  const double share = seen * organs() + (1 - seen) / (2 * (level_ + 1.0));
+  return static_cast<std::uint64_t>(static_cast<double>(finest) * std::min(share, 1.0));
 }
 
 float thickest(const Limbs& limbs) {

@@ -20,12 +20,9 @@ class Detail {
   int stacks(int most) const;
   /// The share of the organs that stays: 1 / sqrt(level + 1).
   double organs() const;
-  /// How many triangles the bark may have: with the organs 1 / (level + 1) of what the finest level has, as
-  /// far as these leave it room; at least 1 / (level + 1) squared of the finest bark.
-  struct Triangles {
-    std::uint64_t bark = 0, organs = 0;
-  };
-  std::uint64_t bark(const Triangles& finest, std::uint64_t own_organs) const;
+  /// How many triangles the bark may have, the finest level having `finest`: 1 / sqrt(level + 1) of what is
+  /// seen of it, the share `seen`, and half of 1 / (level + 1) of what is hidden by leaves.
+  std::uint64_t bark(std::uint64_t finest, double seen) const;
   /// For LeafForm::coarseness.
   int coarseness() const { return level_; }
 

@@ -18,7 +18,9 @@ constexpr double least_share = 0.4;
 // Limbs thinner than so many texels do not hide leaves.
 constexpr double least_width = 1.5;
 // How a leaf may grow, most first.
-constexpr float growths[] = {2.5F, 2.1F, 1.7F, 1.35F};
+constexpr float growths[] = {2.4F, 1.8F, 1.35F};
+// One view of so many is asked about that.
+constexpr int growth_views = 2;
 
 // More views tell better what is missed from between them.
 constexpr std::size_t most_views = 12;
@@ -73,45 +75,49 @@ FoliageLevels::FoliageLevels(const Plant& plant, Job& job)
       leaves_(job, slot(sights_.views(), 0), std::uint16_t{0}),
       limbs_(job, slot(sights_.views(), 0), std::uint16_t{0}),
       owner_(job, slot(sights_.views(), 0), 0U),
-      stamp_(job, Sights::texels, 0U),
+      stamp_(job, slot(sights_.views(), 0), 0U),
       rank_(job, plant.organs.organ.size(), none) {
   for (const Mesh& surface : plant.surfaces) footprints_.push_back(footprint_of(surface, plant.filled));
   draw_limbs(plant.limbs, job);
   const Array<Organ>& organs = plant.organs.organ;
   for (std::size_t i = 0; i < organs.size(); ++i) {
     if (i % look_every == 0) job.check();
-    cover(organs[i], 1, [&](std::size_t at) {
+    cover(organs[i], [&](std::size_t at) {
       leaves_[at] = static_cast<std::uint16_t>(std::min(leaves_[at] + 1, 0xFFFF));
       owner_[at] ^= static_cast<std::uint32_t>(i);
     });
   }
   rank(plant.organs, job);
   owner_ = Array<std::uint32_t>(job);
+  stamp_ = Array<std::uint32_t>(job);
 }
 
-/// Calls put(at) once for each texel of each view that the organ covers.
+/// Calls put(at) for each texel of every `step`th view that the organ covers, for some more than once.
 template <class Put>
-void FoliageLevels::cover(const Organ& organ, float growth, const Put& put) {
+void FoliageLevels::draw(const Organ& organ, float growth, const Put& put, int step) {
   const Corners& corners = footprints_[organ.surface];
   const glm::mat3 axes = glm::mat3_cast(organ.frame);
   const glm::vec3 scale = growth * organ.scale;
   placed_.clear();
   for (const glm::vec3& corner : corners) placed_.push_back(organ.position + axes * (scale * corner));
-  for (int view = 0; view < sights_.views(); ++view) {
-    if (++stamps_ == 0) {
-      for (std::uint32_t& each : stamp_) each = 0;
-      stamps_ = 1;
-    }
+  for (int view = 0; view < sights_.views(); view += step) {
     const std::size_t first = slot(view, 0);
     for (std::size_t i = 0; i + 2 < placed_.size(); i += 3) {
       Sights::fill(sights_.at(view, placed_[i]), sights_.at(view, placed_[i + 1]),
-                   sights_.at(view, placed_[i + 2]), [&](std::size_t texel) {
-                     if (stamp_[texel] == stamps_) return;
-                     stamp_[texel] = stamps_;
-                     put(first + texel);
-                   });
+                   sights_.at(view, placed_[i + 2]), [&](std::size_t texel) { put(first + texel); });
     }
   }
+}
+
+/// The same, once for each texel.
+template <class Put>
+void FoliageLevels::cover(const Organ& organ, const Put& put) {
+  const std::uint32_t stamp = ++stamps_;
+  draw(organ, 1, [&](std::size_t at) {
+    if (stamp_[at] == stamp) return;
+    stamp_[at] = stamp;
+    put(at);
+  });
 }
 
 /// Counts thick limbs, internode by internode; the next one of a limb does not count where it meets the last.
@@ -173,7 +179,7 @@ void FoliageLevels::rank(const Organs& organs, Job& job) {
   for (std::uint32_t i = 0; i < count; ++i) {
     if (i % look_every == 0) job.check();
     order[i] = i;
-    cover(organs.organ[i], 1, [&](std::size_t at) { score[i] += is_sole(at) ? 1 : 0; });
+    cover(organs.organ[i], [&](std::size_t at) { score[i] += is_sole(at) ? 1 : 0; });
   }
   Array<std::uint64_t> hash(job, count);
   for (std::uint32_t i = 0; i < count; ++i) hash[i] = hash_of(organs.organ[i], i);
@@ -199,7 +205,7 @@ void FoliageLevels::rank(const Organs& organs, Job& job) {
       continue;
     }
     rank_[organ] = taken++;
-    cover(organs.organ[organ], 1, [&](std::size_t at) {
+    cover(organs.organ[organ], [&](std::size_t at) {
       owner_[at] ^= organ;
       // Where more were than can be counted, nothing is missed.
       if (left[at] != 0xFFFF && --left[at] == 1 && limbs_[at] == 0) ++score[owner_[at]];
@@ -209,19 +215,15 @@ void FoliageLevels::rank(const Organs& organs, Job& job) {
 
 /// By how much the organ grows so that it wins most of what has lost its leaves, less what it would cover
 /// that was bare.
-float FoliageLevels::best_growth(const Organ& organ, const Array<std::uint8_t>& covered) {
-  const auto won_by = [&](float growth, int dear) {
-    int won = 0;
-    cover(organ, growth, [&](std::size_t at) {
-      if (covered[at] == 0) won += leaves_[at] > 0 ? 1 : -dear;
-    });
-    return won;
-  };
+float FoliageLevels::best_growth(const Organ& organ, const Array<std::int8_t>& gain) {
+  bool has_gain = false;
+  draw(organ, growths[0], [&](std::size_t at) { has_gain = has_gain || gain[at] > 0; }, growth_views);
+  if (!has_gain) return 1;  // as of most
   float best = 1;
-  if (won_by(growths[0], 0) == 0) return best;  // most have nothing to win
   int most = 0;
   for (const float growth : growths) {
-    const int won = won_by(growth, 1);
+    int won = 0;
+    draw(organ, growth, [&](std::size_t at) { won += gain[at]; }, growth_views);
     if (won <= most) continue;
     most = won;
     best = growth;
@@ -233,22 +235,24 @@ Organs FoliageLevels::keep(const Organs& organs, double share, Job& job) {
   const auto gone = static_cast<std::uint32_t>((1 - std::max(share, least_share)) *
                                                static_cast<double>(organs.organ.size()));
   Organs kept(job);
-  Array<std::uint8_t> covered(job, leaves_.size(), std::uint8_t{0});
-  for (std::size_t i = 0; i < covered.size(); ++i) covered[i] = limbs_[i] > 0 ? 1 : 0;
-  const auto draw = [&](const Organ& organ, float growth) {
-    cover(organ, growth, [&](std::size_t at) { covered[at] = 1; });
+  // Of each texel: 1 where a leaf is missed, 0 where something is, -1 where nothing ever was.
+  Array<std::int8_t> gain(job, leaves_.size());
+  for (std::size_t i = 0; i < gain.size(); ++i)
+    gain[i] = static_cast<std::int8_t>(limbs_[i] > 0 ? 0 : leaves_[i] > 0 ? 1 : -1);
+  const auto cover_with = [&](const Organ& organ, float growth) {
+    draw(organ, growth, [&](std::size_t at) { gain[at] = 0; });
   };
   for (std::size_t i = 0; i < organs.organ.size(); ++i) {
     if (rank_[i] < gone) continue;
     kept.organ.push_back(organs.organ[i]);
-    draw(kept.organ.back(), 1);
+    cover_with(kept.organ.back(), 1);
   }
   for (std::size_t i = 0; i < kept.organ.size(); ++i) {
     if (i % look_every == 0) job.check();
     Organ& organ = kept.organ[i];
-    const float growth = best_growth(organ, covered);
+    const float growth = best_growth(organ, gain);
     if (growth == 1) continue;
-    draw(organ, growth);
+    cover_with(organ, growth);
     organ.scale *= growth;
   }
   return kept;

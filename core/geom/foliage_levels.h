@@ -39,20 +39,22 @@ class FoliageLevels {
   using Corners = std::vector<glm::vec3>;  ///< three a triangle
 
   template <class Put>
-  void cover(const Organ& organ, float growth, const Put& put);
+  void draw(const Organ& organ, float growth, const Put& put, int step = 1);
+  template <class Put>
+  void cover(const Organ& organ, const Put& put);
   static std::size_t slot(int view, std::size_t texel) {
     return static_cast<std::size_t>(view) * Sights::texels + texel;
   }
   void draw_limbs(const Limbs& limbs, Job& job);
   void rank(const Organs& organs, Job& job);
-  float best_growth(const Organ& organ, const Array<std::uint8_t>& covered);
+  float best_growth(const Organ& organ, const Array<std::int8_t>& gain);
 
   Sights sights_;
   std::vector<Corners> footprints_;        ///< by surface
   Corners placed_;                         ///< those of the organ that is looked at
   Array<std::uint16_t> leaves_, limbs_;    ///< how many cover each texel of each view
   Array<std::uint32_t> owner_;             ///< organs that cover it, their numbers combined by exclusive or
-  Array<std::uint32_t> stamp_;             ///< of a texel: who covered it last, so that nobody does so twice
+  Array<std::uint32_t> stamp_;             ///< of each: who covered it last, so that nobody does so twice
   std::uint32_t stamps_ = 0;
   Array<std::uint32_t> rank_;              ///< of each organ: how many go before it
 };

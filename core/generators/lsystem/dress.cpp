@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::uint64_t bytes_a_vertex = 32;  // position, normal, uv
 constexpr std::uint64_t bytes_a_triangle = 12;
+constexpr int attempts = 4;  ///< at a level of as many triangles as it may have
 
 /// What looks alike becomes one primitive.
 void choose_looks(Skeleton& skeleton, const Wardrobe& wardrobe) {
@@ -80,11 +81,11 @@ std::vector<Bark> coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, 
                                Job& job) {
   CoarseOptions coarse = wanted;
   CoarseLimbs kept;
-  for (int attempt = 0; attempt < 3; ++attempt) {
+  for (int attempt = 0; attempt < attempts; ++attempt) {
     kept = coarsen(limbs, coarse, job);
     // Stacks have more triangles than the tubes that were counted.
     const std::uint64_t made = skin_triangles(kept.limbs, options);
-    if (made <= wanted.triangles + wanted.triangles / 20) break;
+    if (made <= wanted.triangles + wanted.triangles / 100) break;
     coarse.triangles = coarse.triangles * wanted.triangles / made;
   }
   Array<std::uint16_t> bones(job);
@@ -111,7 +112,7 @@ void add_bark(Model& model, Limbs limbs, std::span<const std::uint16_t> bones, c
     MeshGroup group{"bark_LOD" + std::to_string(level), {}};
     const SkinOptions coarser = skin_options(params, contours, detail);
     CoarseOptions coarse;
-    coarse.triangles = detail.bark({triangles, 0}, 0);
+    coarse.triangles = detail.bark(triangles, 1);
     coarse.sides = coarser.sides;
     coarse.finest_sides = options.sides;
     coarse.power = 0.5;

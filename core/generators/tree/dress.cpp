@@ -20,6 +20,8 @@ namespace {
 
 // Of the thickest limb: thinner ones do not grow together with their parent at the coarser levels.
 constexpr float thinnest_joint = 0.1F;
+// At a level of as many triangles as it may have.
+constexpr int attempts = 4;
 
 /// Stems that split without an angle go on as one, and those that turn right round meet themselves.
 bool may_overlap(const TreeParams& params) {
@@ -78,7 +80,7 @@ Mesh coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, GraftOptions 
   const float most = thickest(limbs);
   options.pointed = coarse.pointed;
   Mesh mesh;
-  for (int attempt = 0; attempt < 3; ++attempt) {
+  for (int attempt = 0; attempt < attempts; ++attempt) {
     const CoarseLimbs kept = coarsen(limbs, coarse, job);
     Array<std::uint16_t> bones(job);
     if (motion.growth) {
@@ -90,7 +92,7 @@ Mesh coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, GraftOptions 
     mesh = bark_of(kept.limbs, options, bones.span(), wind ? &*wind : nullptr, job);
     // Forks and collars have more triangles than the tubes that were counted.
     const std::uint64_t made = mesh.elements();
-    if (made <= wanted.triangles + wanted.triangles / 20) break;
+    if (made <= wanted.triangles + wanted.triangles / 100) break;
     coarse.triangles = coarse.triangles * wanted.triangles / made;
   }
   return mesh;
@@ -113,7 +115,7 @@ void add_bark(Model& model, const Limbs& limbs, const TreeParams& params, const 
     } else {
       const GraftOptions options = graft_options(params, detail);
       CoarseOptions coarse;
-      coarse.triangles = levels.bark(level, triangles);
+      coarse.triangles = detail.bark(triangles, levels.seen);
       coarse.sides = options.sides;
       coarse.finest_sides = finest.sides;
       coarse.pointed = true;

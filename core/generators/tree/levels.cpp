@@ -1,6 +1,7 @@
 #include "core/generators/tree/levels.h"
 
-#include "core/base/math.h"
+#include <cmath>
+
 #include "core/generators/tree/leaves.h"
 
 namespace seedmesh::tree {
@@ -12,23 +13,23 @@ constexpr float filled_card = 0.7F;
 }  // namespace
 
 TreeLevels::TreeLevels(const Skeleton& skeleton, const TreeParams& params, Job& job) {
-  const int levels = job.demand().lods;
-  const std::size_t count = skeleton.organs.organ.size();
-  if (levels < 2 || count == 0 || !has_leaves(params)) return;
-  for (int level = 0; level < levels; ++level) {
-    const double stay = job.demand().share_organs ? 1 : Detail(level).organs();
-    leaves[level] = static_cast<std::uint64_t>(
-        math::to_int64(stay * static_cast<double>(count * leaf_of(params, level, job).elements())));
-  }
+  if (job.demand().lods < 2 || skeleton.organs.organ.empty() || !has_leaves(params)) return;
   const Mesh coarsest = leaf_of(params, most_levels - 1, job);
   const float filled = build_of(params) == TreeBuild::mesh ? 1.0F : filled_card;
-  foliage.emplace(
-      FoliageLevels::Plant{skeleton.organs, std::span(&coarsest, 1), skeleton.limbs, filled}, job);
-  shown = foliage->shown(skeleton.limbs, job);
-}
-
-std::uint64_t TreeLevels::bark(int level, std::uint64_t finest) const {
-  return Detail(level).bark({finest, leaves[0]}, leaves[level]);
+  const Limbs& limbs = skeleton.limbs;
+  foliage.emplace(FoliageLevels::Plant{skeleton.organs, std::span(&coarsest, 1), limbs, filled}, job);
+  shown = foliage->shown(limbs, job);
+  double all = 0, free = 0;
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    const std::uint32_t parent = limbs.parent[i];
+    if (parent == Limbs::none) continue;
+    const glm::vec3 step = limbs.position[i] - limbs.position[parent];
+    const auto area = static_cast<double>(std::sqrt(glm::dot(step, step)) *
+                                          (limbs.base_radius[i] + limbs.radius[i]));
+    all += area;
+    free += area * static_cast<double>(shown[i]);
+  }
+  seen = all > 0 ? free / all : 1;
 }
 
 }  // namespace seedmesh::tree

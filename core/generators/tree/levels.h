@@ -12,12 +12,9 @@ struct TreeLevels {
   /// Of a skeleton whose leaves have their size (fit_leaves). Looks at nothing where one level is wanted.
   TreeLevels(const Skeleton& skeleton, const TreeParams& params, Job& job);
 
-  /// How many triangles the bark of a level may have, the finest having `finest`.
-  std::uint64_t bark(int level, std::uint64_t finest) const;
-
   std::optional<FoliageLevels> foliage;  ///< where there are leaves
   Array<float> shown;                    ///< of each joint; empty: all of it is seen
-  std::uint64_t leaves[most_levels] = {};  ///< triangles of the leaves of each level
+  double seen = 1;                       ///< of the bark, by its area
 };
 
 }  // namespace seedmesh::tree
