@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/math.h"
+#include "core/base/rng.h"
 #include "core/geom/chains.h"
 
 namespace seedmesh {
@@ -20,6 +21,8 @@ constexpr int halvings = 40;
 constexpr float price_range = 1e-12F;
 // What is hidden counts a little all the same: it is seen through gaps, and when leaves have gone.
 constexpr float least_shown = 0.08F;
+// By how much chance makes a limb dearer or cheaper at most.
+constexpr float most_favour = 0.2F;
 // An end thinner than this share of the ring before it is a point.
 constexpr float pointed_share = 0.5F;
 
@@ -75,6 +78,11 @@ class Coarsening {
     return static_cast<float>(round(options_.finest_sides, options_.finest_power) /
                               round(options_.sides, options_.power));
   }
+  /// Limbs that are alike do not go all at one price.
+  float favour_of(std::uint32_t head) const {
+    const std::uint64_t hash = key_at(limbs_.key.empty() ? head : limbs_.key[head], 0xFA70);
+    return 1 + most_favour * (static_cast<float>(hash >> 40U) * 0x1p-23F - 1);
+  }
   float shown(std::uint32_t joint) const {
     return options_.shown.empty() ? 1.0F : std::max(least_shown, options_.shown[joint]);
   }
@@ -120,7 +128,8 @@ void Coarsening::read_limb(std::uint32_t head) {
     area += static_cast<double>(std::sqrt(glm::dot(step, step)) * width * shown(joint));
     add_station(joint, limbs_.radius[joint], 0);
   }
-  area_.push_back(static_cast<float>(area));
+  const float favour = favour_of(head);
+  area_.push_back(favour * static_cast<float>(area));
   const std::size_t end = stations_.size();
   stations_.back().worth = forever;
   for (std::size_t i = begin + longest_piece; i < end; i += longest_piece) stations_[i].worth = forever;
@@ -131,6 +140,7 @@ void Coarsening::read_limb(std::uint32_t head) {
     for (next = i + 1; stations_[next].worth != forever;) ++next;
     simplify(i, next);
   }
+  for (std::size_t i = begin; i < end; ++i) stations_[i].worth *= favour;
 }
 
 /// For another reason than its place.

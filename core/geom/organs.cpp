@@ -24,18 +24,6 @@ struct Group {
   std::vector<std::uint32_t> organs;
 };
 
-std::uint64_t hash_of(const Organ& organ) {
-  const float numbers[] = {organ.frame.x,    organ.frame.y,    organ.frame.z, organ.frame.w, organ.position.x,
-                           organ.position.y, organ.position.z, organ.scale.x, organ.scale.y, organ.scale.z};
-  std::uint64_t hash = organ.surface;
-  for (const float number : numbers) {
-    std::uint32_t word;
-    std::memcpy(&word, &number, sizeof(word));
-    hash = key_at(hash, word);
-  }
-  return hash;
-}
-
 /// Hashes seen so far, in a table with open addresses.
 class Seen {
  public:
@@ -279,20 +267,6 @@ std::vector<FoliagePlaces> organ_places(const Organs& organs, const FoliageOptio
     all.push_back(std::move(places));
   }
   return all;
-}
-
-void thin_out(Organs& organs, double every) {
-  if (every <= 1) return;
-  const auto grow = static_cast<float>(std::min(std::sqrt(every), 2.0));
-  std::size_t kept = 0;
-  for (const Organ& organ : organs.organ) {
-    // By its place alone: what stays at one level is part of what stays at the finer ones.
-    if (Rng(hash_of(organ)).unit() * every >= 1) continue;
-    Organ& larger = organs.organ[kept++];
-    larger = organ;
-    larger.scale *= grow;
-  }
-  organs.organ.resize(kept);
 }
 
 }  // namespace seedmesh

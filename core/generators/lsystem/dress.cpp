@@ -107,12 +107,13 @@ void add_bark(Model& model, Limbs limbs, std::span<const std::uint16_t> bones, c
   add_meshes(model, "bark", skin(limbs, options, job), Sides::one, wardrobe);
   if (static_cast<int>(model.nodes.size()) == finest) return;
   const std::uint64_t triangles = triangles_of(model.meshes.back().primitives);
+  std::uint64_t before = triangles;
   for (int level = 1; level < job.demand().lods; ++level) {
     const Detail detail(level);
     MeshGroup group{"bark_LOD" + std::to_string(level), {}};
     const SkinOptions coarser = skin_options(params, contours, detail);
     CoarseOptions coarse;
-    coarse.triangles = detail.bark(triangles, 1);
+    coarse.triangles = std::min(detail.bark(triangles, 1), Detail::fewer_than(before));
     coarse.sides = coarser.sides;
     coarse.finest_sides = options.sides;
     coarse.power = 0.5;
@@ -124,6 +125,7 @@ void add_bark(Model& model, Limbs limbs, std::span<const std::uint16_t> bones, c
       group.primitives.push_back({std::move(part.mesh), wardrobe.material(part.color, Sides::one), {}});
     }
     if (group.primitives.empty()) return;
+    before = triangles_of(group.primitives);
     model.nodes.back().lods.push_back(static_cast<int>(model.meshes.size()));
     model.meshes.push_back(std::move(group));
   }

@@ -36,7 +36,7 @@ bool may_overlap(const TreeParams& params) {
 GraftOptions graft_options(const TreeParams& params, const Detail& detail) {
   GraftOptions options;
   const double seen = shares_at(params).sides;
-  options.sides = std::max(3, math::to_int32(detail.sides(sides_of(params)) * seen));
+  options.sides = std::max(3, math::to_int32(detail.bark_sides(sides_of(params)) * seen));
   options.weld = params.weld;
   options.thinnest = static_cast<float>(params.twig_radius);
   options.wrap = has_bark_picture(params);
@@ -105,7 +105,7 @@ void add_bark(Model& model, const Limbs& limbs, const TreeParams& params, const 
   node.parent = 0;
   const int material = add_bark_look(model, params, job);
   const GraftOptions finest = graft_options(params, Detail(0));
-  std::uint64_t triangles = 0;
+  std::uint64_t triangles = 0, before = 0;  // of the finest level, and of the one before
   for (int level = 0; level < job.demand().lods; ++level) {
     const Detail detail(level);
     Mesh mesh;
@@ -115,7 +115,7 @@ void add_bark(Model& model, const Limbs& limbs, const TreeParams& params, const 
     } else {
       const GraftOptions options = graft_options(params, detail);
       CoarseOptions coarse;
-      coarse.triangles = detail.bark(triangles, levels.seen);
+      coarse.triangles = std::min(detail.bark(triangles, levels.seen), Detail::fewer_than(before));
       coarse.sides = options.sides;
       coarse.finest_sides = finest.sides;
       coarse.pointed = true;
@@ -123,6 +123,7 @@ void add_bark(Model& model, const Limbs& limbs, const TreeParams& params, const 
       coarse.bones = motion.bones();
       mesh = coarser_bark(limbs, coarse, options, motion, job);
     }
+    before = mesh.elements();
     if (mesh.position.empty()) continue;
     const int number = static_cast<int>(model.meshes.size());
     model.meshes.push_back({level == 0 ? "bark" : "bark_LOD" + std::to_string(level), {}});
