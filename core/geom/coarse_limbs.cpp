@@ -163,7 +163,7 @@ void Coarsening::simplify(std::size_t first, std::size_t last) {
     const Station &a = stations_[piece.first], &b = stations_[piece.last];
     const glm::vec3 chord = b.position - a.position;
     const float squared = glm::dot(chord, chord);
-    float length = 0, worst = -1;
+    float length = 0, worst = 0, farthest = -1;
     std::size_t at = piece.first + 1;
     for (std::size_t i = piece.first + 1; i <= piece.last; ++i) {
       const Station& each = stations_[i];
@@ -174,14 +174,15 @@ void Coarsening::simplify(std::size_t first, std::size_t last) {
       const float share = squared > 0 ? std::clamp(glm::dot(from, chord) / squared, 0.0F, 1.0F) : 0.0F;
       const glm::vec3 off = from - chord * share;
       const float between = a.radius + (b.radius - a.radius) * share;
-      // Off by more than its width, a limb is missed at one place and too much at another.
       const float next = limbs_.base_radius[stations_[i + 1].joint];
-      const float error = std::min(std::sqrt(glm::dot(off, off)), 2 * each.radius) +
-                          std::max(std::abs(each.radius - between), std::abs(next - between));
-      if (error * shown(each.joint) > worst) {
-        worst = error * shown(each.joint);
+      const float thicker = std::max(std::abs(each.radius - between), std::abs(next - between));
+      const float away = std::sqrt(glm::dot(off, off)), seen = shown(each.joint);
+      if ((away + thicker) * seen > farthest) {
+        farthest = (away + thicker) * seen;
         at = i;
       }
+      // Off by more than its width, a limb is missed at one place and too much at another.
+      worst = std::max(worst, (std::min(away, 2 * each.radius) + thicker) * seen);
     }
     const float worth = std::min(piece.most, worst * length);
     stations_[at].worth = worth;

@@ -148,6 +148,8 @@ int sides_of(const TreeParams& params) {
   return params.model == TreeModel::proctree ? std::max(3, params.mSegments) : params.sides;
 }
 
+GraftOptions bark_options(const TreeParams& params) { return graft_options(params, Detail(0)); }
+
 Model dress(Skeleton skeleton, const TreeParams& params, Job& job) {
   Model model;
   model.name = "tree";

@@ -36,6 +36,7 @@ SkeletonWriter::SkeletonWriter(Skeleton& skeleton, Job& job, double density)
 
 std::uint32_t SkeletonWriter::add(const Joint& joint) {
   modules_.spend();
+  if (limbs_.size() >= end_joints_) throw Enough{};
   if (limbs_.size() >= most_joints_) {
     Job::refuse("the tree has more than " + std::to_string(most_joints_) +
                 " internodes, whose bark would pass the limit of triangles");
@@ -53,6 +54,7 @@ std::uint32_t SkeletonWriter::add(const Joint& joint) {
 
 bool SkeletonWriter::wants_leaf(std::uint64_t key) {
   shapes_.spend();
+  if (leaves_ >= end_leaves_) throw Enough{};
   if (leaves_ >= most_leaves_) {
     Job::refuse("the tree has more than " + std::to_string(most_leaves_) +
                 " leaves, which would pass the limit of triangles");
