@@ -94,11 +94,11 @@ class Coarsening {
   Job& job_;
   Chains chains_;
   float thickest_ = 0;
-  std::vector<Station> stations_;         ///< limb by limb, from where each begins
-  std::vector<std::size_t> first_;        ///< station of each limb; one more at the end
-  std::vector<float> area_;               ///< of each limb, what is seen of it
-  std::vector<std::uint8_t> kept_;        ///< of each limb, at the last price that was counted
-  std::vector<std::uint8_t> is_fork_;     ///< of each joint: limbs that are kept leave it
+  std::vector<Station> stations_;      ///< limb by limb, from where each begins
+  std::vector<std::size_t> first_;     ///< station of each limb; one more at the end
+  std::vector<float> area_;            ///< of each limb, what is seen of it
+  std::vector<std::uint8_t> kept_;     ///< of each limb, at the last price that was counted
+  std::vector<std::uint8_t> is_fork_;  ///< of each joint: limbs that are kept leave it
 };
 
 void Coarsening::read() {

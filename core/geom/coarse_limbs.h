@@ -20,13 +20,13 @@ struct CoarseOptions {
   double power = 0.3;           ///< corners fall with this power of the radius,
   double finest_power = 0.3;    ///< and at the finest level with this one
   bool even = true;             ///< more than three corners are an even number
-  /// skin() makes a ring at every joint, has different barks and cross-sections along a limb: joints stay that
-  /// limbs leave, where colours change, and all of limbs with contours. Otherwise a joint that limbs leave moves
-  /// onto the straight line, and its limbs with it.
+  /// skin() makes a ring at every joint, has different barks and cross-sections along a limb: joints stay
+  /// that limbs leave, where colours change, and all of limbs with contours. Otherwise a joint that limbs
+  /// leave moves onto the straight line, and its limbs with it.
   bool for_skin = false;
-  bool pointed = false;                         ///< thin ends have no ring (GraftOptions::pointed)
-  std::span<const float> shown = {};            ///< of each joint, how much of it is seen; empty: all
-  std::span<const std::uint16_t> bones = {};    ///< of each joint; where they change, joints stay
+  bool pointed = false;                       ///< thin ends have no ring (GraftOptions::pointed)
+  std::span<const float> shown = {};          ///< of each joint, how much of it is seen; empty: all
+  std::span<const std::uint16_t> bones = {};  ///< of each joint; where they change, joints stay
 };
 
 struct CoarseLimbs {

@@ -131,7 +131,8 @@ void FoliageLevels::draw_limbs(const Limbs& limbs, Job& job) {
                  end = scale * static_cast<double>(limbs.radius[i]);
     if (2 * std::max(base, end) < least_width) continue;
     for (int view = 0; view < sights_.views(); ++view) {
-      const glm::dvec2 from = sights_.at(view, limbs.position[parent]), to = sights_.at(view, limbs.position[i]);
+      const glm::dvec2 from = sights_.at(view, limbs.position[parent]),
+                       to = sights_.at(view, limbs.position[i]);
       const glm::dvec2 along = to - from;
       const double length = std::sqrt(glm::dot(along, along));
       if (!(length > 0)) continue;
@@ -154,7 +155,8 @@ Array<float> FoliageLevels::shown(const Limbs& limbs, Job& job) const {
     if (parent == Limbs::none) continue;
     std::uint32_t looked = 0, free = 0;
     for (int view = 0; view < sights_.views(); ++view) {
-      const glm::dvec2 from = sights_.at(view, limbs.position[parent]), to = sights_.at(view, limbs.position[i]);
+      const glm::dvec2 from = sights_.at(view, limbs.position[parent]),
+                       to = sights_.at(view, limbs.position[i]);
       const glm::dvec2 along = to - from;
       const int steps = 1 + std::min(Sights::across, math::to_int32(std::sqrt(glm::dot(along, along))));
       for (int step = 0; step < steps; ++step) {
@@ -183,9 +185,8 @@ void FoliageLevels::rank(const Organs& organs, Job& job) {
   }
   Array<std::uint64_t> hash(job, count);
   for (std::uint32_t i = 0; i < count; ++i) hash[i] = hash_of(organs.organ[i], i);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return hash[a] != hash[b] ? hash[a] < hash[b] : a < b;
-  });
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return hash[a] != hash[b] ? hash[a] < hash[b] : a < b; });
   std::vector<std::uint32_t> first(most_score + 1, none);
   const auto put = [&](std::uint32_t organ) {
     std::uint32_t& head = first[std::min(score[organ], most_score)];
@@ -216,14 +217,19 @@ void FoliageLevels::rank(const Organs& organs, Job& job) {
 /// By how much the organ grows so that it wins most of what has lost its leaves, less what it would cover
 /// that was bare.
 float FoliageLevels::best_growth(const Organ& organ, const Array<std::int8_t>& gain) {
-  bool has_gain = false;
-  draw(organ, growths[0], [&](std::size_t at) { has_gain = has_gain || gain[at] > 0; }, growth_views);
-  if (!has_gain) return 1;  // as of most
   float best = 1;
   int most = 0;
   for (const float growth : growths) {
     int won = 0;
-    draw(organ, growth, [&](std::size_t at) { won += gain[at]; }, growth_views);
+    bool has_gain = false;
+    draw(
+        organ, growth,
+        [&](std::size_t at) {
+          won += gain[at];
+          has_gain = has_gain || gain[at] > 0;
+        },
+        growth_views);
+    if (!has_gain) break;  // as of most: nothing to win with the greatest
     if (won <= most) continue;
     most = won;
     best = growth;

@@ -18,8 +18,8 @@ namespace seedmesh {
 /// are. Memory: 12 bytes a texel and view, 16 an organ.
 class FoliageLevels {
  public:
-  /// `surfaces`: by Organ::surface, the mesh of each; borrowed only while this is made. `filled`: the share of
-  /// a mesh's width that its picture fills. `limbs` cover leaves, if they are thick.
+  /// `surfaces`: by Organ::surface, the mesh of each; borrowed only while this is made. `filled`: the share
+  /// of a mesh's width that its picture fills. `limbs` cover leaves, if they are thick.
   struct Plant {
     const Organs& organs;
     std::span<const Mesh> surfaces;
@@ -50,13 +50,13 @@ class FoliageLevels {
   float best_growth(const Organ& organ, const Array<std::int8_t>& gain);
 
   Sights sights_;
-  std::vector<Corners> footprints_;        ///< by surface
-  Corners placed_;                         ///< those of the organ that is looked at
-  Array<std::uint16_t> leaves_, limbs_;    ///< how many cover each texel of each view
-  Array<std::uint32_t> owner_;             ///< organs that cover it, their numbers combined by exclusive or
-  Array<std::uint32_t> stamp_;             ///< of each: who covered it last, so that nobody does so twice
+  std::vector<Corners> footprints_;      ///< by surface
+  Corners placed_;                       ///< those of the organ that is looked at
+  Array<std::uint16_t> leaves_, limbs_;  ///< how many cover each texel of each view
+  Array<std::uint32_t> owner_;           ///< organs that cover it, their numbers combined by exclusive or
+  Array<std::uint32_t> stamp_;           ///< of each: who covered it last, so that nobody does so twice
   std::uint32_t stamps_ = 0;
-  Array<std::uint32_t> rank_;              ///< of each organ: how many go before it
+  Array<std::uint32_t> rank_;  ///< of each organ: how many go before it
 };
 
 }  // namespace seedmesh

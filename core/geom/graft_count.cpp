@@ -77,7 +77,9 @@ class Counter {
     for (std::size_t point = 1; point + 1 < axis_.point.size(); ++point) {
       if (openings_[axis_.joint[point]] > 0) least = std::max(least, least_opened_sides);
     }
-    const auto sides = [&](float radius) { return static_cast<std::uint64_t>(std::max(least, corners(radius))); };
+    const auto sides = [&](float radius) {
+      return static_cast<std::uint64_t>(std::max(least, corners(radius)));
+    };
     std::uint64_t below = has_loop ? static_cast<std::uint64_t>(loop_sides(head)) : sides(axis_.radius[0]);
     std::uint64_t triangles = has_loop ? 0 : below;  // the end that is closed
     const auto ring = [&](float radius) {
@@ -93,7 +95,8 @@ class Counter {
       const float between = last_radius + (axis_.radius[point + 1] - last_radius) * share;
       const bool turns = glm::dot(heading, axis_.along[point]) < straight;
       const std::uint32_t opening = openings_[axis_.joint[point]];
-      if (opening == 0 && !turns && std::abs(between - axis_.radius[point]) < radius_off * axis_.radius[point])
+      if (opening == 0 && !turns &&
+          std::abs(between - axis_.radius[point]) < radius_off * axis_.radius[point])
         continue;
       ring(axis_.radius[point]);
       triangles += opening % fork_bit;

@@ -26,7 +26,8 @@ class Sights {
   glm::dvec2 at(int view, const glm::vec3& point) const {
     const glm::dvec3 off = glm::dvec3(point) - middle_;
     const View& from = views_[static_cast<std::size_t>(view)];
-    return {0.5 * across + scale_ * glm::dot(off, from.right), 0.5 * across + scale_ * glm::dot(off, from.up)};
+    return {0.5 * across + scale_ * glm::dot(off, from.right),
+            0.5 * across + scale_ * glm::dot(off, from.up)};
   }
 
   /// The texel at a place in a picture, or `texels` outside of it.

@@ -26,8 +26,8 @@ std::uint64_t index_bytes(std::uint64_t vertices, std::uint64_t triangles) {
 Estimate estimate_of(Skeleton skeleton, const TreeParams& params, Job& job) {
   Estimate estimate;
   const std::uint64_t bark = graft_triangles(skeleton.limbs, bark_options(params), job);
-  const auto vertices = static_cast<std::uint64_t>(
-      math::to_int64(vertices_a_triangle * static_cast<double>(bark)));
+  const auto vertices =
+      static_cast<std::uint64_t>(math::to_int64(vertices_a_triangle * static_cast<double>(bark)));
   const double texels = static_cast<double>(job.demand().textures) * job.demand().textures;
   const std::uint64_t tangent = texels > 0 ? tangent_bytes : 0;
   const bool is_plain = params.bark == TreeBark::none;
@@ -42,8 +42,8 @@ Estimate estimate_of(Skeleton skeleton, const TreeParams& params, Job& job) {
                         corners = count * leaf.position.size();
     estimate.triangles += leaves;
     const bool has_picture = wears_picture(params);
-    estimate.bytes += corners * (vertex_bytes + color_bytes + (has_picture ? tangent : 0)) +
-                      index_bytes(corners, leaves);
+    estimate.bytes +=
+        corners * (vertex_bytes + color_bytes + (has_picture ? tangent : 0)) + index_bytes(corners, leaves);
     if (has_picture) pictures += leaf_picture * texels;
   }
   estimate.bytes += static_cast<std::uint64_t>(math::to_int64(pictures));

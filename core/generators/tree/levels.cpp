@@ -24,8 +24,8 @@ TreeLevels::TreeLevels(const Skeleton& skeleton, const TreeParams& params, Job& 
     const std::uint32_t parent = limbs.parent[i];
     if (parent == Limbs::none) continue;
     const glm::vec3 step = limbs.position[i] - limbs.position[parent];
-    const auto area = static_cast<double>(std::sqrt(glm::dot(step, step)) *
-                                          (limbs.base_radius[i] + limbs.radius[i]));
+    const auto area =
+        static_cast<double>(std::sqrt(glm::dot(step, step)) * (limbs.base_radius[i] + limbs.radius[i]));
     all += area;
     free += area * static_cast<double>(shown[i]);
   }

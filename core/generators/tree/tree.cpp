@@ -23,8 +23,7 @@ std::uint64_t seed_of(const TreeParams& params, std::uint64_t seed) {
 }
 
 /// With leaves up to the share `density`. Throws SkeletonWriter::Enough beyond so many joints or leaves.
-Skeleton grow(const TreeParams& params, double density, Job& job,
-              std::size_t most = 0) {
+Skeleton grow(const TreeParams& params, double density, Job& job, std::size_t most = 0) {
   job.progress("derive", 0);
   Skeleton skeleton(job);
   SkeletonWriter writer(skeleton, job, density);

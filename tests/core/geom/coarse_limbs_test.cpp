@@ -78,8 +78,7 @@ TEST(Coarsen, MakesAboutAsManyTrianglesAsAreWanted) {
     options.power = options.finest_power = 0.5;
     options.even = false;
     const CoarseLimbs kept = coarsen(limbs, options, job);
-    for (const Bark& bark : skin(kept.limbs, {.adapt = true}, job))
-      EXPECT_THAT(faults(bark.mesh), IsEmpty());
+    for (const Bark& bark : skin(kept.limbs, {.adapt = true}, job)) EXPECT_THAT(faults(bark.mesh), IsEmpty());
     EXPECT_LE(skin_triangles(kept.limbs, {.adapt = true}), skin_triangles(limbs, {.adapt = true})) << seed;
   }
 }
