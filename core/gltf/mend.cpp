@@ -110,6 +110,7 @@ void mend_normals(Part& part, const std::vector<std::size_t>& inward, Job& job) 
   Array<std::uint16_t> narrow(job, corners.size());
   for (std::size_t i = 0; i < corners.size(); ++i) narrow[i] = static_cast<std::uint16_t>(corners[i]);
   part.index->slice = keep(std::move(narrow));
+  part.index->component = Component::u16;
 }
 
 }  // namespace seedmesh::gltf
