@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/math.h"
+
 namespace seedmesh {
 namespace {
+
+constexpr double bark_power = 0.3, seen_power = 0.75;
 
 /// most / sqrt(level + 1), rounded down exactly.
 int shared_out(int most, int level) {
@@ -28,12 +32,16 @@ Array<T> chosen(const Array<T>& values, const Array<std::uint32_t>& new_place, s
 }  // namespace
 
 int Detail::sides(int most) const { return std::max(3, shared_out(most, level_)); }
+int Detail::bark_sides(int most) const {
+  return std::max(3, math::to_int32(most * math::pow(level_ + 1.0, -bark_power)));
+}
 int Detail::stacks(int most) const { return std::max(1, shared_out(most, level_)); }
 
-double Detail::every() const {
-  double every = 1;
-  for (int i = 0; i < level_; ++i) every *= 1.4;
-  return every;
+double Detail::organs() const { return 1 / std::sqrt(level_ + 1.0); }
+
+std::uint64_t Detail::bark(std::uint64_t finest, double seen) const {
+  const double share = seen * math::pow(level_ + 1.0, -seen_power) + (1 - seen) / (2 * (level_ + 1.0));
+  return static_cast<std::uint64_t>(static_cast<double>(finest) * std::min(share, 1.0));
 }
 
 float thickest(const Limbs& limbs) {
@@ -42,20 +50,6 @@ float thickest(const Limbs& limbs) {
     if (limbs.parent[i] != Limbs::none) most = std::max({most, limbs.radius[i], limbs.base_radius[i]});
   }
   return most;
-}
-
-Limbs prune(const Limbs& limbs, float thinnest, Job& job, Array<std::uint16_t>* bone) {
-  const std::size_t size = limbs.size();
-  Array<std::uint8_t> stays(job, size, std::uint8_t{0});
-  for (std::size_t i = size; i-- > 0;) {  // children before parents
-    if (i % 4096 == 0) job.check();
-    if (limbs.parent[i] == Limbs::none) continue;
-    if (std::max(limbs.radius[i], limbs.base_radius[i]) >= thinnest) stays[i] = 1;
-    if (stays[i]) stays[limbs.parent[i]] = 1;
-  }
-  KeptLimbs kept = keep(limbs, stays, job);
-  if (bone) *bone = chosen(*bone, kept.new_place, static_cast<std::uint32_t>(kept.limbs.size()), job);
-  return std::move(kept.limbs);
 }
 
 KeptLimbs keep(const Limbs& limbs, const Array<std::uint8_t>& stays, Job& job) {

@@ -18,20 +18,21 @@ class Detail {
   /// Of `most` at level 0, rounded down; at least 3 and 1.
   int sides(int most) const;
   int stacks(int most) const;
-  /// Twigs thinner than this share of the thickest limb are left out.
-  float thinnest() const { return 0.015F * static_cast<float>(level_); }
-  /// One organ of so many stays, larger, for thin_out(): 1, 1.4, 1.96, 2.74, 3.84.
-  double every() const;
+  /// Of a tree's bark, whose thin limbs have few at every level: most / (level + 1)^0.3.
+  int bark_sides(int most) const;
+  /// The share of the organs that stays: 1 / sqrt(level + 1).
+  double organs() const;
+  /// How many triangles the bark may have, the finest level having `finest`: 1 / (level + 1)^0.75 of what is
+  /// seen of it, the share `seen`, and half of 1 / (level + 1) of what is hidden by leaves.
+  std::uint64_t bark(std::uint64_t finest, double seen) const;
+  /// The most that a level may have after one of so many.
+  static std::uint64_t fewer_than(std::uint64_t triangles) { return triangles * 17 / 20; }
   /// For LeafForm::coarseness.
   int coarseness() const { return level_; }
 
  private:
   int level_;
 };
-
-/// Limbs without internodes that are thinner than `thinnest` at both ends and carry none that is not. What is
-/// left keeps its order. `bone`, where it is not null, is of each joint, and becomes that of what is left.
-Limbs prune(const Limbs& limbs, float thinnest, Job& job, Array<std::uint16_t>* bone = nullptr);
 
 /// The joints whose `stays` is not 0, in their order, and the new number of each old joint (`none` of those
 /// that go). Who stays must have a parent that does.

@@ -18,11 +18,13 @@
 namespace seedmesh {
 
 struct GraftOptions {
-  int sides = 8;          ///< corners of the thickest limb, 3..64; thinner ones have fewer, down to 3
-  bool weld = true;       ///< false: all limbs are closed tubes
-  float thinnest = 0;     ///< limbs of a smaller radius where they begin are left out
-  int lobes = 0;          ///< ribs around every limb of order 0
-  float lobe_depth = 0;   ///< as a share of the radius, below 1
+  int sides = 8;             ///< corners of the thickest limb, 3..64; thinner ones have fewer, down to 3
+  bool weld = true;          ///< false: all limbs are closed tubes
+  float thinnest = 0;        ///< limbs of a smaller radius where they begin are left out
+  float thinnest_joint = 0;  ///< thinner limbs, where they begin, stand closed inside their parent
+  bool pointed = false;      ///< a thin end is the point of the last ring's cone and has no ring of its own
+  int lobes = 0;             ///< ribs around every limb of order 0
+  float lobe_depth = 0;      ///< as a share of the radius, below 1
   bool overlaps = false;  ///< limbs may lie on each other, piece by piece: such are found and left to skin()
   float v_scale = 1;      ///< texture lengths a metre along the limb; u is in metres round it
   /// For pictures that repeat: u goes a whole number of times from 0 to 1 round each limb, once a metre of

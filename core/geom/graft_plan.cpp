@@ -16,6 +16,8 @@ constexpr float fork_share = 0.55F, least_fork_share = 0.4F;
 // Rings are kept where the axis has turned by more than 9 degrees since the last, or the radius is off by so
 // much.
 constexpr float straight = 0.9877F, radius_off = 0.05F;
+// An end thinner than this share of the ring before it may be a point.
+constexpr float pointed_share = 0.5F;
 // Joints of one whorl may differ by this share of their extent and still lie on one ring.
 constexpr float same_ring = 0.2F;
 
@@ -124,7 +126,7 @@ bool GraftPlan::put(const GraftAxis& axis, std::size_t at_point, Opening& wanted
   return true;
 }
 
-void GraftPlan::complete(const GraftAxis& axis, bool has_first) {
+void GraftPlan::complete(const GraftAxis& axis, bool has_first, bool pointed) {
   std::vector<Band>& all = all_;
   all.clear();
   std::size_t next = 0;
@@ -173,7 +175,10 @@ void GraftPlan::complete(const GraftAxis& axis, bool has_first) {
     high = at;
   }
   take_openings(tip_);
-  all.push_back(plain(tip_, axis.pieces() - 1, false));
+  const float last_at = all.empty() ? start_ : all.back().at;
+  const float last_radius = axis.radius_at(last_at, axis.piece_at(last_at, 0));
+  if (!pointed || axis.radius.back() > pointed_share * last_radius)
+    all.push_back(plain(tip_, axis.pieces() - 1, false));
   std::swap(band, all);
 }
 

@@ -26,8 +26,8 @@ struct GraftPlan {
   /// Asks for a way out of the axis' point for a child. False: it must be closed.
   bool open(const GraftAxis& axis, std::size_t at_point, Bud bud);
   /// Adds the rings that bends and changes of radius need, one beside the beginning where asked, and the
-  /// last.
-  void complete(const GraftAxis& axis, bool has_first);
+  /// last, unless the limb is `pointed`: then where it is thick.
+  void complete(const GraftAxis& axis, bool has_first, bool pointed = false);
 
  private:
   bool put(const GraftAxis& axis, std::size_t at_point, Opening& wanted);

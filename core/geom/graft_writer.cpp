@@ -166,7 +166,7 @@ void GraftWriter::write_limb(std::uint32_t limb) {
               bulge_share * (1 - circles_[static_cast<std::size_t>(2 * sides)][1].x));
   if (context_.trust[limb] <= Trust::detached) plan_children(start);
   if (!plan_.opening.empty()) least_sides_ = least_opened_sides;
-  plan_.complete(axis_, has_loop && sides_for(axis_.radius[0]) > 4);
+  plan_.complete(axis_, has_loop && sides_for(axis_.radius[0]) > 4, context_.options.pointed);
   if (has_loop) {
     begin_loop(loop);
   } else {
@@ -210,7 +210,7 @@ void GraftWriter::plan_children(float start) {
       if (context_.trust[child] != Trust::full) continue;
       Bud bud = bud_of(child);
       if (bud.length == 0 || bud.radius < least_opened * context_.scale.thinnest ||
-          bud.radius < context_.options.thinnest)
+          bud.radius < std::max(context_.options.thinnest, context_.options.thinnest_joint))
         continue;
       bud.sides = corners_for(bud.radius);
       bud.phases = &phases_;

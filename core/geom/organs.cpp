@@ -26,18 +26,6 @@ struct Group {
   std::vector<std::uint32_t> organs;
 };
 
-std::uint64_t hash_of(const Organ& organ) {
-  const float numbers[] = {organ.frame.x,    organ.frame.y,    organ.frame.z, organ.frame.w, organ.position.x,
-                           organ.position.y, organ.position.z, organ.scale.x, organ.scale.y, organ.scale.z};
-  std::uint64_t hash = organ.surface;
-  for (const float number : numbers) {
-    std::uint32_t word;
-    std::memcpy(&word, &number, sizeof(word));
-    hash = key_at(hash, word);
-  }
-  return hash;
-}
-
 /// Hashes seen so far, in a table with open addresses.
 class Seen {
  public:
@@ -68,7 +56,7 @@ std::uint64_t word_of(float a, float b) {
   return words[0] | std::uint64_t{words[1]} << 32U;
 }
 
-/// Of all that places an organ; quicker than hash_of.
+/// Of all that places an organ.
 std::uint64_t place_of(const Organ& organ) {
   std::uint64_t hash = mix(word_of(organ.position.x, organ.position.y) + organ.surface);
   hash = mix(hash ^ word_of(organ.position.z, organ.frame.w));
@@ -349,20 +337,6 @@ std::vector<FoliagePlaces> organ_places(const Organs& organs, const FoliageOptio
     all.push_back(std::move(places));
   }
   return all;
-}
-
-void thin_out(Organs& organs, double every) {
-  if (every <= 1) return;
-  const auto grow = static_cast<float>(std::min(std::sqrt(every), 2.0));
-  std::size_t kept = 0;
-  for (const Organ& organ : organs.organ) {
-    // By its place alone: what stays at one level is part of what stays at the finer ones.
-    if (Rng(hash_of(organ)).unit() * every >= 1) continue;
-    Organ& larger = organs.organ[kept++];
-    larger = organ;
-    larger.scale *= grow;
-  }
-  organs.organ.resize(kept);
 }
 
 }  // namespace seedmesh

@@ -53,8 +53,4 @@ std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& op
 /// The same organs as transforms, for formats that share one mesh among nodes.
 std::vector<FoliagePlaces> organ_places(const Organs& organs, const FoliageOptions& options, Job& job);
 
-/// Keeps one organ of `every` by the hash of its place, scaled by the root of `every` so that their area
-/// stays (at most doubled: larger leaves are seen to be larger).
-void thin_out(Organs& organs, double every);
-
 }  // namespace seedmesh

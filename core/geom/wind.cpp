@@ -16,15 +16,20 @@ float fraction(std::uint64_t hash) { return static_cast<float>(hash >> 40U) * 0x
 
 }  // namespace
 
-WindField::WindField(const Limbs& limbs, Job& job, const WindField* finest)
-    : limbs_(limbs), sway_(job, limbs.size(), glm::vec2(0)) {
-  for (std::size_t i = 0; i < limbs.size() && !finest; ++i) {
+WindField::WindField(const Limbs& limbs, std::span<const std::uint32_t> was, const WindField& finest,
+                     Job& job)
+    : limbs_(limbs),
+      sway_(job, limbs.size()),
+      height_(finest.height_),
+      most_(finest.most_),
+      thickest_(finest.thickest_) {
+  for (std::size_t i = 0; i < limbs.size(); ++i) sway_[i] = finest.sway_[was[i]];
+}
+
+WindField::WindField(const Limbs& limbs, Job& job) : limbs_(limbs), sway_(job, limbs.size(), glm::vec2(0)) {
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
     height_ = std::max(height_, limbs.position[i].y);
     if (limbs.parent[i] != Limbs::none) thickest_ = std::max(thickest_, limbs.base_radius[i]);
-  }
-  if (finest) {
-    height_ = finest->height_;
-    thickest_ = finest->thickest_;
   }
   for (std::size_t i = 0; i < limbs.size(); ++i) {
     if (i % 4096 == 0) job.check();
@@ -41,7 +46,6 @@ WindField::WindField(const Limbs& limbs, Job& job, const WindField* finest)
     sway_[i].x += std::sqrt(glm::dot(step, step) * (thickest_ / thickness));
     most_ = std::max(most_, sway_[i].x);
   }
-  if (finest) most_ = finest->most_;
   for (glm::vec2& each : sway_) each.x = std::min(1.0F, each.x / most_);
 }
 

@@ -8,6 +8,8 @@
 /// long and thin, and hands its bend on to what grows from it; the phase is one for a branch with all that it
 /// carries. So the weights change continuously over joints, and nothing tears. Bark has no flutter; a leaf
 /// moves whole with its limb and flutters from 0 at its base to 1 at its tip.
+#include <span>
+
 #include "core/geom/limbs.h"
 #include "core/model/mesh.h"
 
@@ -15,9 +17,10 @@ namespace seedmesh {
 
 class WindField {
  public:
-  /// Linear time; 8 bytes a joint. Borrows the limbs. `finest`: the field of the same plant before twigs were
-  /// left out of the limbs, so that both agree.
-  WindField(const Limbs& limbs, Job& job, const WindField* finest = nullptr);
+  /// Linear time; 8 bytes a joint. Borrows the limbs.
+  WindField(const Limbs& limbs, Job& job);
+  /// Of a coarser level: `was` is of each joint which one of the finest level it was, so that both agree.
+  WindField(const Limbs& limbs, std::span<const std::uint32_t> was, const WindField& finest, Job& job);
 
   /// The bend (0..1) and phase at a point of the internode of `joint`; (0, 0) without a joint.
   glm::vec2 at(std::uint32_t joint, const glm::vec3& point) const;

@@ -5,12 +5,11 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "core/base/array.h"
+#include "core/gltf/mend.h"
 
 namespace seedmesh::gltf {
 namespace {
@@ -19,13 +18,6 @@ constexpr std::size_t look_every = 65'536;
 constexpr int normal_bits = 10;
 constexpr int finest_exponent = -14;  ///< of texture coordinates: a 16th of a texel of 1,024
 constexpr int mantissa_bits = 23;
-
-template <class T>
-T load(const Slice& slice, std::size_t i) {
-  T value;
-  std::memcpy(&value, slice.bytes.data() + i * sizeof(T), sizeof(T));
-  return value;
-}
 
 /// A signed integer that stands for -1..1.
 std::int16_t signed_of(double value, int bits) {
@@ -55,21 +47,14 @@ void quantize_positions(Column& column, const Grid& grid, Job& job) {
 
 /// Unit vectors of three lanes, or of four where the last is a sign.
 void quantize_directions(Column& column, Job& job) {
-  using Four = std::array<std::int16_t, 4>;
-  Array<Four> packed(job, column.count);
+  Array<OctahedralNormal> packed(job, column.count);
   const bool has_sign = column.lanes == Lanes::vec4;
   for (std::size_t i = 0; i < column.count; ++i) {
     if (i % look_every == 0) job.check();
     const glm::dvec3 n = has_sign ? glm::dvec3(load<glm::vec4>(column.slice, i))
                                   : glm::dvec3(load<glm::vec3>(column.slice, i));
-    const double length = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
-    const double x = length > 0 ? n.x / length : 0, y = length > 0 ? n.y / length : 0;
-    const bool below = n.z < 0;
-    const double u = below ? (1 - std::abs(y)) * (x >= 0 ? 1 : -1) : x;
-    const double v = below ? (1 - std::abs(x)) * (y >= 0 ? 1 : -1) : y;
-    const double w = has_sign ? static_cast<double>(load<glm::vec4>(column.slice, i).w) : 0;
-    packed[i] = {signed_of(u, normal_bits), signed_of(v, normal_bits), signed_of(1, normal_bits),
-                 signed_of(w, 16)};
+    packed[i] = octahedral(n);
+    if (has_sign) packed[i][3] = signed_of(static_cast<double>(load<glm::vec4>(column.slice, i).w), 16);
   }
   column.slice = keep(std::move(packed));
   column.component = Component::i16;
@@ -225,25 +210,38 @@ void drop_folds(const Column& position, Array<std::uint32_t>& corners) {
 }
 
 template <std::size_t bytes>
-Slice picked(const Slice& slice, const Array<std::uint32_t>& vertices, Job& job) {
+Slice picked_bytes(const Slice& slice, const Array<std::uint32_t>& vertices, Job& job) {
   using Element = std::array<std::byte, bytes>;
   Array<Element> out(job, vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) out[i] = load<Element>(slice, vertices[i]);
   return keep(std::move(out));
 }
 
+}  // namespace
+
 Slice picked(const Column& column, const Array<std::uint32_t>& vertices, Job& job) {
   switch (column.stride()) {
     case 4:
-      return picked<4>(column.slice, vertices, job);
+      return picked_bytes<4>(column.slice, vertices, job);
     case 8:
-      return picked<8>(column.slice, vertices, job);
+      return picked_bytes<8>(column.slice, vertices, job);
     case 12:
-      return picked<12>(column.slice, vertices, job);
+      return picked_bytes<12>(column.slice, vertices, job);
     default:
-      return picked<16>(column.slice, vertices, job);
+      return picked_bytes<16>(column.slice, vertices, job);
   }
 }
+
+OctahedralNormal octahedral(const glm::dvec3& n) {
+  const double length = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+  const double x = length > 0 ? n.x / length : 0, y = length > 0 ? n.y / length : 0;
+  const bool below = n.z < 0;
+  const double u = below ? (1 - std::abs(y)) * (x >= 0 ? 1 : -1) : x;
+  const double v = below ? (1 - std::abs(x)) * (y >= 0 ? 1 : -1) : y;
+  return {signed_of(u, normal_bits), signed_of(v, normal_bits), signed_of(1, normal_bits), 0};
+}
+
+namespace {
 
 /// Vertices in the order of their first use, without those that nobody uses; indices as narrow as they can
 /// be.
@@ -313,7 +311,9 @@ void clean(Part& part, Job& job) {
 void quantize(Columns& columns, const std::vector<Grid>& grids, Job& job) {
   for (std::size_t i = 0; i < columns.meshes.size(); ++i) {
     for (Part& part : columns.meshes[i]) {
+      const std::vector<std::size_t> inward = corners_looking_inward(part, job);
       quantize_columns(part, grids[i], job);
+      mend_normals(part, inward, job);
       clean(part, job);
     }
     std::erase_if(columns.meshes[i], [](const Part& part) { return part.index && part.index->count == 0; });

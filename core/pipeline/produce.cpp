@@ -279,6 +279,7 @@ static bool leaves_meshes(const OutputParams& output) {
 
 Result<std::string> validate(const Request& request, Job& job) {
   return guarded<std::string>([&]() -> Result<std::string> {
+    job.set_demand(demand_of(request.body().output, *request.body().generator));
     Result<Appraisal> appraisal = request.body().generator->appraise(request.body().params, job);
     if (!appraisal) return in_request(std::move(appraisal).error());
     Json answer = {{"valid", true}, {"warnings", described(appraisal->warnings)}, {"estimate", nullptr}};

@@ -14,10 +14,10 @@ const choose = (page, value) => page.evaluate((value) => new Promise((resolve) =
   requestAnimationFrame(() => requestAnimationFrame(resolve));
 }), value);
 
-/** What levels 1 to 4 reach today, by the worst of these trees; 0.9 is what they are to reach. */
-const least = [0.86, 0.77, 0.68, 0.61];
+/** What levels 1 to 4 are to reach; twigs a pixel wide are missed or hit by chance. */
+const least = { oak: [0.95, 0.92, 0.9, 0.88], poplar: [0.96, 0.94, 0.93, 0.92], dead_tree: [0.9, 0.86, 0.86, 0.84] };
 
-for (const name of ['oak', 'poplar', 'dead_tree']) {
+for (const name of Object.keys(least)) {
   test(`${name} keeps its outline from level to level`, { timeout: 300_000 }, async (t) => {
     const request = (await server.get(`/v1/presets/${name}`)).json;
     for (const word of ['title', 'description', 'tags']) delete request[word];
@@ -34,6 +34,6 @@ for (const name of ['oak', 'poplar', 'dead_tree']) {
     t.diagnostic(`${counts.join(', ')} triangles; overlaps ${overlaps.map((each) => each.toFixed(3)).join(', ')}`);
     assert.ok(outlines[0].reduce((sum, each) => sum + each, 0) > 2000, 'there is a tree');
     counts.slice(1).forEach((count, index) => assert.ok(count <= counts[index] * 0.9, `level ${index + 1} has ${count} triangles, the one before ${counts[index]}`));
-    least.forEach((share, index) => assert.ok(overlaps[index + 1] >= share, `level ${index + 1}: ${overlaps[index + 1].toFixed(3)}`));
+    least[name].forEach((share, index) => assert.ok(overlaps[index + 1] >= share, `level ${index + 1}: ${overlaps[index + 1].toFixed(3)}`));
   });
 }

@@ -8,6 +8,7 @@
 
 #include "core/generators/lsystem/contours.h"
 #include "core/generators/lsystem/surfaces.h"
+#include "core/geom/coarse_limbs.h"
 #include "core/geom/detail.h"
 #include "core/geom/grow.h"
 #include "core/geom/polygons.h"
@@ -19,6 +20,7 @@ namespace {
 constexpr std::uint64_t bytes_a_vertex = 32;  // position, normal, uv
 constexpr std::uint64_t bytes_a_triangle = 12;
 constexpr std::uint64_t worth_a_word = 100;  // fewer than one in so many is no loss
+constexpr int attempts = 4;  ///< at a level of as many triangles as it may have
 
 /// What looks alike becomes one primitive.
 void choose_looks(Skeleton& skeleton, const Wardrobe& wardrobe) {
@@ -69,6 +71,32 @@ std::optional<GrowthPlan> growth_of(const Skeleton& skeleton, const LsystemParam
   return plan_growth(skeleton.limbs, {.most_bones = job.demand().most_bones}, job);
 }
 
+std::uint64_t triangles_of(const std::vector<Primitive>& primitives) {
+  std::uint64_t triangles = 0;
+  for (const Primitive& primitive : primitives) triangles += primitive.mesh.elements();
+  return triangles;
+}
+
+/// The bark of a level: of fewer limbs and joints, about as many triangles as it may have.
+std::vector<Bark> coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, SkinOptions options,
+                               Job& job) {
+  CoarseOptions coarse = wanted;
+  CoarseLimbs kept;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    kept = coarsen(limbs, coarse, job);
+    // Stacks have more triangles than the tubes that were counted.
+    const std::uint64_t made = skin_triangles(kept.limbs, options);
+    if (made <= wanted.triangles + wanted.triangles / 100) break;
+    coarse.triangles = coarse.triangles * wanted.triangles / made;
+  }
+  Array<std::uint16_t> bones(job);
+  if (!wanted.bones.empty()) {
+    for (const std::uint32_t joint : kept.was) bones.push_back(wanted.bones[joint]);
+  }
+  options.bones = bones.span();
+  return skin(kept.limbs, options, job);
+}
+
 /// The bark with its coarser levels. Takes the limbs: their memory goes back before polygons and writer need
 /// theirs.
 void add_bark(Model& model, Limbs limbs, std::span<const std::uint16_t> bones, const LsystemParams& params,
@@ -79,19 +107,26 @@ void add_bark(Model& model, Limbs limbs, std::span<const std::uint16_t> bones, c
   options.bones = bones;
   add_meshes(model, "bark", skin(limbs, options, job), Sides::one, wardrobe);
   if (static_cast<int>(model.nodes.size()) == finest) return;
-  const float most = thickest(limbs);
-  Array<std::uint16_t> own_bones(job);
-  own_bones.append(bones);
+  const std::uint64_t triangles = triangles_of(model.meshes.back().primitives);
+  std::uint64_t before = triangles;
   for (int level = 1; level < job.demand().lods; ++level) {
     const Detail detail(level);
-    limbs = prune(limbs, detail.thinnest() * most, job, &own_bones);
     MeshGroup group{"bark_LOD" + std::to_string(level), {}};
-    SkinOptions coarser = skin_options(params, contours, detail);
-    coarser.bones = own_bones.span();
-    for (Bark& part : skin(limbs, coarser, job)) {
+    const SkinOptions coarser = skin_options(params, contours, detail);
+    CoarseOptions coarse;
+    coarse.triangles = std::min(detail.bark(triangles, 1), Detail::fewer_than(before));
+    coarse.sides = coarser.sides;
+    coarse.finest_sides = options.sides;
+    coarse.power = 0.5;
+    coarse.finest_power = options.adapt ? 0.5 : 0;
+    coarse.even = false;
+    coarse.for_skin = true;
+    coarse.bones = bones;
+    for (Bark& part : coarser_bark(limbs, coarse, coarser, job)) {
       group.primitives.push_back({std::move(part.mesh), wardrobe.material(part.color, Sides::one), {}});
     }
     if (group.primitives.empty()) return;
+    before = triangles_of(group.primitives);
     model.nodes.back().lods.push_back(static_cast<int>(model.meshes.size()));
     model.meshes.push_back(std::move(group));
   }

@@ -8,6 +8,7 @@
 #include "core/generators/child.h"
 #include "core/geom/detail.h"
 #include "core/geom/flatten.h"
+#include "core/geom/foliage_levels.h"
 #include "core/geom/leaf_mesh.h"
 #include "core/geom/organs.h"
 #include "core/gltf/read.h"
@@ -233,16 +234,33 @@ std::string level_name(const std::string& name, int level) {
   return level == 0 ? name : name + "_LOD" + std::to_string(level);
 }
 
+/// What each surface covers: its coarsest mesh.
+std::vector<Mesh> footprints_of(const LsystemParams& params, const Guests& guests, const Job& job) {
+  Sheets sheets = sheets_of(params, guests, Detail(most_levels - 1), job);
+  std::vector<Mesh> footprints(params.surfaces.size());
+  for (std::size_t i = 0; i < footprints.size(); ++i) {
+    if (sheets.first[i] < sheets.first[i + 1]) footprints[i] = std::move(sheets.meshes[sheets.first[i]]);
+  }
+  return footprints;
+}
+
 void add_merged(Model& model, const Foliated& foliated, const LsystemParams& params, const Guests& guests,
                 Wardrobe& wardrobe, Job& job) {
   Node node;
   node.name = "organs";
   node.parent = 0;
+  const Organs all = looking(foliated.organs, wardrobe, job);
+  std::optional<FoliageLevels> levels;
+  if (job.demand().lods > 1) {
+    const std::vector<Mesh> footprints = footprints_of(params, guests, job);
+    levels.emplace(FoliageLevels::Plant{all, footprints, Limbs(job), 1}, job);
+  }
   for (int level = 0; level < job.demand().lods; ++level) {
     const Detail detail(level);
     const Sheets sheets = sheets_of(params, guests, detail, job);
-    Organs own = looking(foliated.organs, wardrobe, job);
-    thin_out(own, detail.every());
+    Organs fewer(job);
+    if (level > 0) fewer = levels->keep(all, detail.organs(), job);
+    const Organs& own = level > 0 ? fewer : all;
     MeshGroup group{level_name(node.name, level), {}};
     const FoliageOptions options = options_of(sheets, {own, foliated.size, foliated.bones}, params);
     for (Foliage& part : place_organs(on_sheets(own, sheets, job), options, job)) {

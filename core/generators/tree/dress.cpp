@@ -6,15 +6,22 @@
 
 #include "core/generators/tree/collision.h"
 #include "core/generators/tree/leaves.h"
+#include "core/generators/tree/levels.h"
 #include "core/generators/tree/looks.h"
 #include "core/generators/tree/range.h"
 #include "core/generators/tree/weber_penn_shape.h"
+#include "core/geom/coarse_limbs.h"
 #include "core/geom/detail.h"
 #include "core/geom/graft.h"
 #include "core/geom/grow.h"
 
 namespace seedmesh::tree {
 namespace {
+
+// Of the thickest limb: thinner ones do not grow together with their parent at the coarser levels.
+constexpr float thinnest_joint = 0.1F;
+// At a level of as many triangles as it may have.
+constexpr int attempts = 4;
 
 /// Stems that split without an angle go on as one, and those that turn right round meet themselves.
 bool may_overlap(const TreeParams& params) {
@@ -29,7 +36,7 @@ bool may_overlap(const TreeParams& params) {
 GraftOptions graft_options(const TreeParams& params, const Detail& detail) {
   GraftOptions options;
   const double seen = shares_at(params).sides;
-  options.sides = std::max(3, math::to_int32(detail.sides(sides_of(params)) * seen));
+  options.sides = std::max(3, math::to_int32(detail.bark_sides(sides_of(params)) * seen));
   options.weld = params.weld;
   options.thinnest = static_cast<float>(params.twig_radius);
   options.wrap = has_bark_picture(params);
@@ -66,26 +73,57 @@ Mesh bark_of(const Limbs& limbs, const GraftOptions& wanted, std::span<const std
   return mesh;
 }
 
-void add_bark(Model& model, const Limbs& limbs, const TreeParams& params, const Motion& motion, Job& job) {
+/// The bark of a level: of fewer limbs and joints, about as many triangles as it may have.
+Mesh coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, GraftOptions options, const Motion& motion,
+                  Job& job) {
+  CoarseOptions coarse = wanted;
+  const float most = thickest(limbs);
+  options.pointed = coarse.pointed;
+  Mesh mesh;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    const CoarseLimbs kept = coarsen(limbs, coarse, job);
+    Array<std::uint16_t> bones(job);
+    if (motion.growth) {
+      for (const std::uint32_t joint : kept.was) bones.push_back(motion.growth->bone[joint]);
+    }
+    std::optional<WindField> wind;
+    if (motion.wind) wind.emplace(kept.limbs, kept.was.span(), *motion.wind, job);
+    options.thinnest_joint = thinnest_joint * most;
+    mesh = bark_of(kept.limbs, options, bones.span(), wind ? &*wind : nullptr, job);
+    // Forks and collars have more triangles than the tubes that were counted.
+    const std::uint64_t made = mesh.elements();
+    if (made <= wanted.triangles + wanted.triangles / 100) break;
+    coarse.triangles = coarse.triangles * wanted.triangles / made;
+  }
+  return mesh;
+}
+
+void add_bark(Model& model, const Limbs& limbs, const TreeParams& params, const Motion& motion,
+              const TreeLevels& levels, Job& job) {
   Node node;
   node.name = "bark";
   node.parent = 0;
   const int material = add_bark_look(model, params, job);
-  const float most = thickest(limbs);
+  const GraftOptions finest = graft_options(params, Detail(0));
+  std::uint64_t triangles = 0, before = 0;  // of the finest level, and of the one before
   for (int level = 0; level < job.demand().lods; ++level) {
     const Detail detail(level);
-    const GraftOptions options = graft_options(params, detail);
     Mesh mesh;
     if (level == 0) {
-      mesh = bark_of(limbs, options, motion.bones(), motion.wind ? &*motion.wind : nullptr, job);
+      mesh = bark_of(limbs, finest, motion.bones(), motion.wind ? &*motion.wind : nullptr, job);
+      triangles = mesh.elements();
     } else {
-      Array<std::uint16_t> bones(job);
-      bones.append(motion.bones());
-      const Limbs kept = prune(limbs, detail.thinnest() * most, job, motion.growth ? &bones : nullptr);
-      std::optional<WindField> wind;
-      if (motion.wind) wind.emplace(kept, job, &*motion.wind);
-      mesh = bark_of(kept, options, bones.span(), wind ? &*wind : nullptr, job);
+      const GraftOptions options = graft_options(params, detail);
+      CoarseOptions coarse;
+      coarse.triangles = std::min(detail.bark(triangles, levels.seen), Detail::fewer_than(before));
+      coarse.sides = options.sides;
+      coarse.finest_sides = finest.sides;
+      coarse.pointed = true;
+      coarse.shown = levels.shown.span();
+      coarse.bones = motion.bones();
+      mesh = coarser_bark(limbs, coarse, options, motion, job);
     }
+    before = mesh.elements();
     if (mesh.position.empty()) continue;
     const int number = static_cast<int>(model.meshes.size());
     model.meshes.push_back({level == 0 ? "bark" : "bark_LOD" + std::to_string(level), {}});
@@ -110,6 +148,8 @@ int sides_of(const TreeParams& params) {
   return params.model == TreeModel::proctree ? std::max(3, params.mSegments) : params.sides;
 }
 
+GraftOptions bark_options(const TreeParams& params) { return graft_options(params, Detail(0)); }
+
 Model dress(Skeleton skeleton, const TreeParams& params, Job& job) {
   Model model;
   model.name = "tree";
@@ -123,7 +163,9 @@ Model dress(Skeleton skeleton, const TreeParams& params, Job& job) {
     motion.growth = plan_growth(skeleton.limbs, {.most_bones = job.demand().most_bones}, job);
   }
   if (job.demand().wind) motion.wind.emplace(skeleton.limbs, job);
-  add_bark(model, skeleton.limbs, params, motion, job);
+  if (has_leaves(params)) fit_leaves(skeleton.organs, params, job);
+  TreeLevels levels(skeleton, params, job);
+  add_bark(model, skeleton.limbs, params, motion, levels, job);
   add_collision(model, skeleton.limbs, job);
   const float size = size_of(skeleton.limbs);
   if (!motion.wind) skeleton.limbs = Limbs(job);  // its memory goes back before the leaves need theirs
@@ -131,7 +173,7 @@ Model dress(Skeleton skeleton, const TreeParams& params, Job& job) {
     LeafMotion moved;
     if (motion.growth) moved.bones = motion.growth->bone.span();
     if (motion.wind) moved.wind = &*motion.wind;
-    add_leaves(model, skeleton.organs, params, moved, size, job);
+    add_leaves(model, skeleton.organs, params, moved, levels, size, job);
   }
   if (motion.growth) add_growth(model, *motion.growth);
   return model;

@@ -29,6 +29,7 @@ SkeletonWriter::SkeletonWriter(Skeleton& skeleton, Job& job, double density)
 
 std::uint32_t SkeletonWriter::add(const Joint& joint) {
   modules_.spend();
+  if (limbs_.size() >= end_joints_) throw Enough{};
   if (limbs_.size() >= most_joints_) {
     Job::refuse("the tree has more than " + std::to_string(most_joints_) +
                 " internodes, whose bark would pass the limit of triangles");

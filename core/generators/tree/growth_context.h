@@ -43,6 +43,13 @@ class SkeletonWriter {
   /// Leaves beyond the share `density` are counted, but not made.
   SkeletonWriter(Skeleton& skeleton, Job& job, double density = 1);
 
+  /// Thrown where more joints or leaves are added than end_after() allows: caught where that was asked for.
+  struct Enough {};
+  void end_after(std::size_t joints, std::size_t leaves) {
+    end_joints_ = joints;
+    end_leaves_ = leaves;
+  }
+
   struct Joint {
     std::uint32_t parent = Limbs::none;
     glm::dvec3 position{0};
@@ -63,6 +70,7 @@ class SkeletonWriter {
   /// Counts a leaf. False: it is none of those that are drawn, and need not be made.
   bool wants_leaf(std::uint64_t key) {
     shapes_.spend();
+    if (leaves_ >= end_leaves_) throw Enough{};
     if (leaves_ >= most_leaves_) refuse_leaves();
     ++leaves_;
     return is_drawn(key, density_);
@@ -82,6 +90,7 @@ class SkeletonWriter {
   Job& job_;
   Meter modules_, shapes_;
   std::uint64_t most_joints_, most_leaves_, leaves_ = 0;
+  std::size_t end_joints_ = ~std::size_t{0}, end_leaves_ = ~std::size_t{0};
   double density_;
 };
 

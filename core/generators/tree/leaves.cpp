@@ -31,41 +31,6 @@ LeafBuild leaf_build(TreeBuild build) {
   }
 }
 
-Mesh leaf_of(const TreeParams& params, int level, const Job& job) {
-  const TreeLeaf& leaf = params.leaf;
-  LeafForm form;
-  form.shape = static_cast<LeafShape>(leaf.leaf_shape);
-  form.build = leaf_build(build_of(params));
-  form.fold = math::radians(leaf.fold);
-  form.droop = math::radians(leaf.droop);
-  form.coarseness = std::min(coarsest, leaf.coarseness + level);
-  const bool is_twig = form.build == LeafBuild::twig || form.build == LeafBuild::bunch;
-  form.twig_leaves = texture::leaf_picture(texture::leaf_kind(form.shape, is_twig)).count;
-  Mesh mesh = leaf_mesh(form, job);
-  order_for_cache(mesh, job);
-  return mesh;
-}
-
-/// Organs come with the width and length of a leaf; a leaf's mesh is 1 long and has a width of its own.
-void fit(Organs& organs, const TreeParams& params, const Mesh& leaf, const Job& job) {
-  const Box box = bounds_of(leaf.position.span());
-  const float across = std::max(1e-3F, box.max.x - box.min.x);
-  const TreeBuild build = build_of(params);
-  const bool is_round = build == TreeBuild::cross || build == TreeBuild::bunch;
-  const double density = drawn_leaves(params);
-  const auto size = static_cast<float>(params.leaf.size / std::sqrt(std::max(density, 1e-3)));
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < organs.organ.size(); ++i) {
-    if (i % 4096 == 0) job.check();
-    Organ organ = organs.organ[i];
-    if (!is_drawn(organ.key, density)) continue;
-    const float width = organ.scale.x * size / across, length = organ.scale.y * size;
-    organ.scale = {width, length, is_round ? width : length};
-    organs.organ[kept++] = organ;
-  }
-  organs.organ.resize(kept);
-}
-
 FoliageOptions options_of(const Organs& organs, const TreeParams& params, const LeafMotion& motion,
                           float model_size) {
   FoliageOptions options;
@@ -87,12 +52,6 @@ FoliageOptions options_of(const Organs& organs, const TreeParams& params, const 
   return options;
 }
 
-Organs copy_of(const Organs& organs, const Job& job) {
-  Organs copy(job);
-  copy.organ.append(organs.organ.span());
-  return copy;
-}
-
 std::string level_name(const char* name, int level) {
   return level == 0 ? name : name + ("_LOD" + std::to_string(level));
 }
@@ -107,7 +66,12 @@ void put_on(Model& model, Node& node, MeshGroup group) {
   }
 }
 
-void add_merged(Model& model, Organs& organs, const TreeParams& params, const FoliageOptions& shared,
+struct Leaves {
+  const Organs& organs;
+  TreeLevels& levels;
+};
+
+void add_merged(Model& model, const Leaves& leaves, const TreeParams& params, const FoliageOptions& shared,
                 const LeafLook& look, Job& job) {
   Node node;
   node.name = "leaves";
@@ -116,13 +80,10 @@ void add_merged(Model& model, Organs& organs, const TreeParams& params, const Fo
     FoliageOptions options = shared;
     const Mesh surface = leaf_of(params, level, job);
     options.surfaces = std::span(&surface, 1);
-    Organs thinned(job);
-    if (level > 0) {
-      thinned = copy_of(organs, job);
-      thin_out(thinned, Detail(level).every());
-    }
+    Organs fewer(job);
+    if (level > 0) fewer = leaves.levels.foliage->keep(leaves.organs, Detail(level).organs(), job);
     MeshGroup group{level_name("leaves", level), {}};
-    for (Foliage& part : place_organs(level > 0 ? thinned : organs, options, job))
+    for (Foliage& part : place_organs(level > 0 ? fewer : leaves.organs, options, job))
       group.primitives.push_back({std::move(part.mesh), look.material, look.variants});
     if (!group.primitives.empty()) put_on(model, node, std::move(group));
   }
@@ -150,16 +111,51 @@ void add_shared(Model& model, const Organs& organs, const TreeParams& params, Fo
 
 }  // namespace
 
-void add_leaves(Model& model, Organs& organs, const TreeParams& params, const LeafMotion& motion,
-                float model_size, Job& job) {
-  fit(organs, params, leaf_of(params, 0, job), job);
+Mesh leaf_of(const TreeParams& params, int level, const Job& job) {
+  const TreeLeaf& leaf = params.leaf;
+  LeafForm form;
+  form.shape = static_cast<LeafShape>(leaf.leaf_shape);
+  form.build = leaf_build(build_of(params));
+  form.fold = math::radians(leaf.fold);
+  form.droop = math::radians(leaf.droop);
+  form.coarseness = std::min(coarsest, leaf.coarseness + level);
+  const bool is_twig = form.build == LeafBuild::twig || form.build == LeafBuild::bunch;
+  form.twig_leaves = texture::leaf_picture(texture::leaf_kind(form.shape, is_twig)).count;
+  Mesh mesh = leaf_mesh(form, job);
+  order_for_cache(mesh, job);
+  return mesh;
+}
+
+/// Organs come with the width and length of a leaf; a leaf's mesh is 1 long and has a width of its own.
+void fit_leaves(Organs& organs, const TreeParams& params, const Job& job) {
+  const Mesh leaf = leaf_of(params, 0, job);
+  const Box box = bounds_of(leaf.position.span());
+  const float across = std::max(1e-3F, box.max.x - box.min.x);
+  const TreeBuild build = build_of(params);
+  const bool is_round = build == TreeBuild::cross || build == TreeBuild::bunch;
+  const double density = drawn_leaves(params);
+  const auto size = static_cast<float>(params.leaf.size / std::sqrt(std::max(density, 1e-3)));
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < organs.organ.size(); ++i) {
+    if (i % 4096 == 0) job.check();
+    Organ organ = organs.organ[i];
+    if (!is_drawn(organ.key, density)) continue;
+    const float width = organ.scale.x * size / across, length = organ.scale.y * size;
+    organ.scale = {width, length, is_round ? width : length};
+    organs.organ[kept++] = organ;
+  }
+  organs.organ.resize(kept);
+}
+
+void add_leaves(Model& model, const Organs& organs, const TreeParams& params, const LeafMotion& motion,
+                TreeLevels& levels, float model_size, Job& job) {
   if (organs.organ.empty()) return;
   const LeafLook look = add_leaf_look(model, params, job);
   const FoliageOptions options = options_of(organs, params, motion, model_size);
   if (job.demand().share_organs) {
     add_shared(model, organs, params, options, look, job);
   } else {
-    add_merged(model, organs, params, options, look, job);
+    add_merged(model, {organs, levels}, params, options, look, job);
   }
   // Bark looks the same in every season.
   for (MeshGroup& group : model.meshes) {

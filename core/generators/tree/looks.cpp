@@ -53,11 +53,6 @@ bool shows_twig(const TreeParams& params) {
   return build == TreeBuild::twig || build == TreeBuild::bunch;
 }
 
-bool wears_picture(const TreeParams& params) {
-  if (params.leaf.picture == TreePicture::auto_) return build_of(params) != TreeBuild::mesh;
-  return params.leaf.picture == TreePicture::own;
-}
-
 template <class Images>
 void check(const Images& images, const std::string& pointer, std::vector<Issue>& issues) {
   const auto check_one = [&](const std::string& uri, const char* member) {
@@ -115,6 +110,11 @@ TreeBuild build_of(const TreeParams& params) {
 bool has_leaves(const TreeParams& params) {
   if (params.leaf.build == TreeBuild::none) return false;
   return params.season != TreeSeason::winter || params.leaf.evergreen;
+}
+
+bool wears_picture(const TreeParams& params) {
+  if (params.leaf.picture == TreePicture::auto_) return build_of(params) != TreeBuild::mesh;
+  return params.leaf.picture == TreePicture::own;
 }
 
 int add_bark_look(Model& model, const TreeParams& params, const Job& job) {

@@ -20,6 +20,9 @@ TreeBuild build_of(const TreeParams& params);
 /// Are there any in this season?
 bool has_leaves(const TreeParams& params);
 
+/// True where leaves wear one made by seed.
+bool wears_picture(const TreeParams& params);
+
 /// The number of the new material. Throws Stop (Code::invalid) for an image that is damaged.
 int add_bark_look(Model& model, const TreeParams& params, const Job& job);
 

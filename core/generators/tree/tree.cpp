@@ -5,6 +5,7 @@
 
 #include "core/generators/tree/age.h"
 #include "core/generators/tree/dress.h"
+#include "core/generators/tree/estimate.h"
 #include "core/generators/tree/looks.h"
 #include "core/generators/tree/proctree.h"
 #include "core/generators/tree/range.h"
@@ -21,11 +22,12 @@ std::uint64_t seed_of(const TreeParams& params, std::uint64_t seed) {
   return static_cast<std::uint64_t>(params.mSeed);
 }
 
-/// With leaves up to the share `density`.
-Skeleton grow(const TreeParams& params, double density, Job& job) {
+/// With leaves up to the share `density`. Throws SkeletonWriter::Enough beyond so many joints or leaves.
+Skeleton grow(const TreeParams& params, double density, Job& job, std::size_t most = 0) {
   job.progress("derive", 0);
   Skeleton skeleton(job);
   SkeletonWriter writer(skeleton, job, density);
+  if (most > 0) writer.end_after(most, leaves_a_joint * most);
   const Chances chances(params.seeds, seed_of(params, job.seed()));
   switch (params.model) {
     case TreeModel::weber_penn:
@@ -146,9 +148,22 @@ Result<Json> derive(const TreeParams& params, Job& job) {
               {"warnings", std::move(warnings)}};
 }
 
-Result<Appraisal> appraise(const TreeParams& params, const Job&) {
+Result<Appraisal> appraise(const TreeParams& params, const Job& job) {
   Appraisal appraisal;
   appraisal.warnings = warnings_of(params);
+  // A job of its own: what is looked at here is not spent.
+  job.check();
+  Job::Options options;
+  options.limits = job.limits();
+  Job own(job.seed(), options);
+  own.set_demand({.textures = job.demand().textures});
+  try {
+    Skeleton skeleton = grow(params, drawn_leaves(params), own, most_appraised);
+    degrade(skeleton, params, own);
+    appraisal.estimate = estimate_of(std::move(skeleton), params, own);
+  } catch (const SkeletonWriter::Enough&) {
+    appraisal.estimate = std::nullopt;  // more than is grown in an instant
+  }
   return appraisal;
 }
 

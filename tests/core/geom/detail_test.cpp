@@ -36,13 +36,20 @@ Limbs small_tree(const Job& job) {
   return std::move(maker.limbs);
 }
 
-TEST(Prune, TakesThinTwigsOffAndNothingElse) {
-  Job job = job_of();
-  const Limbs limbs = small_tree(job), pruned = prune(limbs, 0.01F, job);
-  EXPECT_EQ(pruned.size(), limbs.size() - 2);
-  for (const Bark& bark : skin(pruned, {}, job)) EXPECT_THAT(faults(bark.mesh), IsEmpty());
-  EXPECT_EQ(prune(limbs, 0, job).size(), limbs.size());
-  EXPECT_EQ(prune(limbs, 1, job).size(), 0U);
+TEST(Detail, GivesEveryLevelFewerTriangles) {
+  std::uint64_t bare = 1000, hidden = 1000;
+  double organs = 1;
+  for (int level = 1; level < most_levels; ++level) {
+    const Detail detail(level);
+    EXPECT_LE(10 * detail.bark(1000, 1), 9 * bare);
+    EXPECT_LE(10 * detail.bark(1000, 0), 9 * hidden);
+    EXPECT_LE(detail.organs(), 0.9 * organs);
+    bare = detail.bark(1000, 1);
+    hidden = detail.bark(1000, 0);
+    organs = detail.organs();
+  }
+  EXPECT_EQ(bare, 299U);
+  EXPECT_EQ(hidden, 100U);
 }
 
 TEST(Skin, HasFewerSidesOnThinnerLimbsWhereItAdapts) {

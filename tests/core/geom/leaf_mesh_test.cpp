@@ -177,18 +177,5 @@ TEST(PlaceOrgans, PassesOverWhatIsThereTwiceOrTooSmall) {
   EXPECT_EQ(organ_places(organs, options, job)[0].places.size(), 10U);
 }
 
-TEST(ThinOut, KeepsTheAreaAndASubset) {
-  const Job job = job_of();
-  Organs organs = leaves_on_a_ball(job, 20000), fewer = leaves_on_a_ball(job, 20000);
-  thin_out(fewer, 2);
-  const auto area = [](const Organs& all) {
-    double sum = 0;
-    for (const Organ& organ : all.organ) sum += static_cast<double>(organ.scale.x) * organ.scale.y;
-    return sum;
-  };
-  EXPECT_NEAR(static_cast<double>(fewer.organ.size()), 10000, 300);
-  EXPECT_NEAR(area(fewer) / area(organs), 1, 0.03);
-}
-
 }  // namespace
 }  // namespace seedmesh

@@ -57,7 +57,8 @@ TEST(Wind, IsTheSameInACoarserLevel) {
   thinned.maker.limbs.position.resize(4);  // without the twig
   for (auto* each : {&thinned.maker.limbs.radius, &thinned.maker.limbs.base_radius}) each->resize(4);
   thinned.maker.limbs.parent.resize(4);
-  const WindField coarse(thinned.maker.limbs, job, &fine);
+  const std::vector<std::uint32_t> was{0, 1, 2, 3};
+  const WindField coarse(thinned.maker.limbs, was, fine, job);
   const glm::vec3 end = plant.maker.limbs.position[plant.limb];
   EXPECT_FLOAT_EQ(coarse.at(plant.limb, end).x, fine.at(plant.limb, end).x);
 }

@@ -179,7 +179,7 @@ TEST(Sweep, RefusesACrossSectionThatGoesRoundNothing) {
   EXPECT_EQ(issues[0].pointer, "/contours/0");
 }
 
-TEST(Levels, FallInTrianglesAndKeepTheLeafArea) {
+TEST(Levels, FallInTriangles) {
   const Model model = model_of(
       R"json({"axiom":"A(1,0.1)",
               "productions":["A(l,w) -> !(w)F(l)[&(40)A(l*0.8,w*0.7)]/(137)[&(40)A(l*0.8,w*0.7)]~leaf"],

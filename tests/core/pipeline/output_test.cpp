@@ -191,6 +191,21 @@ TEST(Output, HoldsTheBudgetOfAllVariantsTogether) {
   EXPECT_LE(made("hutsko_tree", R"({"variants":3,"max_triangles":2000})").statistics.triangles, 2'000U);
 }
 
+TEST(Output, TellsTheBytesOfATreeBeforeItIsMade) {
+  for (const char* preset : {"oak", "dead_tree", "proctree_0", "sculpted_sphere"}) {
+    for (const char* output : {R"({"textures":64})", R"({"textures":512})", R"({"textures":"none"})"}) {
+      const Result<Request> request = read_request(request_of(preset, output), Limits{});
+      ASSERT_TRUE(request) << output;
+      Job looking(request->seed(), Job::Options{}), making(request->seed(), Job::Options{});
+      const json estimate = json::parse(*validate(*request, looking))["estimate"];
+      const auto made = static_cast<double>(produce(*request, making)->payload.size());
+      EXPECT_LT(estimate["bytes"].get<double>(), 1.5 * made) << preset << output;
+      EXPECT_GT(estimate["bytes"].get<double>(), made / 1.5) << preset << output;
+      EXPECT_FALSE(estimate["exact"]);
+    }
+  }
+}
+
 TEST(Output, RefusesABudgetThatCannotBeHeld) {
   EXPECT_THAT(refused("menger_sponge", R"({"max_triangles":10})"), ElementsAre("/output/max_triangles"));
   EXPECT_THAT(refused("growing_tree", R"({"animation":"none","lods":5,"format":"zip","max_triangles":3000})"),

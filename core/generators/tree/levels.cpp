@@ -1,0 +1,35 @@
+#include "core/generators/tree/levels.h"
+
+#include <cmath>
+
+#include "core/generators/tree/leaves.h"
+
+namespace seedmesh::tree {
+namespace {
+
+// Of the width of a card, what its picture fills.
+constexpr float filled_card = 0.7F;
+
+}  // namespace
+
+TreeLevels::TreeLevels(const Skeleton& skeleton, const TreeParams& params, Job& job) {
+  if (job.demand().lods < 2 || skeleton.organs.organ.empty() || !has_leaves(params)) return;
+  const Mesh coarsest = leaf_of(params, most_levels - 1, job);
+  const float filled = build_of(params) == TreeBuild::mesh ? 1.0F : filled_card;
+  const Limbs& limbs = skeleton.limbs;
+  foliage.emplace(FoliageLevels::Plant{skeleton.organs, std::span(&coarsest, 1), limbs, filled}, job);
+  shown = foliage->shown(limbs, job);
+  double all = 0, free = 0;
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    const std::uint32_t parent = limbs.parent[i];
+    if (parent == Limbs::none) continue;
+    const glm::vec3 step = limbs.position[i] - limbs.position[parent];
+    const auto area =
+        static_cast<double>(std::sqrt(glm::dot(step, step)) * (limbs.base_radius[i] + limbs.radius[i]));
+    all += area;
+    free += area * static_cast<double>(shown[i]);
+  }
+  seen = all > 0 ? free / all : 1;
+}
+
+}  // namespace seedmesh::tree

@@ -1,0 +1,40 @@
+#pragma once
+/// Limbs with fewer joints and fewer twigs, for the coarser levels of detail of a plant: what is left out is
+/// what changes the outline least for the triangles that it costs.
+///
+/// Of each limb the joints stay that are farthest from the line between those that stay already (Douglas and
+/// Peucker, "Algorithms for the reduction of the number of points required to represent a digitized line or
+/// its caricature", 1973), measured as the area by which the outline changes; twigs go whole, thin, short and
+/// hidden ones first. One price of a triangle, found by halving, decides about both.
+#include <span>
+
+#include "core/base/job.h"
+#include "core/geom/limbs.h"
+
+namespace seedmesh {
+
+struct CoarseOptions {
+  std::uint64_t triangles = 0;  ///< about so many are wanted, counted as closed tubes
+  int sides = 8;                ///< corners of the thickest limb at this level,
+  int finest_sides = 8;         ///< and at the finest: limbs of fewer corners become thicker, as wide to see
+  double power = 0.3;           ///< corners fall with this power of the radius,
+  double finest_power = 0.3;    ///< and at the finest level with this one
+  bool even = true;             ///< more than three corners are an even number
+  /// skin() makes a ring at every joint, has different barks and cross-sections along a limb: joints stay
+  /// that limbs leave, where colours change, and all of limbs with contours. Otherwise a joint that limbs
+  /// leave moves onto the straight line, and its limbs with it.
+  bool for_skin = false;
+  bool pointed = false;                       ///< thin ends have no ring (GraftOptions::pointed)
+  std::span<const float> shown = {};          ///< of each joint, how much of it is seen; empty: all
+  std::span<const std::uint16_t> bones = {};  ///< of each joint; where they change, joints stay
+};
+
+struct CoarseLimbs {
+  Limbs limbs;
+  Array<std::uint32_t> was;  ///< of each joint: which one it was
+};
+
+/// Linear time but for the logarithm of the longest limb. Parents come before children, limb by limb.
+CoarseLimbs coarsen(const Limbs& limbs, const CoarseOptions& options, Job& job);
+
+}  // namespace seedmesh

@@ -1,0 +1,126 @@
+#include "core/geom/coarse_limbs.h"
+
+#include <gmock/gmock.h>
+
+#include "core/geom/graft.h"
+#include "core/geom/skin.h"
+#include "tests/core/geom/skeletons.h"
+#include "tests/support/mesh_faults.h"
+
+namespace seedmesh {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+Job job_of() { return Job(1, Job::Options{}); }
+
+/// A trunk of ten pieces, straight but for a knee in the middle, with a thick limb and twigs. `wave` bends it
+/// to and fro.
+Limbs small_tree(const Job& job, float wave = 0) {
+  SkeletonMaker maker(job);
+  std::uint32_t trunk = maker.root({0, 0, 0});
+  for (int i = 1; i <= 10; ++i) {
+    const auto height = static_cast<float>(i);
+    const float radius = 0.4F - 0.03F * height;
+    trunk = maker.grow(trunk, {i <= 5 ? 0.2F * height : 2 - 0.2F * height, height, i % 2 == 0 ? wave : 0},
+                       {radius + 0.03F, radius});
+    if (i == 3) maker.branch(trunk, {-3, 5, 0}, {0.15F, 0.05F});
+    if (i > 5) maker.branch(trunk, {2, height + 0.2F * height, 0}, {0.01F, 0.005F});
+  }
+  return std::move(maker.limbs);
+}
+
+CoarseOptions wanting(std::uint64_t triangles) {
+  CoarseOptions options;
+  options.triangles = triangles;
+  return options;
+}
+
+TEST(Coarsen, KeepsEverythingWhereThereIsRoom) {
+  Job job = job_of();
+  const Limbs limbs = small_tree(job, 0.1F);
+  const CoarseLimbs kept = coarsen(limbs, wanting(100'000), job);
+  ASSERT_EQ(kept.limbs.size(), limbs.size());
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    EXPECT_EQ(kept.limbs.position[i], limbs.position[kept.was[i]]);
+    EXPECT_EQ(kept.limbs.starts_limb[i], limbs.starts_limb[kept.was[i]]);
+    if (limbs.parent[kept.was[i]] != Limbs::none) {
+      EXPECT_EQ(kept.was[kept.limbs.parent[i]], limbs.parent[kept.was[i]]);
+    }
+  }
+}
+
+TEST(Coarsen, KeepsTheKneeAndTheThickLimbAndStraightensTheRest) {
+  Job job = job_of();
+  const CoarseLimbs kept = coarsen(small_tree(job), wanting(66), job);
+  std::vector<float> rings;
+  std::size_t limbs = 0;
+  for (std::size_t i = 0; i < kept.limbs.size(); ++i) {
+    if (kept.limbs.starts_limb[i]) {
+      ++limbs;
+      EXPECT_FLOAT_EQ(kept.limbs.position[i].x, -3);
+    } else {
+      rings.push_back(kept.limbs.position[i].y);
+    }
+  }
+  EXPECT_EQ(limbs, 1U);
+  // The third stays for the limb that leaves there, on the straight line.
+  EXPECT_THAT(rings, ElementsAre(0, testing::FloatNear(3, 1e-5F), 5, 10));
+}
+
+TEST(Coarsen, MakesAboutAsManyTrianglesAsAreWanted) {
+  Job job = job_of();
+  for (std::uint64_t seed = 1; seed < 40; ++seed) {
+    const Limbs limbs = random_limbs(job, seed);
+    CoarseOptions options = wanting(skin_triangles(limbs, {.adapt = true}) / 2);
+    options.for_skin = true;
+    options.power = options.finest_power = 0.5;
+    options.even = false;
+    const CoarseLimbs kept = coarsen(limbs, options, job);
+    for (const Bark& bark : skin(kept.limbs, {.adapt = true}, job)) EXPECT_THAT(faults(bark.mesh), IsEmpty());
+    EXPECT_LE(skin_triangles(kept.limbs, {.adapt = true}), skin_triangles(limbs, {.adapt = true})) << seed;
+  }
+}
+
+TEST(Coarsen, LeavesABarkThatIsClosed) {
+  Job job = job_of();
+  const Limbs limbs = small_tree(job);
+  const std::size_t whole = graft(limbs, {}, job).elements();
+  std::size_t before = whole + 1;
+  for (std::uint64_t triangles = whole; triangles > 20; triangles = triangles * 2 / 3) {
+    const Mesh mesh = graft(coarsen(limbs, wanting(triangles), job).limbs, {.pointed = true}, job);
+    EXPECT_THAT(faults(mesh), IsEmpty());
+    EXPECT_EQ(measure({&mesh}).open_edges, 0U);
+    EXPECT_LE(mesh.elements(), before);
+    before = mesh.elements();
+  }
+  EXPECT_LT(6 * before, whole);
+}
+
+TEST(Coarsen, MakesLimbsOfFewerCornersThickerSoThatTheyLookAsWide) {
+  Job job = job_of();
+  const Limbs limbs = small_tree(job);
+  CoarseOptions options = wanting(100'000);
+  options.sides = 3;
+  options.finest_sides = 32;
+  const CoarseLimbs kept = coarsen(limbs, options, job);
+  // The circumference of a triangle and of 32 corners, of one radius.
+  EXPECT_NEAR(kept.limbs.base_radius[1] / limbs.base_radius[1], 3.1365 / 2.5981, 1e-3);
+}
+
+TEST(Coarsen, KeepsWhereBonesChange) {
+  Job job = job_of();
+  const Limbs limbs = small_tree(job);
+  std::vector<std::uint16_t> bones(limbs.size(), 0);
+  for (std::size_t i = 0; i < limbs.size(); ++i) bones[i] = limbs.position[i].y > 2.5F ? 1 : 0;
+  CoarseOptions options = wanting(1);
+  options.bones = bones;
+  const CoarseLimbs kept = coarsen(limbs, options, job);
+  bool has_border = false;
+  for (const std::uint32_t joint : kept.was) has_border = has_border || limbs.position[joint].y == 2;
+  EXPECT_TRUE(kept.limbs.size() == 0 || has_border);
+}
+
+}  // namespace
+}  // namespace seedmesh
