@@ -39,6 +39,14 @@ std::uint16_t word_of(double share) {
   return static_cast<std::uint16_t>(std::clamp(share, 0.0, 1.0) * 65'535 + 0.5);
 }
 
+glm::i8vec4 bytes_of(const glm::dvec3& direction) {
+  const glm::dvec3 normal = math::unit(direction, glm::dvec3(0, 0, 1));
+  glm::i8vec4 bytes(0);
+  for (int axis = 0; axis < 3; ++axis)
+    bytes[axis] = static_cast<std::int8_t>(std::floor(std::clamp(normal[axis], -1.0, 1.0) * 127 + 0.5));
+  return bytes;
+}
+
 }  // namespace
 
 Canvas::Canvas(const ViewFrame& frame, const ViewWindow& window, std::uint32_t width, std::uint32_t height,
@@ -64,6 +72,8 @@ Canvas::Corner Canvas::corner_of(const Mesh& mesh, std::uint32_t vertex, const g
         math::unit(glm::dvec3(glm::mat3(at) * mesh.normal[vertex]), glm::dvec3(frame_.towards));
     const double facing = glm::dot(normal, frame_.towards) < 0 ? -1 : 1;
     corner.light *= light_below + (light_above - light_below) * (0.5 + 0.5 * facing * normal.y);
+    corner.normal = facing * glm::dvec3(glm::dot(normal, frame_.right), glm::dot(normal, frame_.up),
+                                        glm::dot(normal, frame_.towards));
   }
   if (!mesh.uv[0].empty()) corner.uv = glm::dvec2(mesh.uv[0][vertex]);
   if (!mesh.color.empty()) corner.color = glm::dvec3(glm::u8vec3(mesh.color[vertex])) / 255.0;
@@ -120,7 +130,9 @@ void Canvas::draw(std::array<Corner, 3> c, const Surface& surface) {
         color *= glm::dvec3(glm::u16vec3(texel)) / 65'535.0;
       }
       depth_[place] = depth;
-      samples_[place] = {{word_of(color.x), word_of(color.y), word_of(color.z)}, 1};
+      samples_[place] = {{word_of(color.x), word_of(color.y), word_of(color.z)},
+                         1,
+                         bytes_of(a * c[0].normal + b * c[1].normal + d * c[2].normal)};
     }
   }
 }

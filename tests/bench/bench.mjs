@@ -33,7 +33,7 @@ const aims = {
   'one growth step of 50 trees': { seconds: 0.05 },
 };
 /** The programs that print figures, a line each, and what runs beside them. */
-const figures = { lsystem: 'lindenmayer', request: null, terrain: 'terrain', fractal: 'manifold', tree: 'ez_tree', scene: null };
+const figures = { lsystem: 'lindenmayer', request: null, terrain: 'terrain', fractal: 'manifold', tree: 'ez_tree', scene: 'scene' };
 const chosen = Object.keys(figures).filter((bench) => bench.includes(words));
 const nanoseconds_per_triangle = 30;
 const memory_ratio = 1.5;

@@ -8,6 +8,7 @@
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 #include "core/generators/child.h"
+#include "core/generators/scene/forecast.h"
 #include "core/generators/scene/plant.h"
 #include "core/schema/embedded.h"
 #include "generated/params/scene.h"
@@ -103,6 +104,16 @@ void live_in(const SceneParams& scene, Child& child) {
     set(child, "age", std::min(*scene.age, own_age(child).value_or(*scene.age)));
   if (scene.season && has_parameter(child.generator, "season"))
     set(child, "season", std::string(text_of(*scene.season)));
+}
+
+/// Of all meshes, those of coarser levels too.
+std::uint64_t triangles_of(const Model& model) {
+  std::uint64_t triangles = 0;
+  for (const MeshGroup& group : model.meshes) {
+    for (const Primitive& each : group.primitives)
+      triangles += each.mesh.topology == Topology::triangles ? each.mesh.elements() : 0;
+  }
+  return triangles;
 }
 
 Child variant_of(const SceneParams& scene, const SceneLayer& layer, std::size_t number, Rng models) {
@@ -201,38 +212,45 @@ Casting casting_of(const SceneParams& params, const Job& job) {
   return casting;
 }
 
-void refuse_too_many(const Casting& casting, const Job& job) {
-  std::uint64_t triangles = 0;
-  for (const Cast& cast : casting.casts) {
-    const Result<Appraisal> appraisal = appraise_child(cast.request, cast.pointer, Rng(0), job);
-    if (!appraisal || !appraisal->estimate) continue;
-    triangles += std::min(appraisal->estimate->triangles, job.limits().triangles + 1);
-    if (triangles > job.limits().triangles) {
-      Job::refuse("the models up to this one need at least " + std::to_string(triangles) +
-                      " triangles; the limit is " + std::to_string(job.limits().triangles),
-                  cast.pointer);
-    }
-  }
-}
-
-Result<std::vector<Model>> models_of(const Casting& casting, const std::vector<std::uint8_t>& wanted,
-                                     const Demand& demand, Job& job) {
+Result<std::vector<Model>> models_of(Forecast& forecast, const Demand& demand, Job& job,
+                                     const std::function<void()>& beside) {
+  const Casting& casting = forecast.casting();
   std::vector<std::optional<Result<Model>>> made(casting.casts.size());
-  parallel_for(job, made.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (wanted[i] == 0) continue;
-      const Cast& cast = casting.casts[i];
-      Demand own = demand;
-      own.growth = demand.growth && find_generator(cast.request.generator)->grows;
-      made[i].emplace(generate_child(cast.request, cast.pointer, Rng(0), job, own));
+  const auto make = [&](std::size_t i) {
+    const Cast& cast = casting.casts[i];
+    Demand own = demand;
+    own.growth = demand.growth && find_generator(cast.request.generator)->grows;
+    made[i].emplace(generate_child(cast.request, cast.pointer, Rng(0), job, own));
+  };
+  try {
+    const std::vector<std::size_t> scouts = forecast.scouts();
+    parallel_for(job, scouts.size(), 1, [&](std::size_t i, std::size_t, std::size_t) { make(scouts[i]); });
+    for (const std::size_t i : scouts) {
+      if (!*made[i]) return std::move(*made[i]).error();
+      forecast.learn(i, triangles_of(**made[i]));
     }
-  });
+    forecast.refuse();
+    std::vector<std::size_t> others;
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      if (forecast.is_wanted(i) && !made[i]) others.push_back(i);
+    }
+    parallel_for(job, 1 + others.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
+      if (i > 0) make(others[i - 1]);
+      if (i == 0 && beside) beside();
+    });
+  } catch (const Stop& stop) {  // the same stop, told of where it belongs
+    Issue issue = stop.issue();
+    if (stop.code() == Code::limit && issue.pointer.empty()) issue.pointer = forecast.blamed();
+    throw Stop(stop.code(), std::move(issue));
+  }
   std::vector<Model> models(made.size());
   for (std::size_t i = 0; i < made.size(); ++i) {
     if (!made[i]) continue;
     if (!*made[i]) return std::move(*made[i]).error();
     models[i] = std::move(**made[i]);
+    forecast.learn(i, triangles_of(models[i]));
   }
+  forecast.refuse();  // what comes of copies, which are made of these
   return models;
 }
 
