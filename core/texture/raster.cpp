@@ -14,9 +14,8 @@ namespace {
 constexpr std::int64_t one = 16;  ///< a sample in fixed-point numbers
 // Beyond this a place is off the picture anyway, and products of two still fit 64 bits.
 constexpr double farthest = 1 << 24;
-// What looks down gets less of the sky, and what lies deep in a crown too. Without that a crown is flat.
-constexpr double light_below = 0.8, light_above = 1;
-constexpr double light_behind = 0.7;
+// What lies deep in a crown gets less of the sky. Without that a crown is flat.
+constexpr double light_behind = 0.8;
 
 std::int64_t fixed(double samples) {
   return math::to_int64(std::floor(std::clamp(samples, -farthest, farthest) * one + 0.5));
@@ -71,7 +70,6 @@ Canvas::Corner Canvas::corner_of(const Mesh& mesh, std::uint32_t vertex, const g
     const glm::dvec3 normal =
         math::unit(glm::dvec3(glm::mat3(at) * mesh.normal[vertex]), glm::dvec3(frame_.towards));
     const double facing = glm::dot(normal, frame_.towards) < 0 ? -1 : 1;
-    corner.light *= light_below + (light_above - light_below) * (0.5 + 0.5 * facing * normal.y);
     corner.normal = facing * glm::dvec3(glm::dot(normal, frame_.right), glm::dot(normal, frame_.up),
                                         glm::dot(normal, frame_.towards));
   }
