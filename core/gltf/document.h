@@ -29,8 +29,8 @@ struct DocumentOptions {
 };
 
 /// Describes what the scene of this level uses and nothing else: no mesh, material, texture, skin without a
-/// user. Spends the bytes of the JSON from `job`, not those of the buffer. `columns` are those of `model`; the
-/// last document takes the bytes of both.
+/// user. Spends the bytes of the JSON from `job`, not those of the buffer. `columns` are those of `model`;
+/// the last document takes the bytes of both.
 Document describe(Model& model, Columns& columns, const DocumentOptions& options, Job& job);
 
 }  // namespace seedmesh::gltf

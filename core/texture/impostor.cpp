@@ -20,6 +20,7 @@ constexpr std::uint32_t samples = 4;  ///< of a texel, each way
 constexpr std::uint32_t edges =
     32;  ///< of a cell, one is free on each side, so that neighbours do not bleed in
 constexpr std::uint32_t least_halved = 128;  ///< texels from which on normals have half as many a side
+constexpr double apart = 5e-4;  ///< how far a quad lies before the axis, of its width: no face is there twice
 constexpr float impostor_roughness = 0.9F;
 
 ViewFrame frame_of(std::size_t view) {
@@ -92,15 +93,16 @@ Mesh quads_of(const Windows& windows, const Job& job) {
       for (const glm::dvec2 corner :
            {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1), glm::dvec2(0, 1)}) {
         const glm::dvec2 place = window.low + (window.high - window.low) * corner;
-        mesh.position.push_back(glm::vec3(frame.right * place.x + frame.up * place.y) + 0.0F);
+        const glm::dvec3 before = frame.towards * (side * apart * (window.high.x - window.low.x));
+        mesh.position.push_back(glm::vec3(frame.right * place.x + frame.up * place.y + before) + 0.0F);
         mesh.normal.push_back(glm::vec3(frame.towards * side) + 0.0F);
         const glm::vec2 inside =
             inset +
             glm::vec2(static_cast<float>(corner.x), static_cast<float>(1 - corner.y)) * (1 - 2 * inset);
         mesh.uv[0].push_back((glm::vec2(cell_of(view)) + inside) / 2.0F);
       }
-      const std::array<std::uint32_t, 6> corners = side > 0 ? std::array{0U, 1U, 2U, 0U, 2U, 3U}
-                                                            : std::array{0U, 2U, 1U, 0U, 3U, 2U};
+      const std::array<std::uint32_t, 6> corners =
+          side > 0 ? std::array{0U, 1U, 2U, 0U, 2U, 3U} : std::array{0U, 2U, 1U, 0U, 3U, 2U};
       for (const std::uint32_t corner : corners) mesh.index.wide.push_back(first + corner);
     }
   }

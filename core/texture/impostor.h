@@ -32,7 +32,8 @@ std::size_t add_impostor_levels(Model& model, Job& job);
 /// Draws all recipes, as atlases of `size` by `size` texels (a power of two, 64 or more), and lets the
 /// materials use them: base colour, cut out by alpha, and normals in half as many texels a side. Colours are
 /// those of the surface, a little darker where it lies behind. Meshes that no node shows lose their
-/// primitives. About 15 ms for 256 texels and 20,000 triangles on one thread; pictures are drawn side by side.
+/// primitives. About 15 ms for 256 texels and 20,000 triangles on one thread; pictures are drawn side by
+/// side.
 void draw_impostors(Model& model, int size, Job& job);
 
 }  // namespace seedmesh::texture

@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::uint32_t none = 0xFFFFFFFFU;
 constexpr std::uint64_t draw_variant = 6;
+constexpr std::size_t many_models = 64, parts_of_many = 8;
 
 /// The schema of a generator's parameters; null where there is none.
 const Json* schema_of(std::string_view generator) {
@@ -104,16 +105,6 @@ void live_in(const SceneParams& scene, Child& child) {
     set(child, "age", std::min(*scene.age, own_age(child).value_or(*scene.age)));
   if (scene.season && has_parameter(child.generator, "season"))
     set(child, "season", std::string(text_of(*scene.season)));
-}
-
-/// Of all meshes, those of coarser levels too.
-std::uint64_t triangles_of(const Model& model) {
-  std::uint64_t triangles = 0;
-  for (const MeshGroup& group : model.meshes) {
-    for (const Primitive& each : group.primitives)
-      triangles += each.mesh.topology == Topology::triangles ? each.mesh.elements() : 0;
-  }
-  return triangles;
 }
 
 Child variant_of(const SceneParams& scene, const SceneLayer& layer, std::size_t number, Rng models) {
@@ -223,21 +214,30 @@ Result<std::vector<Model>> models_of(Forecast& forecast, const Demand& demand, J
     made[i].emplace(generate_child(cast.request, cast.pointer, Rng(0), job, own));
   };
   try {
-    const std::vector<std::size_t> scouts = forecast.scouts();
-    parallel_for(job, scouts.size(), 1, [&](std::size_t i, std::size_t, std::size_t) { make(scouts[i]); });
-    for (const std::size_t i : scouts) {
+    for (const std::size_t i : forecast.scouts()) {  // one by one, so that it is known what each costs
+      Amounts spent = spent_of(job);
+      make(i);
       if (!*made[i]) return std::move(*made[i]).error();
-      forecast.learn(i, triangles_of(**made[i]));
+      const Amounts after = spent_of(job);
+      for (std::size_t r = 0; r < spent.size(); ++r) spent[r] = after[r] - spent[r];
+      forecast.learn(i, spent);
+      forecast.refuse(job);
     }
-    forecast.refuse();
     std::vector<std::size_t> others;
     for (std::size_t i = 0; i < made.size(); ++i) {
       if (forecast.is_wanted(i) && !made[i]) others.push_back(i);
     }
-    parallel_for(job, 1 + others.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
-      if (i > 0) make(others[i - 1]);
-      if (i == 0 && beside) beside();
-    });
+    // Of many models the first parts show what the whole comes to.
+    const std::size_t parts = others.size() >= many_models ? parts_of_many : 1;
+    for (std::size_t own = 0; own < parts; ++own) {
+      const Amounts before = spent_of(job);
+      const std::size_t here = (others.size() + parts - 1 - own) / parts;
+      parallel_for(job, 1 + here, 1, [&](std::size_t i, std::size_t, std::size_t) {
+        if (i > 0) make(others[own + (i - 1) * parts]);
+        if (i == 0 && own == 0 && beside) beside();
+      });
+      if (own > 0) forecast.refuse(job, before, parts - 1 - own);
+    }
   } catch (const Stop& stop) {  // the same stop, told of where it belongs
     Issue issue = stop.issue();
     if (stop.code() == Code::limit && issue.pointer.empty()) issue.pointer = forecast.blamed();
@@ -248,9 +248,7 @@ Result<std::vector<Model>> models_of(Forecast& forecast, const Demand& demand, J
     if (!made[i]) continue;
     if (!*made[i]) return std::move(*made[i]).error();
     models[i] = std::move(**made[i]);
-    forecast.learn(i, triangles_of(models[i]));
   }
-  forecast.refuse();  // what comes of copies, which are made of these
   return models;
 }
 

@@ -14,9 +14,9 @@
 namespace seedmesh::scene {
 namespace {
 
-constexpr double poisson_density = 0.65;     ///< places in a square of their distance
-constexpr std::uint64_t bytes_a_node = 230;  ///< of a copy in core glTF, its line of JSON
-constexpr std::uint64_t grid_to_reduced = 8;  ///< triangles of a grid for one of a reduced mesh, about
+constexpr double poisson_density = 0.65;        ///< places in a square of their distance
+constexpr std::uint64_t bytes_a_node = 230;     ///< of a copy in core glTF, its line of JSON
+constexpr std::uint64_t grid_to_reduced = 8;    ///< triangles of a grid for one of a reduced mesh, about
 constexpr std::uint64_t bytes_a_triangle = 24;  ///< of a reduced mesh
 constexpr Estimate square{2, 800, true}, disc{94, 3200, true}, none{0, 100, true};
 
@@ -74,8 +74,7 @@ std::optional<Estimate> ground_of(const SceneParams& params, const Job& job) {
   const Result<Appraisal> own = appraise_child(*params.terrain, "/terrain", Rng(0), job);
   if (!own || own->estimate) return own ? own->estimate : std::nullopt;
   Faults faults;
-  const int side =
-      terrain::finished_side(read_terrain(Json::parse(params.terrain->parameters), "", faults));
+  const int side = terrain::finished_side(read_terrain(Json::parse(params.terrain->parameters), "", faults));
   const auto squares = static_cast<std::uint64_t>(std::max(side - 1, 0));
   const std::uint64_t triangles = 2 * squares * squares / grid_to_reduced;
   return Estimate{triangles, triangles * bytes_a_triangle, false};

@@ -29,7 +29,7 @@ struct Grower {
   int mesh = -1;             ///< into the meshes of the scene
   std::vector<Node> joints;  ///< parents by their number here, -1: the place
   std::vector<glm::mat4> inverse_bind;
-  Animation animation;  ///< channels by the numbers of joints
+  Animation animation;                       ///< channels by the numbers of joints
   std::array<int, starts_of_a_layer> times;  ///< by start: where its key times begin in the scene's animation
 
   Grower() { times.fill(-1); }

@@ -43,16 +43,13 @@ std::vector<Issue> conflicts(const SceneParams& params, const Demand& demand) {
   return issues;
 }
 
-/// How often each model is made: once, or where copies are merged for each of them.
-std::vector<std::uint64_t> made_of(const Planting& planting, const Casting& casting, bool merges) {
-  std::vector<std::uint64_t> times(casting.casts.size());
+/// How many stand of each model.
+std::vector<std::uint64_t> stands_of(const Planting& planting, const Casting& casting) {
+  std::vector<std::uint64_t> stands(casting.casts.size());
   for (std::size_t layer = 0; layer < planting.layers.size(); ++layer) {
-    for (const Stand& stand : planting.layers[layer]) {
-      std::uint64_t& own = times[casting.cast_of(layer, stand)];
-      own = merges ? own + 1 : 1;
-    }
+    for (const Stand& stand : planting.layers[layer]) ++stands[casting.cast_of(layer, stand)];
   }
-  return times;
+  return stands;
 }
 
 }  // namespace
@@ -64,7 +61,7 @@ Result<Model> generate(const SceneParams& params, Job& job) {
   job.progress("derive", 0);
   const Casting casting = casting_of(params, job);
   Forecast forecast(params, casting, job);
-  forecast.refuse();
+  forecast.refuse(job);
   Result<Ground> ground = Ground::make(params, job);
   if (!ground) return std::move(ground).error();
   Planting planting = plant(params, *ground, job);
@@ -79,7 +76,7 @@ Result<Model> generate(const SceneParams& params, Job& job) {
     demand.most_bones = *bones;
   }
   const bool merges = job.demand().copies == CopyForm::merge && !chooses_levels(params, job.demand());
-  forecast.want(made_of(planting, casting, merges));
+  forecast.want(stands_of(planting, casting), merges);
   // A reduced mesh of the ground is long work that cannot be cut: models are made beside it.
   std::optional<Result<Model>> made;
   Result<std::vector<Model>> models =
@@ -104,7 +101,7 @@ Result<Appraisal> appraise(const SceneParams& params, const Job& job) {
   Appraisal appraisal;
   const Casting casting = casting_of(params, job);
   const Forecast forecast(params, casting, job);
-  forecast.refuse();
+  forecast.refuse(job);
   std::set<std::pair<std::string, std::string>> seen;
   std::vector<std::optional<Estimate>> estimates;
   for (const Cast& cast : casting.casts) {
@@ -128,7 +125,7 @@ Result<Array<std::uint8_t>> encode(const SceneParams& params, std::string_view, 
   job.progress("derive", 0);
   const Casting casting = casting_of(params, job);
   Forecast forecast(params, casting, job);
-  forecast.refuse();
+  forecast.refuse(job);
   Result<Ground> ground = Ground::make(params, job);
   if (!ground) return std::move(ground).error();
   const Planting planting = plant(params, *ground, job);

@@ -51,9 +51,9 @@ TEST(SceneEstimate, TakesThePlacesThatAPatternHasRoomFor) {
 }
 
 Json stochastic() {
-  return {{"generator", "lsystem"},
-          {"parameters",
-           {{"axiom", "A"}, {"productions", {"A -> FA : 1", "A -> F : 2"}}, {"iterations", 4}}}};
+  return {
+      {"generator", "lsystem"},
+      {"parameters", {{"axiom", "A"}, {"productions", {"A -> FA : 1", "A -> F : 2"}}, {"iterations", 4}}}};
 }
 
 TEST(SceneEstimate, IsNothingWhereNoModelOfALayerCanTell) {
@@ -74,9 +74,9 @@ TEST(SceneEstimate, TakesTheMeanOfALayerForAModelThatCannotTell) {
 TEST(SceneEstimate, GuessesAReducedGround) {
   Json json = field_of({{"distance", 4}});
   json.erase("ground");
-  json["terrain"] = {{"generator", "terrain"},
-                     {"parameters",
-                      {{"algorithm", "fbm"}, {"resolution", 129}, {"size", 40}, {"mesh", "greedy"}}}};
+  json["terrain"] = {
+      {"generator", "terrain"},
+      {"parameters", {{"algorithm", "fbm"}, {"resolution", 129}, {"size", 40}, {"mesh", "greedy"}}}};
   const std::optional<Estimate> estimate = estimated(json);
   ASSERT_TRUE(estimate);
   EXPECT_FALSE(estimate->exact);

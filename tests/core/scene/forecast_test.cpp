@@ -71,6 +71,25 @@ TEST(SceneForecast, RefusesAfterOneModelOfALayerWhatManyOfThemComeTo) {
   }
 }
 
+TEST(SceneForecast, CountsModulesToo) {
+  const Json json = garden(cube(), bush(7), 32);
+  const Generator::Params params = read_scene_params(json);
+  Job free(1, Job::Options{});
+  ASSERT_TRUE(scene::generate(own(params), free));
+  const std::uint64_t whole = free.spent(Resource::modules);
+  Job::Options options;
+  options.limits.modules = whole / 3;
+  Job job(1, options);
+  try {
+    const Result<Model> model = scene::generate(own(params), job);
+    FAIL() << "it was made";
+  } catch (const Stop& stop) {
+    EXPECT_EQ(stop.issue().pointer, "/layers/1/model");
+    EXPECT_THAT(stop.issue().message, HasSubstr("modules"));
+  }
+  EXPECT_LT(job.spent(Resource::modules), whole / 8);
+}
+
 TEST(SceneForecast, RefusesNothingThatFits) {
   for (const int variants : {1, 3, 8}) {
     const Json json = garden(bush(4), bush(5), variants);
@@ -87,8 +106,27 @@ TEST(SceneForecast, PointsToTheLayerWhereALimitIsPassedOnTheWay) {
     const Result<Model> model = scene_of(json, 1, within(whole - 1, threads));
     ASSERT_FALSE(model);
     EXPECT_EQ(model.error().code, Code::limit);
-    EXPECT_EQ(model.error().issues.front().pointer.substr(0, 8), "/layers/");
+    EXPECT_EQ(model.error().issues.front().pointer, "/layers/1/model");
   }
+}
+
+TEST(SceneForecast, SeesFromAPartOfManyModelsWhatTheWholeComesTo) {
+  const Json json = garden(bush(5), bush(6), 50);
+  const std::uint64_t whole = made(json);
+  const Generator::Params params = read_scene_params(json);
+  for (const int threads : {1, 8}) {
+    Job job(1, within(whole * 2 / 3, threads));  // more than half: one model of each layer does not tell
+    try {
+      const Result<Model> model = scene::generate(own(params), job);
+      FAIL() << "it was made";
+    } catch (const Stop& stop) {
+      EXPECT_EQ(stop.issue().pointer, "/layers/1/model");
+      EXPECT_THAT(stop.issue().message, HasSubstr("need about"));
+    }
+    EXPECT_LT(job.spent(Resource::triangles), whole / 2);
+  }
+  Job enough(1, within(whole));
+  EXPECT_TRUE(scene::generate(own(params), enough));
 }
 
 TEST(SceneForecast, CountsEachCopyThatWillBeMerged) {
@@ -104,15 +142,19 @@ TEST(SceneForecast, CountsEachCopyThatWillBeMerged) {
 }
 
 TEST(SceneForecast, TriesOneModelOfEachLayerThatCannotTell) {
-  const Generator::Params params = read_scene_params(garden(cube(), bush(3), 4));
+  Json json = garden(cube(), bush(3), 4);
+  json["layers"][1]["variants"] = 13;
+  const Generator::Params params = read_scene_params(json);
   const Job job = job_of(1);
   const scene::Casting casting = scene::casting_of(own(params), job);
   scene::Forecast forecast(own(params), casting, job);
   EXPECT_THAT(forecast.scouts(), ElementsAre(4U));
-  forecast.want({1, 1, 1, 1, 0, 1, 1, 1});
+  forecast.want({1, 1, 1, 1, 0, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9}, false);
   EXPECT_THAT(forecast.scouts(), ElementsAre(5U));
-  forecast.want({1, 1, 1, 1, 0, 1, 0, 0});
-  EXPECT_THAT(forecast.scouts(), SizeIs(0));
+  forecast.want({1, 1, 1, 1, 0, 1, 0, 0, 9, 9, 9, 9, 9, 0, 0, 0, 0}, false);
+  EXPECT_THAT(forecast.scouts(), SizeIs(0)) << "few are made at once";
+  forecast.want({1, 1, 1, 1, 0, 1, 0, 0, 9, 9, 9, 9, 9, 0, 0, 0, 0}, true);
+  EXPECT_THAT(forecast.scouts(), ElementsAre(5U));
 }
 
 }  // namespace

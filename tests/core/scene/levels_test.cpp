@@ -105,13 +105,10 @@ std::size_t triangles_of(const Model& model, int mesh) {
 Json hills(const char* mesh) {
   Json json = grove();
   json.erase("ground");
-  json["terrain"] = {{"generator", "terrain"},
-                     {"parameters",
-                      {{"algorithm", "fbm"},
-                       {"resolution", 65},
-                       {"size", 100},
-                       {"amplitude", 12},
-                       {"mesh", mesh}}}};
+  json["terrain"] = {
+      {"generator", "terrain"},
+      {"parameters",
+       {{"algorithm", "fbm"}, {"resolution", 65}, {"size", 100}, {"amplitude", 12}, {"mesh", mesh}}}};
   json["paths"] = {{{"points", {{-40, -40}, {40, 40}}}}};
   return json;
 }
