@@ -226,10 +226,9 @@ class Describer {
   template <class T>
   int add_column(Array<T> values, Component component, Lanes lanes) {
     const std::size_t count = values.size();
-    copy_columns_.push_back(
-        {.slice = keep(std::move(values)), .component = component, .lanes = lanes, .count = count});
+    const bool is_share = component == Component::i16;
+    copy_columns_.push_back({keep(std::move(values)), component, lanes, count, is_share});
     Column& column = copy_columns_.back();
-    column.normalized = component == Component::i16;
     const int number = accessors_.add(vertex_pool(column), column);
     column.slice = {};
     return number;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 
 #include "core/base/parallel.h"
@@ -111,12 +110,7 @@ class Dressing {
   }
 
  private:
-  Sites made_sites() const { return {field_, place_of(params_), job_.rng().at("terrain"), job_}; }
-
-  const Sites& sites() {
-    if (!sites_) sites_.emplace(made_sites());
-    return *sites_;
-  }
+  Sites sites() const { return {field_, place_of(params_), job_.rng().at("terrain"), job_}; }
 
   /// The colour of a sample of a coarse mesh. Those of a reduced mesh are found one by one, with sites that
   /// are made when the first is asked for: they need as much memory as the field.
@@ -124,19 +118,20 @@ class Dressing {
     if (!colors_.empty()) return [this](std::uint32_t sample) { return colors_[sample]; };
     if (params_.texture > 0 || params_.palette == TerrainPalette::none) return {};
     return [this, own = std::shared_ptr<const Sites>()](std::uint32_t sample) mutable {
-      if (!own) own = std::make_shared<const Sites>(made_sites());
+      if (!own) own = std::make_shared<const Sites>(sites());
       const Place at = place_of(sample, field_.width);
       return vertex_color(*own, looks_, at.x, at.z);
     };
   }
 
   void add_pictures(Model& model, int ground) {
+    const Sites all = sites();
     if (params_.palette != TerrainPalette::none) {
-      const texture::Picture colors = color_picture(field_, sites(), looks_, params_.texture, job_);
+      const texture::Picture colors = color_picture(field_, all, looks_, params_.texture, job_);
       model.materials[static_cast<std::size_t>(ground)].base_color_texture = {
           add_texture(model, "ground_color", colors, job_), 0, false};
     }
-    const texture::Picture normals = normal_picture(field_, sites(), params_.texture, job_);
+    const texture::Picture normals = normal_picture(field_, all, params_.texture, job_);
     model.materials[static_cast<std::size_t>(ground)].normal_texture = {
         add_texture(model, "ground_normal", normals, job_), 0, false};
   }
@@ -311,7 +306,6 @@ class Dressing {
   Job& job_;
   Range range_;
   float level_;
-  std::optional<Sites> sites_;
   Looks looks_;
   Shading shading_;
   Array<glm::u8vec4> colors_;
