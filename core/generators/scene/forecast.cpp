@@ -47,6 +47,19 @@ Forecast::Forecast(const SceneParams& params, const Casting& casting, const Job&
     if (own && own->estimate && own->estimate->exact) ground_ = own->estimate->triangles;
   }
   for (const Cast& cast : casting.casts) {
+    // What its first model cannot tell exactly, the others of a layer that differ in their seeds cannot
+    // either: they count like it, and nothing is asked again.
+    const auto of = [number = rows_.size()](const Casting::Layer& layer) {
+      return number > layer.first && number < layer.first + layer.count;
+    };
+    const auto layer = std::find_if(casting.layers.begin(), casting.layers.end(), of);
+    if (layer != casting.layers.end() &&
+        are_alike(params.layers[static_cast<std::size_t>(layer - casting.layers.begin())]) &&
+        !(rows_[layer->first].told && rows_[layer->first].told->exact)) {
+      const Row first = rows_[layer->first];
+      rows_.push_back(first);
+      continue;
+    }
     Row row;
     const Result<Appraisal> appraisal = appraise_child(cast.request, cast.pointer, Rng(0), job);
     if (appraisal && appraisal->estimate) {
