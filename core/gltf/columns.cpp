@@ -165,4 +165,18 @@ Columns take_columns(Model& model) {
   return columns;
 }
 
+void let_go(Columns& columns) {
+  for (std::vector<Part>& mesh : columns.meshes) {
+    for (Part& part : mesh) {
+      for (Column& column : part.columns) column.slice = {};
+      if (part.index) part.index->slice = {};
+    }
+  }
+  for (Column& column : columns.inverse_binds) column.slice = {};
+  for (Tracks& tracks : columns.animations) {
+    for (Column& column : tracks.times) column.slice = {};
+    for (Column& column : tracks.values) column.slice = {};
+  }
+}
+
 }  // namespace seedmesh::gltf

@@ -83,4 +83,7 @@ Slice keep(Container numbers) {
 /// that exists.
 Columns take_columns(Model& model);
 
+/// Lets go of the bytes of all columns; what is told of them stays.
+void let_go(Columns& columns);
+
 }  // namespace seedmesh::gltf

@@ -70,14 +70,19 @@ Slice joined(std::vector<Slice> slices, std::uint64_t length, Job& job) {
   return {std::move(block), whole};
 }
 
-Array<unsigned> indices_of(std::span<const std::byte> bytes, std::uint32_t stride, Job& job) {
-  Array<unsigned> indices(job, bytes.size() / stride);
+/// Indices as the library takes them, widened in `room` where they are narrow.
+std::span<const unsigned> indices_of(std::span<const std::byte> bytes, std::uint32_t stride,
+                                     Array<unsigned>& room) {
+  if (stride == sizeof(unsigned))  // arrays of such numbers, as all that are so wide
+    return {reinterpret_cast<const unsigned*>(bytes.data()), bytes.size() / stride};
+  Array<unsigned>& indices = room;
+  indices.resize(bytes.size() / stride);
   for (std::size_t i = 0; i < indices.size(); ++i) {
     unsigned index = 0;
     std::memcpy(&index, bytes.data() + i * stride, stride);  // the low bytes come first
     indices[i] = index;
   }
-  return indices;
+  return std::as_const(indices).span();
 }
 
 /// What a codec makes of a stream. Its bound is a third more than the stream at worst.
@@ -90,7 +95,8 @@ Slice encoded(std::span<const std::byte> bytes, Pool pool, Job& job) {
     out->resize(meshopt_encodeVertexBufferBound(count, stride));
     size = meshopt_encodeVertexBuffer(out->data(), out->size(), bytes.data(), count, stride);
   } else {
-    const Array<unsigned> indices = indices_of(bytes, stride, job);
+    Array<unsigned> room(job);
+    const std::span<const unsigned> indices = indices_of(bytes, stride, room);
     const std::size_t vertices = std::size_t{*std::max_element(indices.begin(), indices.end())} + 1;
     if (mode_of(pool) == Mode::triangles) {
       out->resize(meshopt_encodeIndexBufferBound(count, vertices));
@@ -148,10 +154,11 @@ void append_view(std::string& out, const Bin::View& plain, const Bin::View& stor
 
 }  // namespace
 
-Compressed compress(const Bin& plain, Job& job) {
+Compressed compress(Bin& plain, Job& job) {
   choose_versions();
   Compressed result;
   std::vector<std::vector<Slice>> slices = plain.slices();
+  plain.forget();
   for (std::size_t i = 0; i < slices.size(); ++i) {
     job.check();
     const Bin::View& view = plain.views()[i];

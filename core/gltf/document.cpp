@@ -30,7 +30,7 @@ void open_entry(std::string& list) { list += list.empty() ? '[' : ','; }
 /// Collects the document list by list: the long ones as text, the short ones in a tinygltf model.
 class Describer {
  public:
-  Describer(const Model& model, const Columns& columns, const DocumentOptions& options, Job& job)
+  Describer(Model& model, Columns& columns, const DocumentOptions& options, Job& job)
       : model_(model),
         columns_(columns),
         options_(options),
@@ -70,9 +70,10 @@ class Describer {
   void add_copies(Shown& shown) {
     if (!options_.dialect.gpu_instances) return;
     for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
-      const std::vector<Transform>& copies = model_.nodes[i].instances.transforms;
+      std::vector<Transform>& copies = model_.nodes[i].instances.transforms;
       if (copies.empty() || shown.meshes[i] < 0 || model_.nodes[i].skin >= 0) continue;
       shown.copies[i] = copies_of(copies);
+      if (options_.last) copies = {};
     }
     if (!shown.copies.empty()) require("EXT_mesh_gpu_instancing");
   }
@@ -148,6 +149,7 @@ class Describer {
 
   /// Gives everything its place in the buffer; nothing can be added after this.
   void arrange() {
+    if (options_.last) let_go(columns_);
     Bin& bin = accessors_.bin();
     bin.arrange(accessors_.packing());
     for (const int item : image_items_) {
@@ -206,7 +208,6 @@ class Describer {
 
   void compress_views() {
     compressed_ = compress(accessors_.bin(), job_);
-    accessors_.bin().forget();
     if (compressed_.fallback == 0) return;
     require("KHR_mesh_quantization");
     require("EXT_meshopt_compression");
@@ -225,11 +226,12 @@ class Describer {
   template <class T>
   int add_column(Array<T> values, Component component, Lanes lanes) {
     const std::size_t count = values.size();
-    copy_columns_.push_back(
-        {.slice = keep(std::move(values)), .component = component, .lanes = lanes, .count = count});
+    const bool is_share = component == Component::i16;
+    copy_columns_.push_back({keep(std::move(values)), component, lanes, count, is_share});
     Column& column = copy_columns_.back();
-    column.normalized = component == Component::i16;
-    return accessors_.add(vertex_pool(column), column);
+    const int number = accessors_.add(vertex_pool(column), column);
+    column.slice = {};
+    return number;
   }
 
   /// Rotations in 16 bits where the file is quantized anyway, which all readers of both extensions take.
@@ -306,8 +308,8 @@ class Describer {
     return texture->second;
   }
 
-  const Model& model_;
-  const Columns& columns_;
+  Model& model_;
+  Columns& columns_;
   const DocumentOptions& options_;
   Job& job_;
   tinygltf::Model out_;
@@ -359,7 +361,7 @@ void add_to_asset(std::string& text, const std::string& extras) {
 
 }  // namespace
 
-Document describe(const Model& model, const Columns& columns, const DocumentOptions& options, Job& job) {
+Document describe(Model& model, Columns& columns, const DocumentOptions& options, Job& job) {
   Describer describer(model, columns, options, job);
   Shown shown = describer.show_nodes();
   describer.add_meshes();

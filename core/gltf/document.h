@@ -25,10 +25,12 @@ struct DocumentOptions {
   std::size_t lod = 0;                       ///< nodes with fewer levels show their coarsest
   std::vector<std::string> image_uris = {};  ///< as Model::textures; empty: the images go into the buffer
   Dialect dialect = {};                      ///< `compressed`: `columns` are quantized
+  bool last = false;  ///< no other document follows: arrays go as soon as they are stored
 };
 
 /// Describes what the scene of this level uses and nothing else: no mesh, material, texture, skin without a
-/// user. Spends the bytes of the JSON from `job`, not those of the buffer. `columns` are those of `model`.
-Document describe(const Model& model, const Columns& columns, const DocumentOptions& options, Job& job);
+/// user. Spends the bytes of the JSON from `job`, not those of the buffer. `columns` are those of `model`;
+/// the last document takes the bytes of both.
+Document describe(Model& model, Columns& columns, const DocumentOptions& options, Job& job);
 
 }  // namespace seedmesh::gltf

@@ -119,43 +119,57 @@ void quantize_columns(Part& part, const Grid& grid, Job& job) {
 
 // --- What became equal ---
 
-Array<std::uint32_t> corners_of(const Column& index, Job& job) {
-  Array<std::uint32_t> corners(job, index.count);
+/// The indices, as they are where they are wide, else widened in `room`.
+std::span<const std::uint32_t> corners_of(const Column& index, Array<std::uint32_t>& room) {
+  if (index.component == Component::u32)
+    return {reinterpret_cast<const std::uint32_t*>(index.slice.bytes.data()), index.count};
+  Array<std::uint32_t>& corners = room;
+  corners.resize(index.count);
   for (std::size_t i = 0; i < index.count; ++i) {
-    corners[i] = index.component == Component::u16 ? load<std::uint16_t>(index.slice, i)
-                                                   : load<std::uint32_t>(index.slice, i);
+    corners[i] = load<std::uint16_t>(index.slice, i);
   }
-  return corners;
+  return std::as_const(corners).span();
 }
 
-/// For each vertex the first that has all its bytes; returns how many stay.
-std::size_t join_equal(const Part& part, Array<std::uint32_t>& corners, Job& job) {
+/// For each vertex the first that has all its bytes, or empty where all differ; `kept` of them stay.
+Array<unsigned> firsts_of(const Part& part, std::span<const std::uint32_t> corners, std::size_t& kept,
+                          Job& job) {
   const std::size_t vertices = part.columns.front().count;
   std::vector<meshopt_Stream> streams;
   for (const Column& column : part.columns)
     streams.push_back({column.slice.bytes.data(), column.stride(), column.stride()});
-  Array<unsigned> place(job, vertices), first(job, vertices, 0xFFFFFFFFU);
-  const std::size_t kept = meshopt_generateVertexRemapMulti(place.data(), corners.data(), corners.size(),
-                                                            vertices, streams.data(), streams.size());
-  if (kept == vertices) return kept;
   constexpr unsigned unused = 0xFFFFFFFFU;
+  Array<unsigned> place(job, vertices);
+  kept = meshopt_generateVertexRemapMulti(place.data(), corners.data(), corners.size(), vertices,
+                                          streams.data(), streams.size());
+  if (kept == vertices) return Array<unsigned>(job);
+  Array<unsigned> first(job, vertices, unused);
   for (std::size_t i = 0; i < vertices; ++i) {
     if (place[i] != unused) first[place[i]] = std::min(first[place[i]], static_cast<unsigned>(i));
   }
-  for (std::uint32_t& corner : corners) corner = first[place[corner]];
-  return kept;
+  for (unsigned& each : place) each = each == unused ? unused : first[each];
+  return place;
+}
+
+bool is_flat(const Column& position, const std::uint32_t* corners) {
+  glm::i64vec3 p[3];
+  for (std::size_t c = 0; c < 3; ++c) p[c] = glm::i64vec3(load<glm::u16vec4>(position.slice, corners[c]));
+  const glm::i64vec3 a = p[1] - p[0], b = p[2] - p[0];
+  return glm::i64vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x) == glm::i64vec3(0);
+}
+
+bool any_flat(const Column& position, std::span<const std::uint32_t> corners) {
+  for (std::size_t t = 0; t + 2 < corners.size(); t += 3) {
+    if (is_flat(position, corners.data() + t)) return true;
+  }
+  return false;
 }
 
 /// Triangles with an area stay, in their order.
 void drop_flat(const Column& position, Array<std::uint32_t>& corners) {
   std::size_t kept = 0;
   for (std::size_t t = 0; t + 2 < corners.size(); t += 3) {
-    glm::i64vec3 p[3];
-    for (std::size_t c = 0; c < 3; ++c)
-      p[c] = glm::i64vec3(load<glm::u16vec4>(position.slice, corners[t + c]));
-    const glm::i64vec3 a = p[1] - p[0], b = p[2] - p[0];
-    const glm::i64vec3 across(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-    if (across == glm::i64vec3(0)) continue;
+    if (is_flat(position, corners.data() + t)) continue;
     for (std::size_t c = 0; c < 3; ++c) corners[kept++] = corners[t + c];
   }
   corners.resize(kept);
@@ -285,10 +299,12 @@ void clean_points(Part& part, Job& job) {
   Array<std::uint32_t> corners(job, (count + 2) / 3 * 3);  // the library counts in triangles
   for (std::size_t i = 0; i < corners.size(); ++i)
     corners[i] = static_cast<std::uint32_t>(std::min(i, count - 1));
-  if (join_equal(part, corners, job) == count) return;
+  std::size_t different = 0;
+  const Array<unsigned> first = firsts_of(part, corners.span(), different, job);
+  if (different == count) return;
   Array<std::uint32_t> kept(job);
   for (std::size_t i = 0; i < count; ++i) {
-    if (corners[i] == i) kept.push_back(corners[i]);
+    if (first[i] == i) kept.push_back(first[i]);
   }
   rewrite(part, kept, job);
 }
@@ -298,12 +314,20 @@ void clean(Part& part, Job& job) {
   if (part.topology == Topology::points && !part.index) return clean_points(part, job);
   if (part.topology != Topology::triangles || !part.index) return;
   job.check();
-  Array<std::uint32_t> corners = corners_of(*part.index, job);
-  const std::size_t vertices = part.columns.front().count, before = corners.size();
-  const std::size_t kept = join_equal(part, corners, job);
+  Array<std::uint32_t> corners(job);
+  const std::span<const std::uint32_t> given = corners_of(*part.index, corners);
+  const std::size_t vertices = part.columns.front().count, before = given.size();
+  std::size_t kept = 0;
+  const Array<unsigned> first = firsts_of(part, given, kept, job);
+  // Mostly nothing is to be done, and then nothing is copied.
+  if (kept == vertices && !any_flat(part.columns.front(), given)) return;
+  if (corners.empty()) corners.append(given);
+  if (!first.empty()) {
+    for (std::uint32_t& corner : corners) corner = first[corner];
+  }
   drop_flat(part.columns.front(), corners);
   if (corners.size() < before) drop_folds(part.columns.front(), corners);
-  if (kept < vertices || corners.size() < before) rewrite(part, corners, job);
+  rewrite(part, corners, job);
 }
 
 }  // namespace

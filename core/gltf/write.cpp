@@ -122,7 +122,7 @@ std::size_t lod_count(const Model& model) {
   return 1 + coarser;
 }
 
-Payload write_zip(const Model& model, const Columns& columns, gltf::DocumentOptions options, Job& job) {
+Payload write_zip(Model& model, Columns& columns, gltf::DocumentOptions options, Job& job) {
   const std::string stem = file_stem(model.name);
   options.image_uris = image_files(model);
   options.dialect.lods_inside = false;
@@ -130,6 +130,7 @@ Payload write_zip(const Model& model, const Columns& columns, gltf::DocumentOpti
   std::set<std::size_t> images;
   const std::size_t lods = lod_count(model);
   for (; options.lod < lods; ++options.lod) {
+    options.last = options.lod + 1 == lods;
     Document document = gltf::describe(model, columns, options, job);
     images.insert(document.images.begin(), document.images.end());
     const std::string suffix = options.lod == 0 ? "" : "_LOD" + std::to_string(options.lod);
@@ -158,10 +159,10 @@ Payload write(Model model, const WriteOptions& options, Job& job) {
   if (dialect.compressed) grids = gltf::lay_grids(model);
   Columns columns = gltf::take_columns(model);
   if (dialect.compressed) gltf::quantize(columns, grids, job);
-  const gltf::DocumentOptions described{.generator = options.generator, .dialect = dialect};
+  gltf::DocumentOptions described{.generator = options.generator, .dialect = dialect};
   if (options.container == Container::zip) return write_zip(model, columns, described, job);
+  described.last = true;
   Document document = gltf::describe(model, columns, described, job);
-  columns = {};  // now the document alone holds the arrays, and can give each back as soon as it is written
   return options.container == Container::glb ? write_glb(std::move(document), job)
                                              : write_gltf(std::move(document), job);
 }

@@ -96,6 +96,26 @@ void Atlas::put(const Canvas& canvas, const glm::uvec2& corner, const Cell& cell
   spread(corner, cell.size);
 }
 
+void Atlas::put_normals(const Canvas& canvas, const glm::uvec2& corner, const Cell& cell) {
+  const std::uint32_t inside = canvas.width() / cell.samples;
+  for (std::uint32_t y = 0; y < inside; ++y) {
+    for (std::uint32_t x = 0; x < inside; ++x) {
+      glm::ivec3 sum(0);
+      for (std::uint32_t j = 0; j < cell.samples; ++j) {
+        for (std::uint32_t i = 0; i < cell.samples; ++i)
+          sum += glm::ivec3(glm::i8vec3(canvas.at(x * cell.samples + i, y * cell.samples + j).normal));
+      }
+      if (sum == glm::ivec3(0)) continue;
+      const glm::dvec3 normal = math::unit(glm::dvec3(sum), glm::dvec3(0, 0, 1)) * 127.5 + 128.0;
+      glm::u8vec4& texel = at(corner.x + cell.edge + x, corner.y + cell.edge + y);
+      texel.w = 255;
+      for (int c = 0; c < 3; ++c)
+        texel[c] = static_cast<std::uint8_t>(std::clamp(math::to_int32(normal[c]), 0, 255));
+    }
+  }
+  spread(corner, cell.size);
+}
+
 /// Ring after ring, each texel the mean of its neighbours that have a colour.
 void Atlas::spread(const glm::uvec2& corner, std::uint32_t side) {
   std::vector<std::uint8_t> known(std::size_t{side} * side, 0);
@@ -149,6 +169,23 @@ void Atlas::spread(const glm::uvec2& corner, std::uint32_t side) {
 std::shared_ptr<const Image> Atlas::image(const std::string& name, const Job& job) const {
   const Array<std::uint8_t> file =
       encode_png({size_, size_, 4, 8, std::as_bytes(texels_.span())}, PngEffort::small, job);
+  auto image = std::make_shared<Image>();
+  image->name = name;
+  image->bytes.assign(file.begin(), file.end());
+  return image;
+}
+
+std::shared_ptr<const Image> Atlas::normal_image(const std::string& name, const Job& job) const {
+  Array<std::uint8_t> channels(job);
+  channels.reserve(3 * texels_.size());
+  for (const glm::u8vec4& texel : texels_) {
+    // The free corner and all else that nothing is near to is level.
+    const bool is_level = glm::u8vec3(texel) == glm::u8vec3(0);
+    for (int c = 0; c < 3; ++c)
+      channels.push_back(is_level ? (c == 2 ? std::uint8_t{255} : middle) : texel[c]);
+  }
+  const Array<std::uint8_t> file =
+      encode_png({size_, size_, 3, 8, std::as_bytes(channels.span())}, PngEffort::small, job);
   auto image = std::make_shared<Image>();
   image->name = name;
   image->bytes.assign(file.begin(), file.end());

@@ -27,8 +27,12 @@ class Atlas {
   /// at once are safe.
   void put(const Canvas& canvas, const glm::uvec2& corner, const Cell& cell);
 
-  /// A PNG file, RGBA in sRGB.
+  /// The same for the mean normals of the samples, in the space of the picture as glTF has them.
+  void put_normals(const Canvas& canvas, const glm::uvec2& corner, const Cell& cell);
+
+  /// PNG files: of colours, RGBA in sRGB; of normals, RGB.
   std::shared_ptr<const Image> image(const std::string& name, const Job& job) const;
+  std::shared_ptr<const Image> normal_image(const std::string& name, const Job& job) const;
 
  private:
   void spread(const glm::uvec2& corner, std::uint32_t side);

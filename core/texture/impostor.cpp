@@ -19,6 +19,8 @@ constexpr std::size_t views = 3;
 constexpr std::uint32_t samples = 4;  ///< of a texel, each way
 constexpr std::uint32_t edges =
     32;  ///< of a cell, one is free on each side, so that neighbours do not bleed in
+constexpr std::uint32_t least_halved = 128;  ///< texels from which on normals have half as many a side
+constexpr double apart = 5e-4;  ///< how far a quad lies before the axis, of its width: no face is there twice
 constexpr float impostor_roughness = 0.9F;
 
 ViewFrame frame_of(std::size_t view) {
@@ -86,16 +88,23 @@ Mesh quads_of(const Windows& windows, const Job& job) {
   for (std::size_t view = 0; view < views; ++view) {
     const ViewFrame frame = frame_of(view);
     const ViewWindow& window = windows.of[view];
-    const auto first = static_cast<std::uint32_t>(mesh.position.size());
-    for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1), glm::dvec2(0, 1)}) {
-      const glm::dvec2 place = window.low + (window.high - window.low) * corner;
-      mesh.position.push_back(glm::vec3(frame.right * place.x + frame.up * place.y) + 0.0F);
-      mesh.normal.push_back(glm::vec3(frame.towards) + 0.0F);
-      const glm::vec2 inside =
-          inset + glm::vec2(static_cast<float>(corner.x), static_cast<float>(1 - corner.y)) * (1 - 2 * inset);
-      mesh.uv[0].push_back((glm::vec2(cell_of(view)) + inside) / 2.0F);
+    for (const double side : {1.0, -1.0}) {
+      const auto first = static_cast<std::uint32_t>(mesh.position.size());
+      for (const glm::dvec2 corner :
+           {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1), glm::dvec2(0, 1)}) {
+        const glm::dvec2 place = window.low + (window.high - window.low) * corner;
+        const glm::dvec3 before = frame.towards * (side * apart * (window.high.x - window.low.x));
+        mesh.position.push_back(glm::vec3(frame.right * place.x + frame.up * place.y + before) + 0.0F);
+        mesh.normal.push_back(glm::vec3(frame.towards * side) + 0.0F);
+        const glm::vec2 inside =
+            inset +
+            glm::vec2(static_cast<float>(corner.x), static_cast<float>(1 - corner.y)) * (1 - 2 * inset);
+        mesh.uv[0].push_back((glm::vec2(cell_of(view)) + inside) / 2.0F);
+      }
+      const std::array<std::uint32_t, 6> corners =
+          side > 0 ? std::array{0U, 1U, 2U, 0U, 2U, 3U} : std::array{0U, 2U, 1U, 0U, 3U, 2U};
+      for (const std::uint32_t corner : corners) mesh.index.wide.push_back(first + corner);
     }
-    for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.index.wide.push_back(first + corner);
   }
   return mesh;
 }
@@ -207,15 +216,26 @@ struct Scenery {
   const Job& job;
 };
 
+/// Colours, and normals in fewer texels.
+struct Sheets {
+  Atlas color, normal;
+
+  Sheets(std::uint32_t size, const Job& job)
+      : color(size, job), normal(size >= least_halved ? size / 2 : size, job) {}
+};
+
 /// One of the pictures, in its cell.
 void draw_view(const Scenery& scenery, const std::vector<ImpostorRecipe::Part>& parts, std::size_t view,
-               const ViewWindow& window, Atlas& atlas) {
-  const std::uint32_t cell = atlas.size() / 2, edge = cell / edges, inside = cell - 2 * edge;
+               const ViewWindow& window, Sheets& sheets) {
+  const std::uint32_t cell = sheets.color.size() / 2, edge = cell / edges, inside = cell - 2 * edge;
   Canvas canvas(frame_of(view), window, inside * samples, inside * samples, scenery.job);
   each_mesh(scenery.model, parts, [&](const Primitive& primitive, const glm::mat4& at) {
     canvas.draw(primitive.mesh, at, surface_of(scenery.model, primitive, scenery.library), scenery.job);
   });
-  atlas.put(canvas, cell_of(view) * cell, {cell, edge, samples});
+  sheets.color.put(canvas, cell_of(view) * cell, {cell, edge, samples});
+  const std::uint32_t times = sheets.color.size() / sheets.normal.size();
+  sheets.normal.put_normals(canvas, cell_of(view) * (cell / times),
+                            {cell / times, edge / times, samples * times});
 }
 
 void drop_hidden(Model& model) {
@@ -242,7 +262,6 @@ int add_impostor(Model& model, std::vector<ImpostorRecipe::Part> parts, const st
   material.roughness = impostor_roughness;
   material.alpha_mode = AlphaMode::mask;
   material.alpha_cutoff = Atlas::cutoff;
-  material.double_sided = true;
   material.impostor.parts = std::move(parts);
   MeshGroup group{name, {}};
   group.primitives.push_back({quads_of(windows, job), static_cast<int>(model.materials.size()), {}});
@@ -267,8 +286,8 @@ void draw_impostors(Model& model, int size, Job& job) {
   }
   if (wanted.empty()) return;
   const Library library = library_of(model, job);
-  std::vector<Atlas> atlases;
-  for (std::size_t i = 0; i < wanted.size(); ++i) atlases.emplace_back(static_cast<std::uint32_t>(size), job);
+  std::vector<Sheets> sheets;
+  for (std::size_t i = 0; i < wanted.size(); ++i) sheets.emplace_back(static_cast<std::uint32_t>(size), job);
   std::vector<Windows> windows(wanted.size());
   const auto parts_of = [&](std::size_t i) -> const auto& {
     return model.materials[wanted[i]].impostor.parts;
@@ -280,18 +299,22 @@ void draw_impostors(Model& model, int size, Job& job) {
   parallel_for(job, wanted.size() * views, 1, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t view = i % views;
-      draw_view(scenery, parts_of(i / views), view, windows[i / views].of[view], atlases[i / views]);
+      draw_view(scenery, parts_of(i / views), view, windows[i / views].of[view], sheets[i / views]);
     }
   });
-  std::vector<std::shared_ptr<const Image>> images(wanted.size());
+  std::vector<std::array<std::shared_ptr<const Image>, 2>> images(wanted.size());
   parallel_for(job, wanted.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t i = begin; i < end; ++i)
-      images[i] = atlases[i].image(model.materials[wanted[i]].name, job);
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::string& name = model.materials[wanted[i]].name;
+      images[i] = {sheets[i].normal.normal_image(name + "_normal", job), sheets[i].color.image(name, job)};
+    }
   });
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     Material& material = model.materials[wanted[i]];
-    material.base_color_texture = {static_cast<int>(model.textures.size()), 0, false};
-    model.textures.push_back(std::move(images[i]));
+    const auto first = static_cast<int>(model.textures.size());
+    material.normal_texture = {first, 0, false};
+    material.base_color_texture = {first + 1, 0, false};
+    for (auto& image : images[i]) model.textures.push_back(std::move(image));
     material.impostor.parts.clear();
   }
   drop_hidden(model);

@@ -1,7 +1,8 @@
 #pragma once
 /// Impostors: pictures that stand for a plant that is far away. Three upright quads cross in its axis; each
-/// shows the plant from its own side, and from behind the same mirrored. One atlas holds the three pictures;
-/// alpha cuts them out.
+/// shows the plant from its own side, and another one behind it, which looks the other way, the same
+/// mirrored. One atlas holds the three pictures; alpha cuts them out. A second one holds their normals, so
+/// that light from anywhere falls on them as on the plant; where a picture is seen mirrored, so are these.
 ///
 /// After Maciel and Shirley, "Visual navigation of large environments using textured clusters", 1995, in the
 /// form that engines draw without a shader of their own.
@@ -17,9 +18,9 @@
 
 namespace seedmesh::texture {
 
-constexpr std::uint64_t triangles_of_impostor = 6;
+constexpr std::uint64_t triangles_of_impostor = 12;
 
-/// Adds a mesh of 6 triangles that stands for `parts`, in their frame, and its material. Returns the mesh's
+/// Adds a mesh of 12 triangles that stands for `parts`, in their frame, and its material. Returns the mesh's
 /// number; -1 where the parts have no triangles, or no extent. Linear in the vertices of the parts.
 int add_impostor(Model& model, std::vector<ImpostorRecipe::Part> parts, const std::string& name, Job& job);
 
@@ -29,9 +30,10 @@ int add_impostor(Model& model, std::vector<ImpostorRecipe::Part> parts, const st
 std::size_t add_impostor_levels(Model& model, Job& job);
 
 /// Draws all recipes, as atlases of `size` by `size` texels (a power of two, 64 or more), and lets the
-/// materials use them: base colour, cut out by alpha, seen from both sides. Colours are those of the surface,
-/// a little darker where it looks down or lies behind. Meshes that no node shows lose their primitives. About
-/// 15 ms for 256 texels and 20,000 triangles on one thread; pictures are drawn side by side.
+/// materials use them: base colour, cut out by alpha, and normals in half as many texels a side. Colours are
+/// those of the surface, a little darker where it lies behind. Meshes that no node shows lose their
+/// primitives. About 15 ms for 256 texels and 20,000 triangles on one thread; pictures are drawn side by
+/// side.
 void draw_impostors(Model& model, int size, Job& job);
 
 }  // namespace seedmesh::texture

@@ -14,9 +14,8 @@ namespace {
 constexpr std::int64_t one = 16;  ///< a sample in fixed-point numbers
 // Beyond this a place is off the picture anyway, and products of two still fit 64 bits.
 constexpr double farthest = 1 << 24;
-// What looks down gets less of the sky, and what lies deep in a crown too. Without that a crown is flat.
-constexpr double light_below = 0.8, light_above = 1;
-constexpr double light_behind = 0.7;
+// What lies deep in a crown gets less of the sky. Without that a crown is flat.
+constexpr double light_behind = 0.8;
 
 std::int64_t fixed(double samples) {
   return math::to_int64(std::floor(std::clamp(samples, -farthest, farthest) * one + 0.5));
@@ -37,6 +36,14 @@ struct Edge {
 
 std::uint16_t word_of(double share) {
   return static_cast<std::uint16_t>(std::clamp(share, 0.0, 1.0) * 65'535 + 0.5);
+}
+
+glm::i8vec4 bytes_of(const glm::dvec3& direction) {
+  const glm::dvec3 normal = math::unit(direction, glm::dvec3(0, 0, 1));
+  glm::i8vec4 bytes(0);
+  for (int axis = 0; axis < 3; ++axis)
+    bytes[axis] = static_cast<std::int8_t>(std::floor(std::clamp(normal[axis], -1.0, 1.0) * 127 + 0.5));
+  return bytes;
 }
 
 }  // namespace
@@ -63,7 +70,8 @@ Canvas::Corner Canvas::corner_of(const Mesh& mesh, std::uint32_t vertex, const g
     const glm::dvec3 normal =
         math::unit(glm::dvec3(glm::mat3(at) * mesh.normal[vertex]), glm::dvec3(frame_.towards));
     const double facing = glm::dot(normal, frame_.towards) < 0 ? -1 : 1;
-    corner.light *= light_below + (light_above - light_below) * (0.5 + 0.5 * facing * normal.y);
+    corner.normal = facing * glm::dvec3(glm::dot(normal, frame_.right), glm::dot(normal, frame_.up),
+                                        glm::dot(normal, frame_.towards));
   }
   if (!mesh.uv[0].empty()) corner.uv = glm::dvec2(mesh.uv[0][vertex]);
   if (!mesh.color.empty()) corner.color = glm::dvec3(glm::u8vec3(mesh.color[vertex])) / 255.0;
@@ -120,7 +128,9 @@ void Canvas::draw(std::array<Corner, 3> c, const Surface& surface) {
         color *= glm::dvec3(glm::u16vec3(texel)) / 65'535.0;
       }
       depth_[place] = depth;
-      samples_[place] = {{word_of(color.x), word_of(color.y), word_of(color.z)}, 1};
+      samples_[place] = {{word_of(color.x), word_of(color.y), word_of(color.z)},
+                         1,
+                         bytes_of(a * c[0].normal + b * c[1].normal + d * c[2].normal)};
     }
   }
 }

@@ -40,6 +40,7 @@ class Canvas {
   struct Sample {
     glm::u16vec3 color{0};         ///< linear
     std::uint16_t is_covered = 0;  ///< 0 or 1
+    glm::i8vec4 normal{0};         ///< 127 is 1; right, up, towards the viewer: the side that is seen
   };
   std::uint32_t width() const { return width_; }
   std::uint32_t height() const { return height_; }
@@ -52,6 +53,7 @@ class Canvas {
     std::int64_t x = 0, y = 0;  ///< in 16ths of a sample, y down
     double depth = 0;           ///< greater is nearer
     double light = 1;
+    glm::dvec3 normal{0, 0, 1};  ///< right, up, towards the viewer
     glm::dvec2 uv{0};
     glm::dvec3 color{1};
   };

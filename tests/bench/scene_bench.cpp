@@ -1,10 +1,17 @@
-/// How fast scenes are planted, listed and written. On two threads, by the clock on the wall.
+/// How fast scenes are planted, listed and written. On two threads, by the clock on the wall. And how much
+/// memory they take beside their own size.
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/base/math.h"
+#include "core/base/texture_store.h"
 #include "core/generators/scene/stands.h"
 #include "core/pipeline.h"
 #include "core/schema/json.h"
@@ -66,11 +73,11 @@ Json tree(int levels) {
 }
 
 /// A sample each 2 m of smooth noise (gain 0.5), reduced to an error of 0.002 of its range of 206 m.
-Json terrain() {
+Json terrain(int resolution = 1025) {
   return {{"generator", "terrain"},
           {"parameters",
            {{"algorithm", "fbm"},
-            {"resolution", 1025},
+            {"resolution", resolution},
             {"size", 2000},
             {"amplitude", 120},
             {"hurst", 1},
@@ -88,24 +95,88 @@ void bench_list() {
                {"output", {{"format", "placements"}}}});
 }
 
+/// 16 models of a tree on a terrain.
+Json forest(int trees, int resolution) {
+  return {{"generator", "scene"},
+          {"parameters",
+           {{"terrain", terrain(resolution)},
+            {"layers",
+             {{{"model", tree(4)},
+               {"variants", 16},
+               {"place", {{"method", "scatter"}, {"count", trees}, {"slope", {{"to", 40}}}}},
+               {"scale", {0.7, 1.3}}}}}}}};
+}
+
 void bench_forest() {
-  Json forest = {{"generator", "scene"},
-                 {"parameters",
-                  {{"terrain", terrain()},
-                   {"layers",
-                    {{{"model", tree(4)},
-                      {"variants", 16},
-                      {"place", {{"method", "scatter"}, {"count", 100'000}, {"slope", {{"to", 40}}}}},
-                      {"scale", {0.7, 1.3}}}}}}}};
-  report_made("100,000 trees on 1025 x 1025 as nodes", "trees", 100'000, forest);
-  forest["output"] = {{"profile", "web"}};
-  report_made("100,000 trees on 1025 x 1025 for the web", "trees", 100'000, forest);
-  forest["parameters"]["camera"] = {{"position", {0, 60, 1000}}};
-  report_made("the same for a camera, far ones as pictures", "trees", 100'000, forest);
-  forest["parameters"].erase("camera");
-  forest["output"]["impostor"] = true;
-  forest["output"]["max_triangles"] = 20'000'000;
-  report_made("the same within 20 M triangles", "trees", 100'000, forest);
+  Json json = forest(100'000, 1025);
+  report_made("100,000 trees on 1025 x 1025 as nodes", "trees", 100'000, json);
+  json["output"] = {{"profile", "web"}};
+  report_made("100,000 trees on 1025 x 1025 for the web", "trees", 100'000, json);
+  json["parameters"]["camera"] = {{"position", {0, 60, 1000}}};
+  report_made("the same for a camera, far ones as pictures", "trees", 100'000, json);
+  json["parameters"].erase("camera");
+  json["output"]["impostor"] = true;
+  json["output"]["max_triangles"] = 20'000'000;
+  report_made("the same within 20 M triangles", "trees", 100'000, json);
+}
+
+/// Textures as a server keeps them.
+class Kept : public TextureStore {
+ public:
+  std::shared_ptr<const void> find(const std::string& key) override {
+    const auto found = all_.find(key);
+    return found == all_.end() ? nullptr : found->second;
+  }
+  void keep(const std::string& key, std::shared_ptr<const void> value, std::uint64_t) override {
+    all_.emplace(key, std::move(value));
+  }
+
+ private:
+  std::map<std::string, std::shared_ptr<const void>> all_;
+};
+
+/// A figure of /proc/self/status in bytes.
+double status_bytes(const std::string& key) {
+  std::ifstream file("/proc/self/status");
+  for (std::string line; std::getline(file, line);) {
+    if (line.compare(0, key.size(), key) == 0)
+      return std::strtod(line.c_str() + key.size() + 1, nullptr) * 1024;
+  }
+  return 0;
+}
+
+Product produced(const Json& json, TextureStore& textures) {
+  const Result<Request> request = read_request(json.dump(), Limits{});
+  if (!request) std::abort();
+  Job job = roomy();
+  Result<Product> product = produce(*request, job, &textures);
+  if (!product) std::abort();
+  return *std::move(product);
+}
+
+/// In a process of its own, which has made a small forest of the same models before.
+void bench_memory(const std::string& name, const Json& output) {
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child == 0) {
+    Kept textures;
+    Json json = forest(100, 65);
+    json["output"] = output;
+    produced(json, textures);
+    std::ofstream("/proc/self/clear_refs") << "5";  // the peak begins anew
+    const double idle = status_bytes("VmRSS");
+    json = forest(100'000, 1025);
+    json["output"] = output;
+    const Product product = produced(json, textures);
+    std::printf("{\"name\":\"memory: %s\",\"unit\":\"bytes\",\"amount\":%llu,\"peak_less_idle\":%.0f}\n",
+                name.c_str(), static_cast<unsigned long long>(product.payload.size()),
+                status_bytes("VmHWM") - idle);
+    std::fflush(stdout);
+    _exit(0);
+  }
+  int status = 1;
+  waitpid(child, &status, 0);
+  if (status != 0) std::abort();
 }
 
 /// The same plants with bones and the animation.
@@ -137,7 +208,11 @@ void bench_growth(int count) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  // First, while this process is small: a child starts with its parent's memory.
+  bench_memory("100,000 trees as nodes", Json::object());
+  bench_memory("100,000 trees for the web", {{"profile", "web"}});
+  if (argc > 1 && std::string(argv[1]) == "memory") return 0;
   bench_poisson();
   bench_list();
   bench_forest();

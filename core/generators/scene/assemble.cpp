@@ -214,6 +214,7 @@ class Assembly {
     Json told = {
         {"name", name}, {"placed", stands.size()}, {"models", models_of(number)}, {"triangles", triangles}};
     if (!levels_.empty()) told["levels"] = levels_told(copies);
+    planting_.layers[number] = Array<Stand>();  // its nodes know all of it
     return told;
   }
 
@@ -244,8 +245,9 @@ class Assembly {
   std::uint64_t add_growing(std::uint32_t cast, std::size_t layer, std::size_t stand, int parent) {
     Grower& grower = groups_[cast].grower;
     if (grower.mesh < 0) return 0;
-    add_grower(model_, grower, casting_.casts[cast].name + "_" + std::to_string(stand),
-               place_of(layer, stand), parent);
+    add_grower(model_, grower,
+               {casting_.casts[cast].name + "_" + std::to_string(stand), place_of(layer, stand), parent,
+                start_of(params_.layers[layer], planting_.layers[layer][stand])});
     return triangles_of(model_.meshes[static_cast<std::size_t>(grower.mesh)]);
   }
 
@@ -294,7 +296,7 @@ class Assembly {
 
   const SceneParams& params_;
   const Ground& ground_;
-  const Planting& planting_;
+  Planting& planting_;
   const Casting& casting_;
   Job& job_;
   Model model_;

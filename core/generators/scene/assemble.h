@@ -8,7 +8,7 @@ namespace seedmesh::scene {
 /// Everything that was found out before models were made. Does not own it.
 struct Plan {
   const Ground& ground;
-  const Planting& planting;
+  Planting& planting;  ///< used up by assembled()
   const Casting& casting;
 };
 

@@ -8,6 +8,7 @@
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 #include "core/generators/child.h"
+#include "core/generators/scene/forecast.h"
 #include "core/generators/scene/plant.h"
 #include "core/schema/embedded.h"
 #include "generated/params/scene.h"
@@ -17,6 +18,7 @@ namespace {
 
 constexpr std::uint32_t none = 0xFFFFFFFFU;
 constexpr std::uint64_t draw_variant = 6;
+constexpr std::size_t many_models = 64, parts_of_many = 8;
 
 /// The schema of a generator's parameters; null where there is none.
 const Json* schema_of(std::string_view generator) {
@@ -201,32 +203,46 @@ Casting casting_of(const SceneParams& params, const Job& job) {
   return casting;
 }
 
-void refuse_too_many(const Casting& casting, const Job& job) {
-  std::uint64_t triangles = 0;
-  for (const Cast& cast : casting.casts) {
-    const Result<Appraisal> appraisal = appraise_child(cast.request, cast.pointer, Rng(0), job);
-    if (!appraisal || !appraisal->estimate) continue;
-    triangles += std::min(appraisal->estimate->triangles, job.limits().triangles + 1);
-    if (triangles > job.limits().triangles) {
-      Job::refuse("the models up to this one need at least " + std::to_string(triangles) +
-                      " triangles; the limit is " + std::to_string(job.limits().triangles),
-                  cast.pointer);
-    }
-  }
-}
-
-Result<std::vector<Model>> models_of(const Casting& casting, const std::vector<std::uint8_t>& wanted,
-                                     const Demand& demand, Job& job) {
+Result<std::vector<Model>> models_of(Forecast& forecast, const Demand& demand, Job& job,
+                                     const std::function<void()>& beside) {
+  const Casting& casting = forecast.casting();
   std::vector<std::optional<Result<Model>>> made(casting.casts.size());
-  parallel_for(job, made.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (wanted[i] == 0) continue;
-      const Cast& cast = casting.casts[i];
-      Demand own = demand;
-      own.growth = demand.growth && find_generator(cast.request.generator)->grows;
-      made[i].emplace(generate_child(cast.request, cast.pointer, Rng(0), job, own));
+  const auto make = [&](std::size_t i) {
+    const Cast& cast = casting.casts[i];
+    Demand own = demand;
+    own.growth = demand.growth && find_generator(cast.request.generator)->grows;
+    made[i].emplace(generate_child(cast.request, cast.pointer, Rng(0), job, own));
+  };
+  try {
+    for (const std::size_t i : forecast.scouts()) {  // one by one, so that it is known what each costs
+      Amounts spent = spent_of(job);
+      make(i);
+      if (!*made[i]) return std::move(*made[i]).error();
+      const Amounts after = spent_of(job);
+      for (std::size_t r = 0; r < spent.size(); ++r) spent[r] = after[r] - spent[r];
+      forecast.learn(i, spent);
+      forecast.refuse(job);
     }
-  });
+    std::vector<std::size_t> others;
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      if (forecast.is_wanted(i) && !made[i]) others.push_back(i);
+    }
+    // Of many models the first parts show what the whole comes to.
+    const std::size_t parts = others.size() >= many_models ? parts_of_many : 1;
+    for (std::size_t own = 0; own < parts; ++own) {
+      const Amounts before = spent_of(job);
+      const std::size_t here = (others.size() + parts - 1 - own) / parts;
+      parallel_for(job, 1 + here, 1, [&](std::size_t i, std::size_t, std::size_t) {
+        if (i > 0) make(others[own + (i - 1) * parts]);
+        if (i == 0 && own == 0 && beside) beside();
+      });
+      if (own > 0) forecast.refuse(job, before, parts - 1 - own);
+    }
+  } catch (const Stop& stop) {  // the same stop, told of where it belongs
+    Issue issue = stop.issue();
+    if (stop.code() == Code::limit && issue.pointer.empty()) issue.pointer = forecast.blamed();
+    throw Stop(stop.code(), std::move(issue));
+  }
   std::vector<Model> models(made.size());
   for (std::size_t i = 0; i < made.size(); ++i) {
     if (!made[i]) continue;

@@ -1,6 +1,7 @@
 #pragma once
 /// The models of a scene: for each layer its variants, and those of positions that have their own. Each is a
 /// request by itself, with its seed, so that whoever gets the list of placements can ask for it alone.
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,13 +54,13 @@ std::string with_parameter(const std::string& parameters, std::string_view path,
 /// Is the parameter whole by its schema?
 bool is_whole(std::string_view generator, std::string_view path);
 
-/// Throws Stop, at the pointer of the model that is too much, where they pass the limit on triangles
-/// together, as far as that can be told before anything is made.
-void refuse_too_many(const Casting& casting, const Job& job);
+class Forecast;
 
 /// The models of all casts that are wanted, in their order, made on all threads of the job; none finished,
-/// and those that are not wanted empty. `demand`: of plants; other models are made without growth.
-Result<std::vector<Model>> models_of(const Casting& casting, const std::vector<std::uint8_t>& wanted,
-                                     const Demand& demand, Job& job);
+/// and those that are not wanted empty. `demand`: of plants; other models are made without growth. Where the
+/// forecast says, a few are made first, and what they show to be too much is refused at once. `beside`: other
+/// work that is done meanwhile, on one thread; may be empty. Stops at a limit point to a model.
+Result<std::vector<Model>> models_of(Forecast& forecast, const Demand& demand, Job& job,
+                                     const std::function<void()>& beside = {});
 
 }  // namespace seedmesh::scene

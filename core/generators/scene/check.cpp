@@ -93,6 +93,10 @@ class Checker {
     if (layer.age && !layer.model.generator.empty() && find_generator(layer.model.generator) &&
         !has_parameter(layer.model.generator, "age"))
       add(pointer + "/age", layer.model.generator + " has no parameter age");
+    if (layer.start) check_span(*layer.start, pointer + "/start");
+    const Generator* generator = find_generator(layer.model.generator);
+    if (layer.start && generator && !generator->grows)
+      add(pointer + "/start", layer.model.generator + " does not grow");
     if (layer.foundation && !layer.footprint)
       add(pointer + "/foundation", "a foundation lies under a footprint, and the layer has none");
     for (std::size_t i = 0; i < layer.vary.size(); ++i)

@@ -7,14 +7,17 @@
 #include "core/base/math.h"
 #include "core/generators/child.h"
 #include "core/generators/scene/shapes.h"
+#include "core/generators/terrain/plan.h"
 #include "generated/params/scene.h"
 #include "generated/params/terrain.h"
 
 namespace seedmesh::scene {
 namespace {
 
-constexpr double poisson_density = 0.65;     ///< places in a square of their distance
-constexpr std::uint64_t bytes_a_node = 230;  ///< of a copy in core glTF, its line of JSON
+constexpr double poisson_density = 0.65;        ///< places in a square of their distance
+constexpr std::uint64_t bytes_a_node = 230;     ///< of a copy in core glTF, its line of JSON
+constexpr std::uint64_t grid_to_reduced = 8;    ///< triangles of a grid for one of a reduced mesh, about
+constexpr std::uint64_t bytes_a_triangle = 24;  ///< of a reduced mesh
 constexpr Estimate square{2, 800, true}, disc{94, 3200, true}, none{0, 100, true};
 
 double area_of(const ScenePlace& place, const Extent& extent) {
@@ -69,7 +72,36 @@ std::optional<Estimate> ground_of(const SceneParams& params, const Job& job) {
     return outline == SceneOutline::none ? none : outline == SceneOutline::disc ? disc : square;
   }
   const Result<Appraisal> own = appraise_child(*params.terrain, "/terrain", Rng(0), job);
-  return own ? own->estimate : std::nullopt;
+  if (!own || own->estimate) return own ? own->estimate : std::nullopt;
+  Faults faults;
+  const int side = terrain::finished_side(read_terrain(Json::parse(params.terrain->parameters), "", faults));
+  const auto squares = static_cast<std::uint64_t>(std::max(side - 1, 0));
+  const std::uint64_t triangles = 2 * squares * squares / grid_to_reduced;
+  return Estimate{triangles, triangles * bytes_a_triangle, false};
+}
+
+/// What the models of a layer have; those that cannot tell count as the mean of the others. Nothing where
+/// none can tell.
+std::optional<std::vector<Estimate>> models_told(const Casting::Layer& casts,
+                                                 const std::vector<std::optional<Estimate>>& estimates) {
+  std::vector<std::size_t> numbers;
+  for (std::uint32_t i = casts.first; i < casts.first + casts.count; ++i) numbers.push_back(i);
+  for (const std::uint32_t i : casts.by_position) {
+    if (i < estimates.size()) numbers.push_back(i);
+  }
+  double triangles = 0, bytes = 0, known = 0;
+  for (const std::size_t i : numbers) {
+    if (!estimates[i]) continue;
+    triangles += static_cast<double>(estimates[i]->triangles);
+    bytes += static_cast<double>(estimates[i]->bytes);
+    ++known;
+  }
+  if (known == 0) return std::nullopt;
+  const auto mean = [known](double sum) { return static_cast<std::uint64_t>(math::to_int64(sum / known)); };
+  std::vector<Estimate> all;
+  for (const std::size_t i : numbers)
+    all.push_back(estimates[i].value_or(Estimate{mean(triangles), mean(bytes), false}));
+  return all;
 }
 
 struct Sum {
@@ -89,29 +121,29 @@ double expected_stands(const SceneLayer& layer, const Extent& extent) {
 std::optional<Estimate> estimate_of(const SceneParams& params, const Casting& casting,
                                     const std::vector<std::optional<Estimate>>& estimates, const Job& job) {
   const std::optional<Estimate> ground = ground_of(params, job);
-  if (!ground || std::any_of(estimates.begin(), estimates.end(), [](const auto& each) { return !each; }))
-    return std::nullopt;
+  if (!ground) return std::nullopt;
   bool exact = ground->exact && params.paths.empty() && !params.camera;
   const Extent extent = extent_told(params);
   Sum sum{static_cast<double>(ground->triangles), static_cast<double>(ground->bytes)};
-  for (const auto& each : estimates) sum.bytes += static_cast<double>(each->bytes);
   for (std::size_t i = 0; i < params.layers.size(); ++i) {
     const Casting::Layer& casts = casting.layers[i];
+    const auto models = models_told(casts, estimates);
+    if (!models) return std::nullopt;
     double own = 0, variants = 0;  // triangles of positions with a model of their own; mean of the variants
-    std::size_t with_own = 0;
-    for (const std::uint32_t cast : casts.by_position) {
-      if (cast >= estimates.size()) continue;
-      own += static_cast<double>(estimates[cast]->triangles);
-      ++with_own;
-    }
-    for (std::uint32_t cast = casts.first; cast < casts.first + casts.count; ++cast) {
-      variants += static_cast<double>(estimates[cast]->triangles) / casts.count;
-      exact =
-          exact && estimates[cast]->exact && estimates[cast]->triangles == estimates[casts.first]->triangles;
+    for (std::size_t k = 0; k < models->size(); ++k) {
+      const Estimate& each = (*models)[k];
+      sum.bytes += static_cast<double>(each.bytes);
+      exact = exact && each.exact;
+      if (k >= casts.count) {
+        own += static_cast<double>(each.triangles);
+        continue;
+      }
+      variants += static_cast<double>(each.triangles) / casts.count;
+      exact = exact && each.triangles == models->front().triangles;
     }
     const double stands = expected_stands(params.layers[i], extent);
     exact = exact && params.layers[i].place.method == SceneMethod::positions;
-    sum.triangles += own + variants * (stands - static_cast<double>(with_own));
+    sum.triangles += own + variants * (stands - static_cast<double>(models->size() - casts.count));
     sum.bytes += stands * static_cast<double>(bytes_a_node);
   }
   const auto whole = [](double value) { return static_cast<std::uint64_t>(math::to_int64(value)); };

@@ -13,8 +13,9 @@ namespace seedmesh::scene {
 double expected_stands(const SceneLayer& layer, const Extent& extent);
 
 /// Every model by itself (`estimates`, by Casting::casts) as often as it stands, and the ground; nothing
-/// where one of them cannot tell. Exact where each place is given and each model is exact. Bytes: each model
-/// once, and a node for each place.
+/// where no model of a layer can tell. One that cannot tell counts as the mean of its layer, a reduced ground
+/// as an eighth of its grid. Exact where each place is given and each model is exact. Bytes: each model once,
+/// and a node for each place.
 std::optional<Estimate> estimate_of(const SceneParams& params, const Casting& casting,
                                     const std::vector<std::optional<Estimate>>& estimates, const Job& job);
 

@@ -180,6 +180,9 @@ Result<Model> Ground::model(const SceneParams& params, const Job& job) const {
   Model model;
   if (terrain_) {
     Job own = job.for_child(seed_);
+    Demand demand;
+    demand.lods = params.camera ? 1 : job.demand().lods;
+    own.set_demand(demand);
     Result<Model> made = of_terrain<Model>([&] { return terrain::dressed(*terrain_, field_, own); });
     if (!made) return made;
     model = std::move(*made);

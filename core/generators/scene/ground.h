@@ -42,7 +42,8 @@ class Ground {
   /// Puts the ground under a foundation on the height of its middle.
   void level(const Foundation& foundation);
 
-  /// The ground and the ways on it as a model, one root. Warnings point to the parameters of the scene.
+  /// The ground and the ways on it as a model, one root; with levels of detail where they are asked for and
+  /// the ground is a terrain. Warnings point to the parameters of the scene.
   Result<Model> model(const SceneParams& params, const Job& job) const;
 
  private:

@@ -3,11 +3,13 @@
 #include <algorithm>
 
 #include "core/generators/registry.h"
+#include "generated/params/scene.h"
 
 namespace seedmesh::scene {
 namespace {
 
 constexpr std::size_t least_bones = 2;  ///< the ground, and the plant on it
+constexpr std::uint64_t draw_start = 8;
 
 }  // namespace
 
@@ -38,22 +40,35 @@ Taken taken_to_grow(Model& model) {
   return taken;
 }
 
-void add_grower(Model& scene, Grower& grower, const std::string& name, const Transform& at, int parent) {
+Start start_of(const SceneLayer& layer, const Stand& stand) {
+  if (!layer.start) return {};
+  if (const double* one = std::get_if<double>(&*layer.start)) return {0, static_cast<float>(*one)};
+  const auto& [from, to] = std::get<1>(*layer.start);
+  Rng rng(key_at(stand.key, draw_start));
+  const std::uint32_t number = rng.below(starts_of_a_layer);
+  return {number, static_cast<float>(from + (to - from) * number / (starts_of_a_layer - 1))};
+}
+
+void add_grower(Model& scene, Grower& grower, const Plot& plot) {
+  const std::string& name = plot.name;
   if (scene.animations.empty()) {
     scene.animations.emplace_back();
     scene.animations.back().name = grower.animation.name;
   }
   Animation& animation = scene.animations.front();
-  if (grower.times < 0) {
-    grower.times = static_cast<int>(animation.times.size());
-    animation.times.insert(animation.times.end(), grower.animation.times.begin(),
-                           grower.animation.times.end());
+  int& times = grower.times[plot.start.number];
+  if (times < 0) {
+    times = static_cast<int>(animation.times.size());
+    for (std::vector<float> keys : grower.animation.times) {
+      for (float& each : keys) each += plot.start.seconds;
+      animation.times.push_back(std::move(keys));
+    }
   }
   const auto stand = static_cast<int>(scene.nodes.size()), first = stand + 1;
   Node node;
   node.name = name;
-  node.parent = parent;
-  node.transform = at;
+  node.parent = plot.parent;
+  node.transform = plot.at;
   scene.nodes.push_back(std::move(node));
   Skin skin;
   skin.name = name;
@@ -68,7 +83,7 @@ void add_grower(Model& scene, Grower& grower, const std::string& name, const Tra
   }
   for (Channel channel : grower.animation.channels) {
     channel.node += first;
-    channel.times += grower.times;
+    channel.times += times;
     animation.channels.push_back(std::move(channel));
   }
   // A skinned mesh is placed by its bones alone, so it stands at the root.

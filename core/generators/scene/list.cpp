@@ -130,7 +130,8 @@ Json told(const SceneParams& params, const Ground& ground, const Planting& plant
 }
 
 Result<Array<std::uint8_t>> placement_list(const SceneParams& params, const Ground& ground,
-                                           const Planting& planting, const Casting& casting, Job& job) {
+                                           const Planting& planting, Forecast& forecast, Job& job) {
+  const Casting& casting = forecast.casting();
   std::vector<gltf::ZipEntry> entries;
   gltf::ZipEntry list{"placements.json", {}};
   Json models = Json::object();
@@ -143,8 +144,7 @@ Result<Array<std::uint8_t>> placement_list(const SceneParams& params, const Grou
     if (!lines.empty()) list.payload.add(std::move(lines));
   list.payload.add("\n]}\n");
   entries.push_back(std::move(list));
-  Result<std::vector<Model>> made =
-      models_of(casting, std::vector<std::uint8_t>(casting.casts.size(), 1), {}, job);
+  Result<std::vector<Model>> made = models_of(forecast, {}, job);
   if (!made) return std::move(made).error();
   for (std::size_t i = 0; i < casting.casts.size(); ++i)
     entries.push_back({"models/" + casting.casts[i].name + ".glb", file_of(std::move((*made)[i]), job)});

@@ -99,6 +99,7 @@ class Planter {
       const SceneLayer& layer = params_.layers[i];
       if (Rules::look_at_others(layer.place)) settle();
       Array<Stand> stands = stands_of(layer, i);
+      stands.shrink_to_fit();
       job_.spend(Resource::shapes, stands.size());
       add_footprints(layer, stands);
       if (stands.empty()) {

@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "core/base/parallel.h"
 #include "core/generators/child.h"
 #include "core/generators/scene/assemble.h"
 #include "core/generators/scene/estimate.h"
+#include "core/generators/scene/forecast.h"
 #include "core/generators/scene/grow.h"
 #include "core/generators/scene/levels.h"
 #include "core/generators/scene/list.h"
@@ -43,12 +43,13 @@ std::vector<Issue> conflicts(const SceneParams& params, const Demand& demand) {
   return issues;
 }
 
-std::vector<std::uint8_t> used_casts(const Planting& planting, const Casting& casting) {
-  std::vector<std::uint8_t> used(casting.casts.size());
+/// How many stand of each model.
+std::vector<std::uint64_t> stands_of(const Planting& planting, const Casting& casting) {
+  std::vector<std::uint64_t> stands(casting.casts.size());
   for (std::size_t layer = 0; layer < planting.layers.size(); ++layer) {
-    for (const Stand& stand : planting.layers[layer]) used[casting.cast_of(layer, stand)] = 1;
+    for (const Stand& stand : planting.layers[layer]) ++stands[casting.cast_of(layer, stand)];
   }
-  return used;
+  return stands;
 }
 
 }  // namespace
@@ -59,10 +60,11 @@ Result<Model> generate(const SceneParams& params, Job& job) {
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   job.progress("derive", 0);
   const Casting casting = casting_of(params, job);
-  refuse_too_many(casting, job);
+  Forecast forecast(params, casting, job);
+  forecast.refuse(job);
   Result<Ground> ground = Ground::make(params, job);
   if (!ground) return std::move(ground).error();
-  const Planting planting = plant(params, *ground, job);
+  Planting planting = plant(params, *ground, job);
   job.progress("mesh", 0);
   Pieces pieces;
   Demand demand;
@@ -73,18 +75,15 @@ Result<Model> generate(const SceneParams& params, Job& job) {
     if (!bones) return bones.error();
     demand.most_bones = *bones;
   }
+  const bool merges = job.demand().copies == CopyForm::merge && !chooses_levels(params, job.demand());
+  forecast.want(stands_of(planting, casting), merges);
   // A reduced mesh of the ground is long work that cannot be cut: models are made beside it.
-  std::optional<Result<std::vector<Model>>> models;
   std::optional<Result<Model>> made;
-  parallel_for(job, 2, 1, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t part = begin; part < end; ++part) {
-      if (part == 0) made.emplace(ground->model(params, job));
-      if (part == 1) models.emplace(models_of(casting, used_casts(planting, casting), demand, job));
-    }
-  });
-  if (!*models) return std::move(*models).error();
+  Result<std::vector<Model>> models =
+      models_of(forecast, demand, job, [&] { made.emplace(ground->model(params, job)); });
+  if (!models) return std::move(models).error();
   if (!*made) return std::move(*made);
-  pieces.models = std::move(**models);
+  pieces.models = std::move(*models);
   pieces.ground = std::move(**made);
   return assembled(params, {*ground, planting, casting}, std::move(pieces), job);
 }
@@ -101,7 +100,8 @@ Result<Appraisal> appraise(const SceneParams& params, const Job& job) {
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
   Appraisal appraisal;
   const Casting casting = casting_of(params, job);
-  refuse_too_many(casting, job);
+  const Forecast forecast(params, casting, job);
+  forecast.refuse(job);
   std::set<std::pair<std::string, std::string>> seen;
   std::vector<std::optional<Estimate>> estimates;
   for (const Cast& cast : casting.casts) {
@@ -124,12 +124,13 @@ Result<Array<std::uint8_t>> encode(const SceneParams& params, std::string_view, 
     return Error{Code::invalid, {{"/camera", "has no effect on a list of placements", 0, 0}}};
   job.progress("derive", 0);
   const Casting casting = casting_of(params, job);
-  refuse_too_many(casting, job);
+  Forecast forecast(params, casting, job);
+  forecast.refuse(job);
   Result<Ground> ground = Ground::make(params, job);
   if (!ground) return std::move(ground).error();
   const Planting planting = plant(params, *ground, job);
   job.progress("encode", 0);
-  return placement_list(params, *ground, planting, casting, job);
+  return placement_list(params, *ground, planting, forecast, job);
 }
 
 }  // namespace seedmesh::scene

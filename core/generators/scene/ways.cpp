@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "core/base/math.h"
 #include "core/generators/scene/ground.h"
+#include "core/schema/json.h"
 #include "generated/params/scene.h"
 
 namespace seedmesh::scene {
@@ -115,10 +117,39 @@ class Band {
   int piece_ = 0;
 };
 
+/// How far each coarser level of the ground is off at most, as the terrain tells.
+std::vector<double> errors_of_levels(const Model& model) {
+  std::vector<double> errors;
+  for (const Extra& extra : model.nodes.front().extras) {
+    if (extra.name != "levels") continue;
+    for (const Json& level : Json::parse(extra.json)) errors.push_back(level.at("max_error").get<double>());
+  }
+  return errors;
+}
+
+Mesh copy_of(const Mesh& mesh, double lifted, const Job& job) {
+  Mesh copy;
+  copy.position = Array<glm::vec3>(job);
+  copy.normal = Array<glm::vec3>(job);
+  copy.index.wide = Array<std::uint32_t>(job);
+  copy.position.append(mesh.position.span());
+  copy.normal.append(mesh.normal.span());
+  copy.index.wide.append(mesh.index.wide.span());
+  for (glm::vec3& each : copy.position) each.y += static_cast<float>(lifted);
+  return copy;
+}
+
+void add_way(Model& model, const std::string& name, Mesh mesh) {
+  model.meshes.push_back({name, {}});
+  model.meshes.back().primitives.push_back(
+      {std::move(mesh), static_cast<int>(model.materials.size()) - 1, {}});
+}
+
 }  // namespace
 
 void add_ways(Model& model, const std::vector<ScenePath>& paths, const Ground& ground, double cell,
               const Job& job) {
+  const std::vector<double> errors = errors_of_levels(model);
   for (const ScenePath& path : paths) {
     if (!path.shown) continue;
     std::vector<glm::dvec2> points;
@@ -134,10 +165,16 @@ void add_ways(Model& model, const std::vector<ScenePath>& paths, const Ground& g
     node.name = "path";
     node.parent = 0;
     node.mesh = static_cast<int>(model.meshes.size());
-    model.nodes.push_back(std::move(node));
-    model.meshes.push_back({"path", {}});
-    model.meshes.back().primitives.push_back({band.take(), static_cast<int>(model.materials.size()), {}});
     model.materials.push_back(std::move(material));
+    Mesh mesh = band.take();
+    std::vector<Mesh> coarser;
+    for (const double error : errors) coarser.push_back(copy_of(mesh, error, job));
+    add_way(model, "path", std::move(mesh));
+    for (std::size_t i = 0; i < coarser.size(); ++i) {
+      node.lods.push_back(static_cast<int>(model.meshes.size()));
+      add_way(model, "path_LOD" + std::to_string(i + 1), std::move(coarser[i]));
+    }
+    model.nodes.push_back(std::move(node));
   }
 }
 

@@ -192,6 +192,12 @@ Site Sites::at(std::int32_t x, std::int32_t z) const {
   return site;
 }
 
+glm::u8vec4 vertex_color(const Sites& sites, const Looks& looks, std::int32_t x, std::int32_t z) {
+  const glm::vec3 color = looks.color(sites.at(x, z)) * 255.0F + 0.5F;
+  return {math::to_int32(static_cast<double>(color.x)), math::to_int32(static_cast<double>(color.y)),
+          math::to_int32(static_cast<double>(color.z)), 255};
+}
+
 Array<glm::u8vec4> vertex_colors(const Field& field, const Sites& sites, const Looks& looks, const Job& job) {
   Array<glm::u8vec4> colors(job,
                             static_cast<std::size_t>(field.width) * static_cast<std::size_t>(field.depth));
@@ -200,13 +206,8 @@ Array<glm::u8vec4> vertex_colors(const Field& field, const Sites& sites, const L
                  job.check();
                  for (std::size_t z = begin; z < end; ++z) {
                    glm::u8vec4* row = colors.data() + z * static_cast<std::size_t>(field.width);
-                   for (std::int32_t x = 0; x < field.width; ++x) {
-                     const glm::vec3 color =
-                         looks.color(sites.at(x, static_cast<std::int32_t>(z))) * 255.0F + 0.5F;
-                     row[x] = {math::to_int32(static_cast<double>(color.x)),
-                               math::to_int32(static_cast<double>(color.y)),
-                               math::to_int32(static_cast<double>(color.z)), 255};
-                   }
+                   for (std::int32_t x = 0; x < field.width; ++x)
+                     row[x] = vertex_color(sites, looks, x, static_cast<std::int32_t>(z));
                  }
                });
   return colors;

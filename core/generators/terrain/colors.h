@@ -56,6 +56,9 @@ class Sites {
   float per_cell_;
 };
 
+/// The linear colour of a sample. About 40 ns.
+glm::u8vec4 vertex_color(const Sites& sites, const Looks& looks, std::int32_t x, std::int32_t z);
+
 /// Linear colours of all samples, row by row; empty for the palette `none`. About 40 ns a sample.
 Array<glm::u8vec4> vertex_colors(const Field& field, const Sites& sites, const Looks& looks, const Job& job);
 

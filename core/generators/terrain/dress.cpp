@@ -1,6 +1,7 @@
 #include "core/generators/terrain/dress.h"
 
 #include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -87,7 +88,6 @@ class Dressing {
         job_(job),
         range_(range_of(field, job)),
         level_(static_cast<float>(params.water_level.value_or(static_cast<double>(range_.low)))),
-        sites_(field, place_of(params), job.rng().at("terrain"), job),
         looks_(palette_of(params), params.tile ? nominal_range(params) : range_, level_),
         shading_(params.texture > 0 ? Shading::upright : Shading::smooth) {}
 
@@ -100,8 +100,9 @@ class Dressing {
     const int ground = add_material(model, ground_material());
     if (params_.texture > 0) {
       add_pictures(model, ground);
-    } else if (params_.palette != TerrainPalette::none) {
-      colors_ = vertex_colors(field_, sites_, looks_, job_);
+    } else if (params_.palette != TerrainPalette::none &&
+               (params_.mesh == TerrainMesh::grid || job_.demand().lods > 1)) {
+      colors_ = vertex_colors(field_, sites(), looks_, job_);
     }
     add_ground(model, ground);
     add_water(model);
@@ -109,13 +110,28 @@ class Dressing {
   }
 
  private:
+  Sites sites() const { return {field_, place_of(params_), job_.rng().at("terrain"), job_}; }
+
+  /// The colour of a sample of a coarse mesh. Those of a reduced mesh are found one by one, with sites that
+  /// are made when the first is asked for: they need as much memory as the field.
+  ColorOf color_of() const {
+    if (!colors_.empty()) return [this](std::uint32_t sample) { return colors_[sample]; };
+    if (params_.texture > 0 || params_.palette == TerrainPalette::none) return {};
+    return [this, own = std::shared_ptr<const Sites>()](std::uint32_t sample) mutable {
+      if (!own) own = std::make_shared<const Sites>(sites());
+      const Place at = place_of(sample, field_.width);
+      return vertex_color(*own, looks_, at.x, at.z);
+    };
+  }
+
   void add_pictures(Model& model, int ground) {
+    const Sites all = sites();
     if (params_.palette != TerrainPalette::none) {
-      const texture::Picture colors = color_picture(field_, sites_, looks_, params_.texture, job_);
+      const texture::Picture colors = color_picture(field_, all, looks_, params_.texture, job_);
       model.materials[static_cast<std::size_t>(ground)].base_color_texture = {
           add_texture(model, "ground_color", colors, job_), 0, false};
     }
-    const texture::Picture normals = normal_picture(field_, sites_, params_.texture, job_);
+    const texture::Picture normals = normal_picture(field_, all, params_.texture, job_);
     model.materials[static_cast<std::size_t>(ground)].normal_texture = {
         add_texture(model, "ground_normal", normals, job_), 0, false};
   }
@@ -170,7 +186,7 @@ class Dressing {
     }
     const bool is_grid = params_.mesh == TerrainMesh::grid;
     const Coarse coarse{shading_, is_grid ? 1 << level : 1, all, is_grid};
-    return {reduced_mesh(field_, std::move(plan), colors_, coarse, job_), std::move(rim)};
+    return {reduced_mesh(field_, std::move(plan), color_of(), coarse, job_), std::move(rim)};
   }
 
   void add_pieces(Model& model, int ground) {
@@ -216,7 +232,7 @@ class Dressing {
       made.notes.push_back(note_of(plan));
       if (plan.index.size() / 3 >= made.meshes.back().elements()) continue;
       const Coarse coarse{shading_, 1 << level, part, true};
-      made.meshes.push_back(reduced_mesh(field_, std::move(plan), colors_, coarse, job_));
+      made.meshes.push_back(reduced_mesh(field_, std::move(plan), color_of(), coarse, job_));
     }
     return made;
   }
@@ -290,7 +306,6 @@ class Dressing {
   Job& job_;
   Range range_;
   float level_;
-  Sites sites_;
   Looks looks_;
   Shading shading_;
   Array<glm::u8vec4> colors_;

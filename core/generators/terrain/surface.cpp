@@ -331,16 +331,22 @@ Mesh grid_mesh(const Field& field, const Window& part, const Array<glm::u8vec4>&
   return mesh;
 }
 
-Mesh reduced_mesh(const Field& field, Triangulation plan, const Array<glm::u8vec4>& colors,
-                  const Coarse& coarse, Job& job) {
+Mesh reduced_mesh(const Field& field, Triangulation plan, ColorOf color_of, const Coarse& coarse, Job& job) {
   if (!coarse.ordered) order_for_cache(plan, job);
   const std::size_t count = plan.samples.size();
   const Ground ground(field);
   Mesh mesh;
+  if (color_of) {
+    mesh.color = Array<glm::u8vec4>(job, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i % 4096 == 0) job.check();
+      mesh.color[i] = color_of(plan.samples[i]);
+    }
+    color_of = {};
+  }
   mesh.position = Array<glm::vec3>(job, count);
   mesh.normal = Array<glm::vec3>(job, count);
   mesh.uv[0] = Array<glm::vec2>(job, count);
-  if (!colors.empty()) mesh.color = Array<glm::u8vec4>(job, count);
   for (std::size_t i = 0; i < count; ++i) {
     if (i % 4096 == 0) job.check();
     const Place at = place_of(plan.samples[i], field.width);
@@ -349,7 +355,6 @@ Mesh reduced_mesh(const Field& field, Triangulation plan, const Array<glm::u8vec
         normal_of(coarse.reach > 1 && !on_border(coarse.part, at) ? wide_slope(field, at, coarse.reach)
                                                                   : slopes_of(field, at.z).at(at.x));
     mesh.uv[0][i] = {ground.u(at.x), ground.v(at.z)};
-    if (!colors.empty()) mesh.color[i] = colors[plan.samples[i]];
   }
   mesh.index.wide = std::move(plan.index);
   mesh.cache_ordered = true;

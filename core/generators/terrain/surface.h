@@ -1,6 +1,8 @@
 #pragma once
 /// Fields as meshes. All have +Y up, the middle of the field at the origin of X and Z, heights as they are,
 /// and texture coordinates 0..1 with the north-western corner at (0, 0).
+#include <functional>
+
 #include "core/generators/terrain/field.h"
 #include "core/generators/terrain/triangulation.h"
 #include "core/model/model.h"
@@ -27,9 +29,11 @@ struct Coarse {
   bool ordered = false;    ///< the triangles are in an order that a vertex cache likes, samples by first use
 };
 
-/// A reduced mesh. About 50 ns a triangle.
-Mesh reduced_mesh(const Field& field, Triangulation plan, const Array<glm::u8vec4>& colors,
-                  const Coarse& coarse, Job& job);
+/// The colour of a sample, by its number in the field; empty: there are none.
+using ColorOf = std::function<glm::u8vec4(std::uint32_t sample)>;
+
+/// A reduced mesh. Lets go of `color_of` as soon as all colours are there. About 50 ns a triangle.
+Mesh reduced_mesh(const Field& field, Triangulation plan, ColorOf color_of, const Coarse& coarse, Job& job);
 
 /// Walls down from the border, looking outwards. `samples` are those of the border that the mesh has, in any
 /// order. `depth` below each sample, or down to the level `floor` with a floor below, which closes the mesh.

@@ -50,12 +50,37 @@ TEST(SceneEstimate, TakesThePlacesThatAPatternHasRoomFor) {
   }
 }
 
-TEST(SceneEstimate, IsNothingWhereAModelCannotTell) {
-  Json json = field_of({{"distance", 4}});
-  json["layers"][0]["model"] = {
+Json stochastic() {
+  return {
       {"generator", "lsystem"},
       {"parameters", {{"axiom", "A"}, {"productions", {"A -> FA : 1", "A -> F : 2"}}, {"iterations", 4}}}};
+}
+
+TEST(SceneEstimate, IsNothingWhereNoModelOfALayerCanTell) {
+  Json json = field_of({{"distance", 4}});
+  json["layers"][0]["model"] = stochastic();
   EXPECT_FALSE(estimated(json));
+}
+
+TEST(SceneEstimate, TakesTheMeanOfALayerForAModelThatCannotTell) {
+  const Json positions = {{{"at", {0, 0}}}, {{"at", {4, 2}}}, {{"at", {8, 2}}, {"model", stochastic()}}};
+  const std::optional<Estimate> estimate =
+      estimated(field_of({{"method", "positions"}, {"positions", positions}}));
+  ASSERT_TRUE(estimate);
+  EXPECT_FALSE(estimate->exact);
+  EXPECT_EQ(estimate->triangles, 2U + 3 * 12);
+}
+
+TEST(SceneEstimate, GuessesAReducedGround) {
+  Json json = field_of({{"distance", 4}});
+  json.erase("ground");
+  json["terrain"] = {
+      {"generator", "terrain"},
+      {"parameters", {{"algorithm", "fbm"}, {"resolution", 129}, {"size", 40}, {"mesh", "greedy"}}}};
+  const std::optional<Estimate> estimate = estimated(json);
+  ASSERT_TRUE(estimate);
+  EXPECT_FALSE(estimate->exact);
+  EXPECT_GT(estimate->triangles, 2U * 128 * 128 / 8);
 }
 
 }  // namespace

@@ -91,6 +91,62 @@ TEST(GrowingScene, SharesKeyTimesBetweenThePlantsOfAModel) {
   EXPECT_LE(model->animations.at(0).times.size(), 4U * 24U);
 }
 
+/// When each plant of the layer begins and ends, by the name of its place.
+std::map<std::string, std::pair<float, float>> spans_of(const Model& model, const std::string& layer) {
+  std::map<std::string, std::pair<float, float>> spans;
+  const Animation& animation = model.animations.at(0);
+  for (const Channel& channel : animation.channels) {
+    std::size_t node = static_cast<std::size_t>(channel.node);
+    while (model.nodes[static_cast<std::size_t>(model.nodes[node].parent)].name != layer) {
+      node = static_cast<std::size_t>(model.nodes[node].parent);
+      if (model.nodes[node].parent < 0) break;
+    }
+    if (model.nodes[node].parent < 0) continue;
+    const std::vector<float>& times = animation.times.at(static_cast<std::size_t>(channel.times));
+    const auto [at, is_new] =
+        spans.try_emplace(model.nodes[node].name, std::pair(times.front(), times.back()));
+    if (!is_new) {
+      at->second.first = std::min(at->second.first, times.front());
+      at->second.second = std::max(at->second.second, times.back());
+    }
+  }
+  return spans;
+}
+
+TEST(GrowingScene, BeginsEachPlantAtATimeOfItsPlace) {
+  Json json = bed();
+  const Result<Model> together = growing(json);
+  json["layers"][1]["start"] = {1, 5};
+  const Result<Model> apart = growing(json);
+  ASSERT_TRUE(together && apart);
+  const auto before = spans_of(*together, "herb"), after = spans_of(*apart, "herb");
+  ASSERT_EQ(before.size(), after.size());
+  ASSERT_GT(before.size(), 4U);
+  std::set<float> starts;
+  for (const auto& [name, span] : after) {
+    ASSERT_TRUE(before.contains(name)) << name;
+    EXPECT_GE(span.first, 1);
+    EXPECT_LE(span.first, 5);
+    EXPECT_FLOAT_EQ(span.second - span.first, before.at(name).second - before.at(name).first);
+    starts.insert(span.first);
+  }
+  EXPECT_GT(starts.size(), 2U);
+  EXPECT_EQ(spans_of(*apart, "tree"), spans_of(*together, "tree")) << "no other layer is moved";
+  json["layers"][1]["place"]["slope"] = {{"to", 80}};
+  const Result<Model> again = growing(json);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(spans_of(*again, "herb"), after);
+}
+
+TEST(GrowingScene, RefusesAStartOfWhatDoesNotGrow) {
+  Json json = bed();
+  json["layers"][1]["start"] = {5, 1};
+  json["layers"][2]["start"] = 2;
+  EXPECT_THAT(scene_faults(json),
+              ElementsAre("/layers/1/start: the first is above the second; expected from and to",
+                          "/layers/2/start: fractal does not grow"));
+}
+
 TEST(GrowingScene, LeavesStonesStill) {
   const Result<Model> model = growing(bed());
   ASSERT_TRUE(model);

@@ -84,9 +84,65 @@ TEST(SceneLevels, BecomeCoarserWithDistanceAndPicturesInTheEnd) {
     far = std::max(far, each.distance);
   }
   ASSERT_GE(range.size(), 4U);
-  EXPECT_EQ(range.begin()->first, 6U) << "the farthest are pictures";
+  EXPECT_EQ(range.begin()->first, 12U) << "the farthest are pictures";
   EXPECT_GT(range.begin()->second.first, range.rbegin()->second.second)
       << "and farther than all of the finest";
+}
+
+const Node* named(const Model& model, const std::string& name) {
+  const auto found = std::find_if(model.nodes.begin(), model.nodes.end(),
+                                  [&](const Node& node) { return node.name == name; });
+  return found == model.nodes.end() ? nullptr : &*found;
+}
+
+std::size_t triangles_of(const Model& model, int mesh) {
+  std::size_t triangles = 0;
+  for (const Primitive& each : model.meshes.at(static_cast<std::size_t>(mesh)).primitives)
+    triangles += each.mesh.elements();
+  return triangles;
+}
+
+Json hills(const char* mesh) {
+  Json json = grove();
+  json.erase("ground");
+  json["terrain"] = {
+      {"generator", "terrain"},
+      {"parameters",
+       {{"algorithm", "fbm"}, {"resolution", 65}, {"size", 100}, {"amplitude", 12}, {"mesh", mesh}}}};
+  json["paths"] = {{{"points", {{-40, -40}, {40, 40}}}}};
+  return json;
+}
+
+TEST(SceneLevels, AreMadeOfTheGroundToo) {
+  for (const char* mesh : {"grid", "rtin", "greedy"}) {
+    Result<Model> model = demanded(hills(mesh), demand_of(3));
+    ASSERT_TRUE(model) << mesh;
+    Job job(1, Job::Options{});
+    finish(*model, job);
+    EXPECT_THAT(faults(*model), IsEmpty()) << mesh;
+    const Node* ground = named(*model, "terrain_2");
+    ASSERT_TRUE(ground) << mesh;
+    ASSERT_EQ(ground->lods.size(), 2U) << mesh;
+    EXPECT_LT(triangles_of(*model, ground->lods[0]), triangles_of(*model, ground->mesh)) << mesh;
+    EXPECT_LT(triangles_of(*model, ground->lods[1]), triangles_of(*model, ground->lods[0])) << mesh;
+    const Result<Model> plain = demanded(hills(mesh), demand_of(1));
+    ASSERT_TRUE(plain) << mesh;
+    EXPECT_EQ(count(*plain).triangles, count(*model).triangles) << mesh << ": the finest stays as it is";
+  }
+}
+
+TEST(SceneLevels, LiftWaysOverTheCoarserGround) {
+  const Result<Model> model = demanded(hills("grid"), demand_of(3));
+  ASSERT_TRUE(model);
+  const Node* path = named(*model, "path");
+  ASSERT_TRUE(path);
+  ASSERT_EQ(path->lods.size(), 2U);
+  const auto lowest = [&](int mesh) {
+    return bounds_of(model->meshes[static_cast<std::size_t>(mesh)].primitives.at(0).mesh.position.span())
+        .min.y;
+  };
+  EXPECT_GT(lowest(path->lods[0]), lowest(path->mesh));
+  EXPECT_GT(lowest(path->lods[1]), lowest(path->lods[0]));
 }
 
 TEST(SceneLevels, LeaveEveryPlantWhereItIs) {

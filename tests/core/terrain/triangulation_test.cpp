@@ -217,7 +217,7 @@ TEST(Surface, IsSoundOnGentleAndOnRoughGround) {
     EXPECT_EQ(faults_of(grid_mesh(field, {0, 0, 65, 65}, plain, Shading::upright, job)),
               std::vector<std::string>{});
     for (const auto& [name, reduce] : reducers) {
-      EXPECT_EQ(faults_of(reduced_mesh(field, reduce(field, 0.4, Border::by_error, job), plain, {}, job)),
+      EXPECT_EQ(faults_of(reduced_mesh(field, reduce(field, 0.4, Border::by_error, job), {}, {}, job)),
                 std::vector<std::string>{})
           << name;
     }
@@ -238,7 +238,7 @@ TEST(Surface, IsClosedByWallsAndAFloor) {
   }
   const std::pair<Mesh, Mesh> solids[] = {
       {grid_mesh(field, {0, 0, 33, 33}, plain, {}, job), walls(field, border_samples(field, job), plan, job)},
-      {reduced_mesh(field, std::move(coarse), plain, {}, job), walls(field, border, plan, job)}};
+      {reduced_mesh(field, std::move(coarse), {}, {}, job), walls(field, border, plan, job)}};
   double mean = 0;
   for (const float h : field.heights)
     mean += static_cast<double>(h) / static_cast<double>(field.heights.size());

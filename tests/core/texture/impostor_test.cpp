@@ -139,6 +139,52 @@ TEST(Impostor, KeepsAsMuchOfThePictureAsTheModelCovers) {
   EXPECT_NEAR(share, covered, 0.05);
 }
 
+TEST(Impostor, HasTheNormalsOfWhatItShows) {
+  Job job = job_of();
+  Model model;
+  model.nodes.push_back(node_of("plant", -1, -1));
+  model.meshes.push_back({"roof", {}});
+  Mesh mesh = sheets({{glm::vec2(-1, 0), glm::vec2(0, 1)}, {glm::vec2(0, 0), glm::vec2(1, 1)}}, 0, job);
+  for (std::size_t i = 0; i < 4; ++i) mesh.normal[i] = {0, 0.6F, 0.8F};
+  for (std::size_t i = 4; i < 8; ++i) mesh.normal[i] = {0.6F, 0, -0.8F};  // its back is seen
+  model.meshes.back().primitives.push_back({std::move(mesh), -1, {}});
+  model.nodes.push_back(node_of("roof", 0, 0));
+  ASSERT_EQ(add_impostor_levels(model, job), 1U);
+  drawn(model, 128);
+  const Material& material = model.materials.back();
+  ASSERT_GE(material.normal_texture.texture, 0);
+  const Image& image = *model.textures[static_cast<std::size_t>(material.normal_texture.texture)];
+  const Result<Picture> picture = decode_png(std::as_bytes(std::span(image.bytes)), {}, job);
+  ASSERT_TRUE(picture);
+  ASSERT_EQ(picture->width, 64U);
+  ASSERT_EQ(picture->channels, 3);
+  const auto normal = [&](std::size_t x, std::size_t y) {
+    std::array<int, 3> channels{};
+    for (std::size_t c = 0; c < 3; ++c) channels[c] = picture->bytes[(y * 64 + x) * 3 + c];
+    return channels;
+  };
+  const auto is_near = [](const std::array<int, 3>& found, const std::array<int, 3>& expected) {
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 2);
+  };
+  // The first view looks along -Z and stands in the upper left quarter: 32 texels.
+  is_near(normal(8, 16), {128, 204, 230});
+  is_near(normal(24, 16), {51, 128, 230});
+  is_near(normal(48, 48), {128, 128, 255});  // the quarter that stays free
+}
+
+TEST(Impostor, ShowsOneSideOfEachQuad) {
+  Job job = job_of();
+  Model model = two_sheets(job);
+  add_impostor_levels(model, job);
+  EXPECT_FALSE(model.materials.back().double_sided);
+  const Mesh& quads = model.meshes[2].primitives.at(0).mesh;
+  for (std::size_t i = 0; i < quads.index.size(); i += 3) {
+    const auto corner = [&](std::size_t c) { return quads.position[quads.index.at(i + c)]; };
+    const glm::vec3 across = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_GT(glm::dot(across, quads.normal[quads.index.at(i + c)]), 0);
+  }
+}
+
 TEST(Impostor, IsTheSameWithAnyNumberOfThreads) {
   Job job = job_of();
   Model one = two_sheets(job), many = two_sheets(job);
@@ -146,7 +192,8 @@ TEST(Impostor, IsTheSameWithAnyNumberOfThreads) {
   add_impostor_levels(many, job);
   drawn(one, 256, 1);
   drawn(many, 256, 8);
-  EXPECT_EQ(one.textures.back()->bytes, many.textures.back()->bytes);
+  ASSERT_EQ(one.textures.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(one.textures[i]->bytes, many.textures[i]->bytes);
 }
 
 TEST(Impostor, IsNotMadeOfWhatHasNoTriangles) {
