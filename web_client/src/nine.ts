@@ -1,6 +1,7 @@
 /** Nine seeds of one request as pictures in three rows: this one and eight that chance chose. One is taken, or none. */
-import { Busy, Gone, generate, in_format, type Request } from './api';
+import { Busy, Gone, generate, type Request } from './api';
 import { el, part } from './dom';
+import { for_view } from './for_view';
 import { seed_after, type Seed } from './seed';
 
 interface Context {
@@ -41,7 +42,7 @@ export function wire_nine(context: Context): void {
     for (const [index, seed] of seeds.entries()) {
       const place = cells[index]?.firstElementChild;
       try {
-        const { bytes } = await generate(in_format({ ...request, seed }, 'glb'), signal);
+        const { bytes } = await generate(for_view({ ...request, seed }, null), signal);
         const picture = await context.portrait(bytes, width, height);
         if (signal.aborted) return;
         place?.replaceWith(picture);
