@@ -187,6 +187,18 @@ test('all faults stand at their fields at once; columns count characters', { tim
   assert.equal(await selected(field(page, '/parameters/productions')), '[');
 });
 
+test('one fault is told with the name of its field, many by their number', { timeout: 300_000 }, async () => {
+  const wrong = (parameters) => `${server.url}/${fragment_of({ ...small_tree, parameters: { ...small_tree.parameters, ...parameters } })}`;
+  const page = await open(browser, wrong({ iterations: -1 }), { states: ['refused'] });
+  await open_parameters(page);
+  const label = await field(page, '/parameters/iterations').locator('.label').first().textContent();
+  await page.waitForFunction((label) => document.getElementById('alert').textContent.startsWith(`${label}: `), label);
+  const many = await open(browser, wrong({ iterations: -1, sides: 1000000 }), { states: ['refused'] });
+  assert.match(await many.textContent('#alert'), /^This request has 2 faults\./);
+  await open_parameters(many);
+  assert.match(await field(many, '/parameters/sides').locator('.fault').textContent(), /1,000,000/);
+});
+
 test('a fault without a field is told in the alert', { timeout: 300_000 }, async () => {
   const strange = { ...small_tree, parameters: { ...small_tree.parameters, unheard_of: 1 } };
   const page = await open(browser, `${server.url}/${fragment_of(strange)}`, { states: ['refused'] });

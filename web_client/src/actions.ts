@@ -6,6 +6,8 @@ import { link_to, longest_link } from './link';
 
 export interface Context {
   request(): Request | null;
+  /** Where the request came from. */
+  preset(): string | null;
   /** The file's name without its ending. */
   name(): string;
   /** What is seen now. */
@@ -41,7 +43,7 @@ export function wire_copies(context: Context): void {
   const on = (id: string, act: (request: Request) => Promise<void>): void =>
     part(id).addEventListener('click', () => { const request = context.request(); if (request) void act(request); });
   on('copy-link', async (request) => {
-    const link = await link_to(request);
+    const link = await link_to(request, context.preset());
     if (link.length > longest_link) {
       context.fail(`This request is too long for a link: ${link.length} characters. Save it as JSON instead, which opens here by drop.`);
       return;

@@ -2,7 +2,7 @@
  * Brings the parts together. The address tells what is shown: `#…` carries a request; in the query `quality=low` or
  * `quality=high` chooses how it is drawn, and `stage` leaves only the picture, for making pictures.
  */
-import { Locked, Refusal, get_preset, get_presets, get_schema, type Fault, type Made, type Preset, type Request } from './api';
+import { Locked, Refusal, get_preset, get_offer, get_schema, type Fault, type Generator, type Made, type Preset, type Request } from './api';
 import { Address, first_shown } from './address';
 import { Checker, joined } from './checker';
 import { el, grouped, part, rounded } from './dom';
@@ -38,7 +38,7 @@ function begun<T>(task: () => Promise<T>): (again: () => Promise<T>) => Promise<
     return taken;
   };
 }
-const early_presets = begun(get_presets);
+const early_offer = begun(get_offer);
 const early_first = location.hash.length > 1 ? null : begun(() => get_preset(first_shown));
 
 /** A model of more triangles is drawn only when asked for: it can cost a browser its picture. */
@@ -61,6 +61,7 @@ const checker = new Checker((faults) => { checked = faults; show_faults(); });
 const tabs = wire_tabs((page) => tools?.page(page));
 
 let presets: Preset[] = [];
+let generators: Generator[] = [];
 let gallery: Gallery | null = null;
 let form: Form | null = null;
 let output_form: OutputForm | null = null;
@@ -116,6 +117,7 @@ const begin_opening = (): AbortSignal => {
 const address = new Address({
   store, persist,
   presets: () => presets,
+  generators: () => generators,
   get_preset: (name, signal) => (name === first_shown && early_first ? early_first(() => get_preset(name, signal)) : get_preset(name, signal)),
   begin: begin_opening,
   damaged() {
@@ -168,8 +170,9 @@ async function show(made: Made, request: Request): Promise<void> {
   status.shown(made.statistics);
   const size = viewer?.measures.size;
   const measure = size ? `, ${rounded(size.x)} m wide, ${rounded(size.y)} m high, ${rounded(size.z)} m deep` : '';
-  part('picture').setAttribute('aria-label',
-    `${store.current?.title ?? 'Model'}, seed ${request.seed}: ${grouped(triangles)} triangles${measure}`);
+  const told = `${store.current?.title ?? 'Model'}, seed ${request.seed}: ${grouped(triangles)} triangles`;
+  part('picture').setAttribute('aria-label', told + measure);
+  status.arrived(told);
   document.body.dataset['shown'] = String(Number(document.body.dataset['shown']) + 1);
 }
 
@@ -181,13 +184,26 @@ function show_faults(): void {
   output_form?.show_faults(faults);
 }
 
+/** What the field is called that stands nearest above a value. */
+function label_at(pointer: string): string | undefined {
+  for (let nearest = pointer; nearest; nearest = nearest.slice(0, nearest.lastIndexOf('/'))) {
+    const label = part('parameters').querySelector(`[data-pointer="${CSS.escape(nearest)}"] > .field-head > .label`);
+    if (label) return label.textContent;
+  }
+  return undefined;
+}
+
 function refuse(next: Refusal): void {
   refusal = next;
   show_faults();
-  const homeless = next.faults.filter((fault) => !form?.holds(fault) && !output_form?.holds(fault));
+  const { faults } = next;
+  const homeless = faults.filter((fault) => !form?.holds(fault) && !output_form?.holds(fault));
+  const one = faults.length === 1 ? faults[0] : undefined;
+  const label = one && label_at(one.pointer);
+  const detail = faults.length > 1 ? `This request has ${faults.length} faults.` : label ? `${label}: ${next.message}` : next.message;
   // One fault is its own summary.
   const rest = homeless.filter((fault: Fault) => fault.message !== next.message);
-  status.faults(next.message, rest, next.faults.length - homeless.length, () => {
+  status.faults(detail, rest, faults.length - homeless.length, () => {
     tabs.open('parameters');
     const faulty = part('parameters').querySelector<HTMLElement>('.field.faulty :is(.spot, input, textarea, select)');
     faulty?.focus();
@@ -272,8 +288,8 @@ async function start(): Promise<void> {
   addEventListener('hashchange', () => { if (address.is_foreign) opening_of(() => address.open()); });
 
   const { signal } = new AbortController();
-  presets = await persist(() => early_presets(() => get_presets(signal)), signal);
-  gallery = draw_gallery(part('gallery'), presets, (preset) => { gallery?.mark(preset.name); forget_hint(); opening_of(() => address.choose(preset)); });
+  ({ presets, generators } = await persist(() => early_offer(() => get_offer(signal)), signal));
+  gallery = draw_gallery(part('gallery'), presets, generators, (preset) => { gallery?.mark(preset.name); forget_hint(); opening_of(() => address.choose(preset)); });
   opening_of(() => address.open());
   quietly(load_tools(signal));
 

@@ -60,6 +60,7 @@ export function wire_tools(core: Core): Tools {
   const { store, viewer, status, tabs } = core;
   const actions = {
     request: (): Request | null => store.current?.request ?? null,
+    preset: (): string | null => store.current?.preset ?? null,
     name: (): string => `${store.current?.preset ?? 'seedmesh'}-${store.current?.request.seed ?? 0}`,
     picture: (): Promise<Blob | null> => viewer?.screenshot() ?? Promise.resolve(null),
     say: status.say,

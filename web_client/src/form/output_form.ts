@@ -1,6 +1,6 @@
 /** The form of the request's output: a folded group that is drawn when it is opened, or when a fault points into it. */
 import type { Fault } from '../api';
-import { el } from '../dom';
+import { el, with_groups } from '../dom';
 import { is_output } from '../for_view';
 import { Board } from './field';
 import { member_fields } from './group_fields';
@@ -33,7 +33,7 @@ export function output_form(change: (value: Members | undefined) => void): Outpu
     const general = el('p', { class: 'fault', hidden: true });
     board.add(pointer, (own) => {
       general.hidden = own.length === 0;
-      general.textContent = own.map((each) => each.message).join('\n');
+      general.textContent = with_groups(own.map((each) => each.message).join('\n'));
     });
     const fields = member_fields({
       schema, pointer, label: '', value, base, board,
