@@ -26,7 +26,7 @@ const rows = {
   building_factory: { tile: [240, 180], models: plan('factory') },
   building_temple: { tile: [280, 210], models: seeds('temple') },
   gips_embedded_squares: { tile: [600, 480], models: [of('gips_embedded_squares')] },
-  kogovsek_2_13: { tile: [320, 240], models: [1, 2, 3].map((round) => of('kogovsek_2_13', { parameters: { stages: [round] } })) },
+  kogovsek_2_13: { tile: [960, 300], columns: 1, models: [1, 2, 3].map((round) => of('kogovsek_2_13', { parameters: { stages: [round] } })) },
   trees: { tile: [200, 200], columns: 5, models: ['oak', 'birch', 'pine', 'willow', 'maple', 'palm', 'cherry', 'poplar', 'bush', 'dead_tree'].map((name) => of(name)) },
   weather: { tile: [400, 360], models: [of('pipe_model_tree'), of('tree_in_wind'), of('tree_in_snow')] },
   weber_penn: { tile: [220, 300], models: ['quaking_aspen', 'black_tupelo', 'weeping_willow', 'black_oak'].map((name) => of(name)) },
