@@ -5,15 +5,15 @@ export const keys: [string, [string, string][]][] = [
   ['Anywhere', [
     ['?', 'This list'], ['Ctrl Z', 'Undo'], ['Ctrl Shift Z', 'Redo'], ['Ctrl S', 'Save the request as JSON'], ['Ctrl O', 'Open a file'], ['/', 'Search the gallery'],
   ]],
+  ['In the gallery', [['Arrows', 'From card to card'], ['Home, End', 'To the first, to the last'], ['Enter', 'Open']]],
+  ['Mouse on the picture', [['Drag', 'Turn'], ['Right drag', 'Move sideways'], ['Wheel', 'Zoom'], ['Click', 'Choose a place or a part'], ['Right click', 'Plant, where the form has a list of places']]],
   ['On the picture', [
     ['Arrows', 'Turn'], ['+ −', 'Zoom'], ['F', 'Show all'], ['W', 'Wireframe'], ['G', 'Grid'], ['H', 'Person of 1.8 m'], ['R', 'Another seed'],
     ['N', 'Shaded, flat, normals, squares'], ['C', 'Compare with this model'], ['P', 'Save the picture'], ['[ ]', 'A step back, a step on'], ['Space', 'Play or stop the motion'],
     ['Delete', 'Take the chosen place away'],
   ]],
-  ['Mouse on the picture', [['Drag', 'Turn'], ['Right drag', 'Move sideways'], ['Wheel', 'Zoom'], ['Click', 'Choose a place or a part'], ['Right click', 'Plant, where the form has a list of places']]],
   ['Fingers on the picture', [['One finger', 'Turn'], ['Two fingers', 'Move; pinch to zoom'], ['Tap', 'Choose a place or a part'], ['Long press', 'Plant, where the form has a list of places']]],
   ['On foot and in flight', [['W A S D', 'Go'], ['Q Z', 'Rise, sink (in flight)'], ['Page up, down', 'Rise, sink'], ['Arrows', 'Turn the head'], ['Shift', 'Faster'], ['Esc', 'Back to turning']]],
-  ['In the gallery', [['Arrows', 'From card to card'], ['Home, End', 'To the first, to the last'], ['Enter', 'Open']]],
 ];
 
 /** Where the words of a text are typed, no letter is a command. */
