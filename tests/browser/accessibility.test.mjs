@@ -29,6 +29,7 @@ async function passes(page, words, within = 'html') {
 for (const colorScheme of ['light', 'dark']) {
   test(`axe finds nothing in any panel and state, ${colorScheme}`, { timeout: 600_000 }, async () => {
     const page = await open(browser, address, { colorScheme, viewport: { width: 1000, height: 600 } });
+    await page.click('.more-tags > summary');
     await passes(page, 'gallery');
     for (const menu of ['seeds-menu', 'code-menu', 'download-menu', 'view-menu']) {
       await page.click(`#${menu} > summary`);
@@ -58,7 +59,8 @@ for (const colorScheme of ['light', 'dark']) {
     await passes(page, 'the result');
     await open_parameters(page);
     await code(field(page, '/parameters/axiom')).waitFor();
-    for (const more of await page.locator('details.more > summary').all()) await more.click();
+    for (const more of await page.locator('#parameters details.more > summary').all()) await more.click();
+    await page.click('details[data-pointer="/output"] > summary');
     await field(page, '/parameters/axiom').getByRole('button', { name: 'About' }).click();
     for (const add of await page.locator('.add').all()) await add.click();
     await until_state(page, 'ready', 'refused');

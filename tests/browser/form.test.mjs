@@ -60,7 +60,7 @@ async function open_kiln(parameters = {}) {
 
 test('every kind of value has its control, in groups, with unit, range and help', { timeout: 300_000 }, async () => {
   const { page, at } = await open_kiln();
-  assert.deepEqual(await page.locator('#parameters h3').allTextContents(), ['Fire', 'Clay']);
+  assert.deepEqual(await page.locator('#parameters h3').allTextContents(), ['Fire', 'Clay', 'Output']);
   const slider = at('heat').locator('input[type=range]');
   assert.deepEqual(await slider.evaluate((each) => [each.min, each.max, each.step, each.value]), ['0', '40', '0.5', '20']);
   assert.equal(await at('heat').locator('.unit').textContent(), '°C');

@@ -64,7 +64,14 @@ test('a fault of the output opens its form', { timeout: 300_000 }, async () => {
   assert.match(await page.locator('[data-pointer="/output"]').textContent(), /unheard_of/);
 });
 
-test('impostors and instances on the GPU are asked for by files, not by the picture', { timeout: 300_000 }, async () => {
-  const page = await open(browser, `${server.url}/${fragment_of({ ...small_tree, output: { impostor: true, instancing: 'gpu', profile: 'unity', lods: 2 } })}`);
+test('levels, impostors, bodies for collision and instances on the GPU are asked for by files, not by the picture', { timeout: 300_000 }, async () => {
+  const bodies = [];
+  const output = { impostor: true, instancing: 'gpu', profile: 'unity', lods: 2, collision: 'plain', variants: 2 };
+  const page = await open(browser, `${server.url}/${fragment_of({ ...small_tree, output })}`, {
+    before: async (page) => page.on('request', (request) => { if (request.url().endsWith('/v1/generate')) bodies.push(JSON.parse(request.postData())); }),
+  });
   assert.equal(await page.textContent('#alert'), '');
+  assert.deepEqual(bodies.at(-1).output, { variants: 2, format: 'glb' });
+  await open_parameters(page);
+  await page.waitForFunction(() => document.querySelector('[data-pointer="/output/collision"] .fault')?.hidden === false);
 });

@@ -1,4 +1,4 @@
-/** The request as the page draws it: one level, for the web or in core glTF, since other profiles mean other programs; moved as the view wants it. */
+/** The request as the page draws it: one level without the bodies that an engine collides with, for the web or in core glTF, since other profiles mean other programs; moved as the view wants it. */
 import type { Fault, Request } from './api';
 import type { Schema } from './form/schema';
 
@@ -23,7 +23,7 @@ export function with_formats(output: Schema, formats: string[], request: Request
 }
 
 export function for_view(request: Request, motion: Motion | null): Request {
-  const { lods: _, impostor: __, profile, instancing, ...output } = request.output ?? {};
+  const { lods: _, impostor: __, collision: ___, profile, instancing, ...output } = request.output ?? {};
   const is_web = profile === 'web';
   const still = {
     ...output, ...(is_web ? { profile } : {}), format: 'glb',
