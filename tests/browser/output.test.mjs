@@ -27,6 +27,8 @@ test('levels of detail are chosen in a form, downloaded, and undone; the picture
   await until_shown(page, () => field(page, '/output/lods').locator('input[type=number]').fill('2'));
   await page.waitForFunction(() => /expected the format zip/.test(document.querySelector('[data-pointer="/output/lods"] .fault').textContent));
   assert.equal(await page.evaluate(() => document.body.dataset.state), 'ready', 'the picture shows one level');
+  // What follows within 0.7 s is the same step of undo.
+  await page.waitForTimeout(800);
   await until_shown(page, () => field(page, '/output/format').locator('select').selectOption({ label: 'zip' }));
   await page.waitForFunction(() => document.querySelector('[data-pointer="/output/lods"] .fault').hidden);
   assert.deepEqual(await output_of(page), { lods: 2, format: 'zip' });
