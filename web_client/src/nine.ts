@@ -30,7 +30,7 @@ export function wire_nine(context: Context): void {
     const begin = first ?? request.seed;
     const seeds = Array.from({ length: 9 }, (_, index) => seed_after(begin, index));
     const cells = seeds.map((seed) => {
-      const cell = el('button', { type: 'button', class: 'cell', 'data-seed': String(seed), 'aria-label': `Seed ${seed}`, 'aria-current': String(seed === request.seed) },
+      const cell = el('button', { type: 'button', class: 'cell', 'data-seed': String(seed), 'aria-label': `Seed ${seed}${seed === request.seed ? ' · now' : ''}`, 'aria-current': String(seed === request.seed) },
         el('span', { class: 'cell-picture' }), el('span', {}, String(seed), seed === request.seed && el('b', {}, ' · now')));
       cell.addEventListener('click', () => { context.choose(seed); dialog.close(); });
       return cell;
