@@ -41,6 +41,17 @@ std::variant<ImportQuestion, http::Response> import_question(Call& call, const O
   return question;
 }
 
+/// The generators in the order of the registry, with what they are called.
+Json generator_list(const Access& access) {
+  Json list = Json::array();
+  for (const std::string_view name : generator_names()) {
+    if (!access.allows_generator(name)) continue;
+    const std::string title = Json::parse(schema_json(name).value_or("{}")).value("title", std::string(name));
+    list.push_back({{"name", name}, {"title", title}});
+  }
+  return list;
+}
+
 std::string preset_list(const Access& access) {
   Json list = Json::array();
   for (const PresetInfo& preset : presets()) {
@@ -51,7 +62,7 @@ std::string preset_list(const Access& access) {
                     {"description", preset.description},
                     {"tags", preset.tags}});
   }
-  return Json{{"presets", std::move(list)}}.dump();
+  return Json{{"presets", std::move(list)}, {"generators", generator_list(access)}}.dump();
 }
 
 }  // namespace

@@ -119,24 +119,25 @@ constexpr OwnForm scene_forms[] = {
     {"placements", "application/zip", "zip"},
 };
 
+/// In the order in which the gallery shows them: what most look for comes first.
 constexpr Generator rows[] = {
-    Row<LsystemParams, read_lsystem, write_lsystem, lsystem::check, lsystem::generate, lsystem::derive,
-        lsystem::appraise, lsystem::vocabulary>::named("lsystem", {.grows = true, .has_impostor = true}),
     Row<TreeParams, read_tree, write_tree, tree::check, tree::generate, tree::derive, tree::appraise,
         tree::vocabulary>::named("tree",
                                  {.grows = true, .sways = true, .has_collision = true, .has_impostor = true}),
-    Row<FractalParams, read_fractal, write_fractal, fractal::check, fractal::generate, fractal::derive,
-        fractal::appraise, fractal::vocabulary>::named<fractal::encode>("fractal", fractal_forms,
-                                                                        {.has_levels = false}),
+    Row<LsystemParams, read_lsystem, write_lsystem, lsystem::check, lsystem::generate, lsystem::derive,
+        lsystem::appraise, lsystem::vocabulary>::named("lsystem", {.grows = true, .has_impostor = true}),
+    Row<BuildingParams, read_building, write_building, building::check, building::generate, building::derive,
+        building::appraise, building::vocabulary>::named("building", {.has_collision = true, .parts = true}),
     Row<TerrainParams, read_terrain, write_terrain, terrain::check, terrain::generate, terrain::derive,
         terrain::appraise,
         terrain::vocabulary>::named<terrain::encode, terrain::check_form>("terrain", terrain_forms,
                                                                           {.joins_triangles = true}),
-    Row<BuildingParams, read_building, write_building, building::check, building::generate, building::derive,
-        building::appraise, building::vocabulary>::named("building", {.has_collision = true, .parts = true}),
     Row<SceneParams, read_scene, write_scene, scene::check, scene::generate, scene::derive, scene::appraise,
         scene::vocabulary>::named<scene::encode>("scene", scene_forms,
                                                  {.grows = true, .has_impostor = true, .keeps_budget = true}),
+    Row<FractalParams, read_fractal, write_fractal, fractal::check, fractal::generate, fractal::derive,
+        fractal::appraise, fractal::vocabulary>::named<fractal::encode>("fractal", fractal_forms,
+                                                                        {.has_levels = false}),
 };
 
 }  // namespace

@@ -29,6 +29,7 @@ async function passes(page, words, within = 'html') {
 for (const colorScheme of ['light', 'dark']) {
   test(`axe finds nothing in any panel and state, ${colorScheme}`, { timeout: 600_000 }, async () => {
     const page = await open(browser, address, { colorScheme, viewport: { width: 1000, height: 600 } });
+    await page.click('.more-tags > summary');
     await passes(page, 'gallery');
     for (const menu of ['seeds-menu', 'code-menu', 'download-menu', 'view-menu']) {
       await page.click(`#${menu} > summary`);
@@ -58,7 +59,8 @@ for (const colorScheme of ['light', 'dark']) {
     await passes(page, 'the result');
     await open_parameters(page);
     await code(field(page, '/parameters/axiom')).waitFor();
-    for (const more of await page.locator('details.more > summary').all()) await more.click();
+    for (const more of await page.locator('#parameters details.more > summary').all()) await more.click();
+    await page.click('details[data-pointer="/output"] > summary');
     await field(page, '/parameters/axiom').getByRole('button', { name: 'About' }).click();
     for (const add of await page.locator('.add').all()) await add.click();
     await until_state(page, 'ready', 'refused');
@@ -176,4 +178,43 @@ test('what happens is told to assistive tools', { timeout: 200_000 }, async () =
   assert.equal(await page.getByRole('img', { name: new RegExp(`seed ${await page.inputValue('#seed')}:`) }).count(), 1);
   assert.equal(await page.locator('#status[role=status]').count(), 1);
   assert.equal(await page.locator('#alert[role=alert]').count(), 1);
+  // A model that comes is told, once no other follows: a slider in motion is told once.
+  const told = () => page.textContent('#told');
+  await page.waitForFunction(() => /, seed \d+: [\d,]+ triangles$/.test(document.getElementById('told').textContent));
+  await page.evaluate(() => {
+    window.changes = 0;
+    new MutationObserver(() => { window.changes += 1; }).observe(document.getElementById('told'), { childList: true, characterData: true, subtree: true });
+  });
+  for (const seed of ['21', '22', '23']) await until_shown(page, () => page.fill('#seed', seed));
+  await page.waitForFunction(() => /seed 23:/.test(document.getElementById('told').textContent));
+  assert.match(await told(), /^L-system.*, seed 23: [\d,]+ triangles$/);
+  assert.ok(await page.evaluate(() => window.changes) < 3);
+});
+
+test('the gallery is a few stops of the Tab key, and its keys go through all of it', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  const stops = await page.locator('#gallery').evaluate((gallery) => [...gallery.querySelectorAll('button, input, summary')]
+    .filter((each) => each.checkVisibility() && each.tabIndex >= 0).length);
+  assert.equal(stops, 4, 'search, generators, more tags, cards');
+  const focused = () => page.evaluate(() => document.activeElement.dataset.preset ?? document.activeElement.textContent);
+  const first = await page.locator('.kinds .chip').first().textContent();
+  const last = await page.locator('.kinds .chip').last().textContent();
+  await page.locator('.kinds .chip').first().focus();
+  await page.keyboard.press('End');
+  assert.equal(await focused(), last);
+  await page.keyboard.press('Home');
+  assert.equal(await focused(), first);
+  await page.keyboard.press('ArrowRight');
+  await page.keyboard.press('Enter');
+  assert.equal(await page.locator('.family:visible').count(), 1);
+  await page.keyboard.press('Tab');
+  await page.keyboard.press('Tab');
+  const card = await focused();
+  assert.equal(card, await page.locator('.card:visible').first().getAttribute('data-preset'));
+  await page.keyboard.press('End');
+  const at_end = await focused();
+  assert.equal(at_end, await page.locator('.card:visible').last().getAttribute('data-preset'));
+  await page.keyboard.press('Shift+Tab');
+  await page.keyboard.press('Tab');
+  assert.equal(await focused(), at_end, 'the stop is where the focus was');
 });

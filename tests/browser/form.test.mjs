@@ -63,7 +63,7 @@ async function open_kiln(parameters = {}) {
 
 test('every kind of value has its control, in groups, with unit, range and help', { timeout: 300_000 }, async () => {
   const { page, at } = await open_kiln();
-  assert.deepEqual(await page.locator('#parameters h3').allTextContents(), ['Fire', 'Clay']);
+  assert.deepEqual(await page.locator('#parameters h3').allTextContents(), ['Fire', 'Clay', 'Output']);
   const slider = at('heat').locator('input[type=range]');
   assert.deepEqual(await slider.evaluate((each) => [each.min, each.max, each.step, each.value]), ['0', '40', '0.5', '20']);
   assert.equal(await at('heat').locator('.unit').textContent(), '°C');
@@ -204,6 +204,18 @@ test('all faults stand at their fields at once; columns count characters', { tim
   assert.ok((await field(page, '/parameters/sides').locator('.fault').textContent()).length > 0);
   await field(page, '/parameters/productions').locator('.spot', { hasText: 'Line 2' }).first().click();
   assert.equal(await selected(field(page, '/parameters/productions')), '[');
+});
+
+test('one fault is told with the name of its field, many by their number', { timeout: 300_000 }, async () => {
+  const wrong = (parameters) => `${server.url}/${fragment_of({ ...small_tree, parameters: { ...small_tree.parameters, ...parameters } })}`;
+  const page = await open(browser, wrong({ iterations: -1 }), { states: ['refused'] });
+  await open_parameters(page);
+  const label = await field(page, '/parameters/iterations').locator('.label').first().textContent();
+  await page.waitForFunction((label) => document.getElementById('alert').textContent.startsWith(`${label}: `), label);
+  const many = await open(browser, wrong({ iterations: -1, sides: 1000000 }), { states: ['refused'] });
+  assert.match(await many.textContent('#alert'), /^This request has 2 faults\./);
+  await open_parameters(many);
+  assert.match(await field(many, '/parameters/sides').locator('.fault').textContent(), /1,000,000/);
 });
 
 test('a fault without a field is told in the alert', { timeout: 300_000 }, async () => {

@@ -212,14 +212,36 @@ test('another link in the same tab is opened', { timeout: 200_000 }, async () =>
   assert.equal(await page.inputValue('#seed'), '18446744073709551615');
 });
 
+test('a link brings its name along, and one without a preset is called by what it is', { timeout: 200_000 }, async () => {
+  const page = await open(browser, `${server.url}/`);
+  await until_shown(page, () => page.click('[data-preset="koch_snowflake"]'));
+  await until_shown(page, () => page.fill('#seed', '77'));
+  await page.waitForTimeout(500);
+  const title = await page.textContent('#title');
+  const fresh = await open(browser, page.url());
+  assert.equal(await fresh.textContent('#title'), title);
+  assert.equal(await fresh.inputValue('#seed'), '77');
+  assert.equal(await fresh.getAttribute('[data-preset="koch_snowflake"]', 'aria-pressed'), 'true');
+  const nameless = await open(browser, address);
+  assert.match(await nameless.textContent('#title'), /^L-system/);
+  const other = await open(browser, `${address}.oak`);
+  assert.match(await other.textContent('#title'), /^L-system/, 'the name belongs to another generator');
+});
+
 test('a seed of 64 bits is kept exactly, and no seed is said to be none', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   const bodies = [];
   page.on('request', (request) => { if (request.url().endsWith('/v1/generate')) bodies.push(JSON.parse(request.postData())); });
   await until_shown(page, () => page.fill('#seed', '18446744073709551615'));
   assert.equal(bodies.at(-1).seed, '18446744073709551615');
-  await page.fill('#seed', '18446744073709551616');
-  assert.equal(await page.getAttribute('#seed', 'aria-invalid'), 'true');
+  for (const wrong of ['18446744073709551616', 'abc', '-1', '1.5', '']) {
+    await page.fill('#seed', wrong);
+    assert.equal(await page.getAttribute('#seed', 'aria-invalid'), 'true');
+    assert.match(await page.textContent('#seed-fault'), /whole number from 0 to/);
+    await page.locator('#seed').blur();
+    assert.equal(await page.inputValue('#seed'), '18446744073709551615', 'what is shown is what is shared');
+    assert.equal(await page.textContent('#seed-fault'), '');
+  }
   await until_shown(page, () => page.fill('#seed', '12'));
   assert.equal(bodies.at(-1).seed, 12);
   assert.ok(bodies.every((body) => [12, '18446744073709551615'].includes(body.seed)));
@@ -238,11 +260,34 @@ test('the gallery has all presets with pictures, and is narrowed by words and ta
   const found = presets.filter((preset) => JSON.stringify(preset).toLowerCase().includes('koch'));
   assert.equal(await page.locator('.card:visible').count(), found.length);
   await page.fill('#gallery input[type=search]', '');
-  const tag = await page.locator('.chip').first().textContent();
-  await page.locator('.chip').first().click();
+  await page.click('.more-tags > summary');
+  const tag = await page.locator('.more-tags .chip').first().textContent();
+  await page.locator('.more-tags .chip').first().click();
   assert.equal(await page.locator('.card:visible').count(), presets.filter((preset) => preset.tags.includes(tag)).length);
   await page.fill('#gallery input[type=search]', 'no such words');
   assert.ok(await page.getByText('Nothing here').isVisible());
+  assert.ok(await page.locator('.more-tags .chip').first().isHidden(), 'who searches sees what is found');
+  await page.getByRole('button', { name: 'Show all presets' }).click();
+  assert.equal(await page.locator('.card:visible').count(), presets.length);
+});
+
+test('the gallery is searched by words, whole or begun, one or many, and shows generators in their order', { timeout: 200_000 }, async () => {
+  const page = await open(browser, address);
+  const { generators } = (await server.get('/v1/presets')).json;
+  const headings = await page.locator('.family-head').allTextContents();
+  assert.deepEqual(headings.map((heading) => heading.replace(/ \d+$/, '')), generators.map(({ title }) => title));
+  assert.deepEqual(await page.locator('.kinds .chip').allTextContents(), generators.map(({ title }) => title));
+  const find = async (words) => {
+    await page.fill('#gallery input[type=search]', words);
+    return page.locator('.card:visible').evaluateAll((cards) => cards.map((card) => card.dataset.preset));
+  };
+  const oaks = await find('oaks');
+  assert.ok(oaks.includes('oak') && oaks.includes('black_oak'));
+  assert.deepEqual(await find('OAK'), oaks);
+  assert.ok((await find('game tree')).length > 0);
+  assert.deepEqual(await find('conifers'), ['pine', 'spruce']);
+  assert.deepEqual(await find('aspen wind'), ['aspen_in_wind']);
+  assert.ok(!(await find('oak')).includes('kogovsek_2_8'), 'no word begins with it');
 });
 
 test('cards from all over the gallery open their presets', { timeout: 600_000 }, async () => {

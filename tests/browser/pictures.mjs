@@ -2,7 +2,8 @@
 //
 // The page is opened as `/?stage&quality=high`: nothing but the model, on a transparent ground, with shadows and
 // smoothing. Which model is said by the fragment, as in any link. All presets get a thumbnail of 192 x 144; those
-// named below get a large picture as well, and page.webp shows the page itself.
+// named below get a large picture as well. Rows show several models side by side, and page.webp shows the page itself;
+// both are made when all are, or by their names.
 import fs from 'node:fs';
 import path from 'node:path';
 import zlib from 'node:zlib';
@@ -12,7 +13,24 @@ import { launch, until_shown, until_state } from './chromium.mjs';
 const root = path.resolve(import.meta.dirname, '../..');
 const thumbnails = path.join(root, 'web_client/public/thumbnails');
 const pictures = path.join(root, 'docs/pictures');
-const large = ['abop_1_24f', 'abop_1_25', 'abop_1_31b', 'abop_2_6b', 'abop_2_7b', 'abop_2_8b', 'fern_5_11c', 'hilbert_3d', 'kogovsek_2_8', 'kogovsek_2_9', 'kogovsek_2_10', 'kogovsek_2_11', 'kogovsek_2_12', 'kogovsek_2_13', 'kogovsek_grm', 'saguaro', 'tajic_a', 'tunnel_natural'];
+const large = ['abop_1_24f', 'abop_1_25', 'abop_1_31b', 'abop_2_6b', 'abop_2_7b', 'abop_2_8b', 'fern_5_11c', 'hilbert_3d', 'kogovsek_2_8', 'kogovsek_2_9', 'kogovsek_2_10', 'kogovsek_2_11', 'kogovsek_2_12', 'kogovsek_grm', 'saguaro', 'tajic_a', 'tunnel_natural'];
+
+/** Presets, with another seed or other parameters; with its edges alone in place of its faces. */
+const of = (preset, change = {}) => ({ preset, ...change });
+const seeds = (preset) => [1, 2, 3].map((seed) => of(preset, { seed }));
+const plan = (preset) => [of(preset, { seed: 1, edges: true }), ...seeds(preset)];
+/** Pictures of several models, each in a tile of the size. */
+const rows = {
+  building_house: { tile: [240, 180], models: plan('house') },
+  building_church: { tile: [240, 180], models: plan('church') },
+  building_factory: { tile: [240, 180], models: plan('factory') },
+  building_temple: { tile: [280, 210], models: seeds('temple') },
+  gips_embedded_squares: { tile: [600, 480], models: [of('gips_embedded_squares')] },
+  kogovsek_2_13: { tile: [960, 300], columns: 1, models: [1, 2, 3].map((round) => of('kogovsek_2_13', { parameters: { stages: [round] } })) },
+  trees: { tile: [200, 200], columns: 5, models: ['oak', 'birch', 'pine', 'willow', 'maple', 'palm', 'cherry', 'poplar', 'bush', 'dead_tree'].map((name) => of(name)) },
+  weather: { tile: [400, 360], models: [of('pipe_model_tree'), of('tree_in_wind'), of('tree_in_snow')] },
+  weber_penn: { tile: [220, 300], models: ['quaking_aspen', 'black_tupelo', 'weeping_willow', 'black_oak'].map((name) => of(name)) },
+};
 
 const fragment_of = (request) => `#${zlib.deflateRawSync(JSON.stringify(request)).toString('base64url')}`;
 
@@ -43,6 +61,47 @@ async function take(browser, server, names, size, keep) {
   await page.close();
 }
 
+/** The tiles of a row, one after the other from the left. */
+async function take_row(browser, server, { tile: [width, height], models }) {
+  const page = await browser.newPage({ viewport: { width: width * 2, height: height * 2 }, colorScheme: 'light' });
+  await page.goto(`${server.url}/?stage&quality=high`);
+  await until_state(page, 'ready');
+  await page.waitForFunction(() => document.body.dataset.tools === 'ready');
+  // What lies over the picture is out of sight on the stage, and works.
+  const wireframe = () => page.evaluate(() => document.getElementById('wireframe').click());
+  const pngs = [];
+  for (const { preset, seed, parameters, edges } of models) {
+    const request = (await server.get(`/v1/presets/${preset}`)).json;
+    const changed = { ...request, ...(seed === undefined ? {} : { seed }), parameters: { ...request.parameters, ...parameters } };
+    if (edges) await wireframe();
+    // The same model once more is shown already.
+    if (new URL(page.url()).hash !== fragment_of(changed))
+      await until_shown(page, () => page.evaluate((hash) => { location.hash = hash; }, fragment_of(changed)));
+    await page.waitForTimeout(300);
+    pngs.push((await page.screenshot({ omitBackground: true })).toString('base64'));
+    if (edges) await wireframe();
+  }
+  await page.close();
+  return pngs;
+}
+
+/** Tiles beside each other and in lines. */
+async function join_tiles(page, pngs, { tile: [width, height], columns = pngs.length }) {
+  const data = await page.evaluate(async ({ pngs, width, height, columns }) => {
+    const canvas = Object.assign(document.createElement('canvas'), { width: width * columns, height: height * Math.ceil(pngs.length / columns) });
+    const context = canvas.getContext('2d');
+    context.imageSmoothingQuality = 'high';
+    for (const [index, png] of pngs.entries()) {
+      const image = new Image();
+      image.src = `data:image/png;base64,${png}`;
+      await image.decode();
+      context.drawImage(image, (index % columns) * width, Math.floor(index / columns) * height, width, height);
+    }
+    return canvas.toDataURL('image/webp', 0.82).split(',')[1];
+  }, { pngs, width, height, columns });
+  return Buffer.from(data, 'base64');
+}
+
 const server = await serve(program);
 const browser = await launch();
 try {
@@ -63,10 +122,18 @@ try {
   await take(browser, server, shown, { width: 960, height: 640 }, async (name, png) => {
     fs.writeFileSync(path.join(pictures, `${name}.webp`), await to_webp(scaler, png, { width: 960, height: 640, quality: 0.82 }));
   });
+  for (const [name, row] of Object.entries(rows)) {
+    if (wanted.length > 0 && !wanted.includes(name)) continue;
+    fs.writeFileSync(path.join(pictures, `${name}.webp`), await join_tiles(scaler, await take_row(browser, server, row), row));
+    process.stdout.write(`${name} in docs/pictures\n`);
+  }
   if (wanted.length === 0 || wanted.includes('page')) {
     const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, colorScheme: 'light' });
-    await page.goto(`${server.url}/?quality=high`);
+    const oak = (await server.get('/v1/presets/oak')).json;
+    await page.goto(`${server.url}/?quality=high${fragment_of(oak)}.oak`);
     await until_state(page, 'ready');
+    await page.click('#hint-away');
+    await page.waitForTimeout(500);
     await page.waitForFunction(() => [...document.images].slice(0, 8).every((image) => image.complete));
     fs.writeFileSync(path.join(pictures, 'page.webp'), await to_webp(scaler, await page.screenshot(), { width: 1280, height: 800, quality: 0.85 }));
   }

@@ -19,7 +19,7 @@ test('a newcomer grows a tree, mends a production and shares the result', { time
   await t.test('a preset is chosen from the gallery', async () => {
     await until_shown(page, () => page.click('[data-preset="kogovsek_willow_random"]'));
     assert.equal(await page.getAttribute('[data-preset="kogovsek_willow_random"]', 'aria-pressed'), 'true');
-    assert.match(new URL(page.url()).hash, /^#[\w-]{50,}$/);
+    assert.match(new URL(page.url()).hash, /^#[\w-]{50,}\.kogovsek_willow_random$/);
   });
   await t.test('a number is changed, and the picture follows', async () => {
     await open_parameters(page);

@@ -66,6 +66,7 @@ test('nine seeds are shown as pictures, and one is taken', { timeout: 300_000 },
   await page.waitForFunction(() => document.getElementById('nine-dialog').dataset.filled === '9');
   const seeds = await page.locator('.cell').evaluateAll((cells) => cells.map((cell) => cell.dataset.seed));
   assert.deepEqual(seeds.slice(0, 4), ['18446744073709551614', '18446744073709551615', '0', '1'], 'after the largest seed comes 0');
+  assert.deepEqual(await page.locator('.cell[aria-current=true]').allTextContents(), ['18446744073709551614 · now']);
   const pictures = await page.locator('.cell canvas').evaluateAll((each) => each.map((canvas) => canvas.toDataURL()));
   assert.equal(pictures.length, 9);
   assert.ok(new Set(pictures).size >= 5, 'chance shows');
@@ -74,6 +75,16 @@ test('nine seeds are shown as pictures, and one is taken', { timeout: 300_000 },
   await from_menu(page, 'seeds-menu', '#nine');
   await until_shown(page, () => page.click('.cell[data-seed="1"]'));
   assert.equal(await page.inputValue('#seed'), '1');
+});
+
+test('nine seeds wait where the server is full', { timeout: 300_000 }, async () => {
+  const page = await open(browser, address);
+  let busy = 2;
+  await page.route('**/v1/generate', (route) => ((busy -= 1) >= 0 ? route.fulfill({ status: 503, headers: { 'Retry-After': '1' }, json: {} }) : route.continue()));
+  await from_menu(page, 'seeds-menu', '#nine');
+  await page.getByText('The server is full. Trying again').waitFor();
+  await page.waitForFunction(() => document.getElementById('nine-dialog').dataset.filled === '9');
+  assert.equal(await page.locator('.cell canvas').count(), 9);
 });
 
 test('A | B keeps a model to the left of a divider that moves', { timeout: 300_000 }, async () => {
@@ -221,7 +232,11 @@ test('the question mark lists the keys, and the form leads to the page of its ge
   await page.focus('#picture');
   await page.keyboard.press('?');
   assert.ok(await page.isVisible('#keys-dialog'));
-  assert.match(await page.textContent('#keys-dialog'), /Wireframe/);
+  assert.match(await page.textContent('#keys-dialog'), /Wireframe.*pinch/s);
+  assert.equal(await page.locator('#keys-dialog').evaluate((dialog) => dialog.scrollTop), 0);
+  assert.equal(await page.evaluate(() => document.activeElement.id), 'keys-title');
+  const caps = await page.locator('#keys-dialog kbd').evaluateAll((all) => all.map((cap) => cap.getClientRects().length));
+  assert.ok(caps.every((lines) => lines === 1), 'no key is split over two lines');
   await page.keyboard.press('Escape');
   assert.ok(await page.isHidden('#keys-dialog'));
   await page.fill('#seed', '1');

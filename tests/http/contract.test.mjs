@@ -282,8 +282,10 @@ test('one range of a model can be had, several cannot, one beyond the end is 416
 // --- presets -------------------------------------------------------------------------------------------------------
 
 test('presets are listed, and each is one whole request', async () => {
-  const { presets } = (await server.get('/v1/presets')).json;
+  const { presets, generators } = (await server.get('/v1/presets')).json;
   assert.ok(presets.length > 0);
+  assert.deepEqual(new Set(generators.map(({ name }) => name)), new Set(presets.map(({ generator }) => generator)));
+  for (const { name, title } of generators) assert.equal(title, (await server.get(`/v1/schemas/${name}`)).json.title);
   for (const preset of presets) {
     assert.match(preset.name, /^[a-z0-9_-]+$/);
     assert.ok(preset.generator && preset.title && typeof preset.description === 'string' && Array.isArray(preset.tags));

@@ -1,11 +1,13 @@
 /** What leaves the page: files, the link, programs that fetch the model. */
 import { Busy, Gone, generate, in_format, type Request } from './api';
-import { curl_of, javascript_of, python_of } from './commands';
+import { curl_of, endings, javascript_of, own_format, python_of } from './commands';
 import { el, part } from './dom';
 import { link_to, longest_link } from './link';
 
 export interface Context {
   request(): Request | null;
+  /** Where the request came from. */
+  preset(): string | null;
   /** The file's name without its ending. */
   name(): string;
   /** What is seen now. */
@@ -15,16 +17,24 @@ export interface Context {
 }
 
 const written: Record<string, string> = { gltf: 'glTF' };
-const endings: Record<string, string> = { png16: 'png', png8: 'png', rgb24: 'png', rgba32: 'png' };
 
 /** Links beyond this are cut by chats and mail. */
 const long_link = 2000;
 
-/** One button for each format but the first, which has one of its own. */
+const called = (format: string): string => written[format] ?? format.toUpperCase();
+const told = (format: string): string => `Download as .${endings[format] ?? format}`;
+
+/** One button for each format; what the request itself asks for has the button outside the menu. */
 export function wire_downloads(formats: string[], context: Context): void {
-  part('downloads').replaceChildren(...formats.slice(1).map((format) =>
-    el('button', { type: 'button', 'data-format': format, 'data-close': true, title: `Download as .${endings[format] ?? format}` },
-      written[format] ?? format.toUpperCase())));
+  const request = context.request();
+  const wanted = request ? own_format(request) : 'glb';
+  const first = formats.includes(wanted) ? wanted : formats[0] ?? 'glb';
+  const main = part('download');
+  main.dataset['format'] = first;
+  main.title = told(first);
+  main.textContent = called(first);
+  part('downloads').replaceChildren(...formats.filter((format) => format !== first).map((format) =>
+    el('button', { type: 'button', 'data-format': format, 'data-close': true, title: told(format) }, called(format))));
   for (const button of document.querySelectorAll<HTMLButtonElement>('[data-format]'))
     button.onclick = () => void download(button.dataset['format'] ?? '', context);
 }
@@ -33,7 +43,7 @@ export function wire_copies(context: Context): void {
   const on = (id: string, act: (request: Request) => Promise<void>): void =>
     part(id).addEventListener('click', () => { const request = context.request(); if (request) void act(request); });
   on('copy-link', async (request) => {
-    const link = await link_to(request);
+    const link = await link_to(request, context.preset());
     if (link.length > longest_link) {
       context.fail(`This request is too long for a link: ${link.length} characters. Save it as JSON instead, which opens here by drop.`);
       return;
@@ -73,7 +83,7 @@ async function download(format: string, context: Context): Promise<void> {
   try {
     const { bytes } = await generate(in_format(request, format));
     save(new Blob([bytes]), endings[format] ?? format, context);
-    context.say(`${written[format] ?? format.toUpperCase()} is downloaded`);
+    context.say(`${called(format)} is downloaded`);
   } catch (error) {
     const why = error instanceof Busy ? 'The server is full.' : error instanceof Gone ? 'The server cannot be reached.' : (error as Error).message;
     context.fail(`No file: ${why}`);

@@ -1,13 +1,12 @@
 /** The address tells what is shown: `#…` carries a request, and so does each entry of the browser's history. */
-import type { Preset, Request } from './api';
-import { longest_link, pack, unpack } from './link';
+import type { Generator, Preset, Request } from './api';
+import { fragment_of, longest_link, preset_in, unpack } from './link';
 import type { State, Store } from './state';
-
-interface Memory { preset: string | null }
 
 interface Context {
   store: Store;
   presets(): Preset[];
+  generators(): Generator[];
   get_preset(name: string, signal: AbortSignal): Promise<Request>;
   /** Begins to open something else; what is still being opened is given up. */
   begin(): AbortSignal;
@@ -72,22 +71,29 @@ export class Address {
     this.drawn_for = fragment;
     try {
       const request = await unpack(fragment.slice(1));
-      const from = this.context.presets().find((preset) => preset.name === (history.state as Memory | null)?.preset);
-      this.context.store.open(request, { preset: from?.name ?? null, title: from?.title ?? 'From a link', description: from?.description ?? '' });
+      const name = preset_in(fragment);
+      const from = this.context.presets().find((preset) => preset.name === name && preset.generator === request.generator);
+      this.context.store.open(request, { preset: from?.name ?? null, title: from?.title ?? this.title_of(request), description: from?.description ?? '' });
     } catch {
       if (!this.context.store.current) await this.open_first();
       this.context.damaged();
     }
   }
 
+  /** What came from no preset is called by its generator, and by the first of its parameters that is a plain word. */
+  private title_of({ generator, parameters }: Request): string {
+    const title = this.context.generators().find(({ name }) => name === generator)?.title ?? generator;
+    const word = Object.values(parameters).find((value) => typeof value === 'string' && /^[a-z][a-z_]{3,23}$/.test(value));
+    return word === undefined ? `${title} from a link` : `${title}, ${String(word).replaceAll('_', ' ')}`;
+  }
+
   private async write(state: State, how: 'push' | 'replace'): Promise<void> {
-    const packed = `#${await pack(state.request)}`;
+    const packed = `#${await fragment_of(state.request, state.preset)}`;
     if (this.context.store.current !== state) return;
     // What no address holds is not half in it: the page says so where the link is copied.
     this.drawn_for = packed.length <= longest_link ? packed : '';
-    const memory: Memory = { preset: state.preset };
     const address = this.drawn_for || location.pathname + location.search;
-    if (how === 'push') history.pushState(memory, '', address);
-    else history.replaceState(memory, '', address);
+    if (how === 'push') history.pushState(null, '', address);
+    else history.replaceState(null, '', address);
   }
 }

@@ -11,6 +11,11 @@ export interface Request {
 
 export interface Preset { name: string; generator: string; title: string; description: string; tags: string[] }
 
+/** A kind of model and what it is called. */
+export interface Generator { name: string; title: string }
+
+export interface Offer { presets: Preset[]; generators: Generator[] }
+
 /** One fault of a request: a JSON Pointer into it; line and column, from 1, point into a grammar's text. */
 export interface Fault {
   pointer: string;
@@ -95,8 +100,10 @@ async function call(address: string, init: RequestInit = {}): Promise<Response> 
 const read = async <T>(address: string, signal?: AbortSignal): Promise<T> =>
   (await (await call(address, { signal: signal ?? null })).json()) as T;
 
-export const get_presets = async (signal?: AbortSignal): Promise<Preset[]> =>
-  (await read<{ presets: Preset[] }>('v1/presets', signal)).presets;
+/** In the order in which they are to be shown. */
+export const get_offer = (signal?: AbortSignal): Promise<Offer> => read<Offer>('v1/presets', signal);
+
+export const get_presets = async (signal?: AbortSignal): Promise<Preset[]> => (await get_offer(signal)).presets;
 
 export async function get_preset(name: string, signal?: AbortSignal): Promise<Request> {
   const request = await read<Partial<Request>>(`v1/presets/${encodeURIComponent(name)}`, signal);

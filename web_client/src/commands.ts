@@ -5,12 +5,21 @@ import { has_key } from './key';
 /** The key itself stays out of what is copied: it is read from here when the program runs. */
 const key_variable = 'SEEDMESH_KEY';
 
+/** How files of a format end, where that is not its name. */
+export const endings: Record<string, string> = { png16: 'png', png8: 'png', rgb24: 'png', rgba32: 'png', placements: 'zip' };
+
+/** What the request asks for, which is glb where it says nothing. */
+export const own_format = (request: Request): string => String(request.output?.['format'] ?? 'glb');
+
+const file_of = (request: Request): string => `model.${endings[own_format(request)] ?? own_format(request)}`;
+const own = (request: Request): Request => in_format(request, own_format(request));
+
 const address = (): string => new URL('v1/generate', location.href.split(/[?#]/)[0]).href;
 
 /** For a POSIX shell. */
 export function curl_of(request: Request): string {
   const quote = (text: string): string => `'${text.replaceAll("'", `'\\''`)}'`;
-  return `curl --fail-with-body -o model.glb -H 'Content-Type: application/json'${has_key() ? ` -H "Authorization: Bearer $${key_variable}"` : ''} -d ${quote(JSON.stringify(in_format(request, 'glb')))} ${quote(address())}`;
+  return `curl --fail-with-body -o ${file_of(request)} -H 'Content-Type: application/json'${has_key() ? ` -H "Authorization: Bearer $${key_variable}"` : ''} -d ${quote(JSON.stringify(own(request)))} ${quote(address())}`;
 }
 
 /** JSON as a Python literal: what differs are three words. Strings keep their escapes, which both read alike. */
@@ -34,7 +43,7 @@ export function python_of(request: Request): string {
 ${has_key() ? 'import os\n' : ''}import urllib.error
 import urllib.request
 
-request = ${python_literal(in_format(request, 'glb'), '')}
+request = ${python_literal(own(request), '')}
 
 call = urllib.request.Request(
     ${JSON.stringify(address())},
@@ -42,7 +51,7 @@ call = urllib.request.Request(
     headers={"Content-Type": "application/json"${has_key() ? `, "Authorization": "Bearer " + os.environ["${key_variable}"]` : ''}},
 )
 try:
-    with urllib.request.urlopen(call) as answer, open("model.glb", "wb") as file:
+    with urllib.request.urlopen(call) as answer, open("${file_of(request)}", "wb") as file:
         file.write(answer.read())
 except urllib.error.HTTPError as problem:
     raise SystemExit(problem.read().decode())
@@ -53,7 +62,7 @@ except urllib.error.HTTPError as problem:
 export function javascript_of(request: Request): string {
   return `import { writeFile } from 'node:fs/promises';
 
-const request = ${JSON.stringify(in_format(request, 'glb'), null, 2)};
+const request = ${JSON.stringify(own(request), null, 2)};
 
 const answer = await fetch(${JSON.stringify(address())}, {
   method: 'POST',
@@ -61,6 +70,6 @@ const answer = await fetch(${JSON.stringify(address())}, {
   body: JSON.stringify(request),
 });
 if (!answer.ok) throw new Error(await answer.text());
-await writeFile('model.glb', new Uint8Array(await answer.arrayBuffer()));
+await writeFile('${file_of(request)}', new Uint8Array(await answer.arrayBuffer()));
 `;
 }

@@ -55,5 +55,9 @@ export function icon(name: keyof typeof strokes): SVGSVGElement {
 /** 12345 -> "12,345" */
 export const grouped = (count: number): string => count.toLocaleString('en');
 
+/** Whole numbers within a sentence, those of five digits and more: 258097152 -> 258,097,152. Words in quotes stay. */
+export const with_groups = (text: string): string =>
+  text.replaceAll(/(?<![\w.,"'`#])\d{5,}(?![\w"'`]|\.\d)/g, (digits) => digits.replaceAll(/\B(?=(?:\d{3})+$)/g, ','));
+
 /** 3 significant digits, without the zeros at the end. */
 export const rounded = (value: number): string => String(Number(value.toPrecision(3)));

@@ -1,5 +1,5 @@
-/** The request as the page draws it: one level, for the web or in core glTF, since other profiles mean other programs; moved as the view wants it. */
-import type { Request } from './api';
+/** The request as the page draws it: one level without the bodies that an engine collides with, for the web or in core glTF, since other profiles mean other programs; moved as the view wants it. */
+import type { Fault, Request } from './api';
 import type { Schema } from './form/schema';
 
 /** A member of the output that lets the model move, its value, and how a menu calls it: a clip, or weights by which the page lets it sway. */
@@ -13,8 +13,21 @@ export const motions_in = (output: Schema): Motion[] => Object.entries(output.pr
 
 export const moved = (output: Request['output'], motion: Motion): Request['output'] => ({ ...output, [motion.member]: motion.value });
 
+export const is_output = (fault: Fault): boolean => /^\/output(\/|$)/.test(fault.pointer);
+
+/** The schema of the output with the formats alone that the generator has, and what the request asks for. */
+export function with_formats(output: Schema, formats: string[], request: Request): Schema {
+  const { format, ...others } = output.properties ?? {};
+  const can = (format?.enum ?? []).filter((each) => formats.includes(String(each)) || each === request.output?.['format']);
+  return { ...output, properties: { format: { ...format, enum: can }, ...others } };
+}
+
 export function for_view(request: Request, motion: Motion | null): Request {
-  const { lods: _, profile, ...output } = request.output ?? {};
-  const still = { ...output, ...(profile === 'web' ? { profile } : {}), format: 'glb' };
+  const { lods: _, impostor: __, collision: ___, profile, instancing, ...output } = request.output ?? {};
+  const is_web = profile === 'web';
+  const still = {
+    ...output, ...(is_web ? { profile } : {}), format: 'glb',
+    ...(instancing === undefined || (instancing === 'gpu' && !is_web) ? {} : { instancing }),
+  };
   return { ...request, output: motion ? moved(still, motion) ?? still : still };
 }

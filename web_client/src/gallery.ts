@@ -1,6 +1,8 @@
-/** The presets as cards with pictures, by generator, narrowed by words and tags. */
-import type { Preset } from './api';
+/** The presets as cards with pictures, by generator, narrowed by words, generator and tags. */
+import type { Generator, Preset } from './api';
 import { el } from './dom';
+import { neighbour, roving } from './roving';
+import { matcher } from './words';
 
 export interface Gallery {
   /** Marks the card of the preset that is open; null for none. */
@@ -9,95 +11,109 @@ export interface Gallery {
   search(): void;
 }
 
-const readable = (name: string): string => name.replaceAll('_', ' ').replace(/^./, (first) => first.toUpperCase());
+const chip = (text: string, attributes: Record<string, string> = {}): HTMLElement =>
+  el('button', { type: 'button', class: 'chip', 'aria-pressed': 'false', ...attributes }, text);
+const is_pressed = (button: HTMLElement): boolean => button.getAttribute('aria-pressed') === 'true';
+const press = (button: HTMLElement, on: boolean): void => button.setAttribute('aria-pressed', String(on));
 
-export function draw_gallery(place: HTMLElement, presets: Preset[], choose: (preset: Preset) => void): Gallery {
+/** In the order of the generators; what none of them is told for comes last. */
+function families(presets: Preset[], generators: Generator[]): { title: string; of_it: Preset[] }[] {
+  const by_name = Map.groupBy(presets, (preset) => preset.generator);
+  const known = generators.filter(({ name }) => by_name.has(name));
+  const others = [...by_name.keys()].filter((name) => !known.some((each) => each.name === name)).map((name) => ({ name, title: name }));
+  return [...known, ...others].map(({ name, title }) => ({ title, of_it: by_name.get(name) ?? [] }));
+}
+
+/** Tags of more than one preset, the most frequent first. */
+function tags_of(presets: Preset[]): string[] {
   const counts = new Map<string, number>();
   for (const tag of presets.flatMap((preset) => preset.tags)) counts.set(tag, (counts.get(tag) ?? 0) + 1);
-  const tags = [...counts].filter(([, count]) => count > 1).sort((a, b) => b[1] - a[1] || (a[0] < b[0] ? -1 : 1)).map(([tag]) => tag);
+  return [...counts].filter(([, count]) => count > 1).sort((a, b) => b[1] - a[1] || (a[0] < b[0] ? -1 : 1)).map(([tag]) => tag);
+}
 
+export function draw_gallery(place: HTMLElement, presets: Preset[], generators: Generator[], choose: (preset: Preset) => void): Gallery {
   const search = el('input', { type: 'search', placeholder: 'Search', 'aria-label': 'Search the gallery', 'aria-keyshortcuts': '/', autocomplete: 'off' });
-  const chips = tags.map((tag) => el('button', { type: 'button', class: 'chip', 'aria-pressed': 'false' }, tag));
+  const chips = tags_of(presets).map((tag) => ({ tag, button: chip(tag) }));
+  const more_head = el('summary', {}, 'More tags');
+  const more = el('details', { class: 'more more-tags' }, more_head,
+    el('div', { class: 'chips', role: 'group', 'aria-label': 'Tags' }, ...chips.map(({ button }) => button)));
   const count = el('p', { class: 'unseen', role: 'status' });
-  const none = el('p', { class: 'soft', hidden: true }, 'Nothing here has these words and tags.');
-  const cards = presets.map((preset) => ({ preset, element: card(preset, () => choose(preset)) }));
-  const groups = [...Map.groupBy(cards, (each) => each.preset.generator)].map(([generator, of_it]) => {
+  const none_text = el('p', { class: 'soft' });
+  const none = el('div', { class: 'none', hidden: true }, none_text, el('button', { type: 'button', onclick: () => clear() }, 'Show all presets'));
+  const groups = families(presets, generators).map(({ title, of_it }) => {
     const tally = el('span', { class: 'soft' });
-    return { of_it, tally, element: el('section', { class: 'family', 'aria-label': readable(generator) },
-      el('h2', { class: 'family-head' }, readable(generator), ' ', tally), el('div', { class: 'cards' }, ...of_it.map((each) => each.element))) };
+    const cards = of_it.map((preset) => ({
+      preset, element: card(preset, () => choose(preset)),
+      fits: matcher(`${preset.name} ${preset.title} ${preset.description} ${preset.tags.join(' ')} ${preset.generator} ${title}`),
+    }));
+    return { cards, tally, button: chip(title), element: el('section', { class: 'family', 'aria-label': title },
+      el('h2', { class: 'family-head' }, title, ' ', tally), el('div', { class: 'cards' }, ...cards.map((each) => each.element))) };
   });
+  const cards = groups.flatMap((group) => group.cards);
+  const visible = (): HTMLElement[] => cards.map((each) => each.element).filter((each) => !each.hidden);
+  const one_card = roving(place, visible, neighbour, () => search.focus());
 
   const narrow = (): void => {
-    const words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
-    const wanted = tags.filter((_, index) => chips[index]?.getAttribute('aria-pressed') === 'true');
+    const wanted = chips.filter(({ button }) => is_pressed(button)).map(({ tag }) => tag);
+    const of_one = groups.some(({ button }) => is_pressed(button));
     let left = 0;
-    for (const { of_it, tally, element: section } of groups) {
+    for (const { cards: of_it, tally, button, element: section } of groups) {
       let here = 0;
-      for (const { preset, element } of of_it) {
-        const text = `${preset.name} ${preset.title} ${preset.description} ${preset.tags.join(' ')} ${preset.generator}`.toLowerCase();
-        const fits = words.every((word) => text.includes(word)) && wanted.every((tag) => preset.tags.includes(tag));
-        element.hidden = !fits;
-        if (fits) here += 1;
+      for (const { preset, element, fits } of of_it) {
+        element.hidden = (of_one && !is_pressed(button)) || !wanted.every((tag) => preset.tags.includes(tag)) || !fits(search.value);
+        if (!element.hidden) here += 1;
       }
       section.hidden = here === 0;
       tally.textContent = String(here);
       left += here;
     }
     none.hidden = left > 0;
+    const chosen = [...groups.filter(({ button }) => is_pressed(button)).map(({ button }) => button.textContent), ...wanted];
+    none_text.textContent = `Nothing here has ${[search.value.trim() && `the words “${search.value.trim()}”`, chosen.length > 0 && `the marks ${chosen.join(', ')}`].filter(Boolean).join(' and ')}.`;
     count.textContent = `${left} of ${cards.length} presets`;
+    more_head.textContent = wanted.length > 0 ? `More tags: ${wanted.join(', ')}` : 'More tags';
+    one_card.settle();
   };
-  search.addEventListener('input', narrow);
-  for (const chip of chips) {
-    chip.addEventListener('click', () => {
-      chip.setAttribute('aria-pressed', String(chip.getAttribute('aria-pressed') !== 'true'));
-      narrow();
-    });
+  function clear(): void {
+    search.value = '';
+    for (const { button } of [...groups, ...chips]) press(button, false);
+    narrow();
+    search.focus();
   }
-  const visible = (): HTMLElement[] => groups.flatMap((group) => group.of_it).map((each) => each.element).filter((each) => !each.hidden);
+
+  search.addEventListener('input', () => {
+    // Whoever searches wants to see what is found.
+    if (search.value.trim()) more.open = false;
+    narrow();
+  });
   search.addEventListener('keydown', (event) => {
     if (event.key !== 'ArrowDown' && event.key !== 'Enter') return;
     event.preventDefault();
     visible()[0]?.focus();
   });
-  place.addEventListener('keydown', (event) => {
-    const at = visible().indexOf(event.target as HTMLElement);
-    const next = at < 0 ? undefined : neighbour(visible(), at, event.key);
-    if (next === undefined) return;
-    event.preventDefault();
-    if (next < 0) search.focus();
-    else visible()[next]?.focus();
-  });
+  for (const { button } of groups) {
+    button.addEventListener('click', () => {
+      const on = !is_pressed(button);
+      for (const other of groups) press(other.button, on && other.button === button);
+      narrow();
+    });
+  }
+  for (const { button } of chips) button.addEventListener('click', () => { press(button, !is_pressed(button)); narrow(); });
+
+  const kinds = el('div', { class: 'chips kinds', role: 'group', 'aria-label': 'Generators' }, ...groups.map(({ button }) => button));
+  roving(kinds, () => groups.map(({ button }) => button)).settle();
+  roving(more, () => chips.map(({ button }) => button)).settle();
   narrow();
-  place.replaceChildren(
-    el('div', { class: 'gallery-head' }, search, el('div', { class: 'chips', role: 'group', 'aria-label': 'Tags' }, ...chips), count),
-    ...groups.map((group) => group.element), none,
-  );
+  place.replaceChildren(el('div', { class: 'gallery-head' }, search, kinds, more, count), ...groups.map((group) => group.element), none);
   return {
     mark(name) {
-      for (const { preset, element } of cards) element.setAttribute('aria-pressed', String(preset.name === name));
+      for (const { preset, element } of cards) {
+        press(element, preset.name === name);
+        if (preset.name === name) one_card.settle(element);
+      }
     },
     search() { search.focus(); search.select(); },
   };
-}
-
-/** The card that an arrow leads to: rows are what stands at one height. -1 is above the first row. */
-function neighbour(cards: HTMLElement[], at: number, key: string): number | undefined {
-  if (key === 'Home') return 0;
-  if (key === 'End') return cards.length - 1;
-  if (key === 'ArrowRight') return Math.min(at + 1, cards.length - 1);
-  if (key === 'ArrowLeft') return Math.max(at - 1, 0);
-  if (key !== 'ArrowDown' && key !== 'ArrowUp') return undefined;
-  const here = cards[at]!.getBoundingClientRect();
-  const down = key === 'ArrowDown';
-  let found: number | undefined, nearest = Infinity;
-  cards.forEach((card, index) => {
-    const there = card.getBoundingClientRect();
-    const ahead = down ? there.top - here.bottom : here.top - there.bottom;
-    if (ahead < -1) return;
-    const distance = ahead * 1000 + Math.abs(there.left - here.left);
-    if (distance < nearest) { nearest = distance; found = index; }
-  });
-  return found ?? (down ? at : -1);
 }
 
 function card(preset: Preset, choose: () => void): HTMLElement {

@@ -1,17 +1,19 @@
-/** The keys of the page. */
+/** The keys of the page, and what mouse and fingers do on the picture. */
 import { el, part } from './dom';
 
 export const keys: [string, [string, string][]][] = [
   ['Anywhere', [
     ['?', 'This list'], ['Ctrl Z', 'Undo'], ['Ctrl Shift Z', 'Redo'], ['Ctrl S', 'Save the request as JSON'], ['Ctrl O', 'Open a file'], ['/', 'Search the gallery'],
   ]],
+  ['In the gallery', [['Arrows', 'From card to card'], ['Home, End', 'To the first, to the last'], ['Enter', 'Open']]],
+  ['Mouse on the picture', [['Drag', 'Turn'], ['Right drag', 'Move sideways'], ['Wheel', 'Zoom'], ['Click', 'Choose a place or a part'], ['Right click', 'Plant, where the form has a list of places']]],
   ['On the picture', [
     ['Arrows', 'Turn'], ['+ −', 'Zoom'], ['F', 'Show all'], ['W', 'Wireframe'], ['G', 'Grid'], ['H', 'Person of 1.8 m'], ['R', 'Another seed'],
     ['N', 'Shaded, flat, normals, squares'], ['C', 'Compare with this model'], ['P', 'Save the picture'], ['[ ]', 'A step back, a step on'], ['Space', 'Play or stop the motion'],
-    ['Right click', 'Plant, where the form has a list of places'], ['Delete', 'Take the chosen place away'],
+    ['Delete', 'Take the chosen place away'],
   ]],
+  ['Fingers on the picture', [['One finger', 'Turn'], ['Two fingers', 'Move; pinch to zoom'], ['Tap', 'Choose a place or a part'], ['Long press', 'Plant, where the form has a list of places']]],
   ['On foot and in flight', [['W A S D', 'Go'], ['Q Z', 'Rise, sink (in flight)'], ['Page up, down', 'Rise, sink'], ['Arrows', 'Turn the head'], ['Shift', 'Faster'], ['Esc', 'Back to turning']]],
-  ['In the gallery', [['Arrows', 'From card to card'], ['Enter', 'Open']]],
 ];
 
 /** Where the words of a text are typed, no letter is a command. */
@@ -26,12 +28,13 @@ export function wire_help(): { open(): void } {
   const open = (): void => {
     if (dialog.open) return;
     dialog.replaceChildren(
-      el('h2', { id: 'keys-title' }, 'Keys'),
-      el('div', { class: 'keys' }, ...keys.map(([place, list]) => el('section', {}, el('h3', {}, place), el('dl', {},
+      // The heading takes the focus: a link or a button below would be scrolled to.
+      el('form', { method: 'dialog', class: 'dialog-head' }, el('h2', { id: 'keys-title', tabindex: -1, autofocus: true }, 'Keys and gestures'), el('button', {}, 'Close')),
+      el('div', { class: 'keys' }, ...keys.map(([place, list]) => el('section', { class: place.startsWith('Fingers') && 'fingers' }, el('h3', {}, place), el('dl', {},
         ...list.map(([key, does]) => el('div', {}, el('dt', {}, el('kbd', {}, key)), el('dd', {}, does))))))),
-      el('p', { class: 'soft' }, 'Every parameter is explained in its form, and all routes in the ', el('a', { href: './docs' }, 'reference'), '.'),
-      el('form', { method: 'dialog' }, el('button', {}, 'Close')));
+      el('p', { class: 'soft' }, 'Every parameter is explained in its form, and all routes in the ', el('a', { href: './docs' }, 'reference'), '.'));
     dialog.showModal();
+    dialog.scrollTop = 0;
   };
   part('help').addEventListener('click', open);
   return { open };

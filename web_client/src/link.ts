@@ -9,7 +9,7 @@ async function through(bytes: Uint8Array<ArrayBuffer>, stream: CompressionStream
 }
 
 /** Deflated JSON in base64url, as in the server's permalinks; 250 to 1,000 characters for most requests. */
-export async function pack(request: Request): Promise<string> {
+async function pack(request: Request): Promise<string> {
   const json = new TextEncoder().encode(JSON.stringify(request));
   const packed = new Uint8Array(await through(json, new CompressionStream('deflate-raw')));
   let binary = '';
@@ -17,8 +17,15 @@ export async function pack(request: Request): Promise<string> {
   return btoa(binary).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
 }
 
+/** What stands behind `#`: the request, and behind a point the preset that it came from, which gives it its name. */
+export const fragment_of = async (request: Request, preset: string | null): Promise<string> =>
+  `${await pack(request)}${preset ? `.${preset}` : ''}`;
+
+export const preset_in = (fragment: string): string | null => /\.([a-z0-9_-]+)$/.exec(fragment)?.[1] ?? null;
+
 /** Throws where the text is no request. */
-export async function unpack(text: string): Promise<Request> {
+export async function unpack(fragment: string): Promise<Request> {
+  const [text = ''] = fragment.split('.');
   const binary = atob(text.replaceAll('-', '+').replaceAll('_', '/'));
   const bytes = Uint8Array.from(binary, (character) => character.charCodeAt(0));
   const json: unknown = JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream('deflate-raw'))));
@@ -27,9 +34,9 @@ export async function unpack(text: string): Promise<Request> {
   return complete(given);
 }
 
-export async function link_to(request: Request): Promise<string> {
+export async function link_to(request: Request, preset: string | null): Promise<string> {
   const address = new URL(location.href);
   address.search = '';
-  address.hash = await pack(request);
+  address.hash = await fragment_of(request, preset);
   return address.href;
 }

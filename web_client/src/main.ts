@@ -2,17 +2,18 @@
  * Brings the parts together. The address tells what is shown: `#…` carries a request; in the query `quality=low` or
  * `quality=high` chooses how it is drawn, and `stage` leaves only the picture, for making pictures.
  */
-import { Locked, Refusal, get_preset, get_presets, get_schema, type Fault, type Made, type Preset, type Request } from './api';
+import { Locked, Refusal, get_preset, get_offer, get_schema, type Fault, type Generator, type Made, type Preset, type Request } from './api';
 import { Address, first_shown } from './address';
 import { Checker, joined } from './checker';
 import { el, grouped, part, rounded } from './dom';
 import type { Form } from './form/form';
+import type { OutputForm } from './form/output_form';
 import type { Schema } from './form/schema';
 import { draw_gallery, type Gallery } from './gallery';
 import { Grower, Patience } from './grower';
 import { forget_hint, wire_hint } from './hint';
 import { reopen } from './key';
-import { for_view, motions_in, type Motion } from './for_view';
+import { for_view, is_output, motions_in, with_formats, type Motion } from './for_view';
 import { wire_seed } from './seed';
 import { is_high, make_viewer } from './setup';
 import { Store, type State } from './state';
@@ -37,7 +38,7 @@ function begun<T>(task: () => Promise<T>): (again: () => Promise<T>) => Promise<
     return taken;
   };
 }
-const early_presets = begun(get_presets);
+const early_offer = begun(get_offer);
 const early_first = location.hash.length > 1 ? null : begun(() => get_preset(first_shown));
 
 /** A model of more triangles is drawn only when asked for: it can cost a browser its picture. */
@@ -60,8 +61,10 @@ const checker = new Checker((faults) => { checked = faults; show_faults(); });
 const tabs = wire_tabs((page) => tools?.page(page));
 
 let presets: Preset[] = [];
+let generators: Generator[] = [];
 let gallery: Gallery | null = null;
 let form: Form | null = null;
+let output_form: OutputForm | null = null;
 let tools: Tools | null = null;
 let opening = new AbortController();
 let keep_camera = false;
@@ -76,12 +79,17 @@ let waiting: ((drawn: boolean) => void)[] = [];
 /** The schema of the form, and of which generator it is. */
 let schema: Schema | null = null;
 let schema_of = '';
-/** The formats and motions that models can have. */
+/** What can be asked of every model, and what of it are formats and motions. */
+let output_schema: Promise<Schema> | null = null;
 let formats = ['glb'];
 let motions: Motion[] = [];
 
 const persist = <T>(task: () => Promise<T>, signal: AbortSignal): Promise<T> =>
   patience.persist(task, (reason, until) => status.phase({ kind: 'waiting', reason, until }), signal);
+
+/** Asked for once; where that is refused, whoever comes next asks again. */
+const get_output = (): Promise<Schema> => output_schema ??= persist(() => get_schema('output'), new AbortController().signal)
+  .catch((error: unknown) => { output_schema = null; throw error; });
 
 const quietly = (task: Promise<void>, again = (): void => {}): void => {
   task.catch((error: unknown) => {
@@ -114,6 +122,7 @@ function stand(words: string): void {
 const address = new Address({
   store, persist,
   presets: () => presets,
+  generators: () => generators,
   get_preset: (name, signal) => (name === first_shown && early_first ? early_first(() => get_preset(name, signal)) : get_preset(name, signal)),
   begin: begin_opening,
   damaged: () => stand('This link is damaged: it holds no whole request. Ask for it once more, or choose from the gallery.'),
@@ -148,8 +157,8 @@ const grow = (request: Request, when: 'now' | 'soon'): void => grower.ask(for_vi
 async function show(made: Made, request: Request): Promise<void> {
   const { triangles } = made.statistics;
   refusal = null;
-  // What was made has no errors: the check of an earlier text may say so later than the model does.
-  checked = checked.filter((fault) => fault.mild);
+  // What was made has no errors: the check of an earlier text may say so later than the model does. Of the output it shows a part.
+  checked = checked.filter((fault) => fault.mild || is_output(fault));
   show_faults();
   if (viewer && !standing) status.faults('', [], 0, () => {});
   last = { bytes: made.bytes, model: null, triangles };
@@ -164,8 +173,9 @@ async function show(made: Made, request: Request): Promise<void> {
   status.shown(made.statistics);
   const size = viewer?.measures.size;
   const measure = size ? `, ${rounded(size.x)} m wide, ${rounded(size.y)} m high, ${rounded(size.z)} m deep` : '';
-  part('picture').setAttribute('aria-label',
-    `${store.current?.title ?? 'Model'}, seed ${request.seed}: ${grouped(triangles)} triangles${measure}`);
+  const told = `${store.current?.title ?? 'Model'}, seed ${request.seed}: ${grouped(triangles)} triangles`;
+  part('picture').setAttribute('aria-label', told + measure);
+  status.arrived(told);
   document.body.dataset['shown'] = String(Number(document.body.dataset['shown']) + 1);
 }
 
@@ -174,15 +184,29 @@ function show_faults(): void {
   const faults = joined(refusal?.faults ?? [], checked);
   tools?.show_faults(faults);
   form?.show_faults(faults);
+  output_form?.show_faults(faults);
+}
+
+/** What the field is called that stands nearest above a value. */
+function label_at(pointer: string): string | undefined {
+  for (let nearest = pointer; nearest; nearest = nearest.slice(0, nearest.lastIndexOf('/'))) {
+    const label = part('parameters').querySelector(`[data-pointer="${CSS.escape(nearest)}"] > .field-head > .label`);
+    if (label) return label.textContent;
+  }
+  return undefined;
 }
 
 function refuse(next: Refusal): void {
   refusal = next;
   show_faults();
-  const homeless = next.faults.filter((fault) => !form?.holds(fault));
+  const { faults } = next;
+  const homeless = faults.filter((fault) => !form?.holds(fault) && !output_form?.holds(fault));
+  const one = faults.length === 1 ? faults[0] : undefined;
+  const label = one && label_at(one.pointer);
+  const detail = faults.length > 1 ? `This request has ${faults.length} faults.` : label ? `${label}: ${next.message}` : next.message;
   // One fault is its own summary.
   const rest = homeless.filter((fault: Fault) => fault.message !== next.message);
-  status.faults(next.message, rest, next.faults.length - homeless.length, () => {
+  status.faults(detail, rest, faults.length - homeless.length, () => {
     tabs.open('parameters');
     const faulty = part('parameters').querySelector<HTMLElement>('.field.faulty :is(.spot, input, textarea, select)');
     faulty?.focus();
@@ -193,15 +217,17 @@ function refuse(next: Refusal): void {
 /** The form of the request's generator; drawn once for each request that is opened, and when another hand wrote it. */
 async function draw_parameters(state: State, is_new: boolean, signal: AbortSignal): Promise<void> {
   const { generator } = state.request;
-  const [known, { draw_form, keep_place, about }] = await Promise.all([
-    schema && schema_of === generator ? schema : persist(() => get_schema(generator, signal), signal), persist(() => import('./form/form'), signal)]);
+  const [known, output, { draw_form, keep_place, about, output_form: make_output }] = await Promise.all([
+    schema && schema_of === generator ? schema : persist(() => get_schema(generator, signal), signal), get_output(), persist(() => import('./form/form'), signal)]);
   const { request, base } = store.current ?? state;
   if (signal.aborted || request.generator !== generator) return;
   schema = known;
   schema_of = generator;
   const restore = keep_place(part('parameters'));
   form = draw_form(schema, request.parameters, base.parameters, '/parameters', (parameters) => store.edit({ parameters }));
-  part('parameters').replaceChildren(el('h2', { class: 'unseen' }, 'Parameters'), about(generator, schema, state.description), form.element);
+  output_form ??= make_output((asked) => store.edit({ output: asked }));
+  output_form.follow(with_formats(output, formats_of(schema), request), request.output ?? {}, base.output ?? {});
+  part('parameters').replaceChildren(el('h2', { class: 'unseen' }, 'Parameters'), about(generator, schema, state.description), form.element, output_form.element);
   restore();
   if (is_new) part('parameters').scrollTop = 0;
   explain();
@@ -210,10 +236,12 @@ async function draw_parameters(state: State, is_new: boolean, signal: AbortSigna
   else show_faults();
 }
 
+const formats_of = (of: Schema): string[] => [...formats, ...(of['x-formats'] ?? [])];
+
 const explain = (): void => {
   if (!schema) return;
   tools?.explain(schema);
-  tools?.offer([...formats, ...(schema['x-formats'] ?? [])], motions);
+  tools?.offer(formats_of(schema), motions);
 };
 
 store.subscribe((state, cause) => {
@@ -269,12 +297,12 @@ async function start(): Promise<void> {
   addEventListener('hashchange', () => { if (address.is_foreign) opening_of(() => address.open()); });
 
   const { signal } = new AbortController();
-  presets = await persist(() => early_presets(() => get_presets(signal)), signal);
-  gallery = draw_gallery(part('gallery'), presets, (preset) => { gallery?.mark(preset.name); forget_hint(); opening_of(() => address.choose(preset)); });
+  ({ presets, generators } = await persist(() => early_offer(() => get_offer(signal)), signal));
+  gallery = draw_gallery(part('gallery'), presets, generators, (preset) => { gallery?.mark(preset.name); forget_hint(); opening_of(() => address.choose(preset)); });
   opening_of(() => address.open());
   quietly(load_tools(signal));
 
-  const output = await persist(() => get_schema('output', signal), signal);
+  const output = await get_output();
   formats = output['x-formats'] ?? formats;
   motions = motions_in(output);
   explain();

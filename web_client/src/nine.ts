@@ -1,6 +1,8 @@
 /** Nine seeds of one request as pictures in three rows: this one and eight that chance chose. One is taken, or none. */
-import { Busy, Gone, generate, in_format, type Request } from './api';
+import { Refusal, generate, type Request } from './api';
 import { el, part } from './dom';
+import { for_view } from './for_view';
+import { Patience } from './grower';
 import { seed_after, type Seed } from './seed';
 
 interface Context {
@@ -13,6 +15,7 @@ const width = 264, height = 198;
 
 export function wire_nine(context: Context): void {
   const dialog = part<HTMLDialogElement>('nine-dialog');
+  const patience = new Patience();
   let running = new AbortController();
   dialog.addEventListener('close', () => running.abort());
   // The pictures belong to the request that they were made for.
@@ -27,8 +30,8 @@ export function wire_nine(context: Context): void {
     const begin = first ?? request.seed;
     const seeds = Array.from({ length: 9 }, (_, index) => seed_after(begin, index));
     const cells = seeds.map((seed) => {
-      const cell = el('button', { type: 'button', class: 'cell', 'data-seed': String(seed), 'aria-label': `Seed ${seed}`, 'aria-current': seed === request.seed },
-        el('span', { class: 'cell-picture' }), el('span', {}, String(seed)));
+      const cell = el('button', { type: 'button', class: 'cell', 'data-seed': String(seed), 'aria-label': `Seed ${seed}${seed === request.seed ? ' · now' : ''}`, 'aria-current': String(seed === request.seed) },
+        el('span', { class: 'cell-picture' }), el('span', {}, String(seed), seed === request.seed && el('b', {}, ' · now')));
       cell.addEventListener('click', () => { context.choose(seed); dialog.close(); });
       return cell;
     });
@@ -41,13 +44,15 @@ export function wire_nine(context: Context): void {
     for (const [index, seed] of seeds.entries()) {
       const place = cells[index]?.firstElementChild;
       try {
-        const { bytes } = await generate(in_format({ ...request, seed }, 'glb'), signal);
+        const { bytes } = await patience.persist(
+          () => generate(for_view({ ...request, seed }, null), signal),
+          (reason) => place?.replaceChildren(reason === 'full' ? 'The server is full. Trying again' : 'No answer. Trying again'), signal);
         const picture = await context.portrait(bytes, width, height);
         if (signal.aborted) return;
         place?.replaceWith(picture);
       } catch (error) {
         if (signal.aborted) return;
-        place?.replaceChildren(error instanceof Busy ? 'The server is full' : error instanceof Gone ? 'No answer' : 'Refused');
+        place?.replaceChildren(error instanceof Refusal ? 'Refused' : 'Nothing to show');
       }
       dialog.dataset['filled'] = String(index + 1);
     }

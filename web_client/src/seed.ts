@@ -27,9 +27,17 @@ export interface SeedBox {
 export function wire_seed(change: (seed: Seed) => void): SeedBox {
   const box = part<HTMLInputElement>('seed');
   const list = part('seed-list');
+  const fault = part('seed-fault');
   let before: Seed[] = [];
+  let shown: Seed = 0;
+  const judge = (is_seed: boolean): void => {
+    box.setAttribute('aria-invalid', String(!is_seed));
+    fault.textContent = is_seed ? '' : `A seed is a whole number from 0 to ${largest.toLocaleString('en')}.`;
+  };
   const show = (seed: Seed): void => {
-    box.setAttribute('aria-invalid', 'false');
+    shown = seed;
+    judge(true);
+    box.title = String(seed);
     // What is being typed stays as it is: 007 is 7.
     if (seed_of(box.value) !== seed) box.value = String(seed);
   };
@@ -40,8 +48,14 @@ export function wire_seed(change: (seed: Seed) => void): SeedBox {
   };
   box.addEventListener('input', () => {
     const seed = seed_of(box.value);
-    box.setAttribute('aria-invalid', String(seed === null));
+    judge(seed !== null);
     if (seed !== null) change(seed);
+  });
+  // What is no seed does not stay: the page shows and shares the one before.
+  box.addEventListener('change', () => {
+    if (seed_of(box.value) !== null) return;
+    box.value = String(shown);
+    judge(true);
   });
   part('dice').addEventListener('click', roll);
   return {
@@ -49,7 +63,7 @@ export function wire_seed(change: (seed: Seed) => void): SeedBox {
     drawn(seed) {
       before = [seed, ...before.filter((each) => each !== seed)].slice(0, most_kept);
       list.replaceChildren(...before.map((each) => el('li', {},
-        el('button', { type: 'button', 'data-close': true, 'aria-current': each === seed, onclick: () => { show(each); change(each); } }, String(each)))));
+        el('button', { type: 'button', 'data-close': true, 'aria-current': String(each === seed), onclick: () => { show(each); change(each); } }, String(each)))));
     },
   };
 }

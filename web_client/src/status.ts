@@ -1,16 +1,20 @@
 /** What is going on, in words, for eyes, for assistive tools (status, alert) and for tests (data-state on the body). */
 import type { Fault, Statistics } from './api';
-import { el, grouped, part, rounded } from './dom';
+import { el, grouped, part, rounded, with_groups } from './dom';
 import type { Phase } from './grower';
 
 /** A wait that is shorter is not worth a word. */
 const bar_after = 300;
 const slow_after = 4000;
+/** A slider in motion makes many models: the one at which it rests is told. */
+const rest = 900;
 
 export interface Status {
   phase(phase: Phase): void;
   /** The statistics of a model, and what its canvas is called. */
   shown(statistics: Statistics): void;
+  /** Tells assistive tools of a model that has come, once no other follows. */
+  arrived(model: string): void;
   /** A word that goes away by itself. */
   say(text: string): void;
   /** Faults that no field shows, and how many the fields show; none takes the alert away. `way` names another way out than the fields. */
@@ -24,7 +28,9 @@ export function wire_status(): Status {
   const notice = part('notice'), text = part('status'), countdown = part('countdown');
   const cancel = part('cancel'), again = part('again'), alert = part('alert');
   const progress = part<HTMLProgressElement>('progress');
+  const told = part('told');
   let timers: number[] = [];
+  let arriving = 0;
   let is_growing = false;
   let was_waiting = false;
   let answer_no = (): void => {};
@@ -98,6 +104,10 @@ export function wire_status(): Status {
       }
     },
     shown: show_statistics,
+    arrived(model) {
+      clearTimeout(arriving);
+      arriving = window.setTimeout(() => { told.textContent = model; }, rest);
+    },
     faults(detail, homeless, in_fields, lead, way) {
       if (detail === '') {
         alert.replaceChildren();
@@ -105,8 +115,8 @@ export function wire_status(): Status {
       }
       const go = el('button', { type: 'button', onclick: lead }, way ?? 'Show');
       alert.replaceChildren(
-        el('p', {}, detail),
-        ...homeless.map((fault) => el('p', {}, fault.pointer ? `${fault.pointer}: ${fault.message}` : fault.message)),
+        el('p', {}, with_groups(detail)),
+        ...homeless.map((fault) => el('p', {}, with_groups(fault.pointer ? `${fault.pointer}: ${fault.message}` : fault.message))),
         ...(in_fields > 0 || way !== undefined ? [go] : []),
       );
     },

@@ -4,6 +4,7 @@
  */
 import type { Fault, Request } from './api';
 import { save_picture, save_request, wire_copies, wire_downloads } from './actions';
+import { own_format } from './commands';
 import { part } from './dom';
 import type { Schema } from './form/schema';
 import type { Motion } from './for_view';
@@ -60,6 +61,7 @@ export function wire_tools(core: Core): Tools {
   const { store, viewer, status, tabs } = core;
   const actions = {
     request: (): Request | null => store.current?.request ?? null,
+    preset: (): string | null => store.current?.preset ?? null,
     name: (): string => `${store.current?.preset ?? 'seedmesh'}-${store.current?.request.seed ?? 0}`,
     picture: (): Promise<Blob | null> => viewer?.screenshot() ?? Promise.resolve(null),
     say: status.say,
@@ -90,6 +92,8 @@ export function wire_tools(core: Core): Tools {
   });
   const motion = viewer && wire_motion(viewer);
   let motions: Motion[] = [];
+  let formats = ['glb'];
+  let own = 'glb';
   let rules_schema: Schema | null = null;
 
   // Which motions there are is asked when somebody looks for them, once for each request that is opened.
@@ -122,6 +126,8 @@ export function wire_tools(core: Core): Tools {
       part<HTMLButtonElement>('undo').disabled = !store.can_undo;
       part<HTMLButtonElement>('redo').disabled = !store.can_redo;
       growth.leave();
+      if (own !== own_format(state.request)) wire_downloads(formats, actions);
+      own = own_format(state.request);
       steps.follow(state);
       request_text.follow(state);
       result.follow(state, is_new);
@@ -142,7 +148,8 @@ export function wire_tools(core: Core): Tools {
       if (page === 'request') request_text.open();
       result.open(page === 'result');
     },
-    offer(formats, all_motions) {
+    offer(all_formats, all_motions) {
+      formats = all_formats;
       wire_downloads(formats, actions);
       motions = all_motions;
     },

@@ -1,6 +1,6 @@
 /** What every field of the form is made of: its place in the request, its frame, and where its faults are shown. */
 import type { Fault } from '../api';
-import { el, fresh_id, icon } from '../dom';
+import { el, fresh_id, icon, with_groups } from '../dom';
 import { same, type Schema } from './schema';
 
 /** Where a field sits, and how it tells that it was changed. */
@@ -112,7 +112,7 @@ export function frame(place: Place, control: HTMLElement, body: HTMLElement, red
     if (!is_group) control.setAttribute('aria-invalid', String(is_faulty));
     fault.classList.toggle('mild', !is_faulty);
     fault.hidden = faults.length === 0;
-    fault.textContent = faults.map((each) => each.message).join('\n');
+    fault.textContent = with_groups(faults.map((each) => each.message).join('\n'));
   });
   const now = (value: unknown): void => { reset.hidden = same(value, place.base); };
   now(place.value);

@@ -44,6 +44,8 @@ function field_for(schema: Schema): Draw {
 
 export const draw_field: Draw = (place) => field_for(place.schema)(place);
 
+export { output_form } from './output_form';
+
 export interface Form {
   element: HTMLElement;
   /** Shows faults at their fields and returns those that belong to none. */
