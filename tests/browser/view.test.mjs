@@ -176,7 +176,7 @@ test('a model is shown in the materials of another season without asking the ser
 });
 
 test('growth is played and stands at any moment; a generator without it offers none', { timeout: 300_000 }, async () => {
-  const page = await open(browser, address);
+  const page = await open(browser, address, { reducedMotion: 'reduce' });
   await page.click('#view-menu > summary');
   await page.waitForFunction(() => [...document.querySelectorAll('#motion-kind option')].some((option) => option.value === 'growth'));
   await until_shown(page, () => page.selectOption('#motion-kind', 'growth'));

@@ -19,7 +19,8 @@ export function wire_pad(walker: Walker): (gait: Gait) => void {
       const button = el('button', { type: 'button', 'data-key': key, 'aria-label': label }, sign);
       button.addEventListener('pointerdown', (event) => { button.setPointerCapture(event.pointerId); walker.press(key); });
       for (const end of ['pointerup', 'pointercancel', 'lostpointercapture']) button.addEventListener(end, () => walker.release(key));
-      button.addEventListener('contextmenu', (event) => event.preventDefault());
+      // The picture keeps the focus: it lets go of all keys when it loses it.
+      for (const other of ['mousedown', 'contextmenu']) button.addEventListener(other, (event) => event.preventDefault());
       button.addEventListener('click', (event) => {
         if (event.detail > 0) return;
         walker.press(key);

@@ -34,7 +34,9 @@ export function make_viewer(status: Status, high: boolean): Viewer | null {
     } else {
       // What lies at the lower rim grows and shrinks with what the model has: steps, motion; at the upper with the width of the page.
       const upper = part('upper'), lower = part('lower');
-      const rims = new ResizeObserver(() => made.set_covered({ top: upper.offsetTop + upper.offsetHeight + 8, bottom: Math.max(72, lower.offsetHeight + 32) }));
+      const rims = new ResizeObserver(() => {
+        if (upper.offsetHeight > 0) made.set_covered({ top: upper.offsetTop + upper.offsetHeight + 8, bottom: Math.max(72, lower.offsetHeight + 32) });
+      });
       for (const rim of [upper, lower]) rims.observe(rim);
     }
     made.on_context = (lost) => status.lost(lost);

@@ -171,7 +171,7 @@ export function wire_compare(viewer: Viewer, bytes: () => ArrayBuffer | null, se
     if (on && !kept) return;
     button.setAttribute('aria-pressed', String(on));
     box.hidden = line.hidden = !on;
-    if (on) box.querySelector('label')!.replaceChildren(el('b', {}, `Left: seed ${seed()}`), el('span', { class: 'soft' }, ` ${title()}`));
+    if (on) box.querySelector('label')!.replaceChildren(el('b', {}, `Left: seed ${seed()}`), el('span', { class: 'soft' }, title()));
     void viewer.compare(on ? kept : null).then(place);
   };
   button.addEventListener('click', flip);

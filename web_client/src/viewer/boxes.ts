@@ -1,6 +1,6 @@
 /** Scope boxes over the model: the shapes of a derivation, apart from its triangles, and which of them was pointed at. */
 import {
-  BoxGeometry, BufferGeometry, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, Ray, Vector3, type Material, type Scene,
+  BoxGeometry, BufferGeometry, DoubleSide, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, Ray, Vector3, type Material, type Scene,
 } from 'three';
 
 /** A box by its lower corner, its axes (unit, in the world) and its size along them, in metres. */
@@ -45,7 +45,7 @@ function draw_mark(box: ScopeBox): Group {
   const edge = new LineSegments(
     new BufferGeometry().setAttribute('position', new Float32BufferAttribute(lines, 3)), new LineBasicMaterial({ color: 0x000000, toneMapped: false, depthTest: false }));
   const size = vector(box.size), largest = Math.max(size.x, size.y, size.z);
-  const body = new Mesh(new BoxGeometry(), new MeshBasicMaterial({ color: 0xf0e442, toneMapped: false, transparent: true, opacity: 0.45, depthTest: false, depthWrite: false }));
+  const body = new Mesh(new BoxGeometry(), new MeshBasicMaterial({ color: 0xf0e442, toneMapped: false, transparent: true, opacity: 0.3, side: DoubleSide, depthTest: false, depthWrite: false }));
   const [x, y, z] = [vector(box.axes[0]), vector(box.axes[1]), vector(box.axes[2])];
   // A flat scope has a volume of nothing, which cannot be seen from its edge.
   body.matrix.makeBasis(x, y, z).scale(size.clone().max(new Vector3().setScalar(largest * 0.002))).setPosition(at[0]!.clone().add(at[7]!).multiplyScalar(0.5));

@@ -47,8 +47,8 @@ export class Modes {
   /** Lines where faces meet at an angle: what a shape is, apart from the triangles it is made of. */
   edges = false;
   /** Nearly black with white beside it: one of the two is told from whatever lies behind. */
-  private readonly line = new LineBasicMaterial({ color: 0x0b1020, toneMapped: false });
-  private readonly halo = new LineBasicMaterial({ color: 0xffffff, toneMapped: false });
+  private readonly line = new LineBasicMaterial({ color: 0x0b1020, toneMapped: false, transparent: true });
+  private readonly halo = new LineBasicMaterial({ color: 0xffffff, toneMapped: false, transparent: true, opacity: 0.65 });
   readonly wire = new MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.55 });
   private readonly normals = new MeshNormalMaterial({ side: DoubleSide });
   private squares: MeshBasicMaterial | null = null;
