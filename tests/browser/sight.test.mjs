@@ -183,7 +183,8 @@ test('in flight the place alone is told, another preset comes into sight, and Fi
   assert.equal(await page.inputValue('#gait'), 'orbit');
   assert.ok(await page.isHidden('#whereabouts'));
   const fitted = await rows(page);
-  assert.ok(Math.abs(model.height - fitted.height) < 6, `${model.height} rows in flight, ${fitted.height} fitted`);
+  // Fitted it leaves room for steps that came since.
+  assert.ok(Math.abs(model.height - fitted.height) < fitted.height * 0.3, `${model.height} rows in flight, ${fitted.height} fitted`);
   await go_by(page, 'walk');
   await page.focus('#picture');
   await page.keyboard.press('f');

@@ -55,8 +55,8 @@ export class Viewer {
   held = false;
   private touched = false;
   private covered: Covered;
-  /** The size of the model that the camera was put there for, and how far from it. */
-  private framed = { size: 1, distance: 1 };
+  /** The size of the model that the camera was put there for, how far from it, and by how many pixels the picture is raised. */
+  private framed = { size: 1, distance: 1, raised: 0 };
   private frame = 0;
   private last_begin = 0;
   /** The model was not drawn yet. */
@@ -140,11 +140,13 @@ export class Viewer {
     this.controls.enableDamping = false;
     this.controls.update();
     this.controls.enableDamping = damping;
+    this.framed.raised = (this.covered.bottom - this.covered.top) / 2;
+    this.raise();
     const free = free_of(this.covered, this.canvas.clientHeight || 1);
     this.controls.target.copy(stand_back(this.camera, this.sight, usual_direction(this.box), free));
     this.controls.minDistance = this.camera.near * 4;
     this.controls.maxDistance = this.camera.far / 4;
-    this.framed = { size: this.box.getSize(new Vector3()).length(), distance: this.camera.position.distanceTo(this.controls.target) };
+    Object.assign(this.framed, { size: this.box.getSize(new Vector3()).length(), distance: this.camera.position.distanceTo(this.controls.target) });
     if (this.walker.gait === 'orbit') this.controls.update();
     else this.walker.begin(this.walker.gait);
     this.draw();
@@ -212,10 +214,7 @@ export class Viewer {
   /** The triangles of that level. */
   get level_triangles(): number | null { return this.levels?.triangles ?? null; }
 
-  set_grid(on: boolean): void {
-    this.stage.grid_visible = on;
-    this.draw();
-  }
+  set_grid(on: boolean): void { this.stage.grid_visible = on; this.draw(); }
 
   set_figure(on: boolean): void {
     this.stage.show_figure(on, this.box);
@@ -303,9 +302,9 @@ export class Viewer {
 
   /** What lies over the rims of the picture. */
   set_covered(covered: Covered): void {
-    if (covered.top === this.covered.top && covered.bottom === this.covered.bottom) return;
     this.covered = covered;
-    this.resize();
+    // What goes away again, such as a comparison, changes no scale.
+    if (!this.touched && !in_sight(this.camera, this.sight, covered, this.canvas.clientHeight)) this.fit();
   }
 
   /** What is seen now, as a PNG. */
@@ -335,10 +334,7 @@ export class Viewer {
     this.cast();
   }
 
-  private cast(): void {
-    this.renderer.shadowMap.needsUpdate = true;
-    this.draw();
-  }
+  private cast(): void { this.renderer.shadowMap.needsUpdate = true; this.draw(); }
 
   private pick(event: MouseEvent): void {
     const index = this.scopes.at(ray_of(this.canvas, this.camera, event).ray);
@@ -350,10 +346,15 @@ export class Viewer {
     if (clientWidth === 0 || clientHeight === 0) return;
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
-    this.camera.setViewOffset(clientWidth, clientHeight, 0, (this.covered.bottom - this.covered.top) / 2, clientWidth, clientHeight);
+    this.raise();
     this.modes.set_size(this.canvas.width, this.canvas.height);
     if (!this.touched) this.fit();
     this.render();
+  }
+
+  private raise(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    this.camera.setViewOffset(clientWidth, clientHeight, 0, this.framed.raised, clientWidth, clientHeight);
   }
 
   private draw(): void { this.frame ||= requestAnimationFrame(() => this.render()); }
