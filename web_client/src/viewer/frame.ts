@@ -52,7 +52,7 @@ export interface Covered { top: number; bottom: number }
 /** Part of a height that nothing covers. */
 export const free_of = (covered: Covered, height: number): number => Math.max(0.3, 1 - (covered.top + covered.bottom) / height);
 
-/** Whether all points are seen, between what covers the rims of a picture of `height` pixels. */
+/** Whether all points are seen, between what covers the rims of a picture that is so many pixels high. */
 export function in_sight(camera: PerspectiveCamera, points: Vector3[], covered: Covered, height: number): boolean {
   camera.updateMatrixWorld();
   const low = -1 + 2 * covered.bottom / height, high = 1 - 2 * covered.top / height;
