@@ -74,7 +74,7 @@ test('what is chosen in the picture is moved, aged and taken away', { timeout: 3
   const { page, sends, bed, canvas } = await open_garden();
   const [planted] = await sends(() => canvas.click({ button: 'right', position: { x: 150, y: 250 } }));
   const spot = planted.at(-1).at;
-  await canvas.click({ position: { x: 20, y: 60 } });
+  await canvas.click({ position: { x: 20, y: 112 } });
   assert.equal(await page.locator('.placed .chosen').count(), 0, 'a click on nothing lets go');
   await canvas.click({ position: { x: 150, y: 250 } });
   assert.match(await bed(0).locator('.chosen').textContent(), /^Position 3/);

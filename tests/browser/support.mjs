@@ -76,6 +76,9 @@ export const statistics = (page) => page.evaluate(() => ({
 
 /** The model as it is drawn, without what lies over it. */
 export async function picture(page) {
+  // With the form come the steps, and the model gives way to them.
+  await page.waitForSelector('#parameters .form', { state: 'attached' });
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
   const flip = (hidden) => page.evaluate((hidden) => { for (const each of document.querySelectorAll('.overlay')) each.hidden = hidden; }, hidden);
   await flip(true);
   const png = await page.locator('#picture').screenshot();

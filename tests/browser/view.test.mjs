@@ -62,7 +62,7 @@ test('sky, shadow, and a light that is moved and switched off', { timeout: 300_0
   const page = await open(browser, address);
   await changes(page, 'sky', () => switch_to(page, '#sky', true), 0.1);
   await switch_to(page, '#sky', false);
-  await changes(page, 'shadow', () => switch_to(page, '#shadow', true));
+  await changes(page, 'shadow', () => switch_to(page, '#shadow', true), 0.0003);
   await open_menu(page);
   await changes(page, 'from another side', () => page.getByLabel('Light from').fill('200'));
   await changes(page, 'from above', () => page.getByLabel('Height of light').fill('88'));
@@ -81,7 +81,7 @@ test('levels of detail are fetched, counted, chosen, and change with the distanc
   assert.equal(counts[0], made);
   assert.ok(counts.length >= 2 && counts.at(-1) < counts[0], labels.join('; '));
   await choose(page, '#detail', '0');
-  await changes(page, 'the coarsest level', () => choose(page, '#detail', String(counts.length - 1)), 0.0002);
+  await changes(page, 'the coarsest level', () => choose(page, '#detail', String(counts.length - 1)), 0.0001);
   await choose(page, '#detail', '');
   assert.equal(number((await page.locator('#detail option').first().textContent()).split('·')[1]), made);
   assert.deepEqual(page.faults, []);
@@ -176,7 +176,7 @@ test('a model is shown in the materials of another season without asking the ser
 });
 
 test('growth is played and stands at any moment; a generator without it offers none', { timeout: 300_000 }, async () => {
-  const page = await open(browser, address);
+  const page = await open(browser, address, { reducedMotion: 'reduce' });
   await page.click('#view-menu > summary');
   await page.waitForFunction(() => [...document.querySelectorAll('#motion-kind option')].some((option) => option.value === 'growth'));
   await until_shown(page, () => page.selectOption('#motion-kind', 'growth'));
@@ -256,7 +256,7 @@ test('steps: from the start, on, back, all in turn, and to the last', { timeout:
 });
 
 test('the camera rises over wide and low land', { timeout: 200_000 }, async () => {
-  const page = await open(browser, `${server.url}/${fragment_of({ generator: 'terrain', seed: 1, parameters: { algorithm: 'midpoint', iterations: 3 } })}`, { states: ['ready', 'refused'] });
+  const page = await open(browser, `${server.url}/${fragment_of({ generator: 'terrain', seed: 1, parameters: { algorithm: 'midpoint', iterations: 3 } })}`, { states: ['ready', 'refused'], viewport: { width: 1280, height: 720 } });
   await until_shown(page, () => page.click('[data-preset="midpoint_hills"]'));
   await page.click('#grid');
   const { width, height, data } = PNG.sync.read(await picture(page));

@@ -34,7 +34,8 @@ export type Vocabulary = Record<string, (Word | string)[]>;
 
 export interface Check { warnings: Fault[]; estimate: { triangles: number; bytes: number; exact: boolean } | null }
 
-export interface Statistics { triangles: number; bytes: number; milliseconds: number; warnings: number }
+/** `is_kept`: the server had the model, and `milliseconds` is what the answer took. */
+export interface Statistics { triangles: number; bytes: number; milliseconds: number; is_kept: boolean; warnings: number }
 
 export interface Made { bytes: ArrayBuffer; statistics: Statistics }
 
@@ -191,6 +192,7 @@ export async function generate(request: Request, signal?: AbortSignal): Promise<
   const response = await post(request, '*/*', signal);
   const bytes = await whole_body(response, signal);
   const number = (name: string): number => Number(response.headers.get(name) ?? 0);
+  const timing = response.headers.get('Server-Timing') ?? '';
   return {
     bytes,
     statistics: {
@@ -198,10 +200,14 @@ export async function generate(request: Request, signal?: AbortSignal): Promise<
       warnings: number('Seedmesh-Warnings'),
       // Content-Length counts what travelled, which may be compressed; the file is what counts here.
       bytes: bytes.byteLength,
-      milliseconds: total_duration(response.headers.get('Server-Timing') ?? ''),
+      milliseconds: total_duration(timing),
+      is_kept: /\bcache;\s*desc="?hit/.test(timing),
     },
   };
 }
+
+const sum_of = (timing: Record<string, number> | undefined): number | null =>
+  (timing ? Object.values(timing).reduce((sum, each) => sum + each, 0) : null);
 
 export function total_duration(server_timing: string): number {
   let sum = 0;
@@ -211,19 +217,20 @@ export function total_duration(server_timing: string): number {
 
 /**
  * Lets the server make the model and tell how far it is; the model itself is asked for afterwards, from the server's
- * cache. `tell` gets a share from 0 to 1.
+ * cache. `tell` gets a share from 0 to 1. Returns the milliseconds of the making; null where the server does not say.
  */
-export async function follow(request: Request, tell: (share: number) => void, signal: AbortSignal): Promise<void> {
+export async function follow(request: Request, tell: (share: number) => void, signal: AbortSignal): Promise<number | null> {
   const response = await post(request, 'text/event-stream', signal);
   const reader = response.body!.pipeThrough(new TextDecoderStream()).getReader();
   const stages: string[] = [];
   let text = '';
+  let took: number | null = null;
   for (;;) {
     const chunk = await reader.read().catch(() => {
       signal.throwIfAborted();
       throw new Gone('The answer broke off.');
     });
-    if (chunk.done) return;
+    if (chunk.done) return took;
     text += chunk.value;
     const events = text.split('\n\n');
     text = events.pop() ?? '';
@@ -231,6 +238,7 @@ export async function follow(request: Request, tell: (share: number) => void, si
       const name = /^event: (.*)$/m.exec(event)?.[1];
       const data = /^data: (.*)$/m.exec(event)?.[1] ?? '{}';
       if (name === 'error') throw new Refusal(JSON.parse(data) as Problem);
+      if (name === 'done') took = sum_of((JSON.parse(data) as { timing?: Record<string, number> }).timing);
       if (name !== 'progress') continue;
       const progress = JSON.parse(data) as { stage: string; share: number };
       if (!stages.includes(progress.stage)) stages.push(progress.stage);

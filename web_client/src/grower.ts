@@ -140,9 +140,10 @@ export class Grower {
   private async fetch(request: Request, signal: AbortSignal): Promise<Made> {
     const begin = performance.now();
     this.tell({ kind: 'growing', share: null });
-    if (this.last_took > slow) await follow(request, (share) => this.tell({ kind: 'growing', share }), signal);
+    const took = this.last_took > slow ? await follow(request, (share) => this.tell({ kind: 'growing', share }), signal) : null;
     const made = await generate(request, signal);
     this.last_took = performance.now() - begin;
-    return made;
+    // What was followed lies in the server's cache because it was made for this page just now.
+    return took === null ? made : { ...made, statistics: { ...made.statistics, milliseconds: took, is_kept: false } };
   }
 }

@@ -9,6 +9,8 @@ import type { ScopeBox } from './viewer/boxes';
 
 export interface Overlay {
   set_boxes(scopes: ScopeBox[] | null, color_of?: (index: number) => number): void;
+  /** Marks one of them; -1 marks none. */
+  mark_box(index: number): void;
 }
 
 export interface Result {

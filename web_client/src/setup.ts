@@ -26,15 +26,18 @@ export function make_viewer(status: Status, high: boolean): Viewer | null {
   document.body.classList.toggle('stage', query.has('stage'));
   try {
     const made = new Viewer(part<HTMLCanvasElement>('picture'), {
-      quality: high ? 'high' : 'low', dark: dark.matches, still: still.matches, covered: query.has('stage') ? 0 : 72,
+      quality: high ? 'high' : 'low', dark: dark.matches, still: still.matches, covered: query.has('stage') ? { top: 0, bottom: 0 } : { top: 72, bottom: 72 },
     });
     if (query.has('stage')) {
       made.set_grid(false);
       made.set_figure(false);
     } else {
-      // What lies at the lower rim grows and shrinks with what the model has: steps, motion.
-      const lower = part('lower');
-      new ResizeObserver(() => made.set_covered(Math.max(72, lower.offsetHeight + 32))).observe(lower);
+      // What lies at the lower rim grows and shrinks with what the model has: steps, motion; at the upper with the width of the page.
+      const upper = part('upper'), lower = part('lower');
+      const rims = new ResizeObserver(() => {
+        if (upper.offsetHeight > 0) made.set_covered({ top: upper.offsetTop + upper.offsetHeight + 8, bottom: Math.max(72, lower.offsetHeight + 32) });
+      });
+      for (const rim of [upper, lower]) rims.observe(rim);
     }
     made.on_context = (lost) => status.lost(lost);
     dark.addEventListener('change', () => made.set_theme(dark.matches));

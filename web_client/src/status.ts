@@ -142,12 +142,16 @@ export function wire_status(): Status {
 function show_statistics(statistics: Statistics): void {
   part('statistics').hidden = false;
   part('triangles').textContent = grouped(statistics.triangles);
+  part('triangles').dataset['made'] = String(statistics.triangles);
   part('warnings-box').hidden = statistics.warnings === 0;
   part('warnings').textContent = grouped(statistics.warnings);
   part('bytes').textContent = size_of(statistics.bytes);
   part('bytes').title = `${grouped(statistics.bytes)} bytes`;
   part('bytes').dataset['bytes'] = String(statistics.bytes);
-  part('milliseconds').textContent = `${statistics.milliseconds < 10 ? statistics.milliseconds.toFixed(1) : grouped(Math.round(statistics.milliseconds))} ms`;
+  const time = `${statistics.milliseconds < 10 ? statistics.milliseconds.toFixed(1) : grouped(Math.round(statistics.milliseconds))} ms`;
+  part('made').textContent = statistics.is_kept ? 'Taken' : 'Made in';
+  part('milliseconds').textContent = statistics.is_kept ? 'from memory' : time;
+  part('milliseconds').title = statistics.is_kept ? `The server had made it before, and answered in ${time}` : '';
 }
 
 export function size_of(bytes: number): string {

@@ -70,11 +70,8 @@ export function wire_tools(core: Core): Tools {
   const request_text = wire_request_text((request) => store.write(request));
   const result = wire_result(viewer, (line) => {
     tabs.open('parameters');
-    part('parameters').querySelector<HTMLElement>('.code-editor')?.dispatchEvent(new CustomEvent('go-line', { detail: line }));
-  }, () => {
-    const name = Object.entries(rules_schema?.properties ?? {}).find(([, member]) => member['x-grammar'] === 'cga')?.[0];
-    return name !== undefined && typeof store.current?.request.parameters[name] === 'string';
-  });
+    part('parameters').querySelector(`[data-pointer="/parameters/${rules_name()}"]`)?.dispatchEvent(new CustomEvent('go-line', { detail: line }));
+  }, () => typeof store.current?.request.parameters[rules_name() ?? ''] === 'string');
   const steps = wire_steps({
     edit(name, value) {
       const { [name]: _, ...others } = store.current?.request.parameters ?? {};
@@ -95,6 +92,8 @@ export function wire_tools(core: Core): Tools {
   let formats = ['glb'];
   let own = 'glb';
   let rules_schema: Schema | null = null;
+  /** The parameter that a shape's line counts in. */
+  const rules_name = (): string | undefined => Object.entries(rules_schema?.properties ?? {}).find(([, member]) => member['x-grammar'] === 'cga')?.[0];
 
   // Which motions there are is asked when somebody looks for them, once for each request that is opened.
   let asked_for: Request | null = null;
@@ -111,7 +110,7 @@ export function wire_tools(core: Core): Tools {
   const help = wire_help();
   wire_keys(core, { open_file: files.choose, help: help.open, save() { if (store.current) save_request(store.current.request, actions); } });
   if (viewer) {
-    const compare = wire_compare(viewer, core.bytes, () => `${store.current?.title ?? ''}, seed ${store.current?.request.seed ?? 0}`);
+    const compare = wire_compare(viewer, core.bytes, () => String(store.current?.request.seed ?? 0), () => store.current?.title ?? '');
     wire_view(viewer, {
       roll: core.seed.roll, compare,
       next_mode: () => view_menu?.next_mode(), save_picture: () => void save_picture(actions), step: steps.by,
@@ -131,7 +130,7 @@ export function wire_tools(core: Core): Tools {
       steps.follow(state);
       request_text.follow(state);
       result.follow(state, is_new);
-      if (is_new) view_menu?.offer_motions([]);
+      if (is_new) view_menu?.forget();
     },
     explain(schema) {
       rules_schema = schema;

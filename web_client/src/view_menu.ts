@@ -1,6 +1,8 @@
 /** What the picture can show besides: shading, materials, levels of detail, motion, light, sky, camera. */
-import { el, fresh_id, grouped, part, rounded } from './dom';
+import { el, fresh_id, part } from './dom';
 import type { Motion } from './for_view';
+import { wire_levels } from './level_choice';
+import { wire_pad } from './pad';
 import type { Model } from './viewer/model';
 import type { Mode } from './viewer/modes';
 import type { Viewer } from './viewer/viewer';
@@ -20,6 +22,8 @@ export interface ViewMenu {
   shown(model: Model, triangles: number): void;
   /** The motions that the model can have. */
   offer_motions(motions: Motion[]): void;
+  /** Another request is opened, whose motions nobody has asked for yet. */
+  forget(): void;
   motion(): Motion | null;
   next_mode(): void;
   leave_gait(): void;
@@ -60,15 +64,15 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
   shading.offer(modes);
   const material = choice('Materials', 'material-set', (value) => void viewer.set_variant(value || null));
   const motion = choice('Motion', 'motion-kind', (value) => { viewer.motion.begins = value !== '' && !viewer.is_still; context.animate(); });
-  const level = choice('Level of detail', 'detail', (value) => void choose_level(value));
+  const level = choice('Level of detail', 'detail', (value) => levels.choose(value));
   const gait = choice('Camera', 'gait', (value) => {
     viewer.set_gait(value as Gait);
     part('whereabouts').hidden = value === 'orbit';
+    show_pad(value as Gait);
     if (value !== 'orbit') { part<HTMLDetailsElement>('view-menu').open = false; part('picture').focus(); }
   });
   gait.offer(gaits);
-  let triangles = 0;
-  let counts: number[] | null = null;
+  const show_pad = wire_pad(viewer.walker);
   let motions: Motion[] = [];
 
   const times = tick('Time to draw', 'show-drawn', false, (on) => { part('drawn-box').hidden = !on; });
@@ -83,48 +87,30 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
     range('Height of light', 1, 90, sun.height, (value) => { sun.height = value; viewer.set_sun(sun); }),
     times);
   viewer.walker.on_move = (place, heading) => {
-    part('whereabouts').textContent = `x ${place.x.toFixed(1)}, y ${place.y.toFixed(1)}, z ${place.z.toFixed(1)} m · ${Math.round(heading)}° · ${rounded(viewer.measures.size.y)} m high`;
+    part('whereabouts').textContent = `x ${place.x.toFixed(1)}, y ${place.y.toFixed(1)}, z ${place.z.toFixed(1)} m · ${Math.round(heading)}°`;
   };
 
-  const label_levels = (): void => {
-    const names: [string, string][] = counts
-      ? [['', `As made · ${grouped(triangles)}`], ['auto', 'By distance'], ...counts.map((count, index): [string, string] => [String(index), `${index} · ${grouped(count)} triangles`])]
-      : [['', `As made · ${grouped(triangles)}`], ['ask', 'Fetch coarser levels']];
-    level.offer(names);
+  const levels = wire_levels(viewer, {
+    select: level.select, offer: level.offer, levels: context.levels, fail: context.fail,
+    // What a level is good for shows in the time of a picture.
+    came() { if (part('drawn-box').hidden) times.querySelector('input')?.click(); },
+  });
+  const offer_motions = (next: Motion[]): void => {
+    motions = next;
+    motion.row.hidden = motions.length === 0;
+    motion.offer([['', 'Still'], ...motions.map(({ value, label }): [string, string] => [value, label])]);
   };
-
-  async function choose_level(value: string): Promise<void> {
-    if (value === '') { viewer.choose_level(null); counts = null; label_levels(); return; }
-    if (value !== 'ask') { viewer.choose_level(value === 'auto' ? 'auto' : Number(value)); return; }
-    level.select.disabled = true;
-    try {
-      counts = await viewer.take_levels(await context.levels());
-      label_levels();
-      level.select.value = 'auto';
-      viewer.choose_level('auto');
-      // What a level is good for shows in the time of a picture.
-      if (part('drawn-box').hidden) times.querySelector('input')?.click();
-    } catch (error) {
-      context.fail(`No levels: ${(error as Error).message}`);
-      level.select.value = '';
-    } finally {
-      level.select.disabled = false;
-    }
-  }
 
   return {
     shown(model, made) {
-      triangles = made;
-      counts = null;
-      level.select.value = '';
-      label_levels();
+      levels.shown(made);
       material.row.hidden = model.variants.length === 0;
       material.offer([['', 'As asked for'], ...model.variants.map((name): [string, string] => [name, name])]);
     },
-    offer_motions(next) {
-      motions = next;
-      motion.row.hidden = motions.length === 0;
-      motion.offer([['', 'Still'], ...motions.map(({ value, label }): [string, string] => [value, label])]);
+    offer_motions,
+    forget() {
+      offer_motions([]);
+      levels.forget();
     },
     motion: () => motions.find((each) => each.value === motion.select.value) ?? null,
     next_mode() {
@@ -165,14 +151,14 @@ export function wire_motion(viewer: Viewer): { shown(model: Model): void; play()
   return {
     shown(model) {
       bar.hidden = model.clips.length === 0 && !model.sways;
-      if (!bar.hidden) tell(time.valueAsNumber / 1000);
+      if (!bar.hidden) tell(viewer.motion.at);
     },
     play: flip,
   };
 }
 
 /** A | B: the model that is shown when it is switched on stays to the left; what follows is to the right. */
-export function wire_compare(viewer: Viewer, bytes: () => ArrayBuffer | null, title: () => string): (() => void) {
+export function wire_compare(viewer: Viewer, bytes: () => ArrayBuffer | null, seed: () => string, title: () => string): (() => void) {
   const button = part('compare'), box = part('divider-box');
   const divider = part<HTMLInputElement>('divider'), line = part('divider-line');
   const place = (): void => {
@@ -185,7 +171,7 @@ export function wire_compare(viewer: Viewer, bytes: () => ArrayBuffer | null, ti
     if (on && !kept) return;
     button.setAttribute('aria-pressed', String(on));
     box.hidden = line.hidden = !on;
-    if (on) box.querySelector('label')!.textContent = `Left: ${title()}`;
+    if (on) box.querySelector('label')!.replaceChildren(el('b', {}, `Left: seed ${seed()}`), el('span', { class: 'soft' }, title()));
     void viewer.compare(on ? kept : null).then(place);
   };
   button.addEventListener('click', flip);

@@ -1,5 +1,6 @@
 /** The buttons and keys of the picture. Single letters count only while the picture has the focus. */
 import { part } from './dom';
+import { tell_triangles } from './level_choice';
 import { show_measures } from './measures';
 import type { Viewer } from './viewer/viewer';
 
@@ -26,7 +27,8 @@ export function toggle(id: string, set: (on: boolean) => void): () => void {
 }
 
 export function wire_view(viewer: Viewer, acts: Acts): void {
-  const fit = (): void => viewer.fit();
+  // On foot and in flight there is a way back by it.
+  const fit = (): void => { acts.leave_gait(); viewer.fit(); };
   part('fit').addEventListener('click', fit);
   const turn = 0.12;
   const keys: Record<string, () => void> = {
@@ -59,6 +61,7 @@ export function wire_view(viewer: Viewer, acts: Acts): void {
   const drawn = part('drawn');
   const time = (milliseconds: number): string => `${milliseconds < 10 ? milliseconds.toFixed(1) : Math.round(milliseconds)} ms`;
   viewer.on_drawn = (milliseconds, frame) => {
+    tell_triangles(viewer);
     const level = viewer.level === null ? '' : `, level ${viewer.level}`;
     drawn.textContent = `${time(milliseconds)}${frame === null ? '' : `, frame ${time(frame)}`}${level}`;
   };

@@ -22,6 +22,7 @@ export class ShapeList {
   private readonly on = el('input', { type: 'checkbox', class: 'switch', id: 'show-shapes' });
   private readonly kind = el('select', { id: 'shape-kind' });
   private seen: Shape[] = [];
+  private picked: Shape | undefined;
 
   constructor(shapes: Shape[], overlay: Overlay | null, lead: ((line: number) => void) | null) {
     this.shapes = shapes;
@@ -52,10 +53,13 @@ export class ShapeList {
     const kind = this.kind.value;
     this.seen = this.shapes.filter((shape) => (kind === '' ? shape.active !== false : kind === '*' || `=${shape.symbol}` === kind)).slice(0, most);
     this.overlay?.set_boxes(this.on.checked ? this.seen.map((shape) => shape.scope) : null, (index) => this.symbols.indexOf(this.seen[index]?.symbol ?? ''));
+    if (this.picked && this.on.checked) this.overlay?.mark_box(this.seen.indexOf(this.picked));
   }
 
   pick(index: number): void {
     const shape = this.seen[index];
+    this.picked = shape;
+    this.overlay?.mark_box(index);
     if (!shape) { this.told.replaceChildren(); return; }
     const parents: string[] = [];
     for (let up = shape.parent; up !== null && up !== undefined && parents.length < 20; ) {

@@ -74,7 +74,9 @@ export const make_editor: MakeEditor = (options: CodeOptions, vocabulary: Vocabu
     },
     go(from, to = from) {
       const { length } = view.state.doc;
-      view.dispatch({ selection: { anchor: Math.min(from, length), head: Math.min(to, length) }, scrollIntoView: true });
+      const start = Math.min(from, length);
+      // What counts is where it begins: the end of a long line would draw that out of sight.
+      view.dispatch({ selection: { anchor: Math.min(to, length), head: start }, effects: EditorView.scrollIntoView(start, { y: 'center' }) });
       view.focus();
     },
   };

@@ -52,7 +52,12 @@ export function plain_face(text: string, one_line: boolean, change: (text: strin
     },
     go(from, to) {
       area.focus();
-      area.setSelectionRange(from, to);
+      area.setSelectionRange(from, to, 'backward');
+      // A browser does not lead there by itself: the line comes into the middle, and from its start.
+      const lines = area.value.split('\n').length, line = area.value.slice(0, from).split('\n').length - 1;
+      area.scrollTop = area.scrollHeight * line / lines - area.clientHeight / 2;
+      area.scrollLeft = 0;
+      follow();
     },
   };
 }

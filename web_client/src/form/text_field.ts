@@ -56,6 +56,14 @@ export const text_field: Draw = (place) =>
     };
     place.board.add(place.pointer, show);
 
+    // A shape tells the line of its rule. What is selected in the text area stays selected when the editor takes its place.
+    drawn.element.addEventListener('go-line', (event) => {
+      const line = (event as CustomEvent<number>).detail - 1;
+      for (let fold = drawn.element.closest('details'); fold; fold = fold.parentElement?.closest('details') ?? null) fold.open = true;
+      face.element.scrollIntoView({ block: 'nearest' });
+      face.go(offset_of(face.text(), { line, column: 0 }), offset_of(face.text(), { line, column: 1e6 }));
+    });
+
     const become_code = (make: (options: CodeOptions) => CodeEditor): void => {
       const has_focus = plain.area === document.activeElement;
       const [from, to] = [plain.area.selectionStart, plain.area.selectionEnd];
@@ -64,11 +72,6 @@ export const text_field: Draw = (place) =>
         change(text) { show([]); take(text); },
       });
       face = code_face(editor);
-      // A shape tells the line of its rule.
-      editor.host.addEventListener('go-line', (event) => {
-        const line = (event as CustomEvent<number>).detail - 1;
-        editor.go(offset_of(editor.text(), { line, column: 0 }), offset_of(editor.text(), { line, column: 1e6 }));
-      });
       plain.element.replaceWith(editor.host);
       drawn.no_control();
       show(known);

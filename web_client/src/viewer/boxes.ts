@@ -1,5 +1,7 @@
 /** Scope boxes over the model: the shapes of a derivation, apart from its triangles, and which of them was pointed at. */
-import { BufferGeometry, Float32BufferAttribute, LineBasicMaterial, LineSegments, Matrix4, Ray, Vector3, Group } from 'three';
+import {
+  BoxGeometry, BufferGeometry, DoubleSide, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, Ray, Vector3, type Material, type Scene,
+} from 'three';
 
 /** A box by its lower corner, its axes (unit, in the world) and its size along them, in metres. */
 export interface ScopeBox { origin: number[]; axes: number[][]; size: number[] }
@@ -35,13 +37,63 @@ export function draw_boxes(boxes: ScopeBox[], color_of: (index: number) => numbe
   return group;
 }
 
-/** Takes lines away and gives their memory back. */
+/** One box among the others: filled in the yellow that they lack, its edges seen through everything. */
+function draw_mark(box: ScopeBox): Group {
+  const lines: number[] = [];
+  const at = corners(box);
+  for (const [from, to] of edges) lines.push(...at[from]!.toArray(), ...at[to]!.toArray());
+  const edge = new LineSegments(
+    new BufferGeometry().setAttribute('position', new Float32BufferAttribute(lines, 3)), new LineBasicMaterial({ color: 0x000000, toneMapped: false, depthTest: false }));
+  const size = vector(box.size), largest = Math.max(size.x, size.y, size.z);
+  const body = new Mesh(new BoxGeometry(), new MeshBasicMaterial({ color: 0xf0e442, toneMapped: false, transparent: true, opacity: 0.3, side: DoubleSide, depthTest: false, depthWrite: false }));
+  const [x, y, z] = [vector(box.axes[0]), vector(box.axes[1]), vector(box.axes[2])];
+  // A flat scope has a volume of nothing, which cannot be seen from its edge.
+  body.matrix.makeBasis(x, y, z).scale(size.clone().max(new Vector3().setScalar(largest * 0.002))).setPosition(at[0]!.clone().add(at[7]!).multiplyScalar(0.5));
+  body.matrixAutoUpdate = false;
+  body.renderOrder = 2;
+  edge.renderOrder = 3;
+  const group = new Group().add(body, edge);
+  for (const each of group.children) each.userData = { helper: true };
+  return group;
+}
+
+/** Takes what was drawn away and gives its memory back. */
 export function drop_boxes(drawn: Group | null): void {
   drawn?.removeFromParent();
   for (const each of drawn?.children ?? []) {
     (each as LineSegments).geometry.dispose();
-    ((each as LineSegments).material as LineBasicMaterial).dispose();
+    ((each as LineSegments).material as Material).dispose();
   }
+}
+
+/** The boxes of shapes that lie over the model, one of which may be marked. */
+export class Scopes {
+  private readonly scene: Scene;
+  private boxes: ScopeBox[] | null = null;
+  private drawn: Group | null = null;
+  private marked: Group | null = null;
+
+  constructor(scene: Scene) { this.scene = scene; }
+
+  /** null takes them away, and the mark with them. */
+  set(boxes: ScopeBox[] | null, color_of: (index: number) => number): void {
+    drop_boxes(this.drawn);
+    this.boxes = boxes;
+    this.drawn = boxes && draw_boxes(boxes, color_of);
+    if (this.drawn) this.scene.add(this.drawn);
+    this.mark(-1);
+  }
+
+  /** Marks a box by its number in place of the one before; -1 marks none. */
+  mark(index: number): void {
+    drop_boxes(this.marked);
+    const box = this.boxes?.[index];
+    this.marked = box ? draw_mark(box) : null;
+    if (this.marked) this.scene.add(this.marked);
+  }
+
+  /** The box that a ray meets, -1 for none; null where no boxes are shown. */
+  at(ray: Ray): number | null { return this.boxes && box_at(this.boxes, ray); }
 }
 
 /** The smallest box that a ray meets; -1 where it meets none. A flat scope is given a little depth. */

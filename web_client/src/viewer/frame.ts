@@ -1,8 +1,10 @@
 /** Where the camera has to stand to see a model whole. */
-import { Box3, Matrix4, Vector3, type InstancedMesh, type Mesh, type Object3D, type PerspectiveCamera } from 'three';
+import { Box3, Matrix4, Spherical, Vector3, type InstancedMesh, type Mesh, type Object3D, type PerspectiveCamera } from 'three';
 
 /** Part of the picture that the model may fill. */
 const fill = 0.8;
+/** And where something lies over the rims of the picture, of what is left between: that is a margin too. */
+const fill_between = 0.88;
 /** So many points stand for a mesh; the outline of a plant needs no more. */
 const most_points = 3000;
 
@@ -44,6 +46,22 @@ export function points_of(model: Object3D): Vector3[] {
   return points;
 }
 
+/** Pixels at the upper and at the lower rim of the picture that something else covers. */
+export interface Covered { top: number; bottom: number }
+
+/** Part of a height that nothing covers. */
+export const free_of = (covered: Covered, height: number): number => Math.max(0.3, 1 - (covered.top + covered.bottom) / height);
+
+/** Whether all points are seen, between what covers the rims of a picture that is so many pixels high. */
+export function in_sight(camera: PerspectiveCamera, points: Vector3[], covered: Covered, height: number): boolean {
+  camera.updateMatrixWorld();
+  const low = -1 + 2 * covered.bottom / height, high = 1 - 2 * covered.top / height;
+  return points.every((point) => {
+    const { x, y, z } = point.clone().project(camera);
+    return Math.abs(x) <= 1 && y >= low && y <= high && z < 1;
+  });
+}
+
 /**
  * Moves the camera along `direction` (from the target to it) until all points are in sight, within the part `free` of
  * the height. Returns the target.
@@ -52,7 +70,7 @@ export function stand_back(camera: PerspectiveCamera, points: Vector3[], directi
   const target = new Box3().setFromPoints(points).getCenter(new Vector3());
   const right = new Vector3(0, 1, 0).cross(direction).normalize();
   const up = direction.clone().cross(right);
-  const tan = Math.tan((camera.fov * Math.PI) / 360) * fill;
+  const tan = Math.tan((camera.fov * Math.PI) / 360) * (free < 1 ? fill_between : fill);
   const tan_up = tan * free;
   const tan_right = tan * camera.aspect;
   let distance = 0.01;
@@ -82,4 +100,13 @@ export function stand_back(camera: PerspectiveCamera, points: Vector3[], directi
   camera.updateProjectionMatrix();
   camera.lookAt(target);
   return target;
+}
+
+/** Turns a camera round a target, by radians, and scales its distance; `lowest` bounds the angle from upright. */
+export function go_round(camera: PerspectiveCamera, target: Vector3, turn: number, tilt: number, distance: number, lowest: number): void {
+  const offset = new Spherical().setFromVector3(camera.position.clone().sub(target));
+  offset.theta += turn;
+  offset.phi = Math.min(Math.max(offset.phi + tilt, 0.05), lowest);
+  offset.radius *= distance;
+  camera.position.copy(target).add(new Vector3().setFromSpherical(offset));
 }

@@ -143,6 +143,7 @@ const fade_time = 400;
 export class Levels {
   readonly models: Model[];
   private readonly still: boolean;
+  private readonly counts: number[];
   private near = 0;
   private now = 0;
   private before = -1;
@@ -151,6 +152,7 @@ export class Levels {
   /** `still` exchanges them at once. */
   constructor(models: Model[], still: boolean) {
     this.models = models;
+    this.counts = models.map((model) => model.triangles);
     this.still = still;
     for (const model of models) model.fade = whole();
   }
@@ -175,6 +177,7 @@ export class Levels {
   }
 
   get in_sight(): number { return this.now; }
+  get triangles(): number { return this.counts[this.now] ?? 0; }
   get is_fading(): boolean { return this.before >= 0; }
 
   dispose(): void {

@@ -4,7 +4,7 @@ import {
   type BufferGeometry, type Material, type MeshStandardMaterial, type Object3D,
 } from 'three';
 import type { Model } from './model';
-import { patch } from './patch';
+import { aside, patch, shift, type Cut } from './patch';
 
 export type Mode = 'shaded' | 'flat' | 'normals' | 'uv';
 
@@ -46,12 +46,21 @@ export class Modes {
   wireframe = false;
   /** Lines where faces meet at an angle: what a shape is, apart from the triangles it is made of. */
   edges = false;
-  readonly line = new LineBasicMaterial({ color: 0xd55e00, toneMapped: false });
+  /** Nearly black with white beside it: one of the two is told from whatever lies behind. */
+  private readonly line = new LineBasicMaterial({ color: 0x0b1020, toneMapped: false, transparent: true });
+  private readonly halo = new LineBasicMaterial({ color: 0xffffff, toneMapped: false, transparent: true, opacity: 0.65 });
   readonly wire = new MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.55 });
   private readonly normals = new MeshNormalMaterial({ side: DoubleSide });
   private squares: MeshBasicMaterial | null = null;
+  /** What stands in for a material that is cut out by its picture: normals, and squares. */
+  private readonly cut = new WeakMap<Material, Map<Mode, Material>>();
   private wires: Object3D[] = [];
   private readonly edges_of = new WeakMap<BufferGeometry, EdgesGeometry>();
+
+  constructor() { shift(this.halo); }
+
+  /** How large the picture is, in the pixels of the screen. */
+  set_size(width: number, height: number): void { aside.value.set(2 / width, -2 / height); }
 
   /** Puts all on that is switched on. Called again whenever the model, its materials or a switch changes. */
   dress(models: Model[]): void {
@@ -71,13 +80,15 @@ export class Modes {
 
   private dress_mesh(model: Model, mesh: Mesh): void {
     const own = model.own_material(mesh);
-    mesh.material = this.mode === 'normals' ? this.normals : this.mode === 'uv' ? this.unwrapped() : own;
+    const worn = this.worn(own);
+    mesh.material = worn;
     for (const material of [own].flat()) model.prepare(material);
     // What all models share fades with none of them.
     if (model.sways) for (const material of [this.normals, this.squares, this.wire]) if (material) patch(material, true, null);
+    if (worn !== own && worn !== this.normals && worn !== this.squares) patch(worn as Material, model.sways, model.fade, this.cut_of_mode());
     for (const material of [own, mesh.material].flat() as MeshStandardMaterial[]) {
       const flat = this.mode === 'flat';
-      if ('flatShading' in material && material.flatShading !== flat && material !== (this.normals as Material)) {
+      if ('flatShading' in material && material.flatShading !== flat && this.mode !== 'normals') {
         material.flatShading = flat;
         material.needsUpdate = true;
       }
@@ -102,18 +113,39 @@ export class Modes {
     this.edges_of.set(geometry, edges);
     const copies = mesh instanceof InstancedMesh ? Math.min(mesh.count, most_copies) : 1;
     for (let index = 0; index < copies; index += 1) {
-      const lines = new LineSegments(edges, this.line);
-      lines.matrix.copy(mesh.matrix);
-      if (mesh instanceof InstancedMesh) {
-        mesh.getMatrixAt(index, lines.matrix);
-        lines.matrix.premultiply(mesh.matrix);
+      for (const material of [this.halo, this.line]) {
+        const lines = new LineSegments(edges, material);
+        lines.matrix.copy(mesh.matrix);
+        if (mesh instanceof InstancedMesh) {
+          mesh.getMatrixAt(index, lines.matrix);
+          lines.matrix.premultiply(mesh.matrix);
+        }
+        lines.matrixAutoUpdate = false;
+        lines.renderOrder = material === this.line ? 1 : 0;
+        lines.userData = { helper: true };
+        mesh.parent?.add(lines);
+        this.wires.push(lines);
       }
-      lines.matrixAutoUpdate = false;
-      lines.userData = { helper: true };
-      mesh.parent?.add(lines);
-      this.wires.push(lines);
     }
   }
+
+  /** What a mesh is drawn with whose own material this is. */
+  private worn(own: Material | Material[]): Material | Material[] {
+    const { mode } = this;
+    if (mode !== 'normals' && mode !== 'uv') return own;
+    const shared = mode === 'normals' ? this.normals : this.unwrapped();
+    const first = [own].flat()[0] as MeshStandardMaterial | undefined;
+    if (!first?.map || !(first.alphaTest > 0)) return shared;
+    const { map, alphaTest } = first;
+    const known = this.cut.get(first) ?? new Map<Mode, Material>();
+    this.cut.set(first, known);
+    const worn = known.get(mode) ?? Object.assign(mode === 'normals' ? new MeshNormalMaterial() : new MeshBasicMaterial({ toneMapped: false }), { side: DoubleSide, map, alphaTest });
+    if (!known.has(mode)) first.addEventListener('dispose', () => worn.dispose());
+    known.set(mode, worn);
+    return worn;
+  }
+
+  private cut_of_mode(): Cut { return this.mode === 'normals' ? 'normals' : { squares: this.unwrapped().map! }; }
 
   private unwrapped(): MeshBasicMaterial {
     this.squares ??= new MeshBasicMaterial({ map: checker(), side: DoubleSide, toneMapped: false });

@@ -30,7 +30,7 @@ function channels_of(root: Object3D, clip: AnimationClip): Channel[] {
 export class Motion {
   /** Called with the share that is shown while it runs. */
   on_time: (share: number) => void = () => {};
-  /** The wind blows as soon as a model comes that has weights for it. */
+  /** The next model that can move does so at once, from the beginning. */
   begins = false;
   private channels: Channel[] = [];
   private blows = false;
@@ -42,11 +42,18 @@ export class Motion {
   get has_clip(): boolean { return this.channels.length > 0 || this.blows; }
   get is_running(): boolean { return this.running; }
   get seconds(): number { return this.duration; }
+  /** The share of the length that is shown. */
+  get at(): number { return this.share; }
 
   take(model: Model | null): void {
     const clip = model?.clips[0];
+    const blew = this.blows, had_clip = this.channels.length > 0;
     this.blows = !clip && model !== null && model.sways;
-    this.running = this.blows && (this.running || this.begins);
+    // The next seed goes on where the one before was; another kind of motion stands at its end, where growth is done.
+    const goes_on = this.blows ? blew : clip !== undefined && had_clip;
+    if (this.begins && clip) this.share = 0;
+    else if (!goes_on) this.share = 1;
+    this.running = (this.blows || clip !== undefined) && (this.begins || (goes_on && this.running));
     this.begins = false;
     this.last = performance.now();
     this.channels = model && clip ? channels_of(model.root, clip) : [];

@@ -2,7 +2,7 @@
  * What the materials of a model can do besides: sway in the wind by the weights that a file carries, and fade from one
  * level of detail to the next by dots. Both are some lines in three's own programs.
  */
-import { Vector2, Vector3, type Material, type WebGLProgramParametersWithUniforms } from 'three';
+import { Vector2, Vector3, type Material, type Texture, type WebGLProgramParametersWithUniforms } from 'three';
 
 /** x: the moment as an angle of a loop, y: how far the top of the model bends, in metres, z: how far a leaf flutters. Of all models. */
 export const breeze = { value: new Vector3() };
@@ -44,11 +44,38 @@ function inserted(source: string, head: string, before: string, body: string): s
   return head + source.replace(before, `${body}\n${before}`);
 }
 
+/** The step of a line's halo, in the coordinates of the screen: one pixel to the right and one down. */
+export const aside = { value: new Vector2(0.002, -0.002) };
+
+/** Draws lines a pixel aside of where they are. */
+export function shift(lines: Material): void {
+  lines.onBeforeCompile = (program: WebGLProgramParametersWithUniforms) => {
+    program.uniforms['aside'] = aside;
+    program.vertexShader = inserted(program.vertexShader, 'uniform vec2 aside;\n', '#include <logdepthbuf_vertex>', '  gl_Position.xy += aside * gl_Position.w;');
+  };
+  lines.customProgramCacheKey = () => 'aside';
+}
+
+/** What a material that stands in for another draws of it: only where its picture is, as `map` and `alphaTest` tell. */
+export type Cut = 'normals' | { squares: Texture };
+
+function cut_out(program: WebGLProgramParametersWithUniforms, cut: Cut): void {
+  if (cut === 'normals') {
+    // three's own program of normals knows no pictures.
+    program.fragmentShader = inserted(program.fragmentShader, 'uniform sampler2D map;\nuniform float alphaTest;\n', '#include <clipping_planes_fragment>',
+      '  if (texture2D(map, vMapUv).a < alphaTest) discard;');
+    return;
+  }
+  program.uniforms['squares'] = { value: cut.squares };
+  program.fragmentShader = inserted(program.fragmentShader, 'uniform sampler2D squares;\n', '#include <specularmap_fragment>',
+    '  diffuseColor.rgb = texture2D(squares, vMapUv).rgb;');
+}
+
 const patched = new WeakMap<Material, { key: string; fade: Fade | null }>();
 
 /** Adds what is asked for to a material, once. */
-export function patch(material: Material, sways: boolean, fade: Fade | null): void {
-  const key = `${sways ? 'sways' : ''} ${fade ? 'fades' : ''}`;
+export function patch(material: Material, sways: boolean, fade: Fade | null, cut: Cut | null = null): void {
+  const key = `${sways ? 'sways' : ''} ${fade ? 'fades' : ''}${cut ? ` cut ${cut === 'normals' ? cut : 'squares'}` : ''}`;
   const known = patched.get(material);
   if (key === ' ' || (known?.key === key && known.fade === fade)) return;
   patched.set(material, { key, fade });
@@ -57,6 +84,7 @@ export function patch(material: Material, sways: boolean, fade: Fade | null): vo
       program.uniforms['breeze'] = breeze;
       program.vertexShader = inserted(program.vertexShader, sway_head, '#include <project_vertex>', '  transformed += sway(transformed);');
     }
+    if (cut) cut_out(program, cut);
     if (fade) {
       program.uniforms['fade'] = fade;
       program.fragmentShader = inserted(program.fragmentShader, fade_head, '#include <clipping_planes_fragment>', fade_body);

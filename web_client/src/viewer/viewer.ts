@@ -1,14 +1,17 @@
 /** The picture. Draws when something changed, never otherwise; keeps one model and lets go of the one before. */
-import { Box3, NeutralToneMapping, PCFShadowMap, PerspectiveCamera, Raycaster, Scene, Spherical, Vector2, Vector3, WebGLRenderer, type Group } from 'three';
+import { Box3, NeutralToneMapping, PCFShadowMap, PerspectiveCamera, Scene, Vector3, WebGLRenderer, type Group } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { box_at, draw_boxes, drop_boxes, type ScopeBox } from './boxes';
-import { corners_of, stand_back, usual_direction } from './frame';
+import { measured } from '../grower';
+import { Beside } from './beside';
+import { Scopes, draw_boxes, drop_boxes, type ScopeBox } from './boxes';
+import { corners_of, free_of, go_round, in_sight, stand_back, usual_direction, type Covered } from './frame';
 import { wire_ground } from './ground';
 import { Levels, Model } from './model';
 import { Modes, type Mode } from './modes';
 import { Motion } from './motion';
 import { draw_portrait } from './portrait';
 import { Stage, type Sun } from './stage';
+import { on_tap, ray_of } from './tap';
 import { Walker, type Gait } from './walker';
 import { levels_of } from './zip';
 
@@ -17,9 +20,12 @@ export interface Look {
   quality: 'high' | 'low';
   dark: boolean;
   still: boolean;
-  /** Pixels at the lower rim that something else covers: a model that is fitted stays above. */
-  covered: number;
+  /** What lies over the rims of the picture: a model that is fitted stays between. */
+  covered: Covered;
 }
+
+/** The camera stays for a model that is at most so many times as large as the one it was put there for; by a hand: the second. */
+const alike = 1.25, alike_by_hand = 2;
 
 export class Viewer {
   /** Called when the picture is lost and when it is back. */
@@ -39,25 +45,24 @@ export class Viewer {
   private readonly modes = new Modes();
   private model: Model | null = null;
   private levels: Levels | null = null;
-  private other: Model | null = null;
-  private divider = 0.5;
+  private readonly beside = new Beside();
   private variant: string | null = null;
-  private boxes: { scopes: ScopeBox[]; drawn: Group } | null = null;
+  private readonly scopes = new Scopes(this.scene);
   private marks: Group | null = null;
   private box = new Box3(new Vector3(-1, 0, -1), new Vector3(1, 2, 1));
   private points = corners_of(this.box);
   /** The camera stays where it is, whatever is shown: a model that grows shall be seen to grow. */
   held = false;
   private touched = false;
-  private covered: number;
+  private covered: Covered;
+  /** The size of the model that the camera was put there for, how far from it, and by how many pixels the picture is raised. */
+  private framed = { size: 1, distance: 1, raised: 0 };
   private frame = 0;
   private last_begin = 0;
   /** The model was not drawn yet. */
   private is_new = false;
   /** Nothing shall move by itself. */
   readonly is_still: boolean;
-  /** Part of the height that nothing covers. */
-  private free = 1;
 
   constructor(canvas: HTMLCanvasElement, look: Look) {
     const high = look.quality === 'high';
@@ -82,7 +87,7 @@ export class Viewer {
     this.walker = new Walker(this.camera, canvas, () => this.draw());
     canvas.addEventListener('webglcontextlost', (event) => { event.preventDefault(); this.on_context(true); });
     canvas.addEventListener('webglcontextrestored', () => { this.renderer.shadowMap.needsUpdate = true; this.on_context(false); this.draw(); });
-    canvas.addEventListener('click', (event) => this.pick(event));
+    on_tap(canvas, (event) => { if (event.button === 0) this.pick(event); });
     wire_ground(canvas, { camera: this.camera, model: () => this.model?.root ?? null, floor: () => this.stage.floor },
       (places, chosen) => this.set_marks(places.length > 0 ? draw_boxes(places, (index) => (index === chosen ? 3 : 1)) : null));
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
@@ -95,49 +100,62 @@ export class Viewer {
   async show(bytes: ArrayBuffer, keep_camera: boolean): Promise<Model> {
     const begin = performance.now();
     const model = await Model.from(bytes);
-    performance.clearMeasures('seedmesh-read');
-    performance.measure('seedmesh-read', { start: begin });
+    measured('read', begin);
     if (this.variant !== null && model.variants.includes(this.variant)) await model.wear(this.variant);
     this.let_go();
     this.model = model;
     this.is_new = true;
     this.scene.add(model.root);
     this.motion.take(model);
-    const grown = model.box.getSize(new Vector3()).length() / this.box.getSize(new Vector3()).length();
     this.box = model.box;
     this.points = model.points;
     this.stage.surround(model.box);
     this.walker.land(model.root, this.stage.floor, model.box.getSize(new Vector3()).length() / 2);
     this.dress();
-    if (!this.held && (!keep_camera || !this.touched || grown > 2 || grown < 0.5)) this.fit();
+    if (!this.held && (!keep_camera || !this.is_framed())) this.frame_model();
     this.canvas.dispatchEvent(new CustomEvent('ground-changed'));
     await this.drawn();
     return model;
   }
 
-  fit(): void {
-    if (this.walker.gait !== 'orbit') return;
+  /** Shows all, in orbit. */
+  fit(): void { if (this.walker.gait === 'orbit') this.frame_model(); }
+
+  /** What shall be seen. */
+  private get sight(): Vector3[] { return [...this.points, ...this.stage.sight(this.box)]; }
+
+  /** Whether the model can be looked at from where the camera is, so that models can be told apart by their size. */
+  private is_framed(): boolean {
+    if (this.walker.gait !== 'orbit') return true;
+    const grown = this.box.getSize(new Vector3()).length() / this.framed.size;
+    const most = this.touched ? alike_by_hand : alike;
+    return grown < most && grown > 1 / most && (this.touched || in_sight(this.camera, this.sight, this.covered, this.canvas.clientHeight));
+  }
+
+  /** On foot and in flight this is where one goes on from. */
+  private frame_model(): void {
     this.touched = false;
     // What is left of a hand's motion would carry the camera on.
     const damping = this.controls.enableDamping;
     this.controls.enableDamping = false;
     this.controls.update();
     this.controls.enableDamping = damping;
-    this.controls.target.copy(stand_back(this.camera, [...this.points, ...this.stage.sight(this.box)], usual_direction(this.box), this.free));
+    this.framed.raised = (this.covered.bottom - this.covered.top) / 2;
+    this.raise();
+    const free = free_of(this.covered, this.canvas.clientHeight || 1);
+    this.controls.target.copy(stand_back(this.camera, this.sight, usual_direction(this.box), free));
     this.controls.minDistance = this.camera.near * 4;
     this.controls.maxDistance = this.camera.far / 4;
-    this.controls.update();
+    Object.assign(this.framed, { size: this.box.getSize(new Vector3()).length(), distance: this.camera.position.distanceTo(this.controls.target) });
+    if (this.walker.gait === 'orbit') this.controls.update();
+    else this.walker.begin(this.walker.gait);
     this.draw();
   }
 
   /** Turns round the model, by radians, and scales the distance. */
   orbit(turn: number, tilt: number, distance: number): void {
     this.touched = true;
-    const offset = new Spherical().setFromVector3(this.camera.position.clone().sub(this.controls.target));
-    offset.theta += turn;
-    offset.phi = Math.min(Math.max(offset.phi + tilt, 0.05), this.controls.maxPolarAngle);
-    offset.radius *= distance;
-    this.camera.position.copy(this.controls.target).add(new Vector3().setFromSpherical(offset));
+    go_round(this.camera, this.controls.target, turn, tilt, distance, this.controls.maxPolarAngle);
     this.controls.update();
     this.draw();
   }
@@ -166,10 +184,12 @@ export class Viewer {
     this.dress();
   }
 
-  /** Takes the levels out of a zip, from fine to coarse, and says how many triangles each has. */
-  async take_levels(bytes: ArrayBuffer): Promise<number[]> {
+  /** Takes the levels out of a zip, from fine to coarse, and says how many triangles each has; null where another model came meanwhile. */
+  async take_levels(bytes: ArrayBuffer): Promise<number[] | null> {
+    const { model: of } = this;
     const models = await levels_of(bytes);
     if (this.variant !== null) await Promise.all(models.map((model) => model.wear(this.variant)));
+    if (this.model !== of) { for (const model of models) model.dispose(); return null; }
     this.levels?.dispose();
     this.levels = new Levels(models, this.is_still);
     return models.map((model) => model.triangles);
@@ -183,7 +203,7 @@ export class Viewer {
       this.levels?.dispose();
       this.levels = null;
     } else {
-      this.levels?.choose(level, this.scene, this.camera.position.distanceTo(this.controls.target) * 1.5);
+      this.levels?.choose(level, this.scene, this.framed.distance * 1.5);
     }
     this.dress();
   }
@@ -191,10 +211,10 @@ export class Viewer {
   /** The level that is in sight; null where there are no levels. */
   get level(): number | null { return this.levels?.in_sight ?? null; }
 
-  set_grid(on: boolean): void {
-    this.stage.grid_visible = on;
-    this.draw();
-  }
+  /** The triangles of that level. */
+  get level_triangles(): number | null { return this.levels?.triangles ?? null; }
+
+  set_grid(on: boolean): void { this.stage.grid_visible = on; this.draw(); }
 
   set_figure(on: boolean): void {
     this.stage.show_figure(on, this.box);
@@ -246,21 +266,24 @@ export class Viewer {
 
   /** Another model to the left of the divider, under the same camera; null takes it away. */
   async compare(bytes: ArrayBuffer | null): Promise<void> {
-    this.other?.dispose();
-    this.other = bytes ? await Model.from(bytes) : null;
+    this.beside.take(bytes ? await Model.from(bytes) : null);
     this.dress();
   }
 
   set_divider(share: number): void {
-    this.divider = share;
+    this.beside.divider = share;
     this.draw();
   }
 
   /** Boxes of shapes over the model; null takes them away. */
   set_boxes(scopes: ScopeBox[] | null, color_of: (index: number) => number = () => 0): void {
-    drop_boxes(this.boxes?.drawn ?? null);
-    this.boxes = scopes ? { scopes, drawn: draw_boxes(scopes, color_of) } : null;
-    if (this.boxes) this.scene.add(this.boxes.drawn);
+    this.scopes.set(scopes, color_of);
+    this.draw();
+  }
+
+  /** Marks one of these boxes; -1 marks none. */
+  mark_box(index: number): void {
+    this.scopes.mark(index);
     this.draw();
   }
 
@@ -277,11 +300,11 @@ export class Viewer {
     return { size: this.box.getSize(new Vector3()), cell: this.stage.cell };
   }
 
-  /** How many pixels at the lower rim something else covers. */
-  set_covered(pixels: number): void {
-    if (pixels === this.covered) return;
-    this.covered = pixels;
-    this.resize();
+  /** What lies over the rims of the picture. */
+  set_covered(covered: Covered): void {
+    this.covered = covered;
+    // What goes away again, such as a comparison, changes no scale.
+    if (!this.touched && !in_sight(this.camera, this.sight, covered, this.canvas.clientHeight)) this.fit();
   }
 
   /** What is seen now, as a PNG. */
@@ -303,7 +326,7 @@ export class Viewer {
   }
 
   private all_models(): Model[] {
-    return [this.model, this.other, ...(this.levels?.models ?? [])].filter((model): model is Model => model !== null);
+    return [this.model, this.beside.other, ...(this.levels?.models ?? [])].filter((model): model is Model => model !== null);
   }
 
   private dress(): void {
@@ -311,18 +334,11 @@ export class Viewer {
     this.cast();
   }
 
-  private cast(): void {
-    this.renderer.shadowMap.needsUpdate = true;
-    this.draw();
-  }
+  private cast(): void { this.renderer.shadowMap.needsUpdate = true; this.draw(); }
 
   private pick(event: MouseEvent): void {
-    if (!this.boxes) return;
-    const area = this.canvas.getBoundingClientRect();
-    const at = new Vector2((event.clientX - area.left) / area.width * 2 - 1, 1 - (event.clientY - area.top) / area.height * 2);
-    const caster = new Raycaster();
-    caster.setFromCamera(at, this.camera);
-    this.on_pick(box_at(this.boxes.scopes, caster.ray));
+    const index = this.scopes.at(ray_of(this.canvas, this.camera, event).ray);
+    if (index !== null) this.on_pick(index);
   }
 
   private resize(): void {
@@ -330,15 +346,18 @@ export class Viewer {
     if (clientWidth === 0 || clientHeight === 0) return;
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
-    this.camera.setViewOffset(clientWidth, clientHeight, 0, this.covered / 2, clientWidth, clientHeight);
-    this.free = Math.max(0.3, 1 - this.covered / clientHeight);
-    if (this.touched) this.render();
-    else { this.fit(); this.render(); }
+    this.raise();
+    this.modes.set_size(this.canvas.width, this.canvas.height);
+    if (!this.touched) this.fit();
+    this.render();
   }
 
-  private draw(): void {
-    this.frame ||= requestAnimationFrame(() => this.render());
+  private raise(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    this.camera.setViewOffset(clientWidth, clientHeight, 0, this.framed.raised, clientWidth, clientHeight);
   }
+
+  private draw(): void { this.frame ||= requestAnimationFrame(() => this.render()); }
 
   private render(): void {
     cancelAnimationFrame(this.frame);
@@ -350,34 +369,15 @@ export class Viewer {
     const detail = this.levels?.at(this.camera.position.distanceTo(this.controls.target));
     if (this.motion.is_running || detail?.changed) this.renderer.shadowMap.needsUpdate = true;
     if (!this.renderer.getContext().isContextLost()) {
-      if (this.other) this.render_both(this.other);
-      else this.renderer.render(this.scene, this.camera);
+      this.beside.render(this.renderer, this.scene, this.camera, this.stage.group);
       if (this.is_new) {
         this.is_new = false;
-        performance.clearMeasures('seedmesh-draw');
-        performance.measure('seedmesh-draw', { start: begin });
+        measured('draw', begin);
       }
       this.on_drawn(performance.now() - begin, begin - this.last_begin < 1000 ? begin - this.last_begin : null);
       this.last_begin = begin;
     }
     if (goes_on || detail?.fading) this.draw();
-  }
-
-  /** The other model left of the divider, the model right of it. */
-  private render_both(other: Model): void {
-    const size = this.renderer.getSize(new Vector2());
-    const shown = this.scene.children.filter((child) => child !== this.stage.group && child.visible);
-    this.renderer.setScissorTest(true);
-    for (const side of ['other', 'own'] as const) {
-      for (const child of shown) child.visible = side === 'own';
-      if (side === 'other') this.scene.add(other.root);
-      else other.root.removeFromParent();
-      const from = side === 'other' ? 0 : this.divider * size.x;
-      this.renderer.setScissor(from, 0, side === 'other' ? this.divider * size.x : size.x - from, size.y);
-      this.renderer.shadowMap.needsUpdate = true;
-      this.renderer.render(this.scene, this.camera);
-    }
-    this.renderer.setScissorTest(false);
   }
 
   private drawn(): Promise<void> {

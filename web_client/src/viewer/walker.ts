@@ -1,4 +1,4 @@
-/** On foot or in flight: W A S D go, Q and Z or the page keys rise and sink, arrows and a drag turn the head. */
+/** On foot or in flight: W A S D go, Q and Z or the page keys rise and sink, arrows and a drag turn the head; buttons do as the keys. */
 import { MathUtils, Raycaster, Vector3, type Object3D, type PerspectiveCamera } from 'three';
 
 export type Gait = 'orbit' | 'walk' | 'fly';
@@ -13,6 +13,7 @@ export class Walker {
   gait: Gait = 'orbit';
   on_move: (place: Vector3, heading: number) => void = () => {};
   private readonly camera: PerspectiveCamera;
+  private readonly wake: () => void;
   private readonly pressed = new Set<string>();
   private readonly ray = new Raycaster();
   private yaw = 0;
@@ -26,16 +27,15 @@ export class Walker {
 
   constructor(camera: PerspectiveCamera, canvas: HTMLCanvasElement, wake: () => void) {
     this.camera = camera;
+    this.wake = wake;
     canvas.addEventListener('keydown', (event) => {
       const key = event.key.toLowerCase();
       if (this.gait === 'orbit' || !going.includes(key) || event.ctrlKey || event.metaKey || event.altKey) return;
       event.preventDefault();
       event.stopImmediatePropagation();
-      if (this.pressed.size === 0) this.last = performance.now();
-      this.pressed.add(key);
-      wake();
+      this.press(key);
     });
-    canvas.addEventListener('keyup', (event) => this.pressed.delete(event.key.toLowerCase()));
+    canvas.addEventListener('keyup', (event) => this.release(event.key.toLowerCase()));
     canvas.addEventListener('blur', () => this.pressed.clear());
     canvas.addEventListener('pointerdown', (event) => {
       if (this.gait !== 'orbit') this.dragged = { id: event.pointerId, x: event.clientX, y: event.clientY };
@@ -47,8 +47,17 @@ export class Walker {
       this.aim();
       wake();
     });
-    addEventListener('pointerup', () => { this.dragged = null; });
+    addEventListener('pointerup', (event) => { if (event.pointerId === this.dragged?.id) this.dragged = null; });
   }
+
+  /** Goes on until the key is let go of. */
+  press(key: string): void {
+    if (this.pressed.size === 0) this.last = performance.now();
+    this.pressed.add(key);
+    this.wake();
+  }
+
+  release(key: string): void { this.pressed.delete(key); }
 
   /** What is walked on, and how large it is. */
   land(model: Object3D, floor: number, reach: number): void {

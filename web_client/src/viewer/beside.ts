@@ -1,0 +1,33 @@
+/** Two models under one camera: one to the left of a divider, and to the right of it what is shown otherwise. */
+import { Vector2, type Object3D, type PerspectiveCamera, type Scene, type WebGLRenderer } from 'three';
+import type { Model } from './model';
+
+export class Beside {
+  other: Model | null = null;
+  /** Where the divider stands, as a share of the width. */
+  divider = 0.5;
+
+  take(other: Model | null): void {
+    this.other?.dispose();
+    this.other = other;
+  }
+
+  /** Draws the scene; where there is another model, twice. `stage` is seen on both sides. */
+  render(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera, stage: Object3D): void {
+    const { other } = this;
+    if (!other) { renderer.render(scene, camera); return; }
+    const size = renderer.getSize(new Vector2());
+    const shown = scene.children.filter((child) => child !== stage && child.visible);
+    renderer.setScissorTest(true);
+    for (const side of ['other', 'own'] as const) {
+      for (const child of shown) child.visible = side === 'own';
+      if (side === 'other') scene.add(other.root);
+      else other.root.removeFromParent();
+      const from = side === 'other' ? 0 : this.divider * size.x;
+      renderer.setScissor(from, 0, side === 'other' ? this.divider * size.x : size.x - from, size.y);
+      renderer.shadowMap.needsUpdate = true;
+      renderer.render(scene, camera);
+    }
+    renderer.setScissorTest(false);
+  }
+}
