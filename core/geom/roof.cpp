@@ -91,10 +91,10 @@ class RoofMaker {
     stages_ = {stage_of(options_.angle)};
     if (is_double) {
       double rise = options_.break_height;
-      if (!(rise > 0)) {
+      if (!(rise > 0) || options_.height) {
         const auto once = sloped_surface(base_, {stage_of(math::pi / 4)}, job_);
         if (!once) return std::nullopt;
-        rise = steep_share * height_of(*once) * tangent_of(options_.angle);
+        rise = break_over(height_of(*once));
       }
       stages_[0].rise = rise;
       stages_.push_back(stage_of(options_.upper_angle));
@@ -115,6 +115,16 @@ class RoofMaker {
     const double first_tangent = options_.height ? 1 / slowest_speed() : tangent_of(options_.angle);
     lean_outwards(first_tangent);
     return body;
+  }
+
+  /// Where the slope changes, over a plan whose inmost point lies `way` inwards; before the roof is scaled to
+  /// the height that is asked for, so that the change then lies at the height asked for too:
+  ///   rise / (rise + (way - rise / steep) * flat) = break_height / height
+  double break_over(double way) const {
+    const double steep = tangent_of(options_.angle), flat = tangent_of(options_.upper_angle);
+    if (!(options_.break_height > 0)) return steep_share * way * steep;
+    const double share = std::min(options_.break_height / *options_.height, 1.0);
+    return share * way * flat / (1 - share + share * flat / steep);
   }
 
   double slowest_speed() const {

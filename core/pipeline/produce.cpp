@@ -271,12 +271,17 @@ Result<std::string> derive(const Request& request, Job& job) {
 
 Result<std::string> validate(const Request& request, Job& job) {
   return guarded<std::string>([&]() -> Result<std::string> {
-    Result<Appraisal> appraisal = request.body().generator->appraise(request.body().params, job);
+    const OutputParams& output = request.body().output;
+    const Generator& generator = *request.body().generator;
+    if (generator.parts) job.set_demand(demand_of(output, generator));
+    Result<Appraisal> appraisal = generator.appraise(request.body().params, job);
     if (!appraisal) return in_request(std::move(appraisal).error());
     Json answer = {{"valid", true}, {"warnings", described(appraisal->warnings)}, {"estimate", nullptr}};
-    const OutputParams& output = request.body().output;
     if (std::optional<Estimate>& estimate = appraisal->estimate) {
       const auto variants = static_cast<std::uint64_t>(output.variants);
+      if (variants > 1 && output.instancing == OutputInstancing::auto_ &&
+          estimate->copies * variants > most_parts)
+        estimate->bytes = estimate->merged_bytes;  // as merge_where_wanted does
       *estimate = {estimate->triangles * variants, estimate->bytes * variants,
                    estimate->exact && variants == 1};
       const auto most = static_cast<std::uint64_t>(output.max_triangles.value_or(0));

@@ -54,6 +54,11 @@ void Deriver::begin() {
   shape.geometry = state.geometry;
   shape.symbol = grammar_.start;
   shape.key = job_.rng().at("building").key();
+  if (least_parameters(grammar_, grammar_.start) == 1) {
+    // As facade(h) of 2006 alone: h is the height. The check of the request has warned.
+    shape.parameter_count = 1;
+    out_.parameters.push_back(state.size.y);
+  }
   meter_.spend();
   out_.shapes.push_back(shape);
   seen_ = &state;
