@@ -198,6 +198,15 @@ void merge_where_wanted(Model& model, const Request& request, Job& job) {
   if (instancing == OutputInstancing::merge || crowded) merge_copies(model, job);
 }
 
+/// Whether merge_where_wanted will take the variants side by side as crowded. Their copies are not counted
+/// before they are made: a copy with its share of a mesh takes about 200 bytes.
+bool is_merged_as_a_row(const Appraisal& appraisal, const OutputParams& output) {
+  constexpr std::uint64_t bytes_of_copy = 200;
+  if (output.variants == 1 || output.instancing != OutputInstancing::auto_ || !appraisal.estimate)
+    return false;
+  return appraisal.estimate->bytes / bytes_of_copy * static_cast<std::uint64_t>(output.variants) > most_parts;
+}
+
 /// Pictures as the coarsest level where they are wanted; those that a scene has chosen in any case.
 std::optional<Issue> add_impostors(Model& model, const Request& request, Job& job) {
   const OutputParams& output = request.body().output;
@@ -273,15 +282,18 @@ Result<std::string> validate(const Request& request, Job& job) {
   return guarded<std::string>([&]() -> Result<std::string> {
     const OutputParams& output = request.body().output;
     const Generator& generator = *request.body().generator;
-    if (generator.parts) job.set_demand(demand_of(output, generator));
+    Demand demand = demand_of(output, generator);
+    if (generator.parts) job.set_demand(demand);
     Result<Appraisal> appraisal = generator.appraise(request.body().params, job);
+    if (appraisal && generator.parts && is_merged_as_a_row(*appraisal, output)) {
+      demand.copies = CopyForm::merge;
+      job.set_demand(demand);
+      appraisal = generator.appraise(request.body().params, job);
+    }
     if (!appraisal) return in_request(std::move(appraisal).error());
     Json answer = {{"valid", true}, {"warnings", described(appraisal->warnings)}, {"estimate", nullptr}};
     if (std::optional<Estimate>& estimate = appraisal->estimate) {
       const auto variants = static_cast<std::uint64_t>(output.variants);
-      if (variants > 1 && output.instancing == OutputInstancing::auto_ &&
-          estimate->copies * variants > most_parts)
-        estimate->bytes = estimate->merged_bytes;  // as merge_where_wanted does
       *estimate = {estimate->triangles * variants, estimate->bytes * variants,
                    estimate->exact && variants == 1};
       const auto most = static_cast<std::uint64_t>(output.max_triangles.value_or(0));

@@ -296,22 +296,19 @@ Result<Appraisal> appraise(const BuildingParams& params, const Job& job) {
   point_at_blueprint(params, appraisal.warnings);
   if (shapes.shapes.size() > most_appraised) return appraisal;
   const Demand& demand = job.demand();
-  appraisal.estimate = estimate_of(shapes, demand.copies, demand.share_organs, own);
   const std::vector<double> lods = lods_of(work.grammar, params, demand.lods);
-  if (!appraisal.estimate || lods.empty()) return appraisal;
   // Levels are merged meshes, all of them in the file.
-  Estimate& estimate = *appraisal.estimate;
-  estimate.bytes = estimate.merged_bytes;
+  const CopyForm copies = lods.empty() ? demand.copies : CopyForm::merge;
+  appraisal.estimate = estimate_of(shapes, copies, demand.share_organs, own);
   for (const double lod : lods) {
     const Shapes level = shapes_of(work, params, own, {.lod = lod, .most_shapes = most_appraised});
     const std::optional<Estimate> more = estimate_of(level, CopyForm::merge, false, own);
-    if (!more || level.shapes.size() > most_appraised) {
+    if (!more || !appraisal.estimate || level.shapes.size() > most_appraised) {
       appraisal.estimate.reset();
       return appraisal;
     }
-    estimate.bytes += more->bytes;
+    appraisal.estimate->bytes += more->bytes;
   }
-  estimate.merged_bytes = estimate.bytes;
   return appraisal;
 }
 

@@ -96,8 +96,7 @@ Grammar read(const BuildingParams& params, std::vector<Issue>& issues) {
   for (const lang::Fault& fault : faults)
     issues.push_back(issue_at("/rules", rules, fault.offset, fault.message));
   if (faults.empty() && params.restrict != BuildingRestrict::none) {
-    for (const lang::Fault& fault :
-         faults_of_kind(grammar, params.restrict == BuildingRestrict::unimarker)) {
+    for (const lang::Fault& fault : faults_of_kind(grammar, params.restrict == BuildingRestrict::unimarker)) {
       if (params.rules) {
         issues.push_back(issue_at("/rules", rules, fault.offset, fault.message));
         continue;

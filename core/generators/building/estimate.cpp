@@ -68,10 +68,8 @@ std::optional<Estimate> estimate_of(const Shapes& shapes, CopyForm copies, bool 
   }
   Estimate estimate;
   estimate.triangles = triangles;
-  estimate.copies = draws;
-  estimate.merged_bytes = file_bytes + bodies;
   const bool is_merged = copies == CopyForm::merge || (!shares_all && draws > most_nodes);
-  estimate.bytes = is_merged ? estimate.merged_bytes : file_bytes + own + node_bytes * draws;
+  estimate.bytes = file_bytes + (is_merged ? bodies : own + node_bytes * draws);
   return estimate;
 }
 

@@ -97,9 +97,9 @@ void check_crossings(const std::vector<Ring>& rings, std::vector<Issue>& issues)
                              (k == i + 1 ? is_between(a, b, d) || is_between(c, d, a)
                                          : is_between(a, b, c) || is_between(c, d, b));
           if (is_next ? !folds : !meet(a, b, c, d)) continue;
-          issues.push_back({pointer_to(s) + "/" + std::to_string(k),
-                            s == r ? crosses_itself(i)
-                                   : "the edge from here meets ring " + std::to_string(r)});
+          issues.push_back(
+              {pointer_to(s) + "/" + std::to_string(k),
+               s == r ? crosses_itself(i) : "the edge from here meets ring " + std::to_string(r)});
           return;
         }
       }

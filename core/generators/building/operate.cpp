@@ -256,10 +256,9 @@ std::uint32_t Deriver::options_of(const Step& step) {
     const double given_value = value(a[i].value);
     if (given_value >= 0 && given_value <= most) return given_value;
     const std::string* const word = out_.texts.of(given_value);
-    reject(a[i].value.offset, std::string(what) + " lies between 0 (by the size) and " +
-                                  text_of_number(most) + ", found " +
-                                  (word != nullptr ? "the text " + lang::in_quotes(*word)
-                                                   : text_of_number(given_value)));
+    reject(a[i].value.offset,
+           std::string(what) + " lies between 0 (by the size) and " + text_of_number(most) + ", found " +
+               (word != nullptr ? "the text " + lang::in_quotes(*word) : text_of_number(given_value)));
   };
   options.count = math::to_int32(given(1, 1'000, "the count of a part"));
   options.frame = given(2, 10, "the frame of a part");

@@ -94,14 +94,16 @@ constexpr OperationRow rows[] = {
     {"roofShed", Op::roof_shed, "h|nn", Braces::absent, "angle, edge, overhang",
      "One slope that rises from an edge.", "A --> s('1, 0, '1) roofShed(byHeight(2), 0) B."},
     {"roofMansard", Op::roof_mansard, "h|nnn", Braces::absent, "angle, upper angle, break height, overhang",
-     "A steep slope and a flatter one above it, from every edge; byHeight(h) scales both to the height of the "
+     "A steep slope and a flatter one above it, from every edge; byHeight(h) scales both to the height of "
+     "the "
      "whole.",
      "A --> s('1, 0, '1) roofMansard(70, 20, 1) B."},
     {"roofGambrel", Op::roof_gambrel, "h|nnnn", Braces::absent,
      "angle, upper angle, break height, overhang, verge", "The same with upright ends.",
      "A --> s('1, 0, '1) roofGambrel(60, 25) B."},
     {"Roof", Op::roof, "wh|n", Braces::one, "kind, angle, overhang",
-     "The roof of 2006 as a shape of its own: hip, gable, pyramid, shed, mansard, gambrel. Of a volume it takes "
+     "The roof of 2006 as a shape of its own: hip, gable, pyramid, shed, mansard, gambrel. Of a volume it "
+     "takes "
      "the place, on its underside, so that it may follow S(1r,h,1r) walls T(0,h,0).",
      "A ~> S(1r, 0, 1r) B. Roof(\"hipped\", 30){ C. }"},
     {"I", Op::place, "t|nnn", Braces::absent, "name, count, frame, angle",

@@ -9,7 +9,7 @@ namespace {
 using lang::Token;
 using lang::TokenKind;
 
-constexpr int deepest = 100;                              ///< brackets and braces inside each other
+constexpr int deepest = 100;                             ///< brackets and braces inside each other
 constexpr std::uint32_t other_case = 1, one_letter = 2;  ///< as lang::name_distance counts
 
 /// The operation that a name is likely to mean: another only in case, or, where both have three letters or

@@ -11,7 +11,8 @@
 
 namespace seedmesh::building {
 
-/// A text with its comments blanked and the signs ≥ ≤ ≠ as >= <= !=, cut into tokens, with the partner of every bracket.
+/// A text with its comments blanked and the signs ≥ ≤ ≠ as >= <= !=, cut into tokens, with the partner of
+/// every bracket.
 class Tokens {
  public:
   Tokens(std::string_view text, std::vector<lang::Fault>& faults);

@@ -70,9 +70,10 @@ TEST(Hints, PointAtTheRestrictionThatABlueprintBreaks) {
 TEST(Hints, PointAtTheAttributeThatIsAText) {
   BuildingParams params = with("attr h = 3\nA --> extrude(h) B.", {10, 0, 10});
   params.attributes["h"] = std::string("tall");
-  EXPECT_EQ(fault_of(params),
-            "/attributes/h 0:0 found the text `tall`, expected a number as the rules use it in line 2, column "
-            "15");
+  EXPECT_EQ(
+      fault_of(params),
+      "/attributes/h 0:0 found the text `tall`, expected a number as the rules use it in line 2, column "
+      "15");
 }
 
 TEST(Hints, PointAtTheAttributeThatIsANumber) {
@@ -89,7 +90,7 @@ TEST(Hints, NameWhatAnEnumAllows) {
 
 TEST(Hints, TellTheRangeOfACount) {
   EXPECT_EQ(fault_of(with("A --> i(\"stairs\", 1000000000)")),
-            "/rules 1:17 the count of a part lies between 0 (by the size) and 1000, found 1e+09");
+            "/rules 1:19 the count of a part lies between 0 (by the size) and 1000, found 1e+09");
   EXPECT_THAT(fault_of(with("A --> i(\"stairs\", \"many\")")), HasSubstr("found the text `many`"));
 }
 

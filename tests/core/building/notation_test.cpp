@@ -92,7 +92,7 @@ const std::string chain =
     "facades ~> Comp(\"sidefaces\"){ facade. }";
 
 TEST(Notation, PutsTheRoofOfTheChainOf2006OnTopOfTheWalls) {
-  EXPECT_EQ(leaves(chain, {12, 0, 8}), "facade facade facade facade roof");
+  EXPECT_EQ(leaves(chain, {12, 0, 8}), "roof facade facade facade facade");
   EXPECT_NEAR(top_of(chain), 6 + 4, 1e-5);
 }
 
@@ -100,7 +100,7 @@ TEST(Notation, DoesSoOverAPolygonToo) {
   BuildingParams params = with(chain);
   params.footprint = {{{0, 0}, {12, 0}, {12, 8}, {6, 8}, {6, 4}, {0, 4}}};
   const Json answer = derived(params);
-  EXPECT_EQ(active(answer), "facade facade facade facade facade facade roof");
+  EXPECT_EQ(active(answer), "roof facade facade facade facade facade facade");
   params.rules = "A ~> S(1r, 6, 1r) wall. T(0, 6, 0) Roof(\"hipped\", 45){ roof. }";
   EXPECT_GT(volume(params), 6 * (12 * 4 + 6 * 4));
 }
