@@ -94,7 +94,9 @@ class RoofMaker {
       if (!(rise > 0) || options_.height) {
         const auto once = sloped_surface(base_, {stage_of(math::pi / 4)}, job_);
         if (!once) return std::nullopt;
-        rise = break_over(height_of(*once));
+        const double way = height_of(*once), steep = tangent_of(options_.angle);
+        rise = rise > 0 ? break_at(rise / *options_.height, way, steep, tangent_of(options_.upper_angle))
+                        : steep_share * way * steep;
       }
       stages_[0].rise = rise;
       stages_.push_back(stage_of(options_.upper_angle));
@@ -115,16 +117,6 @@ class RoofMaker {
     const double first_tangent = options_.height ? 1 / slowest_speed() : tangent_of(options_.angle);
     lean_outwards(first_tangent);
     return body;
-  }
-
-  /// Where the slope changes, over a plan whose inmost point lies `way` inwards; before the roof is scaled to
-  /// the height that is asked for, so that the change then lies at the height asked for too:
-  ///   rise / (rise + (way - rise / steep) * flat) = break_height / height
-  double break_over(double way) const {
-    const double steep = tangent_of(options_.angle), flat = tangent_of(options_.upper_angle);
-    if (!(options_.break_height > 0)) return steep_share * way * steep;
-    const double share = std::min(options_.break_height / *options_.height, 1.0);
-    return share * way * flat / (1 - share + share * flat / steep);
   }
 
   double slowest_speed() const {

@@ -1,7 +1,5 @@
 /// Which rule a shape takes, and the walk through its successor.
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 
 #include "core/generators/building/deriver.h"
@@ -14,18 +12,6 @@ constexpr std::uint64_t place_of_conditions = 0xFFFF'FFFF'0001U, place_of_choice
 constexpr double longest = 1e7;  ///< metres; beyond it single precision has no centimetres
 
 }  // namespace
-
-std::string text_of_number(double number) {
-  std::array<char, 32> text{};
-  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() ? std::string(text.data(), end) : std::string();
-}
-
-Issue issue_in_rules(const Task& task, std::size_t offset, const std::string& message) {
-  if (!task.is_blueprint) return issue_at("/rules", task.text, offset, message);
-  return {"/blueprint", message + " (line " + std::to_string(place_of(task.text, offset).line) +
-                            " of the blueprint's rules)"};
-}
 
 void Deriver::reject(std::uint32_t offset, const std::string& message) const {
   Job::reject(issue_in_rules(plan_, offset, message));
