@@ -1,6 +1,9 @@
 /// What an answer says of requests that are wrong or that make nothing.
 #include <gmock/gmock.h>
 
+#include <chrono>
+
+#include "core/base/math.h"
 #include "tests/core/building/rules.h"
 
 namespace seedmesh::building {
@@ -125,6 +128,20 @@ TEST(Hints, TellOfARuleThatIsNeverUsed) {
   EXPECT_THAT(warnings("A ~> B. : 0.4\nA ~> C. : 0.6"), IsEmpty());
   EXPECT_THAT(warnings("A : Scope.sx > 3 ~> B.\nA ~> C."), IsEmpty());
   EXPECT_THAT(warnings("A --> B(1)\nB(x) --> C.\nB(x) --> D."), ElementsAre(HasSubstr("/rules 3:1")));
+}
+
+TEST(Hints, EndARoofOverThousandsOfCornersWhenItsTimeIsOver) {
+  BuildingParams params = with("A --> roofGable(30, 1) R.");
+  params.footprint.emplace_back();
+  for (int i = 0; i < 4'000; ++i) {
+    const double angle = 2 * math::pi * i / 4'000, reach = i % 2 == 0 ? 60 : 100;
+    params.footprint[0].push_back({reach * math::cos(angle), reach * math::sin(angle)});
+  }
+  Job::Options options;
+  options.deadline = Job::Clock::now() + std::chrono::milliseconds(100);
+  Job job(0, options);
+  EXPECT_THROW(static_cast<void>(generate(params, job)), Stop);
+  EXPECT_LT(Job::Clock::now() - options.deadline, std::chrono::seconds(20));
 }
 
 }  // namespace
