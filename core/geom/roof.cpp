@@ -91,10 +91,12 @@ class RoofMaker {
     stages_ = {stage_of(options_.angle)};
     if (is_double) {
       double rise = options_.break_height;
-      if (!(rise > 0)) {
+      if (!(rise > 0) || options_.height) {
         const auto once = sloped_surface(base_, {stage_of(math::pi / 4)}, job_);
         if (!once) return std::nullopt;
-        rise = steep_share * height_of(*once) * tangent_of(options_.angle);
+        const double way = height_of(*once), steep = tangent_of(options_.angle);
+        rise = rise > 0 ? break_at(rise / *options_.height, way, steep, tangent_of(options_.upper_angle))
+                        : steep_share * way * steep;
       }
       stages_[0].rise = rise;
       stages_.push_back(stage_of(options_.upper_angle));

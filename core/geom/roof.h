@@ -27,7 +27,8 @@ enum class RoofKind {
 struct RoofOptions {
   RoofKind kind = RoofKind::hip;
   double angle = 0.6;            ///< radians, 0 < angle < pi/2; of the lower slope for mansard and gambrel
-  std::optional<double> height;  ///< of the highest point instead of `angle`
+  std::optional<double> height;  ///< of the highest point instead of `angle`; both slopes of mansard and
+                                 ///< gambrel are scaled to it, and `break_height` is kept
   double upper_angle = 0.35;     ///< mansard, gambrel: of the upper slope
   double break_height = 0;  ///< mansard, gambrel: where it changes; 0: at three tenths of the way inwards
   double overhang = 0;      ///< metres along the slope, past the eaves

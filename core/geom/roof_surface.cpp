@@ -278,6 +278,12 @@ void weld(RoofSurface& surface, double reach) {
   std::erase_if(surface.faces, [](const RoofSurface::Face& face) { return face.outline.size() < 3; });
 }
 
+// rise / (rise + (way - rise / steep) * flat) = share, solved for the rise.
+double break_at(double share, double way, double steep, double flat) {
+  share = std::min(share, 1.0);
+  return share * way * flat / (1 - share + share * flat / steep);
+}
+
 double height_of(const RoofSurface& surface) {
   double highest = surface.point.empty() ? 0 : surface.point[0].z;
   for (const dvec3& p : surface.point) highest = std::max(highest, p.z);

@@ -57,4 +57,8 @@ void weld(RoofSurface& surface, double reach);
 
 double height_of(const RoofSurface& surface);
 
+/// How high the steep slope of a two-slope roof goes so that the change lies at a share of the whole, over a
+/// plan whose inmost point lies `way` inwards. `steep` and `flat` are tangents, `share` is cut at 1.
+double break_at(double share, double way, double steep, double flat);
+
 }  // namespace seedmesh

@@ -218,13 +218,14 @@ bool is_area_kept(const StraightSkeleton& skeleton, double expected, double scal
   return std::abs(area - expected) <= area_share * scale * scale;
 }
 
-bool make_faces(Wavefront& front, StraightSkeleton& skeleton) {
+bool make_faces(Wavefront& front, StraightSkeleton& skeleton, const Job& job) {
   const std::vector<std::uint32_t> same = weld(front.nodes, same_node * front.scale);
   std::vector<std::vector<Wavefront::Border>> borders(front.sources.size());
   for (const Wavefront::Border& border : front.borders) {
     borders[border.source].push_back({border.source, same[border.from], same[border.to]});
   }
   for (std::size_t i = 0; i < borders.size(); ++i) {
+    if (i % 64 == 0) job.check();
     FaceMaker maker(front.nodes, front.sources[i], front.scale);
     if (!maker.make(std::move(borders[i]), skeleton.faces)) return false;
   }
@@ -271,7 +272,7 @@ StraightSkeleton straight_skeleton(const Plan& plan, const SkeletonOptions& opti
   }
   Wavefront front(local, options, job);
   const bool has_met = front.run();
-  if (has_met && make_faces(front, skeleton)) {
+  if (has_met && make_faces(front, skeleton, job)) {
     skeleton.node = std::move(front.nodes);
     skeleton.is_sound = is_area_kept(skeleton, expected, front.scale);
   }

@@ -90,6 +90,7 @@ bool Wavefront::run() {
   expect();
   std::vector<Event> batch;
   for (std::uint64_t step = 0; !events_.empty(); ++step) {
+    count_looks(16);
     const Event next = events_.top();
     if (next.time > end_time_ + soon_) break;
     if (step > most_steps) return false;
@@ -151,6 +152,14 @@ void Wavefront::expect_hit(std::uint32_t corner, std::uint32_t edge) {
   events_.push({time, edge, e.version, corner});
 }
 
+/// Sees whether there is still time, now and then.
+void Wavefront::count_looks(std::size_t count) {
+  looks_ += count;
+  if (looks_ < 100'000) return;
+  looks_ = 0;
+  job_.check();
+}
+
 /// Looks for the next events of all that has changed.
 void Wavefront::expect() {
   std::erase_if(hitters_, [&](std::uint32_t corner) { return !corners_[corner].is_alive; });
@@ -162,6 +171,7 @@ void Wavefront::expect() {
     if (!edges_[edge].is_alive) continue;
     expect_collapse(edge);
     for (const std::uint32_t corner : hitters_) expect_hit(corner, edge);
+    count_looks(hitters_.size() + 1);
   }
   if (fresh_from < static_cast<std::ptrdiff_t>(hitters_.size()) && open_.size() < edges_.size()) {
     std::vector<bool> is_done(edges_.size(), false);
@@ -171,12 +181,8 @@ void Wavefront::expect() {
       for (auto corner = hitters_.begin() + fresh_from; corner != hitters_.end(); ++corner) {
         expect_hit(*corner, edge);
       }
+      count_looks(hitters_.size() - static_cast<std::size_t>(fresh_from) + 1);
     }
-  }
-  looks_ += open_.size() * hitters_.size() + edges_.size();
-  if (looks_ > 100'000) {
-    job_.check();
-    looks_ = 0;
   }
   for (const std::uint32_t edge : open_) edges_[edge].is_open = false;
   open_.clear();

@@ -77,6 +77,7 @@ class Wavefront {
   void expect_collapse(std::uint32_t edge);
   void expect_hit(std::uint32_t corner, std::uint32_t edge);
   void expect();
+  void count_looks(std::size_t count);
 
   void resolve(const std::vector<Event>& batch);
   std::vector<Touch> touches_of(const std::vector<Event>& batch) const;

@@ -201,6 +201,15 @@ void merge_where_wanted(Model& model, const Request& request, Job& job) {
   if (instancing == OutputInstancing::merge || crowded) merge_copies(model, job);
 }
 
+/// Whether merge_where_wanted will take the variants side by side as crowded. Their copies are not counted
+/// before they are made: a copy with its share of a mesh takes about 200 bytes.
+bool is_merged_as_a_row(const Appraisal& appraisal, const OutputParams& output) {
+  constexpr std::uint64_t bytes_of_copy = 200;
+  if (output.variants == 1 || output.instancing != OutputInstancing::auto_ || !appraisal.estimate)
+    return false;
+  return appraisal.estimate->bytes / bytes_of_copy * static_cast<std::uint64_t>(output.variants) > most_parts;
+}
+
 /// Pictures as the coarsest level where they are wanted; those that a scene has chosen in any case.
 std::optional<Issue> add_impostors(Model& model, const Request& request, Job& job) {
   const OutputParams& output = request.body().output;
@@ -279,11 +288,18 @@ static bool leaves_meshes(const OutputParams& output) {
 
 Result<std::string> validate(const Request& request, Job& job) {
   return guarded<std::string>([&]() -> Result<std::string> {
-    job.set_demand(demand_of(request.body().output, *request.body().generator));
-    Result<Appraisal> appraisal = request.body().generator->appraise(request.body().params, job);
+    const OutputParams& output = request.body().output;
+    const Generator& generator = *request.body().generator;
+    Demand demand = demand_of(output, generator);
+    job.set_demand(demand);
+    Result<Appraisal> appraisal = generator.appraise(request.body().params, job);
+    if (appraisal && generator.parts && is_merged_as_a_row(*appraisal, output)) {
+      demand.copies = CopyForm::merge;
+      job.set_demand(demand);
+      appraisal = generator.appraise(request.body().params, job);
+    }
     if (!appraisal) return in_request(std::move(appraisal).error());
     Json answer = {{"valid", true}, {"warnings", described(appraisal->warnings)}, {"estimate", nullptr}};
-    const OutputParams& output = request.body().output;
     if (std::optional<Estimate>& estimate = appraisal->estimate) {
       const auto variants = static_cast<std::uint64_t>(output.variants);
       *estimate = {estimate->triangles * variants, estimate->bytes * variants,

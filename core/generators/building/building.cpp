@@ -106,6 +106,7 @@ Shapes shapes_of(Work& work, const BuildingParams& params, Job& job, const Wish&
   Task plan;
   plan.grammar = &work.grammar;
   plan.text = rules_of(params);
+  plan.is_blueprint = !params.rules;
   Solid footprint;
   if (!params.footprint.empty()) {
     footprint = footprint_of(params.footprint, plan.origin, plan.size);
@@ -214,6 +215,13 @@ void append(std::vector<Warning>& to, const std::vector<Warning>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
+/// Of rules that came with the program the request has no text to point into.
+void point_at_blueprint(const BuildingParams& params, std::vector<Warning>& warnings) {
+  for (Warning& warning : warnings) {
+    if (params.blueprint && warning.pointer == "/rules") warning = {"/blueprint", warning.message, 0, 0};
+  }
+}
+
 }  // namespace
 
 std::vector<Issue> check(const BuildingParams& params, const Limits& limits) {
@@ -234,6 +242,8 @@ Result<Model> generate(const BuildingParams& params, Job& job) {
   model.name = "building";
   append(model.warnings, work.grammar.warnings);
   append(model.warnings, shapes.warnings);
+  if (auto warning = nothing_drawn(shapes); warning && !params.shape_grammar)
+    model.warnings.push_back(*std::move(warning));
   Looks looks(model, params, shapes, job);
   looks.set_symbols(symbol_names(work.grammar));
   const std::vector<double> lods = lods_of(work.grammar, params, job.demand().lods);
@@ -242,6 +252,7 @@ Result<Model> generate(const BuildingParams& params, Job& job) {
   else
     add_levels(model, work, params, shapes, lods, looks, job);
   add_collision(model, shapes, job);
+  point_at_blueprint(params, model.warnings);
   if (!shapes.reports.empty()) model.extras.push_back({"reports", listed(shapes.reports).dump()});
   return model;
 }
@@ -280,7 +291,24 @@ Result<Appraisal> appraise(const BuildingParams& params, const Job& job) {
   if (auto refused = add_assets(work, params, own)) return std::move(*refused);
   const Shapes shapes = shapes_of(work, params, own, {.lod = {}, .most_shapes = most_appraised});
   append(appraisal.warnings, shapes.warnings);
-  if (shapes.shapes.size() <= most_appraised) appraisal.estimate = estimate_of(shapes, own);
+  if (auto warning = nothing_drawn(shapes); warning && !params.shape_grammar)
+    appraisal.warnings.push_back(*std::move(warning));
+  point_at_blueprint(params, appraisal.warnings);
+  if (shapes.shapes.size() > most_appraised) return appraisal;
+  const Demand& demand = job.demand();
+  const std::vector<double> lods = lods_of(work.grammar, params, demand.lods);
+  // Levels are merged meshes, all of them in the file.
+  const CopyForm copies = lods.empty() ? demand.copies : CopyForm::merge;
+  appraisal.estimate = estimate_of(shapes, copies, demand.share_organs, own);
+  for (const double lod : lods) {
+    const Shapes level = shapes_of(work, params, own, {.lod = lod, .most_shapes = most_appraised});
+    const std::optional<Estimate> more = estimate_of(level, CopyForm::merge, false, own);
+    if (!more || !appraisal.estimate || level.shapes.size() > most_appraised) {
+      appraisal.estimate.reset();
+      return appraisal;
+    }
+    appraisal.estimate->bytes += more->bytes;
+  }
   return appraisal;
 }
 

@@ -28,8 +28,24 @@ std::string escaped(const std::string& name) {
   return out;
 }
 
-void check_attribute(const Attribute* attribute, const std::string& name, double number, bool is_text,
+constexpr std::size_t most_named = 20;
+
+/// "a", "b" and 3: what @Enum allows.
+std::string choices_of(const Attribute& attribute, const Texts& texts) {
+  std::string out;
+  const std::size_t count = std::min(attribute.choices.size(), most_named);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i > 0) out += i + 1 == attribute.choices.size() ? " or " : ", ";
+    const std::string* const text = texts.of(attribute.choices[i]);
+    out += text != nullptr ? Json(*text).dump() : Json(attribute.choices[i]).dump();
+  }
+  return count < attribute.choices.size() ? out + ", ..." : out;
+}
+
+void check_attribute(const Attribute* attribute, const std::string& name, double number, const Texts& texts,
                      std::vector<Issue>& issues) {
+  const std::string* const text = texts.of(number);
+  const std::string found = "found " + (text != nullptr ? Json(*text).dump() : Json(number).dump());
   const std::string pointer = "/attributes/" + escaped(name);
   if (attribute == nullptr || attribute->is_constant) {
     issues.push_back({pointer, attribute == nullptr
@@ -37,15 +53,37 @@ void check_attribute(const Attribute* attribute, const std::string& name, double
                                    : "the rules declare this name as a constant, which no request sets"});
     return;
   }
-  if (attribute->has_range && (is_text || number < attribute->low || number > attribute->high)) {
-    issues.push_back({pointer, "found " + (is_text ? std::string("a text") : Json(number).dump()) +
-                                   ", expected a number from " + Json(attribute->low).dump() + " to " +
+  if (attribute->has_range && (text != nullptr || number < attribute->low || number > attribute->high)) {
+    issues.push_back({pointer, found + ", expected a number from " + Json(attribute->low).dump() + " to " +
                                    Json(attribute->high).dump()});
   }
   if (!attribute->choices.empty() &&
       std::ranges::find(attribute->choices, number) == attribute->choices.end())
-    issues.push_back({pointer, "found a value that is none of the " +
-                                   std::to_string(attribute->choices.size()) + " that @Enum names"});
+    issues.push_back({pointer, found + ", expected " + choices_of(*attribute, texts)});
+}
+
+/// A material is whatever its name says, so that a name one letter away from a known one gets a warning.
+void warn_of_materials(Grammar& grammar, const BuildingParams& params, std::string_view rules) {
+  constexpr std::uint32_t one_letter = 2;  // as lang::name_distance counts
+  std::vector<std::string_view> known = built_in_materials();
+  for (const auto& entry : params.materials) known.emplace_back(entry.first);
+  std::vector<std::string_view> told;
+  for (const Step& step : grammar.steps) {
+    if (step.op != Op::material || step.argument_count == 0) continue;
+    const Value& value = grammar.arguments[step.first_argument].value;
+    const std::string* const name =
+        value.expression.is_constant ? grammar.texts.of(value.expression.value) : nullptr;
+    if (name == nullptr || name->size() < 3 || std::ranges::find(known, *name) != known.end()) continue;
+    const auto like = std::ranges::find_if(
+        known, [&](std::string_view each) { return lang::name_distance(*name, each) <= one_letter; });
+    if (like == known.end() || std::ranges::find(told, *name) != told.end()) continue;
+    told.emplace_back(*name);
+    const TextPlace place = place_of(rules, step.offset);
+    grammar.warnings.push_back({"/rules",
+                                "there is no material " + lang::in_quotes(*name) +
+                                    ", so that it is a new one; did you mean " + lang::in_quotes(*like) + "?",
+                                place.line, place.column});
+  }
 }
 
 /// The rules read, and all that is wrong with the parameters around them.
@@ -58,17 +96,32 @@ Grammar read(const BuildingParams& params, std::vector<Issue>& issues) {
   for (const lang::Fault& fault : faults)
     issues.push_back(issue_at("/rules", rules, fault.offset, fault.message));
   if (faults.empty() && params.restrict != BuildingRestrict::none) {
-    for (const lang::Fault& fault : faults_of_kind(grammar, params.restrict == BuildingRestrict::unimarker))
-      issues.push_back(issue_at("/rules", rules, fault.offset, fault.message));
+    for (const lang::Fault& fault : faults_of_kind(grammar, params.restrict == BuildingRestrict::unimarker)) {
+      if (params.rules) {
+        issues.push_back(issue_at("/rules", rules, fault.offset, fault.message));
+        continue;
+      }
+      issues.push_back({"/restrict", "the rules of the blueprint are not of this kind: " + fault.message +
+                                         " (line " + std::to_string(place_of(rules, fault.offset).line) +
+                                         " of them)"});
+      break;
+    }
   }
+  if (faults.empty() && params.rules) warn_of_materials(grammar, params, rules);
   if (faults.empty() && grammar.start == none) {
     issues.push_back({"/start", "there is no symbol \"" + params.start.value_or("") + "\" in the rules"});
   } else if (faults.empty()) {
     const Symbol& start = grammar.symbols[grammar.start];
     if (start.rules.empty()) {
       issues.push_back({"/start", "there is no rule for the symbol \"" + start.name + "\""});
-    } else if (std::ranges::all_of(start.rules,
-                                   [&](std::uint32_t r) { return grammar.rules[r].parameter_count > 0; })) {
+    } else if (const std::uint32_t least = least_parameters(grammar, grammar.start); least == 1) {
+      const TextPlace place = place_of(rules, grammar.rules[start.rules.front()].offset);
+      grammar.warnings.push_back(
+          {"/rules",
+           lang::in_quotes(start.name) +
+               " has a parameter, which nothing gives the first shape: it is taken to be its height",
+           place.line, place.column});
+    } else if (least > 1) {
       issues.push_back(
           {params.start ? "/start" : "/rules",
            "the rules of \"" + start.name +
@@ -79,7 +132,7 @@ Grammar read(const BuildingParams& params, std::vector<Issue>& issues) {
     const auto found = std::ranges::find(grammar.attributes, name, &Attribute::name);
     const Attribute* const attribute = found == grammar.attributes.end() ? nullptr : &*found;
     if (faults.empty())
-      check_attribute(attribute, name, number_of(grammar.texts, given), given.index() == 1, issues);
+      check_attribute(attribute, name, number_of(grammar.texts, given), grammar.texts, issues);
   }
   return grammar;
 }
@@ -123,6 +176,22 @@ double number_of(Texts& texts, const std::variant<double, std::string, bool>& gi
   return std::get<double>(given);
 }
 
+std::optional<Warning> nothing_drawn(const Shapes& shapes) {
+  std::size_t count = 0;
+  for (const Shape& shape : shapes.shapes) {
+    if (!shape.is_active) continue;
+    if (dimension(shape.size) >= 2) return std::nullopt;
+    ++count;
+  }
+  if (count == 0 && shapes.takes_away) return std::nullopt;
+  return Warning{"/rules",
+                 count == 0 ? "nothing is drawn: no shape is left, as no selector or cell took anything"
+                            : "nothing is drawn: " + std::to_string(count) +
+                                  (count == 1 ? " shape is" : " shapes are") +
+                                  " left, an edge or a point, which has no area",
+                 0, 0};
+}
+
 std::vector<Issue> check_all(const BuildingParams& params, const Limits& limits, Grammar& grammar,
                              PictureGrammar& pictures) {
   std::vector<Issue> issues;
@@ -140,6 +209,8 @@ std::vector<Issue> check_all(const BuildingParams& params, const Limits& limits,
     issues.insert(issues.end(), more.begin(), more.end());
   } else if (dimension({params.size[0], params.size[1], params.size[2]}) < 2) {
     issues.push_back({"/size", "at least two of the three sizes are above 0"});
+  } else if (params.blueprint && !(params.size[0] > 0 && params.size[2] > 0)) {
+    issues.push_back({"/size", "a blueprint stands on the ground: its sizes in x and z are above 0"});
   }
   if (params.iterations && static_cast<std::uint32_t>(*params.iterations) > limits.iterations) {
     issues.push_back({"/iterations", "found " + std::to_string(*params.iterations) + ", expected at most " +

@@ -1,11 +1,25 @@
 #include "core/generators/building/derive.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <set>
 
 #include "core/generators/building/deriver.h"
 
 namespace seedmesh::building {
+
+std::string text_of_number(double number) {
+  std::array<char, 32> text{};
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() ? std::string(text.data(), end) : std::string();
+}
+
+Issue issue_in_rules(const Task& task, std::size_t offset, const std::string& message) {
+  if (!task.is_blueprint) return issue_at("/rules", task.text, offset, message);
+  return {"/blueprint", message + " (line " + std::to_string(place_of(task.text, offset).line) +
+                            " of the blueprint's rules)"};
+}
 
 Deriver::Deriver(const Task& plan, const Context* first, Job& job)
     : plan_(plan),
@@ -54,6 +68,11 @@ void Deriver::begin() {
   shape.geometry = state.geometry;
   shape.symbol = grammar_.start;
   shape.key = job_.rng().at("building").key();
+  if (least_parameters(grammar_, grammar_.start) == 1) {
+    // As facade(h) of 2006 alone: h is the height. The check of the request has warned.
+    shape.parameter_count = 1;
+    out_.parameters.push_back(state.size.y);
+  }
   meter_.spend();
   out_.shapes.push_back(shape);
   seen_ = &state;

@@ -30,6 +30,7 @@ struct AssetBox {
 struct Task {
   const Grammar* grammar = nullptr;
   std::string_view text;                     ///< the rules, for line and column
+  bool is_blueprint = false;                 ///< they came with the program
   glm::dvec3 size{0};                        ///< of the first shape
   const Solid* footprint = nullptr;          ///< null: a box
   glm::dvec3 origin{0};                      ///< of the first scope
@@ -45,6 +46,10 @@ struct Task {
 };
 
 constexpr std::uint16_t deepest_shape = 1'000;
+
+/// A fault at a byte of the rules: /rules with line and column, or /blueprint where they came with the
+/// program, whose text the request does not have.
+Issue issue_in_rules(const Task& task, std::size_t offset, const std::string& message);
 
 Shapes derive_shapes(const Task& task, Job& job);
 

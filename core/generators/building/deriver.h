@@ -8,6 +8,9 @@
 
 namespace seedmesh::building {
 
+/// As few digits as tell the number: 3, 0.25, 1e+09.
+std::string text_of_number(double number);
+
 class Deriver {
  public:
   /// `first` is what the first pass made, or null in that pass.
@@ -61,6 +64,7 @@ class Deriver {
   const std::string& text(const Argument& argument);
   double text_number(const Argument& argument);
   [[noreturn]] void reject(std::uint32_t offset, const std::string& message) const;
+  void blame_attribute(std::uint32_t offset, double given, const std::string& message) const;
   void warn(std::uint32_t offset, const std::string& message);
 
   // Operations (operate.cpp, split.cpp, comp.cpp)
@@ -69,6 +73,7 @@ class Deriver {
   void rotate(const Step& step, State& state);
   void center(const Step& step, State& state, const Frame& frame);
   void mirror(State& state);
+  std::uint32_t prism_over(const State& state, int axis);
   void extrude(const Step& step, State& state);
   void taper(const Step& step, State& state);
   void insert(const Step& step, State& state);
@@ -92,6 +97,7 @@ class Deriver {
 
   // Mass (mass.cpp)
   void take_solid(State& state, Solid solid);
+  bool take_underside(State& state);
   void roof_over(const Step& step, State& state);
   void offset_face(const Step& step, State& state);
   void set_back(const Step& step, const State& state, const Frame& frame, std::uint64_t key);

@@ -22,7 +22,7 @@ struct BodyCost {
 
 }  // namespace
 
-std::optional<Estimate> estimate_of(const Shapes& shapes, Job& job) {
+std::optional<Estimate> estimate_of(const Shapes& shapes, CopyForm copies, bool shares_all, Job& job) {
   using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::array<std::int64_t, 3>>;
   std::map<Key, BodyCost> costs;
   std::size_t parts = 0;
@@ -68,7 +68,8 @@ std::optional<Estimate> estimate_of(const Shapes& shapes, Job& job) {
   }
   Estimate estimate;
   estimate.triangles = triangles;
-  estimate.bytes = file_bytes + (draws <= most_nodes ? own + node_bytes * draws : bodies);
+  const bool is_merged = copies == CopyForm::merge || (!shares_all && draws > most_nodes);
+  estimate.bytes = file_bytes + (is_merged ? bodies : own + node_bytes * draws);
   return estimate;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace seedmesh::building {
 namespace {
@@ -53,7 +55,33 @@ bool contains(const Ring& ring, const Point& p) {
   return inside;
 }
 
+std::string crosses_itself(std::size_t point) {
+  return "the edge from here meets the edge from point " + std::to_string(point) +
+         " of the ring: it crosses itself";
+}
+
 std::string pointer_to(std::size_t ring) { return "/footprint/" + std::to_string(ring); }
+
+/// The first corner whose edge runs across an earlier one; none where no two cross.
+std::optional<std::pair<std::size_t, std::size_t>> crossing_of(const Ring& ring) {
+  const auto runs_across = [&](std::size_t i, std::size_t k) {
+    const Point &a = ring[i], &b = ring[i + 1], &c = ring[k], &d = ring[(k + 1) % ring.size()];
+    return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+  };
+  for (std::size_t i = 0; i + 2 < ring.size(); ++i) {
+    for (std::size_t k = i + 2; k < ring.size(); ++k) {
+      if (runs_across(i, k)) return std::pair{i, k};
+    }
+  }
+  return std::nullopt;
+}
+
+/// A ring whose area is 0: a line, or an eight whose halves cancel.
+Issue issue_of_flat(const Ring& ring, const std::string& pointer) {
+  const auto crossing = ring.size() <= most_points ? crossing_of(ring) : std::nullopt;
+  if (!crossing) return {pointer, "the ring has no area"};
+  return {pointer + "/" + std::to_string(crossing->second), crosses_itself(crossing->first)};
+}
 
 /// The first pair of edges that meet though they are no neighbours.
 void check_crossings(const std::vector<Ring>& rings, std::vector<Issue>& issues) {
@@ -69,10 +97,9 @@ void check_crossings(const std::vector<Ring>& rings, std::vector<Issue>& issues)
                              (k == i + 1 ? is_between(a, b, d) || is_between(c, d, a)
                                          : is_between(a, b, c) || is_between(c, d, b));
           if (is_next ? !folds : !meet(a, b, c, d)) continue;
-          issues.push_back({pointer_to(s) + "/" + std::to_string(k),
-                            s == r ? "the edge from here meets the edge from point " + std::to_string(i) +
-                                         " of the ring: it crosses itself"
-                                   : "the edge from here meets ring " + std::to_string(r)});
+          issues.push_back(
+              {pointer_to(s) + "/" + std::to_string(k),
+               s == r ? crosses_itself(i) : "the edge from here meets ring " + std::to_string(r)});
           return;
         }
       }
@@ -88,7 +115,7 @@ std::vector<Issue> check_footprint(const Rings& given) {
   std::size_t points = 0;
   for (std::size_t r = 0; r < given.size(); ++r) {
     rings.push_back(opened(given[r]));
-    points += rings.back().size();
+    points += given[r].size();
     for (std::size_t i = 0; i + 1 < rings[r].size(); ++i) {
       if (rings[r][i] == rings[r][i + 1])
         issues.push_back(
@@ -98,7 +125,7 @@ std::vector<Issue> check_footprint(const Rings& given) {
       issues.push_back({pointer_to(r), "found " + std::to_string(rings[r].size()) +
                                            " different points, expected at least 3"});
     else if (std::abs(doubled_area(rings[r])) < 1e-6)
-      issues.push_back({pointer_to(r), "the ring has no area"});
+      issues.push_back(issue_of_flat(rings[r], pointer_to(r)));
   }
   if (points > most_points) {
     issues.push_back({"/footprint", "found " + std::to_string(points) + " points, expected at most " +

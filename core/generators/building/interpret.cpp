@@ -14,14 +14,30 @@ constexpr double longest = 1e7;  ///< metres; beyond it single precision has no 
 }  // namespace
 
 void Deriver::reject(std::uint32_t offset, const std::string& message) const {
-  Job::reject(issue_at("/rules", plan_.text, offset, message));
+  Job::reject(issue_in_rules(plan_, offset, message));
+}
+
+/// Rejects the attribute of the request that is the value; else does nothing.
+void Deriver::blame_attribute(std::uint32_t offset, double given, const std::string& message) const {
+  const bool is_text = out_.texts.of(given) != nullptr;
+  for (const Attribute& attribute : grammar_.attributes) {
+    const auto found = plan_.attributes.find(attribute.name);
+    if (found == plan_.attributes.end() || found->second != given) continue;
+    const lang::Expression& own = attribute.value.expression;
+    // A number may be equal by chance: it is to blame where the rules' own value is a text.
+    if (!is_text && (!own.is_constant || out_.texts.of(own.value) == nullptr)) continue;
+    const TextPlace place = place_of(plan_.text, offset);
+    Job::reject({"/attributes/" + attribute.name, message + " as the rules use it in line " +
+                                                      std::to_string(place.line) + ", column " +
+                                                      std::to_string(place.column)});
+  }
 }
 
 void Deriver::warn(std::uint32_t offset, const std::string& message) {
   if (warned_.size() >= 100 || std::ranges::find(warned_, offset) != warned_.end()) return;
   warned_.push_back(offset);
-  const TextPlace place = place_of(plan_.text, offset);
-  out_.warnings.push_back({"/rules", message, place.line, place.column});
+  const Issue issue = issue_in_rules(plan_, offset, message);
+  out_.warnings.push_back({issue.pointer, issue.message, issue.line, issue.column});
 }
 
 void Deriver::look_at(const State& state, std::uint32_t shape) {
@@ -86,8 +102,11 @@ double Deriver::number(const Value& given) {
                              : "the value is infinite: something is divided by 0");
   }
   if (std::abs(result) > longest) {
-    if (const std::string* text = out_.texts.of(result))
-      reject(given.offset, "found the text " + lang::in_quotes(*text) + ", expected a number");
+    if (const std::string* text = out_.texts.of(result)) {
+      const std::string message = "found the text " + lang::in_quotes(*text) + ", expected a number";
+      blame_attribute(given.offset, result, message);
+      reject(given.offset, message);
+    }
     reject(given.offset, "the value is beyond 10,000 km");
   }
   return result;
@@ -100,8 +119,10 @@ double Deriver::length(const Argument& argument, double whole) {
 
 double Deriver::text_number(const Argument& argument) {
   const double result = value(argument.value);
-  if (out_.texts.of(result) == nullptr)
+  if (out_.texts.of(result) == nullptr) {
+    blame_attribute(argument.value.offset, result, "found a number, expected a text");
     reject(argument.value.offset, "found a number, expected a text in quotes");
+  }
   return result;
 }
 
@@ -228,6 +249,7 @@ void Deriver::run_step(const Step& step, State& state, const Frame& frame, std::
       return call(step, state, frame, key);
     case Op::nil:
       is_pending = false;
+      out_.takes_away = true;
       return;
     case Op::translate:
       return translate(step, state);

@@ -5,6 +5,51 @@
 #include "core/generators/building/parser.h"
 
 namespace seedmesh::building {
+namespace {
+
+/// Whether the choices of every branch leave nothing of 1 to later rules, and one branch has no condition.
+bool always_holds(const Grammar& grammar, const Rule& rule) {
+  const Body& body = grammar.bodies[rule.body];
+  for (std::uint32_t b = 0; b < body.branch_count; ++b) {
+    const Branch& branch = grammar.branches[body.first_branch + b];
+    double sum = 0;
+    bool has_rest = false;
+    for (std::uint32_t c = 0; c < branch.choice_count; ++c) {
+      const Value& weight = grammar.choices[branch.first_choice + c].weight;
+      has_rest |= !weight.is_given;
+      if (weight.is_given && weight.expression.is_constant) sum += weight.expression.value;
+    }
+    if (!has_rest && sum < 1 - 1e-9) return false;
+    if (!branch.condition.is_given) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::uint32_t least_parameters(const Grammar& grammar, std::uint32_t symbol) {
+  std::uint32_t least = none;
+  for (const std::uint32_t rule : grammar.symbols[symbol].rules)
+    least = std::min(least, grammar.rules[rule].parameter_count);
+  return least == none ? 0 : least;
+}
+
+/// A rule behind one that always holds.
+void Parser::check_reach(const Symbol& symbol) {
+  for (std::size_t i = 0; i < symbol.rules.size(); ++i) {
+    const Rule& rule = grammar_.rules[symbol.rules[i]];
+    const auto hides = [&](std::uint32_t before) {
+      return grammar_.rules[before].parameter_count == rule.parameter_count &&
+             always_holds(grammar_, grammar_.rules[before]);
+    };
+    const auto* const end = symbol.rules.data() + i;
+    const auto* const found = std::find_if(symbol.rules.data(), end, hides);
+    if (found == end) continue;
+    warn(rule.offset, "this rule of `" + symbol.name + "` is never used: the one in line " +
+                          std::to_string(tokens_.line_of(grammar_.rules[*found].offset)) +
+                          " before it always holds");
+  }
+}
 
 /// Weights that are known and do not sum to 1, symbols without a rule, and the start.
 void Parser::finish(std::string_view start) {
@@ -21,7 +66,10 @@ void Parser::finish(std::string_view start) {
   }
   if (faults_.empty()) check_weights();
   if (faults_.empty()) {
-    for (const Symbol& symbol : grammar_.symbols) settle_endless(symbol);
+    for (const Symbol& symbol : grammar_.symbols) {
+      settle_endless(symbol);
+      check_reach(symbol);
+    }
   }
   for (const Step& step : grammar_.steps) {
     if (step.op != Op::symbol) continue;

@@ -140,6 +140,40 @@ void Deriver::take_solid(State& state, Solid solid) {
   state.geometry = add_solid(std::move(solid));
 }
 
+/// The underside of a volume in its place: the footprint that a roof of 2006 stands on. False: it has none.
+bool Deriver::take_underside(State& state) {
+  constexpr double level = 1e-9;
+  if (state.geometry != box_geometry) {
+    const Solid& whole = out_.solid_of(state.geometry);
+    Solid under;
+    for (const Face& face : whole.faces) {
+      const auto first_loop = static_cast<std::uint32_t>(under.loops.size());
+      bool is_under = true;
+      for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
+        const Loop& loop = whole.loops[l];
+        under.loops.push_back({static_cast<std::uint32_t>(under.corners.size()), loop.count});
+        for (std::uint32_t i = loop.count; i-- > 0;) {
+          const glm::dvec3& p = whole.points[whole.corners[loop.first + i]];
+          is_under &= p.y < level;
+          under.corners.push_back(static_cast<std::uint32_t>(under.points.size()));
+          under.points.emplace_back(p.x * state.size.x, 0, p.z * state.size.z);
+        }
+      }
+      if (is_under) {
+        under.faces.push_back({first_loop, face.loop_count});
+        continue;
+      }
+      under.corners.resize(under.loops[first_loop].first);
+      under.points.resize(under.corners.size());
+      under.loops.resize(first_loop);
+    }
+    if (under.faces.empty()) return false;
+    take_solid(state, std::move(under));
+  }
+  state.size.y = 0;
+  return true;
+}
+
 void Deriver::roof_over(const Step& step, State& state) {
   const Argument* a = &grammar_.arguments[step.first_argument];
   std::uint32_t at = 0;
@@ -172,18 +206,22 @@ void Deriver::roof_over(const Step& step, State& state) {
     default:
       options.kind = RoofKind::hip;
   }
-  if (dimension(state.size) != 2 || (state.geometry & asset_bit) != 0)
+  const bool is_asset = (state.geometry & asset_bit) != 0;
+  // In the chain of 2006, S(1r,h,1r) walls T(0,h,0) Roof(...), the scope still has the height of the walls.
+  if (step.op == Op::roof && dimension(state.size) == 3 && !is_asset && !take_underside(state))
+    reject(step.offset, "a roof stands on the underside of a volume, and this one has no level one");
+  if (dimension(state.size) != 2 || is_asset)
     reject(step.offset, "a roof stands on a face, found a shape of " + std::to_string(dimension(state.size)) +
                             " dimensions; take the top with comp(f)");
   const auto angle = [&](const Argument& argument) {
     const double degrees = number(argument.value);
     if (!(degrees > 0 && degrees < 90))
       reject(argument.value.offset,
-             "the angle of a roof lies between 0 and 90 degrees, found " + std::to_string(degrees));
+             "the angle of a roof lies between 0 and 90 degrees, found " + text_of_number(degrees));
     return math::radians(degrees);
   };
   if (at < step.argument_count) {
-    if (a[at].measure == Measure::relative) {
+    if (a[at].measure == Measure::height) {
       options.height = number(a[at].value);
       if (!(*options.height > 0)) reject(a[at].value.offset, "the height of a roof is above 0");
     } else {
@@ -202,6 +240,10 @@ void Deriver::roof_over(const Step& step, State& state) {
   if (options.kind == RoofKind::mansard || options.kind == RoofKind::gambrel) {
     if (at < step.argument_count) options.upper_angle = angle(a[at++]);
     options.break_height = length_of(0);
+    if (options.height && options.break_height >= *options.height)
+      reject(step.offset, "the slope breaks at " + text_of_number(options.break_height) +
+                              " m, expected below the height of the roof, " +
+                              text_of_number(*options.height) + " m");
   }
   if (options.kind == RoofKind::shed) {
     options.low_edge = static_cast<std::uint32_t>(std::clamp(next(0), 0.0, 1e6));

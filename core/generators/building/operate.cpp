@@ -39,7 +39,8 @@ std::uint32_t Deriver::add_axes(const glm::dmat3& axes) {
 std::uint32_t Deriver::add_solid(Solid solid) {
   solid_corners_ += solid.corners.size();
   if (solid_corners_ > most_corners)
-    Job::refuse("cut and made solids have more than " + std::to_string(most_corners) + " corners", "/rules");
+    Job::refuse("cut and made solids have more than " + std::to_string(most_corners) + " corners",
+                plan_.is_blueprint ? "/blueprint" : "/rules");
   out_.solids.push_back(std::make_unique<const Solid>(std::move(solid)));
   return static_cast<std::uint32_t>(out_.solids.size());
 }
@@ -85,6 +86,10 @@ void Deriver::resize(const Step& step, State& state) {
     size[axis] = -size[axis];
     mirror |= 1U << static_cast<unsigned>(axis);
   }
+  // A polygon that gets a height is a prism, as a rectangle that gets one is a box.
+  const int flat = flat_axis(state.size);
+  const bool is_own = state.geometry != box_geometry && (state.geometry & asset_bit) == 0;
+  if (is_own && dimension(state.size) == 2 && size[flat] != 0) state.geometry = prism_over(state, flat);
   if (mirror != 0 && state.geometry != box_geometry && (state.geometry & asset_bit) == 0)
     state.geometry = add_solid(mirrored(out_.solid_of(state.geometry), mirror));
   state.size = size;
@@ -142,6 +147,13 @@ const Solid& Deriver::flat_solid(const State& state) {
   return out_.solid_of(state.geometry);
 }
 
+/// The prism over a flat polygon, made once.
+std::uint32_t Deriver::prism_over(const State& state, int axis) {
+  const auto [found, is_new] = made_solids_.try_emplace({state.geometry, axis}, none);
+  if (is_new) found->second = add_solid(extruded(out_.solid_of(state.geometry), axis));
+  return found->second;
+}
+
 void Deriver::extrude(const Step& step, State& state) {
   const double height = number(grammar_.arguments[step.first_argument].value);
   if (dimension(state.size) != 2 || (state.geometry & asset_bit) != 0) {
@@ -151,11 +163,7 @@ void Deriver::extrude(const Step& step, State& state) {
   }
   if (height == 0) return;
   const int axis = flat_axis(state.size);
-  if (state.geometry != box_geometry) {
-    const auto [found, is_new] = made_solids_.try_emplace({state.geometry, axis}, none);
-    if (is_new) found->second = add_solid(extruded(out_.solid_of(state.geometry), axis));
-    state.geometry = found->second;
-  }
+  if (state.geometry != box_geometry) state.geometry = prism_over(state, axis);
   if (height < 0) state.origin += out_.axes[state.axes][axis] * height;
   state.size[axis] = std::abs(height);
 }
@@ -211,6 +219,10 @@ void Deriver::insert(const Step& step, State& state) {
   if (geometry == none)
     reject(step.offset, "there is no part " + lang::in_quotes(name) +
                             ": neither an asset of the request nor one of " + part_names());
+  const bool is_part = (geometry & asset_bit) != 0 && (geometry & ~asset_bit) >= given_assets;
+  if (step.argument_count > 1 && !is_part)
+    warn(step.offset, lang::in_quotes(name) + " is no part that is made for its size: the numbers behind " +
+                          "its name have no effect");
   const int given = dimension(state.size);
   glm::dvec3 size = state.size;
   if (given == 0) {
@@ -241,12 +253,12 @@ std::uint32_t Deriver::options_of(const Step& step) {
   PartOptions options;
   const auto given = [&](std::uint32_t i, double most, const char* what) {
     if (i >= step.argument_count) return 0.0;
-    const double value = number(a[i].value);
-    if (!(value >= 0 && value <= most))
-      reject(a[i].value.offset, std::string(what) + " lies between 0 (by the size) and " +
-                                    std::to_string(math::to_int32(most)) + ", found " +
-                                    std::to_string(value));
-    return value;
+    const double given_value = value(a[i].value);
+    if (given_value >= 0 && given_value <= most) return given_value;
+    const std::string* const word = out_.texts.of(given_value);
+    reject(a[i].value.offset,
+           std::string(what) + " lies between 0 (by the size) and " + text_of_number(most) + ", found " +
+               (word != nullptr ? "the text " + lang::in_quotes(*word) : text_of_number(given_value)));
   };
   options.count = math::to_int32(given(1, 1'000, "the count of a part"));
   options.frame = given(2, 10, "the frame of a part");

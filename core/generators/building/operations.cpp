@@ -84,23 +84,27 @@ constexpr OperationRow rows[] = {
      "remainder, piece by piece.",
      "A --> s('1, 0, '1) innerRectangle(scope){ shape: B. | remainder: C. }"},
     {"roofHip", Op::roof_hip, "h|n", Braces::absent, "angle, overhang",
-     "A roof with a slope from every edge of a face, courtyards too; byHeight(h) in place of the angle gives "
-     "its height.",
+     "A roof with a slope from every edge of a face, courtyards too. In place of the angle of any roof "
+     "byHeight(h) gives its height.",
      "A --> s('1, 0, '1) roofHip(30, 0.4) B."},
     {"roofGable", Op::roof_gable, "h|nn", Braces::absent, "angle, overhang, verge",
      "A roof with upright ends.", "A --> s('1, 0, '1) roofGable(40, 0.4, 0.2) B."},
     {"roofPyramid", Op::roof_pyramid, "h|n", Braces::absent, "angle, overhang",
      "A roof with one tip over the middle.", "A --> s('1, 0, '1) roofPyramid(50) B."},
     {"roofShed", Op::roof_shed, "h|nn", Braces::absent, "angle, edge, overhang",
-     "One slope that rises from an edge.", "A --> s('1, 0, '1) roofShed(12, 0) B."},
+     "One slope that rises from an edge.", "A --> s('1, 0, '1) roofShed(byHeight(2), 0) B."},
     {"roofMansard", Op::roof_mansard, "h|nnn", Braces::absent, "angle, upper angle, break height, overhang",
-     "A steep slope and a flatter one above it, from every edge.",
+     "A steep slope and a flatter one above it, from every edge; byHeight(h) scales both to the height of "
+     "the "
+     "whole.",
      "A --> s('1, 0, '1) roofMansard(70, 20, 1) B."},
     {"roofGambrel", Op::roof_gambrel, "h|nnnn", Braces::absent,
      "angle, upper angle, break height, overhang, verge", "The same with upright ends.",
      "A --> s('1, 0, '1) roofGambrel(60, 25) B."},
     {"Roof", Op::roof, "wh|n", Braces::one, "kind, angle, overhang",
-     "The roof of 2006 as a shape of its own: hip, gable, pyramid, shed, mansard, gambrel.",
+     "The roof of 2006 as a shape of its own: hip, gable, pyramid, shed, mansard, gambrel. Of a volume it "
+     "takes "
+     "the place, on its underside, so that it may follow S(1r,h,1r) walls T(0,h,0).",
      "A ~> S(1r, 0, 1r) B. Roof(\"hipped\", 30){ C. }"},
     {"I", Op::place, "t|nnn", Braces::absent, "name, count, frame, angle",
      "Puts a body, a part or an asset into the scope, as a leaf of its own; the shape goes on as it was.",

@@ -9,14 +9,18 @@ namespace {
 using lang::Token;
 using lang::TokenKind;
 
-constexpr int deepest = 100;  ///< brackets and braces inside each other
+constexpr int deepest = 100;                             ///< brackets and braces inside each other
+constexpr std::uint32_t other_case = 1, one_letter = 2;  ///< as lang::name_distance counts
 
-std::string_view nearest_operation(std::string_view name) {
+/// The operation that a name is likely to mean: another only in case, or, where both have three letters or
+/// more, by one letter. Empty: none.
+std::string_view mistyped_operation(std::string_view name) {
   std::string_view best;
-  std::uint32_t least = lang::hint_distance(name) + 1;
+  std::uint32_t least = one_letter + 1;
   for (const OperationRow& row : operations()) {
     const std::uint32_t distance = lang::name_distance(name, row.name);
-    if (distance >= least) continue;
+    const bool is_short = name.size() < 3 || row.name.size() < 3;
+    if (distance >= least || (is_short && distance > other_case)) continue;
     least = distance;
     best = row.name;
   }
@@ -192,11 +196,12 @@ void Parser::symbol_step(std::vector<Step>& out) {
   step.first_argument = static_cast<std::uint32_t>(grammar_.arguments.size());
   step.argument_count = static_cast<std::uint32_t>(list.size());
   grammar_.arguments.insert(grammar_.arguments.end(), list.begin(), list.end());
-  // A call of what is no symbol of any rule is most likely an operation written wrong.
-  if (!list.empty() && !step.is_leaf && !symbols_with_rules_.contains(std::string(token.text))) {
-    const std::string_view hint = nearest_operation(token.text);
-    fault(token, "there is no operation and no rule " + in_quotes(token) +
-                     (hint.empty() ? std::string() : "; did you mean " + lang::in_quotes(hint) + "?"));
+  // A name without a rule is a leaf, unless it is most likely an operation written wrong or one not known.
+  if (!list.empty() && !step.is_leaf && !symbols_with_rules_.contains(token.text)) {
+    const std::string_view hint = mistyped_operation(token.text);
+    if (!hint.empty() || is_here("{"))
+      fault(token, "there is no operation and no rule " + in_quotes(token) +
+                       (hint.empty() ? std::string() : "; did you mean " + lang::in_quotes(hint) + "?"));
   }
   out.push_back(step);
 }
@@ -335,6 +340,23 @@ Argument Parser::word_argument() {
   return argument;
 }
 
+/// 30, byAngle(30), byHeight(3), or as CityEngine has it: byHeight, 3
+Argument Parser::slope() {
+  Argument argument;
+  const bool is_height = tokens_.is_name(at_, "byHeight");
+  if (!is_height && !tokens_.is_name(at_, "byAngle")) {
+    argument.value = value();
+    return argument;
+  }
+  if (is_height) argument.measure = Measure::height;
+  ++at_;
+  const bool has_bracket = is_here("(");
+  if (!take("(")) expect(",", is_height ? "byHeight" : "byAngle");
+  argument.value = value();
+  if (has_bracket) expect(")", is_height ? "the height" : "the angle");
+  return argument;
+}
+
 Argument Parser::argument(char kind) {
   if (kind == 'i' && here().kind == TokenKind::number) {
     Argument index;
@@ -343,6 +365,7 @@ Argument Parser::argument(char kind) {
     return index;
   }
   if (kind == 'w' || kind == 'i') return word_argument();
+  if (kind == 'h') return slope();
   Argument argument;
   if (take("'"))
     argument.measure = Measure::relative;

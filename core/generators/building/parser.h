@@ -11,7 +11,8 @@
 
 namespace seedmesh::building {
 
-/// A text with its comments blanked, cut into tokens, with the partner of every bracket.
+/// A text with its comments blanked and the signs ≥ ≤ ≠ as >= <= !=, cut into tokens, with the partner of
+/// every bracket.
 class Tokens {
  public:
   Tokens(std::string_view text, std::vector<lang::Fault>& faults);
@@ -23,6 +24,7 @@ class Tokens {
   bool is_arrow(std::size_t i) const { return is(i, "-->") || is(i, "~>") || is(i, "->"); }
   bool is_end(std::size_t i) const { return at(i).kind == lang::TokenKind::end; }
   std::size_t end() const { return tokens_.size() - 1; }
+  int line_of(std::size_t offset) const { return place_of(text_, offset).line; }
   /// Of an opening bracket: its partner, or the end.
   std::size_t partner(std::size_t i) const { return partner_[i]; }
   /// The token behind the expression that begins at i; i where none does.
@@ -31,7 +33,7 @@ class Tokens {
  private:
   std::size_t behind_operand(std::size_t i) const;
 
-  std::string text_;  ///< without comments; tokens point into it
+  std::string text_;  ///< as plain() makes it; tokens point into it
   std::vector<lang::Token> tokens_;
   std::vector<std::size_t> partner_;
 };
@@ -77,6 +79,7 @@ class Parser {
   void finish(std::string_view start);
   void check_weights();
   void settle_endless(const Symbol& symbol);
+  void check_reach(const Symbol& symbol);
   void warn(std::uint32_t offset, std::string message);
 
   // Successors (parse_steps.cpp)
@@ -90,6 +93,7 @@ class Parser {
   bool arguments(const OperationRow& row, std::vector<Argument>& out, Step& step, std::vector<Part>& cells);
   Argument argument(char kind);
   Argument word_argument();
+  Argument slope();
   void settle_axis(const OperationRow& row, Step& step, const std::vector<Argument>& arguments);
   void settle_texture_axis(Step& step, const std::vector<Argument>& arguments);
   void cells(std::vector<Part>& out, bool have_bodies);

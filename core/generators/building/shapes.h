@@ -81,6 +81,7 @@ struct Shapes {
   std::vector<std::string> asset_names;  ///< of geometry with asset_bit
   Texts texts;
   std::vector<Warning> warnings;
+  bool takes_away = false;  ///< a NIL has been run
   /// By shape, into Grammar::choices: what replaced it. Where Task::keeps_choices asks for them; it may end
   /// before the shapes do, and `none` is no choice.
   std::vector<std::uint32_t> choices;

@@ -63,9 +63,10 @@ std::vector<Cut> Deriver::cuts_of(const Step& step, double whole) {
   double wanted = 0;
   if (!cut(cells_, 0, step.part_count, whole, plan_.rounding.value_or(Rounding::nearest), room, cuts,
            wanted)) {
-    const Issue issue = issue_at("/rules", plan_.text, step.offset,
-                                 "this split makes " + count_text(wanted) + " shapes or more; the limit is " +
-                                     std::to_string(job_.limits().shapes) + " in all");
+    const Issue issue =
+        issue_in_rules(plan_, step.offset,
+                       "this split makes " + count_text(wanted) + " shapes or more; the limit is " +
+                           std::to_string(job_.limits().shapes) + " in all");
     throw Stop(Code::limit, issue);
   }
   return cuts;
@@ -130,9 +131,9 @@ void Deriver::repeat(const Step& step, const State& state, const Frame& frame, s
     wanted += copies;
     if (wanted > room) {
       const Issue issue =
-          issue_at("/rules", plan_.text, step.offset,
-                   "this Repeat makes " + count_text(wanted) + " shapes or more; the limit is " +
-                       std::to_string(job_.limits().shapes) + " in all");
+          issue_in_rules(plan_, step.offset,
+                         "this Repeat makes " + count_text(wanted) + " shapes or more; the limit is " +
+                             std::to_string(job_.limits().shapes) + " in all");
       throw Stop(Code::limit, issue);
     }
     for (double k = 0; k < copies; ++k) {

@@ -65,8 +65,8 @@ struct Value {
   bool is_given = false;
 };
 
-/// How a length is meant: 3, '0.5 (of the scope), ~3 or 3r (a share of what is left).
-enum class Measure : std::uint8_t { absolute, relative, floating };
+/// How a number is meant: 3, '0.5 (of the scope), ~3 or 3r (a share of what is left); of a roof, byHeight(3).
+enum class Measure : std::uint8_t { absolute, relative, floating, height };
 
 struct Argument {
   Value value;
@@ -227,6 +227,9 @@ struct Grammar {
 
   std::uint32_t symbol_named(std::string_view name) const;  ///< none: there is no such symbol
 };
+
+/// The fewest parameters that a rule of the symbol has; 0 where it has no rule.
+std::uint32_t least_parameters(const Grammar& grammar, std::uint32_t symbol);
 
 /// Reads rules in both notations. Adds every fault that the text has, at its byte. `start` empty: the first
 /// rule, or the one after @StartRule. Cost: linear; expressions and brackets go at most 200 deep.

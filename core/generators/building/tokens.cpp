@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "core/generators/building/parser.h"
 
@@ -7,8 +8,12 @@ namespace {
 
 using lang::TokenKind;
 
-/// Comments become spaces, so that every byte stays where it is.
-std::string without_comments(std::string_view text) {
+/// Signs of three bytes as print has them, and what the language writes with as many.
+constexpr std::pair<std::string_view, std::string_view> signs_of_print[] = {
+    {"\u2265", ">= "}, {"\u2264", "<= "}, {"\u2260", "!= "}};
+
+/// Comments become spaces and signs of print those of the language, so that every byte stays where it is.
+std::string plain(std::string_view text) {
   std::string out(text);
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (out[i] == '"') {
@@ -21,6 +26,10 @@ std::string without_comments(std::string_view text) {
         if (out[i] != '\n') out[i] = ' ';
       }
       --i;
+    } else if (out[i] == '\xE2') {
+      for (const auto& [sign, meant] : signs_of_print) {
+        if (text.substr(i).starts_with(sign)) out.replace(i, sign.size(), meant);
+      }
     }
   }
   return out;
@@ -71,7 +80,7 @@ std::uint32_t Grammar::symbol_named(std::string_view name) const {
   return none;
 }
 
-Tokens::Tokens(std::string_view text, std::vector<lang::Fault>& faults) : text_(without_comments(text)) {
+Tokens::Tokens(std::string_view text, std::vector<lang::Fault>& faults) : text_(plain(text)) {
   tokens_ = lang::tokenize(text_, 0, text_.size(), faults);
   partner_.assign(tokens_.size(), tokens_.size() - 1);
   std::vector<std::size_t> open;

@@ -172,6 +172,25 @@ TEST(Hull, HoldsAllPointsOfRandomClouds) {
   EXPECT_TRUE(hull_of(std::vector<glm::dvec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}).faces.empty());
 }
 
+TEST(Appraisals, EstimateTheBytesOfMergedBodiesAndOfLevels) {
+  BuildingParams params;
+  params.blueprint = BuildingBlueprint::house;
+  for (const Demand demand : {Demand{.copies = CopyForm::any}, Demand{.copies = CopyForm::merge},
+                              Demand{.lods = 3}, Demand{.share_organs = true}}) {
+    Job job(1, Job::Options{});
+    job.set_demand(demand);
+    const Result<Appraisal> appraisal = appraise(params, job);
+    ASSERT_TRUE(appraisal);
+    ASSERT_TRUE(appraisal->estimate);
+    const auto bytes = static_cast<double>(count(demanded(params, demand)).bytes),
+               estimate = static_cast<double>(appraisal->estimate->bytes);
+    // The model's own count leaves the JSON of nodes and meshes out.
+    const double json = demand.copies == CopyForm::merge || demand.lods > 1 ? 4'000 : 36'000;
+    EXPECT_GT(estimate, (bytes + json) / 1.5) << demand.lods;
+    EXPECT_LT(estimate, (bytes + json) * 1.5) << demand.lods;
+  }
+}
+
 TEST(Appraisals, EstimateWhatWillBeMade) {
   const auto compare = [](const BuildingParams& params) {
     Job job(1, Job::Options{});

@@ -173,8 +173,8 @@ std::vector<PartPiece> make_ledge(const dvec3& size, const PartOptions&, Job& jo
 
 std::vector<PartPiece> make_balcony(const dvec3& size, const PartOptions& options, Job& job) {
   PartWriter out(job);
-  const double slab = 0.13 * size.y,
-               rail = std::min(options.frame > 0 ? options.frame : 0.05, 0.2 * std::min(size.x, size.z));
+  const double slab = 0.13 * size.y, rail = std::min({options.frame > 0 ? options.frame : 0.05,
+                                                      0.2 * std::min(size.x, size.z), 0.4 * size.y});
   out.box("stone", dvec3(0), {size.x, slab, size.z});
   // A hand rail round three sides, a little within the slab's edge.
   const double edge = 0.2 * rail, low = size.y - rail;

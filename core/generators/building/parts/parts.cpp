@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/generators/building/parts/part_makers.h"
+#include "core/generators/building/parts/part_writer.h"
 #include "core/geom/weld.h"
 
 namespace seedmesh::building {
@@ -56,6 +57,21 @@ constexpr std::array<PartMaterial, 14> materials{{
     {"wood", "#7b5b3d", 0, 0.85F},
 }};
 
+/// Whether a part keeps to its scope. In one that is almost flat some details have no room.
+bool is_within(const std::vector<PartPiece>& pieces, const glm::dvec3& size) {
+  constexpr double reach = 1e-4;
+  for (const PartPiece& piece : pieces) {
+    const Box box = bounds_of(piece.mesh.position.span());
+    for (int axis = 0; axis < 3; ++axis) {
+      const double slack = reach * size[axis];
+      if (static_cast<double>(box.min[axis]) < -slack ||
+          static_cast<double>(box.max[axis]) > size[axis] + slack)
+        return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 std::span<const PartRow> part_rows() { return rows; }
@@ -69,6 +85,11 @@ const PartRow* part_named(std::string_view name) {
 std::vector<PartPiece> make_part(const PartRow& row, const glm::dvec3& size, const PartOptions& options,
                                  Job& job) {
   std::vector<PartPiece> pieces = row.make(size, options, job);
+  if (!is_within(pieces, size)) {
+    PartWriter plain(job);
+    plain.box(pieces.front().role, glm::dvec3(0), size);
+    pieces = plain.take();
+  }
   for (PartPiece& piece : pieces) weld(piece.mesh, job);
   return pieces;
 }

@@ -43,7 +43,8 @@ std::span<const PartRow> part_rows();
 /// Null for a name that is none.
 const PartRow* part_named(std::string_view name);
 
-/// Makes a part. Each size must be positive. Spends Resource::triangles before it allocates.
+/// Makes a part; a plain box of its first role where the scope is too flat for it. Each size must be
+/// positive. Spends Resource::triangles before it allocates.
 std::vector<PartPiece> make_part(const PartRow& row, const glm::dvec3& size, const PartOptions& options,
                                  Job& job);
 

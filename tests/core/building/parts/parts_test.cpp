@@ -90,6 +90,18 @@ TEST(Parts, AreSoundAtAnySizeAndOption) {
   }
 }
 
+TEST(Parts, AreClosedWhereTheirScopeIsAlmostFlat) {
+  for (const PartRow& row : part_rows()) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double size : {0.1, 0.01}) {
+        glm::dvec3 flat(1);
+        flat[axis] = size;
+        expect_sound(row, flat, {});
+      }
+    }
+  }
+}
+
 TEST(Parts, WindowHasAFrameAndGlassAndADoorAHandle) {
   Job job = job_of();
   std::set<std::string_view> window, door;
