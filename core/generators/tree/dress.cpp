@@ -14,6 +14,7 @@
 #include "core/geom/detail.h"
 #include "core/geom/graft.h"
 #include "core/geom/grow.h"
+#include "core/geom/outward.h"
 
 namespace seedmesh::tree {
 namespace {
@@ -95,6 +96,7 @@ Mesh coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, GraftOptions 
     if (made <= wanted.triangles + wanted.triangles / 100) break;
     coarse.triangles = coarse.triangles * wanted.triangles / made;
   }
+  turn_outward(mesh, job);
   return mesh;
 }
 
