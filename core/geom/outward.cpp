@@ -1,6 +1,8 @@
 #include "core/geom/outward.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace seedmesh {
 namespace {
@@ -25,11 +27,16 @@ std::uint32_t add_copy(Mesh& mesh, std::uint32_t vertex, const glm::vec3& normal
   return copy;
 }
 
-}  // namespace
+/// A corner, by its place among the indices, and the normal of its face.
+struct Turned {
+  std::size_t corner;
+  glm::vec3 normal;
+};
 
-void turn_outward(Mesh& mesh, const Job& job) {
+std::vector<Turned> corners_looking_in(const Mesh& mesh, const Job& job) {
   constexpr std::size_t look_every = 65'536;
-  Array<std::uint32_t>& index = mesh.index.wide;
+  const Array<std::uint32_t>& index = mesh.index.wide;
+  std::vector<Turned> found;
   for (std::size_t i = 0; i + 2 < index.size(); i += 3) {
     if (i % (3 * look_every) == 0) job.check();
     const glm::vec3 a = mesh.position[index[i]];
@@ -37,9 +44,27 @@ void turn_outward(Mesh& mesh, const Job& job) {
     const float area = std::sqrt(glm::dot(across, across));
     if (!(area > 0)) continue;
     for (std::size_t corner = i; corner < i + 3; ++corner) {
-      if (glm::dot(mesh.normal[index[corner]], across) < 0)
-        index[corner] = add_copy(mesh, index[corner], across / area);
+      if (glm::dot(mesh.normal[index[corner]], across) < 0) found.push_back({corner, across / area});
     }
+  }
+  return found;
+}
+
+}  // namespace
+
+void turn_outward(Mesh& mesh, const Job& job) {
+  const std::vector<Turned> turned = corners_looking_in(mesh, job);
+  if (turned.empty()) return;
+  Array<std::uint32_t> uses(job, mesh.position.size());
+  std::ranges::fill(uses, 0U);
+  for (const std::uint32_t vertex : mesh.index.wide) ++uses[vertex];
+  for (const Turned& each : turned) {
+    std::uint32_t& vertex = mesh.index.wide[each.corner];
+    // Whoever is the last to use a vertex takes it over.
+    if (--uses[vertex] == 0)
+      mesh.normal[vertex] = each.normal;
+    else
+      vertex = add_copy(mesh, vertex, each.normal);
   }
 }
 
