@@ -10,8 +10,8 @@
 ///   $defs, $schema, title, description, default, examples
 ///
 /// Annotations of our own: x-unit, x-group, x-step, x-order, x-advanced, x-grammar, x-cpp-name, x-widget,
-/// x-steps, x-full: the member beside it that stands for a number that is left out, and x-short: beside a oneOf
-/// of number and object, the members that the number stands for.
+/// x-steps, x-full: the member beside it that stands for a number that is left out, and x-short: beside a
+/// oneOf of number and object, the members that the number stands for.
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>

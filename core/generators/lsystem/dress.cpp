@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint64_t bytes_a_vertex = 32;  // position, normal, uv
 constexpr std::uint64_t bytes_a_triangle = 12;
 constexpr std::uint64_t worth_a_word = 10;  // fewer than one in so many is no loss
-constexpr int attempts = 4;  ///< at a level of as many triangles as it may have
+constexpr int attempts = 4;                 ///< at a level of as many triangles as it may have
 
 /// What looks alike becomes one primitive.
 void choose_looks(Skeleton& skeleton, const Wardrobe& wardrobe) {
