@@ -41,7 +41,7 @@ test('a right click plants into the list used last, like the one that is chosen'
   assert.equal(await bed(1).locator('.placed').count(), 1);
   await bed(0).locator('.placed button').first().click();
   const before = await statistics(page);
-  const [bushes, stones] = await sends(() => canvas.click({ button: 'right', position: { x: 120, y: 260 } }));
+  const [bushes, stones] = await sends(() => canvas.click({ button: 'right', position: { x: 120, y: 210 } }));
   assert.equal(stones.length, 1);
   assert.equal(bushes.length, 3);
   assert.equal(bushes[2].age, 12, 'like the one that was chosen');
@@ -50,7 +50,7 @@ test('a right click plants into the list used last, like the one that is chosen'
   assert.match(await bed(0).locator('.chosen').textContent(), /^Position 3/);
   await bed(1).locator('.placed button').first().click();
   assert.equal(await bed(0).locator('.chosen').count(), 0, 'one is chosen in all lists');
-  const [, more] = await sends(() => canvas.click({ button: 'right', position: { x: 300, y: 260 } }));
+  const [, more] = await sends(() => canvas.click({ button: 'right', position: { x: 300, y: 210 } }));
   assert.equal(more.length, 2);
   assert.ok(more[1].at[0] > bushes[2].at[0], 'further to the right');
   assert.deepEqual(page.faults, []);
@@ -60,11 +60,11 @@ test('with planting switched on every click plants, until it is switched off', {
   const { page, sends, bed, canvas } = await open_garden();
   const plant = bed(0).getByRole('button', { name: 'Plant by click' });
   await plant.click();
-  assert.equal((await sends(() => canvas.click({ position: { x: 120, y: 260 } })))[0].length, 3);
-  assert.equal((await sends(() => canvas.click({ position: { x: 240, y: 280 } })))[0].length, 4);
+  assert.equal((await sends(() => canvas.click({ position: { x: 120, y: 210 } })))[0].length, 3);
+  assert.equal((await sends(() => canvas.click({ position: { x: 240, y: 222 } })))[0].length, 4);
   await plant.click();
   assert.equal(await plant.getAttribute('aria-pressed'), 'false');
-  await canvas.click({ position: { x: 120, y: 260 } });
+  await canvas.click({ position: { x: 120, y: 210 } });
   assert.match(await bed(0).locator('.chosen').textContent(), /^Position 3/, 'now a click chooses');
   await until_shown(page, () => page.click('#undo'));
   await page.waitForFunction((pointer) => document.querySelectorAll(`[data-pointer="${pointer}"] .placed`).length < 4, beds[0]);
@@ -72,17 +72,17 @@ test('with planting switched on every click plants, until it is switched off', {
 
 test('what is chosen in the picture is moved, aged and taken away', { timeout: 300_000 }, async () => {
   const { page, sends, bed, canvas } = await open_garden();
-  const [planted] = await sends(() => canvas.click({ button: 'right', position: { x: 150, y: 250 } }));
+  const [planted] = await sends(() => canvas.click({ button: 'right', position: { x: 150, y: 205 } }));
   const spot = planted.at(-1).at;
   await canvas.click({ position: { x: 20, y: 112 } });
   assert.equal(await page.locator('.placed .chosen').count(), 0, 'a click on nothing lets go');
-  await canvas.click({ position: { x: 150, y: 250 } });
+  await canvas.click({ position: { x: 150, y: 205 } });
   assert.match(await bed(0).locator('.chosen').textContent(), /^Position 3/);
   const age = field(page, `${beds[0]}/2/age`).locator('input[type=number]');
   const [aged] = await sends(() => age.fill('9'));
   assert.deepEqual(aged[2], { at: spot, age: 9 });
   await bed(0).getByRole('button', { name: 'Move by click' }).click();
-  const [moved] = await sends(() => canvas.click({ position: { x: 250, y: 270 } }));
+  const [moved] = await sends(() => canvas.click({ position: { x: 250, y: 215 } }));
   assert.ok(moved[2].at[0] > spot[0] && moved[2].age === 9 && !near(moved[2].at, spot, 0.5), JSON.stringify(moved[2]));
   await page.focus('#picture');
   const [left] = await sends(() => page.keyboard.press('Delete'));
@@ -139,19 +139,19 @@ test('marks stand in the picture while the form is in sight', { timeout: 300_000
 test('what is planted with the gallery in sight is told, and nothing is planted beside the ground', { timeout: 300_000 }, async () => {
   const { page, sends, canvas } = await open_garden();
   await page.click('#tab-gallery');
-  assert.equal((await sends(() => canvas.click({ button: 'right', position: { x: 120, y: 260 } }))).flat().length, 3);
+  assert.equal((await sends(() => canvas.click({ button: 'right', position: { x: 120, y: 210 } }))).flat().length, 4);
   await page.waitForFunction(() => /^Planted at -?[\d.]+, -?[\d.]+ m/.test(document.getElementById('status').textContent));
-  await canvas.click({ button: 'right', position: { x: 5, y: 5 } });
+  await canvas.click({ button: 'right', position: { x: 30, y: 280 } });
   await page.waitForFunction(() => document.getElementById('status').textContent.includes('no ground at this place'));
 });
 
 test('a tap plants, and a long press does without a switch', { timeout: 300_000 }, async () => {
   const { page, sends, bed, canvas } = await open_garden({ hasTouch: true });
   await bed(0).getByRole('button', { name: 'Plant by click' }).click();
-  assert.equal((await sends(() => canvas.tap({ position: { x: 120, y: 260 } })))[0].length, 3);
+  assert.equal((await sends(() => canvas.tap({ position: { x: 120, y: 210 } })))[0].length, 3);
   await bed(0).getByRole('button', { name: 'Plant by click' }).click();
   const box = await canvas.boundingBox();
-  const touch = { x: box.x + 260, y: box.y + 270 };
+  const touch = { x: box.x + 260, y: box.y + 215 };
   const session = await page.context().newCDPSession(page);
   const [bushes] = await sends(async () => {
     await session.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [touch] });

@@ -290,7 +290,8 @@ async function start(): Promise<void> {
     is_locked = (event as CustomEvent<boolean>).detail;
     status.phase(is_locked ? { kind: 'locked' } : grower.is_running ? { kind: 'growing', share: null } : { kind: 'ready' });
   });
-  addEventListener('tell', (event) => status.say((event as CustomEvent<string>).detail));
+  // What happens while a model is made would wipe the word away.
+  addEventListener('tell', (event) => void core.drawn().then((drawn) => { if (drawn) status.say((event as CustomEvent<string>).detail); }));
   const again = (): void => { patience.nudge(); grower.again(); };
   part('again').addEventListener('click', again);
   addEventListener('online', () => { if (['gone', 'full'].includes(document.body.dataset['state'] ?? '')) again(); });
