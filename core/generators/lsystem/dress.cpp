@@ -77,18 +77,32 @@ std::uint64_t triangles_of(const std::vector<Primitive>& primitives) {
   return triangles;
 }
 
-/// The bark of a level: of fewer limbs and joints, about as many triangles as it may have.
-std::vector<Bark> coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, SkinOptions options,
-                               Job& job) {
+/// Fewer limbs and joints, with about as many triangles as they may have; never none.
+CoarseLimbs coarse_limbs(const Limbs& limbs, const CoarseOptions& wanted, const SkinOptions& options,
+                         Job& job) {
   CoarseOptions coarse = wanted;
   CoarseLimbs kept;
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    kept = coarsen(limbs, coarse, job);
+    CoarseLimbs next = coarsen(limbs, coarse, job);
     // Stacks have more triangles than the tubes that were counted.
-    const std::uint64_t made = skin_triangles(kept.limbs, options);
+    const std::uint64_t made = skin_triangles(next.limbs, options);
+    if (made == 0 && kept.limbs.size() > 0) break;
+    kept = std::move(next);
+    if (made == 0) {  // little plants are kept with fewer sides alone
+      coarse.triangles = std::numeric_limits<std::uint32_t>::max();
+      continue;
+    }
     if (made <= wanted.triangles + wanted.triangles / 100) break;
+    if (coarse.triangles > wanted.triangles) break;
     coarse.triangles = coarse.triangles * wanted.triangles / made;
   }
+  return kept;
+}
+
+/// The bark of a level.
+std::vector<Bark> coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, SkinOptions options,
+                               Job& job) {
+  const CoarseLimbs kept = coarse_limbs(limbs, wanted, options, job);
   Array<std::uint16_t> bones(job);
   if (!wanted.bones.empty()) {
     for (const std::uint32_t joint : kept.was) bones.push_back(wanted.bones[joint]);
@@ -125,8 +139,9 @@ void add_bark(Model& model, Limbs limbs, std::span<const std::uint16_t> bones, c
     for (Bark& part : coarser_bark(limbs, coarse, coarser, job)) {
       group.primitives.push_back({std::move(part.mesh), wardrobe.material(part.color, Sides::one), {}});
     }
-    if (group.primitives.empty()) return;
-    before = triangles_of(group.primitives);
+    const std::uint64_t made = triangles_of(group.primitives);
+    if (made == 0 || made >= before) return;
+    before = made;
     model.nodes.back().lods.push_back(static_cast<int>(model.meshes.size()));
     model.meshes.push_back(std::move(group));
   }
