@@ -86,6 +86,13 @@ export async function picture(page) {
   return png;
 }
 
+/** The same, once the camera fits the model between all that has come to lie over the rims of the picture. */
+export async function fitted_picture(page) {
+  await picture(page);
+  await page.click('#fit');
+  return picture(page);
+}
+
 /** Share of pixels that differ visibly; a lower threshold sees faint shades too. */
 export function difference(a, b, threshold = 0.2) {
   const [first, second] = [PNG.sync.read(a), PNG.sync.read(b)];
