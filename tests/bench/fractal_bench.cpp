@@ -5,7 +5,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <string>
 #include <thread>
 
@@ -48,25 +47,16 @@ void bench_merged(int rounds) {
                 static_cast<double>(product.statistics.triangles), seconds);
 }
 
-double status_bytes(const std::string& key) {
-  std::ifstream file("/proc/self/status");
-  for (std::string line; std::getline(file, line);) {
-    if (line.compare(0, key.size(), key) == 0)
-      return std::strtod(line.c_str() + key.size() + 1, nullptr) * 1024;
-  }
-  return 0;
-}
-
 /// In a process of its own, while this one is small.
 void bench_memory(int rounds) {
   std::fflush(stdout);
   const pid_t child = fork();
   if (child == 0) {
-    const double idle = status_bytes("VmRSS");
+    const double idle = bench::status_bytes("VmRSS");
     const Product product = made(sponge(rounds), 1);
     std::printf(
         "{\"name\":\"memory: Menger %d\",\"unit\":\"bytes\",\"amount\":%llu,\"peak_less_idle\":%.0f}\n",
-        rounds, static_cast<unsigned long long>(product.payload.size()), status_bytes("VmHWM") - idle);
+        rounds, static_cast<unsigned long long>(product.payload.size()), bench::status_bytes("VmHWM") - idle);
     std::fflush(stdout);
     _exit(0);
   }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -47,6 +49,16 @@ double median_seconds(int rounds, Work&& work) {
   }
   std::nth_element(seconds.begin(), seconds.begin() + rounds / 2, seconds.end());
   return seconds[static_cast<std::size_t>(rounds / 2)];
+}
+
+/// A figure of /proc/self/status in bytes, as VmRSS or VmHWM.
+inline double status_bytes(const std::string& key) {
+  std::ifstream file("/proc/self/status");
+  for (std::string line; std::getline(file, line);) {
+    if (line.compare(0, key.size(), key) == 0)
+      return std::strtod(line.c_str() + key.size() + 1, nullptr) * 1024;
+  }
+  return 0;
 }
 
 }  // namespace seedmesh::bench

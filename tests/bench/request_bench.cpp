@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <map>
 #include <string>
 #include <thread>
@@ -62,16 +61,6 @@ void bench_preset(const Sized& preset, int threads) {
                 seconds);
 }
 
-/// A figure of /proc/self/status in bytes.
-double status_bytes(const std::string& key) {
-  std::ifstream file("/proc/self/status");
-  for (std::string line; std::getline(file, line);) {
-    if (line.compare(0, key.size(), key) == 0)
-      return std::strtod(line.c_str() + key.size() + 1, nullptr) * 1024;
-  }
-  return 0;
-}
-
 /// Makes the preset with so many iterations in a process of its own and prints what it took; false when the
 /// answer has fewer bytes than asked for, or is refused.
 bool bench_memory(const std::string& name, int iterations, std::uint64_t least_bytes) {
@@ -81,10 +70,10 @@ bool bench_memory(const std::string& name, int iterations, std::uint64_t least_b
     const auto request = read_preset(name, {{"iterations", std::to_string(iterations)}}, Limits{});
     if (!request || !*request) _exit(1);
     Job job((*request)->seed(), {.threads = static_cast<int>(std::thread::hardware_concurrency())});
-    const double idle = status_bytes("VmRSS");
+    const double idle = bench::status_bytes("VmRSS");
     const Result<Product> product = produce(**request, job);
     if (!product || product->payload.size() < least_bytes) _exit(1);
-    const double peak = status_bytes("VmHWM");
+    const double peak = bench::status_bytes("VmHWM");
     std::printf(
         "{\"name\":\"memory: %s, %d "
         "iterations\",\"unit\":\"bytes\",\"amount\":%llu,\"peak_less_idle\":%.0f}\n",

@@ -5,16 +5,14 @@
 
 #include <cstdint>
 #include <cstdlib>
-#include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/base/math.h"
-#include "core/base/texture_store.h"
 #include "core/generators/scene/stands.h"
 #include "core/pipeline.h"
 #include "core/schema/json.h"
+#include "tests/bench/kept_textures.h"
 #include "tests/bench/report.h"
 
 namespace {
@@ -120,31 +118,6 @@ void bench_forest() {
   report_made("the same within 20 M triangles", "trees", 100'000, json);
 }
 
-/// Textures as a server keeps them.
-class Kept : public TextureStore {
- public:
-  std::shared_ptr<const void> find(const std::string& key) override {
-    const auto found = all_.find(key);
-    return found == all_.end() ? nullptr : found->second;
-  }
-  void keep(const std::string& key, std::shared_ptr<const void> value, std::uint64_t) override {
-    all_.emplace(key, std::move(value));
-  }
-
- private:
-  std::map<std::string, std::shared_ptr<const void>> all_;
-};
-
-/// A figure of /proc/self/status in bytes.
-double status_bytes(const std::string& key) {
-  std::ifstream file("/proc/self/status");
-  for (std::string line; std::getline(file, line);) {
-    if (line.compare(0, key.size(), key) == 0)
-      return std::strtod(line.c_str() + key.size() + 1, nullptr) * 1024;
-  }
-  return 0;
-}
-
 Product produced(const Json& json, TextureStore& textures) {
   const Result<Request> request = read_request(json.dump(), Limits{});
   if (!request) std::abort();
@@ -159,18 +132,18 @@ void bench_memory(const std::string& name, const Json& output) {
   std::fflush(stdout);
   const pid_t child = fork();
   if (child == 0) {
-    Kept textures;
+    bench::KeptTextures textures;
     Json json = forest(100, 65);
     json["output"] = output;
     produced(json, textures);
     std::ofstream("/proc/self/clear_refs") << "5";  // the peak begins anew
-    const double idle = status_bytes("VmRSS");
+    const double idle = bench::status_bytes("VmRSS");
     json = forest(100'000, 1025);
     json["output"] = output;
     const Product product = produced(json, textures);
     std::printf("{\"name\":\"memory: %s\",\"unit\":\"bytes\",\"amount\":%llu,\"peak_less_idle\":%.0f}\n",
                 name.c_str(), static_cast<unsigned long long>(product.payload.size()),
-                status_bytes("VmHWM") - idle);
+                bench::status_bytes("VmHWM") - idle);
     std::fflush(stdout);
     _exit(0);
   }

@@ -7,34 +7,18 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <map>
 #include <string>
 
-#include "core/base/texture_store.h"
 #include "core/pipeline.h"
+#include "tests/bench/kept_textures.h"
 #include "tests/bench/report.h"
 
 namespace {
 
 using namespace seedmesh;
 
-class Kept : public TextureStore {
- public:
-  std::shared_ptr<const void> find(const std::string& key) override {
-    const auto found = all_.find(key);
-    return found == all_.end() ? nullptr : found->second;
-  }
-  void keep(const std::string& key, std::shared_ptr<const void> value, std::uint64_t) override {
-    all_.emplace(key, std::move(value));
-  }
-
- private:
-  std::map<std::string, std::shared_ptr<const void>> all_;
-};
-
-Kept& textures() {
-  static Kept kept;
+bench::KeptTextures& textures() {
+  static bench::KeptTextures kept;
   return kept;
 }
 
@@ -55,16 +39,6 @@ void bench_tree(const std::string& name, const std::string& text, int rounds = 1
   bench::report("tree to GLB: " + name, "triangles", static_cast<double>(triangles), seconds);
 }
 
-/// A figure of /proc/self/status in bytes.
-double status_bytes(const std::string& key) {
-  std::ifstream file("/proc/self/status");
-  for (std::string line; std::getline(file, line);) {
-    if (line.compare(0, key.size(), key) == 0)
-      return std::strtod(line.c_str() + key.size() + 1, nullptr) * 1024;
-  }
-  return 0;
-}
-
 /// In a process of its own, which has made a small tree with the same textures before.
 void bench_memory(const std::string& name, const std::string& small, const std::string& text) {
   std::fflush(stdout);
@@ -75,12 +49,12 @@ void bench_memory(const std::string& name, const std::string& small, const std::
     if (!request) _exit(1);
     Job job(request->seed(), Job::Options{});
     std::ofstream("/proc/self/clear_refs") << "5";  // the peak begins anew
-    const double idle = status_bytes("VmRSS");
+    const double idle = bench::status_bytes("VmRSS");
     const Result<Product> product = produce(*request, job, &textures());
     if (!product) _exit(1);
     std::printf("{\"name\":\"memory: %s\",\"unit\":\"bytes\",\"amount\":%llu,\"peak_less_idle\":%.0f}\n",
                 name.c_str(), static_cast<unsigned long long>(product->payload.size()),
-                status_bytes("VmHWM") - idle);
+                bench::status_bytes("VmHWM") - idle);
     std::fflush(stdout);
     _exit(0);
   }
