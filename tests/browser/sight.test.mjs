@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { PNG } from 'pngjs';
-import { difference, fragment_of, launch, open, outline, overlap, picture, program, serve, small_tree, statistics, until_shown, write } from './support.mjs';
+import { choose, difference, fragment_of, go_by, launch, leafy, open, outline, overlap, picture, program, serve, small_tree, statistics, until_shown, write } from './support.mjs';
 
 let server, browser, address;
 before(async () => {
@@ -13,17 +13,6 @@ before(async () => {
 after(async () => { await browser?.close(); await server?.stop(); });
 
 const tower = { generator: 'building', seed: 1, parameters: { rules: 'Lot --> extrude(20) color("#aa8866") Mass.', start: 'Lot', size: [6, 0, 6] } };
-const leafy = { generator: 'tree', seed: 2, parameters: { model: 'weber_penn', Levels: 2, Leaves: 8, season: 'summer', sides: 4 }, output: { textures: 'none' } };
-const open_menu = (page) => page.locator('#view-menu').evaluate((menu) => { menu.open = true; });
-const choose = async (page, id, value) => {
-  await open_menu(page);
-  await page.selectOption(id, value);
-  await page.keyboard.press('Escape');
-};
-const go_by = async (page, gait) => {
-  await open_menu(page);
-  await page.selectOption('#gait', gait);
-};
 /** Sets a control of the menu that may be out of sight, and waits for two pictures. */
 const set = (page, id, value) => page.evaluate(([id, value]) => new Promise((resolve) => {
   const control = document.getElementById(id);

@@ -17,6 +17,9 @@ export const small_tree = {
   parameters: { axiom: 'F', productions: ['F -> F[+F]', 'X -> Y'], iterations: 3, angle: 25, step: 0.4 },
 };
 
+/** A tree with leaves and seasons. */
+export const leafy = { generator: 'tree', seed: 2, parameters: { model: 'weber_penn', Levels: 2, Leaves: 8, season: 'summer', sides: 4 }, output: { textures: 'none' } };
+
 /** The page in a context of its own: nothing is shared with other tests. Whatever breaks the policy is an error. */
 export async function open(browser, address, { states = ['ready'], before = async () => {}, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 800, height: 450 }, ...options });
@@ -68,6 +71,22 @@ export async function from_menu(page, menu, button) {
   if (!(await page.locator(`#${menu}`).evaluate((each) => each.open))) await page.click(`#${menu} > summary`);
   await page.click(button);
 }
+
+/** The menu of the view. */
+export const open_menu = (page) => page.locator('#view-menu').evaluate((menu) => { menu.open = true; });
+
+/** Chooses in the menu, and closes it, so that it covers nothing. */
+export const choose = async (page, id, value) => {
+  await open_menu(page);
+  await page.selectOption(id, value);
+  await page.keyboard.press('Escape');
+};
+
+/** On foot or in flight the menu closes by itself, and Escape would end it. */
+export const go_by = async (page, gait) => {
+  await open_menu(page);
+  await page.selectOption('#gait', gait);
+};
 
 export const statistics = (page) => page.evaluate(() => ({
   triangles: document.getElementById('triangles').textContent,

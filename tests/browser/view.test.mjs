@@ -4,7 +4,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { PNG } from 'pngjs';
-import { difference, field, fragment_of, launch, open, outline, overlap, picture, program, serve, small_tree, statistics, until_shown } from './support.mjs';
+import { choose, difference, fragment_of, go_by, launch, leafy, open, open_menu, outline, overlap, picture, program, serve, small_tree, statistics, until_shown } from './support.mjs';
 
 let server, browser, address;
 before(async () => {
@@ -14,20 +14,7 @@ before(async () => {
 });
 after(async () => { await browser?.close(); await server?.stop(); });
 
-const leafy = { generator: 'tree', seed: 2, parameters: { model: 'weber_penn', Levels: 2, Leaves: 8, season: 'summer', sides: 4 }, output: { textures: 'none' } };
 const number = (text) => Number(text.replaceAll(/[^\d]/g, ''));
-const open_menu = (page) => page.locator('#view-menu').evaluate((menu) => { menu.open = true; });
-/** Chooses in the menu, and closes it, so that it covers nothing. */
-const choose = async (page, id, value) => {
-  await open_menu(page);
-  await page.selectOption(id, value);
-  await page.keyboard.press('Escape');
-};
-/** On foot or in flight the menu closes by itself, and Escape would end it. */
-const go_by = async (page, gait) => {
-  await open_menu(page);
-  await page.selectOption('#gait', gait);
-};
 const switch_to = async (page, id, on) => {
   await open_menu(page);
   await page.setChecked(id, on);
