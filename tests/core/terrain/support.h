@@ -1,10 +1,16 @@
 #pragma once
 /// Fields for tests, and what is measured of them.
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <functional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "core/generators/terrain/field.h"
+#include "core/generators/terrain/plan.h"
+#include "generated/params/terrain.h"
 
 namespace seedmesh::terrain {
 
@@ -65,6 +71,41 @@ inline double crease_index(const Field& field) {
     }
   }
   return crease / creases / (rest / rests);
+}
+
+/// A terrain of 33 by 33 samples over 100 m.
+inline TerrainParams small(TerrainAlgorithm algorithm) {
+  TerrainParams params;
+  params.algorithm = algorithm;
+  params.size = 100;
+  const bool subdivides = algorithm == TerrainAlgorithm::triangular_edge ||
+                          algorithm == TerrainAlgorithm::diamond_square ||
+                          algorithm == TerrainAlgorithm::square_square;
+  if (subdivides) {
+    params.iterations = 5;
+  } else {
+    params.resolution = 33;
+  }
+  return params;
+}
+
+inline std::string base64(std::span<const std::uint8_t> bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t word = 0;
+    for (std::size_t k = 0; k < 3; ++k) word = word << 8U | (i + k < bytes.size() ? bytes[i + k] : 0U);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += i + k > bytes.size() ? '=' : digits[word >> (18 - 6 * k) & 63U];
+  }
+  return text;
+}
+
+inline Field heights_of(const TerrainParams& params) {
+  Job job = any_job();
+  Result<Field> field = field_of(params, job);
+  EXPECT_TRUE(field) << (field ? "" : field.error().issues.front().message);
+  return field ? std::move(*field) : Field();
 }
 
 }  // namespace seedmesh::terrain
