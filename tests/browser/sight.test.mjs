@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { PNG } from 'pngjs';
-import { choose, difference, fragment_of, go_by, launch, leafy, open, outline, overlap, picture, program, serve, small_tree, statistics, until_shown, write } from './support.mjs';
+import { choose, difference, fragment_of, go_by, launch, leafy, open, open_menu, outline, overlap, picture, program, serve, small_tree, statistics, until_shown, write } from './support.mjs';
 
 let server, browser, address;
 before(async () => {
@@ -101,6 +101,23 @@ test('leaf cards are cut out by their picture in every mode', { timeout: 200_000
   assert.ok(own.some((is) => is === 0) && own.some((is) => is === 1));
   for (const [mode, other] of [['normals', normals], ['uv', squares]]) assert.ok(overlap(own, other) > 0.98, `${mode}: ${overlap(own, other)}`);
   assert.ok(difference(seen[0], seen[1]) > 0.1 && difference(seen[1], seen[2]) > 0.1, 'the modes differ');
+  assert.deepEqual(page.faults, []);
+});
+
+test('motions are offered also to whoever opened the menu before they were known, and kept it open', { timeout: 300_000 }, async () => {
+  let release;
+  const known = new Promise((resolve) => { release = resolve; });
+  const page = await open(browser, `${server.url}/?quality=low${fragment_of(small_tree)}`, {
+    before: (page) => page.route('**/v1/schemas/output', async (route) => { await known; await route.continue(); }),
+  });
+  await open_menu(page);
+  const motions = () => page.waitForFunction(() => document.querySelectorAll('#motion-kind option').length > 1);
+  assert.ok(await page.locator('#motion-kind option').count() < 2);
+  release();
+  await motions();
+  await page.evaluate((fragment) => { location.hash = fragment; }, fragment_of({ ...small_tree, seed: 4 }));
+  await page.waitForFunction(() => document.getElementById('seed').value === '4');
+  await motions();
   assert.deepEqual(page.faults, []);
 });
 

@@ -97,12 +97,13 @@ export function wire_tools(core: Core): Tools {
 
   // Which motions there are is asked when somebody looks for them, once for each request that is opened.
   let asked_for: Request | null = null;
-  part('view-menu').addEventListener('toggle', () => {
+  const ask_motions = (): void => {
     const state = store.current;
-    if (!state || asked_for === state.base || !part<HTMLDetailsElement>('view-menu').open) return;
+    if (!state || asked_for === state.base || motions.length === 0 || !part<HTMLDetailsElement>('view-menu').open) return;
     asked_for = state.base;
     void motions_of(state.request, motions).then((can) => { if (store.current?.base === state.base) view_menu?.offer_motions(can); });
-  });
+  };
+  part('view-menu').addEventListener('toggle', ask_motions);
 
   wire_menus();
   wire_copies(actions);
@@ -130,7 +131,10 @@ export function wire_tools(core: Core): Tools {
       steps.follow(state);
       request_text.follow(state);
       result.follow(state, is_new);
-      if (is_new) view_menu?.forget();
+      if (is_new) {
+        view_menu?.forget();
+        ask_motions();
+      }
     },
     explain(schema) {
       rules_schema = schema;
@@ -151,6 +155,7 @@ export function wire_tools(core: Core): Tools {
       formats = all_formats;
       wire_downloads(formats, actions);
       motions = all_motions;
+      ask_motions();
     },
     motion: () => view_menu?.motion() ?? null,
   };
