@@ -176,14 +176,18 @@ test('a request that is dropped or chosen is opened', { timeout: 300_000 }, asyn
   assert.equal(await page.inputValue('#seed'), '77');
   assert.equal(await page.textContent('#title'), 'mine');
   assert.ok(await page.isHidden('#drop-sign'));
+  // One who listens all the time: else the browser may hear of the listener after the key.
+  page.on('filechooser', () => {});
+  const choose = async (act, file) => {
+    const [chooser] = await Promise.all([page.waitForEvent('filechooser'), act()]);
+    await chooser.setFiles(file);
+  };
   await until_shown(page, async () => {
-    const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.click('#open-file')]);
-    await chooser.setFiles({ name: 'other.json', mimeType: 'application/json', buffer: Buffer.from('{"preset": "koch_snowflake", "seed": 5}') });
+    await choose(() => page.click('#open-file'), { name: 'other.json', mimeType: 'application/json', buffer: Buffer.from('{"preset": "koch_snowflake", "seed": 5}') });
   });
   assert.equal(await page.inputValue('#seed'), '5');
   await until_shown(page, async () => {
-    const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.keyboard.press('Control+o')]);
-    await chooser.setFiles({ name: 'third.json', mimeType: 'application/json', buffer: Buffer.from('{"preset": "koch_snowflake", "seed": 6}') });
+    await choose(() => page.keyboard.press('Control+o'), { name: 'third.json', mimeType: 'application/json', buffer: Buffer.from('{"preset": "koch_snowflake", "seed": 6}') });
   });
   assert.equal(await page.inputValue('#seed'), '6');
   await page.waitForFunction(() => location.hash.length > 50);
