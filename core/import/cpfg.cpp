@@ -30,11 +30,13 @@ namespace {
 using lsystem::Slice;
 
 /// The text without comments and with lines joined where a backslash ends one; every byte keeps its place.
-std::string without_comments(std::string_view text) {
+std::string without_comments(ForeignText& source) {
+  const std::string_view text = source.text();
   std::string out(text);
   for (std::size_t i = 0; i + 1 < out.size(); ++i) {
     if (out[i] == '/' && out[i + 1] == '*') {
       const std::size_t end = std::min(text.find("*/", i + 2), text.size());
+      if (end == text.size()) source.fault(i, "found a comment without its end; expected `*/`");
       for (const std::size_t stop = std::min(end + 2, text.size()); i < stop; ++i) {
         if (out[i] != '\n') out[i] = ' ';
       }
@@ -344,7 +346,7 @@ Result<Imported> import_cpfg(std::string_view text, const ImportOptions& options
     return Error{Code::invalid, {{"/entry", "a file of cpfg holds one system; expected no entry"}}};
   }
   ForeignText source(text);
-  Imported imported = CpfgReader(source, without_comments(text)).read();
+  Imported imported = CpfgReader(source, without_comments(source)).read();
   return source.finish(std::move(imported));
 }
 
