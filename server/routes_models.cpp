@@ -27,15 +27,17 @@ std::string milliseconds(std::string_view name, double duration) {
 }
 
 /// What this answer cost: spans of a model from the cache were paid for by an earlier one.
-std::string server_timing(const Call& call, const Cache::Answer& answer, const Made& made) {
+std::string server_timing(const Call& call, std::string_view cache_use, const Made& made) {
+  const bool is_made = cache_use == "miss";
   double total = std::chrono::duration<double, std::milli>(Clock::now() - call.request.arrived).count();
   std::string spans;
   for (const Product::Span& span : made.product.timing) {
-    const double spent = answer.hit ? 0 : span.milliseconds;
+    const double spent = is_made ? span.milliseconds : 0;
     spans += ", " + milliseconds(span.name, spent);
     total -= spent;
   }
-  return milliseconds("parse", std::max(0.0, total)) + spans + (answer.hit ? ", cache;desc=\"hit\"" : "");
+  if (!is_made) spans += ", cache;desc=\"" + std::string(cache_use) + "\"";
+  return milliseconds("parse", std::max(0.0, total)) + spans;
 }
 
 /// A coded form of a model. It is kept beside the model itself, so that it is made once.
@@ -136,7 +138,7 @@ http::Response model_answer(Call& call, const Known& known, Kept kept) {
   response.type = entry->product.media_type;
   response.set("ETag", etag(known.tag, used));
   if (used != Coding::identity) response.set("Content-Encoding", std::string(name_of(used)));
-  response.set("Server-Timing", server_timing(call, answer, *entry));
+  response.set("Server-Timing", server_timing(call, response.cache_use, *entry));
   describe(call, response, *entry);
   const std::uint64_t size = payload->size();
   response.body = http::Slice{std::move(payload), 0, size};

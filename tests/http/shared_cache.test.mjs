@@ -93,6 +93,8 @@ test('what one replica has made, another finds', async () => {
   assert.deepEqual(found.bytes, made.bytes);
   for (const name of ['etag', 'content-type', 'content-location', 'seedmesh-triangles', 'seedmesh-vertices', 'seedmesh-warnings'])
     assert.equal(found.headers[name], made.headers[name], name);
+  assert.doesNotMatch(made.headers['server-timing'], /cache/);
+  assert.match(found.headers['server-timing'], /, cache;desc="shared"$/);
   assert.equal(await second.metric('seedmesh_models_total'), 0);
   assert.equal(await second.metric('seedmesh_shared_cache_hits_total'), 1);
   await until(() => second.log_lines().some((line) => line.cache === 'shared'));

@@ -201,7 +201,7 @@ export async function generate(request: Request, signal?: AbortSignal): Promise<
       // Content-Length counts what travelled, which may be compressed; the file is what counts here.
       bytes: bytes.byteLength,
       milliseconds: total_duration(timing),
-      is_kept: /\bcache;\s*desc="?hit/.test(timing),
+      is_kept: /\bcache;\s*desc="?(hit|shared)/.test(timing),
     },
   };
 }
