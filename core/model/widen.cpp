@@ -16,4 +16,32 @@ void widen(Model& model, const Job& job) {
   }
 }
 
+namespace {
+
+template <class T>
+void copy(const Array<T>& from, Array<T>& to) {
+  to = from.template like<T>();
+  to.append(from.span());
+}
+
+}  // namespace
+
+Mesh copy_of(const Mesh& mesh) {
+  Mesh out;
+  out.topology = mesh.topology;
+  copy(mesh.position, out.position);
+  copy(mesh.normal, out.normal);
+  for (std::size_t i = 0; i < mesh.uv.size(); ++i) copy(mesh.uv[i], out.uv[i]);
+  copy(mesh.color, out.color);
+  copy(mesh.tangent, out.tangent);
+  copy(mesh.joints, out.joints);
+  copy(mesh.weights, out.weights);
+  copy(mesh.bone, out.bone);
+  copy(mesh.index.wide, out.index.wide);
+  copy(mesh.index.small, out.index.small);
+  out.bounds = mesh.bounds;
+  out.cache_ordered = mesh.cache_ordered;
+  return out;
+}
+
 }  // namespace seedmesh

@@ -8,4 +8,7 @@ namespace seedmesh {
 /// maker of many pieces may give them narrow at once.
 void widen(Model& model, const Job& job);
 
+/// The same arrays once more, charged to the same purses.
+Mesh copy_of(const Mesh& mesh);
+
 }  // namespace seedmesh

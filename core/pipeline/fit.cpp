@@ -74,7 +74,7 @@ struct Family {
 };
 
 /// All meshes that stand once and untransformed are one family; every other is one of its own.
-std::vector<Family> families_of(Model& model, const Job& job) {
+std::vector<Family> families_of(Model& model, std::size_t level, const Job& job) {
   std::vector<std::uint64_t> uses(model.meshes.size(), 0);
   std::vector<bool> plain(model.nodes.size()), together(model.meshes.size(), false);
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
@@ -82,8 +82,9 @@ std::vector<Family> families_of(Model& model, const Job& job) {
     plain[i] =
         is_identity(node.transform) && (node.parent < 0 || plain[static_cast<std::size_t>(node.parent)]);
     if (node.mesh < 0) continue;
-    uses[static_cast<std::size_t>(node.mesh)] += copies_of(node);
-    together[static_cast<std::size_t>(node.mesh)] = plain[i] && node.instances.transforms.empty();
+    const auto shown = static_cast<std::size_t>(mesh_at(node, level));
+    uses[shown] += copies_of(node);
+    together[shown] = plain[i] && node.instances.transforms.empty();
   }
   std::vector<Family> families(1);
   for (std::size_t i = 0; i < uses.size(); ++i) {
@@ -140,16 +141,44 @@ void coarsen(Family& family, double share, Job& job) {
   }
 }
 
-/// Every family gives up the same share of its triangles; again where some could not.
-void coarsen_all(Model& model, std::uint64_t most, Job& job) {
-  std::vector<Family> families = families_of(model, job);
+/// Every family gives up the same share of its triangles of a level; again where some could not.
+void coarsen_all(Model& model, std::size_t level, std::uint64_t most, Job& job) {
+  std::vector<Family> families = families_of(model, level, job);
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    const std::uint64_t before = drawn_at(model, 0);
+    const std::uint64_t before = drawn_at(model, level);
     if (before <= most) return;
     const double share = static_cast<double>(most) / static_cast<double>(before);
     for (Family& family : families) coarsen(family, share, job);
-    if (drawn_at(model, 0) == before) return;
+    if (drawn_at(model, level) == before) return;
   }
+}
+
+MeshGroup copy_of(const MeshGroup& group) {
+  MeshGroup out;
+  out.name = group.name;
+  for (const Primitive& each : group.primitives)
+    out.primitives.push_back({copy_of(each.mesh), each.material, each.variant_materials});
+  return out;
+}
+
+/// One more level behind the coarsest, of half its triangles. False where it cannot be made coarser.
+bool deepen(Model& model, Job& job) {
+  const std::size_t last = levels_of(model) - 1;
+  const std::uint64_t drawn = drawn_at(model, last);
+  std::vector<int> next(model.meshes.size(), -1);
+  for (Node& node : model.nodes) {
+    if (node.mesh < 0) continue;
+    const int coarsest = mesh_at(node, last);
+    int& copy = next[static_cast<std::size_t>(coarsest)];
+    if (copy < 0) {
+      copy = static_cast<int>(model.meshes.size());
+      model.meshes.push_back(copy_of(model.meshes[static_cast<std::size_t>(coarsest)]));
+    }
+    node.lods.resize(last, coarsest);
+    node.lods.push_back(copy);
+  }
+  coarsen_all(model, last + 1, drawn / 2, job);
+  return drawn_at(model, last + 1) < drawn;
 }
 
 }  // namespace
@@ -161,17 +190,18 @@ std::optional<Issue> fit(Model& model, std::uint64_t most, int lods, Job& job) {
   std::size_t level = 0;
   while (level + 1 < levels && drawn_at(model, level) > most) ++level;
   promote(model, level, wanted);
-  if (drawn_at(model, 0) > most) coarsen_all(model, most, job);
+  if (drawn_at(model, 0) > most) coarsen_all(model, 0, most, job);
   const std::uint64_t drawn = drawn_at(model, 0);
   if (drawn > most) {
     return Issue{pointer, "the model has " + std::to_string(drawn) +
                               " triangles where it is coarsest; found a budget of " + std::to_string(most)};
   }
-  if (levels_of(model) < wanted && levels >= wanted) {
-    return Issue{pointer, "the finest level that has at most " + std::to_string(most) +
-                              " triangles is number " + std::to_string(level) + ", which leaves " +
-                              std::to_string(levels - level) + " levels of detail; found " +
-                              std::to_string(lods) + " wanted"};
+  while (levels_of(model) < std::min(wanted, levels)) {
+    const std::size_t last = levels_of(model) - 1;
+    if (deepen(model, job)) continue;
+    return Issue{pointer, "the model cannot have fewer than the " + std::to_string(drawn_at(model, last)) +
+                              " triangles of its level " + std::to_string(last) +
+                              " within this budget; found " + std::to_string(lods) + " levels wanted"};
   }
   return std::nullopt;
 }

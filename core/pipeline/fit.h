@@ -13,7 +13,8 @@ constexpr int levels_to_choose_from = 5;
 
 /// Makes the finest level of the model draw at most `most` triangles, and leaves it `lods` levels in all:
 /// takes the finest of its levels that fits, and where none does, thins the leaves of the coarsest and
-/// simplifies the rest of it. An Issue where that is not enough. Before finish().
+/// simplifies the rest of it; levels that are missing behind it have half the triangles of the one before. An
+/// Issue where that is not enough. Before finish().
 std::optional<Issue> fit(Model& model, std::uint64_t most, int lods, Job& job);
 
 }  // namespace seedmesh

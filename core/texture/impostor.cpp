@@ -16,7 +16,7 @@ namespace seedmesh::texture {
 namespace {
 
 constexpr std::size_t views = 3;
-constexpr std::uint32_t samples = 4;  ///< of a texel, each way
+constexpr std::uint32_t large = 4096;  ///< where a view of four samples each way takes a gigabyte
 constexpr std::uint32_t edges =
     32;  ///< of a cell, one is free on each side, so that neighbours do not bleed in
 constexpr std::uint32_t least_halved = 128;  ///< texels from which on normals have half as many a side
@@ -224,10 +224,14 @@ struct Sheets {
       : color(size, job), normal(size >= least_halved ? size / 2 : size, job) {}
 };
 
+/// How many a texel has, each way.
+std::uint32_t samples_of(std::uint32_t size) { return size < large ? 4 : 2; }
+
 /// One of the pictures, in its cell.
 void draw_view(const Scenery& scenery, const std::vector<ImpostorRecipe::Part>& parts, std::size_t view,
                const ViewWindow& window, Sheets& sheets) {
   const std::uint32_t cell = sheets.color.size() / 2, edge = cell / edges, inside = cell - 2 * edge;
+  const std::uint32_t samples = samples_of(sheets.color.size());
   Canvas canvas(frame_of(view), window, inside * samples, inside * samples, scenery.job);
   each_mesh(scenery.model, parts, [&](const Primitive& primitive, const glm::mat4& at) {
     canvas.draw(primitive.mesh, at, surface_of(scenery.model, primitive, scenery.library), scenery.job);

@@ -40,8 +40,9 @@ everything behind it is not read
 )";
 
 TEST(Cpfg, TellsWhereACommentBeginsThatDoesNotEnd) {
-  EXPECT_THAT(told(imported("cpfg", "Lsystem: 1\nderivation length: 1\nAxiom: F\n  /* F --> FF\nendlsystem\n")),
-              ElementsAre("4:3 found a comment without its end; expected `*/`"));
+  EXPECT_THAT(
+      told(imported("cpfg", "Lsystem: 1\nderivation length: 1\nAxiom: F\n  /* F --> FF\nendlsystem\n")),
+      ElementsAre("4:3 found a comment without its end; expected `*/`"));
 }
 
 TEST(Cpfg, ReadsMacrosProductionsDecompositionAndHomomorphism) {
