@@ -82,14 +82,18 @@ void apply_range(const Call& call, http::Response& response, const std::string& 
   }
 }
 
-void describe(const Call& call, http::Response& response, const Made& made) {
+void describe(http::Response& response, const Made& made) {
   const Statistics& statistics = made.product.statistics;
   response.set("Seedmesh-Triangles", std::to_string(statistics.triangles));
   response.set("Seedmesh-Vertices", std::to_string(statistics.vertices));
   response.set("Seedmesh-Warnings", std::to_string(statistics.warnings));
-  if (made.token.empty()) return;
-  const std::string location =
-      call.service.access.signed_for(call.grant, permalink(made.token, made.product.extension));
+}
+
+/// The permalink, where it fits in a URL.
+void locate(const Call& call, http::Response& response, const std::string& token,
+            std::string_view extension) {
+  if (token.empty()) return;
+  const std::string location = call.service.access.signed_for(call.grant, permalink(token, extension));
   if (!location.empty() && location.size() <= longest_location) response.set("Content-Location", location);
 }
 
@@ -119,6 +123,8 @@ http::Response model_answer(Call& call, const Known& known, Kept kept) {
   if (!post && matches(call.request.header("If-None-Match"), known.tag)) {
     response.status = 304;
     response.set("ETag", etag(known.tag, *coding));
+    locate(call, response, known.token.empty() ? token_of(known.request) : known.token,
+           extension_of(known.request.format()));
     return response;
   }
 
@@ -139,7 +145,8 @@ http::Response model_answer(Call& call, const Known& known, Kept kept) {
   response.set("ETag", etag(known.tag, used));
   if (used != Coding::identity) response.set("Content-Encoding", std::string(name_of(used)));
   response.set("Server-Timing", server_timing(call, response.cache_use, *entry));
-  describe(call, response, *entry);
+  describe(response, *entry);
+  locate(call, response, entry->token, entry->product.extension);
   const std::uint64_t size = payload->size();
   response.body = http::Slice{std::move(payload), 0, size};
   apply_range(call, response, etag(known.tag, used));
@@ -221,7 +228,8 @@ http::Response get_model(Call& call) {
     return json_answer(call, request->canonical(), "application/json", cache_control(call, kept));
   Result<Request> formed = in_form(*request, extension);
   if (!formed) return refuse(call, problem_of(formed.error()));
-  const Known wanted = known(std::move(*formed));
+  Known wanted = known(std::move(*formed));
+  wanted.token = token_of(wanted.request);
   if (token->engine) call.service.targets.keep(target, wanted);
   return model_answer(call, wanted, kept);
 }
@@ -245,7 +253,8 @@ http::Response get_preset(Call& call) {
   }
   Result<Request> formed = in_form(**read, extension);
   if (!formed) return refuse(call, problem_of(formed.error()));
-  const Known wanted = known(std::move(*formed));
+  Known wanted = known(std::move(*formed));
+  wanted.token = token_of(wanted.request);
   call.service.targets.keep(target, wanted);
   return model_answer(call, wanted, Kept::checked);
 }

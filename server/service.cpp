@@ -26,13 +26,6 @@ Problem turned_away(Service& service, Admission::Refused why) {
   return problem(503, "The service cannot take the request.");
 }
 
-/// The token of the permalink; "" where it is too long for any URL.
-std::string token_of(const Request& request) {
-  std::string token = write_token(request.canonical(), engine_version());
-  if (token.size() > longest_token) token.clear();
-  return token;
-}
-
 Cache::Outcome make(const Call& call, const Known& known, const std::stop_token& stop,
                     const Job::Progress& progress) {
   SharedCache& shared = call.service.shared;
@@ -82,6 +75,12 @@ Known known(Request request) {
   return {std::move(request), std::move(tag)};
 }
 
+std::string token_of(const Request& request) {
+  std::string token = write_token(request.canonical(), engine_version());
+  if (token.size() > longest_token) token.clear();
+  return token;
+}
+
 std::optional<Known> KnownTargets::find(const std::string& target) const {
   const std::lock_guard lock(mutex_);
   const auto found = by_target_.find(target);
@@ -91,7 +90,7 @@ std::optional<Known> KnownTargets::find(const std::string& target) const {
 
 void KnownTargets::keep(const std::string& target, const Known& known) {
   // Twice: the request holds about as much again beside its canonical text.
-  const std::size_t bytes = target.size() + 2 * known.request.canonical().size() + 512;
+  const std::size_t bytes = target.size() + known.token.size() + 2 * known.request.canonical().size() + 512;
   if (bytes > most_bytes / 16) return;
   const std::lock_guard lock(mutex_);
   if (bytes_ + bytes > most_bytes) {

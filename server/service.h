@@ -29,9 +29,13 @@ namespace seedmesh {
 struct Known {
   Request request;
   std::string tag;
+  std::string token = {};  ///< of its permalink; "" where it has not been written yet, or is too long
 };
 
 Known known(Request request);
+
+/// The token of the permalink; "" where it is too long for any URL.
+std::string token_of(const Request& request);
 
 /// Requests that URLs stand for, by raw target: reading a permalink or a preset gives the same each time, and
 /// a 304 need not open a token to find that out. Bounded; cleared as a whole when it is full.

@@ -236,6 +236,19 @@ test('If-None-Match gives 304 before any work, on GET and HEAD, by list, weak, c
   assert.equal((await server.get(link, { 'if-none-match': '"other"' })).status, 200);
 });
 
+test('a 304 has the Content-Location of the 200', async () => {
+  const link = (await server.generate(plant)).headers['content-location'];
+  const heights = '/v1/presets/figure_5_5.r16?seed=3';
+  for (const target of [link, link.replace('.glb', '.gltf'), '/v1/presets/koch_island.glb?seed=5', heights]) {
+    const whole = await server.get(target);
+    assert.equal(whole.status, 200, target);
+    const kept = await server.get(target, { 'if-none-match': whole.headers.etag });
+    assert.equal(kept.status, 304);
+    assert.ok(kept.headers['content-location']);
+    assert.equal(kept.headers['content-location'], whole.headers['content-location'], target);
+  }
+});
+
 test('gzip, br and zstd are sent where they are liked, with their own tags, and open to the same bytes', async () => {
   const link = (await server.generate(plant)).headers['content-location'];
   const plain = await server.get(link);
