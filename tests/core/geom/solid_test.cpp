@@ -56,10 +56,9 @@ Model cube(const Job& job) {
   mesh.position = Array<glm::vec3>(job);
   mesh.index.wide = Array<std::uint32_t>(job);
   for (int i = 0; i < 8; ++i) mesh.position.push_back({i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1});
-  for (const std::uint32_t corner : {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
-                                     2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5}) {
-    mesh.index.wide.push_back(corner);
-  }
+  constexpr std::uint32_t corners[] = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                                       2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+  mesh.index.wide.append(corners);
   model.meshes[0].primitives.push_back({std::move(mesh), -1, {}});
   return model;
 }
