@@ -1,5 +1,6 @@
 #include "server/commands.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -11,6 +12,7 @@
 #include "core/pipeline.h"
 #include "server/base64url.h"
 #include "server/problem.h"
+#include "server/service.h"
 #include "server/signature.h"
 
 namespace seedmesh {
@@ -65,17 +67,18 @@ Job::Options options_of(const Config& config) {
   return options;
 }
 
-/// A request in the format that the extension of a file's name asks for; names without a known one leave it
-/// as it is.
-Result<Request> in_form_of(const Request& request, const std::string& name) {
+constexpr std::string_view extensions[] = {"glb", "gltf", "zip", "png", "r16", "ply"};
+
+/// "model.glb" -> "glb".
+std::string extension_in(const std::string& name) {
   const std::string extension = std::filesystem::path(name).extension().string();
-  for (const std::string_view known : {"glb", "gltf", "zip", "png", "r16", "ply"}) {
-    if (extension != "." + std::string(known)) continue;
-    const std::string format(request.format());
-    if (known == format || (known == "png" && format.compare(0, 3, "png") == 0)) return request;
-    return with_format(request, known == "png" ? "png16" : known);
-  }
-  return request;
+  return extension.empty() ? "" : extension.substr(1);
+}
+
+/// A request in the format that the extension of a file's name asks for; names without one leave it as it is.
+Result<Request> in_form_of(const Request& request, const std::string& extension) {
+  if (extension.empty() || extension_of(request.format()) == extension) return request;
+  return with_format(request, extension == "png" ? "png16" : extension);
 }
 
 int print_result(const Config& config, const std::string& in,
@@ -94,10 +97,17 @@ int print_result(const Config& config, const std::string& in,
 }  // namespace
 
 int generate_command(const Config& config, const std::string& in, const std::string& out) {
+  const std::string extension = extension_in(out);
+  if (!extension.empty() && std::ranges::find(extensions, extension) == std::end(extensions)) {
+    std::fprintf(stderr,
+                 "seedmesh: found the extension .%s; expected .glb, .gltf, .zip, .png, .r16 or .ply\n",
+                 extension.c_str());
+    return 2;
+  }
   const auto text = read_file(in);
   if (!text) return unusable(in);
   Result<Request> request = read_request(*text, config.limits);
-  if (request) request = in_form_of(*request, out);
+  if (request) request = in_form_of(*request, extension);
   if (!request) return refused(request.error());
   Job job(request->seed(), options_of(config));
   const Result<Product> product = produce(*request, job);

@@ -122,6 +122,15 @@ std::size_t lod_count(const Model& model) {
   return 1 + coarser;
 }
 
+/// "bark_LOD0" becomes "bark_LOD1" where the next level is written to a file of its own.
+void name_next_level(Model& model, std::size_t level) {
+  const std::string before = "_LOD" + std::to_string(level - 1), after = "_LOD" + std::to_string(level);
+  for (Node& node : model.nodes) {
+    if (!node.lods.empty() && node.name.ends_with(before))
+      node.name.replace(node.name.size() - before.size(), before.size(), after);
+  }
+}
+
 Payload write_zip(Model& model, Columns& columns, gltf::DocumentOptions options, Job& job) {
   const std::string stem = file_stem(model.name);
   options.image_uris = image_files(model);
@@ -131,6 +140,7 @@ Payload write_zip(Model& model, Columns& columns, gltf::DocumentOptions options,
   const std::size_t lods = lod_count(model);
   for (; options.lod < lods; ++options.lod) {
     options.last = options.lod + 1 == lods;
+    if (options.lod > 0) name_next_level(model, options.lod);
     Document document = gltf::describe(model, columns, options, job);
     images.insert(document.images.begin(), document.images.end());
     const std::string suffix = options.lod == 0 ? "" : "_LOD" + std::to_string(options.lod);

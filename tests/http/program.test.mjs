@@ -96,7 +96,7 @@ test('presets lists names, and prints one that generate takes', async () => {
 
 test('what is no usage is status 2', async () => {
   for (const args of [[], ['grow'], ['generate'], ['serve', '--colour', 'red'], ['serve', '--port'], ['generate', path.join(folder, 'missing.json')],
-    ['generate', folder], ['generate', file, '-o', path.join(folder, 'missing', 'a.glb')]]) {
+    ['generate', folder], ['generate', file, '-o', path.join(folder, 'a.foo')], ['generate', file, '-o', path.join(folder, 'missing', 'a.glb')]]) {
     const { status, err } = await run(program, args);
     assert.equal(status, 2, args.join(' '));
     assert.ok(err.length > 0, args.join(' '));

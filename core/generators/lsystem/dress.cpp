@@ -166,11 +166,12 @@ float size_of(const Skeleton& skeleton) {
 void warn_of_thin(Model& model, const Limbs& limbs, const LsystemParams& params) {
   const std::uint64_t count = too_thin(limbs, params.sides);
   if (count == 0 || count * worth_a_word < limbs.size()) return;
-  model.warnings.push_back({"/width",
-                            std::to_string(count) +
-                                " internodes are too thin beside the whole to be drawn as tubes and are left "
-                                "out; make them wider, or draw lines by `style`",
-                            0, 0});
+  model.warnings.push_back(
+      {"/width",
+       std::to_string(count) + (count == 1 ? " internode is" : " internodes are") +
+           " too thin beside the whole for a tube and left out; a greater `width`, or lines "
+           "by `style`, would show more",
+       0, 0});
 }
 
 }  // namespace

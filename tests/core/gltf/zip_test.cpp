@@ -128,6 +128,18 @@ TEST(ZipContainer, HasOneDocumentForEachLevelOfDetail) {
   EXPECT_THAT(meshes("oak_tree_LOD2.gltf"), ElementsAre("shape3_mesh", "shape1_mesh"));
 }
 
+TEST(ZipContainer, NamesNodesByTheLevelOfTheirFile) {
+  Model model = with_lods(job());
+  for (Node& node : model.nodes) {
+    if (!node.lods.empty()) node.name = "bark_LOD0";
+  }
+  const Unpacked unpacked = unpack(zip_of(std::move(model)).text());
+  for (const auto& [file, name] : {std::pair{"oak_tree.gltf", "bark_LOD0"},
+                                   {"oak_tree_LOD1.gltf", "bark_LOD1"},
+                                   {"oak_tree_LOD2.gltf", "bark_LOD2"}})
+    EXPECT_EQ(nlohmann::json::parse(unpacked.files.at(file))["nodes"][0]["name"], name);
+}
+
 TEST(ZipContainer, OfAnEmptyModelHasNoBuffer) {
   EXPECT_THAT(unpack(zip_of(Model{}).text()).names, ElementsAre("model.gltf"));
 }
