@@ -210,11 +210,20 @@ bool is_merged_as_a_row(const Appraisal& appraisal, const OutputParams& output) 
   return appraisal.estimate->bytes / bytes_of_copy * static_cast<std::uint64_t>(output.variants) > most_parts;
 }
 
+bool is_empty(const Model& model) {
+  return std::ranges::all_of(model.meshes, [](const MeshGroup& group) {
+    return std::ranges::all_of(group.primitives,
+                               [](const Primitive& each) { return each.mesh.elements() == 0; });
+  });
+}
+
 /// Pictures as the coarsest level where they are wanted; those that a scene has chosen in any case.
 std::optional<Issue> add_impostors(Model& model, const Request& request, Job& job) {
   const OutputParams& output = request.body().output;
   const int size = texture_size(output);
   const bool is_scene = request.body().generator->keeps_budget;
+  if (output.impostor && !is_scene && is_empty(model))
+    return Issue{"/output/impostor", "the model is empty, and no picture can take the place of nothing"};
   if (output.impostor && !is_scene && texture::add_impostor_levels(model, job) == 0) {
     return Issue{"/output/impostor",
                  "the model has no mesh that stands still by itself, which an impostor could take the place "
@@ -244,6 +253,10 @@ Result<Product> produce(const Request& request, Job& job, TextureStore* texture_
     const OutputParams& output = request.body().output;
     Result<Model> model = generate_all(request, job);
     if (!model) return std::move(model).error();
+    if (model->warnings.empty() && is_empty(*model)) {
+      model->warnings.push_back(
+          {"", "nothing is to be seen: the model has no triangles, lines or points", 0, 0});
+    }
     if (output.max_triangles) {
       const auto most = static_cast<std::uint64_t>(*output.max_triangles);
       const bool has_impostors = output.impostor && request.body().generator->keeps_budget;

@@ -243,6 +243,16 @@ TEST(Output, RefusesWhatAFormThatIsNoModelHasNoUseFor) {
                            "/output/instancing", "/output/tangents"));
 }
 
+TEST(Output, SaysSoWhereNothingIsToBeSeen) {
+  const Result<Request> seed = read_request(R"({"preset":"oak","parameters":{"age":0}})", Limits{});
+  ASSERT_TRUE(seed);
+  Job job(seed->seed(), Job::Options{});
+  const Result<Product> product = produce(*seed, job);
+  ASSERT_TRUE(product);
+  EXPECT_EQ(product->statistics.triangles, 0U);
+  EXPECT_EQ(product->statistics.warnings, 1U);
+}
+
 TEST(Output, SpeaksOfVariantsInTheEstimate) {
   const auto triangles = [](const std::string& output) {
     const Result<Request> request = read_request(request_of("hutsko_tree", output), Limits{});
