@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <glm/vec3.hpp>
 
 namespace seedmesh {
@@ -15,7 +16,11 @@ inline FourFloats chosen(FourFlags flags, FourFloats yes, FourFloats no) {
   return reinterpret_cast<FourFloats>((reinterpret_cast<FourFlags>(yes) & flags) |
                                       (reinterpret_cast<FourFlags>(no) & ~flags));
 }
-inline bool all_of(FourFlags flags) { return (flags[0] & flags[1] & flags[2] & flags[3]) != 0; }
+inline bool all_of(FourFlags flags) {
+  std::uint64_t halves[2];
+  std::memcpy(halves, &flags, sizeof(flags));
+  return (halves[0] & halves[1]) == ~std::uint64_t{0};
+}
 inline FourFloats root(FourFloats v) {
   return FourFloats{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
 }
@@ -32,6 +37,19 @@ struct Four {
     const glm::vec3 &a = from[0], &b = from[count > 1 ? 1 : 0], &c = from[count > 2 ? 2 : count - 1],
                     &d = from[count - 1];
     return {FourFloats{a.x, b.x, c.x, d.x}, FourFloats{a.y, b.y, c.y, d.y}, FourFloats{a.z, b.z, c.z, d.z}};
+  }
+  /// from[number[0]], from[number[3]], from[number[6]], from[number[9]]: a corner of each of four triangles.
+  /// Reads a float beyond each.
+  static Four picked(const glm::vec3* from, const std::uint32_t* number) {
+    static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+    FourFloats v[size];
+    for (std::size_t k = 0; k < size; ++k)
+      std::memcpy(&v[k], reinterpret_cast<const float*>(from) + std::size_t{3} * number[3 * k], sizeof(v[k]));
+    const FourFloats low = __builtin_shufflevector(v[0], v[1], 0, 4, 1, 5),
+                     more = __builtin_shufflevector(v[2], v[3], 0, 4, 1, 5);
+    return {__builtin_shufflevector(low, more, 0, 1, 4, 5), __builtin_shufflevector(low, more, 2, 3, 6, 7),
+            __builtin_shufflevector(__builtin_shufflevector(v[0], v[1], 2, 6, 3, 7),
+                                    __builtin_shufflevector(v[2], v[3], 2, 6, 3, 7), 0, 1, 4, 5)};
   }
   glm::vec3 at(std::size_t k) const { return {x[k], y[k], z[k]}; }
 };

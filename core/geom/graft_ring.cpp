@@ -51,7 +51,7 @@ float GraftWriter::ribbed(float angle) const {
 
 std::uint32_t GraftWriter::vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv,
                                   std::uint32_t group) {
-  if (vertices_ == mesh_.position.size()) make_room(vertices_ + vertices_ / 2 + 64);
+  if (vertices_ + 1 == mesh_.position.size()) make_room(vertices_ + vertices_ / 2 + 64);
   const std::size_t index = vertices_++;
   mesh_.position[index] = position + 0.0F;
   mesh_.normal[index] = normal + 0.0F;

@@ -226,6 +226,7 @@ void GraftWriter::plan_children(float start) {
 }
 
 void GraftWriter::begin_closed(bool is_root, std::uint32_t limb) {
+  is_at_loop_ = false;
   set_seam(0);
   const std::uint32_t head = context_.chains.head[limb];
   const std::uint64_t hash = key_at(context_.limbs.key.empty() ? head : context_.limbs.key[head], 0x0C10);
@@ -261,6 +262,7 @@ void GraftWriter::begin_closed(bool is_root, std::uint32_t limb) {
 
 void GraftWriter::begin_loop(const Loop& loop) {
   // The child's angles run the other way round than the phases of its loop.
+  is_at_loop_ = true;
   below_.clear();
   std::vector<const LoopVertex*>& order = loop_order_;
   order.clear();
@@ -281,6 +283,8 @@ void GraftWriter::begin_loop(const Loop& loop) {
 void GraftWriter::write_band(const Band& band) {
   near_piece_ = band.piece;
   stand_at(band.at);
+  const std::size_t first = mesh_.index.wide.size() / 3;
+  const bool is_at_loop = !band.openings.empty();
   if (band.openings.empty()) {
     plain_ring(plane_of(band), upper_);
     strip(below_, upper_);
@@ -288,6 +292,8 @@ void GraftWriter::write_band(const Band& band) {
     open_ring(plane_of(band), band);
     strip(below_, lower_);
   }
+  if (is_at_loop_ || is_at_loop) note_loop_triangles(first);
+  is_at_loop_ = is_at_loop;
   std::swap(below_, upper_);
   corners_ += below_.size();
   if (below_.size() > cached_corners) wide_corners_ += below_.size();
@@ -297,7 +303,18 @@ void GraftWriter::write_tip(float end_radius) {
   const glm::vec3 along = axis_.along.back();
   const std::uint32_t apex =
       vertex(axis_.point.back(), along, picture_at(end_radius, pi + seam_, axis_.length()), none);
+  const std::size_t first = mesh_.index.wide.size() / 3;
   for (std::size_t i = 0; i + 1 < below_.size(); ++i) triangle(below_[i].vertex, below_[i + 1].vertex, apex);
+  if (is_at_loop_) note_loop_triangles(first);
+}
+
+void GraftWriter::note_loop_triangles(std::size_t first) {
+  const std::size_t end = mesh_.index.wide.size() / 3;
+  const std::uint32_t* corner = mesh_.index.wide.data() + 3 * first;
+  for (std::size_t t = first; t < end; ++t, corner += 3) {
+    if ((group_[corner[0]] & group_[corner[1]] & group_[corner[2]]) != none)
+      loop_triangles_.push_back(static_cast<std::uint32_t>(t));
+  }
 }
 
 /// Triangles between two rings, by rising angle.

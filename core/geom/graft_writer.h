@@ -3,6 +3,7 @@
 /// children.
 #include <vector>
 
+#include "core/geom/four.h"
 #include "core/geom/graft.h"
 #include "core/geom/graft_plan.h"
 
@@ -95,7 +96,7 @@ class GraftWriter {
     bool is_fork = false;
   };
 
-  /// A face at a loop: its unit normal, and the groups of its corners or none.
+  /// A face at a loop: its unit normal, and the groups of its corners that have changed or none.
   struct LoopFace {
     glm::vec3 normal{0};
     std::uint32_t group[3] = {none, none, none};
@@ -104,6 +105,7 @@ class GraftWriter {
   /// A place in what is written.
   struct Place {
     std::uint32_t vertex = 0, triangle = 0, group = 0;
+    std::uint32_t loop_triangle = 0;
     std::uint32_t corners = 0, wide_corners = 0;
   };
   /// What belongs to a limb; `first_end`: of the triangles at the loop that it begins with.
@@ -123,14 +125,25 @@ class GraftWriter {
   void keep_limb(std::uint32_t limb, const Loop& then);
   void mark_touched();
   struct FaceBlock;
-  static void weigh(FaceBlock& block);
-  static void look_at(FaceBlock& block, float least_square);
+  static void measure(FaceBlock& block, const glm::vec3* position);
+  static void weigh(FaceBlock& block, std::size_t count);
+  bool is_first() const { return parent_.empty(); }
+  template <class Each>
+  void each_at_loops(std::size_t limb, const Each& each) const;
+  void add_loop_normals(std::size_t first_limb, std::size_t last_limb, std::vector<LoopFace>& faces);
+  void add_loop_faces(FaceBlock& block, std::size_t count, std::vector<LoopFace>& faces);
+  void join_loop_normals();
+  bool looks_away(const LoopFace& face, std::uint32_t group) const;
+  std::vector<LoopFace> strained_faces(const std::vector<std::vector<LoopFace>>& faces) const;
+  void ease_loop_normals(const std::vector<std::vector<LoopFace>>& faces);
+  void put_loop_normals(std::size_t limb);
+  FourFlags sound(const std::uint32_t* corner, float least_square) const;
+  void look_at(std::uint32_t first, std::uint32_t last, float least_square,
+               std::vector<std::uint32_t>& bad) const;
+  void find_bad(std::size_t limb, std::vector<std::uint32_t>& bad) const;
   bool blame(const std::uint32_t* corner, std::vector<Trust>& trust, bool is_late) const;
-  void add_loop_normals(std::vector<LoopFace>& faces);
-  void add_loop_face(const FaceBlock& block, std::size_t lane, const std::uint32_t* corner,
-                     std::vector<LoopFace>& faces);
-  void ease_loop_normals(const std::vector<LoopFace>& faces);
-  std::size_t judge(std::size_t limb, std::vector<Trust>& trust, bool is_late) const;
+  std::size_t take_blame(const std::vector<std::vector<std::uint32_t>>& bad, std::vector<Trust>& trust,
+                         bool is_late) const;
   void find_concerned();
   bool is_touched(const std::uint32_t* corner) const;
   std::uint32_t last_triangle(std::size_t limb) const;
@@ -163,6 +176,7 @@ class GraftWriter {
   void plain_ring(const Plane& plane, Corners& out);
   void open_ring(const Plane& plane, const Band& band);
   void strip(const Corners& below, const Corners& above);
+  void note_loop_triangles(std::size_t first);
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
   std::uint32_t vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv, std::uint32_t group);
   void mark_twin() { twin_[vertices_ - 1] = 1; }
@@ -170,12 +184,13 @@ class GraftWriter {
   Context context_;
   Job& job_;
   Meter triangles_;
-  Mesh mesh_;                 ///< with more room than `vertices_`
+  Mesh mesh_;                 ///< with more room than `vertices_`, so that all can be read as four floats
   std::size_t vertices_ = 0;  ///< that are written
   Array<std::uint32_t>
       group_;  ///< of each vertex; those on a loop share a normal: even the parent's, odd the child's
   Array<glm::vec3> group_normal_;
-  std::vector<std::uint32_t> group_limb_;  ///< the child of each pair of groups
+  std::vector<std::uint32_t> group_limb_;      ///< the child of each pair of groups
+  std::vector<std::uint32_t> loop_triangles_;  ///< those that touch a loop, rising
   std::vector<Range> range_;               ///< of each limb
   std::vector<Kind> kind_;                 ///< of each limb
   std::vector<std::uint32_t> parent_;      ///< of each limb; empty in the first round, where all are dirty
@@ -207,6 +222,7 @@ class GraftWriter {
   int least_sides_ = 3, loop_sides_ = 0;
   float turns_ = 0;             ///< of the picture round the limb, by a radian; 0: u is in metres
   std::uint32_t joint_ = none;  ///< what the vertices being written move with
+  bool is_at_loop_ = false;     ///< the ring `below_`
   std::size_t corners_ = 0, wide_corners_ = 0;
 };
 
