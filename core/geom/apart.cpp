@@ -81,9 +81,23 @@ class Bits {
   Bits(const Job& job, std::size_t count) : words_(job, count / 64, std::uint64_t{0}) {}
   bool has(std::uint32_t i) const { return (words_[i / 64] >> i % 64 & 1U) != 0; }
   void set(std::uint32_t i) { words_[i / 64] |= std::uint64_t{1} << i % 64; }
+  std::uint64_t& word(std::uint32_t i) { return words_[i / 64]; }
 
  private:
   Array<std::uint64_t> words_;
+};
+
+/// Cells that are taken, and those of them that are taken again.
+struct Taken {
+  Bits once, again;
+
+  /// `times` 0 or 1.
+  void take(std::uint32_t slot, std::uint64_t times) {
+    const std::uint64_t bit = times << slot % 64;
+    std::uint64_t& word = once.word(slot);
+    again.word(slot) |= word & bit;
+    word |= bit;
+  }
 };
 
 struct Member {
@@ -127,26 +141,30 @@ Array<std::uint8_t> near_others(std::span<const glm::vec3> points, std::span<con
   const Cells cells(box.min, cell, bits);
   Array<std::uint32_t> slot(job, points.size());
   cells.fill(points, slot.data());
-  // Cells that are taken, and those of them that are taken again.
-  Bits taken(job, std::size_t{1} << bits), shared(job, std::size_t{1} << bits);
-  const auto take = [&](std::uint32_t at, std::uint64_t) {
-    if (taken.has(at)) shared.set(at);
-    taken.set(at);
-  };
+  Taken taken{Bits(job, std::size_t{1} << bits), Bits(job, std::size_t{1} << bits)};
   job.check();
+  // Without branches that nobody can foresee: points are put on a list, and stay there if they belong to it.
+  Array<std::uint32_t> list(job, points.size());
+  std::size_t listed = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (twin[i]) continue;
-    if (slot[i] & at_border) {
-      cells.each(points[i], take);
-    } else {
-      take(slot[i], 0);
-    }
+    const std::uint32_t is_first = twin[i] ? 0 : 1, is_at_border = slot[i] >> 31U;
+    taken.take(slot[i] & ~at_border, is_first & ~is_at_border);
+    list[listed] = static_cast<std::uint32_t>(i);
+    listed += is_first & is_at_border;
+  }
+  for (std::size_t k = 0; k < listed; ++k)
+    cells.each(points[list[k]], [&](std::uint32_t at, std::uint64_t) { taken.take(at, 1); });
+  listed = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool is_first = !twin[i], may_share = taken.again.has(slot[i] & ~at_border),
+               is_at_border = (slot[i] & at_border) != 0;
+    list[listed] = static_cast<std::uint32_t>(i);
+    listed += (is_first & (may_share | is_at_border)) ? 1 : 0;
   }
   std::vector<Member> members;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (twin[i] || (!(slot[i] & at_border) && !shared.has(slot[i]))) continue;
-    cells.each(points[i], [&](std::uint32_t at, std::uint64_t number) {
-      if (shared.has(at)) members.push_back({number, static_cast<std::uint32_t>(i)});
+  for (std::size_t k = 0; k < listed; ++k) {
+    cells.each(points[list[k]], [&](std::uint32_t at, std::uint64_t number) {
+      if (taken.again.has(at)) members.push_back({number, list[k]});
     });
   }
   job.check();

@@ -28,9 +28,22 @@ inline FourFloats magnitude(FourFloats v) {
   return reinterpret_cast<FourFloats>(reinterpret_cast<FourFlags>(v) & 0x7FFFFFFF);
 }
 
+/// A vector of three in the first lanes.
+inline FourFloats spread_out(const glm::vec3& v) { return FourFloats{v.x, v.y, v.z, 0}; }
+inline FourFloats four_times(float value) { return FourFloats{value, value, value, value}; }
+
 struct Four {
   static constexpr std::size_t size = 4;
   FourFloats x, y, z;
+
+  /// The first lanes of four.
+  static Four of_rows(const FourFloats& a, const FourFloats& b, const FourFloats& c, const FourFloats& d) {
+    const FourFloats low = __builtin_shufflevector(a, b, 0, 4, 1, 5),
+                     more = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+    return {__builtin_shufflevector(low, more, 0, 1, 4, 5), __builtin_shufflevector(low, more, 2, 3, 6, 7),
+            __builtin_shufflevector(__builtin_shufflevector(a, b, 2, 6, 3, 7),
+                                    __builtin_shufflevector(c, d, 2, 6, 3, 7), 0, 1, 4, 5)};
+  }
 
   /// The first `count` (1..4) of `from`; the last fills the rest.
   static Four of(const glm::vec3* from, std::size_t count = size) {
@@ -45,13 +58,22 @@ struct Four {
     FourFloats v[size];
     for (std::size_t k = 0; k < size; ++k)
       std::memcpy(&v[k], reinterpret_cast<const float*>(from) + std::size_t{3} * number[3 * k], sizeof(v[k]));
-    const FourFloats low = __builtin_shufflevector(v[0], v[1], 0, 4, 1, 5),
-                     more = __builtin_shufflevector(v[2], v[3], 0, 4, 1, 5);
-    return {__builtin_shufflevector(low, more, 0, 1, 4, 5), __builtin_shufflevector(low, more, 2, 3, 6, 7),
-            __builtin_shufflevector(__builtin_shufflevector(v[0], v[1], 2, 6, 3, 7),
-                                    __builtin_shufflevector(v[2], v[3], 2, 6, 3, 7), 0, 1, 4, 5)};
+    return of_rows(v[0], v[1], v[2], v[3]);
   }
   glm::vec3 at(std::size_t k) const { return {x[k], y[k], z[k]}; }
+
+  /// All four, one behind another, without -0.
+  void write(glm::vec3* to) const {
+    const FourFloats xy = __builtin_shufflevector(x, y, 0, 4, 1, 5) + 0.0F,
+                     xy2 = __builtin_shufflevector(x, y, 2, 6, 3, 7) + 0.0F, third = z + 0.0F;
+    const FourFloats zx = __builtin_shufflevector(third, xy, 0, 6, 1, 1),
+                     zx2 = __builtin_shufflevector(third, xy2, 2, 6, 3, 3);
+    const FourFloats rows[3] = {
+        __builtin_shufflevector(xy, zx, 0, 1, 4, 5),
+        __builtin_shufflevector(__builtin_shufflevector(xy, third, 3, 5, 3, 5), xy2, 0, 1, 4, 5),
+        __builtin_shufflevector(zx2, xy2, 0, 1, 7, 2)};
+    std::memcpy(static_cast<void*>(to), rows, sizeof(rows));
+  }
 };
 
 inline FourFloats dot(const Four& a, const Four& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }

@@ -37,19 +37,24 @@ float turns_of(float radius) { return std::max(1.0F, std::floor(2 * pi * radius 
 
 float fraction(std::uint64_t hash) { return static_cast<float>(hash >> 40U) * 0x1p-24F; }
 
-std::vector<std::vector<glm::vec2>> circles_up_to(int most) {
-  std::vector<std::vector<glm::vec2>> circles(static_cast<std::size_t>(most) + 1);
+}  // namespace
+
+std::vector<GraftWriter::Circle> GraftWriter::circles_up_to(int most) {
+  std::vector<Circle> circles(static_cast<std::size_t>(most) + 1);
   for (int sides = 3; sides <= most; ++sides) {
+    Circle& circle = circles[static_cast<std::size_t>(sides)];
     for (int i = 0; i < sides; ++i) {
       const math::SinCos at = math::quick_sincos(2 * math::pi * i / sides);
-      circles[static_cast<std::size_t>(sides)].emplace_back(static_cast<float>(at.cos),
-                                                            static_cast<float>(at.sin));
+      circle.x.push_back(static_cast<float>(at.cos));
+      circle.y.push_back(static_cast<float>(at.sin));
+    }
+    for (std::size_t i = 0; i <= Four::size; ++i) {
+      circle.x.push_back(circle.x[i]);
+      circle.y.push_back(circle.y[i]);
     }
   }
   return circles;
 }
-
-}  // namespace
 
 GraftWriter::GraftWriter(const Context& context, Job& job)
     : context_(context),
@@ -163,7 +168,7 @@ void GraftWriter::write_limb(std::uint32_t limb) {
   const float middle = axis_.radius_at(0.5F * axis_.length(), axis_.piece_at(0.5F * axis_.length(), 0));
   const int sides = std::max(least_opened_sides, sides_for(middle));
   plan_.begin(start, tip, scale.apart,
-              bulge_share * (1 - circles_[static_cast<std::size_t>(2 * sides)][1].x));
+              bulge_share * (1 - circles_[static_cast<std::size_t>(2 * sides)].x[1]));
   if (context_.trust[limb] <= Trust::detached) plan_children(start);
   if (!plan_.opening.empty()) least_sides_ = least_opened_sides;
   plan_.complete(axis_, has_loop && sides_for(axis_.radius[0]) > 4, context_.options.pointed);

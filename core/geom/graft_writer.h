@@ -59,6 +59,15 @@ class GraftWriter {
   };
   using Corners = std::vector<Corner>;
 
+  /// Cosines and sines of corners all round, the first again at the end, and more up to blocks of four.
+  struct Circle {
+    std::vector<float> x, y;
+    glm::vec2 at(int corner) const {
+      return {x[static_cast<std::size_t>(corner)], y[static_cast<std::size_t>(corner)]};
+    }
+  };
+  static std::vector<Circle> circles_up_to(int most);
+
   /// The plane of a ring.
   struct Plane {
     glm::vec3 centre{0}, u{0}, v{0}, tangent{0};
@@ -118,6 +127,11 @@ class GraftWriter {
   enum class Kind : std::uint8_t { none, root, collar, fork, closed };
 
   void make_room(std::size_t vertices);
+  /// For `count` vertices more, and for those that blocks of four write behind the last.
+  void make_room_for(std::size_t count) {
+    if (vertices_ + count + Four::size > mesh_.position.size())
+      make_room(vertices_ + vertices_ / 2 + count + 64);
+  }
   void find_parents();
   void find_dirty();
   bool has_same_loop(const Loop& now, const Loop& then) const;
@@ -164,6 +178,7 @@ class GraftWriter {
   Plane plane_at(float at, std::size_t piece) const;
   int corners_for(float radius) const;
   int sides_for(float radius) const;
+  bool has_ribs() const { return axis_.order == 0 && context_.options.lobes != 0; }
   float ribbed(float angle) const;
   std::uint32_t ring_corner(const Plane& plane, float angle, glm::vec2 direction);
   glm::vec2 picture_at(float radius, float angle, float at) const;
@@ -174,6 +189,11 @@ class GraftWriter {
   std::uint32_t vertex_of(Mark& mark, const Plane& plane, bool is_beyond);
   void go_round(Corners& order, const Plane& plane, Corners& out);
   void plain_ring(const Plane& plane, Corners& out);
+  bool write_ring_block(const Plane& plane, const Circle& circle, std::size_t first, std::size_t sides);
+  glm::vec2 turned_to_seam(const glm::vec2& c) const {
+    return {c.x * seam_turn_.x - c.y * seam_turn_.y, c.x * seam_turn_.y + c.y * seam_turn_.x};
+  }
+  float picture_width(float radius) const { return turns_ > 0 ? turns_ : radius; }
   void open_ring(const Plane& plane, const Band& band);
   void strip(const Corners& below, const Corners& above);
   void note_loop_triangles(std::size_t first);
@@ -191,20 +211,20 @@ class GraftWriter {
   Array<glm::vec3> group_normal_;
   std::vector<std::uint32_t> group_limb_;      ///< the child of each pair of groups
   std::vector<std::uint32_t> loop_triangles_;  ///< those that touch a loop, rising
-  std::vector<Range> range_;               ///< of each limb
-  std::vector<Kind> kind_;                 ///< of each limb
-  std::vector<std::uint32_t> parent_;      ///< of each limb; empty in the first round, where all are dirty
-  std::vector<std::uint8_t> dirty_;        ///< limbs that were written in this round
-  std::vector<std::uint8_t> touched_;      ///< pairs of groups of a dirty limb
-  std::vector<Concern> concern_;           ///< of each limb
-  Array<std::uint32_t> joints_;            ///< as Written::joints
-  Array<std::uint8_t> twin_;               ///< as Written::twin
-  std::vector<Trust> trust_;               ///< as it was in the last round
+  std::vector<Range> range_;                   ///< of each limb
+  std::vector<Kind> kind_;                     ///< of each limb
+  std::vector<std::uint32_t> parent_;  ///< of each limb; empty in the first round, where all are dirty
+  std::vector<std::uint8_t> dirty_;    ///< limbs that were written in this round
+  std::vector<std::uint8_t> touched_;  ///< pairs of groups of a dirty limb
+  std::vector<Concern> concern_;       ///< of each limb
+  Array<std::uint32_t> joints_;        ///< as Written::joints
+  Array<std::uint8_t> twin_;           ///< as Written::twin
+  std::vector<Trust> trust_;           ///< as it was in the last round
   std::vector<std::uint32_t> first_child_, next_sibling_;
   std::vector<Loop> loops_;
   std::vector<LoopVertex> loop_vertices_;
-  std::vector<std::vector<glm::vec2>> circles_;  ///< corners by number
-  std::vector<float> corner_radius_;             ///< from which on a limb has 4, 5, ... corners
+  std::vector<Circle> circles_;       ///< by number of corners
+  std::vector<float> corner_radius_;  ///< from which on a limb has 4, 5, ... corners
   float thickest_ = 0;
 
   // Of the limb being written.

@@ -2,7 +2,8 @@
 /// together. Textures are kept from one request to the next, as the server keeps them. And how much memory
 /// big trees take beside their own size.
 ///
-///   tree_bench [preset [rounds [threads]]]: one preset alone, for a profiler; small: that of 20,000 triangles
+///   tree_bench [preset [rounds [threads]]]: one preset alone, for a profiler; small: that of 20,000
+///   triangles
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -45,7 +46,8 @@ void bench_tree(const std::string& name, const std::string& text, int rounds = 1
 /// Until the answer is there, on the wall.
 void bench_answer(const std::string& name, const std::string& text, int threads, int rounds) {
   const std::uint64_t triangles = triangles_of(text, threads);
-  const double seconds = bench::median_seconds<bench::WallClock>(rounds, [&] { triangles_of(text, threads); });
+  const double seconds =
+      bench::median_seconds<bench::WallClock>(rounds, [&] { triangles_of(text, threads); });
   bench::report("tree to GLB on the wall: " + name + ", threads " + std::to_string(threads), "triangles",
                 static_cast<double>(triangles), seconds);
 }
