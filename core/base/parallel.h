@@ -15,6 +15,9 @@ namespace seedmesh {
 void parallel_for(const Job& job, std::size_t count, std::size_t chunk,
                   const std::function<void(std::size_t begin, std::size_t end, std::size_t index)>& body);
 
+/// Does parallel_for use more than one thread here? For those who would rather do it otherwise on one.
+bool has_threads(const Job& job);
+
 constexpr std::size_t chunk_count(std::size_t count, std::size_t chunk) {
   return (count + chunk - 1) / chunk;
 }

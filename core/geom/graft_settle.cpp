@@ -95,7 +95,7 @@ void GraftWriter::each_at_loops(std::size_t limb, const Each& each) const {
   for (std::size_t i = range.begin.loop_triangle; i < range.end.loop_triangle; ++i) {
     const std::uint32_t triangle = loop_triangles_[i];
     if (triangle >= end) break;
-    if (is_first() || is_touched(mesh_.index.wide.data() + std::size_t{3} * triangle)) each(triangle);
+    if (is_first_ || is_touched(mesh_.index.wide.data() + std::size_t{3} * triangle)) each(triangle);
   }
 }
 
