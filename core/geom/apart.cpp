@@ -168,6 +168,7 @@ Array<std::uint8_t> near_others(std::span<const glm::vec3> points, std::span<con
     });
   }
   job.check();
+  if (members.empty()) return found;
   Bits near(job, std::size_t{1} << bits);
   bool any = false;
   find_near(members, points, reach, [&](std::uint32_t point) {

@@ -18,9 +18,9 @@ namespace {
 
 // Entries of the smallest vertex caches in use.
 constexpr unsigned cache_entries = 16;
-// Floats that are looked through at once for -0.
 constexpr std::size_t many_meshes = 16;
-constexpr std::size_t float_chunk = std::size_t{1} << 16U;
+// Floats that are looked through at once for -0; a small mesh has fewer positions than so many times that.
+constexpr std::size_t float_chunk = std::size_t{1} << 16U, small_mesh = 4;
 
 // What Godot makes of a node whose name ends so after '-', '_' or '$': a collision body, a rigid body,
 // nothing at all.
@@ -198,8 +198,12 @@ void finish(Model& model, Job& job) {
   for (MeshGroup& group : model.meshes) {
     for (Primitive& primitive : group.primitives) meshes.push_back(&primitive.mesh);
   }
-  // Many meshes side by side; of few, each by all threads.
-  const std::size_t together = meshes.size() >= many_meshes ? 1 : std::max<std::size_t>(1, meshes.size());
+  // Many meshes side by side, and small ones; of a few great ones, each by all threads.
+  const bool is_small = std::all_of(meshes.begin(), meshes.end(), [](const Mesh* mesh) {
+    return 3 * mesh->position.size() < small_mesh * float_chunk;
+  });
+  const std::size_t together =
+      is_small || meshes.size() >= many_meshes ? 1 : std::max<std::size_t>(1, meshes.size());
   parallel_for(job, meshes.size(), together, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) finish(*meshes[i], job);
   });

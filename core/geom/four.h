@@ -51,14 +51,18 @@ struct Four {
                     &d = from[count - 1];
     return {FourFloats{a.x, b.x, c.x, d.x}, FourFloats{a.y, b.y, c.y, d.y}, FourFloats{a.z, b.z, c.z, d.z}};
   }
+  /// One vector in the first lanes; reads a float beyond it.
+  static FourFloats row(const glm::vec3* from) {
+    static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+    FourFloats v;
+    std::memcpy(&v, reinterpret_cast<const float*>(from), sizeof(v));
+    return v;
+  }
   /// from[number[0]], from[number[3]], from[number[6]], from[number[9]]: a corner of each of four triangles.
   /// Reads a float beyond each.
   static Four picked(const glm::vec3* from, const std::uint32_t* number) {
-    static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
-    FourFloats v[size];
-    for (std::size_t k = 0; k < size; ++k)
-      std::memcpy(&v[k], reinterpret_cast<const float*>(from) + std::size_t{3} * number[3 * k], sizeof(v[k]));
-    return of_rows(v[0], v[1], v[2], v[3]);
+    return of_rows(row(from + number[0]), row(from + number[3]), row(from + number[6]),
+                   row(from + number[9]));
   }
   glm::vec3 at(std::size_t k) const { return {x[k], y[k], z[k]}; }
 

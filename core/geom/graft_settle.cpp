@@ -105,6 +105,8 @@ void GraftWriter::add_loop_normals(std::size_t first_limb, std::size_t last_limb
                                    std::vector<LoopFace>& faces) {
   FaceBlock block;
   std::size_t count = 0;
+  if (is_first_)
+    faces.reserve(range_[last_limb - 1].end.loop_triangle - range_[first_limb].begin.loop_triangle);
   for (std::size_t limb = first_limb; limb < last_limb; ++limb) {
     each_at_loops(limb, [&](std::uint32_t triangle) {
       const std::uint32_t* corner = mesh_.index.wide.data() + std::size_t{3} * triangle;
@@ -148,50 +150,56 @@ void GraftWriter::add_loop_faces(FaceBlock& block, std::size_t count, std::vecto
   }
 }
 
-/// Are four faces sound, which look along the normals at their corners?
-FourFlags GraftWriter::sound(const std::uint32_t* corner, float least_square) const {
-  constexpr float flattest = least_cosine * least_cosine;
-  const glm::vec3* position = mesh_.position.data();
-  const Four a = Four::picked(position, corner);
-  const Four normal = cross(difference(Four::picked(position, corner + 1), a),
+/// Faces with these corners, four at once, which look along their normals.
+struct GraftWriter::Faces {
+  const glm::vec3 *position, *normal;
+  float least_square;
+
+  FourFlags sound(const std::uint32_t* corner) const {
+    constexpr float flattest = least_cosine * least_cosine;
+    const Four a = Four::picked(position, corner);
+    const Four face = cross(difference(Four::picked(position, corner + 1), a),
                             difference(Four::picked(position, corner + 2), a));
-  const FourFloats size = dot(normal, normal), least = flattest * size;
-  FourFlags flags = size > least_square;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const FourFloats over = dot(normal, Four::picked(mesh_.normal.data(), corner + k));
-    flags &= (over > 0.0F) & (over * over > least);
+    const FourFloats size = dot(face, face), least = flattest * size;
+    FourFlags flags = size > least_square;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const FourFloats over = dot(face, Four::picked(normal, corner + k));
+      flags &= (over > 0.0F) & (over * over > least);
+    }
+    return flags;
   }
-  return flags;
+};
+
+/// How many of `count` faces come before the first four that are not all sound.
+SEEDMESH_WIDE std::size_t GraftWriter::sound_faces(const Faces& faces, const std::uint32_t* corner,
+                                                   std::size_t count) {
+  std::size_t sound = 0;
+  while (sound + Four::size <= count && all_of(faces.sound(corner + 3 * sound))) sound += Four::size;
+  return sound;
 }
 
 /// Adds to `bad` what is wrong of the triangles `first` to `last - 1`.
-SEEDMESH_WIDE void GraftWriter::look_at(std::uint32_t first, std::uint32_t last, float least_square,
-                                        std::vector<std::uint32_t>& bad) const {
+void GraftWriter::look_at(std::uint32_t first, std::uint32_t last, std::vector<std::uint32_t>& bad) const {
+  const float least = 2 * least_area * context_.scale.size * context_.scale.size;
+  const Faces faces{mesh_.position.data(), mesh_.normal.data(), least * least};
   const std::uint32_t* index = mesh_.index.wide.data();
-  std::uint32_t t = first;
-  for (; t + Four::size <= last; t += static_cast<std::uint32_t>(Four::size)) {
-    const FourFlags flags = sound(index + std::size_t{3} * t, least_square);
-    if (all_of(flags)) continue;
-    for (std::uint32_t l = 0; l < Four::size; ++l) {
-      if (!flags[l]) bad.push_back(t + l);
+  for (std::uint32_t t = first; t < last;) {
+    t += static_cast<std::uint32_t>(sound_faces(faces, index + std::size_t{3} * t, last - t));
+    const std::uint32_t end = std::min(last, t + static_cast<std::uint32_t>(Four::size));
+    std::uint32_t corner[3 * Four::size];
+    for (std::uint32_t l = 0; t < end && l < Four::size; ++l)
+      std::copy_n(index + std::size_t{3} * std::min(t + l, end - 1), 3, corner + 3 * l);
+    const FourFlags flags = t < end ? faces.sound(corner) : FourFlags{};
+    for (const std::uint32_t begin = t; t < end; ++t) {
+      if (!flags[t - begin]) bad.push_back(t);
     }
-  }
-  std::uint32_t corner[3 * Four::size];
-  for (std::uint32_t l = 0; l < Four::size && t < last; ++l)
-    std::copy_n(index + std::size_t{3} * std::min(t + l, last - 1), 3, corner + 3 * l);
-  if (t == last) return;
-  const FourFlags flags = sound(corner, least_square);
-  for (std::uint32_t l = 0; l < last - t; ++l) {
-    if (!flags[l]) bad.push_back(t + l);
   }
 }
 
 /// The triangles of a limb that are bad, as far as something has changed for them.
 void GraftWriter::find_bad(std::size_t limb, std::vector<std::uint32_t>& bad) const {
-  const float least = 2 * least_area * context_.scale.size * context_.scale.size;
-  const std::uint32_t end = last_triangle(limb);
-  if (dirty_[limb]) return look_at(range_[limb].begin.triangle, end, least * least, bad);
-  each_at_loops(limb, [&](std::uint32_t triangle) { look_at(triangle, triangle + 1, least * least, bad); });
+  if (dirty_[limb]) return look_at(range_[limb].begin.triangle, last_triangle(limb), bad);
+  each_at_loops(limb, [&](std::uint32_t triangle) { look_at(triangle, triangle + 1, bad); });
 }
 
 /// A bad face is the fault of the openings that it touches. False: it touches none.

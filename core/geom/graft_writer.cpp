@@ -5,6 +5,7 @@
 
 #include "core/base/quick_math.h"
 #include "core/base/rng.h"
+#include "core/base/wide.h"
 
 namespace seedmesh {
 namespace {
@@ -347,29 +348,34 @@ void GraftWriter::note_loop_triangles(std::size_t first) {
 
 /// Triangles between two rings, by rising angle.
 void GraftWriter::strip(const Corners& below, const Corners& above) {
-  const std::size_t last_below = below.size() - 1, last_above = above.size() - 1;
-  const glm::vec3* position = mesh_.position.data();
-  count_triangles(last_below + last_above);
-  std::uint32_t* out = mesh_.index.wide.extend(3 * (last_below + last_above));
-  const auto apart = [&](const Corner& a, const Corner& b) {
-    const glm::vec3 between = position[a.vertex] - position[b.vertex];
-    return glm::dot(between, between);
+  const std::size_t count = below.size() + above.size() - 2;
+  count_triangles(count);
+  write_strip(below, above, mesh_.position.data(), mesh_.index.wide.extend(3 * count));
+}
+
+SEEDMESH_WIDE void GraftWriter::write_strip(const Corners& below, const Corners& above,
+                                            const glm::vec3* position, std::uint32_t* out) {
+  const Corner *a = below.data(), *b = above.data();
+  const Corner *const last_a = a + below.size() - 1, *const last_b = b + above.size() - 1;
+  const auto apart = [&](const Corner& one, const Corner& other) {
+    const FourFloats between = Four::row(position + one.vertex) - Four::row(position + other.vertex);
+    const FourFloats squares = between * between;
+    return squares[0] + squares[1] + squares[2];
   };
-  for (std::size_t i = 0, j = 0; i < last_below || j < last_above; out += 3) {
-    const Corner &a = below[i], &b = above[j];
-    const Corner &next_a = below[std::min(i + 1, last_below)], &next_b = above[std::min(j + 1, last_above)];
+  for (; a < last_a || b < last_b; out += 3) {
+    const Corner &next_a = a[a < last_a ? 1 : 0], &next_b = b[b < last_b ? 1 : 0];
     // The shorter diagonal, unless one side has fallen far behind. Chosen, not branched to: nobody can
     // foresee which it is.
     const float lead = next_a.angle - next_b.angle;
-    const bool is_shorter = apart(next_a, b) < apart(a, next_b);
+    const bool is_shorter = apart(next_a, *b) < apart(*a, next_b);
     const bool is_behind = lead<0, is_far = std::abs(lead)> most_lead;
     const bool is_next = (is_far & is_behind) | (!is_far & is_shorter);
-    const bool take_below = (j == last_above) | ((i < last_below) & is_next);
-    out[0] = a.vertex;
+    const bool take_below = (b == last_b) | ((a < last_a) & is_next);
+    out[0] = a->vertex;
     out[1] = take_below ? next_a.vertex : next_b.vertex;
-    out[2] = b.vertex;
-    i += take_below ? 1 : 0;
-    j += take_below ? 0 : 1;
+    out[2] = b->vertex;
+    a += take_below ? 1 : 0;
+    b += take_below ? 0 : 1;
   }
 }
 

@@ -188,9 +188,9 @@ class GraftWriter {
   std::vector<LoopFace> strained_faces(const std::vector<std::vector<LoopFace>>& faces) const;
   void ease_loop_normals(const std::vector<std::vector<LoopFace>>& faces);
   void put_loop_normals(std::size_t limb);
-  FourFlags sound(const std::uint32_t* corner, float least_square) const;
-  void look_at(std::uint32_t first, std::uint32_t last, float least_square,
-               std::vector<std::uint32_t>& bad) const;
+  struct Faces;
+  static std::size_t sound_faces(const Faces& faces, const std::uint32_t* corner, std::size_t count);
+  void look_at(std::uint32_t first, std::uint32_t last, std::vector<std::uint32_t>& bad) const;
   void find_bad(std::size_t limb, std::vector<std::uint32_t>& bad) const;
   bool blame(const std::uint32_t* corner, std::vector<Trust>& trust, bool is_late) const;
   std::size_t take_blame(const std::vector<std::vector<std::uint32_t>>& bad, std::vector<Trust>& trust,
@@ -233,6 +233,8 @@ class GraftWriter {
   float picture_width(float radius) const { return turns_ > 0 ? turns_ : radius; }
   void open_ring(const Plane& plane, const Band& band);
   void strip(const Corners& below, const Corners& above);
+  static void write_strip(const Corners& below, const Corners& above, const glm::vec3* position,
+                          std::uint32_t* out);
   void note_loop_triangles(std::size_t first);
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
   std::uint32_t vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv, std::uint32_t group);

@@ -10,6 +10,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/quick_math.h"
+#include "core/base/wide.h"
 #include "core/geom/four.h"
 #include "core/geom/piece_tangents.h"
 #include "core/geom/repeats.h"
@@ -42,7 +43,7 @@ glm::vec4 tangent_of(const glm::vec3& normal, const Sums& sums) {
 }
 
 /// tangent_of() four vertices at once; false: one of them has no direction of its own.
-bool write_four(const glm::vec3* normals, const Sums* sums, glm::vec4* out) {
+SEEDMESH_WIDE bool write_four(const glm::vec3* normals, const Sums* sums, glm::vec4* out) {
   const Four n = Four::of(normals), u = Four::of_rows(sums[0].u, sums[1].u, sums[2].u, sums[3].u),
              v = Four::of_rows(sums[0].v, sums[1].v, sums[2].v, sums[3].v);
   const Four flat = difference(u, scaled(n, dot(n, u)));
@@ -73,16 +74,21 @@ struct Piece {
   std::size_t first = 0;
 };
 
+/// A vertex of a mesh in the first three lanes; of all but the last the next float is read too.
+FourFloats vertex_of(const Mesh& mesh, std::size_t i) {
+  const glm::vec3* from = mesh.position.data() + i;
+  return i + 1 == mesh.position.size() ? spread_out(*from) : Four::row(from);
+}
+
 template <class Index>
-void sum_up(const Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>& uv, std::span<Sums> sums) {
-  const glm::vec3* position = mesh.position.data();
+void sum_all(const Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>& uv, std::span<Sums> sums) {
   for (std::size_t i = 0; i + 2 < piece.index.size(); i += 3) {
     const Index corner[3] = {piece.index[i], piece.index[i + 1], piece.index[i + 2]};
     const glm::vec2 s = uv[corner[1]] - uv[corner[0]], t = uv[corner[2]] - uv[corner[0]];
     const float area = s.x * t.y - s.y * t.x;
     if (area == 0) continue;
-    const FourFloats from = spread_out(position[corner[0]]), a = spread_out(position[corner[1]]) - from,
-                     b = spread_out(position[corner[2]]) - from;
+    const FourFloats from = vertex_of(mesh, corner[0]), a = vertex_of(mesh, corner[1]) - from,
+                     b = vertex_of(mesh, corner[2]) - from;
     // Not divided by the area in the picture but by its sign: large triangles count more.
     const float sign = area < 0 ? -1.0F : 1.0F;
     const FourFloats along_u = (a * t.y - b * s.y) * sign, along_v = (b * s.x - a * t.x) * sign;
@@ -91,6 +97,15 @@ void sum_up(const Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>&
       sums[k - piece.first].v += along_v;
     }
   }
+}
+
+SEEDMESH_WIDE void sum_up(const Mesh& mesh, const Piece<std::uint16_t>& piece, const Array<glm::vec2>& uv,
+                          std::span<Sums> sums) {
+  sum_all(mesh, piece, uv, sums);
+}
+SEEDMESH_WIDE void sum_up(const Mesh& mesh, const Piece<std::uint32_t>& piece, const Array<glm::vec2>& uv,
+                          std::span<Sums> sums) {
+  sum_all(mesh, piece, uv, sums);
 }
 
 /// The tangents of `vertices` vertices that no triangle shares with others; `sums` has room for them.

@@ -138,11 +138,11 @@ void fit_leaves(Organs& organs, const TreeParams& params, const Job& job) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < organs.organ.size(); ++i) {
     if (i % 4096 == 0) job.check();
-    Organ organ = organs.organ[i];
-    if (!is_drawn(organ.key, density)) continue;
-    const float width = organ.scale.x * size / across, length = organ.scale.y * size;
-    organ.scale = {width, length, is_round ? width : length};
-    organs.organ[kept++] = organ;
+    if (!is_drawn(organs.organ[i].key, density)) continue;
+    if (kept < i) organs.organ[kept] = organs.organ[i];
+    glm::vec3& scale = organs.organ[kept++].scale;
+    const float width = scale.x * size / across, length = scale.y * size;
+    scale = {width, length, is_round ? width : length};
   }
   organs.organ.resize(kept);
 }
