@@ -1,10 +1,10 @@
 #include "core/base/parallel.h"
 
 #include <algorithm>
+#include <exception>
 
 #if defined(SEEDMESH_STD_THREADS)
 #include <atomic>
-#include <exception>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -65,6 +65,24 @@ class InAChunk {
 };
 
 }  // namespace
+
+void run_both(const Job& job, const std::function<void()>& one, const std::function<void()>& other) {
+  if (!has_threads(job)) {
+    one();
+    return other();
+  }
+  std::exception_ptr failures[2];
+  run(job.threads(), 2, [&](std::size_t i) {
+    try {
+      (i == 0 ? one : other)();
+    } catch (...) {
+      failures[i] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
+}
 
 bool has_threads(const Job& job) { return job.threads() > 1 && !in_a_chunk; }
 

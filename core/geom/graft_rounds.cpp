@@ -47,29 +47,13 @@ void GraftWriter::find_dirty() {
     dirty_[i] = 1;
     if (parent_[i] != none) dirty_[parent_[i]] = 1;
   }
-  trust_ = context_.trust;
-}
-
-/// Behind what is there.
-void GraftWriter::write_anew(std::uint32_t limb) {
-  Range& range = range_[limb];
-  kind_[limb] = Kind::none;
-  range.begin = here();
-  range.first_end = range.begin.triangle;
-  if (context_.trust[limb] != Trust::none) write_limb(limb);
-  range.end = here();
 }
 
 void GraftWriter::write_round() {
-  is_first_ = trust_.empty();
-  if (is_first_) {
-    trust_ = context_.trust;
-    if (write_side_by_side()) return;
-    begin_mesh(context_.limbs.size());
-  } else {
-    find_dirty();
-  }
-  const std::vector<Loop> then = is_first_ ? std::vector<Loop>{} : loops_;
+  const bool is_first = trust_.empty();
+  if (!is_first) find_dirty();
+  trust_ = context_.trust;
+  const std::vector<Loop> then = is_first ? std::vector<Loop>{} : loops_;
   for (std::size_t i = 0; i < range_.size(); ++i) {
     const auto limb = static_cast<std::uint32_t>(i);
     if (i % 64 == 0) job_.check();
@@ -80,10 +64,13 @@ void GraftWriter::write_round() {
       }
       dirty_[i] = 1;
     }
-    if (!is_first_) forget_loops(range_[i]);
-    write_anew(limb);
+    if (!is_first) forget_loops(range_[i]);
+    kind_[i] = Kind::none;
+    range_[i].begin = here();
+    range_[i].first_end = range_[i].begin.triangle;
+    if (trust_[i] != Trust::none) write_limb(limb);
+    range_[i].end = here();
   }
-  spend_triangles();
 }
 
 bool GraftWriter::has_same_loop(const Loop& now, const Loop& then) const {

@@ -95,7 +95,7 @@ void GraftWriter::each_at_loops(std::size_t limb, const Each& each) const {
   for (std::size_t i = range.begin.loop_triangle; i < range.end.loop_triangle; ++i) {
     const std::uint32_t triangle = loop_triangles_[i];
     if (triangle >= end) break;
-    if (is_first_ || is_touched(mesh_.index.wide.data() + std::size_t{3} * triangle)) each(triangle);
+    if (is_first() || is_touched(mesh_.index.wide.data() + std::size_t{3} * triangle)) each(triangle);
   }
 }
 
@@ -105,7 +105,7 @@ void GraftWriter::add_loop_normals(std::size_t first_limb, std::size_t last_limb
                                    std::vector<LoopFace>& faces) {
   FaceBlock block;
   std::size_t count = 0;
-  if (is_first_)
+  if (is_first())
     faces.reserve(range_[last_limb - 1].end.loop_triangle - range_[first_limb].begin.loop_triangle);
   for (std::size_t limb = first_limb; limb < last_limb; ++limb) {
     each_at_loops(limb, [&](std::uint32_t triangle) {

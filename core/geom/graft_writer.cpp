@@ -30,7 +30,6 @@ constexpr float least_opened = 3;
 // What is reserved at first: most trees of fine twigs need about as much, and small ones of thick limbs twice
 // that.
 constexpr std::size_t vertices_a_joint = 4, triangles_a_joint = 5, more_vertices = std::size_t{1} << 15U;
-constexpr std::uint64_t triangles_at_once = 4096;
 // Of a ring that a vertex cache of 16 entries still holds when the next ring needs it.
 constexpr std::size_t cached_corners = 13;
 
@@ -61,62 +60,41 @@ std::vector<GraftWriter::Circle> GraftWriter::circles_up_to(int most) {
 GraftWriter::GraftWriter(const Context& context, Job& job)
     : context_(context),
       job_(job),
-      tables_(std::make_shared<Tables>()),
+      triangles_(job, Resource::triangles),
       group_(job),
       group_normal_(job),
-      range_(tables_->range),
-      kind_(tables_->kind),
       joints_(job),
-      twin_(job),
-      loops_(tables_->loops),
-      circles_(tables_->circles) {
+      twin_(job) {
   const Limbs& limbs = context.limbs;
-  float thickest = 0;
+  mesh_.position = Array<glm::vec3>(job);
+  mesh_.normal = Array<glm::vec3>(job);
+  mesh_.uv[0] = Array<glm::vec2>(job);
+  mesh_.index.wide = Array<std::uint32_t>(job);
+  const std::size_t more = std::min(more_vertices, vertices_a_joint * limbs.size());
+  make_room(vertices_a_joint * limbs.size() + more + 64);
+  mesh_.index.wide.reserve(3 * (triangles_a_joint * limbs.size() + more + more / 2));
   for (std::size_t i = 0; i < limbs.size(); ++i) {
-    if (limbs.parent[i] != Limbs::none) thickest = std::max(thickest, limbs.base_radius[i]);
+    if (limbs.parent[i] != Limbs::none) thickest_ = std::max(thickest_, limbs.base_radius[i]);
   }
   const std::size_t count = context.chains.head.size();
-  tables_->circles = circles_up_to(
+  circles_ = circles_up_to(
       2 * std::max({least_opened_sides, context.options.sides, corners_a_rib * context.options.lobes}));
   for (int corners = 4; corners <= context.options.sides; ++corners) {
     const double share = math::pow((corners - 0.5) / context.options.sides, 1 / corner_power);
-    tables_->corner_radius.push_back(thickest * static_cast<float>(share));
+    corner_radius_.push_back(thickest_ * static_cast<float>(share));
   }
   loops_.resize(count);
   range_.resize(count);
   kind_.assign(count, Kind::none);
   dirty_.assign(count, 1);
-  std::vector<std::uint32_t>&first_child = tables_->first_child, &next_sibling = tables_->next_sibling;
-  first_child.assign(limbs.size(), none);
-  next_sibling.assign(count, none);
+  first_child_.assign(limbs.size(), none);
+  next_sibling_.assign(count, none);
   for (std::size_t i = count; i-- > 0;) {
     const std::uint32_t parent = limbs.parent[context.chains.head[i]];
     if (parent == Limbs::none) continue;
-    next_sibling[i] = first_child[parent];
-    first_child[parent] = static_cast<std::uint32_t>(i);
+    next_sibling_[i] = first_child_[parent];
+    first_child_[parent] = static_cast<std::uint32_t>(i);
   }
-}
-
-/// Empty arrays with room for what so many joints are likely to need.
-void GraftWriter::begin_mesh(std::size_t joints) {
-  mesh_.position = Array<glm::vec3>(job_);
-  mesh_.normal = Array<glm::vec3>(job_);
-  mesh_.uv[0] = Array<glm::vec2>(job_);
-  mesh_.index.wide = Array<std::uint32_t>(job_);
-  const std::size_t more = std::min(more_vertices, vertices_a_joint * joints);
-  make_room(vertices_a_joint * joints + more + 64);
-  mesh_.index.wide.reserve(3 * (triangles_a_joint * joints + more + more / 2));
-}
-
-/// So many at once that it takes no time.
-void GraftWriter::count_triangles(std::size_t more) {
-  unspent_ += more;
-  if (unspent_ >= triangles_at_once) spend_triangles();
-}
-
-void GraftWriter::spend_triangles() {
-  if (unspent_ > 0) job_.spend(Resource::triangles, unspent_);
-  unspent_ = 0;
 }
 
 /// Makes room for so many vertices; what is beyond `vertices_` is not written yet.
@@ -131,9 +109,8 @@ void GraftWriter::make_room(std::size_t vertices) {
 
 /// Three, or an even number, so that rings of different limbs meet corner to corner.
 int GraftWriter::corners_for(float radius) const {
-  const std::vector<float>& radii = tables_->corner_radius;
-  const auto least = std::upper_bound(radii.begin(), radii.end(), radius);
-  const int wanted = 3 + static_cast<int>(least - radii.begin());
+  const auto least = std::upper_bound(corner_radius_.begin(), corner_radius_.end(), radius);
+  const int wanted = 3 + static_cast<int>(least - corner_radius_.begin());
   return wanted <= 3 || wanted == context_.options.sides ? std::max(3, wanted) : wanted + wanted % 2;
 }
 
@@ -234,8 +211,8 @@ void GraftWriter::plan_children(float start) {
   wishes_.clear();
   for (std::size_t point = 1; point + 1 < axis_.point.size(); ++point) {
     if (axis_.at[point] <= start) continue;
-    for (std::uint32_t child = tables_->first_child[axis_.joint[point]]; child != none;
-         child = tables_->next_sibling[child]) {
+    for (std::uint32_t child = first_child_[axis_.joint[point]]; child != none;
+         child = next_sibling_[child]) {
       if (context_.trust[child] != Trust::full) continue;
       Bud bud = bud_of(child);
       if (bud.length == 0 || bud.radius < least_opened * context_.scale.thinnest ||
@@ -349,7 +326,7 @@ void GraftWriter::note_loop_triangles(std::size_t first) {
 /// Triangles between two rings, by rising angle.
 void GraftWriter::strip(const Corners& below, const Corners& above) {
   const std::size_t count = below.size() + above.size() - 2;
-  count_triangles(count);
+  triangles_.spend(count);
   write_strip(below, above, mesh_.position.data(), mesh_.index.wide.extend(3 * count));
 }
 
@@ -380,7 +357,7 @@ SEEDMESH_WIDE void GraftWriter::write_strip(const Corners& below, const Corners&
 }
 
 void GraftWriter::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  count_triangles(1);
+  triangles_.spend();
   std::uint32_t* out = mesh_.index.wide.extend(3);
   out[0] = a;
   out[1] = b;

@@ -1,8 +1,6 @@
 #pragma once
 /// Writes the limbs of graft() in order, parents first: rings, the triangles between them, loops for the
 /// children.
-#include <memory>
-#include <span>
 #include <vector>
 
 #include "core/geom/four.h"
@@ -28,8 +26,6 @@ class GraftWriter {
     const std::vector<Trust>& trust;
   };
   GraftWriter(const Context& context, Job& job);
-  GraftWriter(const GraftWriter&) = delete;
-  GraftWriter& operator=(const GraftWriter&) = delete;
 
   /// Writes all limbs; the second time and on, those for which something has changed since, behind what is
   /// there.
@@ -130,40 +126,6 @@ class GraftWriter {
   enum class Concern : std::uint8_t { nothing, loop, all };
   enum class Kind : std::uint8_t { none, root, collar, fork, closed };
 
-  /// What all strands know, and what they note of limbs, each of its own.
-  struct Tables {
-    std::vector<std::uint32_t> first_child, next_sibling;
-    std::vector<Circle> circles;       ///< by number of corners
-    std::vector<float> corner_radius;  ///< from which on a limb has 4, 5, ... corners
-    std::vector<Loop> loops;           ///< of each limb
-    std::vector<Range> range;
-    std::vector<Kind> kind;
-  };
-  /// Limbs that are written one behind another; those of strand 0 before those of the others, which they
-  /// bear.
-  struct Strands {
-    std::vector<std::vector<std::uint32_t>> limbs;
-    std::vector<std::uint32_t> of;  ///< of each limb
-  };
-  /// Where the numbers of a strand begin when it joins the others, less where they began before.
-  struct Shift {
-    std::uint32_t group = 0, loop_vertex = 0;
-  };
-  struct OfStrand {};
-  /// Of another strand, with the loops that `trunk` has made.
-  GraftWriter(const GraftWriter& trunk, OfStrand);
-  Strands strands() const;
-  bool write_side_by_side();
-  void join(const Strands& strands, const std::vector<std::unique_ptr<GraftWriter>>& writers);
-  std::vector<Range> joined_ranges(const std::vector<Shift>& shifts, const Strands& strands) const;
-  std::vector<Shift> append_loops(const std::vector<std::unique_ptr<GraftWriter>>& writers);
-  void copy_limb(const GraftWriter& from, const Range& then, const Range& now, std::uint32_t group_shift,
-                 std::uint32_t first_group);
-  void write_limbs(std::span<const std::uint32_t> limbs);
-  void write_anew(std::uint32_t limb);
-  void begin_mesh(std::size_t joints);
-  void count_triangles(std::size_t more);
-  void spend_triangles();
   void make_room(std::size_t vertices);
   /// For `count` vertices more, and for those that blocks of four write behind the last.
   void make_room_for(std::size_t count) {
@@ -179,6 +141,7 @@ class GraftWriter {
   struct FaceBlock;
   static void measure(FaceBlock& block, const glm::vec3* position);
   static void weigh(FaceBlock& block, std::size_t count);
+  bool is_first() const { return parent_.empty(); }
   template <class Each>
   void each_at_loops(std::size_t limb, const Each& each) const;
   void add_loop_normals(std::size_t first_limb, std::size_t last_limb, std::vector<LoopFace>& faces);
@@ -242,8 +205,7 @@ class GraftWriter {
 
   Context context_;
   Job& job_;
-  std::uint64_t unspent_ = 0;  ///< triangles
-  std::shared_ptr<Tables> tables_;
+  Meter triangles_;
   Mesh mesh_;                 ///< with more room than `vertices_`, so that all can be read as four floats
   std::size_t vertices_ = 0;  ///< that are written
   Array<std::uint32_t>
@@ -251,19 +213,21 @@ class GraftWriter {
   Array<glm::vec3> group_normal_;
   std::vector<std::uint32_t> group_limb_;      ///< the child of each pair of groups
   std::vector<std::uint32_t> loop_triangles_;  ///< those that touch a loop, rising
-  std::vector<Range>& range_;
-  std::vector<Kind>& kind_;
-  std::vector<std::uint32_t> parent_;  ///< of each limb
-  bool is_first_ = true;               ///< round, where all limbs are dirty
+  std::vector<Range> range_;                   ///< of each limb
+  std::vector<Kind> kind_;                     ///< of each limb
+  std::vector<std::uint32_t> parent_;  ///< of each limb; empty in the first round, where all are dirty
   std::vector<std::uint8_t> dirty_;    ///< limbs that were written in this round
   std::vector<std::uint8_t> touched_;  ///< pairs of groups of a dirty limb
   std::vector<Concern> concern_;       ///< of each limb
   Array<std::uint32_t> joints_;        ///< as Written::joints
   Array<std::uint8_t> twin_;           ///< as Written::twin
   std::vector<Trust> trust_;           ///< as it was in the last round
-  std::vector<Loop>& loops_;
-  const std::vector<Circle>& circles_;
+  std::vector<std::uint32_t> first_child_, next_sibling_;
+  std::vector<Loop> loops_;
   std::vector<LoopVertex> loop_vertices_;
+  std::vector<Circle> circles_;       ///< by number of corners
+  std::vector<float> corner_radius_;  ///< from which on a limb has 4, 5, ... corners
+  float thickest_ = 0;
 
   // Of the limb being written.
   GraftAxis axis_;

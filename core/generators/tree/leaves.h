@@ -1,5 +1,7 @@
 #pragma once
 /// The leaves of a tree as meshes or places.
+#include <optional>
+
 #include "core/generators/tree/growth_context.h"
 #include "core/generators/tree/levels.h"
 #include "core/generators/tree/looks.h"
@@ -19,9 +21,20 @@ Mesh leaf_of(const TreeParams& params, int level, const Job& job);
 /// Leaves only those that are drawn, and gives them the size of the mesh.
 void fit_leaves(Organs& organs, const TreeParams& params, const Job& job);
 
+/// Leaves that were fitted; `model_size` is the diagonal of the tree. Borrowed.
+struct Leaves {
+  const Organs& organs;
+  const TreeParams& params;
+  const LeafMotion& motion;
+  float model_size;
+};
+
+/// The finest level of leaves that are not places of one mesh.
+std::vector<Foliage> finest_leaves(const Leaves& leaves, Job& job);
+
 /// Adds the node "leaves" with all levels of detail, or, where the output asks for it, as places of one mesh.
-/// `organs` were fitted. `model_size` is the diagonal of the tree.
-void add_leaves(Model& model, const Organs& organs, const TreeParams& params, const LeafMotion& motion,
-                TreeLevels& levels, float model_size, Job& job);
+/// `finest`: what finest_leaves() made, where it was asked before.
+void add_leaves(Model& model, const Leaves& leaves, TreeLevels& levels,
+                std::optional<std::vector<Foliage>> finest, Job& job);
 
 }  // namespace seedmesh::tree
