@@ -124,13 +124,15 @@ Made make_both(const Skeleton& skeleton, const TreeParams& params, const Motion&
   Made made;
   if (!has_threads(job) || job.demand().share_organs || leaves.organs.organ.empty()) return made;
   if (!is_modest(skeleton, leaf_of(params, 0, job).elements(), job)) return made;
+  LeafPlacing placing(leaves, leaves.organs, 0, job);
   run_both(
       job,
       [&] {
         made.bark = bark_of(skeleton.limbs, graft_options(params, Detail(0)), motion.bones(),
                             motion.wind ? &*motion.wind : nullptr, job);
       },
-      [&] { made.leaves = finest_leaves(leaves, job); });
+      [&] { placing.write(); });
+  made.leaves = placing.take();
   return made;
 }
 
