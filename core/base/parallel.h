@@ -15,6 +15,13 @@ namespace seedmesh {
 void parallel_for(const Job& job, std::size_t count, std::size_t chunk,
                   const std::function<void(std::size_t begin, std::size_t end, std::size_t index)>& body);
 
+/// Calls both, side by side where there are threads. Unlike in a chunk of parallel_for, what is cut into
+/// chunks within them may use all threads. Of two exceptions that of `one` is thrown on.
+void run_both(const Job& job, const std::function<void()>& one, const std::function<void()>& other);
+
+/// Does parallel_for use more than one thread here? For those who would rather do it otherwise on one.
+bool has_threads(const Job& job);
+
 constexpr std::size_t chunk_count(std::size_t count, std::size_t chunk) {
   return (count + chunk - 1) / chunk;
 }

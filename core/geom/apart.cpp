@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/array.h"
+#include "core/base/rng.h"
 #include "core/base/wide.h"
 
 namespace seedmesh {
@@ -42,6 +43,16 @@ class Cells {
   /// The slot of each point's own cell, with the mark of those near a border.
   void fill(std::span<const glm::vec3> points, std::uint32_t* out) const;
 
+  static std::uint64_t number(std::int32_t x, std::int32_t y, std::int32_t z) {
+    return static_cast<std::uint64_t>(x) | static_cast<std::uint64_t>(y) << 21U |
+           static_cast<std::uint64_t>(z) << 42U;
+  }
+  /// The number of the point's own cell.
+  std::uint64_t own(const glm::vec3& point) const {
+    const glm::ivec3 at(place(point));
+    return number(at.x, at.y, at.z);
+  }
+
   /// visit(slot, number) for every cell that is within the margin of a point.
   template <class Visit>
   void each(const glm::vec3& point, Visit visit) const {
@@ -50,8 +61,7 @@ class Cells {
     for (std::int32_t z = low.z; z <= high.z; ++z) {
       for (std::int32_t y = low.y; y <= high.y; ++y) {
         for (std::int32_t x = low.x; x <= high.x; ++x) {
-          visit(slot(x, y, z), static_cast<std::uint64_t>(x) | static_cast<std::uint64_t>(y) << 21U |
-                                   static_cast<std::uint64_t>(z) << 42U);
+          visit(slot(x, y, z), number(x, y, z));
         }
       }
     }
@@ -81,36 +91,82 @@ class Bits {
   Bits(const Job& job, std::size_t count) : words_(job, count / 64, std::uint64_t{0}) {}
   bool has(std::uint32_t i) const { return (words_[i / 64] >> i % 64 & 1U) != 0; }
   void set(std::uint32_t i) { words_[i / 64] |= std::uint64_t{1} << i % 64; }
+  std::uint64_t& word(std::uint32_t i) { return words_[i / 64]; }
 
  private:
   Array<std::uint64_t> words_;
 };
 
-struct Member {
-  std::uint64_t cell;
-  std::uint32_t point;
+/// Cells that are taken, and those of them that are taken again.
+struct Taken {
+  Bits once, again;
+
+  /// `times` 0 or 1.
+  void take(std::uint32_t slot, std::uint64_t times) {
+    const std::uint64_t bit = times << slot % 64;
+    std::uint64_t& word = once.word(slot);
+    again.word(slot) |= word & bit;
+    word |= bit;
+  }
 };
 
-/// Calls near(point) for those that are within the reach of another one in their cell.
-template <class Near>
-void find_near(std::vector<Member>& members, std::span<const glm::vec3> points, float reach, Near near) {
-  std::sort(members.begin(), members.end(), [](const Member& a, const Member& b) {
-    return a.cell != b.cell ? a.cell < b.cell : a.point < b.point;
-  });
-  const double squared = static_cast<double>(reach) * static_cast<double>(reach);
-  for (std::size_t first = 0, end = 0; first < members.size(); first = end) {
-    while (end < members.size() && members[end].cell == members[first].cell) ++end;
-    const bool is_heap = end - first > most_in_a_cell;
-    for (std::size_t i = first; i < end; ++i) {
-      for (std::size_t k = first; k < (is_heap ? first + 1 : i); ++k) {
-        const glm::dvec3 apart = glm::dvec3(points[members[i].point]) - glm::dvec3(points[members[k].point]);
-        if (!is_heap && glm::dot(apart, apart) > squared) continue;
-        near(members[i].point);
-        near(members[k].point);
+/// A point within the margin of a cell.
+struct Visit {
+  std::uint64_t cell;
+  std::uint32_t slot, point;
+};
+
+/// Points by cell: those of each in a list.
+class Cellmates {
+ public:
+  explicit Cellmates(std::span<const Visit> visits) : visits_(visits), next_(visits.size(), none) {
+    std::size_t size = 16;
+    while (size < 2 * visits.size()) size *= 2;
+    table_.resize(size);
+    for (std::uint32_t i = 0; i < visits.size(); ++i) add(i);
+  }
+
+  /// Calls near(point) for those that are within the reach of another one in their cell.
+  template <class Near>
+  void find_near(std::span<const glm::vec3> points, float reach, Near near) const {
+    const double squared = static_cast<double>(reach) * static_cast<double>(reach);
+    for (const Cell& cell : table_) {
+      const bool is_heap = cell.count > most_in_a_cell;
+      for (std::uint32_t i = cell.count > 1 ? cell.last : none; i != none; i = next_[i]) {
+        const std::uint32_t one = visits_[i].point;
+        if (is_heap) near(one);
+        for (std::uint32_t k = is_heap ? none : next_[i]; k != none; k = next_[k]) {
+          const std::uint32_t other = visits_[k].point;
+          const glm::dvec3 apart = glm::dvec3(points[one]) - glm::dvec3(points[other]);
+          if (glm::dot(apart, apart) > squared) continue;
+          near(one);
+          near(other);
+        }
       }
     }
   }
-}
+
+ private:
+  static constexpr std::uint32_t none = 0xFFFFFFFFU;
+  struct Cell {
+    std::uint64_t number = 0;
+    std::uint32_t last = none, count = 0;
+  };
+
+  void add(std::uint32_t i) {
+    const std::uint64_t number = visits_[i].cell;
+    std::size_t at = mix(number) & (table_.size() - 1);
+    while (table_[at].count > 0 && table_[at].number != number) at = (at + 1) & (table_.size() - 1);
+    table_[at].number = number;
+    next_[i] = table_[at].last;
+    table_[at].last = i;
+    ++table_[at].count;
+  }
+
+  std::span<const Visit> visits_;
+  std::vector<std::uint32_t> next_;
+  std::vector<Cell> table_;
+};
 
 }  // namespace
 
@@ -127,32 +183,41 @@ Array<std::uint8_t> near_others(std::span<const glm::vec3> points, std::span<con
   const Cells cells(box.min, cell, bits);
   Array<std::uint32_t> slot(job, points.size());
   cells.fill(points, slot.data());
-  // Cells that are taken, and those of them that are taken again.
-  Bits taken(job, std::size_t{1} << bits), shared(job, std::size_t{1} << bits);
-  const auto take = [&](std::uint32_t at, std::uint64_t) {
-    if (taken.has(at)) shared.set(at);
-    taken.set(at);
-  };
+  Taken taken{Bits(job, std::size_t{1} << bits), Bits(job, std::size_t{1} << bits)};
   job.check();
+  // Without branches that nobody can foresee: points are put on a list, and stay there if they belong to it.
+  Array<std::uint32_t> list(job, points.size());
+  std::size_t listed = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (twin[i]) continue;
-    if (slot[i] & at_border) {
-      cells.each(points[i], take);
-    } else {
-      take(slot[i], 0);
-    }
+    const std::uint32_t is_first = twin[i] ? 0 : 1, is_at_border = slot[i] >> 31U;
+    taken.take(slot[i] & ~at_border, is_first & ~is_at_border);
+    list[listed] = static_cast<std::uint32_t>(i);
+    listed += is_first & is_at_border;
   }
-  std::vector<Member> members;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (twin[i] || (!(slot[i] & at_border) && !shared.has(slot[i]))) continue;
-    cells.each(points[i], [&](std::uint32_t at, std::uint64_t number) {
-      if (shared.has(at)) members.push_back({number, static_cast<std::uint32_t>(i)});
+  std::vector<Visit> visits, shared;
+  for (std::size_t k = 0; k < listed; ++k) {
+    cells.each(points[list[k]], [&](std::uint32_t at, std::uint64_t number) {
+      taken.take(at, 1);
+      visits.push_back({number, at, list[k]});
     });
   }
+  listed = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool is_first = !twin[i], is_inside = (slot[i] & at_border) == 0;
+    list[listed] = static_cast<std::uint32_t>(i);
+    const bool is_shared = taken.again.has(slot[i] & ~at_border);
+    listed += (is_first & is_inside & is_shared) ? 1 : 0;
+  }
+  for (const Visit& visit : visits) {
+    if (taken.again.has(visit.slot)) shared.push_back(visit);
+  }
+  for (std::size_t k = 0; k < listed; ++k)
+    shared.push_back({cells.own(points[list[k]]), slot[list[k]], list[k]});
   job.check();
+  if (shared.empty()) return found;
   Bits near(job, std::size_t{1} << bits);
   bool any = false;
-  find_near(members, points, reach, [&](std::uint32_t point) {
+  Cellmates(shared).find_near(points, reach, [&](std::uint32_t point) {
     any = true;
     cells.each(points[point], [&](std::uint32_t at, std::uint64_t) { near.set(at); });
   });

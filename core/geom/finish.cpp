@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cctype>
-#include <cstring>
 #include <set>
 #include <string_view>
 
 #include "core/base/parallel.h"
+#include "core/base/wide.h"
 #include "core/geom/repeats.h"
 
 namespace seedmesh {
@@ -17,9 +18,9 @@ namespace {
 
 // Entries of the smallest vertex caches in use.
 constexpr unsigned cache_entries = 16;
-// Floats that are looked through at once for -0.
 constexpr std::size_t many_meshes = 16;
-constexpr std::size_t float_chunk = std::size_t{1} << 16U;
+// Floats that are looked through at once for -0; a small mesh has fewer positions than so many times that.
+constexpr std::size_t float_chunk = std::size_t{1} << 16U, small_mesh = 4;
 
 // What Godot makes of a node whose name ends so after '-', '_' or '$': a collision body, a rigid body,
 // nothing at all.
@@ -76,27 +77,22 @@ void reorder(Array<T>& values, const Array<std::uint32_t>& new_place, std::size_
   values = std::move(moved);
 }
 
+SEEDMESH_WIDE bool has_negative_zero(const float* values, std::size_t count) {
+  std::uint32_t found = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    found |= std::bit_cast<std::uint32_t>(values[i]) == 0x80000000U ? 1U : 0U;
+  return found != 0;
+}
+
 /// Reads everything and, in the common case, writes nothing.
 template <class T>
 void clear_negative_zeros(Array<T>& values, const Job& job) {
-  constexpr std::uint32_t negative_zero = 0x80000000U;
   static_assert(sizeof(T) % sizeof(float) == 0);
-  auto* bits = reinterpret_cast<std::byte*>(values.data());
+  auto* numbers = reinterpret_cast<float*>(values.data());
   parallel_for(job, values.bytes() / sizeof(float), float_chunk,
                [&](std::size_t begin, std::size_t end, std::size_t) {
-                 std::uint32_t found = 0;
-                 for (std::size_t i = begin; i < end; ++i) {
-                   std::uint32_t word;
-                   std::memcpy(&word, bits + i * sizeof(word), sizeof(word));
-                   found |= word == negative_zero ? 1U : 0U;
-                 }
-                 if (!found) return;
-                 for (std::size_t i = begin; i < end; ++i) {
-                   float value;
-                   std::memcpy(&value, bits + i * sizeof(value), sizeof(value));
-                   value += 0.0F;
-                   std::memcpy(bits + i * sizeof(value), &value, sizeof(value));
-                 }
+                 if (!has_negative_zero(numbers + begin, end - begin)) return;
+                 for (std::size_t i = begin; i < end; ++i) numbers[i] += 0.0F;
                });
 }
 
@@ -202,8 +198,12 @@ void finish(Model& model, Job& job) {
   for (MeshGroup& group : model.meshes) {
     for (Primitive& primitive : group.primitives) meshes.push_back(&primitive.mesh);
   }
-  // Many meshes side by side; of few, each by all threads.
-  const std::size_t together = meshes.size() >= many_meshes ? 1 : std::max<std::size_t>(1, meshes.size());
+  // Many meshes side by side, and small ones; of a few great ones, each by all threads.
+  const bool is_small = std::all_of(meshes.begin(), meshes.end(), [](const Mesh* mesh) {
+    return 3 * mesh->position.size() < small_mesh * float_chunk;
+  });
+  const std::size_t together =
+      is_small || meshes.size() >= many_meshes ? 1 : std::max<std::size_t>(1, meshes.size());
   parallel_for(job, meshes.size(), together, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) finish(*meshes[i], job);
   });

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <glm/vec3.hpp>
 
 namespace seedmesh {
@@ -15,7 +16,11 @@ inline FourFloats chosen(FourFlags flags, FourFloats yes, FourFloats no) {
   return reinterpret_cast<FourFloats>((reinterpret_cast<FourFlags>(yes) & flags) |
                                       (reinterpret_cast<FourFlags>(no) & ~flags));
 }
-inline bool all_of(FourFlags flags) { return (flags[0] & flags[1] & flags[2] & flags[3]) != 0; }
+inline bool all_of(FourFlags flags) {
+  std::uint64_t halves[2];
+  std::memcpy(halves, &flags, sizeof(flags));
+  return (halves[0] & halves[1]) == ~std::uint64_t{0};
+}
 inline FourFloats root(FourFloats v) {
   return FourFloats{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
 }
@@ -23,9 +28,22 @@ inline FourFloats magnitude(FourFloats v) {
   return reinterpret_cast<FourFloats>(reinterpret_cast<FourFlags>(v) & 0x7FFFFFFF);
 }
 
+/// A vector of three in the first lanes.
+inline FourFloats spread_out(const glm::vec3& v) { return FourFloats{v.x, v.y, v.z, 0}; }
+inline FourFloats four_times(float value) { return FourFloats{value, value, value, value}; }
+
 struct Four {
   static constexpr std::size_t size = 4;
   FourFloats x, y, z;
+
+  /// The first lanes of four.
+  static Four of_rows(const FourFloats& a, const FourFloats& b, const FourFloats& c, const FourFloats& d) {
+    const FourFloats low = __builtin_shufflevector(a, b, 0, 4, 1, 5),
+                     more = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+    return {__builtin_shufflevector(low, more, 0, 1, 4, 5), __builtin_shufflevector(low, more, 2, 3, 6, 7),
+            __builtin_shufflevector(__builtin_shufflevector(a, b, 2, 6, 3, 7),
+                                    __builtin_shufflevector(c, d, 2, 6, 3, 7), 0, 1, 4, 5)};
+  }
 
   /// The first `count` (1..4) of `from`; the last fills the rest.
   static Four of(const glm::vec3* from, std::size_t count = size) {
@@ -33,7 +51,33 @@ struct Four {
                     &d = from[count - 1];
     return {FourFloats{a.x, b.x, c.x, d.x}, FourFloats{a.y, b.y, c.y, d.y}, FourFloats{a.z, b.z, c.z, d.z}};
   }
+  /// One vector in the first lanes; reads a float beyond it.
+  static FourFloats row(const glm::vec3* from) {
+    static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+    FourFloats v;
+    std::memcpy(&v, reinterpret_cast<const float*>(from), sizeof(v));
+    return v;
+  }
+  /// from[number[0]], from[number[3]], from[number[6]], from[number[9]]: a corner of each of four triangles.
+  /// Reads a float beyond each.
+  static Four picked(const glm::vec3* from, const std::uint32_t* number) {
+    return of_rows(row(from + number[0]), row(from + number[3]), row(from + number[6]),
+                   row(from + number[9]));
+  }
   glm::vec3 at(std::size_t k) const { return {x[k], y[k], z[k]}; }
+
+  /// All four, one behind another, without -0.
+  void write(glm::vec3* to) const {
+    const FourFloats xy = __builtin_shufflevector(x, y, 0, 4, 1, 5) + 0.0F,
+                     xy2 = __builtin_shufflevector(x, y, 2, 6, 3, 7) + 0.0F, third = z + 0.0F;
+    const FourFloats zx = __builtin_shufflevector(third, xy, 0, 6, 1, 1),
+                     zx2 = __builtin_shufflevector(third, xy2, 2, 6, 3, 3);
+    const FourFloats rows[3] = {
+        __builtin_shufflevector(xy, zx, 0, 1, 4, 5),
+        __builtin_shufflevector(__builtin_shufflevector(xy, third, 3, 5, 3, 5), xy2, 0, 1, 4, 5),
+        __builtin_shufflevector(zx2, xy2, 0, 1, 7, 2)};
+    std::memcpy(static_cast<void*>(to), rows, sizeof(rows));
+  }
 };
 
 inline FourFloats dot(const Four& a, const Four& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "core/base/quick_math.h"
 #include "core/geom/graft_writer.h"
@@ -44,14 +45,14 @@ GraftWriter::Plane GraftWriter::plane_of(const Band& band) const {
 
 /// The factor of the radius that ribs make.
 float GraftWriter::ribbed(float angle) const {
-  if (axis_.order != 0 || context_.options.lobes == 0) return 1;
+  if (!has_ribs()) return 1;
   const double at = static_cast<double>(angle) * context_.options.lobes;
   return 1 + context_.options.lobe_depth * static_cast<float>(math::sin(at));
 }
 
 std::uint32_t GraftWriter::vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv,
                                   std::uint32_t group) {
-  if (vertices_ == mesh_.position.size()) make_room(vertices_ + vertices_ / 2 + 64);
+  make_room_for(1);
   const std::size_t index = vertices_++;
   mesh_.position[index] = position + 0.0F;
   mesh_.normal[index] = normal + 0.0F;
@@ -64,7 +65,7 @@ std::uint32_t GraftWriter::vertex(const glm::vec3& position, const glm::vec3& no
 
 /// u round the limb and v along it.
 glm::vec2 GraftWriter::picture_at(float radius, float angle, float at) const {
-  return {(turns_ > 0 ? turns_ : radius) * angle, axis_.v_at(at, axis_.first_piece_at(at, near_piece_))};
+  return {picture_width(radius) * angle, axis_.v_at(at, axis_.first_piece_at(at, near_piece_))};
 }
 
 /// The joint whose internode holds the length `at`; of two that meet there the older one.
@@ -81,7 +82,7 @@ std::uint32_t GraftWriter::ring_corner(const Plane& plane, float angle, glm::vec
     normal -= (plane.v * direction.x - plane.u * direction.y) * fall;
   }
   return vertex(plane.centre + out * (plane.radius * factor), math::quick_unit(normal, out),
-                {(turns_ > 0 ? turns_ : plane.radius) * angle, plane.v_at}, none);
+                {picture_width(plane.radius) * angle, plane.v_at}, none);
 }
 
 /// The angle within half a turn of the seam.
@@ -140,18 +141,54 @@ void GraftWriter::go_round(Corners& order, const Plane& plane, Corners& out) {
   }
 }
 
+/// Four corners of a ring without ribs, from `first` on, as ring_corner() writes them one by one; those past
+/// the last are written over later. False: one has no direction, and nothing is written.
+bool GraftWriter::write_ring_block(const Plane& plane, const Circle& circle, std::size_t first,
+                                   std::size_t sides) {
+  FourFloats x, y;
+  std::memcpy(&x, circle.x.data() + first, sizeof(x));
+  std::memcpy(&y, circle.y.data() + first, sizeof(y));
+  const FourFloats along_u = x * seam_turn_.x - y * seam_turn_.y,
+                   along_v = x * seam_turn_.y + y * seam_turn_.x;
+  const glm::vec3& u = plane.u;
+  const glm::vec3& v = plane.v;
+  const glm::vec3 lean = plane.tangent * plane.slope;
+  const Four out{u.x * along_u + v.x * along_v, u.y * along_u + v.y * along_v, u.z * along_u + v.z * along_v};
+  Four normal{out.x + lean.x, out.y + lean.y, out.z + lean.z};
+  if (!to_units(normal)) return false;
+  const float r = plane.radius;
+  const Four position{plane.centre.x + out.x * r, plane.centre.y + out.y * r, plane.centre.z + out.z * r};
+  const std::size_t at = vertices_ + first;
+  position.write(mesh_.position.data() + at);
+  normal.write(mesh_.normal.data() + at);
+  const float step = 2 * pi / static_cast<float>(sides), wide = picture_width(r);
+  const float far = plane.v_at * context_.options.v_scale + 0.0F;
+  for (std::size_t k = 0; k < Four::size; ++k)
+    mesh_.uv[0][at + k] = {wide * (seam_ + step * static_cast<float>(first + k)) + 0.0F, far};
+  return true;
+}
+
 /// The corners of a ring that nothing leaves.
 void GraftWriter::plain_ring(const Plane& plane, Corners& out) {
   const int sides = sides_for(plane.radius);
+  const auto count = static_cast<std::size_t>(sides) + 1;
   const float step = 2 * pi / static_cast<float>(sides);
-  const auto& circle = circles_[static_cast<std::size_t>(sides)];
-  out.clear();
-  for (int i = 0; i <= sides; ++i) {
-    const glm::vec2 c = circle[static_cast<std::size_t>(i % sides)];
-    const glm::vec2 direction{c.x * seam_turn_.x - c.y * seam_turn_.y,
-                              c.x * seam_turn_.y + c.y * seam_turn_.x};
-    const float angle = seam_ + step * static_cast<float>(i);
-    out.push_back({angle, ring_corner(plane, angle, direction)});
+  const Circle& circle = circles_[static_cast<std::size_t>(sides)];
+  make_room_for(count);
+  out.resize(count);
+  for (std::size_t i = 0; i < count; ++i)
+    out[i] = {seam_ + step * static_cast<float>(i), static_cast<std::uint32_t>(vertices_ + i)};
+  bool is_written = !has_ribs();
+  for (std::size_t i = 0; is_written && i < count; i += Four::size)
+    is_written = write_ring_block(plane, circle, i, static_cast<std::size_t>(sides));
+  if (is_written) {
+    std::fill_n(group_.data() + vertices_, count, none);
+    std::fill_n(twin_.data() + vertices_, count, std::uint8_t{0});
+    if (context_.options.joints) std::fill_n(joints_.data() + vertices_, count, joint_);
+    vertices_ += count;
+  } else {
+    for (int i = 0; i <= sides; ++i)
+      ring_corner(plane, out[static_cast<std::size_t>(i)].angle, turned_to_seam(circle.at(i)));
   }
   mark_twin();
 }
@@ -163,7 +200,7 @@ void GraftWriter::open_ring(const Plane& plane, const Band& band) {
   upper_order_.clear();
   const int sides = sides_for(plane.radius);
   const float step = 2 * pi / static_cast<float>(sides);
-  const auto& circle = circles_[static_cast<std::size_t>(sides)];
+  const Circle& circle = circles_[static_cast<std::size_t>(sides)];
   const auto add = [&](const Mark& mark, bool below, bool above) {
     if (below) lower_order_.push_back({mark.angle, static_cast<std::uint32_t>(marks_.size())});
     if (above) upper_order_.push_back({mark.angle, static_cast<std::uint32_t>(marks_.size())});
@@ -177,10 +214,9 @@ void GraftWriter::open_ring(const Plane& plane, const Band& band) {
       return off < opening.half + std::min(0.35F * step, 0.25F);
     });
     if (is_taken) continue;
-    const glm::vec2 c = circle[static_cast<std::size_t>(i)];
     Mark mark;
     mark.angle = angle;
-    mark.direction = {c.x * seam_turn_.x - c.y * seam_turn_.y, c.x * seam_turn_.y + c.y * seam_turn_.x};
+    mark.direction = turned_to_seam(circle.at(i));
     add(mark, true, true);
   }
   for (const std::uint32_t number : band.openings) {

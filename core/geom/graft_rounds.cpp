@@ -6,8 +6,11 @@
 namespace seedmesh {
 
 GraftWriter::Place GraftWriter::here() const {
-  return {static_cast<std::uint32_t>(vertices_), static_cast<std::uint32_t>(mesh_.index.wide.size() / 3),
-          static_cast<std::uint32_t>(group_normal_.size()), static_cast<std::uint32_t>(corners_),
+  return {static_cast<std::uint32_t>(vertices_),
+          static_cast<std::uint32_t>(mesh_.index.wide.size() / 3),
+          static_cast<std::uint32_t>(group_normal_.size()),
+          static_cast<std::uint32_t>(loop_triangles_.size()),
+          static_cast<std::uint32_t>(corners_),
           static_cast<std::uint32_t>(wide_corners_)};
 }
 

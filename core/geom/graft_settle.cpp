@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
+#include "core/base/parallel.h"
 #include "core/base/quick_math.h"
 #include "core/base/wide.h"
 #include "core/geom/graft_writer.h"
@@ -14,54 +16,46 @@ constexpr float least_area = 4e-12F;
 // A normal nearer to the plane of its face than this may be found on the other side by who reckons otherwise.
 constexpr float least_cosine = 1e-4F;
 
-// Normals of loops that come nearer than this to the plane of a face, or behind it, are turned toward it by a
-// little more, again and again.
-constexpr float least_lean = 0.03F, wanted_lean = 0.06F;
-constexpr int most_turns = 24;
+// Limbs that are looked at together.
+constexpr std::size_t limbs_a_chunk = 256;
 
 }  // namespace
 
-/// Faces side by side: their corners; then twice their area, the normals as long as that, the angles.
+/// Faces at loops side by side: twice their area, the normals as long as that, and of each corner how far its
+/// edges go along each other.
 struct GraftWriter::FaceBlock {
   static constexpr std::size_t most = 16;
-  float corner[3][3][most];  ///< by corner and axis
-  float normal[3][most], size[most], angle[3][most];
-  float own[3][3][most];  ///< normals at the corners
-  std::uint32_t is_bad[most];
-
-  void put(std::size_t lane, const glm::vec3* position, const std::uint32_t* of) {
-    for (int k = 0; k < 3; ++k) {
-      for (int axis = 0; axis < 3; ++axis) corner[k][axis][lane] = position[of[k]][axis];
-    }
-  }
-  void put_own(std::size_t lane, const glm::vec3* normal_of, const std::uint32_t* of) {
-    for (int k = 0; k < 3; ++k) {
-      for (int axis = 0; axis < 3; ++axis) own[k][axis][lane] = normal_of[of[k]][axis];
-    }
-  }
-  glm::vec3 at(std::size_t k, std::size_t lane) const {
-    return {corner[k][0][lane], corner[k][1][lane], corner[k][2][lane]};
-  }
+  std::uint32_t corner[3 * most];
+  float normal[3][most], size[most], along[3][most];
+  // Of the corners that count: tangents of their angles, as two sides, and the angles.
+  float opposite[3 * most], adjacent[3 * most], angle[3 * most];
 };
 
-/// The angles at the corners, by which faces count, so that it does not matter how the surface is cut into
+SEEDMESH_WIDE void GraftWriter::measure(FaceBlock& block, const glm::vec3* position) {
+  for (std::size_t first = 0; first < FaceBlock::most; first += Four::size) {
+    const std::uint32_t* corner = block.corner + 3 * first;
+    const Four p[3] = {Four::picked(position, corner), Four::picked(position, corner + 1),
+                       Four::picked(position, corner + 2)};
+    const Four normal = cross(difference(p[1], p[0]), difference(p[2], p[0]));
+    const FourFloats columns[7] = {normal.x,
+                                   normal.y,
+                                   normal.z,
+                                   root(dot(normal, normal)),
+                                   dot(difference(p[1], p[0]), difference(p[2], p[0])),
+                                   dot(difference(p[2], p[1]), difference(p[0], p[1])),
+                                   dot(difference(p[0], p[2]), difference(p[1], p[2]))};
+    float* const out[7] = {block.normal[0], block.normal[1], block.normal[2], block.size,
+                           block.along[0],  block.along[1],  block.along[2]};
+    for (int k = 0; k < 7; ++k) std::memcpy(out[k] + first, &columns[k], sizeof(FourFloats));
+  }
+}
+
+/// The angles at corners, by which faces count, so that it does not matter how the surface is cut into
 /// triangles.
-SEEDMESH_WIDE void GraftWriter::weigh(FaceBlock& block) {
-  for (std::size_t l = 0; l < FaceBlock::most; ++l) {
-    const glm::vec3 p[3] = {block.at(0, l), block.at(1, l), block.at(2, l)};
-    const glm::vec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
-    const float size = std::sqrt(glm::dot(normal, normal));
-    block.normal[0][l] = normal.x;
-    block.normal[1][l] = normal.y;
-    block.normal[2][l] = normal.z;
-    block.size[l] = size;
-    const auto angle_at = [&](const glm::vec3& here, const glm::vec3& one, const glm::vec3& other) {
-      const float along = glm::dot(one - here, other - here);
-      return static_cast<float>(math::quick_atan2(static_cast<double>(size), static_cast<double>(along)));
-    };
-    block.angle[0][l] = angle_at(p[0], p[1], p[2]);
-    block.angle[1][l] = angle_at(p[1], p[2], p[0]);
-    block.angle[2][l] = angle_at(p[2], p[0], p[1]);
+SEEDMESH_WIDE void GraftWriter::weigh(FaceBlock& block, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    block.angle[i] = static_cast<float>(
+        math::quick_atan2(static_cast<double>(block.opposite[i]), static_cast<double>(block.adjacent[i])));
   }
 }
 
@@ -92,133 +86,120 @@ std::uint32_t GraftWriter::last_triangle(std::size_t limb) const {
                                            : range.begin.triangle;
 }
 
-/// What the faces of all limbs give to the normals of the loops that they touch. These faces are noted in
+/// Calls each(triangle) for those of a limb that touch a loop that has changed, as far as they have to be
+/// looked at.
+template <class Each>
+void GraftWriter::each_at_loops(std::size_t limb, const Each& each) const {
+  const Range& range = range_[limb];
+  const std::uint32_t end = last_triangle(limb);
+  for (std::size_t i = range.begin.loop_triangle; i < range.end.loop_triangle; ++i) {
+    const std::uint32_t triangle = loop_triangles_[i];
+    if (triangle >= end) break;
+    if (is_first() || is_touched(mesh_.index.wide.data() + std::size_t{3} * triangle)) each(triangle);
+  }
+}
+
+/// What the faces of some limbs give to the normals of the loops that they touch. These faces are noted in
 /// `faces`.
-void GraftWriter::add_loop_normals(std::vector<LoopFace>& faces) {
-  std::vector<std::uint32_t> corners;
-  corners.reserve(parent_.empty() ? mesh_.index.wide.size() : 0);
-  for (std::size_t limb = 0; limb < range_.size(); ++limb) {
-    const std::uint32_t* corner = mesh_.index.wide.data() + std::size_t{3} * range_[limb].begin.triangle;
-    const std::uint32_t* end = mesh_.index.wide.data() + std::size_t{3} * last_triangle(limb);
-    for (; corner < end; corner += 3) {
-      if ((group_[corner[0]] & group_[corner[1]] & group_[corner[2]]) == none || !is_touched(corner))
-        continue;
-      for (int k = 0; k < 3; ++k) corners.push_back(corner[k]);
-    }
+void GraftWriter::add_loop_normals(std::size_t first_limb, std::size_t last_limb,
+                                   std::vector<LoopFace>& faces) {
+  FaceBlock block;
+  std::size_t count = 0;
+  if (is_first())
+    faces.reserve(range_[last_limb - 1].end.loop_triangle - range_[first_limb].begin.loop_triangle);
+  for (std::size_t limb = first_limb; limb < last_limb; ++limb) {
+    each_at_loops(limb, [&](std::uint32_t triangle) {
+      const std::uint32_t* corner = mesh_.index.wide.data() + std::size_t{3} * triangle;
+      std::copy_n(corner, 3, block.corner + 3 * count);
+      if (++count < FaceBlock::most) return;
+      add_loop_faces(block, count, faces);
+      count = 0;
+    });
   }
-  faces.reserve(corners.size() / 3);
-  for (std::size_t first = 0; first < corners.size(); first += 3 * FaceBlock::most) {
-    const std::size_t count = std::min(FaceBlock::most, (corners.size() - first) / 3);
-    FaceBlock block;
-    for (std::size_t l = 0; l < FaceBlock::most; ++l)
-      block.put(l, mesh_.position.data(), corners.data() + first + 3 * std::min(l, count - 1));
-    weigh(block);
-    for (std::size_t l = 0; l < count; ++l) add_loop_face(block, l, corners.data() + first + 3 * l, faces);
-  }
+  if (count > 0) add_loop_faces(block, count, faces);
 }
 
-/// `lane` of a block that has been weighed, with these corners.
-void GraftWriter::add_loop_face(const FaceBlock& block, std::size_t lane, const std::uint32_t* corner,
-                                std::vector<LoopFace>& faces) {
-  if (!(block.size[lane] > 0)) return;
-  const glm::vec3 normal{block.normal[0][lane], block.normal[1][lane], block.normal[2][lane]};
-  const std::uint32_t groups[3] = {group_[corner[0]], group_[corner[1]], group_[corner[2]]};
-  faces.push_back({normal * (1 / block.size[lane]), {groups[0], groups[1], groups[2]}});
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (groups[k] != none && touched_[groups[k] / 2])
-      group_normal_[groups[k]] += normal * (block.angle[k][lane] / block.size[lane]);
-  }
-}
-
-/// Where a limb leaves at a narrow angle, the mean of both surfaces may look away from one of their faces;
-/// the normal gives way, so that the limb need not.
-void GraftWriter::ease_loop_normals(const std::vector<LoopFace>& faces) {
-  const auto looks_away = [&](const LoopFace& face, std::uint32_t group) {
-    return group != none && touched_[group / 2] &&
-           glm::dot(group_normal_[group & ~1U], face.normal) < least_lean;
+/// The first `count` of a block, whose corners are known.
+void GraftWriter::add_loop_faces(FaceBlock& block, std::size_t count, std::vector<LoopFace>& faces) {
+  for (std::size_t l = count; l < FaceBlock::most; ++l) std::copy_n(block.corner, 3, block.corner + 3 * l);
+  measure(block, mesh_.position.data());
+  struct Part {
+    std::uint32_t group, lane;
   };
-  std::vector<std::uint8_t> strained(touched_.size(), 0);
-  for (const LoopFace& face : faces) {
-    for (const std::uint32_t group : face.group) {
-      if (looks_away(face, group)) strained[group / 2] = 1;
+  Part parts[3 * FaceBlock::most];
+  std::size_t angles = 0;
+  for (std::size_t l = 0; l < count; ++l) {
+    if (!(block.size[l] > 0)) continue;
+    const glm::vec3 normal{block.normal[0][l], block.normal[1][l], block.normal[2][l]};
+    LoopFace& face = faces.emplace_back();
+    face.normal = normal * (1 / block.size[l]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t group = group_[block.corner[3 * l + k]];
+      if (group == none || !touched_[group / 2]) continue;
+      face.group[k] = group;
+      parts[angles] = {group, static_cast<std::uint32_t>(l)};
+      block.opposite[angles] = block.size[l];
+      block.adjacent[angles++] = block.along[k][l];
     }
   }
-  std::vector<LoopFace> hard;
-  for (const LoopFace& face : faces) {
-    const auto is_strained = [&](std::uint32_t group) { return group != none && strained[group / 2]; };
-    if (std::any_of(std::begin(face.group), std::end(face.group), is_strained)) hard.push_back(face);
-  }
-  // A face is looked at again only if one of its normals has turned since it was.
-  std::uint32_t step = 1;
-  std::vector<std::uint32_t> seen(hard.size(), 0), turned(touched_.size(), 1);
-  const auto has_turned = [&](const LoopFace& face, std::uint32_t since) {
-    return std::any_of(std::begin(face.group), std::end(face.group),
-                       [&](std::uint32_t group) { return group != none && turned[group / 2] >= since; });
-  };
-  bool turns = !hard.empty();
-  for (int turn = 0; turns && turn < most_turns; ++turn) {
-    turns = false;
-    for (std::size_t i = 0; i < hard.size(); ++i) {
-      const LoopFace& face = hard[i];
-      if (!has_turned(face, seen[i])) continue;
-      seen[i] = ++step;
-      for (const std::uint32_t group : face.group) {
-        if (!looks_away(face, group)) continue;
-        glm::vec3& normal = group_normal_[group & ~1U];
-        normal =
-            math::quick_unit(normal + face.normal * (wanted_lean - glm::dot(normal, face.normal)), normal);
-        turned[group / 2] = step;
-        turns = true;
-      }
-    }
+  weigh(block, angles);
+  for (std::size_t i = 0; i < angles; ++i) {
+    const std::size_t l = parts[i].lane;
+    const glm::vec3 normal{block.normal[0][l], block.normal[1][l], block.normal[2][l]};
+    group_normal_[parts[i].group] += normal * (block.angle[i] / block.size[l]);
   }
 }
 
-/// What is wrong with the faces of a block, which has the normals of their corners.
-SEEDMESH_WIDE void GraftWriter::look_at(FaceBlock& block, float least_square) {
-  constexpr float flattest = least_cosine * least_cosine;
-  for (std::size_t l = 0; l < FaceBlock::most; ++l) {
-    const glm::vec3 a = block.at(0, l);
-    const glm::vec3 normal = glm::cross(block.at(1, l) - a, block.at(2, l) - a);
-    const float size = glm::dot(normal, normal);
-    const auto looks_along = [&](std::size_t k) {
-      const glm::vec3 own{block.own[k][0][l], block.own[k][1][l], block.own[k][2][l]};
-      const float over = glm::dot(normal, own);
-      const bool is_before = over > 0, is_steep = over * over > flattest * size;
-      return is_before & is_steep;
-    };
-    const bool first = looks_along(0), second = looks_along(1), third = looks_along(2);
-    const bool has_area = size > least_square;
-    const bool is_sound = has_area & first & second & third;
-    block.is_bad[l] = is_sound ? 0U : 1U;
+/// Faces with these corners, four at once, which look along their normals.
+struct GraftWriter::Faces {
+  const glm::vec3 *position, *normal;
+  float least_square;
+
+  FourFlags sound(const std::uint32_t* corner) const {
+    constexpr float flattest = least_cosine * least_cosine;
+    const Four a = Four::picked(position, corner);
+    const Four face = cross(difference(Four::picked(position, corner + 1), a),
+                            difference(Four::picked(position, corner + 2), a));
+    const FourFloats size = dot(face, face), least = flattest * size;
+    FourFlags flags = size > least_square;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const FourFloats over = dot(face, Four::picked(normal, corner + k));
+      flags &= (over > 0.0F) & (over * over > least);
+    }
+    return flags;
   }
+};
+
+/// How many of `count` faces come before the first four that are not all sound.
+SEEDMESH_WIDE std::size_t GraftWriter::sound_faces(const Faces& faces, const std::uint32_t* corner,
+                                                   std::size_t count) {
+  std::size_t sound = 0;
+  while (sound + Four::size <= count && all_of(faces.sound(corner + 3 * sound))) sound += Four::size;
+  return sound;
 }
 
-/// Looks at the triangles of a limb; returns how many are bad.
-std::size_t GraftWriter::judge(std::size_t limb, std::vector<Trust>& trust, bool is_late) const {
+/// Adds to `bad` what is wrong of the triangles `first` to `last - 1`.
+void GraftWriter::look_at(std::uint32_t first, std::uint32_t last, std::vector<std::uint32_t>& bad) const {
   const float least = 2 * least_area * context_.scale.size * context_.scale.size;
+  const Faces faces{mesh_.position.data(), mesh_.normal.data(), least * least};
   const std::uint32_t* index = mesh_.index.wide.data();
-  const std::size_t end = last_triangle(limb);
-  std::size_t bad = 0;
-  bool is_bad = false;
-  for (std::size_t t = range_[limb].begin.triangle; t < end; t += FaceBlock::most) {
-    const std::size_t count = std::min(FaceBlock::most, end - t);
-    FaceBlock block;
-    for (std::size_t l = 0; l < FaceBlock::most; ++l) {
-      const std::uint32_t* corner = index + 3 * (t + std::min(l, count - 1));
-      block.put(l, mesh_.position.data(), corner);
-      block.put_own(l, mesh_.normal.data(), corner);
-    }
-    look_at(block, least * least);
-    for (std::size_t l = 0; l < count; ++l) {
-      const std::uint32_t* corner = index + 3 * (t + l);
-      if (!block.is_bad[l] || (!dirty_[limb] && !is_touched(corner))) continue;
-      is_bad = !blame(corner, trust, is_late) || is_bad;
-      ++bad;
+  for (std::uint32_t t = first; t < last;) {
+    t += static_cast<std::uint32_t>(sound_faces(faces, index + std::size_t{3} * t, last - t));
+    const std::uint32_t end = std::min(last, t + static_cast<std::uint32_t>(Four::size));
+    std::uint32_t corner[3 * Four::size];
+    for (std::uint32_t l = 0; t < end && l < Four::size; ++l)
+      std::copy_n(index + std::size_t{3} * std::min(t + l, end - 1), 3, corner + 3 * l);
+    const FourFlags flags = t < end ? faces.sound(corner) : FourFlags{};
+    for (const std::uint32_t begin = t; t < end; ++t) {
+      if (!flags[t - begin]) bad.push_back(t);
     }
   }
-  if (is_bad) trust[limb] = trust[limb] < Trust::closed && !is_late ? Trust::closed : Trust::none;
-  return bad;
+}
+
+/// The triangles of a limb that are bad, as far as something has changed for them.
+void GraftWriter::find_bad(std::size_t limb, std::vector<std::uint32_t>& bad) const {
+  if (dirty_[limb]) return look_at(range_[limb].begin.triangle, last_triangle(limb), bad);
+  each_at_loops(limb, [&](std::uint32_t triangle) { look_at(triangle, triangle + 1, bad); });
 }
 
 /// A bad face is the fault of the openings that it touches. False: it touches none.
@@ -234,6 +215,27 @@ bool GraftWriter::blame(const std::uint32_t* corner, std::vector<Trust>& trust, 
   return touches;
 }
 
+/// The mean of both surfaces, whatever the size of their faces. From here on the even group has it.
+void GraftWriter::join_loop_normals() {
+  for (std::size_t pair = 0; pair < touched_.size(); ++pair) {
+    if (!touched_[pair]) continue;
+    const glm::vec3 one = math::quick_unit(group_normal_[2 * pair], glm::vec3{0});
+    const glm::vec3 other = math::quick_unit(group_normal_[2 * pair + 1], glm::vec3{0});
+    group_normal_[2 * pair] = math::quick_unit(one + other, glm::vec3{0, 1, 0});
+  }
+}
+
+void GraftWriter::put_loop_normals(std::size_t limb) {
+  if (concern_[limb] == Concern::nothing) return;
+  const Range& range = range_[limb];
+  const std::uint32_t loop_end = range.begin.vertex + loops_[limb].count + 1;
+  const std::size_t end = std::min(range.end.vertex, concern_[limb] == Concern::all ? none : loop_end);
+  for (std::size_t i = range.begin.vertex; i < end; ++i) {
+    if (group_[i] == none || !touched_[group_[i] / 2]) continue;
+    mesh_.normal[i] = group_normal_[group_[i] & ~1U] + 0.0F;
+  }
+}
+
 std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
   mark_touched();
   const std::size_t count = range_.size();
@@ -241,32 +243,45 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
   for (std::size_t pair = 0; pair < touched_.size(); ++pair) {
     if (touched_[pair]) group_normal_[2 * pair] = group_normal_[2 * pair + 1] = glm::vec3(0);
   }
-  std::vector<LoopFace> faces;
-  if (!group_limb_.empty()) add_loop_normals(faces);
-  for (std::size_t pair = 0; pair < touched_.size(); ++pair) {
-    if (!touched_[pair]) continue;
-    // The mean of both surfaces, whatever the size of their faces. From here on the even group has it.
-    const glm::vec3 one = math::quick_unit(group_normal_[2 * pair], glm::vec3{0});
-    const glm::vec3 other = math::quick_unit(group_normal_[2 * pair + 1], glm::vec3{0});
-    group_normal_[2 * pair] = math::quick_unit(one + other, glm::vec3{0, 1, 0});
+  if (!group_limb_.empty()) {
+    // What limbs give goes to groups of their own.
+    std::vector<std::vector<LoopFace>> faces(chunk_count(count, limbs_a_chunk));
+    parallel_for(job_, count, limbs_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
+      add_loop_normals(begin, end, faces[index]);
+    });
+    join_loop_normals();
+    ease_loop_normals(faces);
   }
-  ease_loop_normals(faces);
-  for (std::size_t limb = 0; limb < count; ++limb) {
-    if (concern_[limb] == Concern::nothing) continue;
-    const Range& range = range_[limb];
-    const std::uint32_t loop_end = range.begin.vertex + loops_[limb].count + 1;
-    const std::size_t end = std::min(range.end.vertex, concern_[limb] == Concern::all ? none : loop_end);
-    for (std::size_t i = range.begin.vertex; i < end; ++i) {
-      if (group_[i] == none || !touched_[group_[i] / 2]) continue;
-      mesh_.normal[i] = group_normal_[group_[i] & ~1U] + 0.0F;
+  std::vector<std::vector<std::uint32_t>> bad(chunk_count(count, limbs_a_chunk));
+  parallel_for(job_, count, limbs_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
+    job_.check();
+    for (std::size_t limb = begin; limb < end; ++limb) {
+      put_loop_normals(limb);
+      find_bad(limb, bad[index]);
+    }
+  });
+  return take_blame(bad, trust, is_late);
+}
+
+/// Lowers the trust in the limbs of these triangles, limb by limb; returns how many there are.
+std::size_t GraftWriter::take_blame(const std::vector<std::vector<std::uint32_t>>& bad,
+                                    std::vector<Trust>& trust, bool is_late) const {
+  std::size_t faults = 0;
+  for (std::size_t index = 0; index < bad.size(); ++index) {
+    std::size_t limb = index * limbs_a_chunk;
+    // Triangles of a limb stand together, those of limbs that were written anew behind the others'.
+    const auto is_of = [&](std::uint32_t triangle) {
+      return triangle >= range_[limb].begin.triangle && triangle < range_[limb].end.triangle;
+    };
+    for (std::size_t i = 0; i < bad[index].size();) {
+      while (!is_of(bad[index][i])) ++limb;
+      bool is_bad = false;
+      for (; i < bad[index].size() && is_of(bad[index][i]); ++i, ++faults)
+        is_bad = !blame(mesh_.index.wide.data() + std::size_t{3} * bad[index][i], trust, is_late) || is_bad;
+      if (is_bad) trust[limb] = trust[limb] < Trust::closed && !is_late ? Trust::closed : Trust::none;
     }
   }
-  std::size_t bad = 0;
-  for (std::size_t limb = 0; limb < count; ++limb) {
-    if (limb % 64 == 0) job_.check();
-    bad += judge(limb, trust, is_late);
-  }
-  return bad;
+  return faults;
 }
 
 }  // namespace seedmesh

@@ -5,6 +5,7 @@
 
 #include "core/base/quick_math.h"
 #include "core/base/rng.h"
+#include "core/base/wide.h"
 
 namespace seedmesh {
 namespace {
@@ -37,19 +38,24 @@ float turns_of(float radius) { return std::max(1.0F, std::floor(2 * pi * radius 
 
 float fraction(std::uint64_t hash) { return static_cast<float>(hash >> 40U) * 0x1p-24F; }
 
-std::vector<std::vector<glm::vec2>> circles_up_to(int most) {
-  std::vector<std::vector<glm::vec2>> circles(static_cast<std::size_t>(most) + 1);
+}  // namespace
+
+std::vector<GraftWriter::Circle> GraftWriter::circles_up_to(int most) {
+  std::vector<Circle> circles(static_cast<std::size_t>(most) + 1);
   for (int sides = 3; sides <= most; ++sides) {
+    Circle& circle = circles[static_cast<std::size_t>(sides)];
     for (int i = 0; i < sides; ++i) {
       const math::SinCos at = math::quick_sincos(2 * math::pi * i / sides);
-      circles[static_cast<std::size_t>(sides)].emplace_back(static_cast<float>(at.cos),
-                                                            static_cast<float>(at.sin));
+      circle.x.push_back(static_cast<float>(at.cos));
+      circle.y.push_back(static_cast<float>(at.sin));
+    }
+    for (std::size_t i = 0; i <= Four::size; ++i) {
+      circle.x.push_back(circle.x[i]);
+      circle.y.push_back(circle.y[i]);
     }
   }
   return circles;
 }
-
-}  // namespace
 
 GraftWriter::GraftWriter(const Context& context, Job& job)
     : context_(context),
@@ -163,7 +169,7 @@ void GraftWriter::write_limb(std::uint32_t limb) {
   const float middle = axis_.radius_at(0.5F * axis_.length(), axis_.piece_at(0.5F * axis_.length(), 0));
   const int sides = std::max(least_opened_sides, sides_for(middle));
   plan_.begin(start, tip, scale.apart,
-              bulge_share * (1 - circles_[static_cast<std::size_t>(2 * sides)][1].x));
+              bulge_share * (1 - circles_[static_cast<std::size_t>(2 * sides)].x[1]));
   if (context_.trust[limb] <= Trust::detached) plan_children(start);
   if (!plan_.opening.empty()) least_sides_ = least_opened_sides;
   plan_.complete(axis_, has_loop && sides_for(axis_.radius[0]) > 4, context_.options.pointed);
@@ -226,6 +232,7 @@ void GraftWriter::plan_children(float start) {
 }
 
 void GraftWriter::begin_closed(bool is_root, std::uint32_t limb) {
+  is_at_loop_ = false;
   set_seam(0);
   const std::uint32_t head = context_.chains.head[limb];
   const std::uint64_t hash = key_at(context_.limbs.key.empty() ? head : context_.limbs.key[head], 0x0C10);
@@ -261,6 +268,7 @@ void GraftWriter::begin_closed(bool is_root, std::uint32_t limb) {
 
 void GraftWriter::begin_loop(const Loop& loop) {
   // The child's angles run the other way round than the phases of its loop.
+  is_at_loop_ = true;
   below_.clear();
   std::vector<const LoopVertex*>& order = loop_order_;
   order.clear();
@@ -281,6 +289,8 @@ void GraftWriter::begin_loop(const Loop& loop) {
 void GraftWriter::write_band(const Band& band) {
   near_piece_ = band.piece;
   stand_at(band.at);
+  const std::size_t first = mesh_.index.wide.size() / 3;
+  const bool is_at_loop = !band.openings.empty();
   if (band.openings.empty()) {
     plain_ring(plane_of(band), upper_);
     strip(below_, upper_);
@@ -288,6 +298,8 @@ void GraftWriter::write_band(const Band& band) {
     open_ring(plane_of(band), band);
     strip(below_, lower_);
   }
+  if (is_at_loop_ || is_at_loop) note_loop_triangles(first);
+  is_at_loop_ = is_at_loop;
   std::swap(below_, upper_);
   corners_ += below_.size();
   if (below_.size() > cached_corners) wide_corners_ += below_.size();
@@ -297,34 +309,50 @@ void GraftWriter::write_tip(float end_radius) {
   const glm::vec3 along = axis_.along.back();
   const std::uint32_t apex =
       vertex(axis_.point.back(), along, picture_at(end_radius, pi + seam_, axis_.length()), none);
+  const std::size_t first = mesh_.index.wide.size() / 3;
   for (std::size_t i = 0; i + 1 < below_.size(); ++i) triangle(below_[i].vertex, below_[i + 1].vertex, apex);
+  if (is_at_loop_) note_loop_triangles(first);
+}
+
+void GraftWriter::note_loop_triangles(std::size_t first) {
+  const std::size_t end = mesh_.index.wide.size() / 3;
+  const std::uint32_t* corner = mesh_.index.wide.data() + 3 * first;
+  for (std::size_t t = first; t < end; ++t, corner += 3) {
+    if ((group_[corner[0]] & group_[corner[1]] & group_[corner[2]]) != none)
+      loop_triangles_.push_back(static_cast<std::uint32_t>(t));
+  }
 }
 
 /// Triangles between two rings, by rising angle.
 void GraftWriter::strip(const Corners& below, const Corners& above) {
-  const std::size_t last_below = below.size() - 1, last_above = above.size() - 1;
-  const glm::vec3* position = mesh_.position.data();
-  triangles_.spend(last_below + last_above);
-  std::uint32_t* out = mesh_.index.wide.extend(3 * (last_below + last_above));
-  const auto apart = [&](const Corner& a, const Corner& b) {
-    const glm::vec3 between = position[a.vertex] - position[b.vertex];
-    return glm::dot(between, between);
+  const std::size_t count = below.size() + above.size() - 2;
+  triangles_.spend(count);
+  write_strip(below, above, mesh_.position.data(), mesh_.index.wide.extend(3 * count));
+}
+
+SEEDMESH_WIDE void GraftWriter::write_strip(const Corners& below, const Corners& above,
+                                            const glm::vec3* position, std::uint32_t* out) {
+  const Corner *a = below.data(), *b = above.data();
+  const Corner *const last_a = a + below.size() - 1, *const last_b = b + above.size() - 1;
+  const auto apart = [&](const Corner& one, const Corner& other) {
+    const FourFloats between = Four::row(position + one.vertex) - Four::row(position + other.vertex);
+    const FourFloats squares = between * between;
+    return squares[0] + squares[1] + squares[2];
   };
-  for (std::size_t i = 0, j = 0; i < last_below || j < last_above; out += 3) {
-    const Corner &a = below[i], &b = above[j];
-    const Corner &next_a = below[std::min(i + 1, last_below)], &next_b = above[std::min(j + 1, last_above)];
+  for (; a < last_a || b < last_b; out += 3) {
+    const Corner &next_a = a[a < last_a ? 1 : 0], &next_b = b[b < last_b ? 1 : 0];
     // The shorter diagonal, unless one side has fallen far behind. Chosen, not branched to: nobody can
     // foresee which it is.
     const float lead = next_a.angle - next_b.angle;
-    const bool is_shorter = apart(next_a, b) < apart(a, next_b);
+    const bool is_shorter = apart(next_a, *b) < apart(*a, next_b);
     const bool is_behind = lead<0, is_far = std::abs(lead)> most_lead;
     const bool is_next = (is_far & is_behind) | (!is_far & is_shorter);
-    const bool take_below = (j == last_above) | ((i < last_below) & is_next);
-    out[0] = a.vertex;
+    const bool take_below = (b == last_b) | ((a < last_a) & is_next);
+    out[0] = a->vertex;
     out[1] = take_below ? next_a.vertex : next_b.vertex;
-    out[2] = b.vertex;
-    i += take_below ? 1 : 0;
-    j += take_below ? 0 : 1;
+    out[2] = b->vertex;
+    a += take_below ? 1 : 0;
+    b += take_below ? 0 : 1;
   }
 }
 

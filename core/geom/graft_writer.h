@@ -3,6 +3,7 @@
 /// children.
 #include <vector>
 
+#include "core/geom/four.h"
 #include "core/geom/graft.h"
 #include "core/geom/graft_plan.h"
 
@@ -58,6 +59,15 @@ class GraftWriter {
   };
   using Corners = std::vector<Corner>;
 
+  /// Cosines and sines of corners all round, the first again at the end, and more up to blocks of four.
+  struct Circle {
+    std::vector<float> x, y;
+    glm::vec2 at(int corner) const {
+      return {x[static_cast<std::size_t>(corner)], y[static_cast<std::size_t>(corner)]};
+    }
+  };
+  static std::vector<Circle> circles_up_to(int most);
+
   /// The plane of a ring.
   struct Plane {
     glm::vec3 centre{0}, u{0}, v{0}, tangent{0};
@@ -95,7 +105,7 @@ class GraftWriter {
     bool is_fork = false;
   };
 
-  /// A face at a loop: its unit normal, and the groups of its corners or none.
+  /// A face at a loop: its unit normal, and the groups of its corners that have changed or none.
   struct LoopFace {
     glm::vec3 normal{0};
     std::uint32_t group[3] = {none, none, none};
@@ -104,6 +114,7 @@ class GraftWriter {
   /// A place in what is written.
   struct Place {
     std::uint32_t vertex = 0, triangle = 0, group = 0;
+    std::uint32_t loop_triangle = 0;
     std::uint32_t corners = 0, wide_corners = 0;
   };
   /// What belongs to a limb; `first_end`: of the triangles at the loop that it begins with.
@@ -116,6 +127,11 @@ class GraftWriter {
   enum class Kind : std::uint8_t { none, root, collar, fork, closed };
 
   void make_room(std::size_t vertices);
+  /// For `count` vertices more, and for those that blocks of four write behind the last.
+  void make_room_for(std::size_t count) {
+    if (vertices_ + count + Four::size > mesh_.position.size())
+      make_room(vertices_ + vertices_ / 2 + count + 64);
+  }
   void find_parents();
   void find_dirty();
   bool has_same_loop(const Loop& now, const Loop& then) const;
@@ -123,14 +139,25 @@ class GraftWriter {
   void keep_limb(std::uint32_t limb, const Loop& then);
   void mark_touched();
   struct FaceBlock;
-  static void weigh(FaceBlock& block);
-  static void look_at(FaceBlock& block, float least_square);
+  static void measure(FaceBlock& block, const glm::vec3* position);
+  static void weigh(FaceBlock& block, std::size_t count);
+  bool is_first() const { return parent_.empty(); }
+  template <class Each>
+  void each_at_loops(std::size_t limb, const Each& each) const;
+  void add_loop_normals(std::size_t first_limb, std::size_t last_limb, std::vector<LoopFace>& faces);
+  void add_loop_faces(FaceBlock& block, std::size_t count, std::vector<LoopFace>& faces);
+  void join_loop_normals();
+  bool looks_away(const LoopFace& face, std::uint32_t group) const;
+  std::vector<LoopFace> strained_faces(const std::vector<std::vector<LoopFace>>& faces) const;
+  void ease_loop_normals(const std::vector<std::vector<LoopFace>>& faces);
+  void put_loop_normals(std::size_t limb);
+  struct Faces;
+  static std::size_t sound_faces(const Faces& faces, const std::uint32_t* corner, std::size_t count);
+  void look_at(std::uint32_t first, std::uint32_t last, std::vector<std::uint32_t>& bad) const;
+  void find_bad(std::size_t limb, std::vector<std::uint32_t>& bad) const;
   bool blame(const std::uint32_t* corner, std::vector<Trust>& trust, bool is_late) const;
-  void add_loop_normals(std::vector<LoopFace>& faces);
-  void add_loop_face(const FaceBlock& block, std::size_t lane, const std::uint32_t* corner,
-                     std::vector<LoopFace>& faces);
-  void ease_loop_normals(const std::vector<LoopFace>& faces);
-  std::size_t judge(std::size_t limb, std::vector<Trust>& trust, bool is_late) const;
+  std::size_t take_blame(const std::vector<std::vector<std::uint32_t>>& bad, std::vector<Trust>& trust,
+                         bool is_late) const;
   void find_concerned();
   bool is_touched(const std::uint32_t* corner) const;
   std::uint32_t last_triangle(std::size_t limb) const;
@@ -151,6 +178,7 @@ class GraftWriter {
   Plane plane_at(float at, std::size_t piece) const;
   int corners_for(float radius) const;
   int sides_for(float radius) const;
+  bool has_ribs() const { return axis_.order == 0 && context_.options.lobes != 0; }
   float ribbed(float angle) const;
   std::uint32_t ring_corner(const Plane& plane, float angle, glm::vec2 direction);
   glm::vec2 picture_at(float radius, float angle, float at) const;
@@ -161,8 +189,16 @@ class GraftWriter {
   std::uint32_t vertex_of(Mark& mark, const Plane& plane, bool is_beyond);
   void go_round(Corners& order, const Plane& plane, Corners& out);
   void plain_ring(const Plane& plane, Corners& out);
+  bool write_ring_block(const Plane& plane, const Circle& circle, std::size_t first, std::size_t sides);
+  glm::vec2 turned_to_seam(const glm::vec2& c) const {
+    return {c.x * seam_turn_.x - c.y * seam_turn_.y, c.x * seam_turn_.y + c.y * seam_turn_.x};
+  }
+  float picture_width(float radius) const { return turns_ > 0 ? turns_ : radius; }
   void open_ring(const Plane& plane, const Band& band);
   void strip(const Corners& below, const Corners& above);
+  static void write_strip(const Corners& below, const Corners& above, const glm::vec3* position,
+                          std::uint32_t* out);
+  void note_loop_triangles(std::size_t first);
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
   std::uint32_t vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv, std::uint32_t group);
   void mark_twin() { twin_[vertices_ - 1] = 1; }
@@ -170,26 +206,27 @@ class GraftWriter {
   Context context_;
   Job& job_;
   Meter triangles_;
-  Mesh mesh_;                 ///< with more room than `vertices_`
+  Mesh mesh_;                 ///< with more room than `vertices_`, so that all can be read as four floats
   std::size_t vertices_ = 0;  ///< that are written
   Array<std::uint32_t>
       group_;  ///< of each vertex; those on a loop share a normal: even the parent's, odd the child's
   Array<glm::vec3> group_normal_;
-  std::vector<std::uint32_t> group_limb_;  ///< the child of each pair of groups
-  std::vector<Range> range_;               ///< of each limb
-  std::vector<Kind> kind_;                 ///< of each limb
-  std::vector<std::uint32_t> parent_;      ///< of each limb; empty in the first round, where all are dirty
-  std::vector<std::uint8_t> dirty_;        ///< limbs that were written in this round
-  std::vector<std::uint8_t> touched_;      ///< pairs of groups of a dirty limb
-  std::vector<Concern> concern_;           ///< of each limb
-  Array<std::uint32_t> joints_;            ///< as Written::joints
-  Array<std::uint8_t> twin_;               ///< as Written::twin
-  std::vector<Trust> trust_;               ///< as it was in the last round
+  std::vector<std::uint32_t> group_limb_;      ///< the child of each pair of groups
+  std::vector<std::uint32_t> loop_triangles_;  ///< those that touch a loop, rising
+  std::vector<Range> range_;                   ///< of each limb
+  std::vector<Kind> kind_;                     ///< of each limb
+  std::vector<std::uint32_t> parent_;  ///< of each limb; empty in the first round, where all are dirty
+  std::vector<std::uint8_t> dirty_;    ///< limbs that were written in this round
+  std::vector<std::uint8_t> touched_;  ///< pairs of groups of a dirty limb
+  std::vector<Concern> concern_;       ///< of each limb
+  Array<std::uint32_t> joints_;        ///< as Written::joints
+  Array<std::uint8_t> twin_;           ///< as Written::twin
+  std::vector<Trust> trust_;           ///< as it was in the last round
   std::vector<std::uint32_t> first_child_, next_sibling_;
   std::vector<Loop> loops_;
   std::vector<LoopVertex> loop_vertices_;
-  std::vector<std::vector<glm::vec2>> circles_;  ///< corners by number
-  std::vector<float> corner_radius_;             ///< from which on a limb has 4, 5, ... corners
+  std::vector<Circle> circles_;       ///< by number of corners
+  std::vector<float> corner_radius_;  ///< from which on a limb has 4, 5, ... corners
   float thickest_ = 0;
 
   // Of the limb being written.
@@ -207,6 +244,7 @@ class GraftWriter {
   int least_sides_ = 3, loop_sides_ = 0;
   float turns_ = 0;             ///< of the picture round the limb, by a radian; 0: u is in metres
   std::uint32_t joint_ = none;  ///< what the vertices being written move with
+  bool is_at_loop_ = false;     ///< the ring `below_`
   std::size_t corners_ = 0, wide_corners_ = 0;
 };
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "core/base/wide.h"
+#include "core/geom/four.h"
 
 namespace seedmesh {
 namespace {
@@ -117,6 +119,30 @@ SEEDMESH_WIDE void face_forward(const Lanes3& face, Lanes3& __restrict normal,
 
 }  // namespace
 
+namespace {
+
+/// Lanes `lane` to `lane + count - 1`, at most four, to `out` and every `step` after it.
+void write_lanes(const Lanes3& from, std::size_t lane, std::size_t count, glm::vec3* out, std::size_t step) {
+  if (count < Four::size) {
+    for (std::size_t k = 0; k < count; ++k) out[k * step] = from.at(lane + k);
+    return;
+  }
+  FourFloats x, y;
+  std::memcpy(&x, from.x + lane, sizeof(x));
+  std::memcpy(&y, from.y + lane, sizeof(y));
+  const FourFloats xy[2] = {__builtin_shufflevector(x, y, 0, 4, 1, 5),
+                            __builtin_shufflevector(x, y, 2, 6, 3, 7)};
+  double pairs[4];
+  std::memcpy(pairs, xy, sizeof(pairs));
+  for (std::size_t k = 0; k < Four::size; ++k) {
+    glm::vec3& to = out[k * step];
+    std::memcpy(static_cast<void*>(&to), pairs + k, sizeof(double));
+    to.z = from.z[lane + k];
+  }
+}
+
+}  // namespace
+
 bool OrganBlock::reckon(const Array<Organ>& organs, std::span<const std::uint32_t> numbers) {
   for (std::size_t l = 0; l < lanes; ++l) {
     const Organ& organ = organs[numbers[std::min(l, numbers.size() - 1)]];
@@ -152,10 +178,14 @@ bool OrganBlock::reckon(const Array<Organ>& organs, std::span<const std::uint32_
   return std::all_of(faults, faults + lanes, [](std::uint32_t fault) { return fault == 0; });
 }
 
-void OrganBlock::write(std::size_t lane, glm::vec3* position, glm::vec3* normal) const {
-  for (std::size_t i = 0; i < surface_.position.size(); ++i) {
-    position[i] = position_[i].at(lane);
-    normal[i] = normal_[i].at(lane);
+void OrganBlock::write(std::size_t count, glm::vec3* position, glm::vec3* normal) const {
+  const std::size_t vertices = surface_.position.size();
+  for (std::size_t lane = 0; lane < count; lane += Four::size) {
+    const std::size_t organs = std::min(Four::size, count - lane);
+    for (std::size_t i = 0; i < vertices; ++i) {
+      write_lanes(position_[i], lane, organs, position + lane * vertices + i, vertices);
+      write_lanes(normal_[i], lane, organs, normal + lane * vertices + i, vertices);
+    }
   }
 }
 

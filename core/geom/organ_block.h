@@ -28,8 +28,8 @@ class OrganBlock {
   /// False: one has a vector without a direction, and must be placed by itself as all must.
   bool reckon(const Array<Organ>& organs, std::span<const std::uint32_t> numbers);
 
-  /// Writes the vertices of one lane.
-  void write(std::size_t lane, glm::vec3* position, glm::vec3* normal) const;
+  /// Writes the vertices of the first `count` lanes, one organ behind another.
+  void write(std::size_t count, glm::vec3* position, glm::vec3* normal) const;
 
  private:
   const Mesh& surface_;

@@ -8,6 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/base/quick_math.h"
 #include "core/base/rng.h"
+#include "core/base/wide.h"
 #include "core/geom/four.h"
 #include "core/geom/organ_block.h"
 
@@ -15,8 +16,8 @@ namespace seedmesh {
 namespace {
 
 constexpr std::size_t organs_a_chunk = 512;
-constexpr std::size_t bits_an_organ = 16;
-constexpr float least_share = 2e-4F;  // of the model's size
+constexpr std::size_t bits_an_organ = 16;  // there are fewer than 2^28
+constexpr float least_share = 2e-4F;       // of the model's size
 constexpr float least_extent = 1e-9F;
 
 /// Organs of one surface and colour, in their order.
@@ -68,37 +69,32 @@ std::uint64_t place_of(const Organ& organ) {
 /// Tells which organs may stand where another does: those whose places have one bit in common of a table.
 class Crossroads {
  public:
-  Crossroads(const Organs& organs, const Job& job) : organs_(organs) {
+  Crossroads(const Organs& organs, const Job& job) : bit_(job, organs.organ.size()) {
     std::size_t size = 1024;
     while (size < bits_an_organ * organs.organ.size()) size *= 2;
-    mask_ = size - 1;
-    taken_ = Array<std::uint64_t>(job, size / 64, std::uint64_t{0});
+    Array<std::uint64_t> taken(job, size / 64, std::uint64_t{0});
     shared_ = Array<std::uint64_t>(job, size / 64, std::uint64_t{0});
-    for (const Organ& organ : organs.organ) {
-      const std::uint64_t bit = bit_of(organ);
-      shared_[bit / 64] |= taken_[bit / 64] & std::uint64_t{1} << bit % 64;
-      taken_[bit / 64] |= std::uint64_t{1} << bit % 64;
+    for (std::size_t i = 0; i < bit_.size(); ++i) {
+      const glm::vec3& at = organs.organ[i].position;
+      const std::uint64_t bit = mix(word_of(at.x, at.y) ^ word_of(at.z, 0) << 7U) & (size - 1);
+      bit_[i] = static_cast<std::uint32_t>(bit);
+      shared_[bit / 64] |= taken[bit / 64] & std::uint64_t{1} << bit % 64;
+      taken[bit / 64] |= std::uint64_t{1} << bit % 64;
     }
   }
-  bool is_shared(const Organ& organ) const {
-    const std::uint64_t bit = bit_of(organ);
-    return (shared_[bit / 64] >> bit % 64 & 1U) != 0;
+  bool is_shared(std::size_t organ) const {
+    return (shared_[bit_[organ] / 64] >> bit_[organ] % 64 & 1U) != 0;
   }
   /// How many they are.
   std::size_t count() const {
     std::size_t shared = 0;
-    for (const Organ& organ : organs_.organ) shared += is_shared(organ) ? 1 : 0;
+    for (std::size_t i = 0; i < bit_.size(); ++i) shared += is_shared(i) ? 1 : 0;
     return shared;
   }
 
  private:
-  std::uint64_t bit_of(const Organ& organ) const {
-    return mix(word_of(organ.position.x, organ.position.y) ^ word_of(organ.position.z, 0) << 7U) & mask_;
-  }
-
-  const Organs& organs_;
-  std::uint64_t mask_ = 0;
-  Array<std::uint64_t> taken_, shared_;
+  Array<std::uint32_t> bit_;  ///< of each organ
+  Array<std::uint64_t> shared_;
 };
 
 std::vector<Group> groups_of(const Organs& organs, const FoliageOptions& options, const Job& job) {
@@ -118,7 +114,7 @@ std::vector<Group> groups_of(const Organs& organs, const FoliageOptions& options
     const Organ& organ = organs.organ[i];
     const float smallest = std::min({organ.scale.x, organ.scale.y, organ.scale.z}) * extents[organ.surface];
     if (!(smallest > std::max(least_share * options.model_size, least_extent))) continue;
-    if (crossroads.is_shared(organ) && !seen.insert(place_of(organ))) continue;
+    if (crossroads.is_shared(i) && !seen.insert(place_of(organ))) continue;
     if (!members || look != std::pair{organ.surface, organ.color}) {
       look = {organ.surface, organ.color};
       members = &by_look[look];
@@ -130,30 +126,41 @@ std::vector<Group> groups_of(const Organs& organs, const FoliageOptions& options
   return groups;
 }
 
-/// Writes one organ's vertices and triangles at their places.
+SEEDMESH_WIDE void shift(const std::uint32_t* from, std::size_t count, std::uint32_t by,
+                         std::uint32_t* __restrict out) {
+  for (std::size_t i = 0; i < count; ++i) out[i] = from[i] + by;
+}
+
+/// Writes organs' vertices and triangles at their places.
 class Placer {
  public:
   Placer(const Mesh& surface, const FoliageOptions& options, Mesh& out)
-      : surface_(surface), options_(options), out_(out) {}
+      : surface_(surface),
+        options_(options),
+        out_(out),
+        in_blocks_(OrganBlock::takes(surface)),
+        together_(in_blocks_ ? organ_lanes : 1) {
+    for (std::size_t k = 0; k < together_; ++k) {
+      uv_.insert(uv_.end(), surface.uv[0].begin(), surface.uv[0].end());
+      for (const std::uint32_t corner : surface.index.wide)
+        index_.push_back(corner + static_cast<std::uint32_t>(k * surface.position.size()));
+    }
+  }
 
   /// Organs `numbers[begin]` to `numbers[end - 1]` of `organs`.
   void place_all(const Array<Organ>& organs, std::span<const std::uint32_t> numbers, std::size_t begin,
                  std::size_t end) const {
-    const bool in_blocks = OrganBlock::takes(surface_);
     OrganBlock block(surface_, options_);
-    for (std::size_t i = begin; i < end; i += organ_lanes) {
-      const std::size_t count = std::min(organ_lanes, end - i);
-      const bool is_reckoned = in_blocks && block.reckon(organs, numbers.subspan(i, count));
-      for (std::size_t k = 0; k < count; ++k) {
-        const Organ& organ = organs[numbers[i + k]];
-        const std::size_t first = (i + k) * surface_.position.size();
-        if (is_reckoned) {
-          block.write(k, out_.position.data() + first, out_.normal.data() + first);
-        } else {
-          place_shape(organ, first);
-        }
-        place_rest(organ, i + k, first);
+    const std::size_t vertices = surface_.position.size();
+    for (std::size_t i = begin; i < end; i += together_) {
+      const std::size_t count = std::min(together_, end - i);
+      if (in_blocks_ && block.reckon(organs, numbers.subspan(i, count))) {
+        block.write(count, out_.position.data() + i * vertices, out_.normal.data() + i * vertices);
+      } else {
+        for (std::size_t k = i; k < i + count; ++k) place_shape(organs[numbers[k]], k * vertices);
       }
+      place_copies(i, count);
+      for (std::size_t k = i; k < i + count; ++k) place_rest(organs[numbers[k]], k * vertices);
     }
   }
 
@@ -171,15 +178,17 @@ class Placer {
     if (options_.crown) follow_crown(position, out_.normal.data() + first);
   }
 
+  /// What is the same of all organs, of up to `together_` of them.
+  void place_copies(std::size_t first, std::size_t count) const {
+    const std::size_t vertices = surface_.position.size(), corners = surface_.index.wide.size();
+    if (!uv_.empty())
+      std::memcpy(out_.uv[0].data() + first * vertices, uv_.data(), count * vertices * sizeof(glm::vec2));
+    shift(index_.data(), count * corners, static_cast<std::uint32_t>(first * vertices),
+          out_.index.wide.data() + first * corners);
+  }
+
   /// All else.
-  void place_rest(const Organ& organ, std::size_t number, std::size_t first) const {
-    if (!out_.uv[0].empty())
-      std::memcpy(out_.uv[0].data() + first, surface_.uv[0].data(), surface_.uv[0].bytes());
-    const std::size_t corners = surface_.index.wide.size();
-    const auto shift = static_cast<std::uint32_t>(first);
-    const std::uint32_t* corner = surface_.index.wide.data();
-    std::uint32_t* index = out_.index.wide.data() + number * corners;
-    for (std::size_t i = 0; i < corners; ++i) index[i] = corner[i] + shift;
+  void place_rest(const Organ& organ, std::size_t first) const {
     if (!out_.color.empty()) place_colors(organ, first);
     if (!out_.bone.empty()) std::fill_n(out_.bone.data() + first, surface_.position.size(), bone_of(organ));
     if (options_.wind) place_wind(organ, first);
@@ -286,6 +295,11 @@ class Placer {
   const Mesh& surface_;
   const FoliageOptions& options_;
   Mesh& out_;
+  bool in_blocks_;
+  std::size_t together_;  ///< organs
+  // Of so many organs.
+  std::vector<glm::vec2> uv_;
+  std::vector<std::uint32_t> index_;
 };
 
 Mesh room_for(const Mesh& surface, std::size_t count, const FoliageOptions& options, Job& job) {
@@ -309,19 +323,30 @@ Mesh room_for(const Mesh& surface, std::size_t count, const FoliageOptions& opti
 
 }  // namespace
 
-std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& options, Job& job) {
-  std::vector<Foliage> foliage;
-  for (const Group& group : groups_of(organs, options, job)) {
+OrganPlacing::OrganPlacing(const Organs& organs, const FoliageOptions& options, Job& job)
+    : organs_(organs), options_(options), job_(job) {
+  for (Group& group : groups_of(organs, options, job)) {
     const Mesh& surface = options.surfaces[group.surface];
-    foliage.push_back({group.surface, group.color, room_for(surface, group.organs.size(), options, job)});
-    const Placer placer(surface, options, foliage.back().mesh);
-    parallel_for(job, group.organs.size(), organs_a_chunk,
+    foliage_.push_back({group.surface, group.color, room_for(surface, group.organs.size(), options, job)});
+    numbers_.push_back(std::move(group.organs));
+  }
+}
+
+void OrganPlacing::write() {
+  for (std::size_t i = 0; i < foliage_.size(); ++i) {
+    const Placer placer(options_.surfaces[foliage_[i].surface], options_, foliage_[i].mesh);
+    parallel_for(job_, numbers_[i].size(), organs_a_chunk,
                  [&](std::size_t begin, std::size_t end, std::size_t) {
-                   job.check();
-                   placer.place_all(organs.organ, group.organs, begin, end);
+                   job_.check();
+                   placer.place_all(organs_.organ, numbers_[i], begin, end);
                  });
   }
-  return foliage;
+}
+
+std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& options, Job& job) {
+  OrganPlacing placing(organs, options, job);
+  placing.write();
+  return placing.take();
 }
 
 std::vector<FoliagePlaces> organ_places(const Organs& organs, const FoliageOptions& options, Job& job) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <span>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/quick_math.h"
+#include "core/base/wide.h"
 #include "core/geom/four.h"
 #include "core/geom/piece_tangents.h"
 #include "core/geom/repeats.h"
@@ -22,27 +24,28 @@ glm::vec3 any_across(const glm::vec3& normal) {
   return math::unit(glm::cross(normal, axis), {0, 0, 1});
 }
 
-/// Along u and along v, summed over the triangles at a vertex.
+/// Along u and along v, summed over the triangles at a vertex; each in the first three lanes.
 struct Sums {
-  glm::vec3 u{0}, v{0};
+  FourFloats u{}, v{};
 };
 
+glm::vec3 first_three(const FourFloats& v) { return {v[0], v[1], v[2]}; }
+
 glm::vec4 tangent_of(const glm::vec3& normal, const Sums& sums) {
-  const glm::vec3 flat = sums.u - normal * glm::dot(normal, sums.u);
-  const bool is_none = glm::dot(flat, flat) <= 1e-8F * glm::dot(sums.u, sums.u);
+  const glm::vec3 u = first_three(sums.u);
+  const glm::vec3 flat = u - normal * glm::dot(normal, u);
+  const bool is_none = glm::dot(flat, flat) <= 1e-8F * glm::dot(u, u);
   const auto across = [&] { return any_across(normal); };
   const glm::vec3 tangent = is_none ? across() : math::unit_or(flat, across);
   // v grows down the picture, and the bitangent points up it.
-  const float w = glm::dot(glm::cross(normal, tangent), sums.v) > 0 ? -1.0F : 1.0F;
+  const float w = glm::dot(glm::cross(normal, tangent), first_three(sums.v)) > 0 ? -1.0F : 1.0F;
   return {tangent, w};
 }
 
 /// tangent_of() four vertices at once; false: one of them has no direction of its own.
-bool write_four(const glm::vec3* normals, const Sums* sums, glm::vec4* out) {
-  const Four n = Four::of(normals);
-  const Sums &a = sums[0], &b = sums[1], &c = sums[2], &d = sums[3];
-  const Four u{{a.u.x, b.u.x, c.u.x, d.u.x}, {a.u.y, b.u.y, c.u.y, d.u.y}, {a.u.z, b.u.z, c.u.z, d.u.z}};
-  const Four v{{a.v.x, b.v.x, c.v.x, d.v.x}, {a.v.y, b.v.y, c.v.y, d.v.y}, {a.v.z, b.v.z, c.v.z, d.v.z}};
+SEEDMESH_WIDE bool write_four(const glm::vec3* normals, const Sums* sums, glm::vec4* out) {
+  const Four n = Four::of(normals), u = Four::of_rows(sums[0].u, sums[1].u, sums[2].u, sums[3].u),
+             v = Four::of_rows(sums[0].v, sums[1].v, sums[2].v, sums[3].v);
   const Four flat = difference(u, scaled(n, dot(n, u)));
   const Four sizes{magnitude(flat.x), magnitude(flat.y), magnitude(flat.z)};
   const FourFloats more = chosen(sizes.x < sizes.y, sizes.y, sizes.x);
@@ -51,9 +54,16 @@ bool write_four(const glm::vec3* normals, const Sums* sums, glm::vec4* out) {
                          (largest <= std::numeric_limits<float>::max());
   if (!all_of(good)) return false;
   const Four reduced = divided(flat, largest), tangent = divided(reduced, root(dot(reduced, reduced)));
-  const FourFlags mirrored = dot(cross(n, tangent), v) > 0.0F;
-  for (std::size_t k = 0; k < Four::size; ++k)
-    out[k] = {tangent.x[k], tangent.y[k], tangent.z[k], mirrored[k] ? -1.0F : 1.0F};
+  const FourFloats one = four_times(1), side = chosen(dot(cross(n, tangent), v) > 0.0F, -one, one);
+  const FourFloats xy[2] = {__builtin_shufflevector(tangent.x, tangent.y, 0, 4, 1, 5),
+                            __builtin_shufflevector(tangent.x, tangent.y, 2, 6, 3, 7)},
+                   zw[2] = {__builtin_shufflevector(tangent.z, side, 0, 4, 1, 5),
+                            __builtin_shufflevector(tangent.z, side, 2, 6, 3, 7)};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const FourFloats rows[2] = {__builtin_shufflevector(xy[k], zw[k], 0, 1, 4, 5),
+                                __builtin_shufflevector(xy[k], zw[k], 2, 3, 6, 7)};
+    std::memcpy(static_cast<void*>(out + 2 * k), rows, sizeof(rows));
+  }
   return true;
 }
 
@@ -64,24 +74,38 @@ struct Piece {
   std::size_t first = 0;
 };
 
+/// A vertex of a mesh in the first three lanes; of all but the last the next float is read too.
+FourFloats vertex_of(const Mesh& mesh, std::size_t i) {
+  const glm::vec3* from = mesh.position.data() + i;
+  return i + 1 == mesh.position.size() ? spread_out(*from) : Four::row(from);
+}
+
 template <class Index>
-void sum_up(const Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>& uv, std::span<Sums> sums) {
-  const glm::vec3* position = mesh.position.data();
+void sum_all(const Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>& uv, std::span<Sums> sums) {
   for (std::size_t i = 0; i + 2 < piece.index.size(); i += 3) {
     const Index corner[3] = {piece.index[i], piece.index[i + 1], piece.index[i + 2]};
-    const glm::vec3 a = position[corner[1]] - position[corner[0]];
-    const glm::vec3 b = position[corner[2]] - position[corner[0]];
     const glm::vec2 s = uv[corner[1]] - uv[corner[0]], t = uv[corner[2]] - uv[corner[0]];
     const float area = s.x * t.y - s.y * t.x;
     if (area == 0) continue;
+    const FourFloats from = vertex_of(mesh, corner[0]), a = vertex_of(mesh, corner[1]) - from,
+                     b = vertex_of(mesh, corner[2]) - from;
     // Not divided by the area in the picture but by its sign: large triangles count more.
     const float sign = area < 0 ? -1.0F : 1.0F;
-    const glm::vec3 along_u = (a * t.y - b * s.y) * sign, along_v = (b * s.x - a * t.x) * sign;
+    const FourFloats along_u = (a * t.y - b * s.y) * sign, along_v = (b * s.x - a * t.x) * sign;
     for (const Index k : corner) {
       sums[k - piece.first].u += along_u;
       sums[k - piece.first].v += along_v;
     }
   }
+}
+
+SEEDMESH_WIDE void sum_up(const Mesh& mesh, const Piece<std::uint16_t>& piece, const Array<glm::vec2>& uv,
+                          std::span<Sums> sums) {
+  sum_all(mesh, piece, uv, sums);
+}
+SEEDMESH_WIDE void sum_up(const Mesh& mesh, const Piece<std::uint32_t>& piece, const Array<glm::vec2>& uv,
+                          std::span<Sums> sums) {
+  sum_all(mesh, piece, uv, sums);
 }
 
 /// The tangents of `vertices` vertices that no triangle shares with others; `sums` has room for them.

@@ -36,10 +36,10 @@ struct WallClock {
   }
 };
 
-/// The median of `rounds` timings of `work`, in seconds. `work` runs once before, so that memory and caches
-/// are warm.
+/// `rounds` timings of `work` in seconds, rising. `work` runs once before, so that memory and caches are
+/// warm.
 template <class Clock, class Work>
-double median_seconds(int rounds, Work&& work) {
+std::vector<double> timings(int rounds, Work&& work) {
   work();
   std::vector<double> seconds;
   for (int round = 0; round < rounds; ++round) {
@@ -47,8 +47,19 @@ double median_seconds(int rounds, Work&& work) {
     work();
     seconds.push_back(Clock::seconds() - start);
   }
-  std::nth_element(seconds.begin(), seconds.begin() + rounds / 2, seconds.end());
-  return seconds[static_cast<std::size_t>(rounds / 2)];
+  std::sort(seconds.begin(), seconds.end());
+  return seconds;
+}
+
+template <class Clock, class Work>
+double median_seconds(int rounds, Work&& work) {
+  return timings<Clock>(rounds, work)[static_cast<std::size_t>(rounds / 2)];
+}
+
+/// Of several threads on a machine that others use too: what it takes when they happen to be idle.
+template <class Clock, class Work>
+double least_seconds(int rounds, Work&& work) {
+  return timings<Clock>(rounds, work).front();
 }
 
 /// A figure of /proc/self/status in bytes, as VmRSS or VmHWM.

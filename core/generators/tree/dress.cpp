@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/parallel.h"
 #include "core/generators/tree/collision.h"
 #include "core/generators/tree/leaves.h"
 #include "core/generators/tree/levels.h"
@@ -100,8 +101,43 @@ Mesh coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, GraftOptions 
   return mesh;
 }
 
+/// The finest level, where it was made before.
+struct Made {
+  std::optional<Mesh> bark;
+  std::optional<std::vector<Foliage>> leaves;
+};
+
+// Bark has at most so many triangles a joint, and no triangle takes so many bytes while it is made.
+constexpr std::uint64_t most_triangles_a_joint = 256, most_bytes_a_triangle = 64;
+
+/// Are they so few that no limit can be met? Where one is, what is made first decides about the message.
+bool is_modest(const Skeleton& skeleton, std::uint64_t triangles_a_leaf, const Job& job) {
+  const std::uint64_t triangles =
+      most_triangles_a_joint * skeleton.limbs.size() + triangles_a_leaf * skeleton.organs.organ.size();
+  const std::uint64_t left = job.limits().triangles - job.spent(Resource::triangles);
+  return triangles < left && most_bytes_a_triangle * triangles < job.limits().memory_bytes / 2;
+}
+
+/// Bark and leaves side by side, where that is of use.
+Made make_both(const Skeleton& skeleton, const TreeParams& params, const Motion& motion, const Leaves& leaves,
+               Job& job) {
+  Made made;
+  if (!has_threads(job) || job.demand().share_organs || leaves.organs.organ.empty()) return made;
+  if (!is_modest(skeleton, leaf_of(params, 0, job).elements(), job)) return made;
+  LeafPlacing placing(leaves, leaves.organs, 0, job);
+  run_both(
+      job,
+      [&] {
+        made.bark = bark_of(skeleton.limbs, graft_options(params, Detail(0)), motion.bones(),
+                            motion.wind ? &*motion.wind : nullptr, job);
+      },
+      [&] { placing.write(); });
+  made.leaves = placing.take();
+  return made;
+}
+
 void add_bark(Model& model, const Limbs& limbs, const TreeParams& params, const Motion& motion,
-              const TreeLevels& levels, Job& job) {
+              const TreeLevels& levels, std::optional<Mesh> finest_mesh, Job& job) {
   Node node;
   node.name = "bark";
   node.parent = 0;
@@ -112,7 +148,8 @@ void add_bark(Model& model, const Limbs& limbs, const TreeParams& params, const 
     const Detail detail(level);
     Mesh mesh;
     if (level == 0) {
-      mesh = bark_of(limbs, finest, motion.bones(), motion.wind ? &*motion.wind : nullptr, job);
+      mesh = finest_mesh ? *std::move(finest_mesh)
+                         : bark_of(limbs, finest, motion.bones(), motion.wind ? &*motion.wind : nullptr, job);
       triangles = mesh.elements();
     } else {
       const GraftOptions options = graft_options(params, detail);
@@ -167,16 +204,16 @@ Model dress(Skeleton skeleton, const TreeParams& params, Job& job) {
   if (job.demand().wind) motion.wind.emplace(skeleton.limbs, job);
   if (has_leaves(params)) fit_leaves(skeleton.organs, params, job);
   TreeLevels levels(skeleton, params, job);
-  add_bark(model, skeleton.limbs, params, motion, levels, job);
+  LeafMotion moved;
+  if (motion.growth) moved.bones = motion.growth->bone.span();
+  if (motion.wind) moved.wind = &*motion.wind;
+  const Organs none(job);
+  const Leaves leaves{has_leaves(params) ? skeleton.organs : none, params, moved, size_of(skeleton.limbs)};
+  Made made = make_both(skeleton, params, motion, leaves, job);
+  add_bark(model, skeleton.limbs, params, motion, levels, std::move(made.bark), job);
   add_collision(model, skeleton.limbs, job);
-  const float size = size_of(skeleton.limbs);
   if (!motion.wind) skeleton.limbs = Limbs(job);  // its memory goes back before the leaves need theirs
-  if (has_leaves(params)) {
-    LeafMotion moved;
-    if (motion.growth) moved.bones = motion.growth->bone.span();
-    if (motion.wind) moved.wind = &*motion.wind;
-    add_leaves(model, skeleton.organs, params, moved, levels, size, job);
-  }
+  add_leaves(model, leaves, levels, std::move(made.leaves), job);
   if (motion.growth) add_growth(model, *motion.growth);
   return model;
 }

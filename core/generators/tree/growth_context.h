@@ -1,5 +1,7 @@
 #pragma once
 /// What every model of a tree writes with: limbs and leaves of one Skeleton, counted before they are made.
+#include <span>
+
 #include "core/base/job.h"
 #include "core/base/quick_math.h"
 #include "core/geom/frame.h"
@@ -76,7 +78,8 @@ class SkeletonWriter {
     return is_drawn(key, density_);
   }
   void add(const Leaf& leaf);
-  void add(const Organ& leaf) { organs_.organ.push_back(leaf); }
+  void add(const Organ& leaf) { add(std::span(&leaf, 1)); }
+  void add(std::span<const Organ> leaves) { organs_.organ.append(leaves); }
 
   /// The radius at the far end of a joint's internode.
   double radius(std::uint32_t joint) const { return static_cast<double>(limbs_.radius[joint]); }

@@ -31,13 +31,15 @@ LeafBuild leaf_build(TreeBuild build) {
   }
 }
 
-FoliageOptions options_of(const Organs& organs, const TreeParams& params, const LeafMotion& motion,
-                          float model_size) {
+FoliageOptions options_of(const Leaves& leaves, std::span<const Mesh> surfaces) {
+  const Organs& organs = leaves.organs;
+  const TreeParams& params = leaves.params;
   FoliageOptions options;
-  options.model_size = model_size;
+  options.surfaces = surfaces;
+  options.model_size = leaves.model_size;
   options.tint = static_cast<float>(params.leaf.tint);
-  options.bones = motion.bones;
-  options.wind = motion.wind;
+  options.bones = leaves.motion.bones;
+  options.wind = leaves.motion.wind;
   if (params.leaf.crown_normals > 0 && !organs.organ.empty()) {
     Box box{organs.organ[0].position, organs.organ[0].position};
     for (const Organ& organ : organs.organ) {
@@ -66,24 +68,24 @@ void put_on(Model& model, Node& node, MeshGroup group) {
   }
 }
 
-struct Leaves {
-  const Organs& organs;
-  TreeLevels& levels;
-};
-
-void add_merged(Model& model, const Leaves& leaves, const TreeParams& params, const FoliageOptions& shared,
-                const LeafLook& look, Job& job) {
+void add_merged(Model& model, const Leaves& leaves, TreeLevels& levels,
+                std::optional<std::vector<Foliage>> finest, const LeafLook& look, Job& job) {
   Node node;
   node.name = "leaves";
   node.parent = 0;
   for (int level = 0; level < job.demand().lods; ++level) {
-    FoliageOptions options = shared;
-    const Mesh surface = leaf_of(params, level, job);
-    options.surfaces = std::span(&surface, 1);
-    Organs fewer(job);
-    if (level > 0) fewer = leaves.levels.foliage->keep(leaves.organs, Detail(level).organs(), job);
     MeshGroup group{level_name("leaves", level), {}};
-    for (Foliage& part : place_organs(level > 0 ? fewer : leaves.organs, options, job))
+    std::vector<Foliage> parts;
+    if (level == 0 && finest) {
+      parts = *std::move(finest);
+    } else {
+      Organs fewer(job);
+      if (level > 0) fewer = levels.foliage->keep(leaves.organs, Detail(level).organs(), job);
+      LeafPlacing placing(leaves, level > 0 ? fewer : leaves.organs, level, job);
+      placing.write();
+      parts = placing.take();
+    }
+    for (Foliage& part : parts)
       group.primitives.push_back({std::move(part.mesh), look.material, look.variants});
     if (!group.primitives.empty()) put_on(model, node, std::move(group));
   }
@@ -138,24 +140,27 @@ void fit_leaves(Organs& organs, const TreeParams& params, const Job& job) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < organs.organ.size(); ++i) {
     if (i % 4096 == 0) job.check();
-    Organ organ = organs.organ[i];
-    if (!is_drawn(organ.key, density)) continue;
-    const float width = organ.scale.x * size / across, length = organ.scale.y * size;
-    organ.scale = {width, length, is_round ? width : length};
-    organs.organ[kept++] = organ;
+    if (!is_drawn(organs.organ[i].key, density)) continue;
+    if (kept < i) organs.organ[kept] = organs.organ[i];
+    glm::vec3& scale = organs.organ[kept++].scale;
+    const float width = scale.x * size / across, length = scale.y * size;
+    scale = {width, length, is_round ? width : length};
   }
   organs.organ.resize(kept);
 }
 
-void add_leaves(Model& model, const Organs& organs, const TreeParams& params, const LeafMotion& motion,
-                TreeLevels& levels, float model_size, Job& job) {
-  if (organs.organ.empty()) return;
-  const LeafLook look = add_leaf_look(model, params, job);
-  const FoliageOptions options = options_of(organs, params, motion, model_size);
+LeafPlacing::LeafPlacing(const Leaves& leaves, const Organs& organs, int level, Job& job)
+    : surface_(leaf_of(leaves.params, level, job)),
+      placing_(organs, options_of(leaves, std::span(&surface_, 1)), job) {}
+
+void add_leaves(Model& model, const Leaves& leaves, TreeLevels& levels,
+                std::optional<std::vector<Foliage>> finest, Job& job) {
+  if (leaves.organs.organ.empty()) return;
+  const LeafLook look = add_leaf_look(model, leaves.params, job);
   if (job.demand().share_organs) {
-    add_shared(model, organs, params, options, look, job);
+    add_shared(model, leaves.organs, leaves.params, options_of(leaves, {}), look, job);
   } else {
-    add_merged(model, {organs, levels}, params, options, look, job);
+    add_merged(model, leaves, levels, std::move(finest), look, job);
   }
   // Bark looks the same in every season.
   for (MeshGroup& group : model.meshes) {

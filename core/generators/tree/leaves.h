@@ -1,5 +1,7 @@
 #pragma once
 /// The leaves of a tree as meshes or places.
+#include <optional>
+
 #include "core/generators/tree/growth_context.h"
 #include "core/generators/tree/levels.h"
 #include "core/generators/tree/looks.h"
@@ -19,9 +21,31 @@ Mesh leaf_of(const TreeParams& params, int level, const Job& job);
 /// Leaves only those that are drawn, and gives them the size of the mesh.
 void fit_leaves(Organs& organs, const TreeParams& params, const Job& job);
 
+/// Leaves that were fitted; `model_size` is the diagonal of the tree. Borrowed.
+struct Leaves {
+  const Organs& organs;
+  const TreeParams& params;
+  const LeafMotion& motion;
+  float model_size;
+};
+
+/// A level of leaves that are not places of one mesh, made in two steps as OrganPlacing does.
+class LeafPlacing {
+ public:
+  LeafPlacing(const Leaves& leaves, const Organs& organs, int level, Job& job);
+  LeafPlacing(const LeafPlacing&) = delete;
+  LeafPlacing& operator=(const LeafPlacing&) = delete;
+  void write() { placing_.write(); }
+  std::vector<Foliage> take() { return placing_.take(); }
+
+ private:
+  Mesh surface_;
+  OrganPlacing placing_;
+};
+
 /// Adds the node "leaves" with all levels of detail, or, where the output asks for it, as places of one mesh.
-/// `organs` were fitted. `model_size` is the diagonal of the tree.
-void add_leaves(Model& model, const Organs& organs, const TreeParams& params, const LeafMotion& motion,
-                TreeLevels& levels, float model_size, Job& job);
+/// `finest`: the finest level, where it was made before.
+void add_leaves(Model& model, const Leaves& leaves, TreeLevels& levels,
+                std::optional<std::vector<Foliage>> finest, Job& job);
 
 }  // namespace seedmesh::tree

@@ -147,8 +147,8 @@ void WeberPennGrower::put_leaves() {
     Organ& organ = leaves_[i];
     organ.frame = leaf_frames_.frame(i);
     organ.scale = glm::vec3(p_.LeafScale * p_.LeafScaleX, p_.LeafScale, p_.LeafScale);
-    writer_.add(organ);
   }
+  writer_.add(std::span<const Organ>(leaves_.data(), leaf_frames_.size()));
   leaf_frames_.clear();
 }
 

@@ -37,6 +37,38 @@ TEST(ParallelFor, InsideAnotherStaysOnItsThread) {
   EXPECT_EQ(std::count(strangers.begin(), strangers.end(), 0), 16);
 }
 
+TEST(RunBoth, CallsBothAndLetsThemCutTheirWork) {
+  for (const int threads : {1, 2, 8}) {
+    const Job job = with_threads(threads);
+    std::vector<int> one(1000, 0), other(1000, 0);
+    const auto count_up = [&](std::vector<int>& visits) {
+      parallel_for(job, visits.size(), 7, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) ++visits[i];
+      });
+    };
+    run_both(
+        job, [&] { count_up(one); }, [&] { count_up(other); });
+    EXPECT_EQ(std::count(one.begin(), one.end(), 1), 1000);
+    EXPECT_EQ(std::count(other.begin(), other.end(), 1), 1000);
+  }
+}
+
+TEST(RunBoth, ThrowsOnWhatTheFirstThrowsWhereBothDo) {
+  for (const int threads : {1, 8}) {
+    const auto fail = [](const char* message) { Job::refuse(message); };
+    try {
+      run_both(
+          with_threads(threads), [&] { fail("one"); }, [&] { fail("other"); });
+      FAIL() << "nothing was thrown";
+    } catch (const Stop& stop) {
+      EXPECT_EQ(stop.issue().message, "one");
+    }
+    EXPECT_THROW(run_both(
+                     with_threads(threads), [] {}, [&] { fail("other"); }),
+                 Stop);
+  }
+}
+
 TEST(ParallelFor, ThrowsOnWhatAChunkThrows) {
   const Job job = with_threads(4);
   EXPECT_THROW(parallel_for(job, 100, 1,

@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <bit>
+
+#include "core/base/quick_math.h"
+#include "core/geom/graft_writer.h"
+
+namespace seedmesh {
+namespace {
+
+// Normals of loops that come nearer than this to the plane of a face, or behind it, are turned toward it by a
+// little more, again and again.
+constexpr float least_lean = 0.03F, wanted_lean = 0.06F;
+constexpr int most_turns = 24;
+
+/// Numbers that wait to be looked at, in turn.
+class Waiting {
+ public:
+  explicit Waiting(std::size_t count) : words_((count + 63) / 64, ~std::uint64_t{0}) {
+    if (count % 64 != 0) words_.back() = (std::uint64_t{1} << count % 64) - 1;
+  }
+  void add(std::uint32_t number) { words_[number / 64] |= std::uint64_t{1} << number % 64; }
+
+  /// Calls each(number) for all by rising number, which wait no more then. Those that are added meanwhile
+  /// come in this turn where they are greater, else in the next.
+  template <class Each>
+  void take_all(const Each& each) {
+    for (std::size_t word = 0; word < words_.size(); ++word) {
+      std::uint64_t greater = ~std::uint64_t{0};
+      while (const std::uint64_t here = words_[word] & greater) {
+        const std::uint64_t bit = here & (~here + 1);
+        greater = ~(bit | (bit - 1));
+        words_[word] &= ~bit;
+        each(static_cast<std::uint32_t>(64 * word) + static_cast<std::uint32_t>(std::countr_zero(bit)));
+      }
+    }
+  }
+
+ private:
+  std::vector<std::uint64_t> words_;
+};
+
+}  // namespace
+
+bool GraftWriter::looks_away(const LoopFace& face, std::uint32_t group) const {
+  return group != none && glm::dot(group_normal_[group & ~1U], face.normal) < least_lean;
+}
+
+/// The faces that have a normal which looks away from one of its faces.
+std::vector<GraftWriter::LoopFace> GraftWriter::strained_faces(
+    const std::vector<std::vector<LoopFace>>& faces) const {
+  std::vector<std::uint8_t> strained(touched_.size(), 0);
+  bool any = false;
+  for (const std::vector<LoopFace>& part : faces) {
+    for (const LoopFace& face : part) {
+      for (const std::uint32_t group : face.group) {
+        if (!looks_away(face, group)) continue;
+        strained[group / 2] = 1;
+        any = true;
+      }
+    }
+  }
+  std::vector<LoopFace> hard;
+  const auto is_strained = [&](std::uint32_t group) { return group != none && strained[group / 2]; };
+  for (std::size_t i = 0; any && i < faces.size(); ++i) {
+    for (const LoopFace& face : faces[i]) {
+      if (is_strained(face.group[0]) || is_strained(face.group[1]) || is_strained(face.group[2]))
+        hard.push_back(face);
+    }
+  }
+  return hard;
+}
+
+/// Where a limb leaves at a narrow angle, the mean of both surfaces may look away from one of their faces;
+/// the normal gives way, so that the limb need not.
+void GraftWriter::ease_loop_normals(const std::vector<std::vector<LoopFace>>& faces) {
+  const std::vector<LoopFace> hard = strained_faces(faces);
+  if (hard.empty()) return;
+  // The faces at each pair of groups: from first[pair] to first[pair + 1].
+  std::vector<std::uint32_t> first(touched_.size() + 1, 0);
+  const auto for_pairs = [&](const auto& each) {
+    for (std::uint32_t i = 0; i < hard.size(); ++i) {
+      for (const std::uint32_t group : hard[i].group) {
+        if (group != none) each(first[group / 2], i);
+      }
+    }
+  };
+  for_pairs([](std::uint32_t& count, std::uint32_t) { ++count; });
+  std::uint32_t sum = 0;
+  for (std::uint32_t& each : first) each = sum += each;
+  std::vector<std::uint32_t> at_pair(sum);
+  for_pairs([&](std::uint32_t& place, std::uint32_t face) { at_pair[--place] = face; });
+
+  // A face is looked at again only if one of its normals has turned since it was.
+  Waiting waiting(hard.size());
+  bool turns = true;
+  for (int turn = 0; turns && turn < most_turns; ++turn) {
+    turns = false;
+    waiting.take_all([&](std::uint32_t i) {
+      const LoopFace& face = hard[i];
+      for (const std::uint32_t group : face.group) {
+        if (!looks_away(face, group)) continue;
+        glm::vec3& normal = group_normal_[group & ~1U];
+        normal =
+            math::quick_unit(normal + face.normal * (wanted_lean - glm::dot(normal, face.normal)), normal);
+        for (std::uint32_t k = first[group / 2]; k < first[group / 2 + 1]; ++k) waiting.add(at_pair[k]);
+        turns = true;
+      }
+    });
+  }
+}
+
+}  // namespace seedmesh
