@@ -34,31 +34,46 @@ Job roomy() {
   return Job(1, options);
 }
 
+/// On the wall, and of all threads on their cores, which other processes of a busy machine hardly lengthen.
+struct Seconds {
+  double wall = 0, cores = 0;
+};
+
 template <class Work>
-double timed(Work&& work) {
+Seconds timed(Work&& work) {
   const auto once = [&] {
-    const double start = bench::WallClock::seconds();
+    const Seconds start{bench::WallClock::seconds(), bench::CpuClock::seconds()};
     work();
-    return bench::WallClock::seconds() - start;
+    return Seconds{bench::WallClock::seconds() - start.wall, bench::CpuClock::seconds() - start.cores};
   };
-  const double fitting = std::floor(enough_seconds / std::max(once(), 1e-3));
-  std::vector<double> seconds(std::clamp<std::size_t>(static_cast<std::size_t>(fitting), 1, most_rounds));
-  for (double& each : seconds) each = once();
-  std::nth_element(seconds.begin(), seconds.begin() + seconds.size() / 2, seconds.end());
-  return seconds[seconds.size() / 2];
+  const double fitting = std::floor(enough_seconds / std::max(once().wall, 1e-3));
+  std::vector<Seconds> rounds(std::clamp<std::size_t>(static_cast<std::size_t>(fitting), 1, most_rounds));
+  for (Seconds& each : rounds) each = once();
+  const auto middle = rounds.begin() + static_cast<std::ptrdiff_t>(rounds.size() / 2);
+  std::nth_element(rounds.begin(), middle, rounds.end(),
+                   [](const Seconds& a, const Seconds& b) { return a.wall < b.wall; });
+  return *middle;
+}
+
+/// `bytes`: of the answer; 0: it is not written.
+void print(const std::string& name, const char* unit, double amount, double bytes, const Seconds& seconds) {
+  std::printf(
+      "{\"name\":\"%s\",\"unit\":\"%s\",\"amount\":%.0f,\"bytes\":%.0f,\"seconds\":%.9f,\"cores\":%.9f}\n",
+      name.c_str(), unit, amount, bytes, seconds.wall, seconds.cores);
+  std::fflush(stdout);
 }
 
 void bench_poisson() {
   const scene::Extent ground{glm::dvec2(-500), glm::dvec2(500)};
   double places = 0;
-  const double seconds = timed([&] {
+  const Seconds seconds = timed([&] {
     places = static_cast<double>(scene::poisson_disk(ground, ground, 0.82, Rng(1), roomy()).size());
   });
-  bench::report("Poisson disk", "places", places, seconds);
+  print("Poisson disk", "places", places, 0, seconds);
 }
 
 /// Bytes of the answer; 0 where the request is refused.
-double made(const Json& json, double& seconds) {
+double made(const Json& json, Seconds& seconds) {
   const Result<Request> request = read_request(json.dump(), Limits{});
   if (!request) return 0;
   double bytes = 0;
@@ -72,12 +87,9 @@ double made(const Json& json, double& seconds) {
 }
 
 void report_made(const std::string& name, const char* unit, double amount, const Json& json) {
-  double seconds = 0;
+  Seconds seconds;
   const double bytes = made(json, seconds);
-  if (bytes == 0) return;
-  std::printf("{\"name\":\"%s\",\"unit\":\"%s\",\"amount\":%.0f,\"bytes\":%.0f,\"seconds\":%.9f}\n",
-              name.c_str(), unit, amount, bytes, seconds);
-  std::fflush(stdout);
+  if (bytes > 0) print(name, unit, amount, bytes, seconds);
 }
 
 Json tree(int levels) {
