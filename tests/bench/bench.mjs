@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// Runs the benches of build/release and their peers, three times in turn, and prints a table of the medians. Figures also go to
+// Runs the benches of build/release and their peers, most of them three times in turn, and prints a table of the medians. Figures also go to
 // build/bench.jsonl, one a line, for comparing two commits.   bench.mjs [words of a name]
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
