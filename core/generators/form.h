@@ -10,6 +10,7 @@ struct OwnForm {
   std::string_view media_type;
   std::string_view extension;
   bool has_profiles = false;  ///< output.profile chooses among conventions of it
+  bool has_models = false;    ///< models are files of it: output.textures and output.tangents bear on them
 };
 
 /// A form and whose conventions it is to follow, as output names both.

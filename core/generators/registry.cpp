@@ -28,6 +28,16 @@ struct Traits {
   bool has_levels = true;
 };
 
+Result<Payload> payload_of(Result<Payload> made) { return made; }
+Result<Payload> payload_of(Result<Array<std::uint8_t>> made) {
+  if (!made) return std::move(made).error();
+  auto kept = std::make_shared<const Array<std::uint8_t>>(*std::move(made));
+  const auto bytes = std::as_bytes(kept->span());
+  Payload payload;
+  payload.add(std::move(kept), bytes);
+  return payload;
+}
+
 /// The functions of one generator as the compiler sees them, turned to those of a row.
 template <class Own, auto read_own, auto write_own, auto check_own, auto generate_own, auto derive_own,
           auto appraise_own, auto vocabulary_own>
@@ -81,9 +91,9 @@ struct Row {
     generator.forms = forms;
     generator.encode = [](const Params& params, const WantedForm& form, Job& job) {
       if constexpr (requires { encode_own(own(params), form, job); }) {
-        return encode_own(own(params), form, job);
+        return payload_of(encode_own(own(params), form, job));
       } else {
-        return encode_own(own(params), form.format, job);
+        return payload_of(encode_own(own(params), form.format, job));
       }
     };
     return generator;
@@ -116,7 +126,7 @@ constexpr OwnForm fractal_forms[] = {
 };
 
 constexpr OwnForm scene_forms[] = {
-    {"placements", "application/zip", "zip"},
+    {"placements", "application/zip", "zip", false, true},
 };
 
 /// In the order in which the gallery shows them: what most look for comes first.

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/array.h"
 #include "core/base/job.h"
 #include "core/generators/appraisal.h"
 #include "core/generators/form.h"
+#include "core/gltf/payload.h"
 #include "core/schema/child.h"
 #include "core/schema/faults.h"
 #include "core/schema/json.h"
@@ -52,7 +52,7 @@ struct Generator {
 
   /// Forms beside those of models, and what makes one of them; null where there are none.
   std::span<const OwnForm> forms = {};
-  Result<Array<std::uint8_t>> (*encode)(const Params& params, const WantedForm& form, Job& job) = nullptr;
+  Result<Payload> (*encode)(const Params& params, const WantedForm& form, Job& job) = nullptr;
   /// Faults between parameters and one of these forms; pointers relative to the parameters, or below
   /// "/output/". Null: there are none.
   std::vector<Issue> (*check_form)(const Params& params, const WantedForm& form) = nullptr;

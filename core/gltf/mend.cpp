@@ -91,6 +91,7 @@ void mend_normals(Part& part, const std::vector<std::size_t>& inward, Job& job) 
   Array<std::uint32_t> vertices(job, all), corners(job, part.index->count);
   for (std::size_t i = 0; i < count; ++i) vertices[i] = static_cast<std::uint32_t>(i);
   for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = corner_at(*part.index, i);
+  part.index->slice = {};  // another is made of the corners
   for (std::size_t i = 0; i < mended.size(); ++i) {
     vertices[count + i] = corners[mended[i].corner];
     corners[mended[i].corner] = static_cast<std::uint32_t>(count + i);

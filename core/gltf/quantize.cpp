@@ -181,28 +181,37 @@ std::uint64_t word_of(const Column& position, std::uint32_t vertex) {
   return std::uint64_t{p.x} << 32U | std::uint64_t{p.y} << 16U | p.z;
 }
 
-/// Where a thin piece has become flat, its two sides are the same triangle turned round: both go. Of
-/// triangles that are there twice one stays.
-void drop_folds(const Column& position, Array<std::uint32_t>& corners) {
-  struct Face {
-    std::array<std::uint64_t, 3> at;  ///< rising
-    std::size_t triangle;
-    bool turned;
-  };
-  std::vector<Face> faces(corners.size() / 3);
-  for (std::size_t t = 0; t < faces.size(); ++t) {
-    Face& face = faces[t];
-    for (std::size_t c = 0; c < 3; ++c) face.at[c] = word_of(position, corners[3 * t + c]);
-    const auto sorted = [&] { return std::is_sorted(face.at.begin(), face.at.end()); };
-    face.triangle = t;
-    std::rotate(face.at.begin(), std::min_element(face.at.begin(), face.at.end()), face.at.end());
-    face.turned = !sorted();
-    std::sort(face.at.begin(), face.at.end());
+/// A triangle by where its corners lie.
+struct Face {
+  std::array<std::uint64_t, 3> at;  ///< rising
+  std::size_t triangle;
+  bool turned;
+};
+
+Face face_of(const Column& position, const Array<std::uint32_t>& corners, std::size_t triangle) {
+  Face face{{}, triangle, false};
+  for (std::size_t c = 0; c < 3; ++c) face.at[c] = word_of(position, corners[3 * triangle + c]);
+  std::rotate(face.at.begin(), std::min_element(face.at.begin(), face.at.end()), face.at.end());
+  face.turned = !std::is_sorted(face.at.begin(), face.at.end());
+  std::sort(face.at.begin(), face.at.end());
+  return face;
+}
+
+/// 32 bits that equal triangles agree in, and hardly any others.
+std::uint64_t hash_of(const Face& face) {
+  std::uint64_t hash = 0;
+  for (const std::uint64_t each : face.at) {
+    hash = (hash ^ each) * 0x9E3779B97F4A7C15U;
+    hash ^= hash >> 32U;
   }
+  return hash >> 32U;
+}
+
+/// Marks those of equal triangles that go.
+void mark_folds(std::vector<Face>& faces, std::vector<bool>& goes) {
   std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
     return a.at != b.at ? a.at < b.at : a.triangle < b.triangle;
   });
-  std::vector<bool> goes(faces.size(), false);
   for (std::size_t i = 0; i < faces.size();) {
     std::size_t end = i, turned = 0;
     for (; end < faces.size() && faces[end].at == faces[i].at; ++end) turned += faces[end].turned ? 1 : 0;
@@ -215,8 +224,31 @@ void drop_folds(const Column& position, Array<std::uint32_t>& corners) {
       goes[faces[i].triangle] = !stays;
     }
   }
+}
+
+/// Where a thin piece has become flat, its two sides are the same triangle turned round: both go. Of
+/// triangles that are there twice one stays. Only those whose hashes are equal are looked at.
+void drop_folds(const Column& position, Array<std::uint32_t>& corners, Job& job) {
+  const std::size_t triangles = corners.size() / 3;
+  Array<std::uint64_t> hashes(job, triangles);  // the hash above, the triangle below
+  for (std::size_t t = 0; t < triangles; ++t) {
+    if (t % look_every == 0) job.check();
+    hashes[t] = hash_of(face_of(position, corners, t)) << 32U | t;
+  }
+  std::sort(hashes.begin(), hashes.end());
+  std::vector<bool> goes(triangles, false);
+  std::vector<Face> alike;
+  for (std::size_t i = 0; i < triangles;) {
+    std::size_t end = i + 1;
+    while (end < triangles && hashes[end] >> 32U == hashes[i] >> 32U) ++end;
+    alike.clear();
+    for (std::size_t k = i; end - i > 1 && k < end; ++k)
+      alike.push_back(face_of(position, corners, hashes[k] & 0xFFFFFFFFU));
+    mark_folds(alike, goes);
+    i = end;
+  }
   std::size_t kept = 0;
-  for (std::size_t t = 0; t < faces.size(); ++t) {
+  for (std::size_t t = 0; t < triangles; ++t) {
     if (goes[t]) continue;
     for (std::size_t c = 0; c < 3; ++c) corners[kept++] = corners[3 * t + c];
   }
@@ -322,11 +354,12 @@ void clean(Part& part, Job& job) {
   // Mostly nothing is to be done, and then nothing is copied.
   if (kept == vertices && !any_flat(part.columns.front(), given)) return;
   if (corners.empty()) corners.append(given);
+  part.index->slice = {};  // rewrite() makes another of the corners
   if (!first.empty()) {
     for (std::uint32_t& corner : corners) corner = first[corner];
   }
   drop_flat(part.columns.front(), corners);
-  if (corners.size() < before) drop_folds(part.columns.front(), corners);
+  if (corners.size() < before) drop_folds(part.columns.front(), corners, job);
   rewrite(part, corners, job);
 }
 

@@ -127,16 +127,16 @@ Result<Product> produce_own(const Request& request, const OwnForm& form, Job& jo
   demand.textures = texture_size(request.body().output);
   demand.tangents = request.body().output.tangents == OutputTangents::auto_;
   job.set_demand(demand);
-  Result<Array<std::uint8_t>> file =
+  Result<Payload> file =
       request.body().generator->encode(request.body().params, wanted_form(request.body().output), job);
   if (!file) return in_request(std::move(file).error());
-  job.spend(Resource::output_bytes, file->size());
+  // Some spend it on the way, before they write.
+  const std::uint64_t spent = job.spent(Resource::output_bytes);
+  if (file->size() > spent) job.spend(Resource::output_bytes, file->size() - spent);
   Product product;
   product.media_type = form.media_type;
   product.extension = form.extension;
-  auto kept = std::make_shared<const Array<std::uint8_t>>(*std::move(file));
-  const auto bytes = std::as_bytes(kept->span());
-  product.payload.add(std::move(kept), bytes);
+  product.payload = *std::move(file);
   product.timing = timing_of(job);
   return product;
 }

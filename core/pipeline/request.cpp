@@ -152,6 +152,10 @@ void check_own_form(const Generator& generator, const Generator::Params& params,
   Json options = write_output(output);
   options.erase("format");
   if (own->has_profiles) options.erase("profile");
+  if (own->has_models) {
+    options.erase("textures");
+    options.erase("tangents");
+  }
   for (const auto& [name, value] : options.items()) {
     faults.add({"/output/" + name, "found " + value.dump() + " with the format " + std::string(format) +
                                        ", which is no model and has no such option"});

@@ -1,13 +1,8 @@
 // Trees by npm @dgreenheck/ez-tree, the peer: CPU time of generate() and of writing a GLB without textures, without start-up. Its
 // presets stand beside ours of like triangle count.
-const silent = { addEventListener() {}, removeEventListener() {}, style: {} };
-globalThis.document = { createElementNS: () => ({ ...silent }), createElement: () => ({ ...silent }) };
-globalThis.self = globalThis;
-globalThis.FileReader = class {
-  readAsArrayBuffer(blob) {
-    blob.arrayBuffer().then((buffer) => { this.result = buffer; this.onloadend(); });
-  }
-};
+import { stand_in_for_browser } from './peer_support.mjs';
+
+stand_in_for_browser();
 const { Tree } = await import('@dgreenheck/ez-tree');
 const { MeshStandardMaterial } = await import('three');
 const { GLTFExporter } = await import('three/examples/jsm/exporters/GLTFExporter.js');

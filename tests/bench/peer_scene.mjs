@@ -4,15 +4,9 @@
 import { performance } from 'node:perf_hooks';
 import Delatin from 'delatin';
 import FastPoissonDiskSampling from 'fast-2d-poisson-disk-sampling';
+import { hills, range_of, stand_in_for_browser } from './peer_support.mjs';
 
-const silent = { addEventListener() {}, removeEventListener() {}, style: {} };
-globalThis.document = { createElementNS: () => ({ ...silent }), createElement: () => ({ ...silent }) };
-globalThis.self = globalThis;
-globalThis.FileReader = class {
-  readAsArrayBuffer(blob) {
-    blob.arrayBuffer().then((buffer) => { this.result = buffer; this.onloadend(); });
-  }
-};
+stand_in_for_browser();
 const { Tree } = await import('@dgreenheck/ez-tree');
 const three = await import('three');
 const { GLTFExporter } = await import('three/examples/jsm/exporters/GLTFExporter.js');
@@ -40,22 +34,9 @@ function poisson_disk() {
   print('Poisson disk', 'fast-2d-poisson-disk-sampling', 'places', places.length, (performance.now() - start) / 1000);
 }
 
-/** Eight octaves of smooth value noise, 206 m from the lowest to the highest sample. */
+/** Smooth hills, 206 m from the lowest to the highest sample. */
 function heights() {
-  const field = new Float32Array(side * side);
-  const hash = (x, y, o) => { let h = Math.imul(x, 374761393) ^ Math.imul(y, 668265263) ^ Math.imul(o, 2147483647); h = Math.imul(h ^ (h >>> 13), 1274126177); return ((h ^ (h >>> 16)) >>> 0) / 4294967296; };
-  const ease = (t) => t * t * t * (t * (t * 6 - 15) + 10);
-  let low = Infinity, high = -Infinity;
-  for (let octave = 0, cell = side / 3, weight = 1; octave < 8; octave += 1, cell /= 2, weight *= 0.5) {
-    for (let z = 0; z < side; z += 1) {
-      for (let x = 0; x < side; x += 1) {
-        const fx = x / cell, fz = z / cell, i = Math.floor(fx), j = Math.floor(fz), u = ease(fx - i), v = ease(fz - j);
-        const north = hash(i, j, octave) * (1 - u) + hash(i + 1, j, octave) * u, south = hash(i, j + 1, octave) * (1 - u) + hash(i + 1, j + 1, octave) * u;
-        field[z * side + x] += weight * (north * (1 - v) + south * v);
-      }
-    }
-  }
-  for (const height of field) { low = Math.min(low, height); high = Math.max(high, height); }
+  const field = hills(side, 0.5), [low, high] = range_of(field);
   return field.map((height) => ((height - low) / (high - low)) * 206);
 }
 

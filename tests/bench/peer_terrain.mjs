@@ -4,6 +4,7 @@
 import { performance } from 'node:perf_hooks';
 import Martini from '@mapbox/martini';
 import Delatin from 'delatin';
+import { hills, range_of } from './peer_support.mjs';
 
 const side = 1025;
 
@@ -15,23 +16,6 @@ function print(name, peer, unit, amount, work, rounds = 3) {
     seconds.push((performance.now() - start) / 1000);
   }
   console.log(JSON.stringify({ name, peer, unit, amount, seconds: seconds.sort((a, b) => a - b)[Math.floor(rounds / 2)] }));
-}
-
-/** Value noise of eight octaves. */
-function hills() {
-  const heights = new Float32Array(side * side);
-  const hash = (x, y, o) => { let h = Math.imul(x, 374761393) ^ Math.imul(y, 668265263) ^ Math.imul(o, 2147483647); h = Math.imul(h ^ (h >>> 13), 1274126177); return ((h ^ (h >>> 16)) >>> 0) / 4294967296; };
-  const ease = (t) => t * t * t * (t * (t * 6 - 15) + 10);
-  for (let octave = 0, cell = side / 3, weight = 1; octave < 8; octave += 1, cell /= 2, weight *= 0.525) {
-    for (let z = 0; z < side; z += 1) {
-      for (let x = 0; x < side; x += 1) {
-        const fx = x / cell, fz = z / cell, i = Math.floor(fx), j = Math.floor(fz), u = ease(fx - i), v = ease(fz - j);
-        const north = hash(i, j, octave) * (1 - u) + hash(i + 1, j, octave) * u, south = hash(i, j + 1, octave) * (1 - u) + hash(i + 1, j + 1, octave) * u;
-        heights[z * side + x] += weight * (north * (1 - v) + south * v);
-      }
-    }
-  }
-  return heights;
 }
 
 async function fields() {
@@ -50,9 +34,7 @@ async function fields() {
   print('362 faults 257', 'three.terrain.js', 'cells and faults', 257 ** 2 * 362, run(terrain.Fault, 256, 1));
 }
 
-const heights = hills();
-let low = Infinity, high = -Infinity;
-for (const height of heights) { low = Math.min(low, height); high = Math.max(high, height); }
+const heights = hills(side, 0.525), [low, high] = range_of(heights);
 const error = 0.002 * (high - low);
 const martini = new Martini(side);
 print('RTIN 1025 at .002', '@mapbox/martini', 'reduced triangles', 0, () => martini.createTile(heights).getMesh(error).triangles.length / 3);

@@ -3,10 +3,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "core/base/math.h"
 #include "core/generators/scene/stands.h"
@@ -19,7 +22,9 @@ namespace {
 
 using namespace seedmesh;
 
-constexpr int rounds = 3;
+// A first round warms memory and caches. After it there are as many as fit into the time, one at least.
+constexpr std::size_t most_rounds = 5;
+constexpr double enough_seconds = 4;
 
 Job roomy() {
   Job::Options options;
@@ -29,22 +34,46 @@ Job roomy() {
   return Job(1, options);
 }
 
+/// On the wall, and of all threads on their cores, which other processes of a busy machine hardly lengthen.
+struct Seconds {
+  double wall = 0, cores = 0;
+};
+
 template <class Work>
-double timed(Work&& work) {
-  return bench::median_seconds<bench::WallClock>(rounds, work);
+Seconds timed(Work&& work) {
+  const auto once = [&] {
+    const Seconds start{bench::WallClock::seconds(), bench::CpuClock::seconds()};
+    work();
+    return Seconds{bench::WallClock::seconds() - start.wall, bench::CpuClock::seconds() - start.cores};
+  };
+  const double fitting = std::floor(enough_seconds / std::max(once().wall, 1e-3));
+  std::vector<Seconds> rounds(std::clamp<std::size_t>(static_cast<std::size_t>(fitting), 1, most_rounds));
+  for (Seconds& each : rounds) each = once();
+  const auto middle = rounds.begin() + static_cast<std::ptrdiff_t>(rounds.size() / 2);
+  std::nth_element(rounds.begin(), middle, rounds.end(),
+                   [](const Seconds& a, const Seconds& b) { return a.wall < b.wall; });
+  return *middle;
+}
+
+/// `bytes`: of the answer; 0: it is not written.
+void print(const std::string& name, const char* unit, double amount, double bytes, const Seconds& seconds) {
+  std::printf(
+      "{\"name\":\"%s\",\"unit\":\"%s\",\"amount\":%.0f,\"bytes\":%.0f,\"seconds\":%.9f,\"cores\":%.9f}\n",
+      name.c_str(), unit, amount, bytes, seconds.wall, seconds.cores);
+  std::fflush(stdout);
 }
 
 void bench_poisson() {
   const scene::Extent ground{glm::dvec2(-500), glm::dvec2(500)};
   double places = 0;
-  const double seconds = timed([&] {
+  const Seconds seconds = timed([&] {
     places = static_cast<double>(scene::poisson_disk(ground, ground, 0.82, Rng(1), roomy()).size());
   });
-  bench::report("Poisson disk", "places", places, seconds);
+  print("Poisson disk", "places", places, 0, seconds);
 }
 
 /// Bytes of the answer; 0 where the request is refused.
-double made(const Json& json, double& seconds) {
+double made(const Json& json, Seconds& seconds) {
   const Result<Request> request = read_request(json.dump(), Limits{});
   if (!request) return 0;
   double bytes = 0;
@@ -58,12 +87,9 @@ double made(const Json& json, double& seconds) {
 }
 
 void report_made(const std::string& name, const char* unit, double amount, const Json& json) {
-  double seconds = 0;
+  Seconds seconds;
   const double bytes = made(json, seconds);
-  if (bytes == 0) return;
-  std::printf("{\"name\":\"%s\",\"unit\":\"%s\",\"amount\":%.0f,\"bytes\":%.0f,\"seconds\":%.9f}\n",
-              name.c_str(), unit, amount, bytes, seconds);
-  std::fflush(stdout);
+  if (bytes > 0) print(name, unit, amount, bytes, seconds);
 }
 
 Json tree(int levels) {
@@ -83,19 +109,19 @@ Json terrain(int resolution = 1025) {
             {"max_error", 0.41}}}};
 }
 
-void bench_list() {
+Json list(int placements) {
   const Json cube = {{"generator", "fractal"}, {"parameters", {{"iterations", 0}}}};
-  report_made("1 M placements as list", "placements", 1e6,
-              {{"generator", "scene"},
-               {"parameters",
-                {{"ground", {{"size", 4000}}},
-                 {"layers", {{{"model", cube}, {"place", {{"method", "scatter"}, {"count", 1'000'000}}}}}}}},
-               {"output", {{"format", "placements"}}}});
+  return {{"generator", "scene"},
+          {"parameters",
+           {{"ground", {{"size", 4000}}},
+            {"layers", {{{"model", cube}, {"place", {{"method", "scatter"}, {"count", placements}}}}}}}},
+          {"output", {{"format", "placements"}}}};
 }
 
 /// 16 models of a tree on a terrain.
-Json forest(int trees, int resolution) {
+Json forest(int trees, int resolution, const Json& output = Json::object()) {
   return {{"generator", "scene"},
+          {"output", output},
           {"parameters",
            {{"terrain", terrain(resolution)},
             {"layers",
@@ -127,20 +153,16 @@ Product produced(const Json& json, TextureStore& textures) {
   return *std::move(product);
 }
 
-/// In a process of its own, which has made a small forest of the same models before.
-void bench_memory(const std::string& name, const Json& output) {
+/// In a process of its own, which has made a small scene of the same models before.
+void bench_memory(const std::string& name, const Json& small, const Json& large) {
   std::fflush(stdout);
   const pid_t child = fork();
   if (child == 0) {
     bench::KeptTextures textures;
-    Json json = forest(100, 65);
-    json["output"] = output;
-    produced(json, textures);
+    produced(small, textures);
     std::ofstream("/proc/self/clear_refs") << "5";  // the peak begins anew
     const double idle = bench::status_bytes("VmRSS");
-    json = forest(100'000, 1025);
-    json["output"] = output;
-    const Product product = produced(json, textures);
+    const Product product = produced(large, textures);
     std::printf("{\"name\":\"memory: %s\",\"unit\":\"bytes\",\"amount\":%llu,\"peak_less_idle\":%.0f}\n",
                 name.c_str(), static_cast<unsigned long long>(product.payload.size()),
                 bench::status_bytes("VmHWM") - idle);
@@ -183,11 +205,13 @@ void bench_growth(int count) {
 
 int main(int argc, char** argv) {
   // First, while this process is small: a child starts with its parent's memory.
-  bench_memory("100,000 trees as nodes", Json::object());
-  bench_memory("100,000 trees for the web", {{"profile", "web"}});
+  const Json web = {{"profile", "web"}};
+  bench_memory("100,000 trees as nodes", forest(100, 65), forest(100'000, 1025));
+  bench_memory("100,000 trees for the web", forest(100, 65, web), forest(100'000, 1025, web));
+  bench_memory("1 M placements as list", list(100), list(1'000'000));
   if (argc > 1 && std::string(argv[1]) == "memory") return 0;
   bench_poisson();
-  bench_list();
+  report_made("1 M placements as list", "placements", 1e6, list(1'000'000));
   bench_forest();
   bench_growth(50);
   bench_growth(500);

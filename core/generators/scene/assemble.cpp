@@ -81,6 +81,7 @@ class Assembly {
     for (std::size_t i = 0; i < params_.layers.size(); ++i) told.push_back(add_layer(i));
     model_.extras.push_back({"layers", canonical_text(told)});
     for (const Warning& each : planting_.warnings) model_.warnings.push_back(each);
+    tell_what_is_missing();
     return std::move(model_);
   }
 
@@ -90,6 +91,17 @@ class Assembly {
     Stature stature;
     Grower grower;  ///< without joints: it stands still
   };
+
+  /// What was asked for and no model could give.
+  void tell_what_is_missing() {
+    const Demand& demand = job_.demand();
+    const auto has_picture = [](const Group& group) { return group.stature.has_picture; };
+    if (demand.impostor && std::none_of(groups_.begin(), groups_.end(), has_picture))
+      model_.warnings.push_back(
+          {"/output/impostor", "no model has so many triangles that a picture has fewer"});
+    if (demand.growth && model_.animations.empty())
+      model_.warnings.push_back({"/output/animation", "nothing that stands here grows"});
+  }
 
   /// Variants of a model warn alike.
   void cast_warnings(Model& made) {

@@ -150,12 +150,16 @@ Ground::Sample Ground::sample(const glm::dvec2& p) const {
   return {corner + rise.x * east + rise.y * south, rise / field_.cell};
 }
 
-void Ground::level(const Foundation& foundation) {
+double Ground::level_margin() const { return terrain_ ? field_.cell * std::sqrt(2.0) : 0; }
+
+void Ground::level(const Foundation& foundation, const Job& job) {
+  job.check();
   if (!terrain_) return;
+  if (levelled_.empty()) levelled_ = Array<std::uint8_t>(job, field_.heights.size(), std::uint8_t{0});
   const Footprint& footprint = foundation.footprint;
   const auto height = static_cast<float>(this->height(footprint.at));
   // All squares that the footprint touches become level.
-  const double flat = field_.cell * std::sqrt(2.0);
+  const double flat = level_margin();
   const double reach = footprint.reach() + flat + foundation.slope_width;
   const auto index = [&](double place, double least, std::int32_t last) {
     return math::to_int32(std::clamp((place - least) / field_.cell, 0.0, static_cast<double>(last)));
@@ -168,15 +172,18 @@ void Ground::level(const Foundation& foundation) {
     for (std::int32_t x = x0; x <= x1; ++x) {
       const double outside = footprint.outside(extent_.min + glm::dvec2(x, z) * field_.cell) - flat;
       if (outside > 0 && outside >= foundation.slope_width) continue;
+      float& sample = field_.at(x, z);
+      std::uint8_t& is_levelled = levelled_[static_cast<std::size_t>(&sample - field_.heights.data())];
+      if (is_levelled != 0) continue;
+      is_levelled = outside <= 0 ? 1 : 0;
       const double share = outside <= 0 ? 0 : outside / foundation.slope_width;
       const auto old = static_cast<float>(share * share * (3 - 2 * share));
-      float& sample = field_.at(x, z);
       sample = height + (sample - height) * old;
     }
   }
 }
 
-Result<Model> Ground::model(const SceneParams& params, const Job& job) const {
+Result<Model> Ground::model(const SceneParams& params, Job& job) const {
   Model model;
   if (terrain_) {
     Job own = job.for_child(seed_);

@@ -39,12 +39,14 @@ class Ground {
   /// Height of the water; nothing where there is none.
   const std::optional<double>& water() const { return water_; }
 
-  /// Puts the ground under a foundation on the height of its middle.
-  void level(const Foundation& foundation);
+  /// Puts the ground under a foundation on the height of its middle. What lies under an earlier one stays.
+  void level(const Foundation& foundation, const Job& job);
+  /// How far around a foundation the ground becomes level with it: so far its squares reach.
+  double level_margin() const;
 
-  /// The ground and the ways on it as a model, one root; with levels of detail where they are asked for and
-  /// the ground is a terrain. Warnings point to the parameters of the scene.
-  Result<Model> model(const SceneParams& params, const Job& job) const;
+  /// Spends triangles. The ground and the ways on it as a model, one root; with levels of detail where they
+  /// are asked for and the ground is a terrain. Warnings point to the parameters of the scene.
+  Result<Model> model(const SceneParams& params, Job& job) const;
 
  private:
   struct Sample {
@@ -59,6 +61,7 @@ class Ground {
   std::shared_ptr<const TerrainParams> terrain_;  ///< null: level ground
   std::uint64_t seed_ = 0;
   terrain::Field field_;
+  Array<std::uint8_t> levelled_;  ///< by sample: 1 under a foundation; empty: there is none
 };
 
 }  // namespace seedmesh::scene

@@ -80,12 +80,14 @@ std::vector<std::string> lines_of(const SceneParams& params, const Ground& groun
     for (std::size_t p = first; p < last; ++p) {
       const Piece& piece = pieces[p];
       std::string& out = lines[p];
+      job.check();
       for (std::size_t i = piece.begin; i < piece.end; ++i) {
         const Stand& stand = planting.layers[piece.layer][i];
         out += p == 0 && i == 0 ? "\n" : ",\n";
         append(out, casting.casts[casting.cast_of(piece.layer, stand)].name,
                transform_of(stand, params.layers[piece.layer], ground));
       }
+      out.shrink_to_fit();
       job.spend(Resource::output_bytes, out.size());
     }
   });
@@ -129,8 +131,8 @@ Json told(const SceneParams& params, const Ground& ground, const Planting& plant
   return answer;
 }
 
-Result<Array<std::uint8_t>> placement_list(const SceneParams& params, const Ground& ground,
-                                           const Planting& planting, Forecast& forecast, Job& job) {
+Result<Payload> placement_list(const SceneParams& params, const Ground& ground, const Planting& planting,
+                               Forecast& forecast, Job& job) {
   const Casting& casting = forecast.casting();
   std::vector<gltf::ZipEntry> entries;
   gltf::ZipEntry list{"placements.json", {}};
@@ -148,12 +150,7 @@ Result<Array<std::uint8_t>> placement_list(const SceneParams& params, const Grou
   if (!made) return std::move(made).error();
   for (std::size_t i = 0; i < casting.casts.size(); ++i)
     entries.push_back({"models/" + casting.casts[i].name + ".glb", file_of(std::move((*made)[i]), job)});
-  const Payload archive = gltf::zip(std::move(entries));
-  Array<std::uint8_t> file(job);
-  file.reserve(archive.size());
-  for (const auto& piece : archive.pieces())
-    file.append({reinterpret_cast<const std::uint8_t*>(piece.data()), piece.size()});
-  return file;
+  return gltf::zip(std::move(entries));
 }
 
 }  // namespace seedmesh::scene

@@ -9,6 +9,7 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
+#include "core/generators/scene/blame.h"
 #include "core/generators/scene/rules.h"
 #include "generated/params/scene.h"
 
@@ -16,12 +17,14 @@ namespace seedmesh::scene {
 namespace {
 
 constexpr std::size_t stands_a_chunk = 4096;
+// Between two looks at the clock: a stand may have many neighbours to ask.
+constexpr std::size_t stands_a_look = 64;
 // Darts for each place that is wanted, before a layer gives up.
 constexpr std::size_t most_tries = 64;
 constexpr std::size_t least_batch = 1024;
 
 // What is drawn for a stand.
-constexpr std::uint64_t draw_keep = 1, draw_scale = 2, draw_turn = 3, draw_rank = 4, draw_lean = 5;
+constexpr std::uint64_t draw_keep = 1, draw_scale = 2, draw_turn = 3;
 
 double drawn(const Stand& stand, std::uint64_t what) {
   return static_cast<double>(key_at(stand.key, what) >> 11U) * 0x1p-53;
@@ -49,35 +52,19 @@ Base base_of(const SceneLayer& layer) {
   return {glm::dvec2(size[0], size[1]) / 2.0, false};
 }
 
-/// Marks of stands that stay -> these alone, in their order.
-void keep(Array<Stand>& stands, const Array<std::uint8_t>& marks) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < stands.size(); ++i) {
-    if (marks[i] != 0) stands[kept++] = stands[i];
+/// The member that says how many places a pattern has.
+const char* amount_of(SceneMethod method) {
+  switch (method) {
+    case SceneMethod::scatter:
+    case SceneMethod::clusters:
+      return "/count";
+    case SceneMethod::rows:
+      return "/spacing";
+    case SceneMethod::positions:
+      return "/positions";
+    default:
+      return "/distance";
   }
-  stands.resize(kept);
-}
-
-/// Of more than `most` stands those with the lowest numbers, which are by chance.
-void thin_out(Array<Stand>& stands, std::size_t most, const Job& job) {
-  if (stands.size() <= most) return;
-  Array<std::uint64_t> rank(job, stands.size());
-  for (std::size_t i = 0; i < stands.size(); ++i) rank[i] = key_at(stands[i].key, draw_rank);
-  Array<std::uint64_t> sorted(job);
-  sorted.append(rank.span());
-  std::uint64_t limit = 0;
-  if (most > 0) {
-    std::nth_element(sorted.begin(), sorted.begin() + (most - 1), sorted.begin() + sorted.size());
-    limit = sorted[most - 1];
-  }
-  Array<std::uint8_t> marks(job, stands.size());
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < stands.size(); ++i) {
-    const bool stays = kept < most && rank[i] <= limit && most > 0;
-    marks[i] = stays ? 1 : 0;
-    kept += marks[i];
-  }
-  keep(stands, marks);
 }
 
 /// Layers in their order, each seeing those before it.
@@ -98,12 +85,16 @@ class Planter {
     for (std::size_t i = 0; i < params_.layers.size(); ++i) {
       const SceneLayer& layer = params_.layers[i];
       if (Rules::look_at_others(layer.place)) settle();
-      Array<Stand> stands = stands_of(layer, i);
-      stands.shrink_to_fit();
-      job_.spend(Resource::shapes, stands.size());
+      const std::string place = "/layers/" + std::to_string(i) + "/place";
+      Array<Stand> stands = blaming(place + amount_of(layer.place.method), [&] {
+        Array<Stand> own = stands_of(layer, i);
+        own.shrink_to_fit();
+        job_.spend(Resource::shapes, own.size());
+        return own;
+      });
       add_footprints(layer, stands);
       if (stands.empty()) {
-        made_.warnings.push_back({"/layers/" + std::to_string(i) + "/place", "no place suits the layer"});
+        made_.warnings.push_back({place, "no place suits the layer"});
       }
       made_.layers.push_back(std::move(stands));
       planted_.emplace_back();
@@ -131,7 +122,8 @@ class Planter {
     if (place.method == SceneMethod::scatter || place.method == SceneMethod::clusters)
       return series_of(layer, number, rules, part, rng.at("places"));
     Array<Stand> stands = pattern_of(place, part, rng.at("places"));
-    sift(stands, layer, rules);
+    std::optional<Plots> plots = plots_of(layer);
+    sift(stands, layer, rules, plots);
     if (place.count) thin_out(stands, static_cast<std::size_t>(*place.count), job_);
     return stands;
   }
@@ -188,6 +180,7 @@ class Planter {
     const ScenePlace& place = layer.place;
     const auto wanted = static_cast<std::size_t>(*place.count);
     Array<Stand> all(job_);
+    std::optional<Plots> plots = plots_of(layer);
     std::size_t tried = 0;
     const std::size_t most = std::max(wanted * most_tries, least_batch);
     while (all.size() < wanted && tried < most) {
@@ -205,7 +198,7 @@ class Planter {
               : clustered(part, {static_cast<std::size_t>(place.clusters->count), place.clusters->radius},
                           {tried, batch}, rng, job_);
       tried += batch;
-      sift(stands, layer, rules);
+      sift(stands, layer, rules, plots);
       all.append(stands.span().subspan(0, std::min(missing, stands.size())));
     }
     if (all.size() < wanted) {
@@ -222,19 +215,36 @@ class Planter {
     stand.turn += static_cast<float>(math::radians(span_of(layer.turn).at(drawn(stand, draw_turn))));
   }
 
-  void sift(Array<Stand>& stands, const SceneLayer& layer, const Rules& rules) {
+  std::optional<Plots> plots_of(const SceneLayer& layer) const {
+    if (!layer.footprint) return std::nullopt;
+    const double reach = glm::length(base_of(layer).half) * span_of(layer.scale).to;
+    return std::make_optional<Plots>(ground_.extent(), 2 * reach, job_);
+  }
+
+  /// Keeps what suits the rules and, where they have footprints, stands on none that is kept already.
+  void sift(Array<Stand>& stands, const SceneLayer& layer, const Rules& rules, std::optional<Plots>& plots) {
     Array<std::uint8_t> marks(job_, stands.size());
     const Base base = base_of(layer);
     const double reach = base.round ? base.half.x : glm::length(base.half);
     parallel_for(job_, stands.size(), stands_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
-      job_.check();
       for (std::size_t i = begin; i < end; ++i) {
+        if (i % stands_a_look == 0) job_.check();
         Stand& stand = stands[i];
         look(stand, layer);
         const double share = rules.share(stand.at, reach * static_cast<double>(stand.scale));
         marks[i] = share > 0 && drawn(stand, draw_keep) < share ? 1 : 0;
       }
     });
+    if (plots) {
+      const double margin = layer.foundation ? ground_.level_margin() : 0;
+      for (std::size_t i = 0; i < stands.size(); ++i) {
+        if (i % stands_a_look == 0) job_.check();
+        if (marks[i] == 0) continue;
+        Footprint own = Footprint::of(stands[i], base.half, base.round);
+        own.half += margin;
+        marks[i] = plots->take(own) ? 1 : 0;
+      }
+    }
     keep(stands, marks);
   }
 
@@ -242,10 +252,11 @@ class Planter {
   void add_footprints(const SceneLayer& layer, const Array<Stand>& stands) {
     if (!layer.footprint) return;
     const Base base = base_of(layer);
-    std::vector<Footprint> footprints;
+    Array<Footprint> footprints(job_);
+    footprints.reserve(stands.size());
     for (const Stand& stand : stands) footprints.push_back(Footprint::of(stand, base.half, base.round));
     if (layer.foundation) {
-      for (const Footprint& each : footprints) ground_.level({each, layer.foundation->slope_width});
+      for (const Footprint& each : footprints) ground_.level({each, layer.foundation->slope_width}, job_);
     }
     obstacles_.add_footprints(std::move(footprints));
   }
@@ -289,7 +300,7 @@ class Planter {
   };
 
   void compete(std::size_t first, std::size_t last) {
-    std::vector<Rival> rivals;
+    Array<Rival> rivals(job_);
     std::vector<Array<std::uint8_t>> alive;
     for (std::size_t i = first; i < last; ++i) {
       const Array<Stand>& stands = made_.layers[i];
@@ -345,40 +356,11 @@ class Planter {
   std::size_t settled_ = 0;  ///< layers that have competed and are known by place
 };
 
-glm::dquat turn_about(const glm::dvec3& axis, double angle) {
-  const math::SinCos half = math::sincos(angle / 2);
-  return {half.cos, axis.x * half.sin, axis.y * half.sin, axis.z * half.sin};
-}
-
 }  // namespace
 
 Rng stream_of(const SceneLayer& layer, std::size_t number, const Job& job) {
   const Rng layers = job.rng().at("scene").at("layer");
   return layer.name ? layers.at(*layer.name) : layers.at(number);
-}
-
-Transform transform_of(const Stand& stand, const SceneLayer& layer, const Ground& ground) {
-  Transform transform;
-  const double scale = static_cast<double>(stand.scale);
-  transform.translation = glm::vec3(glm::dvec3(stand.at.x, ground.height(stand.at) - layer.sink, stand.at.y));
-  transform.scale = glm::vec3(static_cast<float>(scale));
-  glm::dquat rotation = turn_about({0, 1, 0}, static_cast<double>(stand.turn));
-  if (layer.tilt > 0) {
-    Rng rng(key_at(stand.key, draw_lean));
-    const math::SinCos way = math::sincos(rng.uniform(0, 2 * math::pi));
-    rotation = turn_about({way.cos, 0, way.sin}, math::radians(layer.tilt * rng.unit())) * rotation;
-  }
-  if (layer.upright < 1) {
-    const glm::dvec2 rise = ground.gradient(stand.at);
-    const double steep = math::atan2(glm::length(rise), 1) * (1 - layer.upright);
-    // The axis lies level along the contour, so that up turns downhill.
-    const glm::dvec2 downhill = glm::length(rise) > 0 ? -rise / glm::length(rise) : glm::dvec2(0);
-    rotation = turn_about({downhill.y, 0, -downhill.x}, steep) * rotation;
-  }
-  const double length = std::sqrt(glm::dot(rotation, rotation));
-  transform.rotation = {static_cast<float>(rotation.w / length), static_cast<float>(rotation.x / length),
-                        static_cast<float>(rotation.y / length), static_cast<float>(rotation.z / length)};
-  return transform;
 }
 
 Planting plant(const SceneParams& params, Ground& ground, Job& job) {

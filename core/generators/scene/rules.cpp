@@ -96,7 +96,7 @@ DensityImage read_image(const std::string& text, const std::string& pointer, con
 
 }  // namespace
 
-void Obstacles::add_footprints(std::vector<Footprint> footprints) {
+void Obstacles::add_footprints(Array<Footprint> footprints) {
   if (footprints.empty()) return;
   double widest = 0;
   for (const Footprint& each : footprints) widest = std::max(widest, each.reach());

@@ -26,14 +26,14 @@ class Obstacles {
  public:
   Obstacles(const Extent& extent, const Job& job) : extent_(extent), job_(job) {}
   void add_way(Way way) { ways_.push_back(std::move(way)); }
-  void add_footprints(std::vector<Footprint> footprints);
+  void add_footprints(Array<Footprint> footprints);
 
   /// Does anything that reaches so far around the place meet one of them?
   bool meet(const glm::dvec2& p, double reach) const;
 
  private:
   struct Group {
-    std::vector<Footprint> footprints;
+    Array<Footprint> footprints;
     double widest = 0;
     Neighbours by_place;
   };

@@ -5,7 +5,9 @@
 #include <set>
 
 #include "core/generators/child.h"
+#include "core/generators/registry.h"
 #include "core/generators/scene/assemble.h"
+#include "core/generators/scene/casts.h"
 #include "core/generators/scene/estimate.h"
 #include "core/generators/scene/forecast.h"
 #include "core/generators/scene/grow.h"
@@ -22,6 +24,37 @@ std::optional<Error> refusal(const SceneParams& params, const Limits& limits) {
   return Error{Code::invalid, std::move(issues)};
 }
 
+template <class Holds>
+bool any_model(const SceneParams& params, const Holds& holds) {
+  return std::any_of(params.layers.begin(), params.layers.end(), [&](const SceneLayer& layer) {
+    const std::vector<ScenePosition>& positions = layer.place.positions;
+    return holds(layer.model.generator) ||
+           std::any_of(positions.begin(), positions.end(), [&](const ScenePosition& position) {
+             return position.model && holds(position.model->generator);
+           });
+  });
+}
+
+template <bool Generator::*trait>
+bool has_trait(const std::string& name) {
+  const Generator* generator = find_generator(name);
+  return generator && generator->*trait;
+}
+
+/// What is said of all plants and none of the models has.
+std::vector<Warning> without_effect(const SceneParams& params) {
+  std::vector<Warning> warnings;
+  const auto warn = [&](bool is_given, const char* name) {
+    const auto has_it = [name](const std::string& generator) { return has_parameter(generator, name); };
+    if (is_given && !any_model(params, has_it))
+      warnings.push_back(
+          {"/" + std::string(name), "none of the models has a parameter " + std::string(name)});
+  };
+  warn(params.age.has_value(), "age");
+  warn(params.season.has_value(), "season");
+  return warnings;
+}
+
 /// What of the wanted answer and the parameters does not go together.
 std::vector<Issue> conflicts(const SceneParams& params, const Demand& demand) {
   std::vector<Issue> issues;
@@ -35,7 +68,12 @@ std::vector<Issue> conflicts(const SceneParams& params, const Demand& demand) {
     add("/output/impostor", "found a level of detail and a camera, which chooses one for each place");
   if (demand.copies == CopyForm::merge && wants_pictures(params, demand))
     add("/output/instancing", "found merge; a mesh of all copies has no pictures of each");
+  if (demand.impostor && !any_model(params, has_trait<&Generator::has_impostor>))
+    add("/output/impostor",
+        "found an impostor; none of the models is a plant that a picture could stand for");
   if (!demand.growth) return issues;
+  if (!any_model(params, has_trait<&Generator::grows>))
+    add("/output/animation", "found growth; none of the models grows");
   if (demand.lods > 1) add("/output/lods", levels + "; plants of a scene that grow have one");
   if (params.camera) add("/camera", "a camera chooses levels of detail; plants that grow have one");
   if (demand.copies == CopyForm::gpu)
@@ -65,6 +103,7 @@ Result<Model> generate(const SceneParams& params, Job& job) {
   Result<Ground> ground = Ground::make(params, job);
   if (!ground) return std::move(ground).error();
   Planting planting = plant(params, *ground, job);
+  for (Warning& each : without_effect(params)) planting.warnings.push_back(std::move(each));
   job.progress("mesh", 0);
   Pieces pieces;
   Demand demand;
@@ -98,7 +137,10 @@ Result<Json> derive(const SceneParams& params, Job& job) {
 
 Result<Appraisal> appraise(const SceneParams& params, const Job& job) {
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
+  std::vector<Issue> issues = conflicts(params, job.demand());
+  if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   Appraisal appraisal;
+  appraisal.warnings = without_effect(params);
   const Casting casting = casting_of(params, job);
   const Forecast forecast(params, casting, job);
   forecast.refuse(job);
@@ -118,7 +160,7 @@ Result<Appraisal> appraise(const SceneParams& params, const Job& job) {
 
 Json vocabulary() { return Json::object(); }
 
-Result<Array<std::uint8_t>> encode(const SceneParams& params, std::string_view, Job& job) {
+Result<Payload> encode(const SceneParams& params, std::string_view, Job& job) {
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
   if (params.camera)
     return Error{Code::invalid, {{"/camera", "has no effect on a list of placements", 0, 0}}};

@@ -14,6 +14,7 @@
 
 #include "core/base/job.h"
 #include "core/generators/appraisal.h"
+#include "core/gltf/payload.h"
 #include "core/model/model.h"
 #include "core/schema/json.h"
 
@@ -45,6 +46,6 @@ Result<Appraisal> appraise(const SceneParams& params, const Job& job);
 Json vocabulary();
 
 /// The form "placements": a zip with placements.json (of all stands) and each model as a file of its own.
-Result<Array<std::uint8_t>> encode(const SceneParams& params, std::string_view format, Job& job);
+Result<Payload> encode(const SceneParams& params, std::string_view format, Job& job);
 
 }  // namespace seedmesh::scene

@@ -8,6 +8,9 @@ namespace seedmesh::scene {
 namespace {
 
 constexpr double most_squares_a_side = 2048;
+constexpr std::size_t pieces_a_box = 16;
+// Of their size: rows of houses that share walls are not to depend on rounding.
+constexpr double touching = 1e-6;
 
 double distance_to_piece(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& p) {
   const glm::dvec2 way = b - a;
@@ -16,7 +19,30 @@ double distance_to_piece(const glm::dvec2& a, const glm::dvec2& b, const glm::dv
   return glm::distance(p, a + way * share);
 }
 
+bool is_beyond(const Extent& box, const glm::dvec2& p, double margin) {
+  return p.x < box.min.x - margin || p.y < box.min.y - margin || p.x > box.max.x + margin ||
+         p.y > box.max.y + margin;
+}
+
+/// How far a rectangle reaches along a direction.
+double reach_along(const Footprint& footprint, const glm::dvec2& way) {
+  return footprint.half.x * std::abs(way.x * footprint.cos - way.y * footprint.sin) +
+         footprint.half.y * std::abs(way.x * footprint.sin + way.y * footprint.cos);
+}
+
 }  // namespace
+
+/// Rectangles are apart where they are so along a side of one of them.
+bool overlap(const Footprint& a, const Footprint& b) {
+  const glm::dvec2 way = b.at - a.at;
+  if (a.round) return glm::length(way) < (a.half.x + b.half.x) * (1 - touching);
+  for (const glm::dvec2& side : {glm::dvec2(a.cos, -a.sin), glm::dvec2(a.sin, a.cos),
+                                 glm::dvec2(b.cos, -b.sin), glm::dvec2(b.sin, b.cos)}) {
+    const double sum = reach_along(a, side) + reach_along(b, side);
+    if (std::abs(glm::dot(way, side)) >= sum * (1 - touching)) return false;
+  }
+  return true;
+}
 
 Footprint Footprint::of(const Stand& stand, const glm::dvec2& half, bool round) {
   const math::SinCos turn = math::sincos(static_cast<double>(stand.turn));
@@ -52,20 +78,28 @@ Extent extent_of(std::span<const glm::dvec2> points) {
 
 bool Way::covers(const glm::dvec2& p, double margin) const {
   const double reach = half_width + margin;
-  if (p.x < box.min.x - margin || p.y < box.min.y - margin || p.x > box.max.x + margin ||
-      p.y > box.max.y + margin)
-    return false;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    if (distance_to_piece(points[i - 1], points[i], p) < reach) return true;
+  if (is_beyond(box, p, margin)) return false;
+  for (std::size_t run = 0; run < boxes.size(); ++run) {
+    if (is_beyond(boxes[run], p, margin)) continue;
+    const std::size_t first = run * pieces_a_box + 1, last = std::min(first + pieces_a_box, points.size());
+    for (std::size_t i = first; i < last; ++i) {
+      if (distance_to_piece(points[i - 1], points[i], p) < reach) return true;
+    }
   }
   return false;
 }
 
 Way way_of(std::vector<glm::dvec2> points, double width) {
   Way way;
-  way.box = extent_of(points);
-  way.box.min -= width / 2;
-  way.box.max += width / 2;
+  const auto covered = [&](std::size_t first, std::size_t count) {
+    Extent box = extent_of(std::span<const glm::dvec2>(points).subspan(first, count));
+    box.min -= width / 2;
+    box.max += width / 2;
+    return box;
+  };
+  way.box = covered(0, points.size());
+  for (std::size_t first = 0; first + 1 < points.size(); first += pieces_a_box)
+    way.boxes.push_back(covered(first, std::min(pieces_a_box + 1, points.size() - first)));
   way.points = std::move(points);
   way.half_width = width / 2;
   return way;
@@ -105,6 +139,16 @@ double Neighbours::nearest(const glm::dvec2& at, double radius) const {
     return false;
   });
   return best;
+}
+
+bool Plots::take(const Footprint& footprint) {
+  const bool meets = by_place_.any(footprint.at, widest_ + footprint.reach(),
+                                   [&](std::uint32_t id, double) { return overlap(all_[id], footprint); });
+  if (meets) return false;
+  by_place_.add(footprint.at, static_cast<std::uint32_t>(all_.size()));
+  all_.push_back(footprint);
+  widest_ = std::max(widest_, footprint.reach());
+  return true;
 }
 
 }  // namespace seedmesh::scene

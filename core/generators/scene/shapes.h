@@ -23,6 +23,9 @@ struct Footprint {
   double reach() const { return round ? half.x : glm::length(half); }
 };
 
+/// Do two of one kind, discs or rectangles, cover ground together? Not where they only touch.
+bool overlap(const Footprint& a, const Footprint& b);
+
 /// Is the place inside of the polygon? Edges count by the rule of crossings.
 bool is_inside(std::span<const glm::dvec2> polygon, const glm::dvec2& p);
 Extent extent_of(std::span<const glm::dvec2> points);
@@ -31,8 +34,11 @@ Extent extent_of(std::span<const glm::dvec2> points);
 struct Way {
   std::vector<glm::dvec2> points;
   double half_width = 0;
-  Extent box;  ///< of all that it covers
+  Extent box;                 ///< of all that it covers
+  std::vector<Extent> boxes;  ///< of runs of pieces, half the width around them included
 
+  /// Does it come nearer to the place than the margin? Looks at the boxes, and at the pieces of those that
+  /// are near.
   bool covers(const glm::dvec2& p, double margin) const;
 };
 Way way_of(std::vector<glm::dvec2> points, double width);
@@ -83,6 +89,20 @@ class Neighbours {
   std::size_t wide_ = 1, deep_ = 1;
   Array<std::uint32_t> head_, next_, id_;
   Array<glm::dvec2> place_;
+};
+
+/// Footprints of one kind that lie beside each other. `cell`: about twice the reach of the largest.
+class Plots {
+ public:
+  Plots(const Extent& extent, double cell, const Job& job) : by_place_(extent, cell, job), all_(job) {}
+
+  /// Whether there is room for it; then it is taken.
+  bool take(const Footprint& footprint);
+
+ private:
+  Neighbours by_place_;
+  Array<Footprint> all_;
+  double widest_ = 0;
 };
 
 }  // namespace seedmesh::scene

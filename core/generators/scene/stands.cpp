@@ -11,6 +11,7 @@ namespace seedmesh::scene {
 namespace {
 
 constexpr std::size_t stands_a_chunk = 4096;
+constexpr std::uint64_t draw_rank = 4;
 
 /// A vector of length up to `most` in any direction, its ends spread evenly over the disc.
 glm::dvec2 drawn_offset(Rng& rng, double most) {
@@ -126,6 +127,35 @@ Array<Stand> along(std::span<const glm::dvec2> points, const WayPlan& plan, Rng 
     passed += piece;
   }
   return stands;
+}
+
+void keep(Array<Stand>& stands, const Array<std::uint8_t>& marks) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < stands.size(); ++i) {
+    if (marks[i] != 0) stands[kept++] = stands[i];
+  }
+  stands.resize(kept);
+}
+
+void thin_out(Array<Stand>& stands, std::size_t most, const Job& job) {
+  if (stands.size() <= most) return;
+  Array<std::uint64_t> rank(job, stands.size());
+  for (std::size_t i = 0; i < stands.size(); ++i) rank[i] = key_at(stands[i].key, draw_rank);
+  Array<std::uint64_t> sorted(job);
+  sorted.append(rank.span());
+  std::uint64_t limit = 0;
+  if (most > 0) {
+    std::nth_element(sorted.begin(), sorted.begin() + (most - 1), sorted.begin() + sorted.size());
+    limit = sorted[most - 1];
+  }
+  Array<std::uint8_t> marks(job, stands.size());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < stands.size(); ++i) {
+    const bool stays = kept < most && rank[i] <= limit && most > 0;
+    marks[i] = stays ? 1 : 0;
+    kept += marks[i];
+  }
+  keep(stands, marks);
 }
 
 }  // namespace seedmesh::scene

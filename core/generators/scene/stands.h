@@ -76,4 +76,10 @@ struct WayPlan {
 /// Along a line through `points`. Stands look along it.
 Array<Stand> along(std::span<const glm::dvec2> points, const WayPlan& plan, Rng rng, const Job& job);
 
+/// Those whose mark is not 0 stay, in their order.
+void keep(Array<Stand>& stands, const Array<std::uint8_t>& marks);
+
+/// Of more than `most` stands those with the lowest numbers stay, which are by chance.
+void thin_out(Array<Stand>& stands, std::size_t most, const Job& job);
+
 }  // namespace seedmesh::scene

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/math.h"
+#include "core/generators/scene/blame.h"
 #include "core/generators/scene/ground.h"
 #include "core/schema/json.h"
 #include "generated/params/scene.h"
@@ -21,7 +22,7 @@ constexpr double most_squares = 4096;  ///< along one piece
 
 class Band {
  public:
-  Band(const Ground& ground, double cell, const Job& job) : ground_(ground), cell_(cell), job_(job) {
+  Band(const Ground& ground, double cell, Job& job) : ground_(ground), cell_(cell), job_(job) {
     mesh_.position = Array<glm::vec3>(job);
     mesh_.normal = Array<glm::vec3>(job);
     mesh_.index.wide = Array<std::uint32_t>(job);
@@ -53,6 +54,8 @@ class Band {
     for (const std::uint32_t corner : {a, b, c}) mesh_.index.wide.push_back(corner);
   }
 
+  void spend(std::uint64_t triangles) { job_.spend(Resource::triangles, triangles); }
+
   int squares(double length) const {
     return cell_ > 0 ? static_cast<int>(std::clamp(std::ceil(2 * length / cell_), 1.0, most_squares)) : 1;
   }
@@ -62,6 +65,7 @@ class Band {
     const double length = glm::distance(a, b);
     const glm::dvec2 onward = (b - a) / length, left(onward.y, -onward.x);
     const int far = squares(length), wide = squares(2 * half_width);
+    spend(2 * static_cast<std::uint64_t>(far) * static_cast<std::uint64_t>(wide));
     std::uint32_t before = 0;
     for (int i = 0; i <= far; ++i) {
       const glm::dvec2 middle = a + onward * (length * i / far);
@@ -77,8 +81,9 @@ class Band {
 
   void disc(const glm::dvec2& middle, double radius) {
     ++piece_;
-    const std::uint32_t centre = vertex(middle);
     const int rings = squares(radius);
+    spend(corners_of_a_joint * (2 * static_cast<std::uint64_t>(rings) - 1));
+    const std::uint32_t centre = vertex(middle);
     for (int ring = 1; ring <= rings; ++ring) {
       const auto first = static_cast<std::uint32_t>(mesh_.position.size());
       for (int i = 0; i < corners_of_a_joint; ++i) {
@@ -112,7 +117,7 @@ class Band {
 
   const Ground& ground_;
   double cell_;
-  const Job& job_;
+  Job& job_;
   Mesh mesh_;
   int piece_ = 0;
 };
@@ -148,14 +153,15 @@ void add_way(Model& model, const std::string& name, Mesh mesh) {
 }  // namespace
 
 void add_ways(Model& model, const std::vector<ScenePath>& paths, const Ground& ground, double cell,
-              const Job& job) {
+              Job& job) {
   const std::vector<double> errors = errors_of_levels(model);
-  for (const ScenePath& path : paths) {
+  for (std::size_t number = 0; number < paths.size(); ++number) {
+    const ScenePath& path = paths[number];
     if (!path.shown) continue;
     std::vector<glm::dvec2> points;
     for (const auto& p : path.points) points.emplace_back(p[0], p[1]);
     Band band(ground, cell, job);
-    band.lay(points, path.width / 2);
+    blaming("/paths/" + std::to_string(number), [&] { band.lay(points, path.width / 2); });
     Material material;
     material.name = "path";
     material.base_color = {linear_of_srgb(path.color.red), linear_of_srgb(path.color.green),
@@ -168,6 +174,7 @@ void add_ways(Model& model, const std::vector<ScenePath>& paths, const Ground& g
     model.materials.push_back(std::move(material));
     Mesh mesh = band.take();
     std::vector<Mesh> coarser;
+    job.spend(Resource::triangles, errors.size() * mesh.elements());
     for (const double error : errors) coarser.push_back(copy_of(mesh, error, job));
     add_way(model, "path", std::move(mesh));
     for (std::size_t i = 0; i < coarser.size(); ++i) {

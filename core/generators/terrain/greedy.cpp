@@ -25,19 +25,82 @@ bool in_circle(Place a, Place b, Place c, Place d) {
   return aa * (bx * cz - bz * cx) - bb * (ax * cz - az * cx) + cc * (ax * bz - az * bx) < 0;
 }
 
+/// A place in four bytes: sides are below 2^15.
+struct Packed {
+  std::uint16_t x = 0, z = 0;
+  Packed() = default;
+  explicit Packed(Place at) : x(static_cast<std::uint16_t>(at.x)), z(static_cast<std::uint16_t>(at.z)) {}
+  Place place() const { return {x, z}; }
+};
+
+/// Triangles that are off, by how far they are: the largest error first, of equal ones the lower triangle.
+/// Each stands in it once, so that at most those are held that are left to split.
+class Queue {
+ public:
+  struct Entry {
+    float error = 0;
+    std::uint32_t triangle = 0;
+    Packed worst;  ///< the sample that is off most
+    bool operator<(const Entry& other) const {
+      return error != other.error ? error > other.error : triangle < other.triangle;
+    }
+  };
+
+  explicit Queue(const Job& job) : heap_(job), slot_(job) {}
+
+  bool empty() const { return heap_.empty(); }
+  const Entry& first() const { return heap_[0]; }
+
+  void set(const Entry& entry) {
+    while (slot_.size() <= entry.triangle) slot_.push_back(nobody);
+    std::uint32_t slot = slot_[entry.triangle];
+    if (slot == nobody) {
+      slot = static_cast<std::uint32_t>(heap_.size());
+      heap_.push_back(entry);
+    }
+    settle(slot, entry);
+  }
+
+  void remove(std::uint32_t triangle) {
+    if (triangle >= slot_.size() || slot_[triangle] == nobody) return;
+    const std::uint32_t slot = slot_[triangle];
+    slot_[triangle] = nobody;
+    const Entry last = heap_.back();
+    heap_.pop_back();
+    if (slot < heap_.size()) settle(slot, last);
+  }
+
+ private:
+  void put(std::uint32_t slot, const Entry& entry) {
+    heap_[slot] = entry;
+    slot_[entry.triangle] = slot;
+  }
+
+  /// Puts an entry where it belongs, above or below a slot whose entry may be lost.
+  void settle(std::uint32_t slot, const Entry& entry) {
+    while (slot > 0 && entry < heap_[(slot - 1) / 2]) {
+      put(slot, heap_[(slot - 1) / 2]);
+      slot = (slot - 1) / 2;
+    }
+    for (std::uint32_t child = 2 * slot + 1; child < heap_.size(); child = 2 * slot + 1) {
+      if (child + 1 < heap_.size() && heap_[child + 1] < heap_[child]) ++child;
+      if (!(heap_[child] < entry)) break;
+      put(slot, heap_[child]);
+      slot = child;
+    }
+    put(slot, entry);
+  }
+
+  Array<Entry> heap_;
+  Array<std::uint32_t> slot_;  ///< by triangle; nobody: it is not in the heap
+};
+
 /// A Delaunay triangulation that samples are put into. Edge 3 t + k runs from corner k of triangle t to the
 /// next.
 class Network {
  public:
   Network(const Field& field, Job& job)
-      : field_(field),
-        meter_(job, Resource::triangles),
-        samples_(job),
-        places_(job),
-        corners_(job),
-        twins_(job),
-        worst_(job),
-        errors_(job) {
+      : field_(field), meter_(job, Resource::triangles), places_(job), corners_(job), twins_(job) {
     const std::int32_t east = field.width - 1, south = field.depth - 1;
     for (const Place at : {Place{0, 0}, Place{0, south}, Place{east, south}, Place{east, 0}}) add_sample(at);
     meter_.spend(2);
@@ -58,7 +121,7 @@ class Network {
 
   /// The triangle that a place lies in or on the border of, walked to from the one made last.
   std::uint32_t triangle_at(Place at) const {
-    auto t = static_cast<std::uint32_t>(errors_.size() - 1);
+    auto t = static_cast<std::uint32_t>(corners_.size() / 3 - 1);
     for (std::uint32_t k = 0; k < 3;) {
       const std::uint32_t edge = 3 * t + k;
       if (turn(corner(edge), corner(next(edge)), at) < 0 && twins_[edge] != nobody) {
@@ -80,11 +143,11 @@ class Network {
     return taken_;
   }
 
-  /// Finds the sample of triangle t that is off most. Samples of the border count where `with_border`.
-  void scan(std::uint32_t t, double max_error, bool with_border) {
+  /// The sample of triangle t that is off most; an error of 0: none is off by more than `max_error`. Samples
+  /// of the border count where `with_border`.
+  Queue::Entry scan(std::uint32_t t, double max_error, bool with_border) const {
     const Place a = corner(3 * t), b = corner(3 * t + 1), c = corner(3 * t + 2);
-    errors_[t] = 0;
-    if (turn(a, b, c) <= 1) return;
+    if (turn(a, b, c) <= 1) return {0, t, {}};
     const auto height = [&](Place p) { return static_cast<double>(field_.at(p.x, p.z)); };
     const Plane plane = Plane::through(a, b, c, height(a), height(b), height(c));
     double most = max_error;
@@ -107,37 +170,34 @@ class Network {
         }
       }
     });
-    if (most > max_error) {
-      errors_[t] = static_cast<float>(most);
-      worst_[t] = worst;
-    }
+    return {most > max_error ? static_cast<float>(most) : 0, t, Packed(worst)};
   }
-  float error(std::uint32_t t) const { return errors_[t]; }
-  Place worst(std::uint32_t t) const { return worst_[t]; }
 
-  Triangulation take() {
-    samples_.shrink_to_fit();
+  Triangulation take(const Job& job) {
+    twins_ = {};
     corners_.shrink_to_fit();
-    return {std::move(samples_), std::move(corners_)};
+    Array<std::uint32_t> samples(job, places_.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const Place at = places_[i].place();
+      samples[i] = static_cast<std::uint32_t>(at.z * field_.width + at.x);
+    }
+    return {std::move(samples), std::move(corners_)};
   }
 
  private:
   static std::uint32_t next(std::uint32_t edge) { return edge % 3 == 2 ? edge - 2 : edge + 1; }
   static std::uint32_t before(std::uint32_t edge) { return edge % 3 == 0 ? edge + 2 : edge - 1; }
-  Place corner(std::uint32_t edge) const { return places_[corners_[edge]]; }
+  Place corner(std::uint32_t edge) const { return places_[corners_[edge]].place(); }
 
   std::uint32_t add_sample(Place at) {
-    samples_.push_back(static_cast<std::uint32_t>(at.z * field_.width + at.x));
-    places_.push_back(at);
-    return static_cast<std::uint32_t>(samples_.size() - 1);
+    places_.push_back(Packed(at));
+    return static_cast<std::uint32_t>(places_.size() - 1);
   }
   std::uint32_t add_triangle(const std::array<std::uint32_t, 3>& vertices,
                              const std::array<std::uint32_t, 3>& twins) {
-    const auto t = static_cast<std::uint32_t>(errors_.size());
+    const auto t = static_cast<std::uint32_t>(corners_.size() / 3);
     corners_.extend(3);
     twins_.extend(3);
-    errors_.push_back(0);
-    worst_.push_back({});
     set(t, vertices, twins);
     return t;
   }
@@ -207,11 +267,8 @@ class Network {
 
   const Field& field_;
   Meter meter_;
-  Array<std::uint32_t> samples_;
-  Array<Place> places_;  ///< of the samples
+  Array<Packed> places_;  ///< of the vertices
   Array<std::uint32_t> corners_, twins_;
-  Array<Place> worst_;
-  Array<float> errors_;
   std::vector<std::uint32_t> changed_, taken_, left_;
 };
 
@@ -250,15 +307,6 @@ void insert_border(Network& network, const Field& field, double max_error) {
   }
 }
 
-struct Candidate {
-  float error;
-  std::uint32_t triangle;
-  /// The largest error first; of equal ones the lower triangle.
-  bool operator<(const Candidate& other) const {
-    return error != other.error ? error < other.error : triangle > other.triangle;
-  }
-};
-
 }  // namespace
 
 Triangulation greedy(const Field& field, const Tolerance& tolerance, Border border, Job& job) {
@@ -266,27 +314,23 @@ Triangulation greedy(const Field& field, const Tolerance& tolerance, Border bord
   const double max_error = tolerance.inside;
   const bool with_border = border == Border::by_error;
   if (!with_border) insert_border(network, field, tolerance.border);
-  std::vector<Candidate> heap;
+  Queue queue(job);
   for (std::size_t count = 0;; ++count) {
     if (count % look == 0) job.check();
     for (const std::uint32_t t : network.take_changed()) {
-      network.scan(t, max_error, with_border);
-      if (network.error(t) > 0) {
-        heap.push_back({network.error(t), t});
-        std::push_heap(heap.begin(), heap.end());
+      const Queue::Entry entry = network.scan(t, max_error, with_border);
+      if (entry.error > 0) {
+        queue.set(entry);
+      } else {
+        queue.remove(t);
       }
     }
-    // What a triangle was off when it was entered may be out of date: then it stands in the heap again.
-    while (!heap.empty() && heap.front().error != network.error(heap.front().triangle)) {
-      std::pop_heap(heap.begin(), heap.end());
-      heap.pop_back();
-    }
-    if (heap.empty()) return network.take();
-    const std::uint32_t t = heap.front().triangle;
-    std::pop_heap(heap.begin(), heap.end());
-    heap.pop_back();
-    network.insert(t, network.worst(t));
+    if (queue.empty()) break;
+    const Queue::Entry first = queue.first();
+    network.insert(first.triangle, first.worst.place());
   }
+  queue = Queue(job);
+  return network.take(job);
 }
 
 Triangulation greedy(const Field& field, double max_error, Border border, Job& job) {

@@ -1,12 +1,11 @@
 #include "core/generators/terrain/surface.h"
 
-#include <meshoptimizer.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
+#include "core/generators/terrain/cache_order.h"
 #include "core/generators/terrain/ground.h"
 #include "core/generators/terrain/scan.h"
 
@@ -110,25 +109,6 @@ void lean_back(Mesh& mesh, const Job& job) {
   }
   for (std::size_t i = 0; i < least.size(); ++i)
     mesh.normal[i] = leaning_back(slope_of(mesh.normal[i]), least[i]);
-}
-
-/// Triangles in an order that a vertex cache likes, vertices in the order of their first use.
-void order_for_cache(Triangulation& plan, const Job& job) {
-  Array<std::uint32_t> ordered(job, plan.index.size());
-  meshopt_optimizeVertexCache(ordered.data(), plan.index.data(), plan.index.size(), plan.samples.size());
-  job.check();
-  Array<std::uint32_t> place(job, plan.samples.size(), 0xFFFFFFFFU);
-  Array<std::uint32_t> samples(job);
-  samples.reserve(plan.samples.size());
-  for (std::size_t i = 0; i < ordered.size(); ++i) {
-    std::uint32_t& at = place[ordered[i]];
-    if (at == 0xFFFFFFFFU) {
-      at = static_cast<std::uint32_t>(samples.size());
-      samples.push_back(plan.samples[ordered[i]]);
-    }
-    plan.index[i] = at;
-  }
-  plan.samples = std::move(samples);
 }
 
 void make_upright(Mesh& mesh, const Job& job) {
@@ -332,7 +312,7 @@ Mesh grid_mesh(const Field& field, const Window& part, const Array<glm::u8vec4>&
 }
 
 Mesh reduced_mesh(const Field& field, Triangulation plan, ColorOf color_of, const Coarse& coarse, Job& job) {
-  if (!coarse.ordered) order_for_cache(plan, job);
+  if (!coarse.ordered) order_for_cache(plan, field, job);
   const std::size_t count = plan.samples.size();
   const Ground ground(field);
   Mesh mesh;

@@ -40,33 +40,35 @@ std::uint64_t made(const Json& json) {
   return job.spent(Resource::triangles);
 }
 
-TEST(SceneForecast, RefusesWhatChildrenTellBeforeAnythingIsMade) {
-  const Json sponge = {{"preset", "menger_sponge"}, {"parameters", {{"iterations", 2}}}};
-  const Generator::Params params = read_scene_params(garden(cube(), sponge, 2));
-  Job job(1, within(3000));
+/// What the scene is refused with, for a limit that it passes.
+Issue refusal(const Json& json, Job& job) {
+  const Generator::Params params = read_scene_params(json);
   try {
     const Result<Model> model = scene::generate(own(params), job);
-    FAIL() << "it was made";
+    ADD_FAILURE() << "it was made";
   } catch (const Stop& stop) {
-    EXPECT_EQ(stop.issue().pointer, "/layers/1/model");
-    EXPECT_THAT(stop.issue().message, HasSubstr("need at least"));
+    return stop.issue();
   }
+  return {};
+}
+
+TEST(SceneForecast, RefusesWhatChildrenTellBeforeAnythingIsMade) {
+  const Json sponge = {{"preset", "menger_sponge"}, {"parameters", {{"iterations", 2}}}};
+  Job job(1, within(3000));
+  const Issue issue = refusal(garden(cube(), sponge, 2), job);
+  EXPECT_EQ(issue.pointer, "/layers/1/model");
+  EXPECT_THAT(issue.message, HasSubstr("need at least"));
   EXPECT_EQ(job.spent(Resource::triangles), 0U);
 }
 
 TEST(SceneForecast, RefusesAfterOneModelOfALayerWhatManyOfThemComeTo) {
   const Json json = garden(cube(), bush(7), 32);
   const std::uint64_t whole = made(json);
-  const Generator::Params params = read_scene_params(json);
   for (const int threads : {1, 8}) {
     Job job(1, within(whole / 3, threads));
-    try {
-      const Result<Model> model = scene::generate(own(params), job);
-      FAIL() << "it was made";
-    } catch (const Stop& stop) {
-      EXPECT_EQ(stop.issue().pointer, "/layers/1/model");
-      EXPECT_THAT(stop.issue().message, HasSubstr("need at least"));
-    }
+    const Issue issue = refusal(json, job);
+    EXPECT_EQ(issue.pointer, "/layers/1/model");
+    EXPECT_THAT(issue.message, HasSubstr("need at least"));
     EXPECT_LT(job.spent(Resource::triangles), whole / 8);
   }
 }
@@ -80,13 +82,9 @@ TEST(SceneForecast, CountsModulesToo) {
   Job::Options options;
   options.limits.modules = whole / 3;
   Job job(1, options);
-  try {
-    const Result<Model> model = scene::generate(own(params), job);
-    FAIL() << "it was made";
-  } catch (const Stop& stop) {
-    EXPECT_EQ(stop.issue().pointer, "/layers/1/model");
-    EXPECT_THAT(stop.issue().message, HasSubstr("modules"));
-  }
+  const Issue issue = refusal(json, job);
+  EXPECT_EQ(issue.pointer, "/layers/1/model");
+  EXPECT_THAT(issue.message, HasSubstr("modules"));
   EXPECT_LT(job.spent(Resource::modules), whole / 8);
 }
 
@@ -116,13 +114,9 @@ TEST(SceneForecast, SeesFromAPartOfManyModelsWhatTheWholeComesTo) {
   const Generator::Params params = read_scene_params(json);
   for (const int threads : {1, 8}) {
     Job job(1, within(whole * 2 / 3, threads));  // more than half: one model of each layer does not tell
-    try {
-      const Result<Model> model = scene::generate(own(params), job);
-      FAIL() << "it was made";
-    } catch (const Stop& stop) {
-      EXPECT_EQ(stop.issue().pointer, "/layers/1/model");
-      EXPECT_THAT(stop.issue().message, HasSubstr("need about"));
-    }
+    const Issue issue = refusal(json, job);
+    EXPECT_EQ(issue.pointer, "/layers/1/model");
+    EXPECT_THAT(issue.message, HasSubstr("need about"));
     EXPECT_LT(job.spent(Resource::triangles), whole / 2);
   }
   Job enough(1, within(whole));

@@ -189,5 +189,34 @@ TEST(GrowingScene, IsRefusedWithWhatCannotGrow) {
   EXPECT_THAT(pointers_of(growing(json)), ElementsAre("/layers/1/model/parameters/style"));
 }
 
+TEST(GrowingScene, IsRefusedWhereNothingCanGrow) {
+  Json json = bed();
+  json["layers"] = {json["layers"][2]};
+  EXPECT_THAT(pointers_of(growing(json)), ElementsAre("/output/animation"));
+}
+
+TEST(GrowingScene, TellsWhereNothingStandsThatGrows) {
+  Json json = bed();
+  json["layers"] = {json["layers"][1]};
+  json["layers"][0]["place"] = {{"method", "scatter"}, {"count", 0}};
+  const Result<Model> model = growing(json);
+  ASSERT_TRUE(model);
+  ASSERT_FALSE(model->warnings.empty());
+  EXPECT_EQ(model->warnings.back().pointer, "/output/animation");
+}
+
+TEST(Scene, TellsOfAnAgeAndASeasonThatNoModelHas) {
+  Json json = {{"age", 3}, {"season", "autumn"}, {"layers", {bed()["layers"][2]}}};
+  const Result<Model> stones = scene_of(json);
+  ASSERT_TRUE(stones);
+  ASSERT_EQ(stones->warnings.size(), 2U);
+  EXPECT_EQ(stones->warnings[0].pointer, "/age");
+  EXPECT_EQ(stones->warnings[1].pointer, "/season");
+  json["layers"] = {bed()["layers"][0]};
+  const Result<Model> trees = scene_of(json);
+  ASSERT_TRUE(trees);
+  EXPECT_THAT(trees->warnings, IsEmpty());
+}
+
 }  // namespace
 }  // namespace seedmesh

@@ -237,5 +237,18 @@ TEST(SceneLevels, GiveTheSameBytesWithAnyNumberOfThreads) {
   EXPECT_EQ(file(1), file(8));
 }
 
+TEST(SceneLevels, RefusePicturesWhereNoModelIsAPlantAndTellWhereNoneIsLargeEnough) {
+  Json json = {
+      {"layers", {{{"name", "stone"}, {"model", cube()}, {"place", {{"method", "scatter"}, {"count", 4}}}}}}};
+  EXPECT_THAT(pointers_of(demanded(json, demand_of(1, true))), ElementsAre("/output/impostor"));
+  json["layers"][0]["model"] = {
+      {"generator", "lsystem"},
+      {"parameters", {{"axiom", "F"}, {"productions", {"F -> F"}}, {"iterations", 1}, {"sides", 3}}}};
+  const Result<Model> model = demanded(json, demand_of(1, true));
+  ASSERT_TRUE(model);
+  const auto tells = [](const Warning& each) { return each.pointer == "/output/impostor"; };
+  EXPECT_EQ(std::count_if(model->warnings.begin(), model->warnings.end(), tells), 1);
+}
+
 }  // namespace
 }  // namespace seedmesh

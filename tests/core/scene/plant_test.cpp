@@ -249,5 +249,77 @@ TEST(Plant, StandsOnTheGroundAndLeansWithIt) {
   }
 }
 
+TEST(Plant, PutsNoTwoFootprintsOfALayerOnOneAnother) {
+  Json houses = layer("house", {{"method", "scatter"}, {"count", 12}, {"edge", 9}});
+  houses["footprint"] = {12, 8};
+  Json json = {{"ground", {{"size", 120}}}, {"layers", {houses}}};
+  const Planted made = planted(json);
+  EXPECT_EQ(made.layer(0).size(), 12U) << "others are found in the place of those that have no room";
+  for (std::size_t i = 0; i < made.layer(0).size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      EXPECT_FALSE(overlap(scene::Footprint::of(made.layer(0)[i], {6, 4}, false),
+                           scene::Footprint::of(made.layer(0)[k], {6, 4}, false)));
+    }
+  }
+  // Explicit positions are taken as they are.
+  json["layers"][0]["place"] = {{"method", "positions"}, {"positions", {{{"at", {0, 0}}}, {{"at", {1, 0}}}}}};
+  EXPECT_EQ(planted(json).layer(0).size(), 2U);
+}
+
+TEST(Plant, LetsHousesOfARowShareTheirWalls) {
+  Json houses = layer("house", {{"method", "rows"}, {"spacing", {7.3, 30}}, {"angle", 33}});
+  houses["footprint"] = {7.3, 9};
+  houses["turn"] = 0;
+  Json json = {{"ground", {{"size", 100}}}, {"layers", {houses}}};
+  const std::size_t beside = planted(json).layer(0).size();
+  json["layers"][0].erase("footprint");
+  EXPECT_EQ(beside, planted(json).layer(0).size());
+}
+
+TEST(Plant, PointsToTheLayerThatHasTooManyPlaces) {
+  const auto pointer = [](const Json& place) {
+    const Json json = {{"layers", {layer("a", {{"distance", 5}}), layer("b", place)}}};
+    const Generator::Params params = read_scene_params(json);
+    Job job = job_of(1);
+    Result<scene::Ground> ground = scene::Ground::make(own(params), job);
+    try {
+      scene::plant(own(params), *ground, job);
+    } catch (const Stop& stop) {
+      return stop.issue().pointer;
+    }
+    return std::string("it was planted");
+  };
+  EXPECT_EQ(pointer({{"method", "scatter"}, {"count", 10'000'000}}), "/layers/1/place/count");
+  EXPECT_EQ(pointer({{"distance", 0.001}}), "/layers/1/place/distance");
+  EXPECT_EQ(pointer({{"method", "rows"}, {"spacing", {0.001, 0.001}}}), "/layers/1/place/spacing");
+  EXPECT_EQ(pointer({{"method", "path"}, {"distance", 0.001}, {"points", {{-90000, 0}, {90000, 0}}}}),
+            "/layers/1/place/distance");
+}
+
+TEST(Plant, EndsSoonAfterTheDeadlineWhateverIsAsked) {
+  // Each place asks thousands of pieces of ways and all trees around.
+  Json points = Json::array();
+  for (int i = 0; i < 4096; ++i) points.push_back({i % 2 == 0 ? -500 : 500, -400 + i * 0.2});
+  Json path = {{"points", points}, {"width", 0.01}};
+  Json json = {{"ground", {{"size", 1000}}},
+               {"paths", Json::array()},
+               {"layers",
+                {layer("trees", {{"method", "scatter"}, {"count", 100'000}}),
+                 layer("moss", {{"method", "scatter"},
+                                {"count", 1'000'000},
+                                {"near", {{{"layer", "trees"}, {"from", 1e5}}}},
+                                {"shade", {{"from", 0.5}}}})}}};
+  json["layers"][0]["crown"] = 900;
+  for (int i = 0; i < 64; ++i) json["paths"].push_back(path);
+  const Generator::Params params = read_scene_params(json);
+  Job::Options options;
+  const auto start = Job::Clock::now();
+  options.deadline = start + std::chrono::milliseconds(200);
+  Job job(1, options);
+  Result<scene::Ground> ground = scene::Ground::make(own(params), job);
+  EXPECT_THROW(static_cast<void>(scene::plant(own(params), *ground, job)), Stop);
+  EXPECT_LT(Job::Clock::now() - start, std::chrono::seconds(2));
+}
+
 }  // namespace
 }  // namespace seedmesh

@@ -321,5 +321,41 @@ TEST(Scene, PassesLevelsOfDetailOn) {
   EXPECT_THAT(faults(*model), IsEmpty());
 }
 
+TEST(Scene, CountsTheTrianglesOfWaysBeforeTheyAreMade) {
+  const Json terrain = {{"generator", "terrain"}, {"parameters", {{"iterations", 8}, {"size", 100}}}};
+  const Json across = {{"points", {{-50, 0}, {50, 0}}}, {"width", 100}};
+  Job::Options options;
+  options.limits.triangles = 2 * 256 * 256 + 300'000;
+  options.limits.memory_bytes = 64 << 20U;
+  Json json = {{"terrain", terrain}, {"paths", {{{"points", {{-9, 0}, {9, 9}}}, {"width", 1}}, across}}};
+  const Result<Model> model = scene_of(json, 1, options);
+  ASSERT_FALSE(model);
+  EXPECT_EQ(model.error().code, Code::limit);
+  EXPECT_EQ(model.error().issues.front().pointer, "/paths/1");
+  EXPECT_THAT(model.error().issues.front().message, HasSubstr("triangles"));
+}
+
+TEST(Scene, ListsItsModelsWithTheTexturesThatAreWanted) {
+  const auto list = [](const Json& textures) {
+    const Json tree = {{"preset", "proctree_0"}, {"parameters", {{"mLevels", 2}, {"mSegments", 4}}}};
+    const Json layer = {{"model", tree}, {"variants", 1}, {"place", {{"method", "scatter"}, {"count", 3}}}};
+    const Json body = {{"generator", "scene"},
+                       {"parameters", {{"layers", {layer}}}},
+                       {"output", {{"format", "placements"}, {"textures", textures}}}};
+    const Result<Request> request = read_request(body.dump(), Limits{});
+    EXPECT_TRUE(request) << request.error().issues.front().message;
+    Job job = job_of(1);
+    const Result<Product> product = produce(*request, job);
+    EXPECT_TRUE(product);
+    EXPECT_EQ(job.spent(Resource::output_bytes), product->payload.size()) << "each byte is spent once";
+    return product->payload.text();
+  };
+  const std::string none = list("none"), small = list(64), large = list(256);
+  EXPECT_EQ(none.find("image/png"), std::string::npos);
+  EXPECT_NE(small.find("image/png"), std::string::npos);
+  EXPECT_LT(none.size(), small.size());
+  EXPECT_LT(small.size(), large.size());
+}
+
 }  // namespace
 }  // namespace seedmesh
