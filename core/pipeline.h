@@ -71,14 +71,14 @@ Result<std::string> derive(const Request& request, Job& job);
 /// `{valid, warnings, estimate}` as JSON text; makes no geometry.
 Result<std::string> validate(const Request& request, Job& job);
 
-/// A foreign file, and what became of it. `entry` names the system of a file that holds several; empty: the
-/// only one.
+/// A foreign file, and what became of it. `format` empty: the one that the text has most marks of. `entry`
+/// names the system of a file that holds several; empty: the only one.
 struct ImportQuestion {
   std::string_view format, entry, text;
 };
 struct ImportedRequest {
   Request request;
-  std::string answer;             ///< {request, warnings} as JSON text
+  std::string answer;             ///< {format, request, warnings} as JSON text
   std::vector<Warning> warnings;  ///< what the file says and a request cannot; line and column of the file
 };
 /// Reads a file of another program as a request of ours. Bytes that are no UTF-8 give Code::malformed; an

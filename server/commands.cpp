@@ -128,8 +128,10 @@ int import_command(const Config& config, const ImportFiles& files) {
   const Result<ImportedRequest> imported = import_request({files.format, files.entry, *text}, config.limits);
   if (!imported) return refused(imported.error());
   for (const Warning& warning : imported->warnings) {
-    std::fprintf(stderr, "%s:%d:%d: warning: %s\n", files.in.c_str(), warning.line, warning.column,
-                 warning.message.c_str());
+    const std::string place = warning.line > 0
+                                  ? std::to_string(warning.line) + ":" + std::to_string(warning.column)
+                                  : warning.pointer;
+    std::fprintf(stderr, "%s:%s: warning: %s\n", files.in.c_str(), place.c_str(), warning.message.c_str());
   }
   const auto request = nlohmann::ordered_json::parse(imported->request.canonical());
   Payload payload;

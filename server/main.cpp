@@ -44,7 +44,7 @@ std::vector<std::pair<std::string, std::string>> given(const CLI::App& command, 
 
 /// The formats of an import, for its flag.
 std::string formats_text() {
-  std::string text = "Whose file it is: ";
+  std::string text = "Whose file it is; left out: the one that it looks like. ";
   bool first = true;
   for (const ImportFormatInfo& format : import_format_list()) {
     text += (first ? "" : ", ") + format.name + " (" + format.title + ")";
@@ -93,7 +93,7 @@ int main(int count, char** arguments) {
   deriving->add_option("request", in, "File with the request; - is standard input.")->required();
   CLI::App* importing = command("import", "Turn a file of another program into a request.");
   importing->add_option("file", files.in, "The file; - is standard input.")->required();
-  importing->add_option("-f,--format", files.format, formats_text())->required();
+  importing->add_option("-f,--format", files.format, formats_text());
   importing->add_option("-e,--entry", files.entry, "The system to take from a file that holds several.");
   importing->add_option("-o,--out", files.out, "File for the request; - is standard output.");
   CLI::App* listing = command("presets", "List the presets, or print one.");

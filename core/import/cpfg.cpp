@@ -1,4 +1,4 @@
-/// L-system files of cpfg, as its lexer and manual have them (Virtual Laboratory, "CPFG Version 4.0 User's
+/// L-system files of cpfg, as its grammar and manual have them (Virtual Laboratory, "CPFG Version 4.0 User's
 /// Manual"):
 ///
 ///   #define r 0.7
@@ -6,20 +6,20 @@
 ///   derivation length: 5
 ///   ignore: +-
 ///   Axiom: A(1)
-///   A(x) : x > 0.1 --> F(x)[+A(x*r)]A(x*r)       a production may go on in lines that begin with a blank
-///   decomposition | homomorphism [maximum depth: 3] and their rules
+///   A(x) : x > 0.1 --> F(x)[+A(x*r)]A(x*r)       what goes on in the next line begins there with a blank
+///   decomposition | homomorphism [: no warnings] [maximum depth: 3] and their rules
 ///   endlsystem
-///
-/// Macros that are expressions become constants and functions; others are replaced in the text.
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
-#include "core/generators/lsystem/commands.h"
 #include "core/generators/lsystem/constants.h"
-#include "core/generators/lsystem/notation.h"
 #include "core/import/cpfg_macros.h"
+#include "core/import/cpfg_rules.h"
+#include "core/import/cpfg_text.h"
+#include "core/import/cpfg_words.h"
 #include "core/import/foreign_text.h"
 #include "core/import/formats.h"
 #include "core/lang/expression.h"
@@ -27,50 +27,28 @@
 namespace seedmesh {
 namespace {
 
-using lsystem::Slice;
-
-/// The text without comments and with lines joined where a backslash ends one; every byte keeps its place.
-std::string without_comments(ForeignText& source) {
-  const std::string_view text = source.text();
-  std::string out(text);
-  for (std::size_t i = 0; i + 1 < out.size(); ++i) {
-    if (out[i] == '/' && out[i + 1] == '*') {
-      const std::size_t end = std::min(text.find("*/", i + 2), text.size());
-      if (end == text.size()) source.fault(i, "found a comment without its end; expected `*/`");
-      for (const std::size_t stop = std::min(end + 2, text.size()); i < stop; ++i) {
-        if (out[i] != '\n') out[i] = ' ';
-      }
-      --i;
-    } else if (out[i] == '/' && out[i + 1] == '/') {
-      for (; i < out.size() && out[i] != '\n'; ++i) out[i] = ' ';
-    } else if (out[i] == '\\' && (out[i + 1] == '\n' || (out[i + 1] == '\r' && i + 2 < out.size()))) {
-      const std::size_t newline = out[i + 1] == '\n' ? i + 1 : i + 2;
-      if (out[newline] == '\n')
-        std::fill(out.begin() + static_cast<std::ptrdiff_t>(i),
-                  out.begin() + static_cast<std::ptrdiff_t>(newline) + 1, ' ');
-    }
-  }
-  return out;
-}
-
 class CpfgReader {
  public:
   CpfgReader(ForeignText& source, std::string clean)
-      : source_(source), text_(std::move(clean)), macros_(source) {}
+      : source_(source), text_(std::move(clean)), macros_(source), words_(source) {}
 
   Imported read() {
     const std::vector<Line> lines = lines_of(text_);
     for (const Line& line : lines) {
-      if (line.from < line.to && text_[line.from] == '#') macros_.define(text_, line);
+      if (is_cpfg_directive(text_, trimmed(text_, line))) macros_.define(text_, line);
     }
     macros_.sort();
     for (std::size_t i = 0; i < lines.size() && !ended_; ++i) {
-      const Line line = trimmed(text_, lines[i]);
-      if (line.from == line.to || text_[line.from] == '#') continue;
-      if (keyword(line)) continue;
-      Line whole = line;  // of a production
+      Line whole = trimmed(text_, lines[i]);
+      if (whole.from == whole.to || is_cpfg_directive(text_, whole)) continue;
+      if (has_block(whole)) {
+        const std::size_t open = text_.find('{', whole.from);
+        const std::size_t close = lsystem::closing(text_, std::min(open, text_.size() - 1), text_.size());
+        while (i + 1 < lines.size() && (lines[i].to <= open || lines[i].to <= close)) ++i;
+        whole.to = trimmed(text_, {whole.from, lines[i].to}).to;
+      }
       while (i + 1 < lines.size() && goes_on(whole, lines[i + 1])) whole.to = trimmed(text_, lines[++i]).to;
-      production(whole);
+      if (!keyword(whole)) production(whole);
     }
     return made();
   }
@@ -81,6 +59,20 @@ class CpfgReader {
     return std::string_view(text_).substr(line.from, line.to - line.from);
   }
 
+  /// text_[line] with its macros pasted and its lines joined.
+  TracedText expanded(Line line) {
+    TracedText out = macros_.expanded(TracedText(text_, line.from, line.to));
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      if (out[i] == '\n' || out[i] == '\r') out.replace(i, ' ');
+    }
+    return out;
+  }
+
+  TracedText expression(Line line) {
+    const TracedText whole = expanded(line);
+    return words_.expression(whole, {0, whole.size()});
+  }
+
   // --- lines
 
   /// What stands behind `key` and its colon where the line begins with them; keys may be in either case.
@@ -88,10 +80,18 @@ class CpfgReader {
     if (lower(text({line.from, std::min(line.from + key.size(), line.to)})) != key) return false;
     const Line behind = trimmed(text_, {line.from + key.size(), line.to});
     const bool colon = behind.from < behind.to && text_[behind.from] == ':';
-    const bool bare = behind.from == behind.to;
-    if (!colon && !bare) return false;
+    if (!colon && behind.from != behind.to) return false;
     rest = trimmed(text_, {behind.from + (colon ? 1 : 0), line.to});
     return true;
+  }
+
+  /// Keywords whose statements stand in braces, which may go on in lines that begin with no blank.
+  bool has_block(Line line) const {
+    Line rest;
+    for (const char* key : {"start", "start each", "starteach", "end each", "endeach", "end", "define"}) {
+      if (begins(line, key, rest)) return rest.from == rest.to || text_[rest.from] == '{';
+    }
+    return false;
   }
 
   bool keyword(Line line) {
@@ -102,26 +102,28 @@ class CpfgReader {
     if (begins(line, "endlsystem", rest)) {
       ended_ = true;
     } else if (begins(line, "lsystem", rest) || begins(line, "ring lsystem", rest)) {
-      if (std::exchange(begun_, true)) {
+      if (lower(text_[line.from]) == 'r') {
+        parameters_["ring"] = true;
+      } else if (std::exchange(begun_, true)) {
         source_.fault(line.from, "found a second L-system; one without sub-L-systems is understood");
+        ended_ = true;
       }
-      if (lower(text_[line.from]) == 'r') parameters_["ring"] = true;
     } else if (begins(line, "seed", rest)) {
       number(rest, [&](double value) { seed(rest, value); });
-    } else if (begins(line, "derivation length", rest)) {
+    } else if (begins(line, "derivation length", rest) || begins(line, "derivationlength", rest)) {
+      if (length_.from < length_.to) source_.fault(line.from, "found a second derivation length");
       length_ = rest;
     } else if (begins(line, "maximum depth", rest)) {
       number(rest, [&](double value) { depth(rest, value); });
     } else if (begins(line, "ignore", rest)) {
-      symbols("ignore", rest);
+      symbols_["ignore"] = rest;
     } else if (begins(line, "consider", rest)) {
-      symbols("consider", rest);
+      symbols_["consider"] = rest;
     } else if (begins(line, "axiom", rest)) {
       axiom(rest);
-    } else if (begins(line, "homomorphism", rest)) {
-      section(Part::homomorphism, rest);
-    } else if (begins(line, "decomposition", rest)) {
-      section(Part::decomposition, rest);
+    } else if (section(line, "homomorphism", Part::homomorphism) ||
+               section(line, "decomposition", Part::decomposition)) {
+      return true;
     } else if (begins(line, "start", rest)) {
       start(rest);
     } else {
@@ -134,36 +136,47 @@ class CpfgReader {
     Line rest;
     for (const char* key : {"start each", "starteach", "end each", "endeach", "end", "define"}) {
       if (!begins(line, key, rest)) continue;
-      source_.fault(line.from, "found statements that run between steps or files; they have no counterpart");
+      source_.fault(line.from, std::string_view(key) == "define"
+                                   ? "found arrays, which have no counterpart"
+                                   : "found statements that run between steps; they have no counterpart");
       return true;
     }
     return false;
   }
 
-  void section(Part part, Line rest) {
+  /// homomorphism, homomorphism: or homomorphism: no warnings
+  bool section(Line line, std::string_view key, Part part) {
+    if (lower(text({line.from, std::min(line.from + key.size(), line.to)})) != key) return false;
+    Line rest = trimmed(text_, {line.from + key.size(), line.to});
+    if (rest.from < rest.to && text_[rest.from] == ':') rest = trimmed(text_, {rest.from + 1, rest.to});
+    const std::string_view behind = text(rest);
+    if (behind.find("-->") != std::string_view::npos) return false;
+    if (!behind.empty() && behind != "warnings" && behind != "no warnings") {
+      source_.fault(rest.from, "found " + lang::in_quotes(behind) + "; expected `warnings` or `no warnings`");
+    }
     part_ = part;
-    if (rest.from < rest.to)
-      source_.warn(rest.from, "rules draw from streams of their own; their seed is left out");
+    return true;
   }
 
   template <class Use>
   void number(Line line, Use&& use) {
+    const TracedText body = expression(line);
+    if (body.size() == 0) return source_.fault(line.from, "found no number");
     lang::Names names = constants();
-    const std::string body(text(line));
     std::vector<lang::Fault> faults;
-    const std::vector<lang::Token> tokens = lang::tokenize(body, 0, body.size(), faults);
+    const std::vector<lang::Token> tokens = lang::tokenize(body.text(), 0, body.size(), faults);
     lang::Program program;
     std::size_t at = 0;
     const lang::Expression value = program.parse(tokens, at, names, faults);
     if (faults.empty() && tokens[at].kind != lang::TokenKind::end)
       faults.push_back({tokens[at].offset, "found more after the number"});
-    for (const lang::Fault& fault : faults) source_.fault(line.from + fault.offset, fault.message);
+    for (const lang::Fault& fault : faults) source_.fault(body.origin(fault.offset), fault.message);
     if (faults.empty() && value.is_constant) use(value.value);
     if (faults.empty() && !value.is_constant)
       source_.fault(line.from, "found a value that is drawn at random");
   }
 
-  lang::Names constants() const {
+  lang::Names constants() {
     std::vector<lsystem::WrittenConstant> written;
     for (const auto& [name, value] : constants_) written.push_back({name, value});
     for (const CpfgMacros::Expression& each : macros_.constants()) written.push_back({each.name, each.text});
@@ -172,8 +185,12 @@ class CpfgReader {
   }
 
   void seed(Line line, double value) {
-    if (value < 0 || value != std::floor(value) || value > 9e15) {
+    if (part_ != Part::derivation) {
+      source_.warn(line.from, "this seed of a homomorphism is left out: all rules draw from the one seed");
+    } else if (value < 0 || value != std::floor(value) || value > 9e15) {
       source_.fault(line.from, "expected a seed that is a whole number");
+    } else if (out_.request.contains("seed")) {
+      source_.fault(line.from, "found a second seed");
     } else {
       out_.request["seed"] = static_cast<std::uint64_t>(value);
     }
@@ -195,28 +212,23 @@ class CpfgReader {
     }
   }
 
-  void symbols(const char* name, Line line) {
-    std::string list;
-    for (const char c : text(line)) {
-      if (!is_blank(c)) list += c;
-    }
-    parameters_[name] = list;
-    out_.origins.push_back({std::string("/parameters/") + name, line.from, false});
+  void axiom(Line line) {
+    if (std::exchange(has_axiom_, true)) source_.fault(line.from, "found a second axiom");
+    const TracedText whole = expanded(line);
+    const TracedText word = words_.modules(whole, {0, whole.size()}, CpfgWords::Place::word);
+    if (whole.size() == 0) source_.fault(line.from, "found no axiom");
+    put("axiom", word.text(), word.runs());
   }
 
-  void axiom(Line line) {
-    bool changed = false;
-    const std::string word = macros_.expanded(text(line), line.from, changed);
-    if (parameters_.contains("axiom")) source_.fault(line.from, "found a second axiom");
-    parameters_["axiom"] = word;
-    judge_modules(line, word, {0, word.size()}, changed);
-    out_.origins.push_back({"/parameters/axiom", line.from, !changed});
+  void put(const std::string& name, Json value, std::vector<TextRun> runs) {
+    out_.origins.push_back({"/parameters/" + name, std::move(runs)});
+    parameters_[name] = std::move(value);
   }
 
   /// Start: { name = expression; ... } makes constants.
   void start(Line line) {
     if (line.to - line.from < 2 || text_[line.from] != '{' || text_[line.to - 1] != '}') {
-      source_.fault(line.from, "expected `{ name = expression; ... }` in one line");
+      source_.fault(line.from, "expected `{ name = expression; ... }`");
       return;
     }
     std::size_t from = line.from + 1;
@@ -228,80 +240,129 @@ class CpfgReader {
       while (end < one.to && is_name_part(text_[end])) ++end;
       const Line equals = trimmed(text_, {end, one.to});
       if (end == one.from || equals.from == equals.to || text_[equals.from] != '=') {
-        source_.fault(one.from, "expected an assignment such as `x = 2;`");
-      } else if (!constants_.emplace(text({one.from, end}), text(trimmed(text_, {equals.from + 1, one.to})))
-                      .second) {
-        source_.fault(one.from, "found a second value of this name; a constant has one");
+        source_.fault(one.from, "expected an assignment such as `x = 2;`; others have no counterpart");
+        continue;
       }
+      const std::string name(text({one.from, end}));
+      const TracedText value = expression(trimmed(text_, {equals.from + 1, one.to}));
+      if (!constants_.emplace(name, value.text()).second)
+        source_.fault(one.from, "found a second value of this name; a constant has one");
+      out_.origins.push_back({"/parameters/constants/" + name, value.runs()});
     }
-    if (trimmed(text_, {from, line.to - 1}).from + 1 < line.to)
-      source_.fault(from, "found a statement without `;`");
+    const Line rest = trimmed(text_, {from, line.to - 1});
+    if (rest.from < rest.to) source_.fault(rest.from, "found a statement without `;`");
   }
 
-  bool has_arrow(Line line) const { return text(line).find("-->") != std::string_view::npos; }
+  static bool has_arrow(std::string_view text) {
+    return text.find("-->") != std::string_view::npos || text.find("-o>") != std::string_view::npos;
+  }
 
   bool goes_on(Line whole, Line next) const {
     const Line inner = trimmed(text_, next);
-    if (inner.from == inner.to || !is_blank(text_[next.from])) return false;
-    return !has_arrow(whole) || !has_arrow(inner);
+    if (inner.from == inner.to || !is_blank(text_[next.from]) || is_cpfg_directive(text_, inner))
+      return false;
+    return !has_arrow(text(whole)) || !has_arrow(text(inner));
   }
 
   void production(Line line) {
-    bool changed = false;
-    std::string rule = macros_.expanded(text(line), line.from, changed);
-    if (!source_.sound() && rule.empty()) return;
-    const std::size_t arrow = rule.find("-->");
-    if (arrow == std::string::npos) {
-      source_.fault(line.from, "found no keyword and no production; expected `predecessor --> successor`");
-      return;
-    }
-    // [H=] names the beginning of a branch, which is what [H] means here.
-    for (std::size_t i = rule.find('>'); i < arrow; ++i) {
-      if (rule[i] == ':') break;
-      if (rule[i] == '=' && rule[i + 1] == ']') rule[i] = ' ';
-    }
-    std::replace(rule.begin(), rule.end(), '\n', ' ');
-    std::replace(rule.begin(), rule.end(), '\r', ' ');
-    std::vector<lang::Fault> faults;
-    const lsystem::WrittenProduction written = lsystem::read_production(rule, faults);
-    if (faults.empty()) judge_modules(line, rule, written.successor, changed);
-    const char* names[] = {"productions", "decomposition", "interpretation"};
-    const char* const name = names[static_cast<int>(part_)];
-    Json& list = parameters_[name];
-    if (list.is_null()) list = Json::array();
-    out_.origins.push_back(
-        {std::string("/parameters/") + name + "/" + std::to_string(list.size()), line.from, !changed});
-    list.push_back(rule);
+    const TracedText rule = expanded(line);
+    if (rule.size() == 0) return;
+    const bool passed_over = part_ == Part::homomorphism;
+    std::optional<CpfgRule> read = read_cpfg_rule(
+        rule, passed_over ? CpfgContexts::passed_over : CpfgContexts::counted, source_, words_);
+    if (!read) return;
+    check_assignments(*read);
+    rules_[static_cast<std::size_t>(part_)].push_back(std::move(*read));
   }
 
-  /// Symbols that mean something to cpfg and nothing, or something else, here.
-  void judge_modules(Line line, const std::string& word, Slice slice, bool changed) {
-    std::vector<lang::Fault> faults;
-    const lsystem::Symbols symbols;
-    for (const lsystem::WrittenModule& module : lsystem::read_modules(word, slice, symbols, faults)) {
-      const std::size_t at = line.from + (changed ? 0 : module.offset);
-      const std::string_view symbol = module.symbol;
-      const auto arity = static_cast<std::uint32_t>(module.arguments.size());
-      if (symbol == "$" || (symbol == "?" && arity > 0)) {
-        source_.fault(at, "found a sub-L-system, which has no counterpart");
-      } else if (symbol[0] == '@' && lsystem::command_of(symbol, arity) == lsystem::Command::none) {
-        warn_once(at, symbol, " means something to cpfg and draws nothing here");
-      } else if (symbol == "~") {
-        warn_once(at, symbol, ": cpfg's surfaces stand in other files; nothing is drawn here");
+  /// What Start sets is a constant here.
+  void check_assignments(const CpfgRule& rule) {
+    const std::string& condition = rule.condition.text();
+    for (std::size_t at = 0; at < condition.size();) {
+      std::size_t end = at;
+      while (end < condition.size() && is_name_part(condition[end])) ++end;
+      const std::size_t next = lsystem::skip_spaces(condition, end, condition.size());
+      const bool assigns =
+          end > at && next + 1 < condition.size() && condition[next] == '=' && condition[next + 1] != '=';
+      if (assigns && constants_.count(condition.substr(at, end - at)) != 0)
+        source_.fault(rule.condition.origin(at),
+                      "found a new value of what `Start` sets, which is a constant here");
+      at = std::max(end, at + 1);
+    }
+  }
+
+  // --- what becomes of them
+
+  void put_rules() {
+    static const char* const names[] = {"productions", "decomposition", "interpretation"};
+    for (std::vector<CpfgRule>& list : rules_) {
+      for (std::size_t i = 0; i < list.size(); ++i) {  // grows meanwhile
+        const CpfgRule rule = list[i];
+        if (rule.predecessor.size() > 1 && rule.predecessor[1] != '(') continue;
+        const auto other = words_.inside().find(rule.predecessor[0]);
+        if (other != words_.inside().end())
+          words_.warn_once(rule.at, other->second,
+                           "is one symbol here: the rule for " +
+                               lang::in_quotes(std::string_view(rule.predecessor.text()).substr(0, 1)) +
+                               " rewrites a part of it in cpfg alone");
+        std::optional<CpfgRule> more = cpfg_rule_for_surface(rule, words_);
+        if (more) list.push_back(std::move(*more));
+      }
+    }
+    for (std::size_t part = 0; part < std::size(names); ++part) {
+      for (const CpfgRule& rule : rules_[part]) {
+        Json& list = parameters_[names[part]];
+        if (list.is_null()) list = Json::array();
+        const TracedText written = rule.written();
+        out_.origins.push_back(
+            {std::string("/parameters/") + names[part] + "/" + std::to_string(list.size()), written.runs()});
+        list.push_back(written.text());
       }
     }
   }
 
-  void warn_once(std::size_t at, std::string_view symbol, const char* text) {
-    if (warned_.insert(std::string(symbol)).second) source_.warn(at, lang::in_quotes(symbol) + text);
+  void put_surfaces() {
+    for (const auto& [symbol, at] : words_.surfaces()) {
+      const std::string name = CpfgWords::surface_name(symbol);
+      parameters_["surfaces"][name] = {{"shape", "simple"}};
+      source_.warn(at,
+                   lang::in_quotes("~" + name) +
+                       " is a surface of another file of cpfg's; a leaf of 1 m stands for it",
+                   "/parameters/surfaces/" + name);
+    }
+  }
+
+  /// cpfg looks at single characters: a longer symbol counts where its first one does.
+  void put_symbols() {
+    for (const auto& [name, line] : symbols_) {
+      const TracedText whole = expanded(line);
+      std::string list;
+      std::set<char> first;
+      for (const char c : whole.text()) {
+        if (is_blank(c)) continue;
+        first.insert(c);
+        if (std::string_view("@~?").find(c) == std::string_view::npos) list += c;
+      }
+      for (const std::string& symbol : words_.longer()) {
+        if (first.count(symbol[0]) != 0) list += symbol;
+      }
+      if (name == "ignore" && (first.count('[') != 0 || first.count(']') != 0))
+        source_.warn(line.from, "brackets count in contexts, also where they are ignored in cpfg");
+      put(name, list, {{0, line.from, false}});
+    }
   }
 
   Imported made() {
+    put_rules();
+    put_surfaces();
+    put_symbols();
     for (const CpfgMacros::Expression& each : macros_.constants()) {
-      constants_.emplace(each.name, each.text);
-      out_.origins.push_back({"/parameters/constants/" + each.name, each.at, false});
+      TracedText text;
+      text.write(each.text, each.at);
+      constants_.emplace(each.name, words_.expression(text, {0, text.size()}).text());
+      out_.origins.push_back({"/parameters/constants/" + each.name, {{0, each.at, false}}});
     }
-    if (!parameters_.contains("axiom")) source_.fault(0, "found no axiom");
+    if (!has_axiom_) source_.fault(0, "found no axiom");
     if (length_.from == length_.to) {
       source_.fault(0, "found no derivation length");
     } else {
@@ -309,7 +370,7 @@ class CpfgReader {
         if (!(value >= 0) || value != std::floor(value) || value > 1000) {
           source_.fault(length_.from, "expected a derivation length that is a whole number up to 1000");
         } else {
-          parameters_["iterations"] = static_cast<int>(value);
+          put("iterations", static_cast<int>(value), {{0, length_.from, false}});
         }
       });
     }
@@ -317,8 +378,10 @@ class CpfgReader {
     for (const CpfgMacros::Expression& each : macros_.functions()) {
       Json& list = parameters_["functions"];
       if (list.is_null()) list = Json::array();
-      out_.origins.push_back({"/parameters/functions/" + std::to_string(list.size()), each.at, false});
-      list.push_back(each.text);
+      out_.origins.push_back({"/parameters/functions/" + std::to_string(list.size()), {{0, each.at, false}}});
+      TracedText text;
+      text.write(each.text, each.at);
+      list.push_back(words_.expression(text, {0, text.size()}).text());
     }
     source_.warn(0, "angle, width and colours stand in cpfg's view file; they are the defaults here",
                  "/parameters");
@@ -330,13 +393,15 @@ class CpfgReader {
   ForeignText& source_;
   std::string text_;
   CpfgMacros macros_;
+  CpfgWords words_;
   std::map<std::string, std::string> constants_;
-  std::set<std::string> warned_;
+  std::map<std::string, Line> symbols_;
+  std::vector<CpfgRule> rules_[3];
   Json parameters_ = Json::object();
   Imported out_;
   Line length_;
   Part part_ = Part::derivation;
-  bool begun_ = false, ended_ = false;
+  bool begun_ = false, ended_ = false, has_axiom_ = false;
 };
 
 }  // namespace
@@ -346,7 +411,7 @@ Result<Imported> import_cpfg(std::string_view text, const ImportOptions& options
     return Error{Code::invalid, {{"/entry", "a file of cpfg holds one system; expected no entry"}}};
   }
   ForeignText source(text);
-  Imported imported = CpfgReader(source, without_comments(source)).read();
+  Imported imported = CpfgReader(source, cpfg_without_comments(source)).read();
   return source.finish(std::move(imported));
 }
 

@@ -7,6 +7,9 @@
 namespace seedmesh {
 namespace {
 
+using lang::Token;
+using lang::TokenKind;
+
 constexpr std::size_t longest_expansion = 1'000'000;  // bytes that macros may write into one line
 constexpr int deepest_expansion = 50;
 constexpr std::size_t most_macros = 1'000;  // as many as a request may have constants
@@ -15,13 +18,30 @@ std::string_view part(std::string_view text, Line line) {
   return text.substr(line.from, line.to - line.from);
 }
 
-bool is_expression(const lang::Names& names, const std::string& body) {
+/// Where a name begins at `at`, its end; else `at`.
+std::size_t name_end(std::string_view text, std::size_t at) {
+  if (at >= text.size() || is_digit(text[at]) || !is_name_part(text[at])) return at;
+  while (at < text.size() && is_name_part(text[at])) ++at;
+  return at;
+}
+
+/// Whether the text is one operand wherever it is pasted: a number, a name, a call, or in parentheses.
+bool is_operand(std::string_view text) {
   std::vector<lang::Fault> faults;
-  const std::vector<lang::Token> tokens = lang::tokenize(body, 0, body.size(), faults);
-  lang::Program program;
-  std::size_t at = 0;
-  program.parse(tokens, at, names, faults);
-  return faults.empty() && tokens[at].kind == lang::TokenKind::end;
+  const std::vector<Token> tokens = lang::tokenize(text, 0, text.size(), faults);
+  const std::size_t count = tokens.size() - 1;
+  if (!faults.empty() || count == 0) return false;
+  const bool is_single = tokens[0].kind == TokenKind::number || tokens[0].kind == TokenKind::name;
+  if (count == 1) return is_single;
+  if (count == 2) return lang::is_symbol(tokens[0], "-") && tokens[1].kind == TokenKind::number;
+  std::size_t open = tokens[0].kind == TokenKind::name ? 1 : 0;
+  if (!lang::is_symbol(tokens[open], "(")) return false;
+  int depth = 0;
+  for (; open < count; ++open) {
+    if (lang::is_symbol(tokens[open], "(")) ++depth;
+    if (lang::is_symbol(tokens[open], ")") && --depth == 0) break;
+  }
+  return open + 1 == count;
 }
 
 }  // namespace
@@ -55,7 +75,12 @@ void CpfgMacros::define(std::string_view text, Line line) {
       return;
     }
     macro.has_parameters = true;
-    macro.parameters = part(text, {end, close + 1});
+    macro.parameter_list = part(text, {end, close + 1});
+    for (std::size_t from = end + 1; from < close;) {
+      const std::size_t comma = std::min(text.substr(0, close).find(',', from), close);
+      macro.parameters.emplace_back(part(text, trimmed(text, {from, comma})));
+      from = comma + 1;
+    }
     end = close + 1;
   }
   macro.body = part(text, trimmed(text, {end, line.to}));
@@ -66,71 +91,175 @@ void CpfgMacros::define(std::string_view text, Line line) {
   }
 }
 
+bool CpfgMacros::parses(lang::Names& names, const Macro& macro) const {
+  const std::size_t outer = names.size();
+  for (const std::string& parameter : macro.parameters) names.bind_constant(parameter, 1);
+  std::vector<lang::Fault> faults;
+  const std::vector<Token> tokens = lang::tokenize(macro.body, 0, macro.body.size(), faults);
+  lang::Program program;
+  std::size_t at = 0;
+  program.parse(tokens, at, names, faults);
+  names.forget_after(outer);
+  return faults.empty() && tokens[at].kind == TokenKind::end;
+}
+
 void CpfgMacros::sort() {
   lang::Names names;
   for (const auto& [name, macro] : macros_) {
-    if (macro.has_parameters) {
-      define_function(names, name, macro);
-    } else {
+    if (!macro.has_parameters) {
       names.bind_constant(name, 1);
+      continue;
     }
+    lang::Names::Defined function;
+    std::vector<lang::Fault> faults;
+    const std::string definition = name + macro.parameter_list + " = 1";
+    lang::read_definition(definition, function, faults);
+    if (!faults.empty()) continue;
+    function.body.clear();
+    function.is_sound = false;  // calls are not judged here
+    names.define(name, std::move(function));
   }
   for (auto& [name, macro] : macros_) {
-    macro.is_expression = macro.has_parameters || is_expression(names, macro.body);
+    const bool has_name = !macro.has_parameters || names.find_function(name) != nullptr;
+    macro.is_value = has_name && is_operand(macro.body) && parses(names, macro);
   }
 }
 
-void CpfgMacros::define_function(lang::Names& names, const std::string& name, const Macro& macro) {
-  const std::string definition = name + macro.parameters + " = " + macro.body;
-  lang::Names::Defined function;
-  std::vector<lang::Fault> faults;
-  lang::read_definition(definition, function, faults);
-  if (!faults.empty()) {
-    source_.fault(macro.at, "found a macro with parameters that is no function: " + faults[0].message);
-    return;
-  }
-  function.body.clear();
-  function.is_sound = false;  // calls are not judged here
-  names.define(name, std::move(function));
-  functions_.push_back({name, definition, macro.at});
-}
-
-std::vector<CpfgMacros::Expression> CpfgMacros::constants() const {
+std::vector<CpfgMacros::Expression> CpfgMacros::constants() {
   std::vector<Expression> found;
   for (const auto& [name, macro] : macros_) {
-    if (macro.is_expression && !macro.has_parameters) found.push_back({name, macro.body, macro.at});
+    if (!macro.is_value || macro.has_parameters) continue;
+    TracedText body;
+    body.write(macro.body, macro.at);
+    found.push_back({name, expanded(body).text(), macro.at});
   }
   return found;
 }
 
-std::string CpfgMacros::expanded(std::string_view text, std::size_t at_text, bool& changed) {
-  std::string out(text);
-  changed = false;
-  for (int round = 0; round < deepest_expansion; ++round) {
-    std::string next;
-    bool again = false;
-    for (std::size_t at = 0; at < out.size();) {
-      std::size_t end = at;
-      while (end < out.size() && is_name_part(out[end])) ++end;
-      const auto macro = end > at ? macros_.find(out.substr(at, end - at)) : macros_.end();
-      if (macro != macros_.end() && !macro->second.is_expression) {
-        next += macro->second.body;
-        again = true;
-      } else {
-        next += out.substr(at, std::max<std::size_t>(end - at, 1));
-      }
-      at = std::max(end, at + 1);
-      if (next.size() > longest_expansion) {
-        source_.fault(at_text, "macros make this line longer than 1,000,000 bytes");
-        return {};
-      }
-    }
-    out = std::move(next);
-    changed = changed || again;
-    if (!again) return out;
+std::vector<CpfgMacros::Expression> CpfgMacros::functions() {
+  std::vector<Expression> found;
+  for (const auto& [name, macro] : macros_) {
+    if (!macro.is_value || !macro.has_parameters) continue;
+    TracedText body;
+    body.write(macro.body, macro.at);
+    found.push_back({name, name + macro.parameter_list + " = " + expanded(body).text(), macro.at});
   }
-  source_.fault(at_text, "found macros that contain themselves");
-  return {};
+  return found;
+}
+
+void CpfgMacros::stop(std::size_t at, const char* why) {
+  if (!std::exchange(is_stopped_, true)) source_.fault(at, why);
+}
+
+TracedText CpfgMacros::expanded(const TracedText& text) {
+  spent_ = 0;
+  is_stopped_ = false;
+  TracedText out = expand(text, 0);
+  return is_stopped_ ? TracedText() : out;
+}
+
+TracedText CpfgMacros::expand(const TracedText& text, int depth) {
+  TracedText out;
+  for (std::size_t at = 0; at < text.size() && !is_stopped_;) {
+    const std::size_t end = name_end(text.text(), at);
+    const auto found = end > at ? macros_.find(text.text().substr(at, end - at)) : macros_.end();
+    const std::size_t from = text.origin(at);
+    if (found == macros_.end()) {
+      // A number takes the letters behind it along, as in 1e3.
+      std::size_t rest = std::max(end, at + 1);
+      if (is_digit(text[at])) {
+        while (rest < text.size() && is_name_part(text[rest])) ++rest;
+      }
+      out.copy(text, at, rest);
+      at = rest;
+    } else if (found->second.has_parameters) {
+      if (expand_call(found->first, found->second, text, at, depth, out)) continue;
+      out.copy(text, at, end);
+      at = end;
+    } else if (found->second.is_value) {
+      out.copy(text, at, end);
+      at = end;
+    } else {
+      spent_ += found->second.body.size() + 1;
+      if (depth >= deepest_expansion) stop(from, "found macros that contain themselves");
+      if (spent_ > longest_expansion) stop(from, "macros make this line longer than 1,000,000 bytes");
+      if (is_stopped_) break;
+      const TracedText body = expand(pasted(found->second, {}, from), depth + 1);
+      out.copy(body, 0, body.size());
+      at = end;
+    }
+  }
+  return out;
+}
+
+/// A macro with parameters at text[at]: a call where the request has its function and every argument is one
+/// operand, pasted elsewhere. False: no parameters follow.
+bool CpfgMacros::expand_call(const std::string& name, const Macro& macro, const TracedText& text,
+                             std::size_t& at, int depth, TracedText& out) {
+  const std::size_t open = lsystem::skip_spaces(text.text(), at + name.size(), text.size());
+  if (open == text.size() || text[open] != '(') return false;
+  const std::size_t from = text.origin(at);
+  const std::size_t close = lsystem::closing(text.text(), open, text.size());
+  if (close == text.size()) {
+    stop(text.origin(open), "found `(` without its `)`");
+    return true;
+  }
+  if (depth >= deepest_expansion) {
+    stop(from, "found macros that contain themselves");
+    return true;
+  }
+  std::vector<TracedText> arguments;
+  bool are_operands = macro.is_value;
+  int inner = 0;
+  for (std::size_t i = open + 1, begin = i; i <= close; ++i) {
+    if (text[i] == '(') ++inner;
+    if (text[i] == ')' && i != close) --inner;
+    if (i != close && (text[i] != ',' || inner > 0)) continue;
+    const Line argument = trimmed(text.text(), {begin, i});
+    arguments.push_back(expand(text.part(argument.from, argument.to), depth + 1));
+    are_operands = are_operands && is_operand(arguments.back().text());
+    begin = i + 1;
+  }
+  at = close + 1;
+  if (arguments.size() != macro.parameters.size() && !are_operands) {
+    source_.fault(from, "found " + std::to_string(arguments.size()) + " arguments of the macro " +
+                            lang::in_quotes(name) + "; it has " + std::to_string(macro.parameters.size()));
+  } else if (are_operands) {
+    out.write(name + "(", from);
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+      if (i > 0) out.write(",", from);
+      out.copy(arguments[i], 0, arguments[i].size());
+    }
+    out.write(")", from);
+  } else {
+    const TracedText body = pasted(macro, arguments, from);
+    spent_ += body.size();
+    if (spent_ > longest_expansion) {
+      stop(from, "macros make this line longer than 1,000,000 bytes");
+      return true;
+    }
+    const TracedText expanded = expand(body, depth + 1);
+    out.copy(expanded, 0, expanded.size());
+  }
+  return true;
+}
+
+TracedText CpfgMacros::pasted(const Macro& macro, const std::vector<TracedText>& arguments,
+                              std::size_t from) const {
+  TracedText out;
+  for (std::size_t at = 0; at < macro.body.size();) {
+    const std::size_t end = std::max(name_end(macro.body, at), at + 1);
+    const std::string word = macro.body.substr(at, end - at);
+    const auto found = std::find(macro.parameters.begin(), macro.parameters.end(), word);
+    if (found == macro.parameters.end() || arguments.empty()) {
+      out.write(word, from);
+    } else {
+      const TracedText& argument = arguments[static_cast<std::size_t>(found - macro.parameters.begin())];
+      out.copy(argument, 0, argument.size());
+    }
+    at = end;
+  }
+  return out;
 }
 
 }  // namespace seedmesh

@@ -1,10 +1,12 @@
 #pragma once
-/// The macros of a file of cpfg: #define NAME text and #define NAME(parameters) expression.
+/// The macros of a file of cpfg: #define NAME text and #define NAME(parameters) text. The preprocessor pastes
+/// text; what gives the same as a constant or a function of a request becomes one.
 #include <map>
 #include <string>
 #include <vector>
 
 #include "core/import/foreign_text.h"
+#include "core/import/traced_text.h"
 #include "core/lang/expression.h"
 
 namespace seedmesh {
@@ -16,32 +18,39 @@ class CpfgMacros {
   /// Reads text[line], which begins with `#`.
   void define(std::string_view text, Line line);
 
-  /// Tells expressions over numbers, functions and other such macros from texts. After the last define().
+  /// Tells constants and functions from texts. After the last define().
   void sort();
 
-  /// `text`, which begins at `at`, with the macros that are texts replaced; `changed` tells whether there
-  /// were any.
-  std::string expanded(std::string_view text, std::size_t at, bool& changed);
+  /// `text` with the macros pasted that are texts, and functions where an argument is more than one operand.
+  /// Empty, with a fault, where they contain themselves or become too long.
+  TracedText expanded(const TracedText& text);
 
   struct Expression {
     std::string name, text;  ///< of a function the whole definition
     std::size_t at = 0;
   };
-  std::vector<Expression> constants() const;
-  const std::vector<Expression>& functions() const { return functions_; }
+  std::vector<Expression> constants();
+  std::vector<Expression> functions();
 
  private:
   struct Macro {
     std::size_t at = 0;
     bool has_parameters = false;
-    std::string parameters, body;
-    bool is_expression = false;
+    std::vector<std::string> parameters;
+    std::string parameter_list, body;
+    bool is_value = false;  ///< a constant or a function: a request can say it
   };
-  void define_function(lang::Names& names, const std::string& name, const Macro& macro);
+  bool parses(lang::Names& names, const Macro& macro) const;
+  TracedText expand(const TracedText& text, int depth);
+  bool expand_call(const std::string& name, const Macro& macro, const TracedText& text, std::size_t& at,
+                   int depth, TracedText& out);
+  TracedText pasted(const Macro& macro, const std::vector<TracedText>& arguments, std::size_t from) const;
+  void stop(std::size_t at, const char* why);
 
   ForeignText& source_;
   std::map<std::string, Macro> macros_;
-  std::vector<Expression> functions_;
+  std::size_t spent_ = 0;  ///< bytes written for the text that is expanded
+  bool is_stopped_ = false;
 };
 
 bool is_name_part(char c);

@@ -29,7 +29,10 @@ struct Reader {
   void fault(const std::string& pointer, std::string message) {
     issues.push_back({pointer, std::move(message), 0, 0});
   }
-  void warn(std::string message) { warnings.push_back({"", std::move(message), 0, 0}); }
+  /// Of what stands at `pointer` of the file; "": of all.
+  void warn(const std::string& pointer, std::string message) {
+    warnings.push_back({pointer, std::move(message), 0, 0});
+  }
 
   const Json* member(const Json& from, const std::string& at, const char* name) {
     const auto found = from.find(name);
@@ -218,7 +221,7 @@ class Writer {
     const double thin = level_[0].radius * level_[1].radius * level_[2].radius;
     out_["AttractionUp"] = clamped(strength * up * level_[2].sections / std::max(thin, 0.05), -10, 10);
     if (aside > 0 && strength != 0)
-      reader_.warn("branch/force/direction: limbs are drawn up or down only, not to a side");
+      reader_.warn("/branch/force/direction", "limbs are drawn up or down only, not to a side");
   }
 
   void write_leaves() {
@@ -249,9 +252,9 @@ class Writer {
     if (!color.empty()) leaf["color"] = color;
     out_["leaf"] = std::move(leaf);
     if (reader_.number(leaves, at, "sizeVariance", 0, {0, 10}) > 0)
-      reader_.warn("leaves/sizeVariance: leaves of one tree are of one size");
+      reader_.warn("/leaves/sizeVariance", "leaves of one tree are of one size");
     if (reader_.number(leaves, at, "start", 0, {0, 1}) > 0)
-      reader_.warn("leaves/start: leaves stand along the whole limb");
+      reader_.warn("/leaves/start", "leaves stand along the whole limb");
   }
 
   void write_bark() {
@@ -268,18 +271,19 @@ class Writer {
 
   void write_warnings() {
     reader_.warn(
+        "",
         "lengths are taken as fifths of a metre; chance is drawn by place: the tree is like the saved one, "
         "not the same");
     for (const Level& each : level_) {
       if (each.twist == 0) continue;
-      reader_.warn("branch/twist: limbs do not turn about their own axis");
+      reader_.warn("/branch/twist", "limbs do not turn about their own axis");
       break;
     }
     if (level_[2].start > 0 || level_[3].start > 0)
-      reader_.warn("branch/start: beyond the first level limbs stand along the whole parent");
+      reader_.warn("/branch/start", "beyond the first level limbs stand along the whole parent");
     const Json* trellis = reader_.member(file_, "", "trellis");
     if (trellis && trellis->value("enabled", Json(false)) == Json(true))
-      reader_.warn("trellis: there is none here; an L-system with guides can have one");
+      reader_.warn("/trellis", "there is none here; an L-system with guides can have one");
   }
 
   const Json& file_;
@@ -294,7 +298,20 @@ class Writer {
 
 }  // namespace
 
-Result<Imported> import_ez_tree(std::string_view text, const ImportOptions&) {
+int marks_of_ez_tree(std::string_view text) {
+  const Result<Json> file = parse_json(text);
+  if (!file || !file->is_object()) return 0;
+  int marks = 0;
+  for (const char* name : {"branch", "leaves", "bark"}) {
+    if (const auto found = file->find(name); found != file->end()) marks += found->is_object() ? 4 : 1;
+  }
+  return marks;
+}
+
+Result<Imported> import_ez_tree(std::string_view text, const ImportOptions& options) {
+  if (!options.entry.empty()) {
+    return Error{Code::invalid, {{"/entry", "a file of ez-tree holds one tree; expected no entry"}}};
+  }
   Result<Json> file = parse_json(text);
   if (!file) return std::move(file).error();
   if (!file->is_object())

@@ -6,7 +6,11 @@
 namespace seedmesh {
 
 void ForeignText::fault(std::size_t offset, std::string message) {
-  if (issues_.size() < most) issues_.push_back(issue_at("", text_, offset, std::move(message)));
+  if (issues_.size() < most) {
+    issues_.push_back(issue_at("", text_, offset, std::move(message)));
+  } else {
+    ++untold_;
+  }
 }
 
 void ForeignText::warn(std::size_t offset, std::string message, std::string pointer) {
@@ -15,13 +19,13 @@ void ForeignText::warn(std::size_t offset, std::string message, std::string poin
   warnings_.push_back({std::move(pointer), std::move(message), place.line, place.column});
 }
 
-Result<Imported> ForeignText::finish(Imported imported) {
+Imported ForeignText::finish(Imported imported) {
   const auto earlier = [](const auto& a, const auto& b) {
     return a.line != b.line ? a.line < b.line : a.column < b.column;
   };
   std::stable_sort(issues_.begin(), issues_.end(), earlier);
   std::stable_sort(warnings_.begin(), warnings_.end(), earlier);
-  if (!issues_.empty()) return Error{Code::invalid, std::move(issues_)};
+  imported.faults = std::move(issues_);
   imported.warnings = std::move(warnings_);
   return imported;
 }

@@ -17,9 +17,10 @@ class ForeignText {
   void fault(std::size_t offset, std::string message);
   void warn(std::size_t offset, std::string message, std::string pointer = "");
   bool sound() const { return issues_.empty(); }
+  std::size_t fault_count() const { return issues_.size() + untold_; }
 
-  /// The faults in the order of the text, or what `imported` became, with the warnings.
-  Result<Imported> finish(Imported imported);
+  /// What `imported` became, with the faults and warnings in the order of the text.
+  Imported finish(Imported imported);
 
  private:
   static constexpr std::size_t most = 100;  // faults and warnings that are told
@@ -27,6 +28,7 @@ class ForeignText {
   std::string_view text_;
   std::vector<Issue> issues_;
   std::vector<Warning> warnings_;
+  std::size_t untold_ = 0;  // faults beyond the most
 };
 
 /// A line without its end: bytes [from, to) of the text.

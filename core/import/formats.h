@@ -10,4 +10,10 @@ Result<Imported> import_fractint(std::string_view text, const ImportOptions& opt
 Result<Imported> import_houdini(std::string_view text, const ImportOptions& options);   // houdini.cpp
 Result<Imported> import_proctree(std::string_view text, const ImportOptions& options);  // proctree.cpp
 
+int marks_of_cpfg(std::string_view text);
+int marks_of_ez_tree(std::string_view text);
+int marks_of_fractint(std::string_view text);
+int marks_of_houdini(std::string_view text);
+int marks_of_proctree(std::string_view text);
+
 }  // namespace seedmesh

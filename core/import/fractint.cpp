@@ -7,16 +7,19 @@
 ///     F=F+F--F+F         several rules of one symbol are joined
 ///   }
 ///
-/// Letters are the same in both cases. The turtle starts to the right, in the plane of the picture.
+/// Letters are the same in both cases; entries without a name or called comment are comments. The turtle
+/// starts to the right, in the plane of the picture. It has two headings: + - | turn that of F and G, \\ and
+/// / that of D and M.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
+#include <set>
 #include <utility>
 
 #include "core/import/foreign_text.h"
 #include "core/import/formats.h"
+#include "core/import/traced_text.h"
 #include "core/lang/lexer.h"
 
 namespace seedmesh {
@@ -68,25 +71,30 @@ class EntryReader {
 
   Imported read() {
     find_angle();
+    find_headings();
     for (const Line& line : entry_.lines) read_line(line);
-    if (!axiom_) source_.fault(entry_.name_at, "found no axiom in this entry");
+    if (!has_axiom_) source_.fault(entry_.name_at, "found no axiom in this entry");
     if (divisions_ == 0) source_.fault(entry_.name_at, "found no angle in this entry");
     return made();
   }
 
  private:
-  std::string_view word(Line line) const {
+  /// The first word of a line, which ends at a blank or `=`; `rest` is what stands behind it and its `=`.
+  std::string word(Line line, Line& rest) const {
+    const std::string_view text = source_.text();
     std::size_t end = line.from;
-    while (end < line.to && !is_blank(source_.text()[end]) && source_.text()[end] != '=') ++end;
-    return source_.text().substr(line.from, end - line.from);
+    while (end < line.to && !is_blank(text[end]) && text[end] != '=') ++end;
+    if (end == line.from) ++end;  // a rule for =
+    rest = trimmed(text, {end, line.to});
+    if (rest.from < rest.to && text[rest.from] == '=') rest = trimmed(text, {rest.from + 1, rest.to});
+    return lower(text.substr(line.from, end - line.from));
   }
 
   /// Rules may stand before the angle, and what | means depends on it.
   void find_angle() {
     for (const Line& line : entry_.lines) {
-      const std::string_view first = word(line);
-      if (lower(first) != "angle") continue;
-      const Line rest = trimmed(source_.text(), {line.from + first.size(), line.to});
+      Line rest;
+      if (word(line, rest) != "angle") continue;
       std::size_t at = rest.from;
       double value = 0;
       const bool number = take_number(source_.text(), at, rest.to, value) && at == rest.to;
@@ -99,32 +107,91 @@ class EntryReader {
     }
   }
 
+  /// Whether the entry draws by steps (F, G), by degrees (D, M) or by both.
+  void find_headings() {
+    for (const Line& line : entry_.lines) {
+      Line rest;
+      const std::string first = word(line, rest);
+      if (first == "angle" || (first != "axiom" && first.size() > 1)) continue;
+      for (std::size_t at = rest.from; at < rest.to; ++at) {
+        const char c = upper(source_.text()[at]);
+        by_steps_ = by_steps_ || c == 'F' || c == 'G';
+        by_degrees_ = by_degrees_ || c == 'D' || c == 'M';
+        has_mirror_ = has_mirror_ || c == '!';
+        if (by_steps_ && by_degrees_) {
+          source_.fault(at,
+                        "found F or G beside D or M, which turn apart from each other; the turtle has one "
+                        "heading here");
+          return;
+        }
+      }
+    }
+  }
+
   void read_line(Line line) {
     const std::string_view text = source_.text();
-    const std::string_view first = word(line);
-    const std::string name = lower(first);
+    Line rest;
+    const std::string name = word(line, rest);
     if (name == "angle") return;
     if (name == "axiom") {
-      if (axiom_) source_.fault(line.from, "found a second axiom");
-      axiom_ = commands({line.from + first.size(), line.to});
-      axiom_at_ = line.from;
+      if (std::exchange(has_axiom_, true)) source_.fault(line.from, "found a second axiom");
+      axiom_.write("-(90)", rest.from);  // Fractint's turtle looks to the right
+      commands(rest, axiom_);
       return;
     }
-    const Line after = trimmed(text, {line.from + 1, line.to});
-    if (after.from >= line.to || text[after.from] != '=') {
+    const Line after = trimmed(text, {line.from + name.size(), line.to});
+    if (name.size() > 1 || after.from >= line.to || text[after.from] != '=') {
       source_.fault(line.from, "found no command; expected Angle, Axiom or a rule such as F=F+F");
       return;
     }
-    const char symbol = upper(text[line.from]);
-    if (!is_letter(symbol) && !is_digit(symbol)) {
-      source_.fault(line.from, std::string("found a rule for `") + symbol + "`; expected a letter or digit");
+    rule(upper(text[line.from]), line.from, rest);
+  }
+
+  void rule(char symbol, std::size_t at, Line successor) {
+    const std::string predecessor = predecessor_of(symbol);
+    if (predecessor.empty()) {
+      source_.fault(at, std::string("found a rule for `") + symbol +
+                            "`; expected one for a letter, a digit or a command without brackets");
       return;
     }
-    if (std::none_of(rules_.begin(), rules_.end(), [&](const Rule& each) { return each.symbol == symbol; })) {
-      rules_.push_back({symbol, "", line.from});
+    if (predecessor.back() == ')' && successor.from < successor.to) {
+      source_.fault(at, std::string("found a rule that gives `") + symbol +
+                            "` with its number a successor; only one that removes it is understood");
+      return;
     }
-    for (Rule& each : rules_) {
-      if (each.symbol == symbol) each.successor += commands({after.from + 1, line.to});
+    auto known = std::find_if(rules_.begin(), rules_.end(),
+                              [&](const Rule& each) { return each.predecessor == predecessor; });
+    if (known == rules_.end()) {
+      rules_.push_back({predecessor, {}});
+      known = rules_.end() - 1;
+      known->text.write(predecessor + " -> ", at);
+    }
+    commands(successor, known->text);
+  }
+
+  /// Our module of a symbol, with a parameter where the command has a number; empty: there is none.
+  std::string predecessor_of(char symbol) const {
+    switch (symbol) {
+      case 'C':
+        return ";(n)";
+      case '<':
+        return ";";
+      case '>':
+        return ",";
+      case '@':
+        return "@Di(n)";
+      case '\\':
+        return "+(n)";
+      case '/':
+        return "-(n)";
+      case '!':
+        return "@-";
+      case '|':
+        return divisions_ % 2 == 0 ? "|" : "";
+      default:
+        return is_letter(symbol) || is_digit(symbol) || symbol == '+' || symbol == '-'
+                   ? std::string(1, symbol)
+                   : "";
     }
   }
 
@@ -133,45 +200,60 @@ class EntryReader {
   static std::string text_of(double number) { return number_text(number); }
 
   /// The turtle's commands in text[line] in our symbols.
-  std::string commands(Line line) {
+  void commands(Line line, TracedText& out) {
     const std::string_view text = source_.text();
-    std::string out;
     for (std::size_t at = line.from; at < line.to;) {
       const std::size_t start = at;
       const char c = upper(text[at++]);
       if (is_blank(c)) continue;
-      if (is_letter(c) && c != 'C') {
-        used_[static_cast<unsigned char>(c)] = true;
-        out += c;
-      } else if (is_digit(c)) {
-        out += c;
-      } else if (c == '+' || c == '-' || c == '[' || c == ']') {
-        out += c;
-      } else if (c == '|') {
-        out += half_turn();
+      if (c == '+' || c == '-' || c == '|') {
+        if (turns(by_steps_, by_degrees_, c, start))
+          out.write(c == '|' ? half_turn(start) : std::string(1, c), start);
       } else if (c == '\\' || c == '/') {
-        out += (c == '\\' ? "+(" : "-(") + text_of(number(start, at, line.to)) + ")";
+        const std::string degrees = text_of(number(start, at, line.to));
+        if (turns(by_degrees_, by_steps_, c, start))
+          out.write((c == '\\' ? "+(" : "-(") + degrees + ")", start);
       } else if (c == 'C' || c == '<' || c == '>') {
-        out += color(c, start, at, line.to);
+        out.write(color(c, start, at, line.to), start);
+      } else if (is_letter(c)) {
+        used_[static_cast<unsigned char>(c)] = true;
+        out.write(std::string(1, c), start);
+      } else if (is_digit(c) || c == '[' || c == ']') {
+        out.copy(text, start, at);
       } else if (c == '!') {
-        out += "@-";
+        out.write("@-", start);
       } else if (c == '@') {
-        out += "@Di(" + text_of(factor(start, at, line.to)) + ")";
+        out.write("@Di(" + text_of(factor(start, at, line.to)) + ")", start);
       } else {
-        source_.fault(start, "found " + lang::in_quotes(text.substr(start, 1)) + ", which is no command");
+        while (at < line.to && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U) ++at;
+        warn_once(start, text.substr(start, at - start), "is no command of Fractint, which passes over it");
       }
       if (out.size() > longest_rule) {
         source_.fault(start, "found a rule that is too long");
         break;
       }
     }
-    return out;
   }
 
-  /// As near to 180 degrees as the parts of a turn allow.
-  std::string half_turn() const {
+  /// Turns of the heading that nothing is drawn by are left out.
+  bool turns(bool by_this, bool by_other, char symbol, std::size_t at) {
+    if (by_this || !by_other) return true;
+    warn_once(at, std::string_view(&symbol, 1),
+              symbol == '\\' || symbol == '/' ? "turns D and M alone, which do not occur, and is left out"
+                                              : "turns F and G alone, which do not occur, and is left out");
+    return false;
+  }
+
+  void warn_once(std::size_t at, std::string_view symbol, const char* text) {
+    if (warned_.insert(std::string(symbol)).second) source_.warn(at, lang::in_quotes(symbol) + " " + text);
+  }
+
+  /// As near to 180 degrees as the parts of a turn allow: to the right, and ! does not change it.
+  std::string half_turn(std::size_t at) {
     if (divisions_ % 2 == 0) return "|";
-    return "+(" + text_of(360.0 / std::max(divisions_, 1) * (divisions_ / 2)) + ")";
+    if (has_mirror_)
+      warn_once(at, "|", "goes to the other side where `!` has exchanged the sides, unlike in Fractint");
+    return "-(" + text_of(360.0 / std::max(divisions_, 1) * (divisions_ / 2)) + ")";
   }
 
   double number(std::size_t start, std::size_t& at, std::size_t to) {
@@ -182,14 +264,14 @@ class EntryReader {
     return value;
   }
 
-  /// @ with I (the inverse) and Q (the square root) before its number, in this order.
+  /// @ with I (the inverse) and Q (the square root) before its number, in either order.
   double factor(std::size_t start, std::size_t& at, std::size_t to) {
-    const auto take = [&](char letter) {
-      if (at >= to || upper(source_.text()[at]) != letter) return false;
-      ++at;
-      return true;
-    };
-    const bool inverse = take('I'), root = take('Q');
+    bool inverse = false, root = false;
+    for (; at < to; ++at) {
+      bool& flag = upper(source_.text()[at]) == 'I' ? inverse : root;
+      if (flag || (&flag == &root && upper(source_.text()[at]) != 'Q')) break;
+      flag = true;
+    }
     const std::size_t before = at;
     double value = number(start, at, to);
     if (at == before) return 1;
@@ -202,38 +284,33 @@ class EntryReader {
     return value;
   }
 
-  /// C sets the colour, < takes from it and > adds to it; the latter two by 1 where no number follows.
+  /// C sets the colour, < adds to it and > takes from it; 0 where no number follows.
   std::string color(char command, std::size_t start, std::size_t& at, std::size_t to) {
-    double value = 1;
-    if (!take_number(source_.text(), at, to, value) && command == 'C') {
-      // A letter like any other, unless its number follows.
-      return "C";
-    }
+    double value = 0;
+    take_number(source_.text(), at, to, value);
     if (value != std::floor(value) || value >= most_colors) {
       source_.fault(start, "found a colour that is no whole number below 256");
       return "";
     }
-    if (!std::exchange(colored_, true)) {
-      source_.warn(start,
-                   "the colours of Fractint's palette are not known here: numbers choose from `materials`");
-    }
+    warn_once(
+        start, "C",
+        "and `<` `>`: the colours of Fractint's palette are not known here; numbers choose from `materials`");
     if (command == 'C') return ";(" + text_of(value) + ")";
-    return std::string(static_cast<std::size_t>(value), command == '>' ? ';' : ',');
+    return std::string(static_cast<std::size_t>(value), command == '<' ? ';' : ',');
   }
 
   Imported made() {
     Imported out;
-    if (!source_.sound()) return out;
     Json parameters;
-    parameters["axiom"] = "-(90)" + *axiom_;  // Fractint's turtle looks to the right
-    parameters["angle"] = 360.0 / divisions_;
+    if (has_axiom_) parameters["axiom"] = axiom_.text();
+    parameters["angle"] = 360.0 / std::max(divisions_, 1);
     parameters["iterations"] = usual_order;
     parameters["style"] = "lines";
     Json productions = Json::array();
     for (const Rule& rule : rules_) {
       out.origins.push_back(
-          {"/parameters/productions/" + std::to_string(productions.size()), rule.at, false});
-      productions.push_back(std::string(1, rule.symbol) + " -> " + rule.successor);
+          {"/parameters/productions/" + std::to_string(productions.size()), rule.text.runs()});
+      productions.push_back(rule.text.text());
     }
     parameters["productions"] = std::move(productions);
     Json interpretation = Json::array();
@@ -242,7 +319,7 @@ class EntryReader {
       if (used_[static_cast<unsigned char>(letter)]) interpretation.push_back(meaning);
     }
     parameters["interpretation"] = std::move(interpretation);
-    out.origins.push_back({"/parameters/axiom", axiom_at_, false});
+    out.origins.push_back({"/parameters/axiom", axiom_.runs()});
     out.request = {{"generator", "lsystem"}, {"parameters", std::move(parameters)}};
     source_.warn(
         entry_.name_at,
@@ -252,19 +329,18 @@ class EntryReader {
   }
 
   struct Rule {
-    char symbol;
-    std::string successor;
-    std::size_t at;
+    std::string predecessor;
+    TracedText text;
   };
 
   ForeignText& source_;
   const Entry& entry_;
   int divisions_ = 0;
-  std::optional<std::string> axiom_;
-  std::size_t axiom_at_ = 0;
+  bool has_axiom_ = false, has_mirror_ = false, by_steps_ = false, by_degrees_ = false;
+  TracedText axiom_;
   std::vector<Rule> rules_;
   std::array<bool, 256> used_{};
-  bool colored_ = false;
+  std::set<std::string> warned_;
 };
 
 std::string list_of(const std::vector<Entry>& entries) {
@@ -275,9 +351,31 @@ std::string list_of(const std::vector<Entry>& entries) {
 
 }  // namespace
 
+int marks_of_fractint(std::string_view text) {
+  int marks = 0;
+  bool inside = false;
+  for (Line line : lines_of(text)) {
+    line.to = std::min(text.substr(0, line.to).find(';', line.from), line.to);
+    line = trimmed(text, line);
+    const std::string words = lower(text.substr(line.from, std::min<std::size_t>(line.to - line.from, 200)));
+    inside = inside || (words.size() > 1 && words.back() == '{');
+    const auto begins = [&](std::string_view key) {
+      return words.size() > key.size() && words.substr(0, key.size()) == key &&
+             (is_blank(words[key.size()]) || words[key.size()] == '=');
+    };
+    if (inside && (begins("axiom") || begins("angle"))) marks += 4;
+    if (words.find('}') != std::string::npos) inside = false;
+  }
+  return marks;
+}
+
 Result<Imported> import_fractint(std::string_view text, const ImportOptions& options) {
   ForeignText source(text);
-  const std::vector<Entry> entries = entries_of(source);
+  std::vector<Entry> entries = entries_of(source);
+  const auto is_comment = [](const Entry& each) {
+    return each.name.empty() || lower(each.name) == "comment";
+  };
+  entries.erase(std::remove_if(entries.begin(), entries.end(), is_comment), entries.end());
   const Entry* chosen = nullptr;
   for (const Entry& each : entries) {
     if (options.entry.empty() || lower(each.name) == lower(options.entry)) {

@@ -7,6 +7,7 @@
 /// What Houdini turns the other way is exchanged: + is right there and & up. What scales by the node's own
 /// factors is written out with them.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -14,6 +15,7 @@
 #include "core/generators/lsystem/notation.h"
 #include "core/import/foreign_text.h"
 #include "core/import/formats.h"
+#include "core/import/traced_text.h"
 #include "core/lang/lexer.h"
 
 namespace seedmesh {
@@ -23,6 +25,7 @@ namespace {
 struct Setting {
   std::string_view name;
   double value;
+  std::size_t at = 0;  ///< in the file
 };
 constexpr Setting settings[] = {
     {"generations", 7},
@@ -49,7 +52,7 @@ std::string squeezed(std::string_view text) {
 class HoudiniReader {
  public:
   explicit HoudiniReader(ForeignText& source) : source_(source), text_(source.text()) {
-    for (const Setting& each : settings) values_[std::string(each.name)] = each.value;
+    for (const Setting& each : settings) values_[std::string(each.name)] = each;
   }
 
   Imported read() {
@@ -63,8 +66,9 @@ class HoudiniReader {
     if (!premise_) {
       source_.fault(0, "found no premise");
     } else {
-      parameters_["axiom"] = modules(*premise_, Place::word);
-      out_.origins.push_back({"/parameters/axiom", premise_->from, false});
+      TracedText axiom;
+      modules(*premise_, Place::word, axiom);
+      put("/axiom", axiom.text(), axiom.runs());
     }
     if (is_bare_ && rules.empty()) source_.fault(premise_->from, "found no rule; expected such as `A=FA`");
     parameters_["productions"] = Json::array();
@@ -87,12 +91,17 @@ class HoudiniReader {
       if (premise_) source_.fault(line.from, "found a second premise");
       premise_ = rest;
     } else if (colon < line.to && key == "contextignore") {
-      parameters_["ignore"] = modules(rest, Place::pattern);
+      TracedText ignored;
+      modules(rest, Place::pattern, ignored);
+      put("/ignore", ignored.text(), ignored.runs());
     } else if (colon < line.to && numbered_rule) {
       rules.push_back(rest);
     } else if (const auto value = values_.find(key); colon < line.to && value != values_.end()) {
       number(rest, value->second);
-    } else if (equals_of(line) < line.to) {
+    } else if (const std::size_t equals = equals_of(line);
+               colon == line.to && equals < line.to && is_setting(line.from, equals)) {
+      source_.fault(equals, "found `=` behind a parameter; expected a colon such as in `Angle: 28`");
+    } else if (equals < line.to) {
       rules.push_back(line);
     } else if (colon == line.to && begins_setting(line)) {
       source_.fault(line.from, "found no colon; expected such as `Premise: A` or `Angle: 28`");
@@ -105,6 +114,12 @@ class HoudiniReader {
     }
   }
 
+  /// A parameter's name; those of one letter may be modules.
+  bool is_setting(std::size_t from, std::size_t to) const {
+    const std::string word = squeezed(text_.substr(from, to - from));
+    return word.size() > 1 && (word == "premise" || values_.count(word) != 0);
+  }
+
   /// Whether the line begins with the name of a parameter and a blank.
   bool begins_setting(Line line) const {
     std::size_t end = line.from;
@@ -114,7 +129,14 @@ class HoudiniReader {
     return word == "premise" || word == "rule" || word == "step" || values_.contains(word);
   }
 
-  void number(Line line, double& value) {
+  void put(const std::string& name, Json value, std::vector<TextRun> runs) {
+    out_.origins.push_back({"/parameters" + name, std::move(runs)});
+    parameters_[Json::json_pointer(name)] = std::move(value);
+  }
+
+  void number(Line line, Setting& setting) {
+    double& value = setting.value;
+    setting.at = line.from;
     const bool negative = line.from < line.to && text_[line.from] == '-';
     std::size_t at = line.from + (negative ? 1 : 0);
     double found = 0;
@@ -158,15 +180,19 @@ class HoudiniReader {
     std::size_t head = outside(':', {line.from, equals});
     const Line condition = head < equals ? trimmed(text_, {head + 1, equals}) : Line{equals, equals};
     const std::size_t weight = outside(':', {equals + 1, line.to});
-    std::string out = pattern({line.from, head});
-    if (condition.from < condition.to)
-      out += " : " + std::string(text_.substr(condition.from, condition.to - condition.from));
-    out += " -> " + modules({equals + 1, weight}, Place::word);
-    const Line chance = trimmed(text_, {std::min(weight + 1, line.to), line.to});
-    if (weight < line.to) out += " : " + std::string(text_.substr(chance.from, chance.to - chance.from));
-    Json& list = parameters_["productions"];
-    out_.origins.push_back({"/parameters/productions/" + std::to_string(list.size()), line.from, false});
-    list.push_back(std::move(out));
+    TracedText out;
+    pattern({line.from, head}, out);
+    const auto append = [&](std::string_view before, Line part) {
+      out.write(before, part.from);
+      out.copy(text_, part.from, part.to);
+    };
+    if (condition.from < condition.to) append(" : ", condition);
+    out.write(" -> ", equals);
+    modules({equals + 1, weight}, Place::word, out);
+    if (weight < line.to) append(" : ", trimmed(text_, {weight + 1, line.to}));
+    const std::string index = std::to_string(parameters_["productions"].size());
+    out_.origins.push_back({"/parameters/productions/" + index, out.runs()});
+    parameters_["productions"].push_back(out.text());
   }
 
   std::size_t outside(char mark, Line line) const {
@@ -179,25 +205,29 @@ class HoudiniReader {
     return line.to;
   }
 
-  std::string pattern(Line line) {
+  void pattern(Line line, TracedText& out) {
     const std::size_t less = outside('<', line);
     const std::size_t greater = outside('>', line);
-    std::string out;
-    if (less < line.to) out += modules({line.from, less}, Place::pattern) + " < ";
+    if (less < line.to) {
+      modules({line.from, less}, Place::pattern, out);
+      out.write(" < ", less);
+    }
     const std::size_t from = less < line.to ? less + 1 : line.from;
-    out += modules({from, std::max(greater, from)}, Place::pattern);
-    if (greater < line.to) out += " > " + modules({greater + 1, line.to}, Place::pattern);
-    return out;
+    modules({from, std::max(greater, from)}, Place::pattern, out);
+    if (greater < line.to) {
+      out.write(" > ", greater);
+      modules({greater + 1, line.to}, Place::pattern, out);
+    }
   }
 
-  /// The modules of text[line] in our symbols.
-  std::string modules(Line line, Place place) {
-    std::string out;
+  /// Writes the modules of text[line] in our symbols. A column of an argument is told at its own place.
+  void modules(Line line, Place place, TracedText& out) {
     for (std::size_t at = line.from; at < line.to;) {
       const std::size_t start = at;
       const char c = text_[at++];
       if (is_blank(c)) continue;
       std::string arguments;
+      std::size_t open = at;
       if (at < line.to && text_[at] == '(') {
         const std::size_t close = lsystem::closing(text_, at, line.to);
         if (close == line.to) {
@@ -207,9 +237,15 @@ class HoudiniReader {
         arguments = text_.substr(at, close + 1 - at);
         at = close + 1;
       }
-      out += module(c, arguments, start, place);
+      const std::string written = module(c, arguments, start, place);
+      const std::size_t same = written.size() - std::min(written.size(), arguments.size());
+      if (!arguments.empty() && written.substr(same) == arguments) {
+        out.write(std::string_view(written).substr(0, same), start);
+        out.copy(text_, open, at);
+      } else {
+        out.write(written, start);
+      }
     }
-    return out;
   }
 
   std::string module(char c, const std::string& arguments, std::size_t at, Place place) {
@@ -217,6 +253,10 @@ class HoudiniReader {
     const std::size_t turn = exchanged.find(c);
     if (turn != std::string_view::npos) return with[turn] + arguments;
     const bool own = std::string_view("\"!;_?@*~'#gTJKM").find(c) != std::string_view::npos;
+    if (c == 'a' && arguments.find('"') != std::string::npos) {
+      warn_once(at, c, " sets an attribute, which nobody has here");
+      return "";
+    }
     if (!own) {
       if (c == 'H' || c == 'h' || c == 'F' || c == 'f' || c == 'G') note_arity(c, arguments);
       if (c == '$' && !arguments.empty()) {
@@ -242,7 +282,7 @@ class HoudiniReader {
   /// Symbols that scale or turn by a factor of the node where they carry none.
   std::string written_out(char c, const std::string& arguments, std::size_t at) {
     const auto by = [&](const char* setting) {
-      return arguments.empty() ? "(" + number_text(values_[setting]) + ")" : arguments;
+      return arguments.empty() ? "(" + number_text(values_[setting].value) + ")" : arguments;
     };
     switch (c) {
       case '"':
@@ -304,30 +344,48 @@ class HoudiniReader {
     return rules;
   }
 
+  /// A fraction of a generation is a plant that has grown so far.
+  void put_generations() {
+    const Setting& setting = values_["generations"];
+    if (!(setting.value >= 0 && setting.value <= 1000)) {
+      source_.fault(setting.at, "expected generations from 0 to 1000");
+      return;
+    }
+    const double whole = std::ceil(setting.value);
+    put("/iterations", static_cast<int>(whole), {{0, setting.at, false}});
+    if (whole != setting.value) put("/age", setting.value, {{0, setting.at, false}});
+  }
+
+  void put_seed() {
+    const Setting& setting = values_["randomseed"];
+    if (!(setting.value >= 0 && setting.value <= 1e9) || setting.value != std::floor(setting.value)) {
+      source_.fault(setting.at, "expected a random seed that is a whole number up to 1e9");
+      return;
+    }
+    out_.request["seed"] = static_cast<int>(setting.value);
+  }
+
   Imported made() {
-    const double generations = values_["generations"], seed = values_["randomseed"];
-    if (generations != static_cast<int>(std::clamp(generations, 0.0, 1000.0)))
-      source_.fault(0,
-                    "expected generations that are a whole number up to 1000; fractions have no counterpart");
-    if (seed < 0 || seed > 1e9 || seed != static_cast<int>(seed))
-      source_.fault(0, "expected a random seed that is a whole number up to 1e9");
-    if (!source_.sound()) return {};
     Json rules = interpretation();
     if (!rules.empty()) parameters_["interpretation"] = std::move(rules);
-    parameters_["iterations"] = static_cast<int>(generations);
-    parameters_["angle"] = values_["angle"];
-    parameters_["step"] = values_["stepsize"];
-    parameters_["width"] = values_["thickness"];
-    parameters_["constants"] = {
-        {"a", values_["angle"]}, {"b", values_["b"]}, {"c", values_["c"]}, {"d", values_["d"]}};
-    out_.request = {
-        {"generator", "lsystem"}, {"seed", static_cast<int>(seed)}, {"parameters", std::move(parameters_)}};
+    put_generations();
+    put_seed();
+    const auto put_number = [&](const char* name, const char* setting) {
+      put(name, values_[setting].value, {{0, values_[setting].at, false}});
+    };
+    put_number("/angle", "angle");
+    put_number("/step", "stepsize");
+    put_number("/width", "thickness");
+    put_number("/constants/a", "angle");
+    for (const char* each : {"b", "c", "d"}) put_number((std::string("/constants/") + each).c_str(), each);
+    out_.request["generator"] = "lsystem";
+    out_.request["parameters"] = std::move(parameters_);
     return std::move(out_);
   }
 
   ForeignText& source_;
   std::string_view text_;
-  std::map<std::string, double> values_;
+  std::map<std::string, Setting> values_;
   std::optional<Line> premise_;
   bool is_bare_ = false;  ///< the premise stands without its name
   std::set<std::pair<char, std::size_t>> arities_;
@@ -337,6 +395,24 @@ class HoudiniReader {
 };
 
 }  // namespace
+
+int marks_of_houdini(std::string_view text) {
+  int marks = 0;
+  bool has_rule = false;
+  for (const Line& each : lines_of(text)) {
+    const Line line = trimmed(text, each);
+    const std::string_view words = text.substr(line.from, std::min<std::size_t>(line.to - line.from, 200));
+    const std::string key = squeezed(words.substr(0, words.find(':')));
+    const bool has_colon = words.find(':') != std::string_view::npos;
+    const auto is_key = [&](const Setting& setting) { return setting.name == key; };
+    if (key.substr(0, 7) == "premise") marks += 4;
+    if (has_colon && key.size() > 1 && std::any_of(std::begin(settings), std::end(settings), is_key))
+      marks += 2;
+    if (has_colon && (key.substr(0, 4) == "rule" || key == "contextignore")) marks += 2;
+    has_rule = has_rule || (words.size() > 2 && words[1] == '=' && is_letter(words[0]));
+  }
+  return marks + (has_rule ? 1 : 0);
+}
 
 Result<Imported> import_houdini(std::string_view text, const ImportOptions& options) {
   if (!options.entry.empty()) {

@@ -15,18 +15,31 @@
 
 namespace seedmesh {
 
-/// Where a text of the request came from, so that a fault that only the generator finds can be told at the
+/// From byte `at` of a text of the request on stands what came from byte `from` of the foreign text: the same
+/// bytes (a blank for a line's end) where it is verbatim, something else for what stands at `from` where not.
+struct TextRun {
+  std::size_t at = 0, from = 0;
+  bool verbatim = false;
+};
+
+/// Where a value of the request came from, so that a fault that only the generator finds can be told at the
 /// place in the foreign text.
 struct Origin {
-  std::string pointer;     ///< into the request, such as "/parameters/productions/2"
-  std::size_t offset = 0;  ///< byte of the foreign text
-  bool verbatim = false;   ///< the text stands there, byte for byte (a blank for a line's end): columns hold
+  std::string pointer;        ///< into the request, such as "/parameters/productions/2"
+  std::vector<TextRun> runs;  ///< the first at byte 0; of a number one run alone
 };
 
 struct Imported {
   Json request = Json::object();
-  std::vector<Warning> warnings;  ///< pointer into the request or "", line and column of the foreign text
+
+  /// Of a text with line and column and a pointer into the request or ""; of JSON with a pointer into the
+  /// file.
+  std::vector<Warning> warnings;
   std::vector<Origin> origins;
+
+  /// What was not understood. Where there is any, the request is what is left: it is looked at for further
+  /// faults and not answered.
+  std::vector<Issue> faults;
 };
 
 struct ImportOptions {
@@ -39,6 +52,9 @@ struct ImportFormat {
   std::string_view text;        ///< one sentence: what becomes of them
   std::string_view media_type;  ///< "text/plain" or "application/json"
 
+  /// How many marks of this format the text has, such as its keywords; 0: none. `text` is valid UTF-8.
+  int (*marks)(std::string_view text);
+
   /// `text` is valid UTF-8. Faults: every one, with pointer "" and line and column of `text` (of JSON: with
   /// a pointer into it). Cost: linear.
   Result<Imported> (*read)(std::string_view text, const ImportOptions& options);
@@ -48,5 +64,8 @@ std::span<const ImportFormat> import_formats();
 
 /// Null: there is none of this name.
 const ImportFormat* find_import_format(std::string_view name);
+
+/// The format that the text has most marks of; null: it has none of any.
+const ImportFormat* likeliest_format(std::string_view text);
 
 }  // namespace seedmesh

@@ -351,16 +351,19 @@ test('import answers a request that generates as it is', async () => {
   assert.ok(Array.isArray(answer.json.warnings));
   assert.equal((await server.generate(answer.json.request)).status, 200);
   assert.equal((await import_file('fractint', koch, null)).status, 200);
+  const unnamed = await server.post('/v1/import', koch, { 'content-type': 'text/plain' });
+  assert.equal(unnamed.json.format, 'fractint');
+  assert.deepEqual(unnamed.json.request, answer.json.request);
 });
 
 test('import tells line and column of what it does not understand', async () => {
-  const answer = await import_file('fractint', koch.replace('F=F+F', 'F=F?F'));
+  const answer = await import_file('fractint', koch.replace('F=F+F', 'F=F@F'));
   is_problem(answer, 422, 'invalid-request');
   assert.deepEqual({ pointer: answer.json.errors[0].pointer, line: answer.json.errors[0].line, column: answer.json.errors[0].column }, { pointer: '', line: 4, column: 6 });
   const unknown = await import_file('fractin', koch);
   is_problem(unknown, 422, 'invalid-request');
   assert.equal(unknown.json.errors[0].pointer, '/format');
-  is_problem(await server.post('/v1/import', koch, { 'content-type': 'text/plain' }), 422, 'invalid-request');
+  is_problem(await server.post('/v1/import', 'dear all', { 'content-type': 'text/plain' }), 422, 'invalid-request');
   is_problem(await server.post('/v1/import?format=fractint&colour=red', koch, { 'content-type': 'text/plain' }), 422, 'invalid-request');
   is_problem(await server.post('/v1/import?format=%zz', koch, { 'content-type': 'text/plain' }), 400, 'malformed-request');
   is_problem(await import_file('fractint', koch, 'text/html'), 415);

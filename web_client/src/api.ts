@@ -167,12 +167,12 @@ export async function import_formats(): Promise<string[]> {
   return components.parameters.ImportFormat?.schema?.enum ?? [];
 }
 
-/** A file of another program as a request of ours. */
-export async function import_file(text: string, format: string, entry: string): Promise<{ request: Request; warnings: Fault[] }> {
-  const query = new URLSearchParams(entry ? { format, entry } : { format });
+/** A file of another program as a request of ours; without a format, of the one that it looks like. */
+export async function import_file(text: string, format: string, entry: string): Promise<{ format: string; request: Request; warnings: Fault[] }> {
+  const query = new URLSearchParams({ ...(format && { format }), ...(entry && { entry }) });
   const response = await call(`v1/import?${query}`, { method: 'POST', headers: { 'Content-Type': 'text/plain' }, body: text });
-  const answer = (await response.json()) as { request: Partial<Request>; warnings: Fault[] };
-  return { request: complete(answer.request), warnings: answer.warnings };
+  const answer = (await response.json()) as { format: string; request: Partial<Request>; warnings: Fault[] };
+  return { format: answer.format, request: complete(answer.request), warnings: answer.warnings };
 }
 
 export const in_format = (request: Request, format: string): Request =>

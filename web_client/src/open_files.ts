@@ -1,6 +1,6 @@
 /**
  * Files that come in, chosen or dropped: a request of ours, or a file of another program, which the server turns into
- * one. Which program's it is the server finds out: its formats are tried in turn.
+ * one. Which program's it is the server finds out by what stands in it.
  */
 import { Refusal, import_file, import_formats, whole, type Fault, type Request } from './api';
 import { el, part } from './dom';
@@ -69,31 +69,34 @@ async function as_request(text: string): Promise<Request | null> {
   }
 }
 
-/** How sure a refusal is that the file is of its format: a reader that knows none of it has most to say. */
 interface Attempt { format: string; refusal: Refusal }
 
+/** First the format that the file looks like; where that is refused, all in turn, so that each can tell why. */
 async function import_any(file: File, text: string, context: Context): Promise<void> {
   const attempts: Attempt[] = [];
-  for (const format of await import_formats()) {
+  let likeliest = '';
+  for (const format of ['', ...await import_formats()]) {
     try {
       await accept(file, text, format, '', context);
       return;
     } catch (error) {
       if (!(error instanceof Refusal)) throw error;
-      attempts.push({ format, refusal: error });
+      if (format) attempts.push({ format, refusal: error });
+      else likeliest = /^read as (\w+):/.exec(error.faults[0]?.message ?? '')?.[1] ?? '';
     }
   }
-  attempts.sort((a, b) => Number(wants_entry(b.refusal)) - Number(wants_entry(a.refusal)) || a.refusal.faults.length - b.refusal.faults.length);
+  // A reader that knows nothing of a file has most to say of it.
+  attempts.sort((a, b) => Number(b.format === likeliest) - Number(a.format === likeliest) || a.refusal.faults.length - b.refusal.faults.length);
   ask(file, text, attempts, context);
 }
 
 const wants_entry = (refusal: Refusal): boolean => refusal.faults.some((fault) => fault.pointer === '/entry');
 
 async function accept(file: File, text: string, format: string, entry: string, context: Context): Promise<void> {
-  const { request, warnings } = await import_file(text, format, entry);
+  const { format: found, request, warnings } = await import_file(text, format, entry);
   const lost = warnings.length === 0 ? '' : `What ${file.name} says and a request cannot: ${warnings.map(told).join(' ')}`;
   await opened(context, request, entry || title_of(file),
-    `${file.name} is imported from ${format}${lost ? ` with ${warnings.length} warnings` : ''}`, lost);
+    `${file.name} is imported from ${found}${lost ? ` with ${warnings.length} warnings` : ''}`, lost);
 }
 
 /** What happens while the model is made would wipe the word away. */

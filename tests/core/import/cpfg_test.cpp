@@ -103,7 +103,7 @@ B < A(x) --> A(x*b)
 TEST(Cpfg, WarnsOfWhatHasNoCounterpart) {
   const auto result = imported("cpfg", "Lsystem: 1\nderivation length: 0\nAxiom: F@L(2)@L(3)\n");
   ASSERT_TRUE(result) << told(result)[0];
-  EXPECT_THAT(told(result), ElementsAre(HasSubstr("view file"), StartsWith("3:9 `@L` means something")));
+  EXPECT_THAT(told(result), ElementsAre(HasSubstr("view file"), StartsWith("3:9 `@L` prints a label")));
 }
 
 TEST(Cpfg, RefusesWhatItDoesNotUnderstandAtItsPlace) {

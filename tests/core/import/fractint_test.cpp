@@ -32,20 +32,21 @@ TEST(Fractint, JoinsTheRulesOfOneSymbol) {
 
 TEST(Fractint, TurnsItsCommandsIntoOurs) {
   const auto result = imported("fractint", R"(E {
-  axiom \30F/1.5D|M!F@2F@I4F@Q9F@IQ4F
+  axiom \30D/1.5M!D@2D@I4D@Q9D@IQ4D@QI25D
   angle 4
 })");
-  EXPECT_EQ(parameters_of(result)["axiom"], "-(90)+(30)F-(1.5)D|M@-F@Di(2)F@Di(0.25)F@Di(3)F@Di(0.5)F");
+  EXPECT_EQ(parameters_of(result)["axiom"],
+            "-(90)+(30)D-(1.5)M@-D@Di(2)D@Di(0.25)D@Di(3)D@Di(0.5)D@Di(0.2)D");
   EXPECT_EQ(parameters_of(result)["interpretation"], nlohmann::json({"D -> F", "M -> f"}));
 }
 
 TEST(Fractint, TurnsAsFarAsTheAngleAllows) {
-  EXPECT_EQ(parameters_of(imported("fractint", "E{\nAngle 5\nAxiom F|F\n}"))["axiom"], "-(90)F+(144)F");
+  EXPECT_EQ(parameters_of(imported("fractint", "E{\nAngle 5\nAxiom F|F\n}"))["axiom"], "-(90)F-(144)F");
 }
 
 TEST(Fractint, CountsColours) {
-  const auto result = imported("fractint", "E{\nAngle 4\nAxiom C3F>F>2F<F\n}");
-  EXPECT_EQ(parameters_of(result)["axiom"], "-(90);(3)F;F;;F,F");
+  const auto result = imported("fractint", "E{\nAngle 4\nAxiom C3F>1F<2F\n}");
+  EXPECT_EQ(parameters_of(result)["axiom"], "-(90);(3)F,F;;F");
   EXPECT_THAT(told(result), testing::Contains(HasSubstr("palette")));
 }
 
@@ -56,6 +57,56 @@ TEST(Fractint, DrawsWhatFractintDraws) {
   const auto answer = nlohmann::json::parse(*derive(result->request, job));
   EXPECT_EQ(answer["turtle"]["segments"], 3 * 256);
   EXPECT_NEAR(answer["turtle"]["bounds"]["max"][0].get<double>(), 81, 1e-9);
+}
+
+TEST(Fractint, ReadsEqualsSignsAndCommentsWhereFractintDoes) {
+  const auto result =
+      imported("fractint", "Shrub {\n angle=12;\n axiom=+++FX ; a trunk\n X=@.6[-FX]+FX\n}\n");
+  ASSERT_TRUE(result) << told(result)[0];
+  EXPECT_EQ(parameters_of(result)["angle"], 30);
+  EXPECT_EQ(parameters_of(result)["axiom"], "-(90)+++FX");
+}
+
+TEST(Fractint, TakesAwayWhatAnEmptyRuleTakesAway) {
+  const auto result =
+      imported("fractint", "E {\n angle 4\n axiom F\n F=F<1C2F>1+@2\n <=\n >=\n C=\n @=\n +=-\n}\n");
+  ASSERT_TRUE(result) << told(result)[0];
+  EXPECT_EQ(parameters_of(result)["productions"],
+            nlohmann::json({"F -> F;;(2)F,+@Di(2)", "; ->", ", ->", ";(n) ->", "@Di(n) ->", "+ -> -"}));
+  EXPECT_THAT(derived(result), StartsWith("-(90)F;;(2)F,+@Di(2)F;;(2)F,+@Di(2)-"));
+  EXPECT_THAT(
+      told(imported("fractint", "E {\n angle 4\n axiom F\n @=F\n [=F\n}\n")),
+      ElementsAre(StartsWith("4:2 found a rule that gives `@`"), StartsWith("5:2 found a rule for `[`")));
+}
+
+TEST(Fractint, PassesOverWhatFractintPassesOver) {
+  const auto result = imported("fractint", "E {\n angle 4\n axiom F\n F=F(4)\",F\n}\n");
+  EXPECT_EQ(parameters_of(result)["productions"], nlohmann::json({"F -> F4F"}));
+  EXPECT_THAT(told(result), ElementsAre(HasSubstr("how many steps"), StartsWith("4:5 `(` is no command"),
+                                        StartsWith("4:7 `)`"), StartsWith("4:8"), StartsWith("4:9 `,`")));
+}
+
+TEST(Fractint, PassesOverEntriesThatAreComments) {
+  const auto result = imported(
+      "fractint", "{ tilings of\nthe plane (1994) }\nComment { by me }\nE {\n angle 4\n axiom F\n}\n");
+  ASSERT_TRUE(result) << told(result)[0];
+  EXPECT_EQ(parameters_of(result)["axiom"], "-(90)F");
+}
+
+TEST(Fractint, KeepsItsTwoHeadingsApart) {
+  EXPECT_THAT(told(imported("fractint", "E {\n angle 4\n axiom F+F\n F=D\\30F\n}\n")),
+              ElementsAre(StartsWith("4:4 found F or G beside D or M")));
+  const auto degrees = imported("fractint", "E {\n angle 4\n axiom D+D\\30D|D\n}\n");
+  EXPECT_EQ(parameters_of(degrees)["axiom"], "-(90)DD+(30)DD") << "+ and | turn F and G alone";
+  EXPECT_THAT(told(degrees), testing::Contains(StartsWith("3:9 `+` turns F and G alone")));
+  const auto steps = imported("fractint", "E {\n angle 4\n axiom F/30F\n}\n");
+  EXPECT_EQ(parameters_of(steps)["axiom"], "-(90)FF");
+}
+
+TEST(Fractint, TellsEveryFaultAtItsColumn) {
+  EXPECT_THAT(
+      told(imported("fractint", "E {\n angle 4\n axiom F@F\n F=F[+F\n X=F]F\n}\n")),
+      ElementsAre(StartsWith("3:9 found `@`"), StartsWith("4:5 found `[`"), StartsWith("5:5 found `]`")));
 }
 
 TEST(Fractint, TakesTheEntryThatIsNamed) {
@@ -69,8 +120,8 @@ TEST(Fractint, TakesTheEntryThatIsNamed) {
 }
 
 TEST(Fractint, RefusesWhatItDoesNotUnderstandAtItsPlace) {
-  EXPECT_THAT(told(imported("fractint", "E {\n  Angle 4\n  Axiom F$F\n  Blah\n}")),
-              ElementsAre(StartsWith("3:10 found `$`"), StartsWith("4:3 found no command")));
+  EXPECT_THAT(told(imported("fractint", "E {\n  Angle 4\n  Axiom F@F\n  Blah\n}")),
+              ElementsAre(StartsWith("3:10 found `@`"), StartsWith("4:3 found no command")));
   EXPECT_THAT(told(imported("fractint", "E {\n Angle 4.5\n Axiom F@\n")),
               ElementsAre(StartsWith("1:1 found an entry without"), StartsWith("2:8 found no angle"),
                           StartsWith("3:9 found `@` without its number")));
@@ -83,7 +134,6 @@ TEST(Import, NamesTheFormatsThatThereAre) {
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().issues[0].pointer, "/format");
   EXPECT_THAT(result.error().issues[0].message, HasSubstr("fractint"));
-  EXPECT_FALSE(imported("", koch));
 }
 
 TEST(Import, RefusesBytesThatAreNoText) {

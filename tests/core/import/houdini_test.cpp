@@ -76,6 +76,21 @@ TEST(Houdini, WarnsOfWhatHasNoCounterpart) {
                                         StartsWith("1:18 `'`"), StartsWith("1:19 `K`")));
 }
 
+TEST(Houdini, GrowsByPartsOfAGeneration) {
+  const auto result = imported("houdini", "Premise: A\nA=FA\nGenerations: 2.5\n");
+  ASSERT_TRUE(result) << told(result)[0];
+  EXPECT_EQ(parameters_of(result)["iterations"], 3);
+  EXPECT_EQ(parameters_of(result)["age"], 2.5);
+  EXPECT_FALSE(parameters_of(imported("houdini", "Premise: A\nA=FA\nGenerations: 2\n")).contains("age"));
+}
+
+TEST(Houdini, TellsEveryFaultAtOnce) {
+  EXPECT_THAT(told(imported("houdini", "Premise: A(\nA=F[\nB=F(q)\nColour: red\nGenerations: 1e9\n")),
+              ElementsAre(StartsWith("1:11 found `(`"), StartsWith("2:4 found `[`"),
+                          StartsWith("3:5 unknown name `q`"), StartsWith("4:1 found no parameter"),
+                          StartsWith("5:14 expected a number")));
+}
+
 TEST(Houdini, RefusesWhatItDoesNotUnderstandAtItsPlace) {
   const auto fault = [](std::string_view lines) {
     const auto result = imported("houdini", "Premise: A\n" + std::string(lines));
@@ -85,8 +100,12 @@ TEST(Houdini, RefusesWhatItDoesNotUnderstandAtItsPlace) {
   EXPECT_THAT(fault("Angle: wide\n"), StartsWith("2:8 expected a number"));
   EXPECT_THAT(fault("A = F(2\n"), StartsWith("2:6 found `(`"));
   EXPECT_THAT(fault("!=F\n"), testing::Not(testing::StrEq("")));
-  EXPECT_THAT(fault("A = F(g)\n"), StartsWith("2:1 unknown name `g`"));
-  EXPECT_THAT(fault("Generations: 2.5\n"), HasSubstr("fractions have no counterpart"));
+  EXPECT_THAT(fault("A = F(g)\n"), StartsWith("2:7 unknown name `g`"));
+  EXPECT_THAT(fault("A : t>3 = F\n"), StartsWith("2:5 unknown name `t`"));
+  EXPECT_THAT(fault("A=F\n  Generations: 99999\n"), StartsWith("3:16 expected generations"));
+  EXPECT_THAT(fault("A=F\nRandom Seed: 0.5\n"), StartsWith("3:14 expected a random seed"));
+  EXPECT_THAT(fault("A=F\nangle=30\n"), StartsWith("3:6 found `=` behind a parameter; expected a colon"));
+  EXPECT_THAT(fault("A=F\nAngle: 4000\n"), StartsWith("3:8 "));
   EXPECT_THAT(told(imported("houdini", "A=F\n")), Contains(HasSubstr("no premise")));
 }
 

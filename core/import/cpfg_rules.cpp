@@ -1,0 +1,191 @@
+#include "core/import/cpfg_rules.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/lang/lexer.h"
+
+namespace seedmesh {
+namespace {
+
+using lsystem::Slice;
+
+Slice without_blanks(const TracedText& text, Slice slice) {
+  const Line line = trimmed(text.text(), {slice.from, slice.to});
+  return {line.from, line.to};
+}
+
+bool is_star(const TracedText& text, Slice slice) {
+  slice = without_blanks(text, slice);
+  return slice.to == slice.from + 1 && text[slice.from] == '*';
+}
+
+enum class Occurrence { first, last };
+
+/// Place of `mark` outside parentheses in text[slice]; slice.to where it does not occur.
+std::size_t find_outside(const TracedText& text, Slice slice, char mark, Occurrence which) {
+  int depth = 0;
+  std::size_t found = slice.to;
+  for (std::size_t i = slice.from; i < slice.to; ++i) {
+    if (text[i] == '(') ++depth;
+    if (text[i] == ')') --depth;
+    if (depth > 0 || text[i] != mark) continue;
+    found = i;
+    if (which == Occurrence::first) break;
+  }
+  return found;
+}
+
+/// `-->`, or `-o>` of rayshade's objects, with something before it.
+std::size_t find_arrow(const std::string& text) {
+  int depth = 0;
+  for (std::size_t i = 0; i + 2 < text.size(); ++i) {
+    if (text[i] == '(') ++depth;
+    if (text[i] == ')') --depth;
+    if (depth > 0 || text[i] != '-' || text[i + 2] != '>' || (text[i + 1] != '-' && text[i + 1] != 'o'))
+      continue;
+    if (trimmed(text, {0, i}).from < trimmed(text, {0, i}).to) return i;
+  }
+  return text.size();
+}
+
+/// `*` as a condition holds always; so it may stand behind statements.
+TracedText condition_of(const TracedText& text, Slice slice, const CpfgWords& words) {
+  slice = without_blanks(text, slice);
+  TracedText changed = text.part(slice.from, slice.to);
+  std::size_t at = 0;
+  if (at < changed.size() && changed[at] == '{') {
+    at = std::min(lsystem::closing(changed.text(), at, changed.size()) + 1, changed.size());
+    at = lsystem::skip_spaces(changed.text(), at, changed.size());
+  }
+  if (at < changed.size() && changed[at] == '*') changed.replace(at, '1');
+  return words.expression(changed, {0, changed.size()});
+}
+
+class RuleReader {
+ public:
+  RuleReader(const TracedText& text, ForeignText& source, CpfgWords& words)
+      : text_(text), source_(source), words_(words) {}
+
+  std::optional<CpfgRule> read(std::size_t arrow, CpfgContexts contexts) {
+    const std::size_t faults = source_.fault_count();
+    const Slice head{0, arrow};
+    const std::size_t colon = find_outside(text_, head, ':', Occurrence::first);
+    if (colon < arrow) rule_.condition = condition_of(text_, {colon + 1, arrow}, words_);
+    predecessor({0, colon}, contexts);
+    Slice successor{arrow + 3, text_.size()};
+    const std::size_t weight = find_outside(text_, successor, ':', Occurrence::last);
+    if (weight < text_.size()) {
+      const Slice chance = without_blanks(text_, {weight + 1, text_.size()});
+      rule_.weight = words_.expression(text_, chance);
+      if (rule_.weight.size() == 0) source_.fault(text_.origin(weight), "found `:` without a probability");
+      successor.to = weight;
+    }
+    if (!is_star(text_, successor))
+      rule_.successor = words_.modules(text_, successor, CpfgWords::Place::word);
+    if (rule_.successor.size() == 0) rule_.successor.write("*", text_.origin(arrow + 3));
+    if (source_.fault_count() > faults) return std::nullopt;
+    return std::move(rule_);
+  }
+
+ private:
+  void predecessor(Slice head, CpfgContexts contexts) {
+    const std::size_t less = find_outside(text_, head, '<', Occurrence::first);
+    const std::size_t greater = find_outside(text_, head, '>', Occurrence::last);
+    const std::size_t from = less < head.to ? less + 1 : head.from;
+    if (less < head.to) rule_.left = context({head.from, less}, contexts);
+    if (greater < head.to) rule_.right = context({greater + 1, head.to}, contexts);
+    rule_.predecessor = words_.modules(text_, {from, std::max(from, greater)}, CpfgWords::Place::pattern);
+    const std::size_t count = CpfgWords::count(rule_.predecessor);
+    const std::size_t place = without_blanks(text_, {from, std::max(from, greater)}).from;
+    if (count == 0) {
+      source_.fault(text_.origin(place), "found no predecessor; expected one module before the arrow");
+    } else if (count > 1) {
+      source_.fault(text_.origin(place), "found a strict predecessor of " + std::to_string(count) +
+                                             " modules; a production rewrites one here, and contexts are "
+                                             "written `left < module > right`");
+    }
+  }
+
+  TracedText context(Slice slice, CpfgContexts contexts) {
+    const Slice inner = without_blanks(text_, slice);
+    if (inner.from == inner.to || is_star(text_, slice)) return {};
+    if (contexts == CpfgContexts::passed_over) {
+      words_.warn_once(text_.origin(inner.from), "<",
+                       "and `>` of a homomorphism are passed over, as by cpfg");
+      return {};
+    }
+    // [H=] names the beginning of a branch, which is what [H] means here.
+    TracedText changed = text_.part(inner.from, inner.to);
+    for (std::size_t i = 0; i + 1 < changed.size(); ++i) {
+      if (changed[i] == '=' && changed[i + 1] == ']') changed.replace(i, ' ');
+    }
+    return words_.modules(changed, {0, changed.size()}, CpfgWords::Place::pattern);
+  }
+
+  const TracedText& text_;
+  ForeignText& source_;
+  CpfgWords& words_;
+  CpfgRule rule_;
+};
+
+}  // namespace
+
+TracedText CpfgRule::written() const {
+  TracedText out;
+  const auto append = [&](std::string_view before, const TracedText& part, std::string_view behind) {
+    if (part.size() == 0) return;
+    out.write(before, part.origin(0));
+    out.copy(part, 0, part.size());
+    out.write(behind, part.origin(part.size()));
+  };
+  append("", left, " < ");
+  append("", predecessor, "");
+  append(" > ", right, "");
+  append(" : ", condition, "");
+  append(" --> ", successor, "");
+  append(" : ", weight, "");
+  return out;
+}
+
+std::optional<CpfgRule> read_cpfg_rule(const TracedText& text, CpfgContexts contexts, ForeignText& source,
+                                       CpfgWords& words) {
+  const std::size_t arrow = find_arrow(text.text());
+  if (arrow == text.size()) {
+    const std::size_t other = text.text().find("->");
+    source.fault(text.origin(0),
+                 other == std::string::npos
+                     ? "found no keyword and no production; expected `predecessor --> successor`"
+                     : "found no keyword and no production; the arrow of cpfg is `-->`");
+    return std::nullopt;
+  }
+  std::optional<CpfgRule> rule = RuleReader(text, source, words).read(arrow, contexts);
+  if (rule) rule->at = text.origin(0);
+  return rule;
+}
+
+std::optional<CpfgRule> cpfg_rule_for_surface(const CpfgRule& rule, CpfgWords& words) {
+  const char symbol = rule.predecessor[0];
+  if (words.surfaces().find(symbol) == words.surfaces().end()) return std::nullopt;
+  const char first = rule.successor[0];
+  const std::string surface = "~" + CpfgWords::surface_name(symbol);
+  if (!is_letter(first) && !is_digit(first)) {
+    words.warn_once(rule.at, surface,
+                    "is not rewritten by the rule for " + lang::in_quotes(std::string_view(&symbol, 1)) +
+                        ", as it is in cpfg: what that writes is no surface");
+    return std::nullopt;
+  }
+  words.add_surface(first, rule.at);
+  const auto with_surface = [](const TracedText& text) {
+    TracedText out;
+    out.write("~" + CpfgWords::surface_name(text[0]), text.origin(0));
+    out.copy(text, 1, text.size());
+    return out;
+  };
+  CpfgRule other = rule;
+  other.predecessor = with_surface(rule.predecessor);
+  other.successor = with_surface(rule.successor);
+  return other;
+}
+
+}  // namespace seedmesh

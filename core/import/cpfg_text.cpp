@@ -1,0 +1,74 @@
+#include "core/import/cpfg_text.h"
+
+#include <algorithm>
+
+#include "core/import/formats.h"
+
+namespace seedmesh {
+namespace {
+
+bool begins_comment(std::string_view text, std::size_t at) {
+  if (at == 0 || text[at - 1] == '\n') return true;
+  return is_blank(text[at - 1]) && (at + 2 >= text.size() || is_blank(text[at + 2]));
+}
+
+}  // namespace
+
+std::string cpfg_without_comments(ForeignText& source) {
+  const std::string_view text = source.text();
+  std::string out(text);
+  std::size_t line = 0;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const char next = i + 1 < out.size() ? out[i + 1] : ' ';
+    if (out[i] == '\n') line = i + 1;
+    if (out[i] == '/' && next == '*') {
+      const std::size_t end = std::min(text.find("*/", i + 2), text.size());
+      if (end == text.size()) source.fault(i, "found a comment without its end; expected `*/`");
+      for (const std::size_t stop = std::min(end + 2, text.size()); i < stop; ++i) {
+        if (out[i] != '\n') out[i] = ' ';
+      }
+      --i;
+    } else if (out[i] == '/' && next == '/' && begins_comment(text, i)) {
+      const Line before = trimmed(out, {line, i});
+      if (before.from < before.to && out[before.from] != '#')
+        source.warn(i, "`//` between blanks begins a comment here; two rolls are written `/ /`");
+      for (; i < out.size() && out[i] != '\n'; ++i) out[i] = ' ';
+      --i;
+    } else if (out[i] == '/' && next == '/') {
+      while (i + 1 < out.size() && out[i + 1] == '/') ++i;
+    } else if (out[i] == '\\' &&
+               (next == '\n' || (next == '\r' && i + 2 < out.size() && out[i + 2] == '\n'))) {
+      out[i] = ' ';
+      if (next == '\r') out[++i] = ' ';
+      out[++i] = ' ';
+    }
+  }
+  return out;
+}
+
+bool is_cpfg_directive(std::string_view text, Line line) {
+  if (line.from == line.to || text[line.from] != '#') return false;
+  const Line word = trimmed(text, {line.from + 1, line.to});
+  for (const char* each : {"define", "include", "undef", "if", "el", "endif", "line", "pragma"}) {
+    if (text.substr(word.from, word.to - word.from).substr(0, std::string_view(each).size()) == each)
+      return true;
+  }
+  return word.from == line.from + 1 && word.from < word.to && is_letter(text[word.from]) &&
+         text.substr(word.from, word.to - word.from).find("-->") == std::string_view::npos;
+}
+
+int marks_of_cpfg(std::string_view text) {
+  int marks = 0;
+  for (const Line& each : lines_of(text)) {
+    const Line line = trimmed(text, each);
+    const std::string words = lower(text.substr(line.from, std::min<std::size_t>(line.to - line.from, 200)));
+    for (const char* key : {"lsystem:", "derivation length:", "axiom:", "homomorphism", "decomposition",
+                            "endlsystem", "#define "}) {
+      if (words.substr(0, std::string_view(key).size()) == key) marks += 3;
+    }
+    if (words.find("-->") != std::string::npos) ++marks;
+  }
+  return marks;
+}
+
+}  // namespace seedmesh

@@ -1,0 +1,46 @@
+#include <gmock/gmock.h>
+
+#include "tests/core/import/support.h"
+
+namespace seedmesh {
+namespace {
+
+using testing::StartsWith;
+
+/// The format that a text is read as where none is named.
+std::string read_as(std::string_view text) {
+  const auto result = imported("", text);
+  if (!result) return result.error().issues[0].message;
+  return nlohmann::json::parse(result->answer).at("format").get<std::string>();
+}
+
+TEST(Import, FindsTheFormatByWhatStandsInTheFile) {
+  EXPECT_EQ(read_as("Lsystem: 1\nderivation length: 2\nAxiom: F\nF --> FF\nendlsystem\n"), "cpfg");
+  EXPECT_EQ(read_as("; curves\nKoch {\n angle=6;\n axiom F\n F=F+F\n}\n"), "fractint");
+  EXPECT_EQ(read_as("Premise: A\nRule 1: A=FA\nAngle: 30\n"), "houdini");
+  EXPECT_EQ(read_as("A\nA=FA\n"), "houdini");
+  EXPECT_EQ(read_as(R"({"seed": 1, "levels": 4, "maxRadius": 0.1})"), "proctree");
+  EXPECT_EQ(read_as(R"({"mLevels": 4})"), "proctree");
+  EXPECT_EQ(read_as(R"({"seed": 1, "type": "deciduous", "branch": {"levels": 2}})"), "ez_tree");
+}
+
+TEST(Import, TellsTheFaultOfTheLikeliestFormat) {
+  EXPECT_THAT(read_as("Lsystem: 1\nderivation length: 2\nAxiom: F\nF --> F(\n"),
+              StartsWith("read as cpfg: found `(`"));
+  EXPECT_THAT(read_as("A {\n angle 6\n axiom F\n}\nB {\n angle 6\n axiom F\n}\n"),
+              StartsWith("read as fractint: the file holds several"));
+  EXPECT_THAT(read_as("Premise: A\nA=F(\n"), StartsWith("read as houdini: found `(`"));
+  EXPECT_THAT(read_as(R"({"seed": 1, "levels": 40})"), StartsWith("read as proctree: "));
+  EXPECT_THAT(read_as(R"({"branch": {"levels": 40}})"), StartsWith("read as ez_tree: "));
+  EXPECT_THAT(read_as("dear all"), StartsWith("found no marks of a format"));
+  EXPECT_THAT(read_as("{"), StartsWith("found no marks of a format"));
+}
+
+TEST(Import, TellsWhatIsSaidOfTheRequestBeforeItIsMade) {
+  const auto result = imported("cpfg", "Lsystem: 1\nderivation length: 500\nAxiom: F\nF --> FFF\n");
+  ASSERT_TRUE(result);
+  EXPECT_THAT(told(result), testing::Contains(testing::HasSubstr("the model is refused as it stands: ")));
+}
+
+}  // namespace
+}  // namespace seedmesh
