@@ -42,11 +42,15 @@ export interface Made { bytes: ArrayBuffer; statistics: Statistics }
 interface Problem { title?: string; detail?: string; errors?: Fault[] }
 
 /** The server understood and says no: trying again would not help. */
+/** A list of more names than can be overlooked is cut: the reference has them all. */
+const brief = (text: string): string =>
+  text.replace(/((?:[\w.-]+, ){8})((?:[\w.-]+, ){4,}[\w.-]+)/, (_, first: string, rest: string) => `${first}and ${rest.split(', ').length} more`);
+
 export class Refusal extends Error {
   readonly faults: Fault[];
   constructor(problem: Problem) {
-    super(problem.detail ?? problem.title ?? 'The server refused the request.');
-    this.faults = problem.errors ?? [];
+    super(brief(problem.detail ?? problem.title ?? 'The server refused the request.'));
+    this.faults = (problem.errors ?? []).map((fault) => ({ ...fault, message: brief(fault.message) }));
   }
 }
 

@@ -6,8 +6,8 @@ import type { Request } from './api';
 import { el, icon, part, rounded } from './dom';
 import { is_members } from './form/schema';
 
-/** What a field asks for: which number, up to where, and what it is called. */
-export interface GrowthAsk { pointer: string; until: number; label: string }
+/** What a field asks for: which number, up to where, what it is called and counted in. */
+export interface GrowthAsk { pointer: string; until: number; label: string; unit: string }
 
 /** So many values are shown from nothing to all, each at least so long, in milliseconds. */
 const stages = 24, beat = 80;
@@ -46,14 +46,14 @@ export function wire_growth(context: Context): Growth {
   const now = el('output', { id: 'growth-now' });
   const away = el('button', { type: 'button', id: 'growth-away', class: 'quiet', 'aria-label': 'Leave the growth', title: 'Back to the request as it is' }, icon('remove'));
   bar.append(play, slider, now, away);
-  let ask: GrowthAsk = { pointer: '', until: 1, label: '' };
+  let ask: GrowthAsk = { pointer: '', until: 1, label: '', unit: '' };
   let turn = 0;
   let is_playing = false;
 
   const show = (stage: number): void => {
     slider.value = String(stage);
     const value = stage / stages * ask.until;
-    now.textContent = `${ask.label} ${rounded(value)} of ${rounded(ask.until)}`;
+    now.textContent = `${ask.label} ${rounded(value)} of ${rounded(ask.until)}${ask.unit && ` ${ask.unit}`}`;
     const request = context.request();
     if (request) context.preview(with_number(request, ask.pointer, value) as Request);
   };

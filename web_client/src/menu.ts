@@ -1,5 +1,14 @@
 /** Small menus made of <details>: they close on Escape, on a click elsewhere, and after a choice. */
+import { keep_focus } from './focus';
+
+/** A menu ends above the lower rim of the window: what it has more is scrolled to. */
+function give_room(menu: HTMLDetailsElement): void {
+  const body = menu.querySelector<HTMLElement>('.menu-body');
+  if (body) body.style.setProperty('--room', `${Math.max(120, innerHeight - body.getBoundingClientRect().top - 8)}px`);
+}
+
 export function wire_menus(): void {
+  keep_focus();
   const menus = (): HTMLDetailsElement[] => [...document.querySelectorAll<HTMLDetailsElement>('details.menu')];
   document.addEventListener('pointerdown', (event) => {
     for (const menu of menus()) if (menu.open && !menu.contains(event.target as Node)) menu.open = false;
@@ -21,5 +30,7 @@ export function wire_menus(): void {
     const opened = event.target as HTMLDetailsElement;
     if (!opened.open || !opened.classList.contains('menu')) return;
     for (const menu of menus()) if (menu !== opened && !menu.contains(opened)) menu.open = false;
+    give_room(opened);
   }, true);
+  addEventListener('resize', () => { for (const menu of menus()) if (menu.open) give_room(menu); });
 }

@@ -21,6 +21,29 @@ export function is_high(): boolean {
   return asked === 'high' || (asked !== 'low' && !/swiftshader|llvmpipe|software/i.test(renderer_name()));
 }
 
+/**
+ * What lies at the lower rim grows and shrinks with what the model has, steps, motion, and with what is said of it; at the
+ * upper with the width of the page.
+ */
+function watch_rims(viewer: Viewer): void {
+  const upper = part('upper'), lower = part('lower'), hint = part('hint'), notice = part('notice');
+  const below = lower.parentElement!, view = below.parentElement!;
+  let had_hint = false;
+  const rims = new ResizeObserver(() => {
+    // A word of the moment takes the place of the figures, and moves nothing.
+    const is_passing = !notice.hidden && ['starting', 'growing', 'ready'].includes(document.body.dataset['state'] ?? '');
+    if (upper.offsetHeight === 0 || is_passing) return;
+    const has_hint = hint.offsetHeight > 0;
+    viewer.set_covered({ top: upper.offsetTop + upper.offsetHeight + 8, bottom: Math.max(72, view.clientHeight - below.offsetTop + 10) }, had_hint && !has_hint);
+    had_hint = has_hint;
+  });
+  // The word itself too: what was not looked at while it stood there is looked at when it goes.
+  for (const rim of [upper, below, notice]) rims.observe(rim);
+  // What is cut off is told to who points at it.
+  for (const words of [part('title'), part('measures')])
+    words.addEventListener('pointerenter', () => { words.title = words.scrollWidth > words.clientWidth ? words.textContent : ''; });
+}
+
 /** null where the browser has no WebGL 2. */
 export function make_viewer(status: Status, high: boolean): Viewer | null {
   document.body.classList.toggle('stage', query.has('stage'));
@@ -32,12 +55,7 @@ export function make_viewer(status: Status, high: boolean): Viewer | null {
       made.set_grid(false);
       made.set_figure(false);
     } else {
-      // What lies at the lower rim grows and shrinks with what the model has: steps, motion; at the upper with the width of the page.
-      const upper = part('upper'), lower = part('lower');
-      const rims = new ResizeObserver(() => {
-        if (upper.offsetHeight > 0) made.set_covered({ top: upper.offsetTop + upper.offsetHeight + 8, bottom: Math.max(72, lower.offsetHeight + 32) });
-      });
-      for (const rim of [upper, lower]) rims.observe(rim);
+      watch_rims(made);
     }
     made.on_context = (lost) => status.lost(lost);
     dark.addEventListener('change', () => made.set_theme(dark.matches));

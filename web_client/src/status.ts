@@ -60,7 +60,8 @@ export function wire_status(): Status {
     const begin = Date.now();
     timers = [
       window.setTimeout(() => { progress.hidden = false; show('Growing the model', [cancel]); }, bar_after),
-      window.setTimeout(() => show('The server is slow. Still growing the model', [cancel]), slow_after),
+      // Whether the server is slow or the way to it is not known here, unless it tells how far it is.
+      window.setTimeout(() => show(progress.hasAttribute('value') ? 'Still growing the model' : 'Still waiting for the model', [cancel]), slow_after),
       window.setInterval(() => { if (Date.now() - begin > slow_after) countdown.textContent = `${Math.round((Date.now() - begin) / 1000)} s`; }, 1000),
     ];
   }

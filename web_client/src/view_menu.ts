@@ -4,7 +4,7 @@ import type { Motion } from './for_view';
 import { wire_levels } from './level_choice';
 import { wire_pad } from './pad';
 import type { Model } from './viewer/model';
-import type { Mode } from './viewer/modes';
+import { has_uvs, type Mode } from './viewer/modes';
 import type { Viewer } from './viewer/viewer';
 import type { Gait } from './viewer/walker';
 
@@ -60,8 +60,13 @@ function range(label: string, low: number, high: number, value: number, change: 
 
 export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
   const sun = { on: true, turn: 38, height: 51 };
-  const shading = choice('Shading', 'shading', (value) => viewer.set_mode(value as Mode));
+  const shading = choice('Shading', 'shading', (value) => show_mode(value as Mode));
   shading.offer(modes);
+  let is_without_uvs = false;
+  const show_mode = (mode: Mode): void => {
+    viewer.set_mode(mode);
+    if (mode === 'uv' && is_without_uvs) part('picture').dispatchEvent(new CustomEvent('tell', { bubbles: true, detail: 'This model has no UVs: it is drawn plain' }));
+  };
   const material = choice('Materials', 'material-set', (value) => void viewer.set_variant(value || null));
   const motion = choice('Motion', 'motion-kind', (value) => { viewer.motion.begins = value !== '' && !viewer.is_still; context.animate(); });
   const level = choice('Level of detail', 'detail', (value) => levels.choose(value));
@@ -75,7 +80,7 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
   const show_pad = wire_pad(viewer.walker);
   let motions: Motion[] = [];
 
-  const times = tick('Time to draw', 'show-drawn', false, (on) => { part('drawn-box').hidden = !on; });
+  const times = tick('Time to draw', 'show-drawn', false, (on) => { part('drawn-box').hidden = !on; viewer.set_timed(on); });
 
   part('view-options').append(
     shading.row, material.row, motion.row, level.row, gait.row,
@@ -90,10 +95,13 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
     part('whereabouts').textContent = `x ${place.x.toFixed(1)}, y ${place.y.toFixed(1)}, z ${place.z.toFixed(1)} m · ${Math.round(heading)}°`;
   };
 
+  let is_for_levels = false;
+  const time_for_levels = (on: boolean): void => { times.querySelector('input')?.click(); is_for_levels = on; };
+  times.addEventListener('change', () => { is_for_levels = false; });
   const levels = wire_levels(viewer, {
     select: level.select, offer: level.offer, levels: context.levels, fail: context.fail,
     // What a level is good for shows in the time of a picture.
-    came() { if (part('drawn-box').hidden) times.querySelector('input')?.click(); },
+    came() { if (part('drawn-box').hidden) time_for_levels(true); },
   });
   const offer_motions = (next: Motion[]): void => {
     motions = next;
@@ -104,6 +112,8 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
   return {
     shown(model, made) {
       levels.shown(made);
+      is_without_uvs = !has_uvs(model);
+      shading.offer(modes.map(([mode, text]) => [mode, mode === 'uv' && is_without_uvs ? `${text}: none here` : text]));
       material.row.hidden = model.variants.length === 0;
       material.offer([['', 'As asked for'], ...model.variants.map((name): [string, string] => [name, name])]);
     },
@@ -111,11 +121,13 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
     forget() {
       offer_motions([]);
       levels.forget();
+      // Switched on by itself, it goes by itself.
+      if (is_for_levels) time_for_levels(false);
     },
     motion: () => motions.find((each) => each.value === motion.select.value) ?? null,
     next_mode() {
       shading.select.selectedIndex = (shading.select.selectedIndex + 1) % modes.length;
-      viewer.set_mode(shading.select.value as Mode);
+      show_mode(shading.select.value as Mode);
     },
     leave_gait() {
       if (gait.select.value === 'orbit') return;

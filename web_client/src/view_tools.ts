@@ -60,8 +60,12 @@ export function wire_view(viewer: Viewer, acts: Acts): void {
   });
   const drawn = part('drawn');
   const time = (milliseconds: number): string => `${milliseconds < 10 ? milliseconds.toFixed(1) : Math.round(milliseconds)} ms`;
+  const figure = part('figure');
+  const tell_figure = (): void => { figure.setAttribute('aria-pressed', String(viewer.has_figure)); };
+  tell_figure();
   viewer.on_drawn = (milliseconds, frame) => {
     tell_triangles(viewer);
+    tell_figure();
     const level = viewer.level === null ? '' : `, level ${viewer.level}`;
     drawn.textContent = `${time(milliseconds)}${frame === null ? '' : `, frame ${time(frame)}`}${level}`;
   };

@@ -7,9 +7,9 @@ import { member_fields } from './group_fields';
 import { is_members, type Members } from './schema';
 import { redrawable } from './simple_fields';
 
-const axes = ['x', 'y', 'z', 'w'];
+const axes = ['x', 'y', 'z'];
 
-/** A fixed number of numbers. Up to four are named by their axes; nine and twelve stand in rows, as a matrix does. */
+/** A fixed number of numbers, each with its unit. Three are named by their axes; nine and twelve stand in rows, as a matrix does. */
 export const vector_field: Draw = (place) =>
   redrawable((redraw) => {
     const count = place.schema.minItems ?? 0;
@@ -19,8 +19,10 @@ export const vector_field: Draw = (place) =>
     const box = el('div', { class: `vector across-${count % 4 === 0 && count > 4 ? 4 : count > 4 ? 3 : count}` });
     const drawn = frame(place, box, box, redraw);
     const shown = given !== undefined;
+    const unit = place.schema['x-unit'] ?? place.schema.items?.['x-unit'];
     numbers.forEach((number, index) => {
-      const name = count <= 4 && place.schema['x-unit'] !== undefined ? axes[index] : String(index + 1);
+      const axis = count === 3 ? axes[index] : undefined;
+      const name = axis ?? String(index + 1);
       const input = el('input', { type: 'number', step, value: shown ? number : '', inputmode: 'decimal', 'aria-label': `${place.label}, ${name}` });
       input.addEventListener('input', () => {
         if (Number.isNaN(input.valueAsNumber)) return;
@@ -29,7 +31,7 @@ export const vector_field: Draw = (place) =>
         place.change(place.value);
         drawn.now(place.value);
       });
-      box.append(input);
+      box.append(el('span', { class: axis ? 'box with-axis' : 'box' }, axis && el('span', { class: 'axis', 'aria-hidden': 'true' }, axis), input, unit && el('span', { class: 'unit' }, unit)));
     });
     return drawn.element;
   });

@@ -43,7 +43,7 @@ export function slider_span(schema: Schema, value: number, full?: number): { low
 function grow_button(place: Place): HTMLElement {
   return el('button', { type: 'button', class: 'grow', title: 'Lets it grow up to this number', 'aria-label': `Grow by ${place.label}`, onclick(event) {
     const value = shown(place);
-    const detail = { pointer: place.pointer, until: typeof value === 'number' && value > 0 ? value : stand_in(place) ?? 1, label: place.label };
+    const detail = { pointer: place.pointer, until: typeof value === 'number' && value > 0 ? value : stand_in(place) ?? 1, label: place.label, unit: place.schema['x-unit'] ?? '' };
     event.target?.dispatchEvent(new CustomEvent('grow', { bubbles: true, detail }));
   } }, 'Grow');
 }

@@ -49,8 +49,8 @@ export function points_of(model: Object3D): Vector3[] {
 /** Pixels at the upper and at the lower rim of the picture that something else covers. */
 export interface Covered { top: number; bottom: number }
 
-/** Part of a height that nothing covers. */
-export const free_of = (covered: Covered, height: number): number => Math.max(0.3, 1 - (covered.top + covered.bottom) / height);
+/** Part of a height that nothing covers. A model is never made smaller than a seventh of the picture. */
+export const free_of = (covered: Covered, height: number): number => Math.max(0.15, 1 - (covered.top + covered.bottom) / height);
 
 /** Whether all points are seen, between what covers the rims of a picture that is so many pixels high. */
 export function in_sight(camera: PerspectiveCamera, points: Vector3[], covered: Covered, height: number): boolean {

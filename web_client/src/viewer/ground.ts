@@ -1,7 +1,7 @@
 /** Clicks on the ground, told to whoever listens on the canvas, and marks that stand there. */
-import { Box3, Plane, Raycaster, Vector3, type Object3D, type PerspectiveCamera } from 'three';
+import { Box3, Plane, Raycaster, Vector3, type Group, type Object3D, type PerspectiveCamera } from 'three';
 import type { GroundClick, GroundMarks } from '../form/planting';
-import type { ScopeBox } from './boxes';
+import { draw_marks } from './marks';
 import { on_tap, ray_of } from './tap';
 
 /** A finger that rests so long, in milliseconds, asks for what a right click does. */
@@ -9,7 +9,7 @@ const long_press = 500;
 
 interface Scene { camera: PerspectiveCamera; model(): Object3D | null; floor(): number }
 
-export function wire_ground(canvas: HTMLCanvasElement, scene: Scene, mark: (boxes: ScopeBox[], chosen: number) => void): void {
+export function wire_ground(canvas: HTMLCanvasElement, scene: Scene, mark: (marks: Group | null) => void): void {
   on_tap(canvas, (event, held) => {
     const caster = ray_of(canvas, scene.camera, event);
     const model = scene.model();
@@ -22,12 +22,7 @@ export function wire_ground(canvas: HTMLCanvasElement, scene: Scene, mark: (boxe
   });
   canvas.addEventListener('mark-ground', (event) => {
     const { places, chosen } = (event as CustomEvent<GroundMarks>).detail;
-    mark(places.map(([x, z], index) => {
-      const low = height_at(scene, x, z);
-      const far = scene.camera.position.distanceTo(new Vector3(x, low, z));
-      const tall = far * (index === chosen ? 0.07 : 0.035), thin = far * 0.004;
-      return { origin: [x - thin / 2, low, z - thin / 2], axes: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], size: [thin, tall, thin] };
-    }), chosen);
+    mark(places.length > 0 ? draw_marks(places.map(([x, z]) => new Vector3(x, height_at(scene, x, z), z)), chosen) : null);
   });
 }
 

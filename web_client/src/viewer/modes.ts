@@ -1,7 +1,7 @@
 /** Ways to look at a mesh other than in its own materials, and the lines over it. */
 import {
-  DataTexture, DoubleSide, EdgesGeometry, InstancedMesh, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshNormalMaterial, NearestFilter, LinearMipmapLinearFilter, RepeatWrapping, SRGBColorSpace,
-  type BufferGeometry, type Material, type MeshStandardMaterial, type Object3D,
+  DataTexture, DoubleSide, EdgesGeometry, InstancedMesh, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshNormalMaterial, MeshStandardMaterial, NearestFilter, LinearMipmapLinearFilter, RepeatWrapping, SRGBColorSpace,
+  type BufferGeometry, type Material, type Object3D,
 } from 'three';
 import type { Model } from './model';
 import { aside, patch, shift, type Cut } from './patch';
@@ -36,6 +36,13 @@ function checker(): DataTexture {
   return texture;
 }
 
+/** Whether squares can be laid on any of a model. */
+export function has_uvs(model: Model): boolean {
+  let has = false;
+  model.each_mesh((mesh) => { has ||= Boolean(mesh.geometry.getAttribute('uv')); });
+  return has;
+}
+
 /** Faces that meet at less, in degrees, are one rounded face. */
 const least_angle = 25;
 /** Edges are looked for among so many faces of a mesh, and drawn for so many copies. */
@@ -52,6 +59,8 @@ export class Modes {
   readonly wire = new MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.55 });
   private readonly normals = new MeshNormalMaterial({ side: DoubleSide });
   private squares: MeshBasicMaterial | null = null;
+  /** What has no UVs is plain in the mode of squares: neither bright nor dark, so that wires show. */
+  private readonly plain = new MeshStandardMaterial({ color: 0x9a958f, roughness: 1, side: DoubleSide });
   /** What stands in for a material that is cut out by its picture: normals, and squares. */
   private readonly cut = new WeakMap<Material, Map<Mode, Material>>();
   private wires: Object3D[] = [];
@@ -80,12 +89,12 @@ export class Modes {
 
   private dress_mesh(model: Model, mesh: Mesh): void {
     const own = model.own_material(mesh);
-    const worn = this.worn(own);
+    const worn = this.worn(own, mesh.geometry);
     mesh.material = worn;
     for (const material of [own].flat()) model.prepare(material);
     // What all models share fades with none of them.
-    if (model.sways) for (const material of [this.normals, this.squares, this.wire]) if (material) patch(material, true, null);
-    if (worn !== own && worn !== this.normals && worn !== this.squares) patch(worn as Material, model.sways, model.fade, this.cut_of_mode());
+    if (model.sways) for (const material of [this.normals, this.squares, this.plain, this.wire]) if (material) patch(material, true, null);
+    if (worn !== own && ![this.normals, this.squares, this.plain].includes(worn as MeshBasicMaterial)) patch(worn as Material, model.sways, model.fade, this.cut_of_mode());
     for (const material of [own, mesh.material].flat() as MeshStandardMaterial[]) {
       const flat = this.mode === 'flat';
       if ('flatShading' in material && material.flatShading !== flat && this.mode !== 'normals') {
@@ -130,9 +139,10 @@ export class Modes {
   }
 
   /** What a mesh is drawn with whose own material this is. */
-  private worn(own: Material | Material[]): Material | Material[] {
+  private worn(own: Material | Material[], geometry: BufferGeometry): Material | Material[] {
     const { mode } = this;
     if (mode !== 'normals' && mode !== 'uv') return own;
+    if (mode === 'uv' && !geometry.getAttribute('uv')) return this.plain;
     const shared = mode === 'normals' ? this.normals : this.unwrapped();
     const first = [own].flat()[0] as MeshStandardMaterial | undefined;
     if (!first?.map || !(first.alphaTest > 0)) return shared;

@@ -37,6 +37,9 @@ const grid_fragment = `
     gl_FragColor = vec4(color, strength);
   }`;
 
+/** Level ground of a model at the same height is in front of the ground of the page, wherever it is seen from. */
+const behind = { polygonOffset: true, polygonOffsetFactor: 4, polygonOffsetUnits: 16 };
+
 /** 1.8 m from sole to crown: a figure without light and shade, so that it does not draw the eye. */
 function person(material: Material): Group {
   const group = new Group();
@@ -62,6 +65,12 @@ function person(material: Material): Group {
   return group;
 }
 
+/**
+ * Whether a person beside it shows how large a model is. Beside one of a hundred metres a person is not seen, and a
+ * shrub to the knee would be the smaller thing in its own picture.
+ */
+const tells = (size: Vector3): boolean => size.y < 60 && (size.y > 1.2 || (size.y > 0.6 && Math.max(size.x, size.z) > 2.4));
+
 export class Stage {
   readonly group = new Group();
   /** Side of a grid cell, in metres: a power of ten. */
@@ -75,7 +84,8 @@ export class Stage {
   private readonly shade: Mesh<PlaneGeometry, ShadowMaterial>;
   private readonly figure: Group;
   private readonly skin = new MeshBasicMaterial({ toneMapped: false });
-  private wants_figure = true;
+  /** null as long as nobody has said. */
+  private wants_figure: boolean | null = null;
   private wants_grid = true;
   private light: Sun = { on: true, turn: 38, height: 51 };
   private background: Texture | null = null;
@@ -85,10 +95,10 @@ export class Stage {
   constructor(shadows: boolean) {
     const uniforms = { color: { value: new Color() }, cell: { value: 1 }, reach: { value: 10 }, centre: { value: new Vector3() } };
     this.grid = new Mesh(new PlaneGeometry(1, 1), new ShaderMaterial({
-      uniforms, vertexShader: grid_vertex, fragmentShader: grid_fragment, transparent: true, depthWrite: false, side: 2,
+      uniforms, vertexShader: grid_vertex, fragmentShader: grid_fragment, transparent: true, depthWrite: false, ...behind,
     }));
     this.grid.rotation.x = -Math.PI / 2;
-    this.shade = new Mesh(new PlaneGeometry(1, 1), new ShadowMaterial({ opacity: 0.22, depthWrite: false }));
+    this.shade = new Mesh(new PlaneGeometry(1, 1), new ShadowMaterial({ opacity: 0.22, depthWrite: false, ...behind }));
     this.shade.rotation.x = -Math.PI / 2;
     this.shade.receiveShadow = true;
     this.shade.visible = shadows;
@@ -120,8 +130,7 @@ export class Stage {
     }
     this.shade.position.y -= largest * 1e-4;
     this.figure.position.set(box.min.x - Math.max(0.5, size.x * 0.08), floor, centre.z);
-    // Beside a model of a few centimetres, or of a hundred metres, a person shows nothing.
-    this.figure.visible = this.wants_figure && size.y > 0.6 && size.y < 60;
+    this.figure.visible = this.wants_figure ?? tells(size);
 
     this.floor = floor;
     this.sun.target.position.copy(centre);
@@ -135,7 +144,7 @@ export class Stage {
 
   /** The figure too has to be in the picture where the model is about its size. */
   sight(box: Box3): Vector3[] {
-    const matters = this.figure.visible && box.max.y - box.min.y < 12;
+    const matters = this.figure.visible && (this.wants_figure === true || box.max.y - box.min.y < 12);
     return matters ? corners_of(new Box3().setFromObject(this.figure)) : [];
   }
 
@@ -169,6 +178,8 @@ export class Stage {
     if (bare) this.figure.visible = false;
   }
 
+  get has_figure(): boolean { return this.figure.visible; }
+
   get sky_background(): Texture | null { return this.background; }
 
   set grid_visible(visible: boolean) { this.wants_grid = visible; this.grid.visible = visible; }
@@ -181,7 +192,7 @@ export class Stage {
   set_theme(dark: boolean): void {
     this.dark = dark;
     (this.grid.material.uniforms['color']!.value as Color).set(dark ? 0x8fa398 : 0x6d7f74);
-    this.skin.color.set(dark ? 0x3c4942 : 0xcdd3ca);
+    this.skin.color.set(dark ? 0x4d5d55 : 0x93a198);
     this.shade.material.opacity = dark ? 0.4 : 0.2;
     // Without the sun there is still enough to tell the shape by.
     this.sky.intensity = (dark ? 2.0 : 2.3) * (this.light.on ? 1 : 0.8);

@@ -1,16 +1,17 @@
 /** The picture. Draws when something changed, never otherwise; keeps one model and lets go of the one before. */
-import { Box3, NeutralToneMapping, PCFShadowMap, PerspectiveCamera, Scene, Vector3, WebGLRenderer, type Group } from 'three';
-import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { Box3, NeutralToneMapping, PCFShadowMap, Scene, Vector3, WebGLRenderer, type Group } from 'three';
 import { measured } from '../grower';
 import { Beside } from './beside';
-import { Scopes, draw_boxes, drop_boxes, type ScopeBox } from './boxes';
-import { corners_of, free_of, go_round, in_sight, stand_back, usual_direction, type Covered } from './frame';
+import { Scopes, drop_boxes, type ScopeBox } from './boxes';
+import { Eye } from './eye';
+import { corners_of, type Covered } from './frame';
 import { wire_ground } from './ground';
 import { Levels, Model } from './model';
 import { Modes, type Mode } from './modes';
 import { Motion } from './motion';
 import { draw_portrait } from './portrait';
 import { Stage, type Sun } from './stage';
+import { wait_for } from './clock';
 import { on_tap, ray_of } from './tap';
 import { Walker, type Gait } from './walker';
 import { levels_of } from './zip';
@@ -24,9 +25,6 @@ export interface Look {
   covered: Covered;
 }
 
-/** The camera stays for a model that is at most so many times as large as the one it was put there for; by a hand: the second. */
-const alike = 1.25, alike_by_hand = 2;
-
 export class Viewer {
   /** Called when the picture is lost and when it is back. */
   on_context: (lost: boolean) => void = () => {};
@@ -38,8 +36,7 @@ export class Viewer {
   readonly walker: Walker;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
-  private readonly camera = new PerspectiveCamera(32, 1, 0.01, 1000);
-  private readonly controls: OrbitControls;
+  private readonly eye: Eye;
   private readonly stage: Stage;
   private readonly canvas: HTMLCanvasElement;
   private readonly modes = new Modes();
@@ -53,21 +50,17 @@ export class Viewer {
   private points = corners_of(this.box);
   /** The camera stays where it is, whatever is shown: a model that grows shall be seen to grow. */
   held = false;
-  private touched = false;
-  private covered: Covered;
-  /** The size of the model that the camera was put there for, how far from it, and by how many pixels the picture is raised. */
-  private framed = { size: 1, distance: 1, raised: 0 };
   private frame = 0;
   private last_begin = 0;
   /** The model was not drawn yet. */
   private is_new = false;
+  private is_timed = false;
   /** Nothing shall move by itself. */
   readonly is_still: boolean;
 
   constructor(canvas: HTMLCanvasElement, look: Look) {
     const high = look.quality === 'high';
     this.canvas = canvas;
-    this.covered = look.covered;
     this.is_still = look.still;
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: high, powerPreference: 'high-performance' });
     this.renderer.toneMapping = NeutralToneMapping;
@@ -78,18 +71,13 @@ export class Viewer {
     this.renderer.shadowMap.autoUpdate = false;
     this.stage = new Stage(high);
     this.scene.add(this.stage.group);
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.enableDamping = !look.still;
-    this.controls.dampingFactor = 0.12;
-    this.controls.maxPolarAngle = Math.PI * 0.6;
-    this.controls.addEventListener('change', () => this.draw());
-    this.controls.addEventListener('start', () => { this.touched = true; });
+    this.eye = new Eye(canvas, look.covered, look.still, () => this.draw());
     this.walker = new Walker(this.camera, canvas, () => this.draw());
     canvas.addEventListener('webglcontextlost', (event) => { event.preventDefault(); this.on_context(true); });
     canvas.addEventListener('webglcontextrestored', () => { this.renderer.shadowMap.needsUpdate = true; this.on_context(false); this.draw(); });
     on_tap(canvas, (event) => { if (event.button === 0) this.pick(event); });
     wire_ground(canvas, { camera: this.camera, model: () => this.model?.root ?? null, floor: () => this.stage.floor },
-      (places, chosen) => this.set_marks(places.length > 0 ? draw_boxes(places, (index) => (index === chosen ? 3 : 1)) : null));
+      (marks) => this.set_marks(marks));
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
     this.set_theme(look.dark);
     this.resize();
@@ -110,6 +98,7 @@ export class Viewer {
     this.box = model.box;
     this.points = model.points;
     this.stage.surround(model.box);
+    this.eye.stop_at(model);
     this.walker.land(model.root, this.stage.floor, model.box.getSize(new Vector3()).length() / 2);
     this.dress();
     if (!this.held && (!keep_camera || !this.is_framed())) this.frame_model();
@@ -122,41 +111,28 @@ export class Viewer {
   fit(): void { if (this.walker.gait === 'orbit') this.frame_model(); }
 
   /** What shall be seen. */
-  private get sight(): Vector3[] { return [...this.points, ...this.stage.sight(this.box)]; }
+  private get sight(): Vector3[] { return [...this.points, ...(this.beside.other?.points ?? []), ...this.stage.sight(this.box)]; }
+
+  private get camera(): Eye['camera'] { return this.eye.camera; }
 
   /** Whether the model can be looked at from where the camera is, so that models can be told apart by their size. */
   private is_framed(): boolean {
-    if (this.walker.gait !== 'orbit') return true;
-    const grown = this.box.getSize(new Vector3()).length() / this.framed.size;
-    const most = this.touched ? alike_by_hand : alike;
-    return grown < most && grown > 1 / most && (this.touched || in_sight(this.camera, this.sight, this.covered, this.canvas.clientHeight));
+    return this.walker.gait !== 'orbit' || this.eye.suits(this.sight, this.box);
   }
 
   /** On foot and in flight this is where one goes on from. */
   private frame_model(): void {
-    this.touched = false;
-    // What is left of a hand's motion would carry the camera on.
-    const damping = this.controls.enableDamping;
-    this.controls.enableDamping = false;
-    this.controls.update();
-    this.controls.enableDamping = damping;
-    this.framed.raised = (this.covered.bottom - this.covered.top) / 2;
-    this.raise();
-    const free = free_of(this.covered, this.canvas.clientHeight || 1);
-    this.controls.target.copy(stand_back(this.camera, this.sight, usual_direction(this.box), free));
-    this.controls.minDistance = this.camera.near * 4;
-    this.controls.maxDistance = this.camera.far / 4;
-    Object.assign(this.framed, { size: this.box.getSize(new Vector3()).length(), distance: this.camera.position.distanceTo(this.controls.target) });
-    if (this.walker.gait === 'orbit') this.controls.update();
+    this.eye.touched = false;
+    this.eye.put(this.sight, this.box);
+    if (this.walker.gait === 'orbit') this.eye.controls.update();
     else this.walker.begin(this.walker.gait);
     this.draw();
   }
 
   /** Turns round the model, by radians, and scales the distance. */
   orbit(turn: number, tilt: number, distance: number): void {
-    this.touched = true;
-    go_round(this.camera, this.controls.target, turn, tilt, distance, this.controls.maxPolarAngle);
-    this.controls.update();
+    if (distance < 1) this.eye.keep_out();
+    this.eye.orbit(turn, tilt, distance);
     this.draw();
   }
 
@@ -203,7 +179,7 @@ export class Viewer {
       this.levels?.dispose();
       this.levels = null;
     } else {
-      this.levels?.choose(level, this.scene, this.framed.distance * 1.5);
+      this.levels?.choose(level, this.scene, this.eye.framed.distance * 1.5);
     }
     this.dress();
   }
@@ -214,12 +190,15 @@ export class Viewer {
   /** The triangles of that level. */
   get level_triangles(): number | null { return this.levels?.triangles ?? null; }
 
+  /** Whether the person stands in the picture: unasked where a person tells how large the model is. */
+  get has_figure(): boolean { return this.stage.has_figure; }
+
   set_grid(on: boolean): void { this.stage.grid_visible = on; this.draw(); }
 
   set_figure(on: boolean): void {
     this.stage.show_figure(on, this.box);
     this.cast();
-    if (this.touched) this.draw();
+    if (this.eye.touched) this.draw();
     else this.fit();
   }
 
@@ -247,7 +226,7 @@ export class Viewer {
 
   /** Orbit, on foot or in flight. Back in orbit the model is fitted. */
   set_gait(gait: Gait): void {
-    this.controls.enabled = gait === 'orbit';
+    this.eye.controls.enabled = gait === 'orbit';
     this.walker.begin(gait);
     if (gait === 'orbit') this.fit();
     this.draw();
@@ -287,6 +266,12 @@ export class Viewer {
     this.draw();
   }
 
+  /** Every picture is waited for until it is finished, so that its time can be told; a picture is drawn at once. */
+  set_timed(on: boolean): void {
+    this.is_timed = on;
+    this.draw();
+  }
+
   private set_marks(marks: Group | null): void {
     if (!marks && !this.marks) return;
     drop_boxes(this.marks);
@@ -300,11 +285,11 @@ export class Viewer {
     return { size: this.box.getSize(new Vector3()), cell: this.stage.cell };
   }
 
-  /** What lies over the rims of the picture. */
-  set_covered(covered: Covered): void {
-    this.covered = covered;
+  /** What lies over the rims of the picture; `anew` where the model shall take the room that became free. */
+  set_covered(covered: Covered, anew = false): void {
+    this.eye.covered = covered;
     // What goes away again, such as a comparison, changes no scale.
-    if (!this.touched && !in_sight(this.camera, this.sight, covered, this.canvas.clientHeight)) this.fit();
+    if (!this.eye.touched && (anew || !this.eye.sees(this.sight))) this.fit();
   }
 
   /** What is seen now, as a PNG. */
@@ -345,16 +330,11 @@ export class Viewer {
     const { clientWidth, clientHeight } = this.canvas.parentElement ?? this.canvas;
     if (clientWidth === 0 || clientHeight === 0) return;
     this.renderer.setSize(clientWidth, clientHeight, false);
-    this.camera.aspect = clientWidth / clientHeight;
-    this.raise();
+    if (this.walker.gait === 'orbit') this.eye.resize(clientWidth, clientHeight, this.sight, this.box);
+    else this.eye.widen(clientWidth, clientHeight);
     this.modes.set_size(this.canvas.width, this.canvas.height);
-    if (!this.touched) this.fit();
+    if (!this.eye.touched) this.fit();
     this.render();
-  }
-
-  private raise(): void {
-    const { clientWidth, clientHeight } = this.canvas;
-    this.camera.setViewOffset(clientWidth, clientHeight, 0, this.framed.raised, clientWidth, clientHeight);
   }
 
   private draw(): void { this.frame ||= requestAnimationFrame(() => this.render()); }
@@ -364,9 +344,9 @@ export class Viewer {
     this.frame = 0;
     const begin = performance.now();
     // While the motion dies down this asks for the next picture by the event "change".
-    if (this.walker.gait === 'orbit') this.controls.update();
+    if (this.walker.gait === 'orbit') this.eye.controls.update();
     const goes_on = [this.walker.step(), this.motion.step()].some(Boolean);
-    const detail = this.levels?.at(this.camera.position.distanceTo(this.controls.target));
+    const detail = this.levels?.at(this.camera.position.distanceTo(this.eye.controls.target));
     if (this.motion.is_running || detail?.changed) this.renderer.shadowMap.needsUpdate = true;
     if (!this.renderer.getContext().isContextLost()) {
       this.beside.render(this.renderer, this.scene, this.camera, this.stage.group);
@@ -374,6 +354,7 @@ export class Viewer {
         this.is_new = false;
         measured('draw', begin);
       }
+      if (this.is_timed) wait_for(this.renderer);
       this.on_drawn(performance.now() - begin, begin - this.last_begin < 1000 ? begin - this.last_begin : null);
       this.last_begin = begin;
     }
@@ -395,6 +376,7 @@ export class Viewer {
     this.levels = null;
     this.model?.dispose();
     this.model = null;
+    this.eye.stop_at(null);
     this.set_boxes(null);
   }
 }
