@@ -12,8 +12,6 @@
 namespace seedmesh::tree {
 namespace {
 
-constexpr int coarsest = 4;
-
 LeafBuild leaf_build(TreeBuild build) {
   switch (build) {
     case TreeBuild::cross:
@@ -76,15 +74,22 @@ void add_merged(Model& model, const Leaves& leaves, const TreeParams& params, co
   Node node;
   node.name = "leaves";
   node.parent = 0;
+  std::uint64_t before = 0;  // triangles of the whole tree at the level before
   for (int level = 0; level < job.demand().lods; ++level) {
     FoliageOptions options = shared;
     const Mesh surface = leaf_of(params, level, job);
     options.surfaces = std::span(&surface, 1);
     Organs fewer(job);
-    if (level > 0) fewer = leaves.levels.foliage->keep(leaves.organs, Detail(level).organs(), job);
+    if (level > 0) {
+      const double share = leaves.levels.leaves_at(Detail(level), leaves.organs.organ.size(), surface.elements(), before);
+      fewer = leaves.levels.foliage->keep(leaves.organs, share, job);
+    }
+    before = leaves.levels.bark.empty() ? 0 : leaves.levels.bark[static_cast<std::size_t>(level)];
     MeshGroup group{level_name("leaves", level), {}};
-    for (Foliage& part : place_organs(level > 0 ? fewer : leaves.organs, options, job))
+    for (Foliage& part : place_organs(level > 0 ? fewer : leaves.organs, options, job)) {
+      before += part.mesh.elements();
       group.primitives.push_back({std::move(part.mesh), look.material, look.variants});
+    }
     if (!group.primitives.empty()) put_on(model, node, std::move(group));
   }
   if (node.mesh >= 0) model.nodes.push_back(std::move(node));
@@ -118,7 +123,8 @@ Mesh leaf_of(const TreeParams& params, int level, const Job& job) {
   form.build = leaf_build(build_of(params));
   form.fold = math::radians(leaf.fold);
   form.droop = math::radians(leaf.droop);
-  form.coarseness = std::min(coarsest, leaf.coarseness + level);
+  form.coarseness = leaf.coarseness;
+  form.level = level;
   const bool is_twig = form.build == LeafBuild::twig || form.build == LeafBuild::bunch;
   form.twig_leaves = texture::leaf_picture(texture::leaf_kind(form.shape, is_twig)).count;
   Mesh mesh = leaf_mesh(form, job);
