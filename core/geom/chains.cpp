@@ -31,6 +31,8 @@ class ChainFinder {
         near_squared_(square(scale.size * cell_share)),
         short_squared_(square(scale.shortest)) {}
 
+  Array<std::uint32_t> take_originals() { return std::move(stands_for_); }
+
   void add_all(Job& job) {
     std::array<std::uint64_t, batch> keys{};
     for (std::size_t first = 0; first < limbs_.size(); first += batch) {
@@ -162,6 +164,13 @@ Chains find_chains(const Limbs& limbs, const Scale& scale, Job& job) {
   Chains chains = empty_chains(limbs, job);
   ChainFinder(limbs, scale, job, chains).add_all(job);
   return chains;
+}
+
+Array<std::uint32_t> originals_of(const Limbs& limbs, const Scale& scale, Job& job) {
+  Chains chains = empty_chains(limbs, job);
+  ChainFinder finder(limbs, scale, job, chains);
+  finder.add_all(job);
+  return finder.take_originals();
 }
 
 Chains link_chains(const Limbs& limbs, Job& job) {

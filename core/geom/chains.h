@@ -35,7 +35,10 @@ struct Chains {
 /// it runs, 9 to 13 after.
 Chains find_chains(const Limbs& limbs, const Scale& scale, Job& job);
 
-/// The same without looking for internodes drawn twice; a tenth of the work.
+/// Of each joint the one that it was drawn on top of, or itself.
+Array<std::uint32_t> originals_of(const Limbs& limbs, const Scale& scale, Job& job);
+
+/// find_chains() without looking for internodes drawn twice; a tenth of the work.
 Chains link_chains(const Limbs& limbs, Job& job);
 
 }  // namespace seedmesh

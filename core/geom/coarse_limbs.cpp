@@ -83,6 +83,9 @@ class Coarsening {
     const std::uint64_t hash = key_at(limbs_.key.empty() ? head : limbs_.key[head], 0xFA70);
     return 1 + most_favour * (static_cast<float>(hash >> 40U) * 0x1p-23F - 1);
   }
+  const glm::vec3& place_of(std::uint32_t joint) const {
+    return options_.drawn.empty() ? limbs_.position[joint] : options_.drawn[joint];
+  }
   float shown(std::uint32_t joint) const {
     return options_.shown.empty() ? 1.0F : std::max(least_shown, options_.shown[joint]);
   }
@@ -117,13 +120,13 @@ void Coarsening::read_limb(std::uint32_t head) {
   const std::uint32_t start = is_root ? head : limbs_.parent[head];
   std::uint32_t joint = is_root ? chains_.next[head] : head;
   const auto add_station = [&](std::uint32_t at, float radius, float worth) {
-    stations_.push_back({at, limbs_.position[at], radius, worth,
+    stations_.push_back({at, place_of(at), radius, worth,
                          static_cast<float>(corners(radius, options_.sides, options_.power))});
   };
   add_station(start, joint == Limbs::none ? 0.0F : limbs_.base_radius[joint], forever);
   double area = 0;
   for (; joint != Limbs::none; joint = chains_.next[joint]) {
-    const glm::vec3 step = limbs_.position[joint] - stations_.back().position;
+    const glm::vec3 step = place_of(joint) - stations_.back().position;
     const float width = limbs_.base_radius[joint] + limbs_.radius[joint];
     area += static_cast<double>(std::sqrt(glm::dot(step, step)) * width * shown(joint));
     add_station(joint, limbs_.radius[joint], 0);
@@ -251,7 +254,7 @@ void copy_row(const Array<T>& from, std::uint32_t joint, Array<T>& to) {
 
 std::uint32_t Coarsening::add(std::uint32_t joint, std::uint32_t parent, CoarseLimbs& out) const {
   Limbs& to = out.limbs;
-  copy_row(limbs_.position, joint, to.position);
+  to.position.push_back(place_of(joint));
   copy_row(limbs_.radius, joint, to.radius);
   copy_row(limbs_.base_radius, joint, to.base_radius);
   to.parent.push_back(parent);

@@ -26,6 +26,7 @@ struct CoarseOptions {
   bool for_skin = false;
   bool pointed = false;                       ///< thin ends have no ring (GraftOptions::pointed)
   std::span<const float> shown = {};          ///< of each joint, how much of it is seen; empty: all
+  std::span<const glm::vec3> drawn = {};      ///< where the finest level draws the joints; empty: at them
   std::span<const std::uint16_t> bones = {};  ///< of each joint; where they change, joints stay
 };
 

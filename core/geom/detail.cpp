@@ -4,11 +4,14 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/geom/chains.h"
 
 namespace seedmesh {
 namespace {
 
-constexpr double bark_power = 0.3, seen_power = 0.75;
+constexpr double bark_power = 0.3, seen_power = 0.65;
+// So much of four corners must be free for four.
+constexpr double least_for_four = 3.5;
 
 /// most / sqrt(level + 1), rounded down exactly.
 int shared_out(int most, int level) {
@@ -34,6 +37,12 @@ Array<T> chosen(const Array<T>& values, const Array<std::uint32_t>& new_place, s
 int Detail::sides(int most) const { return std::max(3, shared_out(most, level_)); }
 int Detail::bark_sides(int most) const {
   return std::max(3, math::to_int32(most * math::pow(level_ + 1.0, -bark_power)));
+}
+int Detail::even_sides(int most) const {
+  const double share = most * organs();
+  if (level_ == 0 || most == 3) return most;
+  if (share < least_for_four) return 3;
+  return std::max(4, math::to_int32(share / 2) * 2);
 }
 int Detail::stacks(int most) const { return std::max(1, shared_out(most, level_)); }
 
@@ -74,6 +83,18 @@ KeptLimbs keep(const Limbs& limbs, const Array<std::uint8_t>& stays, Job& job) {
   kept.anchor = chosen(limbs.anchor, new_place, count, job);
   for (std::uint32_t& anchor : kept.anchor) moved(anchor);
   return {std::move(kept), std::move(new_place)};
+}
+
+KeptLimbs without_repeats(const Limbs& limbs, int sides, Job& job) {
+  const Array<std::uint32_t> original = originals_of(limbs, scale_of(limbs, sides), job);
+  Array<std::uint8_t> stays(job, limbs.size());
+  for (std::size_t i = 0; i < limbs.size(); ++i) stays[i] = original[i] == i ? 1 : 0;
+  KeptLimbs kept = keep(limbs, stays, job);
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    if (stays[i] && limbs.parent[i] != Limbs::none)
+      kept.limbs.parent[kept.new_place[i]] = kept.new_place[original[limbs.parent[i]]];
+  }
+  return kept;
 }
 
 }  // namespace seedmesh

@@ -20,15 +20,22 @@ class Detail {
   int stacks(int most) const;
   /// Of a tree's bark, whose thin limbs have few at every level: most / (level + 1)^0.3.
   int bark_sides(int most) const;
+  /// Of limbs that have as many corners at the finest level whatever their radius, about as many as fit in
+  /// tubes(): an even number, so that they stand in the middle of what the finest draws, or else 3.
+  int even_sides(int most) const;
   /// The share of the organs that stays: 1 / sqrt(level + 1).
   double organs() const;
-  /// How many triangles the bark may have, the finest level having `finest`: 1 / (level + 1)^0.75 of what is
+  /// How many triangles the bark may have, the finest level having `finest`: 1 / (level + 1)^0.65 of what is
   /// seen of it, the share `seen`, and half of 1 / (level + 1) of what is hidden by leaves.
   std::uint64_t bark(std::uint64_t finest, double seen) const;
+  /// The share of what the organs cover that may be bare where more of them stay for it.
+  double loss() const { return 0.0075 * level_; }
+  /// The same for tubes that nothing hides and that hardly become simpler: 1 / sqrt(level + 1).
+  std::uint64_t tubes(std::uint64_t finest) const {
+    return static_cast<std::uint64_t>(static_cast<double>(finest) * organs());
+  }
   /// The most that a level may have after one of so many.
-  static std::uint64_t fewer_than(std::uint64_t triangles) { return triangles * 17 / 20; }
-  /// For LeafForm::coarseness.
-  int coarseness() const { return level_; }
+  static std::uint64_t fewer_than(std::uint64_t triangles) { return triangles * 89 / 100; }
 
  private:
   int level_;
@@ -41,6 +48,9 @@ struct KeptLimbs {
   Array<std::uint32_t> new_place;
 };
 KeptLimbs keep(const Limbs& limbs, const Array<std::uint8_t>& stays, Job& job);
+
+/// Limbs without the internodes that lie on earlier ones (find_chains()); what grew from those grows from these.
+KeptLimbs without_repeats(const Limbs& limbs, int sides, Job& job);
 
 /// The greatest radius of an internode.
 float thickest(const Limbs& limbs);

@@ -195,6 +195,11 @@ void FoliageLevels::rank(const Organs& organs, Job& job) {
   };
   for (const std::uint32_t organ : order) put(organ);
   const auto gone = static_cast<std::uint32_t>((1 - least_share) * count);
+  const auto covered = static_cast<double>(
+      std::count_if(leaves_.begin(), leaves_.end(), [](std::uint16_t many) { return many > 0; }));
+  double lost = 0;
+  lost_.assign(1, 0.0F);
+  lost_.reserve(gone + 1);
   std::uint32_t lowest = 0;
   for (std::uint32_t taken = 0; taken < gone;) {
     if (taken % look_every == 0) job.check();
@@ -206,6 +211,8 @@ void FoliageLevels::rank(const Organs& organs, Job& job) {
       continue;
     }
     rank_[organ] = taken++;
+    lost += score[organ];
+    lost_.push_back(static_cast<float>(lost / std::max(covered, 1.0)));
     cover(organs.organ[organ], [&](std::size_t at) {
       owner_[at] ^= organ;
       // Where more were than can be counted, nothing is missed.
@@ -235,6 +242,12 @@ float FoliageLevels::best_growth(const Organ& organ, const Array<std::int8_t>& g
     best = growth;
   }
   return best;
+}
+
+double FoliageLevels::share_for(double loss) const {
+  if (lost_.size() < 2) return 1;
+  const auto more = std::upper_bound(lost_.begin(), lost_.end(), static_cast<float>(loss));
+  return 1 - static_cast<double>(more - lost_.begin() - 1) / static_cast<double>(rank_.size());
 }
 
 Organs FoliageLevels::keep(const Organs& organs, double share, Job& job) {

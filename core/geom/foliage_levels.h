@@ -31,6 +31,9 @@ class FoliageLevels {
   /// The share of the organs that stays, from 0.4 to 1, in their order. `organs` must be those of the plant.
   Organs keep(const Organs& organs, double share, Job& job);
 
+  /// The least share that stays where at most `loss` of what the leaves cover is bare afterwards.
+  double share_for(double loss) const;
+
   /// Of each joint: the share of its internode that no organ and no other thick limb covers, in the mean of
   /// all sides.
   Array<float> shown(const Limbs& limbs, Job& job) const;
@@ -57,6 +60,7 @@ class FoliageLevels {
   Array<std::uint32_t> stamp_;           ///< of each: who covered it last, so that nobody does so twice
   std::uint32_t stamps_ = 0;
   Array<std::uint32_t> rank_;  ///< of each organ: how many go before it
+  std::vector<float> lost_;    ///< by how many went: the share of what was covered that is bare
 };
 
 }  // namespace seedmesh

@@ -21,8 +21,10 @@ struct GraftOptions {
   int sides = 8;             ///< corners of the thickest limb, 3..64; thinner ones have fewer, down to 3
   bool weld = true;          ///< false: all limbs are closed tubes
   float thinnest = 0;        ///< limbs of a smaller radius where they begin are left out
-  float thinnest_joint = 0;  ///< thinner limbs, where they begin, stand closed inside their parent
+  float thinnest_joint = 0;  ///< thinner limbs, where they begin, stand closed inside their parent,
+                             ///< turned as they would grow out of it
   bool pointed = false;      ///< a thin end is the point of the last ring's cone and has no ring of its own
+  bool every_bend = false;   ///< a ring at every bend, however slight
   int lobes = 0;             ///< ribs around every limb of order 0
   float lobe_depth = 0;      ///< as a share of the radius, below 1
   bool overlaps = false;  ///< limbs may lie on each other, piece by piece: such are found and left to skin()
@@ -34,6 +36,9 @@ struct GraftOptions {
   /// Where given, it gets for each vertex the joint at the far end of the internode that it moves with. The
   /// rim that two limbs share moves with the older one.
   Array<std::uint32_t>* joints = nullptr;
+  /// Where given, it has the position of each joint and gets, for those that have no ring of their own, where
+  /// the limb that is drawn passes by.
+  Array<glm::vec3>* drawn = nullptr;
 };
 
 struct GraftCounts {

@@ -28,6 +28,10 @@ struct GraftAxis {
     while (piece + 1 < pieces() && s > at[piece + 1]) ++piece;
     return piece;
   }
+  glm::vec3 point_at(float s) const {
+    const std::size_t piece = piece_at(s, 0);
+    return point[piece] + along[piece] * (s - at[piece]);
+  }
   float radius_at(float s, std::size_t piece) const {
     const float share = (s - at[piece]) / (at[piece + 1] - at[piece]);
     return radius[piece] + (radius[piece + 1] - radius[piece]) * share;

@@ -16,6 +16,8 @@ constexpr float fork_share = 0.55F, least_fork_share = 0.4F;
 // Rings are kept where the axis has turned by more than 9 degrees since the last, or the radius is off by so
 // much.
 constexpr float straight = 0.9877F, radius_off = 0.05F;
+// Where every bend is wanted: by half a degree.
+constexpr float all_but_straight = 0.99996F, all_but_even = 0.005F;
 // An end thinner than this share of the ring before it may be a point.
 constexpr float pointed_share = 0.5F;
 // Joints of one whorl may differ by this share of their extent and still lie on one ring.
@@ -126,7 +128,9 @@ bool GraftPlan::put(const GraftAxis& axis, std::size_t at_point, Opening& wanted
   return true;
 }
 
-void GraftPlan::complete(const GraftAxis& axis, bool has_first, bool pointed) {
+void GraftPlan::complete(const GraftAxis& axis, bool has_first, const GraftOptions& options) {
+  const float most_turn = options.every_bend ? all_but_straight : straight;
+  const float most_off = options.every_bend ? all_but_even : radius_off;
   std::vector<Band>& all = all_;
   all.clear();
   std::size_t next = 0;
@@ -163,8 +167,8 @@ void GraftPlan::complete(const GraftAxis& axis, bool has_first, bool pointed) {
     const float last_radius = axis.radius_at(last_at, axis.piece_at(last_at, 0));
     const float share = (at - last_at) / (axis.at[point + 1] - last_at);
     const float between = last_radius + (axis.radius[point + 1] - last_radius) * share;
-    const bool turns = glm::dot(heading, axis.along[point]) < straight;
-    if (!turns && std::abs(between - axis.radius[point]) < radius_off * axis.radius[point]) continue;
+    const bool turns = glm::dot(heading, axis.along[point]) < most_turn;
+    if (!turns && std::abs(between - axis.radius[point]) < most_off * axis.radius[point]) continue;
     const float sine = std::sqrt(
         std::max(0.0F, 1 - glm::dot(heading, axis.along[point]) * glm::dot(heading, axis.along[point])));
     const float clear = std::max(margin(axis, at), 0.5F * axis.radius[point] * sine);
@@ -177,7 +181,7 @@ void GraftPlan::complete(const GraftAxis& axis, bool has_first, bool pointed) {
   take_openings(tip_);
   const float last_at = all.empty() ? start_ : all.back().at;
   const float last_radius = axis.radius_at(last_at, axis.piece_at(last_at, 0));
-  if (!pointed || axis.radius.back() > pointed_share * last_radius)
+  if (!options.pointed || axis.radius.back() > pointed_share * last_radius)
     all.push_back(plain(tip_, axis.pieces() - 1, false));
   std::swap(band, all);
 }

@@ -2,6 +2,7 @@
 /// Which rings one limb has, and where others leave it.
 #include <vector>
 
+#include "core/geom/graft.h"
 #include "core/geom/graft_opening.h"
 
 namespace seedmesh {
@@ -26,8 +27,8 @@ struct GraftPlan {
   /// Asks for a way out of the axis' point for a child. False: it must be closed.
   bool open(const GraftAxis& axis, std::size_t at_point, Bud bud);
   /// Adds the rings that bends and changes of radius need, one beside the beginning where asked, and the
-  /// last, unless the limb is `pointed`: then where it is thick.
-  void complete(const GraftAxis& axis, bool has_first, bool pointed = false);
+  /// last, unless the limb may be pointed: then where it is thick.
+  void complete(const GraftAxis& axis, bool has_first, const GraftOptions& options);
 
  private:
   bool put(const GraftAxis& axis, std::size_t at_point, Opening& wanted);

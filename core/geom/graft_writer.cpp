@@ -142,9 +142,11 @@ void GraftWriter::write_limb(std::uint32_t limb) {
   kind_[limb] = is_root ? Kind::root : !has_loop ? Kind::closed : (loop.is_fork ? Kind::fork : Kind::collar);
 
   const std::uint64_t hash = key_at(context_.limbs.key.empty() ? head : context_.limbs.key[head], 0x62AF7);
+  const bool is_twig = !is_root && !has_loop && axis_.radius[0] < context_.options.thinnest_joint;
   if (!is_root && !has_loop) {
     // Limbs that lie on others, as those of a split without an angle do, must not share a vertex with them.
-    for (float& radius : axis_.radius) radius *= 1 - most_slimmer * fraction(hash);
+    const float widest = is_twig ? 1 + 0.5F * most_slimmer : 1.0F;
+    for (float& radius : axis_.radius) radius *= widest - most_slimmer * fraction(hash);
     axis_.point.back() -= axis_.along.back() * (most_slimmer * fraction(mix(hash)) * axis_.radius.back());
   }
   const float last_length = axis_.at.back() - axis_.at[axis_.at.size() - 2];
@@ -155,6 +157,8 @@ void GraftWriter::write_limb(std::uint32_t limb) {
   glm::vec3 first = any_aside(axis_.along[0]);
   if (has_loop) {
     first = loop.u;
+  } else if (is_twig) {
+    first = upward_of(limb);
   } else {
     const math::SinCos turn = math::quick_sincos(static_cast<double>(fraction(hash)) * 2 * math::pi);
     first = first * static_cast<float>(turn.cos) +
@@ -172,7 +176,8 @@ void GraftWriter::write_limb(std::uint32_t limb) {
               bulge_share * (1 - circles_[static_cast<std::size_t>(2 * sides)].x[1]));
   if (context_.trust[limb] <= Trust::detached) plan_children(start);
   if (!plan_.opening.empty()) least_sides_ = least_opened_sides;
-  plan_.complete(axis_, has_loop && sides_for(axis_.radius[0]) > 4, context_.options.pointed);
+  plan_.complete(axis_, has_loop && sides_for(axis_.radius[0]) > 4, context_.options);
+  if (context_.options.drawn) tell_drawn(start);
   if (has_loop) {
     begin_loop(loop);
   } else {
@@ -183,6 +188,41 @@ void GraftWriter::write_limb(std::uint32_t limb) {
     if (has_loop && &band == &plan_.band.front()) range_[limb].first_end = here().triangle;
   }
   write_tip(end);
+}
+
+/// Where the rings of the plan draw the axis' points.
+void GraftWriter::tell_drawn(float start) {
+  Array<glm::vec3>& drawn = *context_.options.drawn;
+  float before = start;
+  glm::vec3 from = axis_.point_at(start);
+  std::size_t point = 1;
+  for (; point + 1 < axis_.point.size() && axis_.at[point] <= start;) ++point;
+  for (const Band& band : plan_.band) {
+    const glm::vec3 to = axis_.point_at(band.at);
+    for (; point + 1 < axis_.point.size() && axis_.at[point] <= band.at; ++point) {
+      const float share = band.at > before ? (axis_.at[point] - before) / (band.at - before) : 1.0F;
+      drawn[axis_.joint[point]] = from + (to - from) * share;
+    }
+    before = band.at;
+    from = to;
+  }
+}
+
+/// Where the corner of a collar that is nearest to the parent's tip would be.
+glm::vec3 GraftWriter::upward_of(std::uint32_t limb) const {
+  const Limbs& limbs = context_.limbs;
+  const std::uint32_t joint = limbs.parent[context_.chains.head[limb]];
+  std::uint32_t to = context_.chains.next[joint], from = joint;
+  if (to == none) {
+    to = joint;
+    from = limbs.parent[joint];
+  }
+  const glm::vec3& along = axis_.along[0];
+  if (from == none) return any_aside(along);
+  const glm::vec3 step = limbs.position[to] - limbs.position[from];
+  const glm::vec3 aside = step - along * glm::dot(step, along);
+  const float least = 1e-3F * std::sqrt(glm::dot(step, step));
+  return glm::dot(aside, aside) > least * least ? math::unit(aside, any_aside(along)) : any_aside(along);
 }
 
 Bud GraftWriter::bud_of(std::uint32_t child) const {
@@ -235,6 +275,8 @@ void GraftWriter::begin_closed(bool is_root, std::uint32_t limb) {
   is_at_loop_ = false;
   set_seam(0);
   const std::uint32_t head = context_.chains.head[limb];
+  if (!is_root && axis_.radius[0] < context_.options.thinnest_joint)
+    set_seam(-phases_.of(corners_for(axis_.radius[0])).back().angle);
   const std::uint64_t hash = key_at(context_.limbs.key.empty() ? head : context_.limbs.key[head], 0x0C10);
   Plane plane = plane_at(0, 0);
   stand_at(0);

@@ -170,6 +170,8 @@ class GraftWriter {
   void write_limb(std::uint32_t limb);
   void plan_children(float start);
   Bud bud_of(std::uint32_t child) const;
+  void tell_drawn(float start);
+  glm::vec3 upward_of(std::uint32_t limb) const;
   void begin_closed(bool is_root, std::uint32_t limb);
   void begin_loop(const Loop& loop);
   void write_band(const Band& band);

@@ -35,7 +35,8 @@ struct Point {
 /// A flat leaf bent: each blade folded about its midrib, then everything down along an arc.
 class Bend {
  public:
-  Bend(const LeafForm& form) : fold_(math::sincos(form.fold)), droop_(form.droop) {}
+  Bend(const LeafForm& form)
+      : fold_(math::sincos(form.fold)), droop_(form.droop), is_afar_(form.level > 0) {}
 
   /// A point of the plane that stands `off` beside the midrib of its blade, to the right; `across` is the
   /// direction of growing `off`.
@@ -48,6 +49,14 @@ class Bend {
   }
   Point flat(dvec2 p, double z) const { return drooped({{p, z}, {0, 0, 1}}); }
 
+  /// A corner of an unfolded square of the coarser levels, in the mean where the folded and bent one lies;
+  /// `row` is as long as each of its rows.
+  Point level(dvec2 p, double row) const {
+    if (!is_afar_) return flat(p, 0);
+    const double rise = 0.5 * std::abs(p.x) * fold_.sin, bulge = droop_ * row * row / 8;
+    return flat({p.x * fold_.cos, p.y}, rise + mean_of_arc * bulge);
+  }
+
  private:
   Point drooped(const Point& p) const {
     if (std::abs(droop_) < 1e-6) return p;
@@ -58,8 +67,11 @@ class Bend {
              p.normal.z * turn.cos - p.normal.y * turn.sin}};
   }
 
+  static constexpr double mean_of_arc = 2.0 / 3;  // of a parabola's height above its chord
+
   math::SinCos fold_;
   double droop_;
+  bool is_afar_;
 };
 
 class LeafWriter {
@@ -88,7 +100,9 @@ class LeafWriter {
       for (int column = 0; column <= columns; ++column) {
         const double x = drawing_.low.x + (drawing_.high.x - drawing_.low.x) * column / columns;
         const dvec2 p{columns == 2 && column == 1 ? 0 : x, y};
-        add(columns == 2 ? bend_.folded(p, p.x, {1, 0}) : bend_.flat(p, 0), p);
+        add(columns == 2 ? bend_.folded(p, p.x, {1, 0})
+                         : bend_.level(p, (drawing_.high.y - drawing_.low.y) / rows),
+            p);
       }
     }
     for (int row = 0; row < rows; ++row) {
@@ -250,6 +264,13 @@ void share_vertices(Mesh& mesh) {
   }
 }
 
+/// Columns and rows. Asked for coarse, a square is flat at once; from level to level it falls by and by.
+std::array<int, 2> bent_square(const LeafForm& form) {
+  constexpr std::array<std::array<int, 2>, 4> squares{{{2, 4}, {2, 3}, {2, 2}, {1, 2}}};
+  if (form.coarseness >= 3) return {1, 1};
+  return squares[static_cast<std::size_t>(std::clamp(form.coarseness + form.level, 0, 3))];
+}
+
 }  // namespace
 
 void drop_unused(Mesh& mesh, const Job& job) {
@@ -284,15 +305,15 @@ void drop_unused(Mesh& mesh, const Job& job) {
 
 Mesh leaf_mesh(const LeafForm& form, const Job& job) {
   const bool is_twig = form.build == LeafBuild::twig || form.build == LeafBuild::bunch;
-  const int coarse = std::clamp(form.coarseness, 0, 4);
-  constexpr std::array<int, 5> margin_steps{2, 2, 1, 1, 1}, inner_points{2, 1, 1, 0, 0}, rows{4, 3, 2, 1, 1};
+  const int coarse = std::clamp(form.coarseness + form.level, 0, 4);
+  constexpr std::array<int, 5> margin_steps{2, 2, 1, 1, 1}, inner_points{2, 1, 1, 0, 0};
   const LeafDrawing drawing = draw_leaf(
       form.shape,
       {form.build == LeafBuild::mesh ? margin_steps[static_cast<std::size_t>(coarse)] : 6, true, false},
       is_twig ? form.twig_leaves : 1);
   Mesh mesh = empty_mesh(job);
   LeafForm straight = form;
-  if (form.build == LeafBuild::card || form.build == LeafBuild::cross) straight.droop = 0;
+  if (form.build == LeafBuild::card || form.build == LeafBuild::cross) straight.droop = straight.level = 0;
   LeafWriter writer(drawing, straight, mesh);
   switch (form.build) {
     case LeafBuild::card:
@@ -302,7 +323,7 @@ Mesh leaf_mesh(const LeafForm& form, const Job& job) {
     case LeafBuild::curved:
     case LeafBuild::twig:
     case LeafBuild::bunch:
-      writer.add_square(coarse < 3 ? 2 : 1, rows[static_cast<std::size_t>(coarse)]);
+      writer.add_square(bent_square(form)[0], bent_square(form)[1]);
       break;
     case LeafBuild::mesh:
       for (const LeafLine& stalk : drawing.stalks) writer.add_stalk(stalk);

@@ -10,6 +10,7 @@
 
 #include "core/base/array.h"
 #include "core/gltf/mend.h"
+#include "core/gltf/separate.h"
 
 namespace seedmesh::gltf {
 namespace {
@@ -369,7 +370,9 @@ void quantize(Columns& columns, const std::vector<Grid>& grids, Job& job) {
   for (std::size_t i = 0; i < columns.meshes.size(); ++i) {
     for (Part& part : columns.meshes[i]) {
       const std::vector<std::size_t> inward = corners_looking_inward(part, job);
+      const Slice exact = part.columns.front().slice;
       quantize_columns(part, grids[i], job);
+      separate(part, exact, job);
       mend_normals(part, inward, job);
       clean(part, job);
     }

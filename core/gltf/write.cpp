@@ -161,6 +161,22 @@ Payload write_zip(Model& model, Columns& columns, gltf::DocumentOptions options,
   return gltf::zip(std::move(files));
 }
 
+/// Triangles and vertices as they are after quantizing.
+void recount(const Model& model, const Columns& columns, ModelCounts& counts) {
+  counts.triangles = counts.vertices = 0;
+  for (const std::vector<gltf::Part>& parts : columns.meshes) {
+    for (const gltf::Part& part : parts) counts.vertices += part.columns.front().count;
+  }
+  for (const Node& node : model.nodes) {
+    if (node.mesh < 0) continue;
+    const std::uint64_t times = std::max<std::size_t>(1, node.instances.transforms.size());
+    for (const gltf::Part& part : columns.meshes[static_cast<std::size_t>(node.mesh)]) {
+      if (part.topology != Topology::triangles) continue;
+      counts.triangles += times * (part.index ? part.index->count : part.columns.front().count) / 3;
+    }
+  }
+}
+
 }  // namespace
 
 Payload write(Model model, const WriteOptions& options, Job& job) {
@@ -169,6 +185,7 @@ Payload write(Model model, const WriteOptions& options, Job& job) {
   if (dialect.compressed) grids = gltf::lay_grids(model);
   Columns columns = gltf::take_columns(model);
   if (dialect.compressed) gltf::quantize(columns, grids, job);
+  if (dialect.compressed && options.counts) recount(model, columns, *options.counts);
   gltf::DocumentOptions described{.generator = options.generator, .dialect = dialect};
   if (options.container == Container::zip) return write_zip(model, columns, described, job);
   described.last = true;

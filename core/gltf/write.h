@@ -29,6 +29,8 @@ struct WriteOptions {
   Container container = Container::glb;
   std::string generator = {};  ///< goes to asset.generator
   Dialect dialect = {};
+  /// Where given, count() of the model; gets what is left where the dialect leaves something out.
+  ModelCounts* counts = nullptr;
 };
 
 /// Writes the whole model; takes it over, since the payload points into its arrays. Every accessor has min

@@ -272,15 +272,18 @@ Result<Product> produce(const Request& request, Job& job, TextureStore* texture_
     finish(*model, job);
     name_for(*model, output.profile);
     sign(*model, request);
-    const ModelCounts counts = count(*model);
+    ModelCounts counts = count(*model);
     Product product;
-    product.statistics = {counts.triangles, counts.vertices,
-                          static_cast<std::uint32_t>(model->warnings.size())};
+    product.statistics.warnings = static_cast<std::uint32_t>(model->warnings.size());
     const Form& form = form_of(request);
     product.media_type = form.media_type;
     product.extension = form.name;
     job.progress("encode", 0);
-    product.payload = write(std::move(*model), write_options(request, form), job);
+    WriteOptions written = write_options(request, form);
+    written.counts = &counts;
+    product.payload = write(std::move(*model), written, job);
+    product.statistics.triangles = counts.triangles;
+    product.statistics.vertices = counts.vertices;
     product.timing = timing_of(job);
     return product;
   });

@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint64_t bytes_a_vertex = 32;  // position, normal, uv
 constexpr std::uint64_t bytes_a_triangle = 12;
 constexpr std::uint64_t worth_a_word = 10;  // fewer than one in so many is no loss
-constexpr int attempts = 4;                 ///< at a level of as many triangles as it may have
+constexpr int attempts = 6;                 ///< at a level of as many triangles as it may have
 
 /// What looks alike becomes one primitive.
 void choose_looks(Skeleton& skeleton, const Wardrobe& wardrobe) {
@@ -50,10 +50,11 @@ SkinOptions skin_options(const LsystemParams& params, std::span<const Contour> c
                          const Detail& detail) {
   SkinOptions options;
   options.contours = contours;
-  options.sides = std::max(detail.sides(params.sides), static_cast<int>(least_sides(contours)));
+  const int sides = params.adapt ? detail.sides(params.sides) : detail.even_sides(params.sides);
+  options.sides = std::max(sides, static_cast<int>(least_sides(contours)));
   options.stacks = detail.stacks(params.stacks);
   options.wrap = wraps_pictures(params);
-  options.adapt = params.adapt || detail.level() > 0;
+  options.adapt = params.adapt;
   return options;
 }
 
@@ -77,32 +78,42 @@ std::uint64_t triangles_of(const std::vector<Primitive>& primitives) {
   return triangles;
 }
 
-/// Fewer limbs and joints, with about as many triangles as they may have; never none.
-CoarseLimbs coarse_limbs(const Limbs& limbs, const CoarseOptions& wanted, const SkinOptions& options,
-                         Job& job) {
+/// Fewer limbs and joints, with about as many triangles as they may have and never more than `most`; where
+/// that cannot be, all with fewer sides.
+CoarseLimbs coarse_limbs(const Limbs& limbs, const CoarseOptions& wanted, std::uint64_t most,
+                         const SkinOptions& options, Job& job) {
   CoarseOptions coarse = wanted;
   CoarseLimbs kept;
+  std::uint64_t kept_made = 0, low = 0, high = 0;  // what was asked for and gave too few, too many
   for (int attempt = 0; attempt < attempts; ++attempt) {
     CoarseLimbs next = coarsen(limbs, coarse, job);
     // Stacks have more triangles than the tubes that were counted.
     const std::uint64_t made = skin_triangles(next.limbs, options);
-    if (made == 0 && kept.limbs.size() > 0) break;
-    kept = std::move(next);
-    if (made == 0) {  // little plants are kept with fewer sides alone
-      coarse.triangles = std::numeric_limits<std::uint32_t>::max();
-      continue;
+    const bool is_good = made >= wanted.triangles - wanted.triangles / 10 &&
+                         made <= wanted.triangles + wanted.triangles / 100;
+    if (is_good || (made > kept_made && made <= most)) {
+      kept = std::move(next);
+      kept_made = made;
     }
-    if (made <= wanted.triangles + wanted.triangles / 100) break;
-    if (coarse.triangles > wanted.triangles) break;
-    coarse.triangles = coarse.triangles * wanted.triangles / made;
+    if (is_good) break;
+    (made > wanted.triangles ? high : low) = coarse.triangles;
+    if (high > 0 && low > 0) {
+      if (high - low <= high / 100) break;
+      coarse.triangles = low + (high - low) / 2;
+    } else {
+      const std::uint64_t by_ratio = coarse.triangles * wanted.triangles / std::max<std::uint64_t>(made, 1);
+      coarse.triangles = std::clamp<std::uint64_t>(by_ratio, coarse.triangles / 4, 4 * coarse.triangles) + 1;
+    }
   }
-  return kept;
+  if (kept_made > 0) return kept;
+  coarse.triangles = std::numeric_limits<std::uint32_t>::max();
+  return coarsen(limbs, coarse, job);
 }
 
 /// The bark of a level.
-std::vector<Bark> coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, SkinOptions options,
-                               Job& job) {
-  const CoarseLimbs kept = coarse_limbs(limbs, wanted, options, job);
+std::vector<Bark> coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, std::uint64_t most,
+                               SkinOptions options, Job& job) {
+  const CoarseLimbs kept = coarse_limbs(limbs, wanted, most, options, job);
   Array<std::uint16_t> bones(job);
   if (!wanted.bones.empty()) {
     for (const std::uint32_t joint : kept.was) bones.push_back(wanted.bones[joint]);
@@ -123,20 +134,30 @@ void add_bark(Model& model, Limbs limbs, std::span<const std::uint16_t> bones, c
   if (static_cast<int>(model.nodes.size()) == finest) return;
   const std::uint64_t triangles = triangles_of(model.meshes.back().primitives);
   std::uint64_t before = triangles;
+  Array<std::uint16_t> own_bones(job);
+  if (job.demand().lods > 1) {
+    KeptLimbs once = without_repeats(limbs, options.sides, job);
+    if (once.limbs.size() < limbs.size()) {
+      for (std::size_t i = 0; i < bones.size(); ++i) {
+        if (once.new_place[i] != Limbs::none) own_bones.push_back(bones[i]);
+      }
+      bones = own_bones.span();
+      limbs = std::move(once.limbs);
+    }
+  }
   for (int level = 1; level < job.demand().lods; ++level) {
     const Detail detail(level);
     MeshGroup group{"bark_LOD" + std::to_string(level), {}};
     const SkinOptions coarser = skin_options(params, contours, detail);
     CoarseOptions coarse;
-    coarse.triangles = std::min(detail.bark(triangles, 1), Detail::fewer_than(before));
+    coarse.triangles = std::min(detail.tubes(triangles), Detail::fewer_than(before));
     coarse.sides = coarser.sides;
     coarse.finest_sides = options.sides;
-    coarse.power = 0.5;
-    coarse.finest_power = options.adapt ? 0.5 : 0;
+    coarse.power = coarse.finest_power = options.adapt ? 0.5 : 0;
     coarse.even = false;
     coarse.for_skin = true;
     coarse.bones = bones;
-    for (Bark& part : coarser_bark(limbs, coarse, coarser, job)) {
+    for (Bark& part : coarser_bark(limbs, coarse, Detail::fewer_than(before), coarser, job)) {
       group.primitives.push_back({std::move(part.mesh), wardrobe.material(part.color, Sides::one), {}});
     }
     const std::uint64_t made = triangles_of(group.primitives);

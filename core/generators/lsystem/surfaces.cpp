@@ -70,7 +70,7 @@ Mesh mesh_of(const LsystemSurface& surface, const Detail& detail, const Job& job
   form.build = leaf_build(surface);
   form.fold = math::radians(surface.fold);
   form.droop = math::radians(surface.droop);
-  form.coarseness = detail.coarseness();
+  form.level = detail.level();
   const texture::LeafPicture picture =
       texture::leaf_picture(texture::leaf_kind(form.shape, shows_twig(surface)));
   form.twig_leaves = picture.count;
@@ -244,6 +244,24 @@ std::vector<Mesh> footprints_of(const LsystemParams& params, const Guests& guest
   return footprints;
 }
 
+std::uint64_t triangles_of(const Organs& organs, const Sheets& sheets) {
+  std::uint64_t triangles = 0;
+  for (const Organ& organ : organs.organ) {
+    for (std::uint32_t i = sheets.first[organ.surface]; i < sheets.first[organ.surface + 1]; ++i)
+      triangles += sheets.meshes[i].elements();
+  }
+  return triangles;
+}
+
+/// The share of the organs that stays: so many that the outline holds, as far as they have fewer triangles
+/// than `before`; all of them would have `whole`.
+double organs_at(const Detail& detail, const FoliageLevels& levels, std::uint64_t whole,
+                 std::uint64_t before) {
+  const double room = static_cast<double>(Detail::fewer_than(before)) /
+                      static_cast<double>(std::max<std::uint64_t>(whole, 1));
+  return std::max(detail.organs(), std::min(levels.share_for(detail.loss()), room));
+}
+
 void add_merged(Model& model, const Foliated& foliated, const LsystemParams& params, const Guests& guests,
                 Wardrobe& wardrobe, Job& job) {
   Node node;
@@ -255,11 +273,13 @@ void add_merged(Model& model, const Foliated& foliated, const LsystemParams& par
     const std::vector<Mesh> footprints = footprints_of(params, guests, job);
     levels.emplace(FoliageLevels::Plant{all, footprints, Limbs(job), 1}, job);
   }
+  std::uint64_t before = 0;  // triangles of the level before
   for (int level = 0; level < job.demand().lods; ++level) {
     const Detail detail(level);
     const Sheets sheets = sheets_of(params, guests, detail, job);
+    const std::uint64_t whole = triangles_of(all, sheets);
     Organs fewer(job);
-    if (level > 0) fewer = levels->keep(all, detail.organs(), job);
+    if (level > 0) fewer = levels->keep(all, organs_at(detail, *levels, whole, before), job);
     const Organs& own = level > 0 ? fewer : all;
     MeshGroup group{level_name(node.name, level), {}};
     const FoliageOptions options = options_of(sheets, {own, foliated.size, foliated.bones}, params);
@@ -267,6 +287,8 @@ void add_merged(Model& model, const Foliated& foliated, const LsystemParams& par
       const int material = sheets.material(part.surface, part.color, wardrobe);
       group.primitives.push_back({std::move(part.mesh), material, {}});
     }
+    before = 0;
+    for (const Primitive& part : group.primitives) before += part.mesh.elements();
     if (group.primitives.empty()) continue;
     const int mesh = static_cast<int>(model.meshes.size());
     model.meshes.push_back(std::move(group));

@@ -6,14 +6,20 @@
 namespace seedmesh::tree {
 namespace {
 
-// A limb sprouts when this share of what is left to its parent has passed, from the foot of the parent to its
+// In the animation a limb sprouts when this share of what is left to its parent has passed, from the foot of the parent to its
 // tip; chance takes as much to either side.
 constexpr float first_share = 0.03F, last_share = 0.5F, spread_share = 0.06F;
 constexpr float latest = 0.8F;
+// Of a tree of some age, limbs sprouted over this share of what was left to their parent: by chance, the
+// ones near its foot and the thick ones, which are the older ones, sooner. On the trunk more than a quarter of
+// them were there after a tenth of that time.
+constexpr float young_share = 0.45F, by_place = 0.1F, by_thickness = 0.75F;
 // Limbs below this share of their size are not there yet.
 constexpr float smallest = 2e-3F;
 // A leaf is unfolded when its twig has so much of its size.
 constexpr float unfolded = 0.35F;
+// Leaves have their size on a tree of this share of its age; a younger one has smaller leaves.
+constexpr float of_full_leaves = 0.4F;
 // The seedling has this share of the tree's height.
 constexpr float seedling = 0.01F;
 
@@ -43,11 +49,41 @@ Array<float> places(const Limbs& limbs, Job& job) {
   return place;
 }
 
-/// The size of what sprouts at `birth`.
-float size_at(float birth, float share) {
+/// How much of its size the trunk has.
+float trunk_size(float share) { return std::max(seedling, 1 - (1 - share) * (1 - share)); }
+
+/// How much of its size an unfolded leaf has: the 3/4th power of the tree's height.
+float leaf_size(float share) {
+  const float height = std::min(1.0F, trunk_size(share) / trunk_size(of_full_leaves));
+  return std::sqrt(height) * std::sqrt(std::sqrt(height));
+}
+
+/// How much of its size a limb has beside the one that it grows on: by the share of its parent's time that it has lived,
+/// so that a young tree is a small tree of few limbs.
+float limb_size(float birth, float share) {
   if (share <= birth) return 0;
-  const float left = 1 - (share - birth) / (1 - birth);
+  const float left = 1 - (share - birth) / (share * (1 - birth));
   return 1 - left * left;
+}
+
+/// When the internode of each joint of a tree that has an age sprouted, 0..1.
+Array<float> sprouting_of(const Limbs& limbs, Job& job) {
+  Array<float> birth(job, limbs.size(), 0.0F);
+  const Array<float> place = places(limbs, job);
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    if (i % 4096 == 0) job.check();
+    const std::uint32_t parent = limbs.parent[i];
+    if (parent == Limbs::none) continue;
+    birth[i] = birth[parent];
+    if (!limbs.starts_limb[i]) continue;
+    const float around = std::max(limbs.radius[parent], limbs.base_radius[i]);
+    const float thickness = around > 0 ? limbs.base_radius[i] / around : 1.0F;
+    float drawn = fraction(key_at(limbs.key[i], 0xA6E));
+    if (limbs.order[i] <= 1) drawn *= drawn;
+    const float chance = by_place * place[parent] + (1 - by_place) * drawn;
+    birth[i] += (1 - birth[parent]) * young_share * chance * (1 - by_thickness * thickness);
+  }
+  return birth;
 }
 
 template <class T>
@@ -81,7 +117,7 @@ void make_young(Skeleton& skeleton, double share, Job& job) {
   if (share >= 1) return;
   Limbs& limbs = skeleton.limbs;
   const std::size_t size = limbs.size();
-  const Array<float> birth = births_of(limbs, job);
+  const Array<float> birth = sprouting_of(limbs, job);
   const auto time = static_cast<float>(share);
   Array<float> own(job, size, 1.0F), scale(job, size, 1.0F);
   Array<glm::vec3> position(job, size);
@@ -90,7 +126,7 @@ void make_young(Skeleton& skeleton, double share, Job& job) {
   for (std::size_t i = 0; i < size; ++i) {
     if (i % 4096 == 0) job.check();
     const std::uint32_t parent = limbs.parent[i];
-    own[i] = std::max(size_at(birth[i], time), birth[i] == 0 ? seedling : 0.0F);
+    own[i] = birth[i] == 0 ? trunk_size(time) : limb_size(birth[i], time);
     scale[i] = parent == Limbs::none       ? own[i]
                : birth[i] == birth[parent] ? scale[parent]
                                            : std::min(own[i], 1.0F) * scale[parent];
@@ -100,6 +136,7 @@ void make_young(Skeleton& skeleton, double share, Job& job) {
                       ? limbs.position[i]
                       : position[parent] + (limbs.position[i] - limbs.position[parent]) * scale[i];
   }
+  const float largest = leaf_size(time);
   Array<Organ>& organs = skeleton.organs.organ;
   std::size_t kept = 0;
   for (const Organ& organ : organs) {
@@ -109,7 +146,7 @@ void make_young(Skeleton& skeleton, double share, Job& job) {
     if (!(open > 0)) continue;
     Organ young = organ;
     young.position = position[joint] + (organ.position - limbs.position[joint]) * scale[joint];
-    young.scale *= open;
+    young.scale *= open * largest;
     young.limb_joint = new_place[joint];
     organs[kept++] = young;
   }

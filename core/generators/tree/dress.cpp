@@ -81,6 +81,7 @@ Mesh coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, GraftOptions 
   CoarseOptions coarse = wanted;
   const float most = thickest(limbs);
   options.pointed = coarse.pointed;
+  options.every_bend = true;
   Mesh mesh;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     const CoarseLimbs kept = coarsen(limbs, coarse, job);
@@ -122,7 +123,9 @@ bool is_modest(const Skeleton& skeleton, std::uint64_t triangles_a_leaf, const J
 Made make_both(const Skeleton& skeleton, const TreeParams& params, const Motion& motion, const Leaves& leaves,
                Job& job) {
   Made made;
-  if (!has_threads(job) || job.demand().share_organs || leaves.organs.organ.empty()) return made;
+  const bool has_levels = job.demand().lods > 1;  // which ask the finest where it draws the joints
+  if (!has_threads(job) || has_levels || job.demand().share_organs || leaves.organs.organ.empty())
+    return made;
   if (!is_modest(skeleton, leaf_of(params, 0, job).elements(), job)) return made;
   LeafPlacing placing(leaves, leaves.organs, 0, job);
   run_both(
@@ -137,12 +140,17 @@ Made make_both(const Skeleton& skeleton, const TreeParams& params, const Motion&
 }
 
 void add_bark(Model& model, const Limbs& limbs, const TreeParams& params, const Motion& motion,
-              const TreeLevels& levels, std::optional<Mesh> finest_mesh, Job& job) {
+              TreeLevels& levels, std::optional<Mesh> finest_mesh, Job& job) {
   Node node;
   node.name = "bark";
   node.parent = 0;
   const int material = add_bark_look(model, params, job);
-  const GraftOptions finest = graft_options(params, Detail(0));
+  GraftOptions finest = graft_options(params, Detail(0));
+  Array<glm::vec3> drawn(job);  // where the finest level draws the joints
+  if (job.demand().lods > 1) {
+    drawn.append(limbs.position.span());
+    finest.drawn = &drawn;
+  }
   std::uint64_t triangles = 0, before = 0;  // of the finest level, and of the one before
   for (int level = 0; level < job.demand().lods; ++level) {
     const Detail detail(level);
@@ -159,10 +167,12 @@ void add_bark(Model& model, const Limbs& limbs, const TreeParams& params, const 
       coarse.finest_sides = finest.sides;
       coarse.pointed = true;
       coarse.shown = levels.shown.span();
+      coarse.drawn = drawn.span();
       coarse.bones = motion.bones();
       mesh = coarser_bark(limbs, coarse, options, motion, job);
     }
     before = mesh.elements();
+    levels.bark.push_back(before);
     if (mesh.position.empty()) continue;
     const int number = static_cast<int>(model.meshes.size());
     model.meshes.push_back({level == 0 ? "bark" : "bark_LOD" + std::to_string(level), {}});

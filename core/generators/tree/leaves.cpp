@@ -12,8 +12,6 @@
 namespace seedmesh::tree {
 namespace {
 
-constexpr int coarsest = 4;
-
 LeafBuild leaf_build(TreeBuild build) {
   switch (build) {
     case TreeBuild::cross:
@@ -73,6 +71,7 @@ void add_merged(Model& model, const Leaves& leaves, TreeLevels& levels,
   Node node;
   node.name = "leaves";
   node.parent = 0;
+  std::uint64_t before = 0;  // triangles of the whole tree at the level before
   for (int level = 0; level < job.demand().lods; ++level) {
     MeshGroup group{level_name("leaves", level), {}};
     std::vector<Foliage> parts;
@@ -80,13 +79,20 @@ void add_merged(Model& model, const Leaves& leaves, TreeLevels& levels,
       parts = *std::move(finest);
     } else {
       Organs fewer(job);
-      if (level > 0) fewer = levels.foliage->keep(leaves.organs, Detail(level).organs(), job);
+      if (level > 0) {
+        const std::size_t triangles = leaf_of(leaves.params, level, job).elements();
+        const double share = levels.leaves_at(Detail(level), leaves.organs.organ.size(), triangles, before);
+        fewer = levels.foliage->keep(leaves.organs, share, job);
+      }
       LeafPlacing placing(leaves, level > 0 ? fewer : leaves.organs, level, job);
       placing.write();
       parts = placing.take();
     }
-    for (Foliage& part : parts)
+    before = levels.bark.empty() ? 0 : levels.bark[static_cast<std::size_t>(level)];
+    for (Foliage& part : parts) {
+      before += part.mesh.elements();
       group.primitives.push_back({std::move(part.mesh), look.material, look.variants});
+    }
     if (!group.primitives.empty()) put_on(model, node, std::move(group));
   }
   if (node.mesh >= 0) model.nodes.push_back(std::move(node));
@@ -120,7 +126,8 @@ Mesh leaf_of(const TreeParams& params, int level, const Job& job) {
   form.build = leaf_build(build_of(params));
   form.fold = math::radians(leaf.fold);
   form.droop = math::radians(leaf.droop);
-  form.coarseness = std::min(coarsest, leaf.coarseness + level);
+  form.coarseness = leaf.coarseness;
+  form.level = level;
   const bool is_twig = form.build == LeafBuild::twig || form.build == LeafBuild::bunch;
   form.twig_leaves = texture::leaf_picture(texture::leaf_kind(form.shape, is_twig)).count;
   Mesh mesh = leaf_mesh(form, job);

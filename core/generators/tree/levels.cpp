@@ -1,5 +1,6 @@
 #include "core/generators/tree/levels.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/generators/tree/leaves.h"
@@ -30,6 +31,17 @@ TreeLevels::TreeLevels(const Skeleton& skeleton, const TreeParams& params, Job& 
     free += area * static_cast<double>(shown[i]);
   }
   seen = all > 0 ? free / all : 1;
+}
+
+double TreeLevels::leaves_at(const Detail& detail, std::uint64_t leaves, std::uint64_t each,
+                             std::uint64_t before) const {
+  const double least = detail.organs(), wanted = std::max(least, foliage->share_for(detail.loss()));
+  const auto level = static_cast<std::size_t>(detail.level());
+  const std::uint64_t other = level < bark.size() ? bark[level] : 0, most = Detail::fewer_than(before);
+  const double room =
+      most > other ? static_cast<double>(most - other) / static_cast<double>(std::max<std::uint64_t>(each * leaves, 1))
+                   : 0;
+  return std::min(wanted, std::max(least, room));
 }
 
 }  // namespace seedmesh::tree

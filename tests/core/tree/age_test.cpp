@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
 #include "tests/core/tree/support.h"
@@ -93,6 +94,27 @@ TEST(Age, AddsLimbsAndHeightAsYearsGoBy) {
       limbs = tree.limbs().size();
       height = height_of(tree.limbs());
     }
+  }
+}
+
+TEST(Age, IsASmallTreeOfFewLimbsInItsFirstYears) {
+  const Aged whole(TreeParams{}, 1);
+  std::size_t limbs = 0;
+  for (const double share : {0.05, 0.1, 0.15}) {
+    const Aged young(TreeParams{}, share);
+    std::size_t branches = 0, spread = 0;
+    const float height = height_of(young.limbs());
+    for (std::size_t i = 0; i < young.limbs().size(); ++i) {
+      branches += young.limbs().starts_limb[i] ? 1U : 0U;
+      const glm::vec3& p = young.limbs().position[i];
+      spread += std::hypot(p.x, p.z) > 0.1F * height ? 1U : 0U;
+    }
+    EXPECT_GT(branches, 10U) << share;
+    EXPECT_GT(branches, limbs) << share;
+    EXPECT_GT(spread, 10U) << "limbs reach out at " << share;
+    EXPECT_GT(young.leaves(), 0U) << share;
+    EXPECT_LT(2 * young.leaves(), whole.leaves()) << share;
+    limbs = branches;
   }
 }
 
