@@ -1,6 +1,7 @@
 #include "server/problem.h"
 
 #include <algorithm>
+#include <charconv>
 #include <nlohmann/json.hpp>
 
 namespace seedmesh {
@@ -19,9 +20,26 @@ std::string joined_messages(const Error& error) {
   return all;
 }
 
+/// A list that would be too long ends with a line without a place that counts the rest, "and 899 more
+/// faults": the number in it; 0 where the list is whole.
+std::uint64_t unlisted(const std::vector<Issue>& issues) {
+  constexpr std::string_view before = "and ", after = " more faults";
+  const std::string_view text = issues.back().message;
+  const bool counts = issues.back().pointer.empty() && text.starts_with(before) && text.ends_with(after) &&
+                      text.size() > before.size() + after.size();
+  std::uint64_t count = 0;
+  if (counts) std::from_chars(text.data() + before.size(), text.data() + text.size(), count);
+  return count;
+}
+
 std::string summary(const Error& error) {
-  if (error.issues.size() == 1) return error.issues.front().message;
-  return std::to_string(error.issues.size()) + " faults were found; errors lists them all.";
+  const std::size_t listed = error.issues.size();
+  if (listed == 1) return error.issues.front().message;
+  if (const std::uint64_t rest = unlisted(error.issues); rest > 0) {
+    return std::to_string(listed - 1 + rest) + " faults were found; errors lists the first " +
+           std::to_string(listed - 1) + ".";
+  }
+  return std::to_string(listed) + " faults were found; errors lists them all.";
 }
 
 }  // namespace

@@ -11,34 +11,39 @@ namespace {
 /// Whether a closed service (access.h) asks for a key or a signature.
 enum class Guard { open, closed };
 
+/// What becomes of a query: refused, read by the route itself, or overlooked, for what asks a probe or a page
+/// is not for us to choose.
+enum class Query { refused, read, overlooked };
+
 struct Route {
   std::string_view method;   ///< GET rows answer HEAD too
   std::string_view pattern;  ///< ends with "/{...}" where a last segment is free
   http::Response (*answer)(Call&);
   Guard guard = Guard::open;
+  Query query = Query::refused;
 };
 
 constexpr Route table[] = {
     {"POST", "/v1/generate", post_generate, Guard::closed},
-    {"GET", "/v1/models/{token}", get_model, Guard::closed},
+    {"GET", "/v1/models/{token}", get_model, Guard::closed, Query::read},
     {"GET", "/v1/presets", get_presets},
-    {"GET", "/v1/presets/{name}", get_preset, Guard::closed},
+    {"GET", "/v1/presets/{name}", get_preset, Guard::closed, Query::read},
     {"POST", "/v1/validate", post_validate, Guard::closed},
     {"POST", "/v1/derive", post_derive, Guard::closed},
-    {"POST", "/v1/import", post_import, Guard::closed},
+    {"POST", "/v1/import", post_import, Guard::closed, Query::read},
     {"GET", "/v1/schemas/{name}", get_schema},
     {"GET", "/v1/vocabulary", get_vocabulary},
     {"GET", "/openapi.json", get_openapi},
-    {"GET", "/docs", get_docs},
-    {"GET", "/healthz", get_healthz},
-    {"GET", "/readyz", get_readyz},
-    {"GET", "/metrics", get_metrics},
+    {"GET", "/docs", get_docs, Guard::open, Query::overlooked},
+    {"GET", "/healthz", get_healthz, Guard::open, Query::overlooked},
+    {"GET", "/readyz", get_readyz, Guard::open, Query::overlooked},
+    {"GET", "/metrics", get_metrics, Guard::open, Query::overlooked},
     {"GET", "/version", get_version},
 };
 /// Reading a larger body takes long enough to count as work.
 constexpr std::size_t quickly_read = 256 * 1'024;
 
-constexpr Route asset_route = {"GET", "/", get_asset};
+constexpr Route asset_route = {"GET", "/", get_asset, Guard::open, Query::overlooked};
 
 /// The free segment where `path` fits the pattern.
 std::optional<std::string> fit(std::string_view pattern, std::string_view path) {
@@ -61,11 +66,34 @@ bool allows(const Route& row, std::string_view method) {
   return row.method == method || (row.method == "GET" && method == "HEAD");
 }
 
+/// An option that nobody reads is refused like an unknown field of a body.
+std::optional<http::Response> refuse_query(const Route& row, const Call& call) {
+  if (row.query != Query::refused || call.query().empty()) return std::nullopt;
+  const std::optional<Overrides> query = read_query(call.query());
+  if (!query)
+    return refuse(call, problem_of({Code::malformed, {{"", "The query has a malformed percent escape."}}}));
+  constexpr std::size_t most_told = 20, longest = 40;
+  std::vector<Issue> issues;
+  for (const auto& [key, value] : *query) {
+    if (issues.size() == most_told) break;
+    std::string pointer = "/";
+    for (const char c : key.substr(0, longest)) pointer += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+    issues.push_back({std::move(pointer), std::string(row.pattern) + " takes no query."});
+  }
+  if (issues.empty()) return std::nullopt;  // `?` or `?&` alone
+  return refuse(call, problem_of({Code::invalid, std::move(issues)}));
+}
+
+http::Response answer(const Route& row, Call& call) {
+  if (auto refusal = refuse_query(row, call)) return std::move(*refusal);
+  return row.answer(call);
+}
+
 http::Response admit_and_answer(const Route& row, Call& call) {
   auto admitted = call.service.access.admit(call.request);
   if (const auto* denial = std::get_if<Denial>(&admitted)) return deny(call, *denial);
   call.grant = std::get<Grant>(std::move(admitted));
-  http::Response response = row.answer(call);
+  http::Response response = answer(row, call);
   if (call.grant.by == Grant::By::key) {
     response.log_fields.emplace_back("key", call.grant.key);
     call.service.metrics.used(call.grant.key);
@@ -74,7 +102,7 @@ http::Response admit_and_answer(const Route& row, Call& call) {
 }
 
 http::Response run(const Route& row, Call& call) {
-  http::Response response = row.guard == Guard::closed ? admit_and_answer(row, call) : row.answer(call);
+  http::Response response = row.guard == Guard::closed ? admit_and_answer(row, call) : answer(row, call);
   response.route = row.pattern;
   return response;
 }

@@ -113,6 +113,29 @@ std::string varies(const Call& call, const char* fields) {
   return call.service.access.closed() ? std::string(fields) + ", Authorization, X-Api-Key" : fields;
 }
 
+/// A preset has no body: what an override asked for is told of at the override.
+void point_at_overrides(const Overrides& overrides, std::vector<Issue>& issues) {
+  for (Issue& issue : issues) {
+    for (const auto& [key, value] : overrides) {
+      std::string place = "/" + key;
+      std::replace(place.begin(), place.end(), '.', '/');
+      if (key != "seed" && !key.starts_with("output.")) place.insert(0, "/parameters");
+      const bool is_inside = issue.pointer.starts_with(place) &&
+                             (issue.pointer.size() == place.size() || issue.pointer[place.size()] == '/');
+      if (!is_inside) continue;
+      issue.pointer = "/" + key;
+      break;
+    }
+  }
+}
+
+Problem pointed(const Call& call, Problem problem) {
+  if (call.request.method == "POST") return problem;
+  if (const std::optional<Overrides> overrides = read_query(call.query()))
+    point_at_overrides(*overrides, problem.errors);
+  return problem;
+}
+
 http::Response model_answer(Call& call, const Known& known, Kept kept) {
   const auto coding = choose_coding(call.request.header("Accept-Encoding"));
   if (!coding) return refuse(call, not_acceptable());
@@ -129,7 +152,8 @@ http::Response model_answer(Call& call, const Known& known, Kept kept) {
   }
 
   Cache::Answer answer = model_of(call, known, {});
-  if (const auto* refused = std::get_if<Problem>(&answer.outcome)) return refuse(call, *refused);
+  if (const auto* refused = std::get_if<Problem>(&answer.outcome))
+    return refuse(call, pointed(call, *refused));
   const Cache::Entry entry = std::get<Cache::Entry>(answer.outcome);
   std::shared_ptr<const Payload> payload = entry->payload;
   Coding used = Coding::identity;
@@ -252,7 +276,7 @@ http::Response get_preset(Call& call) {
     return json_answer(call, overrides->empty() ? *preset_json(name) : (*read)->canonical());
   }
   Result<Request> formed = in_form(**read, extension);
-  if (!formed) return refuse(call, problem_of(formed.error()));
+  if (!formed) return refuse(call, pointed(call, problem_of(formed.error())));
   Known wanted = known(std::move(*formed));
   wanted.token = token_of(wanted.request);
   call.service.targets.keep(target, wanted);

@@ -59,6 +59,9 @@ class Names {
   const Defined* find_function(std::string_view name) const;
   /// The bound name most like `name` for a hint, or empty. Looks at the latest 256 bindings.
   std::string_view nearest(std::string_view name) const;
+  /// Asked before each hint: false when there were most_hints. A hint costs more than many a text.
+  bool may_hint() const { return hints_ < most_hints && ++hints_ > 0; }
+  static constexpr std::uint32_t most_hints = 20;
 
  private:
   void bind(Binding binding);
@@ -67,6 +70,7 @@ class Names {
   std::map<std::string, std::vector<std::uint32_t>, std::less<>>
       places_;  ///< of each name in bindings_, the latest last
   std::map<std::string, Defined, std::less<>> functions_;
+  mutable std::uint32_t hints_ = 0;
 };
 
 /// Reads `name ( parameter, ... ) = body` and returns the name; the body is only cut into tokens. Faults: at
@@ -139,6 +143,9 @@ class Program {
   /// An expression with more operations than this (after folding) is a fault: it bounds the time of one
   /// evaluation.
   static constexpr std::uint32_t max_operations = 1'000;
+  /// Functions of the user's that are written out may come to so many tokens in one program; more are a
+  /// fault: a long function that is called in every line would else be read as often.
+  static constexpr std::uint64_t max_written_out = 4'000'000;
   /// The greatest depth that max_depth may ask for; more counts as this.
   static constexpr std::uint32_t greatest_depth = 256;
 
@@ -183,6 +190,7 @@ class Program {
 
   std::vector<Instruction> code_;
   std::vector<double> numbers_;
+  std::uint64_t written_out_ = 0;  ///< tokens of functions so far
 };
 
 /// One operation of the kinds that need no code; defined here so that the common case costs no call.

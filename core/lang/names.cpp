@@ -52,6 +52,7 @@ const Names::Defined* Names::find_function(std::string_view name) const {
 }
 
 std::string_view Names::nearest(std::string_view name) const {
+  if (!may_hint()) return {};
   constexpr std::size_t looked_at = 256;  // a hint is not worth a search through a hostile list
   const std::size_t first = bindings_.size() > looked_at ? bindings_.size() - looked_at : 0;
   std::string_view best;

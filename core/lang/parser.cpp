@@ -58,7 +58,8 @@ std::span<const Function> rows_of(std::string_view name) {
   return all.subspan(first, count);
 }
 
-std::string_view nearest_function(std::string_view name) {
+std::string_view nearest_function(const Names& names, std::string_view name) {
+  if (!names.may_hint()) return {};
   std::string_view best;
   std::uint32_t least = hint_distance(name) + 1;
   for (const Function& row : functions()) {
@@ -102,7 +103,7 @@ std::string unknown_function(const Names& names, std::string_view name) {
   if (names.find(name) != nullptr) {
     return in_quotes(name) + " is a value and no function: write `*` between it and the bracket";
   }
-  return "unknown function " + in_quotes(name) + did_you_mean(nearest_function(name));
+  return "unknown function " + in_quotes(name) + did_you_mean(nearest_function(names, name));
 }
 
 }  // namespace
@@ -110,7 +111,7 @@ std::string unknown_function(const Names& names, std::string_view name) {
 class Program::Parser {
  public:
   Parser(Program& program, Reader& reader, const Names& names)
-      : emitter_(program), reader_(&reader), names_(names) {}
+      : program_(program), emitter_(program), reader_(&reader), names_(names) {}
 
   Expression parse() {
     const Operand result = climb(Rank::either);
@@ -306,6 +307,12 @@ class Program::Parser {
       reader_->give_up(called, "more than " + std::to_string(max_operations) + " calls written out");
       return constant(0);
     }
+    program_.written_out_ += own.body.size();
+    if (program_.written_out_ > max_written_out) {
+      reader_->give_up(called, "the functions come to more than " + std::to_string(max_written_out) +
+                                   " words and signs where they are written out");
+      return constant(0);
+    }
     if (!reader_->enter()) return constant(0);
     const bool deep_enough = reader_->enter();
     if (!deep_enough) return constant(0);
@@ -369,6 +376,7 @@ class Program::Parser {
     return is_whole ? std::optional(count) : std::nullopt;
   }
 
+  Program& program_;
   Emitter emitter_;
   Reader* reader_;
   const Names& names_;

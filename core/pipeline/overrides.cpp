@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/pipeline/body.h"
+#include "core/schema/nearest.h"
 #include "core/schema/presets.h"
 
 namespace seedmesh {
@@ -56,6 +57,22 @@ std::optional<Target> target_of(std::string_view key, std::string_view generator
   if (!map || !map->contains("additionalProperties") || !map->at("additionalProperties").is_object())
     return std::nullopt;
   return Target{{"parameters", group, name}, &map->at("additionalProperties")};
+}
+
+/// What a key means that nothing takes: said of the output where it begins so, with the likeliest key.
+std::string unknown_key(std::string_view key, std::string_view generator) {
+  std::vector<std::string> keys = {"seed"};
+  const Json& output = *property(parsed_schemas().at("request"), "output");
+  for (const auto& [name, schema] : output.at("properties").items()) keys.push_back("output." + name);
+  for (const auto& [name, schema] : parsed_schemas().at(generator).at("properties").items())
+    keys.push_back(name);
+  const std::vector<std::string_view> words(keys.begin(), keys.end());
+  const std::string_view nearest = schema::nearest_word(key, words);
+  const std::string found = "\"" + shortened(key, 40) + "\"";
+  const std::string hint =
+      nearest.empty() || nearest == key ? "" : "; did you mean \"" + std::string(nearest) + "\"?";
+  if (key.starts_with("output.")) return found + " is no option of the output" + hint;
+  return found + " is neither seed, nor output.…, nor a parameter of " + std::string(generator) + hint;
 }
 
 bool takes(const Json& schema, const Json& value) {
@@ -122,9 +139,7 @@ std::optional<Result<Request>> read_preset(std::string_view name, const Override
       place(request, *target, value_of(*target->schema, value));
       places.emplace_back(target->pointer(), key);
     } else {
-      faults.add(
-          {pointer_token(key),
-           "\"" + shortened(key, 40) + "\" is neither seed, nor output.…, nor a parameter of " + generator});
+      faults.add({pointer_token(key), unknown_key(key, generator)});
     }
   }
   Result<Request> result = read_request_body(request, limits);

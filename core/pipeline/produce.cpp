@@ -69,6 +69,15 @@ Result<T> guarded(Work&& work) {
   }
 }
 
+/// Of a long list the first, and one last line that counts the others.
+void shorten(std::vector<Warning>& warnings) {
+  constexpr std::size_t most = 100;
+  if (warnings.size() <= most + 1) return;  // the last may be such a line already
+  const std::size_t rest = warnings.size() - most;
+  warnings.resize(most);
+  warnings.push_back({"", "and " + std::to_string(rest) + " more warnings", 0, 0});
+}
+
 Json described(const std::vector<Warning>& warnings) {
   Json list = Json::array();
   for (const Warning& warning : warnings) {
@@ -91,6 +100,7 @@ void sign(Model& model, const Request& request) {
   model.extras.push_back({"engine", Json(engine_version()).dump()});
   model.extras.push_back({"generator", Json(request.generator()).dump()});
   model.extras.push_back({"seed", seed_json(request.seed()).dump()});
+  shorten(model.warnings);
   for (Warning& warning : model.warnings) warning.pointer = in_request(std::move(warning.pointer));
 }
 
@@ -315,6 +325,7 @@ Result<std::string> validate(const Request& request, Job& job) {
       appraisal = generator.appraise(request.body().params, job);
     }
     if (!appraisal) return in_request(std::move(appraisal).error());
+    shorten(appraisal->warnings);
     Json answer = {{"valid", true}, {"warnings", described(appraisal->warnings)}, {"estimate", nullptr}};
     if (std::optional<Estimate>& estimate = appraisal->estimate) {
       const auto variants = static_cast<std::uint64_t>(output.variants);

@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <bit>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "core/generators/child.h"
 #include "core/pipeline/body.h"
 #include "core/pipeline/profiles.h"
 #include "core/schema/nearest.h"
+#include "core/schema/parse_body.h"
 #include "core/schema/presets.h"
 #include "generated/params/request.h"
 
@@ -162,6 +164,15 @@ void check_own_form(const Generator& generator, const Generator::Params& params,
   }
 }
 
+/// What else is wrong with a body; not that there is null where a number is told of already.
+void add_others(const std::vector<Issue>& others, std::vector<Issue>& issues) {
+  std::set<std::string, std::less<>> told;
+  for (const Issue& issue : issues) told.insert(issue.pointer);
+  for (const Issue& issue : others) {
+    if (!issue.message.starts_with("found null") || !told.contains(issue.pointer)) issues.push_back(issue);
+  }
+}
+
 }  // namespace
 
 std::string_view Request::generator() const { return body_->generator->name; }
@@ -208,9 +219,13 @@ Result<Request> read_request_body(const Json& json, const Limits& limits) {
 }
 
 Result<Request> read_request(std::string_view json, const Limits& limits) {
-  Result<Json> body = parse_json(json);
+  std::vector<Issue> issues;
+  Result<Json> body = parse_body(json, issues);
   if (!body) return std::move(body).error();
-  return read_request_body(*body, limits);
+  Result<Request> request = read_request_body(*body, limits);
+  if (issues.empty()) return request;
+  if (!request) add_others(request.error().issues, issues);
+  return Error{Code::invalid, std::move(issues)};
 }
 
 Result<Request> with_format(const Request& request, std::string_view format) {

@@ -1,15 +1,29 @@
+#include "core/schema/parse_body.h"
+
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <utility>
-#include <vector>
-
-#include "core/schema/json.h"
 
 namespace seedmesh {
 namespace {
 
 constexpr int number_out_of_range = 406;  ///< nlohmann's id of "number overflow"
+constexpr std::size_t most_too_large = 100;
+
+/// A number beyond a double in whose place a null stands: which of all nulls, and the number as written.
+struct TooLarge {
+  std::size_t null = 0;
+  std::string written;
+};
+
+std::string too_large_text(std::string_view number) {
+  return "found " + shortened(number, 40) + ", which is too large for a number";
+}
 
 /// Builds the value from the parser's events. Every event answers whether to go on; a fault stops the parser
 /// and stays in `error`.
@@ -18,9 +32,23 @@ class Builder {
   Builder(std::string_view text, const JsonLimits& limits) : text_(text), limits_(limits) {}
 
   std::optional<Error> error;
+  bool is_too_large = false;  ///< the error is a number beyond a double
   Json root;
 
-  bool null() { return add(nullptr); }
+  /// Nulls that stand for numbers, in the order of the text, and where their faults go.
+  void expect(std::span<const TooLarge> numbers, std::vector<Issue>& issues) {
+    numbers_ = numbers;
+    issues_ = &issues;
+  }
+
+  bool null() {
+    if (!numbers_.empty() && numbers_.front().null == nulls_) {
+      issues_->push_back({pointer(), too_large_text(numbers_.front().written)});
+      numbers_ = numbers_.subspan(1);
+    }
+    ++nulls_;
+    return add(nullptr);
+  }
   bool boolean(bool value) { return add(value); }
   bool number_integer(std::int64_t value) { return add(value); }
   bool number_unsigned(std::uint64_t value) { return add(value); }
@@ -44,8 +72,8 @@ class Builder {
 
   bool parse_error(std::size_t position, const std::string& token, const Json::exception& fault) {
     if (fault.id == number_out_of_range) {
-      return refuse(Code::invalid,
-                    {pointer(), "found " + shortened(token, 40) + ", which is too large for a number"});
+      is_too_large = true;
+      return refuse(Code::invalid, {pointer(), too_large_text(token)});
     }
     // `position` counts the characters read, the offending one included.
     const std::size_t offset = std::min(position == 0 ? 0 : position - 1, text_.size());
@@ -128,11 +156,47 @@ class Builder {
       keys_;         ///< for each open container the key it stands at in its parent, if that is an object
   std::string key_;  ///< of the value that comes next
   std::size_t values_ = 0;
+  std::size_t nulls_ = 0;
+  std::span<const TooLarge> numbers_;
+  std::vector<Issue>* issues_ = nullptr;
 };
 
-}  // namespace
+bool is_of_number(char c) {
+  return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.' || c == 'e' || c == 'E';
+}
 
-Result<Json> parse_json(std::string_view text, const JsonLimits& limits) {
+bool is_beyond_double(const std::string& number) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+  return error == std::errc::result_out_of_range && std::isinf(std::strtod(number.c_str(), nullptr));
+}
+
+/// Puts null in the place of the numbers beyond a double. The text is JSON at least up to the first of them.
+std::vector<TooLarge> blank_too_large(std::string& text) {
+  constexpr std::string_view null = "null";
+  std::vector<TooLarge> found;
+  std::size_t nulls = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') {
+      for (++i; i < text.size() && text[i] != '"'; ++i) i += text[i] == '\\' ? 1 : 0;
+    } else if (text[i] == 'n') {
+      ++nulls;
+      i += null.size() - 1;
+    } else if (text[i] == '-' || (text[i] >= '0' && text[i] <= '9')) {
+      std::size_t end = i;
+      while (end < text.size() && is_of_number(text[end])) ++end;
+      std::string number = text.substr(i, end - i);
+      if (number.size() > null.size() && found.size() < most_too_large && is_beyond_double(number)) {
+        text.replace(i, number.size(), std::string(null) + std::string(number.size() - null.size(), ' '));
+        found.push_back({nulls++, std::move(number)});
+      }
+      i = end - 1;
+    }
+  }
+  return found;
+}
+
+Result<Json> parse_with(Builder& builder, std::string_view text) {
   constexpr std::string_view blank = " \t\r\n";
   if (text.find_first_not_of(blank) == std::string_view::npos) {
     return Error{Code::malformed, {{"", "the body is empty, expected a JSON object"}}};
@@ -140,9 +204,26 @@ Result<Json> parse_json(std::string_view text, const JsonLimits& limits) {
   if (const std::size_t bad = find_bad_utf8(text); bad != std::string_view::npos) {
     return Error{Code::malformed, {issue_at("", text, bad, "this is not UTF-8")}};
   }
-  Builder builder(text, limits);
   if (!Json::sax_parse(text.begin(), text.end(), &builder)) return *std::move(builder.error);
   return std::move(builder.root);
+}
+
+}  // namespace
+
+Result<Json> parse_json(std::string_view text, const JsonLimits& limits) {
+  Builder builder(text, limits);
+  return parse_with(builder, text);
+}
+
+Result<Json> parse_body(std::string_view text, std::vector<Issue>& too_large) {
+  Builder strict(text, {});
+  Result<Json> read = parse_with(strict, text);
+  if (!strict.is_too_large) return read;
+  std::string blanked(text);
+  const std::vector<TooLarge> numbers = blank_too_large(blanked);
+  Builder builder(blanked, {});
+  builder.expect(numbers, too_large);
+  return parse_with(builder, blanked);
 }
 
 }  // namespace seedmesh

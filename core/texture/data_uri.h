@@ -9,7 +9,8 @@
 
 namespace seedmesh::texture {
 
-/// Cheap: does it begin as the data URI of a PNG or JPEG file? Empty where it does, else what is wrong.
+/// Is it the data URI of a PNG or JPEG file that is there from its first to its last byte? Empty where it is,
+/// else what is wrong. The pixels are not looked at. Cost: that of reading base64, about 2 ns a byte.
 std::string fault_of_image_uri(std::string_view text);
 
 /// The file, byte for byte. A PNG file is read through (png.h), so that none that is damaged or larger than

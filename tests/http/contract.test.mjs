@@ -374,7 +374,24 @@ test('the extension of a preset goes with what its query asks of the output', as
   const zip = await server.get('/v1/presets/house.zip?output.lods=2');
   assert.equal(zip.status, 200, zip.text?.slice(0, 300));
   assert.equal(zip.type, 'application/zip');
-  is_problem(await server.get('/v1/presets/house.glb?output.lods=2'), 422, 'invalid-request');
+  const lods = await server.get('/v1/presets/house.glb?output.lods=2');
+  is_problem(lods, 422, 'invalid-request');
+  assert.equal(lods.json.errors[0].pointer, '/output.lods');
+  const budget = await server.get('/v1/presets/house.glb?output.max_triangles=1');
+  is_problem(budget, 422, 'limit-exceeded');
+  assert.equal(budget.json.errors[0].pointer, '/output.max_triangles');
+});
+
+test('a query that nobody reads is refused, where a route has one and where it has none', async () => {
+  for (const route of ['/v1/generate?foo=3', '/v1/validate?foo=3', '/v1/derive?foo=3']) {
+    const answer = await server.post(route, plant);
+    is_problem(answer, 422, 'invalid-request');
+    assert.equal(answer.json.errors[0].pointer, '/foo');
+  }
+  for (const route of ['/v1/presets?foo=3', '/v1/presets/koch_island?foo=3', '/v1/schemas/lsystem?foo=3', '/v1/vocabulary?foo=3', '/openapi.json?foo=3'])
+    is_problem(await server.get(route), 422, 'invalid-request');
+  is_problem(await server.get('/v1/vocabulary?%zz'), 400, 'malformed-request');
+  for (const route of ['/healthz?probe=1', '/metrics?x=1', '/?preset=fern', '/v1/vocabulary?']) assert.equal((await server.get(route)).status, 200, route);
 });
 
 // --- validate, derive ----------------------------------------------------------------------------------------------

@@ -23,6 +23,16 @@ TEST(Problem, ListsEveryFaultWithItsPlace) {
   EXPECT_EQ(json["errors"][1]["column"], 3);
 }
 
+TEST(Problem, CountsTheFaultsThatItDoesNotList) {
+  std::vector<Issue> issues(100, {"/seed", "Bad."});
+  EXPECT_EQ(json_of({Code::invalid, issues})["detail"], "100 faults were found; errors lists them all.");
+  issues.push_back({"", "and 9899 more faults"});
+  EXPECT_EQ(json_of({Code::invalid, issues})["detail"],
+            "9999 faults were found; errors lists the first 100.");
+  issues.back().pointer = "/seed";
+  EXPECT_EQ(json_of({Code::invalid, issues})["detail"], "101 faults were found; errors lists them all.");
+}
+
 TEST(Problem, HasTheStatusOfTheContract) {
   const auto status = [](Code code) { return problem_of({code, {{"", "m"}}}).status; };
   EXPECT_EQ(status(Code::malformed), 400);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/generators/building/blueprints/blueprints.h"
 #include "core/generators/building/ground.h"
@@ -9,6 +10,7 @@
 #include "core/generators/building/looks.h"
 #include "core/generators/building/shapes.h"
 #include "core/gltf/read.h"
+#include "core/lang/text_places.h"
 #include "generated/params/building.h"
 
 namespace seedmesh::building {
@@ -67,17 +69,19 @@ void warn_of_materials(Grammar& grammar, const BuildingParams& params, std::stri
   constexpr std::uint32_t one_letter = 2;  // as lang::name_distance counts
   std::vector<std::string_view> known = built_in_materials();
   for (const auto& entry : params.materials) known.emplace_back(entry.first);
-  std::vector<std::string_view> told;
+  constexpr std::size_t most_looked_at = 1'000;  // names; a hint is worth no more
+  std::set<std::string_view> told;
   for (const Step& step : grammar.steps) {
+    if (told.size() == most_looked_at) break;
     if (step.op != Op::material || step.argument_count == 0) continue;
     const Value& value = grammar.arguments[step.first_argument].value;
     const std::string* const name =
         value.expression.is_constant ? grammar.texts.of(value.expression.value) : nullptr;
-    if (name == nullptr || name->size() < 3 || std::ranges::find(known, *name) != known.end()) continue;
+    if (name == nullptr || name->size() < 3 || !told.insert(*name).second) continue;
+    if (std::ranges::find(known, *name) != known.end()) continue;
     const auto like = std::ranges::find_if(
         known, [&](std::string_view each) { return lang::name_distance(*name, each) <= one_letter; });
-    if (like == known.end() || std::ranges::find(told, *name) != told.end()) continue;
-    told.emplace_back(*name);
+    if (like == known.end()) continue;
     const TextPlace place = place_of(rules, step.offset);
     grammar.warnings.push_back({"/rules",
                                 "there is no material " + lang::in_quotes(*name) +
@@ -93,8 +97,10 @@ Grammar read(const BuildingParams& params, std::vector<Issue>& issues) {
     issues.push_back({"/blueprint", "found rules and a blueprint, expected one of them"});
   const std::string_view rules = rules_of(params);
   Grammar grammar = read_rules(rules, params.start.value_or(""), faults);
-  for (const lang::Fault& fault : faults)
-    issues.push_back(issue_at("/rules", rules, fault.offset, fault.message));
+  if (!faults.empty()) {
+    std::vector<lang::Fault> told = faults;
+    lang::add_issues("/rules", rules, told, issues);
+  }
   if (faults.empty() && params.restrict != BuildingRestrict::none) {
     for (const lang::Fault& fault : faults_of_kind(grammar, params.restrict == BuildingRestrict::unimarker)) {
       if (params.rules) {
@@ -129,10 +135,10 @@ Grammar read(const BuildingParams& params, std::vector<Issue>& issues) {
     }
   }
   for (const auto& [name, given] : params.attributes) {
+    if (!faults.empty()) break;
     const auto found = std::ranges::find(grammar.attributes, name, &Attribute::name);
     const Attribute* const attribute = found == grammar.attributes.end() ? nullptr : &*found;
-    if (faults.empty())
-      check_attribute(attribute, name, number_of(grammar.texts, given), grammar.texts, issues);
+    check_attribute(attribute, name, number_of(grammar.texts, given), grammar.texts, issues);
   }
   return grammar;
 }

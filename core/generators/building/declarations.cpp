@@ -10,6 +10,7 @@ using lang::Token;
 using lang::TokenKind;
 
 constexpr std::size_t most_attributes = 1'000;
+constexpr std::size_t most_parameters = 32;
 
 bool is_declaring(std::string_view word) { return word == "attr" || word == "const"; }
 
@@ -23,7 +24,12 @@ std::size_t Parser::survey_definition(std::size_t i, bool is_constant, bool is_a
   if (tokens_.is(body, "(")) {
     const std::size_t close = tokens_.partner(body);
     for (std::size_t k = body + 1; k < close; ++k) {
-      if (tokens_.at(k).kind == TokenKind::name) function.parameters.push_back(tokens_.at(k).text);
+      if (tokens_.at(k).kind != TokenKind::name) continue;
+      if (function.parameters.size() == most_parameters) {
+        fault(tokens_.at(k), "more than 32 parameters");
+        break;
+      }
+      function.parameters.push_back(tokens_.at(k).text);
     }
     body = close + 1;
     is_constant = is_attribute = false;

@@ -1,8 +1,10 @@
 /// What can be told of rules when all of them are read: weights, calls, symbols without a rule, no end.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/generators/building/parser.h"
+#include "core/lang/text_places.h"
 
 namespace seedmesh::building {
 namespace {
@@ -36,17 +38,17 @@ std::uint32_t least_parameters(const Grammar& grammar, std::uint32_t symbol) {
 
 /// A rule behind one that always holds.
 void Parser::check_reach(const Symbol& symbol) {
-  for (std::size_t i = 0; i < symbol.rules.size(); ++i) {
-    const Rule& rule = grammar_.rules[symbol.rules[i]];
-    const auto hides = [&](std::uint32_t before) {
-      return grammar_.rules[before].parameter_count == rule.parameter_count &&
-             always_holds(grammar_, grammar_.rules[before]);
-    };
-    const auto* const end = symbol.rules.data() + i;
-    const auto* const found = std::find_if(symbol.rules.data(), end, hides);
-    if (found == end) continue;
+  std::map<std::uint32_t, std::uint32_t> first_sure;  // by number of parameters: a rule
+  for (const std::uint32_t index : symbol.rules) {
+    const Rule& rule = grammar_.rules[index];
+    const auto found = first_sure.find(rule.parameter_count);
+    if (found == first_sure.end()) {
+      if (always_holds(grammar_, rule)) first_sure.emplace(rule.parameter_count, index);
+      continue;
+    }
+    if (grammar_.warnings.size() >= lang::max_faults) return;
     warn(rule.offset, "this rule of `" + symbol.name + "` is never used: the one in line " +
-                          std::to_string(tokens_.line_of(grammar_.rules[*found].offset)) +
+                          std::to_string(tokens_.line_of(grammar_.rules[found->second].offset)) +
                           " before it always holds");
   }
 }
@@ -161,8 +163,9 @@ Grammar read_rules(std::string_view text, std::string_view start, std::vector<la
   Parser(text, grammar, faults).parse(start);
   std::ranges::stable_sort(faults, {}, &lang::Fault::offset);
   // A place in a text is worked out once for all warnings.
+  lang::TextPlaces places(text);
   for (Warning& warning : grammar.warnings) {
-    const TextPlace place = place_of(text, static_cast<std::size_t>(warning.line));
+    const TextPlace place = places.of(static_cast<std::size_t>(warning.line));
     warning.line = place.line;
     warning.column = place.column;
   }

@@ -18,6 +18,7 @@ std::string_view mistyped_operation(std::string_view name) {
   std::string_view best;
   std::uint32_t least = one_letter + 1;
   for (const OperationRow& row : operations()) {
+    if (std::max(name.size(), row.name.size()) - std::min(name.size(), row.name.size()) > 1) continue;
     const std::uint32_t distance = lang::name_distance(name, row.name);
     const bool is_short = name.size() < 3 || row.name.size() < 3;
     if (distance >= least || (is_short && distance > other_case)) continue;
@@ -104,8 +105,7 @@ bool Parser::ends_successor() const {
       is_here(")") || tokens_.is_arrow(at_))
     return true;
   if (token.kind == TokenKind::name && (token.text == "case" || token.text == "else")) return true;
-  const std::size_t behind = tokens_.behind_expression(at_);
-  if (token.kind != TokenKind::name && tokens_.is(behind, "%")) return true;
+  if (token.kind != TokenKind::name && tokens_.is(tokens_.behind_expression(at_), "%")) return true;
   return begins_statement(at_);
 }
 

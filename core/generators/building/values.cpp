@@ -11,6 +11,7 @@ using lang::Token;
 using lang::TokenKind;
 
 constexpr std::size_t most_tokens = 20'000;  ///< of one expression, functions written out
+constexpr std::size_t most_written = 4'000'000;  ///< of all expressions together
 constexpr int deepest_call = 32;
 
 /// The end of name.name... in a list of tokens.
@@ -47,6 +48,7 @@ Token Parser::made(TokenKind kind, std::string_view text, const Token& place) {
 std::uint32_t Parser::query_named(Query::Kind kind, std::string target) {
   for (std::uint32_t i = 0; i < grammar_.queries.size(); ++i) {
     if (grammar_.queries[i].kind == kind && grammar_.queries[i].target == target) return i;
+    if (i > most_queries) return i;  // too many already, which finish() tells
   }
   const auto index = static_cast<std::uint32_t>(grammar_.queries.size());
   grammar_.queries.push_back({kind, std::move(target), 0});
@@ -114,16 +116,20 @@ Value Parser::value_of(std::size_t from, std::size_t to) {
 
 void Parser::write(Writing& writing, std::size_t from, std::size_t to, const Replacements& replacements) {
   std::vector<Token> tokens;
+  to = std::min(to, from + most_tokens + 1);  // more are refused
   for (std::size_t i = from; i < to; ++i) tokens.push_back(tokens_.at(i));
   write_tokens(writing, tokens, replacements);
 }
 
 void Parser::write_tokens(Writing& writing, std::span<const Token> tokens, const Replacements& replacements) {
   if (tokens.empty() || writing.is_broken) return;
-  if (writing.out.size() > most_tokens || writing.depth > deepest_call) {
+  written_ += tokens.size();
+  const bool is_long = writing.out.size() > most_tokens || tokens.size() > most_tokens;
+  if (is_long || writing.depth > deepest_call || written_ > most_written) {
     fault(tokens[0], writing.depth > deepest_call
                          ? "functions call each other more than 32 deep"
-                         : "the expression is too long when its functions are written out");
+                         : is_long ? "the expression is too long when its functions are written out"
+                                   : "the rules are too long when all their functions are written out");
     writing.is_broken = true;
     return;
   }
@@ -146,6 +152,8 @@ void Parser::write_tokens(Writing& writing, std::span<const Token> tokens, const
     const auto replaced =
         std::ranges::find(replacements, token.text, [](const auto& each) { return each.first; });
     if (replaced != replacements.end()) {
+      written_ += replaced->second.size();
+      if (writing.out.size() > most_tokens) return write_tokens(writing, tokens.subspan(i), replacements);
       writing.out.insert(writing.out.end(), replaced->second.begin(), replaced->second.end());
       ++i;
       continue;

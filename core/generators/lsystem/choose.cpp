@@ -77,21 +77,41 @@ void fill_framed_arguments(const Grammar& grammar, const Template& made, const d
   }
 }
 
+namespace {
+
+/// The text whose templates `holds` is true of.
+template <class Holds>
+std::string text_with(const Grammar& grammar, Holds&& holds) {
+  if (holds(grammar.axiom)) return "/axiom";
+  const auto look = [&](const Rules& rules) -> const Production* {
+    const auto found = std::find_if(rules.productions.begin(), rules.productions.end(),
+                                    [&](const Production& each) { return holds(each.successor); });
+    return found == rules.productions.end() ? nullptr : &*found;
+  };
+  const Production* found = look(grammar.productions);
+  if (!found) found = look(grammar.interpretation);
+  if (!found) found = look(grammar.decomposition);
+  for (const Rules& table : grammar.tables) {
+    if (!found) found = look(table);
+  }
+  return found ? found->pointer : "";
+}
+
+}  // namespace
+
+std::string writer_of(const Grammar& grammar, KindId kind) {
+  return text_with(grammar, [&](Range range) {
+    const std::span<const Template> written = grammar.successor(range);
+    return std::any_of(written.begin(), written.end(),
+                       [&](const Template& each) { return each.kind == kind; });
+  });
+}
+
 void refuse_argument(const Grammar& grammar, const Template& made, std::uint32_t index, double value) {
   const auto number = static_cast<std::uint32_t>(&made - grammar.templates.data());
-  const auto within = [&](Range range) {
+  const std::string pointer = text_with(grammar, [&](Range range) {
     return number >= range.first && number < range.first + range.count;
-  };
-  std::string pointer = "/axiom";
-  const auto look = [&](const Rules& rules) {
-    for (const Production& each : rules.productions) {
-      if (within(each.successor)) pointer = each.pointer;
-    }
-  };
-  look(grammar.productions);
-  look(grammar.interpretation);
-  look(grammar.decomposition);
-  for (const Rules& table : grammar.tables) look(table);
+  });
   Job::reject({pointer, "parameter " + std::to_string(index + 1) + " of `" + grammar.kinds[made.kind].symbol +
                             "` became " + (value != value ? "undefined (0/0 or the like)" : "infinite") +
                             "; expected a finite number"});

@@ -71,6 +71,9 @@ const Production* choose(const Grammar& grammar, const Rules& rules, Range range
   return last;  // rounding can let the dart fly past the last edge
 }
 
+/// The text that writes modules of this kind: the axiom, or the first production that does; "" where none.
+std::string writer_of(const Grammar& grammar, KindId kind);
+
 /// Throws Stop (Code::invalid) with the place of the argument.
 [[noreturn]] void refuse_argument(const Grammar& grammar, const Template& made, std::uint32_t index,
                                   double value);

@@ -16,16 +16,26 @@
 namespace seedmesh::lsystem {
 namespace {
 
-constexpr int deepest = 64;  // statements inside each other
+constexpr int deepest = 64;                 // statements inside each other
+constexpr std::size_t longest_name = 64;     // of a local
+constexpr std::size_t most_locals = 1'000;  // of one production, with those of blocks that are over
 
 bool is_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
+/// Of a name that is too long for a local one the end of what is too long.
 std::size_t end_of_name(std::string_view text, std::size_t at, std::size_t to) {
   if (at < to && text[at] >= '0' && text[at] <= '9') return at;
+  to = std::min(to, at + longest_name + 1);
   while (at < to && is_name(text[at])) ++at;
   return at;
+}
+
+std::size_t end_of_whole_name(std::string_view text, std::size_t at, std::size_t to) {
+  std::size_t end = end_of_name(text, at, to);
+  while (end > at && end < to && is_name(text[end])) ++end;
+  return end;
 }
 
 /// `word` and the parenthesis behind it stand at `at`: the place of the parenthesis, or `to`.
@@ -33,10 +43,6 @@ std::size_t open_after(std::string_view text, std::string_view word, std::size_t
   if (text.substr(at, std::min(word.size(), to - at)) != word) return to;
   const std::size_t open = skip_spaces(text, at + word.size(), to);
   return open < to && text[open] == '(' ? open : to;
-}
-
-bool contains(std::string_view text, Slice slice, const char* any) {
-  return text.substr(slice.from, slice.to - slice.from).find_first_of(any) != std::string_view::npos;
 }
 
 }  // namespace
@@ -48,6 +54,7 @@ class Compiler::CodeReader {
       : compiler_(compiler),
         source_(source),
         text_(source.text),
+        marks_(source.marks_of_text()),
         steps_(compiler.grammar_.steps),
         slots_(slots),
         allowed_(allowed) {}
@@ -55,7 +62,7 @@ class Compiler::CodeReader {
   /// The items of a block; brackets pair inside it.
   void items(Slice slice) {
     const std::size_t names = compiler_.names_.size();
-    const std::vector<Local> outer = locals_;
+    const std::size_t outer = locals_.size();
     std::vector<std::size_t> open;
     std::size_t at = skip_spaces(text_, slice.from, slice.to);
     while (at < slice.to && sound()) {
@@ -66,7 +73,7 @@ class Compiler::CodeReader {
     }
     if (!open.empty()) fault(open.back(), "found `[` without its `]` in the same block");
     compiler_.names_.forget_after(names);
-    locals_ = outer;
+    forget_locals_after(outer);
   }
 
   /// Where a statement at `at` ends; `at` where there is none.
@@ -88,40 +95,50 @@ class Compiler::CodeReader {
   }
 
  private:
-  struct Local {
-    std::string name;
-    std::uint32_t slot;
-  };
   enum class Ends { semicolon, here };
   enum class Binds { yes, no };
 
   bool sound() const { return source_.faults.size() < lang::max_faults && !stopped_; }
   void fault(std::size_t at, std::string message) { source_.faults.push_back({at, std::move(message)}); }
 
-  const Local* local(std::string_view name) const {
-    const auto at =
-        std::find_if(locals_.rbegin(), locals_.rend(), [&](const Local& each) { return each.name == name; });
-    return at == locals_.rend() ? nullptr : &*at;
+  /// The slot of a local; null: there is none of this name.
+  const std::uint32_t* local(std::string_view name) const {
+    const auto at = slots_of_.find(name);
+    return at == slots_of_.end() ? nullptr : &at->second.back();
+  }
+
+  void bind_local(const std::string& name, std::uint32_t slot) {
+    slots_of_[name].push_back(slot);
+    locals_.push_back(name);
+    compiler_.names_.bind_slot(name, slot);
+  }
+
+  void forget_locals_after(std::size_t count) {
+    for (; locals_.size() > count; locals_.pop_back()) {
+      const auto at = slots_of_.find(locals_.back());
+      at->second.pop_back();
+      if (at->second.empty()) slots_of_.erase(at);
+    }
   }
 
   std::size_t loop_at(std::size_t at, std::size_t to) const {
     const std::size_t open = open_after(text_, "for", at, to);
-    return open < to && contains(text_, {open, closing(text_, open, to)}, ";") ? open : to;
+    return open < to && marks_.has_semicolon({open, marks_.closing(open, to)}) ? open : to;
   }
 
   std::size_t condition_at(std::size_t at, std::size_t to) const {
     const std::size_t open = open_after(text_, "if", at, to);
     if (open == to) return to;
-    const std::size_t close = closing(text_, open, to);
+    const std::size_t close = marks_.closing(open, to);
     const std::size_t next = skip_spaces(text_, std::min(close + 1, to), to);
     const bool braces = next < to && text_[next] == '{';
-    return braces || contains(text_, {open, close}, "<>=!&|") ? open : to;
+    return braces || marks_.has_comparison({open, close}) ? open : to;
   }
 
   bool is_let(std::size_t at, std::size_t to) const {
     if (text_.substr(at, std::min<std::size_t>(3, to - at)) != "let" || at + 3 >= to) return false;
     const std::size_t name = skip_spaces(text_, at + 3, to);
-    const std::size_t end = end_of_name(text_, name, to);
+    const std::size_t end = end_of_whole_name(text_, name, to);
     const std::size_t equals = skip_spaces(text_, end, to);
     return name > at + 3 && end > name && equals < to && text_[equals] == '=';
   }
@@ -137,7 +154,7 @@ class Compiler::CodeReader {
 
   /// name change [";"]; gives the end.
   std::size_t change(std::size_t at, std::size_t to, Ends ends, Binds binds) {
-    const std::size_t name_end = end_of_name(text_, at, to);
+    const std::size_t name_end = end_of_whole_name(text_, at, to);
     const std::string name(text_.substr(at, name_end - at));
     const std::size_t sign = skip_spaces(text_, name_end, to);
     if (name.empty() || !changes(sign, to)) {
@@ -196,18 +213,24 @@ class Compiler::CodeReader {
 
   /// Writes the step that gives `name` a value; a name that is no local yet becomes one where it may.
   void set(const std::string& name, const lang::Expression& value, bool binds, std::size_t at) {
-    const Local* known = local(name);
+    const std::uint32_t* known = local(name);
     const lang::Names::Binding* bound = compiler_.names_.find(name);
     const bool alone = allowed_ == Allowed::statements_alone;
-    std::uint32_t slot = known ? known->slot : 0;
+    std::uint32_t slot = known ? *known : 0;
     if (!known && alone && bound && !bound->is_constant) {
       slot = bound->slot;  // a parameter: its copy is changed
     } else if (!known && !binds) {
       fault(at, "`" + name + "` has no value yet");
     } else if (binds && (!known || !alone)) {
+      if (name.size() > longest_name || bound_ == most_locals) {
+        fault(at, name.size() > longest_name ? "found a local of more than 64 characters"
+                                             : "found more than 1,000 locals in one production");
+        stopped_ = true;
+        return;
+      }
+      ++bound_;
       slot = slots_++;
-      locals_.push_back({name, slot});
-      compiler_.names_.bind_slot(name, slot);
+      bind_local(name, slot);
     }
     steps_.push_back({Step::Does::set, {}, value, slot, 0});
   }
@@ -229,7 +252,7 @@ class Compiler::CodeReader {
   }
 
   std::size_t for_loop(std::size_t open, std::size_t to) {
-    const std::size_t close = closing(text_, open, to);
+    const std::size_t close = marks_.closing(open, to);
     const std::size_t first = find_semicolon(open + 1, close);
     const std::size_t second = first < close ? find_semicolon(first + 1, close) : close;
     if (close == to || second == close || find_semicolon(second + 1, close) < close) {
@@ -238,7 +261,7 @@ class Compiler::CodeReader {
       return to;
     }
     const std::size_t names = compiler_.names_.size();
-    const std::vector<Local> outer = locals_;
+    const std::size_t outer = locals_.size();
     const std::size_t start = skip_spaces(text_, open + 1, first);
     if (start < first) change(start, first, Ends::here, Binds::yes);
     add(Step::Does::enter_loop);
@@ -250,12 +273,12 @@ class Compiler::CodeReader {
     if (next < close) change(next, close, Ends::here, Binds::no);
     end_loop(again, leave);
     compiler_.names_.forget_after(names);
-    locals_ = outer;
+    forget_locals_after(outer);
     return end;
   }
 
   std::size_t while_loop(std::size_t open, std::size_t to) {
-    const std::size_t close = closing(text_, open, to);
+    const std::size_t close = marks_.closing(open, to);
     add(Step::Does::enter_loop);
     const std::uint32_t again = here();
     const std::uint32_t leave = add(Step::Does::jump_unless, condition(open, close, to));
@@ -271,7 +294,7 @@ class Compiler::CodeReader {
   }
 
   std::size_t choice(std::size_t open, std::size_t to) {
-    const std::size_t close = closing(text_, open, to);
+    const std::size_t close = marks_.closing(open, to);
     const std::uint32_t otherwise = add(Step::Does::jump_unless, condition(open, close, to));
     std::size_t end = body(std::min(close + 1, to), to);
     const std::size_t next = skip_spaces(text_, end, to);
@@ -307,7 +330,7 @@ class Compiler::CodeReader {
   }
 
   std::size_t block(std::size_t open, std::size_t to) {
-    const std::size_t close = closing(text_, open, to);
+    const std::size_t close = marks_.closing(open, to);
     if (close == to) fault(open, "found `{` without its `}`; inside a block braces pair");
     items({open + 1, close});
     return std::min(close + 1, to);
@@ -318,7 +341,7 @@ class Compiler::CodeReader {
     if (end != at) return end;
     std::size_t module_end = module_at(at, to);
     if (text_[at] == '[') {  // a branch counts as one
-      module_end = std::min(closing(text_, at, to) + 1, to);
+      module_end = std::min(marks_.closing(at, to) + 1, to);
     }
     items({at, module_end});
     return module_end;
@@ -329,7 +352,7 @@ class Compiler::CodeReader {
     const std::size_t length = std::max<std::size_t>(compiler_.symbols_.length_at(text_, at, to), 1);
     const std::size_t end = at + length;
     if (end >= to || text_[end] != '(') return end;
-    return std::min(closing(text_, end, to) + 1, to);
+    return std::min(marks_.closing(end, to) + 1, to);
   }
 
   /// Modules up to the next statement, as one step; gives their end.
@@ -337,7 +360,7 @@ class Compiler::CodeReader {
     const std::size_t from = at;
     while (at < to && (at == from || !begins_statement(at, to))) {
       if (text_[at] == '[') open.push_back(at);
-      if (text_[at] == ']' && open.empty()) fault(at, "found `]` without a `[` before it in the same block");
+      if (text_[at] == ']' && open.empty() && sound()) fault(at, "found `]` without a `[` before it in the same block");
       if (text_[at] == ']' && !open.empty()) open.pop_back();
       at = skip_spaces(text_, module_at(at, to), to);
     }
@@ -354,27 +377,34 @@ class Compiler::CodeReader {
     if (loop_at(at, to) < to || open_after(text_, "while", at, to) < to) return true;
     if (condition_at(at, to) < to || is_let(at, to)) return true;
     const std::size_t end = end_of_name(text_, at, to);
-    return end > at && local(text_.substr(at, end - at)) && changes(skip_spaces(text_, end, to), to);
+    return end > at && changes(skip_spaces(text_, end, to), to) && local(text_.substr(at, end - at));
   }
 
   Compiler& compiler_;
   Source& source_;
   std::string_view text_;
+  const Marks& marks_;
   std::vector<Step>& steps_;
   std::uint32_t& slots_;
   Allowed allowed_;
-  std::vector<Local> locals_;
+  std::vector<std::string> locals_;                                          ///< in the order in which they came
+  std::map<std::string, std::vector<std::uint32_t>, std::less<>> slots_of_;  ///< of each, the innermost last
+  std::size_t bound_ = 0;
   int depth_ = 0;
   bool stopped_ = false;
 };
 
-bool Compiler::has_statements(std::string_view text, Slice slice) const {
+bool Compiler::has_statements(Source& source, Slice slice) const {
+  const std::string_view text = source.text;
   for (std::size_t at = slice.from; at < slice.to; ++at) {
     const char c = text[at];
     if (c != 'f' && c != 'w' && c != 'i' && c != 'l') continue;
     if (at > slice.from && text[at - 1] == '@') continue;
     const std::size_t open = open_after(text, "for", at, slice.to);
-    if (open < slice.to && contains(text, {open, closing(text, open, slice.to)}, ";")) return true;
+    if (open < slice.to) {
+      const Marks& marks = source.marks_of_text();
+      if (marks.has_semicolon({open, marks.closing(open, slice.to)})) return true;
+    }
     if (open_after(text, "while", at, slice.to) < slice.to) return true;
     if (text.substr(at, std::min<std::size_t>(4, slice.to - at)) == "let ") return true;
     if (open_after(text, "if", at, slice.to) < slice.to) return true;

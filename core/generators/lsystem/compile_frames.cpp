@@ -22,6 +22,7 @@ constexpr std::array<MoveRow, 5> moves = {{{"translate", Move::translate, 3, 3},
                                            {"rotate_z", Move::rotate_z, 1, 1},
                                            {"scale", Move::scale, 1, 3}}};
 constexpr std::size_t most_parts = 100;
+constexpr std::size_t longest_frame = 10'000;  // bytes; every level of it is looked through
 
 /// The slices between the commas of text[open + 1, close).
 std::vector<Slice> parts_between(std::string_view text, std::size_t open, std::size_t close) {
@@ -47,7 +48,11 @@ lang::Expression Compiler::frame(Source& source, Slice slice) {
   const auto fault = [&](std::size_t at, std::string message) {
     source.faults.push_back({at, std::move(message)});
   };
-  for (;;) {
+  for (std::size_t level = 0;; ++level) {
+    if (level > 2 * most_parts || slice.to - slice.from > longest_frame) {
+      fault(slice.from, "found a frame of more than 200 moves inside each other, or of 10,000 characters");
+      break;
+    }
     const std::size_t at = skip_spaces(text, slice.from, slice.to);
     std::size_t end = at;
     while (end < slice.to && text[end] != '(' && text[end] != ' ' && text[end] != ',') ++end;
@@ -63,7 +68,7 @@ lang::Expression Compiler::frame(Source& source, Slice slice) {
       }
       break;
     }
-    const std::size_t close = text[open] == '(' ? closing(text, open, slice.to) : slice.to;
+    const std::size_t close = text[open] == '(' ? source.marks_of_text().closing(open, slice.to) : slice.to;
     if (close == slice.to || skip_spaces(text, close + 1, slice.to) < slice.to) {
       fault(open, "expected a frame, as in translate(f, 0, 1, 0)");
       break;

@@ -5,6 +5,8 @@
 namespace seedmesh::lsystem {
 namespace {
 
+constexpr std::size_t longest_module_name = 64;
+
 /// Words that begin a statement cannot name a module.
 bool is_keyword(std::string_view name) {
   return name == "for" || name == "while" || name == "if" || name == "else" || name == "let";
@@ -18,7 +20,7 @@ void Compiler::declare_modules() {
     if (row.parameters == "(frame)") signatures_.emplace(row.symbol, std::vector<std::uint8_t>{1});
   }
   for (std::size_t i = 0; i < params_.modules.size(); ++i) {
-    Source source{params_.modules[i], "/modules/" + std::to_string(i), {}};
+    Source source(params_.modules[i], "/modules/" + std::to_string(i));
     const std::vector<lang::Token> tokens = lang::tokenize(source.text, 0, source.text.size(), source.faults);
     const auto fault = [&](std::size_t at, const char* expected) {
       source.faults.push_back({tokens[at].offset, "expected " + std::string(expected) + ", found " +
@@ -27,6 +29,8 @@ void Compiler::declare_modules() {
     std::size_t at = 0;
     if (tokens[0].kind != lang::TokenKind::name) {
       fault(0, "the name of a module");
+    } else if (tokens[0].text.size() > longest_module_name) {
+      source.faults.push_back({tokens[0].offset, "found a name of more than 64 characters"});
     } else if (is_keyword(tokens[0].text)) {
       source.faults.push_back({tokens[0].offset, lang::in_quotes(tokens[0]) + " begins a statement"});
     } else {
@@ -58,7 +62,7 @@ void Compiler::define_functions() {
   std::vector<Source> sources;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < params_.functions.size(); ++i) {
-    sources.push_back({params_.functions[i], "/functions/" + std::to_string(i), {}});
+    sources.emplace_back(params_.functions[i], "/functions/" + std::to_string(i));
     lang::Names::Defined function;
     names.push_back(lang::read_definition(sources[i].text, function, sources[i].faults));
     function.is_sound = sources[i].faults.empty();
@@ -68,13 +72,13 @@ void Compiler::define_functions() {
       names_.define(names[i], std::move(function));
     }
   }
+  lang::Program tried;  // one for all, so that what they write out is counted together
   for (std::size_t i = 0; i < sources.size(); ++i) {  // all are known now, so that each can be tried
     const lang::Names::Defined* function = names_.find_function(names[i]);
     if (sources[i].faults.empty() && function != nullptr) {
       std::uint32_t slot = 0;
       for (const std::string& parameter : function->parameters) names_.bind_slot(parameter, slot++);
       std::size_t at = 0;
-      lang::Program tried;
       tried.parse(function->body, at, names_, sources[i].faults, limits_.expression_depth);
       if (sources[i].faults.empty() && function->body[at].kind != lang::TokenKind::end) {
         sources[i].faults.push_back(
@@ -89,7 +93,7 @@ void Compiler::define_functions() {
 
 std::set<std::string, std::less<>> Compiler::symbols_of(const std::string& text, const char* pointer) {
   std::set<std::string, std::less<>> symbols;
-  Source source{text, pointer, {}};
+  Source source(text, pointer);
   for (const WrittenModule& module :
        read_modules(source.text, {0, source.text.size()}, symbols_, source.faults)) {
     symbols.insert(std::string(module.symbol));
@@ -113,6 +117,7 @@ void Compiler::read_alphabet() {
 }
 
 void Compiler::check_symbol(const WrittenModule& module, Source& source) const {
+  if (!lang::has_room(source.faults)) return;
   if (!params_.alphabet || variables_.count(module.symbol) || alphabet_constants_.count(module.symbol))
     return;
   source.faults.push_back(

@@ -34,14 +34,18 @@ lang::Expression Compiler::expression(Source& source, Slice slice) {
 Range Compiler::word(Source& source, Slice slice) {
   Range range{static_cast<std::uint32_t>(grammar_.templates.size()), 0};
   if (erases(source.text, slice)) return range;
+  check_word(source, slice);
+  std::size_t count = 0;
   for (const WrittenModule& module : read_modules(source.text, slice, symbols_, source.faults)) {
+    if (!lang::has_room(source.faults)) break;
+    if (job_ && (++count & 4095U) == 0) job_->check();
     check_symbol(module, source);
     check_surface(module, source);
     if (grammar_.templates.size() == most_modules) {
       source.faults.push_back({module.offset, "found more than 1,000,000 modules in one grammar"});
       break;
     }
-    if (module.arguments.size() > most_parameters || grammar_.kinds.size() > most_kinds) {
+    if (module.arguments.size() > most_parameters) {
       source.faults.push_back({module.offset, "found too many parameters; expected at most 64"});
       continue;
     }
@@ -66,6 +70,7 @@ void Compiler::add_template(Source& source, const WrittenModule& module) {
   std::uint64_t& count = occurrences_.try_emplace(std::string(module.symbol), 0).first->second;
   made.place = key_at(hash_of(module.symbol), count++);
   grammar_.templates.push_back(made);
+  doubt_module(source, module, made);
 }
 
 /// [ and ] must pair inside every word; { and } need not (leaves of the book open them in one branch and
@@ -73,7 +78,7 @@ void Compiler::add_template(Source& source, const WrittenModule& module) {
 void Compiler::check_brackets(Source& source, Slice slice) {
   std::vector<std::size_t> open;
   int depth = 0;
-  for (std::size_t i = slice.from; i < slice.to; ++i) {
+  for (std::size_t i = slice.from; i < slice.to && lang::has_room(source.faults); ++i) {
     const char c = source.text[i];
     if (c == '(') ++depth;
     if (c == ')') --depth;
@@ -115,7 +120,7 @@ Production Compiler::production(Source& source, const WrittenProduction& written
   }
   const auto first_template = static_cast<std::uint32_t>(grammar_.templates.size());
   const Range after = assignments(source, written.after, slots);
-  if (has_statements(source.text, written.successor)) {
+  if (has_statements(source, written.successor)) {
     made.code = code(source, written.successor, slots);
     made.successor = {first_template, static_cast<std::uint32_t>(grammar_.templates.size()) - first_template};
   } else {
@@ -189,6 +194,7 @@ void Compiler::read_weight(Source& source, const WrittenProduction& written, Pro
 std::vector<KindId> Compiler::context(Source& source, Slice slice, std::uint32_t& slots) {
   std::vector<KindId> kinds;
   for (const WrittenModule& module : read_modules(source.text, slice, symbols_, source.faults)) {
+    if (!lang::has_room(source.faults)) break;
     check_symbol(module, source);
     kinds.push_back(formal(source, module, slots));
   }

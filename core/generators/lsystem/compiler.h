@@ -1,13 +1,16 @@
 #pragma once
 /// Texts -> Grammar, for the files of this folder alone: grammar.cpp has the order of things and the symbols,
-/// compile_rules.cpp productions and words, compile_code.cpp statements, compile_frames.cpp frames.
+/// compile_rules.cpp productions and words, compile_code.cpp statements, compile_frames.cpp frames,
+/// judge_grammar.cpp what can be told when all is read.
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "core/generators/lsystem/grammar.h"
 #include "core/generators/lsystem/notation.h"
+#include "core/lang/text_places.h"
 #include "generated/params/lsystem.h"
 
 namespace seedmesh::lsystem {
@@ -18,14 +21,26 @@ constexpr std::uint32_t frame_numbers = 12;  ///< axes x, y, z and origin, three
 
 /// One text of the request with the faults found in it.
 struct Source {
+  Source() = default;
+  Source(std::string_view of, std::string at) : text(of), pointer(std::move(at)), places(of) {}
   std::string_view text;
   std::string pointer;
   std::vector<lang::Fault> faults;
+  lang::TextPlaces places{{}};
+
+  const Marks& marks_of_text() {
+    if (!marks_) marks_.emplace(text);
+    return *marks_;
+  }
+
+ private:
+  std::optional<Marks> marks_;  ///< made when they are first asked for
 };
 
 class Compiler {
  public:
-  Compiler(const LsystemParams& params, std::uint64_t seed, const Limits& limits, std::vector<Issue>& issues);
+  Compiler(const LsystemParams& params, std::uint64_t seed, const Limits& limits, std::vector<Issue>& issues,
+           const Job* job);
   Grammar compile();
 
  private:
@@ -49,9 +64,13 @@ class Compiler {
   bool draws(const Production& production) const;
   bool draws(Range successor) const;
   bool draws_in(Range steps) const;
-  void warn_of_weights(const Rules& rules);
   template <class Use>
-  void for_all_rules(Use&& use);
+  void for_all_rules(Use&& use) {
+    use(grammar_.productions);
+    use(grammar_.interpretation);
+    use(grammar_.decomposition);
+    for (Rules& table : grammar_.tables) use(table);
+  }
 
   // compile_rules.cpp
   lang::Expression expression(Source& source, Slice slice);
@@ -67,11 +86,26 @@ class Compiler {
   KindId formal(Source& source, const WrittenModule& module, std::uint32_t& slots);
   void bind(Source& source, const lang::Token& name, bool is_frame, std::uint32_t& slots);
 
+  // judge_grammar.cpp
+  /// A module that the turtle takes and can do nothing with, told only where no rule rewrites it.
+  struct Doubt {
+    KindId kind;
+    enum class Is { warning, fault } is;
+    Warning told;
+  };
+  void warn(Source& source, std::size_t offset, std::string message);
+  void warn(Warning warning);
+  void doubt_module(Source& source, const WrittenModule& module, const Template& made);
+  void check_word(Source& source, Slice slice) const;
+  void judge();
+  void warn_of_weights(const Rules& rules);
+  void warn_of_dead(const Rules& rules);
+
   // compile_code.cpp
   class CodeReader;
   friend class CodeReader;
   /// The steps of text[slice]; empty where it has no statements, and is then a word.
-  bool has_statements(std::string_view text, Slice slice) const;
+  bool has_statements(Source& source, Slice slice) const;
   Range code(Source& source, Slice slice, std::uint32_t& slots);
   Range assignments(Source& source, Slice slice, std::uint32_t& slots);
 
@@ -81,6 +115,7 @@ class Compiler {
   const LsystemParams& params_;
   const Limits& limits_;
   std::vector<Issue>& issues_;
+  const Job* job_;  ///< null: there is none
   lang::Names names_;  ///< the constants, and behind them the parameters of the production that is read
   std::size_t constant_count_ = 0;
   std::map<std::string, std::uint32_t, std::less<>> frame_slots_;             ///< parameters that are frames
@@ -89,6 +124,10 @@ class Compiler {
   Symbols symbols_;
   std::map<std::pair<std::string, std::uint32_t>, KindId> ids_;
   std::map<std::string, std::uint64_t, std::less<>> occurrences_;  ///< of each symbol in this successor
+  std::vector<Doubt> doubts_;
+  std::vector<std::uint8_t> doubted_;  ///< by kind: it was looked at
+  std::set<std::string> warned_;       ///< productions that warnings are about
+  std::size_t untold_ = 0;  ///< warnings beyond those that are told
   Grammar grammar_;
 };
 

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+
+#include "core/lang/text_places.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -19,7 +22,10 @@ class Resolver {
  public:
   Resolver(const std::vector<WrittenConstant>& constants, const Rng& rng, std::vector<Issue>& issues)
       : rng_(rng), issues_(issues) {
-    for (const WrittenConstant& constant : constants) entries_.push_back({&constant});
+    for (const WrittenConstant& constant : constants) {
+      by_name_.emplace(constant.name, entries_.size());
+      entries_.push_back({&constant});
+    }
   }
 
   lang::Names resolve() {
@@ -31,9 +37,8 @@ class Resolver {
 
  private:
   Entry* find(std::string_view name) {
-    const auto at = std::find_if(entries_.begin(), entries_.end(),
-                                 [&](const Entry& e) { return e.written->name == name; });
-    return at == entries_.end() ? nullptr : &*at;
+    const auto at = by_name_.find(name);
+    return at == by_name_.end() ? nullptr : &entries_[at->second];
   }
 
   /// Gives `entry` its value, after those that it needs. The depth of the calls is the length of a chain of
@@ -68,6 +73,7 @@ class Resolver {
         return 0;
       }
       settle(*other);
+      if (known.find(token.text)) continue;
       known.bind_constant(other->written->name, other->value);
     }
     lang::Program program;
@@ -76,10 +82,10 @@ class Resolver {
     if (faults.empty() && tokens[at].kind != lang::TokenKind::end) {
       faults.push_back({tokens[at].offset, "found more after the end of the expression"});
     }
-    for (const lang::Fault& fault : faults) {
-      issues_.push_back(issue_at(pointer(entry), text, fault.offset, fault.message));
+    if (!faults.empty()) {
+      lang::add_issues(pointer(entry), text, faults, issues_);
+      return 0;
     }
-    if (!faults.empty()) return 0;
     Rng draws = rng_.at(entry.written->name);
     return program.evaluate(expression, nullptr, draws);
   }
@@ -98,6 +104,7 @@ class Resolver {
   Rng rng_;
   std::vector<Issue>& issues_;
   std::vector<Entry> entries_;
+  std::map<std::string_view, std::size_t> by_name_;
   std::vector<Entry*> path_;
 };
 

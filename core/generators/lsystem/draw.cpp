@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 
 namespace seedmesh::lsystem {
@@ -195,7 +196,35 @@ void Drawing::place(const Kind& kind, const double* parameters, std::uint64_t ke
   if (scale.x > 0 && scale.y > 0 && scale.z > 0) turtle_.place_organ(kind.surface, scale, surface.color, key);
 }
 
+void Drawing::close_polygon(std::uint64_t key) {
+  if (open_polygons_ > 0) {
+    --open_polygons_;
+  } else {
+    ++stray_closings_;
+  }
+  turtle_.close_polygon(key);
+}
+
+/// What the turtle refuses is told with the module and the text that writes such modules.
 void Drawing::obey(const Kind& kind, const double* parameters, std::uint64_t key) {
+  try {
+    follow(kind, parameters, key);
+  } catch (const Stop& stop) {
+    if (stop.code() != Code::invalid || !stop.issue().pointer.empty()) throw;
+    std::string module = kind.symbol;
+    for (std::uint32_t i = 0; i < kind.arity; ++i) {
+      char digits[32];
+      const auto end =
+          std::to_chars(digits, digits + sizeof digits, parameters[i], std::chars_format::general, 6);
+      module += (i == 0 ? "(" : ",") + std::string(digits, end.ptr);
+    }
+    if (kind.arity > 0) module += ")";
+    Job::reject({writer_of(grammar_, static_cast<KindId>(&kind - grammar_.kinds.data())),
+                 "`" + module + "`: " + stop.issue().message});
+  }
+}
+
+void Drawing::follow(const Kind& kind, const double* parameters, std::uint64_t key) {
   const auto index = [&](int change) {
     return kind.arity > 0 ? math::to_int64(parameters[0]) : turtle_.color() + change;
   };
@@ -241,9 +270,10 @@ void Drawing::obey(const Kind& kind, const double* parameters, std::uint64_t key
       if (grown_.share != 1) --grown_.brackets;
       return turtle_.pop();
     case Command::polygon_open:
+      ++open_polygons_;
       return turtle_.open_polygon();
     case Command::polygon_close:
-      return turtle_.close_polygon(key);
+      return close_polygon(key);
     case Command::vertex:
       return turtle_.set_vertex();
     case Command::width_down:

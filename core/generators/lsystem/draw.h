@@ -36,6 +36,9 @@ class Drawing {
   /// Where it starts, before anything is drawn.
   void start_at(const glm::dvec3& position) { turtle_.move_to(position); }
   const Turtle& turtle() const { return turtle_; }
+  /// Braces that have no partner in what was drawn: { that are open still, and } that closed nothing.
+  std::uint64_t open_polygons() const { return open_polygons_; }
+  std::uint64_t stray_closings() const { return stray_closings_; }
   /// Stamps (core/geom/turtle.h) of what is drawn here; `begin_stamp` of a drawing of the stamp's own.
   bool can_stamp() const { return turtle_.can_stamp(); }
   bool matches(const Turtle::Stamp& stamp) const { return turtle_.matches(stamp); }
@@ -54,6 +57,8 @@ class Drawing {
                          std::uint32_t depth);
   void enter_frame(const double* parameters);
   void obey(const Kind& kind, const double* parameters, std::uint64_t key);
+  void follow(const Kind& kind, const double* parameters, std::uint64_t key);
+  void close_polygon(std::uint64_t key);
   math::SinCos turn(const Kind& kind, const double* parameters, const Angle& angle, std::uint64_t key);
   math::SinCos leftward(math::SinCos angle) const;
   double length(const Kind& kind, const double* parameters, std::uint64_t key) const;
@@ -72,6 +77,7 @@ class Drawing {
   double last_degrees_ = 0;  ///< angles given as arguments mostly repeat
   math::SinCos last_{0, 1};
   std::uint64_t interpreted_ = 0;
+  std::uint64_t open_polygons_ = 0, stray_closings_ = 0;
 };
 
 }  // namespace seedmesh::lsystem

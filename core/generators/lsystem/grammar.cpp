@@ -1,7 +1,6 @@
 #include "core/generators/lsystem/grammar.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/generators/lsystem/compiler.h"
 #include "core/generators/lsystem/constants.h"
@@ -9,7 +8,8 @@
 namespace seedmesh::lsystem {
 namespace {
 
-using lang::Fault;
+constexpr std::size_t most_issues = 10'000;      // a request with more is not read to its end
+constexpr std::size_t most_of_tables = 200'000;  // productions; each takes about 400 bytes
 
 std::vector<WrittenConstant> written_constants(const LsystemParams& params) {
   std::vector<WrittenConstant> written;
@@ -49,8 +49,8 @@ void check_between_steps(const LsystemParams& params, const Grammar& grammar, st
 }  // namespace
 
 Compiler::Compiler(const LsystemParams& params, std::uint64_t seed, const Limits& limits,
-                   std::vector<Issue>& issues)
-    : params_(params), limits_(limits), issues_(issues) {
+                   std::vector<Issue>& issues, const Job* job)
+    : params_(params), limits_(limits), issues_(issues), job_(job) {
   for (const auto& [name, surface] : params_.surfaces) symbols_.declare("~" + name);
   names_ = resolve_constants(written_constants(params), Rng::of_seed(seed).at("constants"), issues_);
   constant_count_ = names_.size();
@@ -81,21 +81,19 @@ Grammar Compiler::compile() {
     grammar_.productions.context |= table.context;
   }
   grammar_.productions.chance |= grammar_.decomposition.chance || draws(grammar_.axiom);
+  judge();
   return std::move(grammar_);
-}
-
-template <class Use>
-void Compiler::for_all_rules(Use&& use) {
-  use(grammar_.productions);
-  use(grammar_.interpretation);
-  use(grammar_.decomposition);
-  for (Rules& table : grammar_.tables) use(table);
 }
 
 /// Kinds with a signature that is not kept are told at `offset`.
 KindId Compiler::kind(std::string_view symbol, std::uint32_t written, Source& source, std::size_t offset) {
   const auto known = ids_.find({std::string(symbol), written});
   if (known != ids_.end()) return known->second;
+  if (grammar_.kinds.size() == most_kinds) {
+    source.faults.push_back({offset, "found more than " + std::to_string(most_kinds) +
+                                         " symbols, with those of other numbers of parameters"});
+    return grammar_.open;
+  }
   Kind made;
   made.symbol = symbol;
   made.arity = written;
@@ -139,26 +137,22 @@ std::uint32_t Compiler::surface_of(std::string_view symbol) const {
 void Compiler::check_surface(const WrittenModule& module, Source& source) {
   if (module.symbol != "~") return;
   if (params_.surfaces.empty()) {
-    const TextPlace place = place_of(source.text, module.offset);
-    grammar_.warnings.push_back(
-        {source.pointer, "found `~` and no `surfaces`: it draws nothing", place.line, place.column});
+    warn(source, module.offset, "found `~` and no `surfaces`: it draws nothing");
     return;
   }
+  if (!lang::has_room(source.faults)) return;
   std::string known;
   for (const auto& [name, surface] : params_.surfaces) known += (known.empty() ? "~" : ", ~") + name;
   source.faults.push_back({module.offset, "found `~` without the name of a surface; there are " + known});
 }
 
 void Compiler::take_faults(Source& source) {
-  std::stable_sort(source.faults.begin(), source.faults.end(),
-                   [](const Fault& a, const Fault& b) { return a.offset < b.offset; });
-  for (const Fault& fault : source.faults) {
-    issues_.push_back(issue_at(source.pointer, source.text, fault.offset, fault.message));
-  }
+  if (source.faults.empty()) return;
+  lang::add_issues(source.pointer, source.text, source.faults, issues_);
 }
 
 void Compiler::read_axiom() {
-  Source source{params_.axiom, "/axiom", {}};
+  Source source(params_.axiom, "/axiom");
   occurrences_.clear();
   grammar_.axiom = word(source, {0, source.text.size()});
   check_brackets(source, {0, source.text.size()});
@@ -166,9 +160,11 @@ void Compiler::read_axiom() {
 }
 
 void Compiler::read_rules(const std::string& folder, const std::vector<std::string>& texts, Rules& rules) {
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    Source source{texts[i], folder + std::to_string(i), {}};
-    const WrittenProduction written = read_production(source.text, source.faults);
+  for (std::size_t i = 0; i < texts.size() && issues_.size() < most_issues; ++i) {
+    if (job_ && (i & 255U) == 0) job_->check();
+    Source source(texts[i], folder + std::to_string(i));
+    const std::size_t label = label_length(source.text, symbols_);
+    const WrittenProduction written = read_production(source.text, source.faults, label);
     if (source.faults.empty()) rules.productions.push_back(production(source, written));
     take_faults(source);
   }
@@ -176,12 +172,20 @@ void Compiler::read_rules(const std::string& folder, const std::vector<std::stri
 
 /// A table's productions come before those that hold in every step.
 void Compiler::read_tables() {
+  std::size_t count = 0;
   for (std::size_t i = 0; i < params_.tables.size(); ++i) {
     const auto& table = params_.tables[i];
     grammar_.tables.emplace_back();
     read_rules("/tables/" + std::to_string(i) + "/productions/", table.productions, grammar_.tables.back());
     const std::vector<Production>& common = grammar_.productions.productions;
     std::vector<Production>& own = grammar_.tables.back().productions;
+    count += own.size() + common.size();
+    if (count > most_of_tables) {
+      issues_.push_back({"/tables", "found more than " + std::to_string(most_of_tables) +
+                                        " productions in all tables, each with those that hold in every "
+                                        "step"});
+      return;
+    }
     own.insert(own.end(), common.begin(), common.end());
     grammar_.table_of_turn.insert(grammar_.table_of_turn.end(), static_cast<std::size_t>(table.steps),
                                   static_cast<std::uint32_t>(i));
@@ -233,7 +237,6 @@ void Compiler::order(Rules& rules) {
     if (each.conditional && grammar_.program.draws(each.condition)) rules.redraws[each.predecessor] = 1;
     rules.chance = rules.chance || each.weighted || rules.redraws[each.predecessor] || draws(each);
   }
-  warn_of_weights(rules);
 }
 
 bool Compiler::draws(const Production& production) const {
@@ -263,32 +266,14 @@ bool Compiler::draws(Range successor) const {
   return false;
 }
 
-/// Weights are normalised; a sum other than 1 is told, since it is mostly a slip.
-void Compiler::warn_of_weights(const Rules& rules) {
-  for (const Range& range : rules.of_kind) {
-    double sum = 0;
-    bool plain = range.count > 0;
-    for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
-      const Production& each = rules.productions[i];
-      plain = plain && each.weighted && each.weight.is_constant && !each.conditional && !each.has_context();
-      sum += each.weight.value;
-    }
-    if (!plain || std::abs(sum - 1) <= 1e-6) continue;
-    const Production& first = rules.productions[range.first];
-    grammar_.warnings.push_back({first.pointer, "the probabilities of the productions of `" +
-                                                    grammar_.kinds[first.predecessor].symbol +
-                                                    "` do not sum to 1; they are used as weights"});
-  }
-}
-
 Grammar compile(const LsystemParams& params, std::uint64_t seed, const Limits& limits,
-                std::vector<Issue>& issues) {
+                std::vector<Issue>& issues, const Job* job) {
   if (params.iterations > static_cast<std::int64_t>(limits.iterations)) {
     issues.push_back({"/iterations", "found " + std::to_string(params.iterations) + "; the limit is " +
                                          std::to_string(limits.iterations)});
   }
   check_age(params, issues);
-  Grammar grammar = Compiler(params, seed, limits, issues).compile();
+  Grammar grammar = Compiler(params, seed, limits, issues, job).compile();
   check_between_steps(params, grammar, issues);
   return grammar;
 }

@@ -156,8 +156,9 @@ struct Grammar {
 
 /// Parses and checks everything textual of the parameters. Every fault goes to `issues`, with pointers
 /// relative to the parameters ("/productions/2") and line and column; the grammar may be run only when none
-/// came. `seed` feeds random functions in constants. Cost: linear in the text.
+/// came. `seed` feeds random functions in constants. Where there is a job, its deadline and stop are asked
+/// on the way. Cost: linear in the text; of faults and warnings no more are made than somebody may read.
 Grammar compile(const LsystemParams& params, std::uint64_t seed, const Limits& limits,
-                std::vector<Issue>& issues);
+                std::vector<Issue>& issues, const Job* job = nullptr);
 
 }  // namespace seedmesh::lsystem

@@ -25,9 +25,9 @@ namespace {
 
 constexpr std::size_t longest_text = std::size_t{16} << 20U;  // of a word in the answer of derive
 
-Result<Grammar> compiled(const LsystemParams& params, std::uint64_t seed, const Limits& limits) {
+Result<Grammar> compiled(const LsystemParams& params, const Job& job) {
   std::vector<Issue> issues;
-  Grammar grammar = compile(params, seed, limits, issues);
+  Grammar grammar = compile(params, job.seed(), job.limits(), issues, &job);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   return grammar;
 }
@@ -42,6 +42,19 @@ std::uint32_t steps_of(const LsystemParams& params) {
 double share_of(const LsystemParams& params) {
   if (!params.age || params.timed) return 1;
   return 1 - (std::ceil(*params.age) - *params.age);
+}
+
+/// Does `work`, the derivation and what the turtle makes of it: a limit that it passes with no place of its
+/// own is due to the number of steps, or to the axiom where there is none.
+template <class Work>
+void tell_place(const LsystemParams& params, Work&& work) {
+  try {
+    work();
+  } catch (const Stop& stop) {
+    const bool is_of_memory = stop.issue().message.find("bytes of memory") != std::string::npos;
+    if (stop.code() != Code::limit || !stop.issue().pointer.empty() || is_of_memory) throw;
+    Job::refuse(stop.issue().message, steps_of(params) > 0 ? "/iterations" : "/axiom");
+  }
 }
 
 /// Refuses early what is sure to be too long, before any memory is touched.
@@ -149,6 +162,52 @@ void refuse_too_many_segments(const Grammar& grammar, const LsystemParams& param
   }
 }
 
+std::uint64_t count_of(const Grammar& grammar, const std::vector<std::uint64_t>& counts, Command command) {
+  std::uint64_t sum = 0;
+  for (std::size_t kind = 0; kind < counts.size(); ++kind) {
+    if (grammar.kinds[kind].command == command) sum += std::min(saturated, counts[kind]);
+  }
+  return sum;
+}
+
+/// Braces without a partner draw nothing.
+void warn_of_braces(std::uint64_t open, std::uint64_t stray, std::vector<Warning>& warnings) {
+  const auto amount = [](std::uint64_t count, const char* what) {
+    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+  };
+  if (open > 0) {
+    warnings.push_back({"/axiom",
+                        amount(open, "polygon") + (open == 1 ? " is" : " are") +
+                            " not closed in the last word and not drawn: found `{` without its `}`",
+                        0, 0});
+  }
+  if (stray > 0) {
+    warnings.push_back(
+        {"/axiom", "found " + amount(stray, "`}`") + " without a `{` before it in the last word", 0, 0});
+  }
+}
+
+void warn_of_braces(const Drawing& drawing, std::vector<Warning>& warnings) {
+  warn_of_braces(drawing.open_polygons(), drawing.stray_closings(), warnings);
+}
+
+/// What the counts of the last word tell before it is drawn.
+void warn_of_word(const Grammar& grammar, const std::vector<std::uint64_t>& counts,
+                  std::vector<Warning>& warnings) {
+  const std::uint64_t open = count_of(grammar, counts, Command::polygon_open);
+  const std::uint64_t closed = count_of(grammar, counts, Command::polygon_close);
+  if (open < saturated && closed < saturated)
+    warn_of_braces(open > closed ? open - closed : 0, closed > open ? closed - open : 0, warnings);
+  constexpr Command drawing[] = {Command::draw,      Command::draw_plain,    Command::polygon_close,
+                                 Command::organ,     Command::sweep_control, Command::sweep_end,
+                                 Command::draw_frame};
+  if (std::any_of(std::begin(drawing), std::end(drawing),
+                  [&](Command each) { return count_of(grammar, counts, each) > 0; }))
+    return;
+  warnings.push_back(
+      {"/axiom", "nothing will be drawn: the last word has no F or G, no polygon and no organ", 0, 0});
+}
+
 Json vector(const glm::dvec3& v) { return Json::array({v.x + 0.0, v.y + 0.0, v.z + 0.0}); }
 
 Json described(const Turtle& turtle) {
@@ -165,7 +224,13 @@ Json described(const Turtle& turtle) {
 Json described(const std::vector<Warning>& warnings) {
   Json list = Json::array();
   for (const Warning& each : warnings) {
-    list.push_back({{"pointer", "/parameters" + each.pointer}, {"message", each.message}});
+    Json row = {{"pointer", each.pointer.empty() ? "" : "/parameters" + each.pointer},
+                {"message", each.message}};
+    if (each.line > 0) {
+      row["line"] = each.line;
+      row["column"] = each.column;
+    }
+    list.push_back(std::move(row));
   }
   return list;
 }
@@ -183,25 +248,27 @@ std::vector<Issue> check(const LsystemParams& params, const Limits& limits) {
 }
 
 Result<Model> generate(const LsystemParams& params, Job& job) {
-  Result<Grammar> grammar = compiled(params, job.seed(), job.limits());
+  Result<Grammar> grammar = compiled(params, job);
   if (!grammar) return std::move(grammar).error();
   refuse_explosion(*grammar, steps_of(params), job);
   job.progress("derive", 0);
   Skeleton skeleton(job);
   std::unique_ptr<Garden> garden;
-  if (Garden::needed(*grammar, params)) {
-    garden = std::make_unique<Garden>(params, job);
-    const double share = share_of(params);
-    garden->grow(*grammar, share == 1 ? steps_of(params) : steps_of(params) - 1);
+  tell_place(params, [&] {
     Drawing drawing(*grammar, params, &skeleton, job);
-    drawing.set_most_segments(most_segments(params, job.limits()));
-    garden->draw(*grammar, drawing, share);
-    garden->cut(skeleton);
-  } else {
-    Drawing drawing(*grammar, params, &skeleton, job);
-    refuse_too_many_segments(*grammar, params, drawing, job);
-    draw(*grammar, params, drawing, job);
-  }
+    if (Garden::needed(*grammar, params)) {
+      garden = std::make_unique<Garden>(params, job);
+      const double share = share_of(params);
+      garden->grow(*grammar, share == 1 ? steps_of(params) : steps_of(params) - 1);
+      drawing.set_most_segments(most_segments(params, job.limits()));
+      garden->draw(*grammar, drawing, share);
+      garden->cut(skeleton);
+    } else {
+      refuse_too_many_segments(*grammar, params, drawing, job);
+      draw(*grammar, params, drawing, job);
+    }
+    warn_of_braces(drawing, grammar->warnings);
+  });
   shape(skeleton, params, job);
   job.progress("mesh", 0);
   Model model = dress(std::move(skeleton), params, job);
@@ -211,33 +278,36 @@ Result<Model> generate(const LsystemParams& params, Job& job) {
 }
 
 Result<Json> derive(const LsystemParams& params, Job& job) {
-  Result<Grammar> grammar = compiled(params, job.seed(), job.limits());
+  Result<Grammar> grammar = compiled(params, job);
   if (!grammar) return std::move(grammar).error();
   refuse_explosion(*grammar, steps_of(params), job);
   Drawing drawing(*grammar, params, nullptr, job);
   TextWriter writer(*grammar, longest_text);
   std::vector<std::uint64_t> counts;
-  if (Garden::needed(*grammar, params)) {
-    Garden garden(params, job);
-    garden.grow(*grammar, steps_of(params));
-    write(garden.word(), writer);
-    garden.draw(*grammar, drawing, 1);
-    counts = writer.counts();
-  } else if (is_plain(*grammar)) {
-    draw(*grammar, params, drawing, job);
-    const Array<char> text = plain_text(*grammar, steps_of(params), longest_text, job);
-    writer.text.assign(text.begin(), text.end());
-    counts = exact_counts(*grammar, steps_of(params));
-  } else if (share_of(params) != 1) {
-    TextOnly text{writer};
-    run(*grammar, params, text, job);
-    draw(*grammar, params, drawing, job);
-    counts = writer.counts();
-  } else {
-    TextAndDrawing both{writer, drawing};
-    run(*grammar, params, both, job);
-    counts = writer.counts();
-  }
+  tell_place(params, [&] {
+    if (Garden::needed(*grammar, params)) {
+      Garden garden(params, job);
+      garden.grow(*grammar, steps_of(params));
+      write(garden.word(), writer);
+      garden.draw(*grammar, drawing, 1);
+      counts = writer.counts();
+    } else if (is_plain(*grammar)) {
+      draw(*grammar, params, drawing, job);
+      const Array<char> text = plain_text(*grammar, steps_of(params), longest_text, job);
+      writer.text.assign(text.begin(), text.end());
+      counts = exact_counts(*grammar, steps_of(params));
+    } else if (share_of(params) != 1) {
+      TextOnly text{writer};
+      run(*grammar, params, text, job);
+      draw(*grammar, params, drawing, job);
+      counts = writer.counts();
+    } else {
+      TextAndDrawing both{writer, drawing};
+      run(*grammar, params, both, job);
+      counts = writer.counts();
+    }
+  });
+  warn_of_braces(drawing, grammar->warnings);
   std::map<std::string, std::uint64_t> by_symbol;
   std::uint64_t length = 0, bytes = 0;
   for (std::size_t kind = 0; kind < counts.size(); ++kind) {
@@ -256,7 +326,7 @@ Result<Json> derive(const LsystemParams& params, Job& job) {
 }
 
 Result<Appraisal> appraise(const LsystemParams& params, const Job& job) {
-  Result<Grammar> grammar = compiled(params, job.seed(), job.limits());
+  Result<Grammar> grammar = compiled(params, job);
   if (!grammar) return std::move(grammar).error();
   Appraisal appraisal;
   appraisal.warnings = grammar->warnings;
@@ -264,6 +334,7 @@ Result<Appraisal> appraise(const LsystemParams& params, const Job& job) {
   if (Garden::needed(*grammar, params)) return appraisal;
   const std::vector<std::uint64_t> counts = exact_counts(*grammar, steps_of(params));
   if (!counts.empty() && grammar->interpretation.productions.empty()) {
+    if (share_of(params) == 1) warn_of_word(*grammar, counts, appraisal.warnings);
     const std::uint64_t segments = drawn(*grammar, counts);
     appraisal.estimate = estimate_of(segments, std::min(segments, 1 + branches(*grammar, counts)), params);
   }

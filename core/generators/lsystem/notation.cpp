@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/generators/lsystem/commands.h"
+#include "core/lang/text_places.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -52,7 +53,7 @@ std::vector<Slice> arguments_between(std::string_view text, std::size_t open, st
     if (text[i] == '(') ++depth;
     if (text[i] == ')' && i != close) --depth;
     if (i == close || (text[i] == ',' && depth == 0)) {
-      if (skip_spaces(text, from, i) == i)
+      if (skip_spaces(text, from, i) == i && lang::has_room(faults))
         faults.push_back({from, "found nothing; expected an argument here"});
       found.push_back({from, i});
       from = i + 1;
@@ -67,16 +68,17 @@ struct Arrow {
 
 /// The first arrow outside parentheses. "-->" is one arrow, except where its first "-" is all that stands
 /// before "->".
-std::optional<Arrow> find_arrow(std::string_view text) {
+std::optional<Arrow> find_arrow(std::string_view text, Slice slice) {
   int depth = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  text = text.substr(0, slice.to);
+  for (std::size_t i = slice.from; i < text.size(); ++i) {
     const std::string_view rest = text.substr(i);
     if (text[i] == '(') ++depth;
     if (text[i] == ')') --depth;
     if (depth > 0) continue;
     if (rest.substr(0, 3) == "→") return Arrow{i, i + 3};
     if (rest.substr(0, 2) == "~>") return Arrow{i, i + 2};
-    if (rest.substr(0, 3) == "-->" && skip_spaces(text, 0, i) != i) return Arrow{i, i + 3};
+    if (rest.substr(0, 3) == "-->" && skip_spaces(text, slice.from, i) != i) return Arrow{i, i + 3};
     if (rest.substr(0, 2) == "->") return Arrow{i, i + 2};
   }
   return std::nullopt;
@@ -169,19 +171,42 @@ Symbols::Symbols() {
   for (const char* query : {"?E", "?P", "?H", "?U", "?L"}) declare(query);  // one symbol each, as in cpfg
 }
 
+std::uint32_t Symbols::Node::behind(char c) const {
+  const auto found = std::find_if(next.begin(), next.end(), [c](const auto& each) { return each.first == c; });
+  return found == next.end() ? 0 : found->second;
+}
+
 void Symbols::declare(std::string_view name) {
-  const auto shorter = [&](const std::string& other) { return other.size() < name.size(); };
-  names_.insert(std::find_if(names_.begin(), names_.end(), shorter), std::string(name));
-  begins_[static_cast<unsigned char>(name[0])] = true;
+  std::uint32_t node = 0;
+  for (const char c : name) {
+    std::uint32_t behind = node == 0 ? first(c) : nodes_[node].behind(c);
+    if (behind == 0) {
+      behind = static_cast<std::uint32_t>(nodes_.size());
+      nodes_.emplace_back();
+      if (node == 0) {
+        first_[static_cast<unsigned char>(c)] = behind;
+      } else {
+        nodes_[node].next.emplace_back(c, behind);
+      }
+    }
+    node = behind;
+  }
+  nodes_[node].ends = true;
+}
+
+bool Symbols::knows(std::string_view name) const {
+  std::uint32_t node = name.empty() ? 0 : first(name[0]);
+  for (std::size_t i = 1; i < name.size() && node != 0; ++i) node = nodes_[node].behind(name[i]);
+  return node != 0 && nodes_[node].ends;
 }
 
 std::size_t Symbols::length_at(std::string_view text, std::size_t at, std::size_t to) const {
-  if (begins_[static_cast<unsigned char>(text[at])]) {
-    const std::string_view rest = text.substr(at, to - at);
-    for (const std::string& name : names_) {
-      if (rest.substr(0, name.size()) == name) return name.size();
-    }
+  std::size_t longest = 0, end = at + 1;
+  for (std::uint32_t node = first(text[at]); node != 0; ++end) {
+    if (nodes_[node].ends) longest = end - at;
+    node = end < to ? nodes_[node].behind(text[end]) : 0;
   }
+  if (longest > 0) return longest;
   if (text[at] != '@') return code_point_length(text, at);
   return at + 1 >= to || is_space(text[at + 1]) ? 0 : 1 + code_point_length(text, at + 1);
 }
@@ -189,7 +214,7 @@ std::size_t Symbols::length_at(std::string_view text, std::size_t at, std::size_
 std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, const Symbols& symbols,
                                         std::vector<Fault>& faults) {
   std::vector<WrittenModule> modules;
-  for (std::size_t at = skip_spaces(text, slice.from, slice.to); at < slice.to;
+  for (std::size_t at = skip_spaces(text, slice.from, slice.to); at < slice.to && lang::has_room(faults);
        at = skip_spaces(text, at, slice.to)) {
     if (modules.size() == most_modules) {
       faults.push_back({at, "found more than 1,000,000 modules in one grammar"});
@@ -229,15 +254,31 @@ std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, cons
   return modules;
 }
 
-WrittenProduction read_production(std::string_view text, std::vector<Fault>& faults) {
+std::size_t label_length(std::string_view text, const Symbols& symbols) {
+  const std::size_t from = skip_spaces(text, 0, text.size());
+  std::size_t end = from;
+  if (end < text.size() && text[end] == 'p') ++end;
+  const std::size_t digits = end;
+  while (end > from && end < text.size() && text[end] >= '0' && text[end] <= '9') ++end;
+  if (end == digits || symbols.knows(text.substr(from, end - from))) return 0;
+  end = skip_spaces(text, end, text.size());
+  return end < text.size() && text[end] == ':' ? end + 1 : 0;
+}
+
+std::size_t find_second_arrow(std::string_view text, Slice slice) {
+  const std::optional<Arrow> arrow = find_arrow(text, slice);
+  return arrow ? arrow->from : slice.to;
+}
+
+WrittenProduction read_production(std::string_view text, std::vector<Fault>& faults, std::size_t from) {
   WrittenProduction out;
-  const std::optional<Arrow> arrow = find_arrow(text);
+  const std::optional<Arrow> arrow = find_arrow(text, {from, text.size()});
   if (!arrow) {
     faults.push_back(
-        {skip_spaces(text, 0, text.size()), "found no arrow; expected `predecessor -> successor`"});
+        {skip_spaces(text, from, text.size()), "found no arrow; expected `predecessor -> successor`"});
     return out;
   }
-  Slice head{0, arrow->from};
+  Slice head{from, arrow->from};
   const std::size_t colon = find_outside(text, head, ":");
   if (colon < head.to) {
     out.has_condition = true;
@@ -257,6 +298,31 @@ WrittenProduction read_production(std::string_view text, std::vector<Fault>& fau
     out.successor.to = weight;
   }
   return out;
+}
+
+Marks::Marks(std::string_view text) : partner_(text.size(), static_cast<std::uint32_t>(text.size())) {
+  std::vector<std::uint32_t> open[3];  // of each sort by itself, as closing() counts
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const auto place = static_cast<std::uint32_t>(i);
+    const std::size_t opens = std::string_view("([{").find(c), closes = std::string_view(")]}").find(c);
+    if (opens < 3) open[opens].push_back(place);
+    if (closes < 3 && !open[closes].empty()) {
+      partner_[open[closes].back()] = place;
+      open[closes].pop_back();
+    }
+    if (c == ';') semicolons_.push_back(place);
+    if (std::string_view("<>=!&|").find(c) != std::string_view::npos) comparisons_.push_back(place);
+  }
+}
+
+std::size_t Marks::closing(std::size_t open, std::size_t to) const {
+  return std::min<std::size_t>(partner_[open], to);
+}
+
+bool Marks::has(const std::vector<std::uint32_t>& places, Slice slice) {
+  const auto first = std::lower_bound(places.begin(), places.end(), slice.from);
+  return first != places.end() && *first < slice.to;
 }
 
 bool erases(std::string_view text, Slice slice) {

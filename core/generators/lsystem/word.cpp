@@ -27,7 +27,8 @@ class Writer {
   /// Room for a module: gives the place of its parameters.
   double* add(KindId kind, std::uint64_t key, std::uint32_t step) {
     if (word.size() >= limit_)
-      Job::refuse("needs more than " + std::to_string(limit_) + " modules, which is the limit");
+      Job::refuse("needs more than " + std::to_string(limit_) + " modules, which is the limit, in step " +
+                  std::to_string(step));
     word.kind.push_back(kind);
     word.born.push_back(static_cast<std::uint16_t>(step));
     if (keyed_) word.key.push_back(key);
@@ -82,7 +83,8 @@ class Writer {
                  std::uint32_t depth) {
     if ((++decomposed_ & 4095U) == 0) job_.check();
     if (decomposed_ > 4 * limit_)
-      Job::refuse("decomposes more modules than " + std::to_string(decomposed_ - 1));
+      Job::refuse("decomposes more than " + std::to_string(decomposed_ - 1) + " modules in step " +
+                  std::to_string(step) + "; four times the limit of modules is the most");
     const Rules& rules = grammar_.decomposition;
     std::vector<double> own(grammar_.most_slots + most_parameters);
     fill_arguments(grammar_, each, slots, key, own.data());

@@ -128,6 +128,15 @@ TEST(Overrides, AreRefusedWhereNothingHasTheirName) {
   EXPECT_THAT(pointers({{"ignore", "\xff"}}), ElementsAre(""));
 }
 
+TEST(Overrides, OfTheOutputAreToldOfAsSuch) {
+  const auto message = [](const char* key) {
+    return read_preset("koch_island", {{key, "1"}}, Limits{})->error().issues.front().message;
+  };
+  EXPECT_EQ(message("output.foo"), "\"output.foo\" is no option of the output");
+  EXPECT_EQ(message("output.lod"), "\"output.lod\" is no option of the output; did you mean \"output.lods\"?");
+  EXPECT_THAT(message("angel"), testing::EndsWith("; did you mean \"angle\"?"));
+}
+
 TEST(Overrides, OfAnUnknownPresetAreNotRead) { EXPECT_FALSE(read_preset("none", {}, Limits{}).has_value()); }
 
 }  // namespace

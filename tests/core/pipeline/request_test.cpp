@@ -50,6 +50,22 @@ TEST(ReadRequest, TakesAWholeRequest) {
   EXPECT_EQ(params.productions.size(), 2U);
 }
 
+TEST(ReadRequest, TellsNumbersThatAreTooLargeWithAllElse) {
+  EXPECT_THAT(pointers(R"({"a":1e999})"), UnorderedElementsAre("/a", "/a", ""));
+  EXPECT_THAT(pointers(R"({"generator":"lsystem","seed":-1e400,"parameters":{"axiom":"F)\"","ignore":null,"angle":2e308,)"
+                       R"("step":-1e999,"sides":1}})"),
+              UnorderedElementsAre("/seed", "/parameters/angle", "/parameters/step", "/parameters/sides",
+                                   "/parameters/ignore", "/parameters/axiom"));
+  EXPECT_EQ(error_of(R"({"seed":1e999,)").code, Code::malformed);
+  EXPECT_TRUE(read_request(R"({"generator":"lsystem","parameters":{"axiom":"F","angle":1e-999}})", Limits{}));
+}
+
+TEST(ReadRequest, TellsABrokenPictureWithAllElse) {
+  EXPECT_THAT(pointers(R"({"generator":"lsystem","seed":-1,"parameters":{"axiom":"F","materials":[{"images":)"
+                       R"({"color":"data:image/png;base64,iVBORw0KGgo="}}]}})"),
+              UnorderedElementsAre("/seed", "/parameters/materials/0/images/color"));
+}
+
 TEST(ReadRequest, IsCanonicalWhateverTheOrder) {
   EXPECT_EQ(
       canonical(plant),
