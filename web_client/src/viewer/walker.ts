@@ -1,5 +1,6 @@
 /** On foot or in flight: W A S D go, Q and Z or the page keys rise and sink, arrows and a drag turn the head; buttons do as the keys. */
-import { MathUtils, Raycaster, Vector3, type Object3D, type PerspectiveCamera } from 'three';
+import { Box3, MathUtils, Vector3, type Object3D, type PerspectiveCamera } from 'three';
+import { footings, is_land, way_in } from './footing';
 
 export type Gait = 'orbit' | 'walk' | 'fly';
 
@@ -15,7 +16,6 @@ export class Walker {
   private readonly camera: PerspectiveCamera;
   private readonly wake: () => void;
   private readonly pressed = new Set<string>();
-  private readonly ray = new Raycaster();
   private yaw = 0;
   private pitch = 0;
   private last = 0;
@@ -23,6 +23,10 @@ export class Walker {
   private reach = 5;
   private floor = 0;
   private ground: Object3D | null = null;
+  private box = new Box3();
+  /** Whether the model is land, which one stays on; not known before somebody walks. */
+  private has_land: boolean | null = null;
+  private stands = false;
   private dragged: { id: number; x: number; y: number } | null = null;
 
   constructor(camera: PerspectiveCamera, canvas: HTMLCanvasElement, wake: () => void) {
@@ -60,13 +64,16 @@ export class Walker {
   release(key: string): void { this.pressed.delete(key); }
 
   /** What is walked on, and how large it is. */
-  land(model: Object3D, floor: number, reach: number): void {
+  land(model: Object3D, floor: number, box: Box3): void {
     this.ground = model;
     this.floor = floor;
-    this.reach = reach;
+    this.box.copy(box);
+    this.reach = box.getSize(new Vector3()).length() / 2;
+    this.has_land = null;
+    this.stands = false;
   }
 
-  /** Takes the camera where it stands; on foot it comes down to the ground. */
+  /** Takes the camera where it stands; on foot it comes down to the ground, and onto land from beside it. */
   begin(gait: Gait): void {
     this.gait = gait;
     this.pressed.clear();
@@ -76,7 +83,7 @@ export class Walker {
     this.pitch = gait === 'walk' ? 0 : Math.asin(MathUtils.clamp(ahead.y, -1, 1));
     this.camera.near = Math.min(this.camera.near, 0.1);
     this.camera.updateProjectionMatrix();
-    if (gait === 'walk') this.come_down();
+    if (gait === 'walk') this.set_foot();
     this.aim();
   }
 
@@ -92,11 +99,12 @@ export class Walker {
     const along = (has('w') - has('s')) * speed, across = (has('d') - has('a')) * speed;
     const up = (has('q', 'pageup') - has('z', 'pagedown')) * speed;
     const level = this.gait === 'walk' ? 0 : this.pitch;
+    const before = this.camera.position.clone();
     this.camera.position.add(new Vector3(
       -Math.sin(this.yaw) * Math.cos(level) * along + Math.cos(this.yaw) * across,
       Math.sin(level) * along + (this.gait === 'fly' ? up : 0),
       -Math.cos(this.yaw) * Math.cos(level) * along - Math.sin(this.yaw) * across));
-    if (this.gait === 'walk') this.come_down();
+    if (this.gait === 'walk' && !this.come_down()) this.camera.position.copy(before);
     this.aim();
     return true;
   }
@@ -113,12 +121,39 @@ export class Walker {
     this.on_move(this.camera.position, heading);
   }
 
-  /** Onto what lies below: a step of half a metre is climbed, a crown overhead is not. */
-  private come_down(): void {
+  private get is_on_land(): boolean {
+    return this.ground !== null && (this.has_land ??= is_land(this.ground, this.box));
+  }
+
+  private set_foot(): void {
     const { position } = this.camera;
-    const step = Math.max(0.5, this.reach * 0.02);
-    this.ray.set(new Vector3(position.x, position.y - eye + step, position.z), new Vector3(0, -1, 0));
-    const below = this.ground ? this.ray.intersectObject(this.ground, true)[0] : undefined;
-    position.y = Math.max(below?.point.y ?? this.floor, this.floor) + eye;
+    if (!this.ground || !this.is_on_land) { this.come_down(); return; }
+    const [beneath] = footings(this.ground, position, this.box.max.y + 1).slice(-1);
+    if (beneath !== undefined) { position.y = beneath + eye; this.stands = true; return; }
+    const place = way_in(this.ground, this.box, position, eye);
+    if (!place) { this.has_land = false; this.come_down(); return; }
+    position.copy(place).setY(place.y + eye);
+    this.stands = true;
+    const middle = this.box.getCenter(new Vector3()).sub(position);
+    this.yaw = Math.atan2(-middle.x, -middle.z);
+  }
+
+  /**
+   * Onto what lies below: a step of half a metre is climbed, a crown overhead is not. Who goes into a slope of land comes
+   * out on top of it; false where the land has come to its end.
+   */
+  private come_down(): boolean {
+    const { position } = this.camera;
+    const heights = this.ground ? footings(this.ground, position, this.box.max.y + 1) : [];
+    const foot = position.y - eye + Math.max(0.5, this.reach * 0.02);
+    const below = heights.find((height) => height <= foot);
+    if (this.is_on_land) {
+      const height = below ?? heights.at(-1);
+      // Another model may have come under one's feet, or away from under them.
+      if (height === undefined && this.stands) return false;
+      this.stands = height !== undefined;
+      position.y = (height ?? this.floor) + eye;
+    } else position.y = Math.max(below ?? this.floor, this.floor) + eye;
+    return true;
   }
 }
