@@ -1,6 +1,6 @@
 /** On foot or in flight: W A S D go, Q and Z or the page keys rise and sink, arrows and a drag turn the head; buttons do as the keys. */
-import { Box3, MathUtils, Vector3, type Object3D, type PerspectiveCamera } from 'three';
-import { footings, is_land, way_in } from './footing';
+import { MathUtils, Vector3, type Box3, type Object3D, type PerspectiveCamera } from 'three';
+import { Land, footings } from './footing';
 
 export type Gait = 'orbit' | 'walk' | 'fly';
 
@@ -23,10 +23,7 @@ export class Walker {
   private reach = 5;
   private floor = 0;
   private ground: Object3D | null = null;
-  private box = new Box3();
-  /** Whether the model is land, which one stays on; not known before somebody walks. */
-  private has_land: boolean | null = null;
-  private stands = false;
+  private land_there: Land | null = null;
   private dragged: { id: number; x: number; y: number } | null = null;
 
   constructor(camera: PerspectiveCamera, canvas: HTMLCanvasElement, wake: () => void) {
@@ -67,10 +64,8 @@ export class Walker {
   land(model: Object3D, floor: number, box: Box3): void {
     this.ground = model;
     this.floor = floor;
-    this.box.copy(box);
     this.reach = box.getSize(new Vector3()).length() / 2;
-    this.has_land = null;
-    this.stands = false;
+    this.land_there = null;
   }
 
   /** Takes the camera where it stands; on foot it comes down to the ground, and onto land from beside it. */
@@ -104,7 +99,8 @@ export class Walker {
       -Math.sin(this.yaw) * Math.cos(level) * along + Math.cos(this.yaw) * across,
       Math.sin(level) * along + (this.gait === 'fly' ? up : 0),
       -Math.cos(this.yaw) * Math.cos(level) * along - Math.sin(this.yaw) * across));
-    if (this.gait === 'walk' && !this.come_down()) this.camera.position.copy(before);
+    // Beside the land there is nothing to walk on; another model may have put one there.
+    if (this.gait === 'walk' && !this.come_down() && this.land_here?.height(before) !== undefined) this.camera.position.copy(before);
     this.aim();
     return true;
   }
@@ -121,39 +117,38 @@ export class Walker {
     this.on_move(this.camera.position, heading);
   }
 
-  private get is_on_land(): boolean {
-    return this.ground !== null && (this.has_land ??= is_land(this.ground, this.box));
-  }
-
   private set_foot(): void {
     const { position } = this.camera;
-    if (!this.ground || !this.is_on_land) { this.come_down(); return; }
-    const [beneath] = footings(this.ground, position, this.box.max.y + 1).slice(-1);
-    if (beneath !== undefined) { position.y = beneath + eye; this.stands = true; return; }
-    const place = way_in(this.ground, this.box, position, eye);
-    if (!place) { this.has_land = false; this.come_down(); return; }
+    const land = this.land_here;
+    if (!land) { this.come_down(); return; }
+    const beneath = land.height(position);
+    if (beneath !== undefined) { position.y = beneath + eye; return; }
+    const place = land.way_in(position, eye);
+    if (!place) return;
     position.copy(place).setY(place.y + eye);
-    this.stands = true;
-    const middle = this.box.getCenter(new Vector3()).sub(position);
-    this.yaw = Math.atan2(-middle.x, -middle.z);
+    const ahead = land.box.getCenter(new Vector3()).sub(position);
+    this.yaw = Math.atan2(-ahead.x, -ahead.z);
   }
 
-  /**
-   * Onto what lies below: a step of half a metre is climbed, a crown overhead is not. Who goes into a slope of land comes
-   * out on top of it; false where the land has come to its end.
-   */
+  /** null where the model is none. Sought when somebody walks. */
+  private get land_here(): Land | null {
+    if (this.ground) this.land_there ??= new Land(this.ground);
+    return this.land_there?.is_there ? this.land_there : null;
+  }
+
+  /** Onto land, or onto what lies below: a step of half a metre is climbed, a crown overhead is not. False where land has come to its end. */
   private come_down(): boolean {
     const { position } = this.camera;
-    const heights = this.ground ? footings(this.ground, position, this.box.max.y + 1) : [];
+    const land = this.land_here;
+    if (land) {
+      const height = land.height(position);
+      if (height === undefined) return false;
+      position.y = height + eye;
+      return true;
+    }
     const foot = position.y - eye + Math.max(0.5, this.reach * 0.02);
-    const below = heights.find((height) => height <= foot);
-    if (this.is_on_land) {
-      const height = below ?? heights.at(-1);
-      // Another model may have come under one's feet, or away from under them.
-      if (height === undefined && this.stands) return false;
-      this.stands = height !== undefined;
-      position.y = (height ?? this.floor) + eye;
-    } else position.y = Math.max(below ?? this.floor, this.floor) + eye;
+    const below = this.ground ? footings([this.ground], position, foot)[0] : undefined;
+    position.y = Math.max(below ?? this.floor, this.floor) + eye;
     return true;
   }
 }
