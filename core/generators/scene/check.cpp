@@ -171,8 +171,11 @@ class Checker {
     member("clusters", place.clusters.has_value(), true, {Method::clusters});
     member("count", place.count.has_value(), false,
            {Method::poisson, Method::scatter, Method::clusters, Method::rows, Method::path});
-    if (!place.count && (place.method == Method::scatter || place.method == Method::clusters))
-      add(pointer, "the method " + method + " needs `count`");
+    const bool has_as_many = place.method == Method::scatter || place.method == Method::clusters;
+    if (has_as_many && !place.count) add(pointer, "the method " + method + " needs `count`");
+    if (has_as_many && place.count && static_cast<std::uint64_t>(*place.count) > limits_.shapes)
+      add(pointer + "/count", "found " + std::to_string(*place.count) + "; the limit on shapes is " +
+                                  std::to_string(limits_.shapes));
     if (place.method == Method::positions) {
       check_positions(layer, pointer);
       refuse_rules(place, pointer);

@@ -289,7 +289,9 @@ TEST(Plant, PointsToTheLayerThatHasTooManyPlaces) {
     }
     return std::string("it was planted");
   };
-  EXPECT_EQ(pointer({{"method", "scatter"}, {"count", 10'000'000}}), "/layers/1/place/count");
+  const Json json = {{"layers", {layer("a", {{"method", "scatter"}, {"count", 10'000'000}})}}};
+  EXPECT_THAT(scene_faults(json), testing::ElementsAre("/layers/0/place/count: found 10000000; the limit on "
+                                                       "shapes is 4000000"));
   EXPECT_EQ(pointer({{"distance", 0.001}}), "/layers/1/place/distance");
   EXPECT_EQ(pointer({{"method", "rows"}, {"spacing", {0.001, 0.001}}}), "/layers/1/place/spacing");
   EXPECT_EQ(pointer({{"method", "path"}, {"distance", 0.001}, {"points", {{-90000, 0}, {90000, 0}}}}),

@@ -4,6 +4,7 @@
 
 #include "core/base/math.h"
 #include "core/pipeline.h"
+#include "tests/core/scene/by_chance.h"
 #include "tests/core/scene/support.h"
 
 namespace seedmesh {
@@ -12,115 +13,6 @@ namespace {
 using scene::Stand;
 
 constexpr double tiny = 1e-6;
-
-bool by_chance(Rng& rng, double share) { return rng.unit() < share; }
-
-Json ground_by_chance(Rng& rng, std::uint64_t seed, Json& json) {
-  if (by_chance(rng, 0.3)) {
-    json["ground"] = {{"size", rng.uniform(40, 90)}, {"outline", by_chance(rng, 0.5) ? "square" : "disc"}};
-    return json;
-  }
-  json["terrain"] = {{"generator", "terrain"},
-                     {"seed", seed},
-                     {"parameters",
-                      {{"iterations", 5},
-                       {"size", rng.uniform(50, 120)},
-                       {"amplitude", rng.uniform(5, 30)},
-                       {"hurst", 0.9}}}};
-  if (by_chance(rng, 0.7)) json["terrain"]["parameters"]["water_level"] = rng.uniform(-6, 2);
-  return json;
-}
-
-Json line_by_chance(Rng& rng) {
-  Json points = Json::array();
-  const std::uint32_t count = 2 + rng.below(40);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const double x = -45 + 90.0 * i / (count - 1);
-    points.push_back({x, rng.uniform(-20, 20)});
-  }
-  return points;
-}
-
-void method_by_chance(Rng& rng, Json& place) {
-  const auto count = static_cast<int>(10 + rng.below(120));
-  switch (rng.below(5)) {
-    case 0:
-      place["distance"] = rng.uniform(2, 9);
-      return;
-    case 1:
-      place.update({{"method", "scatter"}, {"count", count}});
-      return;
-    case 2:
-      place.update({{"method", "clusters"},
-                    {"count", count},
-                    {"clusters", {{"count", 1 + rng.below(6)}, {"radius", rng.uniform(2, 9)}}}});
-      return;
-    case 3:
-      place.update({{"method", "rows"},
-                    {"spacing", {rng.uniform(2, 9), rng.uniform(2, 9)}},
-                    {"angle", rng.uniform(-180, 180)},
-                    {"stagger", rng.uniform(0, 1)},
-                    {"jitter", rng.uniform(0, 0.5)}});
-      return;
-    default:
-      place.update({{"method", "path"},
-                    {"points", line_by_chance(rng)},
-                    {"distance", rng.uniform(1, 6)},
-                    {"offset", rng.uniform(0, 6)}});
-  }
-}
-
-void rules_by_chance(Rng& rng, Json& place, int number) {
-  const auto limits = [&](double low, double high) {
-    const double from = rng.uniform(low, high);
-    Json made = {{"from", from}, {"to", from + rng.uniform(0.3, 1) * (high - low)}};
-    if (by_chance(rng, 0.3)) made.erase(by_chance(rng, 0.5) ? "from" : "to");
-    if (by_chance(rng, 0.5)) made["soft"] = rng.uniform(0, 4);
-    return made;
-  };
-  if (by_chance(rng, 0.4)) place["slope"] = {{"to", rng.uniform(8, 40)}, {"soft", rng.uniform(0, 8)}};
-  if (by_chance(rng, 0.3)) place["altitude"] = limits(-10, 10);
-  if (by_chance(rng, 0.3)) place["edge"] = rng.uniform(0, 12);
-  if (by_chance(rng, 0.2)) place["density"] = rng.uniform(0.2, 1);
-  if (by_chance(rng, 0.2)) place["area"] = {{-40, -35}, {38, -30}, {rng.uniform(-10, 40), 35}, {-20, 20}};
-  if (number > 0 && by_chance(rng, 0.3)) {
-    const std::string other = "layer_" + std::to_string(rng.below(static_cast<std::uint32_t>(number)));
-    const double from = rng.uniform(0, 5);
-    place["near"] = {{{"layer", other}, {"from", from}, {"to", from + rng.uniform(3, 20)}}};
-  }
-  if (number > 0 && by_chance(rng, 0.2)) place["shade"] = {{"to", rng.uniform(0.1, 0.9)}};
-}
-
-/// The first layer alone has foundations: those after it see the ground that the answer shows.
-Json layer_by_chance(Rng& rng, int number) {
-  Json place = Json::object();
-  method_by_chance(rng, place);
-  rules_by_chance(rng, place, number);
-  Json layer = {{"name", "layer_" + std::to_string(number)},
-                {"model", cube()},
-                {"variants", 1 + rng.below(3)},
-                {"scale", {rng.uniform(0.3, 0.9), rng.uniform(1, 1.6)}},
-                {"place", place}};
-  if (by_chance(rng, 0.4)) layer["crown"] = rng.uniform(0.5, 4);
-  if (by_chance(rng, 0.5)) {
-    layer["footprint"] =
-        by_chance(rng, 0.4) ? Json(rng.uniform(0.3, 3)) : Json({rng.uniform(1, 9), rng.uniform(1, 9)});
-    if (number == 0 && by_chance(rng, 0.5)) layer["foundation"] = {{"slope_width", rng.uniform(0, 4)}};
-  }
-  return layer;
-}
-
-Json scene_by_chance(std::uint64_t seed) {
-  Rng rng = Rng::of_seed(seed).at("scene by chance");
-  Json json = {{"layers", Json::array()}, {"chunks", 1 + rng.below(4)}};
-  ground_by_chance(rng, seed, json);
-  const int layers = 1 + static_cast<int>(rng.below(5));
-  for (int i = 0; i < layers; ++i) json["layers"].push_back(layer_by_chance(rng, i));
-  if (by_chance(rng, 0.5)) json["competition"] = rng.uniform(0.2, 1);
-  if (by_chance(rng, 0.5))
-    json["paths"] = {{{"points", line_by_chance(rng)}, {"width", rng.uniform(1, 6)}, {"shown", false}}};
-  return json;
-}
 
 /// What a stand covers of the ground: a polygon of its corners, or a disc.
 struct Base {
@@ -367,6 +259,22 @@ TEST(SceneProperties, AnotherRuleOfOneLayerMovesNoOther) {
         EXPECT_EQ(before.layer(i)[k].at, after.layer(i)[k].at);
         EXPECT_EQ(before.layer(i)[k].scale, after.layer(i)[k].scale);
         EXPECT_EQ(before.layer(i)[k].turn, after.layer(i)[k].turn);
+      }
+    }
+  }
+}
+
+TEST(SceneProperties, TheNumberOfThreadsMovesNothing) {
+  for (std::uint64_t seed = 0; seed < 80 && !testing::Test::HasFailure(); ++seed) {
+    const Json json = scene_by_chance(seed);
+    SCOPED_TRACE(json.dump());
+    const Planted one = planted(json, seed, 1), eight = planted(json, seed, 8);
+    for (std::size_t i = 0; i < json["layers"].size(); ++i) {
+      ASSERT_EQ(one.layer(i).size(), eight.layer(i).size());
+      for (std::size_t k = 0; k < one.layer(i).size(); ++k) {
+        EXPECT_EQ(one.layer(i)[k].at, eight.layer(i)[k].at);
+        EXPECT_EQ(one.layer(i)[k].key, eight.layer(i)[k].key);
+        EXPECT_EQ(one.ground.height(one.layer(i)[k].at), eight.ground.height(one.layer(i)[k].at));
       }
     }
   }
