@@ -91,7 +91,7 @@ TEST(TurtleSymbols, ThatAreRefusedWhileDrawingNameTheirModuleAndText) {
 TEST(Limits, ThatADerivationPassesPointAtTheIterations) {
   Limits few;
   few.modules = 100;
-  EXPECT_THAT(refusal_of(grammar_of("A", {"A<A->A", "A->AA"}, 20), few),
+  EXPECT_THAT(refusal_of(grammar_of("A(1)", {"B<A(x)->A(x)", "A(x)->A(x)A(x)"}, 20), few),
               testing::StartsWith("/iterations needs more than 100 modules, which is the limit, in step "));
   Limits shallow;
   shallow.bracket_depth = 10;
