@@ -77,7 +77,8 @@ std::optional<http::Response> refuse_query(const Route& row, const Call& call) {
   for (const auto& [key, value] : *query) {
     if (issues.size() == most_told) break;
     std::string pointer = "/";
-    for (const char c : key.substr(0, longest)) pointer += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+    for (const char c : key.substr(0, longest))
+      pointer += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
     issues.push_back({std::move(pointer), std::string(row.pattern) + " takes no query."});
   }
   if (issues.empty()) return std::nullopt;  // `?` or `?&` alone

@@ -59,20 +59,27 @@ std::optional<Target> target_of(std::string_view key, std::string_view generator
   return Target{{"parameters", group, name}, &map->at("additionalProperties")};
 }
 
-/// What a key means that nothing takes: said of the output where it begins so, with the likeliest key.
+/// The one of the properties that `name` is most likely a misspelling of, as the end of a sentence; empty:
+/// none is.
+std::string did_you_mean(std::string_view name, const Json& schema, const std::string& group) {
+  std::vector<std::string_view> words;
+  for (const auto& [word, unused] : schema.at("properties").get_ref<const Json::object_t&>())
+    words.push_back(word);
+  const std::string_view nearest = schema::nearest_word(name, words);
+  return nearest.empty() ? "" : "; did you mean \"" + group + std::string(nearest) + "\"?";
+}
+
+/// What is said of a key that nothing takes; of the output where it begins so.
 std::string unknown_key(std::string_view key, std::string_view generator) {
-  std::vector<std::string> keys = {"seed"};
-  const Json& output = *property(parsed_schemas().at("request"), "output");
-  for (const auto& [name, schema] : output.at("properties").items()) keys.push_back("output." + name);
-  for (const auto& [name, schema] : parsed_schemas().at(generator).at("properties").items())
-    keys.push_back(name);
-  const std::vector<std::string_view> words(keys.begin(), keys.end());
-  const std::string_view nearest = schema::nearest_word(key, words);
+  constexpr std::string_view group = "output.";
   const std::string found = "\"" + shortened(key, 40) + "\"";
-  const std::string hint =
-      nearest.empty() || nearest == key ? "" : "; did you mean \"" + std::string(nearest) + "\"?";
-  if (key.starts_with("output.")) return found + " is no option of the output" + hint;
-  return found + " is neither seed, nor output.…, nor a parameter of " + std::string(generator) + hint;
+  if (key.starts_with(group)) {
+    const Json& output = *property(parsed_schemas().at("request"), "output");
+    return found + " is no option of the output" +
+           did_you_mean(key.substr(group.size()), output, std::string(group));
+  }
+  return found + " is neither seed, nor output.…, nor a parameter of " + std::string(generator) +
+         did_you_mean(key, parsed_schemas().at(generator), "");
 }
 
 bool takes(const Json& schema, const Json& value) {

@@ -77,8 +77,7 @@ std::string fault_of_png(const std::vector<std::uint8_t>& bytes) {
     }
     at += around + length;
   }
-  return "the PNG is truncated: it ends after " + std::to_string(bytes.size()) +
-         " bytes, before its data do";
+  return "the PNG is truncated: it ends after " + std::to_string(bytes.size()) + " bytes, before its data do";
 }
 
 }  // namespace

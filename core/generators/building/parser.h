@@ -142,7 +142,7 @@ class Parser {
   std::set<std::string, std::less<>> symbols_with_rules_;
   std::uint32_t start_ = none;
   std::size_t last_fault_ = static_cast<std::size_t>(-1);
-  std::size_t written_ = 0;  ///< tokens of all expressions, functions written out
+  std::size_t written_ = 0;                   ///< tokens of all expressions, functions written out
   std::vector<std::string> attribute_order_;  ///< those that others need first
 };
 

@@ -10,7 +10,7 @@ namespace {
 using lang::Token;
 using lang::TokenKind;
 
-constexpr std::size_t most_tokens = 20'000;  ///< of one expression, functions written out
+constexpr std::size_t most_tokens = 20'000;      ///< of one expression, functions written out
 constexpr std::size_t most_written = 4'000'000;  ///< of all expressions together
 constexpr int deepest_call = 32;
 
@@ -126,10 +126,9 @@ void Parser::write_tokens(Writing& writing, std::span<const Token> tokens, const
   written_ += tokens.size();
   const bool is_long = writing.out.size() > most_tokens || tokens.size() > most_tokens;
   if (is_long || writing.depth > deepest_call || written_ > most_written) {
-    fault(tokens[0], writing.depth > deepest_call
-                         ? "functions call each other more than 32 deep"
-                         : is_long ? "the expression is too long when its functions are written out"
-                                   : "the rules are too long when all their functions are written out");
+    fault(tokens[0], writing.depth > deepest_call ? "functions call each other more than 32 deep"
+                     : is_long ? "the expression is too long when its functions are written out"
+                               : "the rules are too long when all their functions are written out");
     writing.is_broken = true;
     return;
   }

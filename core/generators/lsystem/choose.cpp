@@ -109,9 +109,8 @@ std::string writer_of(const Grammar& grammar, KindId kind) {
 
 void refuse_argument(const Grammar& grammar, const Template& made, std::uint32_t index, double value) {
   const auto number = static_cast<std::uint32_t>(&made - grammar.templates.data());
-  const std::string pointer = text_with(grammar, [&](Range range) {
-    return number >= range.first && number < range.first + range.count;
-  });
+  const std::string pointer = text_with(
+      grammar, [&](Range range) { return number >= range.first && number < range.first + range.count; });
   Job::reject({pointer, "parameter " + std::to_string(index + 1) + " of `" + grammar.kinds[made.kind].symbol +
                             "` became " + (value != value ? "undefined (0/0 or the like)" : "infinite") +
                             "; expected a finite number"});

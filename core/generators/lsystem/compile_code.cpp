@@ -17,7 +17,7 @@ namespace seedmesh::lsystem {
 namespace {
 
 constexpr int deepest = 64;                 // statements inside each other
-constexpr std::size_t longest_name = 64;     // of a local
+constexpr std::size_t longest_name = 64;    // of a local
 constexpr std::size_t most_locals = 1'000;  // of one production, with those of blocks that are over
 
 bool is_name(char c) {
@@ -360,7 +360,8 @@ class Compiler::CodeReader {
     const std::size_t from = at;
     while (at < to && (at == from || !begins_statement(at, to))) {
       if (text_[at] == '[') open.push_back(at);
-      if (text_[at] == ']' && open.empty() && sound()) fault(at, "found `]` without a `[` before it in the same block");
+      if (text_[at] == ']' && open.empty() && sound())
+        fault(at, "found `]` without a `[` before it in the same block");
       if (text_[at] == ']' && !open.empty()) open.pop_back();
       at = skip_spaces(text_, module_at(at, to), to);
     }
@@ -387,7 +388,7 @@ class Compiler::CodeReader {
   std::vector<Step>& steps_;
   std::uint32_t& slots_;
   Allowed allowed_;
-  std::vector<std::string> locals_;                                          ///< in the order in which they came
+  std::vector<std::string> locals_;  ///< in the order in which they came
   std::map<std::string, std::vector<std::uint32_t>, std::less<>> slots_of_;  ///< of each, the innermost last
   std::size_t bound_ = 0;
   int depth_ = 0;

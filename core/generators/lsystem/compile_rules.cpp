@@ -143,7 +143,10 @@ void Compiler::read_predecessor(Source& source, Slice slice, Production& made, s
     if (source.faults.empty()) {
       source.faults.push_back(
           {heads.empty() ? slice.from : heads[1].offset,
-           "found " + std::to_string(heads.size()) + " modules; expected one predecessor"});
+           "found " + std::to_string(heads.size()) + " modules; expected one predecessor" +
+               (heads.size() > 1
+                    ? ", whose name is declared in `modules` where it is longer than one character"
+                    : "")});
     }
     return;
   }

@@ -115,7 +115,7 @@ class Compiler {
   const LsystemParams& params_;
   const Limits& limits_;
   std::vector<Issue>& issues_;
-  const Job* job_;  ///< null: there is none
+  const Job* job_;     ///< null: there is none
   lang::Names names_;  ///< the constants, and behind them the parameters of the production that is read
   std::size_t constant_count_ = 0;
   std::map<std::string, std::uint32_t, std::less<>> frame_slots_;             ///< parameters that are frames
@@ -127,7 +127,7 @@ class Compiler {
   std::vector<Doubt> doubts_;
   std::vector<std::uint8_t> doubted_;  ///< by kind: it was looked at
   std::set<std::string> warned_;       ///< productions that warnings are about
-  std::size_t untold_ = 0;  ///< warnings beyond those that are told
+  std::size_t untold_ = 0;             ///< warnings beyond those that are told
   Grammar grammar_;
 };
 

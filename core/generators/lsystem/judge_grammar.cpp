@@ -75,7 +75,8 @@ void Compiler::doubt_module(Source& source, const WrittenModule& module, const T
   const auto name = [&] { return "`" + kind.symbol + "`"; };
   const auto check_tropism = [&](const double* index) {
     const double count = static_cast<double>(params_.tropism.size());
-    if (count == 0) return doubt(Doubt::Is::warning, "found " + name() + " and no `tropism`: it does nothing");
+    if (count == 0)
+      return doubt(Doubt::Is::warning, "found " + name() + " and no `tropism`: it does nothing");
     if (index && !(*index >= 0 && *index < count)) {
       doubt(Doubt::Is::warning, "found tropism " + text_of_number(*index) + " in " + name() +
                                     "; expected 0 to " + text_of_number(count - 1) + ": it does nothing");
@@ -97,8 +98,9 @@ void Compiler::doubt_module(Source& source, const WrittenModule& module, const T
       const double* wanted = number(0);
       const auto count = static_cast<double>(params_.contours.size());
       if (!wanted || (std::trunc(*wanted) >= 0 && std::trunc(*wanted) <= count)) return;
-      return doubt(Doubt::Is::fault, "found @#(" + text_of_number(*wanted) + "); expected 0, the circle, to " +
-                                         text_of_number(count) + ", the last of `contours`");
+      return doubt(Doubt::Is::fault, "found @#(" + text_of_number(*wanted) +
+                                         "); expected 0, the circle, to " + text_of_number(count) +
+                                         ", the last of `contours`");
     }
     case Command::divide_scale:
       if (number(0) && *number(0) == 0) doubt(Doubt::Is::fault, "found a divisor of 0 in " + name());
@@ -219,7 +221,8 @@ void Compiler::judge() {
     warn_of_weights(rules);
     warn_of_dead(rules);
   });
-  if (untold_ > 0) grammar_.warnings.push_back({"", "and " + std::to_string(untold_) + " more warnings", 0, 0});
+  if (untold_ > 0)
+    grammar_.warnings.push_back({"", "and " + std::to_string(untold_) + " more warnings", 0, 0});
 }
 
 }  // namespace seedmesh::lsystem

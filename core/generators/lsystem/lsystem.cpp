@@ -165,7 +165,9 @@ void refuse_too_many_segments(const Grammar& grammar, const LsystemParams& param
 std::uint64_t count_of(const Grammar& grammar, const std::vector<std::uint64_t>& counts, Command command) {
   std::uint64_t sum = 0;
   for (std::size_t kind = 0; kind < counts.size(); ++kind) {
-    if (grammar.kinds[kind].command == command) sum += std::min(saturated, counts[kind]);
+    const Kind& each = grammar.kinds[kind];
+    const bool is_there = command != Command::organ || each.surface != Kind::none;
+    if (each.command == command && is_there) sum += std::min(saturated, counts[kind]);
   }
   return sum;
 }

@@ -172,7 +172,8 @@ Symbols::Symbols() {
 }
 
 std::uint32_t Symbols::Node::behind(char c) const {
-  const auto found = std::find_if(next.begin(), next.end(), [c](const auto& each) { return each.first == c; });
+  const auto found =
+      std::find_if(next.begin(), next.end(), [c](const auto& each) { return each.first == c; });
   return found == next.end() ? 0 : found->second;
 }
 

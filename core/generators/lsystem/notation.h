@@ -60,7 +60,7 @@ class Symbols {
   /// What a name may go on with; node 0 is where all begin.
   struct Node {
     std::vector<std::pair<char, std::uint32_t>> next;
-    bool ends = false;  ///< a name
+    bool ends = false;                   ///< a name
     std::uint32_t behind(char c) const;  ///< 0: none
   };
   std::uint32_t first(char c) const { return first_[static_cast<unsigned char>(c)]; }

@@ -33,10 +33,11 @@ std::string refusal_of(const LsystemParams& params, Limits limits = {}) {
 }
 
 TEST(Weights, ThatDoNotSumToOneAreToldBesideAPlainProduction) {
-  EXPECT_THAT(warnings_of(grammar_of("F", {"F->G:0.3", "F->FF"})),
-              ElementsAre(HasSubstr("/productions/0 0:0 the probabilities of the productions of `F` do not sum"),
-                          HasSubstr("/productions/1 0:0 this production of `F` is never used: the one of "
-                                    "/productions/0 before it has a probability")));
+  EXPECT_THAT(
+      warnings_of(grammar_of("F", {"F->G:0.3", "F->FF"})),
+      ElementsAre(HasSubstr("/productions/0 0:0 the probabilities of the productions of `F` do not sum"),
+                  HasSubstr("/productions/1 0:0 this production of `F` is never used: the one of "
+                            "/productions/0 before it has a probability")));
   EXPECT_THAT(warnings_of(grammar_of("F", {"F->G:0.3", "F->FF:0.7"})), IsEmpty());
 }
 
@@ -57,8 +58,9 @@ TEST(Productions, OfATableMayHideThoseOfEveryStep) {
 }
 
 TEST(TurtleSymbols, WithTooFewParametersAreTold) {
-  EXPECT_THAT(warnings_of(grammar_of("@M(1,2)F", {})),
-              ElementsAre("/axiom 1:1 `@M` takes (x,y,z), found 2 parameters: the turtle does nothing on it"));
+  EXPECT_THAT(
+      warnings_of(grammar_of("@M(1,2)F", {})),
+      ElementsAre("/axiom 1:1 `@M` takes (x,y,z), found 2 parameters: the turtle does nothing on it"));
   EXPECT_THAT(warnings_of(grammar_of("F@#F", {})), ElementsAre(HasSubstr("/axiom 1:2 `@#` takes (number)")));
   EXPECT_THAT(warnings_of(grammar_of("F?P(0,0)", {})), ElementsAre(HasSubstr("1:2 `?P` takes (x,y,z)")));
   EXPECT_THAT(warnings_of(grammar_of("F(1,2)", {})), IsEmpty());
@@ -76,7 +78,8 @@ TEST(TurtleSymbols, WithValuesThatMeanNothingAreTold) {
 }
 
 TEST(TurtleSymbols, WithValuesThatAreRefusedAreFaultsOfTheText) {
-  EXPECT_THAT(faults_of(grammar_of("F@#(3)F", {})), ElementsAre(HasSubstr("/axiom 1:2 found @#(3); expected 0")));
+  EXPECT_THAT(faults_of(grammar_of("F@#(3)F", {})),
+              ElementsAre(HasSubstr("/axiom 1:2 found @#(3); expected 0")));
   EXPECT_THAT(faults_of(grammar_of("F", {"F->F@Dd(0)"})),
               ElementsAre("/productions/0 1:5 found a divisor of 0 in `@Dd`"));
 }
@@ -91,7 +94,7 @@ TEST(TurtleSymbols, ThatAreRefusedWhileDrawingNameTheirModuleAndText) {
 TEST(Limits, ThatADerivationPassesPointAtTheIterations) {
   Limits few;
   few.modules = 100;
-  EXPECT_THAT(refusal_of(grammar_of("A", {"A<A->A", "A->AA"}, 20), few),
+  EXPECT_THAT(refusal_of(grammar_of("A(1)", {"B<A(x)->A(x)", "A(x)->A(x)A(x)"}, 20), few),
               testing::StartsWith("/iterations needs more than 100 modules, which is the limit, in step "));
   Limits shallow;
   shallow.bracket_depth = 10;

@@ -133,7 +133,8 @@ TEST(Overrides, OfTheOutputAreToldOfAsSuch) {
     return read_preset("koch_island", {{key, "1"}}, Limits{})->error().issues.front().message;
   };
   EXPECT_EQ(message("output.foo"), "\"output.foo\" is no option of the output");
-  EXPECT_EQ(message("output.lod"), "\"output.lod\" is no option of the output; did you mean \"output.lods\"?");
+  EXPECT_EQ(message("output.lod"),
+            "\"output.lod\" is no option of the output; did you mean \"output.lods\"?");
   EXPECT_THAT(message("angel"), testing::EndsWith("; did you mean \"angle\"?"));
 }
 

@@ -52,10 +52,12 @@ TEST(ReadRequest, TakesAWholeRequest) {
 
 TEST(ReadRequest, TellsNumbersThatAreTooLargeWithAllElse) {
   EXPECT_THAT(pointers(R"({"a":1e999})"), UnorderedElementsAre("/a", "/a", ""));
-  EXPECT_THAT(pointers(R"({"generator":"lsystem","seed":-1e400,"parameters":{"axiom":"F)\"","ignore":null,"angle":2e308,)"
-                       R"("step":-1e999,"sides":1}})"),
-              UnorderedElementsAre("/seed", "/parameters/angle", "/parameters/step", "/parameters/sides",
-                                   "/parameters/ignore", "/parameters/axiom"));
+  EXPECT_THAT(
+      pointers(
+          R"({"generator":"lsystem","seed":-1e400,"parameters":{"axiom":"F)\"","ignore":null,"angle":2e308,)"
+          R"("step":-1e999,"sides":1}})"),
+      UnorderedElementsAre("/seed", "/parameters/angle", "/parameters/step", "/parameters/sides",
+                           "/parameters/ignore", "/parameters/axiom"));
   EXPECT_EQ(error_of(R"({"seed":1e999,)").code, Code::malformed);
   EXPECT_TRUE(read_request(R"({"generator":"lsystem","parameters":{"axiom":"F","angle":1e-999}})", Limits{}));
 }

@@ -39,5 +39,13 @@ TEST(DataUri, RefusesAPictureThatIsCutShort) {
     EXPECT_FALSE(fault_of(red.substr(0, length)).empty());
 }
 
+TEST(DataUri, TellsOfAPictureThatIsCutShortWithoutItsPixels) {
+  EXPECT_EQ(fault_of_image_uri(red), "");
+  for (std::size_t length = 24; length + 4 < red.size(); length += 4)
+    EXPECT_FALSE(fault_of_image_uri(red.substr(0, length)).empty()) << length;
+  EXPECT_EQ(fault_of_image_uri("data:image/png;base64,iVBORw0KGgo="),
+            "the PNG is truncated: it ends after 8 bytes, before its data do");
+}
+
 }  // namespace
 }  // namespace seedmesh::texture
