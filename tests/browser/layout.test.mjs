@@ -145,7 +145,7 @@ test('the way to a building ends before its wall, by wheel and by keys', { timeo
   assert.equal(await in_the_middle(), 1, 'by keys');
   await page.locator('#picture').press('f');
   await page.mouse.move(240, 180);
-  for (let step = 0; step < 40; step += 1) {
+  for (let step = 0; step < 25; step += 1) {
     await page.mouse.wheel(0, -300);
     await frames(page);
   }
