@@ -142,6 +142,7 @@ test('maps, lists and two forms of one value can be changed and taken back', { t
 test('vectors, colours, pictures and requests have fields of their own', { timeout: 300_000 }, async () => {
   const { page, sends, at } = await open_kiln();
   assert.deepEqual(await at('pull').locator('input').evaluateAll((each) => each.map((input) => input.getAttribute('aria-label'))), ['Pull, x', 'Pull, y', 'Pull, z']);
+  assert.deepEqual(await at('pull').locator('.axis, .unit').allTextContents(), ['x', 'm', 'y', 'm', 'z', 'm']);
   assert.deepEqual((await sends(() => at('pull').getByLabel('Pull, y').fill('2.5'))).pull, [0, 2.5, 0]);
   assert.ok(!('pull' in (await sends(() => at('pull').getByRole('button', { name: 'Reset Pull' }).click()))));
   assert.deepEqual((await sends(() => at('glazes').getByLabel('Glazes 2', { exact: true }).fill('#0000ff'))).glazes, ['#ff0000', '#0000ff']);

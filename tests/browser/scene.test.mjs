@@ -139,7 +139,7 @@ test('marks stand in the picture while the form is in sight', { timeout: 300_000
 test('what is planted with the gallery in sight is told, and nothing is planted beside the ground', { timeout: 300_000 }, async () => {
   const { page, sends, canvas } = await open_garden();
   await page.click('#tab-gallery');
-  assert.equal((await sends(() => canvas.click({ button: 'right', position: { x: 120, y: 210 } }))).flat().length, 4);
+  assert.equal((await sends(() => canvas.click({ button: 'right', position: { x: 200, y: 215 } }))).flat().length, 4);
   await page.waitForFunction(() => /^Planted at -?[\d.]+, -?[\d.]+ m/.test(document.getElementById('status').textContent));
   await canvas.click({ button: 'right', position: { x: 30, y: 280 } });
   await page.waitForFunction(() => document.getElementById('status').textContent.includes('no ground at this place'));

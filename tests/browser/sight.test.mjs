@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { PNG } from 'pngjs';
-import { choose, difference, fragment_of, go_by, launch, leafy, open, open_menu, outline, overlap, picture, program, serve, small_tree, statistics, until_shown, write } from './support.mjs';
+import { choose, difference, extent, fragment_of, go_by, launch, leafy, open, open_menu, outline, overlap, picture, program, rect, serve, set, small_tree, statistics, until_shown, write } from './support.mjs';
 
 let server, browser, address;
 before(async () => {
@@ -13,45 +13,11 @@ before(async () => {
 after(async () => { await browser?.close(); await server?.stop(); });
 
 const tower = { generator: 'building', seed: 1, parameters: { rules: 'Lot --> extrude(20) color("#aa8866") Mass.', start: 'Lot', size: [6, 0, 6] } };
-/** Sets a control of the menu that may be out of sight, and waits for two pictures. */
-const set = (page, id, value) => page.evaluate(([id, value]) => new Promise((resolve) => {
-  const control = document.getElementById(id);
-  if (typeof value === 'boolean') control.checked = value;
-  else control.value = value;
-  control.dispatchEvent(new Event('change'));
-  requestAnimationFrame(() => requestAnimationFrame(resolve));
-}), [id, value]);
-const rect = (page, selector) => page.locator(selector).evaluate((each) => { const { top, bottom, left, right } = each.getBoundingClientRect(); return { top, bottom, left, right }; });
-
-/** The rows from and to which the model is drawn: all that changes with its shading, in the pixels of the window. */
-async function rows(page) {
-  await set(page, 'shading', 'shaded');
-  const one = PNG.sync.read(await picture(page));
-  await set(page, 'shading', 'normals');
-  const other = PNG.sync.read(await picture(page));
-  await set(page, 'shading', 'shaded');
-  const { width, height } = one;
-  const changed = Array.from({ length: height }, (_, y) => {
-    let count = 0;
-    for (let x = 0; x < width; x += 1) for (const channel of [0, 1, 2]) if (Math.abs(one.data[(y * width + x) * 4 + channel] - other.data[(y * width + x) * 4 + channel]) > 40) { count += 1; break; }
-    return count > 0;
-  });
-  const { top } = await rect(page, '#picture');
-  return { top: top + changed.indexOf(true), bottom: top + changed.lastIndexOf(true), height: changed.lastIndexOf(true) - changed.indexOf(true) };
-}
-
-for (const [width, height] of [[390, 844], [900, 720], [1280, 720]]) {
-  test(`at ${width} x ${height} nothing covers a tower`, { timeout: 200_000 }, async () => {
-    const page = await open(browser, `${server.url}/${fragment_of(tower)}`, { viewport: { width, height } });
-    await page.evaluate(() => document.getElementById('hint-away').click());
-    const model = await rows(page);
-    const upper = await rect(page, '#upper'), lower = await rect(page, '#lower');
-    assert.ok(model.top > upper.bottom && model.bottom < lower.top, JSON.stringify({ model, upper, lower }));
-    assert.ok(model.height > (lower.top - upper.bottom) * 0.6, `${model.height} of ${lower.top - upper.bottom} rows`);
-    const title = await rect(page, '.heading'), tools = await rect(page, '.tools');
-    assert.ok(title.bottom <= tools.top || title.right <= tools.left, 'the heading and the buttons stand apart');
-  });
-}
+/** The rows from and to which the model is drawn. */
+const rows = async (page) => {
+  const { top, bottom } = await extent(page);
+  return { top, bottom, height: bottom - top };
+};
 
 for (const colorScheme of ['light', 'dark']) {
   test(`the heading can be read over leaves and sky, ${colorScheme}`, { timeout: 200_000 }, async () => {

@@ -138,3 +138,33 @@ export function overlap(a, b) {
   a.forEach((is, pixel) => { both += is & b[pixel]; either += is | b[pixel]; });
   return both / either;
 }
+
+/** Sets a control of the menu that may be out of sight, and waits for two pictures. */
+export const set = (page, id, value) => page.evaluate(([id, value]) => new Promise((resolve) => {
+  const control = document.getElementById(id);
+  if (typeof value === 'boolean') control.checked = value;
+  else control.value = value;
+  control.dispatchEvent(new Event('change'));
+  requestAnimationFrame(() => requestAnimationFrame(resolve));
+}), [id, value]);
+
+export const rect = (page, selector) => page.locator(selector).evaluate((each) => { const { top, bottom, left, right } = each.getBoundingClientRect(); return { top, bottom, left, right }; });
+
+/** From where to where the model is drawn: all that changes with its shading, in the pixels of the window. */
+export async function extent(page, mode = 'shaded') {
+  await set(page, 'shading', 'shaded');
+  const one = PNG.sync.read(await picture(page));
+  await set(page, 'shading', 'normals');
+  const other = PNG.sync.read(await picture(page));
+  await set(page, 'shading', mode);
+  const { width, height } = one;
+  const found = { left: width, right: -1, top: height, bottom: -1 };
+  for (let y = 0; y < height; y += 1)
+    for (let x = 0; x < width; x += 1) {
+      const at = (y * width + x) * 4;
+      if (![0, 1, 2].some((channel) => Math.abs(one.data[at + channel] - other.data[at + channel]) > 40)) continue;
+      Object.assign(found, { left: Math.min(found.left, x), right: Math.max(found.right, x), top: Math.min(found.top, y), bottom: Math.max(found.bottom, y) });
+    }
+  const from = await rect(page, '#picture');
+  return { left: from.left + found.left, right: from.left + found.right, top: from.top + found.top, bottom: from.top + found.bottom };
+}

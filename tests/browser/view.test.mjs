@@ -277,8 +277,8 @@ test('heights are shown as a map with its size, figures and words as such', { ti
 test('shapes lie over the model as boxes, and one that is pointed at tells what it is', { timeout: 300_000 }, async () => {
   const axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
   const shapes = [
-    { id: 0, parent: null, symbol: 'Lot', parameters: {}, active: false, rule: 'Lot --> Wall', line: 2, choice: 3, scope: { origin: [-5, 0, -5], axes, size: [10, 0, 10] } },
-    { id: 1, parent: 0, symbol: 'Wall', parameters: { bays: 3 }, active: true, scope: { origin: [-5, -5, -5], axes, size: [10, 20, 10] } },
+    { id: 0, parent: null, symbol: 'Lot', parameters: {}, active: false, rule: 'Lot --> Wall', line: 2, choice: 3, scope: { origin: [-1, -0.2, -0.5], axes, size: [1.2, 0, 1] } },
+    { id: 1, parent: 0, symbol: 'Wall', parameters: { bays: 3 }, active: true, scope: { origin: [-1, -0.2, -0.5], axes, size: [1.2, 1, 1] } },
   ];
   const page = await open(browser, address, { before: (page) => page.route('**/v1/derive', (route) => route.fulfill({ json: { shapes, warnings: [], reports: { area: 12.5 } } })) });
   await page.click('#hint-away');
@@ -288,7 +288,7 @@ test('shapes lie over the model as boxes, and one that is pointed at tells what 
   await page.locator('#picture').click({ position: { x: 200, y: 200 } });
   await page.waitForSelector('.picked h4');
   const told = await page.textContent('.picked');
-  for (const words of ['Wall', 'Lot', 'Made byLot --> Wall (choice 3)', '10 × 20 × 10 m', '"bays":3']) assert.ok(told.includes(words), `${words} in ${told}`);
+  for (const words of ['Wall', 'Lot', 'Made byLot --> Wall (choice 3)', '1.2 × 1 × 1 m', '"bays":3']) assert.ok(told.includes(words), `${words} in ${told}`);
   await changes(page, 'no boxes', () => page.uncheck('#show-shapes'));
 });
 

@@ -9,7 +9,7 @@ interface Stand { element: HTMLElement; around: HTMLElement[] }
 
 function stand_of(element: HTMLElement): Stand {
   const around: HTMLElement[] = [];
-  for (let up = element.parentElement; up; up = up.parentElement) if (up.matches('[role="group"], .notice, .menu, dialog')) around.push(up);
+  for (let up: HTMLElement | null = element; up; up = up.parentElement) if (up.matches('[role="group"], .notice, .menu, dialog')) around.push(up);
   return { element, around };
 }
 

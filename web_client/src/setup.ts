@@ -31,10 +31,12 @@ function watch_rims(viewer: Viewer): void {
   let had_hint = false;
   const rims = new ResizeObserver(() => {
     // A word of the moment takes the place of the figures, and moves nothing.
-    const is_passing = !notice.hidden && ['starting', 'growing', 'ready'].includes(document.body.dataset['state'] ?? '');
+    const state = document.body.dataset['state'] ?? '';
+    const is_passing = !notice.hidden && ['starting', 'growing', 'ready'].includes(state);
     if (upper.offsetHeight === 0 || is_passing) return;
     const has_hint = hint.offsetHeight > 0;
-    viewer.set_covered({ top: upper.offsetTop + upper.offsetHeight + 8, bottom: Math.max(72, view.clientHeight - below.offsetTop + 10) }, had_hint && !has_hint);
+    // Who sends the hint away gets its room; where it goes because of a change, both models are seen at one scale.
+    viewer.set_covered({ top: upper.offsetTop + upper.offsetHeight + 8, bottom: Math.max(72, view.clientHeight - below.offsetTop + 10) }, had_hint && !has_hint && state === 'ready');
     had_hint = has_hint;
   });
   // The word itself too: what was not looked at while it stood there is looked at when it goes.

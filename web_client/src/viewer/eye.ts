@@ -105,7 +105,7 @@ export class Eye {
     const from = way.normalize();
     if (!this.solid || this.way.distanceToSquared(from) < 1e-8) return;
     this.way = from;
-    const wall = wall_between(this.solid, camera.position, controls.target);
+    const wall = wall_between(this.solid, camera.position, controls.target, framed.nearest / 4);
     controls.minDistance = wall === null ? framed.nearest : Math.max(framed.nearest, Math.min(distance, distance - wall + framed.nearest));
   }
 }

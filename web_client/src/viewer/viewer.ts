@@ -1,5 +1,5 @@
 /** The picture. Draws when something changed, never otherwise; keeps one model and lets go of the one before. */
-import { Box3, NeutralToneMapping, PCFShadowMap, Scene, Vector3, WebGLRenderer, type Group } from 'three';
+import { Box3, NeutralToneMapping, PCFShadowMap, Scene, Vector3, WebGLRenderer, type Group, type PerspectiveCamera } from 'three';
 import { measured } from '../grower';
 import { Beside } from './beside';
 import { Scopes, drop_boxes, type ScopeBox } from './boxes';
@@ -113,7 +113,7 @@ export class Viewer {
   /** What shall be seen. */
   private get sight(): Vector3[] { return [...this.points, ...(this.beside.other?.points ?? []), ...this.stage.sight(this.box)]; }
 
-  private get camera(): Eye['camera'] { return this.eye.camera; }
+  private get camera(): PerspectiveCamera { return this.eye.camera; }
 
   /** Whether the model can be looked at from where the camera is, so that models can be told apart by their size. */
   private is_framed(): boolean {
