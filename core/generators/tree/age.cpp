@@ -6,13 +6,13 @@
 namespace seedmesh::tree {
 namespace {
 
-// In the animation a limb sprouts when this share of what is left to its parent has passed, from the foot of the parent to its
-// tip; chance takes as much to either side.
+// In the animation a limb sprouts when this share of what is left to its parent has passed, from the foot of
+// the parent to its tip; chance takes as much to either side.
 constexpr float first_share = 0.03F, last_share = 0.5F, spread_share = 0.06F;
 constexpr float latest = 0.8F;
 // Of a tree of some age, limbs sprouted over this share of what was left to their parent: by chance, the
-// ones near its foot and the thick ones, which are the older ones, sooner. On the trunk more than a quarter of
-// them were there after a tenth of that time.
+// ones near its foot and the thick ones, which are the older ones, sooner. On the trunk more than a quarter
+// of them were there after a tenth of that time.
 constexpr float young_share = 0.5F, by_place = 0.1F, by_thickness = 0.75F;
 // Limbs below this share of their size are not there yet.
 constexpr float smallest = 2e-3F;
@@ -58,8 +58,8 @@ float leaf_size(float share) {
   return std::sqrt(height) * std::sqrt(std::sqrt(height));
 }
 
-/// How much of its size a limb has beside the one that it grows on: by the share of its parent's time that it has lived,
-/// so that a young tree is a small tree of few limbs.
+/// How much of its size a limb has beside the one that it grows on: by the share of its parent's time that it
+/// has lived, so that a young tree is a small tree of few limbs.
 float limb_size(float birth, float share) {
   if (share <= birth) return 0;
   const float left = 1 - (share - birth) / (share * (1 - birth));

@@ -81,7 +81,8 @@ void add_merged(Model& model, const Leaves& leaves, const TreeParams& params, co
     options.surfaces = std::span(&surface, 1);
     Organs fewer(job);
     if (level > 0) {
-      const double share = leaves.levels.leaves_at(Detail(level), leaves.organs.organ.size(), surface.elements(), before);
+      const double share =
+          leaves.levels.leaves_at(Detail(level), leaves.organs.organ.size(), surface.elements(), before);
       fewer = leaves.levels.foliage->keep(leaves.organs, share, job);
     }
     before = leaves.levels.bark.empty() ? 0 : leaves.levels.bark[static_cast<std::size_t>(level)];
