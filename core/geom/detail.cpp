@@ -42,7 +42,7 @@ int Detail::even_sides(int most) const {
   const double share = most * organs();
   if (level_ == 0 || most == 3) return most;
   if (share < least_for_four) return 3;
-  return std::max(4, math::to_int32(share / 2) * 2);
+  return std::max(4, 2 * math::to_int32(share / 2 + 0.5));
 }
 int Detail::stacks(int most) const { return std::max(1, shared_out(most, level_)); }
 

@@ -49,7 +49,8 @@ struct KeptLimbs {
 };
 KeptLimbs keep(const Limbs& limbs, const Array<std::uint8_t>& stays, Job& job);
 
-/// Limbs without the internodes that lie on earlier ones (find_chains()); what grew from those grows from these.
+/// Limbs without the internodes that lie on earlier ones (find_chains()); what grew from those grows from
+/// these.
 KeptLimbs without_repeats(const Limbs& limbs, int sides, Job& job);
 
 /// The greatest radius of an internode.

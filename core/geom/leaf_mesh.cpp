@@ -35,8 +35,7 @@ struct Point {
 /// A flat leaf bent: each blade folded about its midrib, then everything down along an arc.
 class Bend {
  public:
-  Bend(const LeafForm& form)
-      : fold_(math::sincos(form.fold)), droop_(form.droop), is_afar_(form.level > 0) {}
+  Bend(const LeafForm& form) : fold_(math::sincos(form.fold)), droop_(form.droop), is_afar_(form.level > 0) {}
 
   /// A point of the plane that stands `off` beside the midrib of its blade, to the right; `across` is the
   /// direction of growing `off`.

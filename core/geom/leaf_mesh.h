@@ -22,10 +22,10 @@ enum class LeafBuild {
 struct LeafForm {
   LeafShape shape = LeafShape::simple;
   LeafBuild build = LeafBuild::mesh;
-  double fold = 0.25;   ///< radians by which both halves of a blade are raised about its midrib
-  double droop = 0.5;   ///< radians by which the tip bends down
-  int coarseness = 0;   ///< 0 finest; each step has fewer points on a margin and fewer rows in a bent square
-  int level = 0;        ///< of detail: each has fewer points than the one before, and lies where the finest does
+  double fold = 0.25;  ///< radians by which both halves of a blade are raised about its midrib
+  double droop = 0.5;  ///< radians by which the tip bends down
+  int coarseness = 0;  ///< 0 finest; each step has fewer points on a margin and fewer rows in a bent square
+  int level = 0;  ///< of detail: each has fewer points than the one before, and lies where the finest does
   int twig_leaves = 9;  ///< as in the picture
 };
 

@@ -167,9 +167,7 @@ class Separation {
     return pinched;
   }
 
-  bool is_free(Word at) const {
-    return !table_->has(point_, at) && !taken_.contains(at);
-  }
+  bool is_free(Word at) const { return !table_->has(point_, at) && !taken_.contains(at); }
 
   /// The free point beside `at` that is nearest to `wanted` (in steps), or `at` where there is none.
   Word nearest_free(Word at, const glm::dvec3& wanted) const {
@@ -190,8 +188,8 @@ class Separation {
 
   /// All but the first of what came to a point go to points of their own.
   bool part_from(Word at) {
-    auto stand = std::lower_bound(stands_.begin(), stands_.end(), at,
-                                  [](const Stand& a, Word b) { return a.at < b; });
+    auto stand =
+        std::lower_bound(stands_.begin(), stands_.end(), at, [](const Stand& a, Word b) { return a.at < b; });
     const Exact first = stand->exact;
     const glm::dvec3 stays(std::get<0>(first), std::get<1>(first), std::get<2>(first));
     bool has_moved = false;

@@ -89,8 +89,8 @@ CoarseLimbs coarse_limbs(const Limbs& limbs, const CoarseOptions& wanted, std::u
     CoarseLimbs next = coarsen(limbs, coarse, job);
     // Stacks have more triangles than the tubes that were counted.
     const std::uint64_t made = skin_triangles(next.limbs, options);
-    const bool is_good = made >= wanted.triangles - wanted.triangles / 10 &&
-                         made <= wanted.triangles + wanted.triangles / 100;
+    const bool is_good =
+        made >= wanted.triangles - wanted.triangles / 10 && made <= wanted.triangles + wanted.triangles / 100;
     if (is_good || (made > kept_made && made <= most)) {
       kept = std::move(next);
       kept_made = made;

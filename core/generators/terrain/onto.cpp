@@ -5,7 +5,9 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
+#include "core/geom/outward.h"
 #include "core/geom/places.h"
+#include "core/model/widen.h"
 #include "core/texture/png.h"
 
 namespace seedmesh::terrain {
@@ -192,6 +194,8 @@ void displace_group(MeshGroup& group, const Field& field, int rounds, Job& job) 
                  });
     shade(mesh, place, places.size(), job);
     mesh.tangent = Array<glm::vec4>();
+    // Where the field throws the surface over, faces of one corner may look to opposite sides.
+    turn_outward(mesh, job);
   }
 }
 
@@ -292,6 +296,7 @@ double mirrored_height(const Field& field, double x, double z) {
 }
 
 void displace(Model& model, const Field& field, int rounds, Job& job) {
+  widen(model, job);
   for (MeshGroup& group : model.meshes) displace_group(group, field, rounds, job);
 }
 

@@ -6,14 +6,14 @@
 namespace seedmesh::tree {
 namespace {
 
-// In the animation a limb sprouts when this share of what is left to its parent has passed, from the foot of the parent to its
-// tip; chance takes as much to either side.
+// In the animation a limb sprouts when this share of what is left to its parent has passed, from the foot of
+// the parent to its tip; chance takes as much to either side.
 constexpr float first_share = 0.03F, last_share = 0.5F, spread_share = 0.06F;
 constexpr float latest = 0.8F;
 // Of a tree of some age, limbs sprouted over this share of what was left to their parent: by chance, the
-// ones near its foot and the thick ones, which are the older ones, sooner. On the trunk more than a quarter of
-// them were there after a tenth of that time.
-constexpr float young_share = 0.45F, by_place = 0.1F, by_thickness = 0.75F;
+// ones near its foot and the thick ones, which are the older ones, sooner. On the trunk more than a quarter
+// of them were there after a tenth of that time.
+constexpr float young_share = 0.5F, by_place = 0.1F, by_thickness = 0.75F;
 // Limbs below this share of their size are not there yet.
 constexpr float smallest = 2e-3F;
 // A leaf is unfolded when its twig has so much of its size.
@@ -58,8 +58,8 @@ float leaf_size(float share) {
   return std::sqrt(height) * std::sqrt(std::sqrt(height));
 }
 
-/// How much of its size a limb has beside the one that it grows on: by the share of its parent's time that it has lived,
-/// so that a young tree is a small tree of few limbs.
+/// How much of its size a limb has beside the one that it grows on: by the share of its parent's time that it
+/// has lived, so that a young tree is a small tree of few limbs.
 float limb_size(float birth, float share) {
   if (share <= birth) return 0;
   const float left = 1 - (share - birth) / (share * (1 - birth));
@@ -81,7 +81,8 @@ Array<float> sprouting_of(const Limbs& limbs, Job& job) {
     float drawn = fraction(key_at(limbs.key[i], 0xA6E));
     if (limbs.order[i] <= 1) drawn *= drawn;
     const float chance = by_place * place[parent] + (1 - by_place) * drawn;
-    birth[i] += (1 - birth[parent]) * young_share * chance * (1 - by_thickness * thickness);
+    const float soon = 1 - by_thickness * thickness * thickness;
+    birth[i] += (1 - birth[parent]) * young_share * chance * soon;
   }
   return birth;
 }

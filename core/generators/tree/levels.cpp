@@ -38,9 +38,9 @@ double TreeLevels::leaves_at(const Detail& detail, std::uint64_t leaves, std::ui
   const double least = detail.organs(), wanted = std::max(least, foliage->share_for(detail.loss()));
   const auto level = static_cast<std::size_t>(detail.level());
   const std::uint64_t other = level < bark.size() ? bark[level] : 0, most = Detail::fewer_than(before);
-  const double room =
-      most > other ? static_cast<double>(most - other) / static_cast<double>(std::max<std::uint64_t>(each * leaves, 1))
-                   : 0;
+  const double room = most > other ? static_cast<double>(most - other) /
+                                         static_cast<double>(std::max<std::uint64_t>(each * leaves, 1))
+                                   : 0;
   return std::min(wanted, std::max(least, room));
 }
 

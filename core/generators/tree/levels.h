@@ -15,7 +15,8 @@ struct TreeLevels {
 
   /// The share of `leaves` leaves, of so many triangles each, that stays at a level after one of `before`
   /// triangles: so many that the outline holds, as far as the level still has fewer triangles.
-  double leaves_at(const Detail& detail, std::uint64_t leaves, std::uint64_t each, std::uint64_t before) const;
+  double leaves_at(const Detail& detail, std::uint64_t leaves, std::uint64_t each,
+                   std::uint64_t before) const;
 
   std::optional<FoliageLevels> foliage;  ///< where there are leaves
   Array<float> shown;                    ///< of each joint; empty: all of it is seen

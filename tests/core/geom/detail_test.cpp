@@ -48,8 +48,35 @@ TEST(Detail, GivesEveryLevelFewerTriangles) {
     hidden = detail.bark(1000, 0);
     organs = detail.organs();
   }
-  EXPECT_EQ(bare, 299U);
+  EXPECT_EQ(bare, 351U);
   EXPECT_EQ(hidden, 100U);
+}
+
+TEST(Detail, GivesTubesAnEvenNumberOfSidesWhileTheyHaveRoom) {
+  EXPECT_EQ(Detail(0).even_sides(7), 7);
+  EXPECT_EQ(Detail(1).even_sides(8), 6);
+  EXPECT_EQ(Detail(1).even_sides(12), 8);
+  EXPECT_EQ(Detail(4).even_sides(32), 14);
+  EXPECT_EQ(Detail(1).even_sides(5), 4);
+  EXPECT_EQ(Detail(2).even_sides(5), 3);
+  EXPECT_EQ(Detail(4).even_sides(3), 3);
+  for (int level = 1; level < most_levels; ++level) {
+    const Detail detail(level);
+    EXPECT_GE(detail.tubes(1000), detail.bark(1000, 1));
+  }
+}
+
+TEST(Detail, LeavesOutWhatIsDrawnTwice) {
+  Job job = job_of();
+  SkeletonMaker maker(job);
+  const std::uint32_t root = maker.root({0, 0, 0});
+  const std::uint32_t first = maker.grow(root, {0, 1, 0}, {0.1F, 0.1F});
+  const std::uint32_t again = maker.grow(root, {0, 1, 0}, {0.1F, 0.1F});
+  maker.grow(again, {1, 2, 0}, {0.05F, 0.05F});
+  const KeptLimbs kept = without_repeats(maker.limbs, 8, job);
+  ASSERT_EQ(kept.limbs.size(), 3U);
+  EXPECT_EQ(kept.new_place[again], Limbs::none);
+  EXPECT_EQ(kept.limbs.parent[2], kept.new_place[first]) << "what grew from it grows from the first";
 }
 
 TEST(Skin, HasFewerSidesOnThinnerLimbsWhereItAdapts) {

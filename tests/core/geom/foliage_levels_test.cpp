@@ -65,6 +65,20 @@ TEST(FoliageLevels, KeepTheShareThatIsAskedForAtItsPlaces) {
   }
 }
 
+TEST(FoliageLevels, TellHowManyLeavesTheOutlineNeeds) {
+  Job job = job_of();
+  const Ball dense(job, 6000), sparse(job, 600);
+  double before = 1;
+  for (const double loss : {0.0, 0.01, 0.03, 0.1}) {
+    const double share = dense.levels.share_for(loss);
+    EXPECT_LE(share, before);
+    EXPECT_GE(sparse.levels.share_for(loss), share) << "fewer leaves hide each other";
+    before = share;
+  }
+  EXPECT_GE(before, 0.4);
+  EXPECT_GT(sparse.levels.share_for(0.01), 0.9);
+}
+
 TEST(FoliageLevels, TakeLeavesInsideTheCrownFirst) {
   Job job = job_of();
   Ball ball(job);

@@ -71,6 +71,32 @@ TEST(Displacement, LiftsASurfaceByTheHeightOfAFlatField) {
   EXPECT_NEAR(box.min.y, -0.6, 1e-3);
 }
 
+TEST(Displacement, KeepsNormalsOnTheSideOfTheirFacesHoweverWildTheFieldIs) {
+  for (const char* amplitude : {"0.3", "2"}) {
+    const std::string wild = R"({"algorithm": "fbm", "resolution": 129, "size": 0.7, "amplitude": )" +
+                             std::string(amplitude) +
+                             R"(, "onto": {"model": {"generator": "fractal", "parameters": {"element": )" +
+                             R"("cube", "iterations": 0}}, "subdivide": 5}})";
+    const Result<Model> model = made(wild);
+    ASSERT_TRUE(model);
+    for (const MeshGroup& group : model->meshes) {
+      for (const Primitive& each : group.primitives) {
+        const Mesh& mesh = each.mesh;
+        std::size_t inward = 0;
+        for (std::size_t i = 0; i < mesh.index.size(); ++i) {
+          const std::size_t first = i / 3 * 3;
+          const glm::vec3 a = mesh.position[mesh.index.at(first)];
+          const glm::vec3 face = glm::cross(mesh.position[mesh.index.at(first + 1)] - a,
+                                            mesh.position[mesh.index.at(first + 2)] - a);
+          inward += glm::dot(face, mesh.normal[mesh.index.at(i)]) < 0 ? 1U : 0U;
+        }
+        EXPECT_EQ(inward, 0U) << amplitude;
+      }
+    }
+    EXPECT_EQ(measured(*model).open_edges, 0U);
+  }
+}
+
 TEST(NormalMap, LeavesTheSurfaceAndGivesItAPicture) {
   const Result<Model> model = made(onto("cube", R"(, "mapping": "normal_map")", 1));
   ASSERT_TRUE(model);
