@@ -214,9 +214,11 @@ class CpfgReader {
 
   void axiom(Line line) {
     if (std::exchange(has_axiom_, true)) source_.fault(line.from, "found a second axiom");
+    const std::size_t faults = source_.fault_count();
     const TracedText whole = expanded(line);
     const TracedText word = words_.modules(whole, {0, whole.size()}, CpfgWords::Place::word);
-    if (whole.size() == 0) source_.fault(line.from, "found no axiom");
+    if (whole.size() == 0 && source_.fault_count() == faults)
+      source_.fault(line.from, "found an empty axiom");
     put("axiom", word.text(), word.runs());
   }
 

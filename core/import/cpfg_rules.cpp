@@ -95,10 +95,11 @@ class RuleReader {
     const std::size_t from = less < head.to ? less + 1 : head.from;
     if (less < head.to) rule_.left = context({head.from, less}, contexts);
     if (greater < head.to) rule_.right = context({greater + 1, head.to}, contexts);
+    const std::size_t faults = source_.fault_count();
     rule_.predecessor = words_.modules(text_, {from, std::max(from, greater)}, CpfgWords::Place::pattern);
     const std::size_t count = CpfgWords::count(rule_.predecessor);
     const std::size_t place = without_blanks(text_, {from, std::max(from, greater)}).from;
-    if (count == 0) {
+    if (count == 0 && source_.fault_count() == faults) {
       source_.fault(text_.origin(place), "found no predecessor; expected one module before the arrow");
     } else if (count > 1) {
       source_.fault(text_.origin(place), "found a strict predecessor of " + std::to_string(count) +
