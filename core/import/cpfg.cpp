@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -47,7 +48,11 @@ class CpfgReader {
         while (i + 1 < lines.size() && (lines[i].to <= open || lines[i].to <= close)) ++i;
         whole.to = trimmed(text_, {whole.from, lines[i].to}).to;
       }
-      while (i + 1 < lines.size() && goes_on(whole, lines[i + 1])) whole.to = trimmed(text_, lines[++i]).to;
+      for (bool arrow = has_cpfg_arrow(text(whole)); i + 1 < lines.size(); ++i) {
+        if (!goes_on(lines[i + 1]) || (arrow && has_cpfg_arrow(text(lines[i + 1])))) break;
+        arrow = arrow || has_cpfg_arrow(text(lines[i + 1]));
+        whole.to = trimmed(text_, lines[i + 1]).to;
+      }
       if (!keyword(whole)) production(whole);
     }
     return made();
@@ -162,7 +167,7 @@ class CpfgReader {
   void number(Line line, Use&& use) {
     const TracedText body = expression(line);
     if (body.size() == 0) return source_.fault(line.from, "found no number");
-    lang::Names names = constants();
+    const lang::Names& names = constants();
     std::vector<lang::Fault> faults;
     const std::vector<lang::Token> tokens = lang::tokenize(body.text(), 0, body.size(), faults);
     lang::Program program;
@@ -176,12 +181,14 @@ class CpfgReader {
       source_.fault(line.from, "found a value that is drawn at random");
   }
 
-  lang::Names constants() {
+  const lang::Names& constants() {
+    if (names_) return *names_;
     std::vector<lsystem::WrittenConstant> written;
     for (const auto& [name, value] : constants_) written.push_back({name, value});
     for (const CpfgMacros::Expression& each : macros_.constants()) written.push_back({each.name, each.text});
     std::vector<Issue> ignored;  // told where the request is read
-    return lsystem::resolve_constants(written, Rng(0), ignored);
+    names_ = lsystem::resolve_constants(written, Rng(0), ignored);
+    return *names_;
   }
 
   void seed(Line line, double value) {
@@ -214,9 +221,11 @@ class CpfgReader {
 
   void axiom(Line line) {
     if (std::exchange(has_axiom_, true)) source_.fault(line.from, "found a second axiom");
+    const std::size_t faults = source_.fault_count();
     const TracedText whole = expanded(line);
     const TracedText word = words_.modules(whole, {0, whole.size()}, CpfgWords::Place::word);
-    if (whole.size() == 0) source_.fault(line.from, "found no axiom");
+    if (whole.size() == 0 && source_.fault_count() == faults)
+      source_.fault(line.from, "found an empty axiom");
     put("axiom", word.text(), word.runs());
   }
 
@@ -227,6 +236,7 @@ class CpfgReader {
 
   /// Start: { name = expression; ... } makes constants.
   void start(Line line) {
+    names_.reset();
     if (line.to - line.from < 2 || text_[line.from] != '{' || text_[line.to - 1] != '}') {
       source_.fault(line.from, "expected `{ name = expression; ... }`");
       return;
@@ -253,15 +263,10 @@ class CpfgReader {
     if (rest.from < rest.to) source_.fault(rest.from, "found a statement without `;`");
   }
 
-  static bool has_arrow(std::string_view text) {
-    return text.find("-->") != std::string_view::npos || text.find("-o>") != std::string_view::npos;
-  }
-
-  bool goes_on(Line whole, Line next) const {
+  /// What begins with a blank, up to the next arrow.
+  bool goes_on(Line next) const {
     const Line inner = trimmed(text_, next);
-    if (inner.from == inner.to || !is_blank(text_[next.from]) || is_cpfg_directive(text_, inner))
-      return false;
-    return !has_arrow(text(whole)) || !has_arrow(text(inner));
+    return inner.from < inner.to && is_blank(text_[next.from]) && !is_cpfg_directive(text_, inner);
   }
 
   void production(Line line) {
@@ -295,22 +300,15 @@ class CpfgReader {
 
   void put_rules() {
     static const char* const names[] = {"productions", "decomposition", "interpretation"};
-    for (std::vector<CpfgRule>& list : rules_) {
-      for (std::size_t i = 0; i < list.size(); ++i) {  // grows meanwhile
-        const CpfgRule rule = list[i];
-        if (rule.predecessor.size() > 1 && rule.predecessor[1] != '(') continue;
+    add_cpfg_rules_for_surfaces(rules_, words_);
+    for (std::size_t part = 0; part < std::size(names); ++part) {
+      for (const CpfgRule& rule : rules_[part]) {
         const auto other = words_.inside().find(rule.predecessor[0]);
-        if (other != words_.inside().end())
+        if (rule.is_for_one_letter() && other != words_.inside().end())
           words_.warn_once(rule.at, other->second,
                            "is one symbol here: the rule for " +
                                lang::in_quotes(std::string_view(rule.predecessor.text()).substr(0, 1)) +
                                " rewrites a part of it in cpfg alone");
-        std::optional<CpfgRule> more = cpfg_rule_for_surface(rule, words_);
-        if (more) list.push_back(std::move(*more));
-      }
-    }
-    for (std::size_t part = 0; part < std::size(names); ++part) {
-      for (const CpfgRule& rule : rules_[part]) {
         Json& list = parameters_[names[part]];
         if (list.is_null()) list = Json::array();
         const TracedText written = rule.written();
@@ -332,23 +330,12 @@ class CpfgReader {
     }
   }
 
-  /// cpfg looks at single characters: a longer symbol counts where its first one does.
   void put_symbols() {
     for (const auto& [name, line] : symbols_) {
       const TracedText whole = expanded(line);
-      std::string list;
-      std::set<char> first;
-      for (const char c : whole.text()) {
-        if (is_blank(c)) continue;
-        first.insert(c);
-        if (std::string_view("@~?").find(c) == std::string_view::npos) list += c;
-      }
-      for (const std::string& symbol : words_.longer()) {
-        if (first.count(symbol[0]) != 0) list += symbol;
-      }
-      if (name == "ignore" && (first.count('[') != 0 || first.count(']') != 0))
+      if (name == "ignore" && whole.text().find_first_of("[]") != std::string::npos)
         source_.warn(line.from, "brackets count in contexts, also where they are ignored in cpfg");
-      put(name, list, {{0, line.from, false}});
+      put(name, words_.listed(whole.text()), {{0, line.from, false}});
     }
   }
 
@@ -395,6 +382,7 @@ class CpfgReader {
   CpfgMacros macros_;
   CpfgWords words_;
   std::map<std::string, std::string> constants_;
+  std::optional<lang::Names> names_;  ///< of the constants, when they were asked for
   std::map<std::string, Line> symbols_;
   std::vector<CpfgRule> rules_[3];
   Json parameters_ = Json::object();

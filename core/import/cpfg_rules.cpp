@@ -1,6 +1,7 @@
 #include "core/import/cpfg_rules.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "core/lang/lexer.h"
@@ -95,10 +96,11 @@ class RuleReader {
     const std::size_t from = less < head.to ? less + 1 : head.from;
     if (less < head.to) rule_.left = context({head.from, less}, contexts);
     if (greater < head.to) rule_.right = context({greater + 1, head.to}, contexts);
+    const std::size_t faults = source_.fault_count();
     rule_.predecessor = words_.modules(text_, {from, std::max(from, greater)}, CpfgWords::Place::pattern);
     const std::size_t count = CpfgWords::count(rule_.predecessor);
     const std::size_t place = without_blanks(text_, {from, std::max(from, greater)}).from;
-    if (count == 0) {
+    if (count == 0 && source_.fault_count() == faults) {
       source_.fault(text_.origin(place), "found no predecessor; expected one module before the arrow");
     } else if (count > 1) {
       source_.fault(text_.origin(place), "found a strict predecessor of " + std::to_string(count) +
@@ -128,6 +130,30 @@ class RuleReader {
   CpfgWords& words_;
   CpfgRule rule_;
 };
+
+/// The same rule for a surface; empty, with a warning, where it writes none.
+std::optional<CpfgRule> rule_for_surface(const CpfgRule& rule, CpfgWords& words) {
+  const char symbol = rule.predecessor[0];
+  const char first = rule.successor[0];
+  const std::string surface = "~" + CpfgWords::surface_name(symbol);
+  if (!is_letter(first) && !is_digit(first)) {
+    words.warn_once(rule.at, surface,
+                    "is not rewritten by the rule for " + lang::in_quotes(std::string_view(&symbol, 1)) +
+                        ", as it is in cpfg: what that writes is no surface");
+    return std::nullopt;
+  }
+  words.add_surface(first, rule.at);
+  const auto with_surface = [](const TracedText& text) {
+    TracedText out;
+    out.write("~" + CpfgWords::surface_name(text[0]), text.origin(0));
+    out.copy(text, 1, text.size());
+    return out;
+  };
+  CpfgRule other = rule;
+  other.predecessor = with_surface(rule.predecessor);
+  other.successor = with_surface(rule.successor);
+  return other;
+}
 
 }  // namespace
 
@@ -164,28 +190,20 @@ std::optional<CpfgRule> read_cpfg_rule(const TracedText& text, CpfgContexts cont
   return rule;
 }
 
-std::optional<CpfgRule> cpfg_rule_for_surface(const CpfgRule& rule, CpfgWords& words) {
-  const char symbol = rule.predecessor[0];
-  if (words.surfaces().find(symbol) == words.surfaces().end()) return std::nullopt;
-  const char first = rule.successor[0];
-  const std::string surface = "~" + CpfgWords::surface_name(symbol);
-  if (!is_letter(first) && !is_digit(first)) {
-    words.warn_once(rule.at, surface,
-                    "is not rewritten by the rule for " + lang::in_quotes(std::string_view(&symbol, 1)) +
-                        ", as it is in cpfg: what that writes is no surface");
-    return std::nullopt;
+void add_cpfg_rules_for_surfaces(std::span<std::vector<CpfgRule>> lists, CpfgWords& words) {
+  std::set<std::pair<std::size_t, std::size_t>> done;
+  for (std::size_t known = 0; known != words.surfaces().size();) {
+    known = words.surfaces().size();
+    for (std::size_t list = 0; list < lists.size(); ++list) {
+      for (std::size_t i = 0, count = lists[list].size(); i < count; ++i) {
+        const CpfgRule rule = lists[list][i];
+        if (!rule.is_for_one_letter() || words.surfaces().count(rule.predecessor[0]) == 0) continue;
+        if (!done.insert({list, i}).second) continue;
+        std::optional<CpfgRule> more = rule_for_surface(rule, words);
+        if (more) lists[list].push_back(std::move(*more));
+      }
+    }
   }
-  words.add_surface(first, rule.at);
-  const auto with_surface = [](const TracedText& text) {
-    TracedText out;
-    out.write("~" + CpfgWords::surface_name(text[0]), text.origin(0));
-    out.copy(text, 1, text.size());
-    return out;
-  };
-  CpfgRule other = rule;
-  other.predecessor = with_surface(rule.predecessor);
-  other.successor = with_surface(rule.successor);
-  return other;
 }
 
 }  // namespace seedmesh

@@ -46,6 +46,11 @@ std::string cpfg_without_comments(ForeignText& source) {
   return out;
 }
 
+std::string cpfg_without_comments(std::string_view text) {
+  ForeignText source(text);
+  return cpfg_without_comments(source);
+}
+
 bool is_cpfg_directive(std::string_view text, Line line) {
   if (line.from == line.to || text[line.from] != '#') return false;
   const Line word = trimmed(text, {line.from + 1, line.to});
@@ -55,6 +60,10 @@ bool is_cpfg_directive(std::string_view text, Line line) {
   }
   return word.from == line.from + 1 && word.from < word.to && is_letter(text[word.from]) &&
          text.substr(word.from, word.to - word.from).find("-->") == std::string_view::npos;
+}
+
+bool has_cpfg_arrow(std::string_view line) {
+  return line.find("-->") != std::string_view::npos || line.find("-o>") != std::string_view::npos;
 }
 
 int marks_of_cpfg(std::string_view text) {

@@ -15,4 +15,7 @@ std::string cpfg_without_comments(ForeignText& source);
 /// module.
 bool is_cpfg_directive(std::string_view text, Line line);
 
+/// Whether the line has the arrow of a production.
+bool has_cpfg_arrow(std::string_view line);
+
 }  // namespace seedmesh

@@ -88,6 +88,17 @@ std::string CpfgWords::surface_name(char symbol) {
   return is_letter(symbol) ? std::string(1, symbol) : std::string("_") + symbol;
 }
 
+std::string CpfgWords::listed(std::string_view characters) const {
+  std::string list;
+  for (const char c : characters) {
+    if (!is_blank(c) && std::string_view("@~?").find(c) == std::string_view::npos) list += c;
+  }
+  for (const std::string& symbol : longer_) {
+    if (characters.find(symbol[0]) != std::string_view::npos) list += symbol;
+  }
+  return list;
+}
+
 void CpfgWords::warn_once(std::size_t at, const std::string& symbol, const std::string& text) {
   if (warned_.insert(symbol).second) source_.warn(at, lang::in_quotes(symbol) + " " + text);
 }
@@ -241,7 +252,9 @@ void CpfgWords::write_command(const Module& module, const TracedText& text, Plac
     }
     warn_once(at, module.symbol, "is no command of cpfg, which passes over the `@` and goes on behind it");
     const std::size_t next = next_at(text, module.at + 1, module.end);
+    const bool was_in_curve = in_curve_;
     const TracedText rest = modules(text, {next, module.end}, place);
+    in_curve_ = was_in_curve;
     return out.copy(rest, 0, rest.size());
   }
   if (module.symbol[1] == 'D' && module.count == 0)
@@ -304,6 +317,9 @@ void CpfgWords::write_curve(const Module& module, const TracedText& text, Traced
       module.count == 0 ? "" : text.text().substr(module.open + 1, module.end - module.open - 2);
   if (symbol == '.') {
     if (!in_curve_ && module.count == 0) return copy(module, text, Place::word, out);
+    if (!in_curve_)
+      warn_once(at, ".(n)",
+                "is a control point of a generalized cylinder, `@Gc`, here and no vertex of a polygon");
     longer_.insert("@Gc");
     out.write("@Gc", at);
     return copy_arguments(module, text, Place::word, out);

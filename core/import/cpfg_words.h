@@ -37,6 +37,10 @@ class CpfgWords {
   /// The symbols of more than one character that occur, such as `@v` and `~l`.
   const std::set<std::string>& longer() const { return longer_; }
 
+  /// The symbols of a list of characters to ignore or consider. cpfg looks at single characters: a longer
+  /// symbol counts where its first one does.
+  std::string listed(std::string_view characters) const;
+
   /// Characters that are part of such a symbol, with the symbol.
   const std::map<char, std::string>& inside() const { return inside_; }
 

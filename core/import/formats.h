@@ -10,6 +10,9 @@ Result<Imported> import_fractint(std::string_view text, const ImportOptions& opt
 Result<Imported> import_houdini(std::string_view text, const ImportOptions& options);   // houdini.cpp
 Result<Imported> import_proctree(std::string_view text, const ImportOptions& options);  // proctree.cpp
 
+std::string cpfg_without_comments(std::string_view text);
+std::string fractint_without_comments(std::string_view text);
+
 int marks_of_cpfg(std::string_view text);
 int marks_of_ez_tree(std::string_view text);
 int marks_of_fractint(std::string_view text);

@@ -19,6 +19,7 @@
 
 #include "core/import/foreign_text.h"
 #include "core/import/formats.h"
+#include "core/import/fractint_entries.h"
 #include "core/import/traced_text.h"
 #include "core/lang/lexer.h"
 
@@ -29,45 +30,10 @@ constexpr int usual_order = 4;       // the file leaves the number of steps to w
 constexpr double most_colors = 256;  // a palette of VGA
 constexpr std::size_t longest_rule = 1'000'000;
 
-struct Entry {
-  std::string name;
-  std::size_t name_at = 0;
-  std::vector<Line> lines;  ///< without comments and blanks at their ends
-};
-
-/// The entries of a file. Text between entries that is no comment is a fault, as is a brace that lacks its
-/// partner.
-std::vector<Entry> entries_of(ForeignText& source) {
-  const std::string_view text = source.text();
-  std::vector<Entry> entries;
-  bool inside = false;
-  for (Line line : lines_of(text)) {
-    line.to = std::min(text.substr(0, line.to).find(';', line.from), line.to);
-    line = trimmed(text, line);
-    while (line.from < line.to) {
-      const std::string_view rest = text.substr(line.from, line.to - line.from);
-      const char mark = inside ? '}' : '{';
-      const std::size_t end = std::min(rest.find(mark), rest.size());
-      const Line part = trimmed(text, {line.from, line.from + end});
-      if (inside && part.from < part.to) entries.back().lines.push_back(part);
-      if (end == rest.size()) {
-        if (!inside) source.fault(line.from, "found text outside an entry; expected a name and `{`");
-        break;
-      }
-      if (!inside)
-        entries.push_back({std::string(text.substr(part.from, part.to - part.from)), line.from, {}});
-      inside = !inside;
-      line = trimmed(text, {line.from + end + 1, line.to});
-    }
-  }
-  if (inside) source.fault(entries.back().name_at, "found an entry without its `}`");
-  return entries;
-}
-
 /// One entry, command by command.
 class EntryReader {
  public:
-  EntryReader(ForeignText& source, const Entry& entry) : source_(source), entry_(entry) {}
+  EntryReader(ForeignText& source, const FractintEntry& entry) : source_(source), entry_(entry) {}
 
   Imported read() {
     find_angle();
@@ -334,7 +300,7 @@ class EntryReader {
   };
 
   ForeignText& source_;
-  const Entry& entry_;
+  const FractintEntry& entry_;
   int divisions_ = 0;
   bool has_axiom_ = false, has_mirror_ = false, by_steps_ = false, by_degrees_ = false;
   TracedText axiom_;
@@ -343,7 +309,7 @@ class EntryReader {
   std::set<std::string> warned_;
 };
 
-std::string list_of(const std::vector<Entry>& entries) {
+std::string list_of(const std::vector<FractintEntry>& entries) {
   std::string names;
   for (std::size_t i = 0; i < entries.size() && i < 50; ++i) names += (i == 0 ? "" : ", ") + entries[i].name;
   return names + (entries.size() > 50 ? ", ..." : "");
@@ -351,33 +317,15 @@ std::string list_of(const std::vector<Entry>& entries) {
 
 }  // namespace
 
-int marks_of_fractint(std::string_view text) {
-  int marks = 0;
-  bool inside = false;
-  for (Line line : lines_of(text)) {
-    line.to = std::min(text.substr(0, line.to).find(';', line.from), line.to);
-    line = trimmed(text, line);
-    const std::string words = lower(text.substr(line.from, std::min<std::size_t>(line.to - line.from, 200)));
-    inside = inside || (words.size() > 1 && words.back() == '{');
-    const auto begins = [&](std::string_view key) {
-      return words.size() > key.size() && words.substr(0, key.size()) == key &&
-             (is_blank(words[key.size()]) || words[key.size()] == '=');
-    };
-    if (inside && (begins("axiom") || begins("angle"))) marks += 4;
-    if (words.find('}') != std::string::npos) inside = false;
-  }
-  return marks;
-}
-
 Result<Imported> import_fractint(std::string_view text, const ImportOptions& options) {
   ForeignText source(text);
-  std::vector<Entry> entries = entries_of(source);
-  const auto is_comment = [](const Entry& each) {
+  std::vector<FractintEntry> entries = fractint_entries(source);
+  const auto is_comment = [](const FractintEntry& each) {
     return each.name.empty() || lower(each.name) == "comment";
   };
   entries.erase(std::remove_if(entries.begin(), entries.end(), is_comment), entries.end());
-  const Entry* chosen = nullptr;
-  for (const Entry& each : entries) {
+  const FractintEntry* chosen = nullptr;
+  for (const FractintEntry& each : entries) {
     if (options.entry.empty() || lower(each.name) == lower(options.entry)) {
       chosen = &each;
       break;

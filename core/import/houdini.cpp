@@ -15,44 +15,17 @@
 #include "core/generators/lsystem/notation.h"
 #include "core/import/foreign_text.h"
 #include "core/import/formats.h"
+#include "core/import/houdini_settings.h"
 #include "core/import/traced_text.h"
 #include "core/lang/lexer.h"
 
 namespace seedmesh {
 namespace {
 
-/// A number of the node: its name in the file, without blanks, and what the node has where it is not given.
-struct Setting {
-  std::string_view name;
-  double value;
-  std::size_t at = 0;  ///< in the file
-};
-constexpr Setting settings[] = {
-    {"generations", 7},
-    {"angle", 28},
-    {"stepsize", 0.1},
-    {"stepsizescale", 0.9},
-    {"thickness", 0.05},
-    {"thicknessscale", 0.8},
-    {"anglescale", 0.9},
-    {"randomseed", 1},
-    {"b", 0},
-    {"c", 0},
-    {"d", 0},
-};
-
-std::string squeezed(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (!is_blank(c)) out += lower(c);
-  }
-  return out;
-}
-
 class HoudiniReader {
  public:
   explicit HoudiniReader(ForeignText& source) : source_(source), text_(source.text()) {
-    for (const Setting& each : settings) values_[std::string(each.name)] = each;
+    for (const HoudiniSetting& each : houdini_settings()) values_[std::string(each.name)] = each;
   }
 
   Imported read() {
@@ -81,7 +54,7 @@ class HoudiniReader {
 
   void read_line(Line line, std::vector<Line>& rules) {
     const std::size_t colon = std::min(text_.substr(0, line.to).find(':', line.from), line.to);
-    const std::string key = squeezed(text_.substr(line.from, colon - line.from));
+    const std::string key = houdini_name(text_.substr(line.from, colon - line.from));
     const Line rest = trimmed(text_, {std::min(colon + 1, line.to), line.to});
     const bool numbered_rule =
         key.substr(0, 4) == "rule" &&
@@ -116,7 +89,7 @@ class HoudiniReader {
 
   /// A parameter's name; those of one letter may be modules.
   bool is_setting(std::size_t from, std::size_t to) const {
-    const std::string word = squeezed(text_.substr(from, to - from));
+    const std::string word = houdini_name(text_.substr(from, to - from));
     return word.size() > 1 && (word == "premise" || values_.count(word) != 0);
   }
 
@@ -125,7 +98,7 @@ class HoudiniReader {
     std::size_t end = line.from;
     while (end < line.to && !is_blank(text_[end])) ++end;
     if (end == line.to || end - line.from < 2) return false;
-    const std::string word = squeezed(text_.substr(line.from, end - line.from));
+    const std::string word = houdini_name(text_.substr(line.from, end - line.from));
     return word == "premise" || word == "rule" || word == "step" || values_.contains(word);
   }
 
@@ -134,7 +107,7 @@ class HoudiniReader {
     parameters_[Json::json_pointer(name)] = std::move(value);
   }
 
-  void number(Line line, Setting& setting) {
+  void number(Line line, HoudiniSetting& setting) {
     double& value = setting.value;
     setting.at = line.from;
     const bool negative = line.from < line.to && text_[line.from] == '-';
@@ -346,7 +319,7 @@ class HoudiniReader {
 
   /// A fraction of a generation is a plant that has grown so far.
   void put_generations() {
-    const Setting& setting = values_["generations"];
+    const HoudiniSetting& setting = values_["generations"];
     if (!(setting.value >= 0 && setting.value <= 1000)) {
       source_.fault(setting.at, "expected generations from 0 to 1000");
       return;
@@ -357,7 +330,7 @@ class HoudiniReader {
   }
 
   void put_seed() {
-    const Setting& setting = values_["randomseed"];
+    const HoudiniSetting& setting = values_["randomseed"];
     if (!(setting.value >= 0 && setting.value <= 1e9) || setting.value != std::floor(setting.value)) {
       source_.fault(setting.at, "expected a random seed that is a whole number up to 1e9");
       return;
@@ -385,7 +358,7 @@ class HoudiniReader {
 
   ForeignText& source_;
   std::string_view text_;
-  std::map<std::string, Setting> values_;
+  std::map<std::string, HoudiniSetting> values_;
   std::optional<Line> premise_;
   bool is_bare_ = false;  ///< the premise stands without its name
   std::set<std::pair<char, std::size_t>> arities_;
@@ -395,24 +368,6 @@ class HoudiniReader {
 };
 
 }  // namespace
-
-int marks_of_houdini(std::string_view text) {
-  int marks = 0;
-  bool has_rule = false;
-  for (const Line& each : lines_of(text)) {
-    const Line line = trimmed(text, each);
-    const std::string_view words = text.substr(line.from, std::min<std::size_t>(line.to - line.from, 200));
-    const std::string key = squeezed(words.substr(0, words.find(':')));
-    const bool has_colon = words.find(':') != std::string_view::npos;
-    const auto is_key = [&](const Setting& setting) { return setting.name == key; };
-    if (key.substr(0, 7) == "premise") marks += 4;
-    if (has_colon && key.size() > 1 && std::any_of(std::begin(settings), std::end(settings), is_key))
-      marks += 2;
-    if (has_colon && (key.substr(0, 4) == "rule" || key == "contextignore")) marks += 2;
-    has_rule = has_rule || (words.size() > 2 && words[1] == '=' && is_letter(words[0]));
-  }
-  return marks + (has_rule ? 1 : 0);
-}
 
 Result<Imported> import_houdini(std::string_view text, const ImportOptions& options) {
   if (!options.entry.empty()) {

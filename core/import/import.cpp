@@ -7,15 +7,15 @@ namespace {
 
 constexpr ImportFormat rows[] = {
     {"cpfg", "cpfg .l", "An L-system with its decomposition, homomorphism and macros.", "text/plain",
-     marks_of_cpfg, import_cpfg},
-    {"fractint", "Fractint .l", "An entry becomes an L-system in the plane.", "text/plain", marks_of_fractint,
-     import_fractint},
+     cpfg_without_comments, marks_of_cpfg, import_cpfg},
+    {"fractint", "Fractint .l", "An entry becomes an L-system in the plane.", "text/plain",
+     fractint_without_comments, marks_of_fractint, import_fractint},
     {"houdini", "Houdini L-System node", "Parameters and rules, with what Houdini flips flipped back.",
-     "text/plain", marks_of_houdini, import_houdini},
+     "text/plain", nullptr, marks_of_houdini, import_houdini},
     {"proctree", "proctree JSON", "Its 22 parameters become a tree of the model proctree.",
-     "application/json", marks_of_proctree, import_proctree},
+     "application/json", nullptr, marks_of_proctree, import_proctree},
     {"ez_tree", "ez-tree JSON", "Its options become a tree of the model weber_penn.", "application/json",
-     marks_of_ez_tree, import_ez_tree},
+     nullptr, marks_of_ez_tree, import_ez_tree},
 };
 
 }  // namespace

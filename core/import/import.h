@@ -52,6 +52,9 @@ struct ImportFormat {
   std::string_view text;        ///< one sentence: what becomes of them
   std::string_view media_type;  ///< "text/plain" or "application/json"
 
+  /// The text with blanks for its comments, byte for byte: they may be in any encoding. Null: no comments.
+  std::string (*without_comments)(std::string_view text);
+
   /// How many marks of this format the text has, such as its keywords; 0: none. `text` is valid UTF-8.
   int (*marks)(std::string_view text);
 

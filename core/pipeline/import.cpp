@@ -125,13 +125,20 @@ void append_appraisal(const Request& request, Imported& imported, const Limits& 
 
 }  // namespace
 
-Result<ImportedRequest> import_request(const ImportQuestion& question, const Limits& limits) {
-  const std::size_t bad = find_bad_utf8(question.text);
+Result<ImportedRequest> import_request(const ImportQuestion& asked, const Limits& limits) {
+  ImportQuestion question = asked;
+  const ImportFormat* format =
+      question.format.empty() ? likeliest_format(question.text) : find_import_format(question.format);
+  std::string clean;
+  std::size_t bad = find_bad_utf8(question.text);
+  if (bad != std::string_view::npos && format && format->without_comments) {
+    clean = format->without_comments(question.text);
+    question.text = clean;
+    bad = find_bad_utf8(question.text);
+  }
   if (bad != std::string_view::npos) {
     return Error{Code::malformed, {issue_at("", question.text, bad, "found a byte that is not UTF-8")}};
   }
-  const ImportFormat* format =
-      question.format.empty() ? likeliest_format(question.text) : find_import_format(question.format);
   if (!format) return unknown_format(question.format);
   Result<Imported> imported = format->read(question.text, {std::string(question.entry)});
   if (!imported) return in_format(std::move(imported).error(), question, *format);

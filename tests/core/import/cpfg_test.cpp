@@ -117,7 +117,7 @@ TEST(Cpfg, RefusesWhatItDoesNotUnderstandAtItsPlace) {
   EXPECT_THAT(fault("#include \"x.h\"\n"), StartsWith("4:1 found `#include`"));
   EXPECT_THAT(fault("EndEach: {n=n+1;}\n"), StartsWith("4:1 found statements that run between steps"));
   EXPECT_THAT(fault("A --> ?(1,2)B$\n"), StartsWith("4:7 found a sub-L-system"));
-  EXPECT_THAT(fault("#define X [X]\nA --> X\n"), StartsWith("5:1 found macros that contain themselves"));
+  EXPECT_THAT(fault("#define X [X]\nA --> X\n"), StartsWith("5:7 found macros that contain themselves"));
   EXPECT_THAT(fault("Lsystem: 2\n"), StartsWith("4:1 found a second L-system"));
   EXPECT_THAT(fault("A --> [B\n"), StartsWith("4:7 found `[`"));
   EXPECT_THAT(told(imported("cpfg", "A --> B\n")), Contains(HasSubstr("found no axiom")));

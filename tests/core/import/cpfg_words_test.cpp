@@ -47,6 +47,16 @@ TEST(CpfgWords, RewritesSurfacesAsCpfgDoes) {
   EXPECT_EQ(derived(one), "b(6)F~b(3)F") << "the letter behind ~ is a module of its own there";
 }
 
+TEST(CpfgWords, RewritesSurfacesThatRulesOfSurfacesWrite) {
+  const auto result =
+      imported("cpfg", "Lsystem: 1\nderivation length: 3\nAxiom: ~b\nc --> d\nb --> c\nd --> e(2)\n");
+  EXPECT_EQ(derived(result), "~e(2)");
+}
+
+TEST(CpfgWords, TellsThatARuleForAPartOfACommandDoesNotReachIt) {
+  EXPECT_THAT(told_of("Axiom: F@vF\nv --> F\n"), ElementsAre(StartsWith("4:1 `@v` is one symbol here")));
+}
+
 TEST(CpfgWords, LeavesOutWhatHasNoCounterpartAndTellsIt) {
   const auto result = file("Axiom: F@TfF@TpF@Tx(2)F@PS(1)F@Gr(1)F@#(2)F@!(5)F'F\np --> FFF\n");
   ASSERT_TRUE(result) << told(result)[0];

@@ -72,7 +72,7 @@ TEST(Fractint, TakesAwayWhatAnEmptyRuleTakesAway) {
       imported("fractint", "E {\n angle 4\n axiom F\n F=F<1C2F>1+@2\n <=\n >=\n C=\n @=\n +=-\n}\n");
   ASSERT_TRUE(result) << told(result)[0];
   EXPECT_EQ(parameters_of(result)["productions"],
-            nlohmann::json({"F -> F;;(2)F,+@Di(2)", "; ->", ", ->", ";(n) ->", "@Di(n) ->", "+ -> -"}));
+            nlohmann::json({"F -> F;;(2)F,+@Di(2)", "; -> ", ", -> ", ";(n) -> ", "@Di(n) -> ", "+ -> -"}));
   EXPECT_THAT(derived(result), StartsWith("-(90)F;;(2)F,+@Di(2)F;;(2)F,+@Di(2)-"));
   EXPECT_THAT(
       told(imported("fractint", "E {\n angle 4\n axiom F\n @=F\n [=F\n}\n")),

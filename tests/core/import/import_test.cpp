@@ -36,6 +36,15 @@ TEST(Import, TellsTheFaultOfTheLikeliestFormat) {
   EXPECT_THAT(read_as("{"), StartsWith("found no marks of a format"));
 }
 
+TEST(Import, MindsTheEncodingOfCommentsNot) {
+  EXPECT_TRUE(imported("fractint", "{ by Gr\x8Fnbaum }\nE { ; \x8F\n angle 4\n axiom F\n}\n"));
+  EXPECT_TRUE(imported("", "/* v\xE9g\xE9tal */\nLsystem: 1\nderivation length: 1\nAxiom: F // \xE9\n"));
+  const auto name = imported("fractint", "Gr\x8Fn { ; \x8F\n angle 4\n axiom F\n}\n");
+  ASSERT_FALSE(name);
+  EXPECT_EQ(name.error().code, Code::malformed);
+  EXPECT_FALSE(imported("proctree", "{\"mLevels\": 4, \"\xE9\": 1}"));
+}
+
 TEST(Import, TellsWhatIsSaidOfTheRequestBeforeItIsMade) {
   const auto result = imported("cpfg", "Lsystem: 1\nderivation length: 500\nAxiom: F\nF --> FFF\n");
   ASSERT_TRUE(result);

@@ -1,0 +1,55 @@
+#include "core/import/houdini_settings.h"
+
+#include <algorithm>
+
+#include "core/import/foreign_text.h"
+#include "core/import/formats.h"
+
+namespace seedmesh {
+namespace {
+
+constexpr HoudiniSetting settings[] = {
+    {"generations", 7},
+    {"angle", 28},
+    {"stepsize", 0.1},
+    {"stepsizescale", 0.9},
+    {"thickness", 0.05},
+    {"thicknessscale", 0.8},
+    {"anglescale", 0.9},
+    {"randomseed", 1},
+    {"b", 0},
+    {"c", 0},
+    {"d", 0},
+};
+
+}  // namespace
+
+std::span<const HoudiniSetting> houdini_settings() { return settings; }
+
+std::string houdini_name(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (!is_blank(c)) out += lower(c);
+  }
+  return out;
+}
+
+int marks_of_houdini(std::string_view text) {
+  int marks = 0;
+  bool has_rule = false;
+  for (const Line& each : lines_of(text)) {
+    const Line line = trimmed(text, each);
+    const std::string_view words = text.substr(line.from, std::min<std::size_t>(line.to - line.from, 200));
+    const std::string key = houdini_name(words.substr(0, words.find(':')));
+    const bool has_colon = words.find(':') != std::string_view::npos;
+    const auto is_key = [&](const HoudiniSetting& setting) { return setting.name == key; };
+    if (key.substr(0, 7) == "premise") marks += 4;
+    if (has_colon && key.size() > 1 && std::any_of(std::begin(settings), std::end(settings), is_key))
+      marks += 2;
+    if (has_colon && (key.substr(0, 4) == "rule" || key == "contextignore")) marks += 2;
+    has_rule = has_rule || (words.size() > 2 && words[1] == '=' && is_letter(words[0]));
+  }
+  return marks + (has_rule ? 1 : 0);
+}
+
+}  // namespace seedmesh
