@@ -299,8 +299,11 @@ const formats_of = (of: Schema, request: Request): string[] => [...formats, ...o
 const explain = (): void => {
   if (!schema) return;
   tools?.explain(schema);
-  if (store.current) tools?.offer(formats_of(schema, store.current.request), motions);
+  if (store.current) offer(schema, store.current.request);
 };
+
+const offer = (of: Schema, request: Request): void =>
+  tools?.offer(formats_of(of, request), motions.filter(({ member }) => of['x-motions']?.includes(member)));
 
 store.subscribe((state, cause) => {
   seed.show(state.request.seed);
@@ -323,7 +326,7 @@ store.subscribe((state, cause) => {
     forget_hint();
   }
   if (cause !== 'edit') quietly(draw_parameters(state, is_new, drawing.signal));
-  else if (schema) tools?.offer(formats_of(schema, state.request), motions);
+  else if (schema) offer(schema, state.request);
   tools?.follow(state, is_new);
   checker.ask(state.request);
   grow(state.request, is_new ? 'now' : 'soon');

@@ -144,7 +144,7 @@ export function wire_tools(core: Core): Tools {
       result.follow(state, is_new);
       if (is_new) {
         view_menu?.forget();
-        ask_motions();
+        motions = [];
       }
     },
     explain(schema) {
