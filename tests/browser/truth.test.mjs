@@ -138,6 +138,10 @@ test('another request in the JSON is another model: name, link and form follow i
   await until_shown(page, () => write_json(page, '{"preset": "koch_island", "seed": 6}'));
   assert.equal(await page.getAttribute('[data-preset="koch_island"]', 'aria-pressed'), 'true');
   assert.match(new URL(page.url()).hash, /\.koch_island$/);
+  await until_shown(page, () => write_json(page, '{"generator": "lsystem", "parameters": {"axiom": "FF"}}'));
+  assert.equal(await title(page), 'L-system from JSON', 'nothing of the island is left');
+  await until_shown(page, () => page.click('#undo'));
+  assert.equal(await page.getAttribute('[data-preset="koch_island"]', 'aria-pressed'), 'true');
   await page.click('#undo');
   await page.waitForFunction(() => document.getElementById('title').textContent.endsWith('from JSON'));
   assert.deepEqual(page.faults, []);

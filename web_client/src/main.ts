@@ -175,13 +175,13 @@ function grow(request: Request, when: 'now' | 'soon'): void {
   grower.ask(for_view(request, tools?.motion() ?? null), when);
 }
 
-/** Whether a request that was written by hand has nothing left of the one that it was written over. */
+/** Whether a request that was written at once has nothing left of the one that it was written over; of one or two parameters nothing can be told. */
 function is_another(request: Request, preset: string | null): boolean {
   const { current } = store;
   if (!current || request.generator !== current.request.generator) return true;
   if (preset !== null) return preset !== current.preset;
-  const kept = Object.entries(current.base.parameters);
-  return kept.length > 0 && kept.every(([name, value]) => !same(request.parameters[name], value));
+  const before = Object.entries(current.request.parameters);
+  return before.length > 2 && before.every(([name, value]) => !same(request.parameters[name], value));
 }
 
 /** A model that stays although another request is open is told to be the other's. */
