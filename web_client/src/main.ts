@@ -75,7 +75,7 @@ let opening = new AbortController();
 /** Ends when the form of another request is to be drawn. */
 let drawing = new AbortController();
 let keep_camera = false;
-let last: { bytes: ArrayBuffer; model: Model | null; triangles: number; base: Request | null; title: string } | null = null;
+let last: { bytes: ArrayBuffer; model: Model | null; triangles: number; base: Request | null; title: string; seed: Request['seed'] } | null = null;
 /** What is asked for as a picture: the page's request, or another in its place. */
 let looked_at: Request | null = null;
 /** What the making of the model, what the checking of the request, and what the model itself had to say. */
@@ -140,7 +140,7 @@ const address = new Address({
 
 const core: Core = {
   store, viewer, high, status, seed, tabs,
-  bytes: () => last?.bytes ?? null,
+  shown: () => last,
   looked_at: () => looked_at,
   grow_again: () => { if (store.current) grow(store.current.request, 'now'); },
   preview: (request) => grow(request, 'now'),
@@ -197,7 +197,7 @@ async function show(made: Made, request: Request): Promise<void> {
   checked = checked.filter((fault) => fault.mild || is_output(fault));
   show_faults();
   if (viewer && !standing) status.faults('', [], 0, () => {});
-  last = { bytes: made.bytes, model: null, triangles, base: store.current?.base ?? null, title: store.current?.title ?? '' };
+  last = { bytes: made.bytes, model: null, triangles, base: store.current?.base ?? null, title: store.current?.title ?? '', seed: request.seed };
   still_shown('', null);
   if (viewer) {
     last.model = await viewer.show(made.bytes, keep_camera);
