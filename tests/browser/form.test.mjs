@@ -19,7 +19,7 @@ const kiln_schema = {
     vast: { type: 'number', minimum: 0, maximum: 1000000, default: 2, 'x-group': 'Fire' },
     lid: { title: 'Lid', type: 'boolean', default: false, 'x-group': 'Fire' },
     wood: { title: 'Wood', type: 'string', enum: ['dry_oak', 'pine'], default: 'pine', 'x-group': 'Fire' },
-    draught: { title: 'Draught', type: 'number', minimum: 1, maximum: 9, 'x-group': 'Fire' },
+    draught: { title: 'Draught', type: 'number', minimum: 1, maximum: 9, 'x-step': 0.1, 'x-group': 'Fire' },
     ash: { title: 'Ash', type: 'number', minimum: 0, maximum: 1000, 'x-step': 0.5, 'x-full': 'heat', 'x-widget': 'growth', 'x-group': 'Fire' },
     flame: { title: 'Flame', type: 'string', enum: ['low', 'high'], 'x-group': 'Fire' },
     slip: { title: 'Slip', type: 'string', 'x-widget': 'color', 'x-group': 'Clay' },

@@ -1,7 +1,7 @@
 // What the page says is true of what it shows: names, figures, seeds and questions belong to the model in the picture.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { choose, code, difference, drop, field, fragment_of, from_menu, go_by, launch, open, open_menu, open_parameters, picture, program, request_of, serve, small_tree, statistics, until_shown, until_state, write } from './support.mjs';
+import { choose, code, difference, drop, field, fragment_of, from_menu, go_by, launch, open, open_parameters, picture, program, request_of, serve, small_tree, statistics, until_shown, until_state, write } from './support.mjs';
 
 let server, browser, address;
 before(async () => {
@@ -138,6 +138,10 @@ test('another request in the JSON is another model: name, link and form follow i
   await until_shown(page, () => write_json(page, '{"preset": "koch_island", "seed": 6}'));
   assert.equal(await page.getAttribute('[data-preset="koch_island"]', 'aria-pressed'), 'true');
   assert.match(new URL(page.url()).hash, /\.koch_island$/);
+  await until_shown(page, () => write_json(page, '{"generator": "lsystem", "parameters": {"axiom": "FF"}}'));
+  assert.equal(await title(page), 'L-system from JSON', 'nothing of the island is left');
+  await until_shown(page, () => page.click('#undo'));
+  assert.equal(await page.getAttribute('[data-preset="koch_island"]', 'aria-pressed'), 'true');
   await page.click('#undo');
   await page.waitForFunction(() => document.getElementById('title').textContent.endsWith('from JSON'));
   assert.deepEqual(page.faults, []);
@@ -147,7 +151,8 @@ test('a file that cannot be read, is empty, is one of two, or names what is not 
   const page = await open(browser, address);
   const noise = [];
   page.on('console', (message) => { if (message.type() === 'error') noise.push(message.text()); });
-  await page.evaluate(() => { const { text } = File.prototype; File.prototype.text = function () { return this.name === 'folder' ? Promise.reject(new DOMException('gone', 'NotFoundError')) : Blob.prototype.text.call(this) ?? text; }; });
+  // What a browser does where a folder is read as a file.
+  await page.evaluate(() => { File.prototype.text = function () { return this.name === 'folder' ? Promise.reject(new DOMException('gone', 'NotFoundError')) : Blob.prototype.text.call(this); }; });
   await drop(page, 'folder', 'x');
   await alert_says(page, 'folder cannot be read. A folder is not opened');
   await drop(page, 'nothing.json', ' \n');
@@ -243,13 +248,10 @@ test('on foot one begins on land, stays on it, and comes to its end', { timeout:
   const land = { generator: 'terrain', seed: 3, parameters: { algorithm: 'fbm', resolution: 33, size: 400, amplitude: 60, base: 30 }, output: { textures: 'none' } };
   const page = await open(browser, `${server.url}/${fragment_of(land)}`);
   const place = async () => (await page.textContent('#whereabouts')).match(/-?[\d.]+/g).map(Number);
-  const [low] = await page.evaluate(() => [0]);
   await go_by(page, 'walk');
   await page.focus('#picture');
   const begin = await place();
   assert.ok(Math.abs(begin[0]) < 200 && Math.abs(begin[2]) < 200, `begins on the land: ${begin}`);
-  const away = await page.evaluate(() => document.getElementById('measures').textContent);
-  assert.ok(begin[1] > low - 30, `${begin} of ${away}`);
   const heights = [];
   await page.exposeFunction('seen', (text) => heights.push(Number(/y (-?[\d.]+)/.exec(text)[1])));
   await page.evaluate(() => new MutationObserver(() => window.seen(document.getElementById('whereabouts').textContent)).observe(document.getElementById('whereabouts'), { childList: true, characterData: true, subtree: true }));

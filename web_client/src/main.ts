@@ -75,7 +75,7 @@ let opening = new AbortController();
 /** Ends when the form of another request is to be drawn. */
 let drawing = new AbortController();
 let keep_camera = false;
-let last: { bytes: ArrayBuffer; model: Model | null; triangles: number; base: Request | null; title: string } | null = null;
+let last: { bytes: ArrayBuffer; model: Model | null; triangles: number; base: Request | null; title: string; seed: Request['seed'] } | null = null;
 /** What is asked for as a picture: the page's request, or another in its place. */
 let looked_at: Request | null = null;
 /** What the making of the model, what the checking of the request, and what the model itself had to say. */
@@ -140,7 +140,7 @@ const address = new Address({
 
 const core: Core = {
   store, viewer, high, status, seed, tabs,
-  bytes: () => last?.bytes ?? null,
+  shown: () => last,
   looked_at: () => looked_at,
   grow_again: () => { if (store.current) grow(store.current.request, 'now'); },
   preview: (request) => grow(request, 'now'),
@@ -175,13 +175,13 @@ function grow(request: Request, when: 'now' | 'soon'): void {
   grower.ask(for_view(request, tools?.motion() ?? null), when);
 }
 
-/** Whether a request that was written by hand has nothing left of the one that it was written over. */
+/** Whether a request that was written at once has nothing left of the one that it was written over; of one or two parameters nothing can be told. */
 function is_another(request: Request, preset: string | null): boolean {
   const { current } = store;
   if (!current || request.generator !== current.request.generator) return true;
   if (preset !== null) return preset !== current.preset;
-  const kept = Object.entries(current.base.parameters);
-  return kept.length > 0 && kept.every(([name, value]) => !same(request.parameters[name], value));
+  const before = Object.entries(current.request.parameters);
+  return before.length > 2 && before.every(([name, value]) => !same(request.parameters[name], value));
 }
 
 /** A model that stays although another request is open is told to be the other's. */
@@ -197,7 +197,7 @@ async function show(made: Made, request: Request): Promise<void> {
   checked = checked.filter((fault) => fault.mild || is_output(fault));
   show_faults();
   if (viewer && !standing) status.faults('', [], 0, () => {});
-  last = { bytes: made.bytes, model: null, triangles, base: store.current?.base ?? null, title: store.current?.title ?? '' };
+  last = { bytes: made.bytes, model: null, triangles, base: store.current?.base ?? null, title: store.current?.title ?? '', seed: request.seed };
   still_shown('', null);
   if (viewer) {
     last.model = await viewer.show(made.bytes, keep_camera);
@@ -299,8 +299,11 @@ const formats_of = (of: Schema, request: Request): string[] => [...formats, ...o
 const explain = (): void => {
   if (!schema) return;
   tools?.explain(schema);
-  if (store.current) tools?.offer(formats_of(schema, store.current.request), motions);
+  if (store.current) offer(schema, store.current.request);
 };
+
+const offer = (of: Schema, request: Request): void =>
+  tools?.offer(formats_of(of, request), motions.filter(({ member }) => of['x-motions']?.includes(member)));
 
 store.subscribe((state, cause) => {
   seed.show(state.request.seed);
@@ -323,7 +326,7 @@ store.subscribe((state, cause) => {
     forget_hint();
   }
   if (cause !== 'edit') quietly(draw_parameters(state, is_new, drawing.signal));
-  else if (schema) tools?.offer(formats_of(schema, state.request), motions);
+  else if (schema) offer(schema, state.request);
   tools?.follow(state, is_new);
   checker.ask(state.request);
   grow(state.request, is_new ? 'now' : 'soon');

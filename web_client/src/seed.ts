@@ -36,8 +36,9 @@ export function wire_seed(change: (seed: Seed) => void): SeedBox {
   };
   const show = (seed: Seed): void => {
     shown = seed;
-    // A request of another hand may have one that is none.
-    judge(seed_of(String(seed)) !== null);
+    // A request of another hand may have one that is none, and what is wrong with it is told with its other faults.
+    box.setAttribute('aria-invalid', String(seed_of(String(seed)) === null));
+    fault.textContent = '';
     box.title = String(seed);
     // What is being typed stays as it is: 007 is 7.
     if (String(seed_of(box.value)) !== String(seed)) box.value = String(seed);

@@ -55,8 +55,11 @@ export function wire_status(): Status {
     if (message === '' && task !== '') show(task);
   };
   const say = (message: string): void => {
+    // What waits for an answer comes back after the word.
+    const buttons = [cancel, again].filter((button) => !button.hidden);
+    const before = buttons.length > 0 ? text.textContent : '';
     show(message);
-    timers.push(window.setTimeout(() => show(''), 4000));
+    timers.push(window.setTimeout(() => show(before, buttons), 4000));
   };
 
   function growing(share: number | null): void {

@@ -33,8 +33,8 @@ export interface Core {
   status: Status;
   seed: SeedBox;
   tabs: Tabs;
-  /** The GLB that is shown. */
-  bytes(): ArrayBuffer | null;
+  /** The GLB that is shown, and whose it is. */
+  shown(): { bytes: ArrayBuffer; title: string; seed: Request['seed'] } | null;
   /** What is asked for as a picture: the page's request, or another in its place. */
   looked_at(): Request | null;
   grow_again(): void;
@@ -122,7 +122,7 @@ export function wire_tools(core: Core): Tools {
   const help = wire_help();
   wire_keys(core, { open_file: files.choose, help: help.open, save() { if (store.current) save_request(store.current.request, actions); } });
   if (viewer) {
-    const compare = wire_compare(viewer, core.bytes, () => String(store.current?.request.seed ?? 0), () => store.current?.title ?? '');
+    const compare = wire_compare(viewer, core.shown);
     wire_view(viewer, {
       roll: core.seed.roll, compare,
       next_mode: () => view_menu?.next_mode(), save_picture: () => void save_picture(actions), step: steps.by,
@@ -144,7 +144,7 @@ export function wire_tools(core: Core): Tools {
       result.follow(state, is_new);
       if (is_new) {
         view_menu?.forget();
-        ask_motions();
+        motions = [];
       }
     },
     explain(schema) {
