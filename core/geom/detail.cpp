@@ -11,7 +11,7 @@ namespace {
 
 constexpr double bark_power = 0.3, seen_power = 0.65;
 // So much of four corners must be free for four.
-constexpr double least_for_four = 3.5;
+constexpr double least_for_four = 2.95;
 
 /// most / sqrt(level + 1), rounded down exactly.
 int shared_out(int most, int level) {

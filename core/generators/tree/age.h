@@ -3,13 +3,13 @@
 /// its size.
 ///
 /// The trunk has at the time t (0..1) the size 1 - (1 - t)^2. A limb sprouts at b, after its parent: sooner
-/// where it is thick or near its parent's foot, otherwise by chance, all in the first half of the time.
-/// Beside its parent it then has the size 1 - (1 - x)^2 of what it will have, x being the share of its
-/// parent's time that it has lived, (t - b) / (t (1 - b)): so a young tree is a small tree of few limbs, not
-/// a bare stem. All of it is continuous in t, so that no limb jumps; a limb is thinner than long in its youth
-/// (radii go by the 1.5th power of lengths: T. McMahon, "Size and shape in biology", Science 179, 1973).
-/// Leaves unfold with the twig that bears them and are of full size from 0.4 on, before by the 3/4th power of
-/// the trunk's size.
+/// where it is thick or near its parent's foot, otherwise by chance, in the first half of what is left to its
+/// parent. Beside its parent it then has the size 1 - (1 - x)^2 of what it will have, x being the share of
+/// its parent's time that it has lived, (t - b) / (t (1 - b)): so a young tree is a small tree of few limbs,
+/// not a bare stem. All of it is continuous in t, so that no limb jumps; a limb is thinner than long in its
+/// youth (radii go by the 1.5th power of lengths: T. McMahon, "Size and shape in biology", Science 179,
+/// 1973). Leaves unfold with the twig that bears them and are of full size from 0.4 on, before by the 3/4th
+/// power of the trunk's size.
 #include "core/generators/tree/growth_context.h"
 
 namespace seedmesh::tree {
