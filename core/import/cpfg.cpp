@@ -77,8 +77,6 @@ class CpfgReader {
     return words_.expression(whole, {0, whole.size()});
   }
 
-  // --- lines
-
   /// What stands behind `key` and its colon where the line begins with them; keys may be in either case.
   bool begins(Line line, std::string_view key, Line& rest) const {
     if (lower(text({line.from, std::min(line.from + key.size(), line.to)})) != key) return false;
@@ -293,8 +291,6 @@ class CpfgReader {
       at = std::max(end, at + 1);
     }
   }
-
-  // --- what becomes of them
 
   void put_rules() {
     static const char* const names[] = {"productions", "decomposition", "interpretation"};
