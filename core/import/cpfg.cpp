@@ -13,7 +13,6 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "core/generators/lsystem/constants.h"
@@ -77,8 +76,6 @@ class CpfgReader {
     const TracedText whole = expanded(line);
     return words_.expression(whole, {0, whole.size()});
   }
-
-  // --- lines
 
   /// What stands behind `key` and its colon where the line begins with them; keys may be in either case.
   bool begins(Line line, std::string_view key, Line& rest) const {
@@ -272,9 +269,8 @@ class CpfgReader {
   void production(Line line) {
     const TracedText rule = expanded(line);
     if (rule.size() == 0) return;
-    const bool passed_over = part_ == Part::homomorphism;
-    std::optional<CpfgRule> read = read_cpfg_rule(
-        rule, passed_over ? CpfgContexts::passed_over : CpfgContexts::counted, source_, words_);
+    const auto contexts = part_ == Part::homomorphism ? CpfgContexts::passed_over : CpfgContexts::counted;
+    std::optional<CpfgRule> read = read_cpfg_rule(rule, contexts, source_, words_);
     if (!read) return;
     check_assignments(*read);
     rules_[static_cast<std::size_t>(part_)].push_back(std::move(*read));
@@ -295,8 +291,6 @@ class CpfgReader {
       at = std::max(end, at + 1);
     }
   }
-
-  // --- what becomes of them
 
   void put_rules() {
     static const char* const names[] = {"productions", "decomposition", "interpretation"};
