@@ -101,6 +101,8 @@ test('files bear the name of what was asked for, tell formats apart, and come on
   assert.equal(new Set(tips).size, tips.length, tips.join());
   const [map] = await Promise.all([page.waitForEvent('download'), from_menu(page, 'download-menu', '[data-format=png16]')]);
   assert.match(map.suggestedFilename(), /^island-\d+-png16\.png$/);
+  await until_shown(page, () => page.click('[data-preset="small_planet"]'));
+  await page.waitForFunction(() => document.querySelectorAll('[data-format=png16]').length === 0);
   assert.deepEqual(page.faults, []);
 });
 
