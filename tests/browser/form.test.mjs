@@ -19,6 +19,7 @@ const kiln_schema = {
     vast: { type: 'number', minimum: 0, maximum: 1000000, default: 2, 'x-group': 'Fire' },
     lid: { title: 'Lid', type: 'boolean', default: false, 'x-group': 'Fire' },
     wood: { title: 'Wood', type: 'string', enum: ['dry_oak', 'pine'], default: 'pine', 'x-group': 'Fire' },
+    draught: { title: 'Draught', type: 'number', minimum: 1, maximum: 9, 'x-step': 0.1, 'x-group': 'Fire' },
     ash: { title: 'Ash', type: 'number', minimum: 0, maximum: 1000, 'x-step': 0.5, 'x-full': 'heat', 'x-widget': 'growth', 'x-group': 'Fire' },
     flame: { title: 'Flame', type: 'string', enum: ['low', 'high'], 'x-group': 'Fire' },
     slip: { title: 'Slip', type: 'string', 'x-widget': 'color', 'x-group': 'Clay' },
@@ -49,6 +50,11 @@ async function open_kiln(parameters = {}) {
   let last = null;
   const page = await open(browser, `${server.url}/${fragment_of({ generator: 'kiln', seed: 1, parameters })}`, {
     before: async (page) => {
+      await page.route('**/v1/presets', async (route) => {
+        const response = await route.fetch();
+        const offer = await response.json();
+        await route.fulfill({ response, json: { ...offer, generators: [...offer.generators, { name: 'kiln', title: 'Kiln' }] } });
+      });
       await page.route('**/v1/schemas/kiln', (route) => route.fulfill({ json: kiln_schema }));
       await page.route('**/v1/generate', async (route) => {
         last = JSON.parse(route.request().postData());
@@ -87,6 +93,11 @@ test('what a request leaves out is shown as such, and at what stands for it', { 
   assert.deepEqual(await ash.locator('input[type=number]').evaluate((each) => [each.value, each.placeholder]), ['', '20']);
   assert.equal((await sends(() => ash.locator('input[type=range]').press('ArrowLeft'))).ash, 19.5);
   assert.ok(await ash.getByRole('button', { name: 'Grow by Ash' }).isVisible());
+  const draught = at('draught').locator('input[type=range]');
+  assert.deepEqual(await draught.evaluate((slider) => [slider.className, slider.ariaValueText]), ['unset', 'not set'], 'no place is passed off as the value');
+  assert.equal(await at('draught').locator('input[type=number]').getAttribute('placeholder'), 'not set');
+  assert.equal((await sends(() => draught.press('ArrowRight'))).draught, 1.1);
+  assert.equal(await draught.getAttribute('class'), '');
   const flame = at('flame').locator('select');
   assert.equal(await flame.locator('option:checked').textContent(), 'not set');
   assert.equal((await sends(() => flame.selectOption({ label: 'low' }))).flame, 'low');

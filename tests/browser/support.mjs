@@ -8,7 +8,7 @@ import { launch, until_shown, until_state } from './chromium.mjs';
 
 export { launch, program, serve, until_shown, until_state };
 
-export const fragment_of = (request) => `#${zlib.deflateRawSync(JSON.stringify(request)).toString('base64url')}`;
+export const fragment_of = (request, is_text = false) => `#${zlib.deflateRawSync(is_text ? request : JSON.stringify(request)).toString('base64url')}`;
 export const request_of = (fragment) => JSON.parse(zlib.inflateRawSync(Buffer.from(fragment.replace('#', ''), 'base64url')));
 
 /** A tree of a few hundred triangles, so that the software renderer is not what is waited for. */
@@ -71,6 +71,13 @@ export async function from_menu(page, menu, button) {
   if (!(await page.locator(`#${menu}`).evaluate((each) => each.open))) await page.click(`#${menu} > summary`);
   await page.click(button);
 }
+
+/** Drops a file onto the page as a hand would, or several of one text. */
+export const drop = (page, names, text, type = '') => page.evaluate(({ names, text, type }) => {
+  const dataTransfer = new DataTransfer();
+  for (const name of names) dataTransfer.items.add(new File([text], name, { type }));
+  for (const each of ['dragenter', 'dragover', 'drop']) document.body.dispatchEvent(new DragEvent(each, { dataTransfer, bubbles: true, cancelable: true }));
+}, { names: [names].flat(), text, type });
 
 /** The menu of the view. */
 export const open_menu = (page) => page.locator('#view-menu').evaluate((menu) => { menu.open = true; });

@@ -6,7 +6,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { PNG } from 'pngjs';
-import { difference, field, fragment_of, from_menu, launch, open, open_parameters, picture, program, request_of, serve, small_tree, statistics, until_shown } from './support.mjs';
+import { difference, drop, field, fragment_of, from_menu, launch, open, open_parameters, picture, program, request_of, serve, small_tree, statistics, until_shown } from './support.mjs';
 
 let server, browser, address;
 before(async () => {
@@ -142,7 +142,7 @@ test('zip, picture and request are saved', { timeout: 300_000 }, async () => {
   assert.equal(zip.name, 'seedmesh-3.zip');
   assert.ok(zip.bytes.equals((await server.generate({ ...small_tree, output: { format: 'zip' } })).bytes));
   const png = await saved('#save-picture');
-  assert.equal(png.name, 'seedmesh-3.png');
+  assert.equal(png.name, 'seedmesh-3-view.png');
   const { width, height, data } = PNG.sync.read(png.bytes);
   assert.ok(width > 300 && height > 300);
   assert.ok(new Set(new Uint32Array(data.buffer, data.byteOffset, data.length / 4)).size > 50, 'something is drawn');
@@ -162,13 +162,6 @@ test('a request that is too long for a link is said to be', { timeout: 200_000 }
   await page.click('#copy-link');
   await page.waitForFunction(() => /too long for a link/.test(document.getElementById('alert').textContent));
 });
-
-/** Drops a file onto the page as a hand would. */
-const drop = (page, name, text, type = '') => page.evaluate(({ name, text, type }) => {
-  const dataTransfer = new DataTransfer();
-  dataTransfer.items.add(new File([text], name, { type }));
-  for (const each of ['dragenter', 'dragover', 'drop']) document.body.dispatchEvent(new DragEvent(each, { dataTransfer, bubbles: true, cancelable: true }));
-}, { name, text, type });
 
 test('a request that is dropped or chosen is opened', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);

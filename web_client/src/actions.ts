@@ -1,7 +1,7 @@
 /** What leaves the page: files, the link, programs that fetch the model. */
 import { Busy, Gone, generate, in_format, type Request } from './api';
 import { curl_of, endings, javascript_of, own_format, python_of } from './commands';
-import { el, part } from './dom';
+import { el, part, sentence } from './dom';
 import { link_to, longest_link } from './link';
 
 export interface Context {
@@ -13,16 +13,22 @@ export interface Context {
   /** What is seen now. */
   picture(): Promise<Blob | null>;
   say(text: string): void;
+  /** An empty text takes back what was said before. */
   fail(text: string): void;
+  /** A word that stays until what it tells of is done, and the word for that. */
+  begin(text: string): (text: string) => void;
 }
 
-const written: Record<string, string> = { gltf: 'glTF' };
+const written: Record<string, string> = { gltf: 'glTF', placements: 'Placements' };
 
 /** Links beyond this are cut by chats and mail. */
 const long_link = 2000;
 
 const called = (format: string): string => written[format] ?? format.toUpperCase();
-const told = (format: string): string => `Download as .${endings[format] ?? format}`;
+const ending_of = (format: string): string => endings[format] ?? format;
+const told = (format: string): string => `Download as ${format in endings ? `${called(format)}, a .${ending_of(format)}` : `.${format}`}`;
+/** Files of different formats with one ending are told apart by their names. */
+const file_name = (name: string, format: string): string => `${name}${format in endings ? `-${format}` : ''}.${ending_of(format)}`;
 
 /** One button for each format; what the request itself asks for has the button outside the menu. */
 export function wire_downloads(formats: string[], context: Context): void {
@@ -59,34 +65,55 @@ export function wire_copies(context: Context): void {
 }
 
 export function save_request(request: Request, context: Context): void {
-  save(new Blob([`${JSON.stringify(request, null, 2)}\n`]), 'json', context);
+  save(new Blob([`${JSON.stringify(request, null, 2)}\n`]), `${context.name()}.json`);
   context.say('The request is saved');
 }
 
 export async function save_picture(context: Context): Promise<void> {
+  const name = context.name();
   const picture = await context.picture();
   if (!picture) return;
-  save(picture, 'png', context);
+  save(picture, `${name}-view.png`);
   context.say('The picture is saved');
 }
 
-function save(file: Blob, ending: string, context: Context): void {
+function save(file: Blob, name: string): void {
   const address = URL.createObjectURL(file);
-  el('a', { href: address, download: `${context.name()}.${ending}` }).click();
+  el('a', { href: address, download: name }).click();
   // The browser reads the address after this task; a minute is long enough for it.
   setTimeout(() => URL.revokeObjectURL(address), 60_000);
 }
 
+/** Files that are on their way: the same is not fetched twice at once. */
+const coming = new Map<Request, Set<string>>();
+
 async function download(format: string, context: Context): Promise<void> {
   const request = context.request();
   if (!request) return;
+  const formats = coming.get(request) ?? new Set();
+  if (formats.has(format)) return;
+  coming.set(request, formats.add(format));
+  // Another model may be shown when it comes.
+  const name = file_name(context.name(), format);
+  const mark = (): void => {
+    for (const button of document.querySelectorAll<HTMLElement>('[data-format]'))
+      button.setAttribute('aria-busy', String(coming.get(context.request() ?? request)?.has(button.dataset['format'] ?? '') ?? false));
+  };
+  mark();
+  context.fail('');
+  const done = context.begin(`${name} is being fetched`);
   try {
     const { bytes } = await generate(in_format(request, format));
-    save(new Blob([bytes]), endings[format] ?? format, context);
-    context.say(`${called(format)} is downloaded`);
+    save(new Blob([bytes]), name);
+    done(`${name} is downloaded`);
   } catch (error) {
     const why = error instanceof Busy ? 'The server is full.' : error instanceof Gone ? 'The server cannot be reached.' : (error as Error).message;
-    context.fail(`No file: ${why}`);
+    done('');
+    context.fail(`No file ${name}: ${sentence(why)}`);
+  } finally {
+    formats.delete(format);
+    if (formats.size === 0) coming.delete(request);
+    mark();
   }
 }
 

@@ -80,11 +80,19 @@ export class Address {
     }
   }
 
+  /** Where a request that was written by hand comes from, and what it is called; null where its generator is none. */
+  origin_of(request: Request, preset: string | null): { preset: string | null; title: string; description: string } | null {
+    if (!this.context.generators().some(({ name }) => name === request.generator)) return null;
+    const from = this.context.presets().find((each) => each.name === preset && each.generator === request.generator);
+    return { preset: from?.name ?? null, title: from?.title ?? this.title_of(request, 'from JSON'), description: from?.description ?? '' };
+  }
+
   /** What came from no preset is called by its generator, and by the first of its parameters that is a plain word. */
-  private title_of({ generator, parameters }: Request): string {
-    const title = this.context.generators().find(({ name }) => name === generator)?.title ?? generator;
+  private title_of({ generator, parameters }: Request, whence = 'from a link'): string {
+    const title = this.context.generators().find(({ name }) => name === generator)?.title;
+    if (title === undefined) return 'Unknown generator';
     const word = Object.values(parameters).find((value) => typeof value === 'string' && /^[a-z][a-z_]{3,23}$/.test(value));
-    return word === undefined ? `${title} from a link` : `${title}, ${String(word).replaceAll('_', ' ')}`;
+    return word === undefined ? `${title} ${whence}` : `${title}, ${String(word).replaceAll('_', ' ')}`;
   }
 
   private async write(state: State, how: 'push' | 'replace'): Promise<void> {

@@ -1,4 +1,5 @@
 /** What the server offers, as api_schema/openapi.json describes it. Addresses are relative, so any path prefix works. */
+import { parse_json } from './exact';
 import type { Schema } from './form/schema';
 import { has_key, key_fields, unlock } from './key';
 
@@ -66,6 +67,15 @@ export class Busy extends Error {
   }
 }
 
+/** The model has more triangles than were wanted without a question. */
+export class Heavy extends Error {
+  readonly triangles: number;
+  constructor(triangles: number) {
+    super('The model is very large.');
+    this.triangles = triangles;
+  }
+}
+
 /** No answer at all, or one from something that is not the server. */
 export class Gone extends Error {}
 
@@ -111,8 +121,8 @@ export const get_offer = (signal?: AbortSignal): Promise<Offer> => read<Offer>('
 export const get_presets = async (signal?: AbortSignal): Promise<Preset[]> => (await get_offer(signal)).presets;
 
 export async function get_preset(name: string, signal?: AbortSignal): Promise<Request> {
-  const request = await read<Partial<Request>>(`v1/presets/${encodeURIComponent(name)}`, signal);
-  return complete(request);
+  const response = await call(`v1/presets/${encodeURIComponent(name)}`, { signal: signal ?? null });
+  return complete(parse_json(await response.text()) as Partial<Request>);
 }
 
 export const get_schema = (name: string, signal?: AbortSignal): Promise<Schema> =>
@@ -129,13 +139,16 @@ function merged(base: unknown, patch: unknown): unknown {
   return result;
 }
 
+/** A request, and the preset that it came from. */
+export interface Written { request: Request; preset: string | null }
+
 /** A request as it was written, which may name a preset: then what it says over that preset. */
-export async function whole(written: unknown): Promise<Request> {
+export async function whole(written: unknown): Promise<Written> {
   if (typeof written !== 'object' || written === null || Array.isArray(written)) throw new Error('A request is an object.');
   const { preset, ...rest } = written as Partial<Request> & { preset?: unknown };
-  if (typeof preset === 'string') return complete(merged(await get_preset(preset), rest) as Partial<Request>);
+  if (typeof preset === 'string') return { request: complete(merged(await get_preset(preset), rest) as Partial<Request>), preset };
   if (typeof rest.generator !== 'string') throw new Error('A request names its generator.');
-  return complete(rest);
+  return { request: complete(rest), preset: null };
 }
 
 /** With the members that the page relies on. */
@@ -175,7 +188,7 @@ export async function import_formats(): Promise<string[]> {
 export async function import_file(text: string, format: string, entry: string): Promise<{ request: Request; warnings: Fault[] }> {
   const query = new URLSearchParams(entry ? { format, entry } : { format });
   const response = await call(`v1/import?${query}`, { method: 'POST', headers: { 'Content-Type': 'text/plain' }, body: text });
-  const answer = (await response.json()) as { request: Partial<Request>; warnings: Fault[] };
+  const answer = parse_json(await response.text()) as { request: Partial<Request>; warnings: Fault[] };
   return { request: complete(answer.request), warnings: answer.warnings };
 }
 
@@ -192,10 +205,15 @@ async function whole_body(response: Response, signal?: AbortSignal): Promise<Arr
   }
 }
 
-export async function generate(request: Request, signal?: AbortSignal): Promise<Made> {
+/** Throws Heavy, before it is fetched, where the model has `most` triangles or more. */
+export async function generate(request: Request, signal?: AbortSignal, most = Infinity): Promise<Made> {
   const response = await post(request, '*/*', signal);
-  const bytes = await whole_body(response, signal);
   const number = (name: string): number => Number(response.headers.get(name) ?? 0);
+  if (number('Seedmesh-Triangles') >= most) {
+    void response.body?.cancel();
+    throw new Heavy(number('Seedmesh-Triangles'));
+  }
+  const bytes = await whole_body(response, signal);
   const timing = response.headers.get('Server-Timing') ?? '';
   return {
     bytes,

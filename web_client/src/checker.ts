@@ -6,9 +6,9 @@ const debounce = 120;
 export class Checker {
   private running = new AbortController();
   private timer = 0;
-  private readonly tell: (faults: Fault[], check: Check | null) => void;
+  private readonly tell: (faults: Fault[], check: Check | null, request: Request) => void;
 
-  constructor(tell: (faults: Fault[], check: Check | null) => void) {
+  constructor(tell: (faults: Fault[], check: Check | null, request: Request) => void) {
     this.tell = tell;
   }
 
@@ -20,8 +20,8 @@ export class Checker {
     const { signal } = this.running;
     this.timer = window.setTimeout(() => {
       check(request, signal).then(
-        (answer) => this.tell(answer.warnings, answer),
-        (error: unknown) => { if (!signal.aborted) this.tell(error instanceof Refusal ? error.faults : [], null); });
+        (answer) => this.tell(answer.warnings, answer, request),
+        (error: unknown) => { if (!signal.aborted) this.tell(error instanceof Refusal ? error.faults : [], null, request); });
     }, debounce);
   }
 }

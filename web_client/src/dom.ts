@@ -59,5 +59,8 @@ export const grouped = (count: number): string => count.toLocaleString('en');
 export const with_groups = (text: string): string =>
   text.replaceAll(/(?<![\w.,"'`#])\d{5,}(?![\w"'`]|\.\d)/g, (digits) => digits.replaceAll(/\B(?=(?:\d{3})+$)/g, ','));
 
+/** With a large letter at its beginning. */
+export const sentence = (text: string): string => text.replace(/^[a-z]/, (first) => first.toUpperCase());
+
 /** 3 significant digits, without the zeros at the end. */
 export const rounded = (value: number): string => String(Number(value.toPrecision(3)));

@@ -15,6 +15,10 @@ export const moved = (output: Request['output'], motion: Motion): Request['outpu
 
 export const is_output = (fault: Fault): boolean => /^\/output(\/|$)/.test(fault.pointer);
 
+/** The formats that a generator has besides, as far as its parameters allow. */
+export const own_formats = (schema: Schema, { parameters }: Request): string[] => (schema['x-formats'] ?? []).filter((format) =>
+  Object.entries(schema['x-formats-where']?.[format] ?? {}).every(([name, value]) => (parameters[name] ?? schema.properties?.[name]?.default) === value));
+
 /** The schema of the output with the formats alone that the generator has, and what the request asks for. */
 export function with_formats(output: Schema, formats: string[], request: Request): Schema {
   const { format, ...others } = output.properties ?? {};

@@ -1,5 +1,6 @@
 /** A request as text in the page's own address. The link carries all; no server keeps it. */
 import { complete, type Request } from './api';
+import { parse_json } from './exact';
 
 /** Browsers and what is between them and the reader cut longer addresses; a request with a picture is longer. */
 export const longest_link = 32_000;
@@ -28,7 +29,7 @@ export async function unpack(fragment: string): Promise<Request> {
   const [text = ''] = fragment.split('.');
   const binary = atob(text.replaceAll('-', '+').replaceAll('_', '/'));
   const bytes = Uint8Array.from(binary, (character) => character.charCodeAt(0));
-  const json: unknown = JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream('deflate-raw'))));
+  const json = parse_json(new TextDecoder().decode(await through(bytes, new DecompressionStream('deflate-raw'))));
   const given = json as Partial<Request> | null;
   if (typeof given !== 'object' || given === null || typeof given.generator !== 'string') throw new Error('no request');
   return complete(given);

@@ -5,23 +5,24 @@
 import { Locked, Refusal, get_preset, get_offer, get_schema, type Fault, type Generator, type Made, type Preset, type Request } from './api';
 import { Address, first_shown } from './address';
 import { Checker, joined } from './checker';
-import { el, grouped, part, rounded } from './dom';
+import { el, grouped, part, sentence } from './dom';
 import type { Form } from './form/form';
 import type { OutputForm } from './form/output_form';
-import type { Schema } from './form/schema';
+import { same, type Schema } from './form/schema';
 import { draw_gallery, type Gallery } from './gallery';
 import { Grower, Patience } from './grower';
 import { forget_hint, wire_hint } from './hint';
 import { reopen } from './key';
-import { for_view, is_output, motions_in, with_formats, type Motion } from './for_view';
+import { for_view, is_output, motions_in, own_formats, with_formats, type Motion } from './for_view';
 import { wire_seed } from './seed';
 import { is_high, make_viewer } from './setup';
 import { Store, type State } from './state';
 import { wire_status } from './status';
 import { wire_tabs } from './tabs';
 import type { Core, Tools } from './tools';
-import { show_measures } from './measures';
+import { show_measures, sides_of, still_shown } from './measures';
 import type { Model } from './viewer/model';
+import { warnings_in } from './warnings';
 import './style/base.css';
 import './style/layout.css';
 import './style/gallery.css';
@@ -41,9 +42,6 @@ function begun<T>(task: () => Promise<T>): (again: () => Promise<T>) => Promise<
 const early_offer = begun(get_offer);
 const early_first = location.hash.length > 1 ? null : begun(() => get_preset(first_shown));
 
-/** A model of more triangles is drawn only when asked for: it can cost a browser its picture. */
-const heavy = 3_000_000;
-
 const store = new Store();
 const status = wire_status();
 const patience = new Patience();
@@ -56,8 +54,14 @@ const grower = new Grower((phase) => {
   if (phase.kind === 'refused' && phase.refusal instanceof Locked) locked(phase.refusal, () => grower.again());
   else if (phase.kind === 'refused') refuse(phase.refusal);
   if (phase.kind === 'ready' || phase.kind === 'refused') settle(phase.kind === 'ready');
-}, show);
-const checker = new Checker((faults) => { checked = faults; show_faults(); });
+  if (phase.kind === 'refused' || phase.kind === 'stopped') tell_apart();
+}, show, async (triangles) => document.body.classList.contains('stage') || status.ask(`This model has ${grouped(triangles)} triangles.`, 'Draw it'));
+const checker = new Checker((faults, check, request) => {
+  checked = faults;
+  show_faults();
+  // An estimate may be several times too high; the answer itself tells before it is fetched whole.
+  if (check?.estimate?.exact && looked_at === request) grower.expect(check.estimate.triangles);
+});
 const tabs = wire_tabs((page) => tools?.page(page));
 
 let presets: Preset[] = [];
@@ -66,12 +70,18 @@ let gallery: Gallery | null = null;
 let form: Form | null = null;
 let output_form: OutputForm | null = null;
 let tools: Tools | null = null;
+/** Ends with the opening of something else, and with Cancel. */
 let opening = new AbortController();
+/** Ends when the form of another request is to be drawn. */
+let drawing = new AbortController();
 let keep_camera = false;
-let last: { bytes: ArrayBuffer; model: Model | null; triangles: number } | null = null;
-/** What the making of the model, and what the checking of the request had to say. */
+let last: { bytes: ArrayBuffer; model: Model | null; triangles: number; base: Request | null; title: string; seed: Request['seed'] } | null = null;
+/** What is asked for as a picture: the page's request, or another in its place. */
+let looked_at: Request | null = null;
+/** What the making of the model, what the checking of the request, and what the model itself had to say. */
 let refusal: Refusal | null = null;
 let checked: Fault[] = [];
+let said: Fault[] = [];
 /** What was said of the model when it was opened, and has to stay readable when it is drawn. */
 let standing = '';
 let is_locked = false;
@@ -130,7 +140,8 @@ const address = new Address({
 
 const core: Core = {
   store, viewer, high, status, seed, tabs,
-  bytes: () => last?.bytes ?? null,
+  shown: () => last,
+  looked_at: () => looked_at,
   grow_again: () => { if (store.current) grow(store.current.request, 'now'); },
   preview: (request) => grow(request, 'now'),
   drawn: () => new Promise((resolve) => {
@@ -144,6 +155,13 @@ const core: Core = {
     tabs.open('parameters');
     quietly(address.push(null));
   },
+  write(request, preset) {
+    const from = address.origin_of(request, preset);
+    if (!from || !is_another(request, from.preset)) { store.write(request); return; }
+    begin_opening();
+    store.open(request, from);
+    quietly(address.push(from.preset));
+  },
   search: () => gallery?.search(),
 };
 
@@ -152,28 +170,48 @@ function settle(drawn: boolean): void {
   waiting = [];
 }
 
-const grow = (request: Request, when: 'now' | 'soon'): void => grower.ask(for_view(request, tools?.motion() ?? null), when);
+function grow(request: Request, when: 'now' | 'soon'): void {
+  looked_at = request;
+  grower.ask(for_view(request, tools?.motion() ?? null), when);
+}
+
+/** Whether a request that was written at once has nothing left of the one that it was written over; of one or two parameters nothing can be told. */
+function is_another(request: Request, preset: string | null): boolean {
+  const { current } = store;
+  if (!current || request.generator !== current.request.generator) return true;
+  if (preset !== null) return preset !== current.preset;
+  const before = Object.entries(current.request.parameters);
+  return before.length > 2 && before.every(([name, value]) => !same(request.parameters[name], value));
+}
+
+/** A model that stays although another request is open is told to be the other's. */
+function tell_apart(): void {
+  if (last && store.current && last.base !== store.current.base) still_shown(last.title, viewer);
+}
 
 async function show(made: Made, request: Request): Promise<void> {
-  const { triangles } = made.statistics;
+  const { triangles, warnings } = made.statistics;
   refusal = null;
+  said = warnings > 0 ? warnings_in(made.bytes) : [];
   // What was made has no errors: the check of an earlier text may say so later than the model does. Of the output it shows a part.
   checked = checked.filter((fault) => fault.mild || is_output(fault));
   show_faults();
   if (viewer && !standing) status.faults('', [], 0, () => {});
-  last = { bytes: made.bytes, model: null, triangles };
-  const staged = document.body.classList.contains('stage');
-  if (viewer && (triangles < heavy || staged || (await status.ask(`This model has ${grouped(triangles)} triangles.`, 'Draw it')))) {
+  last = { bytes: made.bytes, model: null, triangles, base: store.current?.base ?? null, title: store.current?.title ?? '', seed: request.seed };
+  still_shown('', null);
+  if (viewer) {
     last.model = await viewer.show(made.bytes, keep_camera);
     keep_camera = true;
     tools?.shown(last.model, triangles);
     show_measures(viewer);
   }
   seed.drawn(request.seed);
-  status.shown(made.statistics);
+  const pieces = (triangles === 0 && last.model?.pieces) || { name: 'Triangles', count: triangles };
+  status.shown(made.statistics, pieces);
   const size = viewer?.measures.size;
-  const measure = size ? `, ${rounded(size.x)} m wide, ${rounded(size.y)} m high, ${rounded(size.z)} m deep` : '';
-  const told = `${store.current?.title ?? 'Model'}, seed ${request.seed}: ${grouped(triangles)} triangles`;
+  const [wide, high, deep] = size ? sides_of(size) : [];
+  const measure = size ? `, ${wide} m wide, ${high} m high, ${deep} m deep` : '';
+  const told = `${store.current?.title ?? 'Model'}, seed ${request.seed}: ${grouped(pieces.count)} ${pieces.name.toLowerCase()}`;
   part('picture').setAttribute('aria-label', told + measure);
   status.arrived(told);
   document.body.dataset['shown'] = String(Number(document.body.dataset['shown']) + 1);
@@ -181,7 +219,7 @@ async function show(made: Made, request: Request): Promise<void> {
 
 /** At the fields and in the JSON. */
 function show_faults(): void {
-  const faults = joined(refusal?.faults ?? [], checked);
+  const faults = joined(refusal?.faults ?? [], checked, said);
   tools?.show_faults(faults);
   form?.show_faults(faults);
   output_form?.show_faults(faults);
@@ -203,20 +241,38 @@ function refuse(next: Refusal): void {
   const homeless = faults.filter((fault) => !form?.holds(fault) && !output_form?.holds(fault));
   const one = faults.length === 1 ? faults[0] : undefined;
   const label = one && label_at(one.pointer);
-  const detail = faults.length > 1 ? `This request has ${faults.length} faults.` : label ? `${label}: ${next.message}` : next.message;
+  const detail = faults.length > 1 ? `This request has ${faults.length} faults.` : label ? `${label}: ${next.message}` : sentence(next.message);
   // One fault is its own summary.
   const rest = homeless.filter((fault: Fault) => fault.message !== next.message);
   status.faults(detail, rest, faults.length - homeless.length, () => {
     tabs.open('parameters');
-    const faulty = part('parameters').querySelector<HTMLElement>('.field.faulty :is(.spot, input, textarea, select)');
-    faulty?.focus();
-    faulty?.scrollIntoView({ block: 'center' });
+    go_to(part('parameters').querySelector('.field.faulty :is(.spot, input, textarea, select)'));
   });
+}
+
+function go_to(field: HTMLElement | null): void {
+  field?.focus();
+  field?.scrollIntoView({ block: 'center' });
+}
+
+/** To the first field with a warning; those that belong to no field stand under the JSON. */
+function lead_to_warning(): void {
+  const mild = part('parameters').querySelector(':is(.fault.mild:not([hidden]), .spot.mild)');
+  tabs.open(mild ? 'parameters' : 'request');
+  for (let up = mild?.closest('details'); up; up = up.parentElement?.closest('details')) up.open = true;
+  go_to(mild ? mild.closest('.field')?.querySelector<HTMLElement>(':is(.spot.mild, input, textarea, select)') ?? null : part('request').querySelector('.spot.mild'));
 }
 
 /** The form of the request's generator; drawn once for each request that is opened, and when another hand wrote it. */
 async function draw_parameters(state: State, is_new: boolean, signal: AbortSignal): Promise<void> {
   const { generator } = state.request;
+  if (!generators.some(({ name }) => name === generator)) {
+    form = schema = null;
+    schema_of = '';
+    tools?.explain({});
+    part('parameters').replaceChildren(el('h2', { class: 'unseen' }, 'Parameters'), el('p', { class: 'soft' }, `There is no generator “${generator}”, so there are no parameters to show. The JSON can be mended by hand.`));
+    return;
+  }
   const [known, output, { draw_form, keep_place, about, output_form: make_output }] = await Promise.all([
     schema && schema_of === generator ? schema : persist(() => get_schema(generator, signal), signal), get_output(), persist(() => import('./form/form'), signal)]);
   const { request, base } = store.current ?? state;
@@ -224,9 +280,11 @@ async function draw_parameters(state: State, is_new: boolean, signal: AbortSigna
   schema = known;
   schema_of = generator;
   const restore = keep_place(part('parameters'));
-  form = draw_form(schema, request.parameters, base.parameters, '/parameters', (parameters) => store.edit({ parameters }));
+  // A form that is about to give way to another writes nothing.
+  const mine: Form = draw_form(schema, request.parameters, base.parameters, '/parameters', (parameters) => { if (form === mine) store.edit({ parameters }); });
+  form = mine;
   output_form ??= make_output((asked) => store.edit({ output: asked }));
-  output_form.follow(with_formats(output, formats_of(schema), request), request.output ?? {}, base.output ?? {});
+  output_form.follow(with_formats(output, formats_of(schema, request), request), request.output ?? {}, base.output ?? {});
   part('parameters').replaceChildren(el('h2', { class: 'unseen' }, 'Parameters'), about(generator, schema, state.description), form.element, output_form.element);
   restore();
   if (is_new) part('parameters').scrollTop = 0;
@@ -236,13 +294,16 @@ async function draw_parameters(state: State, is_new: boolean, signal: AbortSigna
   else show_faults();
 }
 
-const formats_of = (of: Schema): string[] => [...formats, ...(of['x-formats'] ?? [])];
+const formats_of = (of: Schema, request: Request): string[] => [...formats, ...own_formats(of, request)];
 
 const explain = (): void => {
   if (!schema) return;
   tools?.explain(schema);
-  tools?.offer(formats_of(schema), motions);
+  if (store.current) offer(schema, store.current.request);
 };
+
+const offer = (of: Schema, request: Request): void =>
+  tools?.offer(formats_of(of, request), motions.filter(({ member }) => of['x-motions']?.includes(member)));
 
 store.subscribe((state, cause) => {
   seed.show(state.request.seed);
@@ -254,14 +315,18 @@ store.subscribe((state, cause) => {
     keep_camera = false;
     form = null;
     refusal = null;
-    checked = [];
+    checked = said = [];
+    drawing.abort();
+    drawing = new AbortController();
+    if (schema_of !== state.request.generator) part('parameters').replaceChildren(el('p', { class: 'soft' }, 'The parameters are on their way.'));
   }
   if (cause !== 'open') {
     standing = '';
     address.follow(state);
     forget_hint();
   }
-  if (cause !== 'edit') quietly(draw_parameters(state, is_new, opening.signal));
+  if (cause !== 'edit') quietly(draw_parameters(state, is_new, drawing.signal));
+  else if (schema) offer(schema, state.request);
   tools?.follow(state, is_new);
   checker.ask(state.request);
   grow(state.request, is_new ? 'now' : 'soon');
@@ -280,8 +345,10 @@ async function load_tools(signal: AbortSignal): Promise<void> {
 async function start(): Promise<void> {
   wire_hint();
   part('cancel').addEventListener('click', () => {
-    // Nothing is made: what is given up is the asking for what to make.
-    if (!grower.is_running) begin_opening();
+    begin_opening();
+    // Nothing is made: what is waited for is the form.
+    if (!grower.is_running) drawing.abort();
+    gallery?.mark(store.current?.preset ?? null);
     grower.cancel();
   });
   // The address is the request's: a jump within the page must not be written there.
@@ -292,8 +359,15 @@ async function start(): Promise<void> {
   });
   // What happens while a model is made would wipe the word away.
   addEventListener('tell', (event) => void core.drawn().then((drawn) => { if (drawn) status.say((event as CustomEvent<string>).detail); }));
-  const again = (): void => { patience.nudge(); grower.again(); };
+  const again = (): void => {
+    patience.nudge();
+    grower.again();
+    if (form || !store.current || !drawing.signal.aborted) return;
+    drawing = new AbortController();
+    quietly(draw_parameters(store.current, true, drawing.signal));
+  };
   part('again').addEventListener('click', again);
+  part('warnings').addEventListener('click', lead_to_warning);
   addEventListener('online', () => { if (['gone', 'full'].includes(document.body.dataset['state'] ?? '')) again(); });
   addEventListener('hashchange', () => { if (address.is_foreign) opening_of(() => address.open()); });
 

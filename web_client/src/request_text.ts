@@ -1,7 +1,8 @@
 /** The whole request as JSON in the code editor: one more hand on the same state as the form's. */
-import { whole, type Fault, type Request } from './api';
+import { whole, type Fault, type Request, type Written } from './api';
 import { el, part } from './dom';
 import { load_editor, type CodeEditor, type Mark } from './editor/load';
+import { parse_json } from './exact';
 import { same } from './form/schema';
 import { NotJson, place_of, places_in } from './json_places';
 import type { State } from './state';
@@ -31,7 +32,8 @@ export function written(value: unknown, indent = ''): string {
   return members.length === 0 ? '{}' : `{\n${members.map(([name, member]) => `${inner}${JSON.stringify(name)}: ${written(member, inner)}`).join(',\n')}\n${indent}}`;
 }
 
-export function wire_request_text(write: (request: Request) => void): RequestText {
+/** `write` gets the request and the preset that it names. */
+export function wire_request_text(write: (request: Request, preset: string | null) => void): RequestText {
   const page = part('request');
   const note = el('p', { class: 'fault', id: 'request-fault', role: 'status' });
   const place = el('div', { class: 'json' }, el('p', { class: 'soft' }, 'The editor is on its way.'));
@@ -61,9 +63,9 @@ export function wire_request_text(write: (request: Request) => void): RequestTex
     const turn = (asked += 1);
     faults = [];
     mark();
-    let request: Request;
+    let given: Written;
     try {
-      request = await whole(JSON.parse(text));
+      given = await whole(parse_json(text));
     } catch (error) {
       if (error instanceof SyntaxError || turn !== asked) return;
       faults = [{ pointer: '', message: (error as Error).message }];
@@ -71,14 +73,14 @@ export function wire_request_text(write: (request: Request) => void): RequestTex
       return;
     }
     if (turn !== asked) return;
-    current = request;
-    write(request);
+    current = given.request;
+    write(given.request, given.preset);
   }
 
   const set = (): void => {
     if (!editor || !current) return;
     try {
-      if (same(JSON.parse(editor.text()), JSON.parse(JSON.stringify(current)))) return;
+      if (same(parse_json(editor.text()), JSON.parse(JSON.stringify(current)))) return;
     } catch { /* What is no JSON gives way to what counts. */ }
     editor.set_text(written(current));
     mark();

@@ -15,7 +15,7 @@ export function seed_of(text: string): Seed | null {
 }
 
 /** The seed `step` further; past the largest it begins again at 0. */
-export const seed_after = (seed: Seed, step: number): Seed => seed_of(String((BigInt(seed) + BigInt(step)) % (largest + 1n))) ?? 0;
+export const seed_after = (seed: Seed, step: number): Seed => seed_of(String((BigInt(seed_of(String(seed)) ?? 0) + BigInt(step)) % (largest + 1n))) ?? 0;
 
 export interface SeedBox {
   show(seed: Seed): void;
@@ -36,10 +36,12 @@ export function wire_seed(change: (seed: Seed) => void): SeedBox {
   };
   const show = (seed: Seed): void => {
     shown = seed;
-    judge(true);
+    // A request of another hand may have one that is none, and what is wrong with it is told with its other faults.
+    box.setAttribute('aria-invalid', String(seed_of(String(seed)) === null));
+    fault.textContent = '';
     box.title = String(seed);
     // What is being typed stays as it is: 007 is 7.
-    if (seed_of(box.value) !== seed) box.value = String(seed);
+    if (String(seed_of(box.value)) !== String(seed)) box.value = String(seed);
   };
   const roll = (): void => {
     const seed = crypto.getRandomValues(new Uint32Array(1))[0] ?? 0;
@@ -54,8 +56,7 @@ export function wire_seed(change: (seed: Seed) => void): SeedBox {
   // What is no seed does not stay: the page shows and shares the one before.
   box.addEventListener('change', () => {
     if (seed_of(box.value) !== null) return;
-    box.value = String(shown);
-    judge(true);
+    show(shown);
   });
   part('dice').addEventListener('click', roll);
   return {

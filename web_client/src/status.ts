@@ -1,7 +1,10 @@
 /** What is going on, in words, for eyes, for assistive tools (status, alert) and for tests (data-state on the body). */
 import type { Fault, Statistics } from './api';
-import { el, grouped, part, rounded, with_groups } from './dom';
+import { el, grouped, part, rounded, sentence, with_groups } from './dom';
 import type { Phase } from './grower';
+
+/** What a model is made of: triangles, or where it has none, lines or points. */
+export interface Pieces { name: string; count: number }
 
 /** A wait that is shorter is not worth a word. */
 const bar_after = 300;
@@ -12,11 +15,13 @@ const rest = 900;
 export interface Status {
   phase(phase: Phase): void;
   /** The statistics of a model, and what its canvas is called. */
-  shown(statistics: Statistics): void;
+  shown(statistics: Statistics, pieces: Pieces): void;
   /** Tells assistive tools of a model that has come, once no other follows. */
   arrived(model: string): void;
   /** A word that goes away by itself. */
   say(text: string): void;
+  /** A word that stays until what is returned is called with the word that follows it, or with none. */
+  begin(text: string): (text: string) => void;
   /** Faults that no field shows, and how many the fields show; none takes the alert away. `way` names another way out than the fields. */
   faults(detail: string, homeless: Fault[], in_fields: number, lead: () => void, way?: string): void;
   lost(lost: boolean): void;
@@ -33,6 +38,8 @@ export function wire_status(): Status {
   let arriving = 0;
   let is_growing = false;
   let was_waiting = false;
+  /** What goes on beside the model. */
+  let task = '';
   let answer_no = (): void => {};
 
   const clear = (): void => {
@@ -45,10 +52,14 @@ export function wire_status(): Status {
     cancel.hidden = !buttons.includes(cancel);
     again.hidden = !buttons.includes(again);
     notice.hidden = message === '';
+    if (message === '' && task !== '') show(task);
   };
   const say = (message: string): void => {
+    // What waits for an answer comes back after the word.
+    const buttons = [cancel, again].filter((button) => !button.hidden);
+    const before = buttons.length > 0 ? text.textContent : '';
     show(message);
-    timers.push(window.setTimeout(() => show(''), 4000));
+    timers.push(window.setTimeout(() => show(before, buttons), 4000));
   };
 
   function growing(share: number | null): void {
@@ -77,6 +88,16 @@ export function wire_status(): Status {
 
   return {
     say,
+    begin(message) {
+      task = message;
+      if (!is_growing && notice.hidden) show(message);
+      return (after) => {
+        if (task !== message) return;
+        task = '';
+        if (after) say(after);
+        else if (text.textContent === message) show('');
+      };
+    },
     phase(phase) {
       answer_no();
       document.body.dataset['state'] = phase.kind === 'waiting' ? phase.reason : phase.kind;
@@ -117,7 +138,7 @@ export function wire_status(): Status {
       const go = el('button', { type: 'button', onclick: lead }, way ?? 'Show');
       alert.replaceChildren(
         el('p', {}, with_groups(detail)),
-        ...homeless.map((fault) => el('p', {}, with_groups(fault.pointer ? `${fault.pointer}: ${fault.message}` : fault.message))),
+        ...homeless.map((fault) => el('p', {}, with_groups(fault.pointer ? `${fault.pointer}: ${fault.message}` : sentence(fault.message)))),
         ...(in_fields > 0 || way !== undefined ? [go] : []),
       );
     },
@@ -140,10 +161,12 @@ export function wire_status(): Status {
   };
 }
 
-function show_statistics(statistics: Statistics): void {
+function show_statistics(statistics: Statistics, pieces: Pieces): void {
   part('statistics').hidden = false;
-  part('triangles').textContent = grouped(statistics.triangles);
-  part('triangles').dataset['made'] = String(statistics.triangles);
+  part('pieces').textContent = pieces.name;
+  part('triangles').textContent = grouped(pieces.count);
+  part('triangles').dataset['pieces'] = pieces.name.toLowerCase();
+  part('triangles').dataset['made'] = String(pieces.count);
   part('warnings-box').hidden = statistics.warnings === 0;
   part('warnings').textContent = grouped(statistics.warnings);
   part('bytes').textContent = size_of(statistics.bytes);

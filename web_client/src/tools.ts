@@ -33,8 +33,10 @@ export interface Core {
   status: Status;
   seed: SeedBox;
   tabs: Tabs;
-  /** The GLB that is shown. */
-  bytes(): ArrayBuffer | null;
+  /** The GLB that is shown, and whose it is. */
+  shown(): { bytes: ArrayBuffer; title: string; seed: Request['seed'] } | null;
+  /** What is asked for as a picture: the page's request, or another in its place. */
+  looked_at(): Request | null;
   grow_again(): void;
   /** Shows another request than the page's own, which stays. */
   preview(request: Request): void;
@@ -42,6 +44,8 @@ export interface Core {
   drawn(): Promise<boolean>;
   /** `words` stay over the model when it is drawn. */
   open(request: Request, title: string, words?: string): void;
+  /** The whole request by another hand; what has nothing of the one before is another. */
+  write(request: Request, preset: string | null): void;
   search(): void;
 }
 
@@ -59,15 +63,22 @@ export interface Tools {
 
 export function wire_tools(core: Core): Tools {
   const { store, viewer, status, tabs } = core;
+  let failed = '';
   const actions = {
     request: (): Request | null => store.current?.request ?? null,
     preset: (): string | null => store.current?.preset ?? null,
     name: (): string => `${store.current?.preset ?? 'seedmesh'}-${store.current?.request.seed ?? 0}`,
     picture: (): Promise<Blob | null> => viewer?.screenshot() ?? Promise.resolve(null),
     say: status.say,
-    fail: (text: string): void => status.faults(text, [], 0, () => {}),
+    fail(text: string): void {
+      // What another part of the page has to say stays.
+      if (text === '' && (failed === '' || part('alert').textContent !== failed)) return;
+      status.faults(text, [], 0, () => {});
+      failed = part('alert').textContent;
+    },
+    begin: status.begin,
   };
-  const request_text = wire_request_text((request) => store.write(request));
+  const request_text = wire_request_text(core.write);
   const result = wire_result(viewer, (line) => {
     tabs.open('parameters');
     part('parameters').querySelector(`[data-pointer="/parameters/${rules_name()}"]`)?.dispatchEvent(new CustomEvent('go-line', { detail: line }));
@@ -85,11 +96,11 @@ export function wire_tools(core: Core): Tools {
   });
   part('parameters').addEventListener('grow', (event) => growth.start((event as CustomEvent<GrowthAsk>).detail));
   const view_menu = viewer && wire_view_menu(viewer, {
-    high: core.high, levels: () => levels_of(store.current!.request), animate: core.grow_again, fail: actions.fail,
+    high: core.high, levels: () => levels_of(core.looked_at()!), animate: core.grow_again, fail: actions.fail,
   });
   const motion = viewer && wire_motion(viewer);
   let motions: Motion[] = [];
-  let formats = ['glb'];
+  let formats: string[] = [];
   let own = 'glb';
   let rules_schema: Schema | null = null;
   /** The parameter that a shape's line counts in. */
@@ -111,7 +122,7 @@ export function wire_tools(core: Core): Tools {
   const help = wire_help();
   wire_keys(core, { open_file: files.choose, help: help.open, save() { if (store.current) save_request(store.current.request, actions); } });
   if (viewer) {
-    const compare = wire_compare(viewer, core.bytes, () => String(store.current?.request.seed ?? 0), () => store.current?.title ?? '');
+    const compare = wire_compare(viewer, core.shown);
     wire_view(viewer, {
       roll: core.seed.roll, compare,
       next_mode: () => view_menu?.next_mode(), save_picture: () => void save_picture(actions), step: steps.by,
@@ -133,7 +144,7 @@ export function wire_tools(core: Core): Tools {
       result.follow(state, is_new);
       if (is_new) {
         view_menu?.forget();
-        ask_motions();
+        motions = [];
       }
     },
     explain(schema) {
@@ -152,8 +163,8 @@ export function wire_tools(core: Core): Tools {
       result.open(page === 'result');
     },
     offer(all_formats, all_motions) {
+      if (all_formats.join() !== formats.join()) wire_downloads(all_formats, actions);
       formats = all_formats;
-      wire_downloads(formats, actions);
       motions = all_motions;
       ask_motions();
     },

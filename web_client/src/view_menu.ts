@@ -170,7 +170,7 @@ export function wire_motion(viewer: Viewer): { shown(model: Model): void; play()
 }
 
 /** A | B: the model that is shown when it is switched on stays to the left; what follows is to the right. */
-export function wire_compare(viewer: Viewer, bytes: () => ArrayBuffer | null, seed: () => string, title: () => string): (() => void) {
+export function wire_compare(viewer: Viewer, shown: () => { bytes: ArrayBuffer; title: string; seed: number | string } | null): (() => void) {
   const button = part('compare'), box = part('divider-box');
   const divider = part<HTMLInputElement>('divider'), line = part('divider-line');
   const place = (): void => {
@@ -179,12 +179,12 @@ export function wire_compare(viewer: Viewer, bytes: () => ArrayBuffer | null, se
   };
   const flip = (): void => {
     const on = button.getAttribute('aria-pressed') !== 'true';
-    const kept = bytes();
+    const kept = shown();
     if (on && !kept) return;
     button.setAttribute('aria-pressed', String(on));
     box.hidden = line.hidden = !on;
-    if (on) box.querySelector('label')!.replaceChildren(el('b', {}, `Left: seed ${seed()}`), el('span', { class: 'soft' }, title()));
-    void viewer.compare(on ? kept : null).then(place);
+    if (on) box.querySelector('label')!.replaceChildren(el('b', {}, `Left: seed ${kept?.seed}`), el('span', { class: 'soft' }, kept?.title));
+    void viewer.compare(on && kept ? kept.bytes : null).then(place);
   };
   button.addEventListener('click', flip);
   divider.addEventListener('input', place);

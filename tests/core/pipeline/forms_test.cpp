@@ -31,6 +31,28 @@ TEST(Forms, AreThoseThatTheSchemasName) {
   EXPECT_EQ(all, output["properties"]["format"]["enum"].get<std::set<std::string>>());
 }
 
+TEST(Motions, AreThoseThatTheSchemasName) {
+  for (const Generator& generator : generators()) {
+    std::vector<std::string> motions;
+    if (generator.grows) motions.emplace_back("animation");
+    if (generator.sways) motions.emplace_back("wind");
+    EXPECT_EQ(motions, Json::parse(*schema_json(generator.name)).value("x-motions", std::vector<std::string>()))
+        << generator.name;
+  }
+}
+
+TEST(Forms, NeedValuesThatTheSchemasName) {
+  for (const Generator& generator : generators()) {
+    const Json schema = Json::parse(*schema_json(generator.name));
+    const Json needs = schema.value("x-formats-where", Json::object());
+    for (const auto& [format, values] : needs.items()) {
+      EXPECT_THAT(formats_of(generator.name), testing::Contains(format));
+      for (const auto& [name, value] : values.items())
+        EXPECT_THAT(schema["properties"][name]["enum"].get<std::vector<Json>>(), testing::Contains(value));
+    }
+  }
+}
+
 TEST(Forms, AreRefusedWhereTheGeneratorHasThemNot) {
   const Result<Request> request = read_request(
       R"({"generator":"lsystem","parameters":{"axiom":"F"},"output":{"format":"r16"}})", Limits{});

@@ -31,6 +31,10 @@ export interface Schema {
   'x-grammar'?: string;
   /** Of the output: the formats of every model. Of a generator: those that it has besides. */
   'x-formats'?: string[];
+  /** Which of these need a parameter to have a certain value. */
+  'x-formats-where'?: Record<string, Record<string, unknown>>;
+  /** Of a generator: the members of the output that let its models move. */
+  'x-motions'?: string[];
   /** The members of the object form that the one number of the short form stands for. */
   'x-short'?: string[];
 }

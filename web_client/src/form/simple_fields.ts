@@ -1,5 +1,6 @@
 /** Fields with one small value: numbers, choices, switches, colours, words. */
 import { el } from '../dom';
+import { parse_json } from '../exact';
 import { frame, type Draw, type Place, type Redraw } from './field';
 import type { Schema } from './schema';
 
@@ -53,14 +54,18 @@ export const number_field: Draw = (place) =>
     const value = shown(place);
     const usual = stand_in(place);
     const known = typeof value === 'number' ? value : usual ?? 0;
+    // What the server takes then is not known here: the slider shows no place of it.
+    const is_open = typeof value !== 'number' && usual === undefined;
     const { low, high, step } = slider_span(place.schema, known, place.schema['x-full'] === undefined ? undefined : usual);
-    const box = el('input', { type: 'number', step, value: typeof value === 'number' ? value : '', placeholder: usual ?? 'unset', inputmode: 'decimal' });
-    const slider = el('input', { type: 'range', min: low, max: high, step, value: known, 'aria-label': `${place.label}, slider` });
+    const box = el('input', { type: 'number', step, value: typeof value === 'number' ? value : '', placeholder: usual ?? 'not set', inputmode: 'decimal' });
+    const slider = el('input', { type: 'range', min: low, max: high, step, value: known, 'aria-label': `${place.label}, slider`, class: is_open ? 'unset' : '', 'aria-valuetext': is_open ? 'not set' : undefined });
     const unit = place.schema['x-unit'];
     const body = el('div', { class: 'number' }, slider, el('span', { class: 'box' }, box, unit ? el('span', { class: 'unit' }, unit) : null),
       place.schema['x-widget'] === 'growth' && grow_button(place));
     const drawn = frame(place, box, body, redraw);
     const take = (next: number): void => {
+      slider.classList.remove('unset');
+      slider.removeAttribute('aria-valuetext');
       place.value = next;
       place.change(next);
       drawn.now(next);
@@ -134,7 +139,9 @@ export const word_field: Draw = (place) =>
     const drawn = frame(place, input, input, redraw);
     input.addEventListener('input', () => {
       const number = Number(input.value);
-      const value = takes_number && input.value.trim() !== '' && Number.isFinite(number) ? number : input.value;
+      // Whole numbers beyond 2^53 would be rounded: their digits stay as they are.
+      const is_exact = Number.isSafeInteger(number) || !/^\s*\d+\s*$/.test(input.value);
+      const value = takes_number && input.value.trim() !== '' && Number.isFinite(number) && is_exact ? number : input.value;
       place.change(value);
       drawn.now(value);
     });
@@ -150,7 +157,7 @@ export const json_field: Draw = (place) =>
     area.addEventListener('input', () => {
       let value: unknown;
       try {
-        value = area.value.trim() === '' ? undefined : JSON.parse(area.value);
+        value = area.value.trim() === '' ? undefined : parse_json(area.value);
       } catch {
         area.setAttribute('aria-invalid', 'true');
         return;

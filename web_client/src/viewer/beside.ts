@@ -1,13 +1,21 @@
 /** Two models under one camera: one to the left of a divider, and to the right of it what is shown otherwise. */
 import { Vector2, type Object3D, type PerspectiveCamera, type Scene, type WebGLRenderer } from 'three';
-import type { Model } from './model';
+import { Model } from './model';
 
 export class Beside {
   other: Model | null = null;
   /** Where the divider stands, as a share of the width. */
   divider = 0.5;
+  private turn = 0;
 
-  take(other: Model | null): void {
+  /** Takes a GLB, or null for nothing; what a later call has overtaken is let go of. */
+  async take(bytes: ArrayBuffer | null): Promise<void> {
+    const turn = (this.turn += 1);
+    const other = bytes ? await Model.from(bytes) : null;
+    if (turn !== this.turn) {
+      other?.dispose();
+      return;
+    }
     this.other?.dispose();
     this.other = other;
   }

@@ -1,6 +1,7 @@
 /** Clicks on the ground, told to whoever listens on the canvas, and marks that stand there. */
-import { Box3, Plane, Raycaster, Vector3, type Group, type Object3D, type PerspectiveCamera } from 'three';
+import { Plane, Raycaster, Vector3, type Group, type Object3D, type PerspectiveCamera } from 'three';
 import type { GroundClick, GroundMarks } from '../form/planting';
+import { is_ground } from './footing';
 import { draw_marks } from './marks';
 import { on_tap, ray_of } from './tap';
 
@@ -17,23 +18,13 @@ export function wire_ground(canvas: HTMLCanvasElement, scene: Scene, mark: (mark
     const met = hit ?? caster.ray.intersectPlane(new Plane(new Vector3(0, 1, 0), -scene.floor()), new Vector3());
     if (!met) return;
     const is_long = event.pointerType === 'touch' && held > long_press;
-    const detail: GroundClick = { x: met.x, z: met.z, button: is_long ? 2 : event.button, reach: scene.camera.position.distanceTo(met) * 0.03, on_ground: Boolean(hit) || !has_ground(scene) };
+    const detail: GroundClick = { x: met.x, z: met.z, button: is_long ? 2 : event.button, reach: scene.camera.position.distanceTo(met) * 0.03, on_ground: Boolean(hit) || !model || !is_ground(model) };
     canvas.dispatchEvent(new CustomEvent('ground-click', { detail }));
   });
   canvas.addEventListener('mark-ground', (event) => {
     const { places, chosen } = (event as CustomEvent<GroundMarks>).detail;
     mark(places.length > 0 ? draw_marks(places.map(([x, z]) => new Vector3(x, height_at(scene, x, z), z)), chosen) : null);
   });
-}
-
-/** Whether the model lies under the middles of all four sides of its outline, as ground does; a lone tree stands on any. */
-function has_ground(scene: Scene): boolean {
-  const model = scene.model();
-  if (!model) return false;
-  const box = new Box3().setFromObject(model), middle = box.getCenter(new Vector3()), size = box.getSize(new Vector3());
-  if (Math.min(size.x, size.z) < size.y / 2) return false;
-  return [[0.47, 0], [-0.47, 0], [0, 0.47], [0, -0.47]].every(([east = 0, south = 0]) =>
-    new Raycaster(new Vector3(middle.x + east * size.x, box.max.y + 1, middle.z + south * size.z), new Vector3(0, -1, 0)).intersectObject(model, true).length > 0);
 }
 
 function height_at(scene: Scene, x: number, z: number): number {

@@ -1,6 +1,6 @@
 /** A glTF as the viewer keeps it: its parts, its clips, and the sets of materials that it can wear. */
 import {
-  BasicDepthPacking, Box3, Material, Mesh, MeshDepthMaterial, Texture, Vector3, type AnimationClip, type BufferGeometry, type Object3D,
+  BasicDepthPacking, Box3, Line, LineLoop, LineSegments, Material, Mesh, MeshDepthMaterial, Points, Texture, Vector3, type AnimationClip, type BufferGeometry, type Object3D,
 } from 'three';
 import { GLTFLoader, type GLTF } from 'three/addons/loaders/GLTFLoader.js';
 import { gather_copies } from './copies';
@@ -10,8 +10,6 @@ import { patch, whole, type Fade } from './patch';
 const variants_word = 'KHR_materials_variants';
 
 interface Mapping { material: number; variants: number[] }
-
-export interface Warning { pointer: string; message: string; line?: number; column?: number }
 
 /** Fetched when a file is compressed. Plain JavaScript: the page's policy allows no WebAssembly. */
 const decoder = {
@@ -28,9 +26,9 @@ export class Model {
   readonly clips: AnimationClip[];
   /** Names of the sets of materials; empty where there is one look only. */
   readonly variants: string[];
-  /** What the server wanted to say about the request, written into the file. */
-  readonly warnings: Warning[];
+  /** Around the model; something to look at where it is empty. */
   readonly box: Box3;
+  readonly is_empty: boolean;
   /** Points that stand for the outline. */
   readonly points: Vector3[];
   /** Whether its vertices say how they move in the wind. */
@@ -44,12 +42,12 @@ export class Model {
     this.gltf = gltf;
     this.root = gltf.scene;
     this.clips = gltf.animations;
-    const json = gltf.parser.json as { extensions?: Record<string, { variants?: { name: string }[] }>; asset?: { extras?: { warnings?: Warning[] } } };
+    const json = gltf.parser.json as { extensions?: Record<string, { variants?: { name: string }[] }> };
     this.variants = (json.extensions?.[variants_word]?.variants ?? []).map((each) => each.name);
-    this.warnings = json.asset?.extras?.warnings ?? [];
     if (this.clips.length === 0) gather_copies(this.root);
     this.box = new Box3().setFromObject(this.root);
-    if (this.box.isEmpty()) this.box.set(new Vector3(-0.5, 0, -0.5), new Vector3(0.5, 1, 0.5));
+    this.is_empty = this.box.isEmpty();
+    if (this.is_empty) this.box.set(new Vector3(-0.5, 0, -0.5), new Vector3(0.5, 1, 0.5));
     this.points = points_of(this.root);
     if (this.points.length === 0) this.points = corners_of(this.box);
     this.each_mesh((mesh) => {
@@ -116,6 +114,20 @@ export class Model {
       count += triangles_of(mesh.geometry) * instances;
     });
     return count;
+  }
+
+  /** What it is made of, and how many. */
+  get pieces(): { name: string; count: number } {
+    const { triangles } = this;
+    let lines = 0, points = 0;
+    this.root.traverse((part) => {
+      const { geometry } = part as Mesh;
+      const count = geometry?.index?.count ?? geometry?.getAttribute('position')?.count ?? 0;
+      if (part instanceof Points) points += count;
+      else if (part instanceof LineSegments) lines += count / 2;
+      else if (part instanceof Line) lines += part instanceof LineLoop ? count : Math.max(0, count - 1);
+    });
+    return triangles === 0 && lines > 0 ? { name: 'Lines', count: lines } : triangles === 0 && points > 0 ? { name: 'Points', count: points } : { name: 'Triangles', count: triangles };
   }
 
   dispose(): void {

@@ -99,7 +99,7 @@ export class Viewer {
     this.points = model.points;
     this.stage.surround(model.box);
     this.eye.stop_at(model);
-    this.walker.land(model.root, this.stage.floor, model.box.getSize(new Vector3()).length() / 2);
+    this.walker.land(model.root, this.stage.floor, model.box);
     this.dress();
     if (!this.held && (!keep_camera || !this.is_framed())) this.frame_model();
     this.canvas.dispatchEvent(new CustomEvent('ground-changed'));
@@ -245,7 +245,7 @@ export class Viewer {
 
   /** Another model to the left of the divider, under the same camera; null takes it away. */
   async compare(bytes: ArrayBuffer | null): Promise<void> {
-    this.beside.take(bytes ? await Model.from(bytes) : null);
+    await this.beside.take(bytes);
     this.dress();
   }
 
@@ -280,9 +280,9 @@ export class Viewer {
     this.draw();
   }
 
-  /** Width, height and depth of the model in metres, and the side of a cell of the grid. */
-  get measures(): { size: Vector3; cell: number } {
-    return { size: this.box.getSize(new Vector3()), cell: this.stage.cell };
+  /** Width, height and depth of the model in metres, null where it is empty, and the side of a cell of the grid. */
+  get measures(): { size: Vector3 | null; cell: number } {
+    return { size: this.model?.is_empty ? null : this.box.getSize(new Vector3()), cell: this.stage.cell };
   }
 
   /** What lies over the rims of the picture; `anew` where the model shall take the room that became free. */

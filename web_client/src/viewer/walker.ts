@@ -1,5 +1,6 @@
 /** On foot or in flight: W A S D go, Q and Z or the page keys rise and sink, arrows and a drag turn the head; buttons do as the keys. */
-import { MathUtils, Raycaster, Vector3, type Object3D, type PerspectiveCamera } from 'three';
+import { MathUtils, Vector3, type Box3, type Object3D, type PerspectiveCamera } from 'three';
+import { Land, footings } from './footing';
 
 export type Gait = 'orbit' | 'walk' | 'fly';
 
@@ -15,7 +16,6 @@ export class Walker {
   private readonly camera: PerspectiveCamera;
   private readonly wake: () => void;
   private readonly pressed = new Set<string>();
-  private readonly ray = new Raycaster();
   private yaw = 0;
   private pitch = 0;
   private last = 0;
@@ -23,6 +23,7 @@ export class Walker {
   private reach = 5;
   private floor = 0;
   private ground: Object3D | null = null;
+  private land_there: Land | null = null;
   private dragged: { id: number; x: number; y: number } | null = null;
 
   constructor(camera: PerspectiveCamera, canvas: HTMLCanvasElement, wake: () => void) {
@@ -60,13 +61,14 @@ export class Walker {
   release(key: string): void { this.pressed.delete(key); }
 
   /** What is walked on, and how large it is. */
-  land(model: Object3D, floor: number, reach: number): void {
+  land(model: Object3D, floor: number, box: Box3): void {
     this.ground = model;
     this.floor = floor;
-    this.reach = reach;
+    this.reach = box.getSize(new Vector3()).length() / 2;
+    this.land_there = null;
   }
 
-  /** Takes the camera where it stands; on foot it comes down to the ground. */
+  /** Takes the camera where it stands; on foot it comes down to the ground, and onto land from beside it. */
   begin(gait: Gait): void {
     this.gait = gait;
     this.pressed.clear();
@@ -76,7 +78,7 @@ export class Walker {
     this.pitch = gait === 'walk' ? 0 : Math.asin(MathUtils.clamp(ahead.y, -1, 1));
     this.camera.near = Math.min(this.camera.near, 0.1);
     this.camera.updateProjectionMatrix();
-    if (gait === 'walk') this.come_down();
+    if (gait === 'walk') this.set_foot();
     this.aim();
   }
 
@@ -92,11 +94,13 @@ export class Walker {
     const along = (has('w') - has('s')) * speed, across = (has('d') - has('a')) * speed;
     const up = (has('q', 'pageup') - has('z', 'pagedown')) * speed;
     const level = this.gait === 'walk' ? 0 : this.pitch;
+    const before = this.camera.position.clone();
     this.camera.position.add(new Vector3(
       -Math.sin(this.yaw) * Math.cos(level) * along + Math.cos(this.yaw) * across,
       Math.sin(level) * along + (this.gait === 'fly' ? up : 0),
       -Math.cos(this.yaw) * Math.cos(level) * along - Math.sin(this.yaw) * across));
-    if (this.gait === 'walk') this.come_down();
+    // Beside the land there is nothing to walk on; another model may have put one there.
+    if (this.gait === 'walk' && !this.come_down() && this.land_here?.height(before) !== undefined) this.camera.position.copy(before);
     this.aim();
     return true;
   }
@@ -113,12 +117,38 @@ export class Walker {
     this.on_move(this.camera.position, heading);
   }
 
-  /** Onto what lies below: a step of half a metre is climbed, a crown overhead is not. */
-  private come_down(): void {
+  private set_foot(): void {
     const { position } = this.camera;
-    const step = Math.max(0.5, this.reach * 0.02);
-    this.ray.set(new Vector3(position.x, position.y - eye + step, position.z), new Vector3(0, -1, 0));
-    const below = this.ground ? this.ray.intersectObject(this.ground, true)[0] : undefined;
-    position.y = Math.max(below?.point.y ?? this.floor, this.floor) + eye;
+    const land = this.land_here;
+    if (!land) { this.come_down(); return; }
+    const beneath = land.height(position);
+    if (beneath !== undefined) { position.y = beneath + eye; return; }
+    const place = land.way_in(position, eye);
+    if (!place) return;
+    position.copy(place).setY(place.y + eye);
+    const ahead = land.box.getCenter(new Vector3()).sub(position);
+    this.yaw = Math.atan2(-ahead.x, -ahead.z);
+  }
+
+  /** null where the model is none. Sought when somebody walks. */
+  private get land_here(): Land | null {
+    if (this.ground) this.land_there ??= new Land(this.ground);
+    return this.land_there?.is_there ? this.land_there : null;
+  }
+
+  /** Onto land, or onto what lies below: a step of half a metre is climbed, a crown overhead is not. False where land has come to its end. */
+  private come_down(): boolean {
+    const { position } = this.camera;
+    const land = this.land_here;
+    if (land) {
+      const height = land.height(position);
+      if (height === undefined) return false;
+      position.y = height + eye;
+      return true;
+    }
+    const foot = position.y - eye + Math.max(0.5, this.reach * 0.02);
+    const below = this.ground ? footings([this.ground], position, foot)[0] : undefined;
+    position.y = Math.max(below ?? this.floor, this.floor) + eye;
+    return true;
   }
 }
