@@ -92,7 +92,7 @@ test('a slow server shows a bar after 300 ms, and cancel ends the request', { ti
   assert.ok(await page.isHidden('#progress'));
   await set_seed(page, 7);
   await page.waitForSelector('#progress:not([hidden])');
-  await says(page, 'slow');
+  await says(page, 'Still waiting');
   const failed = page.waitForEvent('requestfailed');
   await page.click('#cancel');
   assert.match((await failed).failure().errorText, /ABORTED/);
