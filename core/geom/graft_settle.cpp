@@ -105,8 +105,6 @@ void GraftWriter::add_loop_normals(std::size_t first_limb, std::size_t last_limb
                                    std::vector<LoopFace>& faces) {
   FaceBlock block;
   std::size_t count = 0;
-  if (is_first())
-    faces.reserve(range_[last_limb - 1].end.loop_triangle - range_[first_limb].begin.loop_triangle);
   for (std::size_t limb = first_limb; limb < last_limb; ++limb) {
     each_at_loops(limb, [&](std::uint32_t triangle) {
       const std::uint32_t* corner = mesh_.index.wide.data() + std::size_t{3} * triangle;
@@ -246,6 +244,10 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
   if (!group_limb_.empty()) {
     // What limbs give goes to groups of their own.
     std::vector<std::vector<LoopFace>> faces(chunk_count(count, limbs_a_chunk));
+    for (std::size_t i = 0; is_first() && i < faces.size(); ++i) {
+      const std::size_t last = std::min(count, (i + 1) * limbs_a_chunk) - 1;
+      faces[i].reserve(range_[last].end.loop_triangle - range_[i * limbs_a_chunk].begin.loop_triangle);
+    }
     parallel_for(job_, count, limbs_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
       add_loop_normals(begin, end, faces[index]);
     });

@@ -323,30 +323,19 @@ Mesh room_for(const Mesh& surface, std::size_t count, const FoliageOptions& opti
 
 }  // namespace
 
-OrganPlacing::OrganPlacing(const Organs& organs, const FoliageOptions& options, Job& job)
-    : organs_(organs), options_(options), job_(job) {
-  for (Group& group : groups_of(organs, options, job)) {
+std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& options, Job& job) {
+  std::vector<Foliage> foliage;
+  for (const Group& group : groups_of(organs, options, job)) {
     const Mesh& surface = options.surfaces[group.surface];
-    foliage_.push_back({group.surface, group.color, room_for(surface, group.organs.size(), options, job)});
-    numbers_.push_back(std::move(group.organs));
-  }
-}
-
-void OrganPlacing::write() {
-  for (std::size_t i = 0; i < foliage_.size(); ++i) {
-    const Placer placer(options_.surfaces[foliage_[i].surface], options_, foliage_[i].mesh);
-    parallel_for(job_, numbers_[i].size(), organs_a_chunk,
+    foliage.push_back({group.surface, group.color, room_for(surface, group.organs.size(), options, job)});
+    const Placer placer(surface, options, foliage.back().mesh);
+    parallel_for(job, group.organs.size(), organs_a_chunk,
                  [&](std::size_t begin, std::size_t end, std::size_t) {
-                   job_.check();
-                   placer.place_all(organs_.organ, numbers_[i], begin, end);
+                   job.check();
+                   placer.place_all(organs.organ, group.organs, begin, end);
                  });
   }
-}
-
-std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& options, Job& job) {
-  OrganPlacing placing(organs, options, job);
-  placing.write();
-  return placing.take();
+  return foliage;
 }
 
 std::vector<FoliagePlaces> organ_places(const Organs& organs, const FoliageOptions& options, Job& job) {

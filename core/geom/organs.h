@@ -50,22 +50,6 @@ struct FoliageOptions {
 /// crown. Tangents of a surface come along.
 std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& options, Job& job);
 
-/// place_organs() in two steps: what it spends and allocates, and what it writes, which may be left to
-/// another thread. Borrows what it is given.
-class OrganPlacing {
- public:
-  OrganPlacing(const Organs& organs, const FoliageOptions& options, Job& job);
-  void write();
-  std::vector<Foliage> take() { return std::move(foliage_); }
-
- private:
-  const Organs& organs_;
-  FoliageOptions options_;
-  Job& job_;
-  std::vector<Foliage> foliage_;
-  std::vector<std::vector<std::uint32_t>> numbers_;  ///< of the organs of each
-};
-
 /// The same organs as transforms, for formats that share one mesh among nodes.
 std::vector<FoliagePlaces> organ_places(const Organs& organs, const FoliageOptions& options, Job& job);
 

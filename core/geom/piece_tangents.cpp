@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/wide.h"
+#include "core/geom/four.h"
 
 namespace seedmesh {
 namespace {
@@ -27,6 +28,39 @@ void put(Rows3& out, std::size_t l, const glm::vec3& v) {
   out.y[l] = v.y;
   out.z[l] = v.z;
 }
+
+/// Vectors `step` after each other, one a lane. Reads a float beyond each.
+void fill(Rows3& out, const glm::vec3* from, std::size_t step) {
+  for (std::size_t l = 0; l < lanes; l += Four::size) {
+    const glm::vec3* at = from + l * step;
+    const Four four = Four::of_rows(Four::row(at), Four::row(at + step), Four::row(at + 2 * step),
+                                    Four::row(at + 3 * step));
+    std::memcpy(out.x.data() + l, &four.x, sizeof(four.x));
+    std::memcpy(out.y.data() + l, &four.y, sizeof(four.y));
+    std::memcpy(out.z.data() + l, &four.z, sizeof(four.z));
+  }
+}
+
+/// One a lane, to `out` and every `step` after it.
+void write(const Corner& corner, glm::vec4* out, std::size_t step) {
+  for (std::size_t l = 0; l < lanes; l += Four::size) {
+    FourFloats x, y, z, w;
+    std::memcpy(&x, corner.tangent.x.data() + l, sizeof(x));
+    std::memcpy(&y, corner.tangent.y.data() + l, sizeof(y));
+    std::memcpy(&z, corner.tangent.z.data() + l, sizeof(z));
+    std::memcpy(&w, corner.w.data() + l, sizeof(w));
+    const FourFloats xy[2] = {__builtin_shufflevector(x, y, 0, 4, 1, 5),
+                              __builtin_shufflevector(x, y, 2, 6, 3, 7)},
+                     zw[2] = {__builtin_shufflevector(z, w, 0, 4, 1, 5),
+                              __builtin_shufflevector(z, w, 2, 6, 3, 7)};
+    for (std::size_t k = 0; k < Four::size; ++k) {
+      const FourFloats row = k % 2 == 0 ? __builtin_shufflevector(xy[k / 2], zw[k / 2], 0, 1, 4, 5)
+                                        : __builtin_shufflevector(xy[k / 2], zw[k / 2], 2, 3, 6, 7);
+      std::memcpy(static_cast<void*>(out + (l + k) * step), &row, sizeof(row));
+    }
+  }
+}
+
 glm::vec3 at(const Rows3& rows, std::size_t l) { return {rows.x[l], rows.y[l], rows.z[l]}; }
 
 float product(const glm::vec3& a, const glm::vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -101,9 +135,14 @@ bool PieceTangents::write_block(std::size_t first_piece) const {
   if (!have_same_picture(first_piece)) return false;
   Corner corners[most_vertices];
   const std::size_t vertices = one_.vertices, first = first_piece * vertices;
+  const bool is_last = first + lanes * vertices == mesh_.position.size();
   for (std::size_t i = 0; i < vertices; ++i) {
     Corner& corner = corners[i];
-    for (std::size_t l = 0; l < lanes; ++l) {
+    if (!is_last) {
+      fill(corner.position, mesh_.position.data() + first + i, vertices);
+      fill(corner.normal, mesh_.normal.data() + first + i, vertices);
+    }
+    for (std::size_t l = 0; is_last && l < lanes; ++l) {
       put(corner.position, l, mesh_.position[first + l * vertices + i]);
       put(corner.normal, l, mesh_.normal[first + l * vertices + i]);
     }
@@ -121,11 +160,7 @@ bool PieceTangents::write_block(std::size_t first_piece) const {
   for (std::size_t i = 0; i < vertices; ++i) {
     if (settle(corners[i]) > 0) return false;
   }
-  for (std::size_t l = 0; l < lanes; ++l) {
-    glm::vec4* tangent = mesh_.tangent.data() + first + l * vertices;
-    for (std::size_t i = 0; i < vertices; ++i)
-      tangent[i] = glm::vec4(at(corners[i].tangent, l), corners[i].w[l]);
-  }
+  for (std::size_t i = 0; i < vertices; ++i) write(corners[i], mesh_.tangent.data() + first + i, vertices);
   return true;
 }
 

@@ -124,7 +124,6 @@ void add_tangents(Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>&
 
 void add_tangents(Mesh& mesh, const Array<glm::vec2>& uv, const Job& job) {
   const std::size_t vertices = mesh.position.size();
-  mesh.tangent = Array<glm::vec4>(job, vertices);
   if (!mesh.index.small.empty()) {
     Array<Sums> sums(job, vertices);
     return add_tangents(mesh, Piece<std::uint16_t>{mesh.index.small.span(), 0}, uv, sums.span());
@@ -157,6 +156,8 @@ void add_tangents(Model& model, const Job& job) {
       if (!uv.empty()) wanted.emplace_back(&mesh, &uv);
     }
   }
+  // By this thread, which has memory from the last time: another would have to get it from the kernel.
+  for (const auto& [mesh, uv] : wanted) mesh->tangent = Array<glm::vec4>(job, mesh->position.size());
   parallel_for(job, wanted.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) add_tangents(*wanted[i].first, *wanted[i].second, job);
   });

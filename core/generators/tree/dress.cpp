@@ -111,8 +111,13 @@ struct Made {
 // Bark has at most so many triangles a joint, and no triangle takes so many bytes while it is made.
 constexpr std::uint64_t most_triangles_a_joint = 256, most_bytes_a_triangle = 64;
 
+// Of leaves that are made beside the bark. Of more, memory that both can take one after the other from the
+// heap costs more than a second thread saves.
+constexpr std::uint64_t most_side_by_side = 40'000;
+
 /// Are they so few that no limit can be met? Where one is, what is made first decides about the message.
 bool is_modest(const Skeleton& skeleton, std::uint64_t triangles_a_leaf, const Job& job) {
+  if (triangles_a_leaf * skeleton.organs.organ.size() > most_side_by_side) return false;
   const std::uint64_t triangles =
       most_triangles_a_joint * skeleton.limbs.size() + triangles_a_leaf * skeleton.organs.organ.size();
   const std::uint64_t left = job.limits().triangles - job.spent(Resource::triangles);
@@ -127,15 +132,13 @@ Made make_both(const Skeleton& skeleton, const TreeParams& params, const Motion&
   if (!has_threads(job) || has_levels || job.demand().share_organs || leaves.organs.organ.empty())
     return made;
   if (!is_modest(skeleton, leaf_of(params, 0, job).elements(), job)) return made;
-  LeafPlacing placing(leaves, leaves.organs, 0, job);
   run_both(
       job,
       [&] {
         made.bark = bark_of(skeleton.limbs, graft_options(params, Detail(0)), motion.bones(),
                             motion.wind ? &*motion.wind : nullptr, job);
       },
-      [&] { placing.write(); });
-  made.leaves = placing.take();
+      [&] { made.leaves = finest_leaves(leaves, job); });
   return made;
 }
 

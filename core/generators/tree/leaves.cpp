@@ -29,11 +29,10 @@ LeafBuild leaf_build(TreeBuild build) {
   }
 }
 
-FoliageOptions options_of(const Leaves& leaves, std::span<const Mesh> surfaces) {
+FoliageOptions options_of(const Leaves& leaves) {
   const Organs& organs = leaves.organs;
   const TreeParams& params = leaves.params;
   FoliageOptions options;
-  options.surfaces = surfaces;
   options.model_size = leaves.model_size;
   options.tint = static_cast<float>(params.leaf.tint);
   options.bones = leaves.motion.bones;
@@ -66,6 +65,13 @@ void put_on(Model& model, Node& node, MeshGroup group) {
   }
 }
 
+std::vector<Foliage> place(const Organs& organs, const TreeParams& params, FoliageOptions options, int level,
+                           Job& job) {
+  const Mesh surface = leaf_of(params, level, job);
+  options.surfaces = std::span(&surface, 1);
+  return place_organs(organs, options, job);
+}
+
 void add_merged(Model& model, const Leaves& leaves, TreeLevels& levels,
                 std::optional<std::vector<Foliage>> finest, const LeafLook& look, Job& job) {
   Node node;
@@ -75,18 +81,13 @@ void add_merged(Model& model, const Leaves& leaves, TreeLevels& levels,
   for (int level = 0; level < job.demand().lods; ++level) {
     MeshGroup group{level_name("leaves", level), {}};
     std::vector<Foliage> parts;
-    if (level == 0 && finest) {
-      parts = *std::move(finest);
+    if (level == 0) {
+      parts = finest ? *std::move(finest) : finest_leaves(leaves, job);
     } else {
-      Organs fewer(job);
-      if (level > 0) {
-        const std::size_t triangles = leaf_of(leaves.params, level, job).elements();
-        const double share = levels.leaves_at(Detail(level), leaves.organs.organ.size(), triangles, before);
-        fewer = levels.foliage->keep(leaves.organs, share, job);
-      }
-      LeafPlacing placing(leaves, level > 0 ? fewer : leaves.organs, level, job);
-      placing.write();
-      parts = placing.take();
+      const std::size_t triangles = leaf_of(leaves.params, level, job).elements();
+      const double share = levels.leaves_at(Detail(level), leaves.organs.organ.size(), triangles, before);
+      const Organs fewer = levels.foliage->keep(leaves.organs, share, job);
+      parts = place(fewer, leaves.params, options_of(leaves), level, job);
     }
     before = levels.bark.empty() ? 0 : levels.bark[static_cast<std::size_t>(level)];
     for (Foliage& part : parts) {
@@ -156,16 +157,16 @@ void fit_leaves(Organs& organs, const TreeParams& params, const Job& job) {
   organs.organ.resize(kept);
 }
 
-LeafPlacing::LeafPlacing(const Leaves& leaves, const Organs& organs, int level, Job& job)
-    : surface_(leaf_of(leaves.params, level, job)),
-      placing_(organs, options_of(leaves, std::span(&surface_, 1)), job) {}
+std::vector<Foliage> finest_leaves(const Leaves& leaves, Job& job) {
+  return place(leaves.organs, leaves.params, options_of(leaves), 0, job);
+}
 
 void add_leaves(Model& model, const Leaves& leaves, TreeLevels& levels,
                 std::optional<std::vector<Foliage>> finest, Job& job) {
   if (leaves.organs.organ.empty()) return;
   const LeafLook look = add_leaf_look(model, leaves.params, job);
   if (job.demand().share_organs) {
-    add_shared(model, leaves.organs, leaves.params, options_of(leaves, {}), look, job);
+    add_shared(model, leaves.organs, leaves.params, options_of(leaves), look, job);
   } else {
     add_merged(model, leaves, levels, std::move(finest), look, job);
   }

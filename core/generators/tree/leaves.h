@@ -29,22 +29,11 @@ struct Leaves {
   float model_size;
 };
 
-/// A level of leaves that are not places of one mesh, made in two steps as OrganPlacing does.
-class LeafPlacing {
- public:
-  LeafPlacing(const Leaves& leaves, const Organs& organs, int level, Job& job);
-  LeafPlacing(const LeafPlacing&) = delete;
-  LeafPlacing& operator=(const LeafPlacing&) = delete;
-  void write() { placing_.write(); }
-  std::vector<Foliage> take() { return placing_.take(); }
-
- private:
-  Mesh surface_;
-  OrganPlacing placing_;
-};
+/// The finest level of leaves that are not places of one mesh.
+std::vector<Foliage> finest_leaves(const Leaves& leaves, Job& job);
 
 /// Adds the node "leaves" with all levels of detail, or, where the output asks for it, as places of one mesh.
-/// `finest`: the finest level, where it was made before.
+/// `finest`: what finest_leaves() made, where it was asked before.
 void add_leaves(Model& model, const Leaves& leaves, TreeLevels& levels,
                 std::optional<std::vector<Foliage>> finest, Job& job);
 

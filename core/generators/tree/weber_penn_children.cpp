@@ -103,11 +103,7 @@ bool WeberPennGrower::wants_leaf(int number) const {
 }
 
 void WeberPennGrower::put_bud(const Frame& frame, const glm::dvec3& position, double offset, int number) {
-  WeberPennBud& bud = buds_.emplace_back();  // in its place: there are many
-  bud.frame = frame;
-  bud.position = position;
-  bud.offset = offset;
-  bud.number = number;
+  buds_.push_back({frame, position, Limbs::none, offset, number});  // in its place: there are many
 }
 
 void WeberPennGrower::leaf(const WeberPennStem& stem, const WeberPennBud& bud) {
