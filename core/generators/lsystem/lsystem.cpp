@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/generators/lsystem/contours.h"
 #include "core/generators/lsystem/draw.h"
@@ -151,8 +152,7 @@ void refuse_too_many_segments(const Grammar& grammar, const LsystemParams& param
 
 Json vector(const glm::dvec3& v) { return Json::array({v.x + 0.0, v.y + 0.0, v.z + 0.0}); }
 
-Json described(const Turtle& turtle) {
-  const TurtleReport& report = turtle.report();
+Json described(const Turtle& turtle, const TurtleReport& report) {
   return {{"segments", report.segments},
           {"total_length", report.total_length},
           {"position", vector(turtle.position())},
@@ -168,6 +168,21 @@ Json described(const std::vector<Warning>& warnings) {
     list.push_back({{"pointer", "/parameters" + each.pointer}, {"message", each.message}});
   }
   return list;
+}
+
+/// Grows the plant for its word, and once more a step less where it is drawn between two steps.
+void grow_and_tell(const Grammar& grammar, const LsystemParams& params, TextWriter& writer, Json& turtle,
+                   Job& job) {
+  Garden garden(params, job);
+  garden.grow(grammar, steps_of(params));
+  write(garden.word(), writer);
+  std::optional<Garden> younger;
+  if (share_of(params) != 1) younger.emplace(params, job).grow(grammar, steps_of(params) - 1);
+  const Garden& drawn_in = younger ? *younger : garden;
+  Skeleton skeleton(job);
+  Drawing drawing(grammar, params, drawn_in.cuts() ? &skeleton : nullptr, job);
+  drawn_in.draw(grammar, drawing, share_of(params));
+  turtle = described(drawing.turtle(), drawn_in.report(drawing.turtle(), skeleton));
 }
 
 }  // namespace
@@ -217,11 +232,9 @@ Result<Json> derive(const LsystemParams& params, Job& job) {
   Drawing drawing(*grammar, params, nullptr, job);
   TextWriter writer(*grammar, longest_text);
   std::vector<std::uint64_t> counts;
+  Json turtle;
   if (Garden::needed(*grammar, params)) {
-    Garden garden(params, job);
-    garden.grow(*grammar, steps_of(params));
-    write(garden.word(), writer);
-    garden.draw(*grammar, drawing, 1);
+    grow_and_tell(*grammar, params, writer, turtle, job);
     counts = writer.counts();
   } else if (is_plain(*grammar)) {
     draw(*grammar, params, drawing, job);
@@ -238,6 +251,7 @@ Result<Json> derive(const LsystemParams& params, Job& job) {
     run(*grammar, params, both, job);
     counts = writer.counts();
   }
+  if (turtle.is_null()) turtle = described(drawing.turtle(), drawing.turtle().report());
   std::map<std::string, std::uint64_t> by_symbol;
   std::uint64_t length = 0, bytes = 0;
   for (std::size_t kind = 0; kind < counts.size(); ++kind) {
@@ -251,7 +265,7 @@ Result<Json> derive(const LsystemParams& params, Job& job) {
               {"counts", by_symbol},
               {"truncated", writer.truncated || (is_plain(*grammar) && bytes > writer.text.size())},
               {"string", std::move(writer.text)},
-              {"turtle", described(drawing.turtle())},
+              {"turtle", std::move(turtle)},
               {"warnings", described(grammar->warnings)}};
 }
 
