@@ -226,9 +226,9 @@ void TubeWriter::close(TubeClosing closing, float free) {
     Ring ring = plain_ring(internode_.from + along * (ring_at + nudged), end,
                            v_so_far_ - (internode_.length - ring_at) * by_length_);
     ring.before = slope;
-    ring.spin = 0;  // halfway to the cone, which does not twist
     if (closing == TubeClosing::cap) apex = ring.centre + along * cone;
-    write_ring(ring, slope_of(end, 0, cone));
+    // A twisted flank that leans down would look against a normal that leans up with the cone.
+    write_ring(ring, is_twisted(twist_) ? slope : slope_of(end, 0, cone));
   }
   const float v = closing == TubeClosing::cap ? v_so_far_ + cone * by_length_ : v_so_far_;
   piece_.end_apex = write_apex(apex, along, {half_round(end), v});

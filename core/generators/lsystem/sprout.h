@@ -6,9 +6,8 @@
 /// symbols set leaves from the turtle's own. So at f = 0 the drawing is that of step n, at f = 1 that of step
 /// n + 1, whatever the grammar:
 ///
-/// - The first module of a successor outside brackets and braces that is of its predecessor's kind takes
-/// over:
-///   its parameters, and what it draws at random, go from those of the predecessor to its own.
+/// - The first module of a successor outside brackets and braces that is of its predecessor's kind is its
+///   heir: its parameters, and what it draws at random, go from those of the predecessor to its own.
 /// - A predecessor that no module takes over from shrinks away by 1 - f in front of its successor, and so
 ///   does what it sets.
 /// - What a % takes away shrinks by 1 - f.
