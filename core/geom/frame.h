@@ -54,10 +54,10 @@ inline Frame upright(const Frame& f) {
   return {f.heading, left, glm::cross(f.heading, left)};
 }
 
-/// The rotation that takes +Y to heading, -X to left and +Z to up (Limbs::frame), w >= 0. Square roots only;
-/// after Shepperd, "Quaternion from Rotation Matrix", 1978: the largest of the four components is found
-/// first, so none is a small difference.
-inline glm::quat quaternion(const Frame& f) {
+/// The rotation that takes +Y to heading, -X to left and +Z to up, w >= 0. Square roots only; after Shepperd,
+/// "Quaternion from Rotation Matrix", 1978: the largest of the four components is found first, so none is a
+/// small difference.
+inline glm::dquat fine_quaternion(const Frame& f) {
   const glm::dvec3 x = -f.left;
   const glm::dvec3& y = f.heading;
   const glm::dvec3& z = f.up;
@@ -78,10 +78,30 @@ inline glm::quat quaternion(const Frame& f) {
   const double w = chosen(squares[0], skew.x, skew.y, skew.z);
   const double by = w < 0 ? -four : four;
   // + 0.0 makes -0 a 0
-  const glm::dvec4 q{chosen(skew.x, squares[1], xy, xz) / by + 0.0,
-                     chosen(skew.y, xy, squares[2], yz) / by + 0.0,
-                     chosen(skew.z, xz, yz, squares[3]) / by + 0.0, w / by + 0.0};
+  return {w / by + 0.0, chosen(skew.x, squares[1], xy, xz) / by + 0.0,
+          chosen(skew.y, xy, squares[2], yz) / by + 0.0, chosen(skew.z, xz, yz, squares[3]) / by + 0.0};
+}
+
+/// The same as it is stored (Limbs::frame).
+inline glm::quat quaternion(const Frame& f) {
+  const glm::dquat q = fine_quaternion(f);
   return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)};
+}
+
+/// A share of the way from one orientation to another, the shorter way round. The rate is not quite even: a
+/// chord of the quaternions, without trigonometry.
+inline Frame between(const Frame& from, const Frame& to, double share) {
+  const glm::dquat a = fine_quaternion(from), b = fine_quaternion(to);
+  const double near = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z < 0 ? -share : share;
+  glm::dvec4 q = glm::dvec4{a.x, a.y, a.z, a.w} * (1 - share) + glm::dvec4{b.x, b.y, b.z, b.w} * near;
+  q /= std::sqrt(glm::dot(q, q));
+  const auto turned = [&q](const glm::dvec3& v) {
+    const glm::dvec3 axis{q};
+    const glm::dvec3 twice = 2.0 * glm::cross(axis, v);
+    return v + q.w * twice + glm::cross(axis, twice);
+  };
+  const Frame start;
+  return reorthonormalise({turned(start.heading), turned(start.left), turned(start.up)});
 }
 
 }  // namespace seedmesh

@@ -14,6 +14,7 @@ Limbs::Limbs(const Job& job)
       contour(job),
       birth(job),
       key(job),
-      anchor(job) {}
+      anchor(job),
+      share(job) {}
 
 }  // namespace seedmesh

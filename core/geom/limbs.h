@@ -29,7 +29,9 @@ struct Limbs {
   Array<float> birth;        ///< age in iterations at which the internode appears; optional (empty)
   Array<std::uint64_t> key;  ///< identity for randomness by place; optional (empty)
   Array<std::uint32_t>
-      anchor;  ///< of a root: the earlier joint that it moves with, or `none`; optional (empty)
+      anchor;          ///< of a root: the earlier joint that it moves with, or `none`; optional (empty)
+  Array<float> share;  ///< how much there is of the internode in a plant between two steps, for the laws of
+                       ///< widths; optional (empty: all of it)
 
   Limbs() = default;
   explicit Limbs(const Job& job);

@@ -112,9 +112,11 @@ class Pruning {
     compact(limbs_.color);
     compact(limbs_.order);
     compact(limbs_.frame);
+    compact(limbs_.contour);
     compact(limbs_.birth);
     compact(limbs_.key);
     compact(limbs_.anchor);
+    compact(limbs_.share);
   }
 
   void drop_outlines() {

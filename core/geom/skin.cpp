@@ -83,7 +83,7 @@ struct Plan {
 void count_tubes(Plan& plan, const Limbs& limbs, const SkinOptions& options, const Job& job) {
   parallel_for(job, plan.chains.head.size(), plan.chunk,
                [&](std::size_t begin, std::size_t end, std::size_t index) {
-                 TubeCounter counter(options, plan.scale, plan.palette, plan.row(index));
+                 TubeCounter counter(limbs, options, plan.scale, plan.palette, plan.row(index));
                  Checked sink(counter, job);
                  TurnJudge judge(plan.scale, options.sides);
                  int sides = options.sides;

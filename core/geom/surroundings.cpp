@@ -168,7 +168,7 @@ double Surroundings::light_at(const glm::dvec3& point) const {
   return std::clamp(1 - (found->amount - options_.shadow.shade), 0.0, 1.0);
 }
 
-bool Surroundings::collides(const Prober& prober, const glm::dvec3& to) const {
+bool Surroundings::collides(const Prober& prober, const glm::dvec3& from, const glm::dvec3& to) const {
   std::uint32_t relatives[kin];
   int count = 0;
   for (std::uint32_t joint = prober.joint; joint != Limbs::none && count < kin;) {
@@ -179,26 +179,27 @@ bool Surroundings::collides(const Prober& prober, const glm::dvec3& to) const {
     joint = own != grown_.end() && own->system == prober.system && own->joint == joint ? own->parent
                                                                                        : Limbs::none;
   }
+  const glm::dvec3 place = glm::vec3(prober.position) + 0.0F;  // as stretches are stored
   const auto is_kin = [&](const Stretch& each) {
     if (each.system != prober.system) return false;
-    if (each.parent == prober.joint) return true;  // grows from the same place
+    if (each.limb == prober.limb || each.limb == prober.limb_ahead) return true;
+    if (each.limb_below == prober.limb_ahead && (prober.joint == Limbs::none || each.parent > prober.joint))
+      return true;  // springs from what has grown on
+    if (each.parent == prober.joint || each.from == place) return true;
     return std::find(relatives, relatives + count, each.joint) != relatives + count;
   };
   const double reach = prober.radius;
   bool hit = false;
-  visit_cells(glm::min(prober.position, to) - reach, glm::max(prober.position, to) + reach, cell_,
-              [&](std::uint64_t key) {
-                if (hit) return;
-                const auto* found =
-                    std::lower_bound(cells_.begin(), cells_.end(), key,
-                                     [](const Cell& cell, std::uint64_t k) { return cell.key < k; });
-                for (; found != cells_.end() && found->key == key && !hit; ++found) {
-                  const Stretch& each = grown_[found->stretch];
-                  if (is_kin(each)) continue;
-                  hit = segments_apart(prober.position, to, each.from, each.to) <
-                        prober.radius + each.radius + options_.clearance;
-                }
-              });
+  visit_cells(glm::min(from, to) - reach, glm::max(from, to) + reach, cell_, [&](std::uint64_t key) {
+    if (hit) return;
+    const auto* found = std::lower_bound(cells_.begin(), cells_.end(), key,
+                                         [](const Cell& cell, std::uint64_t k) { return cell.key < k; });
+    for (; found != cells_.end() && found->key == key && !hit; ++found) {
+      const Stretch& each = grown_[found->stretch];
+      if (is_kin(each)) continue;
+      hit = segments_apart(from, to, each.from, each.to) < prober.radius + each.radius + options_.clearance;
+    }
+  });
   return hit;
 }
 
@@ -213,11 +214,11 @@ bool Surroundings::is_free(const Prober& prober, double length) const {
   const double pieces = std::ceil(std::abs(length) / (4 * cell_));
   if (!(pieces <= most_pieces)) return false;
   const int count = std::max(1, static_cast<int>(math::to_int32(pieces)));
-  Prober piece = prober;
+  glm::dvec3 from = prober.position;
   for (int i = 1; i <= count; ++i) {
     const glm::dvec3 end = prober.position + prober.heading * (length * i / count);
-    if (collides(piece, end)) return false;
-    piece.position = end;
+    if (collides(prober, from, end)) return false;
+    from = end;
   }
   return true;
 }

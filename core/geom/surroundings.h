@@ -25,15 +25,18 @@ struct Stretch {
   glm::dvec3 from{0}, to{0};
   double radius = 0;
   std::uint32_t system = 0;
-  std::uint32_t joint = 0, parent = 0;  ///< in the system's Limbs
+  std::uint32_t joint = 0, parent = 0;     ///< in the system's Limbs
+  std::uint32_t limb = 0, limb_below = 0;  ///< any number for each limb: its own, and its parent joint's
 };
 
-/// A tip that asks.
+/// A place on a plant that asks. Its own limb does not count, behind or ahead, nor do the first internodes of
+/// side limbs ahead, nor what grows from the same joint or place, nor the last internodes that it grows from.
 struct Prober {
   glm::dvec3 position{0}, heading{0, 1, 0};
   double radius = 0;
   std::uint32_t system = 0;
-  std::uint32_t joint = Limbs::none;  ///< the last one drawn on its branch; its neighbours do not count
+  std::uint32_t joint = Limbs::none;                           ///< the last one drawn on its branch
+  std::uint32_t limb = Limbs::none, limb_ahead = Limbs::none;  ///< that it stands on; that goes on from it
 };
 
 class Surroundings {
@@ -72,7 +75,7 @@ class Surroundings {
     double amount;
   };
   void cast_shadows();
-  bool collides(const Prober& prober, const glm::dvec3& to) const;
+  bool collides(const Prober& prober, const glm::dvec3& from, const glm::dvec3& to) const;
 
   Options options_;
   Job& job_;

@@ -25,14 +25,14 @@ void Tropisms::change(std::size_t index, double steps) {
   if (index < elasticity_.size()) elasticity_[index] += steps * all_[index].step;
 }
 
-Frame Tropisms::turned(const Frame& frame) const {
+Frame Tropisms::turned(const Frame& frame, double share) const {
   Frame f = frame;
   for (std::size_t i = 0; i < all_.size(); ++i) {
     if (elasticity_[i] == 0) continue;
     const glm::dvec3 torque = glm::cross(f.heading, all_[i].direction);
     const double strength = std::sqrt(glm::dot(torque, torque));
     if (strength < 1e-12) continue;  // along T or against it: no direction to turn to
-    const math::SinCos angle = math::sincos(elasticity_[i] * strength);
+    const math::SinCos angle = math::sincos(elasticity_[i] * strength * share);
     const glm::dvec3 axis = torque / strength;
     f.heading = turned_about(axis, angle, f.heading);
     f.left = turned_about(axis, angle, f.left);

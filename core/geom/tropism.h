@@ -28,8 +28,10 @@ class Tropisms {
   void set(std::size_t index, double elasticity);
   void change(std::size_t index, double steps);
 
-  /// The frame after one segment has been drawn.
-  Frame turned(const Frame& frame) const;
+  /// The frame after one segment has been drawn, or a share of one.
+  Frame turned(const Frame& frame, double share = 1) const;
+
+  const std::vector<double>& elasticities() const { return elasticity_; }
 
   void push() { stack_.insert(stack_.end(), elasticity_.begin(), elasticity_.end()); }
   void pop();  ///< without a matching push: nothing

@@ -1,18 +1,9 @@
 /// What the tube writer does where limbs have cross-sections of their own (contour.h).
 #include <cmath>
 
-#include "core/base/math.h"
 #include "core/geom/tube_writer.h"
 
 namespace seedmesh {
-namespace {
-
-// How far a cross-section turns along an internode at most, also for each radius of its length: faces between
-// rings turned further would cross.
-constexpr float most_twist = static_cast<float>(math::pi) / 4;
-
-}  // namespace
-
 /// The cross-section of the ring where an internode begins.
 std::uint8_t TubeWriter::first_contour(std::uint32_t joint) const {
   const Limbs& limbs = context_.limbs;
@@ -24,24 +15,18 @@ std::uint8_t TubeWriter::last_contour(std::uint32_t joint) const {
   return context_.limbs.contour.empty() ? std::uint8_t{0} : context_.limbs.contour[joint];
 }
 
-/// Turns u to the turtle's left, or as far that way as one internode may.
-void TubeWriter::turn_to_left(bool at_once) {
-  if (!has_contours() || context_.limbs.frame.empty()) return;
-  const glm::vec3& along = internode_.along;
-  glm::vec3 left = context_.limbs.frame[internode_.joint] * glm::vec3{-1, 0, 0};
-  left -= along * glm::dot(left, along);
-  const float length = std::sqrt(glm::dot(left, left));
-  if (!(length > 1e-3F)) return;
-  left *= 1 / length;
-  const float twist = std::min(most_twist, internode_.length / std::max(radius_, context_.scale.thinnest));
-  const math::SinCos most = math::sincos(twist);
-  if (at_once || glm::dot(u_, left) >= static_cast<float>(most.cos)) {
-    u_ = left;
-    return;
-  }
-  const glm::vec3 v = glm::cross(along, u_);
-  const float sense = glm::dot(v, left) < 0 ? -1.0F : 1.0F;
-  u_ = u_ * static_cast<float>(most.cos) + v * (sense * static_cast<float>(most.sin));
+/// Lets the cross-section turn along the current internode, from the side where it begins.
+void TubeWriter::twist(const glm::vec3& side) {
+  first_u_ = side;
+  twist_ = 1;
+  spin_ = 0;
+  const Limbs& limbs = context_.limbs;
+  if (!has_contours() || limbs.frame.empty()) return;
+  const Twist twist = twist_of(limbs, context_.scale, internode_, side);
+  u_ = twist.side;
+  if (is_round(limbs, internode_.joint)) return;
+  twist_ = twist.cosine;
+  if (is_twisted(twist_)) spin_ = spin_of(internode_, side, twist);
 }
 
 /// The corner `k` of a ring, between two cross-sections.
@@ -55,15 +40,41 @@ ContourCorner TubeWriter::corner(const Ring& ring, std::uint32_t k) const {
   return {mix(a.at, b.at), length > 1e-3F ? normal * (1 / length) : a.normal, mix(a.round, b.round)};
 }
 
+/// Splits the quads of a twisted piece by the shorter of their diagonals: along the other one, the flanks of
+/// a ridge or a furrow would look inward. In each quad the triangles are (low, low_next, high) and (low_next,
+/// high_next, high).
+void TubeWriter::split_by_shorter(std::size_t first_corner) {
+  const auto length2 = [&](std::uint32_t a, std::uint32_t b) {
+    const glm::vec3 step = here_->position[b] - here_->position[a];
+    return glm::dot(step, step);
+  };
+  constexpr float clearly = 0.999F;
+  for (std::uint32_t* quad = here_->index + first_corner; quad + 6 <= here_->index + here_->corner;) {
+    const std::uint32_t low = quad[0], low_next = quad[1], high = quad[2], high_next = quad[4];
+    if (quad[3] != low_next || quad[5] != high || high == piece_.end_apex) {  // of a cone
+      quad += 3;
+      continue;
+    }
+    if (length2(low, high_next) < clearly * length2(low_next, high)) {
+      quad[2] = high_next;
+      quad[3] = low;
+    }
+    quad += 6;
+  }
+}
+
 void TubeWriter::write_contour(const Ring& ring, Slope slope) {
   const std::size_t first = here_->vertex;
   const float whole = corner(ring, section_.sides).round;
+  const float spin = 0.5F * (ring.spin + spin_);
   const float by_round = context_.options.wrap ? turns_ / whole : ring.radius;
   for (std::uint32_t k = 0; k < section_.corners; ++k) {
     const ContourCorner c = corner(ring, k);
     here_->position[first + k] = (ring.centre + 0.0F) + ring.side_u * c.at.x + ring.side_v * c.at.y;
     // A cone over this outline leans by how far its edge is from the middle.
-    const float lean = slope.y * glm::dot(c.normal, c.at);
+    // A twisted flank leans by how fast its edge sweeps past its normal.
+    const float sweep = spin * ring.radius * (c.at.x * c.normal.y - c.at.y * c.normal.x);
+    const float lean = slope.y * glm::dot(c.normal, c.at) - sweep * slope.x;
     const float by_length = 1 / std::sqrt(slope.x * slope.x + lean * lean);
     here_->normal[first + k] =
         ((ring.normal_u * c.normal.x + ring.normal_v * c.normal.y) * slope.x + ring.tangent * lean) *

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/geom/limb_walk.h"
 #include "core/geom/skin.h"
+#include "core/geom/tube_twist.h"
 
 namespace seedmesh {
 
@@ -35,18 +35,23 @@ struct CrossSection {
   std::uint32_t corners;  ///< vertices of a ring: one more than sides where the seam is doubled
 };
 
-/// How many rings stand between the two that bound an internode; `free` is the length between the two.
-inline int inner_rings(const SkinOptions& options, const Scale& scale, glm::vec2 radii, float free) {
-  if (options.stacks <= 1 || radii.x == radii.y) return 0;
-  int wanted = options.stacks - 1;
-  if (options.adapt) {
+/// How many rings stand between the two that bound an internode; `free` is the length between the two,
+/// `twist` the cosine of the angle by which its cross-section turns.
+inline int inner_rings(const SkinOptions& options, const Scale& scale, glm::vec2 radii, float free,
+                       float twist) {
+  const int least = rings_of_twist(twist);
+  if (options.stacks <= 1 && least == 0) return 0;
+  int wanted = radii.x == radii.y && !is_twisted(twist) ? 0 : options.stacks - 1;
+  if (options.adapt && wanted > 0) {
     const float share = free / (0.1F * scale.size);
     wanted = std::min(wanted, static_cast<int>(std::min(share, 1.0F) * static_cast<float>(options.stacks)));
-    if (wanted < 1) return 0;
   }
-  const bool is_room = free >= scale.apart * static_cast<float>(options.stacks);
-  const bool is_thick = std::max(radii.x, radii.y) >= scale.thinnest * static_cast<float>(options.stacks) ||
-                        std::min(radii.x, radii.y) >= scale.thinnest;
+  wanted = std::max(wanted, least);
+  if (wanted < 1) return 0;
+  const auto pieces = static_cast<float>(std::max(options.stacks, wanted + 1));
+  const bool is_room = free >= scale.apart * pieces;
+  const bool is_thick =
+      std::max(radii.x, radii.y) >= scale.thinnest * pieces || std::min(radii.x, radii.y) >= scale.thinnest;
   return is_room && is_thick ? wanted : 0;
 }
 
@@ -56,9 +61,12 @@ inline float tip_length(float radius, float free) { return std::min(radius, 0.3F
 /// Sink of walk_limb: counts per slot of the palette.
 class TubeCounter {
  public:
-  TubeCounter(const SkinOptions& options, const Scale& scale, const Palette& palette, TubeCount* counts)
-      : options_(options),
+  TubeCounter(const Limbs& limbs, const SkinOptions& options, const Scale& scale, const Palette& palette,
+              TubeCount* counts)
+      : limbs_(limbs),
+        options_(options),
         section_(options, options.sides),
+        twists_(!options.contours.empty() && !limbs.frame.empty()),
         scale_(scale),
         palette_(palette),
         counts_(counts) {}
@@ -72,23 +80,27 @@ class TubeCounter {
     has_ring_ = false;
     if (opening != TubeOpening::point) ring();
     begin(first, 0);
+    if (twists_) twist_ = {first_side(limbs_, first), 1};
   }
 
   void join(const Turn& turn, const Internode& next) {
-    rings(inner_rings(options_, scale_, {radius_, next.base}, length_ - reach_ - turn.reach));
+    rings(inner_rings(options_, scale_, {radius_, next.base}, length_ - reach_ - turn.reach,
+                      cosine_of_twist()));
     ring();
     if (next.color != color_) {
       here_ = &counts_[palette_.slot(next.color)];
       has_ring_ = false;
       ring();
     }
+    const glm::vec3 along = along_;
     begin(next, turn.reach);
+    if (twists_) twist_ = twist_of(limbs_, scale_, next, carried(twist_.side, along, turn, next.along));
   }
 
   void close(TubeClosing closing, float free) {
     const float end = closing == TubeClosing::point ? 0 : end_;
     const float room = closing == TubeClosing::tip ? free - tip_length(end_, free) : free;
-    rings(inner_rings(options_, scale_, {radius_, end}, room));
+    rings(inner_rings(options_, scale_, {radius_, end}, room, cosine_of_twist()));
     if (closing != TubeClosing::point) ring();
     here_->vertices += 1;
     here_->triangles += section_.sides;
@@ -101,7 +113,10 @@ class TubeCounter {
     length_ = internode.length;
     color_ = internode.color;
     reach_ = reach;
+    along_ = internode.along;
+    is_round_ = !twists_ || is_round(limbs_, internode.joint);
   }
+  float cosine_of_twist() const { return is_round_ ? 1 : twist_.cosine; }
   void ring() {
     here_->vertices += section_.corners;
     if (has_ring_) here_->triangles += 2 * section_.sides;
@@ -111,8 +126,13 @@ class TubeCounter {
     for (int i = 0; i < count; ++i) ring();
   }
 
+  const Limbs& limbs_;
   SkinOptions options_;
   CrossSection section_;
+  bool twists_;
+  bool is_round_ = true;
+  Twist twist_;
+  glm::vec3 along_{0};
   const Scale& scale_;
   const Palette& palette_;
   TubeCount* counts_;

@@ -103,6 +103,7 @@ TubeWriter::Ring TubeWriter::plain_ring(const glm::vec3& centre, float radius, f
   ring.joint = internode_.joint;
   ring.next_color = internode_.color;
   ring.contour = last_contour(internode_.joint);
+  ring.spin = spin_;
   return ring;
 }
 
@@ -131,7 +132,10 @@ void TubeWriter::open(const Internode& first, TubeOpening opening) {
   begin_piece(first.color);
   const std::uint64_t hash = hash_of(first.joint);
   start_frame(first.along, hash);
-  turn_to_left(true);
+  if (has_contours() && !context_.limbs.frame.empty()) u_ = first_side(context_.limbs, first);
+  first_u_ = u_;
+  twist_ = 1;
+  spin_ = 0;
   is_waiting_ = opening != TubeOpening::point;
   switch (opening) {
     case TubeOpening::point:
@@ -188,19 +192,15 @@ void TubeWriter::join(const Turn& turn, const Internode& next) {
   ring.before = slope;
   ring.next_color = next.color;
   ring.contour = last_contour(internode_.joint);
+  ring.spin = spin_;
   waiting_ = ring;
   is_waiting_ = true;
 
-  // The same least rotation once more, from the ring's plane to the next internode; then one step of Newton's
-  // method toward unit length, so that long limbs do not drift.
-  u_ = ring.normal_u - (tangent + next.along) * (glm::dot(ring.normal_u, next.along) * half);
-  u_ -= next.along * glm::dot(u_, next.along);
-  u_ *= 1.5F - 0.5F * glm::dot(u_, u_);
-
+  u_ = carried(u_, along, turn, next.along);
   internode_ = next;
   radius_ = next.base;
   reach_ = turn.reach;
-  turn_to_left(false);
+  twist(u_);
   pace_picture(next);
 }
 
@@ -211,6 +211,7 @@ void TubeWriter::close(TubeClosing closing, float free) {
   const float cone = closing == TubeClosing::tip ? tip_length(end, free) : cap_share * end;
   const float ring_at = closing == TubeClosing::tip ? internode_.length - cone : internode_.length;
   const Slope slope = slope_of(radius_, end, ring_at);
+  spin_ *= internode_.length / ring_at;  // all of the twist happens before the cone
   write_waiting(slope);
   write_inner_rings({end, ring_at, reach_, ring_at});
 
@@ -226,7 +227,8 @@ void TubeWriter::close(TubeClosing closing, float free) {
                            v_so_far_ - (internode_.length - ring_at) * by_length_);
     ring.before = slope;
     if (closing == TubeClosing::cap) apex = ring.centre + along * cone;
-    write_ring(ring, slope_of(end, 0, cone));
+    // A twisted flank that leans down would look against a normal that leans up with the cone.
+    write_ring(ring, is_twisted(twist_) ? slope : slope_of(end, 0, cone));
   }
   const float v = closing == TubeClosing::cap ? v_so_far_ + cone * by_length_ : v_so_far_;
   piece_.end_apex = write_apex(apex, along, {half_round(end), v});
@@ -245,13 +247,18 @@ void TubeWriter::write_waiting(Slope after) {
 
 void TubeWriter::write_inner_rings(const Taper& taper) {
   const int count =
-      inner_rings(context_.options, context_.scale, {radius_, taper.end}, taper.high - taper.low);
+      inner_rings(context_.options, context_.scale, {radius_, taper.end}, taper.high - taper.low, twist_);
   const Slope slope = slope_of(radius_, taper.end, taper.length);
+  const glm::vec3 last_u = u_;
   for (int i = 1; i <= count; ++i) {
     const float share = static_cast<float>(i) / static_cast<float>(count + 1);
     const float at = taper.low + (taper.high - taper.low) * share;
     // Along the free length alone: on the inner side of a bend that is all there is for the change of radius.
     const float radius = radius_ + (taper.end - radius_) * share;
+    if (twist_ < 1) {
+      u_ = first_u_ + (last_u - first_u_) * (at / taper.length);
+      u_ *= 1 / std::sqrt(glm::dot(u_, u_));
+    }
     Ring ring = plain_ring(internode_.from + internode_.along * at, radius, v_so_far_ + at * by_length_);
     ring.before = slope;
     ring.next_contour = ring.contour;
@@ -259,6 +266,7 @@ void TubeWriter::write_inner_rings(const Taper& taper) {
     if (ring.contour != ring.next_contour) ring.blend = at / taper.length;
     write_ring(ring, slope);
   }
+  u_ = last_u;
 }
 
 /// A flat floor with an edge of its own, since bark and cut do not share normals.
@@ -290,6 +298,7 @@ void TubeWriter::write_ring(const Ring& ring, Slope after) {
     slope = both * (1 / std::sqrt(glm::dot(both, both)));
   }
   if (has_contours()) {
+    piece_.is_twisted = piece_.is_twisted || is_twisted(twist_);
     write_contour(ring, slope);
     write_bones(here_->vertex, section_.corners, ring.joint);
     here_->vertex += section_.corners;
@@ -338,6 +347,7 @@ void TubeWriter::write_bones(std::size_t first, std::size_t count, std::uint32_t
 }
 
 void TubeWriter::end_piece() {
+  const std::size_t first_corner = here_->corner;
   std::uint32_t* out = here_->index + here_->corner;
   const std::size_t last_ring = piece_.first_ring + std::size_t{piece_.rings - 1} * section_.corners;
   const bool is_warm = piece_.start_apex != Limbs::none;
@@ -365,6 +375,7 @@ void TubeWriter::end_piece() {
     }
   }
   here_->corner = static_cast<std::size_t>(out - here_->index);
+  if (piece_.is_twisted) split_by_shorter(first_corner);
 }
 
 }  // namespace seedmesh

@@ -79,6 +79,7 @@ class TubeWriter {
     std::int16_t next_color = 0;
     std::uint8_t contour = 0, next_contour = 0;
     float blend = 0;  ///< how much of the next
+    float spin = 0;   ///< of the internode before (spin_of)
   };
 
   /// The flank of the current internode: from the ring where it begins to radius `end` at `length`; inner
@@ -92,6 +93,7 @@ class TubeWriter {
     std::size_t first_ring = 0;  ///< vertex
     std::uint32_t rings = 0;
     std::uint32_t start_apex = Limbs::none, end_apex = Limbs::none;
+    bool is_twisted = false;
   };
 
   Ring plain_ring(const glm::vec3& centre, float radius, float v) const;
@@ -100,12 +102,13 @@ class TubeWriter {
   bool has_contours() const { return !tables().contours.empty(); }
   std::uint8_t first_contour(std::uint32_t joint) const;
   std::uint8_t last_contour(std::uint32_t joint) const;
-  void turn_to_left(bool at_once);
+  void twist(const glm::vec3& side);
   ContourCorner corner(const Ring& ring, std::uint32_t k) const;
   void write_contour(const Ring& ring, Slope after);
   void pace_picture(const Internode& internode);
   void begin_piece(std::int16_t color);
   void end_piece();
+  void split_by_shorter(std::size_t first_corner);
   void write_disc(const Ring& ring);
   void write_ring(const Ring& ring, Slope after);
   void write_waiting(Slope after);
@@ -123,14 +126,17 @@ class TubeWriter {
   Piece piece_;
   Ring waiting_;  ///< the last ring; its normals depend on what comes after it
   bool is_waiting_ = false;
-  Internode internode_;  ///< the current one
-  float radius_ = 0;     ///< of the ring where it begins
-  float reach_ = 0;      ///< of that ring's mitre
-  glm::vec3 u_{0};       ///< of the current frame; v is along x u
-  float v_so_far_ = 0;   ///< of the limb up to where the current internode begins
-  float by_length_ = 1;  ///< v of the current internode for each metre
-  float slowest_ = 1;    ///< v for each metre where the limb began
-  float turns_ = 0;      ///< of a wrapped picture round the limb; 0: not chosen yet
+  Internode internode_;   ///< the current one
+  float radius_ = 0;      ///< of the ring where it begins
+  float reach_ = 0;       ///< of that ring's mitre
+  glm::vec3 u_{0};        ///< of the frame at the current internode's end; v is along x u
+  glm::vec3 first_u_{0};  ///< where it begins
+  float spin_ = 0;        ///< of the current internode, where it shows
+  float twist_ = 1;       ///< cosine of the angle between the two where it shows
+  float v_so_far_ = 0;    ///< of the limb up to where the current internode begins
+  float by_length_ = 1;   ///< v of the current internode for each metre
+  float slowest_ = 1;     ///< v for each metre where the limb began
+  float turns_ = 0;       ///< of a wrapped picture round the limb; 0: not chosen yet
 };
 
 }  // namespace seedmesh

@@ -47,7 +47,7 @@ void Turtle::draw_plain(double length, std::uint64_t key) {
   advance(length);
   if (state_.is_sweeping) return set_control(default_strips, key);
   add_segment(from, length, key);
-  if (tropisms_) state_.frame = tropisms_->turned(state_.frame);
+  if (tropisms_) state_.frame = tropisms_->turned(state_.frame, pull_);
 }
 
 void Turtle::walk_plain(double length) {
@@ -110,8 +110,10 @@ std::uint32_t Turtle::add_joint(const glm::dvec3& at, std::uint32_t parent, std:
   }
   limbs.color.push_back(state_.color);
   const double width = state_.width - thinner_;
-  const auto radius = static_cast<float>(width > 0 ? width / 2 : 0);
+  auto radius = static_cast<float>(width > 0 ? width / 2 : 0);
   const bool goes_on = parent != Limbs::none && !state_.begins_branch;
+  // What is hardly there tapers by as little, and leaves the taper to what follows.
+  if (share_ != 1 && goes_on) radius = limbs.radius[parent] + (radius - limbs.radius[parent]) * share_;
   limbs.radius.push_back(radius);
   limbs.base_radius.push_back(goes_on ? limbs.radius[parent] : radius);
   limbs.starts_limb.push_back(parent != Limbs::none && state_.begins_branch ? 1 : 0);
@@ -125,6 +127,8 @@ std::uint32_t Turtle::add_joint(const glm::dvec3& at, std::uint32_t parent, std:
     for (std::uint32_t joint = 0; joint < own; ++joint) limbs.key.push_back(0);
   }
   if (key != 0 || !limbs.key.empty()) limbs.key.push_back(key);
+  if (share_ != 1 && limbs.share.empty()) limbs.share = Array<float>(job_, own, 1.0F);
+  if (share_ != 1 || !limbs.share.empty()) limbs.share.push_back(share_);
   return own;
 }
 
@@ -139,6 +143,36 @@ void Turtle::set_elasticity(std::int64_t tropism, double elasticity) {
 
 void Turtle::change_elasticity(std::int64_t tropism, double steps) {
   if (tropisms_ && tropism >= 0) tropisms_->change(static_cast<std::size_t>(tropism), steps);
+}
+
+Turtle::Pose Turtle::pose() const {
+  Pose pose{state_.position, state_.frame, state_.width, state_.scale, state_.turn_scale, state_.side, {}};
+  if (tropisms_) pose.elasticity = tropisms_->elasticities();
+  return pose;
+}
+
+void Turtle::take_share(const Pose& earlier, double share, double turned) {
+  const auto part = [share](const auto& from, const auto& to) { return from + (to - from) * share; };
+  const auto differs = [](const glm::dvec3& a, const glm::dvec3& b) {
+    return a.x != b.x || a.y != b.y || a.z != b.z;
+  };
+  state_.position = part(earlier.position, state_.position);
+  state_.width = part(earlier.width, state_.width);
+  state_.scale = part(earlier.scale, state_.scale);
+  state_.turn_scale = part(earlier.turn_scale, state_.turn_scale);
+  state_.side = part(earlier.side, state_.side);
+  const Frame &from = earlier.frame, &to = state_.frame;
+  if (turned != 1 && (differs(from.heading, to.heading) || differs(from.left, to.left)))
+    state_.frame = between(from, to, turned);
+  for (std::size_t i = 0; i < earlier.elasticity.size(); ++i)
+    tropisms_->set(i, part(earlier.elasticity[i], tropisms_->elasticities()[i]));
+}
+
+void Turtle::rejoin() {
+  if (!skeleton_ || state_.joint != Limbs::none || state_.last == Limbs::none) return;
+  const glm::vec3 here = stored(state_.position), gap = here - skeleton_->limbs.position[state_.last];
+  constexpr float near = 1e-6F;
+  if (glm::dot(gap, gap) <= near * near * (1 + glm::dot(here, here))) state_.joint = state_.last;
 }
 
 void Turtle::push() {

@@ -96,18 +96,38 @@ class Turtle {
   /// state.
   void set_thinner(double by) { thinner_ = by; }
   /// What the lengths that a caller reads off its symbols are multiplied by, the turns of bare symbols too,
-  /// and whether turns go to the other side: kept here because ] restores them.
+  /// and to which side turns go: kept here because ] restores them.
   double scale() const { return state_.scale; }
   void set_scale(double scale) { state_.scale = scale; }
   double turn_scale() const { return state_.turn_scale; }
   void set_turn_scale(double scale) { state_.turn_scale = scale; }
-  bool mirrored() const { return state_.mirrored; }
-  void mirror() { state_.mirrored = !state_.mirrored; }
+  /// 1, or -1 where turns go to the other side; between the two in a plant between two steps.
+  double side() const { return state_.side; }
+  void mirror() { state_.side = -state_.side; }
 
   void set_contour(std::uint8_t contour) { state_.contour = contour; }
 
   void set_color(std::int64_t color);
   std::int16_t color() const { return state_.color; }
+  std::uint8_t contour() const { return state_.contour; }
+
+  /// What of the state can change by degrees.
+  struct Pose {
+    glm::dvec3 position{0};
+    Frame frame;
+    double width = 0, scale = 1, turn_scale = 1, side = 1;
+    std::vector<double> elasticity;
+  };
+  Pose pose() const;
+  /// Goes back to where only a share of what has changed since `earlier` has changed, and of its turn the
+  /// share `turned`.
+  void take_share(const Pose& earlier, double share, double turned);
+  /// Where it has moved away from its last joint and back: goes on from that joint.
+  void rejoin();
+  /// How much of a segment's turn by the tropisms it has, from now on; not part of the state.
+  void set_pull(double share) { pull_ = share; }
+  /// Limbs::share of what is drawn from now on; not part of the state.
+  void set_share(double share) { share_ = static_cast<float>(share); }
 
   /// What a turtle draws once to set it again wherever it comes, turned and moved as a whole.
   class Stamp;
@@ -128,6 +148,10 @@ class Turtle {
   void press(const Stamp& stamp);
 
   std::uint32_t last_joint() const { return state_.last; }  ///< of this branch; none before its first segment
+  bool is_joined() const { return state_.joint != Limbs::none; }  ///< does the next one grow from a joint?
+  /// Does the next internode start a limb of its own?
+  bool begins_limb() const { return state_.begins_branch; }
+  std::size_t depth() const { return stack_.size(); }  ///< brackets open
   const glm::dvec3& position() const { return state_.position; }
   const Frame& frame() const { return state_.frame; }
   const TurtleReport& report() const { return report_; }
@@ -142,14 +166,13 @@ class Turtle {
     glm::dvec3 position{0};
     Frame frame;
     double width = 0;
-    double scale = 1, turn_scale = 1;
+    double scale = 1, turn_scale = 1, side = 1;
     std::uint32_t joint = Limbs::none;  ///< where the next internode grows from; none after a move
     std::uint32_t last = Limbs::none;   ///< the last joint of this branch, moves or not
     std::uint16_t order = 0;
     std::int16_t color = 0;
     std::uint16_t rotations = 0;  ///< of `frame` since it was last made orthonormal, and more
     std::uint8_t contour = 0;
-    bool mirrored = false;
     bool is_sweeping = false;
     bool begins_branch = false;  ///< the next internode starts a limb of its own
   };
@@ -193,6 +216,8 @@ class Turtle {
   std::vector<Polygon> polygons_;  ///< open ones, innermost last
   TurtleReport report_;
   double thinner_ = 0;
+  double pull_ = 1;
+  float share_ = 1;
   std::uint64_t most_segments_ = ~std::uint64_t{0};
   std::optional<Tropisms> tropisms_;
   bool tracks_anchors_ = false;

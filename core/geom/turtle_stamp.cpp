@@ -51,8 +51,8 @@ void Turtle::end_stamp(Stamp& stamp) {
 bool Turtle::matches(const Stamp& stamp) const {
   const State& other = stamp.start_;
   return !state_.is_sweeping && state_.width == other.width && state_.scale == other.scale &&
-         state_.turn_scale == other.turn_scale && state_.mirrored == other.mirrored &&
-         state_.color == other.color && state_.begins_branch == other.begins_branch &&
+         state_.turn_scale == other.turn_scale && state_.side == other.side && state_.color == other.color &&
+         state_.begins_branch == other.begins_branch &&
          (state_.joint != Limbs::none) == (stamp.seeds_ == 1) &&
          (draws_wires_ || stamp.seeds_ == 0 || skeleton_->limbs.radius[state_.joint] == stamp.radius_);
 }

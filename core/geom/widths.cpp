@@ -27,6 +27,10 @@ double root(double x, double e) {
   return math::pow(x, 1 / e);
 }
 
+double share_of(const Limbs& limbs, std::size_t joint) {
+  return limbs.share.empty() ? 1 : double{limbs.share[joint]};
+}
+
 }  // namespace
 
 void narrow_by_order(Limbs& limbs, double factor, Job& job) {
@@ -42,31 +46,42 @@ void narrow_by_order(Limbs& limbs, double factor, Job& job) {
 }
 
 void widen_by_longest_chain(Limbs& limbs, const ChainWidths& widths, Job& job) {
-  Array<std::uint32_t> beyond(job, limbs.size(),
-                              std::uint32_t{0});  // links in the longest chain after a joint
-  std::uint32_t longest = 0;
+  Array<double> beyond(job, limbs.size(), 0.0);  // links in the longest chain after a joint
+  double longest = 0;
   for (std::size_t i = limbs.size(); i-- > 0;) {
     if (i % look_every == 0) job.check();
     longest = std::max(longest, beyond[i]);
     if (limbs.parent[i] == Limbs::none) continue;
-    std::uint32_t& before = beyond[limbs.parent[i]];
-    before = std::max(before, beyond[i] + 1);
+    double& before = beyond[limbs.parent[i]];
+    before = std::max(before, beyond[i] + share_of(limbs, i));
   }
   const double a_link = longest == 0 ? 0 : (widths.base - widths.tip) / longest;
-  const auto radius = [&](std::uint32_t links) { return static_cast<float>(widths.tip + a_link * links); };
+  const auto radius = [&](double links) { return static_cast<float>(widths.tip + a_link * links); };
   for (std::size_t i = 0; i < limbs.size(); ++i) {
     if (i % look_every == 0) job.check();
     limbs.radius[i] = radius(beyond[i]);
-    limbs.base_radius[i] = radius(limbs.parent[i] == Limbs::none ? beyond[i] : beyond[i] + 1);
+    limbs.base_radius[i] =
+        radius(limbs.parent[i] == Limbs::none ? beyond[i] : beyond[i] + share_of(limbs, i));
   }
 }
 
 void widen_by_pipes(Limbs& limbs, const PipeWidths& widths, Job& job) {
   Array<double> pipes(job, limbs.size(), 0.0);  // r^exponent of what grows from a joint
   const double tip = power(widths.tip, widths.exponent);
+  // How much of a tip there is along the fullest way up from a joint: only what is missing ends here.
+  Array<float> above(job, limbs.share.size(), 0.0F);
   for (std::size_t i = limbs.size(); i-- > 0;) {
     if (i % look_every == 0) job.check();
-    if (pipes[i] == 0) pipes[i] = tip;
+    if (above.empty()) {
+      if (pipes[i] == 0) pipes[i] = tip;
+    } else {
+      const float share = limbs.share[i], missing = 1 - above[i];
+      pipes[i] += tip * double{std::min(share, missing)};
+      if (limbs.parent[i] != Limbs::none) {
+        float& below = above[limbs.parent[i]];
+        below = std::max(below, std::min(1.0F, share + above[i]));
+      }
+    }
     if (limbs.parent[i] != Limbs::none) pipes[limbs.parent[i]] += pipes[i];
     limbs.radius[i] = static_cast<float>(root(pipes[i], widths.exponent));
     limbs.base_radius[i] = limbs.radius[i];

@@ -1,6 +1,8 @@
 #pragma once
 /// Laws that give a whole skeleton its radii after it was drawn. Each replaces Limbs::radius and base_radius
-/// and reads nothing but the tree and what it says it reads; positions stay. Linear time, one thread.
+/// and reads nothing but the tree and what it says it reads; positions stay. An internode of which there is a
+/// share (Limbs::share) counts by it, so that radii change continuously as internodes come and go. Linear
+/// time, one thread.
 #include "core/geom/limbs.h"
 
 namespace seedmesh {

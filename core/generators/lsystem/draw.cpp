@@ -30,6 +30,37 @@ double length_of(const double* axis) {
   return std::sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
 }
 
+/// What the module draws, and what the one before it drew, by the share `heir`.
+double spread(const Drawing::Keys& keys, Spread of, double amount, double heir) {
+  const double own = spread(keys.own, of, amount);
+  if (keys.before == 0) return own;
+  const double before = spread(keys.before, of, amount);
+  return before + (own - before) * heir;
+}
+
+/// Does it set something that can change by degrees, and that set_width() and turns do not see to?
+bool sets_pose(Command command) {
+  switch (command) {
+    case Command::upright:
+    case Command::move_to:
+    case Command::set_heading:
+    case Command::elasticity_set:
+    case Command::elasticity_up:
+    case Command::elasticity_down:
+    case Command::stand_up:
+    case Command::set_scale:
+    case Command::multiply_scale:
+    case Command::divide_scale:
+    case Command::multiply_width:
+    case Command::multiply_turns:
+    case Command::mirror:
+    case Command::enter_frame:
+      return true;
+    default:
+      return false;
+  }
+}
+
 math::SinCos opposite(math::SinCos angle) { return {-angle.sin, angle.cos}; }
 
 }  // namespace
@@ -55,7 +86,10 @@ Drawing::Drawing(const Grammar& grammar, const LsystemParams& params, Skeleton* 
   if (!params.contours.empty()) turtle_.draw_contours();
   const bool has_own_widths = params.width_rule == LsystemParams::WidthRule::symbols ||
                               params.width_rule == LsystemParams::WidthRule::decrement;
-  if (params.style == LsystemParams::Style::lines && has_own_widths && !moves) turtle_.draw_wires();
+  // Who asks runs into bark, which wires have none of.
+  const bool asked = std::any_of(grammar.kinds.begin(), grammar.kinds.end(),
+                                 [](const Kind& kind) { return asks(kind.command); });
+  if (params.style == LsystemParams::Style::lines && has_own_widths && !moves && !asked) turtle_.draw_wires();
 }
 
 bool Drawing::needs_keys(const Grammar& grammar, const LsystemParams& params) {
@@ -66,26 +100,41 @@ bool Drawing::needs_keys(const Grammar& grammar, const LsystemParams& params) {
 void Drawing::module(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t step) {
   turtle_.set_thinner(
       params_.width_rule == LsystemParams::WidthRule::decrement ? step * params_.width_decrement : 0);
-  interpret(kind, parameters, key, 0);
+  interpret(kind, parameters, {key, 0}, 0);
 }
 
 void Drawing::grow(const Module& module, double step, Grown grown) {
   turtle_.set_thinner(
       params_.width_rule == LsystemParams::WidthRule::decrement ? step * params_.width_decrement : 0);
   grown_ = grown;
-  interpret(module.kind, module.parameters, module.key, 0);
+  turtle_.set_share(grown.share);
+  interpret(module.kind, module.parameters, module.keys, 0);
   grown_ = {};
+  shapes_.clear();
+  turtle_.set_share(1);
+  turtle_.set_pull(1);
+}
+
+void Drawing::fade(const Module& module, double step, double share) {
+  const std::int16_t color = turtle_.color();
+  const std::uint8_t contour = turtle_.contour();
+  const bool is_joined = turtle_.is_joined();
+  grow(module, step, {share, 0, 1});
+  if (is_joined) turtle_.rejoin();
+  turtle_.set_color(color);
+  turtle_.set_contour(contour);
 }
 
 /// Draws a module, or what the interpretation rules make of it; that never enters the word.
-void Drawing::interpret(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t depth) {
+void Drawing::interpret(KindId kind, const double* parameters, Keys keys, std::uint32_t depth) {
   const Rules& rules = grammar_.interpretation;
   if (depth >= static_cast<std::uint32_t>(params_.interpretation_depth) || !rules.rewrites(kind)) {
-    return obey(grammar_.kinds[kind], parameters, key);
+    return obey(grammar_.kinds[kind], parameters, keys);
   }
   if ((++interpreted_ & 4095U) == 0) job_.check();
-  const std::uint64_t own = key == 0 ? 0 : key_at(key, 20 + depth);  // without keys: none here either
-  const Draws draws(own, depth);
+  const auto stream = [depth](std::uint64_t key) { return key == 0 ? 0 : key_at(key, 20 + depth); };
+  const Keys own{stream(keys.own), stream(keys.before)};  // without keys: none here either
+  const Draws draws(own.own, depth);
   std::vector<double> changed;  // by what comes before a condition
   const auto slots_of = [&](const Production& each) {
     if (each.before.count == 0) return parameters;
@@ -95,28 +144,30 @@ void Drawing::interpret(KindId kind, const double* parameters, std::uint64_t key
     return static_cast<const double*>(changed.data());
   };
   const Production* production = choose(grammar_, rules, rules.of_kind[kind], draws, slots_of);
-  if (!production) return obey(grammar_.kinds[kind], parameters, key);
+  if (!production) return obey(grammar_.kinds[kind], parameters, keys);
   const double* slots = slots_of(*production);
   if (production->code.count > 0) return write_interpreted(*production, slots, own, depth);
   for (const Template& each : grammar_.successor(production->successor)) {
     std::array<double, 64> arguments;
-    const std::uint64_t child = own == 0 ? 0 : child_key(own, each);
-    fill_arguments(grammar_, each, slots, child, arguments.data());
+    const auto key_of = [&each](std::uint64_t key) { return key == 0 ? 0 : child_key(key, each); };
+    const Keys child{key_of(own.own), key_of(own.before)};
+    fill_arguments(grammar_, each, slots, child.own, arguments.data());
     interpret(each.kind, arguments.data(), child, depth + 1);
   }
 }
 
 /// A successor with statements.
-void Drawing::write_interpreted(const Production& production, const double* parameters, std::uint64_t own,
+void Drawing::write_interpreted(const Production& production, const double* parameters, Keys own,
                                 std::uint32_t depth) {
   std::vector<double> slots(grammar_.most_slots);
   const std::uint32_t known = production.before.count > 0 ? grammar_.most_slots : production.bound;
   std::copy(parameters, parameters + known, slots.data());
-  code_.run(production.code, slots.data(), Draws(own, depth).code(),
+  code_.run(production.code, slots.data(), Draws(own.own, depth).code(),
             [&](const Template& each, std::uint64_t turn) {
               std::array<double, 64> arguments;
-              const std::uint64_t child = own == 0 ? 0 : code_key(own, each, turn);
-              fill_arguments(grammar_, each, slots.data(), child, arguments.data());
+              const auto key_of = [&](std::uint64_t key) { return key == 0 ? 0 : code_key(key, each, turn); };
+              const Keys child{key_of(own.own), key_of(own.before)};
+              fill_arguments(grammar_, each, slots.data(), child.own, arguments.data());
               interpret(each.kind, arguments.data(), child, depth + 1);
             });
 }
@@ -132,19 +183,31 @@ void Drawing::enter_frame(const double* parameters) {
       {math::unit(axis(1), start.heading), math::unit(-axis(0), start.left), math::unit(axis(2), start.up)});
 }
 
-math::SinCos Drawing::turn(const Kind& kind, const double* parameters, const Angle& angle,
-                           std::uint64_t key) {
+math::SinCos Drawing::turn(const Kind& kind, const double* parameters, const Angle& angle, Keys keys) {
+  return turn(kind, parameters, angle, keys, turned_share());
+}
+
+/// To the left, or to the right where the turtle is mirrored.
+math::SinCos Drawing::leftward(const Kind& kind, const double* parameters, const Angle& angle, Keys keys) {
+  const double side = turtle_.side();
+  const math::SinCos turned = turn(kind, parameters, angle, keys, turned_share() * std::abs(side));
+  return side < 0 ? opposite(turned) : turned;
+}
+
+math::SinCos Drawing::turn(const Kind& kind, const double* parameters, const Angle& angle, Keys keys,
+                           double share) {
   double degrees = angle.degrees;
   if (kind.arity > 0) {
     degrees = parameters[0];
   } else if (params_.angle.spread > 0) {
-    degrees = (degrees + spread(key, Spread::angle, params_.angle.spread)) * turtle_.turn_scale();
+    degrees =
+        (degrees + spread(keys, Spread::angle, params_.angle.spread, grown_.heir)) * turtle_.turn_scale();
   } else if (turtle_.turn_scale() != 1) {
     degrees *= turtle_.turn_scale();
-  } else if (grown_.share == 1) {
+  } else if (share == 1) {
     return angle.bare;
   }
-  if (grown_.share != 1 && grown_.brackets == 0) degrees *= grown_.share;
+  degrees *= share;
   if (degrees != last_degrees_) {
     last_degrees_ = degrees;
     last_ = math::sincos_degrees(degrees);
@@ -152,17 +215,12 @@ math::SinCos Drawing::turn(const Kind& kind, const double* parameters, const Ang
   return last_;
 }
 
-double Drawing::length(const Kind& kind, const double* parameters, std::uint64_t key) const {
+double Drawing::length(const Kind& kind, const double* parameters, Keys keys) const {
   const double scale = grown_.share * turtle_.scale();
   if (kind.arity > 0) return scale * parameters[0];
   if (params_.step.spread == 0) return scale * params_.step.value;
-  const double length = params_.step.value + spread(key, Spread::step, params_.step.spread);
+  const double length = params_.step.value + spread(keys, Spread::step, params_.step.spread, grown_.heir);
   return length > 0 ? scale * length : 0;
-}
-
-/// To the left, or to the right where the turtle is mirrored.
-math::SinCos Drawing::leftward(math::SinCos angle) const {
-  return turtle_.mirrored() ? opposite(angle) : angle;
 }
 
 void Drawing::set_width(const Kind& kind, const double* parameters, double change) {
@@ -187,7 +245,7 @@ void Drawing::place(const Kind& kind, const double* parameters, std::uint64_t ke
   const LsystemSurface& surface = *surfaces_[kind.surface];
   glm::dvec3 scale(kind.arity > 0 ? parameters[0] : 1);
   if (kind.arity > 2) scale = {parameters[0], parameters[1], parameters[2]};
-  scale *= surface.size * turtle_.scale();
+  scale *= surface.size * turtle_.scale() * grown_.share;
   scale.x *= surface.width;
   constexpr double largest = 1e9;
   if (!(std::max({scale.x, scale.y, scale.z}) < largest)) {
@@ -206,9 +264,9 @@ void Drawing::close_polygon(std::uint64_t key) {
 }
 
 /// What the turtle refuses is told with the module and the text that writes such modules.
-void Drawing::obey(const Kind& kind, const double* parameters, std::uint64_t key) {
+void Drawing::obey(const Kind& kind, const double* parameters, Keys keys) {
   try {
-    follow(kind, parameters, key);
+    follow(kind, parameters, keys);
   } catch (const Stop& stop) {
     if (stop.code() != Code::invalid || !stop.issue().pointer.empty()) throw;
     std::string module = kind.symbol;
@@ -224,7 +282,31 @@ void Drawing::obey(const Kind& kind, const double* parameters, std::uint64_t key
   }
 }
 
-void Drawing::follow(const Kind& kind, const double* parameters, std::uint64_t key) {
+/// What a symbol sets, and how a segment bends, in the share that there is of it.
+void Drawing::follow(const Kind& kind, const double* parameters, Keys keys) {
+  if (grown_.share == 1) return obey_wholly(kind, parameters, keys);
+  turtle_.set_pull(turned_share());
+  if (!sets_pose(kind.command)) return obey_wholly(kind, parameters, keys);
+  const Turtle::Pose before = turtle_.pose();
+  obey_wholly(kind, parameters, keys);
+  turtle_.take_share(before, grown_.share, turned_share());
+}
+
+/// A polygon that grows keeps its angles; how far it leaves the turtle turned is what grows.
+void Drawing::begin_shape() {
+  ++grown_.brackets;
+  shapes_.push_back(turtle_.pose());
+}
+
+void Drawing::end_shape() {
+  if (shapes_.empty()) return;
+  --grown_.brackets;
+  turtle_.take_share(shapes_.back(), 1, turned_share());
+  shapes_.pop_back();
+}
+
+void Drawing::obey_wholly(const Kind& kind, const double* parameters, Keys keys) {
+  const std::uint64_t key = keys.own;
   const auto index = [&](int change) {
     return kind.arity > 0 ? math::to_int64(parameters[0]) : turtle_.color() + change;
   };
@@ -238,25 +320,25 @@ void Drawing::follow(const Kind& kind, const double* parameters, std::uint64_t k
     case Command::ask_surroundings:
       return;
     case Command::draw:
-      return turtle_.draw(length(kind, parameters, key), key);
+      return turtle_.draw(length(kind, parameters, keys), key);
     case Command::move:
-      return turtle_.walk(length(kind, parameters, key));
+      return turtle_.walk(length(kind, parameters, keys));
     case Command::draw_plain:
-      return turtle_.draw_plain(length(kind, parameters, key), key);
+      return turtle_.draw_plain(length(kind, parameters, keys), key);
     case Command::move_plain:
-      return turtle_.walk_plain(length(kind, parameters, key));
+      return turtle_.walk_plain(length(kind, parameters, keys));
     case Command::left:
-      return turtle_.turn(leftward(turn(kind, parameters, yaw_, key)));
+      return turtle_.turn(leftward(kind, parameters, yaw_, keys));
     case Command::right:
-      return turtle_.turn(leftward(opposite(turn(kind, parameters, yaw_, key))));
+      return turtle_.turn(opposite(leftward(kind, parameters, yaw_, keys)));
     case Command::down:
-      return turtle_.pitch(turn(kind, parameters, pitch_, key));
+      return turtle_.pitch(turn(kind, parameters, pitch_, keys));
     case Command::up:
-      return turtle_.pitch(opposite(turn(kind, parameters, pitch_, key)));
+      return turtle_.pitch(opposite(turn(kind, parameters, pitch_, keys)));
     case Command::roll_left:
-      return turtle_.roll(leftward(turn(kind, parameters, roll_, key)));
+      return turtle_.roll(leftward(kind, parameters, roll_, keys));
     case Command::roll_right:
-      return turtle_.roll(leftward(opposite(turn(kind, parameters, roll_, key))));
+      return turtle_.roll(opposite(leftward(kind, parameters, roll_, keys)));
     case Command::turn_around:
       if (grown_.share != 1 && grown_.brackets == 0)
         return turtle_.turn(math::sincos_degrees(180 * grown_.share));
@@ -270,9 +352,11 @@ void Drawing::follow(const Kind& kind, const double* parameters, std::uint64_t k
       if (grown_.share != 1) --grown_.brackets;
       return turtle_.pop();
     case Command::polygon_open:
+      if (grown_.share != 1) begin_shape();
       ++open_polygons_;
       return turtle_.open_polygon();
     case Command::polygon_close:
+      if (grown_.share != 1) end_shape();
       return close_polygon(key);
     case Command::vertex:
       return turtle_.set_vertex();
@@ -328,7 +412,7 @@ void Drawing::follow(const Kind& kind, const double* parameters, std::uint64_t k
       turtle_.push();
       enter_frame(parameters);
       turtle_.set_width(finite(length_of(parameters), kind));
-      turtle_.draw_plain(length_of(parameters + 3), key);
+      turtle_.draw_plain(length_of(parameters + 3) * grown_.share, key);
       return turtle_.pop();
   }
 }

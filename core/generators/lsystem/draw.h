@@ -19,19 +19,27 @@ class Drawing {
 
   void module(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t step);
 
+  /// Where a module draws at random.
+  struct Keys {
+    std::uint64_t own = 0;
+    std::uint64_t before = 0;  ///< of the module that it takes over from; 0: of none
+  };
   struct Module {
     KindId kind;
     const double* parameters;
-    std::uint64_t key;
+    Keys keys;
   };
-  /// How much of a module there is yet: lengths and turns have this share of themselves, turns only outside
-  /// brackets that grow too; a width leaves by it from the turtle's own.
+  /// How much of a module there is yet: lengths, organs and turns have this share of themselves, turns only
+  /// outside brackets that grow too; what a symbol sets leaves by it from the turtle's own.
   struct Grown {
     double share = 1;
     int brackets = 0;  ///< growing ones around the module
+    double heir = 1;   ///< of what it draws at random; the rest is drawn where Keys::before says
   };
   /// A module that is not whole. `step` counts for the width rule decrement.
   void grow(const Module& module, double step, Grown grown);
+  /// One that goes: what cannot change by degrees is afterwards as it was before.
+  void fade(const Module& module, double step, double share);
 
   /// Where it starts, before anything is drawn.
   void start_at(const glm::dvec3& position) { turtle_.move_to(position); }
@@ -52,16 +60,21 @@ class Drawing {
     double degrees;
     math::SinCos bare;  ///< of `degrees`
   };
-  void interpret(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t depth);
-  void write_interpreted(const Production& production, const double* parameters, std::uint64_t own,
+  void interpret(KindId kind, const double* parameters, Keys keys, std::uint32_t depth);
+  void write_interpreted(const Production& production, const double* parameters, Keys own,
                          std::uint32_t depth);
   void enter_frame(const double* parameters);
-  void obey(const Kind& kind, const double* parameters, std::uint64_t key);
-  void follow(const Kind& kind, const double* parameters, std::uint64_t key);
+  void obey(const Kind& kind, const double* parameters, Keys keys);
+  void follow(const Kind& kind, const double* parameters, Keys keys);
   void close_polygon(std::uint64_t key);
-  math::SinCos turn(const Kind& kind, const double* parameters, const Angle& angle, std::uint64_t key);
-  math::SinCos leftward(math::SinCos angle) const;
-  double length(const Kind& kind, const double* parameters, std::uint64_t key) const;
+  void begin_shape();
+  void end_shape();
+  void obey_wholly(const Kind& kind, const double* parameters, Keys keys);
+  math::SinCos turn(const Kind& kind, const double* parameters, const Angle& angle, Keys keys);
+  math::SinCos turn(const Kind& kind, const double* parameters, const Angle& angle, Keys keys, double share);
+  math::SinCos leftward(const Kind& kind, const double* parameters, const Angle& angle, Keys keys);
+  double length(const Kind& kind, const double* parameters, Keys keys) const;
+  double turned_share() const { return grown_.brackets == 0 ? grown_.share : 1; }
   void place(const Kind& kind, const double* parameters, std::uint64_t key);
   void set_contour(double number);
   void set_width(const Kind& kind, const double* parameters, double change);
@@ -72,6 +85,7 @@ class Drawing {
   CodeRunner code_;
   Turtle turtle_;
   Grown grown_;
+  std::vector<Turtle::Pose> shapes_;             ///< where the open polygons of a growing module began
   std::vector<const LsystemSurface*> surfaces_;  ///< in the order of their names
   Angle yaw_, pitch_, roll_;
   double last_degrees_ = 0;  ///< angles given as arguments mostly repeat

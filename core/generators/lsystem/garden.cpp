@@ -56,6 +56,30 @@ void draw_word(const Word& word, Drawing& drawing, const Job& job) {
   }
 }
 
+/// What the centre lines of limbs measure.
+TurtleReport report_of(const Limbs& limbs) {
+  TurtleReport report;
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    if (limbs.parent[i] == Limbs::none) continue;
+    const glm::dvec3 from = limbs.position[limbs.parent[i]], to = limbs.position[i];
+    if (report.segments++ == 0) report.min = report.max = from;
+    report.total_length += std::sqrt(glm::dot(to - from, to - from));
+    report.min = glm::min(report.min, glm::min(from, to));
+    report.max = glm::max(report.max, glm::max(from, to));
+  }
+  return report;
+}
+
+/// A number for each limb: its first joint.
+Array<std::uint32_t> limbs_by_joint(const Limbs& limbs) {
+  Array<std::uint32_t> limb = limbs.parent.like<std::uint32_t>();
+  for (std::uint32_t i = 0; i < limbs.size(); ++i) {
+    const bool is_first = limbs.parent[i] == Limbs::none || limbs.starts_limb[i];
+    limb.push_back(is_first ? i : limb[limbs.parent[i]]);
+  }
+  return limb;
+}
+
 Membership membership_of(LsystemParams::Membership given) {
   switch (given) {
     case LsystemParams::Membership::centre:
@@ -119,6 +143,8 @@ struct Garden::Plant {
     std::size_t module;
     Prober prober;
     Frame frame;
+    std::size_t depth;                  ///< brackets open around it
+    std::uint32_t ahead = Limbs::none;  ///< the first joint that is drawn after it on its branch
   };
 
   Plant(const LsystemParams& given, Job own_job) : params(given), job(std::move(own_job)) {}
@@ -132,6 +158,7 @@ struct Garden::Plant {
   std::unique_ptr<Derivation> derivation;
   std::uint32_t steps = 0;
   std::vector<Question> questions;
+  std::vector<std::size_t> waiting;  ///< questions of open branches from where nothing is drawn yet
   std::vector<std::uint32_t> alive;  ///< joints of the last drawing that stand, rising
 };
 
@@ -215,27 +242,49 @@ void Garden::answer() {
   for (auto& plant : plants_) reply(*plant);
 }
 
+/// Tells those who have asked on this branch what it goes on with; joints from `before` on are new.
+void Garden::follow(Plant& plant, const Turtle& turtle, const Limbs& limbs, std::size_t before) {
+  std::vector<std::size_t>& waiting = plant.waiting;
+  const auto depth = [&] { return plant.questions[waiting.back()].depth; };
+  while (!waiting.empty() && depth() > turtle.depth()) waiting.pop_back();
+  std::uint32_t first = turtle.last_joint();
+  if (waiting.empty() || first == Limbs::none || first < before) return;
+  while (limbs.parent[first] != Limbs::none && limbs.parent[first] >= before) first = limbs.parent[first];
+  for (; !waiting.empty() && depth() == turtle.depth(); waiting.pop_back())
+    plant.questions[waiting.back()].ahead = first;
+}
+
 /// Draws a plant, cuts it, and takes down who asks.
 void Garden::look(Plant& plant, std::vector<Stretch>& grown) {
   Skeleton skeleton(plant.job);
   Drawing drawing(*plant.grammar, plant.params, &skeleton, plant.job);
   drawing.start_at(plant.position);
   const Word& word = plant.derivation->word;
+  Limbs& limbs = skeleton.limbs;
   plant.questions.clear();
+  plant.waiting.clear();
   for (std::size_t i = 0; i < word.size(); ++i) {
     if (i % 4096 == 0) job_.check();
     const Kind& kind = plant.grammar->kinds[word.kind[i]];
     if (asks(kind.command)) {
       const Turtle& turtle = drawing.turtle();
-      plant.questions.push_back({i,
-                                 {turtle.position(), turtle.frame().heading, 0.5 * turtle.width(),
-                                  plant.number, turtle.last_joint()},
-                                 turtle.frame()});
+      Prober prober{turtle.position(), turtle.frame().heading, 0.5 * turtle.width(), plant.number,
+                    turtle.last_joint()};
+      if (!turtle.begins_limb()) prober.limb = prober.joint;
+      plant.waiting.push_back(plant.questions.size());
+      plant.questions.push_back({i, prober, turtle.frame(), turtle.depth()});
       continue;
     }
+    const std::size_t before = limbs.size();
     draw_module(word, i, drawing);
+    follow(plant, drawing.turtle(), limbs, before);
   }
-  Limbs& limbs = skeleton.limbs;
+  const Array<std::uint32_t> limb = limbs_by_joint(limbs);
+  for (Plant::Question& each : plant.questions) {
+    Prober& prober = each.prober;
+    if (prober.limb != Limbs::none) prober.limb = limb[prober.limb];
+    if (each.ahead != Limbs::none) prober.limb_ahead = limb[each.ahead];
+  }
   limbs.key.resize(limbs.size());  // which joint it was before the cut
   for (std::size_t i = 0; i < limbs.size(); ++i) limbs.key[i] = i;
   cut(skeleton);
@@ -245,8 +294,8 @@ void Garden::look(Plant& plant, std::vector<Stretch>& grown) {
     plant.alive.push_back(joint);
     if (limbs.parent[i] == Limbs::none) continue;
     const auto parent = static_cast<std::uint32_t>(limbs.key[limbs.parent[i]]);
-    grown.push_back(
-        {limbs.position[limbs.parent[i]], limbs.position[i], limbs.radius[i], plant.number, joint, parent});
+    grown.push_back({limbs.position[limbs.parent[i]], limbs.position[i], limbs.radius[i], plant.number, joint,
+                     parent, limb[joint], limb[parent]});
   }
 }
 
@@ -256,9 +305,11 @@ void Garden::reply(Plant& plant) {
     const Kind& kind = plant.grammar->kinds[word.kind[each.module]];
     double* answer = word.parameter.data() + word.at[each.module];
     const Prober& prober = each.prober;
+    const auto say = [&](std::uint32_t at, double value) {
+      if (at < kind.arity) answer[at] = value + 0.0;  // -0 becomes 0
+    };
     const auto fill = [&](std::uint32_t from, const glm::dvec3& v) {
-      for (std::uint32_t k = 0; k < 3 && from + k < kind.arity; ++k)
-        answer[from + k] = v[static_cast<int>(k)] + 0.0;
+      for (std::uint32_t k = 0; k < 3; ++k) say(from + k, v[static_cast<int>(k)]);
     };
     switch (kind.command) {
       case Command::ask_position:
@@ -277,10 +328,10 @@ void Garden::reply(Plant& plant) {
         const bool stands = prober.joint == Limbs::none ||
                             std::binary_search(plant.alive.begin(), plant.alive.end(), prober.joint);
         const double length = answer[0];
-        answer[0] = stands && surroundings_->is_free(prober, length) ? 1 : 0;
-        if (kind.arity > 1) answer[1] = surroundings_->room_at(prober.position);
-        if (kind.arity > 2) answer[2] = surroundings_->room_at(prober.position + prober.heading * length);
-        if (kind.arity > 3) answer[3] = stands ? surroundings_->light_at(prober.position) : 0;
+        say(0, stands && surroundings_->is_free(prober, length) ? 1 : 0);
+        if (kind.arity > 1) say(1, surroundings_->room_at(prober.position));
+        if (kind.arity > 2) say(2, surroundings_->room_at(prober.position + prober.heading * length));
+        if (kind.arity > 3) say(3, stands ? surroundings_->light_at(prober.position) : 0);
         if (kind.arity > 4) fill(4, surroundings_->toward_surface(prober.position));
       }
     }
@@ -303,6 +354,15 @@ void Garden::cut(Skeleton& skeleton) const {
   const auto membership =
       params_.environment ? membership_of(params_.environment->membership) : Membership::centre;
   prune(skeleton, *surroundings_, membership, job_);
+}
+
+TurtleReport Garden::report(const Turtle& turtle, Skeleton& skeleton) const {
+  if (!cuts()) return turtle.report();
+  const TurtleReport whole = report_of(skeleton.limbs);
+  cut(skeleton);
+  const TurtleReport left = report_of(skeleton.limbs);
+  const bool same = left.segments == whole.segments && left.total_length == whole.total_length;
+  return same ? turtle.report() : left;  // the turtle's numbers are not rounded to floats
 }
 
 void Garden::add_others(Model& model) {

@@ -33,6 +33,11 @@ class Garden {
   /// Draws the word of the first plant, from which a step may be missing of which there is only a share.
   void draw(const Grammar& grammar, Drawing& drawing, double share) const;
   void cut(Skeleton& skeleton) const;
+  /// May cut() take something away?
+  bool cuts() const { return surroundings_->bounds_growth(); }
+  /// What is left of a drawing after cut(), which it does. `skeleton` is what the turtle wrote; not read
+  /// unless cuts().
+  TurtleReport report(const Turtle& turtle, Skeleton& skeleton) const;
 
   /// The companions' models and the hosts, as they stand.
   void add_others(Model& model);
@@ -42,6 +47,7 @@ class Garden {
   struct Host;
   void answer();
   void look(Plant& plant, std::vector<Stretch>& grown);
+  static void follow(Plant& plant, const Turtle& turtle, const Limbs& limbs, std::size_t before);
   void reply(Plant& plant);
 
   const LsystemParams& params_;

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/generators/lsystem/contours.h"
 #include "core/generators/lsystem/draw.h"
@@ -212,8 +213,7 @@ void warn_of_word(const Grammar& grammar, const std::vector<std::uint64_t>& coun
 
 Json vector(const glm::dvec3& v) { return Json::array({v.x + 0.0, v.y + 0.0, v.z + 0.0}); }
 
-Json described(const Turtle& turtle) {
-  const TurtleReport& report = turtle.report();
+Json described(const Turtle& turtle, const TurtleReport& report) {
   return {{"segments", report.segments},
           {"total_length", report.total_length},
           {"position", vector(turtle.position())},
@@ -235,6 +235,21 @@ Json described(const std::vector<Warning>& warnings) {
     list.push_back(std::move(row));
   }
   return list;
+}
+
+/// Grows the plant for its word, and once more a step less where it is drawn between two steps.
+void grow_and_tell(Grammar& grammar, const LsystemParams& params, TextWriter& writer, Json& turtle, Job& job) {
+  Garden garden(params, job);
+  garden.grow(grammar, steps_of(params));
+  write(garden.word(), writer);
+  std::optional<Garden> younger;
+  if (share_of(params) != 1) younger.emplace(params, job).grow(grammar, steps_of(params) - 1);
+  const Garden& drawn_in = younger ? *younger : garden;
+  Skeleton skeleton(job);
+  Drawing drawing(grammar, params, drawn_in.cuts() ? &skeleton : nullptr, job);
+  drawn_in.draw(grammar, drawing, share_of(params));
+  warn_of_braces(drawing, grammar.warnings);
+  turtle = described(drawing.turtle(), drawn_in.report(drawing.turtle(), skeleton));
 }
 
 }  // namespace
@@ -286,12 +301,10 @@ Result<Json> derive(const LsystemParams& params, Job& job) {
   Drawing drawing(*grammar, params, nullptr, job);
   TextWriter writer(*grammar, longest_text);
   std::vector<std::uint64_t> counts;
+  Json turtle;
   tell_place(params, [&] {
     if (Garden::needed(*grammar, params)) {
-      Garden garden(params, job);
-      garden.grow(*grammar, steps_of(params));
-      write(garden.word(), writer);
-      garden.draw(*grammar, drawing, 1);
+      grow_and_tell(*grammar, params, writer, turtle, job);
       counts = writer.counts();
     } else if (is_plain(*grammar)) {
       draw(*grammar, params, drawing, job);
@@ -309,7 +322,10 @@ Result<Json> derive(const LsystemParams& params, Job& job) {
       counts = writer.counts();
     }
   });
-  warn_of_braces(drawing, grammar->warnings);
+  if (turtle.is_null()) {
+    turtle = described(drawing.turtle(), drawing.turtle().report());
+    warn_of_braces(drawing, grammar->warnings);
+  }
   std::map<std::string, std::uint64_t> by_symbol;
   std::uint64_t length = 0, bytes = 0;
   for (std::size_t kind = 0; kind < counts.size(); ++kind) {
@@ -323,7 +339,7 @@ Result<Json> derive(const LsystemParams& params, Job& job) {
               {"counts", by_symbol},
               {"truncated", writer.truncated || (is_plain(*grammar) && bytes > writer.text.size())},
               {"string", std::move(writer.text)},
-              {"turtle", described(drawing.turtle())},
+              {"turtle", std::move(turtle)},
               {"warnings", described(grammar->warnings)}};
 }
 

@@ -36,6 +36,7 @@ Weather weather_of(const LsystemParams::Weather& given) {
 
 void shape(Skeleton& skeleton, const LsystemParams& params, Job& job) {
   set_widths(skeleton.limbs, params, job);
+  skeleton.limbs.share = Array<float>(job);
   if (params.weather) bend(skeleton, weather_of(*params.weather), job);
 }
 

@@ -55,26 +55,26 @@ void Sprouting::stay(const Module& module) {
     if (module.kind == grammar_.close) --cut_depth_;
   }
   const double share = cut_depth_ > 0 ? 1 - share_ : 1;
-  drawing_.grow({module.kind, module.parameters, module.key}, module.born, {share, 0});
+  drawing_.grow({module.kind, module.parameters, {module.key, 0}}, module.born, {share, 0, 1});
 }
 
-bool Sprouting::draws(KindId kind) const {
+/// Polygons and generalized cylinders are wholes that several modules make: none of them goes by degrees.
+bool Sprouting::can_fade(KindId kind) const {
   if (grammar_.interpretation.rewrites(kind)) return true;
   switch (grammar_.kinds[kind].command) {
-    case Command::draw:
-    case Command::move:
-    case Command::draw_plain:
-    case Command::move_plain:
-    case Command::left:
-    case Command::right:
-    case Command::down:
-    case Command::up:
-    case Command::roll_left:
-    case Command::roll_right:
-    case Command::turn_around:
-      return true;
-    default:
+    case Command::none:
+    case Command::push:
+    case Command::pop:
+    case Command::cut:
+    case Command::polygon_open:
+    case Command::polygon_close:
+    case Command::vertex:
+    case Command::sweep_begin:
+    case Command::sweep_control:
+    case Command::sweep_end:
       return false;
+    default:
+      return true;
   }
 }
 
@@ -85,14 +85,18 @@ bool Sprouting::may_take_over(KindId kind) const {
 void Sprouting::sprout(const Module& module, const Production& production, const double* slots) {
   const std::span<const Template> successor = grammar_.successor(production.successor);
   const Template* heir = nullptr;
-  int depth = 0;
+  int depth = 0, braces = 0;
   for (const Template& each : successor) {
+    const Command command = grammar_.kinds[each.kind].command;
     if (each.kind == grammar_.open) ++depth;
     if (each.kind == grammar_.close) --depth;
-    if (depth == 0 && each.kind == module.kind && !heir && may_take_over(each.kind)) heir = &each;
+    if (command == Command::polygon_open) ++braces;
+    if (command == Command::polygon_close) --braces;
+    if (depth == 0 && braces == 0 && each.kind == module.kind && !heir && may_take_over(each.kind))
+      heir = &each;
   }
-  if (!heir && draws(module.kind)) {
-    drawing_.grow({module.kind, module.parameters, module.key}, module.born, {1 - share_, 0});
+  if (!heir && can_fade(module.kind)) {
+    drawing_.fade({module.kind, module.parameters, {module.key, 0}}, module.born, 1 - share_);
   }
   depth = 0;
   for (const Template& each : successor) {
@@ -102,12 +106,13 @@ void Sprouting::sprout(const Module& module, const Production& production, const
     double* own = parameters_.data();
     fill_arguments(grammar_, each, slots, key, own);
     if (&each != heir) {
-      drawing_.grow({each.kind, own, key}, step_ + share_, {share_, depth});
+      drawing_.grow({each.kind, own, {key, 0}}, step_ + share_, {share_, depth, 1});
       continue;
     }
     for (std::uint32_t i = 0; i < grammar_.kinds[each.kind].arity; ++i)
       own[i] = between(module.parameters[i], own[i], share_);
-    drawing_.grow({each.kind, own, key}, between(module.born, step_ + 1.0, share_), {1, 0});
+    drawing_.grow({each.kind, own, {key, module.key}}, between(module.born, step_ + 1.0, share_),
+                  {1, 0, share_});
   }
 }
 

@@ -2,19 +2,19 @@
 /// Fractional iterations: the word between two derivation steps, drawn so that age changes it continuously.
 ///
 /// A word of n steps is rewritten once more while it is drawn, and what the step writes has only the share f
-/// of its effect: lengths grow from nothing, turns outside new brackets turn from nothing, widths leave from
-/// the turtle's own. So at f = 0 the drawing is that of step n, at f = 1 that of step n + 1, whatever the
-/// grammar:
+/// of its effect: lengths and organs grow from nothing, turns outside new brackets turn from nothing, what
+/// symbols set leaves from the turtle's own. So at f = 0 the drawing is that of step n, at f = 1 that of step
+/// n + 1, whatever the grammar:
 ///
-/// - The first module of a successor outside brackets that is of its predecessor's kind takes over from it:
-///   its parameters go from those of the predecessor to its own.
-/// - A predecessor that draws or turns and that no module takes over from shrinks away by 1 - f in front of
-/// its
-///   successor.
+/// - The first module of a successor outside brackets and braces that is of its predecessor's kind is its
+///   heir: its parameters, and what it draws at random, go from those of the predecessor to its own.
+/// - A predecessor that no module takes over from shrinks away by 1 - f in front of its successor, and so
+///   does what it sets.
 /// - What a % takes away shrinks by 1 - f.
 ///
-/// Colours and what $ rolls change at once. Compare Prusinkiewicz and Lindenmayer, "The Algorithmic Beauty of
-/// Plants", 1990, section 6.1, where growth functions of single systems are fitted by hand.
+/// Colours, contours and the choice of interpretation rules change at once. Compare Prusinkiewicz and
+/// Lindenmayer, "The Algorithmic Beauty of Plants", 1990, section 6.1, where growth functions of single
+/// systems are fitted by hand.
 #include "core/generators/lsystem/contexts.h"
 #include "core/generators/lsystem/draw.h"
 
@@ -46,7 +46,7 @@ class Sprouting {
   };
   void stay(const Module& module);
   void sprout(const Module& module, const Production& production, const double* slots);
-  bool draws(KindId kind) const;
+  bool can_fade(KindId kind) const;
   bool may_take_over(KindId kind) const;
 
   const Grammar& grammar_;

@@ -313,6 +313,70 @@ TEST(Contour, NamesThePointAtWhichAnOutlineIsAtFault) {
   EXPECT_THAT(*contour_fault(twice), testing::HasSubstr("more than once"));
 }
 
+/// A straight limb whose frames roll by so many degrees from one joint to the next.
+Limbs rolling_limb(const Job& job, double degrees, float length) {
+  SkeletonMaker maker(job);
+  Frame frame;
+  std::uint32_t joint = maker.root({0, 0, 0});
+  for (int i = 0; i < 6; ++i) {
+    if (i > 0) {
+      if (i > 1) frame = roll(frame, math::sincos_degrees(degrees));
+      joint = maker.grow(joint, maker.limbs.position[joint] + glm::vec3{0, length, 0}, {0.5F, 0.5F});
+    }
+    maker.limbs.contour.push_back(1);
+    maker.limbs.frame.push_back(quaternion(frame));
+  }
+  return std::move(maker.limbs);
+}
+
+/// Corners of triangles whose normal looks away from the triangle.
+int corners_looking_inward(const Mesh& mesh) {
+  int count = 0;
+  for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
+    const std::uint32_t corner[3] = {mesh.index.at(i), mesh.index.at(i + 1), mesh.index.at(i + 2)};
+    const glm::vec3 face = glm::cross(mesh.position[corner[1]] - mesh.position[corner[0]],
+                                      mesh.position[corner[2]] - mesh.position[corner[0]]);
+    for (const std::uint32_t each : corner) count += glm::dot(face, mesh.normal[each]) < 0 ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(Skin, ShowsNoInsideWhereAHollowCrossSectionTwists) {
+  Job job = job_of();
+  std::vector<glm::dvec2> star;
+  for (int i = 0; i < 8; ++i) {
+    const math::SinCos at = math::sincos_degrees(45 * i);
+    star.emplace_back(at.cos * (i % 2 ? 0.2828 : 1), at.sin * (i % 2 ? 0.2828 : 1));
+  }
+  const std::vector<Contour> contours{make_contour(star)};
+  for (const double degrees : {-45.0, -20.0, 8.0, 45.0}) {
+    for (const float length : {0.6F, 3.0F}) {
+      for (const int sides : {8, 16}) {
+        for (const bool has_uv : {false, true}) {
+          const auto barks = skin(rolling_limb(job, degrees, length),
+                                  {.sides = sides, .uv = has_uv, .contours = contours}, job);
+          ASSERT_THAT(barks, SizeIs(1));
+          EXPECT_THAT(faults(barks[0].mesh), IsEmpty());
+          EXPECT_EQ(corners_looking_inward(barks[0].mesh), 0)
+              << degrees << " degrees in " << length << " m by " << sides << " sides";
+        }
+      }
+    }
+  }
+}
+
+TEST(Skin, CutsATwistedInternodeIntoItsStacks) {
+  Job job = job_of();
+  const std::vector<glm::dvec2> square{{0.7, 0.7}, {-0.7, 0.7}, {-0.7, -0.7}, {0.7, -0.7}};
+  const std::vector<Contour> contours{make_contour(square)};
+  const auto triangles = [&](double degrees, int stacks) {
+    return skin_triangles(rolling_limb(job, degrees, 3), {.sides = 4, .stacks = stacks, .contours = contours});
+  };
+  EXPECT_EQ(triangles(0, 8), triangles(0, 1));
+  EXPECT_EQ(triangles(10, 8), triangles(0, 1) + 4U * 7 * 8) << "four internodes twist";
+  EXPECT_EQ(triangles(45, 1), triangles(0, 1) + 4U * 2 * 8) << "a ring for each 15 degrees";
+}
+
 TEST(Skin, HasNoFaultOnCurvesThatComeBackToTheirOwnCorners) {
   Job job = job_of();
   for (std::uint64_t seed = 0; seed < 20; ++seed) {

@@ -51,6 +51,30 @@ TEST_F(Widths, AddUpPipesWhereLimbsMeet) {
   EXPECT_NEAR(limbs.radius[1], 0.1 * math::pow(2, 0.4), 1e-7);
 }
 
+TEST_F(Widths, CountAnInternodeByItsShare) {
+  const auto with = [&](std::vector<float> shares) {
+    Limbs limbs = fork();
+    for (const float each : shares) limbs.share.push_back(each);
+    return limbs;
+  };
+  for (const float little : {0.0F, 1e-6F}) {
+    Limbs pipes = with({1, 1, 1, little, little});
+    widen_by_pipes(pipes, {0.5, 2}, job);
+    EXPECT_NEAR(pipes.radius[1], 0.5, 1e-3) << "the branch is not there yet, nor what follows the tip";
+    EXPECT_NEAR(pipes.radius[2], 0.5, 1e-3);
+    Limbs gone = with({1, 1, little, 1, 1});
+    widen_by_pipes(gone, {0.5, 2}, job);
+    EXPECT_NEAR(gone.radius[2], 0.5, 1e-3) << "what goes passes on what grows from it";
+    Limbs chain = with({1, 1, 1, little, 1});
+    widen_by_longest_chain(chain, {0.9, 0.3}, job);
+    EXPECT_NEAR(chain.radius[1], 0.6, 1e-3) << "two links, one of them gone";
+  }
+  Limbs whole = with({1, 1, 1, 1, 1}), plain = fork();
+  widen_by_pipes(whole, {0.5, 2}, job);
+  widen_by_pipes(plain, {0.5, 2}, job);
+  for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_EQ(whole.radius[i], plain.radius[i]);
+}
+
 TEST_F(Widths, LeaveAnEmptySkeletonEmpty) {
   Limbs none(job);
   widen_by_pipes(none, {}, job);

@@ -71,6 +71,24 @@ TEST(Garden, SeesWhatHasGrownButNotItsOwnStem) {
   EXPECT_EQ(answer("F(1)[+(90)F(1)]-(90)?E(1)F(1)"), "?E(1)") << "siblings do not count";
   EXPECT_EQ(answer("[F(2)]@M(-1,1,0)@R(1,0,0)F(0.5)?E(1)"), "?E(0)") << "a stem stands in the way";
   EXPECT_EQ(answer("[F(2)]@M(-1,1,0)@R(1,0,0)F(0.5)?E(0.3)"), "?E(1)");
+  for (const char* own : {"?E(1)F", "@M(5,0,0)?E(1)F", "F?E(1)F", "F?E(1)FF", "F?E(1)f(0.5)F", "F?E(1)F[+F]F",
+                          "[?E(1)F][+F]", "F[+?E(1)FF[-F]F]FF", "!(2)FF(0.1)F(0.1)F(0.1)F(0.1)?E(1)F"}) {
+    EXPECT_EQ(answer(own), "?E(1)") << own << " has its own way before it";
+  }
+  EXPECT_EQ(answer("F[+(90)F-(90)FF]F+(90)?E(1.5)"), "?E(0)") << "another's";
+}
+
+TEST(Garden, SaysNoMinusNought) {
+  EXPECT_EQ(derived(grammar_of("?E(1,0,0,0,0,0,0)", {}, 0)).find('-'), std::string::npos);
+  LsystemParams params = grammar_of("F(1)?E(0.5,0,0,0,0,0,0)", {}, 0);
+  params.environment = inside(LsystemParams::SolidShape::box, {10, 1, 10});
+  EXPECT_EQ(derived(params).find("-0,"), std::string::npos) << "on the surface there is no room";
+}
+
+TEST(Garden, AnswersWhereLinesAreDrawn) {
+  LsystemParams params = grammar_of("F?E(1)F[+F]F", {}, 1);
+  params.style = LsystemParams::Style::lines;
+  EXPECT_EQ(derived(params), "F?E(1)F[+F]F");
 }
 
 TEST(Garden, LeavesLessLightBelowOthers) {
@@ -88,6 +106,31 @@ TEST(Garden, CutsWhatLeavesTheGuide) {
   EXPECT_FLOAT_EQ(bounds_of_drawing(params).max.y, 2);
   params.environment->membership = LsystemParams::Membership::clipped;
   EXPECT_NEAR(bounds_of_drawing(params).max.y, 2.6, 1e-4);
+}
+
+TEST(Garden, CutsCrossSectionsWithTheirLimbs) {
+  LsystemParams params = grammar_of("[@#(1)+(60)FFFF]@#(0)FF@#(1)F", {}, 0);
+  params.environment = inside(LsystemParams::SolidShape::box, {2, 10, 2});
+  params.contours = {{{0.9, 0.1}, {-0.5, 0.8}, {-0.5, -0.8}}};
+  Job job = job_of(1);
+  const Result<Model> model = generate(params, job);
+  ASSERT_TRUE(model);
+  EXPECT_FLOAT_EQ(bounds_of(*model).max.y, 3);
+}
+
+TEST(Garden, TellsOfTheDrawingWhatStands) {
+  LsystemParams params = grammar_of("A", {"A -> FA"}, 10);
+  params.environment = inside(LsystemParams::SolidShape::box, {2, 4, 2});
+  const auto told = [&] {
+    Job job = job_of(1);
+    return derive(params, job)->at("turtle");
+  };
+  EXPECT_EQ(told().at("segments"), 4);
+  EXPECT_EQ(told().at("total_length"), 4);
+  EXPECT_EQ(told().at("bounds").at("max")[1], 4);
+  params.age = 2.5;
+  EXPECT_EQ(told().at("segments"), 3);
+  EXPECT_EQ(told().at("total_length"), 2.5) << "as it is drawn at its age";
 }
 
 TEST(Garden, GrowsCompanionsStepByStep) {
