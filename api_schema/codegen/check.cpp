@@ -9,10 +9,10 @@ namespace {
 
 using Words = std::set<std::string>;
 
-const Words annotations = {"$schema",   "title",    "description", "default",  "examples",   "x-unit",
-                           "x-group",   "x-step",   "x-order",     "x-short",  "x-advanced", "x-cpp-name",
-                           "x-grammar", "x-widget", "x-steps",     "x-params", "x-formats",  "x-full",
-                           "x-formats-where", "x-motions"};
+const Words annotations = {"$schema",    "title",      "description", "default",         "examples",
+                           "x-unit",     "x-group",    "x-step",      "x-order",         "x-short",
+                           "x-advanced", "x-cpp-name", "x-grammar",   "x-widget",        "x-steps",
+                           "x-params",   "x-formats",  "x-full",      "x-formats-where", "x-motions"};
 
 /// The keywords that mean something for each type of value, annotations aside.
 Words keywords_for(const std::string& type) {

@@ -36,7 +36,8 @@ TEST(Motions, AreThoseThatTheSchemasName) {
     std::vector<std::string> motions;
     if (generator.grows) motions.emplace_back("animation");
     if (generator.sways) motions.emplace_back("wind");
-    EXPECT_EQ(motions, Json::parse(*schema_json(generator.name)).value("x-motions", std::vector<std::string>()))
+    EXPECT_EQ(motions,
+              Json::parse(*schema_json(generator.name)).value("x-motions", std::vector<std::string>()))
         << generator.name;
   }
 }
