@@ -238,7 +238,8 @@ Json described(const std::vector<Warning>& warnings) {
 }
 
 /// Grows the plant for its word, and once more a step less where it is drawn between two steps.
-void grow_and_tell(Grammar& grammar, const LsystemParams& params, TextWriter& writer, Json& turtle, Job& job) {
+void grow_and_tell(Grammar& grammar, const LsystemParams& params, TextWriter& writer, Json& turtle,
+                   Job& job) {
   Garden garden(params, job);
   garden.grow(grammar, steps_of(params));
   write(garden.word(), writer);
