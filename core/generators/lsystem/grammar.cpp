@@ -137,7 +137,9 @@ std::uint32_t Compiler::surface_of(std::string_view symbol) const {
 void Compiler::check_surface(const WrittenModule& module, Source& source) {
   if (module.symbol != "~") return;
   if (params_.surfaces.empty()) {
-    warn(source, module.offset, "found `~` and no `surfaces`: it draws nothing");
+    warn(
+        source, module.offset,
+        "found `~` and no `surfaces`: it places no organ, and what follows it is read as modules of its own");
     return;
   }
   if (!lang::has_room(source.faults)) return;

@@ -163,8 +163,15 @@ TEST(Sweep, LeavesBranchesAsTheyAre) {
 }
 
 TEST(Sweep, RefusesACrossSectionThatIsNotThere) {
+  const auto issues =
+      issues_of(R"json({"axiom":"@Gs@#(2)f(1)@Ge","contours":[[[1,0],[0,1],[-1,0],[0,-1]]]})json");
+  ASSERT_THAT(issues, SizeIs(1));
+  EXPECT_EQ(issues[0].pointer, "/axiom");
+  EXPECT_THAT(issues[0].message, testing::HasSubstr("expected 0, the circle, to 1"));
+  // What is known only when it is drawn is refused there.
   Job job(1, Job::Options{});
-  const auto params = params_of(R"({"axiom":"@Gs@#(2)f(1)@Ge","contours":[[[1,0],[0,1],[-1,0],[0,-1]]]})");
+  const auto params = params_of(R"json({"axiom":"A(2)","productions":["A(n)->@Gs@#(n)f(1)@Ge"],"iterations":1,
+                                        "contours":[[[1,0],[0,1],[-1,0],[0,-1]]]})json");
   try {
     (void)generate(params, job);
     FAIL() << "made all the same";
