@@ -72,7 +72,9 @@ test('import prints a request, and its warnings apart', async () => {
   assert.equal(made.out.subarray(0, 4).toString(), 'glTF');
   assert.equal((await run(program, ['import', foreign, '--format', 'nothing'])).status, 1);
   assert.equal((await run(program, ['import', path.join(folder, 'missing.l'), '--format', 'fractint'])).status, 2);
-  assert.equal((await run(program, ['import', foreign])).status, 2);
+  const unnamed = await run(program, ['import', foreign]);
+  assert.equal(unnamed.status, 0, unnamed.err);
+  assert.deepEqual(unnamed.out, out);
 });
 
 test('validate and derive print JSON', async () => {
