@@ -117,7 +117,8 @@ void append_appraisal(const Request& request, Imported& imported, const Limits& 
     }
     return;
   }
-  for (const Json& each : Json::parse(*appraisal).at("warnings")) {
+  const Json told = Json::parse(*appraisal);
+  for (const Json& each : told.at("warnings")) {
     append({each.value("pointer", ""), each.value("message", ""), each.value("line", 0),
             each.value("column", 0)});
   }
