@@ -15,8 +15,8 @@ void wait_for(const std::function<bool()>& condition) {
 }
 
 TEST(Threads, RunTasksAtOnceUpToTheirNumber) {
+  std::latch inside(3), leave(1);  // they outlive the threads, which are joined first
   Threads threads(3);
-  std::latch inside(3), leave(1);
   for (int i = 0; i < 3; ++i) {
     EXPECT_TRUE(threads.start([&] {
       inside.count_down();

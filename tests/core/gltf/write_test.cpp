@@ -144,6 +144,7 @@ TEST(Glb, PointsIntoTheArraysOfTheMeshInsteadOfCopyingThem) {
   const Job fresh = job();
   Mesh mesh = square(fresh);
   mesh.position = Array<glm::vec3>(fresh, 10'000, {0, 0, 0});
+  mesh.bounds = {};
   mesh.normal = {};
   mesh.uv[0] = {};
   const void* address = mesh.position.data();
