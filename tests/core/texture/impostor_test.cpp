@@ -121,7 +121,9 @@ TEST(Impostor, KeepsAsMuchOfThePictureAsTheModelCovers) {
   Rng rng(5);
   for (int i = 0; i < 900; ++i) {  // each half a texel wide, most apart from each other
     const auto x = static_cast<float>(i % 30), y = static_cast<float>(i / 30);
-    const glm::vec2 low(x + static_cast<float>(rng.unit()) * 0.8F, y + static_cast<float>(rng.unit()) * 0.4F);
+    // One after the other: compilers draw the arguments of a call in an order of their own.
+    const float south = y + static_cast<float>(rng.unit()) * 0.4F;
+    const glm::vec2 low(x + static_cast<float>(rng.unit()) * 0.8F, south);
     boxes.push_back({low, low + glm::vec2(0.2F, 0.6F)});
   }
   Model model;
