@@ -66,25 +66,32 @@ float limb_size(float birth, float share) {
   return 1 - left * left;
 }
 
-/// When the internode of each joint of a tree that has an age sprouted, 0..1.
-Array<float> sprouting_of(const Limbs& limbs, Job& job) {
+/// When the internode of each joint sprouts, 0..1: with the joint before it, but where a limb begins when
+/// `sprout(joint, birth of its parent, place on its parent)` says so.
+template <class Sprout>
+Array<float> births(const Limbs& limbs, Job& job, const Sprout& sprout) {
   Array<float> birth(job, limbs.size(), 0.0F);
   const Array<float> place = places(limbs, job);
   for (std::size_t i = 0; i < limbs.size(); ++i) {
     if (i % 4096 == 0) job.check();
     const std::uint32_t parent = limbs.parent[i];
     if (parent == Limbs::none) continue;
-    birth[i] = birth[parent];
-    if (!limbs.starts_limb[i]) continue;
-    const float around = std::max(limbs.radius[parent], limbs.base_radius[i]);
+    birth[i] = limbs.starts_limb[i] ? sprout(i, birth[parent], place[parent]) : birth[parent];
+  }
+  return birth;
+}
+
+/// Of a tree that has an age: limbs sprout early.
+Array<float> sprouting_of(const Limbs& limbs, Job& job) {
+  return births(limbs, job, [&](std::size_t i, float parent_birth, float place) {
+    const float around = std::max(limbs.radius[limbs.parent[i]], limbs.base_radius[i]);
     const float thickness = around > 0 ? limbs.base_radius[i] / around : 1.0F;
     float drawn = fraction(key_at(limbs.key[i], 0xA6E));
     if (limbs.order[i] <= 1) drawn *= drawn;
-    const float chance = by_place * place[parent] + (1 - by_place) * drawn;
+    const float chance = by_place * place + (1 - by_place) * drawn;
     const float soon = 1 - by_thickness * thickness * thickness;
-    birth[i] += (1 - birth[parent]) * young_share * chance * soon;
-  }
-  return birth;
+    return parent_birth + (1 - parent_birth) * young_share * chance * soon;
+  });
 }
 
 template <class T>
@@ -99,19 +106,11 @@ void compact(Array<T>& values, const Array<std::uint32_t>& new_place, std::size_
 }  // namespace
 
 Array<float> births_of(const Limbs& limbs, Job& job) {
-  Array<float> birth(job, limbs.size(), 0.0F);
-  const Array<float> place = places(limbs, job);
-  for (std::size_t i = 0; i < limbs.size(); ++i) {
-    if (i % 4096 == 0) job.check();
-    const std::uint32_t parent = limbs.parent[i];
-    if (parent == Limbs::none) continue;
-    birth[i] = birth[parent];
-    if (!limbs.starts_limb[i]) continue;
+  return births(limbs, job, [&](std::size_t i, float parent_birth, float place) {
     const float chance = 2 * fraction(key_at(limbs.key[i], 0xA6E)) - 1;
-    const float wait = first_share + (last_share - first_share) * place[parent] + spread_share * chance;
-    birth[i] = std::min(latest, birth[parent] + (1 - birth[parent]) * std::max(0.0F, wait));
-  }
-  return birth;
+    const float wait = first_share + (last_share - first_share) * place + spread_share * chance;
+    return std::min(latest, parent_birth + (1 - parent_birth) * std::max(0.0F, wait));
+  });
 }
 
 void make_young(Skeleton& skeleton, double share, Job& job) {
