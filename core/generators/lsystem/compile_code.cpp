@@ -12,38 +12,13 @@
 #include <algorithm>
 
 #include "core/generators/lsystem/compiler.h"
+#include "core/generators/lsystem/statements.h"
 
 namespace seedmesh::lsystem {
 namespace {
 
 constexpr int deepest = 64;                 // statements inside each other
-constexpr std::size_t longest_name = 64;    // of a local
 constexpr std::size_t most_locals = 1'000;  // of one production, with those of blocks that are over
-
-bool is_name(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-
-/// Of a name that is too long for a local one the end of what is too long.
-std::size_t end_of_name(std::string_view text, std::size_t at, std::size_t to) {
-  if (at < to && text[at] >= '0' && text[at] <= '9') return at;
-  to = std::min(to, at + longest_name + 1);
-  while (at < to && is_name(text[at])) ++at;
-  return at;
-}
-
-std::size_t end_of_whole_name(std::string_view text, std::size_t at, std::size_t to) {
-  std::size_t end = end_of_name(text, at, to);
-  while (end > at && end < to && is_name(text[end])) ++end;
-  return end;
-}
-
-/// `word` and the parenthesis behind it stand at `at`: the place of the parenthesis, or `to`.
-std::size_t open_after(std::string_view text, std::string_view word, std::size_t at, std::size_t to) {
-  if (text.substr(at, std::min(word.size(), to - at)) != word) return to;
-  const std::size_t open = skip_spaces(text, at + word.size(), to);
-  return open < to && text[open] == '(' ? open : to;
-}
 
 }  // namespace
 
@@ -55,6 +30,7 @@ class Compiler::CodeReader {
         source_(source),
         text_(source.text),
         marks_(source.marks_of_text()),
+        statements_(text_, marks_),
         steps_(compiler.grammar_.steps),
         slots_(slots),
         allowed_(allowed) {}
@@ -78,17 +54,17 @@ class Compiler::CodeReader {
 
   /// Where a statement at `at` ends; `at` where there is none.
   std::size_t statement(std::size_t at, std::size_t to) {
-    if (const std::size_t open = loop_at(at, to); open < to) return for_loop(open, to);
+    if (const std::size_t open = statements_.loop_at(at, to); open < to) return for_loop(open, to);
     if (const std::size_t open = open_after(text_, "while", at, to); open < to) return while_loop(open, to);
-    if (const std::size_t open = condition_at(at, to); open < to) return choice(open, to);
-    if (is_let(at, to)) {
+    if (const std::size_t open = statements_.condition_at(at, to); open < to) return choice(open, to);
+    if (statements_.is_let(at, to)) {
       const std::size_t name = skip_spaces(text_, at + 3, to);
       return change(name, to, Ends::semicolon, Binds::yes);
     }
     const std::size_t end = end_of_name(text_, at, to);
     const bool binds = allowed_ == Allowed::statements_alone;
     const bool known = end > at && (binds || local(text_.substr(at, end - at)) != nullptr);
-    if (known && changes(skip_spaces(text_, end, to), to)) {
+    if (known && statements_.changes(skip_spaces(text_, end, to), to)) {
       return change(at, to, Ends::semicolon, binds ? Binds::yes : Binds::no);
     }
     return at;
@@ -121,50 +97,19 @@ class Compiler::CodeReader {
     }
   }
 
-  std::size_t loop_at(std::size_t at, std::size_t to) const {
-    const std::size_t open = open_after(text_, "for", at, to);
-    return open < to && marks_.has_semicolon({open, marks_.closing(open, to)}) ? open : to;
-  }
-
-  std::size_t condition_at(std::size_t at, std::size_t to) const {
-    const std::size_t open = open_after(text_, "if", at, to);
-    if (open == to) return to;
-    const std::size_t close = marks_.closing(open, to);
-    const std::size_t next = skip_spaces(text_, std::min(close + 1, to), to);
-    const bool braces = next < to && text_[next] == '{';
-    return braces || marks_.has_comparison({open, close}) ? open : to;
-  }
-
-  bool is_let(std::size_t at, std::size_t to) const {
-    if (text_.substr(at, std::min<std::size_t>(3, to - at)) != "let" || at + 3 >= to) return false;
-    const std::size_t name = skip_spaces(text_, at + 3, to);
-    const std::size_t end = end_of_whole_name(text_, name, to);
-    const std::size_t equals = skip_spaces(text_, end, to);
-    return name > at + 3 && end > name && equals < to && text_[equals] == '=';
-  }
-
-  /// One of = += -= *= /= ++ -- stands at `at`, and no ==.
-  bool changes(std::size_t at, std::size_t to) const {
-    const std::string_view two = text_.substr(at, std::min<std::size_t>(2, to - at));
-    for (const std::string_view each : {"+=", "-=", "*=", "/=", "++", "--"}) {
-      if (two == each) return true;
-    }
-    return !two.empty() && two[0] == '=' && two != "==";
-  }
-
   /// name change [";"]; gives the end.
   std::size_t change(std::size_t at, std::size_t to, Ends ends, Binds binds) {
     const std::size_t name_end = end_of_whole_name(text_, at, to);
     const std::string name(text_.substr(at, name_end - at));
     const std::size_t sign = skip_spaces(text_, name_end, to);
-    if (name.empty() || !changes(sign, to)) {
+    if (name.empty() || !statements_.changes(sign, to)) {
       fault(at, "expected a name and its new value, as in `i = 0` or `i++`");
       stopped_ = true;
       return to;
     }
     std::size_t end = to;
     if (ends == Ends::semicolon) {
-      end = find_semicolon(sign, to);
+      end = statements_.find_semicolon(sign, to);
       if (end == to) fault(at, "found a statement without its `;`");
     }
     const bool assigns = text_[sign] == '=';
@@ -235,16 +180,6 @@ class Compiler::CodeReader {
     steps_.push_back({Step::Does::set, {}, value, slot, 0});
   }
 
-  std::size_t find_semicolon(std::size_t at, std::size_t to) const {
-    int depth = 0;
-    for (; at < to; ++at) {
-      if (text_[at] == '(') ++depth;
-      if (text_[at] == ')') --depth;
-      if (depth == 0 && text_[at] == ';') return at;
-    }
-    return to;
-  }
-
   std::uint32_t here() const { return static_cast<std::uint32_t>(steps_.size()); }
   std::uint32_t add(Step::Does does, const lang::Expression& value = {}, std::uint32_t target = 0) {
     steps_.push_back({does, {}, value, 0, target});
@@ -253,9 +188,9 @@ class Compiler::CodeReader {
 
   std::size_t for_loop(std::size_t open, std::size_t to) {
     const std::size_t close = marks_.closing(open, to);
-    const std::size_t first = find_semicolon(open + 1, close);
-    const std::size_t second = first < close ? find_semicolon(first + 1, close) : close;
-    if (close == to || second == close || find_semicolon(second + 1, close) < close) {
+    const std::size_t first = statements_.find_semicolon(open + 1, close);
+    const std::size_t second = first < close ? statements_.find_semicolon(first + 1, close) : close;
+    if (close == to || second == close || statements_.find_semicolon(second + 1, close) < close) {
       fault(open, "expected `(start; condition; change)`");
       stopped_ = true;
       return to;
@@ -375,16 +310,18 @@ class Compiler::CodeReader {
   }
 
   bool begins_statement(std::size_t at, std::size_t to) const {
-    if (loop_at(at, to) < to || open_after(text_, "while", at, to) < to) return true;
-    if (condition_at(at, to) < to || is_let(at, to)) return true;
+    if (statements_.loop_at(at, to) < to || open_after(text_, "while", at, to) < to) return true;
+    if (statements_.condition_at(at, to) < to || statements_.is_let(at, to)) return true;
     const std::size_t end = end_of_name(text_, at, to);
-    return end > at && changes(skip_spaces(text_, end, to), to) && local(text_.substr(at, end - at));
+    return end > at && statements_.changes(skip_spaces(text_, end, to), to) &&
+           local(text_.substr(at, end - at));
   }
 
   Compiler& compiler_;
   Source& source_;
   std::string_view text_;
   const Marks& marks_;
+  Statements statements_;
   std::vector<Step>& steps_;
   std::uint32_t& slots_;
   Allowed allowed_;
@@ -394,24 +331,6 @@ class Compiler::CodeReader {
   int depth_ = 0;
   bool stopped_ = false;
 };
-
-bool Compiler::has_statements(Source& source, Slice slice) const {
-  const std::string_view text = source.text;
-  for (std::size_t at = slice.from; at < slice.to; ++at) {
-    const char c = text[at];
-    if (c != 'f' && c != 'w' && c != 'i' && c != 'l') continue;
-    if (at > slice.from && text[at - 1] == '@') continue;
-    const std::size_t open = open_after(text, "for", at, slice.to);
-    if (open < slice.to) {
-      const Marks& marks = source.marks_of_text();
-      if (marks.has_semicolon({open, marks.closing(open, slice.to)})) return true;
-    }
-    if (open_after(text, "while", at, slice.to) < slice.to) return true;
-    if (text.substr(at, std::min<std::size_t>(4, slice.to - at)) == "let ") return true;
-    if (open_after(text, "if", at, slice.to) < slice.to) return true;
-  }
-  return false;
-}
 
 Range Compiler::code(Source& source, Slice slice, std::uint32_t& slots) {
   const auto first = static_cast<std::uint32_t>(grammar_.steps.size());

@@ -1,7 +1,7 @@
 #pragma once
 /// Texts -> Grammar, for the files of this folder alone: grammar.cpp has the order of things and the symbols,
-/// compile_rules.cpp productions and words, compile_code.cpp statements, compile_frames.cpp frames,
-/// judge_grammar.cpp what can be told when all is read.
+/// compile_rules.cpp productions and words, compile_code.cpp statements, which statements.cpp finds,
+/// compile_frames.cpp frames, judge_grammar.cpp what can be told when all is read.
 #include <map>
 #include <optional>
 #include <set>
@@ -101,11 +101,13 @@ class Compiler {
   void warn_of_weights(const Rules& rules);
   void warn_of_dead(const Rules& rules);
 
+  // statements.cpp
+  bool has_statements(Source& source, Slice slice) const;
+
   // compile_code.cpp
   class CodeReader;
   friend class CodeReader;
-  /// The steps of text[slice]; empty where it has no statements, and is then a word.
-  bool has_statements(Source& source, Slice slice) const;
+  /// The steps of text[slice].
   Range code(Source& source, Slice slice, std::uint32_t& slots);
   Range assignments(Source& source, Slice slice, std::uint32_t& slots);
 

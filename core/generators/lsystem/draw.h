@@ -60,9 +60,15 @@ class Drawing {
     double degrees;
     math::SinCos bare;  ///< of `degrees`
   };
+  /// Streams of a module's own place; apart, so that a spread added to one does not move another.
+  enum class Spread : std::uint64_t { angle = 11, step = 12, width = 13 };
+  static double spread(std::uint64_t key, Spread of, double amount);
+  static double spread(const Keys& keys, Spread of, double amount, double heir);
   void interpret(KindId kind, const double* parameters, Keys keys, std::uint32_t depth);
   void write_interpreted(const Production& production, const double* parameters, Keys own,
                          std::uint32_t depth);
+
+  // obey.cpp
   void enter_frame(const double* parameters);
   void obey(const Kind& kind, const double* parameters, Keys keys);
   void follow(const Kind& kind, const double* parameters, Keys keys);
