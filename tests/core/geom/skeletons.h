@@ -36,6 +36,14 @@ class SkeletonMaker {
   }
 };
 
+/// A limb through the points, all of one radius.
+inline Limbs limb_through(const Job& job, const std::vector<glm::vec3>& points, float radius) {
+  SkeletonMaker maker(job);
+  std::uint32_t joint = maker.root(points[0]);
+  for (std::size_t i = 1; i < points.size(); ++i) joint = maker.grow(joint, points[i], {radius, radius});
+  return std::move(maker.limbs);
+}
+
 /// Limbs that turn about at random: sharp and gentle bends, steep and gentle taper, radii of 0, internodes of
 /// no length, side branches, several at one place, some drawn twice, several colours.
 inline Limbs random_limbs(const Job& job, std::uint64_t seed) {
