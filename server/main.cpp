@@ -1,5 +1,7 @@
 /// The program: seedmesh serve | generate | validate | derive | import | presets | manifest |
 /// sign | key | healthcheck.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
@@ -53,6 +55,86 @@ std::string formats_text() {
   return text + ".";
 }
 
+/// What the commands are told, besides the settings.
+struct Told {
+  std::string in, out = "-", preset, target, key_name;
+  double valid_for = 0;
+  ManifestOptions manifest;
+  ImportFiles files{"", "-", "", ""};
+  bool print_config = false;
+};
+
+/// Declares the commands and what each is told, with the settings of those that have some.
+void add_commands(CLI::App& app, Told& told, Texts& texts) {
+  const auto command = [&](const char* name, const char* text) { return app.add_subcommand(name, text); };
+  CLI::App* serving = command("serve", "Serve over HTTP.");
+  serving->add_flag("--print-config", told.print_config,
+                    "Print the effective configuration as JSON and end.");
+  CLI::App* generating = command("generate", "Make the model of a request.");
+  CLI::App* validating = command("validate", "Check a request and estimate its model.");
+  CLI::App* deriving = command("derive", "Print the generator's own result before geometry.");
+  for (CLI::App* each : {generating, validating, deriving}) {
+    each->add_option("request", told.in,
+                     "File with the request as JSON; - is standard input, as is none where one is piped in.");
+  }
+  generating->add_option("-o,--out", told.out,
+                         "File for the model; its extension chooses the format; - is standard output.");
+  CLI::App* importing = command("import", "Turn a file of another program into a request.");
+  importing->add_option("file", told.files.in, "The file; - is standard input.")->required();
+  importing->add_option("-f,--format", told.files.format, formats_text());
+  importing->add_option("-e,--entry", told.files.entry, "The system to take from a file that holds several.");
+  importing->add_option("-o,--out", told.files.out, "File for the request; - is standard output.");
+  command("presets", "List the presets, or print one.")->add_option("name", told.preset, "The one to print.");
+  CLI::App* many =
+      command("manifest", "Make the models of all requests of a file, on all cores, with resume.");
+  many->add_option("file", told.manifest.file,
+                   "Requests, one a line, or {\"name\", \"request\"}; - is standard input.")
+      ->required();
+  many->add_option("-o,--out", told.manifest.folder, "Folder for models and results.jsonl.")->required();
+  many->add_option("--part", told.manifest.part,
+                   "index/count: every count-th line alone, from index (0 to count - 1).");
+  many->add_flag("--quiet", told.manifest.quiet, "Tell no progress.");
+  CLI::App* signing = command("sign", "Sign a URL with the first of the signing keys.");
+  signing->add_option("target", told.target, "Path and query: /v1/presets/koch_island.glb?seed=3")
+      ->required();
+  signing->add_option("--valid-for", told.valid_for, "Seconds that the signature holds; 0 is for ever.");
+  command("key", "Draw a new API key and signing key, and print what the settings need.")
+      ->add_option("name", told.key_name, "Name of both.")
+      ->required();
+  CLI::App* checking = command("healthcheck", "Ask a service on this machine whether it is alive.");
+  for (CLI::App* each : {serving, generating, validating, deriving, importing, many, signing, checking})
+    add_settings(*each, texts);
+}
+
+/// Where no file with the request is named, it is what is piped in. False: nothing is.
+bool find_request(std::string& in) {
+  if (!in.empty()) return true;
+  if (isatty(STDIN_FILENO) != 0) return false;
+  in = "-";
+  return true;
+}
+
+int run(const std::string& command, Told& told, const ConfigResult& loaded) {
+  const Config& config = loaded.config;
+  if (command == "serve") {
+    if (!told.print_config) return serve(config, loaded.warnings);
+    std::printf("%s\n", config_json(config).c_str());
+    return 0;
+  }
+  if (command == "import") return import_command(config, told.files);
+  if (command == "manifest") return manifest_command(config, told.manifest);
+  if (command == "sign") return sign_command(config, told.target, told.valid_for);
+  if (command == "key") return key_command(told.key_name);
+  if (command == "healthcheck") return healthcheck(config);
+  if (command == "presets") return presets_command(told.preset);
+  if (!find_request(told.in)) {
+    std::fprintf(stderr, "seedmesh: expected a file with the request, or a request piped in\n");
+    return usage_error;
+  }
+  if (command == "generate") return generate_command(config, told.in, told.out);
+  return command == "validate" ? validate_command(config, told.in) : derive_command(config, told.in);
+}
+
 }  // namespace
 
 #ifdef __SANITIZE_THREAD__
@@ -73,49 +155,9 @@ int main(int count, char** arguments) {
   app.footer(
       "Every flag is also a variable: --time-limit is SEEDMESH_TIME_LIMIT.\n"
       "Exit status: 0, 1 (refused: the problem as JSON on standard error) or 2 (usage).");
-
   Texts texts;
-  std::string in, out = "-", preset, target, key_name;
-  double valid_for = 0;
-  ManifestOptions manifest;
-  ImportFiles files{"", "-", "", ""};
-  bool print_config = false;
-  const auto command = [&](const char* name, const char* text) { return app.add_subcommand(name, text); };
-  CLI::App* serving = command("serve", "Serve over HTTP.");
-  serving->add_flag("--print-config", print_config, "Print the effective configuration as JSON and end.");
-  CLI::App* generating = command("generate", "Make the model of a request.");
-  generating->add_option("request", in, "File with the request as JSON; - is standard input.")->required();
-  generating->add_option("-o,--out", out,
-                         "File for the model; its extension chooses the format; - is standard output.");
-  CLI::App* validating = command("validate", "Check a request and estimate its model.");
-  validating->add_option("request", in, "File with the request; - is standard input.")->required();
-  CLI::App* deriving = command("derive", "Print the generator's own result before geometry.");
-  deriving->add_option("request", in, "File with the request; - is standard input.")->required();
-  CLI::App* importing = command("import", "Turn a file of another program into a request.");
-  importing->add_option("file", files.in, "The file; - is standard input.")->required();
-  importing->add_option("-f,--format", files.format, formats_text());
-  importing->add_option("-e,--entry", files.entry, "The system to take from a file that holds several.");
-  importing->add_option("-o,--out", files.out, "File for the request; - is standard output.");
-  CLI::App* listing = command("presets", "List the presets, or print one.");
-  listing->add_option("name", preset, "The one to print.");
-  CLI::App* many =
-      command("manifest", "Make the models of all requests of a file, on all cores, with resume.");
-  many->add_option("file", manifest.file,
-                   "Requests, one a line, or {\"name\", \"request\"}; - is standard input.")
-      ->required();
-  many->add_option("-o,--out", manifest.folder, "Folder for models and results.jsonl.")->required();
-  many->add_option("--part", manifest.part,
-                   "index/count: every count-th line alone, from index (0 to count - 1).");
-  many->add_flag("--quiet", manifest.quiet, "Tell no progress.");
-  CLI::App* signing = command("sign", "Sign a URL with the first of the signing keys.");
-  signing->add_option("target", target, "Path and query: /v1/presets/koch_island.glb?seed=3")->required();
-  signing->add_option("--valid-for", valid_for, "Seconds that the signature holds; 0 is for ever.");
-  CLI::App* keying = command("key", "Draw a new API key and signing key, and print what the settings need.");
-  keying->add_option("name", key_name, "Name of both.")->required();
-  CLI::App* checking = command("healthcheck", "Ask a service on this machine whether it is alive.");
-  for (CLI::App* each : {serving, generating, validating, deriving, importing, many, signing, checking})
-    add_settings(*each, texts);
-
+  Told told;
+  add_commands(app, told, texts);
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
@@ -124,20 +166,5 @@ int main(int count, char** arguments) {
   const CLI::App& chosen = *app.get_subcommands().front();
   const ConfigResult loaded = load_config(process_environment(), given(chosen, texts));
   for (const std::string& fault : loaded.faults) std::fprintf(stderr, "seedmesh: %s\n", fault.c_str());
-  if (!loaded.faults.empty()) return usage_error;
-  const Config& config = loaded.config;
-  if (serving->parsed()) {
-    if (!print_config) return serve(config, loaded.warnings);
-    std::printf("%s\n", config_json(config).c_str());
-    return 0;
-  }
-  if (generating->parsed()) return generate_command(config, in, out);
-  if (validating->parsed()) return validate_command(config, in);
-  if (deriving->parsed()) return derive_command(config, in);
-  if (importing->parsed()) return import_command(config, files);
-  if (many->parsed()) return manifest_command(config, manifest);
-  if (signing->parsed()) return sign_command(config, target, valid_for);
-  if (keying->parsed()) return key_command(key_name);
-  if (checking->parsed()) return healthcheck(config);
-  return presets_command(preset);
+  return loaded.faults.empty() ? run(chosen.get_name(), told, loaded) : usage_error;
 }

@@ -30,6 +30,7 @@ test('generate writes the bytes that the server answers', async () => {
 
 test('generate reads standard input and writes standard output', async () => {
   const { status, out } = await run(program, ['generate', '-', '-o', '-'], { input: JSON.stringify(plant) });
+  assert.deepEqual((await run(program, ['generate'], { input: JSON.stringify(plant) })).out, out);
   assert.equal(status, 0);
   assert.equal(out.subarray(0, 4).toString(), 'glTF');
   assert.equal(out.readUInt32LE(8), out.length);
@@ -97,7 +98,7 @@ test('presets lists names, and prints one that generate takes', async () => {
 });
 
 test('what is no usage is status 2', async () => {
-  for (const args of [[], ['grow'], ['generate'], ['serve', '--colour', 'red'], ['serve', '--port'], ['generate', path.join(folder, 'missing.json')],
+  for (const args of [[], ['grow'], ['sign'], ['serve', '--colour', 'red'], ['serve', '--port'], ['generate', path.join(folder, 'missing.json')],
     ['generate', folder], ['generate', file, '-o', path.join(folder, 'a.foo')], ['generate', file, '-o', path.join(folder, 'missing', 'a.glb')]]) {
     const { status, err } = await run(program, args);
     assert.equal(status, 2, args.join(' '));
