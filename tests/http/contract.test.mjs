@@ -103,6 +103,7 @@ test('a wrong Content-Type is 415, an absent one is JSON', async () => {
   for (const type of ['text/plain', 'application/x-www-form-urlencoded', 'application/json; charset=iso-8859-1']) {
     const answer = await server.generate(plant, { 'content-type': type });
     is_problem(answer, 415, 'unsupported-media-type');
+    assert.match(answer.json.detail, /found the Content-Type ".+"; expected application\/json/);
     assert.equal(answer.headers.accept, 'application/json');
   }
   for (const type of ['application/json; charset=utf-8', 'application/vnd.any+json', null]) {
