@@ -328,6 +328,21 @@ std::string_view leaf_kind(LeafShape shape, bool is_twig) {
   return leaf;
 }
 
+// At most 0.4: opaque to half a texel beyond the middle of the edge, so that leaves do not thin out in the
+// distance.
+float leaf_cutoff(std::string_view kind) {
+  switch (leaf_picture(kind).shape) {
+    case LeafShape::needles:
+      return 0.2F;
+    case LeafShape::willow:
+    case LeafShape::palm:
+    case LeafShape::compound:
+      return 0.3F;
+    default:
+      return 0.4F;
+  }
+}
+
 Painting paint_leaf(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job) {
   const LeafPicture picture = leaf_picture(kind);
   const Rng rng = Rng::of_seed(seed).at(kind);

@@ -23,6 +23,10 @@ LeafPicture leaf_picture(std::string_view kind);
 /// The kind that shows one leaf of a shape, or a twig of it; the leaf where there is no twig.
 std::string_view leaf_kind(LeafShape shape, bool is_twig);
 
+/// The alpha from which a texel is drawn. Renderers compare it with means over many texels where the leaf is
+/// far away, so that a picture of thin needles, most of it empty, needs a low one or the crown vanishes.
+float leaf_cutoff(std::string_view kind);
+
 /// `kind` is one of leaf_kinds(). 10 to 30 ns a texel.
 Painting paint_leaf(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job);
 

@@ -10,9 +10,6 @@
 namespace seedmesh::texture {
 namespace {
 
-// Opaque to half a texel beyond the middle of the edge, so that leaves do not thin out in the distance.
-constexpr float leaf_cutoff = 0.4F;
-
 std::string key_of(const TextureRecipe& recipe, int size) {
   std::string key = recipe.kind + ' ' + std::to_string(recipe.seed) + ' ' + std::to_string(size);
   if (recipe.color) {
@@ -65,7 +62,7 @@ void dress(Material& material, int first, bool is_bark) {
   material.roughness = 1;
   if (is_bark) return;
   material.alpha_mode = AlphaMode::mask;
-  material.alpha_cutoff = leaf_cutoff;
+  material.alpha_cutoff = leaf_cutoff(material.recipe.kind);
   material.double_sided = true;
 }
 

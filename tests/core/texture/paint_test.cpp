@@ -129,6 +129,32 @@ TEST(Leaf, CoversWhatItsOutlineEncloses) {
   EXPECT_NEAR(covered / (256 * 256), 0.5 / (1.04 * 1.04), 0.002);
 }
 
+/// The mean alpha of the squares of 8 x 8 texels that show something: what is left of the leaf where one
+/// texel of a smaller picture stands for each.
+double mean_alpha_from_afar(const Picture& picture) {
+  constexpr std::size_t block = 8;
+  double sum = 0;
+  int shown = 0;
+  for (std::size_t y = 0; y < picture.height; y += block) {
+    for (std::size_t x = 0; x < picture.width; x += block) {
+      double alpha = 0;
+      for (std::size_t i = 0; i < block * block; ++i) alpha += at(picture, x + i % block, y + i / block, 3);
+      alpha /= 255.0 * block * block;
+      if (alpha < 0.02) continue;
+      sum += alpha;
+      ++shown;
+    }
+  }
+  return sum / shown;
+}
+
+TEST(Leaf, DoesNotVanishInTheDistance) {
+  for (const std::string_view kind : leaf_kinds()) {
+    const Picture picture = decoded(*maps_of(kind, 128, 3).color);
+    EXPECT_LT(static_cast<double>(leaf_cutoff(kind)), 0.7 * mean_alpha_from_afar(picture)) << kind;
+  }
+}
+
 TEST(Paint, GivesEqualRecipesOnePicture) {
   Model model;
   model.materials.resize(3);
