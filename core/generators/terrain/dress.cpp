@@ -16,9 +16,17 @@
 namespace seedmesh::terrain {
 namespace {
 
-// Squares a side of a piece of a large grid, whose vertices indices of 16 bit can name.
+// Squares a side of a piece of a large grid at most, whose vertices indices of 16 bit can name.
 constexpr std::int32_t piece = 254;
 constexpr std::size_t most_narrow = 65'535;
+
+/// Where so many squares are cut into pieces of about one size: both ends too.
+std::vector<std::int32_t> cuts(std::int32_t squares) {
+  const std::int32_t count = (squares + piece - 1) / piece;
+  std::vector<std::int32_t> places;
+  for (std::int32_t i = 0; i <= count; ++i) places.push_back(squares * i / count);
+  return places;
+}
 
 Material ground_material() {
   Material material;
@@ -190,18 +198,20 @@ class Dressing {
   }
 
   void add_pieces(Model& model, int ground) {
+    const std::vector<std::int32_t> east = cuts(field_.width - 1), south = cuts(field_.depth - 1);
     std::vector<Window> parts;
-    for (std::int32_t z = 0; z < field_.depth - 1; z += piece) {
-      for (std::int32_t x = 0; x < field_.width - 1; x += piece)
-        parts.push_back(
-            {x, z, std::min(piece, field_.width - 1 - x) + 1, std::min(piece, field_.depth - 1 - z) + 1});
+    std::vector<std::string> names;
+    for (std::size_t z = 0; z + 1 < south.size(); ++z) {
+      for (std::size_t x = 0; x + 1 < east.size(); ++x) {
+        parts.push_back({east[x], south[z], east[x + 1] - east[x] + 1, south[z + 1] - south[z] + 1});
+        names.push_back("ground_" + std::to_string(x) + "_" + std::to_string(z));
+      }
     }
     std::vector<Piece> pieces(parts.size());
     parallel_for(job_, parts.size(), 1,
                  [&](std::size_t i, std::size_t, std::size_t) { pieces[i] = made_piece(parts[i]); });
     for (std::size_t i = 0; i < parts.size(); ++i) {
-      const std::string name =
-          "ground_" + std::to_string(parts[i].x / piece) + "_" + std::to_string(parts[i].z / piece);
+      const std::string& name = names[i];
       Piece& made = pieces[i];
       const int node = add_child(model, name, -1);
       for (std::size_t k = 0; k < made.meshes.size(); ++k)

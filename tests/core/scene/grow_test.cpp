@@ -162,7 +162,7 @@ TEST(GrowingScene, LeavesStonesStill) {
 
 TEST(GrowingScene, GivesManyPlantsFewBonesEach) {
   Json json = bed();
-  json["layers"] = {json["layers"][1]};
+  json["layers"] = Json::array({json["layers"][1]});
   json["layers"][0]["place"] = {{"method", "scatter"}, {"count", 3000}};
   const Result<Model> model = growing(json);
   ASSERT_TRUE(model);
@@ -191,13 +191,13 @@ TEST(GrowingScene, IsRefusedWithWhatCannotGrow) {
 
 TEST(GrowingScene, IsRefusedWhereNothingCanGrow) {
   Json json = bed();
-  json["layers"] = {json["layers"][2]};
+  json["layers"] = Json::array({json["layers"][2]});
   EXPECT_THAT(pointers_of(growing(json)), ElementsAre("/output/animation"));
 }
 
 TEST(GrowingScene, TellsWhereNothingStandsThatGrows) {
   Json json = bed();
-  json["layers"] = {json["layers"][1]};
+  json["layers"] = Json::array({json["layers"][1]});
   json["layers"][0]["place"] = {{"method", "scatter"}, {"count", 0}};
   const Result<Model> model = growing(json);
   ASSERT_TRUE(model);
@@ -206,13 +206,13 @@ TEST(GrowingScene, TellsWhereNothingStandsThatGrows) {
 }
 
 TEST(Scene, TellsOfAnAgeAndASeasonThatNoModelHas) {
-  Json json = {{"age", 3}, {"season", "autumn"}, {"layers", {bed()["layers"][2]}}};
+  Json json = {{"age", 3}, {"season", "autumn"}, {"layers", Json::array({bed()["layers"][2]})}};
   const Result<Model> stones = scene_of(json);
   ASSERT_TRUE(stones);
   ASSERT_EQ(stones->warnings.size(), 2U);
   EXPECT_EQ(stones->warnings[0].pointer, "/age");
   EXPECT_EQ(stones->warnings[1].pointer, "/season");
-  json["layers"] = {bed()["layers"][0]};
+  json["layers"] = Json::array({bed()["layers"][0]});
   const Result<Model> trees = scene_of(json);
   ASSERT_TRUE(trees);
   EXPECT_THAT(trees->warnings, IsEmpty());
