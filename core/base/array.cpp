@@ -6,50 +6,72 @@
 #if defined(__linux__)
 #include <sys/mman.h>
 #endif
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 namespace seedmesh {
 namespace {
 
-// Page faults, not arithmetic, decide what big arrays cost, and huge pages save most of them. A block takes
-// whole huge pages from the first size on always; from the second on while the room that the rounding up
-// leaves empty stays below the third in the whole request. Smaller blocks are the heap's: a huge page is
-// cleared whole, and the heap has pages that were touched before.
-constexpr std::size_t always_mapped = std::size_t{4} << 20U;
-constexpr std::size_t mapped_at_best = std::size_t{2} << 20U;
-constexpr std::uint64_t most_slack = std::uint64_t{6} << 20U;
+// Page faults, not arithmetic, decide what big arrays cost, and huge pages save most of them; a block takes
+// as many as it fills, and small ones for its end. Smaller blocks are the heap's, which has pages that were
+// touched before. But what a heap is given back stays with the process: a large request maps all that is
+// worth a call, so that memory goes when an array goes.
+constexpr std::size_t always_mapped = std::size_t{2} << 20U;
+constexpr std::size_t mapped_if_large = std::size_t{256} << 10U;
 
 #if defined(__linux__)
-constexpr std::size_t page = std::size_t{2} << 20U;  // of a huge page
-std::size_t pages(std::size_t bytes) { return (bytes + page - 1) / page * page; }
+constexpr std::size_t huge_page = std::size_t{2} << 20U;
+constexpr std::size_t largest_page = std::size_t{64} << 10U;  // of the small ones, on any machine
+constexpr bool can_map = true;
+
+constexpr std::size_t rounded(std::size_t bytes, std::size_t to) { return (bytes + to - 1) / to * to; }
+constexpr std::size_t pages(std::size_t bytes) { return rounded(bytes, largest_page); }
+
+/// The kernel lays whole huge pages where they can be used, so they are asked for; what is too much of them
+/// goes back untouched.
+constexpr std::size_t asked_for(std::size_t bytes) {
+  return bytes < huge_page ? pages(bytes) : rounded(bytes, huge_page);
+}
+std::byte* fitted(void* memory, std::size_t bytes) {
+  if (memory == MAP_FAILED) throw std::bad_alloc();
+  auto* first = static_cast<std::byte*>(memory);
+  if (asked_for(bytes) > pages(bytes)) munmap(first + pages(bytes), asked_for(bytes) - pages(bytes));
+  if (bytes >= huge_page) madvise(memory, pages(bytes), MADV_HUGEPAGE);
+  return first;
+}
 
 std::byte* map(std::size_t bytes) {
-  void* memory = mmap(nullptr, pages(bytes), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED) throw std::bad_alloc();
-  madvise(memory, pages(bytes), MADV_HUGEPAGE);
-  return static_cast<std::byte*>(memory);
+  constexpr int access = PROT_READ | PROT_WRITE, kind = MAP_PRIVATE | MAP_ANONYMOUS;
+  return fitted(mmap(nullptr, asked_for(bytes), access, kind, -1, 0), bytes);
 }
 std::byte* remap(std::byte* old, std::size_t before, std::size_t after) {
-  void* memory = mremap(old, pages(before), pages(after), MREMAP_MAYMOVE);
-  if (memory == MAP_FAILED) throw std::bad_alloc();
-  madvise(memory, pages(after), MADV_HUGEPAGE);
-  return static_cast<std::byte*>(memory);
+  if (pages(after) <= pages(before)) {
+    if (pages(after) < pages(before)) munmap(old + pages(after), pages(before) - pages(after));
+    return old;
+  }
+  return fitted(mremap(old, pages(before), asked_for(after), MREMAP_MAYMOVE), after);
 }
 void unmap(std::byte* memory, std::size_t bytes) { munmap(memory, pages(bytes)); }
 #else
-constexpr std::size_t page = 1;
-std::size_t pages(std::size_t bytes) { return bytes; }
+constexpr bool can_map = false;
 std::byte* map(std::size_t) { return nullptr; }
 std::byte* remap(std::byte*, std::size_t, std::size_t) { return nullptr; }
 void unmap(std::byte*, std::size_t) {}
 #endif
+
+/// Pages of the heap that nobody uses go back to the kernel.
+void trim_heap() {
+#if defined(__GLIBC__)
+  malloc_trim(0);
+#endif
+}
 
 std::byte* heap(std::byte* old, std::size_t bytes) {
   auto* memory = static_cast<std::byte*>(std::realloc(old, bytes));
   if (!memory) throw std::bad_alloc();
   return memory;
 }
-
-std::uint64_t slack_of(std::size_t bytes) { return pages(bytes) - bytes; }
 
 }  // namespace
 
@@ -76,7 +98,6 @@ Block::~Block() {
 void Block::release() {
   if (is_mapped_) {
     unmap(data_, size_);
-    if (purse_) purse_->give_back_slack(slack_of(size_));
   } else {
     std::free(data_);
   }
@@ -84,15 +105,14 @@ void Block::release() {
 }
 
 bool Block::is_worth_mapping(std::size_t bytes) const {
-  if (page == 1 || bytes < mapped_at_best) return false;
-  return bytes >= always_mapped || (purse_ && purse_->slack() + slack_of(bytes) <= most_slack);
+  if (!can_map || bytes < mapped_if_large) return false;
+  return bytes >= always_mapped || (purse_ && purse_->is_large());
 }
 
 void Block::change(std::size_t bytes) {
   const bool map_it = is_worth_mapping(bytes);
   if (is_mapped_ && map_it) {
     data_ = remap(data_, size_, bytes);
-    if (purse_) purse_->give_back_slack(slack_of(size_));
   } else if (!is_mapped_ && !map_it) {
     data_ = heap(data_, bytes);
   } else {
@@ -102,12 +122,15 @@ void Block::change(std::size_t bytes) {
     data_ = fresh;
   }
   is_mapped_ = map_it;
-  if (is_mapped_ && purse_) purse_->take_slack(slack_of(bytes));
 }
 
 void Block::resize(std::size_t bytes) {
   if (bytes == size_) return;
-  if (bytes > size_ && purse_) purse_->take(bytes - size_);
+  if (bytes > size_ && purse_) {
+    const bool was_large = purse_->is_large();
+    purse_->take(bytes - size_);
+    if (!was_large && purse_->is_large()) trim_heap();
+  }
   const std::size_t before = size_;
   if (bytes == 0) {
     release();

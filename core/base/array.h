@@ -1,7 +1,8 @@
 #pragma once
 /// Growing arrays for big models: elements start uninitialised, big blocks come from the kernel with huge
-/// pages advised (first touch of memory, not arithmetic, bounds big models), and every byte is charged to the
-/// purse of the request before it is allocated. Move-only; not safe for use from two threads at once.
+/// pages advised (first touch of memory, not arithmetic, bounds big models) and go back to it at once, in
+/// large requests also those of middling size, and every byte is charged to the purse of the request before
+/// it is allocated. Move-only; not safe for use from two threads at once.
 #include <cstddef>
 #include <cstring>
 #include <memory>

@@ -7,6 +7,9 @@ namespace {
 
 constexpr std::uint64_t lease = 4096;
 
+/// Bytes from which on a request is large.
+constexpr std::uint64_t large = std::uint64_t{8} << 20U;
+
 struct ResourceLimit {
   const char* name;
   std::uint64_t value;
@@ -38,6 +41,7 @@ void Purse::take(std::uint64_t bytes) {
   do {
     if (bytes > limit_ || used > limit_ - bytes) refuse_limit("bytes of memory", limit_, used + bytes);
   } while (!used_.compare_exchange_weak(used, used + bytes, std::memory_order_relaxed));
+  if (used + bytes >= large && !is_large()) is_large_.store(true, std::memory_order_relaxed);
 }
 
 Job::Job(std::uint64_t seed, Options options)

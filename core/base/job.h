@@ -53,14 +53,12 @@ class Purse {
   void give_back(std::uint64_t bytes) { used_.fetch_sub(bytes, std::memory_order_relaxed); }
   std::uint64_t used() const { return used_.load(std::memory_order_relaxed); }
 
-  /// Bytes that blocks leave empty at the ends of their last pages. Not counted as used.
-  std::uint64_t slack() const { return slack_.load(std::memory_order_relaxed); }
-  void take_slack(std::uint64_t bytes) { slack_.fetch_add(bytes, std::memory_order_relaxed); }
-  void give_back_slack(std::uint64_t bytes) { slack_.fetch_sub(bytes, std::memory_order_relaxed); }
+  /// Has the request ever used so much that its arrays are better kept apart from the heap (array.cpp)?
+  bool is_large() const { return is_large_.load(std::memory_order_relaxed); }
 
  private:
   std::atomic<std::uint64_t> used_{0};
-  std::atomic<std::uint64_t> slack_{0};
+  std::atomic<bool> is_large_{false};
   std::uint64_t limit_;
 };
 
@@ -84,6 +82,7 @@ struct Demand {
   CopyForm copies = CopyForm::any;   ///< of what is repeated in a scene or a building
   std::uint64_t most_triangles = 0;  ///< of whoever keeps a budget by itself; 0: as many as there are
   std::uint32_t most_bones = 240;    ///< of the animation "growth"
+  bool packs = false;  ///< no mesh that is done is looked at again: it may be packed (core/gltf/pack.h)
 };
 
 /// The context of one request. Safe to use from the worker threads of that request.

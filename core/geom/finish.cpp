@@ -28,7 +28,7 @@ constexpr std::array<std::string_view, 13> meaningful_endings{
     "col", "convcol", "colonly", "convcolonly", "noimp",   "loop", "vcol",
     "occ", "occonly", "navmesh", "rigid",       "vehicle", "wheel"};
 
-bool is_empty(const Mesh& mesh) { return mesh.position.empty() || mesh.elements() == 0; }
+bool is_empty(const Mesh& mesh) { return mesh.vertices() == 0 || mesh.elements() == 0; }
 
 /// Meshes without primitives go, and every number that names a mesh follows.
 void drop_empty_meshes(Model& model) {
@@ -149,6 +149,7 @@ void name_everything(Model& model) {
 }
 
 void finish(Mesh& mesh, const Job& job) {
+  if (mesh.packed || is_empty(mesh)) return;
   order_for_cache(mesh, job);
   narrow(mesh, job);
   clear_negative_zeros(mesh, job);
@@ -192,8 +193,7 @@ void order_for_cache(Mesh& mesh, const Job& job) {
   reorder(mesh.bone, new_place, used, job);
 }
 
-void finish(Model& model, Job& job) {
-  drop_empty_meshes(model);
+void finish_meshes(Model& model, const Job& job) {
   std::vector<Mesh*> meshes;
   for (MeshGroup& group : model.meshes) {
     for (Primitive& primitive : group.primitives) meshes.push_back(&primitive.mesh);
@@ -207,6 +207,11 @@ void finish(Model& model, Job& job) {
   parallel_for(job, meshes.size(), together, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) finish(*meshes[i], job);
   });
+}
+
+void finish(Model& model, Job& job) {
+  drop_empty_meshes(model);
+  finish_meshes(model, job);
   name_everything(model);
 }
 

@@ -9,6 +9,9 @@ namespace seedmesh {
 /// materials).
 void finish(Model& model, Job& job);
 
+/// Of these steps those that are about meshes alone. For who packs a part of a model before the rest is made.
+void finish_meshes(Model& model, const Job& job);
+
 /// Triangles in an order that a vertex cache likes, vertices in the order of their first use; unused ones go.
 /// Nothing where the mesh says that it is so. For who makes many copies of a mesh.
 void order_for_cache(Mesh& mesh, const Job& job);

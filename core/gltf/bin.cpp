@@ -93,6 +93,8 @@ Pool vertex_pool(const Column& column) {
 
 Pool index_pool(const Column& column) { return column.stride() == 2 ? Pool::index2 : Pool::index4; }
 
+bool Bin::has_own_view(std::uint64_t bytes) { return bytes >= shared_view_bytes; }
+
 int Bin::add(Pool pool, Slice slice) {
   assert(order_.empty() && !slice.bytes.empty());
   items_.push_back({pool, std::move(slice)});
@@ -107,7 +109,7 @@ void Bin::arrange(Packing packing) {
   places_.resize(items_.size());
   for (const std::size_t number : order_) {
     const Item& item = items_[number];
-    const std::uint64_t bytes = item.slice.bytes.size();
+    const std::uint64_t bytes = item.slice.size();
     if (views_.empty() || !fits(views_.back(), item.pool, bytes)) {
       size_ = padded(size_);
       views_.push_back({.pool = item.pool, .offset = size_});

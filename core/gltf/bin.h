@@ -54,6 +54,9 @@ class Bin {
     std::uint32_t stride = 0;  ///< 0 unless vertex attributes share the view
   };
 
+  /// Does an array of so many bytes get a view of its own, whatever is beside it?
+  static bool has_own_view(std::uint64_t bytes);
+
   /// Adds an array and returns its number. Not after arrange().
   int add(Pool pool, Slice slice);
 

@@ -81,6 +81,8 @@ void take_bones(Part& part, Mesh& mesh) {
   }
 }
 
+}  // namespace
+
 Part take_part(Primitive& primitive) {
   Mesh& mesh = primitive.mesh;
   Part part{.topology = mesh.topology,
@@ -102,6 +104,17 @@ Part take_part(Primitive& primitive) {
   if (!mesh.weights.empty())
     name_column(part, "WEIGHTS_0", column_of(mesh.weights, Component::f32, Lanes::vec4));
   take_bones(part, mesh);
+  return part;
+}
+
+namespace {
+
+/// The arrays of a packed mesh, with the materials that the primitive has by now.
+Part take_packed(Primitive& primitive) {
+  Part part = static_cast<const PackedPart&>(*primitive.mesh.packed).part;
+  primitive.mesh.packed.reset();
+  part.material = primitive.material;
+  part.variant_materials = std::move(primitive.variant_materials);
   return part;
 }
 
@@ -157,7 +170,8 @@ Columns take_columns(Model& model) {
   for (MeshGroup& group : model.meshes) {
     std::vector<Part>& parts = columns.meshes.emplace_back();
     for (Primitive& primitive : group.primitives) {
-      if (primitive.mesh.elements() > 0) parts.push_back(take_part(primitive));
+      if (primitive.mesh.elements() == 0) continue;
+      parts.push_back(primitive.mesh.packed ? take_packed(primitive) : take_part(primitive));
     }
   }
   for (Skin& skin : model.skins) columns.inverse_binds.push_back(take_inverse_binds(skin));

@@ -17,6 +17,9 @@ namespace seedmesh::gltf {
 struct Slice {
   std::shared_ptr<const void> owner;
   std::span<const std::byte> bytes;
+  std::uint64_t plain = 0;  ///< how many they were before they were encoded (compress.h); 0: they are not
+
+  std::uint64_t size() const { return plain > 0 ? plain : bytes.size(); }
 };
 
 /// Numbers as OpenGL names their types, which glTF took over.
@@ -36,7 +39,7 @@ struct Column {
   Filter filter = Filter::none;
   std::optional<Box> range = {};  ///< where glTF wants it (positions, key times: in x)
 
-  std::uint32_t stride() const { return static_cast<std::uint32_t>(slice.bytes.size() / count); }
+  std::uint32_t stride() const { return static_cast<std::uint32_t>(slice.size() / count); }
 };
 
 /// A name of glTF ("POSITION") for a column of the part. Two names may share a column.
@@ -53,6 +56,7 @@ struct Part {
   std::optional<Column> index = {};
   int material = -1;
   std::vector<int> variant_materials = {};
+  bool is_packed = false;  ///< quantized, and its great arrays encoded
 };
 
 struct Tracks {
@@ -76,6 +80,14 @@ Slice keep(Container numbers) {
   const auto bytes = std::as_bytes(std::span(kept->data(), kept->size()));
   return {std::move(kept), bytes};
 }
+
+/// What is kept of a packed mesh for take_columns().
+struct PackedPart : PackedMesh {
+  Part part;
+};
+
+/// Takes the arrays of one primitive.
+Part take_part(Primitive& primitive);
 
 /// Takes the arrays out of `model` (which keeps all else) without copying any of them. The range of the
 /// positions is Mesh::bounds where it is set; else they are read through once. A texture coordinate set that

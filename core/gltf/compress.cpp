@@ -9,6 +9,7 @@
 #include <cstring>
 #include <memory>
 #include <string_view>
+#include <utility>
 
 #include "core/base/array.h"
 #include "core/gltf/json_text.h"
@@ -154,6 +155,14 @@ void append_view(std::string& out, const Bin::View& plain, const Bin::View& stor
 
 }  // namespace
 
+Slice encoded_ahead(const Slice& plain, Pool pool, Job& job) {
+  assert(Bin::has_own_view(plain.bytes.size()));
+  choose_versions();
+  Slice stream = encoded(plain.bytes, pool, job);
+  stream.plain = plain.bytes.size();
+  return stream;
+}
+
 Compressed compress(Bin& plain, Job& job) {
   choose_versions();
   Compressed result;
@@ -163,7 +172,8 @@ Compressed compress(Bin& plain, Job& job) {
     job.check();
     const Bin::View& view = plain.views()[i];
     Slice slice = joined(std::move(slices[i]), view.length, job);
-    if (target_of(view.pool) != 0) slice = encoded(slice.bytes, view.pool, job);
+    const bool is_encoded = std::exchange(slice.plain, 0) > 0;
+    if (target_of(view.pool) != 0 && !is_encoded) slice = encoded(slice.bytes, view.pool, job);
     result.bin.add(Pool::image, std::move(slice));  // a pool whose arrays never share a view
   }
   result.bin.arrange();

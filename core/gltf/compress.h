@@ -8,6 +8,9 @@
 
 namespace seedmesh::gltf {
 
+/// The stream of an array that is to have a view of its own, ahead of compress(), which takes it as it is.
+Slice encoded_ahead(const Slice& plain, Pool pool, Job& job);
+
 struct Compressed {
   Bin bin;                     ///< arranged; its views are those of the plain buffer, in their order
   std::string views;           ///< the JSON array bufferViews, for readers of the extension

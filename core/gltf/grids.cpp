@@ -113,21 +113,25 @@ void add_child(Model& model, std::size_t number, const Grid& grid, std::set<std:
 
 }  // namespace
 
-std::vector<Grid> lay_grids(Model& model) {
+std::vector<Grid> grids_of(const Model& model) {
   constexpr float far = std::numeric_limits<float>::max();
   Sets sets = shared(model);
   std::vector<Box> boxes(model.meshes.size(), Box{glm::vec3(far), glm::vec3(-far)});
   for (std::size_t i = 0; i < model.meshes.size(); ++i) {
     Box& box = boxes[sets.of(i)];
     for (const Primitive& primitive : model.meshes[i].primitives) {
-      if (primitive.mesh.position.empty()) continue;
-      const Box own = bounds_of(primitive.mesh.position.span());
+      if (primitive.mesh.vertices() == 0) continue;
+      const Box own = bounds_of(primitive.mesh);
       box = {glm::min(box.min, own.min), glm::max(box.max, own.max)};
     }
   }
   std::vector<Grid> grids;
   for (std::size_t i = 0; i < model.meshes.size(); ++i) grids.push_back(grid_of(boxes[sets.of(i)]));
+  return grids;
+}
 
+std::vector<Grid> lay_grids(Model& model) {
+  const std::vector<Grid> grids = grids_of(model);
   std::vector<bool> skin_done(model.skins.size(), false);
   const std::vector<bool> bears = bearing(model);
   std::set<std::string> names;

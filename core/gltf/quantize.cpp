@@ -104,18 +104,18 @@ void quantize_uv(Column& column, Job& job) {
   column.filter = Filter::exponential;
 }
 
+/// Positions come last: they are still asked for afterwards as they were.
 void quantize_columns(Part& part, const Grid& grid, Job& job) {
   for (const Attribute& attribute : part.attributes) {
     Column& column = part.columns[attribute.column];
     if (column.component != Component::f32 || column.filter != Filter::none) continue;
-    if (attribute.semantic == "POSITION") {
-      quantize_positions(column, grid, job);
-    } else if (attribute.semantic == "NORMAL" || attribute.semantic == "TANGENT") {
+    if (attribute.semantic == "NORMAL" || attribute.semantic == "TANGENT") {
       quantize_directions(column, job);
     } else if (attribute.semantic.starts_with("TEXCOORD")) {
       quantize_uv(column, job);
     }
   }
+  quantize_positions(part.columns.front(), grid, job);
 }
 
 // --- What became equal ---
@@ -366,15 +366,19 @@ void clean(Part& part, Job& job) {
 
 }  // namespace
 
+void quantize(Part& part, const Grid& grid, Job& job) {
+  const std::vector<std::size_t> inward = corners_looking_inward(part, job);
+  Slice exact = part.columns.front().slice;
+  quantize_columns(part, grid, job);
+  separate(part, std::move(exact), job);
+  mend_normals(part, inward, job);
+  clean(part, job);
+}
+
 void quantize(Columns& columns, const std::vector<Grid>& grids, Job& job) {
   for (std::size_t i = 0; i < columns.meshes.size(); ++i) {
     for (Part& part : columns.meshes[i]) {
-      const std::vector<std::size_t> inward = corners_looking_inward(part, job);
-      const Slice exact = part.columns.front().slice;
-      quantize_columns(part, grids[i], job);
-      separate(part, exact, job);
-      mend_normals(part, inward, job);
-      clean(part, job);
+      if (!part.is_packed) quantize(part, grids[i], job);
     }
     std::erase_if(columns.meshes[i], [](const Part& part) { return part.index && part.index->count == 0; });
   }

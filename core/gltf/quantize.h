@@ -13,7 +13,13 @@ struct Grid {
   float step = 1;
 };
 
-/// A grid for each mesh of the model, the same for all that one node or one skin shows. Moves them into the
+/// A grid for each mesh of the model, the same for all that one node or one skin shows.
+std::vector<Grid> grids_of(const Model& model);
+
+/// Turns the columns of one part to 16 bits, as below; no triangle may be left of it.
+void quantize(Part& part, const Grid& grid, Job& job);
+
+/// The same grids as grids_of(). Moves them into the
 /// model: into the transforms of nodes and copies, into the matrices of skins, or into a new child
 /// ("trunk_mesh") of a node that has children or is animated.
 std::vector<Grid> lay_grids(Model& model);
@@ -21,7 +27,7 @@ std::vector<Grid> lay_grids(Model& model);
 /// Turns the columns to 16 bits, with the filters of EXT_meshopt_compression: normals and tangents
 /// octahedral with 10 bits an axis, texture coordinates outside 0..1 exponential with steps of 2^-14.
 /// Vertices that became equal are joined, triangles whose corners became one point or one line go, and so do
-/// parts without any triangle left. Linear time.
+/// parts without any triangle left. Parts that are packed are so already. Linear time.
 void quantize(Columns& columns, const std::vector<Grid>& grids, Job& job);
 
 }  // namespace seedmesh::gltf

@@ -5,7 +5,9 @@
 #include <bit>
 #include <cmath>
 #include <set>
+#include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/gltf/mend.h"
@@ -35,6 +37,8 @@ struct Stand {
   std::uint32_t vertex = 0;
 };
 
+using Points = std::span<const glm::u16vec4>;
+
 /// Vertices by their points: open addressing.
 class PointTable {
  public:
@@ -42,16 +46,16 @@ class PointTable {
       : slot_(job, std::bit_ceil(2 * vertices + 1), none), mask_(slot_.size() - 1) {}
 
   /// The vertex that was put first at the point, or the one that is put now.
-  std::uint32_t put(const Array<glm::u16vec4>& points, std::uint32_t vertex) {
+  std::uint32_t put(Points points, std::uint32_t vertex) {
     std::uint32_t& there = slot_[find(points, word_of(glm::ivec3(points[vertex])))];
     if (there == none) there = vertex;
     return there;
   }
-  bool has(const Array<glm::u16vec4>& points, Word at) const { return slot_[find(points, at)] != none; }
+  bool has(Points points, Word at) const { return slot_[find(points, at)] != none; }
 
  private:
   static constexpr std::uint32_t none = 0xFFFFFFFFU;
-  std::size_t find(const Array<glm::u16vec4>& points, Word at) const {
+  std::size_t find(Points points, Word at) const {
     std::size_t i = (at * 0x9E3779B97F4A7C15U >> 20U) & mask_;
     while (slot_[i] != none && word_of(glm::ivec3(points[slot_[i]])) != at) i = (i + 1) & mask_;
     return i;
@@ -62,13 +66,15 @@ class PointTable {
 
 class Separation {
  public:
-  Separation(Part& part, const Slice& exact, Job& job)
-      : position_(part.columns.front()), index_(*part.index), exact_(exact), job_(job), point_(job) {
-    point_.append({reinterpret_cast<const glm::u16vec4*>(position_.slice.bytes.data()), position_.count});
-  }
+  Separation(Part& part, Slice exact, Job& job)
+      : position_(part.columns.front()),
+        index_(*part.index),
+        exact_(std::move(exact)),
+        job_(job),
+        point_(reinterpret_cast<const glm::u16vec4*>(position_.slice.bytes.data()), position_.count),
+        moved_(job) {}
 
   void run() {
-    bool has_moved = false;
     for (int round = 0; round < rounds; ++round) {
       PointTable table(point_.size(), job_);
       table_ = &table;
@@ -79,9 +85,8 @@ class Separation {
       }
       if (!moves) moves = lift_flat();
       if (!moves) break;
-      has_moved = true;
     }
-    if (has_moved) position_.slice = keep(std::move(point_));
+    if (!moved_.empty()) position_.slice = keep(std::move(moved_));
   }
 
  private:
@@ -90,6 +95,12 @@ class Separation {
                                               : load<std::uint32_t>(index_.slice, i);
   }
   Word word(std::uint32_t vertex) const { return word_of(glm::ivec3(point_[vertex])); }
+  /// Mostly nothing moves, and then nothing is copied.
+  void move(std::uint32_t vertex, Word to) {
+    if (moved_.empty()) moved_.append(point_);
+    point_ = moved_.span();
+    moved_[vertex] = glm::u16vec4(point_of(to), 0);
+  }
   Exact exact(std::uint32_t vertex) const {
     const auto p = load<glm::vec3>(exact_, vertex);
     return {p.x + 0.0F, p.y + 0.0F, p.z + 0.0F};
@@ -206,7 +217,7 @@ class Separation {
       }
       for (; stand != stands_.end() && stand->at == at && stand->exact == own; ++stand) {
         if (to == at) continue;
-        point_[stand->vertex] = glm::u16vec4(point_of(to), 0);
+        move(stand->vertex, to);
         has_moved = true;
       }
     }
@@ -254,8 +265,7 @@ class Separation {
     std::sort(moves.begin(), moves.end());
     for (std::uint32_t vertex = 0; vertex < point_.size(); ++vertex) {
       const auto move = std::lower_bound(moves.begin(), moves.end(), std::pair(word(vertex), Word{0}));
-      if (move != moves.end() && move->first == word(vertex))
-        point_[vertex] = glm::u16vec4(point_of(move->second), 0);
+      if (move != moves.end() && move->first == word(vertex)) this->move(vertex, move->second);
     }
     return true;
   }
@@ -291,9 +301,10 @@ class Separation {
 
   Column& position_;
   const Column& index_;
-  const Slice& exact_;
+  Slice exact_;
   Job& job_;
-  Array<glm::u16vec4> point_;
+  Points point_;
+  Array<glm::u16vec4> moved_;  ///< the points once one has moved
   PointTable* table_ = nullptr;
   std::vector<Stand> stands_;  ///< at merged points, by these
   std::vector<Word> merged_;
@@ -302,10 +313,10 @@ class Separation {
 
 }  // namespace
 
-void separate(Part& part, const Slice& exact, Job& job) {
+void separate(Part& part, Slice exact, Job& job) {
   if (part.topology != Topology::triangles || !part.index || part.columns.front().component != Component::u16)
     return;
-  Separation(part, exact, job).run();
+  Separation(part, std::move(exact), job).run();
 }
 
 }  // namespace seedmesh::gltf

@@ -7,6 +7,7 @@
 namespace seedmesh {
 
 std::size_t Mesh::elements() const {
+  if (packed) return packed->elements;
   const std::size_t corners = index.size() ? index.size() : position.size();
   switch (topology) {
     case Topology::triangles:
@@ -17,6 +18,14 @@ std::size_t Mesh::elements() const {
       return corners;
   }
   return 0;
+}
+
+std::uint64_t Mesh::bytes() const {
+  if (packed) return packed->bytes;
+  std::uint64_t sum = position.bytes() + normal.bytes() + color.bytes() + tangent.bytes() + joints.bytes() +
+                      weights.bytes() + 4 * bone.bytes() + index.wide.bytes() + index.small.bytes();
+  for (const auto& set : uv) sum += set.bytes();
+  return sum;
 }
 
 namespace {
@@ -54,6 +63,10 @@ Box bounds_of(std::span<const glm::vec3> position) {
     box.max = glm::max(box.max, p);
   }
   return box;
+}
+
+Box bounds_of(const Mesh& mesh) {
+  return mesh.packed ? mesh.packed->bounds : bounds_of(mesh.position.span());
 }
 
 void narrow(Mesh& mesh, const Job& job) {

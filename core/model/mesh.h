@@ -25,6 +25,19 @@ struct Indices {
   std::uint32_t at(std::size_t i) const { return small.empty() ? wide[i] : small[i]; }
 };
 
+/// What is left of a mesh that was packed for a file before the rest of its model was made
+/// (core/gltf/pack.h).
+struct PackedMesh {
+  std::size_t elements = 0, vertices = 0;
+  std::uint64_t bytes = 0;  ///< of the arrays that it had
+  Box bounds;
+
+  PackedMesh() = default;
+  PackedMesh(const PackedMesh&) = delete;
+  PackedMesh& operator=(const PackedMesh&) = delete;
+  virtual ~PackedMesh() = default;
+};
+
 /// Triangles, lines or points with one material. Every attribute array is empty or as long as `position`.
 struct Mesh {
   Topology topology = Topology::triangles;
@@ -39,12 +52,16 @@ struct Mesh {
   Indices index;               ///< 3 a triangle, 2 a line
   Box bounds;                  ///< of `position`; set by finish
   bool cache_ordered = false;  ///< the maker emitted triangles in cache order already
+  std::shared_ptr<const PackedMesh> packed;  ///< instead of all the arrays; null: they are here
 
   std::size_t elements() const;  ///< triangles, lines or points
+  std::size_t vertices() const { return packed ? packed->vertices : position.size(); }
+  std::uint64_t bytes() const;  ///< of all arrays
 };
 
 /// Smallest box that holds `position`; {0,0} where it is empty.
 Box bounds_of(std::span<const glm::vec3> position);
+Box bounds_of(const Mesh& mesh);
 
 /// Turns the indices to 16 bit where all vertices can be named so (65,535 restarts a strip and is left out).
 void narrow(Mesh& mesh, const Job& job);

@@ -10,14 +10,6 @@
 namespace seedmesh {
 namespace {
 
-std::uint64_t bytes_of(const Mesh& mesh) {
-  std::uint64_t bytes = mesh.position.bytes() + mesh.normal.bytes() + mesh.color.bytes() +
-                        mesh.tangent.bytes() + mesh.joints.bytes() + mesh.weights.bytes() +
-                        4 * mesh.bone.bytes() + mesh.index.wide.bytes() + mesh.index.small.bytes();
-  for (const auto& uv : mesh.uv) bytes += uv.bytes();
-  return bytes;
-}
-
 glm::mat4 matrix_of(const Transform& t) {
   glm::mat4 matrix = glm::mat4_cast(t.rotation);
   for (int axis = 0; axis < 3; ++axis) matrix[axis] *= t.scale[axis];
@@ -41,8 +33,8 @@ ModelCounts count(const Model& model) {
   ModelCounts counts;
   for (const MeshGroup& group : model.meshes) {
     for (const Primitive& primitive : group.primitives) {
-      counts.vertices += primitive.mesh.position.size();
-      counts.bytes += bytes_of(primitive.mesh);
+      counts.vertices += primitive.mesh.vertices();
+      counts.bytes += primitive.mesh.bytes();
     }
   }
   for (const Node& node : model.nodes) {
@@ -76,8 +68,8 @@ Box bounds_of(const Model& model) {
     if (node.parent >= 0) world[i] = world[static_cast<std::size_t>(node.parent)] * world[i];
     if (node.mesh < 0) continue;
     for (const Primitive& primitive : model.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
-      if (primitive.mesh.position.empty()) continue;
-      const Box part = bounds_of(primitive.mesh.position.span());
+      if (primitive.mesh.vertices() == 0) continue;
+      const Box part = bounds_of(primitive.mesh);
       if (node.instances.transforms.empty()) grow(box, world[i], part);
       for (const Transform& t : node.instances.transforms) grow(box, world[i] * matrix_of(t), part);
     }

@@ -168,7 +168,10 @@ Demand demand_of(const OutputParams& output, const Generator& generator) {
           .textures = texture_size(output),
           .impostor = output.impostor,
           .copies = static_cast<CopyForm>(output.instancing),
-          .most_triangles = static_cast<std::uint64_t>(output.max_triangles.value_or(0))};
+          .most_triangles = static_cast<std::uint64_t>(output.max_triangles.value_or(0)),
+          // Else fit(), row_of() or merge_copies() look at meshes again.
+          .packs = profile_of(output.profile).compressed && !output.max_triangles && output.variants == 1 &&
+                   output.instancing != OutputInstancing::merge};
 }
 
 /// The model of one seed, as its generator makes it.

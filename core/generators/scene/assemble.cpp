@@ -39,7 +39,7 @@ std::uint64_t triangles_of(const MeshGroup& group) {
 Box box_of(const MeshGroup& group) {
   std::optional<Box> all;
   for (const Primitive& each : group.primitives) {
-    const Box box = bounds_of(each.mesh.position.span());
+    const Box box = bounds_of(each.mesh);
     all = all ? Box{glm::min(all->min, box.min), glm::max(all->max, box.max)} : box;
   }
   return all.value_or(Box{});

@@ -56,14 +56,15 @@ double room_of(const ScenePlace& place, const Extent& extent) {
   }
 }
 
-/// The square of the ground.
-Extent extent_told(const SceneParams& params) {
-  double size = params.ground.value_or(SceneGround{}).size;
-  if (params.terrain) {
-    Faults faults;
-    size = read_terrain(Json::parse(params.terrain->parameters), "", faults).size;
-  }
-  return {glm::dvec2(-size / 2), glm::dvec2(size / 2)};
+Extent square_of(double size) { return {glm::dvec2(-size / 2), glm::dvec2(size / 2)}; }
+
+TerrainParams terrain_of(const SceneParams& params) {
+  Faults faults;
+  return read_terrain(Json::parse(params.terrain->parameters), "", faults);
+}
+
+double width_told(const SceneParams& params) {
+  return params.terrain ? terrain_of(params).size : params.ground.value_or(SceneGround{}).size;
 }
 
 std::optional<Estimate> ground_of(const SceneParams& params, const Job& job) {
@@ -73,8 +74,7 @@ std::optional<Estimate> ground_of(const SceneParams& params, const Job& job) {
   }
   const Result<Appraisal> own = appraise_child(*params.terrain, "/terrain", Rng(0), job);
   if (!own || own->estimate) return own ? own->estimate : std::nullopt;
-  Faults faults;
-  const int side = terrain::finished_side(read_terrain(Json::parse(params.terrain->parameters), "", faults));
+  const int side = terrain::finished_side(terrain_of(params));
   const auto squares = static_cast<std::uint64_t>(std::max(side - 1, 0));
   const std::uint64_t triangles = 2 * squares * squares / grid_to_reduced;
   return Estimate{triangles, triangles * bytes_a_triangle, false};
@@ -110,6 +110,11 @@ struct Sum {
 
 }  // namespace
 
+std::optional<Extent> extent_told(const SceneParams& params) {
+  if (params.terrain && terrain_of(params).algorithm == TerrainAlgorithm::image) return std::nullopt;
+  return square_of(width_told(params));
+}
+
 double expected_stands(const SceneLayer& layer, const Extent& extent) {
   const ScenePlace& place = layer.place;
   const double room = room_of(place, extent);
@@ -123,7 +128,7 @@ std::optional<Estimate> estimate_of(const SceneParams& params, const Casting& ca
   const std::optional<Estimate> ground = ground_of(params, job);
   if (!ground) return std::nullopt;
   bool exact = ground->exact && params.paths.empty() && !params.camera;
-  const Extent extent = extent_told(params);
+  const Extent extent = square_of(width_told(params));
   Sum sum{static_cast<double>(ground->triangles), static_cast<double>(ground->bytes)};
   for (std::size_t i = 0; i < params.layers.size(); ++i) {
     const Casting::Layer& casts = casting.layers[i];

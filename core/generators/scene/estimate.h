@@ -8,6 +8,9 @@
 
 namespace seedmesh::scene {
 
+/// The ground, before it is made: a square. Nothing for a terrain from a picture, whose depth is not known.
+std::optional<Extent> extent_told(const SceneParams& params);
+
 /// How many of a layer stand, at most, where all of `extent` suits it: the number that is asked for, or that
 /// its pattern has room for.
 double expected_stands(const SceneLayer& layer, const Extent& extent);

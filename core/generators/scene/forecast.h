@@ -27,6 +27,8 @@ class Forecast {
   /// How many stand of each model, 0: it is not made; until this is known all are. `merges`: each of them
   /// becomes triangles of its own.
   void want(const std::vector<std::uint64_t>& stands, bool merges);
+  /// What the ground has is counted as spent from now on.
+  void know_ground() { ground_ = 0; }
   bool is_wanted(std::size_t cast) const { return rows_[cast].stands > 0; }
 
   const Casting& casting() const { return casting_; }

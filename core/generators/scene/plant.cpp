@@ -10,6 +10,7 @@
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 #include "core/generators/scene/blame.h"
+#include "core/generators/scene/patterns.h"
 #include "core/generators/scene/rules.h"
 #include "generated/params/scene.h"
 
@@ -50,21 +51,6 @@ Base base_of(const SceneLayer& layer) {
   if (const double* radius = std::get_if<double>(&*layer.footprint)) return {glm::dvec2(*radius), true};
   const auto& size = std::get<1>(*layer.footprint);
   return {glm::dvec2(size[0], size[1]) / 2.0, false};
-}
-
-/// The member that says how many places a pattern has.
-const char* amount_of(SceneMethod method) {
-  switch (method) {
-    case SceneMethod::scatter:
-    case SceneMethod::clusters:
-      return "/count";
-    case SceneMethod::rows:
-      return "/spacing";
-    case SceneMethod::positions:
-      return "/positions";
-    default:
-      return "/distance";
-  }
 }
 
 /// Layers in their order, each seeing those before it.
@@ -113,15 +99,9 @@ class Planter {
     for (const SceneNeighbour& each : place.near) near.push_back(number_of(each.layer));
     const Rules rules({place, ground_, obstacles_, planted_, std::move(near), rng.at("noise").key()},
                       "/layers/" + std::to_string(number) + "/place", job_);
-    Extent part = ground_.extent();
-    if (!rules.area().empty()) {
-      const Extent area = extent_of(rules.area());
-      part.min = glm::clamp(area.min, part.min, part.max);
-      part.max = glm::clamp(area.max, part.min, part.max);
-    }
     if (place.method == SceneMethod::scatter || place.method == SceneMethod::clusters)
-      return series_of(layer, number, rules, part, rng.at("places"));
-    Array<Stand> stands = pattern_of(place, part, rng.at("places"));
+      return series_of(layer, number, rules, part_of(place, ground_.extent()), rng.at("places"));
+    Array<Stand> stands = pattern_of(place, ground_.extent(), rng.at("places"), job_);
     std::optional<Plots> plots = plots_of(layer);
     sift(stands, layer, rules, plots);
     if (place.count) thin_out(stands, static_cast<std::size_t>(*place.count), job_);
@@ -150,28 +130,6 @@ class Planter {
       stands.push_back(stand);
     }
     return stands;
-  }
-
-  Array<Stand> pattern_of(const ScenePlace& place, const Extent& part, Rng rng) {
-    switch (place.method) {
-      case SceneMethod::rows:
-        return in_rows(part,
-                       {{(*place.spacing)[0], (*place.spacing)[1]},
-                        math::radians(place.angle),
-                        place.stagger,
-                        place.jitter},
-                       rng, job_);
-      case SceneMethod::path: {
-        std::vector<glm::dvec2> points;
-        for (const auto& p : *place.points) points.emplace_back(p[0], p[1]);
-        return along(points,
-                     {*place.distance, place.offset, place.side != SceneSide::right,
-                      place.side != SceneSide::left, place.jitter},
-                     rng, job_);
-      }
-      default:
-        return poisson_disk(ground_.extent(), part, *place.distance, rng, job_);
-    }
   }
 
   /// Places of an endless series until there are as many as are wanted.

@@ -34,19 +34,20 @@ constexpr std::array<Offset, 20> around{{{-1, 0}, {1, 0},  {0, -1},  {0, 1},  {-
                                          {1, 1},  {-2, 0}, {2, 0},   {0, -2}, {0, 2},   {-2, -1}, {-2, 1},
                                          {2, -1}, {2, 1},  {-1, -2}, {1, -2}, {-1, 2},  {1, 2}}};
 
+/// The distance that places keep so that rounded ones keep `distance`.
+double reach_of(const Extent& whole, double distance) {
+  const glm::dvec2 corner = glm::max(glm::abs(whole.min), glm::abs(whole.max));
+  return distance + rounding * std::max(corner.x, corner.y);
+}
+
 /// The grid over `part`, counted from the corner of `whole`, with a rim of cells that stay empty.
 class Darts {
  public:
   Darts(const Extent& whole, const Extent& part, double distance, Rng rng, const Job& job)
       : whole_(whole), part_(part), rng_(rng), job_(job), point_(job) {
-    const glm::dvec2 corner = glm::max(glm::abs(whole.min), glm::abs(whole.max));
-    reach_ = distance + rounding * std::max(corner.x, corner.y);
+    refuse_poisson_disk(whole, part, distance, job);
+    reach_ = reach_of(whole, distance);
     cell_ = reach_ / std::sqrt(2.0);
-    const glm::dvec2 size = part.size();
-    if (thinnest * size.x * size.y / (reach_ * reach_) > static_cast<double>(job.limits().shapes)) {
-      Job::refuse("a distance of " + std::to_string(distance) + " m on this ground gives more places than " +
-                  std::to_string(job.limits().shapes) + ", the limit on shapes");
-    }
     const glm::dvec2 first = (part.min - whole.min) / cell_, last = (part.max - whole.min) / cell_;
     first_x_ = math::to_int64(std::floor(first.x));
     first_z_ = math::to_int64(std::floor(first.y));
@@ -163,6 +164,14 @@ class Darts {
 };
 
 }  // namespace
+
+void refuse_poisson_disk(const Extent& whole, const Extent& part, double distance, const Job& job) {
+  const glm::dvec2 size = part.size();
+  const double reach = reach_of(whole, distance);
+  if (thinnest * size.x * size.y / (reach * reach) <= static_cast<double>(job.limits().shapes)) return;
+  Job::refuse("a distance of " + std::to_string(distance) + " m on this ground gives more places than " +
+              std::to_string(job.limits().shapes) + ", the limit on shapes");
+}
 
 Array<Stand> poisson_disk(const Extent& whole, const Extent& part, double distance, Rng rng, const Job& job) {
   return Darts(whole, part, distance, rng, job).throw_all();

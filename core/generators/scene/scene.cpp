@@ -1,6 +1,7 @@
 #include "core/generators/scene/scene.h"
 
 #include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -13,6 +14,9 @@
 #include "core/generators/scene/grow.h"
 #include "core/generators/scene/levels.h"
 #include "core/generators/scene/list.h"
+#include "core/generators/scene/patterns.h"
+#include "core/geom/finish.h"
+#include "core/gltf/pack.h"
 #include "generated/params/scene.h"
 
 namespace seedmesh::scene {
@@ -90,18 +94,38 @@ std::vector<std::uint64_t> stands_of(const Planting& planting, const Casting& ca
   return stands;
 }
 
+bool has_foundations(const SceneParams& params) {
+  return std::any_of(params.layers.begin(), params.layers.end(),
+                     [](const SceneLayer& layer) { return layer.foundation.has_value(); });
+}
+
+/// For a compressed file. Nothing else is made meanwhile: a great ground takes more memory on its way than
+/// all that comes after it.
+Result<Model> packed_ground(const SceneParams& params, const Ground& ground, Job& job) {
+  Result<Model> made = ground.model(params, job);
+  if (!made) return made;
+  finish_meshes(*made, job);
+  gltf::pack(*made, job);
+  return made;
+}
+
 }  // namespace
 
 Result<Model> generate(const SceneParams& params, Job& job) {
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
   std::vector<Issue> issues = conflicts(params, job.demand());
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
+  refuse_patterns(params, job);
   job.progress("derive", 0);
   const Casting casting = casting_of(params, job);
   Forecast forecast(params, casting, job);
   forecast.refuse(job);
   Result<Ground> ground = Ground::make(params, job);
   if (!ground) return std::move(ground).error();
+  // Only foundations bear on the ground: without any it is done before its plants take memory.
+  std::optional<Result<Model>> made;
+  if (job.demand().packs && !has_foundations(params)) made.emplace(packed_ground(params, *ground, job));
+  if (made && !*made) return std::move(*made);
   Planting planting = plant(params, *ground, job);
   for (Warning& each : without_effect(params)) planting.warnings.push_back(std::move(each));
   job.progress("mesh", 0);
@@ -116,10 +140,13 @@ Result<Model> generate(const SceneParams& params, Job& job) {
   }
   const bool merges = job.demand().copies == CopyForm::merge && !chooses_levels(params, job.demand());
   forecast.want(stands_of(planting, casting), merges);
-  // A reduced mesh of the ground is long work that cannot be cut: models are made beside it.
-  std::optional<Result<Model>> made;
-  Result<std::vector<Model>> models =
-      models_of(forecast, demand, job, [&] { made.emplace(ground->model(params, job)); });
+  if (job.demand().packs && !made) made.emplace(packed_ground(params, *ground, job));
+  if (made && !*made) return std::move(*made);
+  if (made) forecast.know_ground();
+  // Else models are made beside it: a reduced mesh is long work that cannot be cut.
+  std::function<void()> beside;
+  if (!made) beside = [&] { made.emplace(ground->model(params, job)); };
+  Result<std::vector<Model>> models = models_of(forecast, demand, job, beside);
   if (!models) return std::move(models).error();
   if (!*made) return std::move(*made);
   pieces.models = std::move(*models);
@@ -129,6 +156,7 @@ Result<Model> generate(const SceneParams& params, Job& job) {
 
 Result<Json> derive(const SceneParams& params, Job& job) {
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
+  refuse_patterns(params, job);
   Result<Ground> ground = Ground::make(params, job);
   if (!ground) return std::move(ground).error();
   const Planting planting = plant(params, *ground, job);
@@ -139,6 +167,7 @@ Result<Appraisal> appraise(const SceneParams& params, const Job& job) {
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
   std::vector<Issue> issues = conflicts(params, job.demand());
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
+  refuse_patterns(params, job);
   Appraisal appraisal;
   appraisal.warnings = without_effect(params);
   const Casting casting = casting_of(params, job);
@@ -164,6 +193,7 @@ Result<Payload> encode(const SceneParams& params, std::string_view, Job& job) {
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
   if (params.camera)
     return Error{Code::invalid, {{"/camera", "has no effect on a list of placements", 0, 0}}};
+  refuse_patterns(params, job);
   job.progress("derive", 0);
   const Casting casting = casting_of(params, job);
   Forecast forecast(params, casting, job);

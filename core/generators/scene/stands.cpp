@@ -43,6 +43,11 @@ Array<Stand> series(Stretch stretch, Rng rng, const Job& job, const Place& place
   return stands;
 }
 
+/// From the middle of a part to the farthest place of the rows that cover it.
+double reach_of(const Extent& part, const RowPlan& plan) {
+  return glm::length(part.size()) / 2 + plan.jitter;
+}
+
 glm::dvec2 drawn_place(const Extent& part, Rng& rng) {
   const double x = rng.uniform(part.min.x, part.max.x);
   return {x, rng.uniform(part.min.y, part.max.y)};
@@ -68,10 +73,15 @@ Array<Stand> clustered(const Extent& part, const ClusterPlan& plan, Stretch stre
   });
 }
 
+void refuse_rows(const Extent& part, const RowPlan& plan, const Job& job) {
+  const double reach = reach_of(part, plan);
+  refuse_more_than(std::ceil(4 * reach * reach / (plan.spacing.x * plan.spacing.y)) / 4, job);
+}
+
 Array<Stand> in_rows(const Extent& part, const RowPlan& plan, Rng rng, const Job& job) {
   const glm::dvec2 middle = (part.min + part.max) / 2.0;
-  const double reach = glm::length(part.size()) / 2 + plan.jitter;
-  refuse_more_than(std::ceil(4 * reach * reach / (plan.spacing.x * plan.spacing.y)) / 4, job);
+  const double reach = reach_of(part, plan);
+  refuse_rows(part, plan, job);
   const math::SinCos turn = math::sincos(plan.angle);
   // Counter-clockwise seen from above, with z to the south.
   const glm::dvec2 onward(turn.cos, -turn.sin), aside(turn.sin, turn.cos);
@@ -98,10 +108,14 @@ Array<Stand> in_rows(const Extent& part, const RowPlan& plan, Rng rng, const Job
   return stands;
 }
 
-Array<Stand> along(std::span<const glm::dvec2> points, const WayPlan& plan, Rng rng, const Job& job) {
+void refuse_along(std::span<const glm::dvec2> points, const WayPlan& plan, const Job& job) {
   double length = 0;
   for (std::size_t i = 1; i < points.size(); ++i) length += glm::distance(points[i - 1], points[i]);
   refuse_more_than(2 * length / plan.distance, job);
+}
+
+Array<Stand> along(std::span<const glm::dvec2> points, const WayPlan& plan, Rng rng, const Job& job) {
+  refuse_along(points, plan, job);
   const bool both = plan.offset > 0 && plan.left && plan.right;
   Array<Stand> stands(job);
   double passed = 0, next = plan.distance / 2;

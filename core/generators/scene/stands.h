@@ -41,6 +41,8 @@ struct Stand {
 /// Wei, "Parallel Poisson disk sampling", 2008, whose phase groups these are; on the full grid alone).
 /// Throws Stop where there would be more places than the limit on shapes. Below 1 microsecond a place.
 Array<Stand> poisson_disk(const Extent& whole, const Extent& part, double distance, Rng rng, const Job& job);
+/// Its refusal alone, as of the two patterns below.
+void refuse_poisson_disk(const Extent& whole, const Extent& part, double distance, const Job& job);
 
 /// Places first .. first + count - 1 of an endless series.
 struct Stretch {
@@ -66,6 +68,7 @@ struct RowPlan {
 };
 /// A grid through the middle of `part` that covers it.
 Array<Stand> in_rows(const Extent& part, const RowPlan& plan, Rng rng, const Job& job);
+void refuse_rows(const Extent& part, const RowPlan& plan, const Job& job);
 
 struct WayPlan {
   double distance = 1;
@@ -75,6 +78,7 @@ struct WayPlan {
 };
 /// Along a line through `points`. Stands look along it.
 Array<Stand> along(std::span<const glm::dvec2> points, const WayPlan& plan, Rng rng, const Job& job);
+void refuse_along(std::span<const glm::dvec2> points, const WayPlan& plan, const Job& job);
 
 /// Those whose mark is not 0 stay, in their order.
 void keep(Array<Stand>& stands, const Array<std::uint8_t>& marks);

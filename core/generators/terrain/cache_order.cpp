@@ -14,9 +14,9 @@ namespace {
 // Triangles that are put in order together: beyond, what the order is found with takes more room than they.
 constexpr std::size_t triangles_ordered = std::size_t{1} << 17U;
 
-/// Triangles by squares of the field, those of each in the order in which they come; where each square ends.
-Array<std::uint32_t> by_squares(const Triangulation& plan, const Field& field, std::vector<std::size_t>& ends,
-                                const Job& job) {
+/// Sorts triangles by squares of the field, those of each in the order in which they come; where each square
+/// ends.
+std::vector<std::size_t> sort_by_squares(Triangulation& plan, const Field& field, const Job& job) {
   const std::size_t triangles = plan.index.size() / 3;
   std::size_t across = 1;
   while (across * across * triangles_ordered < triangles) ++across;
@@ -27,7 +27,7 @@ Array<std::uint32_t> by_squares(const Triangulation& plan, const Field& field, s
     };
     return part(at.z, field.depth) * across + part(at.x, field.width);
   };
-  ends.assign(across * across, 0);
+  std::vector<std::size_t> ends(across * across, 0);
   for (std::size_t i = 0; i < plan.index.size(); i += 3) ends[square_of(i)] += 3;
   std::size_t end = 0;
   for (std::size_t& each : ends) each = std::exchange(end, end + each);
@@ -37,33 +37,30 @@ Array<std::uint32_t> by_squares(const Triangulation& plan, const Field& field, s
     std::copy_n(plan.index.data() + i, 3, sorted.data() + at);
     at += 3;
   }
-  return sorted;
+  plan.index = std::move(sorted);
+  return ends;
 }
 
 }  // namespace
 
 void order_for_cache(Triangulation& plan, const Field& field, const Job& job) {
-  std::vector<std::size_t> ends;
-  Array<std::uint32_t> ordered = by_squares(plan, field, ends, job);
-  std::swap(ordered, plan.index);
   std::size_t begin = 0;
-  for (const std::size_t end : ends) {
-    if (end > begin)
-      meshopt_optimizeVertexCache(ordered.data() + begin, plan.index.data() + begin, end - begin,
-                                  plan.samples.size());
+  for (const std::size_t end : sort_by_squares(plan, field, job)) {
+    std::uint32_t* first = plan.index.data() + begin;
+    if (end > begin) meshopt_optimizeVertexCache(first, first, end - begin, plan.samples.size());
     begin = end;
     job.check();
   }
   Array<std::uint32_t> place(job, plan.samples.size(), 0xFFFFFFFFU);
   Array<std::uint32_t> samples(job);
   samples.reserve(plan.samples.size());
-  for (std::size_t i = 0; i < ordered.size(); ++i) {
-    std::uint32_t& at = place[ordered[i]];
+  for (std::uint32_t& corner : plan.index) {
+    std::uint32_t& at = place[corner];
     if (at == 0xFFFFFFFFU) {
       at = static_cast<std::uint32_t>(samples.size());
-      samples.push_back(plan.samples[ordered[i]]);
+      samples.push_back(plan.samples[corner]);
     }
-    plan.index[i] = at;
+    corner = at;
   }
   plan.samples = std::move(samples);
 }

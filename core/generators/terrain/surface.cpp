@@ -336,6 +336,7 @@ Mesh reduced_mesh(const Field& field, Triangulation plan, ColorOf color_of, cons
                                                                   : slopes_of(field, at.z).at(at.x));
     mesh.uv[0][i] = {ground.u(at.x), ground.v(at.z)};
   }
+  plan.samples = {};
   mesh.index.wide = std::move(plan.index);
   mesh.cache_ordered = true;
   if (coarse.shading == Shading::upright) {

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
 #include <numeric>
+#include <vector>
 
 namespace seedmesh {
 namespace {
@@ -18,6 +21,45 @@ TEST(Array, KeepsItsElementsWhileItGrowsFromTheHeapIntoMappedPages) {
   Array<std::uint32_t> array(job);
   for (std::uint32_t i = 0; i < 5'000'000; ++i) array.push_back(i);
   for (std::uint32_t i = 0; i < 5'000'000; i += 977) ASSERT_EQ(array[i], i);
+}
+
+TEST(Array, KeepsWhatFitsWhereverASizeTakesIt) {
+  for (const bool is_large : {false, true}) {
+    const Job job = job_with_memory(std::uint64_t{1} << 30U);
+    if (is_large) const Array<char> passing(job, 9 << 20U);
+    Array<std::uint32_t> array(job);
+    std::size_t kept = 0;
+    // From the heap into small pages, huge ones with an odd end, and all the way back.
+    for (const std::size_t size : {100, 70'000, 600'000, 1'300'000, 1'100'000, 530'000, 140'000, 66'000, 9}) {
+      array.resize(size);
+      array.shrink_to_fit();
+      for (std::size_t i = 0; i < std::min(kept, size); ++i) ASSERT_EQ(array[i], i);
+      for (std::size_t i = 0; i < size; ++i) array[i] = static_cast<std::uint32_t>(i);
+      kept = size;
+      ASSERT_EQ(job.purse()->used(), size * sizeof(std::uint32_t));
+    }
+  }
+}
+
+TEST(Array, OfALargeRequestLeavesNoMemoryBehind) {
+#if defined(__linux__)
+  const auto resident = [] {
+    std::ifstream file("/proc/self/statm");
+    std::size_t whole = 0, pages = 0;
+    file >> whole >> pages;
+    return pages * 4096;
+  };
+  const Job job = job_with_memory(std::uint64_t{1} << 30U);
+  const Array<char> large(job, 9 << 20U);
+  const std::size_t before = resident();
+  {
+    std::vector<Array<char>> many;
+    for (int i = 0; i < 40; ++i) many.emplace_back(job, 700'000, 'x');
+    EXPECT_GT(resident(), before + 20'000'000);
+    std::swap(many.front(), many.back());  // the order in which they go does not matter
+  }
+  EXPECT_LT(resident(), before + 2'000'000);
+#endif
 }
 
 TEST(Array, ChargesThePurseForItsCapacityAndPaysBack) {

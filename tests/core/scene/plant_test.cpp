@@ -298,6 +298,45 @@ TEST(Plant, PointsToTheLayerThatHasTooManyPlaces) {
             "/layers/1/place/distance");
 }
 
+TEST(Plant, TellsPatternsThatAreTooDenseBeforeAnythingIsMade) {
+  struct Case {
+    Json place;
+    std::string member;
+  };
+  const std::vector<Case> cases = {
+      {{{"method", "poisson"}, {"distance", 0.05}}, "distance"},
+      {{{"method", "poisson"}, {"distance", 0.02}, {"area", {{-40, -40}, {40, -40}, {0, 40}}}}, "distance"},
+      {{{"method", "rows"}, {"spacing", {0.05, 0.05}}}, "spacing"},
+      {{{"method", "path"}, {"points", {{-50, 0}, {50, 0}}}, {"distance", 0.01}}, "distance"}};
+  const Json hills = {{"generator", "terrain"}, {"parameters", {{"iterations", 5}, {"size", 100}}}};
+  for (const bool is_terrain : {false, true}) {
+    for (const Case& each : cases) {
+      Json json = {{"layers", {{{"model", cube()}, {"place", each.place}}}}};
+      json[is_terrain ? "terrain" : "ground"] = is_terrain ? hills : Json{{"size", 100}};
+      Limits limits;
+      limits.shapes = 10'000;
+      const Generator::Params params = read_scene_params(json);
+      Job job(1, {.limits = limits});
+      const auto issue = [&](const auto& work) {
+        try {
+          work();
+        } catch (const Stop& stop) {
+          EXPECT_EQ(stop.code(), Code::limit);
+          return stop.issue().pointer + ": " + stop.issue().message;
+        }
+        return std::string("nothing");
+      };
+      const std::string told = issue([&] { static_cast<void>(scene::appraise(own(params), job)); });
+      EXPECT_THAT(told, testing::StartsWith("/layers/0/place/" + each.member + ": ")) << json;
+      EXPECT_THAT(told, testing::HasSubstr("more places than 10000"));
+      EXPECT_EQ(told, issue([&] { static_cast<void>(scene::generate(own(params), job)); }));
+      EXPECT_EQ(told, issue([&] { static_cast<void>(scene::derive(own(params), job)); }));
+      EXPECT_EQ(told, issue([&] { static_cast<void>(scene::encode(own(params), "placements", job)); }));
+      EXPECT_EQ(job.purse()->used(), 0U);
+    }
+  }
+}
+
 TEST(Plant, EndsSoonAfterTheDeadlineWhateverIsAsked) {
   // Each place asks thousands of pieces of ways and all trees around.
   Json points = Json::array();
