@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "core/base/math.h"
+#include "core/base/parallel.h"
 #include "core/geom/apart.h"
 #include "core/geom/crowd.h"
 #include "core/geom/graft_plan.h"
@@ -220,7 +221,12 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
   GraftWriter::Written written = writer.take();
   if (options.joints) *options.joints = std::move(written.joints);
   append_leftover(written, Leftover(limbs, chains, trust, scale.box), options, job);
-  refuse_crowds(written.mesh, written.twin, scale, job);
+  const auto look = [&] { refuse_crowds(written.mesh, written.twin, scale, job); };
+  if (options.meanwhile) {
+    run_both(job, look, options.meanwhile);
+  } else {
+    look();
+  }
   if (counts) counts->fallen_back = fallen_back;
   written.mesh.cache_ordered = is_ordered;
   return std::move(written.mesh);

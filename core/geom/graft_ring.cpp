@@ -173,7 +173,7 @@ void GraftWriter::plain_ring(const Plane& plane, Corners& out) {
   const int sides = sides_for(plane.radius);
   const auto count = static_cast<std::size_t>(sides) + 1;
   const float step = 2 * pi / static_cast<float>(sides);
-  const Circle& circle = circles_[static_cast<std::size_t>(sides)];
+  const Circle& circle = common_->circles[static_cast<std::size_t>(sides)];
   make_room_for(count);
   out.resize(count);
   for (std::size_t i = 0; i < count; ++i)
@@ -200,7 +200,7 @@ void GraftWriter::open_ring(const Plane& plane, const Band& band) {
   upper_order_.clear();
   const int sides = sides_for(plane.radius);
   const float step = 2 * pi / static_cast<float>(sides);
-  const Circle& circle = circles_[static_cast<std::size_t>(sides)];
+  const Circle& circle = common_->circles[static_cast<std::size_t>(sides)];
   const auto add = [&](const Mark& mark, bool below, bool above) {
     if (below) lower_order_.push_back({mark.angle, static_cast<std::uint32_t>(marks_.size())});
     if (above) upper_order_.push_back({mark.angle, static_cast<std::uint32_t>(marks_.size())});

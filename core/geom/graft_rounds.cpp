@@ -27,20 +27,21 @@ GraftCounts GraftWriter::counts() const {
 }
 
 /// The limb that each limb grows from.
-void GraftWriter::find_parents() {
+std::vector<std::uint32_t> GraftWriter::find_parents() const {
   const Chains& chains = context_.chains;
   std::vector<std::uint32_t> limb_of(context_.limbs.size(), none);
-  parent_.assign(chains.head.size(), none);
+  std::vector<std::uint32_t> parents(chains.head.size(), none);
   for (std::uint32_t i = 0; i < chains.head.size(); ++i) {
     for (std::uint32_t joint = chains.head[i]; joint != none; joint = chains.next[joint]) limb_of[joint] = i;
     const std::uint32_t from = context_.limbs.parent[chains.head[i]];
-    if (from != none) parent_[i] = limb_of[from];
+    if (from != none) parents[i] = limb_of[from];
   }
+  return parents;
 }
 
 /// Limbs whose trust has changed, and whom they grow from.
 void GraftWriter::find_dirty() {
-  if (parent_.empty()) find_parents();
+  if (parent_.empty()) parent_ = find_parents();
   std::fill(dirty_.begin(), dirty_.end(), std::uint8_t{0});
   for (std::size_t i = 0; i < dirty_.size(); ++i) {
     if (context_.trust[i] == trust_[i]) continue;
@@ -49,10 +50,20 @@ void GraftWriter::find_dirty() {
   }
 }
 
+/// Behind all that is written.
+void GraftWriter::write_anew(std::uint32_t limb) {
+  kind_[limb] = Kind::none;
+  range_[limb].begin = here();
+  range_[limb].first_end = range_[limb].begin.triangle;
+  if (context_.trust[limb] != Trust::none) write_limb(limb);
+  range_[limb].end = here();
+}
+
 void GraftWriter::write_round() {
   const bool is_first = trust_.empty();
   if (!is_first) find_dirty();
   trust_ = context_.trust;
+  if (is_first && write_parts()) return;
   const std::vector<Loop> then = is_first ? std::vector<Loop>{} : loops_;
   for (std::size_t i = 0; i < range_.size(); ++i) {
     const auto limb = static_cast<std::uint32_t>(i);
@@ -65,11 +76,7 @@ void GraftWriter::write_round() {
       dirty_[i] = 1;
     }
     if (!is_first) forget_loops(range_[i]);
-    kind_[i] = Kind::none;
-    range_[i].begin = here();
-    range_[i].first_end = range_[i].begin.triangle;
-    if (trust_[i] != Trust::none) write_limb(limb);
-    range_[i].end = here();
+    write_anew(limb);
   }
 }
 

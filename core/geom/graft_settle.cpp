@@ -17,7 +17,7 @@ constexpr float least_area = 4e-12F;
 constexpr float least_cosine = 1e-4F;
 
 // Limbs that are looked at together.
-constexpr std::size_t limbs_a_chunk = 256;
+constexpr std::size_t limbs_a_chunk = 64;
 
 }  // namespace
 

@@ -124,7 +124,7 @@ bool is_modest(const Skeleton& skeleton, std::uint64_t triangles_a_leaf, const J
   return triangles < left && most_bytes_a_triangle * triangles < job.limits().memory_bytes / 2;
 }
 
-/// Bark and leaves side by side, where that is of use.
+/// Leaves beside the last step of the bark, where that is of use.
 Made make_both(const Skeleton& skeleton, const TreeParams& params, const Motion& motion, const Leaves& leaves,
                Job& job) {
   Made made;
@@ -132,13 +132,9 @@ Made make_both(const Skeleton& skeleton, const TreeParams& params, const Motion&
   if (!has_threads(job) || has_levels || job.demand().share_organs || leaves.organs.organ.empty())
     return made;
   if (!is_modest(skeleton, leaf_of(params, 0, job).elements(), job)) return made;
-  run_both(
-      job,
-      [&] {
-        made.bark = bark_of(skeleton.limbs, graft_options(params, Detail(0)), motion.bones(),
-                            motion.wind ? &*motion.wind : nullptr, job);
-      },
-      [&] { made.leaves = finest_leaves(leaves, job); });
+  GraftOptions options = graft_options(params, Detail(0));
+  options.meanwhile = [&] { made.leaves = finest_leaves(leaves, job); };
+  made.bark = bark_of(skeleton.limbs, options, motion.bones(), motion.wind ? &*motion.wind : nullptr, job);
   return made;
 }
 

@@ -1,10 +1,30 @@
 #include "core/generators/tree/growth_context.h"
 
+#include <algorithm>
+
 namespace seedmesh::tree {
 namespace {
 
 // Of the bark of an internode, and of a leaf: a triangular tube, two triangles a side; a card.
 constexpr std::uint64_t least_triangles_a_joint = 6, least_triangles_a_leaf = 2;
+// Of one part of a tree: larger trees are seldom, and are not grown twice for long.
+constexpr std::uint64_t most_of_a_part = std::uint64_t{1} << 18U;
+constexpr std::uint64_t bytes_of_both = 128;  // of a joint and a leaf, at least
+constexpr std::uint64_t spent_at_once = 4096;
+
+/// As small amounts, which leave no more of a lease.
+void spend(Meter& meter, std::uint64_t amount) {
+  for (; amount > spent_at_once; amount -= spent_at_once) meter.spend(spent_at_once);
+  meter.spend(amount);
+}
+
+/// Joints from `first` on are numbered anew, `by` higher.
+void append_numbers(Array<std::uint32_t>& to, const Array<std::uint32_t>& from, std::uint32_t first,
+                    std::uint32_t by) {
+  std::uint32_t* out = to.extend(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i)
+    out[i] = from[i] == Limbs::none || from[i] < first ? from[i] : from[i] + by;
+}
 
 }  // namespace
 
@@ -27,8 +47,51 @@ SkeletonWriter::SkeletonWriter(Skeleton& skeleton, Job& job, double density)
       most_leaves_(job.limits().triangles / least_triangles_a_leaf),
       density_(density) {}
 
+SkeletonWriter::SkeletonWriter(Skeleton& part, const SkeletonWriter& whole, std::size_t most)
+    : SkeletonWriter(part, whole.job_, whole.density_) {
+  is_part_ = true;
+  first_ = static_cast<std::uint32_t>(whole.limbs_.size());
+  end_after(most, most);
+}
+
+std::size_t SkeletonWriter::most_of_parts(std::size_t parts) const {
+  const Limits& limits = job_.limits();
+  const std::uint64_t joints = limbs_.size();
+  if (is_part_ || end_joints_ != ~std::size_t{0} || joints >= most_joints_ || leaves_ >= most_leaves_)
+    return 0;
+  const std::uint64_t left =
+      std::min({limits.modules - job_.spent(Resource::modules), limits.shapes - job_.spent(Resource::shapes),
+                most_joints_ - joints, most_leaves_ - leaves_, limits.memory_bytes / bytes_of_both});
+  return static_cast<std::size_t>(std::min(most_of_a_part, left / (2 * std::max<std::size_t>(parts, 1))));
+}
+
+void SkeletonWriter::take(const SkeletonWriter& part) {
+  spend(modules_, part.limbs_.size());
+  spend(shapes_, part.leaves_);
+  const std::uint32_t by = static_cast<std::uint32_t>(limbs_.size()) - part.first_;
+  limbs_.position.append(part.limbs_.position.span());
+  limbs_.radius.append(part.limbs_.radius.span());
+  limbs_.base_radius.append(part.limbs_.base_radius.span());
+  append_numbers(limbs_.parent, part.limbs_.parent, part.first_, by);
+  limbs_.starts_limb.append(part.limbs_.starts_limb.span());
+  limbs_.color.append(part.limbs_.color.span());
+  limbs_.order.append(part.limbs_.order.span());
+  limbs_.key.append(part.limbs_.key.span());
+  const std::size_t leaf = organs_.organ.size();
+  organs_.organ.append(part.organs_.organ.span());
+  for (std::size_t i = leaf; i < organs_.organ.size(); ++i) {
+    std::uint32_t& joint = organs_.organ[i].limb_joint;
+    if (joint != Limbs::none && joint >= part.first_) joint += by;
+  }
+  leaves_ += part.leaves_;
+}
+
 std::uint32_t SkeletonWriter::add(const Joint& joint) {
-  modules_.spend();
+  if (!is_part_) {
+    modules_.spend();
+  } else if (limbs_.size() % 1024 == 0) {
+    job_.check();
+  }
   if (limbs_.size() >= end_joints_) throw Enough{};
   if (limbs_.size() >= most_joints_) {
     Job::refuse("the tree has more than " + std::to_string(most_joints_) +
@@ -42,7 +105,7 @@ std::uint32_t SkeletonWriter::add(const Joint& joint) {
   limbs_.color.push_back(0);
   limbs_.order.push_back(static_cast<std::uint16_t>(joint.order));
   limbs_.key.push_back(joint.key);
-  return static_cast<std::uint32_t>(limbs_.size() - 1);
+  return first_ + static_cast<std::uint32_t>(limbs_.size() - 1);
 }
 
 void SkeletonWriter::refuse_leaves() const {

@@ -52,6 +52,15 @@ class SkeletonWriter {
     end_leaves_ = leaves;
   }
 
+  /// Several write at once, each a part that begins behind what is written here. `most`: joints and leaves of
+  /// one, so many that `parts` of them meet no limit of the request; 0: there is no room for that.
+  std::size_t most_of_parts(std::size_t parts) const;
+  /// Writes to `part`, numbering joints as if they came next after those of `whole`; throws Enough beyond
+  /// `most` joints or leaves. Nothing is spent before the part is taken.
+  SkeletonWriter(Skeleton& part, const SkeletonWriter& whole, std::size_t most);
+  /// Appends what `part` has written.
+  void take(const SkeletonWriter& part);
+
   struct Joint {
     std::uint32_t parent = Limbs::none;
     glm::dvec3 position{0};
@@ -71,7 +80,7 @@ class SkeletonWriter {
   };
   /// Counts a leaf. False: it is none of those that are drawn, and need not be made.
   bool wants_leaf(std::uint64_t key) {
-    shapes_.spend();
+    if (!is_part_) shapes_.spend();
     if (leaves_ >= end_leaves_) throw Enough{};
     if (leaves_ >= most_leaves_) refuse_leaves();
     ++leaves_;
@@ -82,7 +91,7 @@ class SkeletonWriter {
   void add(std::span<const Organ> leaves) { organs_.organ.append(leaves); }
 
   /// The radius at the far end of a joint's internode.
-  double radius(std::uint32_t joint) const { return static_cast<double>(limbs_.radius[joint]); }
+  double radius(std::uint32_t joint) const { return static_cast<double>(limbs_.radius[joint - first_]); }
   Job& job() { return job_; }
 
  private:
@@ -95,6 +104,8 @@ class SkeletonWriter {
   std::uint64_t most_joints_, most_leaves_, leaves_ = 0;
   std::size_t end_joints_ = ~std::size_t{0}, end_leaves_ = ~std::size_t{0};
   double density_;
+  bool is_part_ = false;
+  std::uint32_t first_ = 0;  ///< number of a part's first joint
 };
 
 }  // namespace seedmesh::tree

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/generators/tree/sway.h"
 #include "core/generators/tree/weber_penn_grower.h"
 
@@ -14,18 +16,66 @@ namespace {
 constexpr int helix_pieces = 6;
 // The flare's curve is drawn through these shares of the trunk; it ends at an eighth.
 constexpr double flare_stations[] = {0.0, 1.0 / 128, 1.0 / 48, 1.0 / 24, 1.0 / 12, 1.0 / 8};
+// Fewer stems that wait are not worth another thread.
+constexpr std::size_t least_stems = 8, parts_a_thread = 4;
 std::uint64_t number_of(double x) { return static_cast<std::uint64_t>(math::to_int64(x)); }
 
 }  // namespace
 
 void WeberPennGrower::run() {
-  waiting_.push_back(trunk());
+  grow(trunk());
+  if (!grow_parts()) grow_all();
+}
+
+void WeberPennGrower::grow_all() {
   while (!waiting_.empty()) {
     const WeberPennStem stem = waiting_.back();
     waiting_.pop_back();
     grow(stem);
   }
   put_leaves();
+}
+
+struct WeberPennGrower::Part {
+  Part(const WeberPennGrower& whole, std::size_t most)
+      : skeleton(whole.writer_.job()),
+        writer(skeleton, whole.writer_, most),
+        grower(whole.p_, whole.chances_, writer) {
+    grower.scale_ = whole.scale_;
+    grower.trunk_length_ = whole.trunk_length_;
+  }
+  Skeleton skeleton;
+  SkeletonWriter writer;
+  WeberPennGrower grower;
+};
+
+/// What waits, on all threads; false: nothing is grown. No stem knows of another that waits, and what is
+/// drawn by chance is drawn by place, so that the result is that of one thread.
+bool WeberPennGrower::grow_parts() {
+  const Job& job = writer_.job();
+  if (!has_threads(job) || waiting_.size() < least_stems) return false;
+  const std::size_t wanted = parts_a_thread * static_cast<std::size_t>(job.threads());
+  const std::size_t stems = std::max<std::size_t>(1, waiting_.size() / wanted);
+  const std::size_t count = chunk_count(waiting_.size(), stems), most = writer_.most_of_parts(count);
+  if (most == 0) return false;
+  put_leaves();
+  std::vector<std::unique_ptr<Part>> parts(count);
+  try {
+    parallel_for(job, waiting_.size(), stems, [&](std::size_t begin, std::size_t end, std::size_t index) {
+      auto part = std::make_unique<Part>(*this, most);
+      part->grower.waiting_.assign(waiting_.begin() + static_cast<std::ptrdiff_t>(begin),
+                                   waiting_.begin() + static_cast<std::ptrdiff_t>(end));
+      part->grower.grow_all();
+      parts[index] = std::move(part);
+    });
+  } catch (const SkeletonWriter::Enough&) {
+    return false;  // so large that it may meet a limit
+  }
+  while (!parts.empty()) {  // the last first, as they wait
+    writer_.take(parts.back()->writer);
+    parts.pop_back();
+  }
+  return true;
 }
 
 WeberPennStem WeberPennGrower::trunk() {

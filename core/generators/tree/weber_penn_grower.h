@@ -46,6 +46,10 @@ class WeberPennGrower {
   void run();
 
  private:
+  /// Stems that wait one after the other, and what grows from them.
+  struct Part;
+  void grow_all();
+  bool grow_parts();
   const WeberPennLevel& level(int n) const { return levels_[static_cast<std::size_t>(std::min(n, 3))]; }
   bool is_last(const WeberPennStem& stem) const { return stem.level + 1 >= p_.Levels; }
   double base_length() const { return p_.BaseSize * scale_; }
