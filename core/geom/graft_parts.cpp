@@ -8,7 +8,7 @@ namespace {
 
 // Trees of fewer joints take less time than another thread to wake, and those of more have better uses for
 // memory than to be written twice.
-constexpr std::size_t least_joints = 512, most_joints = std::size_t{1} << 16U;
+constexpr std::size_t least_joints = 128, most_joints = std::size_t{1} << 18U;
 constexpr std::size_t most_parts = 8;
 // No joint has more triangles, and no triangle takes more bytes while it is made.
 constexpr std::uint64_t most_triangles_a_joint = 256, most_bytes_a_triangle = 64;
