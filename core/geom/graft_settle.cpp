@@ -19,6 +19,9 @@ constexpr float least_cosine = 1e-4F;
 // Limbs that are looked at together.
 constexpr std::size_t limbs_a_chunk = 64;
 
+// Pairs of groups of a loop's normals that are joined together.
+constexpr std::size_t pairs_a_chunk = 1024;
+
 }  // namespace
 
 /// Faces at loops side by side: twice their area, the normals as long as that, and of each corner how far its
@@ -215,12 +218,14 @@ bool GraftWriter::blame(const std::uint32_t* corner, std::vector<Trust>& trust, 
 
 /// The mean of both surfaces, whatever the size of their faces. From here on the even group has it.
 void GraftWriter::join_loop_normals() {
-  for (std::size_t pair = 0; pair < touched_.size(); ++pair) {
-    if (!touched_[pair]) continue;
-    const glm::vec3 one = math::quick_unit(group_normal_[2 * pair], glm::vec3{0});
-    const glm::vec3 other = math::quick_unit(group_normal_[2 * pair + 1], glm::vec3{0});
-    group_normal_[2 * pair] = math::quick_unit(one + other, glm::vec3{0, 1, 0});
-  }
+  parallel_for(job_, touched_.size(), pairs_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t pair = begin; pair < end; ++pair) {
+      if (!touched_[pair]) continue;
+      const glm::vec3 one = math::quick_unit(group_normal_[2 * pair], glm::vec3{0});
+      const glm::vec3 other = math::quick_unit(group_normal_[2 * pair + 1], glm::vec3{0});
+      group_normal_[2 * pair] = math::quick_unit(one + other, glm::vec3{0, 1, 0});
+    }
+  });
 }
 
 void GraftWriter::put_loop_normals(std::size_t limb) {

@@ -44,6 +44,8 @@ std::vector<GraftWriter::Circle> GraftWriter::circles_up_to(int most) {
   std::vector<Circle> circles(static_cast<std::size_t>(most) + 1);
   for (int sides = 3; sides <= most; ++sides) {
     Circle& circle = circles[static_cast<std::size_t>(sides)];
+    circle.x.reserve(static_cast<std::size_t>(sides) + Four::size + 1);
+    circle.y.reserve(static_cast<std::size_t>(sides) + Four::size + 1);
     for (int i = 0; i < sides; ++i) {
       const math::SinCos at = math::quick_sincos(2 * math::pi * i / sides);
       circle.x.push_back(static_cast<float>(at.cos));
@@ -343,8 +345,8 @@ void GraftWriter::write_band(const Band& band) {
   near_piece_ = band.piece;
   stand_at(band.at);
   const std::size_t first = mesh_.index.wide.size() / 3;
-  const bool is_at_loop = !band.openings.empty();
-  if (band.openings.empty()) {
+  const bool is_at_loop = band.is_open();
+  if (!is_at_loop) {
     plain_ring(plane_of(band), upper_);
     strip(below_, upper_);
   } else {

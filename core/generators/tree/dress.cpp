@@ -131,7 +131,7 @@ Made make_both(const Skeleton& skeleton, const TreeParams& params, const Motion&
   const bool has_levels = job.demand().lods > 1;  // which ask the finest where it draws the joints
   if (!has_threads(job) || has_levels || job.demand().share_organs || leaves.organs.organ.empty())
     return made;
-  if (!is_modest(skeleton, leaf_of(params, 0, job).elements(), job)) return made;
+  if (!is_modest(skeleton, leaves.leaf.elements(), job)) return made;
   GraftOptions options = graft_options(params, Detail(0));
   options.meanwhile = [&] { made.leaves = finest_leaves(leaves, job); };
   made.bark = bark_of(skeleton.limbs, options, motion.bones(), motion.wind ? &*motion.wind : nullptr, job);
@@ -211,13 +211,18 @@ Model dress(Skeleton skeleton, const TreeParams& params, Job& job) {
     motion.growth = plan_growth(skeleton.limbs, {.most_bones = job.demand().most_bones}, job);
   }
   if (job.demand().wind) motion.wind.emplace(skeleton.limbs, job);
-  if (has_leaves(params)) fit_leaves(skeleton.organs, params, job);
+  Mesh leaf;
+  if (has_leaves(params)) {
+    leaf = leaf_of(params, 0, job);
+    fit_leaves(skeleton.organs, params, leaf, job);
+  }
   TreeLevels levels(skeleton, params, job);
   LeafMotion moved;
   if (motion.growth) moved.bones = motion.growth->bone.span();
   if (motion.wind) moved.wind = &*motion.wind;
   const Organs none(job);
-  const Leaves leaves{has_leaves(params) ? skeleton.organs : none, params, moved, size_of(skeleton.limbs)};
+  const Leaves leaves{has_leaves(params) ? skeleton.organs : none, leaf, params, moved,
+                      size_of(skeleton.limbs)};
   Made made = make_both(skeleton, params, motion, leaves, job);
   add_bark(model, skeleton.limbs, params, motion, levels, std::move(made.bark), job);
   add_collision(model, skeleton.limbs, job);

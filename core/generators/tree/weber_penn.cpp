@@ -158,8 +158,8 @@ double WeberPennGrower::walk_segment(WeberPennStem& stem, const Frame& axis, int
     const double end =
         piece + 1 == first_piece + pieces(stem) ? (segment + 1) * segment_length(stem) : along + piece_length;
     std::vector<double>& stops = stops_;
-    std::vector<WeberPennBud>& buds = buds_;
     stops.clear();
+    bud_frames_.push_back(frame);
     if (stem.level == 0) {
       for (const double share : flare_stations) {
         const double stop = share * stem.length;
@@ -181,13 +181,11 @@ double WeberPennGrower::walk_segment(WeberPennStem& stem, const Frame& axis, int
       stem.carried_children = 0;
       const int number = stem.children_before++;
       if (is_last(stem) && !wants_leaf(number)) continue;
-      put_bud(frame, at + frame.heading * (from - along), from, number);
+      put_bud(at + frame.heading * (from - along), from, number);
       if (!is_last(stem)) stops.push_back(from);
     }
     stops.push_back(end);
     std::sort(stops.begin(), stops.end());
-    std::size_t next_bud = 0;
-    while (next_bud < buds.size() && buds[next_bud].joint != Limbs::none) ++next_bud;
     double before = along;
     for (const double stop : stops) {
       if (stop <= before + 1e-9 * stem.length && stop < end) continue;
@@ -202,8 +200,8 @@ double WeberPennGrower::walk_segment(WeberPennStem& stem, const Frame& axis, int
       last_joint_ = writer_.add(joint);
       starts_ = false;
       before = stop;
-      for (; next_bud < buds.size() && buds[next_bud].offset <= stop; ++next_bud)
-        buds[next_bud].joint = last_joint_;
+      for (; next_bud_ < buds_.size() && buds_[next_bud_].offset <= stop; ++next_bud_)
+        buds_[next_bud_].joint = last_joint_;
     }
     at += frame.heading * (end - along);
     along = end;
@@ -274,6 +272,8 @@ void WeberPennGrower::grow(const WeberPennStem& given) {
       std::max(0.0, level(stem.level + 1).length +
                         spread(stem.rng.at("child_length"), level(stem.level + 1).length_v));
   buds_.clear();
+  bud_frames_.clear();
+  next_bud_ = 0;
   Frame frame = stem.frame;
   glm::dvec3 at = stem.position;
   for (int segment = stem.segment; segment < l.curve_res; ++segment) {
@@ -283,7 +283,8 @@ void WeberPennGrower::grow(const WeberPennStem& given) {
   }
   for (int i = 0; is_fan && i < static_cast<int>(children); ++i) {
     if (!wants_leaf(i)) continue;
-    put_bud(frame, at, stem.length, i);
+    if (buds_.empty()) bud_frames_.push_back(frame);
+    put_bud(at, stem.length, i);
     buds_.back().joint = last_joint_;
   }
   bear_all(stem, child_max);
