@@ -1,9 +1,17 @@
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <utility>
 
+#include "core/base/parallel.h"
 #include "core/geom/graft_writer.h"
 
 namespace seedmesh {
+namespace {
+
+constexpr std::size_t most_together = std::size_t{1} << 20U;
+
+}  // namespace
 
 GraftWriter::Place GraftWriter::here() const {
   return {static_cast<std::uint32_t>(vertices_),
@@ -164,12 +172,26 @@ GraftWriter::Written GraftWriter::take() {
   }
   group_ = {};
   Written out;
-  out.mesh.position = gathered(mesh_.position, &Place::vertex);
-  out.mesh.normal = gathered(mesh_.normal, &Place::vertex);
-  out.mesh.uv[0] = gathered(mesh_.uv[0], &Place::vertex);
-  out.joints = gathered(joints_, &Place::vertex);
-  out.twin = gathered(twin_, &Place::vertex);
-  Array<std::uint32_t>& index = out.mesh.index.wide = Array<std::uint32_t>(job_);
+  const std::function<void()> tasks[] = {
+      [&] { out.mesh.position = gathered(mesh_.position, &Place::vertex); },
+      [&] { out.mesh.normal = gathered(mesh_.normal, &Place::vertex); },
+      [&] { out.mesh.index.wide = gathered_index(); },
+      [&] { out.mesh.uv[0] = gathered(mesh_.uv[0], &Place::vertex); },
+      [&] { out.joints = gathered(joints_, &Place::vertex); },
+      [&] { out.twin = gathered(twin_, &Place::vertex); },
+  };
+  // Great ones one after the other, each of which gives its memory to the next.
+  const std::size_t together = vertices_ > most_together ? std::size(tasks) : 1;
+  parallel_for(job_, std::size(tasks), together, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) tasks[i]();
+  });
+  mesh_ = {};
+  return out;
+}
+
+/// As the vertices stand then.
+Array<std::uint32_t> GraftWriter::gathered_index() const {
+  Array<std::uint32_t> index(job_);
   index.reserve(std::size_t{3} * sum_of(&Place::triangle));
   std::uint32_t vertex = 0;
   for (const Range& range : range_) {
@@ -181,8 +203,7 @@ GraftWriter::Written GraftWriter::take() {
     for (std::size_t i = 0; i < end - first; ++i) to[i] = from[i] + shift;
     vertex += range.end.vertex - range.begin.vertex;
   }
-  mesh_ = {};
-  return out;
+  return index;
 }
 
 }  // namespace seedmesh

@@ -30,6 +30,8 @@ constexpr float least_opened = 3;
 // What is reserved at first: most trees of fine twigs need about as much, and small ones of thick limbs twice
 // that.
 constexpr std::size_t vertices_a_joint = 4, triangles_a_joint = 5, more_vertices = std::size_t{1} << 15U;
+// Circles up to so many corners are reckoned once for all.
+constexpr int usual_corners = 64;
 // Of a ring that a vertex cache of 16 entries still holds when the next ring needs it.
 constexpr std::size_t cached_corners = 13;
 
@@ -66,7 +68,10 @@ GraftWriter::Common::Common(const Context& context) {
   for (std::size_t i = 0; i < limbs.size(); ++i) {
     if (limbs.parent[i] != Limbs::none) thickest = std::max(thickest, limbs.base_radius[i]);
   }
-  circles = circles_up_to(2 * std::max({least_opened_sides, options.sides, corners_a_rib * options.lobes}));
+  static const std::vector<Circle> usual = circles_up_to(usual_corners);
+  const int most = 2 * std::max({least_opened_sides, options.sides, corners_a_rib * options.lobes});
+  if (most > usual_corners) own_circles = circles_up_to(most);
+  circles = most > usual_corners ? std::span<const Circle>(own_circles) : std::span<const Circle>(usual);
   for (int corners = 4; corners <= options.sides; ++corners) {
     const double share = math::pow((corners - 0.5) / options.sides, 1 / corner_power);
     corner_radius.push_back(thickest * static_cast<float>(share));

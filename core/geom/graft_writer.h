@@ -2,6 +2,7 @@
 /// Writes the limbs of graft() in order, parents first: rings, the triangles between them, loops for the
 /// children.
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/geom/four.h"
@@ -73,7 +74,8 @@ class GraftWriter {
   /// What all writers of a tree share.
   struct Common {
     explicit Common(const Context& context);
-    std::vector<Circle> circles;       ///< by number of corners
+    std::span<const Circle> circles;   ///< by number of corners
+    std::vector<Circle> own_circles;   ///< where there are more than usual
     std::vector<float> corner_radius;  ///< from which on a limb has 4, 5, ... corners
     std::vector<std::uint32_t> first_child, next_sibling;
   };
@@ -188,6 +190,7 @@ class GraftWriter {
   bool is_in_order() const;
   template <class T>
   Array<T> gathered(Array<T>& from, std::uint32_t Place::*what) const;
+  Array<std::uint32_t> gathered_index() const;
 
   void write_limb(std::uint32_t limb);
   void plan_children(float start);

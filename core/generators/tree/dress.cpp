@@ -111,9 +111,8 @@ struct Made {
 // Bark has at most so many triangles a joint, and no triangle takes so many bytes while it is made.
 constexpr std::uint64_t most_triangles_a_joint = 256, most_bytes_a_triangle = 64;
 
-// Of leaves that are made beside the bark. Of more, memory that both can take one after the other from the
-// heap costs more than a second thread saves.
-constexpr std::uint64_t most_side_by_side = 40'000;
+// Of leaves that are made beside the last look at the bark, which then has its memory at the same time.
+constexpr std::uint64_t most_side_by_side = 1'000'000;
 
 /// Are they so few that no limit can be met? Where one is, what is made first decides about the message.
 bool is_modest(const Skeleton& skeleton, std::uint64_t triangles_a_leaf, const Job& job) {

@@ -1,6 +1,9 @@
 #include "core/generators/tree/growth_context.h"
 
 #include <algorithm>
+#include <vector>
+
+#include "core/base/parallel.h"
 
 namespace seedmesh::tree {
 namespace {
@@ -18,12 +21,9 @@ void spend(Meter& meter, std::uint64_t amount) {
   meter.spend(amount);
 }
 
-/// Joints from `first` on are numbered anew, `by` higher.
-void append_numbers(Array<std::uint32_t>& to, const Array<std::uint32_t>& from, std::uint32_t first,
-                    std::uint32_t by) {
-  std::uint32_t* out = to.extend(from.size());
-  for (std::size_t i = 0; i < from.size(); ++i)
-    out[i] = from[i] == Limbs::none || from[i] < first ? from[i] : from[i] + by;
+template <class T>
+void copy_all(const Array<T>& from, Array<T>& to, std::size_t at) {
+  std::copy(from.begin(), from.end(), to.begin() + at);
 }
 
 }  // namespace
@@ -65,25 +65,53 @@ std::size_t SkeletonWriter::most_of_parts(std::size_t parts) const {
   return static_cast<std::size_t>(std::min(most_of_a_part, left / (2 * std::max<std::size_t>(parts, 1))));
 }
 
-void SkeletonWriter::take(const SkeletonWriter& part) {
-  spend(modules_, part.limbs_.size());
-  spend(shapes_, part.leaves_);
-  const std::uint32_t by = static_cast<std::uint32_t>(limbs_.size()) - part.first_;
-  limbs_.position.append(part.limbs_.position.span());
-  limbs_.radius.append(part.limbs_.radius.span());
-  limbs_.base_radius.append(part.limbs_.base_radius.span());
-  append_numbers(limbs_.parent, part.limbs_.parent, part.first_, by);
-  limbs_.starts_limb.append(part.limbs_.starts_limb.span());
-  limbs_.color.append(part.limbs_.color.span());
-  limbs_.order.append(part.limbs_.order.span());
-  limbs_.key.append(part.limbs_.key.span());
-  const std::size_t leaf = organs_.organ.size();
-  organs_.organ.append(part.organs_.organ.span());
-  for (std::size_t i = leaf; i < organs_.organ.size(); ++i) {
-    std::uint32_t& joint = organs_.organ[i].limb_joint;
-    if (joint != Limbs::none && joint >= part.first_) joint += by;
+void SkeletonWriter::take(std::span<const SkeletonWriter* const> parts) {
+  struct Place {
+    std::size_t joint, leaf;
+  };
+  std::vector<Place> places;
+  Place end{limbs_.size(), organs_.organ.size()};
+  for (const SkeletonWriter* part : parts) {
+    spend(modules_, part->limbs_.size());
+    spend(shapes_, part->leaves_);
+    leaves_ += part->leaves_;
+    places.push_back(end);
+    end = {end.joint + part->limbs_.size(), end.leaf + part->organs_.organ.size()};
   }
-  leaves_ += part.leaves_;
+  limbs_.position.resize(end.joint);
+  limbs_.radius.resize(end.joint);
+  limbs_.base_radius.resize(end.joint);
+  limbs_.parent.resize(end.joint);
+  limbs_.starts_limb.resize(end.joint);
+  limbs_.color.resize(end.joint);
+  limbs_.order.resize(end.joint);
+  limbs_.key.resize(end.joint);
+  organs_.organ.resize(end.leaf);
+  parallel_for(job_, parts.size(), 1, [&](std::size_t, std::size_t, std::size_t i) {
+    copy(*parts[i], places[i].joint, places[i].leaf);
+  });
+}
+
+/// To the places from `joint` and `leaf` on.
+void SkeletonWriter::copy(const SkeletonWriter& part, std::size_t joint, std::size_t leaf) {
+  copy_all(part.limbs_.position, limbs_.position, joint);
+  copy_all(part.limbs_.radius, limbs_.radius, joint);
+  copy_all(part.limbs_.base_radius, limbs_.base_radius, joint);
+  copy_all(part.limbs_.starts_limb, limbs_.starts_limb, joint);
+  copy_all(part.limbs_.color, limbs_.color, joint);
+  copy_all(part.limbs_.order, limbs_.order, joint);
+  copy_all(part.limbs_.key, limbs_.key, joint);
+  const std::uint32_t by = static_cast<std::uint32_t>(joint) - part.first_;
+  const auto moved = [&](std::uint32_t number) {
+    return number == Limbs::none || number < part.first_ ? number : number + by;
+  };
+  for (std::size_t i = 0; i < part.limbs_.size(); ++i)
+    limbs_.parent[joint + i] = moved(part.limbs_.parent[i]);
+  for (std::size_t i = 0; i < part.organs_.organ.size(); ++i) {
+    Organ& organ = organs_.organ[leaf + i];
+    organ = part.organs_.organ[i];
+    organ.limb_joint = moved(organ.limb_joint);
+  }
 }
 
 std::uint32_t SkeletonWriter::add(const Joint& joint) {

@@ -58,8 +58,8 @@ class SkeletonWriter {
   /// Writes to `part`, numbering joints as if they came next after those of `whole`; throws Enough beyond
   /// `most` joints or leaves. Nothing is spent before the part is taken.
   SkeletonWriter(Skeleton& part, const SkeletonWriter& whole, std::size_t most);
-  /// Appends what `part` has written.
-  void take(const SkeletonWriter& part);
+  /// Appends what `parts` have written, on all threads.
+  void take(std::span<const SkeletonWriter* const> parts);
 
   struct Joint {
     std::uint32_t parent = Limbs::none;
@@ -96,6 +96,7 @@ class SkeletonWriter {
 
  private:
   [[noreturn]] void refuse_leaves() const;
+  void copy(const SkeletonWriter& part, std::size_t joint, std::size_t leaf);
 
   Limbs& limbs_;
   Organs& organs_;

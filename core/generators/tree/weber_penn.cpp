@@ -71,10 +71,9 @@ bool WeberPennGrower::grow_parts() {
   } catch (const SkeletonWriter::Enough&) {
     return false;  // so large that it may meet a limit
   }
-  while (!parts.empty()) {  // the last first, as they wait
-    writer_.take(parts.back()->writer);
-    parts.pop_back();
-  }
+  std::vector<const SkeletonWriter*> written;
+  for (std::size_t i = count; i-- > 0;) written.push_back(&parts[i]->writer);  // the last first, as they wait
+  writer_.take(written);
   return true;
 }
 
