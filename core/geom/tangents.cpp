@@ -74,21 +74,23 @@ struct Piece {
   std::size_t first = 0;
 };
 
-/// A vertex of a mesh in the first three lanes; of all but the last the next float is read too.
+/// A vertex of a mesh in the first three lanes; of all but the last of the mesh the next float is read too.
+template <bool has_last>
 FourFloats vertex_of(const Mesh& mesh, std::size_t i) {
   const glm::vec3* from = mesh.position.data() + i;
-  return i + 1 == mesh.position.size() ? spread_out(*from) : Four::row(from);
+  return has_last && i + 1 == mesh.position.size() ? spread_out(*from) : Four::row(from);
 }
 
-template <class Index>
+template <bool has_last, class Index>
 void sum_all(const Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>& uv, std::span<Sums> sums) {
   for (std::size_t i = 0; i + 2 < piece.index.size(); i += 3) {
     const Index corner[3] = {piece.index[i], piece.index[i + 1], piece.index[i + 2]};
     const glm::vec2 s = uv[corner[1]] - uv[corner[0]], t = uv[corner[2]] - uv[corner[0]];
     const float area = s.x * t.y - s.y * t.x;
     if (area == 0) continue;
-    const FourFloats from = vertex_of(mesh, corner[0]), a = vertex_of(mesh, corner[1]) - from,
-                     b = vertex_of(mesh, corner[2]) - from;
+    const FourFloats from = vertex_of<has_last>(mesh, corner[0]),
+                     a = vertex_of<has_last>(mesh, corner[1]) - from,
+                     b = vertex_of<has_last>(mesh, corner[2]) - from;
     // Not divided by the area in the picture but by its sign: large triangles count more.
     const float sign = area < 0 ? -1.0F : 1.0F;
     const FourFloats along_u = (a * t.y - b * s.y) * sign, along_v = (b * s.x - a * t.x) * sign;
@@ -101,11 +103,12 @@ void sum_all(const Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>
 
 SEEDMESH_WIDE void sum_up(const Mesh& mesh, const Piece<std::uint16_t>& piece, const Array<glm::vec2>& uv,
                           std::span<Sums> sums) {
-  sum_all(mesh, piece, uv, sums);
+  sum_all<true>(mesh, piece, uv, sums);
 }
 SEEDMESH_WIDE void sum_up(const Mesh& mesh, const Piece<std::uint32_t>& piece, const Array<glm::vec2>& uv,
                           std::span<Sums> sums) {
-  sum_all(mesh, piece, uv, sums);
+  if (piece.first + sums.size() < mesh.position.size()) return sum_all<false>(mesh, piece, uv, sums);
+  sum_all<true>(mesh, piece, uv, sums);
 }
 
 /// The tangents of `vertices` vertices that no triangle shares with others; `sums` has room for them.

@@ -80,11 +80,16 @@ class SkeletonWriter {
   };
   /// Counts a leaf. False: it is none of those that are drawn, and need not be made.
   bool wants_leaf(std::uint64_t key) {
+    return wants_leaf([key] { return key; });
+  }
+  /// The same; `key()` is asked only where it is needed.
+  template <class Key>
+  bool wants_leaf(const Key& key) {
     if (!is_part_) shapes_.spend();
     if (leaves_ >= end_leaves_) throw Enough{};
     if (leaves_ >= most_leaves_) refuse_leaves();
     ++leaves_;
-    return is_drawn(key, density_);
+    return density_ >= 1 || is_drawn(key(), density_);
   }
   void add(const Leaf& leaf);
   void add(const Organ& leaf) { add(std::span(&leaf, 1)); }

@@ -97,11 +97,6 @@ bool WeberPennGrower::fits(const WeberPennStem& stem) const {
   return true;
 }
 
-/// Counts a leaf of the stem that grows. False: it is none of those that are drawn.
-bool WeberPennGrower::wants_leaf(int number) const {
-  return writer_.wants_leaf(leaf_chance_.at(static_cast<std::uint64_t>(number)).key());
-}
-
 void WeberPennGrower::leaf(const WeberPennStem& stem, const WeberPennBud& bud) {
   const Rng rng = leaf_chance_.at(static_cast<std::uint64_t>(bud.number));
   if (p_.Leaves < 0) return fan_leaf(stem, bud, rng);

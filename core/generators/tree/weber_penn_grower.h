@@ -76,7 +76,10 @@ class WeberPennGrower {
     double about = 0, down = 0;  ///< degrees
   };
   Stance stance(const WeberPennStem& stem, const WeberPennBud& bud, const Rng& rng) const;
-  bool wants_leaf(int number) const;
+  /// Counts a leaf of the stem that grows. False: it is none of those that are drawn.
+  bool wants_leaf(int number) const {
+    return writer_.wants_leaf([&] { return leaf_chance_.at(static_cast<std::uint64_t>(number)).key(); });
+  }
   /// On the last of the frames.
   void put_bud(const glm::dvec3& position, double offset, int number) {
     buds_.push_back(
