@@ -8,9 +8,9 @@
 
 namespace seedmesh {
 
-/// Makes the C library give large blocks and the ends of its arenas back at once, and keep few arenas: by
-/// default it learns to keep up to 64 MB in each of eight arenas a core. To be called before threads are
-/// made; MALLOC_ variables that the operator has set hold.
+/// Makes the C library give large blocks back at once, the ends of its arenas from 16 MB on, and keep few
+/// arenas: by default it learns to keep up to 64 MB in each of eight arenas a core. To be called before
+/// threads are made; MALLOC_ variables that the operator has set hold.
 void keep_little_memory(int workers);
 
 /// While this lives, a thread looks every second how much memory the process has, and gives the free part

@@ -4,6 +4,7 @@
 /// the tsan preset, where Debian's TBB gives false races.
 #include <cstddef>
 #include <functional>
+#include <memory>
 
 #include "core/base/job.h"
 
@@ -21,6 +22,22 @@ void run_both(const Job& job, const std::function<void()>& one, const std::funct
 
 /// Does parallel_for use more than one thread here? For those who would rather do it otherwise on one.
 bool has_threads(const Job& job);
+
+/// While it lives, the threads that help its caller wait awake from one parallel_for to the next, a third of
+/// a millisecond at most: to wake one takes a tenth, longer than much of what there is to do for it. For
+/// requests of a millisecond. Of no effect for jobs of one thread, and inside another.
+class KeepAwake {
+ public:
+  explicit KeepAwake(const Job& job);
+  ~KeepAwake();
+  KeepAwake(const KeepAwake&) = delete;
+  KeepAwake& operator=(const KeepAwake&) = delete;
+
+ private:
+  friend class Released;
+  struct Waiters;
+  std::unique_ptr<Waiters> waiters_;
+};
 
 constexpr std::size_t chunk_count(std::size_t count, std::size_t chunk) {
   return (count + chunk - 1) / chunk;

@@ -13,7 +13,7 @@ namespace {
 
 // Points fall into cells so many reaches wide; nearer to a border than `margin` cells (a reach, and what
 // rounding may take from it) they are in both cells.
-constexpr float cell_width = 64, margin = 1.5F / cell_width;
+constexpr float cell_width = 128, margin = 1.5F / cell_width;
 // Beyond so many cells along the diagonal a float could not tell where in its cell a point is.
 constexpr float most_cells = 20'000;
 // Bits for each point in the table of cells that are taken: few share one by chance.

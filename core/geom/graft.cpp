@@ -4,9 +4,11 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <tuple>
 
 #include "core/base/math.h"
+#include "core/base/parallel.h"
 #include "core/geom/apart.h"
 #include "core/geom/crowd.h"
 #include "core/geom/graft_plan.h"
@@ -207,20 +209,27 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
   const Chains chains = link_chains(limbs, job);
   std::vector<Trust> trust(chains.head.size(), options.weld ? Trust::full : Trust::closed);
   if (options.overlaps) distrust_overlaps(limbs, chains, scale, job, trust);
-  GraftWriter writer({limbs, chains, scale, options, trust}, job);
-  writer.write_round();
-  for (int round = 0; writer.settle(trust, round >= rounds) > 0; ++round) {
+  std::optional<GraftWriter> writer(std::in_place, GraftWriter::Context{limbs, chains, scale, options, trust},
+                                    job);
+  writer->write_round();
+  for (int round = 0; writer->settle(trust, round >= rounds) > 0; ++round) {
     if (round + 1 == 2 * rounds) std::fill(trust.begin(), trust.end(), Trust::none);
-    writer.write_round();
+    writer->write_round();
   }
-  if (counts) *counts = writer.counts();
+  if (counts) *counts = writer->counts();
   // Rings of more corners than a cache has entries come in once more.
-  const bool is_ordered = 10 * writer.wide_corners() < writer.corners();
+  const bool is_ordered = 10 * writer->wide_corners() < writer->corners();
   const auto fallen_back = static_cast<std::uint32_t>(std::count(trust.begin(), trust.end(), Trust::none));
-  GraftWriter::Written written = writer.take();
+  GraftWriter::Written written = writer->take();
+  writer.reset();  // others need its memory
   if (options.joints) *options.joints = std::move(written.joints);
   append_leftover(written, Leftover(limbs, chains, trust, scale.box), options, job);
-  refuse_crowds(written.mesh, written.twin, scale, job);
+  const auto look = [&] { refuse_crowds(written.mesh, written.twin, scale, job); };
+  if (options.meanwhile) {
+    run_both(job, look, options.meanwhile);
+  } else {
+    look();
+  }
   if (counts) counts->fallen_back = fallen_back;
   written.mesh.cache_ordered = is_ordered;
   return std::move(written.mesh);

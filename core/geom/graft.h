@@ -12,6 +12,8 @@
 ///
 /// Cross-sections have corners by their radius, between the rings of a limb too, and joints on a straight
 /// piece have no ring of their own: a twig takes a tenth of the triangles of its trunk.
+#include <functional>
+
 #include "core/geom/limbs.h"
 #include "core/model/mesh.h"
 
@@ -39,6 +41,9 @@ struct GraftOptions {
   /// Where given, it has the position of each joint and gets, for those that have no ring of their own, where
   /// the limb that is drawn passes by.
   Array<glm::vec3>* drawn = nullptr;
+  /// Where given, it is called once beside the last look at the whole, for which one thread is enough: work
+  /// of the caller's that has nothing to do with the bark. Not called where there are no limbs.
+  std::function<void()> meanwhile = {};
 };
 
 struct GraftCounts {
@@ -49,9 +54,9 @@ struct GraftCounts {
 /// in two triangles; unit normals that no face looks against; no unused vertex; u and v in metres (unless
 /// `wrap`), one seam.
 /// Heaps of limbs so dense that no surface is left are refused (Code::limit). `counts` may be null. Limbs
-/// that would break a guarantee are skinned by skin() instead. Spends Resource::triangles as it goes. One
-/// thread; about 40 bytes a vertex beside the mesh, and the mesh once more where a limb had to be written
-/// anew.
+/// that would break a guarantee are skinned by skin() instead. Spends Resource::triangles as it goes. Runs
+/// on job.threads(); the result does not depend on it. About 40 bytes a vertex beside the mesh, and the mesh
+/// once more where a limb had to be written anew.
 Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCounts* counts = nullptr);
 
 }  // namespace seedmesh

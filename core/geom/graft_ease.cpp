@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/base/parallel.h"
 #include "core/base/quick_math.h"
 #include "core/geom/graft_writer.h"
 
@@ -48,25 +49,29 @@ bool GraftWriter::looks_away(const LoopFace& face, std::uint32_t group) const {
 /// The faces that have a normal which looks away from one of its faces.
 std::vector<GraftWriter::LoopFace> GraftWriter::strained_faces(
     const std::vector<std::vector<LoopFace>>& faces) const {
-  std::vector<std::uint8_t> strained(touched_.size(), 0);
-  bool any = false;
-  for (const std::vector<LoopFace>& part : faces) {
-    for (const LoopFace& face : part) {
+  std::vector<std::vector<std::uint32_t>> away(faces.size());
+  parallel_for(job_, faces.size(), 1, [&](std::size_t, std::size_t, std::size_t part) {
+    for (const LoopFace& face : faces[part]) {
       for (const std::uint32_t group : face.group) {
-        if (!looks_away(face, group)) continue;
-        strained[group / 2] = 1;
-        any = true;
+        if (looks_away(face, group)) away[part].push_back(group / 2);
       }
     }
-  }
+  });
   std::vector<LoopFace> hard;
-  const auto is_strained = [&](std::uint32_t group) { return group != none && strained[group / 2]; };
-  for (std::size_t i = 0; any && i < faces.size(); ++i) {
-    for (const LoopFace& face : faces[i]) {
-      if (is_strained(face.group[0]) || is_strained(face.group[1]) || is_strained(face.group[2]))
-        hard.push_back(face);
-    }
+  if (std::all_of(away.begin(), away.end(), [](const auto& pairs) { return pairs.empty(); })) return hard;
+  std::vector<std::uint8_t> strained(touched_.size(), 0);
+  for (const std::vector<std::uint32_t>& pairs : away) {
+    for (const std::uint32_t pair : pairs) strained[pair] = 1;
   }
+  const auto is_strained = [&](std::uint32_t group) { return group != none && strained[group / 2]; };
+  std::vector<std::vector<LoopFace>> found(faces.size());
+  parallel_for(job_, faces.size(), 1, [&](std::size_t, std::size_t, std::size_t part) {
+    for (const LoopFace& face : faces[part]) {
+      if (is_strained(face.group[0]) || is_strained(face.group[1]) || is_strained(face.group[2]))
+        found[part].push_back(face);
+    }
+  });
+  for (const std::vector<LoopFace>& part : found) hard.insert(hard.end(), part.begin(), part.end());
   return hard;
 }
 

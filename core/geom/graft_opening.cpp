@@ -43,35 +43,41 @@ Cross cross_of(const glm::vec3& parent, const glm::vec3& child) {
   return c;
 }
 
-/// Sorts the corners of the loop: two ends on the ring, those below and those above it.
-void place(Opening& opening, std::vector<LoopPoint>& points) {
+/// Sorts the corners of the loop, the last in the list from `opening.points` on: two ends on the ring, which
+/// leave the list, those below and those above it.
+void place(Opening& opening, std::vector<LoopPoint>& list) {
+  const std::size_t count = list.size() - opening.points;
+  list.resize(list.size() + count);  // the second half is for the sorted ones
+  LoopPoint *const points = list.data() + opening.points, *const sorted = points + count;
   std::size_t first = 0, last = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) {
+  for (std::size_t i = 1; i < count; ++i) {
     if (points[i].angle < points[first].angle) first = i;
     if (points[i].angle > points[last].angle) last = i;
   }
   opening.first = points[first];
   opening.last = points[last];
   const float ends = std::abs(points[first].phase);
-  opening.lower.reserve(points.size());
-  opening.upper.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (i == first || i == last) continue;
-    (std::abs(points[i].phase) < ends ? opening.upper : opening.lower).push_back(points[i]);
+  LoopPoint* out = sorted;
+  for (const bool above : {false, true}) {
+    LoopPoint* const begin = out;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i != first && i != last && (std::abs(points[i].phase) < ends) == above) *out++ = points[i];
+    }
+    std::sort(begin, out, [](const LoopPoint& a, const LoopPoint& b) { return a.angle < b.angle; });
+    (above ? opening.upper : opening.lower) = static_cast<std::size_t>(out - begin);
   }
-  const auto by_angle = [](const LoopPoint& a, const LoopPoint& b) { return a.angle < b.angle; };
-  std::sort(opening.lower.begin(), opening.lower.end(), by_angle);
-  std::sort(opening.upper.begin(), opening.upper.end(), by_angle);
   opening.at = 0.5F * (opening.first.height + opening.last.height);
   opening.half = std::max(-opening.first.angle, opening.last.angle);
   opening.low = std::min(opening.first.height, opening.last.height);
   opening.high = std::max(opening.first.height, opening.last.height);
   opening.child_reach = 0;
-  for (const LoopPoint& point : points) {
-    opening.low = std::min(opening.low, point.height);
-    opening.high = std::max(opening.high, point.height);
-    opening.child_reach = std::max(opening.child_reach, point.reach);
+  for (std::size_t i = 0; i < count; ++i) {
+    opening.low = std::min(opening.low, points[i].height);
+    opening.high = std::max(opening.high, points[i].height);
+    opening.child_reach = std::max(opening.child_reach, points[i].reach);
   }
+  std::copy(sorted, out, points);
+  list.resize(opening.points + opening.lower + opening.upper);
 }
 
 float angle_about(const GraftAxis& parent, std::size_t piece, const glm::vec3& out) {
@@ -98,7 +104,8 @@ const std::vector<Phase>& Phases::of(int sides) {
   return phases;
 }
 
-std::optional<Opening> collar(const GraftAxis& parent, std::size_t at_point, const Bud& bud) {
+std::optional<Opening> collar(const GraftAxis& parent, std::size_t at_point, const Bud& bud,
+                              std::vector<LoopPoint>& points) {
   const std::size_t inside = std::min(at_point, parent.pieces() - 1);
   Cross cross = cross_of(parent.along[inside], bud.along);
   std::size_t piece = inside;
@@ -121,8 +128,7 @@ std::optional<Opening> collar(const GraftAxis& parent, std::size_t at_point, con
   const float taper =
       (parent.radius[piece + 1] - parent.radius[piece]) / (parent.at[piece + 1] - parent.at[piece]);
   const float out_of_top = glm::dot(cross.top, cross.out);
-  std::vector<LoopPoint> points;
-  points.reserve(static_cast<std::size_t>(bud.sides));
+  opening.points = points.size();
   for (const Phase& phase : bud.phases->of(bud.sides)) {
     LoopPoint point;
     point.phase = phase.angle;
@@ -147,7 +153,8 @@ std::optional<Opening> collar(const GraftAxis& parent, std::size_t at_point, con
   return opening;
 }
 
-std::optional<Opening> fork_at(const GraftAxis& parent, std::size_t at_point, const Bud& bud) {
+std::optional<Opening> fork_at(const GraftAxis& parent, std::size_t at_point, const Bud& bud,
+                               std::vector<LoopPoint>& points) {
   if (at_point == 0 || at_point >= parent.pieces()) return std::nullopt;
   const glm::vec3 &before = parent.along[at_point - 1], &after = parent.along[at_point];
   const Cross cross = cross_of(after, bud.along);
@@ -174,8 +181,7 @@ std::optional<Opening> fork_at(const GraftAxis& parent, std::size_t at_point, co
   const float rise = std::min({parting, highest_crotch * radius, crotch_share * next / cosine_half,
                                crotch_share * bud.length / cosine_half});
   if (rise < least_parting * parting) return std::nullopt;
-  std::vector<LoopPoint> points;
-  points.reserve(static_cast<std::size_t>(bud.sides));
+  opening.points = points.size();
   for (const Phase& phase : bud.phases->of(bud.sides)) {
     LoopPoint point;
     point.phase = phase.angle;

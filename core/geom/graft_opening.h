@@ -1,6 +1,7 @@
 #pragma once
 /// Where a limb leaves another: the loop that both surfaces share.
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/geom/graft_axis.h"
@@ -23,10 +24,21 @@ struct Opening {
   float radius = 0;                 ///< of the child at the loop
   float child_reach = 0;            ///< from the joint: the child's next ring stands beyond
   bool is_fork = false;
-  std::size_t piece = 0;                ///< of the parent, whose frame the angles are in
-  glm::vec3 child_u{0};                 ///< the direction of phase 0 at the child
-  std::vector<LoopPoint> lower, upper;  ///< strictly between the two ends, by rising angle
-  LoopPoint first, last;                ///< the ends, which lie on the ring
+  std::size_t piece = 0;  ///< of the parent, whose frame the angles are in
+  glm::vec3 child_u{0};   ///< the direction of phase 0 at the child
+  LoopPoint first, last;  ///< the ends, which lie on the ring
+  /// In the caller's list of points, strictly between the two ends, by rising angle: those below the ring,
+  /// then those above.
+  std::size_t points = 0, lower = 0, upper = 0;
+  static constexpr std::uint32_t none = 0xFFFFFFFFU;
+  std::uint32_t next = none;  ///< opening on the same ring
+
+  std::span<const LoopPoint> below(const std::vector<LoopPoint>& all) const {
+    return std::span(all).subspan(points, lower);
+  }
+  std::span<const LoopPoint> above(const std::vector<LoopPoint>& all) const {
+    return std::span(all).subspan(points + lower, upper);
+  }
 };
 
 /// A corner of a cross-section: its angle about the axis.
@@ -55,10 +67,12 @@ struct Bud {
 };
 
 /// A collar on the parent's piece after (or, for a limb that points back, before) its point `at_point`;
-/// nullopt where there is no room.
-std::optional<Opening> collar(const GraftAxis& parent, std::size_t at_point, const Bud& bud);
+/// nullopt where there is no room. Appends to `points`.
+std::optional<Opening> collar(const GraftAxis& parent, std::size_t at_point, const Bud& bud,
+                              std::vector<LoopPoint>& points);
 
 /// A fork at an inner point of the parent.
-std::optional<Opening> fork_at(const GraftAxis& parent, std::size_t at_point, const Bud& bud);
+std::optional<Opening> fork_at(const GraftAxis& parent, std::size_t at_point, const Bud& bud,
+                               std::vector<LoopPoint>& points);
 
 }  // namespace seedmesh

@@ -37,6 +37,7 @@ bool overlap(const Opening& a, const Opening& b) {
 
 void GraftPlan::begin(float start, float tip, float apart, float bulge) {
   opening.clear();
+  loop_point.clear();
   band.clear();
   refused.clear();
   start_ = start;
@@ -51,10 +52,7 @@ float GraftPlan::margin(const GraftAxis& axis, float at) const {
 
 bool GraftPlan::joins(const Opening& wanted, const Band& there) const {
   if (std::abs(wanted.at - there.at) > same_ring * (wanted.high - wanted.low)) return false;
-  for (const std::uint32_t other : there.openings) {
-    if (overlap(wanted, opening[other])) return false;
-  }
-  return true;
+  return !any_on(there, [&](const Opening& other) { return overlap(wanted, other); });
 }
 
 /// Does it fit between the bands before and at `place`?
@@ -62,8 +60,7 @@ bool GraftPlan::fits(const GraftAxis& axis, const Opening& wanted, std::size_t p
   const float margin = std::max(this->margin(axis, wanted.at), 0.12F * (wanted.high - wanted.low));
   if (wanted.low < start_ + margin || wanted.high > tip_ - margin) return false;
   const auto crosses = [&](const Band& there) {
-    return std::any_of(there.openings.begin(), there.openings.end(),
-                       [&](std::uint32_t other) { return overlap(wanted, opening[other]); });
+    return any_on(there, [&](const Opening& other) { return overlap(wanted, other); });
   };
   if (place > 0) {
     const Band& before = band[place - 1];
@@ -81,25 +78,34 @@ bool GraftPlan::fits(const GraftAxis& axis, const Opening& wanted, std::size_t p
 bool GraftPlan::open(const GraftAxis& axis, std::size_t at_point, Bud bud) {
   const float share = bud.radius / axis.radius[at_point];
   std::optional<Opening> wanted;
+  const std::size_t points = loop_point.size();
   const auto fork = [&] {
     Bud even = bud;
     even.sides = std::max(4, bud.sides + bud.sides % 2);
-    return fork_at(axis, at_point, even);
+    loop_point.resize(points);
+    return fork_at(axis, at_point, even, loop_point);
   };
   if (share >= fork_share) wanted = fork();
   if (wanted && put(axis, at_point, *wanted)) return true;
   const bool has_forked = share >= fork_share;
-  wanted = collar(axis, at_point, bud);
+  loop_point.resize(points);
+  wanted = collar(axis, at_point, bud, loop_point);
   if (!wanted && share >= least_fork_share && !has_forked) wanted = fork();
   return wanted && put(axis, at_point, *wanted);
 }
 
+void GraftPlan::add(Band& there, const Opening& wanted) {
+  const auto number = static_cast<std::uint32_t>(opening.size());
+  (there.is_open() ? opening[there.last].next : there.first) = number;
+  there.last = number;
+  opening.push_back(wanted);
+}
+
 /// On a ring that is there, or on one of its own. False: there is no room.
-bool GraftPlan::put(const GraftAxis& axis, std::size_t at_point, Opening& wanted) {
+bool GraftPlan::put(const GraftAxis& axis, std::size_t at_point, const Opening& wanted) {
   const auto after = std::lower_bound(band.begin(), band.end(), wanted.at,
                                       [](const Band& there, float at) { return there.at < at; });
   auto place = static_cast<std::size_t>(after - band.begin());
-  const auto number = static_cast<std::uint32_t>(opening.size());
   if (!wanted.is_fork) {
     for (std::size_t near = place > 0 ? place - 1 : 0; near < std::min(place + 1, band.size()); ++near) {
       Band& there = band[near];
@@ -110,8 +116,7 @@ bool GraftPlan::put(const GraftAxis& axis, std::size_t at_point, Opening& wanted
       if (!has_room) continue;
       there.low = std::min(there.low, wanted.low);
       there.high = std::max(there.high, wanted.high);
-      there.openings.push_back(number);
-      opening.push_back(std::move(wanted));
+      add(there, wanted);
       return true;
     }
   }
@@ -122,9 +127,8 @@ bool GraftPlan::put(const GraftAxis& axis, std::size_t at_point, Opening& wanted
   made.high = wanted.high;
   made.is_bend = wanted.is_fork;
   made.piece = wanted.is_fork ? at_point : axis.piece_at(wanted.at, wanted.piece);
-  made.openings.push_back(number);
-  opening.push_back(std::move(wanted));
-  band.insert(band.begin() + static_cast<std::ptrdiff_t>(place), std::move(made));
+  add(made, wanted);
+  band.insert(band.begin() + static_cast<std::ptrdiff_t>(place), made);
   return true;
 }
 
@@ -147,7 +151,7 @@ void GraftPlan::complete(const GraftAxis& axis, bool has_first, const GraftOptio
     for (; next < band.size() && band[next].at <= before; ++next) {
       high = band[next].high;
       heading = axis.along[band[next].piece];
-      all.push_back(std::move(band[next]));
+      all.push_back(band[next]);
     }
   };
   if (has_first) {

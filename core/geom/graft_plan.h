@@ -11,12 +11,14 @@ namespace seedmesh {
 struct Band {
   float at = 0, low = 0, high = 0;
   std::size_t piece = 0;
-  bool is_bend = false;                 ///< stands at the point where `piece` begins, across both pieces
-  std::vector<std::uint32_t> openings;  ///< into GraftPlan::opening
+  bool is_bend = false;  ///< stands at the point where `piece` begins, across both pieces
+  std::uint32_t first = Opening::none, last = Opening::none;  ///< of GraftPlan::opening, by Opening::next
+  bool is_open() const { return first != Opening::none; }
 };
 
 struct GraftPlan {
   std::vector<Opening> opening;
+  std::vector<LoopPoint> loop_point;   ///< of the openings
   std::vector<Band> band;              ///< by rising `at`; the last is the ring at the tip
   std::vector<std::uint32_t> refused;  ///< limbs that found no room
 
@@ -31,7 +33,15 @@ struct GraftPlan {
   void complete(const GraftAxis& axis, bool has_first, const GraftOptions& options);
 
  private:
-  bool put(const GraftAxis& axis, std::size_t at_point, Opening& wanted);
+  template <class Test>
+  bool any_on(const Band& ring, const Test& test) const {
+    for (std::uint32_t i = ring.first; i != Opening::none; i = opening[i].next) {
+      if (test(opening[i])) return true;
+    }
+    return false;
+  }
+  void add(Band& ring, const Opening& wanted);
+  bool put(const GraftAxis& axis, std::size_t at_point, const Opening& wanted);
   bool fits(const GraftAxis& axis, const Opening& opening, std::size_t place) const;
   float margin(const GraftAxis& axis, float at) const;
   bool joins(const Opening& opening, const Band& band) const;

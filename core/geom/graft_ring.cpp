@@ -173,7 +173,7 @@ void GraftWriter::plain_ring(const Plane& plane, Corners& out) {
   const int sides = sides_for(plane.radius);
   const auto count = static_cast<std::size_t>(sides) + 1;
   const float step = 2 * pi / static_cast<float>(sides);
-  const Circle& circle = circles_[static_cast<std::size_t>(sides)];
+  const Circle& circle = common_->circles[static_cast<std::size_t>(sides)];
   make_room_for(count);
   out.resize(count);
   for (std::size_t i = 0; i < count; ++i)
@@ -200,7 +200,7 @@ void GraftWriter::open_ring(const Plane& plane, const Band& band) {
   upper_order_.clear();
   const int sides = sides_for(plane.radius);
   const float step = 2 * pi / static_cast<float>(sides);
-  const Circle& circle = circles_[static_cast<std::size_t>(sides)];
+  const Circle& circle = common_->circles[static_cast<std::size_t>(sides)];
   const auto add = [&](const Mark& mark, bool below, bool above) {
     if (below) lower_order_.push_back({mark.angle, static_cast<std::uint32_t>(marks_.size())});
     if (above) upper_order_.push_back({mark.angle, static_cast<std::uint32_t>(marks_.size())});
@@ -208,18 +208,20 @@ void GraftWriter::open_ring(const Plane& plane, const Band& band) {
   };
   for (int i = 0; i < sides; ++i) {
     const float angle = by_seam(seam_ + step * static_cast<float>(i));
-    const bool is_taken = std::any_of(band.openings.begin(), band.openings.end(), [&](std::uint32_t number) {
-      const Opening& opening = plan_.opening[number];
+    const auto takes = [&](const Opening& opening) {
       const float off = std::abs(by_seam(angle - opening.middle + seam_) - seam_);
       return off < opening.half + std::min(0.35F * step, 0.25F);
-    });
+    };
+    bool is_taken = false;
+    for (std::uint32_t k = band.first; k != Opening::none && !is_taken; k = plan_.opening[k].next)
+      is_taken = takes(plan_.opening[k]);
     if (is_taken) continue;
     Mark mark;
     mark.angle = angle;
     mark.direction = turned_to_seam(circle.at(i));
     add(mark, true, true);
   }
-  for (const std::uint32_t number : band.openings) {
+  for (std::uint32_t number = band.first; number != Opening::none; number = plan_.opening[number].next) {
     const Opening& opening = plan_.opening[number];
     Loop& loop = loops_[opening.limb];
     loop = {static_cast<std::uint32_t>(loop_vertices_.size()),
@@ -237,8 +239,8 @@ void GraftWriter::open_ring(const Plane& plane, const Band& band) {
     };
     put(opening.first, true, true);
     put(opening.last, true, true);
-    for (const LoopPoint& point : opening.lower) put(point, true, false);
-    for (const LoopPoint& point : opening.upper) put(point, false, true);
+    for (const LoopPoint& point : opening.below(plan_.loop_point)) put(point, true, false);
+    for (const LoopPoint& point : opening.above(plan_.loop_point)) put(point, false, true);
     loop.count = static_cast<std::uint32_t>(loop_vertices_.size()) - loop.first;
   }
   go_round(lower_order_, plane, lower_);

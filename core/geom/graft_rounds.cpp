@@ -1,9 +1,17 @@
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <utility>
 
+#include "core/base/parallel.h"
 #include "core/geom/graft_writer.h"
 
 namespace seedmesh {
+namespace {
+
+constexpr std::size_t most_together = std::size_t{1} << 20U;
+
+}  // namespace
 
 GraftWriter::Place GraftWriter::here() const {
   return {static_cast<std::uint32_t>(vertices_),
@@ -27,20 +35,21 @@ GraftCounts GraftWriter::counts() const {
 }
 
 /// The limb that each limb grows from.
-void GraftWriter::find_parents() {
+std::vector<std::uint32_t> GraftWriter::find_parents() const {
   const Chains& chains = context_.chains;
   std::vector<std::uint32_t> limb_of(context_.limbs.size(), none);
-  parent_.assign(chains.head.size(), none);
+  std::vector<std::uint32_t> parents(chains.head.size(), none);
   for (std::uint32_t i = 0; i < chains.head.size(); ++i) {
     for (std::uint32_t joint = chains.head[i]; joint != none; joint = chains.next[joint]) limb_of[joint] = i;
     const std::uint32_t from = context_.limbs.parent[chains.head[i]];
-    if (from != none) parent_[i] = limb_of[from];
+    if (from != none) parents[i] = limb_of[from];
   }
+  return parents;
 }
 
 /// Limbs whose trust has changed, and whom they grow from.
 void GraftWriter::find_dirty() {
-  if (parent_.empty()) find_parents();
+  if (parent_.empty()) parent_ = find_parents();
   std::fill(dirty_.begin(), dirty_.end(), std::uint8_t{0});
   for (std::size_t i = 0; i < dirty_.size(); ++i) {
     if (context_.trust[i] == trust_[i]) continue;
@@ -49,10 +58,20 @@ void GraftWriter::find_dirty() {
   }
 }
 
+/// Behind all that is written.
+void GraftWriter::write_anew(std::uint32_t limb) {
+  kind_[limb] = Kind::none;
+  range_[limb].begin = here();
+  range_[limb].first_end = range_[limb].begin.triangle;
+  if (context_.trust[limb] != Trust::none) write_limb(limb);
+  range_[limb].end = here();
+}
+
 void GraftWriter::write_round() {
   const bool is_first = trust_.empty();
   if (!is_first) find_dirty();
   trust_ = context_.trust;
+  if (is_first && write_parts()) return;
   const std::vector<Loop> then = is_first ? std::vector<Loop>{} : loops_;
   for (std::size_t i = 0; i < range_.size(); ++i) {
     const auto limb = static_cast<std::uint32_t>(i);
@@ -65,11 +84,7 @@ void GraftWriter::write_round() {
       dirty_[i] = 1;
     }
     if (!is_first) forget_loops(range_[i]);
-    kind_[i] = Kind::none;
-    range_[i].begin = here();
-    range_[i].first_end = range_[i].begin.triangle;
-    if (trust_[i] != Trust::none) write_limb(limb);
-    range_[i].end = here();
+    write_anew(limb);
   }
 }
 
@@ -157,12 +172,26 @@ GraftWriter::Written GraftWriter::take() {
   }
   group_ = {};
   Written out;
-  out.mesh.position = gathered(mesh_.position, &Place::vertex);
-  out.mesh.normal = gathered(mesh_.normal, &Place::vertex);
-  out.mesh.uv[0] = gathered(mesh_.uv[0], &Place::vertex);
-  out.joints = gathered(joints_, &Place::vertex);
-  out.twin = gathered(twin_, &Place::vertex);
-  Array<std::uint32_t>& index = out.mesh.index.wide = Array<std::uint32_t>(job_);
+  const std::function<void()> tasks[] = {
+      [&] { out.mesh.position = gathered(mesh_.position, &Place::vertex); },
+      [&] { out.mesh.normal = gathered(mesh_.normal, &Place::vertex); },
+      [&] { out.mesh.index.wide = gathered_index(); },
+      [&] { out.mesh.uv[0] = gathered(mesh_.uv[0], &Place::vertex); },
+      [&] { out.joints = gathered(joints_, &Place::vertex); },
+      [&] { out.twin = gathered(twin_, &Place::vertex); },
+  };
+  // Great ones one after the other, each of which gives its memory to the next.
+  const std::size_t together = vertices_ > most_together ? std::size(tasks) : 1;
+  parallel_for(job_, std::size(tasks), together, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) tasks[i]();
+  });
+  mesh_ = {};
+  return out;
+}
+
+/// As the vertices stand then.
+Array<std::uint32_t> GraftWriter::gathered_index() const {
+  Array<std::uint32_t> index(job_);
   index.reserve(std::size_t{3} * sum_of(&Place::triangle));
   std::uint32_t vertex = 0;
   for (const Range& range : range_) {
@@ -174,8 +203,7 @@ GraftWriter::Written GraftWriter::take() {
     for (std::size_t i = 0; i < end - first; ++i) to[i] = from[i] + shift;
     vertex += range.end.vertex - range.begin.vertex;
   }
-  mesh_ = {};
-  return out;
+  return index;
 }
 
 }  // namespace seedmesh

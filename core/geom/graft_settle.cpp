@@ -16,8 +16,14 @@ constexpr float least_area = 4e-12F;
 // A normal nearer to the plane of its face than this may be found on the other side by who reckons otherwise.
 constexpr float least_cosine = 1e-4F;
 
-// Limbs that are looked at together.
-constexpr std::size_t limbs_a_chunk = 256;
+// Limbs that are looked at together: so many, or more where there are very many.
+constexpr std::size_t least_limbs_a_chunk = 64, most_chunks = 128;
+std::size_t limbs_a_chunk(std::size_t limbs) {
+  return std::max(least_limbs_a_chunk, chunk_count(limbs, most_chunks));
+}
+
+// Pairs of groups of a loop's normals that are joined together.
+constexpr std::size_t pairs_a_chunk = 1024;
 
 }  // namespace
 
@@ -108,7 +114,7 @@ void GraftWriter::add_loop_normals(std::size_t first_limb, std::size_t last_limb
   for (std::size_t limb = first_limb; limb < last_limb; ++limb) {
     each_at_loops(limb, [&](std::uint32_t triangle) {
       const std::uint32_t* corner = mesh_.index.wide.data() + std::size_t{3} * triangle;
-      std::copy_n(corner, 3, block.corner + 3 * count);
+      for (std::size_t k = 0; k < 3; ++k) block.corner[3 * count + k] = corner[k];
       if (++count < FaceBlock::most) return;
       add_loop_faces(block, count, faces);
       count = 0;
@@ -215,12 +221,14 @@ bool GraftWriter::blame(const std::uint32_t* corner, std::vector<Trust>& trust, 
 
 /// The mean of both surfaces, whatever the size of their faces. From here on the even group has it.
 void GraftWriter::join_loop_normals() {
-  for (std::size_t pair = 0; pair < touched_.size(); ++pair) {
-    if (!touched_[pair]) continue;
-    const glm::vec3 one = math::quick_unit(group_normal_[2 * pair], glm::vec3{0});
-    const glm::vec3 other = math::quick_unit(group_normal_[2 * pair + 1], glm::vec3{0});
-    group_normal_[2 * pair] = math::quick_unit(one + other, glm::vec3{0, 1, 0});
-  }
+  parallel_for(job_, touched_.size(), pairs_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t pair = begin; pair < end; ++pair) {
+      if (!touched_[pair]) continue;
+      const glm::vec3 one = math::quick_unit(group_normal_[2 * pair], glm::vec3{0});
+      const glm::vec3 other = math::quick_unit(group_normal_[2 * pair + 1], glm::vec3{0});
+      group_normal_[2 * pair] = math::quick_unit(one + other, glm::vec3{0, 1, 0});
+    }
+  });
 }
 
 void GraftWriter::put_loop_normals(std::size_t limb) {
@@ -236,26 +244,26 @@ void GraftWriter::put_loop_normals(std::size_t limb) {
 
 std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
   mark_touched();
-  const std::size_t count = range_.size();
+  const std::size_t count = range_.size(), chunk = limbs_a_chunk(count);
   find_concerned();
   for (std::size_t pair = 0; pair < touched_.size(); ++pair) {
     if (touched_[pair]) group_normal_[2 * pair] = group_normal_[2 * pair + 1] = glm::vec3(0);
   }
   if (!group_limb_.empty()) {
     // What limbs give goes to groups of their own.
-    std::vector<std::vector<LoopFace>> faces(chunk_count(count, limbs_a_chunk));
+    std::vector<std::vector<LoopFace>> faces(chunk_count(count, chunk));
     for (std::size_t i = 0; is_first() && i < faces.size(); ++i) {
-      const std::size_t last = std::min(count, (i + 1) * limbs_a_chunk) - 1;
-      faces[i].reserve(range_[last].end.loop_triangle - range_[i * limbs_a_chunk].begin.loop_triangle);
+      const std::size_t last = std::min(count, (i + 1) * chunk) - 1;
+      faces[i].reserve(range_[last].end.loop_triangle - range_[i * chunk].begin.loop_triangle);
     }
-    parallel_for(job_, count, limbs_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
+    parallel_for(job_, count, chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
       add_loop_normals(begin, end, faces[index]);
     });
     join_loop_normals();
     ease_loop_normals(faces);
   }
-  std::vector<std::vector<std::uint32_t>> bad(chunk_count(count, limbs_a_chunk));
-  parallel_for(job_, count, limbs_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
+  std::vector<std::vector<std::uint32_t>> bad(chunk_count(count, chunk));
+  parallel_for(job_, count, chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
     job_.check();
     for (std::size_t limb = begin; limb < end; ++limb) {
       put_loop_normals(limb);
@@ -270,7 +278,7 @@ std::size_t GraftWriter::take_blame(const std::vector<std::vector<std::uint32_t>
                                     std::vector<Trust>& trust, bool is_late) const {
   std::size_t faults = 0;
   for (std::size_t index = 0; index < bad.size(); ++index) {
-    std::size_t limb = index * limbs_a_chunk;
+    std::size_t limb = index * limbs_a_chunk(range_.size());
     // Triangles of a limb stand together, those of limbs that were written anew behind the others'.
     const auto is_of = [&](std::uint32_t triangle) {
       return triangle >= range_[limb].begin.triangle && triangle < range_[limb].end.triangle;

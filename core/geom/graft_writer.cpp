@@ -30,6 +30,8 @@ constexpr float least_opened = 3;
 // What is reserved at first: most trees of fine twigs need about as much, and small ones of thick limbs twice
 // that.
 constexpr std::size_t vertices_a_joint = 4, triangles_a_joint = 5, more_vertices = std::size_t{1} << 15U;
+// Circles up to so many corners are reckoned once for all.
+constexpr int usual_corners = 64;
 // Of a ring that a vertex cache of 16 entries still holds when the next ring needs it.
 constexpr std::size_t cached_corners = 13;
 
@@ -44,6 +46,8 @@ std::vector<GraftWriter::Circle> GraftWriter::circles_up_to(int most) {
   std::vector<Circle> circles(static_cast<std::size_t>(most) + 1);
   for (int sides = 3; sides <= most; ++sides) {
     Circle& circle = circles[static_cast<std::size_t>(sides)];
+    circle.x.reserve(static_cast<std::size_t>(sides) + Four::size + 1);
+    circle.y.reserve(static_cast<std::size_t>(sides) + Four::size + 1);
     for (int i = 0; i < sides; ++i) {
       const math::SinCos at = math::quick_sincos(2 * math::pi * i / sides);
       circle.x.push_back(static_cast<float>(at.cos));
@@ -57,44 +61,57 @@ std::vector<GraftWriter::Circle> GraftWriter::circles_up_to(int most) {
   return circles;
 }
 
+GraftWriter::Common::Common(const Context& context) {
+  const Limbs& limbs = context.limbs;
+  const GraftOptions& options = context.options;
+  float thickest = 0;
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    if (limbs.parent[i] != Limbs::none) thickest = std::max(thickest, limbs.base_radius[i]);
+  }
+  static const std::vector<Circle> usual = circles_up_to(usual_corners);
+  const int most = 2 * std::max({least_opened_sides, options.sides, corners_a_rib * options.lobes});
+  if (most > usual_corners) own_circles = circles_up_to(most);
+  circles = most > usual_corners ? std::span<const Circle>(own_circles) : std::span<const Circle>(usual);
+  for (int corners = 4; corners <= options.sides; ++corners) {
+    const double share = math::pow((corners - 0.5) / options.sides, 1 / corner_power);
+    corner_radius.push_back(thickest * static_cast<float>(share));
+  }
+  const std::size_t count = context.chains.head.size();
+  first_child.assign(limbs.size(), none);
+  next_sibling.assign(count, none);
+  for (std::size_t i = count; i-- > 0;) {
+    const std::uint32_t parent = limbs.parent[context.chains.head[i]];
+    if (parent == Limbs::none) continue;
+    next_sibling[i] = first_child[parent];
+    first_child[parent] = static_cast<std::uint32_t>(i);
+  }
+}
+
 GraftWriter::GraftWriter(const Context& context, Job& job)
+    : GraftWriter(context, std::make_shared<const Common>(context), context.limbs.size(), job) {}
+
+GraftWriter::GraftWriter(const Context& context, std::shared_ptr<const Common> common, std::size_t joints,
+                         Job& job)
     : context_(context),
+      common_(std::move(common)),
       job_(job),
       triangles_(job, Resource::triangles),
       group_(job),
       group_normal_(job),
       joints_(job),
       twin_(job) {
-  const Limbs& limbs = context.limbs;
   mesh_.position = Array<glm::vec3>(job);
   mesh_.normal = Array<glm::vec3>(job);
   mesh_.uv[0] = Array<glm::vec2>(job);
   mesh_.index.wide = Array<std::uint32_t>(job);
-  const std::size_t more = std::min(more_vertices, vertices_a_joint * limbs.size());
-  make_room(vertices_a_joint * limbs.size() + more + 64);
-  mesh_.index.wide.reserve(3 * (triangles_a_joint * limbs.size() + more + more / 2));
-  for (std::size_t i = 0; i < limbs.size(); ++i) {
-    if (limbs.parent[i] != Limbs::none) thickest_ = std::max(thickest_, limbs.base_radius[i]);
-  }
+  const std::size_t more = std::min(more_vertices, vertices_a_joint * joints);
+  make_room(vertices_a_joint * joints + more + 64);
+  mesh_.index.wide.reserve(3 * (triangles_a_joint * joints + more + more / 2));
   const std::size_t count = context.chains.head.size();
-  circles_ = circles_up_to(
-      2 * std::max({least_opened_sides, context.options.sides, corners_a_rib * context.options.lobes}));
-  for (int corners = 4; corners <= context.options.sides; ++corners) {
-    const double share = math::pow((corners - 0.5) / context.options.sides, 1 / corner_power);
-    corner_radius_.push_back(thickest_ * static_cast<float>(share));
-  }
   loops_.resize(count);
   range_.resize(count);
   kind_.assign(count, Kind::none);
   dirty_.assign(count, 1);
-  first_child_.assign(limbs.size(), none);
-  next_sibling_.assign(count, none);
-  for (std::size_t i = count; i-- > 0;) {
-    const std::uint32_t parent = limbs.parent[context.chains.head[i]];
-    if (parent == Limbs::none) continue;
-    next_sibling_[i] = first_child_[parent];
-    first_child_[parent] = static_cast<std::uint32_t>(i);
-  }
 }
 
 /// Makes room for so many vertices; what is beyond `vertices_` is not written yet.
@@ -109,8 +126,9 @@ void GraftWriter::make_room(std::size_t vertices) {
 
 /// Three, or an even number, so that rings of different limbs meet corner to corner.
 int GraftWriter::corners_for(float radius) const {
-  const auto least = std::upper_bound(corner_radius_.begin(), corner_radius_.end(), radius);
-  const int wanted = 3 + static_cast<int>(least - corner_radius_.begin());
+  const std::vector<float>& radii = common_->corner_radius;
+  const int wanted =
+      3 + static_cast<int>(std::upper_bound(radii.begin(), radii.end(), radius) - radii.begin());
   return wanted <= 3 || wanted == context_.options.sides ? std::max(3, wanted) : wanted + wanted % 2;
 }
 
@@ -173,7 +191,7 @@ void GraftWriter::write_limb(std::uint32_t limb) {
   const float middle = axis_.radius_at(0.5F * axis_.length(), axis_.piece_at(0.5F * axis_.length(), 0));
   const int sides = std::max(least_opened_sides, sides_for(middle));
   plan_.begin(start, tip, scale.apart,
-              bulge_share * (1 - circles_[static_cast<std::size_t>(2 * sides)].x[1]));
+              bulge_share * (1 - common_->circles[static_cast<std::size_t>(2 * sides)].x[1]));
   if (context_.trust[limb] <= Trust::detached) plan_children(start);
   if (!plan_.opening.empty()) least_sides_ = least_opened_sides;
   plan_.complete(axis_, has_loop && sides_for(axis_.radius[0]) > 4, context_.options);
@@ -251,8 +269,8 @@ void GraftWriter::plan_children(float start) {
   wishes_.clear();
   for (std::size_t point = 1; point + 1 < axis_.point.size(); ++point) {
     if (axis_.at[point] <= start) continue;
-    for (std::uint32_t child = first_child_[axis_.joint[point]]; child != none;
-         child = next_sibling_[child]) {
+    for (std::uint32_t child = common_->first_child[axis_.joint[point]]; child != none;
+         child = common_->next_sibling[child]) {
       if (context_.trust[child] != Trust::full) continue;
       Bud bud = bud_of(child);
       if (bud.length == 0 || bud.radius < least_opened * context_.scale.thinnest ||
@@ -332,8 +350,8 @@ void GraftWriter::write_band(const Band& band) {
   near_piece_ = band.piece;
   stand_at(band.at);
   const std::size_t first = mesh_.index.wide.size() / 3;
-  const bool is_at_loop = !band.openings.empty();
-  if (band.openings.empty()) {
+  const bool is_at_loop = band.is_open();
+  if (!is_at_loop) {
     plain_ring(plane_of(band), upper_);
     strip(below_, upper_);
   } else {
@@ -368,7 +386,7 @@ void GraftWriter::note_loop_triangles(std::size_t first) {
 /// Triangles between two rings, by rising angle.
 void GraftWriter::strip(const Corners& below, const Corners& above) {
   const std::size_t count = below.size() + above.size() - 2;
-  triangles_.spend(count);
+  spend_triangles(count);
   write_strip(below, above, mesh_.position.data(), mesh_.index.wide.extend(3 * count));
 }
 
@@ -399,7 +417,7 @@ SEEDMESH_WIDE void GraftWriter::write_strip(const Corners& below, const Corners&
 }
 
 void GraftWriter::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  triangles_.spend();
+  spend_triangles(1);
   std::uint32_t* out = mesh_.index.wide.extend(3);
   out[0] = a;
   out[1] = b;

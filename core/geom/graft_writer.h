@@ -1,6 +1,8 @@
 #pragma once
 /// Writes the limbs of graft() in order, parents first: rings, the triangles between them, loops for the
 /// children.
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "core/geom/four.h"
@@ -28,7 +30,8 @@ class GraftWriter {
   GraftWriter(const Context& context, Job& job);
 
   /// Writes all limbs; the second time and on, those for which something has changed since, behind what is
-  /// there.
+  /// there. The first time on all threads that there are, unless the tree is so large that a limit may be met
+  /// or the limbs are in no order that lets it be parted.
   void write_round();
 
   /// Makes the normals of loops, then looks at every triangle for which something has changed. Lowers the
@@ -67,6 +70,17 @@ class GraftWriter {
     }
   };
   static std::vector<Circle> circles_up_to(int most);
+
+  /// What all writers of a tree share.
+  struct Common {
+    explicit Common(const Context& context);
+    std::span<const Circle> circles;   ///< by number of corners
+    std::vector<Circle> own_circles;   ///< where there are more than usual
+    std::vector<float> corner_radius;  ///< from which on a limb has 4, 5, ... corners
+    std::vector<std::uint32_t> first_child, next_sibling;
+  };
+  /// For `joints` of the tree.
+  GraftWriter(const Context& context, std::shared_ptr<const Common> common, std::size_t joints, Job& job);
 
   /// The plane of a ring.
   struct Plane {
@@ -132,8 +146,18 @@ class GraftWriter {
     if (vertices_ + count + Four::size > mesh_.position.size())
       make_room(vertices_ + vertices_ / 2 + count + 64);
   }
-  void find_parents();
+  std::vector<std::uint32_t> find_parents() const;
   void find_dirty();
+  void write_anew(std::uint32_t limb);
+  struct Parts;
+  bool is_worth_parting() const;
+  Parts find_parts() const;
+  bool write_parts();
+  void write_part(const Parts& parts, std::size_t number);
+  void take_part(const GraftWriter& part, std::uint32_t first, std::uint32_t last);
+  void take_vertices(const GraftWriter& part);
+  void take_loops(const GraftWriter& part, std::uint32_t first, std::uint32_t last);
+  void spend_triangles(std::uint64_t count);
   bool has_same_loop(const Loop& now, const Loop& then) const;
   void forget_loops(const Range& range);
   void keep_limb(std::uint32_t limb, const Loop& then);
@@ -166,6 +190,7 @@ class GraftWriter {
   bool is_in_order() const;
   template <class T>
   Array<T> gathered(Array<T>& from, std::uint32_t Place::*what) const;
+  Array<std::uint32_t> gathered_index() const;
 
   void write_limb(std::uint32_t limb);
   void plan_children(float start);
@@ -206,6 +231,7 @@ class GraftWriter {
   void mark_twin() { twin_[vertices_ - 1] = 1; }
 
   Context context_;
+  std::shared_ptr<const Common> common_;
   Job& job_;
   Meter triangles_;
   Mesh mesh_;                 ///< with more room than `vertices_`, so that all can be read as four floats
@@ -224,12 +250,13 @@ class GraftWriter {
   Array<std::uint32_t> joints_;        ///< as Written::joints
   Array<std::uint8_t> twin_;           ///< as Written::twin
   std::vector<Trust> trust_;           ///< as it was in the last round
-  std::vector<std::uint32_t> first_child_, next_sibling_;
   std::vector<Loop> loops_;
   std::vector<LoopVertex> loop_vertices_;
-  std::vector<Circle> circles_;       ///< by number of corners
-  std::vector<float> corner_radius_;  ///< from which on a limb has 4, 5, ... corners
-  float thickest_ = 0;
+
+  // Of who writes a part.
+  bool is_part_ = false;
+  std::uint64_t made_ = 0;                                 ///< triangles, which whoever takes the part spends
+  std::uint32_t first_group_ = 0, first_loop_vertex_ = 0;  ///< of the part: before are its parents'
 
   // Of the limb being written.
   GraftAxis axis_;

@@ -12,7 +12,7 @@
 namespace seedmesh {
 namespace {
 
-constexpr std::size_t lanes = 16, most_vertices = 96;
+constexpr std::size_t lanes = PieceTangents::lanes, most_vertices = 96;
 
 using Row = std::array<float, lanes>;
 struct Rows3 {
@@ -164,14 +164,10 @@ bool PieceTangents::write_block(std::size_t first_piece) const {
   return true;
 }
 
-std::size_t PieceTangents::write_all(const Job& job) const {
-  std::size_t piece = 0;
+std::size_t PieceTangents::write_all(std::size_t begin, std::size_t end) const {
+  std::size_t piece = begin;
   if (triangles_.empty()) return piece;
-  const std::size_t pieces = mesh_.position.size() / one_.vertices;
-  for (; piece + lanes <= pieces; piece += lanes) {
-    if (piece % 1024 == 0) job.check();
-    if (!write_block(piece)) break;
-  }
+  while (piece + lanes <= end && write_block(piece)) piece += lanes;
   return piece;
 }
 

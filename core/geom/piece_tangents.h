@@ -13,9 +13,11 @@ class PieceTangents {
   /// The mesh has its tangents' room.
   PieceTangents(Mesh& mesh, const Array<glm::vec2>& uv, const Repeats& one);
 
-  /// Writes pieces from the first on, in whole blocks, as long as all is ordinary; returns how many. The
-  /// others are the caller's.
-  std::size_t write_all(const Job& job) const;
+  static constexpr std::size_t lanes = 16;  ///< pieces of a block
+
+  /// Writes pieces from `begin` on, in whole blocks before `end`, as long as all is ordinary; returns the
+  /// first that it has not written. That and the others are the caller's.
+  std::size_t write_all(std::size_t begin, std::size_t end) const;
 
  private:
   /// A triangle of all pieces.

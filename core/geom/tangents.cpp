@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/base/parallel.h"
@@ -74,21 +74,23 @@ struct Piece {
   std::size_t first = 0;
 };
 
-/// A vertex of a mesh in the first three lanes; of all but the last the next float is read too.
+/// A vertex of a mesh in the first three lanes; of all but the last of the mesh the next float is read too.
+template <bool has_last>
 FourFloats vertex_of(const Mesh& mesh, std::size_t i) {
   const glm::vec3* from = mesh.position.data() + i;
-  return i + 1 == mesh.position.size() ? spread_out(*from) : Four::row(from);
+  return has_last && i + 1 == mesh.position.size() ? spread_out(*from) : Four::row(from);
 }
 
-template <class Index>
+template <bool has_last, class Index>
 void sum_all(const Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>& uv, std::span<Sums> sums) {
   for (std::size_t i = 0; i + 2 < piece.index.size(); i += 3) {
     const Index corner[3] = {piece.index[i], piece.index[i + 1], piece.index[i + 2]};
     const glm::vec2 s = uv[corner[1]] - uv[corner[0]], t = uv[corner[2]] - uv[corner[0]];
     const float area = s.x * t.y - s.y * t.x;
     if (area == 0) continue;
-    const FourFloats from = vertex_of(mesh, corner[0]), a = vertex_of(mesh, corner[1]) - from,
-                     b = vertex_of(mesh, corner[2]) - from;
+    const FourFloats from = vertex_of<has_last>(mesh, corner[0]),
+                     a = vertex_of<has_last>(mesh, corner[1]) - from,
+                     b = vertex_of<has_last>(mesh, corner[2]) - from;
     // Not divided by the area in the picture but by its sign: large triangles count more.
     const float sign = area < 0 ? -1.0F : 1.0F;
     const FourFloats along_u = (a * t.y - b * s.y) * sign, along_v = (b * s.x - a * t.x) * sign;
@@ -101,11 +103,12 @@ void sum_all(const Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>
 
 SEEDMESH_WIDE void sum_up(const Mesh& mesh, const Piece<std::uint16_t>& piece, const Array<glm::vec2>& uv,
                           std::span<Sums> sums) {
-  sum_all(mesh, piece, uv, sums);
+  sum_all<true>(mesh, piece, uv, sums);
 }
 SEEDMESH_WIDE void sum_up(const Mesh& mesh, const Piece<std::uint32_t>& piece, const Array<glm::vec2>& uv,
                           std::span<Sums> sums) {
-  sum_all(mesh, piece, uv, sums);
+  if (piece.first + sums.size() < mesh.position.size()) return sum_all<false>(mesh, piece, uv, sums);
+  sum_all<true>(mesh, piece, uv, sums);
 }
 
 /// The tangents of `vertices` vertices that no triangle shares with others; `sums` has room for them.
@@ -122,30 +125,115 @@ void add_tangents(Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>&
   }
 }
 
-void add_tangents(Mesh& mesh, const Array<glm::vec2>& uv, const Job& job) {
-  const std::size_t vertices = mesh.position.size();
-  if (!mesh.index.small.empty()) {
-    Array<Sums> sums(job, vertices);
-    return add_tangents(mesh, Piece<std::uint16_t>{mesh.index.small.span(), 0}, uv, sums.span());
-  }
-  // Leaf by leaf, so that the sums take no memory to speak of.
-  Repeats one = repeats_of(mesh.index.wide, vertices);
-  if (one.corners == 0) one = {vertices, mesh.index.wide.size()};
-  Array<Sums> sums(job, one.vertices);
-  const std::span<const std::uint32_t> index = mesh.index.wide.span();
-  const PieceTangents pieces(mesh, uv, one);
-  for (std::size_t piece = pieces.write_all(job); piece * one.vertices < vertices; ++piece) {
-    if (piece % 256 == 0) job.check();
-    add_tangents(mesh,
-                 Piece<std::uint32_t>{index.subspan(piece * one.corners, one.corners), piece * one.vertices},
-                 uv, sums.span());
-  }
+// Of vertices whose sums are still near when their tangents are made of them; pieces in whole blocks.
+constexpr std::size_t vertices_a_part = 2048, blocks_a_part = 32;
+constexpr std::size_t corners_a_part = 3 * vertices_a_part;
+
+/// Triangles from a corner on use vertices from `vertex` on, and those before it none of them.
+struct Cut {
+  std::size_t corner = 0, vertex = 0;
+};
+
+SEEDMESH_WIDE std::uint32_t largest_of(std::span<const std::uint32_t> index) {
+  std::uint32_t most = 0;
+  for (const std::uint32_t i : index) most = i > most ? i : most;
+  return most;
 }
+SEEDMESH_WIDE std::uint32_t least_of(std::span<const std::uint32_t> index) {
+  std::uint32_t least = 0xFFFFFFFFU;
+  for (const std::uint32_t i : index) least = i < least ? i : least;
+  return least;
+}
+
+/// Where a mesh falls into parts, not too small ones: the beginning, cuts, the end.
+std::vector<Cut> cuts_of(std::span<const std::uint32_t> index, std::size_t vertices) {
+  std::vector<Cut> cuts(1);
+  std::uint32_t most = 0;
+  for (std::size_t at = 0; at < index.size();) {
+    const std::size_t next = std::min(index.size(), at + corners_a_part);
+    most = std::max(most, largest_of(index.subspan(at, next - at)));
+    for (at = next; at < index.size(); at += 3) {
+      const std::uint32_t* corner = index.data() + at;
+      if (std::min({corner[0], corner[1], corner[2]}) > most) break;
+      most = std::max({most, corner[0], corner[1], corner[2]});
+    }
+    if (at < index.size()) cuts.push_back({at, std::size_t{most} + 1});
+  }
+  // Of these, those that no later triangle reaches behind.
+  std::size_t least = vertices, end = index.size();
+  std::vector<Cut> kept{{index.size(), vertices}};
+  for (std::size_t i = cuts.size(); i-- > 1;) {
+    least = std::min<std::size_t>(least, least_of(index.subspan(cuts[i].corner, end - cuts[i].corner)));
+    end = cuts[i].corner;
+    if (least >= cuts[i].vertex) kept.push_back(cuts[i]);
+  }
+  kept.emplace_back();
+  std::reverse(kept.begin(), kept.end());
+  return kept;
+}
+
+/// The tangents of one mesh, in parts that have nothing to do with each other.
+class Wanted {
+ public:
+  Wanted(Mesh& mesh, const Array<glm::vec2>& uv) : mesh_(mesh), uv_(uv) {
+    const std::size_t vertices = mesh.position.size();
+    if (!mesh.index.small.empty()) return;
+    if (const Repeats one = repeats_of(mesh.index.wide, vertices); one.corners > 0) {
+      pieces_.emplace(mesh, uv, one);
+      one_ = one;
+    } else {
+      cuts_ = cuts_of(mesh.index.wide.span(), vertices);
+    }
+  }
+
+  std::size_t parts() const {
+    if (!mesh_.index.small.empty()) return 1;
+    return pieces_ ? chunk_count(pieces(), pieces_a_part) : cuts_.size() - 1;
+  }
+
+  void write(std::size_t part, const Job& job) {
+    job.check();
+    if (!mesh_.index.small.empty()) {
+      Array<Sums> sums(job, mesh_.position.size());
+      return add_tangents(mesh_, Piece<std::uint16_t>{mesh_.index.small.span(), 0}, uv_, sums.span());
+    }
+    if (pieces_) return write_pieces(part, job);
+    const Cut from = cuts_[part], to = cuts_[part + 1];
+    Array<Sums> sums(job, to.vertex - from.vertex);
+    const std::span<const std::uint32_t> index = mesh_.index.wide.span();
+    add_tangents(mesh_,
+                 Piece<std::uint32_t>{index.subspan(from.corner, to.corner - from.corner), from.vertex}, uv_,
+                 sums.span());
+  }
+
+ private:
+  static constexpr std::size_t pieces_a_part = blocks_a_part * PieceTangents::lanes;
+
+  std::size_t pieces() const { return mesh_.position.size() / one_.vertices; }
+
+  /// Leaf by leaf, so that the sums take no memory to speak of.
+  void write_pieces(std::size_t part, const Job& job) {
+    const std::size_t begin = part * pieces_a_part, end = std::min(pieces(), begin + pieces_a_part);
+    const std::span<const std::uint32_t> index = mesh_.index.wide.span();
+    Array<Sums> sums(job, one_.vertices);
+    for (std::size_t piece = pieces_->write_all(begin, end); piece < end; ++piece) {
+      const std::size_t first = piece * one_.corners;
+      add_tangents(mesh_, Piece<std::uint32_t>{index.subspan(first, one_.corners), piece * one_.vertices},
+                   uv_, sums.span());
+    }
+  }
+
+  Mesh& mesh_;
+  const Array<glm::vec2>& uv_;
+  Repeats one_;
+  std::optional<PieceTangents> pieces_;
+  std::vector<Cut> cuts_;
+};
 
 }  // namespace
 
 void add_tangents(Model& model, const Job& job) {
-  std::vector<std::pair<Mesh*, const Array<glm::vec2>*>> wanted;
+  std::vector<Wanted> wanted;
   for (MeshGroup& group : model.meshes) {
     for (Primitive& primitive : group.primitives) {
       Mesh& mesh = primitive.mesh;
@@ -153,13 +241,21 @@ void add_tangents(Model& model, const Job& job) {
       const TextureUse& map = model.materials[static_cast<std::size_t>(primitive.material)].normal_texture;
       if (map.texture < 0 || !mesh.tangent.empty()) continue;
       const auto& uv = mesh.uv[static_cast<std::size_t>(map.uv_set)];
-      if (!uv.empty()) wanted.emplace_back(&mesh, &uv);
+      if (uv.empty()) continue;
+      // By this thread, which has memory from the last time: another would have to get it from the kernel.
+      mesh.tangent = Array<glm::vec4>(job, mesh.position.size());
+      wanted.emplace_back(mesh, uv);
     }
   }
-  // By this thread, which has memory from the last time: another would have to get it from the kernel.
-  for (const auto& [mesh, uv] : wanted) mesh->tangent = Array<glm::vec4>(job, mesh->position.size());
-  parallel_for(job, wanted.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t i = begin; i < end; ++i) add_tangents(*wanted[i].first, *wanted[i].second, job);
+  struct Part {
+    std::size_t mesh, number;
+  };
+  std::vector<Part> parts;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    for (std::size_t part = 0; part < wanted[i].parts(); ++part) parts.push_back({i, part});
+  }
+  parallel_for(job, parts.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) wanted[parts[i].mesh].write(parts[i].number, job);
   });
 }
 

@@ -2,6 +2,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "core/base/parallel.h"
 #include "core/geom/copies.h"
 #include "core/geom/finish.h"
 #include "core/geom/tangents.h"
@@ -262,6 +263,7 @@ WriteOptions write_options(const Request& request, const Form& form) {
 
 Result<Product> produce(const Request& request, Job& job, TextureStore* texture_store) {
   return guarded<Product>([&]() -> Result<Product> {
+    const KeepAwake awake(job);
     if (const OwnForm* form = own_form_of(request)) return produce_own(request, *form, job);
     const OutputParams& output = request.body().output;
     Result<Model> model = generate_all(request, job);

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "core/pipeline.h"
+#include "server/give_back.h"
 #include "tests/bench/kept_textures.h"
 #include "tests/bench/report.h"
 
@@ -78,6 +79,7 @@ void bench_memory(const std::string& name, const std::string& small, const std::
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_little_memory(2);  // pages go to and fro as in the service
   if (argc > 1) {
     const std::string name = argv[1], text = name == "small" ? small_tree : preset_text(name);
     const int rounds = argc > 2 ? std::atoi(argv[2]) : 15;

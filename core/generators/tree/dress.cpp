@@ -111,9 +111,8 @@ struct Made {
 // Bark has at most so many triangles a joint, and no triangle takes so many bytes while it is made.
 constexpr std::uint64_t most_triangles_a_joint = 256, most_bytes_a_triangle = 64;
 
-// Of leaves that are made beside the bark. Of more, memory that both can take one after the other from the
-// heap costs more than a second thread saves.
-constexpr std::uint64_t most_side_by_side = 40'000;
+// Of leaves that are made beside the last look at the bark, which then has its memory at the same time.
+constexpr std::uint64_t most_side_by_side = 1'000'000;
 
 /// Are they so few that no limit can be met? Where one is, what is made first decides about the message.
 bool is_modest(const Skeleton& skeleton, std::uint64_t triangles_a_leaf, const Job& job) {
@@ -124,21 +123,17 @@ bool is_modest(const Skeleton& skeleton, std::uint64_t triangles_a_leaf, const J
   return triangles < left && most_bytes_a_triangle * triangles < job.limits().memory_bytes / 2;
 }
 
-/// Bark and leaves side by side, where that is of use.
+/// Leaves beside the last step of the bark, where that is of use.
 Made make_both(const Skeleton& skeleton, const TreeParams& params, const Motion& motion, const Leaves& leaves,
                Job& job) {
   Made made;
   const bool has_levels = job.demand().lods > 1;  // which ask the finest where it draws the joints
   if (!has_threads(job) || has_levels || job.demand().share_organs || leaves.organs.organ.empty())
     return made;
-  if (!is_modest(skeleton, leaf_of(params, 0, job).elements(), job)) return made;
-  run_both(
-      job,
-      [&] {
-        made.bark = bark_of(skeleton.limbs, graft_options(params, Detail(0)), motion.bones(),
-                            motion.wind ? &*motion.wind : nullptr, job);
-      },
-      [&] { made.leaves = finest_leaves(leaves, job); });
+  if (!is_modest(skeleton, leaves.leaf.elements(), job)) return made;
+  GraftOptions options = graft_options(params, Detail(0));
+  options.meanwhile = [&] { made.leaves = finest_leaves(leaves, job); };
+  made.bark = bark_of(skeleton.limbs, options, motion.bones(), motion.wind ? &*motion.wind : nullptr, job);
   return made;
 }
 
@@ -215,13 +210,18 @@ Model dress(Skeleton skeleton, const TreeParams& params, Job& job) {
     motion.growth = plan_growth(skeleton.limbs, {.most_bones = job.demand().most_bones}, job);
   }
   if (job.demand().wind) motion.wind.emplace(skeleton.limbs, job);
-  if (has_leaves(params)) fit_leaves(skeleton.organs, params, job);
+  Mesh leaf;
+  if (has_leaves(params)) {
+    leaf = leaf_of(params, 0, job);
+    fit_leaves(skeleton.organs, params, leaf, job);
+  }
   TreeLevels levels(skeleton, params, job);
   LeafMotion moved;
   if (motion.growth) moved.bones = motion.growth->bone.span();
   if (motion.wind) moved.wind = &*motion.wind;
   const Organs none(job);
-  const Leaves leaves{has_leaves(params) ? skeleton.organs : none, params, moved, size_of(skeleton.limbs)};
+  const Leaves leaves{has_leaves(params) ? skeleton.organs : none, leaf, params, moved,
+                      size_of(skeleton.limbs)};
   Made made = make_both(skeleton, params, motion, leaves, job);
   add_bark(model, skeleton.limbs, params, motion, levels, std::move(made.bark), job);
   add_collision(model, skeleton.limbs, job);

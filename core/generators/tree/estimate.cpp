@@ -36,8 +36,8 @@ Estimate estimate_of(Skeleton skeleton, const TreeParams& params, Job& job) {
   estimate.bytes =
       file_bytes + vertices * (vertex_bytes + (is_plain ? 0 : tangent)) + index_bytes(vertices, bark);
   if (has_leaves(params)) {
-    fit_leaves(skeleton.organs, params, job);
     const Mesh leaf = leaf_of(params, 0, job);
+    fit_leaves(skeleton.organs, params, leaf, job);
     const std::uint64_t count = skeleton.organs.organ.size(), leaves = count * leaf.elements(),
                         corners = count * leaf.position.size();
     estimate.triangles += leaves;

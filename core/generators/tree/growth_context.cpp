@@ -1,10 +1,30 @@
 #include "core/generators/tree/growth_context.h"
 
+#include <algorithm>
+#include <vector>
+
+#include "core/base/parallel.h"
+
 namespace seedmesh::tree {
 namespace {
 
 // Of the bark of an internode, and of a leaf: a triangular tube, two triangles a side; a card.
 constexpr std::uint64_t least_triangles_a_joint = 6, least_triangles_a_leaf = 2;
+// Of one part of a tree: larger trees are seldom, and are not grown twice for long.
+constexpr std::uint64_t most_of_a_part = std::uint64_t{1} << 18U;
+constexpr std::uint64_t bytes_of_both = 128;  // of a joint and a leaf, at least
+constexpr std::uint64_t spent_at_once = 4096;
+
+/// As small amounts, which leave no more of a lease.
+void spend(Meter& meter, std::uint64_t amount) {
+  for (; amount > spent_at_once; amount -= spent_at_once) meter.spend(spent_at_once);
+  meter.spend(amount);
+}
+
+template <class T>
+void copy_all(const Array<T>& from, Array<T>& to, std::size_t at) {
+  std::copy(from.begin(), from.end(), to.begin() + at);
+}
 
 }  // namespace
 
@@ -27,8 +47,79 @@ SkeletonWriter::SkeletonWriter(Skeleton& skeleton, Job& job, double density)
       most_leaves_(job.limits().triangles / least_triangles_a_leaf),
       density_(density) {}
 
+SkeletonWriter::SkeletonWriter(Skeleton& part, const SkeletonWriter& whole, std::size_t most)
+    : SkeletonWriter(part, whole.job_, whole.density_) {
+  is_part_ = true;
+  first_ = static_cast<std::uint32_t>(whole.limbs_.size());
+  end_after(most, most);
+}
+
+std::size_t SkeletonWriter::most_of_parts(std::size_t parts) const {
+  const Limits& limits = job_.limits();
+  const std::uint64_t joints = limbs_.size();
+  if (is_part_ || end_joints_ != ~std::size_t{0} || joints >= most_joints_ || leaves_ >= most_leaves_)
+    return 0;
+  const std::uint64_t left =
+      std::min({limits.modules - job_.spent(Resource::modules), limits.shapes - job_.spent(Resource::shapes),
+                most_joints_ - joints, most_leaves_ - leaves_, limits.memory_bytes / bytes_of_both});
+  return static_cast<std::size_t>(std::min(most_of_a_part, left / (2 * std::max<std::size_t>(parts, 1))));
+}
+
+void SkeletonWriter::take(std::span<const SkeletonWriter* const> parts) {
+  struct Place {
+    std::size_t joint, leaf;
+  };
+  std::vector<Place> places;
+  Place end{limbs_.size(), organs_.organ.size()};
+  for (const SkeletonWriter* part : parts) {
+    spend(modules_, part->limbs_.size());
+    spend(shapes_, part->leaves_);
+    leaves_ += part->leaves_;
+    places.push_back(end);
+    end = {end.joint + part->limbs_.size(), end.leaf + part->organs_.organ.size()};
+  }
+  limbs_.position.resize(end.joint);
+  limbs_.radius.resize(end.joint);
+  limbs_.base_radius.resize(end.joint);
+  limbs_.parent.resize(end.joint);
+  limbs_.starts_limb.resize(end.joint);
+  limbs_.color.resize(end.joint);
+  limbs_.order.resize(end.joint);
+  limbs_.key.resize(end.joint);
+  organs_.organ.resize(end.leaf);
+  parallel_for(job_, parts.size(), 1, [&](std::size_t, std::size_t, std::size_t i) {
+    copy(*parts[i], places[i].joint, places[i].leaf);
+  });
+}
+
+/// To the places from `joint` and `leaf` on.
+void SkeletonWriter::copy(const SkeletonWriter& part, std::size_t joint, std::size_t leaf) {
+  copy_all(part.limbs_.position, limbs_.position, joint);
+  copy_all(part.limbs_.radius, limbs_.radius, joint);
+  copy_all(part.limbs_.base_radius, limbs_.base_radius, joint);
+  copy_all(part.limbs_.starts_limb, limbs_.starts_limb, joint);
+  copy_all(part.limbs_.color, limbs_.color, joint);
+  copy_all(part.limbs_.order, limbs_.order, joint);
+  copy_all(part.limbs_.key, limbs_.key, joint);
+  const std::uint32_t by = static_cast<std::uint32_t>(joint) - part.first_;
+  const auto moved = [&](std::uint32_t number) {
+    return number == Limbs::none || number < part.first_ ? number : number + by;
+  };
+  for (std::size_t i = 0; i < part.limbs_.size(); ++i)
+    limbs_.parent[joint + i] = moved(part.limbs_.parent[i]);
+  for (std::size_t i = 0; i < part.organs_.organ.size(); ++i) {
+    Organ& organ = organs_.organ[leaf + i];
+    organ = part.organs_.organ[i];
+    organ.limb_joint = moved(organ.limb_joint);
+  }
+}
+
 std::uint32_t SkeletonWriter::add(const Joint& joint) {
-  modules_.spend();
+  if (!is_part_) {
+    modules_.spend();
+  } else if (limbs_.size() % 1024 == 0) {
+    job_.check();
+  }
   if (limbs_.size() >= end_joints_) throw Enough{};
   if (limbs_.size() >= most_joints_) {
     Job::refuse("the tree has more than " + std::to_string(most_joints_) +
@@ -42,7 +133,7 @@ std::uint32_t SkeletonWriter::add(const Joint& joint) {
   limbs_.color.push_back(0);
   limbs_.order.push_back(static_cast<std::uint16_t>(joint.order));
   limbs_.key.push_back(joint.key);
-  return static_cast<std::uint32_t>(limbs_.size() - 1);
+  return first_ + static_cast<std::uint32_t>(limbs_.size() - 1);
 }
 
 void SkeletonWriter::refuse_leaves() const {

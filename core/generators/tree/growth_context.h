@@ -52,6 +52,15 @@ class SkeletonWriter {
     end_leaves_ = leaves;
   }
 
+  /// Several write at once, each a part that begins behind what is written here. `most`: joints and leaves of
+  /// one, so many that `parts` of them meet no limit of the request; 0: there is no room for that.
+  std::size_t most_of_parts(std::size_t parts) const;
+  /// Writes to `part`, numbering joints as if they came next after those of `whole`; throws Enough beyond
+  /// `most` joints or leaves. Nothing is spent before the part is taken.
+  SkeletonWriter(Skeleton& part, const SkeletonWriter& whole, std::size_t most);
+  /// Appends what `parts` have written, on all threads.
+  void take(std::span<const SkeletonWriter* const> parts);
+
   struct Joint {
     std::uint32_t parent = Limbs::none;
     glm::dvec3 position{0};
@@ -71,22 +80,28 @@ class SkeletonWriter {
   };
   /// Counts a leaf. False: it is none of those that are drawn, and need not be made.
   bool wants_leaf(std::uint64_t key) {
-    shapes_.spend();
+    return wants_leaf([key] { return key; });
+  }
+  /// The same; `key()` is asked only where it is needed.
+  template <class Key>
+  bool wants_leaf(const Key& key) {
+    if (!is_part_) shapes_.spend();
     if (leaves_ >= end_leaves_) throw Enough{};
     if (leaves_ >= most_leaves_) refuse_leaves();
     ++leaves_;
-    return is_drawn(key, density_);
+    return density_ >= 1 || is_drawn(key(), density_);
   }
   void add(const Leaf& leaf);
   void add(const Organ& leaf) { add(std::span(&leaf, 1)); }
   void add(std::span<const Organ> leaves) { organs_.organ.append(leaves); }
 
   /// The radius at the far end of a joint's internode.
-  double radius(std::uint32_t joint) const { return static_cast<double>(limbs_.radius[joint]); }
+  double radius(std::uint32_t joint) const { return static_cast<double>(limbs_.radius[joint - first_]); }
   Job& job() { return job_; }
 
  private:
   [[noreturn]] void refuse_leaves() const;
+  void copy(const SkeletonWriter& part, std::size_t joint, std::size_t leaf);
 
   Limbs& limbs_;
   Organs& organs_;
@@ -95,6 +110,8 @@ class SkeletonWriter {
   std::uint64_t most_joints_, most_leaves_, leaves_ = 0;
   std::size_t end_joints_ = ~std::size_t{0}, end_leaves_ = ~std::size_t{0};
   double density_;
+  bool is_part_ = false;
+  std::uint32_t first_ = 0;  ///< number of a part's first joint
 };
 
 }  // namespace seedmesh::tree

@@ -65,10 +65,8 @@ void put_on(Model& model, Node& node, MeshGroup group) {
   }
 }
 
-std::vector<Foliage> place(const Organs& organs, const TreeParams& params, FoliageOptions options, int level,
-                           Job& job) {
-  const Mesh surface = leaf_of(params, level, job);
-  options.surfaces = std::span(&surface, 1);
+std::vector<Foliage> place(const Organs& organs, const Mesh& leaf, FoliageOptions options, Job& job) {
+  options.surfaces = std::span(&leaf, 1);
   return place_organs(organs, options, job);
 }
 
@@ -84,10 +82,11 @@ void add_merged(Model& model, const Leaves& leaves, TreeLevels& levels,
     if (level == 0) {
       parts = finest ? *std::move(finest) : finest_leaves(leaves, job);
     } else {
-      const std::size_t triangles = leaf_of(leaves.params, level, job).elements();
-      const double share = levels.leaves_at(Detail(level), leaves.organs.organ.size(), triangles, before);
+      const Mesh leaf = leaf_of(leaves.params, level, job);
+      const double share =
+          levels.leaves_at(Detail(level), leaves.organs.organ.size(), leaf.elements(), before);
       const Organs fewer = levels.foliage->keep(leaves.organs, share, job);
-      parts = place(fewer, leaves.params, options_of(leaves), level, job);
+      parts = place(fewer, leaf, options_of(leaves), job);
     }
     before = levels.bark.empty() ? 0 : levels.bark[static_cast<std::size_t>(level)];
     for (Foliage& part : parts) {
@@ -137,8 +136,7 @@ Mesh leaf_of(const TreeParams& params, int level, const Job& job) {
 }
 
 /// Organs come with the width and length of a leaf; a leaf's mesh is 1 long and has a width of its own.
-void fit_leaves(Organs& organs, const TreeParams& params, const Job& job) {
-  const Mesh leaf = leaf_of(params, 0, job);
+void fit_leaves(Organs& organs, const TreeParams& params, const Mesh& leaf, const Job& job) {
   const Box box = bounds_of(leaf.position.span());
   const float across = std::max(1e-3F, box.max.x - box.min.x);
   const TreeBuild build = build_of(params);
@@ -158,7 +156,7 @@ void fit_leaves(Organs& organs, const TreeParams& params, const Job& job) {
 }
 
 std::vector<Foliage> finest_leaves(const Leaves& leaves, Job& job) {
-  return place(leaves.organs, leaves.params, options_of(leaves), 0, job);
+  return place(leaves.organs, leaves.leaf, options_of(leaves), job);
 }
 
 void add_leaves(Model& model, const Leaves& leaves, TreeLevels& levels,

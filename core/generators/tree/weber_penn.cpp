@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/generators/tree/sway.h"
 #include "core/generators/tree/weber_penn_grower.h"
 
@@ -14,18 +16,65 @@ namespace {
 constexpr int helix_pieces = 6;
 // The flare's curve is drawn through these shares of the trunk; it ends at an eighth.
 constexpr double flare_stations[] = {0.0, 1.0 / 128, 1.0 / 48, 1.0 / 24, 1.0 / 12, 1.0 / 8};
+// Fewer stems that wait are not worth another thread.
+constexpr std::size_t least_stems = 8, parts_a_thread = 4;
 std::uint64_t number_of(double x) { return static_cast<std::uint64_t>(math::to_int64(x)); }
 
 }  // namespace
 
 void WeberPennGrower::run() {
-  waiting_.push_back(trunk());
+  grow(trunk());
+  if (!grow_parts()) grow_all();
+}
+
+void WeberPennGrower::grow_all() {
   while (!waiting_.empty()) {
     const WeberPennStem stem = waiting_.back();
     waiting_.pop_back();
     grow(stem);
   }
   put_leaves();
+}
+
+struct WeberPennGrower::Part {
+  Part(const WeberPennGrower& whole, std::size_t most)
+      : skeleton(whole.writer_.job()),
+        writer(skeleton, whole.writer_, most),
+        grower(whole.p_, whole.chances_, writer) {
+    grower.scale_ = whole.scale_;
+    grower.trunk_length_ = whole.trunk_length_;
+  }
+  Skeleton skeleton;
+  SkeletonWriter writer;
+  WeberPennGrower grower;
+};
+
+/// What waits, on all threads; false: nothing is grown. No stem knows of another that waits, and what is
+/// drawn by chance is drawn by place, so that the result is that of one thread.
+bool WeberPennGrower::grow_parts() {
+  const Job& job = writer_.job();
+  if (!has_threads(job) || waiting_.size() < least_stems) return false;
+  const std::size_t wanted = parts_a_thread * static_cast<std::size_t>(job.threads());
+  const std::size_t stems = std::max<std::size_t>(1, waiting_.size() / wanted);
+  const std::size_t count = chunk_count(waiting_.size(), stems), most = writer_.most_of_parts(count);
+  if (most == 0) return false;
+  put_leaves();
+  std::vector<std::unique_ptr<Part>> parts(count);
+  try {
+    parallel_for(job, waiting_.size(), stems, [&](std::size_t begin, std::size_t end, std::size_t index) {
+      auto part = std::make_unique<Part>(*this, most);
+      part->grower.waiting_.assign(waiting_.begin() + static_cast<std::ptrdiff_t>(begin),
+                                   waiting_.begin() + static_cast<std::ptrdiff_t>(end));
+      part->grower.grow_all();
+      parts[index] = std::move(part);
+    });
+  } catch (const SkeletonWriter::Enough&) {
+    return false;  // so large that it may meet a limit
+  }
+  std::vector<const SkeletonWriter*> written;
+  for (std::size_t i = count; i-- > 0;) written.push_back(&parts[i]->writer);  // the last first, as they wait
+  writer_.take(written);
+  return true;
 }
 
 WeberPennStem WeberPennGrower::trunk() {
@@ -108,8 +157,8 @@ double WeberPennGrower::walk_segment(WeberPennStem& stem, const Frame& axis, int
     const double end =
         piece + 1 == first_piece + pieces(stem) ? (segment + 1) * segment_length(stem) : along + piece_length;
     std::vector<double>& stops = stops_;
-    std::vector<WeberPennBud>& buds = buds_;
     stops.clear();
+    bud_frames_.push_back(frame);
     if (stem.level == 0) {
       for (const double share : flare_stations) {
         const double stop = share * stem.length;
@@ -131,13 +180,11 @@ double WeberPennGrower::walk_segment(WeberPennStem& stem, const Frame& axis, int
       stem.carried_children = 0;
       const int number = stem.children_before++;
       if (is_last(stem) && !wants_leaf(number)) continue;
-      put_bud(frame, at + frame.heading * (from - along), from, number);
+      put_bud(at + frame.heading * (from - along), from, number);
       if (!is_last(stem)) stops.push_back(from);
     }
     stops.push_back(end);
     std::sort(stops.begin(), stops.end());
-    std::size_t next_bud = 0;
-    while (next_bud < buds.size() && buds[next_bud].joint != Limbs::none) ++next_bud;
     double before = along;
     for (const double stop : stops) {
       if (stop <= before + 1e-9 * stem.length && stop < end) continue;
@@ -152,8 +199,8 @@ double WeberPennGrower::walk_segment(WeberPennStem& stem, const Frame& axis, int
       last_joint_ = writer_.add(joint);
       starts_ = false;
       before = stop;
-      for (; next_bud < buds.size() && buds[next_bud].offset <= stop; ++next_bud)
-        buds[next_bud].joint = last_joint_;
+      for (; next_bud_ < buds_.size() && buds_[next_bud_].offset <= stop; ++next_bud_)
+        buds_[next_bud_].joint = last_joint_;
     }
     at += frame.heading * (end - along);
     along = end;
@@ -224,6 +271,8 @@ void WeberPennGrower::grow(const WeberPennStem& given) {
       std::max(0.0, level(stem.level + 1).length +
                         spread(stem.rng.at("child_length"), level(stem.level + 1).length_v));
   buds_.clear();
+  bud_frames_.clear();
+  next_bud_ = 0;
   Frame frame = stem.frame;
   glm::dvec3 at = stem.position;
   for (int segment = stem.segment; segment < l.curve_res; ++segment) {
@@ -233,7 +282,8 @@ void WeberPennGrower::grow(const WeberPennStem& given) {
   }
   for (int i = 0; is_fan && i < static_cast<int>(children); ++i) {
     if (!wants_leaf(i)) continue;
-    put_bud(frame, at, stem.length, i);
+    if (buds_.empty()) bud_frames_.push_back(frame);
+    put_bud(at, stem.length, i);
     buds_.back().joint = last_joint_;
   }
   bear_all(stem, child_max);

@@ -51,7 +51,7 @@ void WeberPennGrower::bear(const WeberPennStem& stem, const WeberPennBud& bud, d
   const Rng rng = parent.at("child").at(static_cast<std::uint64_t>(bud.number));
   WeberPennStem child;
   const Stance stands = stance(stem, bud, rng);
-  child.frame = pitch(roll(bud.frame, math::quick_sincos_degrees(stands.about)),
+  child.frame = pitch(roll(bud_frames_[bud.frame], math::quick_sincos_degrees(stands.about)),
                       math::quick_sincos_degrees(stands.down));
   child.position = bud.position;
   child.joint = bud.joint;
@@ -97,21 +97,12 @@ bool WeberPennGrower::fits(const WeberPennStem& stem) const {
   return true;
 }
 
-/// Counts a leaf of the stem that grows. False: it is none of those that are drawn.
-bool WeberPennGrower::wants_leaf(int number) const {
-  return writer_.wants_leaf(leaf_chance_.at(static_cast<std::uint64_t>(number)).key());
-}
-
-void WeberPennGrower::put_bud(const Frame& frame, const glm::dvec3& position, double offset, int number) {
-  buds_.push_back({frame, position, Limbs::none, offset, number});  // in its place: there are many
-}
-
 void WeberPennGrower::leaf(const WeberPennStem& stem, const WeberPennBud& bud) {
   const Rng rng = leaf_chance_.at(static_cast<std::uint64_t>(bud.number));
   if (p_.Leaves < 0) return fan_leaf(stem, bud, rng);
   const Stance stands = stance(stem, bud, rng);
   Organ& organ = leaves_[leaf_frames_.size()];
-  leaf_frames_.add(bud.frame, bud.position, stands.about, stands.down);
+  leaf_frames_.add(bud_frames_[bud.frame], bud.position, stands.about, stands.down);
   organ.position = glm::vec3(bud.position);
   organ.limb_joint = bud.joint;
   organ.key = rng.key();
@@ -124,8 +115,8 @@ void WeberPennGrower::fan_leaf(const WeberPennStem& stem, const WeberPennBud& bu
   const double count = -p_.Leaves;
   const double across = count > 1 ? l.rotate * (bud.number / (count - 1) - 0.5) : 0;
   SkeletonWriter::Leaf leaf;
-  leaf.frame =
-      pitch(turn(bud.frame, math::quick_sincos_degrees(across)), math::quick_sincos_degrees(l.down_angle));
+  leaf.frame = pitch(turn(bud_frames_[bud.frame], math::quick_sincos_degrees(across)),
+                     math::quick_sincos_degrees(l.down_angle));
   if (p_.LeafBend != 0) leaf.frame = to_light(leaf.frame, bud.position, p_.LeafBend);
   leaf.frame = upper_side_up(leaf.frame);
   leaf.position = bud.position;

@@ -31,10 +31,10 @@ struct WeberPennStem {
 
 /// A child or leaf on a stem, before it is grown.
 struct WeberPennBud {
-  Frame frame;
   glm::dvec3 position{0};
-  std::uint32_t joint = Limbs::none;
   double offset = 0;
+  std::uint32_t joint = Limbs::none;
+  std::uint32_t frame = 0;  ///< of the stem there, in a list
   int number = 0;
 };
 
@@ -46,6 +46,10 @@ class WeberPennGrower {
   void run();
 
  private:
+  /// Stems that wait one after the other, and what grows from them.
+  struct Part;
+  void grow_all();
+  bool grow_parts();
   const WeberPennLevel& level(int n) const { return levels_[static_cast<std::size_t>(std::min(n, 3))]; }
   bool is_last(const WeberPennStem& stem) const { return stem.level + 1 >= p_.Levels; }
   double base_length() const { return p_.BaseSize * scale_; }
@@ -72,8 +76,15 @@ class WeberPennGrower {
     double about = 0, down = 0;  ///< degrees
   };
   Stance stance(const WeberPennStem& stem, const WeberPennBud& bud, const Rng& rng) const;
-  bool wants_leaf(int number) const;
-  void put_bud(const Frame& frame, const glm::dvec3& position, double offset, int number);
+  /// Counts a leaf of the stem that grows. False: it is none of those that are drawn.
+  bool wants_leaf(int number) const {
+    return writer_.wants_leaf([&] { return leaf_chance_.at(static_cast<std::uint64_t>(number)).key(); });
+  }
+  /// On the last of the frames.
+  void put_bud(const glm::dvec3& position, double offset, int number) {
+    buds_.push_back(
+        {position, offset, Limbs::none, static_cast<std::uint32_t>(bud_frames_.size() - 1), number});
+  }
   void leaf(const WeberPennStem& stem, const WeberPennBud& bud);
   void fan_leaf(const WeberPennStem& stem, const WeberPennBud& bud, const Rng& rng);
   void put_leaves();
@@ -89,6 +100,8 @@ class WeberPennGrower {
   // Of the stem that grows.
   std::uint32_t last_joint_ = Limbs::none;
   std::vector<WeberPennBud> buds_;
+  std::vector<Frame> bud_frames_;
+  std::size_t next_bud_ = 0;  ///< whose joint is not there yet
   std::vector<double> stops_;
   Rng leaf_chance_{0};
   double spacing_ = 0, bare_ = 0;

@@ -68,6 +68,7 @@ double tapered(double taper, double radius, double length, double z) {
 
 double flared(double flare, double z) {
   const double y = std::max(0.0, 1 - 8 * z);
+  if (flare == 0 || y == 0) return 1;
   return 1 + flare * (math::pow(100, y) - 1) / 100;
 }
 

@@ -37,6 +37,31 @@ TEST(ParallelFor, InsideAnotherStaysOnItsThread) {
   EXPECT_EQ(std::count(strangers.begin(), strangers.end(), 0), 16);
 }
 
+TEST(KeepAwake, LetsThreadsGoToWorkAgainAndAgain) {
+  for (const int threads : {1, 2, 8}) {
+    const Job job = with_threads(threads);
+    const KeepAwake awake(job), again(job);  // of which one is enough
+    for (int round = 0; round < 200; ++round) {
+      std::vector<int> visits(64, 0);
+      const auto visit = [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) ++visits[i];
+      };
+      run_both(
+          job, [&] { parallel_for(job, 32, 1, visit); },
+          [&] {
+            parallel_for(job, 32, 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+              visit(begin + 32, end + 32, 0);
+            });
+          });
+      EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), 64);
+    }
+    const auto fails = [](std::size_t, std::size_t, std::size_t i) {
+      if (i == 3) throw Stop(Code::limit, {"", "no"});
+    };
+    EXPECT_THROW(parallel_for(job, 8, 1, fails), Stop);
+  }
+}
+
 TEST(RunBoth, CallsBothAndLetsThemCutTheirWork) {
   for (const int threads : {1, 2, 8}) {
     const Job job = with_threads(threads);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -133,6 +134,43 @@ TEST(Graft, StaysSoundWhateverTheLimbsAre) {
     }
   }
   EXPECT_GT(made, 80);
+}
+
+template <class T>
+bool are_same(const Array<T>& a, const Array<T>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end());
+}
+
+TEST(Graft, MakesTheSameOfAnyNumberOfThreads) {
+  for (int i = 0; i < 12; ++i) {
+    const auto made_by = [&](int threads, Array<std::uint32_t>& joints) {
+      Job job(1, {.threads = threads});
+      GraftOptions options;
+      options.overlaps = i % 2;
+      options.wrap = i % 3;
+      options.lobes = i % 4 == 3 ? 5 : 0;
+      options.lobe_depth = 0.05F;
+      joints = Array<std::uint32_t>(job);
+      if (i % 5) options.joints = &joints;
+      bool was_called = false;
+      if (i % 2) options.meanwhile = [&] { was_called = true; };
+      Mesh mesh = graft(spiral(job, 12 + 6 * i), options, job);
+      EXPECT_EQ(was_called, i % 2 == 1);
+      EXPECT_GT(job.spent(Resource::triangles), mesh.elements());
+      return mesh;
+    };
+    Array<std::uint32_t> joints, other_joints;
+    const Mesh one = made_by(1, joints);
+    EXPECT_GT(one.elements(), 1000U);
+    for (const int threads : {2, 3, 8}) {
+      const Mesh other = made_by(threads, other_joints);
+      EXPECT_TRUE(are_same(one.position, other.position)) << i << ", threads " << threads;
+      EXPECT_TRUE(are_same(one.normal, other.normal)) << i << ", threads " << threads;
+      EXPECT_TRUE(are_same(one.uv[0], other.uv[0])) << i << ", threads " << threads;
+      EXPECT_TRUE(are_same(one.index.wide, other.index.wide)) << i << ", threads " << threads;
+      EXPECT_TRUE(are_same(joints, other_joints)) << i << ", threads " << threads;
+    }
+  }
 }
 
 TEST(Graft, WrapsUAWholeNumberOfTimesRoundALimb) {

@@ -53,6 +53,55 @@ TEST(Tangents, AreMirroredWhereThePictureIs) {
     EXPECT_EQ(tangent, glm::vec4(-1, 0, 0, -1));
 }
 
+/// Strips of a bumpy surface, far more than are made at once, each with vertices of its own.
+Mesh strips(const Job& job, std::uint32_t count, std::uint32_t squares) {
+  Mesh mesh;
+  mesh.position = Array<glm::vec3>(job);
+  mesh.normal = Array<glm::vec3>(job, count * 2 * (squares + 1), glm::vec3(0, 0, 1));
+  mesh.uv[0] = Array<glm::vec2>(job);
+  mesh.index.wide = Array<std::uint32_t>(job);
+  Rng rng(5);
+  for (std::uint32_t strip = 0; strip < count; ++strip) {
+    const std::uint32_t first = strip * 2 * (squares + 1);
+    for (std::uint32_t i = 0; i < 2 * (squares + 1); ++i) {
+      const auto chance = [&] { return static_cast<float>(rng.uniform(0, 0.3)); };
+      mesh.position.push_back({static_cast<float>(i / 2) + chance(), static_cast<float>(i % 2), chance()});
+      mesh.uv[0].push_back({static_cast<float>(i / 2) + chance(), static_cast<float>(i % 2) + chance()});
+    }
+    for (std::uint32_t i = 0; i < squares; ++i) {
+      for (const std::uint32_t corner : {0U, 2U, 1U, 1U, 2U, 3U})
+        mesh.index.wide.push_back(first + 2 * i + corner);
+    }
+  }
+  return mesh;
+}
+
+TEST(Tangents, OfPartsAreThoseOfTheWhole) {
+  for (const bool reaches_back : {false, true}) {
+    const Job job(1, {.threads = 2});
+    const auto tangents = [&](bool is_small) {
+      Mesh mesh = strips(job, 9, 1500);
+      mesh.index.wide.push_back(3);  // no strip is like another
+      mesh.index.wide.push_back(1);
+      mesh.index.wide.push_back(0);
+      if (!reaches_back) mesh.index.wide.resize(mesh.index.wide.size() - 3);
+      mesh.index.wide[0] = 3;
+      if (is_small) {
+        mesh.index.small = Array<std::uint16_t>(job, mesh.index.wide.size());
+        for (std::size_t i = 0; i < mesh.index.wide.size(); ++i)
+          mesh.index.small[i] = static_cast<std::uint16_t>(mesh.index.wide[i]);
+        mesh.index.wide = Array<std::uint32_t>(job);
+      }
+      Model model = model_of(std::move(mesh));
+      add_tangents(model, job);
+      return std::move(model.meshes[0].primitives[0].mesh.tangent);
+    };
+    const Array<glm::vec4> whole = tangents(true), parts = tangents(false);
+    ASSERT_EQ(whole.size(), 9U * 2 * 1501);
+    for (std::size_t i = 0; i < whole.size(); ++i) ASSERT_EQ(whole[i], parts[i]) << i;
+  }
+}
+
 TEST(Tangents, AreMadeOnlyWhereANormalMapIs) {
   const Job job = job_of();
   Model model = model_of(square(job));

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "core/generators/tree/weber_penn_shape.h"
 #include "tests/core/tree/support.h"
@@ -47,6 +48,63 @@ TEST(WeberPennShape, FlaresBelowAnEighthOfTheHeight) {
   EXPECT_NEAR(flared(0.6, 0), 1 + 0.6 * 0.99, 1e-12);
   EXPECT_EQ(flared(0.6, 0.125), 1);
   EXPECT_EQ(flared(0.6, 0.5), 1);
+}
+
+Skeleton grown_by(int threads, const TreeParams& params, const Limits& limits, std::string& refusal) {
+  Job job(7, {.limits = limits, .threads = threads});
+  Skeleton skeleton(job);
+  SkeletonWriter writer(skeleton, job);
+  try {
+    grow_weber_penn(params, Chances(params.seeds, 7), writer);
+  } catch (const Stop& stop) {
+    refusal = stop.issue().message;
+  }
+  return skeleton;
+}
+
+TEST(WeberPenn, GrowsTheSameOnAnyNumberOfThreads) {
+  TreeParams params;
+  for (const bool splits : {false, true}) {
+    params.seg_splits_0 = splits ? 0.6 : 0;
+    params.split_angle_0 = 20;
+    std::string refusal;
+    const Skeleton one = grown_by(1, params, Limits{}, refusal);
+    EXPECT_GT(one.limbs.size(), 3000U);
+    for (const int threads : {2, 3, 8}) {
+      const Skeleton other = grown_by(threads, params, Limits{}, refusal);
+      EXPECT_EQ(refusal, "");
+      ASSERT_EQ(one.limbs.size(), other.limbs.size());
+      for (std::size_t i = 0; i < one.limbs.size(); ++i) {
+        ASSERT_EQ(one.limbs.position[i], other.limbs.position[i]) << i;
+        ASSERT_EQ(one.limbs.parent[i], other.limbs.parent[i]) << i;
+        ASSERT_EQ(one.limbs.key[i], other.limbs.key[i]) << i;
+      }
+      ASSERT_EQ(one.organs.organ.size(), other.organs.organ.size());
+      for (std::size_t i = 0; i < one.organs.organ.size(); ++i) {
+        const Organ &a = one.organs.organ[i], &b = other.organs.organ[i];
+        ASSERT_TRUE(a.position == b.position && a.frame == b.frame && a.scale == b.scale && a.key == b.key &&
+                    a.limb_joint == b.limb_joint)
+            << i;
+      }
+    }
+  }
+}
+
+TEST(WeberPenn, IsRefusedByAnyNumberOfThreadsWhereItPassesALimit) {
+  const TreeParams params;
+  Limits few_joints, few_leaves;
+  few_joints.modules = 2000;
+  few_leaves.shapes = 9000;
+  for (const Limits& limits : {few_joints, few_leaves}) {
+    std::string first;
+    grown_by(1, params, limits, first);
+    EXPECT_NE(first.find("the limit is"), std::string::npos) << first;
+    for (const int threads : {2, 8}) {
+      std::string refusal;
+      grown_by(threads, params, limits, refusal);
+      EXPECT_EQ(refusal, first);
+    }
+  }
 }
 
 TEST(WeberPenn, GrowsTheAspenOfThePaper) {
