@@ -73,13 +73,14 @@ TEST(Coarsen, MakesAboutAsManyTrianglesAsAreWanted) {
   Job job = job_of();
   for (std::uint64_t seed = 1; seed < 40; ++seed) {
     const Limbs limbs = random_limbs(job, seed);
-    CoarseOptions options = wanting(skin_triangles(limbs, {.adapt = true}) / 2);
-    options.for_skin = true;
-    options.power = options.finest_power = 0.5;
-    options.even = false;
+    const SkinOptions finest{.adapt = true};
+    CoarseOptions options = wanting(skin_triangles(limbs, finest) / 2);
+    options.skin = &finest;
     const CoarseLimbs kept = coarsen(limbs, options, job);
-    for (const Bark& bark : skin(kept.limbs, {.adapt = true}, job)) EXPECT_THAT(faults(bark.mesh), IsEmpty());
-    EXPECT_LE(skin_triangles(kept.limbs, {.adapt = true}), skin_triangles(limbs, {.adapt = true})) << seed;
+    SkinOptions coarse = finest;
+    coarse.corners = kept.corners;
+    for (const Bark& bark : skin(kept.limbs, coarse, job)) EXPECT_THAT(faults(bark.mesh), IsEmpty());
+    EXPECT_LE(skin_triangles(kept.limbs, coarse), skin_triangles(limbs, finest)) << seed;
   }
 }
 
