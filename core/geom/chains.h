@@ -22,6 +22,7 @@ enum Mark : std::uint8_t {
   drawn_before = 1,  ///< its internode lies on an earlier one and is not skinned
   revisit = 2,       ///< an earlier joint stands at the same place
   fork = 4,          ///< a side branch begins here
+  straight_on = 8,   ///< the limb goes on from here as it came, and no ring is needed (SkinOptions::corners)
 };
 
 struct Chains {

@@ -23,6 +23,15 @@ constexpr float price_range = 1e-12F;
 constexpr float least_shown = 0.08F;
 // By how much chance makes a limb dearer or cheaper at most.
 constexpr float most_favour = 0.2F;
+// Corners fall with this power of the radius, as graft() has them.
+constexpr double corner_power = 0.3;
+// What skin() may give a limb instead of as many as it has at the finest level, most first.
+constexpr int fewer_corners[] = {48, 32, 24, 16, 12, 10, 8, 6, 5, 4, 3};
+// Of the width of a limb that is seen, what differs in the mean of all sides: measured for limbs whose rings turn by
+// half a side, within half a hundredth.
+constexpr float off_by_corners = 0.68F, off_by_finest = 0.52F;
+// The cosine of the angle by which a cross-section that is no circle may turn between joints that need not stay.
+constexpr float untwisted = 0.99F;
 // An end thinner than this share of the ring before it is a point.
 constexpr float pointed_share = 0.5F;
 
@@ -31,7 +40,7 @@ struct Station {
   glm::vec3 position{0};
   float radius = 0;
   float worth = 0;    ///< the area by which the outline changes without it
-  float corners = 3;  ///< of a ring there
+  float corners = 3;  ///< of a ring there, for graft()
 };
 
 class Coarsening {
@@ -41,6 +50,9 @@ class Coarsening {
     for (std::size_t i = 0; i < limbs.size(); ++i) {
       if (limbs.parent[i] != Limbs::none) thickest_ = std::max(thickest_, limbs.base_radius[i]);
     }
+    if (!options.skin) return;
+    least_corners_ = least_sides_of(*options.skin);
+    for (const std::uint32_t head : chains_.head) thickest_head_ = std::max(thickest_head_, first_radius(head));
   }
 
   CoarseLimbs run() {
@@ -56,33 +68,56 @@ class Coarsening {
   void simplify(std::size_t first, std::size_t last);
   float price_for(std::uint64_t triangles);
   std::uint64_t count(float price);
-  bool stays(std::size_t limb, std::size_t station, float price) const;
+  struct Bill;
+  Bill bill_of(std::size_t limb, int corners, float price) const;
+  Bill best_bill(std::size_t limb, float price) const;
+  static bool stays(const Station& station, float corners, float price) {
+    return station.worth == forever || station.worth > price * 2 * corners;
+  }
+  bool stays(std::size_t limb, std::size_t station, float price) const {
+    return stays(stations_[station], corners_at(limb, station), price);
+  }
   bool must_stay(std::uint32_t joint, std::uint32_t next) const;
   CoarseLimbs write(float price);
   void write_limb(std::size_t limb, float price, CoarseLimbs& out, Array<std::uint32_t>& place);
-  std::uint32_t add(std::uint32_t joint, std::uint32_t parent, CoarseLimbs& out) const;
+  std::uint32_t add(std::size_t limb, std::uint32_t joint, std::uint32_t parent, CoarseLimbs& out) const;
 
-  int corners(float radius, int sides, double power) const {
+  int corners(float radius, int sides) const {
     const double share = thickest_ > 0 ? static_cast<double>(std::min(1.0F, radius / thickest_)) : 1;
-    const int wanted = math::to_int32(sides * math::pow(std::max(share, 1e-6), power) + 0.5);
+    const int wanted = math::to_int32(sides * math::pow(std::max(share, 1e-6), corner_power) + 0.5);
     if (wanted <= 3) return 3;
-    return options_.even && wanted != sides ? wanted + wanted % 2 : wanted;
+    return wanted != sides ? wanted + wanted % 2 : wanted;
+  }
+  float corners_at(std::size_t limb, std::size_t station) const {
+    return options_.skin ? static_cast<float>(corners_[limb].now) : stations_[station].corners;
+  }
+  /// The radius that a limb begins with.
+  float first_radius(std::uint32_t head) const {
+    const std::uint32_t joint = limbs_.parent[head] == Limbs::none ? chains_.next[head] : head;
+    return joint == Limbs::none ? 0 : limbs_.base_radius[joint];
+  }
+  LimbCorners finest_corners(std::uint32_t head) const {
+    if (!options_.skin) return {};
+    const auto sides = static_cast<std::uint8_t>(
+        options_.skin->adapt ? sides_of_limb(*options_.skin, first_radius(head), thickest_head_)
+                             : options_.skin->sides);
+    return {sides, sides};
   }
   /// What a tube of as many corners as this level has must be thicker by to look as wide in the mean, after
   /// Cauchy: the mean width of a convex outline is its circumference by pi.
-  float widening(float radius) const {
-    const auto round = [&](int sides, double power) {
-      const int n = corners(radius, sides, power);
-      return n * math::sin(math::pi / n);
-    };
-    return static_cast<float>(round(options_.finest_sides, options_.finest_power) /
-                              round(options_.sides, options_.power));
+  float widening(std::size_t limb, float radius) const {
+    const auto round = [](int n) { return n * math::sin(math::pi / n); };
+    const LimbCorners own = options_.skin ? corners_[limb]
+                                          : LimbCorners{static_cast<std::uint8_t>(corners(radius, options_.sides)),
+                                                        static_cast<std::uint8_t>(corners(radius, options_.finest_sides))};
+    return own.now == own.finest ? 1.0F : static_cast<float>(round(own.finest) / round(own.now));
   }
   /// Limbs that are alike do not go all at one price.
   float favour_of(std::uint32_t head) const {
-    const std::uint64_t hash = key_at(limbs_.key.empty() ? head : limbs_.key[head], 0xFA70);
+    const std::uint64_t hash = key_at(key_of(head), 0xFA70);
     return 1 + most_favour * (static_cast<float>(hash >> 40U) * 0x1p-23F - 1);
   }
+  std::uint64_t key_of(std::uint32_t joint) const { return limbs_.key.empty() ? joint : limbs_.key[joint]; }
   const glm::vec3& place_of(std::uint32_t joint) const {
     return options_.drawn.empty() ? limbs_.position[joint] : options_.drawn[joint];
   }
@@ -96,7 +131,9 @@ class Coarsening {
   const CoarseOptions& options_;
   Job& job_;
   Chains chains_;
-  float thickest_ = 0;
+  float thickest_ = 0, thickest_head_ = 0;
+  int least_corners_ = 3;
+  std::vector<LimbCorners> corners_;   ///< of each limb, for skin(), at the last price that was counted
   std::vector<Station> stations_;      ///< limb by limb, from where each begins
   std::vector<std::size_t> first_;     ///< station of each limb; one more at the end
   std::vector<float> area_;            ///< of each limb, what is seen of it
@@ -108,6 +145,7 @@ void Coarsening::read() {
   for (const std::uint32_t head : chains_.head) {
     if (first_.size() % look_every == 0) job_.check();
     first_.push_back(stations_.size());
+    corners_.push_back(finest_corners(head));
     read_limb(head);
   }
   first_.push_back(stations_.size());
@@ -120,8 +158,8 @@ void Coarsening::read_limb(std::uint32_t head) {
   const std::uint32_t start = is_root ? head : limbs_.parent[head];
   std::uint32_t joint = is_root ? chains_.next[head] : head;
   const auto add_station = [&](std::uint32_t at, float radius, float worth) {
-    stations_.push_back({at, place_of(at), radius, worth,
-                         static_cast<float>(corners(radius, options_.sides, options_.power))});
+    const int own = options_.skin ? 0 : corners(radius, options_.sides);
+    stations_.push_back({at, place_of(at), radius, worth, static_cast<float>(own)});
   };
   add_station(start, joint == Limbs::none ? 0.0F : limbs_.base_radius[joint], forever);
   double area = 0;
@@ -149,7 +187,13 @@ void Coarsening::read_limb(std::uint32_t head) {
 /// For another reason than its place.
 bool Coarsening::must_stay(std::uint32_t joint, std::uint32_t next) const {
   if (!options_.bones.empty() && options_.bones[joint] != options_.bones[next]) return true;
-  return options_.for_skin && (limbs_.color[joint] != limbs_.color[next] || !limbs_.contour.empty());
+  if (!options_.skin) return false;
+  if (limbs_.color[joint] != limbs_.color[next]) return true;
+  if (limbs_.contour.empty()) return false;
+  if (limbs_.contour[joint] != limbs_.contour[next]) return true;
+  if (limbs_.contour[joint] == 0 || limbs_.frame.empty()) return false;
+  const glm::vec3 left(-1, 0, 0);
+  return glm::dot(limbs_.frame[joint] * left, limbs_.frame[next] * left) < untwisted;
 }
 
 /// Gives every station between two that stay its worth: never more than that of the one that it hangs on.
@@ -194,11 +238,54 @@ void Coarsening::simplify(std::size_t first, std::size_t last) {
   }
 }
 
-bool Coarsening::stays(std::size_t limb, std::size_t station, float price) const {
-  const Station& each = stations_[station];
-  if (each.worth == forever) return true;
-  if (options_.for_skin && station > begin(limb) && is_fork_[each.joint]) return true;
-  return each.worth > price * 2 * each.corners;
+/// What a limb of so many corners costs, in triangles, and what it loses of what is seen.
+struct Coarsening::Bill {
+  double cost = 0, loss = 0;
+  LimbCorners corners;
+  double sum(float price) const { return loss + static_cast<double>(price) * cost; }
+};
+
+/// `corners` 0: as the stations have them.
+Coarsening::Bill Coarsening::bill_of(std::size_t limb, int corners, float price) const {
+  Bill bill;
+  float before = stations_[begin(limb)].radius;
+  for (std::size_t i = begin(limb); i < end(limb); ++i) {
+    const Station& each = stations_[i];
+    const float own = corners > 0 ? static_cast<float>(corners) : each.corners;
+    if (!stays(each, own, price)) {
+      bill.loss += static_cast<double>(each.worth);
+      continue;
+    }
+    const auto last = static_cast<double>(own);
+    if (i == begin(limb)) {
+      bill.cost += options_.skin ? last - 2 : last;
+    } else if (i + 1 < end(limb)) {
+      bill.cost += 2 * last;
+      before = each.radius;
+    } else {
+      const bool is_pointed = options_.pointed && each.radius < pointed_share * before;
+      bill.cost += options_.skin && corners == 3 ? 7 : (is_pointed ? 1 : 3) * last;
+    }
+  }
+  return bill;
+}
+
+/// With the corners that are the best for the price.
+Coarsening::Bill Coarsening::best_bill(std::size_t limb, float price) const {
+  if (!options_.skin) return bill_of(limb, 0, price);
+  const int finest = corners_[limb].finest;
+  Bill best = bill_of(limb, finest, price);
+  best.corners = {corners_[limb].finest, corners_[limb].finest};
+  for (const int corners : fewer_corners) {
+    if (corners >= finest || corners < least_corners_) continue;
+    Bill bill = bill_of(limb, corners, price);
+    const float off = off_by_corners / static_cast<float>(corners * corners) +
+                      off_by_finest / static_cast<float>(finest * finest);
+    bill.loss += static_cast<double>(off * area_[limb]);
+    bill.corners = {static_cast<std::uint8_t>(corners), corners_[limb].finest};
+    if (bill.sum(price) < best.sum(price)) best = bill;
+  }
+  return best;
 }
 
 /// The triangles of what stays at this price.
@@ -207,29 +294,17 @@ std::uint64_t Coarsening::count(float price) {
   double total = 0;
   for (std::size_t limb = area_.size(); limb-- > 0;) {  // children before parents
     if (limb % look_every == 0) job_.check();
-    double cost = 0;
     bool carries = false;
-    float before = stations_[begin(limb)].radius;
-    for (std::size_t i = begin(limb); i < end(limb); ++i) {
-      const Station& each = stations_[i];
-      if (i > begin(limb)) carries = carries || is_fork_[each.joint] != 0;
-      if (!stays(limb, i, price)) continue;
-      const auto last = static_cast<double>(each.corners);
-      if (i == begin(limb)) {
-        cost += last;
-      } else if (i + 1 < end(limb)) {
-        cost += 2 * last;
-        before = each.radius;
-      } else {
-        cost += (options_.pointed && each.radius < pointed_share * before ? 1 : 3) * last;
-      }
-    }
+    for (std::size_t i = begin(limb) + 1; i < end(limb); ++i) carries = carries || is_fork_[stations_[i].joint] != 0;
+    const Bill bill = best_bill(limb, price);
     const std::uint32_t head = chains_.head[limb];
     const bool is_root = limbs_.parent[head] == Limbs::none;
-    const bool is_worth = static_cast<double>(area_[limb]) > static_cast<double>(price) * cost;
+    const double lost = options_.skin ? bill.loss : 0;
+    const bool is_worth = static_cast<double>(area_[limb]) > lost + static_cast<double>(price) * bill.cost;
     kept_[limb] = carries || (is_root && is_fork_[head]) || is_worth ? 1 : 0;
     if (!kept_[limb]) continue;
-    total += cost;
+    if (options_.skin) corners_[limb] = bill.corners;
+    total += bill.cost;
     if (!is_root) is_fork_[limbs_.parent[head]] = 1;
   }
   return static_cast<std::uint64_t>(total);
@@ -252,19 +327,25 @@ void copy_row(const Array<T>& from, std::uint32_t joint, Array<T>& to) {
   if (!from.empty()) to.push_back(from[joint]);
 }
 
-std::uint32_t Coarsening::add(std::uint32_t joint, std::uint32_t parent, CoarseLimbs& out) const {
+std::uint32_t Coarsening::add(std::size_t limb, std::uint32_t joint, std::uint32_t parent,
+                              CoarseLimbs& out) const {
   Limbs& to = out.limbs;
   to.position.push_back(place_of(joint));
   copy_row(limbs_.radius, joint, to.radius);
   copy_row(limbs_.base_radius, joint, to.base_radius);
   to.parent.push_back(parent);
   to.starts_limb.push_back(0);
+  if (options_.skin) out.corners.push_back(corners_[limb]);
   copy_row(limbs_.color, joint, to.color);
   copy_row(limbs_.order, joint, to.order);
   copy_row(limbs_.frame, joint, to.frame);
   copy_row(limbs_.contour, joint, to.contour);
   copy_row(limbs_.birth, joint, to.birth);
-  copy_row(limbs_.key, joint, to.key);
+  if (options_.skin) {
+    to.key.push_back(key_of(joint));
+  } else {
+    copy_row(limbs_.key, joint, to.key);
+  }
   copy_row(limbs_.anchor, joint, to.anchor);
   out.was.push_back(joint);
   return static_cast<std::uint32_t>(to.size() - 1);
@@ -275,10 +356,10 @@ void Coarsening::write_limb(std::size_t limb, float price, CoarseLimbs& out, Arr
   const bool is_root = limbs_.parent[head] == Limbs::none;
   Limbs& to = out.limbs;
   std::size_t before = begin(limb);
-  std::uint32_t parent = is_root ? place[head] = add(head, Limbs::none, out) : place[limbs_.parent[head]];
+  std::uint32_t parent = is_root ? place[head] = add(limb, head, Limbs::none, out) : place[limbs_.parent[head]];
   glm::vec3 from = to.position[parent];  // of a branch: where its parent's joint stands now
   float from_radius = stations_[before].radius;
-  bool starts = !is_root;
+  bool starts = !is_root, is_first = true;
   for (std::size_t i = before + 1; i < end(limb); ++i) {
     if (!stays(limb, i, price)) continue;
     const Station& last = stations_[i];
@@ -293,13 +374,16 @@ void Coarsening::write_limb(std::size_t limb, float price, CoarseLimbs& out, Arr
       if (k < i && !is_fork_[each.joint]) continue;
       const float share = length > 0 ? along / length : 1.0F;
       const float radius = k == i ? last.radius : from_radius + (last.radius - from_radius) * share;
-      const std::uint32_t joint = add(each.joint, parent, out);
+      const std::uint32_t joint = add(limb, each.joint, parent, out);
       place[each.joint] = joint;
       if (k < i) to.position[joint] = from + (to_position - from) * share;
       to.starts_limb[joint] = starts ? 1 : 0;
       starts = false;
-      to.base_radius[joint] = at_radius * widening(at_radius);
-      to.radius[joint] = radius * widening(radius);
+      // By the key of its first joint a limb turns.
+      if (options_.skin && is_first) to.key[joint] = key_of(stations_[begin(limb) + 1].joint);
+      is_first = false;
+      to.base_radius[joint] = at_radius * widening(limb, at_radius);
+      to.radius[joint] = radius * widening(limb, radius);
       at_radius = radius;
       parent = joint;
     }
@@ -311,7 +395,7 @@ void Coarsening::write_limb(std::size_t limb, float price, CoarseLimbs& out, Arr
 }
 
 CoarseLimbs Coarsening::write(float price) {
-  CoarseLimbs out{Limbs(job_), Array<std::uint32_t>(job_)};
+  CoarseLimbs out{Limbs(job_), Array<std::uint32_t>(job_), {}};
   Array<std::uint32_t> place(job_, limbs_.size(), Limbs::none);
   for (std::size_t limb = 0; limb < area_.size(); ++limb) {
     if (limb % look_every == 0) job_.check();

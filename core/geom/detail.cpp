@@ -10,8 +10,6 @@ namespace seedmesh {
 namespace {
 
 constexpr double bark_power = 0.3, seen_power = 0.65;
-// So much of four corners must be free for four.
-constexpr double least_for_four = 2.95;
 
 /// most / sqrt(level + 1), rounded down exactly.
 int shared_out(int most, int level) {
@@ -37,12 +35,6 @@ Array<T> chosen(const Array<T>& values, const Array<std::uint32_t>& new_place, s
 int Detail::sides(int most) const { return std::max(3, shared_out(most, level_)); }
 int Detail::bark_sides(int most) const {
   return std::max(3, math::to_int32(most * math::pow(level_ + 1.0, -bark_power)));
-}
-int Detail::even_sides(int most) const {
-  const double share = most * organs();
-  if (level_ == 0 || most == 3) return most;
-  if (share < least_for_four) return 3;
-  return std::max(4, 2 * math::to_int32(share / 2 + 0.5));
 }
 int Detail::stacks(int most) const { return std::max(1, shared_out(most, level_)); }
 

@@ -20,16 +20,13 @@ class Detail {
   int stacks(int most) const;
   /// Of a tree's bark, whose thin limbs have few at every level: most / (level + 1)^0.3.
   int bark_sides(int most) const;
-  /// Of limbs that have as many corners at the finest level whatever their radius, about as many as fit in
-  /// tubes(): an even number, so that they stand in the middle of what the finest draws, or else 3.
-  int even_sides(int most) const;
   /// The share of the organs that stays: 1 / sqrt(level + 1).
   double organs() const;
   /// How many triangles the bark may have, the finest level having `finest`: 1 / (level + 1)^0.65 of what is
   /// seen of it, the share `seen`, and half of 1 / (level + 1) of what is hidden by leaves.
   std::uint64_t bark(std::uint64_t finest, double seen) const;
   /// The share of what the organs cover that may be bare where more of them stay for it.
-  double loss() const { return 0.0075 * level_; }
+  double loss() const { return 0.005 * level_; }
   /// The same for tubes that nothing hides and that hardly become simpler: 1 / sqrt(level + 1).
   std::uint64_t tubes(std::uint64_t finest) const {
     return static_cast<std::uint64_t>(static_cast<double>(finest) * organs());

@@ -25,8 +25,12 @@ constexpr int growth_views = 2;
 // More views tell better what is missed from between them.
 constexpr std::size_t most_views = 12;
 
-int views_for(std::size_t organs) {
-  return static_cast<int>(std::clamp<std::size_t>(600'000 / std::max<std::size_t>(organs, 1), 2, most_views));
+// An organ takes as long to look at as so many joints.
+constexpr std::size_t joints_an_organ = 8;
+
+int views_for(const FoliageLevels::Plant& plant) {
+  const std::size_t work = std::max({plant.organs.organ.size(), plant.limbs.size() / joints_an_organ, std::size_t{1}});
+  return static_cast<int>(std::clamp<std::size_t>(600'000 / work, 2, most_views));
 }
 
 Box box_of(const FoliageLevels::Plant& plant) {
@@ -71,7 +75,7 @@ std::uint64_t hash_of(const Organ& organ, std::uint32_t index) { return key_at(o
 }  // namespace
 
 FoliageLevels::FoliageLevels(const Plant& plant, Job& job)
-    : sights_(box_of(plant), views_for(plant.organs.organ.size())),
+    : sights_(box_of(plant), views_for(plant)),
       leaves_(job, slot(sights_.views(), 0), std::uint16_t{0}),
       limbs_(job, slot(sights_.views(), 0), std::uint16_t{0}),
       owner_(job, slot(sights_.views(), 0), 0U),

@@ -15,6 +15,7 @@ struct Internode {
   float length = 0;
   float base = 0, end = 0;  ///< radii
   std::uint32_t joint = 0;  ///< its far end
+  std::uint32_t first = 0;  ///< the far end of the first piece, where it goes straight on over several joints
   std::int16_t color = 0;
   bool follows = false;  ///< begins where the one before it ends
   bool at_root = false;  ///< begins at a joint without parent
@@ -58,11 +59,13 @@ class InternodeReader {
                base,
                end,
                joint_,
+               joint_,
                limbs_.color.empty() ? std::int16_t{0} : limbs_.color[joint_],
                follows,
                at_root_};
+        if (chains_.mark[joint_] & straight_on) go_straight(out);
       }
-      here_ = to;
+      here_ = is_skinned ? out.to : to;
       at_root_ = false;
       if (is_skinned) {
         joint_ = chains_.next[joint_];
@@ -75,6 +78,16 @@ class InternodeReader {
   }
 
  private:
+  void go_straight(Internode& out) {
+    while (chains_.mark[joint_] & straight_on) joint_ = chains_.next[joint_];
+    const glm::vec3 step = limbs_.position[joint_] - out.from;
+    out.to = limbs_.position[joint_];
+    out.length = std::sqrt(glm::dot(step, step));
+    out.along = step * (1 / out.length);
+    out.end = limbs_.radius[joint_];
+    out.joint = joint_;
+  }
+
   const Limbs& limbs_;
   const Chains& chains_;
   const Scale& scale_;

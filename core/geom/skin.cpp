@@ -42,8 +42,6 @@ class Checked {
   unsigned steps_ = 0;
 };
 
-int least_of(const SkinOptions& options) { return static_cast<int>(least_sides(options.contours)); }
-
 /// By how many sides the lengths are chosen that count as nothing.
 int finest_sides(const SkinOptions& options) {
   if (options.contours.empty()) return options.sides;
@@ -65,9 +63,11 @@ struct Plan {
         chunks(chunk_count(chains.head.size(), chunk)),
         counts(chunks * palette.size()) {}
 
-  int sides(const Limbs& limbs, const SkinOptions& options, std::uint32_t head) const {
-    return options.adapt ? sides_of_limb(options, first_radius(limbs, chains, head), thickest)
-                         : options.sides;
+  LimbCorners corners(const Limbs& limbs, const SkinOptions& options, std::uint32_t head) const {
+    if (!options.corners.empty()) return options.corners[head];
+    const auto sides = static_cast<std::uint8_t>(
+        options.adapt ? sides_of_limb(options, first_radius(limbs, chains, head), thickest) : options.sides);
+    return {sides, sides};
   }
 
   TubeCount* row(std::size_t index) { return counts.data() + index * palette.size(); }
@@ -80,6 +80,61 @@ struct Plan {
   std::vector<TubeCount> counts;  ///< of each chunk and colour; after `stack_up`, what stands before it
 };
 
+// Two directions of which the sine is less are one.
+constexpr float straight_sine = 1e-3F;
+// Of a radius: what an even taper may be off.
+constexpr float radius_off = 1e-2F;
+
+/// Where no ring is needed, since the limb goes straight on with an even taper and nothing else changes. A piece is
+/// compared with the first of its row, so that a slow bend is none.
+class StraightPieces {
+ public:
+  StraightPieces(const Limbs& limbs, const SkinOptions& options, const Scale& scale, Chains& chains)
+      : limbs_(limbs), options_(options), scale_(scale), chains_(chains) {}
+
+  void mark_limb(std::uint32_t head) {
+    std::uint32_t joint = limbs_.parent[head] == Limbs::none ? chains_.next[head] : head;
+    while (joint != Limbs::none) {
+      const glm::vec3 from = limbs_.position[limbs_.parent[joint]], step = limbs_.position[joint] - from;
+      const float base = limbs_.base_radius[joint], length = std::sqrt(glm::dot(step, step));
+      std::uint32_t next = chains_.next[joint], last = joint;
+      for (; length > scale_.shortest && next != Limbs::none; last = next, next = chains_.next[next]) {
+        if (!goes_on(last, next)) break;
+        const glm::vec3 on = limbs_.position[next] - limbs_.position[last], all = limbs_.position[next] - from;
+        const float on_length = std::sqrt(glm::dot(on, on)), all_length = std::sqrt(glm::dot(all, all));
+        const glm::vec3 across = glm::cross(step, on);
+        if (on_length <= scale_.shortest || glm::dot(step, on) <= 0) break;
+        if (std::sqrt(glm::dot(across, across)) > straight_sine * length * on_length) break;
+        const float even = base + (limbs_.radius[next] - base) * (length / all_length);
+        if (std::abs(even - limbs_.radius[joint]) > radius_off * even) break;
+        chains_.mark[last] |= straight_on;
+      }
+      joint = next;
+    }
+  }
+
+ private:
+  bool goes_on(std::uint32_t joint, std::uint32_t next) const {
+    if ((chains_.mark[joint] | chains_.mark[next]) & drawn_before) return false;
+    if (!limbs_.color.empty() && limbs_.color[joint] != limbs_.color[next]) return false;
+    if (!options_.bones.empty() && options_.bones[joint] != options_.bones[next]) return false;
+    if (!limbs_.contour.empty()) return false;
+    const float radius = limbs_.radius[joint], least = std::min(radius, limbs_.radius[next]);
+    return least >= scale_.thinnest && std::abs(limbs_.base_radius[next] - radius) <= 1e-4F * radius;
+  }
+
+  const Limbs& limbs_;
+  const SkinOptions& options_;
+  const Scale& scale_;
+  Chains& chains_;
+};
+
+void mark_straight(const Limbs& limbs, const SkinOptions& options, const Scale& scale, Chains& chains) {
+  if (options.corners.empty()) return;
+  StraightPieces pieces(limbs, options, scale, chains);
+  for (const std::uint32_t head : chains.head) pieces.mark_limb(head);
+}
+
 void count_tubes(Plan& plan, const Limbs& limbs, const SkinOptions& options, const Job& job) {
   parallel_for(job, plan.chains.head.size(), plan.chunk,
                [&](std::size_t begin, std::size_t end, std::size_t index) {
@@ -88,7 +143,7 @@ void count_tubes(Plan& plan, const Limbs& limbs, const SkinOptions& options, con
                  TurnJudge judge(plan.scale, options.sides);
                  int sides = options.sides;
                  for (std::size_t i = begin; i < end; ++i) {
-                   if (const int own = plan.sides(limbs, options, plan.chains.head[i]); own != sides) {
+                   if (const int own = plan.corners(limbs, options, plan.chains.head[i]).now; own != sides) {
                      judge = TurnJudge(plan.scale, sides = own);
                      counter.begin_limb(sides);
                    }
@@ -150,7 +205,8 @@ TubeCursor cursor_at(Mesh& mesh, const TubeCount& place) {
 void write_tubes(Plan& plan, const Limbs& limbs, const SkinOptions& options, const Job& job,
                  std::vector<Bark>& barks) {
   std::vector<TubeTables> tables(static_cast<std::size_t>(options.sides) + 1);
-  for (int sides = options.adapt ? least_of(options) : options.sides; sides <= options.sides; ++sides) {
+  const bool is_any = options.adapt || !options.corners.empty();
+  for (int sides = is_any ? least_sides_of(options) : options.sides; sides <= options.sides; ++sides) {
     tables[static_cast<std::size_t>(sides)] = TubeTables(CrossSection(options, sides), options.contours);
   }
   parallel_for(
@@ -164,10 +220,9 @@ void write_tubes(Plan& plan, const Limbs& limbs, const SkinOptions& options, con
         TurnJudge judge(plan.scale, options.sides);
         int sides = options.sides;
         for (std::size_t i = begin; i < end; ++i) {
-          if (const int own = plan.sides(limbs, options, plan.chains.head[i]); own != sides) {
-            judge = TurnJudge(plan.scale, sides = own);
-          }
-          writer.begin_limb(sides);
+          const LimbCorners corners = plan.corners(limbs, options, plan.chains.head[i]);
+          if (corners.now != sides) judge = TurnJudge(plan.scale, sides = corners.now);
+          writer.begin_limb(corners);
           walk_limb({limbs, plan.chains, plan.scale, plan.chains.head[i]}, judge, plan.chains, plan.scale,
                     sink);
         }
@@ -201,19 +256,22 @@ Palette::Palette(const Limbs& limbs) {
   }
 }
 
+int least_sides_of(const SkinOptions& options) { return static_cast<int>(least_sides(options.contours)); }
+
 int sides_of_limb(const SkinOptions& options, float radius, float most) {
   const float share = most > 0 ? std::sqrt(std::min(1.0F, radius / most)) : 1.0F;
-  return std::max(least_of(options), static_cast<int>(share * static_cast<float>(options.sides) + 0.5F));
+  return std::max(least_sides_of(options), static_cast<int>(share * static_cast<float>(options.sides) + 0.5F));
 }
 
 std::vector<Bark> skin(const Limbs& limbs, const SkinOptions& options, Job& job) {
-  assert(options.sides >= least_of(options) && options.sides <= 64 && options.stacks >= 1);
+  assert(options.sides >= least_sides_of(options) && options.sides <= 64 && options.stacks >= 1);
   if (limbs.size() == 0) return {};
   const Scale scale = scale_of(limbs, finest_sides(options));
   Plan plan(limbs, find_chains(limbs, scale, job), scale);
   for (const std::uint32_t head : plan.chains.head) {
     if (options.adapt) plan.thickest = std::max(plan.thickest, first_radius(limbs, plan.chains, head));
   }
+  mark_straight(limbs, options, scale, plan.chains);
   count_tubes(plan, limbs, options, job);
   const std::vector<TubeCount> totals = stack_up(plan);
   std::vector<Bark> barks = room_for_all(totals, plan.palette, options, job);
@@ -222,16 +280,17 @@ std::vector<Bark> skin(const Limbs& limbs, const SkinOptions& options, Job& job)
   return barks;
 }
 
-std::uint64_t skin_triangles(const Limbs& limbs, const SkinOptions& options) {
+std::uint64_t skin_triangles(const Limbs& limbs, const SkinOptions& options, Repeats repeats) {
   if (limbs.size() == 0) return 0;
   Limits own;
   own.memory_bytes = std::numeric_limits<std::uint64_t>::max();
   Job job(0, {.limits = own});
   const Scale scale = scale_of(limbs, finest_sides(options));
-  Plan plan(limbs, link_chains(limbs, job), scale);
+  Plan plan(limbs, repeats == Repeats::found ? find_chains(limbs, scale, job) : link_chains(limbs, job), scale);
   for (const std::uint32_t head : plan.chains.head) {
     if (options.adapt) plan.thickest = std::max(plan.thickest, first_radius(limbs, plan.chains, head));
   }
+  mark_straight(limbs, options, scale, plan.chains);
   count_tubes(plan, limbs, options, job);
   std::uint64_t triangles = 0;
   for (const TubeCount& total : stack_up(plan)) triangles += total.triangles;

@@ -1,5 +1,6 @@
 #pragma once
 /// Limbs -> Mesh: tubes that follow limbs.
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,12 @@
 #include "core/model/mesh.h"
 
 namespace seedmesh {
+
+/// The corners that all rings of a limb have.
+struct LimbCorners {
+  std::uint8_t now = 3;     ///< at this level of detail
+  std::uint8_t finest = 3;  ///< and at the finest one
+};
 
 struct SkinOptions {
   int sides = 8;   ///< corners of a cross-section of the thickest limb, 3..64
@@ -25,7 +32,15 @@ struct SkinOptions {
   /// twist 45 degrees an internode and as much as it is long for its radius; sides are never fewer than
   /// points.
   std::span<const Contour> contours = {};
+  /// For coarser levels of detail: of each joint that begins a limb (Chains::head), its corners, at most `sides`.
+  /// Where not empty, `adapt` decides about rings alone; a limb has no ring where it goes straight on, and one of
+  /// fewer corners than at the finest level has its rings turned by half a side, each against the one before: half
+  /// way between them it is as wide from all sides as if it had twice the corners.
+  std::span<const LimbCorners> corners = {};
 };
+
+/// The fewest corners that a limb may have.
+int least_sides_of(const SkinOptions& options);
 
 /// Sides of a limb that begins with `radius`, the thickest of the model beginning with `most`.
 int sides_of_limb(const SkinOptions& options, float radius, float most);
@@ -79,7 +94,11 @@ std::uint64_t too_thin(const Limbs& limbs, int sides);
 std::vector<Bark> wires(const Limbs& limbs, Job& job);
 std::vector<Bark> wires(Limbs&& limbs, Job& job);
 
-/// How many triangles `skin` would make, without making them; exact except for internodes drawn twice.
-std::uint64_t skin_triangles(const Limbs& limbs, const SkinOptions& options);
+/// Are internodes that lie on others looked for where triangles are counted? That takes ten times as long.
+enum class Repeats { counted, found };
+
+/// How many triangles `skin` would make, without making them; exact but for internodes drawn twice, where these are
+/// counted.
+std::uint64_t skin_triangles(const Limbs& limbs, const SkinOptions& options, Repeats repeats = Repeats::counted);
 
 }  // namespace seedmesh

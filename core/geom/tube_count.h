@@ -55,8 +55,15 @@ inline int inner_rings(const SkinOptions& options, const Scale& scale, glm::vec2
   return is_room && is_thick ? wanted : 0;
 }
 
+/// What closes a tube of a coarser level: where it begins, inside its parent or on the ground, a flat face; at its end
+/// too where it has three corners, which no cone would be seen on.
+inline bool begins_flat(const SkinOptions& options) { return !options.corners.empty() && options.contours.empty(); }
+inline bool ends_flat(const SkinOptions& options, std::uint32_t sides) { return begins_flat(options) && sides == 3; }
+
 /// How far the last ring of a free tip stands back from its point, so that a limb is as long as it was drawn.
 inline float tip_length(float radius, float free) { return std::min(radius, 0.3F * free); }
+/// The same where the end is flat: so far that the outline keeps its area.
+inline float flat_tip_length(float radius, float free) { return 0.5F * tip_length(radius, free); }
 
 /// Sink of walk_limb: counts per slot of the palette.
 class TubeCounter {
@@ -75,8 +82,13 @@ class TubeCounter {
 
   void open(const Internode& first, TubeOpening opening) {
     here_ = &counts_[palette_.slot(first.color)];
-    here_->vertices += opening == TubeOpening::root ? section_.sides + 1 : 1;
-    here_->triangles += section_.sides;
+    if (opening != TubeOpening::point && begins_flat(options_)) {
+      here_->vertices += section_.sides;
+      here_->triangles += section_.sides - 2;
+    } else {
+      here_->vertices += opening == TubeOpening::root ? section_.sides + 1 : 1;
+      here_->triangles += section_.sides;
+    }
     has_ring_ = false;
     if (opening != TubeOpening::point) ring();
     begin(first, 0);
@@ -99,11 +111,13 @@ class TubeCounter {
 
   void close(TubeClosing closing, float free) {
     const float end = closing == TubeClosing::point ? 0 : end_;
-    const float room = closing == TubeClosing::tip ? free - tip_length(end_, free) : free;
+    const bool is_flat = closing != TubeClosing::point && ends_flat(options_, section_.sides);
+    const float tip = is_flat ? flat_tip_length(end_, free) : tip_length(end_, free);
+    const float room = closing == TubeClosing::tip ? free - tip : free;
     rings(inner_rings(options_, scale_, {radius_, end}, room, cosine_of_twist()));
     if (closing != TubeClosing::point) ring();
-    here_->vertices += 1;
-    here_->triangles += section_.sides;
+    here_->vertices += is_flat ? section_.sides : 1;
+    here_->triangles += is_flat ? section_.sides - 2 : section_.sides;
   }
 
  private:

@@ -18,6 +18,9 @@ constexpr std::uint32_t widest_column = 8, widest_cold_column = 6;
 constexpr std::uint32_t phase_count = 64;
 // The cone that closes a tube inside its parent or over an elbow, as a share of the radius.
 constexpr float cap_share = 0.5F;
+// Rings are turned against each other where faces lean by at most one part in so many: their middles are nearer to the
+// axis than their corners.
+constexpr float least_lean = 2;
 // How much faster than where the limb begins v may run: at a tip the picture would shrink to nothing.
 constexpr float most_hurry = 4;
 
@@ -58,6 +61,7 @@ TubeTables::TubeTables(const CrossSection& section, std::span<const Contour> out
     circle.push_back(circle_point(2 * math::pi * i / section.sides));
   if (!outlines.empty()) contours.push_back(corners_of_circle(section.sides));
   for (const Contour& outline : outlines) contours.push_back(corners_of(outline, section.sides));
+  half_side = circle_point(math::pi / section.sides);
   const double side = 2 * math::pi / section.sides;
   for (std::uint32_t i = 0; i < phase_count; ++i) {
     coarse_phases.push_back(circle_point(side * (i + 0.5) / phase_count));
@@ -84,9 +88,14 @@ void TubeWriter::start_frame(const glm::vec3& along, std::uint64_t hash) {
   const float a = -1 / (sign + along.z);
   const float b = along.x * along.y * a;
   const glm::vec3 u{1 + sign * along.x * along.x * a, sign * b, -sign * along.x};
-  const glm::vec2 coarse = tables().coarse_phases[hash % phase_count];
-  const glm::vec2 fine = tables().fine_phases[hash / phase_count % phase_count];
-  const glm::vec2 phase{coarse.x * fine.x - coarse.y * fine.y, coarse.x * fine.y + coarse.y * fine.x};
+  const TubeTables& angles = context_.tables[finest_sides_];
+  const auto both = [](const glm::vec2& one, const glm::vec2& other) {
+    return glm::vec2{one.x * other.x - one.y * other.y, one.x * other.y + one.y * other.x};
+  };
+  glm::vec2 phase =
+      both(angles.coarse_phases[hash % phase_count], angles.fine_phases[hash / phase_count % phase_count]);
+  // Corners of half as many sides stand where the finest level has the middles of sides.
+  if (section_.sides != finest_sides_) phase = both(phase, angles.half_side);
   u_ = u * phase.x + glm::cross(along, u) * phase.y;
 }
 
@@ -107,9 +116,29 @@ TubeWriter::Ring TubeWriter::plain_ring(const glm::vec3& centre, float radius, f
   return ring;
 }
 
+/// Before each ring but the first: whether it is turned by half a side against the one before, which is so far away.
+void TubeWriter::turn_on(float way, float radius) {
+  if (section_.sides == finest_sides_ || has_contours()) return;
+  if (way < least_lean * (1 - tables().half_side.x) * radius) return;
+  is_turned_ = !is_turned_;
+}
+
+TubeWriter::Ring TubeWriter::turned(const Ring& ring) const {
+  const glm::vec2 by = tables().half_side;
+  Ring out = ring;
+  out.side_u = ring.side_u * by.x + ring.side_v * by.y;
+  out.side_v = ring.side_v * by.x - ring.side_u * by.y;
+  out.normal_u = ring.normal_u * by.x + ring.normal_v * by.y;
+  out.normal_v = ring.normal_v * by.x - ring.normal_u * by.y;
+  out.is_turned = false;
+  out.sides_on = 0.5F;
+  return out;
+}
+
 void TubeWriter::begin_piece(std::int16_t color) {
   here_ = &cursors_[context_.palette.slot(color)];
   piece_ = {here_->vertex, 0, Limbs::none, Limbs::none};
+  is_ring_turned_.clear();
 }
 
 /// How fast v runs along an internode that comes now.
@@ -130,7 +159,8 @@ void TubeWriter::open(const Internode& first, TubeOpening opening) {
   reach_ = 0;
   pace_picture(first);
   begin_piece(first.color);
-  const std::uint64_t hash = hash_of(first.joint);
+  is_turned_ = false;
+  const std::uint64_t hash = hash_of(first.first);
   start_frame(first.along, hash);
   if (has_contours() && !context_.limbs.frame.empty()) u_ = first_side(context_.limbs, first);
   first_u_ = u_;
@@ -144,17 +174,25 @@ void TubeWriter::open(const Internode& first, TubeOpening opening) {
       piece_.start_apex = write_apex(first.from - first.along * nudge(hash, 0), -first.along, {0, v_so_far_});
       break;
     case TubeOpening::root: {
-      const bool is_revisit = context_.chains.mark[context_.limbs.parent[first.joint]] & revisit;
+      const bool is_revisit = context_.chains.mark[context_.limbs.parent[first.first]] & revisit;
       const float up = is_revisit ? std::min(nudge(hash, radius_), 0.2F * first.length) : 0;
       waiting_ = plain_ring(first.from + first.along * up, radius_, v_so_far_);
       waiting_.contour = first_contour(first.joint);
-      write_disc(waiting_);
+      if (begins_flat(context_.options)) {
+        write_flat(waiting_, -1);
+      } else {
+        write_disc(waiting_);
+      }
       break;
     }
     case TubeOpening::branch: {
       const float back = nudge(hash, radius_), cone = cap_share * radius_;
       waiting_ = plain_ring(first.from - first.along * back, radius_, v_so_far_ - back * by_length_);
       waiting_.contour = first_contour(first.joint);
+      if (begins_flat(context_.options)) {
+        write_flat(waiting_, -1);
+        break;
+      }
       waiting_.before = slope_of(0, radius_, cone);
       piece_.start_apex = write_apex(waiting_.centre - first.along * cone, -first.along,
                                      {half_round(radius_), waiting_.v - cone * by_length_});
@@ -193,6 +231,7 @@ void TubeWriter::join(const Turn& turn, const Internode& next) {
   ring.next_color = next.color;
   ring.contour = last_contour(internode_.joint);
   ring.spin = spin_;
+  ring.is_turned = is_turned_;
   waiting_ = ring;
   is_waiting_ = true;
 
@@ -208,7 +247,9 @@ void TubeWriter::close(TubeClosing closing, float free) {
   const glm::vec3 along = internode_.along;
   const float end = closing == TubeClosing::point ? 0 : internode_.end;
   const std::uint64_t hash = hash_of(internode_.joint);
-  const float cone = closing == TubeClosing::tip ? tip_length(end, free) : cap_share * end;
+  const bool is_flat = closing != TubeClosing::point && ends_flat(context_.options, section_.sides);
+  const float tip = is_flat ? flat_tip_length(end, free) : tip_length(end, free);
+  const float cone = closing == TubeClosing::tip ? tip : cap_share * end;
   const float ring_at = closing == TubeClosing::tip ? internode_.length - cone : internode_.length;
   const Slope slope = slope_of(radius_, end, ring_at);
   spin_ *= internode_.length / ring_at;  // all of the twist happens before the cone
@@ -226,9 +267,15 @@ void TubeWriter::close(TubeClosing closing, float free) {
     Ring ring = plain_ring(internode_.from + along * (ring_at + nudged), end,
                            v_so_far_ - (internode_.length - ring_at) * by_length_);
     ring.before = slope;
+    ring.is_turned = is_turned_;
     if (closing == TubeClosing::cap) apex = ring.centre + along * cone;
     // A twisted flank that leans down would look against a normal that leans up with the cone.
-    write_ring(ring, is_twisted(twist_) ? slope : slope_of(end, 0, cone));
+    write_ring(ring, is_flat || is_twisted(twist_) ? slope : slope_of(end, 0, cone));
+    if (is_flat) {
+      write_flat(ring.is_turned ? turned(ring) : ring, 1);
+      end_piece();
+      return;
+    }
   }
   const float v = closing == TubeClosing::cap ? v_so_far_ + cone * by_length_ : v_so_far_;
   piece_.end_apex = write_apex(apex, along, {half_round(end), v});
@@ -249,6 +296,7 @@ void TubeWriter::write_inner_rings(const Taper& taper) {
   const int count =
       inner_rings(context_.options, context_.scale, {radius_, taper.end}, taper.high - taper.low, twist_);
   const Slope slope = slope_of(radius_, taper.end, taper.length);
+  const float way = (taper.high - taper.low) / static_cast<float>(count + 1);
   const glm::vec3 last_u = u_;
   for (int i = 1; i <= count; ++i) {
     const float share = static_cast<float>(i) / static_cast<float>(count + 1);
@@ -260,6 +308,8 @@ void TubeWriter::write_inner_rings(const Taper& taper) {
       u_ *= 1 / std::sqrt(glm::dot(u_, u_));
     }
     Ring ring = plain_ring(internode_.from + internode_.along * at, radius, v_so_far_ + at * by_length_);
+    turn_on(way, std::max(radius_, taper.end));
+    ring.is_turned = is_turned_;
     ring.before = slope;
     ring.next_contour = ring.contour;
     ring.contour = first_contour(internode_.joint);
@@ -267,6 +317,7 @@ void TubeWriter::write_inner_rings(const Taper& taper) {
     write_ring(ring, slope);
   }
   u_ = last_u;
+  turn_on(way, std::max(radius_, taper.end));
 }
 
 /// A flat floor with an edge of its own, since bark and cut do not share normals.
@@ -291,7 +342,29 @@ void TubeWriter::write_disc(const Ring& ring) {
   here_->corner += std::size_t{3} * section_.sides;
 }
 
+/// A face across a ring that looks along the limb (`way` 1) or back.
+void TubeWriter::write_flat(const Ring& ring, float way) {
+  const std::size_t rim = here_->vertex;
+  for (std::uint32_t k = 0; k < section_.sides; ++k) {
+    const glm::vec2 at = tables().circle[k];
+    // As write_ring() has them, bit for bit.
+    here_->position[rim + k] = (ring.centre + 0.0F + ring.side_u * at.x) + ring.side_v * at.y;
+    here_->normal[rim + k] = ring.tangent * way + 0.0F;
+    if (here_->uv) here_->uv[rim + k] = at * ring.radius + 0.0F;
+  }
+  write_bones(rim, section_.sides, ring.joint);
+  here_->vertex += section_.sides;
+  std::uint32_t* out = here_->index + here_->corner;
+  for (std::uint32_t k = 1; k + 1 < section_.sides; ++k) {
+    *out++ = static_cast<std::uint32_t>(rim);
+    *out++ = static_cast<std::uint32_t>(rim) + (way > 0 ? k : k + 1);
+    *out++ = static_cast<std::uint32_t>(rim) + (way > 0 ? k + 1 : k);
+  }
+  here_->corner += std::size_t{3} * (section_.sides - 2);
+}
+
 void TubeWriter::write_ring(const Ring& ring, Slope after) {
+  if (ring.is_turned) return write_ring(turned(ring), after);
   Slope slope = after;
   if (ring.before != after) {
     const Slope both = ring.before + after;
@@ -326,11 +399,13 @@ void TubeWriter::write_ring(const Ring& ring, Slope after) {
                        static_cast<float>(section_.sides);
     const float v = ring.v + 0.0F;
     glm::vec2* uv = here_->uv + first;
-    for (std::uint32_t k = 0; k <= section_.sides; ++k) uv[k] = {step * static_cast<float>(k), v};
+    const float first_u = step * ring.sides_on;
+    for (std::uint32_t k = 0; k <= section_.sides; ++k) uv[k] = {first_u + step * static_cast<float>(k), v};
   }
   write_bones(first, section_.corners, ring.joint);
   here_->vertex += section_.corners;
   ++piece_.rings;
+  if (section_.sides != finest_sides_) is_ring_turned_.push_back(ring.sides_on > 0);
 }
 
 std::uint32_t TubeWriter::write_apex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv) {
@@ -376,6 +451,7 @@ void TubeWriter::end_piece() {
   }
   here_->corner = static_cast<std::size_t>(out - here_->index);
   if (piece_.is_twisted) split_by_shorter(first_corner);
+  if (!is_ring_turned_.empty()) split_by_turns(first_corner);
 }
 
 }  // namespace seedmesh

@@ -22,6 +22,7 @@ struct TubeTables {
   std::vector<glm::vec2> circle;                      ///< cosine and sine of each corner
   std::vector<std::vector<ContourCorner>> contours;   ///< the circle's and SkinOptions::contours; else empty
   std::vector<glm::vec2> coarse_phases, fine_phases;  ///< the angles a tube may start with
+  glm::vec2 half_side{1, 0};                          ///< the angle of half a side
   std::vector<Column>
       columns;  ///< for tubes that begin with a fan, which brings the first ring into the cache
   std::vector<Column> narrow_columns;  ///< for those that do not
@@ -53,8 +54,9 @@ class TubeWriter {
       : context_(context), section_(context.options, context.options.sides), cursors_(cursors) {}
 
   /// The next limb's v starts at 0 again.
-  void begin_limb(int sides) {
-    section_ = CrossSection(context_.options, sides);
+  void begin_limb(LimbCorners corners) {
+    section_ = CrossSection(context_.options, corners.now);
+    finest_sides_ = corners.finest;
     v_so_far_ = 0;
     turns_ = 0;
   }
@@ -80,6 +82,8 @@ class TubeWriter {
     std::uint8_t contour = 0, next_contour = 0;
     float blend = 0;  ///< how much of the next
     float spin = 0;   ///< of the internode before (spin_of)
+    bool is_turned = false;  ///< by half a side, which is still to be done
+    float sides_on = 0;      ///< by so many sides it was turned
   };
 
   /// The flank of the current internode: from the ring where it begins to radius `end` at `length`; inner
@@ -97,6 +101,8 @@ class TubeWriter {
   };
 
   Ring plain_ring(const glm::vec3& centre, float radius, float v) const;
+  void turn_on(float way, float radius);
+  Ring turned(const Ring& ring) const;
   void start_frame(const glm::vec3& along, std::uint64_t hash);
   const TubeTables& tables() const { return context_.tables[section_.sides]; }
   bool has_contours() const { return !tables().contours.empty(); }
@@ -108,8 +114,12 @@ class TubeWriter {
   void pace_picture(const Internode& internode);
   void begin_piece(std::int16_t color);
   void end_piece();
+  template <class WantsOther>
+  void split_otherwise(std::size_t first_corner, const WantsOther& wants_other);
   void split_by_shorter(std::size_t first_corner);
+  void split_by_turns(std::size_t first_corner);
   void write_disc(const Ring& ring);
+  void write_flat(const Ring& ring, float way);
   void write_ring(const Ring& ring, Slope after);
   void write_waiting(Slope after);
   void write_inner_rings(const Taper& taper);
@@ -121,11 +131,14 @@ class TubeWriter {
 
   Context context_;
   CrossSection section_;
+  std::uint32_t finest_sides_ = 0;  ///< of the limb
   TubeCursor* cursors_;
   TubeCursor* here_ = nullptr;
   Piece piece_;
   Ring waiting_;  ///< the last ring; its normals depend on what comes after it
   bool is_waiting_ = false;
+  bool is_turned_ = false;  ///< the last ring, by half a side
+  std::vector<bool> is_ring_turned_;  ///< of the piece, where any may be
   Internode internode_;   ///< the current one
   float radius_ = 0;      ///< of the ring where it begins
   float reach_ = 0;       ///< of that ring's mitre

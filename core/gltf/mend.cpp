@@ -22,9 +22,13 @@ std::uint32_t corner_at(const Column& index, std::size_t i) {
                                            : load<std::uint32_t>(index.slice, i);
 }
 
-bool has_faces(const Part& part, const Column* position, const Column* normal, Component component) {
-  return part.topology == Topology::triangles && part.index && position != nullptr && normal != nullptr &&
-         position->component == component;
+bool has_faces(const Part& part, const Column* position, const Column* normal) {
+  return part.topology == Topology::triangles && part.index && position != nullptr && normal != nullptr;
+}
+
+glm::dvec3 position_at(const Column& position, std::size_t i) {
+  return position.component == Component::u16 ? glm::dvec3(load<glm::u16vec4>(position.slice, i))
+                                              : glm::dvec3(load<glm::vec3>(position.slice, i));
 }
 
 glm::dvec3 decoded(const OctahedralNormal& packed) {
@@ -42,7 +46,7 @@ glm::dvec3 decoded(const OctahedralNormal& packed) {
 std::vector<std::size_t> corners_looking_inward(const Part& part, Job& job) {
   std::vector<std::size_t> inward;
   const Column *position = column_of(part, "POSITION"), *normal = column_of(part, "NORMAL");
-  if (!has_faces(part, position, normal, Component::f32)) return inward;
+  if (!has_faces(part, position, normal) || position->component != Component::f32) return inward;
   for (std::size_t i = 0; i + 2 < part.index->count; i += 3) {
     if (i % look_every == 0) job.check();
     std::uint32_t corner[3];
@@ -61,7 +65,7 @@ std::vector<std::size_t> corners_looking_inward(const Part& part, Job& job) {
 
 void mend_normals(Part& part, const std::vector<std::size_t>& inward, Job& job) {
   const Column *position = column_of(part, "POSITION"), *normal = column_of(part, "NORMAL");
-  if (!has_faces(part, position, normal, Component::u16)) return;
+  if (!has_faces(part, position, normal) || normal->filter != Filter::octahedral) return;
   struct Mended {
     std::size_t corner;
     OctahedralNormal normal;
@@ -74,7 +78,7 @@ void mend_normals(Part& part, const std::vector<std::size_t>& inward, Job& job) 
     glm::dvec3 at[3];
     for (std::size_t k = 0; k < 3; ++k) {
       corner[k] = corner_at(*part.index, i + k);
-      at[k] = glm::dvec3(load<glm::u16vec4>(position->slice, corner[k]));
+      at[k] = position_at(*position, corner[k]);
     }
     const glm::dvec3 across = glm::cross(at[1] - at[0], at[2] - at[0]);
     const double area = std::sqrt(glm::dot(across, across));

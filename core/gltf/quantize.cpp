@@ -46,6 +46,20 @@ void quantize_positions(Column& column, const Grid& grid, Job& job) {
   column.range = Box{glm::vec3(low), glm::vec3(high)};
 }
 
+/// The exact positions as floats, in the space of the grid.
+void keep_positions(Column& column, const Slice& exact, const Grid& grid, Job& job) {
+  Array<glm::vec3> steps(job, column.count);
+  const glm::dvec3 origin(grid.origin);
+  const double scale = 1.0 / static_cast<double>(grid.step);
+  for (std::size_t i = 0; i < column.count; ++i) {
+    if (i % look_every == 0) job.check();
+    steps[i] = glm::vec3((glm::dvec3(load<glm::vec3>(exact, i)) - origin) * scale) + 0.0F;
+  }
+  column.range = bounds_of(steps.span());
+  column.slice = keep(std::move(steps));
+  column.component = Component::f32;
+}
+
 /// Unit vectors of three lanes, or of four where the last is a sign.
 void quantize_directions(Column& column, Job& job) {
   Array<OctahedralNormal> packed(job, column.count);
@@ -370,9 +384,11 @@ void quantize(Part& part, const Grid& grid, Job& job) {
   const std::vector<std::size_t> inward = corners_looking_inward(part, job);
   Slice exact = part.columns.front().slice;
   quantize_columns(part, grid, job);
-  separate(part, std::move(exact), job);
+  const bool is_closed = separate(part, exact, job);
+  if (!is_closed) keep_positions(part.columns.front(), exact, grid, job);
+  exact = {};
   mend_normals(part, inward, job);
-  clean(part, job);
+  if (is_closed) clean(part, job);
 }
 
 void quantize(Columns& columns, const std::vector<Grid>& grids, Job& job) {

@@ -66,27 +66,31 @@ class PointTable {
 
 class Separation {
  public:
-  Separation(Part& part, Slice exact, Job& job)
+  Separation(Part& part, const Slice& exact, Job& job)
       : position_(part.columns.front()),
         index_(*part.index),
-        exact_(std::move(exact)),
+        exact_(exact),
         job_(job),
         point_(reinterpret_cast<const glm::u16vec4*>(position_.slice.bytes.data()), position_.count),
         moved_(job) {}
 
-  void run() {
-    for (int round = 0; round < rounds; ++round) {
+  /// Is nothing pinched in the end?
+  bool run() {
+    bool is_pinched = false;
+    for (int round = 0; round <= rounds; ++round) {
       PointTable table(point_.size(), job_);
       table_ = &table;
       find_merged();
+      const std::vector<Word> pinched = merged_.empty() ? std::vector<Word>() : find_pinched();
+      is_pinched = !pinched.empty();
+      if (round == rounds) break;
       bool moves = false;
-      if (!merged_.empty()) {
-        for (const Word at : find_pinched()) moves = part_from(at) || moves;
-      }
+      for (const Word at : pinched) moves = part_from(at) || moves;
       if (!moves) moves = lift_flat();
       if (!moves) break;
     }
     if (!moved_.empty()) position_.slice = keep(std::move(moved_));
+    return !is_pinched;
   }
 
  private:
@@ -313,10 +317,10 @@ class Separation {
 
 }  // namespace
 
-void separate(Part& part, Slice exact, Job& job) {
+bool separate(Part& part, const Slice& exact, Job& job) {
   if (part.topology != Topology::triangles || !part.index || part.columns.front().component != Component::u16)
-    return;
-  Separation(part, std::move(exact), job).run();
+    return true;
+  return Separation(part, exact, job).run();
 }
 
 }  // namespace seedmesh::gltf

@@ -10,6 +10,7 @@
 #include "core/generators/lsystem/surfaces.h"
 #include "core/geom/coarse_limbs.h"
 #include "core/geom/detail.h"
+#include "core/geom/foliage_levels.h"
 #include "core/geom/grow.h"
 #include "core/geom/polygons.h"
 #include "core/geom/skin.h"
@@ -50,8 +51,7 @@ SkinOptions skin_options(const LsystemParams& params, std::span<const Contour> c
                          const Detail& detail) {
   SkinOptions options;
   options.contours = contours;
-  const int sides = params.adapt ? detail.sides(params.sides) : detail.even_sides(params.sides);
-  options.sides = std::max(sides, static_cast<int>(least_sides(contours)));
+  options.sides = std::max(params.sides, least_sides_of(options));
   options.stacks = detail.stacks(params.stacks);
   options.wrap = wraps_pictures(params);
   options.adapt = params.adapt;
@@ -78,20 +78,27 @@ std::uint64_t triangles_of(const std::vector<Primitive>& primitives) {
   return triangles;
 }
 
+/// The most triangles that a level may have, and how they are counted.
+struct Most {
+  std::uint64_t triangles = 0;
+  Repeats repeats = Repeats::counted;
+};
+
 /// Fewer limbs and joints, with about as many triangles as they may have and never more than `most`; where
 /// that cannot be, all with fewer sides.
-CoarseLimbs coarse_limbs(const Limbs& limbs, const CoarseOptions& wanted, std::uint64_t most,
-                         const SkinOptions& options, Job& job) {
+CoarseLimbs coarse_limbs(const Limbs& limbs, const CoarseOptions& wanted, const Most& most, SkinOptions options,
+                         Job& job) {
   CoarseOptions coarse = wanted;
   CoarseLimbs kept;
   std::uint64_t kept_made = 0, low = 0, high = 0;  // what was asked for and gave too few, too many
   for (int attempt = 0; attempt < attempts; ++attempt) {
     CoarseLimbs next = coarsen(limbs, coarse, job);
     // Stacks have more triangles than the tubes that were counted.
-    const std::uint64_t made = skin_triangles(next.limbs, options);
+    options.corners = next.corners;
+    const std::uint64_t made = skin_triangles(next.limbs, options, most.repeats);
     const bool is_good =
         made >= wanted.triangles - wanted.triangles / 10 && made <= wanted.triangles + wanted.triangles / 100;
-    if (is_good || (made > kept_made && made <= most)) {
+    if (is_good || (made > kept_made && made <= most.triangles)) {
       kept = std::move(next);
       kept_made = made;
     }
@@ -110,22 +117,57 @@ CoarseLimbs coarse_limbs(const Limbs& limbs, const CoarseOptions& wanted, std::u
   return coarsen(limbs, coarse, job);
 }
 
+/// Of each joint, how much of it is seen between the others.
+Array<float> shown_of(const Limbs& limbs, Job& job) {
+  const Organs none(job);
+  return FoliageLevels({none, {}, limbs, 1}, job).shown(limbs, job);
+}
+
+/// Faces that look against a normal.
+bool looks_inward(const Mesh& mesh) {
+  for (std::size_t i = 0; i + 2 < mesh.index.size(); i += 3) {
+    const std::uint32_t corner[3] = {mesh.index.at(i), mesh.index.at(i + 1), mesh.index.at(i + 2)};
+    const glm::vec3& a = mesh.position[corner[0]];
+    const glm::vec3 face = glm::cross(mesh.position[corner[1]] - a, mesh.position[corner[2]] - a);
+    for (const std::uint32_t each : corner) {
+      if (glm::dot(face, mesh.normal[each]) < 0) return true;
+    }
+  }
+  return false;
+}
+
 /// The bark of a level.
-std::vector<Bark> coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, std::uint64_t most,
+std::vector<Bark> coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, const Most& most,
                                SkinOptions options, Job& job) {
-  const CoarseLimbs kept = coarse_limbs(limbs, wanted, most, options, job);
+  CoarseLimbs kept = coarse_limbs(limbs, wanted, most, options, job);
   Array<std::uint16_t> bones(job);
   if (!wanted.bones.empty()) {
     for (const std::uint32_t joint : kept.was) bones.push_back(wanted.bones[joint]);
   }
   options.bones = bones.span();
+  options.corners = kept.corners;
+  std::vector<Bark> barks = skin(kept.limbs, options, job);
+  if (std::none_of(barks.begin(), barks.end(), [](const Bark& bark) { return looks_inward(bark.mesh); })) return barks;
+  // Rings that do not turn against each other.
+  for (LimbCorners& corners : kept.corners) corners.finest = corners.now;
   return skin(kept.limbs, options, job);
 }
 
+/// Has the plant internodes that lie on others? `made` of all its limbs, so many triangles.
+Repeats repeats_of(const Limbs& limbs, const SkinOptions& options, std::uint64_t made) {
+  return skin_triangles(limbs, options) == made ? Repeats::counted : Repeats::found;
+}
+
+struct BarkUse {
+  std::span<const std::uint16_t> bones;  ///< of each joint, where the plant grows
+  bool carries_organs = false;
+};
+
 /// The bark with its coarser levels. Takes the limbs: their memory goes back before polygons and writer need
 /// theirs.
-void add_bark(Model& model, Limbs limbs, std::span<const std::uint16_t> bones, const LsystemParams& params,
-              Wardrobe& wardrobe, Job& job) {
+void add_bark(Model& model, Limbs limbs, const BarkUse& use, const LsystemParams& params, Wardrobe& wardrobe,
+              Job& job) {
+  std::span<const std::uint16_t> bones = use.bones;
   const int finest = static_cast<int>(model.nodes.size());
   const std::vector<Contour> contours = contours_of(params);
   SkinOptions options = skin_options(params, contours, Detail(0));
@@ -135,6 +177,8 @@ void add_bark(Model& model, Limbs limbs, std::span<const std::uint16_t> bones, c
   const std::uint64_t triangles = triangles_of(model.meshes.back().primitives);
   std::uint64_t before = triangles;
   Array<std::uint16_t> own_bones(job);
+  Array<float> shown(job);
+  Repeats repeats = Repeats::counted;
   if (job.demand().lods > 1) {
     KeptLimbs once = without_repeats(limbs, options.sides, job);
     if (once.limbs.size() < limbs.size()) {
@@ -144,20 +188,21 @@ void add_bark(Model& model, Limbs limbs, std::span<const std::uint16_t> bones, c
       bones = own_bones.span();
       limbs = std::move(once.limbs);
     }
+    shown = shown_of(limbs, job);
+    repeats = repeats_of(limbs, options, triangles);
   }
   for (int level = 1; level < job.demand().lods; ++level) {
     const Detail detail(level);
     MeshGroup group{"bark_LOD" + std::to_string(level), {}};
     const SkinOptions coarser = skin_options(params, contours, detail);
     CoarseOptions coarse;
-    coarse.triangles = std::min(detail.tubes(triangles), Detail::fewer_than(before));
-    coarse.sides = coarser.sides;
-    coarse.finest_sides = options.sides;
-    coarse.power = coarse.finest_power = options.adapt ? 0.5 : 0;
-    coarse.even = false;
-    coarse.for_skin = true;
+    // What organs hide is missed less than they would be.
+    const std::uint64_t wanted = use.carries_organs ? detail.bark(triangles, 1) : detail.tubes(triangles);
+    coarse.triangles = std::min(wanted, Detail::fewer_than(before));
+    coarse.skin = &options;
+    coarse.shown = shown.span();
     coarse.bones = bones;
-    for (Bark& part : coarser_bark(limbs, coarse, Detail::fewer_than(before), coarser, job)) {
+    for (Bark& part : coarser_bark(limbs, coarse, {Detail::fewer_than(before), repeats}, coarser, job)) {
       group.primitives.push_back({std::move(part.mesh), wardrobe.material(part.color, Sides::one), {}});
     }
     const std::uint64_t made = triangles_of(group.primitives);
@@ -213,7 +258,8 @@ Model dress(Skeleton skeleton, const LsystemParams& params, Job& job) {
   const auto bones = growth ? growth->bone.span() : std::span<const std::uint16_t>{};
   if (tubes) {
     warn_of_thin(model, skeleton.limbs, params);
-    add_bark(model, std::exchange(skeleton.limbs, Limbs(job)), bones, params, wardrobe, job);
+    const BarkUse use{bones, !skeleton.organs.organ.empty()};
+    add_bark(model, std::exchange(skeleton.limbs, Limbs(job)), use, params, wardrobe, job);
   } else {
     add_meshes(model, "lines", wires(std::exchange(skeleton.limbs, Limbs(job)), job), Sides::one, wardrobe);
   }

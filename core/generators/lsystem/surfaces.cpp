@@ -253,12 +253,23 @@ std::uint64_t triangles_of(const Organs& organs, const Sheets& sheets) {
   return triangles;
 }
 
-/// The share of the organs that stays: so many that the outline holds, as far as they have fewer triangles
-/// than `before`; all of them would have `whole`.
-double organs_at(const Detail& detail, const FoliageLevels& levels, std::uint64_t whole,
-                 std::uint64_t before) {
-  const double room = static_cast<double>(Detail::fewer_than(before)) /
-                      static_cast<double>(std::max<std::uint64_t>(whole, 1));
+/// What the model shows at a level, so far.
+std::uint64_t shown_at(const Model& model, int level) {
+  std::uint64_t triangles = 0;
+  for (const Node& node : model.nodes) {
+    if (node.mesh < 0) continue;
+    const auto last = std::min(static_cast<std::size_t>(level), node.lods.size());
+    const int mesh = last == 0 ? node.mesh : node.lods[last - 1];
+    for (const Primitive& part : model.meshes[static_cast<std::size_t>(mesh)].primitives)
+      triangles += part.mesh.elements();
+  }
+  return triangles;
+}
+
+/// The share of the organs that stays: so many that the outline holds, as far as there are so many triangles left for
+/// them; all of them would have `whole`.
+double organs_at(const Detail& detail, const FoliageLevels& levels, std::uint64_t whole, std::uint64_t left) {
+  const double room = static_cast<double>(left) / static_cast<double>(std::max<std::uint64_t>(whole, 1));
   return std::max(detail.organs(), std::min(levels.share_for(detail.loss()), room));
 }
 
@@ -273,13 +284,15 @@ void add_merged(Model& model, const Foliated& foliated, const LsystemParams& par
     const std::vector<Mesh> footprints = footprints_of(params, guests, job);
     levels.emplace(FoliageLevels::Plant{all, footprints, Limbs(job), 1}, job);
   }
-  std::uint64_t before = 0;  // triangles of the level before
+  std::uint64_t before = 0;  // triangles of the whole plant at the level before
   for (int level = 0; level < job.demand().lods; ++level) {
     const Detail detail(level);
     const Sheets sheets = sheets_of(params, guests, detail, job);
     const std::uint64_t whole = triangles_of(all, sheets);
     Organs fewer(job);
-    if (level > 0) fewer = levels->keep(all, organs_at(detail, *levels, whole, before), job);
+    const std::uint64_t others = shown_at(model, level), most = Detail::fewer_than(before);
+    const std::uint64_t left = most > others ? most - others : 0;
+    if (level > 0) fewer = levels->keep(all, organs_at(detail, *levels, whole, left), job);
     const Organs& own = level > 0 ? fewer : all;
     MeshGroup group{level_name(node.name, level), {}};
     const FoliageOptions options = options_of(sheets, {own, foliated.size, foliated.bones}, params);
@@ -287,7 +300,7 @@ void add_merged(Model& model, const Foliated& foliated, const LsystemParams& par
       const int material = sheets.material(part.surface, part.color, wardrobe);
       group.primitives.push_back({std::move(part.mesh), material, {}});
     }
-    before = 0;
+    before = others;
     for (const Primitive& part : group.primitives) before += part.mesh.elements();
     if (group.primitives.empty()) continue;
     const int mesh = static_cast<int>(model.meshes.size());

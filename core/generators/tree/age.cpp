@@ -22,6 +22,9 @@ constexpr float unfolded = 0.35F;
 constexpr float of_full_leaves = 0.4F;
 // The seedling has this share of the tree's height.
 constexpr float seedling = 0.01F;
+// First leaves are unfolded when what bears them has grown by this share; they are there until the first of these
+// shares of the tree's age, and gone after the second.
+constexpr float first_unfolded = 0.05F, first_until = 0.05F, first_gone = 0.1F;
 
 float fraction(std::uint64_t hash) { return static_cast<float>(hash >> 40U) * 0x1p-24F; }
 
@@ -94,6 +97,46 @@ Array<float> sprouting_of(const Limbs& limbs, Job& job) {
   });
 }
 
+/// The first leaves of a seedling: where a limb will leave a stem that is there, one of the leaves that the limb will
+/// bear stands already, as that of its bud does.
+class FirstLeaves {
+ public:
+  FirstLeaves(const Skeleton& skeleton, float share, Job& job) : limbs_(skeleton.limbs), first_(job) {
+    size_ = std::clamp((first_gone - share) / (first_gone - first_until), 0.0F, 1.0F);
+    if (size_ == 0) return;
+    const Array<Organ>& organs = skeleton.organs.organ;
+    first_ = Array<std::uint32_t>(job, limbs_.size(), Limbs::none);
+    const auto hash = [&](std::uint32_t organ) { return key_at(organs[organ].key, 0xF125); };
+    const auto offer = [&](std::uint32_t joint, std::uint32_t organ) {
+      std::uint32_t& best = first_[joint];
+      if (best == Limbs::none || hash(organ) < hash(best)) best = organ;
+    };
+    for (std::uint32_t i = 0; i < organs.size(); ++i) {
+      if (organs[i].limb_joint != Limbs::none) offer(organs[i].limb_joint, i);
+    }
+    for (std::size_t i = limbs_.size(); i-- > 0;) {
+      if (first_[i] != Limbs::none && limbs_.parent[i] != Limbs::none) offer(limbs_.parent[i], first_[i]);
+    }
+  }
+
+  /// How far the organ is unfolded as one of them: what bears it has the share own[joint] of its size, if it is there.
+  float open(std::uint32_t organ, std::uint32_t joint, const Array<float>& own,
+             const Array<std::uint32_t>& new_place) const {
+    float most = 0;
+    for (; size_ > 0 && joint != Limbs::none && first_[joint] == organ; joint = limbs_.parent[joint]) {
+      const std::uint32_t bearer = limbs_.parent[joint];
+      if (!limbs_.starts_limb[joint] || new_place[bearer] == Limbs::none) continue;
+      most = std::max(most, std::min(1.0F, (own[bearer] - seedling) / first_unfolded));
+    }
+    return size_ * most;
+  }
+
+ private:
+  const Limbs& limbs_;
+  Array<std::uint32_t> first_;  ///< of each joint: the one of the organs on it and above it that comes first
+  float size_ = 0;
+};
+
 template <class T>
 void compact(Array<T>& values, const Array<std::uint32_t>& new_place, std::size_t count) {
   if (values.empty()) return;
@@ -138,15 +181,20 @@ void make_young(Skeleton& skeleton, double share, Job& job) {
   }
   const float largest = leaf_size(time);
   Array<Organ>& organs = skeleton.organs.organ;
+  const FirstLeaves first(skeleton, time, job);
   std::size_t kept = 0;
-  for (const Organ& organ : organs) {
-    const std::uint32_t joint = organ.limb_joint;
-    if (joint == Limbs::none || new_place[joint] == Limbs::none) continue;
-    const float open = std::min(1.0F, (own[joint] - seedling) / unfolded);
+  for (std::size_t i = 0; i < organs.size(); ++i) {
+    const Organ& organ = organs[i];
+    std::uint32_t joint = organ.limb_joint;
+    if (joint == Limbs::none) continue;
+    const bool is_there = new_place[joint] != Limbs::none;
+    const float by_twig = is_there ? std::min(1.0F, (own[joint] - seedling) / unfolded) : 0.0F;
+    const float open = std::max(by_twig, first.open(static_cast<std::uint32_t>(i), joint, own, new_place));
     if (!(open > 0)) continue;
     Organ young = organ;
     young.position = position[joint] + (organ.position - limbs.position[joint]) * scale[joint];
     young.scale *= open * largest;
+    while (new_place[joint] == Limbs::none) joint = limbs.parent[joint];
     young.limb_joint = new_place[joint];
     organs[kept++] = young;
   }

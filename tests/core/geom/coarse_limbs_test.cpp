@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "core/geom/graft.h"
 #include "core/geom/skin.h"
 #include "tests/core/geom/skeletons.h"
@@ -73,14 +75,82 @@ TEST(Coarsen, MakesAboutAsManyTrianglesAsAreWanted) {
   Job job = job_of();
   for (std::uint64_t seed = 1; seed < 40; ++seed) {
     const Limbs limbs = random_limbs(job, seed);
-    CoarseOptions options = wanting(skin_triangles(limbs, {.adapt = true}) / 2);
-    options.for_skin = true;
-    options.power = options.finest_power = 0.5;
-    options.even = false;
+    const SkinOptions finest{.adapt = true};
+    CoarseOptions options = wanting(skin_triangles(limbs, finest) / 2);
+    options.skin = &finest;
     const CoarseLimbs kept = coarsen(limbs, options, job);
-    for (const Bark& bark : skin(kept.limbs, {.adapt = true}, job)) EXPECT_THAT(faults(bark.mesh), IsEmpty());
-    EXPECT_LE(skin_triangles(kept.limbs, {.adapt = true}), skin_triangles(limbs, {.adapt = true})) << seed;
+    SkinOptions coarse = finest;
+    coarse.corners = kept.corners;
+    for (const Bark& bark : skin(kept.limbs, coarse, job)) EXPECT_THAT(faults(bark.mesh), IsEmpty());
+    EXPECT_LE(skin_triangles(kept.limbs, coarse), skin_triangles(limbs, finest)) << seed;
   }
+}
+
+TEST(Coarsen, GivesSkinLimbsOfFewerCornersThatAreClosed) {
+  Job job = job_of();
+  std::uint64_t of_fewer = 0;
+  for (std::uint64_t seed = 1; seed < 600; ++seed) {
+    const Limbs limbs = random_limbs(job, seed);
+    SkinOptions finest{.sides = 3 + static_cast<int>(seed % 8), .stacks = 1 + static_cast<int>(seed % 3)};
+    CoarseOptions options = wanting(skin_triangles(limbs, finest) * (1 + seed % 4) / 5);
+    options.skin = &finest;
+    const CoarseLimbs kept = coarsen(limbs, options, job);
+    SkinOptions coarse = finest;
+    coarse.corners = kept.corners;
+    std::uint64_t made = 0;
+    const std::vector<Bark> barks = skin(kept.limbs, coarse, job);
+    std::vector<const Mesh*> meshes;
+    for (const Bark& bark : barks) {
+      made += bark.mesh.elements();
+      meshes.push_back(&bark.mesh);
+      EXPECT_THAT(faults(bark.mesh), IsEmpty()) << seed;
+    }
+    EXPECT_EQ(measure(meshes).open_edges, 0U) << seed;
+    EXPECT_EQ(made, skin_triangles(kept.limbs, coarse, Repeats::found)) << seed;
+    for (const LimbCorners& corners : kept.corners) of_fewer += corners.now < corners.finest ? 1 : 0;
+  }
+  EXPECT_GT(of_fewer, 1000U);
+}
+
+TEST(Coarsen, HasNoRingWhereASideBranchLeavesAStraightLimb) {
+  Job job = job_of();
+  SkeletonMaker maker(job);
+  std::uint32_t trunk = maker.root({0, 0, 0});
+  for (int i = 1; i <= 8; ++i) {
+    trunk = maker.grow(trunk, {0, static_cast<float>(i), 0}, {0.1F, 0.1F});
+    if (i < 8) maker.branch(trunk, {1, static_cast<float>(i) + 0.5F, 0}, {0.05F, 0.05F});
+  }
+  const SkinOptions finest{.sides = 6};
+  const std::uint64_t whole = skin_triangles(maker.limbs, finest);
+  CoarseOptions options = wanting(whole);
+  options.skin = &finest;
+  const CoarseLimbs kept = coarsen(maker.limbs, options, job);
+  SkinOptions coarse = finest;
+  coarse.corners = kept.corners;
+  // Seven rings of the trunk less, 12 triangles each, and two for the face that each of eight limbs begins with.
+  EXPECT_EQ(skin_triangles(kept.limbs, coarse), whole - 7 * 12 - 8 * 2);
+  for (const Bark& bark : skin(kept.limbs, coarse, job)) {
+    EXPECT_THAT(faults(bark.mesh), IsEmpty());
+    EXPECT_EQ(measure({&bark.mesh}).open_edges, 0U);
+  }
+}
+
+TEST(Coarsen, KeepsALimbAtItsPlaceWhereItKeepsItsCorners) {
+  Job job = job_of();
+  SkeletonMaker maker(job);
+  maker.grow(maker.root({0, 0, 0}), {0, 1, 0}, {0.1F, 0.1F});
+  const SkinOptions finest{.sides = 6};
+  CoarseOptions options = wanting(1000);
+  options.skin = &finest;
+  const CoarseLimbs kept = coarsen(maker.limbs, options, job);
+  SkinOptions coarse = finest;
+  coarse.corners = kept.corners;
+  const Mesh before = std::move(skin(maker.limbs, finest, job)[0].mesh), after = std::move(skin(kept.limbs, coarse, job)[0].mesh);
+  const auto has = [&](const glm::vec3& place) {
+    return std::any_of(before.position.begin(), before.position.end(),
+                       [&](const glm::vec3& other) { return glm::distance(place, other) < 1e-6F; });
+  };
+  for (const glm::vec3& place : after.position) EXPECT_TRUE(has(place));
 }
 
 TEST(Coarsen, LeavesABarkThatIsClosed) {

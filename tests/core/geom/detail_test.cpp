@@ -52,14 +52,7 @@ TEST(Detail, GivesEveryLevelFewerTriangles) {
   EXPECT_EQ(hidden, 100U);
 }
 
-TEST(Detail, GivesTubesAnEvenNumberOfSidesWhileTheyHaveRoom) {
-  EXPECT_EQ(Detail(0).even_sides(7), 7);
-  EXPECT_EQ(Detail(1).even_sides(8), 6);
-  EXPECT_EQ(Detail(1).even_sides(12), 8);
-  EXPECT_EQ(Detail(4).even_sides(32), 14);
-  EXPECT_EQ(Detail(1).even_sides(5), 4);
-  EXPECT_EQ(Detail(2).even_sides(5), 3);
-  EXPECT_EQ(Detail(4).even_sides(3), 3);
+TEST(Detail, GivesTubesThatNothingHidesMoreThanBarkUnderLeaves) {
   for (int level = 1; level < most_levels; ++level) {
     const Detail detail(level);
     EXPECT_GE(detail.tubes(1000), detail.bark(1000, 1));

@@ -127,6 +127,37 @@ TEST(Age, HasLeavesOfFullSizeOnAYoungTree) {
   EXPECT_FLOAT_EQ(longest, static_cast<float>(params.LeafScale));
 }
 
+TEST(Age, GivesASeedlingLeavesOnItsStem) {
+  // The four models whose twigs, which bear the leaves, sprout late, and all at an age of less than a year in twenty.
+  for (const TreeParams& params : one_of_each_model()) {
+    const Aged seedling(params, 0.04);
+    ASSERT_GT(seedling.leaves(), 0U);
+    for (const Organ& organ : seedling.organs().organ) {
+      ASSERT_LT(organ.limb_joint, seedling.limbs().size());
+      // None floats: each is where its joint is, or beside it.
+      EXPECT_LT(glm::distance(organ.position, seedling.limbs().position[organ.limb_joint]),
+                0.2F * height_of(seedling.limbs()));
+    }
+  }
+}
+
+TEST(Age, LetsTheFirstLeavesShrinkAwayByAndBy) {
+  for (const TreeParams& params : one_of_each_model()) {
+    std::map<std::uint64_t, float> before;
+    for (int i = 0; i <= 120; ++i) {
+      std::map<std::uint64_t, float> now;
+      const Aged aged(params, 0.001 * i);
+      for (const Organ& organ : aged.organs().organ) now[organ.key] = organ.scale.y;
+      const float largest = params.model == TreeModel::weber_penn ? 0.2F : 0.4F;
+      for (const auto& [key, size] : before) {
+        const auto still = now.find(key);
+        EXPECT_LT(size - (still == now.end() ? 0 : still->second), 0.15F * largest) << i;
+      }
+      before = std::move(now);
+    }
+  }
+}
+
 TEST(Age, KeepsChildrenThinnerThanWhatTheyGrowFrom) {
   const Aged young(TreeParams{}, 0.5);
   const Limbs& limbs = young.limbs();
