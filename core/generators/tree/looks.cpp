@@ -51,11 +51,6 @@ Color brightest(const TreeLeaf& leaf) {
   return most;
 }
 
-bool shows_twig(const TreeParams& params) {
-  const TreeBuild build = build_of(params);
-  return build == TreeBuild::twig || build == TreeBuild::bunch;
-}
-
 template <class Images>
 void check(const Images& images, const std::string& pointer, std::vector<Issue>& issues) {
   const auto check_one = [&](const std::string& uri, const char* member) {
@@ -107,7 +102,13 @@ bool has_bark_picture(const TreeParams& params) {
 
 TreeBuild build_of(const TreeParams& params) {
   if (params.leaf.build != TreeBuild::usual) return params.leaf.build;
-  return params.model == TreeModel::proctree ? TreeBuild::twig : TreeBuild::card;
+  return params.model == TreeModel::proctree ? TreeBuild::bunch : TreeBuild::card;
+}
+
+bool shows_twig(const TreeParams& params) {
+  const TreeBuild build = build_of(params);
+  if (params.leaf.leaf_shape == TreeLeafShape::needles) return build != TreeBuild::mesh;
+  return build == TreeBuild::twig || build == TreeBuild::bunch;
 }
 
 bool has_leaves(const TreeParams& params) {
