@@ -21,15 +21,18 @@ namespace {
 // A limb whose faces look inward is made again closed, and if that does not help by skin(); from this round
 // on at once by skin(), and after twice as many the whole.
 constexpr int rounds = 4;
+// Of limbs that skin() makes, but for trunks.
+constexpr int most_sides_of_leftover = 8;
 
-/// The limbs that skin() must make, each with a root of its own where it begins. At most so many joints at
-/// once that their numbers fit Mesh::bone.
+/// The limbs that skin() must make, trunks or the others, each with a root of its own where it begins. At most
+/// so many joints at once that their numbers fit Mesh::bone.
 class Leftover {
  public:
   static constexpr std::size_t most_joints = 0xFFFF;
 
-  Leftover(const Limbs& limbs, const Chains& chains, const std::vector<Trust>& trust, const Box& box)
-      : limbs_(limbs), chains_(chains), trust_(trust), box_(box) {}
+  Leftover(const Limbs& limbs, const Chains& chains, const std::vector<Trust>& trust, const Box& box,
+           bool are_trunks)
+      : limbs_(limbs), chains_(chains), trust_(trust), box_(box), are_trunks_(are_trunks) {}
 
   /// The next limbs; empty at the end. `was` gets the joint that each was.
   Limbs next(std::vector<std::uint32_t>& was, const Job& job);
@@ -41,10 +44,16 @@ class Leftover {
     return count;
   }
 
+  bool is_wanted(std::size_t limb) const {
+    const bool is_trunk = limbs_.parent[chains_.head[limb]] == Limbs::none;
+    return trust_[limb] == Trust::none && is_trunk == are_trunks_;
+  }
+
   const Limbs& limbs_;
   const Chains& chains_;
   const std::vector<Trust>& trust_;
   const Box& box_;
+  bool are_trunks_;
   std::size_t at_ = 0;
 };
 
@@ -64,7 +73,7 @@ Limbs Leftover::next(std::vector<std::uint32_t>& was, const Job& job) {
     was.push_back(joint);
     return static_cast<std::uint32_t>(out.size() - 1);
   };
-  while (at_ < chains_.head.size() && trust_[at_] != Trust::none) ++at_;
+  while (at_ < chains_.head.size() && !is_wanted(at_)) ++at_;
   if (at_ == chains_.head.size()) return out;
   // Two joints without limbs give it the extent of the whole, by which skin() tells what is too small.
   for (const glm::vec3& corner : {box_.min, box_.max}) {
@@ -72,7 +81,7 @@ Limbs Leftover::next(std::vector<std::uint32_t>& was, const Job& job) {
     out.position.back() = corner;
   }
   for (const std::size_t first = at_; at_ < chains_.head.size(); ++at_) {
-    if (trust_[at_] != Trust::none) continue;
+    if (!is_wanted(at_)) continue;
     if (at_ > first && out.size() + joints_of(at_) > most_joints) break;
     const std::uint32_t head = chains_.head[at_];
     const bool is_root = limbs.parent[head] == Limbs::none;
@@ -138,12 +147,13 @@ void add_twins(const Mesh& mesh, Array<std::uint8_t>& twin) {
 }
 
 /// What skin() makes of the limbs that nothing else can be made of.
-void append_leftover(GraftWriter::Written& to, Leftover limbs, const GraftOptions& options, Job& job) {
+void append_leftover(GraftWriter::Written& to, Leftover limbs, int sides, const GraftOptions& options,
+                     Job& job) {
   std::vector<std::uint32_t> was;
   std::vector<std::uint16_t> number;
   for (Limbs others = limbs.next(was, job); others.size() > 0; others = limbs.next(was, job)) {
     SkinOptions plain;
-    plain.sides = std::clamp(options.sides, 3, 8);
+    plain.sides = sides;
     plain.wrap = options.wrap;
     if (options.joints && was.size() <= Leftover::most_joints) {
       number.resize(was.size());
@@ -205,7 +215,7 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
   assert(options.sides >= 3 && options.sides <= 64);
   if (limbs.size() == 0) return {};
   // By the ring with the most corners: those must stay apart too.
-  const Scale scale = scale_of(limbs, std::max(options.sides, corners_a_rib * options.lobes));
+  const Scale scale = scale_of(limbs, with_ribs(options, options.sides));
   const Chains chains = link_chains(limbs, job);
   std::vector<Trust> trust(chains.head.size(), options.weld ? Trust::full : Trust::closed);
   if (options.overlaps) distrust_overlaps(limbs, chains, scale, job, trust);
@@ -223,7 +233,9 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
   GraftWriter::Written written = writer->take();
   writer.reset();  // others need its memory
   if (options.joints) *options.joints = std::move(written.joints);
-  append_leftover(written, Leftover(limbs, chains, trust, scale.box), options, job);
+  append_leftover(written, Leftover(limbs, chains, trust, scale.box, true), options.sides, options, job);
+  append_leftover(written, Leftover(limbs, chains, trust, scale.box, false),
+                  std::min(options.sides, most_sides_of_leftover), options, job);
   const auto look = [&] { refuse_crowds(written.mesh, written.twin, scale, job); };
   if (options.meanwhile) {
     run_both(job, look, options.meanwhile);

@@ -23,7 +23,7 @@ class Counter {
   Counter(const Limbs& limbs, const GraftOptions& options, Job& job)
       : limbs_(limbs),
         options_(options),
-        scale_(scale_of(limbs, std::max(options.sides, corners_a_rib * options.lobes))),
+        scale_(scale_of(limbs, with_ribs(options, options.sides))),
         chains_(link_chains(limbs, job)),
         openings_(job, limbs.size(), 0U) {
     for (std::size_t i = 0; i < limbs.size(); ++i) {
@@ -73,7 +73,7 @@ class Counter {
     if (!is_root && !has_loop &&
         axis_.length() < std::max(limbs_.radius[limbs_.parent[head]], least_length * scale_.apart))
       return 0;
-    int least = axis_.order == 0 && options_.lobes > 0 ? corners_a_rib * options_.lobes : 3;
+    int least = axis_.order == 0 && options_.lobes > 0 ? corners_of_ribs(options_) : 3;
     for (std::size_t point = 1; point + 1 < axis_.point.size(); ++point) {
       if (openings_[axis_.joint[point]] > 0) least = std::max(least, least_opened_sides);
     }

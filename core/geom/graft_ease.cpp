@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <numeric>
 
 #include "core/base/parallel.h"
 #include "core/base/quick_math.h"
@@ -41,6 +43,67 @@ class Waiting {
 };
 
 }  // namespace
+
+std::pair<GraftWriter::Seams::const_iterator, GraftWriter::Seams::const_iterator> GraftWriter::seams_of(
+    std::size_t limb) const {
+  const auto at = [&](std::uint32_t vertex) {
+    return std::lower_bound(rib_seams_.begin(), rib_seams_.end(), std::pair{vertex, std::uint32_t{0}});
+  };
+  return {at(range_[limb].begin.vertex), at(range_[limb].end.vertex)};
+}
+
+/// The formula knows the normals of ribs; where rings of few corners cut deep ones, or a flare, their faces
+/// look elsewhere. Such a limb gets the mean of its faces, turned as the normals of loops are.
+void GraftWriter::settle_ribs(std::size_t limb) {
+  const Range& range = range_[limb];
+  const std::uint32_t first = range.begin.vertex;
+  std::vector<std::uint32_t> same(range.end.vertex - first);
+  std::iota(same.begin(), same.end(), 0U);
+  const auto [seam, last_seam] = seams_of(limb);
+  for (auto each = seam; each != last_seam; ++each) {
+    if (each->second - first < same.size()) same[each->second - first] = each->first - first;
+  }
+  struct Face {
+    glm::vec3 normal;
+    std::uint32_t corner[3];
+  };
+  std::vector<Face> faces;
+  std::vector<glm::vec3> sum(same.size(), glm::vec3(0));
+  for (std::uint32_t t = range.begin.triangle; t < range.end.triangle; ++t) {
+    const std::uint32_t* corner = mesh_.index.wide.data() + std::size_t{3} * t;
+    glm::vec3 p[3];
+    for (int k = 0; k < 3; ++k) p[k] = mesh_.position[corner[k]];
+    Face face{math::quick_unit(glm::cross(p[1] - p[0], p[2] - p[0]), glm::vec3{0}), {}};
+    for (int k = 0; k < 3; ++k) {
+      const glm::vec3 one = math::quick_unit(p[(k + 1) % 3] - p[k], glm::vec3{0}),
+                      other = math::quick_unit(p[(k + 2) % 3] - p[k], glm::vec3{0});
+      const glm::vec3 across = glm::cross(one, other);
+      const double angle = math::quick_atan2(static_cast<double>(std::sqrt(glm::dot(across, across))),
+                                             static_cast<double>(glm::dot(one, other)));
+      const bool is_free = group_[corner[k]] == none && corner[k] - first < same.size();
+      face.corner[k] = is_free ? same[corner[k] - first] : none;
+      if (is_free) sum[face.corner[k]] += face.normal * static_cast<float>(angle);
+    }
+    faces.push_back(face);
+  }
+  for (glm::vec3& normal : sum) normal = math::quick_unit(normal, glm::vec3{0, 1, 0});
+  bool turns = true;
+  for (int turn = 0; turns && turn < most_turns; ++turn) {
+    turns = false;
+    for (const Face& face : faces) {
+      for (const std::uint32_t corner : face.corner) {
+        if (corner == none) continue;
+        const float over = glm::dot(sum[corner], face.normal);
+        if (over >= least_lean) continue;
+        sum[corner] = math::quick_unit(sum[corner] + face.normal * (wanted_lean - over), sum[corner]);
+        turns = true;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < same.size(); ++i) {
+    if (group_[first + i] == none) mesh_.normal[first + i] = sum[same[i]] + 0.0F;
+  }
+}
 
 bool GraftWriter::looks_away(const LoopFace& face, std::uint32_t group) const {
   return group != none && glm::dot(group_normal_[group & ~1U], face.normal) < least_lean;

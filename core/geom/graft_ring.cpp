@@ -9,6 +9,8 @@ namespace seedmesh {
 namespace {
 
 constexpr float pi = static_cast<float>(math::pi);
+// A limb leans from so much off the upright on, and lies rather than stands below so much of it: sine, cosine.
+constexpr float least_lean_of_foot = 0.05F, least_rise_of_foot = 0.3F;
 
 }  // namespace
 
@@ -245,6 +247,30 @@ void GraftWriter::open_ring(const Plane& plane, const Band& band) {
   }
   go_round(lower_order_, plane, lower_);
   go_round(upper_order_, plane, upper_);
+}
+
+/// A limb that leans where it leaves the ground goes on straight down into it, to a level end: its first ring
+/// as deep as its lowest corner. Returns where that end looks.
+glm::vec3 GraftWriter::level_foot(Plane& plane) {
+  const glm::vec3 along = axis_.along[0];
+  const float sine = std::sqrt(along.x * along.x + along.z * along.z);
+  if (sine < least_lean_of_foot || along.y < least_rise_of_foot) return -along;
+  float lowest = plane.centre.y;
+  for (const Corner& corner : below_) lowest = std::min(lowest, mesh_.position[corner.vertex].y);
+  for (const Corner& corner : below_) {
+    glm::vec3& at = mesh_.position[corner.vertex];
+    const float down = (lowest - at.y) / along.y;
+    at += along * down;
+    at.y = lowest;
+    mesh_.uv[0][corner.vertex].y = axis_.v_at(down, 0) * context_.options.v_scale + 0.0F;
+  }
+  plane.centre += along * ((lowest - plane.centre.y) / along.y);
+  return {0, -1, 0};
+}
+
+/// Has the ends of a ring with ribs kept together, whose normals may be made anew.
+void GraftWriter::note_seam(const Corners& ring) {
+  if (has_ribs()) rib_seams_.emplace_back(ring.front().vertex, ring.back().vertex);
 }
 
 void GraftWriter::set_seam(float angle) {

@@ -267,6 +267,11 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
     job_.check();
     for (std::size_t limb = begin; limb < end; ++limb) {
       put_loop_normals(limb);
+      const std::size_t before = bad[index].size();
+      find_bad(limb, bad[index]);
+      if (bad[index].size() == before || !has_seams(limb)) continue;
+      bad[index].resize(before);
+      settle_ribs(limb);
       find_bad(limb, bad[index]);
     }
   });

@@ -69,7 +69,7 @@ GraftWriter::Common::Common(const Context& context) {
     if (limbs.parent[i] != Limbs::none) thickest = std::max(thickest, limbs.base_radius[i]);
   }
   static const std::vector<Circle> usual = circles_up_to(usual_corners);
-  const int most = 2 * std::max({least_opened_sides, options.sides, corners_a_rib * options.lobes});
+  const int most = 2 * std::max(least_opened_sides, with_ribs(options, options.sides));
   if (most > usual_corners) own_circles = circles_up_to(most);
   circles = most > usual_corners ? std::span<const Circle>(own_circles) : std::span<const Circle>(usual);
   for (int corners = 4; corners <= options.sides; ++corners) {
@@ -134,9 +134,8 @@ int GraftWriter::corners_for(float radius) const {
 
 int GraftWriter::sides_for(float radius) const {
   int sides = corners_for(radius);
-  if (axis_.order == 0 && context_.options.lobes > 0)
-    sides = std::max(sides, corners_a_rib * context_.options.lobes);
   sides = std::max(sides, least_sides_);
+  if (has_ribs()) sides = with_ribs(context_.options, sides);
   // A limb keeps the corners of its loop until it is clearly thinner.
   return std::abs(sides - loop_sides_) <= 1 ? loop_sides_ : sides;
 }
@@ -302,12 +301,14 @@ void GraftWriter::begin_closed(bool is_root, std::uint32_t limb) {
   if (is_root) {
     plane.slope = 0;
     plain_ring(plane, below_);
-    const std::uint32_t centre = vertex(plane.centre, -along, {0, 0}, none);
+    note_seam(below_);
+    const glm::vec3 down = level_foot(plane);
+    const std::uint32_t centre = vertex(plane.centre, down, {0, 0}, none);
     std::vector<std::uint32_t> rim;
     for (std::size_t i = 0; i + 1 < below_.size(); ++i) {
       const glm::vec3 at = mesh_.position[below_[i].vertex];
       const glm::vec3 off = at - plane.centre;
-      rim.push_back(vertex(at, -along, {glm::dot(off, plane.u), glm::dot(off, plane.v)}, none));
+      rim.push_back(vertex(at, down, {glm::dot(off, plane.u), glm::dot(off, plane.v)}, none));
       mark_twin();
     }
     for (std::size_t i = 0; i < rim.size(); ++i) triangle(centre, rim[(i + 1) % rim.size()], rim[i]);
@@ -353,9 +354,12 @@ void GraftWriter::write_band(const Band& band) {
   const bool is_at_loop = band.is_open();
   if (!is_at_loop) {
     plain_ring(plane_of(band), upper_);
+    note_seam(upper_);
     strip(below_, upper_);
   } else {
     open_ring(plane_of(band), band);
+    note_seam(lower_);
+    note_seam(upper_);
     strip(below_, lower_);
   }
   if (is_at_loop_ || is_at_loop) note_loop_triangles(first);

@@ -1,8 +1,10 @@
 #pragma once
 /// Writes the limbs of graft() in order, parents first: rings, the triangles between them, loops for the
 /// children.
+#include <algorithm>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/geom/four.h"
@@ -11,8 +13,17 @@
 
 namespace seedmesh {
 
-/// Ribs need at least so many corners each.
-constexpr int corners_a_rib = 3;
+/// Corners that ribs need on every ring. Deep ones have theirs at crests, in troughs and half way.
+constexpr float deep_rib = 0.1F;
+inline int corners_of_ribs(const GraftOptions& options) {
+  return (options.lobe_depth > deep_rib ? 4 : 3) * options.lobes;
+}
+/// So many corners or more, of deep ribs as many for each.
+inline int with_ribs(const GraftOptions& options, int sides) {
+  const int corners = std::max(sides, corners_of_ribs(options));
+  if (options.lobes == 0 || options.lobe_depth <= deep_rib) return corners;
+  return (corners + options.lobes - 1) / options.lobes * options.lobes;
+}
 
 /// How a limb may be made: grown together with its parent; closed where it begins, but with limbs of its own
 /// grown to it; closed all over; by skin().
@@ -179,6 +190,13 @@ class GraftWriter {
   static std::size_t sound_faces(const Faces& faces, const std::uint32_t* corner, std::size_t count);
   void look_at(std::uint32_t first, std::uint32_t last, std::vector<std::uint32_t>& bad) const;
   void find_bad(std::size_t limb, std::vector<std::uint32_t>& bad) const;
+  using Seams = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+  std::pair<Seams::const_iterator, Seams::const_iterator> seams_of(std::size_t limb) const;
+  bool has_seams(std::size_t limb) const {
+    const auto [first, last] = seams_of(limb);
+    return dirty_[limb] && first != last;
+  }
+  void settle_ribs(std::size_t limb);
   bool blame(const std::uint32_t* corner, std::vector<Trust>& trust, bool is_late) const;
   std::size_t take_blame(const std::vector<std::vector<std::uint32_t>>& bad, std::vector<Trust>& trust,
                          bool is_late) const;
@@ -198,6 +216,8 @@ class GraftWriter {
   void tell_drawn(float start);
   glm::vec3 upward_of(std::uint32_t limb) const;
   void begin_closed(bool is_root, std::uint32_t limb);
+  glm::vec3 level_foot(Plane& plane);
+  void note_seam(const Corners& ring);
   void begin_loop(const Loop& loop);
   void write_band(const Band& band);
   void write_tip(float end_radius);
@@ -247,6 +267,8 @@ class GraftWriter {
   std::vector<std::uint8_t> dirty_;    ///< limbs that were written in this round
   std::vector<std::uint8_t> touched_;  ///< pairs of groups of a dirty limb
   std::vector<Concern> concern_;       ///< of each limb
+  /// First and last vertex of each ring with ribs, which stand at one place, rising.
+  Seams rib_seams_;
   Array<std::uint32_t> joints_;        ///< as Written::joints
   Array<std::uint8_t> twin_;           ///< as Written::twin
   std::vector<Trust> trust_;           ///< as it was in the last round

@@ -4,6 +4,7 @@
 ///
 /// A leaf's frame: attached at the origin, +y toward its tip, 1 long, +x to the right; its upper side is
 /// seen.
+#include <cstddef>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <span>
@@ -49,6 +50,7 @@ struct LeafBlade {
 struct LeafDrawing {
   std::vector<LeafBlade> blades;  ///< those drawn later lie above
   std::vector<LeafLine> stalks;   ///< petiole, rachis, needles
+  std::size_t woody = 1;          ///< the first so many stalks are wood, where the leaf has any
   glm::dvec2 low{0}, high{0};  ///< box of everything, with a little room round it: the square of the texture
 };
 
@@ -59,7 +61,8 @@ struct LeafDetail {
   bool teeth = true, veins = true;
 };
 
-/// A single leaf. With `count` > 1 a twig of so many leaves in its plane, alternately left and right.
+/// A single leaf. With `count` > 1 a twig of so many leaves in its plane, alternately left and right; of needles
+/// a branchlet of so many shoots, of petals a spray of so many blossoms.
 LeafDrawing draw_leaf(LeafShape shape, const LeafDetail& detail, int count = 1);
 
 }  // namespace seedmesh

@@ -11,6 +11,8 @@ namespace {
 
 // How much of the trunk's thickness counts at most: a thread does not bend without end.
 constexpr float thinnest_share = 0.02F;
+// The axis of a root lies at most so many of its radii over the ground.
+constexpr float lowest_in_radii = 2.5F;
 
 float fraction(std::uint64_t hash) { return static_cast<float>(hash >> 40U) * 0x1p-24F; }
 
@@ -40,7 +42,8 @@ WindField::WindField(const Limbs& limbs, Job& job) : limbs_(limbs), sway_(job, l
     const std::uint64_t key = limbs.key.empty() ? i : limbs.key[i];
     sway_[i] = sway_[parent];
     if (leaves_trunk) sway_[i].y = fraction(key_at(key, 0x3149));
-    if (limbs.position[i].y <= 0) continue;  // roots stand still
+    // Roots stand still: what lies in the ground, or so low over it for its thickness.
+    if (limbs.position[i].y <= lowest_in_radii * limbs.base_radius[i]) continue;
     const glm::vec3 step = limbs.position[i] - limbs.position[parent];
     const float thickness = std::max(limbs.radius[i], thinnest_share * thickest_);
     sway_[i].x += std::sqrt(glm::dot(step, step) * (thickest_ / thickness));

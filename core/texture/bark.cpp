@@ -62,9 +62,31 @@ Relief plated(const Plates& plates, int size, Rng rng, const Job& job) {
 Relief oak(int size, Rng rng, const Job& job) {
   return plated({{9, 3}, {10, 4}, 0.34F, 0.4F, 0.3F, 0.25F}, size, rng, job);
 }
+
+/// Long plates of many sizes between deep furrows, each of thin flakes that lie over one another.
 Relief pine(int size, Rng rng, const Job& job) {
-  return plated({{6, 4}, {9, 9}, 0.22F, 0.16F, 0.55F, 0.22F}, size, rng, job);
+  Field wobble(job, size), gap(job, size);
+  add_noise(wobble, {6, 3}, {5, 0.6F}, 1, rng.at("wobble"), job);
+  add_noise(gap, {5, 3}, {3, 0.6F}, 1, rng.at("gap"), job);
+  const Cells plate = cells(size, {7, 3}, rng.at("plates"), &wobble, 0.4F, job);
+  const Cells flake = cells(size, {16, 9}, rng.at("flakes"), &wobble, 0.75F, job);
+  const Field fine = grain(size, rng, job), large = patches(size, rng, job);
+  Relief relief = bare(size, job);
+  relief.height.each(job, [&](float, int x, int y) {
+    // Furrows are narrow in places, so that plates hang together.
+    const float width = 0.12F + 0.2F * (0.5F + gap.row(y)[x]);
+    const float flat = step_between(0.02F, std::max(0.08F, width), plate.border.row(y)[x]);
+    const float layer = 0.62F + 0.3F * flake.shade.row(y)[x] + 0.08F * plate.shade.row(y)[x];
+    return clamp(flat * layer * 0.86F + 0.14F * (0.5F + fine.row(y)[x]) * (0.3F + 0.7F * flat));
+  });
+  relief.tone.each(job, [&](float, int x, int y) {
+    const float edge = step_between(0.0F, 0.14F, flake.border.row(y)[x]);
+    return clamp(0.05F + 0.55F * relief.height.row(y)[x] + 0.07F * edge + 0.22F * fine.row(y)[x] +
+                 0.3F * large.row(y)[x] + 0.16F * (flake.shade.row(y)[x] - 0.5F));
+  });
+  return relief;
 }
+
 Relief spruce(int size, Rng rng, const Job& job) {
   return plated({{14, 14}, {12, 12}, 0.3F, 0.3F, 0.6F, 0.2F}, size, rng, job);
 }

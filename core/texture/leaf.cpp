@@ -13,6 +13,8 @@ using glm::dvec2;
 using glm::vec2;
 
 constexpr int leaves_of_a_twig = 9;
+// Of a blossom: how much of the accent's colour its heart has, and where on the petals that ends.
+constexpr float heart = 0.85F, heart_end = 0.3F;
 
 float clamp(float x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
 
@@ -116,8 +118,13 @@ class Coverage {
 
 class Painter {
  public:
-  Painter(const LeafDrawing& drawing, Relief& relief, Rng rng, const Job& job)
-      : view_(drawing, relief.height.size()), relief_(relief), rng_(rng), job_(job) {}
+  /// `has_hearts`: blades have the accent's colour where they begin.
+  Painter(const LeafDrawing& drawing, Relief& relief, Rng rng, bool has_hearts, const Job& job)
+      : view_(drawing, relief.height.size()),
+        relief_(relief),
+        rng_(rng),
+        has_hearts_(has_hearts),
+        job_(job) {}
 
   /// `woody` lines have the accent's colour.
   void paint_line(const LeafLine& line, std::uint64_t number, float woody) {
@@ -182,7 +189,7 @@ class Painter {
         const float tone = 0.42F + own_tone + 0.05F * (side > 0 ? 1.0F : -1.0F) + 0.1F * t;
         mix(relief_.tone.at(x, y), tone, cover);
         mix(relief_.height.at(x, y), 0.62F - 0.25F * side * side, cover);
-        mix(relief_.accent.at(x, y), 0, cover);
+        mix(relief_.accent.at(x, y), has_hearts_ ? heart * step_between(heart_end, 0, t) : 0, cover);
         relief_.cover.at(x, y) = std::max(relief_.cover.at(x, y), cover);
       }
     }
@@ -216,6 +223,7 @@ class Painter {
   View view_;
   Relief& relief_;
   Rng rng_;
+  bool has_hearts_;
   const Job& job_;
 };
 
@@ -256,7 +264,7 @@ Colors colors_of(LeafShape shape) {
 }
 
 constexpr bool makes_twigs(LeafShape shape) {
-  return shape != LeafShape::palm && shape != LeafShape::kite && shape != LeafShape::petal &&
+  return shape != LeafShape::palm && shape != LeafShape::kite &&
          shape != LeafShape::compound && shape != LeafShape::palmate;
 }
 
@@ -291,10 +299,10 @@ const Kind& kind_named(std::string_view name) {
   return found == kinds().end() ? kinds().front() : *found;
 }
 
-void add_grain(Relief& relief, LeafShape shape, Rng rng, const Job& job) {
+void add_grain(Relief& relief, const LeafPicture& picture, Rng rng, const Job& job) {
   Field blotches(job, relief.tone.size());
   add_noise(blotches, {5, 5}, {5, 0.6F}, 0.5F, rng.at("blotches"), job);
-  const bool is_petal = shape == LeafShape::petal;
+  const bool is_petal = picture.shape == LeafShape::petal && picture.count == 1;
   const auto size = static_cast<float>(relief.tone.size());
   relief.tone.each(job, [&](float tone, int x, int y) { return clamp(tone + 0.22F * blotches.row(y)[x]); });
   relief.height.each(job,
@@ -348,13 +356,14 @@ Painting paint_leaf(std::string_view kind, int size, std::uint64_t seed, const T
   const Rng rng = Rng::of_seed(seed).at(kind);
   Relief relief{Field(job, size, 0.4F), Field(job, size, 0.45F), Field(job, size), Field(job, size)};
   const LeafDrawing drawing = draw_leaf(picture.shape, {}, picture.count);
-  Painter painter(drawing, relief, rng, job);
+  const bool is_spray = picture.shape == LeafShape::petal && picture.count > 1;
+  Painter painter(drawing, relief, rng, is_spray, job);
   const bool is_woody = picture.count > 1 || picture.shape == LeafShape::needles;
   for (std::size_t i = 0; i < drawing.stalks.size(); ++i) {
-    painter.paint_line(drawing.stalks[i], i, i == 0 && is_woody ? 0.9F : 0.15F);
+    painter.paint_line(drawing.stalks[i], i, i < drawing.woody && is_woody ? 0.9F : 0.15F);
   }
   for (std::size_t i = 0; i < drawing.blades.size(); ++i) painter.paint_blade(drawing.blades[i], i);
-  add_grain(relief, picture.shape, rng, job);
+  add_grain(relief, picture, rng, job);
 
   const Colors colors = colors_of(picture.shape);
   Finish finish;

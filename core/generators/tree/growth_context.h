@@ -97,6 +97,16 @@ class SkeletonWriter {
 
   /// The radius at the far end of a joint's internode.
   double radius(std::uint32_t joint) const { return static_cast<double>(limbs_.radius[joint - first_]); }
+  glm::dvec3 position(std::uint32_t joint) const { return glm::dvec3(limbs_.position[joint - first_]); }
+  /// Calls each(joint) for those that stand behind `root` on its own limb, which are written one after the
+  /// other, until one of them returns false.
+  template <class Each>
+  void each_of_limb(std::uint32_t root, const Each& each) const {
+    for (std::uint32_t joint = root + 1; joint - first_ < limbs_.size(); ++joint) {
+      const std::size_t i = joint - first_;
+      if (limbs_.parent[i] != joint - 1 || limbs_.starts_limb[i] || !each(joint)) return;
+    }
+  }
   Job& job() { return job_; }
 
  private:

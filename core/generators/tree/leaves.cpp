@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/generators/tree/looks.h"
 #include "core/generators/tree/range.h"
 #include "core/geom/detail.h"
 #include "core/geom/finish.h"
@@ -128,8 +129,8 @@ Mesh leaf_of(const TreeParams& params, int level, const Job& job) {
   form.droop = math::radians(leaf.droop);
   form.coarseness = leaf.coarseness;
   form.level = level;
-  const bool is_twig = form.build == LeafBuild::twig || form.build == LeafBuild::bunch;
-  form.twig_leaves = texture::leaf_picture(texture::leaf_kind(form.shape, is_twig)).count;
+  form.shows_twig = shows_twig(params);
+  form.twig_leaves = texture::leaf_picture(texture::leaf_kind(form.shape, form.shows_twig)).count;
   Mesh mesh = leaf_mesh(form, job);
   order_for_cache(mesh, job);
   return mesh;

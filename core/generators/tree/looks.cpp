@@ -15,6 +15,7 @@ constexpr Color plain_bark{107, 84, 64};
 // Young leaves: the summer's colour turned so far to a light yellow green.
 constexpr double spring_share = 0.4;
 constexpr Color spring_green{176, 206, 96};
+constexpr Color autumn_yellow{200, 145, 46};
 
 constexpr std::array<const char*, 3> leafy_seasons{"spring", "summer", "autumn"};
 
@@ -32,10 +33,12 @@ Color mixed(const Color& a, const Color& b, double share) {
   return {part(a.red, b.red), part(a.green, b.green), part(a.blue, b.blue)};
 }
 
-/// By leafy_seasons.
+/// By leafy_seasons. Blossoms open in their own colour and keep it unless the request says otherwise.
 Color leaf_color(const TreeLeaf& leaf, std::size_t season) {
-  if (season == 0) return mixed(leaf.color, spring_green, spring_share);
-  return season == 2 && !leaf.evergreen ? leaf.autumn : leaf.color;
+  const bool is_blossom = leaf.leaf_shape == TreeLeafShape::petal;
+  if (season == 0 && !is_blossom) return mixed(leaf.color, spring_green, spring_share);
+  if (season != 2 || leaf.evergreen) return leaf.color;
+  return leaf.autumn.value_or(is_blossom ? leaf.color : autumn_yellow);
 }
 
 /// The colour that has as much of each part as any season, so that each season is it, darkened.
@@ -46,11 +49,6 @@ Color brightest(const TreeLeaf& leaf) {
     most = {std::max(most.red, each.red), std::max(most.green, each.green), std::max(most.blue, each.blue)};
   }
   return most;
-}
-
-bool shows_twig(const TreeParams& params) {
-  const TreeBuild build = build_of(params);
-  return build == TreeBuild::twig || build == TreeBuild::bunch;
 }
 
 template <class Images>
@@ -104,7 +102,13 @@ bool has_bark_picture(const TreeParams& params) {
 
 TreeBuild build_of(const TreeParams& params) {
   if (params.leaf.build != TreeBuild::usual) return params.leaf.build;
-  return params.model == TreeModel::proctree ? TreeBuild::twig : TreeBuild::card;
+  return params.model == TreeModel::proctree ? TreeBuild::bunch : TreeBuild::card;
+}
+
+bool shows_twig(const TreeParams& params) {
+  const TreeBuild build = build_of(params);
+  if (params.leaf.leaf_shape == TreeLeafShape::needles) return build != TreeBuild::mesh;
+  return build == TreeBuild::twig || build == TreeBuild::bunch;
 }
 
 bool has_leaves(const TreeParams& params) {

@@ -17,6 +17,9 @@ bool has_bark_picture(const TreeParams& params);
 /// What leaves are made of where the model decides: see the parameter leaf.build.
 TreeBuild build_of(const TreeParams& params);
 
+/// Do its squares have the picture of a twig?
+bool shows_twig(const TreeParams& params);
+
 /// Are there any in this season?
 bool has_leaves(const TreeParams& params);
 

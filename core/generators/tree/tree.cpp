@@ -12,6 +12,7 @@
 #include "core/generators/tree/roots.h"
 #include "core/generators/tree/sculpt.h"
 #include "core/generators/tree/weber_penn.h"
+#include "core/generators/tree/weber_penn_shape.h"
 
 namespace seedmesh::tree {
 namespace {
@@ -20,6 +21,12 @@ namespace {
 std::uint64_t seed_of(const TreeParams& params, std::uint64_t seed) {
   if (params.model != TreeModel::proctree || seed != 0) return seed;
   return static_cast<std::uint64_t>(params.mSeed);
+}
+
+/// How much wider than its own radius the trunk is at the ground.
+double foot_flare(const TreeParams& params) {
+  if (params.model != TreeModel::weber_penn) return 1 + params.trunk_flare;
+  return flared(params.Flare, 0) * flared(params.trunk_flare, 0);
 }
 
 /// With leaves up to the share `density`. Throws SkeletonWriter::Enough beyond so many joints or leaves.
@@ -40,8 +47,9 @@ Skeleton grow(const TreeParams& params, double density, Job& job, std::size_t mo
       grow_sculpt(params, chances, writer);
       break;
   }
-  grow_roots(params.roots, chances, 0, writer);
   if (params.age) make_young(skeleton, *params.age / params.mature_age, job);
+  // As large as the trunk of this age wants them.
+  grow_roots(params.roots, writer.radius(0) / foot_flare(params), chances, writer);
   if (job.demand().growth) skeleton.limbs.birth = births_of(skeleton.limbs, job);
   return skeleton;
 }

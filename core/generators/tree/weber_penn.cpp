@@ -18,6 +18,9 @@ constexpr int helix_pieces = 6;
 constexpr double flare_stations[] = {0.0, 1.0 / 128, 1.0 / 48, 1.0 / 24, 1.0 / 12, 1.0 / 8};
 // Fewer stems that wait are not worth another thread.
 constexpr std::size_t least_stems = 8, parts_a_thread = 4;
+// A flare wider than this has more.
+constexpr double wide_flare = 1.25;
+constexpr double wide_flare_stations[] = {1.0 / 256, 1.0 / 72, 1.0 / 32, 1.0 / 16, 5.0 / 48};
 std::uint64_t number_of(double x) { return static_cast<std::uint64_t>(math::to_int64(x)); }
 
 }  // namespace
@@ -163,6 +166,12 @@ double WeberPennGrower::walk_segment(WeberPennStem& stem, const Frame& axis, int
       for (const double share : flare_stations) {
         const double stop = share * stem.length;
         if (stop > along + 1e-6 * stem.length && stop < end - 1e-6 * stem.length) stops.push_back(stop);
+      }
+      for (const double share : wide_flare_stations) {
+        const double stop = share * stem.length;
+        if (std::max(p_.Flare, p_.trunk_flare) > wide_flare && stop > along + 1e-6 * stem.length &&
+            stop < end - 1e-6 * stem.length)
+          stops.push_back(stop);
       }
     }
     if (level(stem.level).taper > 1) {

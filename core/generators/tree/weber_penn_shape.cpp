@@ -6,6 +6,12 @@
 #include "core/base/math.h"
 
 namespace seedmesh::tree {
+namespace {
+
+// Flares up to here have the paper's profile; wider ones fall less steeply, down to this base of the power.
+constexpr double widest_steep_flare = 1.25, least_flare_base = 5;
+
+}  // namespace
 
 std::array<WeberPennLevel, 4> weber_penn_levels(const TreeParams& p) {
   return {{
@@ -69,7 +75,10 @@ double tapered(double taper, double radius, double length, double z) {
 double flared(double flare, double z) {
   const double y = std::max(0.0, 1 - 8 * z);
   if (flare == 0 || y == 0) return 1;
-  return 1 + flare * (math::pow(100, y) - 1) / 100;
+  // The paper's power of 100 makes a disc of a flare that is several times as wide as the trunk.
+  const double excess = std::max(0.0, flare - widest_steep_flare);
+  const double base = std::max(least_flare_base, 100 / ((1 + 4 * excess) * (1 + 4 * excess)));
+  return 1 + flare * (math::pow(base, y) - 1) / base;
 }
 
 namespace {

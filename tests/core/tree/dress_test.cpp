@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "core/generators/tree/tree.h"
+#include "core/generators/tree/weber_penn_shape.h"
 #include "core/geom/finish.h"
 #include "tests/support/mesh_faults.h"
 
@@ -79,6 +80,27 @@ TEST(Dress, GivesLeavesThePictureOfTheirShapeAndEachSeasonAColour) {
   }
   EXPECT_EQ(kinds, std::set<std::string>{"maple_leaf"});
   EXPECT_EQ(model.meshes.front().primitives.front().variant_materials.size(), 3U);
+}
+
+TEST(Dress, LetsBlossomsKeepTheirColour) {
+  TreeParams params = small_tree();
+  params.leaf.leaf_shape = TreeLeafShape::petal;
+  params.leaf.color = {240, 185, 200};
+  const auto colors = [&] {
+    const Model model = made(params);
+    std::vector<glm::vec4> found;
+    for (const int material : model.meshes.back().primitives.front().variant_materials)
+      found.push_back(model.materials[static_cast<std::size_t>(material)].base_color);
+    return found;
+  };
+  const std::vector<glm::vec4> same = colors();
+  ASSERT_EQ(same.size(), 3U);
+  EXPECT_EQ(same[0], same[1]);
+  EXPECT_EQ(same[2], same[1]);
+  params.leaf.autumn = Color{200, 80, 40};
+  const std::vector<glm::vec4> fading = colors();
+  EXPECT_EQ(fading[0], fading[1]);
+  EXPECT_NE(fading[2], fading[1]);
 }
 
 TEST(Dress, IsBareInWinterUnlessItIsEvergreen) {
@@ -243,6 +265,106 @@ TEST(Dress, LeavesTheRestAsItIsWhereRootsAreSwitchedOn) {
       std::vector(mesh_of(without, "leaves").position.begin(), mesh_of(without, "leaves").position.end()),
       std::vector(mesh_of(with, "leaves").position.begin(), mesh_of(with, "leaves").position.end()));
   EXPECT_LT(bounds_of(mesh_of(with, "bark").position.span()).min.y, -0.01F);
+}
+
+TreeParams bare_trunk() {
+  TreeParams params;
+  params.Scale = 10;
+  params.ScaleV = 0;
+  params.curve_v_0 = 0;
+  params.Ratio = 0.05;
+  params.Leaves = 0;
+  params.Levels = 1;
+  return params;
+}
+
+TEST(Dress, ShowsLobesOfEveryDepthDownToTheGround) {
+  for (const int lobes : {1, 3, 5, 8, 16}) {
+    for (const double depth : {0.15, 0.3, 0.5}) {
+      for (const int sides : {3, 8, 16, 24, 64}) {
+        for (const double flare : {-0.5, 0.0, 0.6, 4.0}) {
+          TreeParams params = bare_trunk();
+          params.Lobes = lobes;
+          params.LobeDepth = depth;
+          params.sides = sides;
+          params.Flare = flare;
+          const Model model = made(params);
+          const Mesh& bark = mesh_of(model, "bark");
+          const std::string what = std::to_string(lobes) + " of " + std::to_string(depth) + ", sides " +
+                                   std::to_string(sides) + ", flare " + std::to_string(flare);
+          EXPECT_TRUE(faults(bark).empty()) << what;
+          float nearest = 1e9F, farthest = 0;
+          for (const glm::vec3& p : bark.position) {
+            if (p.y != 0 || (p.x == 0 && p.z == 0)) continue;
+            nearest = std::min(nearest, std::hypot(p.x, p.z));
+            farthest = std::max(farthest, std::hypot(p.x, p.z));
+          }
+          const double wanted = (1 + depth) / (1 - depth);
+          EXPECT_GT(static_cast<double>(farthest / nearest), 1 + 0.99 * (wanted - 1)) << what;
+        }
+      }
+    }
+  }
+}
+
+TEST(Dress, SetsALeaningTrunkIntoTheGround) {
+  TreeParams params = bare_trunk();
+  params.curve_v_0 = -60;
+  params.curve_res_0 = 20;
+  const Model model = made(params);
+  const Mesh& bark = mesh_of(model, "bark");
+  EXPECT_TRUE(faults(bark).empty());
+  const float lowest = bounds_of(bark.position.span()).min.y;
+  EXPECT_LT(lowest, -0.1F);
+  std::size_t level = 0;
+  for (std::size_t i = 0; i < bark.position.size(); ++i) {
+    if (bark.normal[i].y < -0.999F && bark.position[i].y == lowest) ++level;
+  }
+  EXPECT_GE(level, 8U) << "a level end";
+}
+
+TEST(Dress, LetsAWideFlareFallGently) {
+  EXPECT_NEAR(flared(1.25, 0.03), 1 + 1.25 * (std::pow(100, 1 - 0.24) - 1) / 100, 1e-9) << "as in the paper";
+  const double steep = 4 * (std::pow(100, 1 - 0.24) - 1) / 100;
+  EXPECT_GT(flared(4, 0.03) - 1, 1.5 * steep);
+  for (double z = 0; z < 0.125; z += 0.005) EXPECT_GT(flared(4, z), flared(4, z + 0.005));
+  EXPECT_EQ(flared(4, 0.125), 1);
+}
+
+TEST(Dress, SpreadsRootsByTheTrunkWithoutItsFlare) {
+  TreeParams params = bare_trunk();
+  params.roots.count = 6;
+  params.roots.length = 6;
+  params.trunk_flare = 1;
+  const Model model = made(params);
+  const Mesh& bark = mesh_of(model, "bark");
+  EXPECT_TRUE(faults(bark).empty());
+  const double trunk = 10 * 0.05, foot = trunk * flared(params.Flare, 0) * flared(1, 0);
+  const Box box = bounds_of(bark.position.span());
+  for (const float reach : {-box.min.x, -box.min.z, box.max.x, box.max.z})
+    EXPECT_LT(static_cast<double>(reach), foot + 6.5 * trunk);
+  EXPECT_GT(static_cast<double>(box.max.x - box.min.x), 2 * (foot + 2 * trunk));
+  EXPECT_GT(static_cast<double>(box.min.y), -(params.roots.depth * 6 + 1) * trunk);
+}
+
+TEST(Dress, ForksRootsAndDrawsThemToAPoint) {
+  TreeParams params = bare_trunk();
+  params.roots.count = 5;
+  Job job(5, Job::Options{});
+  const Result<Json> figures = derive(params, job);
+  ASSERT_TRUE(figures);
+  EXPECT_EQ((*figures)["levels"][1]["count"], 5);
+  EXPECT_GE((*figures)["levels"][2]["count"], 5);
+}
+
+TEST(Dress, GivesNeedlesOnSquaresThePictureOfABranchlet) {
+  TreeParams params = small_tree();
+  params.leaf.leaf_shape = TreeLeafShape::needles;
+  params.leaf.build = TreeBuild::cross;
+  EXPECT_EQ(made(params).materials.back().recipe.kind, "needles_twig");
+  params.leaf.build = TreeBuild::mesh;
+  params.leaf.picture = TreePicture::own;
+  EXPECT_EQ(made(params).materials.back().recipe.kind, "needles");
 }
 
 TEST(Dress, RefusesALeafPictureThatIsNone) {
