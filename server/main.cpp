@@ -137,15 +137,6 @@ int run(const std::string& command, Told& told, const ConfigResult& loaded) {
 
 }  // namespace
 
-#ifdef __SANITIZE_THREAD__
-/// What the thread sanitizer cannot see, since Debian's libraries are not instrumented: how cpp-httplib
-/// guards the table of methods that it makes at its first request, and how the C library guards the time zone
-/// that libzip asks for.
-extern "C" const char* __tsan_default_suppressions() {
-  return "called_from_lib:libcpp-httplib.so\nrace:tzset_internal\n";
-}
-#endif
-
 int main(int count, char** arguments) {
   CLI::App app("Seeded 3D models from grammars, as glTF over HTTP.", "seedmesh");
   app.set_version_flag("--version", [] {
