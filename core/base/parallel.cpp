@@ -82,6 +82,8 @@ namespace {
 // How long a thread waits for work, and how often it looks at the clock.
 constexpr std::chrono::microseconds longest_wait{300};
 constexpr int waits_a_look = 64;
+// What takes a millisecond has no use for more.
+constexpr int most_waiters = 7;
 
 void wait_a_little() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -125,7 +127,7 @@ thread_local int working = 0;
 
 KeepAwake::KeepAwake(const Job& job) {
   if (!has_threads(job) || keeper || !is_for_all(job.threads())) return;
-  waiters_ = std::make_unique<Waiters>(tbb::this_task_arena::max_concurrency() - 1);
+  waiters_ = std::make_unique<Waiters>(std::min(most_waiters, tbb::this_task_arena::max_concurrency() - 1));
   keeper = this;
   waiters_->hold();
 }

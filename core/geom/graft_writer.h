@@ -1,6 +1,7 @@
 #pragma once
 /// Writes the limbs of graft() in order, parents first: rings, the triangles between them, loops for the
 /// children.
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -183,6 +184,8 @@ class GraftWriter {
   std::size_t take_blame(const std::vector<std::vector<std::uint32_t>>& bad, std::vector<Trust>& trust,
                          bool is_late) const;
   void find_concerned();
+  void share_out(std::size_t count, std::size_t chunk,
+                 const std::function<void(std::size_t, std::size_t, std::size_t)>& body) const;
   bool is_touched(const std::uint32_t* corner) const;
   std::uint32_t last_triangle(std::size_t limb) const;
   Place here() const;
@@ -247,6 +250,7 @@ class GraftWriter {
   std::vector<std::uint8_t> dirty_;    ///< limbs that were written in this round
   std::vector<std::uint8_t> touched_;  ///< pairs of groups of a dirty limb
   std::vector<Concern> concern_;       ///< of each limb
+  bool is_much_ = true;                ///< of what has to be looked at
   Array<std::uint32_t> joints_;        ///< as Written::joints
   Array<std::uint8_t> twin_;           ///< as Written::twin
   std::vector<Trust> trust_;           ///< as it was in the last round
