@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <exception>
+#include <new>
 
 #if defined(SEEDMESH_STD_THREADS)
 #include <mutex>
@@ -102,9 +103,12 @@ struct KeepAwake::Waiters {
     release();
     group.wait();
   }
-  void hold() {
+  void hold() noexcept {
     const std::uint64_t own = ++turn;
-    for (int i = 0; i < wanted; ++i) group.run([this, own] { wait_for_work(own); });
+    try {
+      for (int i = 0; i < wanted; ++i) group.run([this, own] { wait_for_work(own); });
+    } catch (const std::bad_alloc&) {  // then they go to sleep
+    }
   }
   void release() { ++turn; }
   void wait_for_work(std::uint64_t own) const {
