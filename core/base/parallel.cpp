@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <exception>
+#include <new>
 
 #if defined(SEEDMESH_STD_THREADS)
 #include <mutex>
@@ -82,6 +83,8 @@ namespace {
 // How long a thread waits for work, and how often it looks at the clock.
 constexpr std::chrono::microseconds longest_wait{300};
 constexpr int waits_a_look = 64;
+// What takes a millisecond has no use for more.
+constexpr int most_waiters = 7;
 
 void wait_a_little() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -100,9 +103,12 @@ struct KeepAwake::Waiters {
     release();
     group.wait();
   }
-  void hold() {
+  void hold() noexcept {
     const std::uint64_t own = ++turn;
-    for (int i = 0; i < wanted; ++i) group.run([this, own] { wait_for_work(own); });
+    try {
+      for (int i = 0; i < wanted; ++i) group.run([this, own] { wait_for_work(own); });
+    } catch (const std::bad_alloc&) {  // then they go to sleep
+    }
   }
   void release() { ++turn; }
   void wait_for_work(std::uint64_t own) const {
@@ -125,7 +131,7 @@ thread_local int working = 0;
 
 KeepAwake::KeepAwake(const Job& job) {
   if (!has_threads(job) || keeper || !is_for_all(job.threads())) return;
-  waiters_ = std::make_unique<Waiters>(tbb::this_task_arena::max_concurrency() - 1);
+  waiters_ = std::make_unique<Waiters>(std::min(most_waiters, tbb::this_task_arena::max_concurrency() - 1));
   keeper = this;
   waiters_->hold();
 }

@@ -91,23 +91,30 @@ class Bits {
   Bits(const Job& job, std::size_t count) : words_(job, count / 64, std::uint64_t{0}) {}
   bool has(std::uint32_t i) const { return (words_[i / 64] >> i % 64 & 1U) != 0; }
   void set(std::uint32_t i) { words_[i / 64] |= std::uint64_t{1} << i % 64; }
-  std::uint64_t& word(std::uint32_t i) { return words_[i / 64]; }
 
  private:
   Array<std::uint64_t> words_;
 };
 
-/// Cells that are taken, and those of them that are taken again.
-struct Taken {
-  Bits once, again;
+/// Cells that are taken, and those of them that are taken again: words of both in turn, which are asked for
+/// together.
+class Taken {
+ public:
+  Taken(const Job& job, std::size_t count) : words_(job, 2 * (count / 64), std::uint64_t{0}) {}
 
   /// `times` 0 or 1.
   void take(std::uint32_t slot, std::uint64_t times) {
     const std::uint64_t bit = times << slot % 64;
-    std::uint64_t& word = once.word(slot);
-    again.word(slot) |= word & bit;
-    word |= bit;
+    std::uint64_t* word = words_.data() + std::size_t{2} * (slot / 64);
+    word[1] |= word[0] & bit;
+    word[0] |= bit;
   }
+  bool is_again(std::uint32_t slot) const {
+    return (words_[std::size_t{2} * (slot / 64) + 1] >> slot % 64 & 1U) != 0;
+  }
+
+ private:
+  Array<std::uint64_t> words_;
 };
 
 /// A point within the margin of a cell.
@@ -183,7 +190,7 @@ Array<std::uint8_t> near_others(std::span<const glm::vec3> points, std::span<con
   const Cells cells(box.min, cell, bits);
   Array<std::uint32_t> slot(job, points.size());
   cells.fill(points, slot.data());
-  Taken taken{Bits(job, std::size_t{1} << bits), Bits(job, std::size_t{1} << bits)};
+  Taken taken(job, std::size_t{1} << bits);
   job.check();
   // Without branches that nobody can foresee: points are put on a list, and stay there if they belong to it.
   Array<std::uint32_t> list(job, points.size());
@@ -195,6 +202,7 @@ Array<std::uint8_t> near_others(std::span<const glm::vec3> points, std::span<con
     listed += is_first & is_at_border;
   }
   std::vector<Visit> visits, shared;
+  visits.reserve(3 * listed);
   for (std::size_t k = 0; k < listed; ++k) {
     cells.each(points[list[k]], [&](std::uint32_t at, std::uint64_t number) {
       taken.take(at, 1);
@@ -205,11 +213,11 @@ Array<std::uint8_t> near_others(std::span<const glm::vec3> points, std::span<con
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool is_first = !twin[i], is_inside = (slot[i] & at_border) == 0;
     list[listed] = static_cast<std::uint32_t>(i);
-    const bool is_shared = taken.again.has(slot[i] & ~at_border);
+    const bool is_shared = taken.is_again(slot[i] & ~at_border);
     listed += (is_first & is_inside & is_shared) ? 1 : 0;
   }
   for (const Visit& visit : visits) {
-    if (taken.again.has(visit.slot)) shared.push_back(visit);
+    if (taken.is_again(visit.slot)) shared.push_back(visit);
   }
   for (std::size_t k = 0; k < listed; ++k)
     shared.push_back({cells.own(points[list[k]]), slot[list[k]], list[k]});

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/base/parallel.h"
 #include "core/base/quick_math.h"
 #include "core/geom/graft_writer.h"
 
@@ -113,7 +112,7 @@ bool GraftWriter::looks_away(const LoopFace& face, std::uint32_t group) const {
 std::vector<GraftWriter::LoopFace> GraftWriter::strained_faces(
     const std::vector<std::vector<LoopFace>>& faces) const {
   std::vector<std::vector<std::uint32_t>> away(faces.size());
-  parallel_for(job_, faces.size(), 1, [&](std::size_t, std::size_t, std::size_t part) {
+  share_out(faces.size(), 1, [&](std::size_t, std::size_t, std::size_t part) {
     for (const LoopFace& face : faces[part]) {
       for (const std::uint32_t group : face.group) {
         if (looks_away(face, group)) away[part].push_back(group / 2);
@@ -128,7 +127,7 @@ std::vector<GraftWriter::LoopFace> GraftWriter::strained_faces(
   }
   const auto is_strained = [&](std::uint32_t group) { return group != none && strained[group / 2]; };
   std::vector<std::vector<LoopFace>> found(faces.size());
-  parallel_for(job_, faces.size(), 1, [&](std::size_t, std::size_t, std::size_t part) {
+  share_out(faces.size(), 1, [&](std::size_t, std::size_t, std::size_t part) {
     for (const LoopFace& face : faces[part]) {
       if (is_strained(face.group[0]) || is_strained(face.group[1]) || is_strained(face.group[2]))
         found[part].push_back(face);

@@ -95,6 +95,7 @@ void GraftWriter::write_part(const Parts& parts, std::size_t number) {
   vertices_ = corners_ = wide_corners_ = made_ = 0;
   mesh_.index.wide.clear();
   loop_triangles_.clear();
+  rib_seams_.clear();
   first_group_ = static_cast<std::uint32_t>(group_normal_.size());
   first_loop_vertex_ = static_cast<std::uint32_t>(loop_vertices_.size());
   for (std::uint32_t limb = parts.first[number]; limb < parts.first[number + 1]; ++limb) {
@@ -123,6 +124,8 @@ void GraftWriter::take_part(const GraftWriter& part, std::uint32_t first, std::u
     kind_[limb] = part.kind_[limb];
   }
   for (const std::uint32_t triangle : part.loop_triangles_) loop_triangles_.push_back(triangle + at.triangle);
+  for (const auto& [begin, end] : part.rib_seams_)
+    rib_seams_.emplace_back(begin + at.vertex, end + at.vertex);
   corners_ += part.corners_;
   wide_corners_ += part.wide_corners_;
   take_vertices(part);

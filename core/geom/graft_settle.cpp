@@ -22,6 +22,9 @@ std::size_t limbs_a_chunk(std::size_t limbs) {
   return std::max(least_limbs_a_chunk, chunk_count(limbs, most_chunks));
 }
 
+// Of fewer limbs one thread looks at those that were written anew.
+constexpr std::size_t many_limbs = 1024;
+
 // Pairs of groups of a loop's normals that are joined together.
 constexpr std::size_t pairs_a_chunk = 1024;
 
@@ -65,9 +68,18 @@ SEEDMESH_WIDE void GraftWriter::weigh(FaceBlock& block, std::size_t count) {
   }
 }
 
+/// parallel_for, but for what was written anew of a small tree.
+void GraftWriter::share_out(std::size_t count, std::size_t chunk,
+                            const std::function<void(std::size_t, std::size_t, std::size_t)>& body) const {
+  if (is_much_) return parallel_for(job_, count, chunk, body);
+  for (std::size_t i = 0; i < chunk_count(count, chunk); ++i)
+    body(i * chunk, std::min(count, (i + 1) * chunk), i);
+}
+
 /// Limbs that were written, those that they grow from, and those that begin at one of them.
 void GraftWriter::find_concerned() {
   concern_.assign(range_.size(), Concern::nothing);
+  is_much_ = is_first() || range_.size() >= many_limbs;
   for (std::size_t limb = 0; limb < range_.size(); ++limb) {
     const std::uint32_t parent = parent_.empty() ? none : parent_[limb];
     if (parent != none && dirty_[parent]) concern_[limb] = std::max(concern_[limb], Concern::loop);
@@ -221,7 +233,7 @@ bool GraftWriter::blame(const std::uint32_t* corner, std::vector<Trust>& trust, 
 
 /// The mean of both surfaces, whatever the size of their faces. From here on the even group has it.
 void GraftWriter::join_loop_normals() {
-  parallel_for(job_, touched_.size(), pairs_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+  share_out(touched_.size(), pairs_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t pair = begin; pair < end; ++pair) {
       if (!touched_[pair]) continue;
       const glm::vec3 one = math::quick_unit(group_normal_[2 * pair], glm::vec3{0});
@@ -256,14 +268,14 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
       const std::size_t last = std::min(count, (i + 1) * chunk) - 1;
       faces[i].reserve(range_[last].end.loop_triangle - range_[i * chunk].begin.loop_triangle);
     }
-    parallel_for(job_, count, chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
+    share_out(count, chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
       add_loop_normals(begin, end, faces[index]);
     });
     join_loop_normals();
     ease_loop_normals(faces);
   }
   std::vector<std::vector<std::uint32_t>> bad(chunk_count(count, chunk));
-  parallel_for(job_, count, chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
+  share_out(count, chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
     job_.check();
     for (std::size_t limb = begin; limb < end; ++limb) {
       put_loop_normals(limb);

@@ -2,6 +2,7 @@
 /// Writes the limbs of graft() in order, parents first: rings, the triangles between them, loops for the
 /// children.
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <span>
 #include <utility>
@@ -201,6 +202,8 @@ class GraftWriter {
   std::size_t take_blame(const std::vector<std::vector<std::uint32_t>>& bad, std::vector<Trust>& trust,
                          bool is_late) const;
   void find_concerned();
+  void share_out(std::size_t count, std::size_t chunk,
+                 const std::function<void(std::size_t, std::size_t, std::size_t)>& body) const;
   bool is_touched(const std::uint32_t* corner) const;
   std::uint32_t last_triangle(std::size_t limb) const;
   Place here() const;
@@ -269,6 +272,7 @@ class GraftWriter {
   std::vector<Concern> concern_;       ///< of each limb
   /// First and last vertex of each ring with ribs, which stand at one place, rising.
   Seams rib_seams_;
+  bool is_much_ = true;                ///< of what has to be looked at
   Array<std::uint32_t> joints_;        ///< as Written::joints
   Array<std::uint8_t> twin_;           ///< as Written::twin
   std::vector<Trust> trust_;           ///< as it was in the last round
