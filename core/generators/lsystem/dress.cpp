@@ -86,8 +86,8 @@ struct Most {
 
 /// Fewer limbs and joints, with about as many triangles as they may have and never more than `most`; where
 /// that cannot be, all with fewer sides.
-CoarseLimbs coarse_limbs(const Limbs& limbs, const CoarseOptions& wanted, const Most& most, SkinOptions options,
-                         Job& job) {
+CoarseLimbs coarse_limbs(const Limbs& limbs, const CoarseOptions& wanted, const Most& most,
+                         SkinOptions options, Job& job) {
   CoarseOptions coarse = wanted;
   CoarseLimbs kept;
   std::uint64_t kept_made = 0, low = 0, high = 0;  // what was asked for and gave too few, too many
@@ -147,7 +147,8 @@ std::vector<Bark> coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, 
   options.bones = bones.span();
   options.corners = kept.corners;
   std::vector<Bark> barks = skin(kept.limbs, options, job);
-  if (std::none_of(barks.begin(), barks.end(), [](const Bark& bark) { return looks_inward(bark.mesh); })) return barks;
+  if (std::none_of(barks.begin(), barks.end(), [](const Bark& bark) { return looks_inward(bark.mesh); }))
+    return barks;
   // Rings that do not turn against each other.
   for (LimbCorners& corners : kept.corners) corners.finest = corners.now;
   return skin(kept.limbs, options, job);
