@@ -282,13 +282,13 @@ std::vector<Bark> skin(const Limbs& limbs, const SkinOptions& options, Job& job)
   return barks;
 }
 
-std::uint64_t skin_triangles(const Limbs& limbs, const SkinOptions& options, Repeats repeats) {
+std::uint64_t skin_triangles(const Limbs& limbs, const SkinOptions& options, Redrawn repeats) {
   if (limbs.size() == 0) return 0;
   Limits own;
   own.memory_bytes = std::numeric_limits<std::uint64_t>::max();
   Job job(0, {.limits = own});
   const Scale scale = scale_of(limbs, finest_sides(options));
-  Plan plan(limbs, repeats == Repeats::found ? find_chains(limbs, scale, job) : link_chains(limbs, job),
+  Plan plan(limbs, repeats == Redrawn::found ? find_chains(limbs, scale, job) : link_chains(limbs, job),
             scale);
   for (const std::uint32_t head : plan.chains.head) {
     if (options.adapt) plan.thickest = std::max(plan.thickest, first_radius(limbs, plan.chains, head));

@@ -95,11 +95,11 @@ std::vector<Bark> wires(const Limbs& limbs, Job& job);
 std::vector<Bark> wires(Limbs&& limbs, Job& job);
 
 /// Are internodes that lie on others looked for where triangles are counted? That takes ten times as long.
-enum class Repeats { counted, found };
+enum class Redrawn { counted, found };
 
 /// How many triangles `skin` would make, without making them; exact but for internodes drawn twice, where
 /// these are counted.
 std::uint64_t skin_triangles(const Limbs& limbs, const SkinOptions& options,
-                             Repeats repeats = Repeats::counted);
+                             Redrawn repeats = Redrawn::counted);
 
 }  // namespace seedmesh

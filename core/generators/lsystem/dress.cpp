@@ -81,7 +81,7 @@ std::uint64_t triangles_of(const std::vector<Primitive>& primitives) {
 /// The most triangles that a level may have, and how they are counted.
 struct Most {
   std::uint64_t triangles = 0;
-  Repeats repeats = Repeats::counted;
+  Redrawn repeats = Redrawn::counted;
 };
 
 /// Fewer limbs and joints, with about as many triangles as they may have and never more than `most`; where
@@ -155,8 +155,8 @@ std::vector<Bark> coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, 
 }
 
 /// Has the plant internodes that lie on others? `made` of all its limbs, so many triangles.
-Repeats repeats_of(const Limbs& limbs, const SkinOptions& options, std::uint64_t made) {
-  return skin_triangles(limbs, options) == made ? Repeats::counted : Repeats::found;
+Redrawn repeats_of(const Limbs& limbs, const SkinOptions& options, std::uint64_t made) {
+  return skin_triangles(limbs, options) == made ? Redrawn::counted : Redrawn::found;
 }
 
 struct BarkUse {
@@ -179,7 +179,7 @@ void add_bark(Model& model, Limbs limbs, const BarkUse& use, const LsystemParams
   std::uint64_t before = triangles;
   Array<std::uint16_t> own_bones(job);
   Array<float> shown(job);
-  Repeats repeats = Repeats::counted;
+  Redrawn repeats = Redrawn::counted;
   if (job.demand().lods > 1) {
     KeptLimbs once = without_repeats(limbs, options.sides, job);
     if (once.limbs.size() < limbs.size()) {

@@ -106,7 +106,7 @@ TEST(Coarsen, GivesSkinLimbsOfFewerCornersThatAreClosed) {
       EXPECT_THAT(faults(bark.mesh), IsEmpty()) << seed;
     }
     EXPECT_EQ(measure(meshes).open_edges, 0U) << seed;
-    EXPECT_EQ(made, skin_triangles(kept.limbs, coarse, Repeats::found)) << seed;
+    EXPECT_EQ(made, skin_triangles(kept.limbs, coarse, Redrawn::found)) << seed;
     for (const LimbCorners& corners : kept.corners) of_fewer += corners.now < corners.finest ? 1 : 0;
   }
   EXPECT_GT(of_fewer, 1000U);
