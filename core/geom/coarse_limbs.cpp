@@ -27,10 +27,11 @@ constexpr float most_favour = 0.2F;
 constexpr double corner_power = 0.3;
 // What skin() may give a limb instead of as many as it has at the finest level, most first.
 constexpr int fewer_corners[] = {48, 32, 24, 16, 12, 10, 8, 6, 5, 4, 3};
-// Of the width of a limb that is seen, what differs in the mean of all sides: measured for limbs whose rings turn by
-// half a side, within half a hundredth.
+// Of the width of a limb that is seen, what differs in the mean of all sides: measured for limbs whose rings
+// turn by half a side, within half a hundredth.
 constexpr float off_by_corners = 0.68F, off_by_finest = 0.52F;
-// The cosine of the angle by which a cross-section that is no circle may turn between joints that need not stay.
+// The cosine of the angle by which a cross-section that is no circle may turn between joints that need not
+// stay.
 constexpr float untwisted = 0.99F;
 // An end thinner than this share of the ring before it is a point.
 constexpr float pointed_share = 0.5F;
@@ -52,7 +53,8 @@ class Coarsening {
     }
     if (!options.skin) return;
     least_corners_ = least_sides_of(*options.skin);
-    for (const std::uint32_t head : chains_.head) thickest_head_ = std::max(thickest_head_, first_radius(head));
+    for (const std::uint32_t head : chains_.head)
+      thickest_head_ = std::max(thickest_head_, first_radius(head));
   }
 
   CoarseLimbs run() {
@@ -107,9 +109,10 @@ class Coarsening {
   /// Cauchy: the mean width of a convex outline is its circumference by pi.
   float widening(std::size_t limb, float radius) const {
     const auto round = [](int n) { return n * math::sin(math::pi / n); };
-    const LimbCorners own = options_.skin ? corners_[limb]
-                                          : LimbCorners{static_cast<std::uint8_t>(corners(radius, options_.sides)),
-                                                        static_cast<std::uint8_t>(corners(radius, options_.finest_sides))};
+    const LimbCorners own =
+        options_.skin ? corners_[limb]
+                      : LimbCorners{static_cast<std::uint8_t>(corners(radius, options_.sides)),
+                                    static_cast<std::uint8_t>(corners(radius, options_.finest_sides))};
     return own.now == own.finest ? 1.0F : static_cast<float>(round(own.finest) / round(own.now));
   }
   /// Limbs that are alike do not go all at one price.
@@ -295,7 +298,8 @@ std::uint64_t Coarsening::count(float price) {
   for (std::size_t limb = area_.size(); limb-- > 0;) {  // children before parents
     if (limb % look_every == 0) job_.check();
     bool carries = false;
-    for (std::size_t i = begin(limb) + 1; i < end(limb); ++i) carries = carries || is_fork_[stations_[i].joint] != 0;
+    for (std::size_t i = begin(limb) + 1; i < end(limb); ++i)
+      carries = carries || is_fork_[stations_[i].joint] != 0;
     const Bill bill = best_bill(limb, price);
     const std::uint32_t head = chains_.head[limb];
     const bool is_root = limbs_.parent[head] == Limbs::none;
@@ -356,7 +360,8 @@ void Coarsening::write_limb(std::size_t limb, float price, CoarseLimbs& out, Arr
   const bool is_root = limbs_.parent[head] == Limbs::none;
   Limbs& to = out.limbs;
   std::size_t before = begin(limb);
-  std::uint32_t parent = is_root ? place[head] = add(limb, head, Limbs::none, out) : place[limbs_.parent[head]];
+  std::uint32_t parent =
+      is_root ? place[head] = add(limb, head, Limbs::none, out) : place[limbs_.parent[head]];
   glm::vec3 from = to.position[parent];  // of a branch: where its parent's joint stands now
   float from_radius = stations_[before].radius;
   bool starts = !is_root, is_first = true;

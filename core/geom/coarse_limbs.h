@@ -5,8 +5,8 @@
 /// Of each limb the joints stay that are farthest from the line between those that stay already (Douglas and
 /// Peucker, "Algorithms for the reduction of the number of points required to represent a digitized line or
 /// its caricature", 1973), measured as the area by which the outline changes; twigs go whole, thin, short and
-/// hidden ones first. One price of a triangle, found by halving, decides about both, and for skin() also how many
-/// corners each limb has: thick ones keep more.
+/// hidden ones first. One price of a triangle, found by halving, decides about both, and for skin() also how
+/// many corners each limb has: thick ones keep more.
 #include <span>
 #include <vector>
 
@@ -18,8 +18,8 @@ namespace seedmesh {
 
 struct CoarseOptions {
   std::uint64_t triangles = 0;  ///< about so many are wanted, counted as closed tubes
-  /// Of the finest level, where skin() makes the bark: it has different barks and cross-sections along a limb, so that
-  /// joints stay where those change. Null: graft() makes it.
+  /// Of the finest level, where skin() makes the bark: it has different barks and cross-sections along a
+  /// limb, so that joints stay where those change. Null: graft() makes it.
   const SkinOptions* skin = nullptr;
   int sides = 8;         ///< for graft(): corners of the thickest limb at this level,
   int finest_sides = 8;  ///< and at the finest: limbs of fewer corners become thicker, as wide to see
@@ -32,8 +32,8 @@ struct CoarseOptions {
 struct CoarseLimbs {
   Limbs limbs;
   Array<std::uint32_t> was;  ///< of each joint: which one it was
-  /// For skin(), of each joint those of its limb (SkinOptions::corners). The limbs have keys then, by which they turn
-  /// as at the finest level.
+  /// For skin(), of each joint those of its limb (SkinOptions::corners). The limbs have keys then, by which
+  /// they turn as at the finest level.
   std::vector<LimbCorners> corners;
 };
 

@@ -29,7 +29,8 @@ constexpr std::size_t most_views = 12;
 constexpr std::size_t joints_an_organ = 8;
 
 int views_for(const FoliageLevels::Plant& plant) {
-  const std::size_t work = std::max({plant.organs.organ.size(), plant.limbs.size() / joints_an_organ, std::size_t{1}});
+  const std::size_t work =
+      std::max({plant.organs.organ.size(), plant.limbs.size() / joints_an_organ, std::size_t{1}});
   return static_cast<int>(std::clamp<std::size_t>(600'000 / work, 2, most_views));
 }
 

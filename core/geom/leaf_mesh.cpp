@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 #include "core/base/math.h"
+#include "core/geom/sheet.h"
 #include "core/geom/triangulate.h"
 
 namespace seedmesh {
@@ -18,15 +18,6 @@ using glm::dvec3;
 constexpr double least_area = 1e-6;
 // Stalks lie a little below the blades that they carry.
 constexpr double stalk_depth = 0.004;
-
-Mesh empty_mesh(const Job& job) {
-  Mesh mesh;
-  mesh.position = Array<glm::vec3>(job);
-  mesh.normal = Array<glm::vec3>(job);
-  mesh.uv[0] = Array<glm::vec2>(job);
-  mesh.index.wide = Array<std::uint32_t>(job);
-  return mesh;
-}
 
 struct Point {
   dvec3 position, normal;
@@ -192,77 +183,6 @@ void add_turned(Mesh& mesh, std::size_t vertices, std::size_t corners, math::Sin
   for (std::size_t i = 0; i < corners; ++i) mesh.index.wide.push_back(mesh.index.wide[i] + shift);
 }
 
-glm::dvec4 weights(PatchBasis basis, double t) {
-  const double s = 1 - t;
-  if (basis == PatchBasis::bezier) return {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
-  return glm::dvec4(s * s * s, 3 * t * t * t - 6 * t * t + 4, 1 + 3 * t + 3 * t * t - 3 * t * t * t,
-                    t * t * t) /
-         6.0;
-}
-
-glm::dvec4 slopes(PatchBasis basis, double t) {
-  const double s = 1 - t;
-  if (basis == PatchBasis::bezier)
-    return {-3 * s * s, 3 * s * s - 6 * s * t, 6 * s * t - 3 * t * t, 3 * t * t};
-  return glm::dvec4(-3 * s * s, 9 * t * t - 12 * t, 3 + 6 * t - 9 * t * t, 3 * t * t) / 6.0;
-}
-
-dvec3 blend(const glm::vec3* points, const glm::dvec4& along_u, const glm::dvec4& along_v) {
-  dvec3 sum{0};
-  for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 4; ++column)
-      sum += dvec3(points[4 * row + column]) * (along_v[row] * along_u[column]);
-  }
-  return sum;
-}
-
-/// Where u or v stands still, as at a side drawn together to a point, the normal is looked for a little
-/// further in.
-dvec3 patch_normal(const glm::vec3* points, PatchBasis basis, double u, double v) {
-  for (const double inward : {0.0, 1e-3, 1e-2}) {
-    const double a = u + (0.5 - u) * inward, b = v + (0.5 - v) * inward;
-    const dvec3 du = blend(points, slopes(basis, a), weights(basis, b));
-    const dvec3 dv = blend(points, weights(basis, a), slopes(basis, b));
-    const dvec3 normal = glm::cross(du, dv);
-    if (glm::dot(normal, normal) > 1e-12 * glm::dot(du, du) * glm::dot(dv, dv) &&
-        glm::dot(normal, normal) > 0)
-      return math::unit(normal, {0, 0, 1});
-  }
-  return {0, 0, 1};
-}
-
-/// Where a face is bent so far that the normal of a corner looks to its other side, the normal gives way.
-void settle_normals(Mesh& mesh) {
-  constexpr float least = 0.1F;
-  for (int round = 0; round < 4; ++round) {
-    bool is_settled = true;
-    for (std::size_t i = 0; i + 2 < mesh.index.wide.size(); i += 3) {
-      const std::uint32_t* corner = mesh.index.wide.data() + i;
-      const glm::vec3 a = mesh.position[corner[0]];
-      const glm::vec3 face =
-          math::unit(glm::cross(mesh.position[corner[1]] - a, mesh.position[corner[2]] - a), {0, 0, 1});
-      for (int k = 0; k < 3; ++k) {
-        glm::vec3& normal = mesh.normal[corner[k]];
-        const float over = glm::dot(normal, face);
-        if (over >= least) continue;
-        is_settled = false;
-        normal = math::unit(normal + face * (1.5F * least - over), face) + 0.0F;
-      }
-    }
-    if (is_settled) return;
-  }
-}
-
-/// Lets triangles share vertices that are the same in everything, as where leaflets begin in one point.
-void share_vertices(Mesh& mesh) {
-  std::map<std::array<float, 8>, std::uint32_t> first;
-  for (std::uint32_t& i : mesh.index.wide) {
-    const glm::vec3 p = mesh.position[i], n = mesh.normal[i];
-    const glm::vec2 t = mesh.uv[0].empty() ? glm::vec2(0) : mesh.uv[0][i];
-    i = first.try_emplace({p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y}, i).first->second;
-  }
-}
-
 /// Columns and rows. Asked for coarse, a square is flat at once; from level to level it falls by and by.
 std::array<int, 2> bent_square(const LeafForm& form) {
   constexpr std::array<std::array<int, 2>, 4> squares{{{2, 4}, {2, 3}, {2, 2}, {1, 2}}};
@@ -271,36 +191,6 @@ std::array<int, 2> bent_square(const LeafForm& form) {
 }
 
 }  // namespace
-
-void drop_unused(Mesh& mesh, const Job& job) {
-  share_vertices(mesh);
-  const Box box = bounds_of(mesh.position.span());
-  const glm::vec3 extent = box.max - box.min;
-  const float least = 1e-10F * glm::dot(extent, extent);
-  Array<std::uint32_t> kept(job);
-  for (std::size_t i = 0; i + 2 < mesh.index.wide.size(); i += 3) {
-    const std::uint32_t* corner = mesh.index.wide.data() + i;
-    const glm::vec3 a = mesh.position[corner[0]],
-                    across = glm::cross(mesh.position[corner[1]] - a, mesh.position[corner[2]] - a);
-    if (glm::dot(across, across) > least * least) kept.append({corner, 3});
-  }
-  constexpr std::uint32_t unused = 0xFFFFFFFFU;
-  std::vector<std::uint32_t> new_place(mesh.position.size(), unused);
-  for (const std::uint32_t i : kept) new_place[i] = 0;
-  std::uint32_t count = 0;
-  for (std::size_t i = 0; i < new_place.size(); ++i) {
-    if (new_place[i] == unused) continue;
-    mesh.position[count] = mesh.position[i];
-    mesh.normal[count] = mesh.normal[i];
-    if (!mesh.uv[0].empty()) mesh.uv[0][count] = mesh.uv[0][i];
-    new_place[i] = count++;
-  }
-  mesh.position.resize(count);
-  mesh.normal.resize(count);
-  if (!mesh.uv[0].empty()) mesh.uv[0].resize(count);
-  for (std::uint32_t& i : kept) i = new_place[i];
-  mesh.index.wide = std::move(kept);
-}
 
 Mesh leaf_mesh(const LeafForm& form, const Job& job) {
   const bool is_twig =
@@ -312,7 +202,7 @@ Mesh leaf_mesh(const LeafForm& form, const Job& job) {
       form.shape,
       {form.build == LeafBuild::mesh ? margin_steps[static_cast<std::size_t>(coarse)] : 6, true, false},
       is_twig ? form.twig_leaves : 1);
-  Mesh mesh = empty_mesh(job);
+  Mesh mesh = empty_sheet(job);
   LeafForm straight = form;
   if (form.build == LeafBuild::card || form.build == LeafBuild::cross) straight.droop = straight.level = 0;
   LeafWriter writer(drawing, straight, mesh);
@@ -337,78 +227,6 @@ Mesh leaf_mesh(const LeafForm& form, const Job& job) {
   if (form.build == LeafBuild::bunch) {
     for (const double degrees : {120.0, 240.0})
       add_turned(mesh, vertices, corners, math::sincos_degrees(degrees));
-  }
-  drop_unused(mesh, job);
-  settle_normals(mesh);
-  return mesh;
-}
-
-Mesh fruit_mesh(const FruitForm& form, const Job& job) {
-  Mesh mesh = empty_mesh(job);
-  const int sides = std::max(form.sides, 3), rows = std::max(sides / 2 + 1, 3);
-  for (int row = 0; row <= rows; ++row) {
-    const math::SinCos lift = math::sincos(math::pi * row / rows);
-    const double share = static_cast<double>(row) / rows, thin = 1 - form.pointed * share * share * 0.7;
-    const double radius = 0.5 * form.width * lift.sin * thin, y = 0.5 - 0.5 * lift.cos;
-    for (int i = 0; i <= sides; ++i) {
-      const math::SinCos round = math::sincos(2 * math::pi * (i % sides) / sides);
-      const dvec3 out{round.cos, 0, -round.sin};
-      mesh.position.push_back(glm::vec3(dvec3(0, y, 0) + out * radius) + 0.0F);
-      const dvec3 normal =
-          math::unit(out * (lift.sin + 1e-9) +
-                         dvec3(0, -lift.cos * form.width + form.pointed * 0.5 * lift.sin * share, 0),
-                     {0, 1, 0});
-      mesh.normal.push_back(glm::vec3(row == 0      ? dvec3(0, -1, 0)
-                                      : row == rows ? dvec3(0, 1, 0)
-                                                    : normal) +
-                            0.0F);
-      mesh.uv[0].push_back({static_cast<float>(i + (row % rows == 0 ? 0.5 : 0)) / static_cast<float>(sides),
-                            static_cast<float>(share)});
-    }
-  }
-  const auto width = static_cast<std::uint32_t>(sides + 1);
-  for (std::uint32_t row = 0; row < static_cast<std::uint32_t>(rows); ++row) {
-    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(sides); ++i) {
-      const std::uint32_t a = row * width + i;
-      const bool first = row == 0, last = row + 1 == static_cast<std::uint32_t>(rows);
-      if (!first) {
-        for (const std::uint32_t k : {a, a + 1, last ? a + width : a + width + 1})
-          mesh.index.wide.push_back(k);
-      }
-      if (!last) {
-        for (const std::uint32_t k : {a, a + width + 1, a + width}) mesh.index.wide.push_back(k);
-      }
-    }
-  }
-  drop_unused(mesh, job);
-  settle_normals(mesh);
-  return mesh;
-}
-
-Mesh patch_mesh(const PatchForm& form, const Job& job) {
-  Mesh mesh = empty_mesh(job);
-  const int divisions = std::max(form.divisions, 1);
-  const auto width = static_cast<std::uint32_t>(divisions + 1);
-  for (std::size_t patch = 0; patch + 16 <= form.points.size(); patch += 16) {
-    job.check();
-    const glm::vec3* points = form.points.data() + patch;
-    const auto first = static_cast<std::uint32_t>(mesh.position.size());
-    for (int row = 0; row <= divisions; ++row) {
-      for (int column = 0; column <= divisions; ++column) {
-        const double u = static_cast<double>(column) / divisions, v = static_cast<double>(row) / divisions;
-        mesh.position.push_back(glm::vec3(blend(points, weights(form.basis, u), weights(form.basis, v))) +
-                                0.0F);
-        mesh.normal.push_back(glm::vec3(patch_normal(points, form.basis, u, v)) + 0.0F);
-        mesh.uv[0].push_back({static_cast<float>(u), static_cast<float>(1 - v)});
-      }
-    }
-    for (std::uint32_t row = 0; row + 1 < width; ++row) {
-      for (std::uint32_t column = 0; column + 1 < width; ++column) {
-        const std::uint32_t a = first + row * width + column;
-        for (const std::uint32_t k : {a, a + 1, a + width + 1, a, a + width + 1, a + width})
-          mesh.index.wide.push_back(k);
-      }
-    }
   }
   drop_unused(mesh, job);
   settle_normals(mesh);

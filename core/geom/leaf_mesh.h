@@ -54,7 +54,4 @@ struct PatchForm {
 /// evaluation by the basis matrices; Farin, "Curves and Surfaces for CAGD", 2002.
 Mesh patch_mesh(const PatchForm& form, const Job& job);
 
-/// Takes out triangles of no area, vertices that no triangle names, and those that are the same as another.
-void drop_unused(Mesh& mesh, const Job& job);
-
 }  // namespace seedmesh

@@ -52,17 +52,10 @@ class InternodeReader {
       const bool is_skinned =
           !(chains_.mark[joint_] & drawn_before) && std::max(base, end) >= scale_.thinnest;
       if (is_skinned) {
-        out = {here_,
-               to,
-               step * (1 / length),
-               length,
-               base,
-               end,
-               joint_,
-               joint_,
-               limbs_.color.empty() ? std::int16_t{0} : limbs_.color[joint_],
-               follows,
-               at_root_};
+        out = {here_,   to,      step * (1 / length),
+               length,  base,    end,
+               joint_,  joint_,  limbs_.color.empty() ? std::int16_t{0} : limbs_.color[joint_],
+               follows, at_root_};
         if (chains_.mark[joint_] & straight_on) go_straight(out);
       }
       here_ = is_skinned ? out.to : to;

@@ -85,8 +85,8 @@ constexpr float straight_sine = 1e-3F;
 // Of a radius: what an even taper may be off.
 constexpr float radius_off = 1e-2F;
 
-/// Where no ring is needed, since the limb goes straight on with an even taper and nothing else changes. A piece is
-/// compared with the first of its row, so that a slow bend is none.
+/// Where no ring is needed, since the limb goes straight on with an even taper and nothing else changes. A
+/// piece is compared with the first of its row, so that a slow bend is none.
 class StraightPieces {
  public:
   StraightPieces(const Limbs& limbs, const SkinOptions& options, const Scale& scale, Chains& chains)
@@ -100,7 +100,8 @@ class StraightPieces {
       std::uint32_t next = chains_.next[joint], last = joint;
       for (; length > scale_.shortest && next != Limbs::none; last = next, next = chains_.next[next]) {
         if (!goes_on(last, next)) break;
-        const glm::vec3 on = limbs_.position[next] - limbs_.position[last], all = limbs_.position[next] - from;
+        const glm::vec3 on = limbs_.position[next] - limbs_.position[last],
+                        all = limbs_.position[next] - from;
         const float on_length = std::sqrt(glm::dot(on, on)), all_length = std::sqrt(glm::dot(all, all));
         const glm::vec3 across = glm::cross(step, on);
         if (on_length <= scale_.shortest || glm::dot(step, on) <= 0) break;
@@ -260,7 +261,8 @@ int least_sides_of(const SkinOptions& options) { return static_cast<int>(least_s
 
 int sides_of_limb(const SkinOptions& options, float radius, float most) {
   const float share = most > 0 ? std::sqrt(std::min(1.0F, radius / most)) : 1.0F;
-  return std::max(least_sides_of(options), static_cast<int>(share * static_cast<float>(options.sides) + 0.5F));
+  return std::max(least_sides_of(options),
+                  static_cast<int>(share * static_cast<float>(options.sides) + 0.5F));
 }
 
 std::vector<Bark> skin(const Limbs& limbs, const SkinOptions& options, Job& job) {
@@ -280,13 +282,14 @@ std::vector<Bark> skin(const Limbs& limbs, const SkinOptions& options, Job& job)
   return barks;
 }
 
-std::uint64_t skin_triangles(const Limbs& limbs, const SkinOptions& options, Repeats repeats) {
+std::uint64_t skin_triangles(const Limbs& limbs, const SkinOptions& options, Redrawn repeats) {
   if (limbs.size() == 0) return 0;
   Limits own;
   own.memory_bytes = std::numeric_limits<std::uint64_t>::max();
   Job job(0, {.limits = own});
   const Scale scale = scale_of(limbs, finest_sides(options));
-  Plan plan(limbs, repeats == Repeats::found ? find_chains(limbs, scale, job) : link_chains(limbs, job), scale);
+  Plan plan(limbs, repeats == Redrawn::found ? find_chains(limbs, scale, job) : link_chains(limbs, job),
+            scale);
   for (const std::uint32_t head : plan.chains.head) {
     if (options.adapt) plan.thickest = std::max(plan.thickest, first_radius(limbs, plan.chains, head));
   }

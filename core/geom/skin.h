@@ -32,10 +32,10 @@ struct SkinOptions {
   /// twist 45 degrees an internode and as much as it is long for its radius; sides are never fewer than
   /// points.
   std::span<const Contour> contours = {};
-  /// For coarser levels of detail: of each joint that begins a limb (Chains::head), its corners, at most `sides`.
-  /// Where not empty, `adapt` decides about rings alone; a limb has no ring where it goes straight on, and one of
-  /// fewer corners than at the finest level has its rings turned by half a side, each against the one before: half
-  /// way between them it is as wide from all sides as if it had twice the corners.
+  /// For coarser levels of detail: of each joint that begins a limb (Chains::head), its corners, at most
+  /// `sides`. Where not empty, `adapt` decides about rings alone; a limb has no ring where it goes straight
+  /// on, and one of fewer corners than at the finest level has its rings turned by half a side, each against
+  /// the one before: half way between them it is as wide from all sides as if it had twice the corners.
   std::span<const LimbCorners> corners = {};
 };
 
@@ -95,10 +95,11 @@ std::vector<Bark> wires(const Limbs& limbs, Job& job);
 std::vector<Bark> wires(Limbs&& limbs, Job& job);
 
 /// Are internodes that lie on others looked for where triangles are counted? That takes ten times as long.
-enum class Repeats { counted, found };
+enum class Redrawn { counted, found };
 
-/// How many triangles `skin` would make, without making them; exact but for internodes drawn twice, where these are
-/// counted.
-std::uint64_t skin_triangles(const Limbs& limbs, const SkinOptions& options, Repeats repeats = Repeats::counted);
+/// How many triangles `skin` would make, without making them; exact but for internodes drawn twice, where
+/// these are counted.
+std::uint64_t skin_triangles(const Limbs& limbs, const SkinOptions& options,
+                             Redrawn repeats = Redrawn::counted);
 
 }  // namespace seedmesh

@@ -40,8 +40,8 @@ ContourCorner TubeWriter::corner(const Ring& ring, std::uint32_t k) const {
   return {mix(a.at, b.at), length > 1e-3F ? normal * (1 / length) : a.normal, mix(a.round, b.round)};
 }
 
-/// Splits those quads along the other diagonal for which wants_other(low, low_next, high, high_next) is true: the triangles
-/// are (low, low_next, high) and (low_next, high_next, high).
+/// Splits those quads along the other diagonal for which wants_other(low, low_next, high, high_next) is true:
+/// the triangles are (low, low_next, high) and (low_next, high_next, high).
 template <class WantsOther>
 void TubeWriter::split_otherwise(std::size_t first_corner, const WantsOther& wants_other) {
   for (std::uint32_t* quad = here_->index + first_corner; quad + 6 <= here_->index + here_->corner;) {
@@ -66,13 +66,14 @@ void TubeWriter::split_by_shorter(std::size_t first_corner) {
     return glm::dot(step, step);
   };
   constexpr float clearly = 0.999F;
-  split_otherwise(first_corner, [&](std::uint32_t low, std::uint32_t low_next, std::uint32_t high, std::uint32_t high_next) {
+  split_otherwise(first_corner, [&](std::uint32_t low, std::uint32_t low_next, std::uint32_t high,
+                                    std::uint32_t high_next) {
     return length2(low, high_next) < clearly * length2(low_next, high);
   });
 }
 
-/// Splits the quads that go from a turned ring to one that is not the other way: their upper corners stand half a side
-/// back.
+/// Splits the quads that go from a turned ring to one that is not the other way: their upper corners stand
+/// half a side back.
 void TubeWriter::split_by_turns(std::size_t first_corner) {
   split_otherwise(first_corner, [&](std::uint32_t low, std::uint32_t, std::uint32_t, std::uint32_t) {
     const std::size_t ring = (low - piece_.first_ring) / section_.corners;

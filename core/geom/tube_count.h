@@ -55,10 +55,14 @@ inline int inner_rings(const SkinOptions& options, const Scale& scale, glm::vec2
   return is_room && is_thick ? wanted : 0;
 }
 
-/// What closes a tube of a coarser level: where it begins, inside its parent or on the ground, a flat face; at its end
-/// too where it has three corners, which no cone would be seen on.
-inline bool begins_flat(const SkinOptions& options) { return !options.corners.empty() && options.contours.empty(); }
-inline bool ends_flat(const SkinOptions& options, std::uint32_t sides) { return begins_flat(options) && sides == 3; }
+/// What closes a tube of a coarser level: where it begins, inside its parent or on the ground, a flat face;
+/// at its end too where it has three corners, which no cone would be seen on.
+inline bool begins_flat(const SkinOptions& options) {
+  return !options.corners.empty() && options.contours.empty();
+}
+inline bool ends_flat(const SkinOptions& options, std::uint32_t sides) {
+  return begins_flat(options) && sides == 3;
+}
 
 /// How far the last ring of a free tip stands back from its point, so that a limb is as long as it was drawn.
 inline float tip_length(float radius, float free) { return std::min(radius, 0.3F * free); }

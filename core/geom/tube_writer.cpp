@@ -18,9 +18,6 @@ constexpr std::uint32_t widest_column = 8, widest_cold_column = 6;
 constexpr std::uint32_t phase_count = 64;
 // The cone that closes a tube inside its parent or over an elbow, as a share of the radius.
 constexpr float cap_share = 0.5F;
-// Rings are turned against each other where faces lean by at most one part in so many: their middles are nearer to the
-// axis than their corners.
-constexpr float least_lean = 2;
 // How much faster than where the limb begins v may run: at a tip the picture would shrink to nothing.
 constexpr float most_hurry = 4;
 
@@ -114,25 +111,6 @@ TubeWriter::Ring TubeWriter::plain_ring(const glm::vec3& centre, float radius, f
   ring.contour = last_contour(internode_.joint);
   ring.spin = spin_;
   return ring;
-}
-
-/// Before each ring but the first: whether it is turned by half a side against the one before, which is so far away.
-void TubeWriter::turn_on(float way, float radius) {
-  if (section_.sides == finest_sides_ || has_contours()) return;
-  if (way < least_lean * (1 - tables().half_side.x) * radius) return;
-  is_turned_ = !is_turned_;
-}
-
-TubeWriter::Ring TubeWriter::turned(const Ring& ring) const {
-  const glm::vec2 by = tables().half_side;
-  Ring out = ring;
-  out.side_u = ring.side_u * by.x + ring.side_v * by.y;
-  out.side_v = ring.side_v * by.x - ring.side_u * by.y;
-  out.normal_u = ring.normal_u * by.x + ring.normal_v * by.y;
-  out.normal_v = ring.normal_v * by.x - ring.normal_u * by.y;
-  out.is_turned = false;
-  out.sides_on = 0.5F;
-  return out;
 }
 
 void TubeWriter::begin_piece(std::int16_t color) {
@@ -318,49 +296,6 @@ void TubeWriter::write_inner_rings(const Taper& taper) {
   }
   u_ = last_u;
   turn_on(way, std::max(radius_, taper.end));
-}
-
-/// A flat floor with an edge of its own, since bark and cut do not share normals.
-void TubeWriter::write_disc(const Ring& ring) {
-  const glm::vec3 normal = -ring.tangent + 0.0F;
-  const std::uint32_t centre = write_apex(ring.centre, normal, {0, 0});
-  const std::size_t rim = here_->vertex;
-  for (std::uint32_t k = 0; k < section_.sides; ++k) {
-    const glm::vec2 at = has_contours() ? corner(ring, k).at : tables().circle[k];
-    here_->position[rim + k] = (ring.centre + 0.0F) + ring.side_u * at.x + ring.side_v * at.y;
-    here_->normal[rim + k] = normal;
-    if (here_->uv) here_->uv[rim + k] = at * ring.radius;
-  }
-  write_bones(rim, section_.sides, ring.joint);
-  here_->vertex += section_.sides;
-  std::uint32_t* out = here_->index + here_->corner;
-  for (std::uint32_t k = 0; k < section_.sides; ++k) {
-    *out++ = centre;
-    *out++ = static_cast<std::uint32_t>(rim) + (k + 1) % section_.sides;
-    *out++ = static_cast<std::uint32_t>(rim) + k;
-  }
-  here_->corner += std::size_t{3} * section_.sides;
-}
-
-/// A face across a ring that looks along the limb (`way` 1) or back.
-void TubeWriter::write_flat(const Ring& ring, float way) {
-  const std::size_t rim = here_->vertex;
-  for (std::uint32_t k = 0; k < section_.sides; ++k) {
-    const glm::vec2 at = tables().circle[k];
-    // As write_ring() has them, bit for bit.
-    here_->position[rim + k] = (ring.centre + 0.0F + ring.side_u * at.x) + ring.side_v * at.y;
-    here_->normal[rim + k] = ring.tangent * way + 0.0F;
-    if (here_->uv) here_->uv[rim + k] = at * ring.radius + 0.0F;
-  }
-  write_bones(rim, section_.sides, ring.joint);
-  here_->vertex += section_.sides;
-  std::uint32_t* out = here_->index + here_->corner;
-  for (std::uint32_t k = 1; k + 1 < section_.sides; ++k) {
-    *out++ = static_cast<std::uint32_t>(rim);
-    *out++ = static_cast<std::uint32_t>(rim) + (way > 0 ? k : k + 1);
-    *out++ = static_cast<std::uint32_t>(rim) + (way > 0 ? k + 1 : k);
-  }
-  here_->corner += std::size_t{3} * (section_.sides - 2);
 }
 
 void TubeWriter::write_ring(const Ring& ring, Slope after) {

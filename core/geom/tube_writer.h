@@ -80,8 +80,8 @@ class TubeWriter {
     Slope before{0};          ///< 0: nothing before, a hard edge
     std::int16_t next_color = 0;
     std::uint8_t contour = 0, next_contour = 0;
-    float blend = 0;  ///< how much of the next
-    float spin = 0;   ///< of the internode before (spin_of)
+    float blend = 0;         ///< how much of the next
+    float spin = 0;          ///< of the internode before (spin_of)
     bool is_turned = false;  ///< by half a side, which is still to be done
     float sides_on = 0;      ///< by so many sides it was turned
   };
@@ -137,19 +137,19 @@ class TubeWriter {
   Piece piece_;
   Ring waiting_;  ///< the last ring; its normals depend on what comes after it
   bool is_waiting_ = false;
-  bool is_turned_ = false;  ///< the last ring, by half a side
+  bool is_turned_ = false;            ///< the last ring, by half a side
   std::vector<bool> is_ring_turned_;  ///< of the piece, where any may be
-  Internode internode_;   ///< the current one
-  float radius_ = 0;      ///< of the ring where it begins
-  float reach_ = 0;       ///< of that ring's mitre
-  glm::vec3 u_{0};        ///< of the frame at the current internode's end; v is along x u
-  glm::vec3 first_u_{0};  ///< where it begins
-  float spin_ = 0;        ///< of the current internode, where it shows
-  float twist_ = 1;       ///< cosine of the angle between the two where it shows
-  float v_so_far_ = 0;    ///< of the limb up to where the current internode begins
-  float by_length_ = 1;   ///< v of the current internode for each metre
-  float slowest_ = 1;     ///< v for each metre where the limb began
-  float turns_ = 0;       ///< of a wrapped picture round the limb; 0: not chosen yet
+  Internode internode_;               ///< the current one
+  float radius_ = 0;                  ///< of the ring where it begins
+  float reach_ = 0;                   ///< of that ring's mitre
+  glm::vec3 u_{0};                    ///< of the frame at the current internode's end; v is along x u
+  glm::vec3 first_u_{0};              ///< where it begins
+  float spin_ = 0;                    ///< of the current internode, where it shows
+  float twist_ = 1;                   ///< cosine of the angle between the two where it shows
+  float v_so_far_ = 0;                ///< of the limb up to where the current internode begins
+  float by_length_ = 1;               ///< v of the current internode for each metre
+  float slowest_ = 1;                 ///< v for each metre where the limb began
+  float turns_ = 0;                   ///< of a wrapped picture round the limb; 0: not chosen yet
 };
 
 }  // namespace seedmesh

@@ -27,9 +27,9 @@ std::vector<Grid> lay_grids(Model& model);
 /// Turns the columns to 16 bits, with the filters of EXT_meshopt_compression: normals and tangents
 /// octahedral with 10 bits an axis, texture coordinates outside 0..1 exponential with steps of 2^-14.
 /// Vertices that became equal are joined, triangles whose corners became one point or one line go, and so do
-/// parts without any triangle left. Where a grid is so coarse for a part that its surface cannot be kept closed, as in
-/// a wood that is one mesh, positions stay floats, counted in steps of the grid. Parts that are packed are so already.
-/// Linear time.
+/// parts without any triangle left. Where a grid is so coarse for a part that its surface cannot be kept
+/// closed, as in a wood that is one mesh, positions stay floats, counted in steps of the grid. Parts that are
+/// packed are so already. Linear time.
 void quantize(Columns& columns, const std::vector<Grid>& grids, Job& job);
 
 }  // namespace seedmesh::gltf

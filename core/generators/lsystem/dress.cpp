@@ -81,13 +81,13 @@ std::uint64_t triangles_of(const std::vector<Primitive>& primitives) {
 /// The most triangles that a level may have, and how they are counted.
 struct Most {
   std::uint64_t triangles = 0;
-  Repeats repeats = Repeats::counted;
+  Redrawn repeats = Redrawn::counted;
 };
 
 /// Fewer limbs and joints, with about as many triangles as they may have and never more than `most`; where
 /// that cannot be, all with fewer sides.
-CoarseLimbs coarse_limbs(const Limbs& limbs, const CoarseOptions& wanted, const Most& most, SkinOptions options,
-                         Job& job) {
+CoarseLimbs coarse_limbs(const Limbs& limbs, const CoarseOptions& wanted, const Most& most,
+                         SkinOptions options, Job& job) {
   CoarseOptions coarse = wanted;
   CoarseLimbs kept;
   std::uint64_t kept_made = 0, low = 0, high = 0;  // what was asked for and gave too few, too many
@@ -147,15 +147,16 @@ std::vector<Bark> coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, 
   options.bones = bones.span();
   options.corners = kept.corners;
   std::vector<Bark> barks = skin(kept.limbs, options, job);
-  if (std::none_of(barks.begin(), barks.end(), [](const Bark& bark) { return looks_inward(bark.mesh); })) return barks;
+  if (std::none_of(barks.begin(), barks.end(), [](const Bark& bark) { return looks_inward(bark.mesh); }))
+    return barks;
   // Rings that do not turn against each other.
   for (LimbCorners& corners : kept.corners) corners.finest = corners.now;
   return skin(kept.limbs, options, job);
 }
 
 /// Has the plant internodes that lie on others? `made` of all its limbs, so many triangles.
-Repeats repeats_of(const Limbs& limbs, const SkinOptions& options, std::uint64_t made) {
-  return skin_triangles(limbs, options) == made ? Repeats::counted : Repeats::found;
+Redrawn repeats_of(const Limbs& limbs, const SkinOptions& options, std::uint64_t made) {
+  return skin_triangles(limbs, options) == made ? Redrawn::counted : Redrawn::found;
 }
 
 struct BarkUse {
@@ -178,7 +179,7 @@ void add_bark(Model& model, Limbs limbs, const BarkUse& use, const LsystemParams
   std::uint64_t before = triangles;
   Array<std::uint16_t> own_bones(job);
   Array<float> shown(job);
-  Repeats repeats = Repeats::counted;
+  Redrawn repeats = Redrawn::counted;
   if (job.demand().lods > 1) {
     KeptLimbs once = without_repeats(limbs, options.sides, job);
     if (once.limbs.size() < limbs.size()) {

@@ -266,8 +266,8 @@ std::uint64_t shown_at(const Model& model, int level) {
   return triangles;
 }
 
-/// The share of the organs that stays: so many that the outline holds, as far as there are so many triangles left for
-/// them; all of them would have `whole`.
+/// The share of the organs that stays: so many that the outline holds, as far as there are so many triangles
+/// left for them; all of them would have `whole`.
 double organs_at(const Detail& detail, const FoliageLevels& levels, std::uint64_t whole, std::uint64_t left) {
   const double room = static_cast<double>(left) / static_cast<double>(std::max<std::uint64_t>(whole, 1));
   return std::max(detail.organs(), std::min(levels.share_for(detail.loss()), room));

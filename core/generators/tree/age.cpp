@@ -22,8 +22,8 @@ constexpr float unfolded = 0.35F;
 constexpr float of_full_leaves = 0.4F;
 // The seedling has this share of the tree's height.
 constexpr float seedling = 0.01F;
-// First leaves are unfolded when what bears them has grown by this share; they are there until the first of these
-// shares of the tree's age, and gone after the second.
+// First leaves are unfolded when what bears them has grown by this share; they are there until the first of
+// these shares of the tree's age, and gone after the second.
 constexpr float first_unfolded = 0.05F, first_until = 0.05F, first_gone = 0.1F;
 
 float fraction(std::uint64_t hash) { return static_cast<float>(hash >> 40U) * 0x1p-24F; }
@@ -97,8 +97,8 @@ Array<float> sprouting_of(const Limbs& limbs, Job& job) {
   });
 }
 
-/// The first leaves of a seedling: where a limb will leave a stem that is there, one of the leaves that the limb will
-/// bear stands already, as that of its bud does.
+/// The first leaves of a seedling: where a limb will leave a stem that is there, one of the leaves that the
+/// limb will bear stands already, as that of its bud does.
 class FirstLeaves {
  public:
   FirstLeaves(const Skeleton& skeleton, float share, Job& job) : limbs_(skeleton.limbs), first_(job) {
@@ -119,7 +119,8 @@ class FirstLeaves {
     }
   }
 
-  /// How far the organ is unfolded as one of them: what bears it has the share own[joint] of its size, if it is there.
+  /// How far the organ is unfolded as one of them: what bears it has the share own[joint] of its size, if it
+  /// is there.
   float open(std::uint32_t organ, std::uint32_t joint, const Array<float>& own,
              const Array<std::uint32_t>& new_place) const {
     float most = 0;

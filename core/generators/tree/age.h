@@ -9,7 +9,8 @@
 /// not a bare stem. All of it is continuous in t, so that no limb jumps; a limb is thinner than long in its
 /// youth (radii go by the 1.5th power of lengths: T. McMahon, "Size and shape in biology", Science 179,
 /// 1973). Leaves unfold with the twig that bears them and are of full size from 0.4 on, before by the 3/4th
-/// power of the trunk's size. A seedling, younger than 0.1, has first leaves on its stems where limbs will sprout.
+/// power of the trunk's size. A seedling, younger than 0.1, has first leaves on its stems where limbs will
+/// sprout.
 #include "core/generators/tree/growth_context.h"
 
 namespace seedmesh::tree {

@@ -106,7 +106,7 @@ TEST(Coarsen, GivesSkinLimbsOfFewerCornersThatAreClosed) {
       EXPECT_THAT(faults(bark.mesh), IsEmpty()) << seed;
     }
     EXPECT_EQ(measure(meshes).open_edges, 0U) << seed;
-    EXPECT_EQ(made, skin_triangles(kept.limbs, coarse, Repeats::found)) << seed;
+    EXPECT_EQ(made, skin_triangles(kept.limbs, coarse, Redrawn::found)) << seed;
     for (const LimbCorners& corners : kept.corners) of_fewer += corners.now < corners.finest ? 1 : 0;
   }
   EXPECT_GT(of_fewer, 1000U);
@@ -127,7 +127,8 @@ TEST(Coarsen, HasNoRingWhereASideBranchLeavesAStraightLimb) {
   const CoarseLimbs kept = coarsen(maker.limbs, options, job);
   SkinOptions coarse = finest;
   coarse.corners = kept.corners;
-  // Seven rings of the trunk less, 12 triangles each, and two for the face that each of eight limbs begins with.
+  // Seven rings of the trunk less, 12 triangles each, and two for the face that each of eight limbs begins
+  // with.
   EXPECT_EQ(skin_triangles(kept.limbs, coarse), whole - 7 * 12 - 8 * 2);
   for (const Bark& bark : skin(kept.limbs, coarse, job)) {
     EXPECT_THAT(faults(bark.mesh), IsEmpty());
@@ -145,7 +146,8 @@ TEST(Coarsen, KeepsALimbAtItsPlaceWhereItKeepsItsCorners) {
   const CoarseLimbs kept = coarsen(maker.limbs, options, job);
   SkinOptions coarse = finest;
   coarse.corners = kept.corners;
-  const Mesh before = std::move(skin(maker.limbs, finest, job)[0].mesh), after = std::move(skin(kept.limbs, coarse, job)[0].mesh);
+  const Mesh before = std::move(skin(maker.limbs, finest, job)[0].mesh),
+             after = std::move(skin(kept.limbs, coarse, job)[0].mesh);
   const auto has = [&](const glm::vec3& place) {
     return std::any_of(before.position.begin(), before.position.end(),
                        [&](const glm::vec3& other) { return glm::distance(place, other) < 1e-6F; });

@@ -17,12 +17,8 @@ namespace {
 constexpr float step = 2.0F / 65'536;
 
 /// A bent tube about as thin as a step of the grid, with a triangle so large that the grid is that coarse.
-Model thin_tube(const Job& job, std::uint64_t seed) {
+void add_thin_tube(Mesh& mesh, std::uint64_t seed) {
   constexpr std::uint32_t sides = 4, rings = 12;
-  Mesh mesh;
-  mesh.position = Array<glm::vec3>(job);
-  mesh.normal = Array<glm::vec3>(job);
-  mesh.index.wide = Array<std::uint32_t>(job);
   Rng rng(seed);
   const auto add = [&](const glm::vec3& at) {
     mesh.position.push_back(at);
@@ -55,6 +51,15 @@ Model thin_tube(const Job& job, std::uint64_t seed) {
       face(below + next, above + next, above + i);
     }
   }
+}
+
+/// So many of them, one over the other.
+Model thin_tubes(const Job& job, std::uint64_t seed, std::uint64_t count) {
+  Mesh mesh;
+  mesh.position = Array<glm::vec3>(job);
+  mesh.normal = Array<glm::vec3>(job);
+  mesh.index.wide = Array<std::uint32_t>(job);
+  for (std::uint64_t i = 0; i < count; ++i) add_thin_tube(mesh, seed + i);
   Model model;
   Node node;
   node.mesh = 0;
@@ -89,7 +94,7 @@ Edges edges_of(const Part& part) {
 TEST(Separate, KeepsThinTubesClosedAndOfTwoFacesAnEdge) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     Job job(1, Job::Options{});
-    Model model = thin_tube(job, seed);
+    Model model = thin_tubes(job, seed, 1);
     const std::vector<Grid> grids = lay_grids(model);
     ASSERT_EQ(grids.front().step, step);
     Columns columns = take_columns(model);
@@ -97,6 +102,26 @@ TEST(Separate, KeepsThinTubesClosedAndOfTwoFacesAnEdge) {
     const Edges edges = edges_of(columns.meshes[0][0]);
     EXPECT_EQ(edges.open, 3U) << "those of the large triangle; seed " << seed;
     EXPECT_EQ(edges.crowded, 0U) << seed;
+  }
+}
+
+TEST(Separate, LeavesFloatsWhereTheGridHasNoRoom) {
+  Job job(1, Job::Options{});
+  Model model = thin_tubes(job, 7, 80);
+  const Mesh& mesh = model.meshes[0].primitives[0].mesh;
+  const std::size_t triangles = mesh.elements();
+  std::vector<glm::vec3> before(mesh.position.begin(), mesh.position.end());
+  const std::vector<Grid> grids = lay_grids(model);
+  Columns columns = take_columns(model);
+  quantize(columns, grids, job);
+  const Part& part = columns.meshes[0][0];
+  const Column& position = part.columns.front();
+  ASSERT_EQ(position.component, Component::f32);
+  EXPECT_EQ(part.index->count, 3 * triangles) << "none has become flat";
+  ASSERT_GE(position.count, before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const auto at = grids[0].origin + grids[0].step * load<glm::vec3>(position.slice, i);
+    EXPECT_LT(glm::distance(at, before[i]), 1e-3F * step);
   }
 }
 
