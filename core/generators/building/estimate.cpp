@@ -21,8 +21,8 @@ struct Stand {
   bool is_part = false;
 };
 
-/// Corners of rectangles on the edges of their neighbours.
-std::uint64_t corners_on_edges(const Shapes& shapes, Job& job) {
+/// Triangles that rectangles get by their neighbours.
+std::uint64_t more_by_neighbours(const Shapes& shapes, Job& job) {
   std::vector<std::uint32_t> drawn;
   glm::dvec3 low(1e300), high(-1e300);
   for (std::uint32_t i = 0; i < shapes.shapes.size(); ++i) {
@@ -35,7 +35,7 @@ std::uint64_t corners_on_edges(const Shapes& shapes, Job& job) {
   if (drawn.empty()) return 0;
   const Seams seams(shapes, drawn, glm::length(high - low), job);
   std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < drawn.size(); ++i) sum += seams.corners_on(i);
+  for (std::size_t i = 0; i < drawn.size(); ++i) sum += seams.more_on(i);
   return sum;
 }
 
@@ -86,7 +86,7 @@ std::optional<Estimate> estimate_of(const Shapes& shapes, CopyForm copies, bool 
   Estimate estimate;
   estimate.bytes = file_bytes;
   if (!shares_all) {
-    const BodyCost more{corners_on_edges(shapes, job), 0};
+    const BodyCost more{more_by_neighbours(shapes, job), 0};
     estimate.triangles = more.triangles;
     estimate.bytes += more.bytes();
   }

@@ -54,11 +54,11 @@ class Merger {
       const DrawnBody& body = bodies_[i];
       const Shape& shape = merging_.source.shape_of(body);
       const BodyCost cost = merging_.source.cost_of(shape);
-      const std::size_t more = seams.corners_on(i);
+      const std::size_t more = seams.more_on(i);
       triangles += cost.triangles + more;
       if (merging_.source.is_asset(shape)) continue;
       Bucket& bucket = bucket_of(body, body.material);
-      bucket.vertices += cost.vertices + more;
+      bucket.vertices += cost.vertices + 2 * more;  // strips have two a triangle
       bucket.indices += 3 * (cost.triangles + more);
       bucket.has_neighbours |= shape.geometry != box_geometry || dimension(shape.size) < 3;
     }

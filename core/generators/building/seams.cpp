@@ -8,8 +8,9 @@ namespace {
 
 constexpr double same_direction = 1e-9;
 // Shares of the diagonal.
-constexpr double same_place = 1e-6, reach_below = 3e-5;  // more than the grid of 16 bits
-constexpr std::size_t most_on_side = 8;                  ///< corners of others
+constexpr double same_place = 1e-6, strip_width = 1e-4;
+constexpr double strip_depths[4] = {3e-5, 6e-5, 6e-5, 3e-5};  // of neighbours different ones
+constexpr std::size_t most_on_side = 8;                       ///< corners of others
 
 /// Sorted, with one of those that are closer than the tolerance.
 void settle(std::vector<double>& values, double tolerance) {
@@ -77,7 +78,7 @@ void cut_ears(std::span<const glm::dvec2> points, std::vector<std::uint32_t>& in
 }  // namespace
 
 Seams::Seams(const Shapes& shapes, std::span<const std::uint32_t> drawn, double diagonal, Job& job)
-    : reach_(reach_below * diagonal), places_(drawn.size(), none) {
+    : diagonal_(diagonal), places_(drawn.size(), none) {
   std::vector<std::uint32_t> frames(shapes.axes.size(), none);
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     const Shape& shape = shapes.shapes[drawn[i]];
@@ -155,7 +156,7 @@ void Seams::add_plane(std::span<Rect> rects, double tolerance) {
     std::ranges::sort(*corners);
     corners->erase(std::unique(corners->begin(), corners->end()), corners->end());
   }
-  for (Rect& rect : rects) count_corners(rect, plane);
+  for (Rect& rect : rects) count_more(rect, plane);
   planes_.push_back(std::move(plane));
 }
 
@@ -167,15 +168,11 @@ std::span<const Pair> Seams::on_side(const Rect& rect, const Plane& plane, int s
   return between(plane.by_u, side == 1 ? u1 : u0, v0, v1);
 }
 
-void Seams::count_corners(Rect& rect, const Plane& plane) const {
+void Seams::count_more(Rect& rect, const Plane& plane) const {
   for (int side = 0; side < 4; ++side) {
     const std::size_t count = on_side(rect, plane, side).size();
-    if (count <= most_on_side) {
-      rect.more += static_cast<std::uint32_t>(count);
-    } else {
-      const bool is_low = side == 0 || side == 3;
-      (is_low ? rect.low_reach : rect.high_reach)[side % 2 == 0 ? 1 : 0] = is_low ? -reach_ : reach_;
-    }
+    rect.is_backed[side] = count > most_on_side;
+    rect.more += rect.is_backed[side] ? 2U : static_cast<std::uint32_t>(count);
   }
 }
 
@@ -188,7 +185,7 @@ void Seams::ring(const Rect& rect, std::vector<Corner>& corners) const {
   for (int side = 0; side < 4; ++side) {
     corners.push_back(begins[side]);
     const std::span<const Pair> others = on_side(rect, plane, side);
-    if (others.size() > most_on_side) continue;
+    if (rect.is_backed[side]) continue;
     for (std::size_t k = 0; k < others.size(); ++k) {
       const Pair& pair = others[side < 2 ? k : others.size() - 1 - k];
       corners.push_back(side % 2 == 0 ? Corner{pair.second, pair.first} : pair);
@@ -196,22 +193,12 @@ void Seams::ring(const Rect& rect, std::vector<Corner>& corners) const {
   }
 }
 
-glm::dvec2 Seams::flat_place(const Rect& rect, const Corner& corner) const {
-  const Plane& plane = planes_[rect.plane];
-  glm::dvec2 at(plane.u[corner.first], plane.v[corner.second]);
-  if (corner.first == rect.first.first) at.x += rect.low_reach.x;
-  if (corner.first == rect.last.first) at.x += rect.high_reach.x;
-  if (corner.second == rect.first.second) at.y += rect.low_reach.y;
-  if (corner.second == rect.last.second) at.y += rect.high_reach.y;
-  return at;
-}
-
 glm::dvec3 Seams::place(const Rect& rect, const Corner& corner) const {
-  const glm::dvec2 flat = flat_place(rect, corner);
+  const Plane& plane = planes_[rect.plane];
   glm::dvec3 local(0);
-  local[rect.axis] = planes_[rect.plane].at;
-  local[(rect.axis + 1) % 3] = flat.x;
-  local[(rect.axis + 2) % 3] = flat.y;
+  local[rect.axis] = plane.at;
+  local[(rect.axis + 1) % 3] = plane.u[corner.first];
+  local[(rect.axis + 2) % 3] = plane.v[corner.second];
   return local;
 }
 
@@ -224,24 +211,50 @@ void Seams::outline(std::size_t i, std::vector<glm::dvec3>& points) const {
   for (const Corner& corner : corners) points.push_back(frames_[rect.frame] * place(rect, corner));
 }
 
+/// Along the side, half of it below each neighbour.
+void Seams::add_strip(const Rect& rect, int side, Patch& patch) const {
+  const int u = (rect.axis + 1) % 3, v = (rect.axis + 2) % 3, across = side % 2 == 0 ? v : u;
+  glm::dvec3 low = place(rect, rect.first), high = place(rect, rect.last);
+  (side == 0 || side == 3 ? high : low)[across] = (side == 0 || side == 3 ? low : high)[across];
+  low[across] -= strip_width * diagonal_;
+  high[across] += strip_width * diagonal_;
+  low[rect.axis] -= strip_depths[side] * diagonal_;
+  glm::dvec3 normal(0);
+  normal[rect.axis] = 1;
+  const auto base = static_cast<std::uint32_t>(patch.position.size());
+  for (const auto& [is_right, is_upper] :
+       {std::pair(false, false), {true, false}, {true, true}, {false, true}}) {
+    glm::dvec3 at = low;
+    if (is_right) at[u] = high[u];
+    if (is_upper) at[v] = high[v];
+    patch.position.push_back(at);
+    patch.normal.push_back(normal);
+  }
+  for (const std::uint32_t k : {0U, 1U, 2U, 0U, 2U, 3U}) patch.index.push_back(base + k);
+}
+
 bool Seams::fill(std::size_t i, Patch& patch) const {
   if (places_[i] == none) return false;
   const Rect& rect = rects_[places_[i]];
   patch.clear();
   std::vector<Corner> corners;
   ring(rect, corners);
+  const Plane& plane = planes_[rect.plane];
   std::vector<glm::dvec2> flat;
   glm::dvec3 normal(0);
   normal[rect.axis] = 1;
   for (const Corner& corner : corners) {
     patch.position.push_back(place(rect, corner));
     patch.normal.push_back(normal);
-    flat.push_back(flat_place(rect, corner));
+    flat.emplace_back(plane.u[corner.first], plane.v[corner.second]);
   }
   if (corners.size() == 4)
     patch.index = {0, 1, 2, 0, 2, 3};
   else
     cut_ears(flat, patch.index);
+  for (int side = 0; side < 4; ++side) {
+    if (rect.is_backed[side]) add_strip(rect, side, patch);
+  }
   return true;
 }
 

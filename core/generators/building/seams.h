@@ -1,8 +1,8 @@
 #pragma once
 /// Rectangles side by side in one plane: where the corner of one lies on an edge of another, that edge gets a
 /// corner too. Without it the two edges are drawn apart by a hair, and what is behind shines through
-/// (T-junctions). A side with many such corners, as of a long sill below its windows, gets none and reaches
-/// below its neighbours instead, by 3 * 10^-5 of the diagonal.
+/// (T-junctions). A side with many such corners, as of a long sill below its windows, gets none: a narrow
+/// strip behind it closes what gapes.
 #include <span>
 #include <vector>
 
@@ -17,8 +17,8 @@ class Seams {
   /// within a millionth of the diagonal are one. Cost: n log n of the rectangles.
   Seams(const Shapes& shapes, std::span<const std::uint32_t> drawn, double diagonal, Job& job);
 
-  /// Corners of others on the edges of the i-th of the drawn: as many triangles more.
-  std::size_t corners_on(std::size_t i) const { return places_[i] == none ? 0 : rects_[places_[i]].more; }
+  /// How many triangles the i-th of the drawn has more than two.
+  std::size_t more_on(std::size_t i) const { return places_[i] == none ? 0 : rects_[places_[i]].more; }
 
   /// The corners round a rectangle, counter-clockwise, in the world. Nothing where it is none.
   void outline(std::size_t i, std::vector<glm::dvec3>& points) const;
@@ -40,20 +40,20 @@ class Seams {
     int axis = 1;  ///< of the normal
     double at = 0;
     glm::dvec2 low{0}, high{0};
-    Corner first, last;                      ///< of the lattice
-    std::uint32_t more = 0;                  ///< corners besides the four
-    glm::dvec2 low_reach{0}, high_reach{0};  ///< below neighbours
+    Corner first, last;      ///< of the lattice
+    std::uint32_t more = 0;  ///< triangles besides the two
+    bool is_backed[4] = {};  ///< sides with a strip behind them: bottom, right, top, left
   };
 
   std::uint32_t frame_of(const glm::dmat3& axes);
   void add_plane(std::span<Rect> rects, double tolerance);
-  void count_corners(Rect& rect, const Plane& plane) const;
+  void count_more(Rect& rect, const Plane& plane) const;
   std::span<const Corner> on_side(const Rect& rect, const Plane& plane, int side) const;
   void ring(const Rect& rect, std::vector<Corner>& corners) const;
-  glm::dvec2 flat_place(const Rect& rect, const Corner& corner) const;
+  void add_strip(const Rect& rect, int side, Patch& patch) const;
   glm::dvec3 place(const Rect& rect, const Corner& corner) const;
 
-  double reach_ = 0;
+  double diagonal_ = 1;
   std::vector<glm::dmat3> frames_;
   std::vector<Plane> planes_;
   std::vector<Rect> rects_;
