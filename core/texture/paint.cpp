@@ -6,9 +6,14 @@
 #include <vector>
 
 #include "core/texture/leaf.h"
+#include "core/texture/wall.h"
 
 namespace seedmesh::texture {
 namespace {
+
+bool is_bark_kind(std::string_view name) {
+  return std::find(bark_kinds().begin(), bark_kinds().end(), name) != bark_kinds().end();
+}
 
 std::string key_of(const TextureRecipe& recipe, int size) {
   std::string key = recipe.kind + ' ' + std::to_string(recipe.seed) + ' ' + std::to_string(size);
@@ -19,9 +24,7 @@ std::string key_of(const TextureRecipe& recipe, int size) {
 }
 
 std::shared_ptr<const Maps> make(const TextureRecipe& recipe, int size, const Job& job) {
-  const Painting painting = is_bark_kind(recipe.kind)
-                                ? paint_bark(recipe.kind, size, recipe.seed, recipe.color, job)
-                                : paint_leaf(recipe.kind, size, recipe.seed, recipe.color, job);
+  const Painting painting = paint_kind(recipe.kind, size, recipe.seed, recipe.color, job);
   return std::make_shared<const Maps>(make_maps(painting.relief, painting.finish, recipe.kind, job));
 }
 
@@ -48,19 +51,24 @@ void strip(Model& model) {
   model.textures.clear();
 }
 
+/// Where in Model::textures.
+struct Places {
+  int color = 0, normal = 0, surface = 0;
+};
+
 /// Pictures that the material has already stay.
 void put(TextureUse& use, int texture, bool repeats) {
   if (use.texture < 0) use = {texture, 0, repeats};
 }
 
-void dress(Material& material, int first, bool is_bark) {
-  put(material.base_color_texture, first, is_bark);
-  put(material.normal_texture, first + 1, is_bark);
-  put(material.occlusion_texture, first + 2, is_bark);
-  put(material.metallic_roughness_texture, first + 2, is_bark);
+void dress(Material& material, const Places& places, bool repeats) {
+  put(material.base_color_texture, places.color, repeats);
+  put(material.normal_texture, places.normal, repeats);
+  put(material.occlusion_texture, places.surface, repeats);
+  put(material.metallic_roughness_texture, places.surface, repeats);
   material.base_color = {material.recipe.factor, material.base_color.w};
   material.roughness = 1;
-  if (is_bark) return;
+  if (repeats) return;
   material.alpha_mode = AlphaMode::mask;
   material.alpha_cutoff = leaf_cutoff(material.recipe.kind);
   material.double_sided = true;
@@ -72,6 +80,7 @@ std::span<const std::string_view> texture_kinds() {
   static const std::vector<std::string_view> all = [] {
     std::vector<std::string_view> list(bark_kinds().begin(), bark_kinds().end());
     list.insert(list.end(), leaf_kinds().begin(), leaf_kinds().end());
+    for (const WallKind& kind : wall_kinds()) list.push_back(kind.name);
     return list;
   }();
   return all;
@@ -81,22 +90,38 @@ bool is_texture_kind(std::string_view name) {
   return std::find(texture_kinds().begin(), texture_kinds().end(), name) != texture_kinds().end();
 }
 
-bool is_bark_kind(std::string_view name) {
-  return std::find(bark_kinds().begin(), bark_kinds().end(), name) != bark_kinds().end();
+bool is_repeating_kind(std::string_view name) { return is_bark_kind(name) || wall_kind(name) != nullptr; }
+
+Painting paint_kind(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job) {
+  if (wall_kind(kind) != nullptr) return paint_wall(kind, size, seed, tint, job);
+  return is_bark_kind(kind) ? paint_bark(kind, size, seed, tint, job)
+                            : paint_leaf(kind, size, seed, tint, job);
 }
 
 void paint(Model& model, int size, TextureStore* store, const Job& job) {
   if (size == 0) return strip(model);
-  std::map<std::string, int> made;
+  std::map<std::string, Places> made;
+  std::map<std::string, Places> uncolored;  // the relief of a wall is the same in every colour
   for (Material& material : model.materials) {
     if (material.recipe.kind.empty()) continue;
     const std::string key = key_of(material.recipe, size);
-    const auto [place, is_new] = made.try_emplace(key, static_cast<int>(model.textures.size()));
+    const auto [place, is_new] = made.try_emplace(key);
     if (is_new) {
       const std::shared_ptr<const Maps> maps = find_or_make(key, material.recipe, size, store, job);
-      for (const auto& image : {maps->color, maps->normal, maps->surface}) model.textures.push_back(image);
+      const auto first = static_cast<int>(model.textures.size());
+      place->second = {first, first + 1, first + 2};
+      model.textures.push_back(maps->color);
+      TextureRecipe plain = material.recipe;
+      plain.color.reset();
+      const auto [known, is_first] = uncolored.try_emplace(key_of(plain, size), place->second);
+      if (!is_first && wall_kind(plain.kind) != nullptr) {
+        place->second = {first, known->second.normal, known->second.surface};
+      } else {
+        model.textures.push_back(maps->normal);
+        model.textures.push_back(maps->surface);
+      }
     }
-    dress(material, place->second, is_bark_kind(material.recipe.kind));
+    dress(material, place->second, is_repeating_kind(material.recipe.kind));
     material.recipe = {};
   }
 }

@@ -5,14 +5,20 @@
 
 #include "core/base/texture_store.h"
 #include "core/model/model.h"
+#include "core/texture/bark.h"
 
 namespace seedmesh::texture {
 
-/// All kinds that a recipe may name: barks, leaves, twigs, petals.
+/// All kinds that a recipe may name: barks, leaves, twigs, petals, walls and roofs.
 std::span<const std::string_view> texture_kinds();
 
 bool is_texture_kind(std::string_view name);
-bool is_bark_kind(std::string_view name);
+
+/// Bark and walls: what goes on beyond its edges.
+bool is_repeating_kind(std::string_view name);
+
+/// `kind` is one of texture_kinds().
+Painting paint_kind(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job);
 
 /// Makes what the recipes ask for, `size` texels wide and high (a power of two from 16 to 4096), equal
 /// recipes once, and lets their materials use it: base colour, normals, occlusion and roughness; leaves and

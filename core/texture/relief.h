@@ -29,11 +29,13 @@ struct Finish {
   float rough_low = 0.9F;  ///< roughness at height 0
   float rough_high = 0.8F;
   float rough_accent = 0.9F;
-  float shade = 0.6F;  ///< how much of the light is kept out of the lowest places
+  float shade = 0.6F;     ///< how much of the light is kept out of the lowest places
+  bool is_grey = false;   ///< the colour picture has one channel: that of red
+  bool is_small = false;  ///< files are kept small: values in coarser steps, more time for PNG
 };
 
-/// Three PNG files: colour (RGB, or RGBA with the cover as alpha), normals (RGB, +y up in the picture, glTF's
-/// tangent space), and occlusion, roughness, metallic (RGB, as glTF packs them; metallic is 0).
+/// Three PNG files: colour (RGB, RGBA with the cover as alpha, or grey), normals (RGB, +y up in the picture,
+/// glTF's tangent space), and occlusion, roughness, metallic (RGB, as glTF packs them; metallic is 0).
 struct Maps {
   std::shared_ptr<const Image> color, normal, surface;
   std::size_t bytes() const { return color->bytes.size() + normal->bytes.size() + surface->bytes.size(); }

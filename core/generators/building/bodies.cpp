@@ -5,10 +5,9 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
-#include "core/base/math.h"
-#include "core/generators/building/layers.h"
+#include "core/generators/building/body_source.h"
+#include "core/generators/building/merge.h"
 #include "core/generators/building/mesh_writer.h"
-#include "core/generators/building/patch.h"
 #include "core/geom/weld.h"
 
 namespace seedmesh::building {
@@ -16,38 +15,27 @@ namespace {
 
 constexpr double least_area = 4e-12;  ///< of a triangle, by the square of the model's diagonal
 
-/// A shape that is drawn.
-struct Body {
-  std::uint32_t shape = 0;
-  std::uint16_t layer = 0;
-  std::int32_t material = 0;
-};
-
-struct Bucket {
-  std::size_t vertices = 0, indices = 0;
-  bool has_solids = false;
-  Mesh mesh;
-};
-
 class Assembly {
  public:
   Assembly(Model& model, const Shapes& shapes, Looks& looks, std::span<Asset> assets, Job& job)
-      : model_(model), shapes_(shapes), looks_(looks), assets_(assets), job_(job) {}
+      : model_(model), shapes_(shapes), looks_(looks), source_(shapes, looks, assets, job), job_(job) {}
 
   void run(Sharing sharing) {
     gather();
     begin();
-    const bool few = sharing == Sharing::few && draws() <= most_nodes;
-    std::vector<Body> merged, single;
-    for (const Body& body : bodies_) {
+    const bool all = sharing == Sharing::nodes;
+    if (sharing == Sharing::paying) count_costly();
+    std::vector<DrawnBody> merged, single;
+    for (const DrawnBody& body : bodies_) {
       const Shape& shape = shapes_.shapes[body.shape];
       const bool is_textured = body.material >= 0 && looks_.tile_of(body.material) != nullptr;
-      (is_own(shape) || ((sharing == Sharing::nodes || few) && !is_textured) ? single : merged)
-          .push_back(body);
+      const bool is_single = source_.is_own(shape) || (!is_textured && (all || is_paying(body)));
+      (is_single ? single : merged).push_back(body);
     }
     share(single);
     if (merged.empty()) return;
-    for (MeshGroup& group : merge(merged, 0)) {
+    for (MeshGroup& group :
+         merged_bodies(model_, {shapes_, looks_, source_, low_, diagonal_}, merged, 0, job_)) {
       Node node;
       node.name = "layer";
       node.parent = root_;
@@ -60,14 +48,16 @@ class Assembly {
   /// A mesh a layer.
   std::vector<int> level(Sharing sharing, std::size_t least) {
     gather();
-    std::vector<Body> merged, single;
-    for (const Body& body : bodies_) (is_own(shapes_.shapes[body.shape]) ? single : merged).push_back(body);
+    std::vector<DrawnBody> merged, single;
+    for (const DrawnBody& body : bodies_)
+      (source_.is_own(shapes_.shapes[body.shape]) ? single : merged).push_back(body);
     if (sharing != Sharing::merged) {
       begin();
       share(single);
     }
     std::vector<int> layers;
-    for (MeshGroup& group : merge(merged, least)) {
+    for (MeshGroup& group :
+         merged_bodies(model_, {shapes_, looks_, source_, low_, diagonal_}, merged, least, job_)) {
       layers.push_back(static_cast<int>(model_.meshes.size()));
       model_.meshes.push_back(std::move(group));
     }
@@ -82,35 +72,35 @@ class Assembly {
     root_ = static_cast<int>(model_.nodes.size()) - 1;
   }
 
-  /// The request's own models keep their form.
-  bool is_own(const Shape& shape) const { return is_asset(shape) && !is_part(shape); }
-  bool is_asset(const Shape& shape) const { return (shape.geometry & asset_bit) != 0; }
-  bool is_part(const Shape& shape) const {
-    return is_asset(shape) && assets_[shape.geometry & ~asset_bit].row != nullptr;
-  }
-  /// A built-in part is made for the size of the scope, and once for equal ones.
-  Asset& asset_of(const Shape& shape) {
-    Asset& asset = assets_[shape.geometry & ~asset_bit];
-    if (asset.row == nullptr) return asset;
-    const std::uint32_t options = shapes_.styles[shape.style].options;
-    const auto [found, is_new] = parts_.try_emplace({shape.geometry, options, rounded(shape.size)});
-    if (!is_new) return found->second;
-    Asset& made = found->second;
-    made.size = shape.size;
-    for (PartPiece& piece : make_part(*asset.row, shape.size, shapes_.part_options[options], job_))
-      made.primitives.push_back({std::move(piece.mesh), looks_.material_of_role(piece.role), {}});
-    return made;
+  struct Key {
+    std::uint32_t geometry;
+    std::array<std::int64_t, 3> size;
+    std::int32_t material;
+    std::uint32_t options;  ///< of a part
+    friend auto operator<=>(const Key&, const Key&) = default;
+  };
+
+  Key key_of(const DrawnBody& body) {
+    const Shape& shape = source_.shape_of(body);
+    const bool is_part = source_.is_part(shape);
+    // A turned box is the same box; a model of the request's own is scaled by its node.
+    return {shape.geometry, source_.is_own(shape) ? std::array<std::int64_t, 3>{} : rounded(shape.size),
+            body.material, is_part ? shapes_.styles[shape.style].options : 0U};
   }
 
-  /// How many primitives nodes would show.
-  std::size_t draws() {
-    if (bodies_.size() > most_nodes) return bodies_.size();
-    std::size_t sum = 0;
-    for (const Body& body : bodies_) {
-      const Shape& shape = shapes_.shapes[body.shape];
-      sum += is_asset(shape) ? asset_of(shape).primitives.size() : 1;
+  /// How often each body stands that is costly enough to share a mesh.
+  void count_costly() {
+    for (const DrawnBody& body : bodies_) {
+      if (is_costly(body)) ++costly_[key_of(body)];
     }
-    return sum;
+  }
+  bool is_costly(const DrawnBody& body) {
+    const Shape& shape = source_.shape_of(body);
+    return shape.geometry != box_geometry && source_.cost_of(shape).pays(~std::uint32_t{0});
+  }
+  bool is_paying(const DrawnBody& body) {
+    return !costly_.empty() && is_costly(body) &&
+           source_.cost_of(source_.shape_of(body)).pays(costly_[key_of(body)]);
   }
 
   /// What is drawn, its material, and the extent of all.
@@ -133,7 +123,7 @@ class Assembly {
     low_ = low;
     least_ = least_area * diagonal_ * diagonal_;
     std::size_t thin = 0;
-    std::erase_if(bodies_, [&](const Body& body) {
+    std::erase_if(bodies_, [&](const DrawnBody& body) {
       const glm::dvec3& s = shapes_.shapes[body.shape].size;
       double smallest = 1e300;
       for (int axis = 0; axis < 3; ++axis) {
@@ -151,77 +141,32 @@ class Assembly {
           {"/rules",
            std::to_string(thin) + " shapes are too thin beside the whole to be drawn and are left out", 0,
            0});
-    for (Body& body : bodies_)
+    for (DrawnBody& body : bodies_)
       body.material =
-          is_asset(shapes_.shapes[body.shape]) ? -1 : looks_.material_of(shapes_.shapes[body.shape]);
-  }
-
-  /// The body in the frame of its scope.
-  void fill(const Shape& shape, Patch& patch) {
-    patch.clear();
-    if (shape.geometry == box_geometry)
-      patches_.box(shape.size, patch);
-    else
-      patches_.solid(shapes_.solid_of(shape.geometry), shape.size, patch);
-  }
-
-  std::size_t triangles_of(const Shape& shape) {
-    if (is_asset(shape)) {
-      std::size_t sum = 0;
-      for (const Primitive& primitive : asset_of(shape).primitives) sum += primitive.mesh.elements();
-      return sum;
-    }
-    if (shape.geometry == box_geometry) return dimension(shape.size) == 3 ? 12 : 2;
-    return shapes_.solid_of(shape.geometry).corners.size();
-  }
-
-  Mesh empty_mesh(bool has_uv) const {
-    Mesh mesh;
-    mesh.position = Array<glm::vec3>(job_);
-    mesh.normal = Array<glm::vec3>(job_);
-    if (has_uv) mesh.uv[0] = Array<glm::vec2>(job_);
-    mesh.index.wide = Array<std::uint32_t>(job_);
-    return mesh;
+          source_.is_asset(shapes_.shapes[body.shape]) ? -1 : looks_.material_of(shapes_.shapes[body.shape]);
   }
 
   // Shared meshes
 
-  struct Key {
-    std::uint32_t geometry;
-    std::array<std::int64_t, 3> size;
-    std::int32_t material;
-    std::uint32_t options;  ///< of a part
-    friend auto operator<=>(const Key&, const Key&) = default;
-  };
-
-  /// Metres in micrometres: bodies equal to that are one.
-  static std::array<std::int64_t, 3> rounded(const glm::dvec3& size) {
-    return {math::to_int64(size.x * 1e6 + 0.5), math::to_int64(size.y * 1e6 + 0.5),
-            math::to_int64(size.z * 1e6 + 0.5)};
-  }
-
-  void share(const std::vector<Body>& bodies) {
+  void share(const std::vector<DrawnBody>& bodies) {
     std::map<Key, std::size_t> places;
     std::vector<std::pair<std::uint32_t, std::vector<Transform>>> groups;
-    for (const Body& body : bodies) {
+    for (const DrawnBody& body : bodies) {
       const Shape& shape = shapes_.shapes[body.shape];
-      // A turned box is the same box; an asset is scaled by its node.
-      const bool is_scaled = is_asset(shape) && !is_part(shape);
-      const Key key{shape.geometry, is_scaled ? std::array<std::int64_t, 3>{} : rounded(shape.size),
-                    body.material, is_part(shape) ? shapes_.styles[shape.style].options : 0U};
-      const auto [found, is_new] = places.try_emplace(key, groups.size());
+      const auto [found, is_new] = places.try_emplace(key_of(body), groups.size());
       if (is_new) groups.emplace_back(body.shape, std::vector<Transform>{});
       groups[found->second].second.push_back(transform_of(shape));
     }
     job_.spend(Resource::shapes, groups.size());
     for (auto& [first, transforms] : groups) {
       const Shape& shape = shapes_.shapes[first];
-      const std::size_t triangles = triangles_of(shape);
+      const std::uint64_t triangles = source_.cost_of(shape).triangles;
       job_.spend(Resource::triangles, triangles * transforms.size());
-      const int mesh = is_asset(shape) ? add_asset_mesh(shape) : add_shared_mesh(shape);
+      const int mesh = source_.is_asset(shape) ? add_asset_mesh(shape) : add_shared_mesh(shape);
       if (mesh < 0) continue;
       Node node;
-      node.name = is_asset(shape) ? shapes_.asset_names[shape.geometry & ~asset_bit] : looks_.symbol(shape);
+      node.name =
+          source_.is_asset(shape) ? shapes_.asset_names[shape.geometry & ~asset_bit] : looks_.symbol(shape);
       node.parent = root_;
       node.mesh = mesh;
       if (transforms.size() == 1)
@@ -237,8 +182,8 @@ class Assembly {
     Transform transform;
     transform.rotation = glm::quat(glm::quat_cast(axes));
     glm::dvec3 at = shape.origin;
-    if (is_asset(shape)) {
-      const Asset& asset = asset_of(shape);
+    if (source_.is_asset(shape)) {
+      const Asset& asset = source_.asset_of(shape);
       const glm::dvec3 scale = scale_of(shape, asset);
       transform.scale = glm::vec3(scale);
       at -= axes * (scale * asset.low);
@@ -259,9 +204,9 @@ class Assembly {
   int add_asset_mesh(const Shape& shape) {
     MeshGroup group;
     group.name = shapes_.asset_names[shape.geometry & ~asset_bit];
-    Asset& asset = asset_of(shape);
+    Asset& asset = source_.asset_of(shape);
     group.primitives = std::move(asset.primitives);
-    if (is_part(shape)) {
+    if (source_.is_part(shape)) {
       for (Primitive& primitive : group.primitives) {
         const glm::dvec2* const tile = looks_.tile_of(primitive.material);
         if (tile == nullptr) {
@@ -276,11 +221,11 @@ class Assembly {
   }
 
   int add_shared_mesh(const Shape& shape) {
-    fill(shape, patch_);
+    source_.fill(shape, patch_);
     if (patch_.index.empty()) return -1;
     Primitive primitive;
     primitive.material = looks_.material_of(shape);
-    primitive.mesh = empty_mesh(false);
+    primitive.mesh = empty_mesh(false, job_);
     append(patch_, primitive.mesh, glm::dmat3(1), glm::dvec3(0), {});
     if (shape.geometry != box_geometry) weld(primitive.mesh, job_);
     MeshGroup group;
@@ -290,93 +235,17 @@ class Assembly {
     return static_cast<int>(model_.meshes.size()) - 1;
   }
 
-  Texturing texturing_of(const Shape& shape, int material) const {
-    const std::uint32_t projection = shapes_.styles[shape.style].projection;
-    return {looks_.tile_of(material), projection == 0 ? nullptr : &shapes_.projections[projection - 1]};
-  }
-
-  // Merged meshes
-
-  /// A group a layer; none where nothing is drawn.
-  std::vector<MeshGroup> merge(std::vector<Body>& bodies, std::size_t least) {
-    std::vector<MeshGroup> groups;
-    for (const Body& body : bodies) {
-      if (is_part(shapes_.shapes[body.shape]))
-        asset_of(shapes_.shapes[body.shape]);  // its materials come to be
-    }
-    std::vector<std::uint32_t> drawn;
-    for (const Body& body : bodies) drawn.push_back(body.shape);
-    std::vector<std::uint8_t> layer_of = layers_of(shapes_, drawn, low_, diagonal_, job_);
-    const std::uint32_t layers = spread(layer_of, least);
-    for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].layer = layer_of[i];
-    const std::size_t materials = model_.materials.size();
-    std::vector<Bucket> buckets(layers * materials);
-    std::size_t triangles = 0;
-    for (const Body& body : bodies) {
-      const Shape& shape = shapes_.shapes[body.shape];
-      triangles += triangles_of(shape);
-      if (is_asset(shape)) continue;
-      Bucket& bucket = buckets[body.layer * materials + static_cast<std::size_t>(body.material)];
-      const bool is_box = shape.geometry == box_geometry;
-      const std::size_t count =
-          is_box ? (dimension(shape.size) == 3 ? 24 : 4) : shapes_.solid_of(shape.geometry).corners.size();
-      bucket.vertices += count;
-      bucket.indices += is_box ? count / 4 * 6 : 0;
-      bucket.has_solids |= !is_box;
-    }
-    job_.spend(Resource::triangles, triangles);
-    for (std::size_t i = 0; i < buckets.size(); ++i) {
-      Bucket& bucket = buckets[i];
-      const bool has_uv = looks_.tile_of(static_cast<int>(i % materials)) != nullptr;
-      bucket.mesh = empty_mesh(has_uv);
-      bucket.mesh.position.reserve(bucket.vertices);
-      bucket.mesh.normal.reserve(bucket.vertices);
-      bucket.mesh.index.wide.reserve(bucket.indices);
-    }
-    std::size_t done = 0;
-    for (const Body& body : bodies) {
-      const Shape& shape = shapes_.shapes[body.shape];
-      const glm::dmat3& axes = shapes_.axes[shape.axes];
-      if ((++done & 4095U) == 0) job_.check();
-      if (is_asset(shape)) {
-        for (const Primitive& primitive : asset_of(shape).primitives) {
-          Bucket& bucket = buckets[body.layer * materials + static_cast<std::size_t>(primitive.material)];
-          append_part(primitive.mesh, bucket.mesh, axes, shape.origin, looks_.tile_of(primitive.material));
-          bucket.has_solids = true;
-        }
-        continue;
-      }
-      Bucket& bucket = buckets[body.layer * materials + static_cast<std::size_t>(body.material)];
-      fill(shape, patch_);
-      append(patch_, bucket.mesh, axes, shape.origin, texturing_of(shape, body.material));
-    }
-    for (std::uint32_t layer = 0; layer < layers; ++layer) {
-      MeshGroup group;
-      group.name = "layer";
-      for (std::size_t m = 0; m < materials; ++m) {
-        Bucket& bucket = buckets[layer * materials + m];
-        if (bucket.mesh.index.wide.empty()) continue;
-        if (bucket.has_solids) weld(bucket.mesh, job_);
-        bucket.mesh.cache_ordered = !bucket.has_solids;
-        group.primitives.push_back({std::move(bucket.mesh), static_cast<int>(m), {}});
-      }
-      if (!group.primitives.empty()) groups.push_back(std::move(group));
-    }
-    return groups;
-  }
-
   Model& model_;
   const Shapes& shapes_;
   Looks& looks_;
-  std::span<Asset> assets_;
+  BodySource source_;
   Job& job_;
   int root_ = -1;
-  std::vector<Body> bodies_;
+  std::vector<DrawnBody> bodies_;
   double diagonal_ = 1, least_ = 0;
   glm::dvec3 low_{0};
   Patch patch_;
-  PatchMaker patches_;
-  std::map<std::tuple<std::uint32_t, std::uint32_t, std::array<std::int64_t, 3>>, Asset> parts_;
+  std::map<Key, std::uint64_t> costly_;
 };
 
 }  // namespace

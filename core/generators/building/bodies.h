@@ -17,12 +17,26 @@ struct Asset {
       nullptr;  ///< a built-in part: made for each size that is asked for, without primitives
 };
 
+/// What one body adds to a file.
+struct BodyCost {
+  std::uint64_t triangles = 0, vertices = 0, primitives = 1;
+
+  /// Positions and normals of 12 bytes, indices of 16 bits.
+  std::uint64_t bytes() const { return 24 * vertices + 6 * triangles; }
+
+  /// Whether so many equal bodies had better share a mesh: each draw must save 8 kB of what merging would
+  /// write, and all of them 64 kB.
+  bool pays(std::uint64_t count) const {
+    const std::uint64_t saved = count > 0 ? bytes() * (count - 1) : 0;
+    return saved >= 65'536 && saved >= 8'192 * count * primitives;
+  }
+};
+
 enum class Sharing {
-  few,     ///< equal bodies share a mesh while there are few of them (most_nodes), else as merged
+  paying,  ///< equal bodies share a mesh where that pays (BodyCost), others as merged
   nodes,   ///< equal bodies share a mesh, and each has a node
   merged,  ///< one mesh a layer, one primitive a material
 };
-constexpr std::size_t most_nodes = 400;
 
 /// Adds a node "building" with all active shapes below it. Shapes without an area are passed over. Merged
 /// shapes that touch go to different layers, so that in every mesh an edge lies in at most two triangles.

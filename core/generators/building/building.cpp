@@ -163,23 +163,25 @@ std::vector<double> lods_of(const Grammar& grammar, const BuildingParams& params
 
 Sharing sharing_of(const Demand& demand) {
   if (demand.copies == CopyForm::merge) return Sharing::merged;
-  return demand.share_organs ? Sharing::nodes : Sharing::few;
+  return demand.share_organs ? Sharing::nodes : Sharing::paying;
 }
 
 /// Nodes whose meshes are the levels: the derivation runs again for each, with its value of `lod`.
 void add_levels(Model& model, Work& work, const BuildingParams& params, const Shapes& finest,
                 std::span<const double> lods, Looks& looks, Job& job) {
   std::vector<std::vector<int>> levels;
-  levels.push_back(add_level(model, finest, looks, work.assets, Sharing::few, 0, job));
+  levels.push_back(add_level(model, finest, looks, work.assets, Sharing::paying, 0, job));
   for (const double lod : lods) {
     const Shapes shapes = shapes_of(work, params, job, {.lod = lod});
     looks.show(shapes);
     levels.push_back(add_level(model, shapes, looks, work.assets, Sharing::merged, levels[0].size(), job));
   }
   looks.show(finest);
-  // A level of fewer bodies than the finest has layers is shown by halves of meshes.
+  // A level of fewer layers than another is shown by halves of meshes.
+  std::size_t layers = 0;
+  for (const std::vector<int>& level : levels) layers = std::max(layers, level.size());
   for (std::vector<int>& level : levels) {
-    for (std::size_t i = 0; i < level.size() && level.size() < levels[0].size();) {
+    for (std::size_t i = 0; i < level.size() && level.size() < layers;) {
       std::optional<MeshGroup> half = halve(model.meshes[static_cast<std::size_t>(level[i])], job);
       if (!half) {
         ++i;
@@ -189,7 +191,6 @@ void add_levels(Model& model, Work& work, const BuildingParams& params, const Sh
       model.meshes.push_back(*std::move(half));
     }
   }
-  std::size_t layers = levels[0].size();
   for (const std::vector<int>& level : levels) layers = std::min(layers, level.size());
   if (layers == 0) return;
   for (const std::vector<int>& level : levels) {

@@ -5,28 +5,47 @@
 
 #include "core/base/math.h"
 #include "core/generators/building/bodies.h"
+#include "core/generators/building/seams.h"
 
 namespace seedmesh::building {
 namespace {
 
 constexpr std::size_t most_part_sizes = 500;
-// Of a GLB: position and normal of a vertex, an index of 16 bits, JSON of a node and of a mesh, and the rest.
-constexpr std::uint64_t vertex_bytes = 24, index_bytes = 2, node_bytes = 110, mesh_bytes = 330,
-                        file_bytes = 900;
+// Of a GLB: JSON of a node and of a mesh, and the rest.
+constexpr std::uint64_t node_bytes = 110, mesh_bytes = 330, file_bytes = 900;
 
-/// What one body has.
-struct BodyCost {
-  std::uint64_t triangles = 0, vertices = 0, primitives = 1;
-  std::uint64_t bytes() const { return vertices * vertex_bytes + triangles * 3 * index_bytes; }
+/// A body that may stand often.
+struct Stand {
+  BodyCost cost;
+  std::uint64_t count = 0;
+  bool is_part = false;
 };
+
+/// Triangles that rectangles get by their neighbours.
+std::uint64_t more_by_neighbours(const Shapes& shapes, Job& job) {
+  std::vector<std::uint32_t> drawn;
+  glm::dvec3 low(1e300), high(-1e300);
+  for (std::uint32_t i = 0; i < shapes.shapes.size(); ++i) {
+    const Shape& shape = shapes.shapes[i];
+    if (!shape.is_active || dimension(shape.size) < 2) continue;
+    drawn.push_back(i);
+    low = glm::min(low, shape.origin);
+    high = glm::max(high, shape.origin);
+  }
+  if (drawn.empty()) return 0;
+  const Seams seams(shapes, drawn, glm::length(high - low), job);
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < drawn.size(); ++i) sum += seams.more_on(i);
+  return sum;
+}
 
 }  // namespace
 
 std::optional<Estimate> estimate_of(const Shapes& shapes, CopyForm copies, bool shares_all, Job& job) {
   using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::array<std::int64_t, 3>>;
-  std::map<Key, BodyCost> costs;
+  std::map<Key, Stand> stands;
   std::size_t parts = 0;
-  std::uint64_t triangles = 0, own = 0, bodies = 0, draws = 0;
+  std::uint64_t seen = 0;
   for (const Shape& shape : shapes.shapes) {
     if (!shape.is_active || dimension(shape.size) < 2) continue;
     const bool is_part = (shape.geometry & asset_bit) != 0;
@@ -36,8 +55,8 @@ std::optional<Estimate> estimate_of(const Shapes& shapes, CopyForm copies, bool 
                   is_part ? 0U : shape.style,
                   {math::to_int64(shape.size.x * 1e6 + 0.5), math::to_int64(shape.size.y * 1e6 + 0.5),
                    math::to_int64(shape.size.z * 1e6 + 0.5)}};
-    const auto [found, is_new] = costs.try_emplace(key);
-    BodyCost& cost = found->second;
+    const auto [found, is_new] = stands.try_emplace(key);
+    BodyCost& cost = found->second.cost;
     if (is_new && is_part) {
       const PartRow* const row = part_named(shapes.asset_names[shape.geometry & ~asset_bit]);
       if (row == nullptr || ++parts > most_part_sizes || dimension(shape.size) < 3) return std::nullopt;
@@ -60,16 +79,24 @@ std::optional<Estimate> estimate_of(const Shapes& shapes, CopyForm copies, bool 
         cost.vertices += corners;
       }
     }
-    if (is_new) own += cost.bytes() + mesh_bytes * cost.primitives;
-    triangles += cost.triangles;
-    draws += cost.primitives;
-    bodies += cost.bytes();
-    if ((draws & 4095U) == 0) job.check();
+    found->second.is_part = is_part;
+    ++found->second.count;
+    if ((++seen & 4095U) == 0) job.check();
   }
   Estimate estimate;
-  estimate.triangles = triangles;
-  const bool is_merged = copies == CopyForm::merge || (!shares_all && draws > most_nodes);
-  estimate.bytes = file_bytes + (is_merged ? bodies : own + node_bytes * draws);
+  estimate.bytes = file_bytes;
+  if (!shares_all) {
+    const BodyCost more{more_by_neighbours(shapes, job), 0};
+    estimate.triangles = more.triangles;
+    estimate.bytes += more.bytes();
+  }
+  for (const auto& each : stands) {
+    const auto& [cost, count, is_own_part] = each.second;
+    estimate.triangles += cost.triangles * count;
+    const bool is_shared = shares_all || (copies != CopyForm::merge && is_own_part && cost.pays(count));
+    estimate.bytes +=
+        is_shared ? cost.bytes() + mesh_bytes * cost.primitives + node_bytes * count : cost.bytes() * count;
+  }
   return estimate;
 }
 

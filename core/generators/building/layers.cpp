@@ -12,74 +12,155 @@ constexpr std::uint32_t most_layers = 64;
 
 bool is_asset(const Shape& shape) { return (shape.geometry & asset_bit) != 0; }
 
-struct CornerMask {
+bool is_flat(const Shape& shape) { return !is_asset(shape) && dimension(shape.size) < 3; }
+
+struct LayerMask {
   std::uint64_t key = 0, layers = 0;
 };
 
-/// Which layers have a corner at a place already. Open addressing; keys are never 0.
-class CornerBook {
+/// Which layers have a corner, an edge or a face already. Open addressing; keys are never 0.
+class LayerBook {
  public:
-  CornerBook(const Job& job, std::size_t corners)
-      : slots_(job, std::bit_ceil(corners * 2 + 64), CornerMask{}) {}
+  explicit LayerBook(const Job& job) : job_(job), slots_(job, 1024, LayerMask{}) {}
+
+  /// Makes room, so that references stay.
+  void expect(std::size_t keys) {
+    if ((used_ + keys) * 2 <= slots_.size()) return;
+    Array<LayerMask> old = std::move(slots_);
+    slots_ = Array<LayerMask>(job_, std::bit_ceil((used_ + keys) * 4), LayerMask{});
+    used_ = 0;
+    for (const LayerMask& each : old) {
+      if (each.key != 0) layers(each.key) = each.layers;
+    }
+  }
   std::uint64_t& layers(std::uint64_t key) {
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t i = mix(key) & mask;; i = (i + 1) & mask) {
       if (slots_[i].key == key) return slots_[i].layers;
       if (slots_[i].key == 0) {
         slots_[i].key = key;
+        ++used_;
         return slots_[i].layers;
       }
     }
   }
 
  private:
-  Array<CornerMask> slots_;
+  const Job& job_;
+  Array<LayerMask> slots_;
+  std::size_t used_ = 0;
 };
 
-std::uint64_t key_of(const glm::dvec3& point, const glm::dvec3& low, double diagonal) {
-  const glm::dvec3 cell = (point - low) / (1e-5 * diagonal) + 2.5;
-  std::uint64_t key = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    key = key << 21U | static_cast<std::uint64_t>(std::clamp(cell[axis], 0.0, 2e6));
-  return key + 1;
-}
+/// The keys of one shape after the other.
+class KeyMaker {
+ public:
+  KeyMaker(const Shapes& shapes, const glm::dvec3& low, double diagonal, bool has_edges)
+      : shapes_(shapes), low_(low), by_cell_(1 / (1e-5 * diagonal)), has_edges_(has_edges) {}
 
-void corners_of(const Shapes& shapes, const Shape& shape, const glm::dvec3& low, double diagonal,
-                std::vector<std::uint64_t>& keys) {
-  keys.clear();
-  const glm::dmat3& axes = shapes.axes[shape.axes];
-  const auto add = [&](const glm::dvec3& unit) {
-    keys.push_back(key_of(shape.origin + axes * (unit * shape.size), low, diagonal));
-  };
-  if (shape.geometry == box_geometry || is_asset(shape)) {
-    const int x = shape.size.x != 0 ? 2 : 1, y = shape.size.y != 0 ? 2 : 1, z = shape.size.z != 0 ? 2 : 1;
-    for (int i = 0; i < x; ++i) {
-      for (int j = 0; j < y; ++j) {
-        for (int k = 0; k < z; ++k) add({i, j, k});
+  std::vector<std::uint64_t>& of_body(const Shape& shape) {
+    keys_.clear();
+    corners_.clear();
+    if (shape.geometry == box_geometry || is_asset(shape))
+      add_box(shape);
+    else
+      add_solid(shape);
+    return keys_;
+  }
+
+  /// Of a flat face by its ring, or of a flat solid by all its rings.
+  std::vector<std::uint64_t>& of_face(const Shape& shape, const std::vector<glm::dvec3>& ring) {
+    keys_.clear();
+    corners_.clear();
+    for (const glm::dvec3& point : ring) corners_.push_back(corner_at(point));
+    if (!ring.empty()) {
+      add_ring(corners_.size(), [](std::size_t k) { return k; });
+    } else if (shape.geometry == box_geometry) {
+      of_body(shape);
+    } else {
+      add_points(shape);
+      add_loops(shape);
+    }
+    std::uint64_t face = 0;
+    for (const std::uint64_t corner : corners_) face += mix(corner);
+    keys_.push_back(mix(face) | 1U);
+    return keys_;
+  }
+
+ private:
+  std::uint64_t corner_at(const glm::dvec3& point) const {
+    const glm::dvec3 cell = (point - low_) * by_cell_ + 2.5;
+    std::uint64_t key = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      key = key << 21U | static_cast<std::uint64_t>(std::clamp(cell[axis], 0.0, 2e6));
+    return key + 1;
+  }
+  glm::dvec3 place(const Shape& shape, const glm::dvec3& unit) const {
+    return shape.origin + shapes_.axes[shape.axes] * (unit * shape.size);
+  }
+  void add_edge(std::uint64_t from, std::uint64_t to) { keys_.push_back(mix(mix(from) + to) | 1U); }
+  template <class Place>
+  void add_ring(std::size_t count, Place&& place) {
+    for (std::size_t k = 0; k < count; ++k)
+      add_edge(corners_[place(k)], corners_[place(k + 1 == count ? 0 : k + 1)]);
+  }
+
+  void add_box(const Shape& shape) {
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      const glm::dvec3 unit(corner & 1U, corner >> 1U & 1U, corner >> 2U);
+      bool is_new = true;
+      for (int axis = 0; axis < 3; ++axis) is_new &= shape.size[axis] != 0 || unit[axis] == 0;
+      corners_.push_back(is_new ? corner_at(place(shape, unit)) : 0);
+      if (is_new) keys_.push_back(corners_.back());
+    }
+    if (!has_edges_) return;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      for (const unsigned bit : {1U, 2U, 4U}) {
+        const std::uint64_t from = corners_[corner], to = corners_[corner ^ bit];
+        if (from != 0 && to != 0) add_edge(from, to);
       }
     }
-  } else {
-    for (const glm::dvec3& p : shapes.solid_of(shape.geometry).points) add(p);
   }
-}
+
+  void add_points(const Shape& shape) {
+    for (const glm::dvec3& p : shapes_.solid_of(shape.geometry).points)
+      corners_.push_back(corner_at(place(shape, p)));
+  }
+  void add_loops(const Shape& shape) {
+    const Solid& solid = shapes_.solid_of(shape.geometry);
+    for (const Loop& loop : solid.loops)
+      add_ring(loop.count, [&](std::size_t k) { return solid.corners[loop.first + k]; });
+  }
+  void add_solid(const Shape& shape) {
+    add_points(shape);
+    keys_.insert(keys_.end(), corners_.begin(), corners_.end());
+    if (has_edges_) add_loops(shape);
+  }
+
+  const Shapes& shapes_;
+  glm::dvec3 low_;
+  double by_cell_;
+  bool has_edges_;
+  std::vector<std::uint64_t> keys_, corners_;
+};
 
 }  // namespace
 
 std::vector<std::uint8_t> layers_of(const Shapes& shapes, std::span<const std::uint32_t> drawn,
-                                    const glm::dvec3& low, double diagonal, Job& job) {
-  std::size_t corners = 0;
-  for (const std::uint32_t index : drawn) {
-    const Shape& shape = shapes.shapes[index];
-    corners +=
-        shape.geometry == box_geometry || is_asset(shape) ? 8 : shapes.solid_of(shape.geometry).points.size();
-  }
-  CornerBook book(job, corners);
+                                    const Seams& seams, const glm::dvec3& low, double diagonal, Job& job) {
+  const bool has_flat =
+      std::ranges::any_of(drawn, [&](std::uint32_t index) { return is_flat(shapes.shapes[index]); });
+  LayerBook book(job);
+  KeyMaker maker(shapes, low, diagonal, has_flat);
   std::vector<std::uint8_t> layers;
   layers.reserve(drawn.size());
-  std::vector<std::uint64_t> keys;
+  std::vector<glm::dvec3> ring;
   std::vector<std::uint64_t*> masks;
   for (const std::uint32_t index : drawn) {
-    corners_of(shapes, shapes.shapes[index], low, diagonal, keys);
+    const Shape& shape = shapes.shapes[index];
+    if (is_flat(shape)) seams.outline(layers.size(), ring);
+    const std::vector<std::uint64_t>& keys =
+        is_flat(shape) ? maker.of_face(shape, ring) : maker.of_body(shape);
+    book.expect(keys.size());
     std::uint64_t taken = 0;
     masks.clear();
     for (const std::uint64_t key : keys) {

@@ -35,6 +35,22 @@ constexpr Look looks[] = {
     {"building", {222, 214, 200}, 0.95, 0, 1},
 };
 
+/// What materials are made of, by their names.
+struct Surface {
+  std::string_view material, kind;
+};
+constexpr Surface surfaces[] = {
+    {"brick", "brick"},      {"plaster", "plaster"},     {"wall", "plaster"},   {"facade", "plaster"},
+    {"stone", "ashlar"},     {"concrete", "concrete"},   {"wood", "planks"},    {"roof", "roof_tile"},
+    {"slate", "slate"},      {"roof_tile", "roof_tile"}, {"cladding", "sheet"}, {"chimney", "brick"},
+    {"building", "plaster"},
+};
+
+const texture::WallKind* surface_named(std::string_view material) {
+  const auto* const found = std::ranges::find(surfaces, material, &Surface::material);
+  return found == std::end(surfaces) ? nullptr : texture::wall_kind(found->kind);
+}
+
 const Look* find_look(std::string_view name) {
   const auto* const found = std::ranges::find(looks, name, &Look::name);
   return found == std::end(looks) ? nullptr : found;
@@ -75,7 +91,10 @@ void check_looks(const BuildingParams& params, std::vector<Issue>& issues) {
 }
 
 Looks::Looks(Model& model, const BuildingParams& params, const Shapes& shapes, const Job& job)
-    : model_(model), params_(params), shapes_(&shapes) {
+    : model_(model),
+      params_(params),
+      shapes_(&shapes),
+      has_textures_(job.demand().textures > 0 && params.textures != BuildingTextures::none) {
   for (const auto& [name, given] : params.materials) {
     if (!given.images) continue;
     const std::string at = "/materials/" + name + "/images/";
@@ -111,38 +130,54 @@ int Looks::material_of(const Shape& shape) {
       name = find_look(lower(symbol)) != nullptr || params_.materials.contains(lower(symbol)) ? lower(symbol)
                                                                                               : "building";
   }
-  found->second = make(name, color);
+  found->second = make({name, color, false});
   return found->second;
 }
 
-int Looks::material_of_role(std::string_view role) { return make(std::string(role), nullptr); }
+int Looks::material_of_role(std::string_view role) { return make({std::string(role), nullptr, true}); }
 
-int Looks::make(const std::string& name, const std::string* color) {
+/// What the material is made of, where it has made pictures.
+const texture::WallKind* Looks::surface_of(const Asked& asked) const {
+  if (!has_textures_) return nullptr;
+  const auto given = params_.materials.find(asked.name);
+  if (given != params_.materials.end()) {
+    const BuildingMaterial& own = given->second;
+    if (own.images || own.texture == BuildingTexture::none) return nullptr;
+    if (own.texture != BuildingTexture::auto_) return texture::wall_kind(text_of(own.texture));
+  }
+  const bool by_name = params_.textures == BuildingTextures::made || params_.blueprint.has_value();
+  return by_name && !asked.is_role ? surface_named(asked.name) : nullptr;
+}
+
+int Looks::make(const Asked& asked) {
+  const auto& [name, color, is_role] = asked;
   const auto given = params_.materials.find(name);
-  // A name that says nothing takes the colour in force, one that is known keeps its own.
   const Look* const known = find_look(name);
-  const bool takes_color =
-      color != nullptr && known == nullptr && (given == params_.materials.end() || !given->second.color);
-  const std::string key = takes_color ? name + *color : name;
+  const texture::WallKind* const surface = surface_of(asked);
+  // A name that says nothing takes the colour in force, one that is known keeps its own; but what a wall of a
+  // blueprint is made of has many colours.
+  const bool is_tinted = surface != nullptr || (params_.blueprint && surface_named(name) != nullptr);
+  const bool takes_color = color != nullptr && (known == nullptr || is_tinted) &&
+                           (given == params_.materials.end() || !given->second.color);
+  const std::string key = (surface != nullptr ? "of " : "") + (takes_color ? name + *color : name);
   const auto [found, is_new] = by_name_.try_emplace(key, static_cast<int>(model_.materials.size()));
   if (!is_new) return found->second;
   Material material;
-  material.name = name;
+  material.name = is_tinted && takes_color ? name + "_" + lower(color->substr(1)) : name;
   Look look = known != nullptr ? *known : looks[0];
   for (const PartMaterial& part : part_materials()) {
     if (known == nullptr && part.role == name)
       look = {part.role, *color_of(part.color), static_cast<double>(part.roughness),
               static_cast<double>(part.metallic), 1};
   }
-  paint(material, takes_color ? *color_of(*color) : look.color);
+  Color main = takes_color ? *color_of(*color) : look.color;
+  if (given != params_.materials.end() && given->second.color) main = *given->second.color;
+  paint(material, main);
   material.roughness = static_cast<float>(look.roughness);
   material.metallic = static_cast<float>(look.metallic);
   if (given != params_.materials.end()) {
     const BuildingMaterial& own = given->second;
-    if (own.color)
-      paint(material, *own.color);
-    else if (own.images && !own.images->color.empty())
-      material.base_color = glm::vec4(1);
+    if (!own.color && own.images && !own.images->color.empty()) material.base_color = glm::vec4(1);
     material.roughness = static_cast<float>(own.roughness);
     material.metallic = static_cast<float>(own.metallic);
     if (own.opacity < 1) {
@@ -161,6 +196,16 @@ int Looks::make(const std::string& name, const std::string* color) {
       }
       tiles_[found->second] = {own.tile[0], own.tile[1]};
     }
+  }
+  if (surface != nullptr) {
+    material.recipe.kind = surface->name;
+    if (given != params_.materials.end())
+      material.recipe.seed = static_cast<std::uint64_t>(given->second.texture_seed);
+    if (surface->is_grey)
+      material.recipe.factor = glm::min(glm::vec3(material.base_color) / texture::wall_grey(), glm::vec3(1));
+    else
+      material.recipe.color = {{main.red, main.green, main.blue}};
+    tiles_[found->second] = surface->tile;
   }
   model_.materials.push_back(std::move(material));
   return found->second;

@@ -7,6 +7,7 @@
 #include "core/base/job.h"
 #include "core/generators/building/shapes.h"
 #include "core/model/model.h"
+#include "core/texture/wall.h"
 
 namespace seedmesh {
 struct BuildingParams;
@@ -15,7 +16,9 @@ struct BuildingParams;
 namespace seedmesh::building {
 
 /// Gives each look a material of the model when it is first asked for. A shape's look: its material by name,
-/// else its colour, else what its symbol is called (Wall, Roof, Window, ...), else plain plaster.
+/// else its colour, else what its symbol is called (Wall, Roof, Window, ...), else plain plaster. Where
+/// `textures` of the request says so, materials with names as brick get pictures made by seed
+/// (core/texture/wall.h), in the colour in force; parts have none.
 class Looks {
  public:
   Looks(Model& model, const BuildingParams& params, const Shapes& shapes, const Job& job);
@@ -27,16 +30,23 @@ class Looks {
   int material_of(const Shape& shape);
   /// Of a role of a built-in part.
   int material_of_role(std::string_view role);
-  /// Metres of one tile, where the material has images: texture coordinates are needed then.
+  /// Metres of one tile, where the material has pictures: texture coordinates are needed then.
   const glm::dvec2* tile_of(int material) const;
 
  private:
-  int make(const std::string& name, const std::string* color);
+  struct Asked {
+    const std::string& name;
+    const std::string* color;  ///< in force; may be null
+    bool is_role;              ///< of a part
+  };
+  int make(const Asked& asked);
+  const texture::WallKind* surface_of(const Asked& asked) const;
   int load(const std::string& uri, const std::string& name, const std::string& pointer, const Job& job);
 
   Model& model_;
   const BuildingParams& params_;
   const Shapes* shapes_;
+  bool has_textures_;  ///< the answer has any
   struct Pictures {
     int color = -1, normal = -1, surface = -1;
   };

@@ -27,6 +27,15 @@ bool is_facing(const Projection& projection, const glm::dvec3& normal) {
 
 }  // namespace
 
+Mesh empty_mesh(bool has_uv, const Job& job) {
+  Mesh mesh;
+  mesh.position = Array<glm::vec3>(job);
+  mesh.normal = Array<glm::vec3>(job);
+  if (has_uv) mesh.uv[0] = Array<glm::vec2>(job);
+  mesh.index.wide = Array<std::uint32_t>(job);
+  return mesh;
+}
+
 void append(const Patch& patch, Mesh& mesh, const glm::dmat3& axes, const glm::dvec3& origin,
             const Texturing& texturing) {
   const auto base = static_cast<std::uint32_t>(mesh.position.size());

@@ -13,6 +13,9 @@ struct Texturing {
   const Projection* projection = nullptr;
 };
 
+/// Without vertices; what it grows to is charged to the request.
+Mesh empty_mesh(bool has_uv, const Job& job);
+
 /// A body in the frame of its scope, moved by axes and origin.
 void append(const Patch& patch, Mesh& mesh, const glm::dmat3& axes, const glm::dvec3& origin,
             const Texturing& texturing);

@@ -258,9 +258,23 @@ TEST(BuildingBodies, StandOnFootprintsOrAreRefused) {
   EXPECT_EQ(check(params, Limits{}).front().pointer, "/footprint/1");
 }
 
-TEST(BuildingBodies, ShareMeshesWhileTheyAreFewAndMergeThemWhenTheyAreMany) {
-  const Model few = model_of(with("A --> split(x){ 1: B. }*"));
-  EXPECT_EQ(few.meshes.size(), 1U);
+TEST(BuildingBodies, ShareAMeshWhereThatPaysAndAreMergedElsewhere) {
+  const Model boxes = model_of(with("A --> split(x){ 1: B. }*"));
+  EXPECT_EQ(boxes.meshes.size(), 2U);  // neighbours that touch are in different layers
+  for (const Node& node : boxes.nodes) EXPECT_TRUE(node.instances.transforms.empty());
+  // Bells have many triangles: 20 of them are one mesh, two are merged.
+  const auto bells = [](int count) {
+    return model_of(with(
+        "A --> split(x){ '" + std::to_string(1.0 / count) + ": [ s('0.8, '1, '1) i(\"bell\", 64) ] NIL }*",
+        {20, 1, 1}));
+  };
+  const auto copies = [](const Model& model) {
+    std::size_t most = 0;
+    for (const Node& node : model.nodes) most = std::max(most, node.instances.transforms.size());
+    return most;
+  };
+  EXPECT_EQ(copies(bells(20)), 20U);
+  EXPECT_EQ(copies(bells(2)), 0U);
   const Model many = model_of(with("A --> split(x){ 0.5: split(y){ 0.5: B. }* }* ", {20, 20, 1}));
   EXPECT_THAT(faults(many), testing::IsEmpty());
   EXPECT_LE(many.meshes.size(), 8U);

@@ -59,9 +59,9 @@ TEST(Levels, AreMadeByTheGrammarsOwnAttribute) {
     EXPECT_TRUE(node.lods.empty());
 }
 
-TEST(Sharing, MergesFewBodiesWhereThatIsWanted) {
+TEST(Sharing, GivesEveryBodyANodeOrMergesAllWhereThatIsWanted) {
   const BuildingParams params = with("A --> split(x){ 1: B. }*");
-  EXPECT_EQ(demanded(params, {}).meshes.size(), 1U);  // one box, ten copies
+  EXPECT_EQ(demanded(params, {.share_organs = true}).meshes.size(), 1U);  // one box, ten copies
   const Model merged = demanded(params, {.copies = CopyForm::merge});
   EXPECT_EQ(merged.meshes.size(), 2U);  // neighbours that touch are in different layers
   for (const Node& node : merged.nodes) EXPECT_TRUE(node.instances.transforms.empty());
@@ -185,7 +185,7 @@ TEST(Appraisals, EstimateTheBytesOfMergedBodiesAndOfLevels) {
     const auto bytes = static_cast<double>(count(demanded(params, demand)).bytes),
                estimate = static_cast<double>(appraisal->estimate->bytes);
     // The model's own count leaves the JSON of nodes and meshes out.
-    const double json = demand.copies == CopyForm::merge || demand.lods > 1 ? 4'000 : 36'000;
+    const double json = demand.share_organs ? 36'000 : 4'000;
     EXPECT_GT(estimate, (bytes + json) / 1.5) << demand.lods;
     EXPECT_LT(estimate, (bytes + json) * 1.5) << demand.lods;
   }

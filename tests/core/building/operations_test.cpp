@@ -171,12 +171,17 @@ TEST(Parts, AreTurnedByTheirOptions) {
   EXPECT_LT(triangles("A --> i(\"stairs\", 3)"), triangles("A --> i(\"stairs\", 12)"));
   EXPECT_LT(triangles("A --> i(\"window\", 1)"), triangles("A --> i(\"window\", 4)"));
   // Two sizes of steps in one model are two parts, and equal ones are one.
-  const Model both =
-      model_of(with("A --> split(x){ 0.5: i(\"stairs\", 3) | 0.5: i(\"stairs\", 12) | 0.5: i(\"stairs\", 3) "
+  Job job(1, Job::Options{});
+  job.set_demand({.share_organs = true});
+  Result<Model> both =
+      generate(with("A --> split(x){ 0.5: i(\"stairs\", 3) | 0.5: i(\"stairs\", 12) | 0.5: i(\"stairs\", 3) "
                     "| 0.5: i(\"stairs\") }",
-                    {2, 2, 2}));
-  EXPECT_EQ(both.meshes.size(), 3U);
-  EXPECT_THAT(faults(both), IsEmpty());
+                    {2, 2, 2}),
+               job);
+  ASSERT_TRUE(both);
+  finish(*both, job);
+  EXPECT_EQ(both->meshes.size(), 3U);
+  EXPECT_THAT(faults(*both), IsEmpty());
   EXPECT_THAT(refusal(with("A --> i(\"stairs\", 2000)")), HasSubstr("between 0 (by the size) and 1000"));
 }
 

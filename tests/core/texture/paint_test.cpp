@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
 
 #include "core/texture/leaf.h"
 #include "core/texture/png.h"
+#include "core/texture/wall.h"
 
 namespace seedmesh::texture {
 namespace {
@@ -23,8 +25,7 @@ Picture decoded(const Image& image) {
 
 Maps maps_of(std::string_view kind, int size, std::uint64_t seed, int threads = 1) {
   const Job job = job_of(threads);
-  const Painting painting =
-      is_bark_kind(kind) ? paint_bark(kind, size, seed, {}, job) : paint_leaf(kind, size, seed, {}, job);
+  const Painting painting = paint_kind(kind, size, seed, {}, job);
   return make_maps(painting.relief, painting.finish, std::string(kind), job);
 }
 
@@ -37,7 +38,7 @@ int at(const Picture& picture, std::size_t x, std::size_t y, std::size_t channel
 double step_over(const Picture& picture, std::size_t x) {
   double sum = 0;
   for (std::size_t y = 0; y < picture.height; ++y) {
-    for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t c = 0; c < static_cast<std::size_t>(std::min(picture.channels, 3)); ++c)
       sum += std::abs(at(picture, x, y, c) - at(picture, (x + 1) % picture.width, y, c));
   }
   return sum / picture.height;
@@ -79,8 +80,9 @@ TEST_P(Kinds, AreNoMetalAndNeverAMirror) {
 INSTANTIATE_TEST_SUITE_P(All, Kinds, testing::ValuesIn(texture_kinds().begin(), texture_kinds().end()),
                          [](const auto& kind) { return std::string(kind.param); });
 
-TEST(Bark, RepeatsWithoutASeam) {
-  for (const std::string_view kind : bark_kinds()) {
+TEST(Bark, AndWallsRepeatWithoutASeam) {
+  for (const std::string_view kind : texture_kinds()) {
+    if (!is_repeating_kind(kind)) continue;
     const Picture color = decoded(*maps_of(kind, 256, 5).color);
     double most = 0;
     for (std::size_t x = 0; x + 1 < color.width; ++x) most = std::max(most, step_over(color, x));
@@ -100,6 +102,45 @@ TEST(Bark, TakesTheColourOfTheRequest) {
     }
   }
   EXPECT_GT(blue, 8 * red);
+}
+
+TEST(Wall, PicturesAreSmallFiles) {
+  for (const WallKind& kind : wall_kinds()) {
+    const Maps maps = maps_of(kind.name, 512, 0);
+    EXPECT_LT(maps.bytes(), 260'000U) << kind.name;
+    EXPECT_EQ(decoded(*maps.color).channels, kind.is_grey ? 1 : 3) << kind.name;
+    EXPECT_GT(kind.tile.x, 0.5);
+  }
+}
+
+TEST(Wall, GreyOnesHaveTheGreyThatTakesAColour) {
+  for (const WallKind& kind : wall_kinds()) {
+    if (!kind.is_grey) continue;
+    const Picture color = decoded(*maps_of(kind.name, 128, 3).color);
+    double sum = 0;
+    for (std::size_t i = 0; i < std::size_t{128} * 128; ++i) sum += linear_of_srgb(color.bytes[i]);
+    const double mean = sum / (128.0 * 128), grey = static_cast<double>(wall_grey().x);
+    EXPECT_GT(mean, 0.7 * grey) << kind.name;
+    EXPECT_LT(mean, 1.2 * grey) << kind.name;
+  }
+}
+
+TEST(Wall, BricksOfTwoColoursShareTheirRelief) {
+  Model model;
+  for (const std::uint8_t red : std::array<std::uint8_t, 3>{120, 160, 120}) {
+    Material material;
+    material.recipe.kind = "brick";
+    material.recipe.color = {{red, 80, 60}};
+    model.materials.push_back(material);
+  }
+  paint(model, 64, nullptr, job_of());
+  EXPECT_EQ(model.textures.size(), 4U);  // two of colour, normals, surface
+  const auto& m = model.materials;
+  EXPECT_EQ(m[0].base_color_texture.texture, m[2].base_color_texture.texture);
+  EXPECT_NE(m[0].base_color_texture.texture, m[1].base_color_texture.texture);
+  EXPECT_EQ(m[0].normal_texture.texture, m[1].normal_texture.texture);
+  EXPECT_TRUE(m[0].base_color_texture.repeat);
+  EXPECT_EQ(m[0].alpha_mode, AlphaMode::opaque);
 }
 
 TEST(Leaf, IsCutOutWithNothingAtTheBorderOfThePicture) {

@@ -1,0 +1,189 @@
+/// Seams between walls, and the pictures that walls wear.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "core/base/math.h"
+#include "core/texture/wall.h"
+#include "tests/core/building/rules.h"
+#include "tests/support/mesh_faults.h"
+
+namespace seedmesh::building {
+namespace {
+
+using testing::IsEmpty;
+
+BuildingParams blueprint(BuildingBlueprint name) {
+  BuildingParams params;
+  params.blueprint = name;
+  return params;
+}
+
+/// How often a vertex lies within an edge of another triangle of the same plane.
+std::size_t corners_on_edges(const Model& model) {
+  struct Edge {
+    glm::dvec3 from, to, normal;
+  };
+  std::vector<Edge> edges;
+  for (const MeshGroup& mesh : model.meshes) {
+    for (const Primitive& primitive : mesh.primitives) {
+      const Mesh& m = primitive.mesh;
+      for (std::size_t i = 0; i < m.index.size(); ++i) {
+        const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
+        edges.push_back({m.position[m.index.at(i)], m.position[m.index.at(next)], m.normal[m.index.at(i)]});
+      }
+    }
+  }
+  std::size_t count = 0;
+  for (const Edge& edge : edges) {
+    const glm::dvec3 along = edge.to - edge.from;
+    const double squared = glm::dot(along, along);
+    for (const Edge& other : edges) {
+      if (glm::dot(edge.normal, other.normal) < 0.999) continue;
+      const double share = glm::dot(other.from - edge.from, along) / squared;
+      if (share < 1e-4 || share > 1 - 1e-4) continue;
+      count += glm::length(edge.from + along * share - other.from) < 1e-5 ? 1U : 0U;
+    }
+  }
+  return count;
+}
+
+TEST(Seams, GiveAnEdgeTheCornersOfItsNeighbours) {
+  const BuildingParams params = with(
+      "Lot --> comp(f){ front: split(y){ 3: Low. | ~1: split(x){ ~2: Wall. | 1: split(y){ ~1: Wall. | 2: "
+      "Hole. | ~1: Wall. } }* } }",
+      {11, 9, 1});
+  const Model model = model_of(params);
+  EXPECT_EQ(corners_on_edges(model), 0U);
+  EXPECT_THAT(faults(model), IsEmpty());
+  EXPECT_EQ(model.meshes.size(), 1U);
+  double area = 0;
+  for (const Primitive& each : model.meshes[0].primitives) area += measure({&each.mesh}).area;
+  EXPECT_NEAR(area, 99, 1e-3);
+}
+
+TEST(Seams, PutAStripBehindASideWithManyCorners) {
+  const auto made = [](const char* tile) {
+    return model_of(with(
+        std::string("Lot --> comp(f){ front: split(y){ 1: Low. | ~1: split(x){ ") + tile + ": Wall. }* } }",
+        {20, 4, 1}));
+  };
+  EXPECT_EQ(count(made("4")).triangles, 2U + 4 + 5 * 2);
+  const Model many = made("1");
+  EXPECT_EQ(count(many).triangles, 2U + 2 + 20 * 2);
+  EXPECT_THAT(faults(many), IsEmpty());
+  // The strip is as long as the wall and some millimetres behind it, above and below where the two meet.
+  float front = -1e9F, behind = 1e9F, low = 1e9F, high = -1e9F;
+  const Array<glm::vec3>& position = many.meshes[0].primitives[0].mesh.position;
+  for (const glm::vec3& p : position.span()) front = std::max(front, p.z);
+  for (const glm::vec3& p : position.span()) {
+    if (p.z == front) continue;
+    behind = std::min(behind, p.z);
+    low = std::min(low, p.y);
+    high = std::max(high, p.y);
+  }
+  EXPECT_NEAR(front - behind, 0.0012, 0.0002);
+  EXPECT_NEAR(high - 1, 0.002, 0.0002);
+  EXPECT_NEAR(1 - low, 0.002, 0.0002);
+}
+
+TEST(Seams, WallsRoundACornerAreOneMesh) {
+  const Model model = model_of(with("Lot --> comp(f){ side: split(x){ ~2: split(y){ ~2: Wall. }* }* }"));
+  EXPECT_EQ(model.meshes.size(), 1U);
+  EXPECT_EQ(measure({&model.meshes[0].primitives[0].mesh}).open_edges, 40U);  // above and below
+  EXPECT_THAT(faults(model), IsEmpty());
+}
+
+TEST(Layers, OfBlueprintsAreFew) {
+  for (const BuildingBlueprint name : {BuildingBlueprint::house, BuildingBlueprint::terraced_house,
+                                       BuildingBlueprint::villa, BuildingBlueprint::warehouse}) {
+    const Model model = model_of(blueprint(name), 1);
+    std::size_t draws = 0;
+    for (const Node& node : model.nodes)
+      draws += node.mesh < 0 ? 0 : model.meshes[static_cast<std::size_t>(node.mesh)].primitives.size();
+    EXPECT_LE(draws, model.materials.size() + 8) << text_of(name);
+    EXPECT_THAT(faults(model), IsEmpty()) << text_of(name);
+  }
+}
+
+std::set<std::string> kinds_of(const Model& model) {
+  std::set<std::string> kinds;
+  for (const Material& material : model.materials) {
+    if (!material.recipe.kind.empty()) kinds.insert(material.recipe.kind);
+  }
+  return kinds;
+}
+
+TEST(Surfaces, OfBlueprintsArePicturesWithCoordinatesInMetres) {
+  BuildingParams params = blueprint(BuildingBlueprint::house);
+  params.attributes["style"] = std::string("brick");
+  const Model model = model_of(params);
+  EXPECT_EQ(kinds_of(model).count("brick"), 1U);
+  std::size_t seen = 0;
+  for (const MeshGroup& mesh : model.meshes) {
+    for (const Primitive& primitive : mesh.primitives) {
+      const Material& material = model.materials[static_cast<std::size_t>(primitive.material)];
+      EXPECT_EQ(primitive.mesh.uv[0].empty(), material.recipe.kind.empty()) << material.name;
+      if (material.recipe.kind.empty()) continue;
+      const glm::dvec2 tile = texture::wall_kind(material.recipe.kind)->tile;
+      const Mesh& m = primitive.mesh;
+      for (std::size_t t = 0; t < m.index.size(); t += 3) {
+        const std::uint32_t a = m.index.at(t), b = m.index.at(t + 1);
+        const glm::dvec2 on_wall = glm::dvec2(m.uv[0][b] - m.uv[0][a]) * tile;
+        const glm::dvec3 in_space = m.position[b] - m.position[a];
+        ASSERT_NEAR(glm::length(on_wall), glm::length(in_space), 1e-3);
+        // Upright is down in glTF's pictures.
+        if (std::abs(m.normal[a].y) < 1e-6F) {
+          ASSERT_NEAR(on_wall.y, -in_space.y, 1e-3);
+        }
+        ++seen;
+      }
+    }
+  }
+  EXPECT_GT(seen, 100U);
+}
+
+TEST(Surfaces, AreLeftOutWhereNoneAreWanted) {
+  BuildingParams params = blueprint(BuildingBlueprint::house);
+  params.textures = BuildingTextures::none;
+  const Model by_request = model_of(params);
+  Job job(0, Job::Options{});
+  job.set_demand({.textures = 0});
+  params.textures = BuildingTextures::auto_;
+  Result<Model> by_output = generate(params, job);
+  ASSERT_TRUE(by_output);
+  for (const Model* model : {&by_request, std::as_const(by_output).operator->()}) {
+    EXPECT_THAT(kinds_of(*model), IsEmpty());
+    for (const MeshGroup& mesh : model->meshes) {
+      for (const Primitive& primitive : mesh.primitives) EXPECT_TRUE(primitive.mesh.uv[0].empty());
+    }
+  }
+  // The colours are those that the pictures have.
+  const Model textured = model_of(blueprint(BuildingBlueprint::house));
+  for (std::size_t i = 0; i < textured.materials.size(); ++i)
+    EXPECT_EQ(textured.materials[i].base_color, by_request.materials[i].base_color);
+}
+
+TEST(Surfaces, OfOwnRulesAreAskedFor) {
+  BuildingParams params =
+      with("Lot --> comp(f){ front: color(\"#203040\") material(\"brick\") B. | side: W. }");
+  EXPECT_THAT(kinds_of(model_of(params)), IsEmpty());
+  params.textures = BuildingTextures::made;
+  const Model made = model_of(params);
+  EXPECT_EQ(kinds_of(made), (std::set<std::string>{"brick", "plaster"}));
+  EXPECT_EQ(made.materials[0].recipe.color->at(2), 0x40);
+  params.textures = BuildingTextures::auto_;
+  params.materials["brick"].texture = BuildingTexture::ashlar;
+  params.materials["brick"].texture_seed = 5;
+  const Model own = model_of(params);
+  EXPECT_EQ(kinds_of(own), std::set<std::string>{"ashlar"});
+  EXPECT_EQ(own.materials[0].recipe.seed, 5U);
+  params.materials["brick"].texture = BuildingTexture::none;
+  params.textures = BuildingTextures::made;
+  EXPECT_EQ(kinds_of(model_of(params)), std::set<std::string>{"plaster"});
+}
+
+}  // namespace
+}  // namespace seedmesh::building
