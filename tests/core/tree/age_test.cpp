@@ -128,8 +128,7 @@ TEST(Age, HasLeavesOfFullSizeOnAYoungTree) {
 }
 
 TEST(Age, GivesASeedlingLeavesOnItsStem) {
-  // The four models whose twigs, which bear the leaves, sprout late, and all at an age of less than a year in
-  // twenty.
+  // Before most of the twigs that bear leaves have sprouted.
   for (const TreeParams& params : one_of_each_model()) {
     const Aged seedling(params, 0.04);
     ASSERT_GT(seedling.leaves(), 0U);
