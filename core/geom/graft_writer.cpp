@@ -77,8 +77,8 @@ GraftWriter::GraftWriter(const Context& context, Job& job)
     if (limbs.parent[i] != Limbs::none) thickest_ = std::max(thickest_, limbs.base_radius[i]);
   }
   const std::size_t count = context.chains.head.size();
-  circles_ = circles_up_to(
-      2 * std::max(least_opened_sides, with_ribs(context.options, context.options.sides)));
+  circles_ =
+      circles_up_to(2 * std::max(least_opened_sides, with_ribs(context.options, context.options.sides)));
   for (int corners = 4; corners <= context.options.sides; ++corners) {
     const double share = math::pow((corners - 0.5) / context.options.sides, 1 / corner_power);
     corner_radius_.push_back(thickest_ * static_cast<float>(share));
@@ -373,10 +373,13 @@ void GraftWriter::note_loop_triangles(std::size_t first) {
 void GraftWriter::strip(const Corners& below, const Corners& above) {
   const std::size_t count = below.size() + above.size() - 2;
   triangles_.spend(count);
-  write_strip(below, above, mesh_.position.data(), mesh_.index.wide.extend(3 * count));
+  // Deep ribs go from crest to crest.
+  const bool is_deep = has_ribs() && has_deep_ribs(context_.options);
+  const float lead = is_deep ? pi / static_cast<float>(std::max(below.size(), above.size())) : most_lead;
+  write_strip(below, above, lead, mesh_.position.data(), mesh_.index.wide.extend(3 * count));
 }
 
-SEEDMESH_WIDE void GraftWriter::write_strip(const Corners& below, const Corners& above,
+SEEDMESH_WIDE void GraftWriter::write_strip(const Corners& below, const Corners& above, float farthest,
                                             const glm::vec3* position, std::uint32_t* out) {
   const Corner *a = below.data(), *b = above.data();
   const Corner *const last_a = a + below.size() - 1, *const last_b = b + above.size() - 1;
@@ -391,7 +394,7 @@ SEEDMESH_WIDE void GraftWriter::write_strip(const Corners& below, const Corners&
     // foresee which it is.
     const float lead = next_a.angle - next_b.angle;
     const bool is_shorter = apart(next_a, *b) < apart(*a, next_b);
-    const bool is_behind = lead<0, is_far = std::abs(lead)> most_lead;
+    const bool is_behind = lead<0, is_far = std::abs(lead)> farthest;
     const bool is_next = (is_far & is_behind) | (!is_far & is_shorter);
     const bool take_below = (b == last_b) | ((a < last_a) & is_next);
     out[0] = a->vertex;

@@ -361,7 +361,8 @@ LeafDrawing spray(const LeafDetail& detail, int count) {
   drawing.stalks.push_back({{0, 0}, {0, 0.72}, 0.022, 0.01});
   for (int i = 0; i < count; ++i) {
     const double share = count > 1 ? static_cast<double>(i) / (count - 1) : 1;
-    const math::SinCos turn = math::sincos_degrees(i + 1 == count ? 0.0 : (i % 2 == 0 ? 1 : -1) * (74 - 26 * share));
+    const math::SinCos turn =
+        math::sincos_degrees(i + 1 == count ? 0.0 : (i % 2 == 0 ? 1 : -1) * (74 - 26 * share));
     const dvec2 from{0, 0.1 + 0.56 * share};
     const dvec2 middle = from + dvec2{turn.sin, turn.cos} * (0.16 + 0.06 * (i * 3 % 4));
     drawing.stalks.push_back({from, middle, 0.009, 0.009});
