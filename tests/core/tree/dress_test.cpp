@@ -331,6 +331,11 @@ TEST(Dress, LetsAWideFlareFallGently) {
   EXPECT_GT(flared(4, 0.03) - 1, 1.4 * steep);
   for (double z = 0; z < 0.125; z += 0.005) EXPECT_GT(flared(4, z), flared(4, z + 0.005));
   EXPECT_EQ(flared(4, 0.125), 1);
+  EXPECT_NEAR(flared(4, 0), 1 + 0.99 * 4, 1e-9);
+  TreeParams params;
+  params.Flare = 0.8;
+  params.trunk_flare = 2;
+  EXPECT_NEAR(flared_trunk(params, 0), flared(0.8, 0) * flared(2, 0), 1e-9);
 }
 
 TEST(Dress, SpreadsRootsByTheTrunkWithoutItsFlare) {
