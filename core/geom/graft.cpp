@@ -24,8 +24,8 @@ constexpr int rounds = 4;
 // Of limbs that skin() makes, but for trunks.
 constexpr int most_sides_of_leftover = 8;
 
-/// The limbs that skin() must make, trunks or the others, each with a root of its own where it begins. At most
-/// so many joints at once that their numbers fit Mesh::bone.
+/// The limbs that skin() must make, trunks or the others, each with a root of its own where it begins. At
+/// most so many joints at once that their numbers fit Mesh::bone.
 class Leftover {
  public:
   static constexpr std::size_t most_joints = 0xFFFF;

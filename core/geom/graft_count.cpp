@@ -73,7 +73,7 @@ class Counter {
     if (!is_root && !has_loop &&
         axis_.length() < std::max(limbs_.radius[limbs_.parent[head]], least_length * scale_.apart))
       return 0;
-    int least = axis_.order == 0 && options_.lobes > 0 ? corners_of_ribs(options_) : 3;
+    int least = axis_.order == 0 && options_.lobes > 0 ? with_ribs(options_, 3) : 3;
     for (std::size_t point = 1; point + 1 < axis_.point.size(); ++point) {
       if (openings_[axis_.joint[point]] > 0) least = std::max(least, least_opened_sides);
     }

@@ -9,7 +9,8 @@ namespace seedmesh {
 namespace {
 
 constexpr float pi = static_cast<float>(math::pi);
-// A limb leans from so much off the upright on, and lies rather than stands below so much of it: sine, cosine.
+// A limb leans from so much off the upright on, and lies rather than stands below so much of it: sine,
+// cosine.
 constexpr float least_lean_of_foot = 0.05F, least_rise_of_foot = 0.3F;
 
 }  // namespace

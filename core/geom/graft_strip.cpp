@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/base/math.h"
 #include "core/base/wide.h"
 #include "core/geom/graft_writer.h"
 
@@ -25,10 +26,13 @@ void GraftWriter::note_loop_triangles(std::size_t first) {
 void GraftWriter::strip(const Corners& below, const Corners& above) {
   const std::size_t count = below.size() + above.size() - 2;
   spend_triangles(count);
-  write_strip(below, above, mesh_.position.data(), mesh_.index.wide.extend(3 * count));
+  // Deep ribs go from crest to crest.
+  const bool is_deep = has_ribs() && has_deep_ribs(context_.options);
+  const float lead = is_deep ? static_cast<float>(math::pi) / static_cast<float>(std::max(below.size(), above.size())) : most_lead;
+  write_strip(below, above, lead, mesh_.position.data(), mesh_.index.wide.extend(3 * count));
 }
 
-SEEDMESH_WIDE void GraftWriter::write_strip(const Corners& below, const Corners& above,
+SEEDMESH_WIDE void GraftWriter::write_strip(const Corners& below, const Corners& above, float farthest,
                                             const glm::vec3* position, std::uint32_t* out) {
   const Corner *a = below.data(), *b = above.data();
   const Corner *const last_a = a + below.size() - 1, *const last_b = b + above.size() - 1;
@@ -43,7 +47,7 @@ SEEDMESH_WIDE void GraftWriter::write_strip(const Corners& below, const Corners&
     // foresee which it is.
     const float lead = next_a.angle - next_b.angle;
     const bool is_shorter = apart(next_a, *b) < apart(*a, next_b);
-    const bool is_behind = lead<0, is_far = std::abs(lead)> most_lead;
+    const bool is_behind = lead<0, is_far = std::abs(lead)> farthest;
     const bool is_next = (is_far & is_behind) | (!is_far & is_shorter);
     const bool take_below = (b == last_b) | ((a < last_a) & is_next);
     out[0] = a->vertex;

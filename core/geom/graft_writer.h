@@ -14,15 +14,16 @@
 
 namespace seedmesh {
 
-/// Corners that ribs need on every ring. Deep ones have theirs at crests, in troughs and half way.
-constexpr float deep_rib = 0.1F;
-inline int corners_of_ribs(const GraftOptions& options) {
-  return (options.lobe_depth > deep_rib ? 4 : 3) * options.lobes;
+/// Ribs deeper than this share of the radius take more care.
+inline bool has_deep_ribs(const GraftOptions& options) {
+  return options.lobes > 0 && options.lobe_depth > 0.1F;
 }
-/// So many corners or more, of deep ribs as many for each.
+/// Corners of a ring with ribs that would have so many without: at least three for each. Deep ribs have as
+/// many all along the limb, at least four each, at crests, in troughs and half way.
 inline int with_ribs(const GraftOptions& options, int sides) {
-  const int corners = std::max(sides, corners_of_ribs(options));
-  if (options.lobes == 0 || options.lobe_depth <= deep_rib) return corners;
+  if (options.lobes == 0) return sides;
+  if (!has_deep_ribs(options)) return std::max({sides, 3 * options.lobes, 8});
+  const int corners = std::max({sides, options.sides, 4 * options.lobes});
   return (corners + options.lobes - 1) / options.lobes * options.lobes;
 }
 
@@ -246,8 +247,8 @@ class GraftWriter {
   float picture_width(float radius) const { return turns_ > 0 ? turns_ : radius; }
   void open_ring(const Plane& plane, const Band& band);
   void strip(const Corners& below, const Corners& above);
-  static void write_strip(const Corners& below, const Corners& above, const glm::vec3* position,
-                          std::uint32_t* out);
+  static void write_strip(const Corners& below, const Corners& above, float farthest,
+                          const glm::vec3* position, std::uint32_t* out);
   void note_loop_triangles(std::size_t first);
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
   std::uint32_t vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv, std::uint32_t group);

@@ -193,9 +193,8 @@ std::array<int, 2> bent_square(const LeafForm& form) {
 }  // namespace
 
 Mesh leaf_mesh(const LeafForm& form, const Job& job) {
-  const bool is_twig =
-      form.build == LeafBuild::twig || form.build == LeafBuild::bunch ||
-      (form.shows_twig && form.build != LeafBuild::mesh);
+  const bool is_twig = form.build == LeafBuild::twig || form.build == LeafBuild::bunch ||
+                       (form.shows_twig && form.build != LeafBuild::mesh);
   const int coarse = std::clamp(form.coarseness + form.level, 0, 4);
   constexpr std::array<int, 5> margin_steps{2, 2, 1, 1, 1}, inner_points{2, 1, 1, 0, 0};
   const LeafDrawing drawing = draw_leaf(

@@ -26,7 +26,7 @@ struct LeafForm {
   double droop = 0.5;  ///< radians by which the tip bends down
   int coarseness = 0;  ///< 0 finest; each step has fewer points on a margin and fewer rows in a bent square
   int level = 0;  ///< of detail: each has fewer points than the one before, and lies where the finest does
-  int twig_leaves = 9;  ///< as in the picture
+  int twig_leaves = 9;      ///< as in the picture
   bool shows_twig = false;  ///< squares of every build have the picture of a twig
 };
 

@@ -61,8 +61,8 @@ struct LeafDetail {
   bool teeth = true, veins = true;
 };
 
-/// A single leaf. With `count` > 1 a twig of so many leaves in its plane, alternately left and right; of needles
-/// a branchlet of so many shoots, of petals a spray of so many blossoms.
+/// A single leaf. With `count` > 1 a twig of so many leaves in its plane, alternately left and right; of
+/// needles a branchlet of so many shoots, of petals a spray of so many blossoms.
 LeafDrawing draw_leaf(LeafShape shape, const LeafDetail& detail, int count = 1);
 
 }  // namespace seedmesh

@@ -264,8 +264,8 @@ Colors colors_of(LeafShape shape) {
 }
 
 constexpr bool makes_twigs(LeafShape shape) {
-  return shape != LeafShape::palm && shape != LeafShape::kite &&
-         shape != LeafShape::compound && shape != LeafShape::palmate;
+  return shape != LeafShape::palm && shape != LeafShape::kite && shape != LeafShape::compound &&
+         shape != LeafShape::palmate;
 }
 
 struct Kind {

@@ -19,9 +19,9 @@ constexpr double first_fall = 0.7, first_step = 0.6;
 // A radius at the tip, as a share of that at the trunk.
 constexpr double tip_share = 0.03;
 // A root that forks has a second arm so thick and so long as the rest of the first.
-constexpr double arm_thickness = 0.72, arm_length = 0.8;
+constexpr double arm_thickness = 0.75, arm_length = 0.95;
 // Turns of a root from piece to piece, and how much of what it has turned so far it takes back.
-constexpr double winding = 26, taken_back = 0.35;
+constexpr double winding = 36, taken_back = 0.25;
 
 // Joints of the trunk that its profile is taken from.
 constexpr std::size_t most_stations = 64;
@@ -31,9 +31,9 @@ struct Run {
   Rng rng{0};
   std::uint32_t joint = Limbs::none;  ///< that it leaves
   glm::dvec3 at{0};
-  double heading = 0;              ///< degrees
-  double radius = 0, length = 0;   ///< where it begins, and of all of it
-  double share = 0;                ///< of the root's way that lies behind it
+  double heading = 0;             ///< degrees
+  double radius = 0, length = 0;  ///< where it begins, and of all of it
+  double share = 0;               ///< of the root's way that lies behind it
   int pieces = pieces_out, order = 1;
   int forks = 0;  ///< the first after a piece, the second after three
   bool starts_limb = false;
@@ -158,8 +158,8 @@ void RootGrower::run_out(const Run& run) {
     heading += spread(rng.at("turn"), winding) - taken_back * (heading - run.heading);
     const math::SinCos way = math::quick_sincos_degrees(heading);
     at += glm::dvec3{way.cos, 0, way.sin} * step;
-    const double radius = run.radius * (tip_share + (1 - tip_share) * (1 - t) * (1 - 0.3 * t));
-    const double deep = roots_.depth * reach() * share * share * share;
+    const double radius = run.radius * (tip_share + (1 - tip_share) * (1 - t) * (1 - 0.5 * t));
+    const double deep = roots_.depth * reach() * share * share * share * share;
     at.y = over_ground * radius - deep + spread(rng.at("height"), undulation * radius);
     joint = add(joint, at, {before, radius}, run.order, run.starts_limb && k == 1, rng.key());
     before = radius;

@@ -26,7 +26,7 @@ std::uint64_t seed_of(const TreeParams& params, std::uint64_t seed) {
 /// How much wider than its own radius the trunk is at the ground.
 double foot_flare(const TreeParams& params) {
   if (params.model != TreeModel::weber_penn) return 1 + params.trunk_flare;
-  return flared(params.Flare, 0) * flared(params.trunk_flare, 0);
+  return flared_trunk(params, 0);
 }
 
 /// With leaves up to the share `density`. Throws SkeletonWriter::Enough beyond so many joints or leaves.

@@ -102,7 +102,7 @@ WeberPennStem WeberPennGrower::trunk() {
 double WeberPennGrower::radius_at(const WeberPennStem& stem, double z) const {
   const double radius = tapered(level(stem.level).taper, stem.radius, stem.length, z);
   if (stem.level > 0) return radius;
-  return radius * flared(p_.Flare, z) * flared(p_.trunk_flare, z);
+  return radius * flared_trunk(p_, z);
 }
 
 /// The turn from one segment to the next.
@@ -169,7 +169,7 @@ double WeberPennGrower::walk_segment(WeberPennStem& stem, const Frame& axis, int
       }
       for (const double share : wide_flare_stations) {
         const double stop = share * stem.length;
-        if (std::max(p_.Flare, p_.trunk_flare) > wide_flare && stop > along + 1e-6 * stem.length &&
+        if (flared_trunk(p_, 0) > 1 + wide_flare && stop > along + 1e-6 * stem.length &&
             stop < end - 1e-6 * stem.length)
           stops.push_back(stop);
       }

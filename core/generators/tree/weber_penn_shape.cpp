@@ -9,7 +9,7 @@ namespace seedmesh::tree {
 namespace {
 
 // Flares up to here have the paper's profile; wider ones fall less steeply, down to this base of the power.
-constexpr double widest_steep_flare = 1.25, least_flare_base = 5;
+constexpr double widest_steep_flare = 1.25, least_flare_base = 9;
 
 }  // namespace
 
@@ -73,12 +73,18 @@ double tapered(double taper, double radius, double length, double z) {
 }
 
 double flared(double flare, double z) {
-  const double y = std::max(0.0, 1 - 8 * z);
+  const double y = std::max(0.0, 1 - 8 * z), excess = flare - widest_steep_flare;
   if (flare == 0 || y == 0) return 1;
+  if (!(excess > 0)) return 1 + flare * (math::pow(100, y) - 1) / 100;
   // The paper's power of 100 makes a disc of a flare that is several times as wide as the trunk.
-  const double excess = std::max(0.0, flare - widest_steep_flare);
   const double base = std::max(least_flare_base, 100 / ((1 + 4 * excess) * (1 + 4 * excess)));
-  return 1 + flare * (math::pow(base, y) - 1) / base;
+  return 1 + 0.99 * flare * (math::pow(base, y) - 1) / (base - 1);
+}
+
+double flared_trunk(const TreeParams& params, double z) {
+  const double own = params.Flare, more = params.trunk_flare;
+  if (own <= 0 || more <= 0) return flared(own, z) * flared(more, z);
+  return flared(own + more + 0.99 * own * more, z);
 }
 
 namespace {

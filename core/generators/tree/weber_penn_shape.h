@@ -27,8 +27,12 @@ double shape_ratio(const TreeParams& params, int shape, double ratio);
 /// The radius at share `z` of a stem of `length` whose base has `radius`; flare and lobes apart.
 double tapered(double taper, double radius, double length, double z);
 
-/// Factor of the trunk's radius by its flare at share `z` of the length.
+/// Factor of the trunk's radius by its flare at share `z` of the length: the paper's for flares up to 1.25,
+/// less steep for wider ones.
 double flared(double flare, double z);
+
+/// By Flare and trunk_flare: at the ground the product of both factors, as one flare.
+double flared_trunk(const TreeParams& params, double z);
 
 /// True where a point lies within the envelope; `aside` from the axis and `height` above the ground of a tree
 /// that is `scale` high.
