@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
+#include "core/base/math.h"
 #include "core/generators/building/bodies.h"
 #include "core/generators/building/check.h"
 #include "core/generators/building/collision.h"
@@ -212,6 +214,38 @@ void add_levels(Model& model, Work& work, const BuildingParams& params, const Sh
   }
 }
 
+/// Made pictures, and the coordinates and tangents of the faces that wear them.
+std::uint64_t picture_bytes(const BuildingParams& params, const Grammar& grammar, const Shapes& shapes,
+                            const Job& job) {
+  // PNG files of a set by texel and the part of them that is colour, as measured in the mean of all kinds.
+  constexpr double set_bytes = 0.5, color_bytes = 0.15;
+  constexpr std::uint64_t vertex_bytes = 24;
+  Model model;
+  Looks looks(model, params, shapes, job);
+  looks.set_symbols(symbol_names(grammar));
+  std::uint64_t vertices = 0;
+  for (const Shape& shape : shapes.shapes) {
+    if (!shape.is_active || dimension(shape.size) < 2 || (shape.geometry & asset_bit) != 0) continue;
+    if (looks.tile_of(looks.material_of(shape)) == nullptr) continue;
+    vertices += shape.geometry != box_geometry ? shapes.solid_of(shape.geometry).corners.size()
+                : dimension(shape.size) == 3   ? 24U
+                                               : 4U;
+  }
+  std::set<std::string> kinds;
+  std::set<std::pair<std::string, std::uint32_t>> colors;
+  for (const Material& material : model.materials) {
+    if (material.recipe.kind.empty()) continue;
+    const auto color = material.recipe.color.value_or(std::array<std::uint8_t, 3>{});
+    kinds.insert(material.recipe.kind);
+    colors.emplace(material.recipe.kind,
+                   std::uint32_t{color[0]} << 16U | std::uint32_t{color[1]} << 8U | std::uint32_t{color[2]});
+  }
+  const double texels = static_cast<double>(job.demand().textures) * job.demand().textures;
+  const double pictures = texels * (set_bytes * static_cast<double>(kinds.size()) +
+                                    color_bytes * static_cast<double>(colors.size() - kinds.size()));
+  return vertices * vertex_bytes + static_cast<std::uint64_t>(math::to_int64(pictures));
+}
+
 void append(std::vector<Warning>& to, const std::vector<Warning>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
@@ -301,6 +335,7 @@ Result<Appraisal> appraise(const BuildingParams& params, const Job& job) {
   // Levels are merged meshes, all of them in the file.
   const CopyForm copies = lods.empty() ? demand.copies : CopyForm::merge;
   appraisal.estimate = estimate_of(shapes, copies, demand.share_organs, own);
+  if (appraisal.estimate) appraisal.estimate->bytes += picture_bytes(params, work.grammar, shapes, job);
   for (const double lod : lods) {
     const Shapes level = shapes_of(work, params, own, {.lod = lod, .most_shapes = most_appraised});
     const std::optional<Estimate> more = estimate_of(level, CopyForm::merge, false, own);

@@ -1,6 +1,7 @@
 #include "core/generators/building/mesh_writer.h"
 
 #include <cmath>
+#include <vector>
 
 #include "core/base/math.h"
 
@@ -25,6 +26,27 @@ bool is_facing(const Projection& projection, const glm::dvec3& normal) {
   return std::abs(glm::dot(out, normal)) > least_facing;
 }
 
+/// What the triangle at a corner looks at, where smooth normals look elsewhere: by those the picture of a
+/// round wall would be stretched and squeezed.
+glm::dvec3 facing_at(const Patch& patch, std::size_t first) {
+  const glm::dvec3& a = patch.position[patch.index[first]];
+  const glm::dvec3 across =
+      glm::cross(patch.position[patch.index[first + 1]] - a, patch.position[patch.index[first + 2]] - a);
+  const glm::dvec3& normal = patch.normal[patch.index[first]];
+  const glm::dvec3 facing = math::unit(across, normal);
+  return glm::dot(facing, normal) > 1 - 1e-9 ? normal : facing;
+}
+
+/// Facings of all vertices of a patch: each belongs to one face.
+std::vector<glm::dvec3> facings_of(const Patch& patch) {
+  std::vector<glm::dvec3> facings = patch.normal;
+  for (std::size_t t = 0; t < patch.index.size(); t += 3) {
+    const glm::dvec3 facing = facing_at(patch, t);
+    for (std::size_t k = 0; k < 3; ++k) facings[patch.index[t + k]] = facing;
+  }
+  return facings;
+}
+
 }  // namespace
 
 Mesh empty_mesh(bool has_uv, const Job& job) {
@@ -43,6 +65,8 @@ void append(const Patch& patch, Mesh& mesh, const glm::dmat3& axes, const glm::d
   glm::vec3* position = mesh.position.extend(count);
   glm::vec3* normal = mesh.normal.extend(count);
   const Projection* const projection = texturing.projection;
+  const std::vector<glm::dvec3> facings =
+      texturing.tile == nullptr ? std::vector<glm::dvec3>{} : facings_of(patch);
   for (std::size_t i = 0; i < count; ++i) {
     const glm::dvec3 at = origin + axes * patch.position[i], n = axes * patch.normal[i];
     position[i] = glm::vec3(at);
@@ -53,7 +77,7 @@ void append(const Patch& patch, Mesh& mesh, const glm::dmat3& axes, const glm::d
       mesh.uv[0].push_back({static_cast<float>(glm::dot(projection->u, at) + projection->u_at),
                             static_cast<float>(-glm::dot(projection->v, at) - projection->v_at)});
     } else {
-      mesh.uv[0].push_back(texture_at(at, n, *texturing.tile));
+      mesh.uv[0].push_back(texture_at(at, axes * facings[i], *texturing.tile));
     }
   }
   std::uint32_t* index = mesh.index.wide.extend(patch.index.size());

@@ -175,6 +175,7 @@ TEST(Hull, HoldsAllPointsOfRandomClouds) {
 TEST(Appraisals, EstimateTheBytesOfMergedBodiesAndOfLevels) {
   BuildingParams params;
   params.blueprint = BuildingBlueprint::house;
+  params.textures = BuildingTextures::none;
   for (const Demand demand : {Demand{.copies = CopyForm::any}, Demand{.copies = CopyForm::merge},
                               Demand{.lods = 3}, Demand{.share_organs = true}}) {
     Job job(1, Job::Options{});
@@ -191,8 +192,25 @@ TEST(Appraisals, EstimateTheBytesOfMergedBodiesAndOfLevels) {
   }
 }
 
+TEST(Appraisals, CountMadePictures) {
+  const auto estimate = [](BuildingTextures textures, int size) {
+    BuildingParams params;
+    params.blueprint = BuildingBlueprint::house;
+    params.textures = textures;
+    Job job(1, Job::Options{});
+    job.set_demand({.textures = size});
+    return static_cast<double>(appraise(params, job)->estimate->bytes);
+  };
+  const double none = estimate(BuildingTextures::none, 512);
+  EXPECT_EQ(estimate(BuildingTextures::auto_, 0), none);
+  // Three or four sets of about 130 kB.
+  EXPECT_GT(estimate(BuildingTextures::auto_, 512), none + 250'000);
+  EXPECT_LT(estimate(BuildingTextures::auto_, 512), none + 650'000);
+}
+
 TEST(Appraisals, EstimateWhatWillBeMade) {
-  const auto compare = [](const BuildingParams& params) {
+  const auto compare = [](BuildingParams params) {
+    params.textures = BuildingTextures::none;
     Job job(1, Job::Options{});
     const Result<Appraisal> appraisal = appraise(params, job);
     ASSERT_TRUE(appraisal);

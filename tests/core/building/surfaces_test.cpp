@@ -145,6 +145,21 @@ TEST(Surfaces, OfBlueprintsArePicturesWithCoordinatesInMetres) {
   EXPECT_GT(seen, 100U);
 }
 
+TEST(Surfaces, OfRoundWallsAreNotStretched) {
+  BuildingParams params =
+      with("Lot --> t(7, 0, 3) color(\"#96594a\") material(\"brick\") i(\"cylinder\") W.");
+  params.textures = BuildingTextures::made;
+  const Model model = model_of(params);
+  const Mesh& m = model.meshes[0].primitives[0].mesh;
+  const glm::dvec2 tile = texture::wall_kind("brick")->tile;
+  ASSERT_GT(m.uv[0].size(), 24U);
+  for (std::size_t i = 0; i < m.index.size(); ++i) {
+    const std::uint32_t a = m.index.at(i), b = m.index.at(i % 3 == 2 ? i - 2 : i + 1);
+    ASSERT_NEAR(glm::length(glm::dvec2(m.uv[0][b] - m.uv[0][a]) * tile),
+                glm::length(glm::dvec3(m.position[b] - m.position[a])), 1e-3);
+  }
+}
+
 TEST(Surfaces, AreLeftOutWhereNoneAreWanted) {
   BuildingParams params = blueprint(BuildingBlueprint::house);
   params.textures = BuildingTextures::none;

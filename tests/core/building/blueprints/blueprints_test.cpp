@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -224,6 +225,29 @@ TEST(Blueprints, SkyscraperHasEitherRoofAndADoorOnAnySide) {
   }
   EXPECT_THAT(roofs, SizeIs(2));
   EXPECT_THAT(sides, SizeIs(4));
+}
+
+TEST(Blueprints, VillaHasNoWindowBehindThePorticosRoof) {
+  for (const int floors : {2, 3}) {
+    Json json = request("villa");
+    json["attributes"] = {{"floors", floors}, {"floor_height", 3.8}, {"wealth", 0.7}};
+    // The front is 22 m wide and looks to z = 7; the portico begins at 0.31 of it and its roof stands out
+    // 0.35 m.
+    const double half = 0.19 * 22 + 0.35, eaves = 1.5 + 3.8 + 0.7, ridge = eaves + 2.8;
+    int seen = 0, beside = 0;
+    for (const Json& shape : shapes_of(json, 1)) {
+      if (shape["symbol"] != "Window" || shape["active"]) continue;
+      const Json &origin = shape["scope"]["origin"], &size = shape["scope"]["size"];
+      if (std::abs(origin[2].get<double>() - 7) > 1e-6) continue;
+      const double low = origin[1], high = low + size[1].get<double>();
+      if (high < eaves || low > ridge) continue;
+      const double left = origin[0], right = left + size[0].get<double>();
+      seen += right > -half && left < half;
+      beside += right < -half || left > half;
+    }
+    EXPECT_EQ(seen, 0) << floors;
+    EXPECT_GE(beside, 4) << floors;
+  }
 }
 
 }  // namespace
