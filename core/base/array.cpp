@@ -13,48 +13,51 @@
 namespace seedmesh {
 namespace {
 
-// Page faults, not arithmetic, decide what big arrays cost, and huge pages save most of them; a block takes
-// as many as it fills, and small ones for its end. Smaller blocks are the heap's, which has pages that were
-// touched before. But what a heap is given back stays with the process: a large request maps all that is
-// worth a call, so that memory goes when an array goes.
-constexpr std::size_t always_mapped = std::size_t{2} << 20U;
-constexpr std::size_t mapped_if_large = std::size_t{256} << 10U;
+// Page faults, not arithmetic, decide what big arrays cost, and huge pages save most of them. A block takes
+// whole huge pages from the first size on always; from the second on while the room that the rounding up
+// leaves empty stays below the third in the whole request. Smaller blocks are the heap's: a huge page is
+// cleared whole, and the heap has pages that were touched before.
+constexpr std::size_t always_mapped = std::size_t{4} << 20U;
+constexpr std::size_t mapped_at_best = std::size_t{2} << 20U;
+constexpr std::uint64_t most_slack = std::uint64_t{6} << 20U;
+// But what the heap is given back stays with the process. A thrifty request maps all that is worth a call, in
+// as many huge pages as it fills and small ones for its end.
+constexpr std::size_t mapped_by_thrift = std::size_t{256} << 10U;
 
 #if defined(__linux__)
+constexpr bool can_map = true;
 constexpr std::size_t huge_page = std::size_t{2} << 20U;
 constexpr std::size_t largest_page = std::size_t{64} << 10U;  // of the small ones, on any machine
-constexpr bool can_map = true;
 
 constexpr std::size_t rounded(std::size_t bytes, std::size_t to) { return (bytes + to - 1) / to * to; }
-constexpr std::size_t pages(std::size_t bytes) { return rounded(bytes, largest_page); }
 
-/// The kernel lays whole huge pages where they can be used, so they are asked for; what is too much of them
-/// goes back untouched.
-constexpr std::size_t asked_for(std::size_t bytes) {
-  return bytes < huge_page ? pages(bytes) : rounded(bytes, huge_page);
+// The kernel lays whole huge pages where they can be used: so many are asked for, and what is not wanted of
+// them goes back untouched.
+constexpr std::size_t asked_for(std::size_t room) {
+  return room < huge_page ? room : rounded(room, huge_page);
 }
-std::byte* fitted(void* memory, std::size_t bytes) {
+std::byte* fitted(void* memory, std::size_t room) {
   if (memory == MAP_FAILED) throw std::bad_alloc();
   auto* first = static_cast<std::byte*>(memory);
-  if (asked_for(bytes) > pages(bytes)) munmap(first + pages(bytes), asked_for(bytes) - pages(bytes));
-  if (bytes >= huge_page) madvise(memory, pages(bytes), MADV_HUGEPAGE);
+  if (asked_for(room) > room) munmap(first + room, asked_for(room) - room);
+  if (room >= huge_page) madvise(memory, room, MADV_HUGEPAGE);
   return first;
 }
 
-std::byte* map(std::size_t bytes) {
+std::byte* map(std::size_t room) {
   constexpr int access = PROT_READ | PROT_WRITE, kind = MAP_PRIVATE | MAP_ANONYMOUS;
-  return fitted(mmap(nullptr, asked_for(bytes), access, kind, -1, 0), bytes);
+  return fitted(mmap(nullptr, asked_for(room), access, kind, -1, 0), room);
 }
 std::byte* remap(std::byte* old, std::size_t before, std::size_t after) {
-  if (pages(after) <= pages(before)) {
-    if (pages(after) < pages(before)) munmap(old + pages(after), pages(before) - pages(after));
-    return old;
-  }
-  return fitted(mremap(old, pages(before), asked_for(after), MREMAP_MAYMOVE), after);
+  if (after > before) return fitted(mremap(old, before, asked_for(after), MREMAP_MAYMOVE), after);
+  if (after < before) munmap(old + after, before - after);
+  return old;
 }
-void unmap(std::byte* memory, std::size_t bytes) { munmap(memory, pages(bytes)); }
+void unmap(std::byte* memory, std::size_t room) { munmap(memory, room); }
 #else
 constexpr bool can_map = false;
+constexpr std::size_t huge_page = 1, largest_page = 1;
+constexpr std::size_t rounded(std::size_t bytes, std::size_t) { return bytes; }
 std::byte* map(std::size_t) { return nullptr; }
 std::byte* remap(std::byte*, std::size_t, std::size_t) { return nullptr; }
 void unmap(std::byte*, std::size_t) {}
@@ -79,7 +82,7 @@ Block::Block(Block&& other) noexcept
     : purse_(other.purse_),
       data_(std::exchange(other.data_, nullptr)),
       size_(std::exchange(other.size_, 0)),
-      is_mapped_(std::exchange(other.is_mapped_, false)) {}
+      home_(std::exchange(other.home_, Home::heap)) {}
 
 Block& Block::operator=(Block&& other) noexcept {
   if (this != &other) {
@@ -95,41 +98,53 @@ Block::~Block() {
   if (purse_) purse_->give_back(size_);
 }
 
-void Block::release() {
-  if (is_mapped_) {
-    unmap(data_, size_);
-  } else {
-    std::free(data_);
-  }
-  is_mapped_ = false;
+std::size_t Block::room_of(std::size_t bytes, Home home) {
+  return rounded(bytes, home == Home::huge_pages ? huge_page : largest_page);
 }
 
-bool Block::is_worth_mapping(std::size_t bytes) const {
-  if (!can_map || bytes < mapped_if_large) return false;
-  return bytes >= always_mapped || (purse_ && purse_->is_large());
+Block::Home Block::home_for(std::size_t bytes) const {
+  if (!can_map) return Home::heap;
+  if (purse_ && purse_->is_thrifty()) return bytes < mapped_by_thrift ? Home::heap : Home::pages;
+  if (bytes < mapped_at_best) return Home::heap;
+  if (purse_ && purse_->wants_thrift()) return Home::pages;
+  const std::size_t slack = room_of(bytes, Home::huge_pages) - bytes;
+  return bytes >= always_mapped || (purse_ && purse_->slack() + slack <= most_slack) ? Home::huge_pages
+                                                                                     : Home::heap;
+}
+
+void Block::release() {
+  if (home_ == Home::heap) {
+    std::free(data_);
+  } else {
+    unmap(data_, room_of(size_, home_));
+    if (purse_) purse_->give_back_slack(room_of(size_, home_) - size_);
+  }
+  home_ = Home::heap;
 }
 
 void Block::change(std::size_t bytes) {
-  const bool map_it = is_worth_mapping(bytes);
-  if (is_mapped_ && map_it) {
-    data_ = remap(data_, size_, bytes);
-  } else if (!is_mapped_ && !map_it) {
+  const Home home = home_for(bytes);
+  if (home_ != Home::heap && home != Home::heap) {
+    data_ = remap(data_, room_of(size_, home_), room_of(bytes, home));
+    if (purse_) purse_->give_back_slack(room_of(size_, home_) - size_);
+  } else if (home_ == home) {
     data_ = heap(data_, bytes);
   } else {
-    std::byte* fresh = map_it ? map(bytes) : heap(nullptr, bytes);
+    std::byte* fresh = home == Home::heap ? heap(nullptr, bytes) : map(room_of(bytes, home));
     if (size_) std::memcpy(fresh, data_, size_ < bytes ? size_ : bytes);
     release();
     data_ = fresh;
   }
-  is_mapped_ = map_it;
+  home_ = home;
+  if (home_ != Home::heap && purse_) purse_->take_slack(room_of(bytes, home_) - bytes);
 }
 
 void Block::resize(std::size_t bytes) {
   if (bytes == size_) return;
   if (bytes > size_ && purse_) {
-    const bool was_large = purse_->is_large();
+    const bool was_thrifty = purse_->is_thrifty();
     purse_->take(bytes - size_);
-    if (!was_large && purse_->is_large()) trim_heap();
+    if (!was_thrifty && purse_->is_thrifty()) trim_heap();
   }
   const std::size_t before = size_;
   if (bytes == 0) {

@@ -1,8 +1,8 @@
 #pragma once
 /// Growing arrays for big models: elements start uninitialised, big blocks come from the kernel with huge
-/// pages advised (first touch of memory, not arithmetic, bounds big models) and go back to it at once, in
-/// large requests also those of middling size, and every byte is charged to the purse of the request before
-/// it is allocated. Move-only; not safe for use from two threads at once.
+/// pages advised (first touch of memory, not arithmetic, bounds big models), in thrifty requests also
+/// middling ones, which the heap would keep, and every byte is charged to the purse of the request before it
+/// is allocated. Move-only; not safe for use from two threads at once.
 #include <cstddef>
 #include <cstring>
 #include <memory>
@@ -33,14 +33,17 @@ class Block {
   const std::shared_ptr<Purse>& purse() const { return purse_; }
 
  private:
-  bool is_worth_mapping(std::size_t bytes) const;
+  /// Where the bytes are: of the heap, or mapped by the kernel in whole huge pages or as many as are needed.
+  enum class Home : unsigned char { heap, huge_pages, pages };
+  static std::size_t room_of(std::size_t bytes, Home home);
+  Home home_for(std::size_t bytes) const;
   void change(std::size_t bytes);
   void release();
 
   std::shared_ptr<Purse> purse_;
   std::byte* data_ = nullptr;
   std::size_t size_ = 0;
-  bool is_mapped_ = false;  ///< from the kernel, else from the heap
+  Home home_ = Home::heap;
 };
 
 template <class T>

@@ -7,8 +7,8 @@ namespace {
 
 constexpr std::uint64_t lease = 4096;
 
-/// Bytes from which on a request is large.
-constexpr std::uint64_t large = std::uint64_t{8} << 20U;
+/// Below it thrift is not worth its cost.
+constexpr std::uint64_t worth_thrift = std::uint64_t{8} << 20U;
 
 struct ResourceLimit {
   const char* name;
@@ -41,7 +41,7 @@ void Purse::take(std::uint64_t bytes) {
   do {
     if (bytes > limit_ || used > limit_ - bytes) refuse_limit("bytes of memory", limit_, used + bytes);
   } while (!used_.compare_exchange_weak(used, used + bytes, std::memory_order_relaxed));
-  if (used + bytes >= large && !is_large()) is_large_.store(true, std::memory_order_relaxed);
+  if (used + bytes >= worth_thrift && wants_thrift()) is_thrifty_.store(true, std::memory_order_relaxed);
 }
 
 Job::Job(std::uint64_t seed, Options options)

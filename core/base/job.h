@@ -53,13 +53,23 @@ class Purse {
   void give_back(std::uint64_t bytes) { used_.fetch_sub(bytes, std::memory_order_relaxed); }
   std::uint64_t used() const { return used_.load(std::memory_order_relaxed); }
 
-  /// Has the request ever used so much that its arrays are better kept apart from the heap (array.cpp)?
-  bool is_large() const { return is_large_.load(std::memory_order_relaxed); }
+  /// Bytes that blocks leave empty at the ends of their last pages. Not counted as used.
+  std::uint64_t slack() const { return slack_.load(std::memory_order_relaxed); }
+  void take_slack(std::uint64_t bytes) { slack_.fetch_add(bytes, std::memory_order_relaxed); }
+  void give_back_slack(std::uint64_t bytes) { slack_.fetch_sub(bytes, std::memory_order_relaxed); }
+
+  /// Big arrays take no page more than they need, and once the request has used 8 MiB, memory goes back to
+  /// the system with each array, at the cost of touching it anew. For an answer that is much smaller than
+  /// what it is made of.
+  void be_thrifty() { wants_thrift_.store(true, std::memory_order_relaxed); }
+  bool wants_thrift() const { return wants_thrift_.load(std::memory_order_relaxed); }
+  bool is_thrifty() const { return is_thrifty_.load(std::memory_order_relaxed); }
 
  private:
   std::atomic<std::uint64_t> used_{0};
-  std::atomic<bool> is_large_{false};
+  std::atomic<bool> is_thrifty_{false}, wants_thrift_{false};
   std::uint64_t limit_;
+  std::atomic<std::uint64_t> slack_{0};
 };
 
 /// Whose names collision shapes have; none: there are none.

@@ -120,6 +120,7 @@ Result<Model> generate(const SceneParams& params, Job& job) {
   const Casting casting = casting_of(params, job);
   Forecast forecast(params, casting, job);
   forecast.refuse(job);
+  if (job.demand().packs) job.purse()->be_thrifty();
   Result<Ground> ground = Ground::make(params, job);
   if (!ground) return std::move(ground).error();
   // Only foundations bear on the ground: without any it is done before its plants take memory.

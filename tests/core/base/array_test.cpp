@@ -24,9 +24,13 @@ TEST(Array, KeepsItsElementsWhileItGrowsFromTheHeapIntoMappedPages) {
 }
 
 TEST(Array, KeepsWhatFitsWhereverASizeTakesIt) {
-  for (const bool is_large : {false, true}) {
+  for (const bool is_thrifty : {false, true}) {
     const Job job = job_with_memory(std::uint64_t{1} << 30U);
-    if (is_large) const Array<char> passing(job, 9 << 20U);
+    if (is_thrifty) {
+      job.purse()->be_thrifty();
+      const Array<char> passing(job, 9 << 20U);
+    }
+    EXPECT_EQ(job.purse()->is_thrifty(), is_thrifty);
     Array<std::uint32_t> array(job);
     std::size_t kept = 0;
     // From the heap into small pages, huge ones with an odd end, and all the way back.
@@ -41,7 +45,7 @@ TEST(Array, KeepsWhatFitsWhereverASizeTakesIt) {
   }
 }
 
-TEST(Array, OfALargeRequestLeavesNoMemoryBehind) {
+TEST(Array, OfAThriftyRequestLeavesNoMemoryBehind) {
 #if defined(__linux__)
   const auto resident = [] {
     std::ifstream file("/proc/self/statm");
@@ -50,6 +54,7 @@ TEST(Array, OfALargeRequestLeavesNoMemoryBehind) {
     return pages * 4096;
   };
   const Job job = job_with_memory(std::uint64_t{1} << 30U);
+  job.purse()->be_thrifty();
   const Array<char> large(job, 9 << 20U);
   const std::size_t before = resident();
   {

@@ -83,47 +83,6 @@ TEST(Scene, GivesTheSameBytesWithAnyNumberOfThreads) {
   EXPECT_EQ(file_of(json, 1), file_of(json, 8));
 }
 
-/// As the pipeline writes it for the web, and how many meshes were packed ahead.
-std::string compressed_file_of(const Json& json, Demand demand, std::size_t& packed) {
-  const Generator::Params params = read_scene_params(json);
-  Job job = job_of(5, 2);
-  job.set_demand(demand);
-  Result<Model> model = scene::generate(own(params), job);
-  EXPECT_TRUE(model);
-  packed = 0;
-  for (const MeshGroup& group : model->meshes)
-    for (const Primitive& each : group.primitives) packed += each.mesh.packed ? 1 : 0;
-  finish(*model, job);
-  ModelCounts counts = count(*model);
-  WriteOptions options;
-  options.dialect = {.compressed = true, .gpu_instances = true, .lods_inside = true};
-  options.counts = &counts;
-  return write(std::move(*model), options, job).text() + std::to_string(counts.triangles) + " " +
-         std::to_string(counts.vertices);
-}
-
-TEST(Scene, GivesTheSameBytesWithItsGroundPackedAhead) {
-  Json json = forest();
-  json.erase("ground");
-  json["terrain"] = {{"generator", "terrain"},
-                     {"parameters",
-                      {{"algorithm", "fbm"},
-                       {"resolution", 370},
-                       {"size", 60},
-                       {"amplitude", 6},
-                       {"base", 1},
-                       {"water_level", 0},
-                       {"palette", "alpine"}}}};
-  json["paths"] = {{{"points", {{-25, 0}, {25, 4}}}, {"width", 2}}};
-  for (const int lods : {1, 3}) {
-    std::size_t none = 0, some = 0;
-    const std::string plain = compressed_file_of(json, {.lods = lods}, none);
-    EXPECT_EQ(plain, compressed_file_of(json, {.lods = lods, .packs = true}, some));
-    EXPECT_EQ(none, 0U);
-    EXPECT_GE(some, 2U);  // the ground with its walls, water, path
-  }
-}
-
 TEST(Scene, DrawsRangesForEachVariantAndKeepsWholeNumbersWhole) {
   Json json = forest();
   json["layers"][0]["variants"] = 40;
