@@ -34,7 +34,8 @@ TEST(Array, KeepsWhatFitsWhereverASizeTakesIt) {
     Array<std::uint32_t> array(job);
     std::size_t kept = 0;
     // From the heap into small pages, huge ones with an odd end, and all the way back.
-    for (const std::size_t size : {100, 70'000, 600'000, 1'300'000, 1'100'000, 530'000, 140'000, 66'000, 9}) {
+    constexpr std::size_t sizes[] = {100, 70'000, 600'000, 1'300'000, 1'100'000, 530'000, 140'000, 66'000, 9};
+    for (const std::size_t size : sizes) {
       array.resize(size);
       array.shrink_to_fit();
       for (std::size_t i = 0; i < std::min(kept, size); ++i) ASSERT_EQ(array[i], i);
