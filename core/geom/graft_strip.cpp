@@ -28,7 +28,9 @@ void GraftWriter::strip(const Corners& below, const Corners& above) {
   spend_triangles(count);
   // Deep ribs go from crest to crest.
   const bool is_deep = has_ribs() && has_deep_ribs(context_.options);
-  const float lead = is_deep ? static_cast<float>(math::pi) / static_cast<float>(std::max(below.size(), above.size())) : most_lead;
+  const float lead =
+      is_deep ? static_cast<float>(math::pi) / static_cast<float>(std::max(below.size(), above.size()))
+              : most_lead;
   write_strip(below, above, lead, mesh_.position.data(), mesh_.index.wide.extend(3 * count));
 }
 

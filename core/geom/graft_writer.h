@@ -273,10 +273,10 @@ class GraftWriter {
   std::vector<Concern> concern_;       ///< of each limb
   /// First and last vertex of each ring with ribs, which stand at one place, rising.
   Seams rib_seams_;
-  bool is_much_ = true;                ///< of what has to be looked at
-  Array<std::uint32_t> joints_;        ///< as Written::joints
-  Array<std::uint8_t> twin_;           ///< as Written::twin
-  std::vector<Trust> trust_;           ///< as it was in the last round
+  bool is_much_ = true;          ///< of what has to be looked at
+  Array<std::uint32_t> joints_;  ///< as Written::joints
+  Array<std::uint8_t> twin_;     ///< as Written::twin
+  std::vector<Trust> trust_;     ///< as it was in the last round
   std::vector<Loop> loops_;
   std::vector<LoopVertex> loop_vertices_;
 
