@@ -16,10 +16,10 @@ namespace {
 constexpr std::chrono::seconds pause{1};
 constexpr std::int64_t worth = 8 << 20;  ///< bytes of growth
 constexpr int longest_wait = 10;         ///< looks, where requests never pause
-// Blocks of the C library that come from the kernel by themselves, as an Array's do from this size on
-// (core/base/array.cpp); and what the end of an arena keeps for the next request until GiveBack looks: to
-// clear its pages anew would take a fifth of the time of a small model.
-constexpr int mapped = 4 << 20, kept = 16 << 20;
+// Blocks from this size on come from the kernel by themselves and go back at once. What the end of an arena
+// keeps for the next request until GiveBack looks: to clear its pages anew would take a fifth of the time of
+// a small model. More of either, and what bursts of bad requests leave in the arenas stays.
+constexpr int mapped = 1 << 20, kept = 4 << 20;
 
 std::int64_t resident() {
   std::int64_t whole = 0, pages = 0;

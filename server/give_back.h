@@ -8,7 +8,7 @@
 
 namespace seedmesh {
 
-/// Makes the C library give large blocks back at once, the ends of its arenas from 16 MB on, and keep few
+/// Makes the C library give large blocks back at once, the ends of its arenas from 4 MB on, and keep few
 /// arenas: by default it learns to keep up to 64 MB in each of eight arenas a core. To be called before
 /// threads are made; MALLOC_ variables that the operator has set hold.
 void keep_little_memory(int workers);
