@@ -12,13 +12,14 @@ std::array<std::int64_t, 3> rounded(const glm::dvec3& size) {
 Asset& BodySource::asset_of(const Shape& shape) {
   Asset& asset = assets_[shape.geometry & ~asset_bit];
   if (asset.row == nullptr) return asset;
-  const std::uint32_t options = shapes_.styles[shape.style].options;
-  const auto [found, is_new] = parts_.try_emplace({shape.geometry, options, rounded(shape.size)});
+  const Style& style = shapes_.styles[shape.style];
+  const auto [found, is_new] =
+      parts_.try_emplace({shape.geometry, style.options, rounded(shape.size), style.color});
   if (!is_new) return found->second;
   Asset& made = found->second;
   made.size = shape.size;
-  for (PartPiece& piece : make_part(*asset.row, shape.size, shapes_.part_options[options], job_))
-    made.primitives.push_back({std::move(piece.mesh), looks_.material_of_role(piece.role), {}});
+  for (PartPiece& piece : make_part(*asset.row, shape.size, shapes_.part_options[style.options], job_))
+    made.primitives.push_back({std::move(piece.mesh), looks_.material_of_part(piece.role, style), {}});
   return made;
 }
 

@@ -44,7 +44,8 @@ class BodySource {
   std::span<Asset> assets_;
   Job& job_;
   PatchMaker patches_;
-  std::map<std::tuple<std::uint32_t, std::uint32_t, std::array<std::int64_t, 3>>, Asset> parts_;
+  /// By the row, the options, the size and the colour in force.
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::array<std::int64_t, 3>, double>, Asset> parts_;
 };
 
 }  // namespace seedmesh::building

@@ -61,6 +61,8 @@ std::string lower(std::string text) {
   return text;
 }
 
+std::string name_of_color(const std::string& color) { return "color_" + lower(color.substr(1)); }
+
 void paint(Material& material, const Color& color) {
   material.base_color = {linear_of_srgb(color.red), linear_of_srgb(color.green), linear_of_srgb(color.blue),
                          1};
@@ -121,7 +123,7 @@ int Looks::material_of(const Shape& shape) {
   if (const std::string* given = shapes_->texts.of(style.material)) {
     name = *given;
   } else if (color != nullptr) {
-    name = "color_" + lower(color->substr(1));
+    name = name_of_color(*color);
   } else {
     const std::string& symbol = symbols_[shape.symbol];
     if (params_.materials.contains(symbol))
@@ -134,7 +136,12 @@ int Looks::material_of(const Shape& shape) {
   return found->second;
 }
 
-int Looks::material_of_role(std::string_view role) { return make({std::string(role), nullptr, true}); }
+int Looks::material_of_part(std::string_view role, const Style& style) {
+  const std::string* const color = shapes_->texts.of(style.color);
+  if (color != nullptr && role == "stone" && !params_.materials.contains(std::string(role)))
+    return make({name_of_color(*color), color, true});
+  return make({std::string(role), nullptr, true});
+}
 
 /// What the material is made of, where it has made pictures.
 const texture::WallKind* Looks::surface_of(const Asked& asked) const {

@@ -28,8 +28,9 @@ class Looks {
     made_.clear();
   }
   int material_of(const Shape& shape);
-  /// Of a role of a built-in part.
-  int material_of_role(std::string_view role);
+  /// Of a role of a built-in part. What is of stone has the colour in force, unless `materials` say what
+  /// stone is.
+  int material_of_part(std::string_view role, const Style& style);
   /// Metres of one tile, where the material has pictures: texture coordinates are needed then.
   const glm::dvec2* tile_of(int material) const;
 

@@ -200,5 +200,25 @@ TEST(Surfaces, OfOwnRulesAreAskedFor) {
   EXPECT_EQ(kinds_of(model_of(params)), std::set<std::string>{"plaster"});
 }
 
+TEST(Looks, StoneOfAPartTakesTheColourInForce) {
+  const auto materials = [](const char* rules, std::map<std::string, BuildingMaterial> given = {}) {
+    BuildingParams params = with(rules, {1, 3, 1});
+    params.materials = std::move(given);
+    std::set<std::string> names;
+    for (const Material& each : model_of(params).materials) names.insert(each.name);
+    return names;
+  };
+  EXPECT_THAT(materials("A --> i(\"column\")"), testing::ElementsAre("stone"));
+  EXPECT_THAT(materials("A --> color(\"#E2DDD0\") i(\"column\")"), testing::ElementsAre("color_e2ddd0"));
+  // Two of one size and two colours are two.
+  EXPECT_THAT(
+      materials("A --> [ color(\"#e2ddd0\") i(\"ledge\") ] t(0, 4, 0) color(\"#804020\") i(\"ledge\")"),
+      testing::ElementsAre("color_804020", "color_e2ddd0"));
+  // Frames, panes and what the request says of stone stay.
+  EXPECT_FALSE(materials("A --> color(\"#e2ddd0\") i(\"window\")").contains("color_e2ddd0"));
+  EXPECT_THAT(materials("A --> color(\"#e2ddd0\") i(\"column\")", {{"stone", {}}}),
+              testing::ElementsAre("stone"));
+}
+
 }  // namespace
 }  // namespace seedmesh::building
