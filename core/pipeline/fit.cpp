@@ -6,6 +6,7 @@
 
 #include "core/geom/simplify.h"
 #include "core/geom/thin.h"
+#include "core/model/levels.h"
 #include "core/model/widen.h"
 
 namespace seedmesh {
@@ -26,11 +27,6 @@ std::uint64_t copies_of(const Node& node) {
   return std::max<std::size_t>(1, node.instances.transforms.size());
 }
 
-/// The mesh that a node shows at a level; those with fewer levels show their coarsest.
-int mesh_at(const Node& node, std::size_t level) {
-  return level == 0 || node.lods.empty() ? node.mesh : node.lods[std::min(level, node.lods.size()) - 1];
-}
-
 std::uint64_t drawn_at(const Model& model, std::size_t level) {
   std::uint64_t drawn = 0;
   for (const Node& node : model.nodes) {
@@ -38,12 +34,6 @@ std::uint64_t drawn_at(const Model& model, std::size_t level) {
     drawn += copies_of(node) * triangles_of(model.meshes[static_cast<std::size_t>(mesh_at(node, level))]);
   }
   return drawn;
-}
-
-std::size_t levels_of(const Model& model) {
-  std::size_t levels = 1;
-  for (const Node& node : model.nodes) levels = std::max(levels, 1 + node.lods.size());
-  return levels;
 }
 
 /// `level` becomes the finest, with at most `lods` - 1 behind it; meshes that no node shows any more go.

@@ -8,6 +8,7 @@
 #include "core/geom/tangents.h"
 #include "core/gltf/write.h"
 #include "core/lang/expression.h"
+#include "core/model/levels.h"
 #include "core/model/row.h"
 #include "core/pipeline/body.h"
 #include "core/pipeline/fit.h"
@@ -107,9 +108,8 @@ void sign(Model& model, const Request& request) {
 
 static_assert(static_cast<int>(OutputCollision::godot) == static_cast<int>(CollisionNames::godot));
 
-bool has_levels(const Model& model) {
-  return std::any_of(model.nodes.begin(), model.nodes.end(),
-                     [](const Node& node) { return !node.lods.empty(); });
+std::string found_levels(const OutputParams& output) {
+  return "found " + std::to_string(output.lods) + " levels of detail; this model has ";
 }
 
 int texture_size(const OutputParams& output) {
@@ -181,11 +181,9 @@ Result<Model> generate(const Request& request, Job& job) {
   job.set_demand(demand_of(output, *request.body().generator));
   Result<Model> model = request.body().generator->generate(request.body().params, job);
   if (!model) return in_request(std::move(model).error());
-  if (output.lods > 1 && !has_levels(*model)) {
-    return Error{
-        Code::invalid,
-        {{"/output/lods", "found " + std::to_string(output.lods) + " levels of detail; this model has one"}}};
-  }
+  const std::size_t levels = levels_of(*model);
+  if (output.lods > 1 && levels == 1)
+    return Error{Code::invalid, {{"/output/lods", found_levels(output) + "one"}}};
   return model;
 }
 
@@ -279,6 +277,8 @@ Result<Product> produce(const Request& request, Job& job, TextureStore* texture_
         return Error{Code::limit, {*std::move(issue)}};
       }
     }
+    if (const std::size_t levels = levels_of(*model); levels < static_cast<std::size_t>(output.lods))
+      model->warnings.push_back({"/output/lods", found_levels(output) + std::to_string(levels), 0, 0});
     merge_where_wanted(*model, request, job);
     texture::paint(*model, texture_size(output), texture_store, job);
     if (std::optional<Issue> issue = add_impostors(*model, request, job))

@@ -5,6 +5,7 @@
 
 #include "core/geom/flatten.h"
 #include "core/geom/weld.h"
+#include "core/model/levels.h"
 
 namespace seedmesh::scene {
 namespace {
@@ -22,18 +23,6 @@ bool is_plain(const Model& model) {
   return std::all_of(model.nodes.begin(), model.nodes.end(), [](const Node& node) {
     return is_plain(node.transform) && node.instances.transforms.empty() && node.skin < 0;
   });
-}
-
-std::size_t levels_of(const Model& model) {
-  std::size_t levels = 0;
-  for (const Node& node : model.nodes) levels = std::max(levels, node.lods.size());
-  return levels + 1;
-}
-
-/// What a node shows at a level: a mesh that has fewer levels shows its coarsest.
-int mesh_at(const Node& node, std::size_t level) {
-  if (level == 0 || node.lods.empty()) return node.mesh;
-  return node.lods[std::min(level, node.lods.size()) - 1];
 }
 
 /// Does a level after this one show a mesh that this one shows?

@@ -126,6 +126,15 @@ TEST(Output, RefusesLevelsThatNobodyWouldRead) {
 
 TEST(Output, RefusesLevelsOfAModelThatHasNone) {
   EXPECT_THAT(refused("menger_sponge", R"({"lods":2,"profile":"web"})"), ElementsAre("/output/lods"));
+  EXPECT_THAT(refused("cga_office", R"({"lods":2,"profile":"web"})"), ElementsAre("/output/lods"));
+}
+
+TEST(Output, WarnsOfLevelsThatTheModelDoesNotHave) {
+  EXPECT_EQ(made("church", R"({"lods":3,"profile":"unity"})").statistics.warnings, 0U);
+  const Made asked = made("church", R"({"lods":5,"profile":"unity"})");
+  EXPECT_EQ(asked.statistics.warnings, 1U);
+  EXPECT_THAT(asked.document["asset"]["extras"].dump(),
+              testing::HasSubstr("found 5 levels of detail; this model has 3"));
 }
 
 TEST(Output, PutsCopiesOnTheGpuOnlyWhereThatIsRead) {
