@@ -26,6 +26,7 @@ const rows = {
   building_factory: { tile: [240, 180], models: plan('factory') },
   building_temple: { tile: [280, 210], models: seeds('temple') },
   ...Object.fromEntries(['office_tower', 'parisian_block', 'terraced_house', 'villa', 'warehouse'].map((name) => [`building_${name}`, { tile: [280, 166], models: seeds(name) }])),
+  building_lods: { tile: [220, 165], columns: 3, models: ['house', 'church', 'parisian_block', 'skyscraper'].flatMap((name) => [0, 1, 2].map((lod) => of(name, { parameters: { attributes: { lod } } }))) },
   building_skyscraper: { tile: [266, 229], models: seeds('skyscraper') },
   ...Object.fromEntries(['cga_house_2006', 'cga_courtyard', 'cga_occlusion', 'cga_random_street', 'froebel_tower'].map((name) => [name, { tile: [640, 336], models: [of(name)] }])),
   cga_roofs: { tile: [640, 464], models: [of('cga_roofs')] },
@@ -36,6 +37,15 @@ const rows = {
   trees: { tile: [200, 200], columns: 5, models: ['oak', 'birch', 'pine', 'willow', 'maple', 'palm', 'cherry', 'poplar', 'bush', 'dead_tree'].map((name) => of(name)) },
   weather: { tile: [400, 360], models: [of('pipe_model_tree'), of('tree_in_wind'), of('tree_in_snow')] },
   weber_penn: { tile: [220, 300], models: ['quaking_aspen', 'black_tupelo', 'weeping_willow', 'black_oak'].map((name) => of(name)) },
+};
+
+/** Pictures that are made by seed, as they are. */
+const barks = ['oak', 'pine', 'spruce', 'willow', 'birch', 'beech', 'cherry', 'palm', 'cedar'];
+const leaves = ['simple', 'willow', 'birch', 'cordate', 'lobed', 'maple', 'ginkgo', 'compound', 'palmate', 'palm', 'kite'];
+const twigs = ['needles', 'birch', 'maple', 'willow', 'lobed', 'petal'];
+const sheets = {
+  barks: { tile: [128, 128], columns: 5, textures: barks.map((name) => `${name}_bark`) },
+  leaves: { tile: [107, 107], columns: 6, textures: [...leaves.map((name) => `${name}_leaf`), 'petal', ...twigs.map((name) => `${name}_twig`)] },
 };
 
 const fragment_of = (request) => `#${zlib.deflateRawSync(JSON.stringify(request)).toString('base64url')}`;
@@ -91,6 +101,23 @@ async function take_row(browser, server, { tile: [width, height], models }) {
   return pngs;
 }
 
+/** Each on a tube, since a material that nothing wears is left out. */
+async function take_sheet(server, { textures }) {
+  const pngs = [];
+  for (const texture of textures) {
+    const answer = await server.post('/v1/generate', {
+      generator: 'lsystem',
+      parameters: { axiom: 'F', productions: [], iterations: 0, materials: [{ texture }] },
+      output: { format: 'gltf', textures: 256 },
+    });
+    const { buffers, bufferViews, images, materials, textures: made } = answer.json;
+    const picture = images[made[materials[0].pbrMetallicRoughness.baseColorTexture.index].source];
+    const { byteOffset = 0, byteLength } = bufferViews[picture.bufferView];
+    pngs.push(Buffer.from(buffers[0].uri.split(',')[1], 'base64').subarray(byteOffset, byteOffset + byteLength).toString('base64'));
+  }
+  return pngs;
+}
+
 /** Tiles beside each other and in lines. */
 async function join_tiles(page, pngs, { tile: [width, height], columns = pngs.length }) {
   const data = await page.evaluate(async ({ pngs, width, height, columns }) => {
@@ -131,6 +158,11 @@ try {
   for (const [name, row] of Object.entries(rows)) {
     if (wanted.length > 0 && !wanted.includes(name)) continue;
     fs.writeFileSync(path.join(pictures, `${name}.webp`), await join_tiles(scaler, await take_row(browser, server, row), row));
+    process.stdout.write(`${name} in docs/pictures\n`);
+  }
+  for (const [name, sheet] of Object.entries(sheets)) {
+    if (wanted.length > 0 && !wanted.includes(name)) continue;
+    fs.writeFileSync(path.join(pictures, `${name}.webp`), await join_tiles(scaler, await take_sheet(server, sheet), sheet));
     process.stdout.write(`${name} in docs/pictures\n`);
   }
   if (wanted.length === 0 || wanted.includes('page')) {
