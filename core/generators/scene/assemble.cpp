@@ -122,6 +122,9 @@ class Assembly {
       own.grower = std::move(growing.grower);
       own.grower.mesh = add_mesh(name + "_growing", std::move(growing.primitives), materials);
     }
+    if (const Generator* generator = find_generator(casting_.casts[number].request.generator);
+        generator != nullptr && generator->parts)
+      set_apart(made);
     std::vector<std::vector<Primitive>> levels = levels_made(made, job_);
     for (std::size_t level = 0; level < levels.size(); ++level) {
       const int mesh = add_mesh(name + (level > 0 ? "_LOD" + std::to_string(level) : ""),

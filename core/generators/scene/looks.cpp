@@ -1,6 +1,7 @@
 #include "core/generators/scene/looks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "core/geom/flatten.h"
@@ -62,6 +63,32 @@ bool is_same(const Material& a, const Material& b, Seeds seeds) {
          is_same(a.base_color_texture, b.base_color_texture) && is_same(a.normal_texture, b.normal_texture) &&
          is_same(a.metallic_roughness_texture, b.metallic_roughness_texture) &&
          is_same(a.occlusion_texture, b.occlusion_texture) && is_same(a.emissive_texture, b.emissive_texture);
+}
+
+void set_apart(Model& model) {
+  float reach = 0;
+  for (const MeshGroup& group : model.meshes) {
+    for (const Primitive& each : group.primitives) {
+      for (const glm::vec3& p : each.mesh.position) reach = std::max(reach, glm::dot(p, p));
+    }
+  }
+  reach = std::sqrt(reach);
+  float far = 0;
+  const auto each_place = [&](auto&& change) {
+    for (Node& node : model.nodes) {
+      if (node.mesh < 0) continue;
+      if (node.instances.transforms.empty()) change(node.transform);
+      for (Transform& copy : node.instances.transforms) change(copy);
+    }
+  };
+  each_place([&](const Transform& at) { far = std::max(far, glm::length(at.translation)); });
+  // Meshes are welded where they are compared at a millionth of their diagonal.
+  const float step = 8e-6F * (reach + far);
+  std::uint32_t place = 0;
+  each_place([&](Transform& at) {
+    at.translation += step * glm::vec3(place % 8, place / 8 % 8, place / 64 % 8);
+    ++place;
+  });
 }
 
 std::vector<std::vector<Primitive>> levels_made(Model& model, Job& job) {

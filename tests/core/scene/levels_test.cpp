@@ -131,6 +131,20 @@ TEST(SceneLevels, AreMadeOfTheGroundToo) {
   }
 }
 
+TEST(SceneLevels, KeepTheBodiesOfABuildingApart) {
+  for (const char* blueprint : {"villa", "temple", "church"}) {
+    Result<Model> made =
+        demanded({{"layers",
+                   {{{"model", {{"generator", "building"}, {"parameters", {{"blueprint", blueprint}}}}},
+                     {"place", {{"method", "scatter"}, {"count", 1}}}}}}},
+                 demand_of(3));
+    ASSERT_TRUE(made) << blueprint;
+    Job job = job_of(1);
+    finish(*made, job);
+    EXPECT_THAT(faults(*made), IsEmpty()) << blueprint;
+  }
+}
+
 TEST(SceneLevels, LiftWaysOverTheCoarserGround) {
   const Result<Model> model = demanded(hills("grid"), demand_of(3));
   ASSERT_TRUE(model);
