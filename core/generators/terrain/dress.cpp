@@ -8,6 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/generators/terrain/decimate.h"
 #include "core/generators/terrain/maps.h"
+#include "core/generators/terrain/model_parts.h"
 #include "core/generators/terrain/plan.h"
 #include "core/generators/terrain/scan.h"
 #include "core/generators/terrain/surface.h"
@@ -28,54 +29,12 @@ std::vector<std::int32_t> cuts(std::int32_t squares) {
   return places;
 }
 
-Material ground_material() {
-  Material material;
-  material.name = "ground";
-  material.roughness = 0.95F;
-  return material;
-}
-
 Material wall_material() {
   Material material;
   material.name = "earth";
   material.base_color = {linear_of_srgb(104), linear_of_srgb(88), linear_of_srgb(72), 1};
   material.roughness = 1;
   return material;
-}
-
-Material water_material() {
-  Material material;
-  material.name = "water";
-  material.base_color = {linear_of_srgb(38), linear_of_srgb(92), linear_of_srgb(120), 0.78F};
-  material.roughness = 0.08F;
-  material.alpha_mode = AlphaMode::blend;
-  return material;
-}
-
-int add_material(Model& model, Material material) {
-  model.materials.push_back(std::move(material));
-  return static_cast<int>(model.materials.size()) - 1;
-}
-
-int add_mesh(Model& model, std::string name, Mesh mesh, int material) {
-  MeshGroup group;
-  group.name = std::move(name);
-  group.primitives.push_back({std::move(mesh), material, {}});
-  model.meshes.push_back(std::move(group));
-  return static_cast<int>(model.meshes.size()) - 1;
-}
-
-int add_child(Model& model, std::string name, int mesh) {
-  Node node;
-  node.name = std::move(name);
-  node.parent = 0;
-  node.mesh = mesh;
-  model.nodes.push_back(std::move(node));
-  return static_cast<int>(model.nodes.size()) - 1;
-}
-
-std::string level_name(const std::string& name, int level) {
-  return level == 0 ? name : name + "_LOD" + std::to_string(level);
 }
 
 int add_texture(Model& model, std::string name, const texture::Picture& picture, Job& job) {
@@ -323,84 +282,10 @@ class Dressing {
   std::vector<Note> notes_;   ///< by level; that of the finest stays empty
 };
 
-class PlanetDressing {
- public:
-  PlanetDressing(const TerrainParams& params, Job& job) : params_(params), job_(job) {}
-
-  Model dress() {
-    Planet planet = planet_of(params_, 0, job_);
-    job_.progress("mesh", 0);
-    const Range range = range_of(planet);
-    const auto level = static_cast<float>(params_.water_level.value_or(static_cast<double>(range.low)));
-    const Looks looks(palette_of(params_), range, level);
-    Model model;
-    model.name = "terrain";
-    Node root;
-    root.name = "terrain";
-    model.nodes.push_back(std::move(root));
-    add_ground(model, std::move(planet), looks);
-    if (params_.water_level && level > range.low) {
-      add_sea(model, level);
-    } else if (params_.water_level) {
-      model.warnings.push_back(
-          {"/water_level", "all ground lies above the water, so that there is none; the lowest height is " +
-                               std::to_string(range.low) + " m"});
-    }
-    return model;
-  }
-
- private:
-  void add_ground(Model& model, Planet planet, const Looks& looks) {
-    const int ground = add_material(model, ground_material());
-    const Looks* colors = params_.palette == TerrainPalette::none ? nullptr : &looks;
-    for (int level = 0; level < job_.demand().lods; ++level) {
-      if (level > 0) {
-        if (planet_side(params_, level) == planet.side) break;
-        planet = planet_of(params_, level, job_);
-      }
-      Mesh mesh = planet_mesh(planet, colors, job_.rng().at("terrain"), job_);
-      mesh.cache_ordered = level == 0;  // its order suits large faces
-      const int number = add_mesh(model, level_name("planet", level), std::move(mesh), ground);
-      if (level == 0) {
-        model.nodes[0].mesh = number;
-      } else {
-        model.nodes[0].lods.push_back(number);
-      }
-    }
-  }
-
-  void add_sea(Model& model, float level_of_water) {
-    constexpr std::int32_t most = 65;
-    const int water = add_material(model, water_material());
-    std::int32_t before = 0;
-    int node = -1;
-    for (int level = 0; level < job_.demand().lods; ++level) {
-      const std::int32_t own = std::min(planet_side(params_, level), ((most - 1) >> level) + 1);
-      if (own == before) break;
-      before = own;
-      Planet sea = sphere_of(own, params_.size / 2, job_);
-      for (float& height : sea.height) height = level_of_water;
-      Mesh mesh = planet_mesh(sea, nullptr, job_.rng(), job_);
-      mesh.cache_ordered = level == 0;
-      const int number = add_mesh(model, level_name("water", level), std::move(mesh), water);
-      if (node < 0) {
-        node = add_child(model, "water", number);
-      } else {
-        model.nodes[static_cast<std::size_t>(node)].lods.push_back(number);
-      }
-    }
-  }
-
-  const TerrainParams& params_;
-  Job& job_;
-};
-
 }  // namespace
 
 Model dressed_field(const TerrainParams& params, const Field& field, Job& job) {
   return Dressing(params, field, job).dress();
 }
-
-Model dressed_planet(const TerrainParams& params, Job& job) { return PlanetDressing(params, job).dress(); }
 
 }  // namespace seedmesh::terrain

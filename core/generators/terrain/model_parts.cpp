@@ -1,0 +1,47 @@
+#include "core/generators/terrain/model_parts.h"
+
+namespace seedmesh::terrain {
+
+Material ground_material() {
+  Material material;
+  material.name = "ground";
+  material.roughness = 0.95F;
+  return material;
+}
+
+Material water_material() {
+  Material material;
+  material.name = "water";
+  material.base_color = {linear_of_srgb(38), linear_of_srgb(92), linear_of_srgb(120), 0.78F};
+  material.roughness = 0.08F;
+  material.alpha_mode = AlphaMode::blend;
+  return material;
+}
+
+int add_material(Model& model, Material material) {
+  model.materials.push_back(std::move(material));
+  return static_cast<int>(model.materials.size()) - 1;
+}
+
+int add_mesh(Model& model, std::string name, Mesh mesh, int material) {
+  MeshGroup group;
+  group.name = std::move(name);
+  group.primitives.push_back({std::move(mesh), material, {}});
+  model.meshes.push_back(std::move(group));
+  return static_cast<int>(model.meshes.size()) - 1;
+}
+
+int add_child(Model& model, std::string name, int mesh) {
+  Node node;
+  node.name = std::move(name);
+  node.parent = 0;
+  node.mesh = mesh;
+  model.nodes.push_back(std::move(node));
+  return static_cast<int>(model.nodes.size()) - 1;
+}
+
+std::string level_name(const std::string& name, int level) {
+  return level == 0 ? name : name + "_LOD" + std::to_string(level);
+}
+
+}  // namespace seedmesh::terrain
