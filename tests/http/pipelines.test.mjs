@@ -1,0 +1,71 @@
+// docs/pipelines.md and the client beside it, as a build script uses them.
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { program, rehearsal, run, serve, until } from './support.mjs';
+
+const docs = path.resolve(import.meta.dirname, '../../docs');
+const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'seedmesh-'));
+const file_of = (name) => path.join(folder, name);
+let server;
+before(async () => { server = await serve(program); });
+after(async () => {
+  await server.stop();
+  fs.rmSync(folder, { recursive: true });
+});
+
+const fetched = (request, name, env = {}) => {
+  fs.writeFileSync(file_of('request.json'), JSON.stringify(request));
+  return run('python3', [path.join(docs, 'examples/seedmesh.py'), file_of('request.json'), file_of(name)], { env: { SEEDMESH_URL: server.url, ...env } });
+};
+
+test('the line of a build script saves the model, asks for it again in vain, and ends the build on a fault', async () => {
+  const [, line] = /```sh\n(curl [\s\S]*?)```/.exec(fs.readFileSync(path.join(docs, 'pipelines.md'), 'utf8'));
+  const shell = (change) => run('sh', ['-c', `cd ${folder}; ${change(line.replace('http://127.0.0.1:8080', server.url).replace('curl ', "curl -s -w '%{http_code}' "))}`]);
+  const first = await shell((text) => text);
+  assert.deepEqual([first.status, first.out.toString()], [0, '200'], first.err);
+  const bytes = fs.readFileSync(file_of('oak.glb'));
+  assert.deepEqual(bytes, (await server.post('/v1/generate', { preset: 'oak', seed: 7, output: { profile: 'unity', lods: 3 } })).bytes);
+  const second = await shell((text) => text);
+  assert.deepEqual([second.status, second.out.toString()], [0, '304'], second.err);
+  assert.deepEqual(fs.readFileSync(file_of('oak.glb')), bytes);
+  const refused = await shell((text) => text.replace('output.lods=3', 'output.lods=9'));
+  assert.equal(refused.status, 1);
+  assert.match(refused.out.toString(), /"pointer":"\/output.lods"/);
+});
+
+test('the client of Python keeps a model and is not sent it again until the request changes', async () => {
+  const request = { preset: 'proctree_0', seed: 7 };
+  const times = () => fs.statSync(file_of('tree.glb')).mtimeMs;
+  assert.equal((await fetched(request, 'tree.glb')).status, 0);
+  assert.deepEqual(fs.readFileSync(file_of('tree.glb')), (await server.post('/v1/generate', request)).bytes);
+  const then = times();
+  assert.equal((await fetched(request, 'tree.glb')).status, 0);
+  assert.equal(times(), then);
+  assert.equal((await fetched({ ...request, seed: 8 }, 'tree.glb')).status, 0);
+  assert.ok(times() > then);
+  assert.deepEqual(fs.readFileSync(file_of('tree.glb')), (await server.post('/v1/generate', { ...request, seed: 8 })).bytes);
+});
+
+test('the client of Python tells every fault by its place', async () => {
+  const { status, err } = await fetched({ generator: 'lsystem', parameters: { axiom: 'F[', iterations: -1 } }, 'none.glb');
+  assert.equal(status, 1);
+  assert.match(err, /^\/parameters\/iterations: found -1/m);
+  assert.match(err, /^\/parameters\/axiom:1:2: found `\[`/m);
+  assert.ok(!fs.existsSync(file_of('none.glb')));
+});
+
+test('the client of Python waits for a busy server as long as this one says', async () => {
+  const busy = await serve(rehearsal, ['--threads', '1', '--queue', '1']);
+  const slow = (seed, milliseconds) => ({ generator: 'rehearsal', seed, parameters: { bytes: 500, milliseconds } });
+  const held = [busy.generate(slow(1, 2500)), busy.generate(slow(2, 0))];
+  await until(async () => (await busy.metric('seedmesh_queue_depth')) === 1);
+  assert.equal((await busy.generate(slow(4, 0))).status, 429);
+  const { status, err } = await fetched(slow(3, 0), 'late.glb', { SEEDMESH_URL: busy.url });
+  assert.equal(status, 0, err);
+  assert.equal(fs.statSync(file_of('late.glb')).size, 500);
+  await Promise.all(held);
+  await busy.stop();
+});
