@@ -70,7 +70,11 @@ TEST(Sharing, GivesEveryBodyANodeOrMergesAllWhereThatIsWanted) {
 }
 
 TEST(Levels, OfBlueprintsGetCoarserAndKeepTheirExtent) {
-  for (const BuildingBlueprint blueprint : {BuildingBlueprint::house, BuildingBlueprint::skyscraper}) {
+  for (const BuildingBlueprint blueprint :
+       {BuildingBlueprint::church, BuildingBlueprint::factory, BuildingBlueprint::house,
+        BuildingBlueprint::office_tower, BuildingBlueprint::parisian_block, BuildingBlueprint::skyscraper,
+        BuildingBlueprint::temple, BuildingBlueprint::terraced_house, BuildingBlueprint::villa,
+        BuildingBlueprint::warehouse}) {
     BuildingParams params;
     params.blueprint = blueprint;
     const Model model = demanded(params, {.lods = 3});
