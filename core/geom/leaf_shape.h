@@ -31,7 +31,6 @@ enum class LeafShape {
 };
 constexpr int leaf_shape_count = 13;
 std::span<const std::string_view> leaf_shape_names();
-std::optional<LeafShape> leaf_shape_named(std::string_view name);
 
 /// A line that grows thinner: a stalk, a needle or a vein.
 struct LeafLine {
