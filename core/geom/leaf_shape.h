@@ -6,7 +6,6 @@
 /// seen.
 #include <cstddef>
 #include <glm/vec2.hpp>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>

@@ -24,6 +24,11 @@ std::uint64_t triangles_of(const MeshGroup& group) {
   return triangles;
 }
 
+bool is_packed(const MeshGroup& group) {
+  return std::ranges::any_of(group.primitives,
+                             [](const Primitive& each) { return each.mesh.packed != nullptr; });
+}
+
 std::uint64_t copies_of(const Node& node) {
   return std::max<std::size_t>(1, node.instances.transforms.size());
 }
@@ -177,7 +182,7 @@ bool deepen(Model& model, std::uint64_t least, double share, const Sacrifice& sa
     const int coarsest = mesh_at(node, last);
     if (coarsest < 0) continue;
     const MeshGroup& group = model.meshes[static_cast<std::size_t>(coarsest)];
-    if (triangles_of(group) < least) continue;
+    if (triangles_of(group) < least || is_packed(group)) continue;
     int& copy = next[static_cast<std::size_t>(coarsest)];
     if (copy < 0) {
       copy = static_cast<int>(model.meshes.size());

@@ -33,9 +33,9 @@ struct Sacrifice {
 void coarsen_all(Model& model, std::size_t level, std::uint64_t most, std::uint64_t least,
                  const Sacrifice& sacrifice, Job& job);
 
-/// Adds a level behind the coarsest, of half its triangles; meshes of fewer than `least` triangles and
-/// collision shapes stay as they are. False, and no such level, where more than `share` of the triangles
-/// would be left. Indices are wide.
+/// Adds a level behind the coarsest, of half its triangles; meshes of fewer than `least` triangles,
+/// packed ones and collision shapes stay as they are. False, and no such level, where more than `share` of
+/// the triangles would be left. Indices are wide.
 bool deepen(Model& model, std::uint64_t least, double share, const Sacrifice& sacrifice, Job& job);
 
 }  // namespace seedmesh

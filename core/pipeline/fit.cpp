@@ -32,13 +32,6 @@ void promote(Model& model, std::size_t level, std::size_t lods) {
   }
 }
 
-bool is_packed(const Model& model) {
-  return std::ranges::any_of(model.meshes, [](const MeshGroup& group) {
-    return std::ranges::any_of(group.primitives,
-                               [](const Primitive& each) { return each.mesh.packed != nullptr; });
-  });
-}
-
 }  // namespace
 
 std::optional<Issue> fit(Model& model, std::uint64_t most, int lods, const Sacrifice& sacrifice, Job& job) {
@@ -61,7 +54,7 @@ std::optional<Issue> fit(Model& model, std::uint64_t most, int lods, const Sacri
 
 std::optional<Issue> add_levels(Model& model, int lods, const Sacrifice& sacrifice, Job& job) {
   const auto wanted = static_cast<std::size_t>(lods);
-  if (levels_of(model) == 1 && !is_packed(model)) {
+  if (levels_of(model) == 1) {
     widen(model, job);
     Sacrifice more = sacrifice;
     while (levels_of(model) < wanted && deepen(model, least_simplified, most_of_level, more, job)) {

@@ -77,7 +77,7 @@ TEST(Fractal, SaysSoWhereNoNumberIsLargeEnough) {
        {R"({"iterations": 240})", R"({"iterations": 1000})",
         R"({"iterations": 1000, "instructions": "corner_cube_outside"})",
         R"({"iterations": 1000, "instructions": "sierpinski_pyramid", "element": "pyramid"})"}) {
-    EXPECT_NO_THROW((void)Json::parse(canonical_text(derived(json)))) << json;
+    EXPECT_TRUE(Json::accept(canonical_text(derived(json)))) << json;
   }
   EXPECT_TRUE(derived(R"({"iterations": 1000})")["pieces"].is_null());
   EXPECT_THAT(refusal(R"({"iterations": 1000})"),

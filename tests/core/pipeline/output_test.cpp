@@ -158,6 +158,18 @@ TEST(Output, MakesLevelsOfAModelThatHasNoneOfItsOwn) {
   }
 }
 
+TEST(Output, MakesLevelsOfASceneWhoseGroundIsPacked) {
+  const Result<Request> request = read_request(
+      R"({"generator":"scene","parameters":{"layers":[{"model":{"preset":"sponge_of_spheres"},
+          "place":{"method":"scatter","count":3}}]},"output":{"lods":2,"profile":"web"}})",
+      Limits{});
+  ASSERT_TRUE(request);
+  Job job(0, Job::Options{});
+  const Result<Product> product = produce(*request, job);
+  ASSERT_TRUE(product) << product.error().issues.front().message;
+  EXPECT_EQ(product->statistics.warnings, 0U);
+}
+
 TEST(Output, SaysWhereThereAreFewerLevelsThanWanted) {
   const Made house = made("house", R"({"lods":5,"profile":"unity","textures":"none"})");
   EXPECT_EQ(house.statistics.warnings, 1U);
@@ -333,10 +345,6 @@ TEST(Output, SpeaksOfTrianglesAloneInTheEstimateAndOfExactOnesWhereTheyAre) {
   EXPECT_EQ(plain["exact"], true);
   EXPECT_EQ(web["exact"], false);
   EXPECT_LT(web["bytes"], plain["bytes"]);
-}
-
-TEST(Output, RefusesLevelsOfDetailOfAGeneratorThatMakesOne) {
-  EXPECT_THAT(refused("menger_sponge", R"({"lods":3,"format":"zip"})"), ElementsAre("/output/lods"));
 }
 
 /// A trunk with a hull, as a generator leaves it.
