@@ -57,6 +57,7 @@ struct Product {
   std::string media_type;  ///< "model/gltf-binary", ...
   std::string extension;   ///< "glb", ...
   Statistics statistics;
+  std::vector<Warning> warnings;  ///< those that the model carries, with pointers into the request
   struct Span {
     std::string name;
     double milliseconds;

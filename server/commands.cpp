@@ -1,5 +1,7 @@
 #include "server/commands.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -58,6 +60,15 @@ bool write_file(const std::string& name, const Payload& payload) {
   return std::fclose(file) == 0 && written;
 }
 
+void print_warning(const std::string& file, const std::string& place, const std::string& message) {
+  std::fprintf(stderr, "%s:%s: warning: %s\n", file.c_str(), place.c_str(), message.c_str());
+}
+
+/// "4:2", a place in a text.
+std::string place_in_text(const Warning& warning) {
+  return std::to_string(warning.line) + ":" + std::to_string(warning.column);
+}
+
 Job::Options options_of(const Config& config) {
   Job::Options options;
   options.limits = config.limits;
@@ -109,9 +120,18 @@ int generate_command(const Config& config, const std::string& in, const std::str
   Result<Request> request = read_request(*text, config.limits);
   if (request) request = in_form_of(*request, extension);
   if (!request) return refused(request.error());
+  if (out == "-" && request->format() != "gltf" && isatty(STDOUT_FILENO) != 0) {
+    std::fputs("seedmesh: a model is no text for a terminal; name a file, as in -o model.glb, or pipe it\n",
+               stderr);
+    return 2;
+  }
   Job job(request->seed(), options_of(config));
   const Result<Product> product = produce(*request, job);
   if (!product) return refused(product.error());
+  for (const Warning& warning : product->warnings) {
+    print_warning(in, warning.pointer + (warning.line > 0 ? ":" + place_in_text(warning) : ""),
+                  warning.message);
+  }
   if (!write_file(out, product->payload)) return unusable(out);
   return 0;
 }
@@ -128,10 +148,7 @@ int import_command(const Config& config, const ImportFiles& files) {
   const Result<ImportedRequest> imported = import_request({files.format, files.entry, *text}, config.limits);
   if (!imported) return refused(imported.error());
   for (const Warning& warning : imported->warnings) {
-    const std::string place = warning.line > 0
-                                  ? std::to_string(warning.line) + ":" + std::to_string(warning.column)
-                                  : warning.pointer;
-    std::fprintf(stderr, "%s:%s: warning: %s\n", files.in.c_str(), place.c_str(), warning.message.c_str());
+    print_warning(files.in, warning.line > 0 ? place_in_text(warning) : warning.pointer, warning.message);
   }
   const auto request = nlohmann::ordered_json::parse(imported->request.canonical());
   Payload payload;

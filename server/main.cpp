@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "core/pipeline.h"
 #include "server/commands.h"
@@ -22,10 +23,31 @@ constexpr int usage_error = 2;
 /// Flags of every setting, kept as text: load_config judges all of them at once, with the environment's.
 using Texts = std::map<std::string, std::string>;
 
-void add_settings(CLI::App& command, Texts& texts) {
+/// Which settings a command reads, and so has as flags. Variables and the file may hold all of them.
+using Reads = bool (*)(std::string_view name);
+
+bool reads_all(std::string_view) { return true; }
+
+/// What bounds one model.
+bool reads_limits(std::string_view name) {
+  return name == "threads" || name == "time-limit" || name.starts_with("max-");
+}
+
+bool reads_limits_and_textures(std::string_view name) {
+  return reads_limits(name) || name == "texture-bytes";
+}
+
+bool reads_keys(std::string_view name) { return name == "signing-keys"; }
+
+bool reads_address(std::string_view name) {
+  return name == "host" || name == "port" || name.starts_with("tls-");
+}
+
+void add_settings(CLI::App& command, Texts& texts, Reads reads) {
   command.add_option("--config", texts["config"],
                      "File with settings: an object of JSON, keys as the flags.");
   for (const SettingInfo& setting : settings()) {
+    if (!reads(setting.name)) continue;
     const std::string text = setting.text + " [" + setting.fallback + "]";
     if (setting.is_switch) {
       command.add_flag("--" + setting.name, texts[setting.name], text);
@@ -64,7 +86,7 @@ struct Told {
   bool print_config = false;
 };
 
-/// Declares the commands and what each is told, with the settings of those that have some.
+/// Declares the commands, what each is told, and the settings that it reads.
 void add_commands(CLI::App& app, Told& told, Texts& texts) {
   const auto command = [&](const char* name, const char* text) { return app.add_subcommand(name, text); };
   CLI::App* serving = command("serve", "Serve over HTTP.");
@@ -102,8 +124,12 @@ void add_commands(CLI::App& app, Told& told, Texts& texts) {
       ->add_option("name", told.key_name, "Name of both.")
       ->required();
   CLI::App* checking = command("healthcheck", "Ask a service on this machine whether it is alive.");
-  for (CLI::App* each : {serving, generating, validating, deriving, importing, many, signing, checking})
-    add_settings(*each, texts);
+  add_settings(*serving, texts, reads_all);
+  for (CLI::App* each : {generating, validating, deriving, importing})
+    add_settings(*each, texts, reads_limits);
+  add_settings(*many, texts, reads_limits_and_textures);
+  add_settings(*signing, texts, reads_keys);
+  add_settings(*checking, texts, reads_address);
 }
 
 /// Where no file with the request is named, it is what is piped in. False: nothing is.

@@ -42,6 +42,7 @@ Cache::Outcome make(const Call& call, const Known& known, const std::stop_token&
     auto made = std::make_shared<Made>();
     made->product = std::move(*product);
     made->payload = std::make_shared<const Payload>(std::move(made->product.payload));
+    made->product.warnings.clear();  // the model carries them
     made->token = token_of(known.request);
     call.service.metrics.made(made->product.statistics);
     for (const Product::Span& span : made->product.timing)

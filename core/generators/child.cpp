@@ -114,7 +114,12 @@ Result<Appraisal> appraise_child(const Child& child, const std::string& pointer,
 std::string unknown_generator(std::string_view name) {
   std::vector<std::string_view> names;
   for (const Generator& generator : generators()) names.push_back(generator.name);
-  return schema::unknown_word("generator", name, names);
+  std::string message = schema::unknown_word("generator", name, names);
+  if (!message.ends_with('?')) {
+    message += "; there are ";
+    for (std::size_t i = 0; i < names.size(); ++i) message.append(i > 0 ? ", " : "").append(names[i]);
+  }
+  return message;
 }
 
 }  // namespace seedmesh

@@ -33,7 +33,7 @@ Result<Model> generate_child(const Child& child, const std::string& pointer, Rng
 /// The same for the estimate.
 Result<Appraisal> appraise_child(const Child& child, const std::string& pointer, Rng place, const Job& job);
 
-/// "there is no generator "tre"; did you mean "tree"?"
+/// "there is no generator "tre"; did you mean "tree"?", or which there are.
 std::string unknown_generator(std::string_view name);
 
 }  // namespace seedmesh

@@ -25,7 +25,6 @@ struct Traits {
   bool grows = false, sways = false, has_collision = false;
   bool has_impostor = false, keeps_budget = false;
   bool parts = false, joins_triangles = false;
-  bool has_levels = true;
 };
 
 Result<Payload> payload_of(Result<Payload> made) { return made; }
@@ -73,7 +72,6 @@ struct Row {
             .keeps_budget = traits.keeps_budget,
             .parts = traits.parts,
             .joins_triangles = traits.joins_triangles,
-            .has_levels = traits.has_levels,
             .read = read,
             .write = write,
             .check = check,
@@ -146,8 +144,8 @@ constexpr Generator rows[] = {
         scene::vocabulary>::named<scene::encode>("scene", scene_forms,
                                                  {.grows = true, .has_impostor = true, .keeps_budget = true}),
     Row<FractalParams, read_fractal, write_fractal, fractal::check, fractal::generate, fractal::derive,
-        fractal::appraise, fractal::vocabulary>::named<fractal::encode>("fractal", fractal_forms,
-                                                                        {.has_levels = false}),
+        fractal::appraise, fractal::vocabulary>::named<fractal::encode, fractal::check_form>("fractal",
+                                                                                             fractal_forms),
 };
 
 }  // namespace

@@ -34,7 +34,6 @@ struct Generator {
   bool parts = false;  ///< what it repeats are parts of one thing, which beyond 400 are merged by material
   /// Its meshes fit a budget of triangles better where triangles are joined than at a level of detail.
   bool joins_triangles = false;
-  bool has_levels = true;  ///< its models may have levels of detail
 
   /// From JSON that stands at `pointer`. Gives parameters even where there are faults: refused members have
   /// defaults. An empty `settle` leaves requests inside as they are. Callers use read_parameters of child.h.

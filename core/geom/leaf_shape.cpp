@@ -382,12 +382,6 @@ void measure(LeafDrawing& drawing) {
 
 std::span<const std::string_view> leaf_shape_names() { return names; }
 
-std::optional<LeafShape> leaf_shape_named(std::string_view name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return std::nullopt;
-  return static_cast<LeafShape>(found - names.begin());
-}
-
 LeafDrawing draw_leaf(LeafShape shape, const LeafDetail& detail, int count) {
   LeafDrawing drawing = count > 1 ? twig(shape, detail, count) : single(shape, detail);
   measure(drawing);

@@ -6,7 +6,6 @@
 /// seen.
 #include <cstddef>
 #include <glm/vec2.hpp>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -31,7 +30,6 @@ enum class LeafShape {
 };
 constexpr int leaf_shape_count = 13;
 std::span<const std::string_view> leaf_shape_names();
-std::optional<LeafShape> leaf_shape_named(std::string_view name);
 
 /// A line that grows thinner: a stalk, a needle or a vein.
 struct LeafLine {

@@ -69,7 +69,7 @@ class Net {
     measure();
   }
 
-  std::uint64_t reduce(std::uint64_t target) {
+  std::uint64_t reduce(std::uint64_t target, double most_cost) {
     for (std::uint32_t point = 0; point < head_.size(); ++point) wish(point);
     std::uint64_t steps = 0;
     while (left_ > target && heap_.size() > 0) {
@@ -78,6 +78,7 @@ class Net {
       const Wish best = heap_.back();
       heap_.pop_back();
       if (head_[best.from] == none || best.stamp != stamp_[best.from]) continue;
+      if (best.cost > most_cost) break;
       collapse(best.from, best.to);
     }
     return left_;
@@ -368,9 +369,9 @@ class Net {
 }  // namespace
 
 std::uint64_t simplify(std::span<Mesh* const> meshes, std::uint64_t target, const std::vector<bool>& fixed,
-                       Job& job) {
+                       Job& job, double most_cost) {
   Net net(meshes, fixed, job);
-  const std::uint64_t left = net.reduce(target);
+  const std::uint64_t left = net.reduce(target, most_cost);
   net.write(meshes);
   return left;
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// Meshes with fewer triangles, by edge collapse.
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -18,8 +19,11 @@ namespace seedmesh {
 /// 1997). Meshes that are `fixed` (one for each) stay whole, and so do lines and points. Not after finish():
 /// indices are wide.
 ///
+/// No collapse costs more than `most_cost`: the square of a distance times twice the area that it is taken
+/// over, in metres to the fourth.
+///
 /// Returns the number of triangles that are left. n log n, about 10 us a collapse; the same on every machine.
 std::uint64_t simplify(std::span<Mesh* const> meshes, std::uint64_t target, const std::vector<bool>& fixed,
-                       Job& job);
+                       Job& job, double most_cost = std::numeric_limits<double>::infinity());
 
 }  // namespace seedmesh

@@ -170,7 +170,7 @@ void thin_sheets(Mesh& mesh, std::uint64_t target, const Job& job) {
   keep_pieces(mesh, pieces, stays);
 }
 
-void drop_smallest_pieces(Mesh& mesh, std::uint64_t target, const Job& job) {
+void drop_smallest_pieces(Mesh& mesh, std::uint64_t target, const Job& job, double most_area) {
   if (mesh.topology != Topology::triangles || mesh.elements() <= target) return;
   const Pieces pieces = pieces_of(mesh, job);
   if (pieces.first.size() < fewest_pieces) return;
@@ -183,6 +183,7 @@ void drop_smallest_pieces(Mesh& mesh, std::uint64_t target, const Job& job) {
   std::vector<bool> stays(order.size(), true);
   std::uint64_t left = mesh.elements();
   for (std::size_t i = 0; i + 1 < order.size() && left > target; ++i) {
+    if (areas.area[order[i]] > 2 * most_area) break;
     stays[order[i]] = false;
     left -= pieces.triangles[order[i]];
   }

@@ -36,7 +36,6 @@ class Reader {
   void break_off(const std::string& expected);
   /// Tells a fault that ends the whole expression.
   void give_up(const Token& where, std::string message);
-  Damage damage() const { return damage_; }
   bool is_sound() const { return damage_ == Damage::none; }
   bool has_faults() const { return !faults_.empty(); }
 

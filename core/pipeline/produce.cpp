@@ -8,7 +8,6 @@
 #include "core/geom/tangents.h"
 #include "core/gltf/write.h"
 #include "core/lang/expression.h"
-#include "core/model/levels.h"
 #include "core/model/row.h"
 #include "core/pipeline/body.h"
 #include "core/pipeline/fit.h"
@@ -108,10 +107,6 @@ void sign(Model& model, const Request& request) {
 
 static_assert(static_cast<int>(OutputCollision::godot) == static_cast<int>(CollisionNames::godot));
 
-std::string found_levels(const OutputParams& output) {
-  return "found " + std::to_string(output.lods) + " levels of detail; this model has ";
-}
-
 int texture_size(const OutputParams& output) {
   const auto* size = std::get_if<std::int32_t>(&output.textures);
   return size ? *size : 0;
@@ -181,9 +176,6 @@ Result<Model> generate(const Request& request, Job& job) {
   job.set_demand(demand_of(output, *request.body().generator));
   Result<Model> model = request.body().generator->generate(request.body().params, job);
   if (!model) return in_request(std::move(model).error());
-  const std::size_t levels = levels_of(*model);
-  if (output.lods > 1 && levels == 1)
-    return Error{Code::invalid, {{"/output/lods", found_levels(output) + "one"}}};
   return model;
 }
 
@@ -245,6 +237,12 @@ std::optional<Issue> add_impostors(Model& model, const Request& request, Job& jo
   return std::nullopt;
 }
 
+/// Walls are sheets, too, and what would take them away is no coarser building.
+Sacrifice sacrifice_of(const Generator& generator) {
+  constexpr double detail = 0.004;
+  return generator.parts ? Sacrifice{.leaves = false, .detail = detail} : Sacrifice{};
+}
+
 WriteOptions write_options(const Request& request, const Form& form) {
   const OutputParams& output = request.body().output;
   const Profile& profile = profile_of(output.profile);
@@ -270,15 +268,19 @@ Result<Product> produce(const Request& request, Job& job, TextureStore* texture_
       model->warnings.push_back(
           {"", "nothing is to be seen: the model has no triangles, lines or points", 0, 0});
     }
+    const Sacrifice sacrifice = sacrifice_of(*request.body().generator);
     if (output.max_triangles) {
       const auto most = static_cast<std::uint64_t>(*output.max_triangles);
       const bool has_impostors = output.impostor && request.body().generator->keeps_budget;
-      if (std::optional<Issue> issue = fit(*model, most, output.lods + (has_impostors ? 1 : 0), job)) {
+      if (std::optional<Issue> issue =
+              fit(*model, most, output.lods + (has_impostors ? 1 : 0), sacrifice, job)) {
         return Error{Code::limit, {*std::move(issue)}};
       }
     }
-    if (const std::size_t levels = levels_of(*model); levels < static_cast<std::size_t>(output.lods))
-      model->warnings.push_back({"/output/lods", found_levels(output) + std::to_string(levels), 0, 0});
+    if (output.lods > 1) {
+      if (std::optional<Issue> issue = add_levels(*model, output.lods, sacrifice, job))
+        return Error{Code::invalid, {*std::move(issue)}};
+    }
     merge_where_wanted(*model, request, job);
     texture::paint(*model, texture_size(output), texture_store, job);
     if (std::optional<Issue> issue = add_impostors(*model, request, job))
@@ -290,6 +292,7 @@ Result<Product> produce(const Request& request, Job& job, TextureStore* texture_
     ModelCounts counts = count(*model);
     Product product;
     product.statistics.warnings = static_cast<std::uint32_t>(model->warnings.size());
+    product.warnings = model->warnings;
     const Form& form = form_of(request);
     product.media_type = form.media_type;
     product.extension = form.name;

@@ -56,6 +56,30 @@ Generator::Params parameters_of(const Json& body, const Generator& generator, co
   return params;
 }
 
+/// The generator of the preset that a body names, where the body names another one; else empty.
+std::string preset_of_another(const Json& json) {
+  if (!json.is_object() || !json.contains("preset") || !json.contains("generator")) return {};
+  if (!json["preset"].is_string() || !json["generator"].is_string()) return {};
+  const auto preset = preset_requests().find(json["preset"].get_ref<const std::string&>());
+  if (preset == preset_requests().end()) return {};
+  const auto own = preset->second.request["generator"].get<std::string>();
+  return own == json["generator"] ? std::string() : own;
+}
+
+/// The parameters of a body that is merged over a preset of another generator: one fault for all that is left
+/// of the other's parameters.
+Generator::Params mixed_parameters(const Json& merged, const std::string& other, const Generator& generator,
+                                   const Limits& limits, Faults& faults) {
+  Faults strangers;
+  Generator::Params params = parameters_of(merged, generator, limits, strangers);
+  if (!strangers.empty()) {
+    const std::string name(generator.name);
+    faults.add({"/generator", "found \"" + name + "\", but the preset is a request for " + other +
+                                  ", whose parameters are no parameters of " + name});
+  }
+  return params;
+}
+
 /// A form that only other generators have is refused.
 void add_form_fault(const Generator& generator, const OutputParams& output, Faults& faults) {
   constexpr std::string_view of_models[] = {"glb", "gltf", "zip"};
@@ -84,7 +108,7 @@ void check_profile(const OutputParams& output, Faults& faults) {
                                     profiles_where(&Profile::lods_inside)});
   }
   if (output.impostor && output.format != OutputFormat::zip && !profile.lods_inside) {
-    faults.add({"/output/impostor", "found a level of detail in the format " +
+    faults.add({"/output/impostor", "found an impostor, which is one more level of detail, in the format " +
                                         std::string(text_of(output.format)) + " with " + named +
                                         ", which hold one; expected the format zip, or one of the profiles " +
                                         profiles_where(&Profile::lods_inside)});
@@ -97,12 +121,6 @@ void check_profile(const OutputParams& output, Faults& faults) {
   }
 }
 
-void check_levels(const Generator& generator, const OutputParams& output, Faults& faults) {
-  if (output.lods == 1 || generator.has_levels) return;
-  faults.add({"/output/lods", "found " + std::to_string(output.lods) + " levels of detail; the generator " +
-                                  std::string(generator.name) + " makes one"});
-}
-
 /// A picture needs texels, and something that stands still.
 void check_impostor(const Generator& generator, const OutputParams& output, Faults& faults) {
   if (!output.impostor) return;
@@ -111,9 +129,11 @@ void check_impostor(const Generator& generator, const OutputParams& output, Faul
   };
   const auto* size = std::get_if<std::int32_t>(&output.textures);
   if (!generator.has_impostor) refuse("the generator " + std::string(generator.name) + " makes no impostors");
-  if (!size) refuse("found an impostor and no textures; it is one");
+  if (!size)
+    refuse("an impostor is a picture, and `textures` is none; expected textures of at least " +
+           std::to_string(least_impostor) + " texels");
   if (size && *size < least_impostor) {
-    refuse("found textures of " + std::to_string(*size) + " texels; expected at least " +
+    refuse("found textures of " + std::to_string(*size) + " texels for an impostor; expected at least " +
            std::to_string(least_impostor));
   }
   if (output.animation == OutputParams::Animation::growth)
@@ -191,13 +211,14 @@ Result<Request> read_request_body(const Json& json, const Limits& limits) {
   Request::Body body;
   body.generator = named_generator(merged, frame, faults);
   if (body.generator && (!merged.contains("parameters") || merged["parameters"].is_object())) {
-    body.params = parameters_of(merged, *body.generator, limits, faults);
+    const std::string other = preset_of_another(json);
+    body.params = other.empty() ? parameters_of(merged, *body.generator, limits, faults)
+                                : mixed_parameters(merged, other, *body.generator, limits, faults);
   }
   if (body.generator) {
     add_form_fault(*body.generator, frame.output, faults);
     check_own_form(*body.generator, body.params, frame.output, faults);
     check_impostor(*body.generator, frame.output, faults);
-    check_levels(*body.generator, frame.output, faults);
   }
   if (body.generator && !body.generator->grows && frame.output.animation == OutputParams::Animation::growth) {
     faults.add({"/output/animation",

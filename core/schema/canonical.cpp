@@ -58,9 +58,11 @@ void append(std::string& out, const Json& value) {
     case Json::value_t::number_unsigned:
       out += std::to_string(value.get<std::uint64_t>());
       break;
-    case Json::value_t::number_float:
-      out += number_text(value.get<double>());
+    case Json::value_t::number_float: {
+      const auto number = value.get<double>();
+      out += std::isfinite(number) ? number_text(number) : "null";  // JSON has no word for it
       break;
+    }
     case Json::value_t::string:
       append_string(out, value.get_ref<const std::string&>());
       break;

@@ -272,6 +272,7 @@ bool check_members(const Place& place, std::span<const std::string_view> known,
     if (place.value().contains(name)) continue;
     place.faults().add_missing(place.pointer(), name, "\"" + std::string(name) + "\" is missing");
   }
+  bool is_listed = false;  // once for all strangers of an object
   for (const auto& [key, value] : place.value().get_ref<const Json::object_t&>()) {
     if (std::ranges::find(known, std::string_view(key)) != known.end()) continue;
     if (place.faults().full()) {
@@ -279,7 +280,7 @@ bool check_members(const Place& place, std::span<const std::string_view> known,
       continue;
     }
     std::string help = hint(key, known);
-    if (help.empty()) help = "; known are " + listed(known);
+    if (help.empty() && !std::exchange(is_listed, true)) help = "; known are " + listed(known);
     place.child(value, key).fault("\"" + shortened(key, quoted) + "\" is not known here" + help);
   }
   return true;

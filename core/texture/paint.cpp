@@ -86,10 +86,6 @@ std::span<const std::string_view> texture_kinds() {
   return all;
 }
 
-bool is_texture_kind(std::string_view name) {
-  return std::find(texture_kinds().begin(), texture_kinds().end(), name) != texture_kinds().end();
-}
-
 bool is_repeating_kind(std::string_view name) { return is_bark_kind(name) || wall_kind(name) != nullptr; }
 
 Painting paint_kind(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job) {

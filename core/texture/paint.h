@@ -12,8 +12,6 @@ namespace seedmesh::texture {
 /// All kinds that a recipe may name: barks, leaves, twigs, petals, walls and roofs.
 std::span<const std::string_view> texture_kinds();
 
-bool is_texture_kind(std::string_view name);
-
 /// Bark and walls: what goes on beyond its edges.
 bool is_repeating_kind(std::string_view name);
 

@@ -29,7 +29,6 @@ struct Picture {
   int bits = 8;
   Array<std::uint8_t> bytes;
 
-  std::size_t channel_bytes() const { return static_cast<std::size_t>(bits) / 8; }
   /// The channel that stands `index` channels from the start, of either width.
   std::uint32_t channel(std::size_t index) const;
   PictureView view() const { return {width, height, channels, bits, std::as_bytes(bytes.span())}; }

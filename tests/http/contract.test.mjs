@@ -1,6 +1,7 @@
 // What a reader of the contract expects of generate, validate and derive, asked of the real program.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
+import Ajv from 'ajv/dist/2020.js';
 import { plant, random, word, is_problem, is_glb, opened } from './contract.mjs';
 import { program, serve } from './support.mjs';
 
@@ -130,6 +131,24 @@ test('validate estimates without making anything, and lists every fault', async 
   is_problem(await server.post('/v1/validate', { ...plant, seed: -1 }), 422, 'invalid-request');
   is_problem(await server.post('/v1/validate', '{'), 400, 'malformed-request');
   is_problem(await server.post('/v1/validate', plant, { 'content-type': 'text/plain' }), 415);
+});
+
+test('derive answers what OpenAPI says of each generator', async () => {
+  const { components } = (await server.get('/openapi.json')).json;
+  const asked = {
+    lsystem: plant.parameters, tree: { model: 'proctree' }, building: { blueprint: 'house' }, terrain: { iterations: 3 }, fractal: {},
+    scene: { layers: [{ model: { generator: 'fractal', parameters: { iterations: 0 } }, place: { method: 'scatter', count: 3 } }] },
+  };
+  for (const [generator, parameters] of Object.entries(asked)) {
+    const answer = await server.post('/v1/derive', { generator, parameters });
+    assert.equal(answer.status, 200, answer.text.slice(0, 300));
+    const check = new Ajv({ strict: false }).compile({ components, $ref: `#/components/schemas/${generator}_derivation` });
+    assert.ok(check(answer.json), `${generator}: ${JSON.stringify(check.errors)}`);
+    const known = Object.keys(components.schemas[`${generator}_derivation`].properties);
+    assert.deepEqual(Object.keys(answer.json).filter((name) => !known.includes(name)), [], generator);
+  }
+  const sphere = await server.post('/v1/derive', { generator: 'terrain', parameters: { algorithm: 'poisson_faulting', shape: 'sphere', iterations: 5 } });
+  assert.ok(new Ajv({ strict: false }).compile({ components, $ref: '#/components/schemas/terrain_derivation' })(sphere.json), sphere.text.slice(0, 300));
 });
 
 test('derive gives the word before geometry', async () => {

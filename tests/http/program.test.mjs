@@ -78,6 +78,24 @@ test('import prints a request, and its warnings apart', async () => {
   assert.deepEqual(unnamed.out, out);
 });
 
+test('generate prints the warnings that the model carries, apart from it', async () => {
+  const odd = { generator: 'fractal', parameters: { iterations: 1, points: 5 } };
+  const { status, out, err } = await run(program, ['generate', '-'], { input: JSON.stringify(odd) });
+  assert.equal(status, 0);
+  assert.equal(out.subarray(0, 4).toString(), 'glTF');
+  assert.match(err, /^-:\/parameters\/points: warning: has no effect: .*\n$/);
+  assert.equal((await run(program, ['generate', file])).err, '');
+});
+
+test('a command takes the settings that it reads, and no others', async () => {
+  for (const [command, flag] of [['generate', '--max-triangles'], ['derive', '--time-limit'], ['manifest', '--texture-bytes'], ['sign', '--signing-keys'], ['healthcheck', '--port'], ['serve', '--queue']]) {
+    assert.match((await run(program, [command, '--help'])).out.toString(), new RegExp(` ${flag} `), command);
+  }
+  for (const args of [['generate', file, '--port', '1'], ['validate', file, '--redis-url', 'redis://x'], ['sign', '/x', '--queue', '1'], ['healthcheck', '--max-triangles', '1']]) {
+    assert.equal((await run(program, args)).status, 2, args.join(' '));
+  }
+});
+
 test('validate and derive print JSON', async () => {
   const valid = await run(program, ['validate', file]);
   assert.equal(valid.status, 0);

@@ -123,7 +123,6 @@ class Deriver {
   std::uint32_t named_solid(std::string_view name);
   const Solid& flat_solid(const State& state);
   std::uint32_t style_with(Style style);
-  glm::dmat3 axes_of(const State& state) const { return out_.axes[state.axes]; }
   double area(const State& state) const;
   double volume(const State& state) const;
 

@@ -16,10 +16,6 @@ namespace {
 
 constexpr std::size_t bytes_of_point = 15;
 
-Error refused(const char* pointer, std::string message) {
-  return {Code::invalid, {{pointer, std::move(message)}}};
-}
-
 void put_float(std::uint8_t* out, float value) {
   const auto bits = std::bit_cast<std::uint32_t>(value + 0.0F);
   for (unsigned shift = 0; shift < 32; shift += 8) *out++ = static_cast<std::uint8_t>(bits >> shift);
@@ -73,17 +69,23 @@ Array<std::uint8_t> colored(const FractalParams& params, const EscapeField& fiel
 }  // namespace
 
 Result<Array<std::uint8_t>> encode(const FractalParams& params, std::string_view format, Job& job) {
-  const std::string method(text_of(params.method));
-  if (format == "ply") {
-    if (params.method != FractalMethod::frcm)
-      return refused("/method", "found \"" + method + "\", but a ply holds the points of \"frcm\"");
-    if (!params.stages.empty()) return refused("/stages", "a ply holds one cloud, expected no stages");
-    return ply_of(params, job);
-  }
-  if (params.method != FractalMethod::escape)
-    return refused("/method", "found \"" + method + "\", but a picture is made of \"escape\"");
+  if (format == "ply") return ply_of(params, job);
   const EscapeField field = escape_field(params, job);
   return format == "png16" ? grey_of(field, job) : colored(params, field, job);
+}
+
+std::vector<Issue> check_form(const FractalParams& params, const WantedForm& form) {
+  const std::string found = "found \"" + std::string(text_of(params.method)) + "\"";
+  std::vector<Issue> issues;
+  if (form.format != "ply") {
+    if (params.method != FractalMethod::escape)
+      issues.push_back({"/method", found + ", but a picture is made of \"escape\""});
+    return issues;
+  }
+  if (params.method != FractalMethod::frcm)
+    issues.push_back({"/method", found + ", but a ply holds the points of \"frcm\""});
+  if (!params.stages.empty()) issues.push_back({"/stages", "a ply holds one cloud, expected no stages"});
+  return issues;
 }
 
 }  // namespace seedmesh::fractal

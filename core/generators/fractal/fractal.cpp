@@ -1,12 +1,14 @@
 #include "core/generators/fractal/fractal.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/generators/fractal/chaos.h"
 #include "core/generators/fractal/element.h"
 #include "core/generators/fractal/escape.h"
 #include "core/generators/fractal/faces.h"
+#include "core/generators/fractal/idle.h"
 #include "core/generators/fractal/measure.h"
 #include "core/generators/fractal/merged.h"
 #include "core/generators/fractal/pieces.h"
@@ -36,12 +38,15 @@ std::optional<Lattice> visible_lattice(const FractalParams& params, const Instru
 void refuse_too_many_squares(const Lattice& lattice, int rounds, const Job& job) {
   const auto limit = static_cast<double>(job.limits().triangles);
   const auto triangles = [&](int after) { return 2 * exposed_quads(lattice, after).value_or(0); };
-  if (triangles(rounds) <= limit) return;
+  const auto keep = [&](int after) { return triangles(after) <= limit; };  // not beyond what a number holds
+  if (keep(rounds)) return;
   int fewer = rounds;
-  while (fewer > 0 && triangles(fewer) > limit) --fewer;
-  Job::refuse("needs " + number_text(triangles(rounds)) + " triangles after " + std::to_string(rounds) +
-                  " rounds; the limit is " + std::to_string(job.limits().triangles) + ", which " +
-                  std::to_string(fewer) + " rounds keep",
+  while (fewer > 0 && !keep(fewer)) --fewer;
+  const double wanted = triangles(rounds);
+  Job::refuse("needs " + (std::isfinite(wanted) ? number_text(wanted) : "more than 1e+300") +
+                  " triangles after " + std::to_string(rounds) + " rounds; the limit is " +
+                  std::to_string(job.limits().triangles) + ", which " + std::to_string(fewer) +
+                  " rounds keep",
               "/iterations");
 }
 
@@ -131,7 +136,21 @@ Result<Model> generate_escape(const FractalParams& params, Job& job) {
   return model;
 }
 
-Json number_or_null(const std::optional<double>& number) { return number ? Json(*number) : Json(nullptr); }
+/// Null also where no number is large enough.
+Json number_or_null(const std::optional<double>& number) {
+  return number && std::isfinite(*number) ? Json(*number) : Json(nullptr);
+}
+
+Result<Model> generate_by_method(const FractalParams& params, Job& job) {
+  switch (params.method) {
+    case FractalMethod::frcm:
+      return generate_cloud(params, job);
+    case FractalMethod::escape:
+      return generate_escape(params, job);
+    default:
+      return generate_copies(params, job);
+  }
+}
 
 Json vector(const glm::vec3& v) { return Json::array({v.x + 0.0F, v.y + 0.0F, v.z + 0.0F}); }
 
@@ -210,6 +229,25 @@ Result<Appraisal> appraise_copies(const FractalParams& params, Job& job) {
   return appraisal;
 }
 
+/// Clouds of points and reliefs; of other clouds nothing is known before they are made.
+Appraisal appraise_others(const FractalParams& params, const Job& job) {
+  Appraisal appraisal;
+  if (params.method == FractalMethod::escape) {
+    const auto n = static_cast<std::uint64_t>(params.escape.resolution);
+    appraisal.estimate = Estimate{2 * (n - 1) * (n - 1) + 12 * (n - 1), 52 * n * n, true};
+  } else if (params.cloud == FractalCloud::points) {
+    std::uint64_t points = 0;
+    for (const std::int64_t count : stages_of(params, params.points))
+      points += static_cast<std::uint64_t>(count);
+    if (points > job.limits().triangles)
+      Job::refuse("needs " + std::to_string(points) + " points; the limit is " +
+                      std::to_string(job.limits().triangles),
+                  "/points");
+    appraisal.estimate = Estimate{0, 16 * points + 1000, true};
+  }
+  return appraisal;
+}
+
 }  // namespace
 
 std::vector<Issue> check(const FractalParams& params, const Limits& limits) {
@@ -225,14 +263,11 @@ std::vector<Issue> check(const FractalParams& params, const Limits& limits) {
 
 Result<Model> generate(const FractalParams& params, Job& job) {
   job.progress("derive", 0);
-  switch (params.method) {
-    case FractalMethod::frcm:
-      return generate_cloud(params, job);
-    case FractalMethod::escape:
-      return generate_escape(params, job);
-    default:
-      return generate_copies(params, job);
-  }
+  Result<Model> model = generate_by_method(params, job);
+  if (!model) return model;
+  const std::vector<Warning> idle = idle_parameters(params);
+  model->warnings.insert(model->warnings.begin(), idle.begin(), idle.end());
+  return model;
 }
 
 Result<Json> derive(const FractalParams& params, Job& job) {
@@ -255,7 +290,10 @@ Result<Json> derive(const FractalParams& params, Job& job) {
   }
   Json bounds = nullptr;
   if (result.bounds) bounds = {{"min", vector(result.bounds->min)}, {"max", vector(result.bounds->max)}};
-  return Json{{"pieces", result.pieces},
+  Json warnings = Json::array();
+  for (const Warning& each : idle_parameters(params))
+    warnings.push_back({{"pointer", "/parameters" + each.pointer}, {"message", each.message}});
+  return Json{{"pieces", number_or_null(result.pieces)},
               {"dimension", number_or_null(result.dimension)},
               {"exposed_quads", number_or_null(result.exposed_quads)},
               {"surface_area", number_or_null(result.surface_area)},
@@ -263,26 +301,16 @@ Result<Json> derive(const FractalParams& params, Job& job) {
               {"genus", number_or_null(result.genus)},
               {"non_manifold_edges", number_or_null(result.non_manifold_edges)},
               {"bounds", std::move(bounds)},
-              {"warnings", Json::array()}};
+              {"warnings", std::move(warnings)}};
 }
 
 Result<Appraisal> appraise(const FractalParams& params, const Job& job) {
   Job own = job.for_child(job.seed());
-  if (params.method == FractalMethod::mrcm) return appraise_copies(params, own);
-  Appraisal appraisal;
-  if (params.method == FractalMethod::escape) {
-    const auto n = static_cast<std::uint64_t>(params.escape.resolution);
-    appraisal.estimate = Estimate{2 * (n - 1) * (n - 1) + 12 * (n - 1), 52 * n * n, true};
-  } else if (params.cloud == FractalCloud::points) {
-    std::uint64_t points = 0;
-    for (const std::int64_t count : stages_of(params, params.points))
-      points += static_cast<std::uint64_t>(count);
-    if (points > job.limits().triangles)
-      Job::refuse("needs " + std::to_string(points) + " points; the limit is " +
-                      std::to_string(job.limits().triangles),
-                  "/points");
-    appraisal.estimate = Estimate{0, 16 * points + 1000, true};
-  }
+  Result<Appraisal> appraisal =
+      params.method == FractalMethod::mrcm ? appraise_copies(params, own) : appraise_others(params, job);
+  if (!appraisal) return appraisal;
+  const std::vector<Warning> idle = idle_parameters(params);
+  appraisal->warnings.insert(appraisal->warnings.begin(), idle.begin(), idle.end());
   return appraisal;
 }
 

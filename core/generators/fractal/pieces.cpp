@@ -108,7 +108,8 @@ void refuse_too_many(double elements, std::uint64_t limit, int rounds, const Ins
                           static_cast<double>(limit)) {
     --fewer;
   }
-  Job::refuse("needs " + std::to_string(whole(elements)) + " triangles or lines after " +
+  const std::string least = elements < largest_count ? "" : "more than ";
+  Job::refuse("needs " + least + std::to_string(whole(elements)) + " triangles or lines after " +
                   std::to_string(rounds) + " rounds; the limit is " + std::to_string(limit) + ", which " +
                   std::to_string(fewer) + " rounds keep",
               "/iterations");

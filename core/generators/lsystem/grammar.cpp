@@ -4,6 +4,7 @@
 
 #include "core/generators/lsystem/compiler.h"
 #include "core/generators/lsystem/constants.h"
+#include "core/schema/json.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -25,7 +26,7 @@ void check_age(const LsystemParams& params, std::vector<Issue>& issues) {
     issues.push_back({"/constants/age", "`age` is the age of the plant where `timed` is set"});
   }
   if (!params.age || params.timed || *params.age <= static_cast<double>(params.iterations)) return;
-  issues.push_back({"/age", "found an age of " + std::to_string(*params.age) + "; the plant is derived for " +
+  issues.push_back({"/age", "found an age of " + number_text(*params.age) + "; the plant is derived for " +
                                 std::to_string(params.iterations) + " iterations"});
 }
 

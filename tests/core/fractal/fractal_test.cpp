@@ -5,6 +5,7 @@
 
 #include "core/generators/fractal/chaos.h"
 #include "core/generators/fractal/encode.h"
+#include "core/generators/fractal/idle.h"
 #include "core/generators/fractal/pieces.h"
 #include "tests/core/fractal/support.h"
 
@@ -69,6 +70,20 @@ TEST(Fractal, RefusesWhatWouldPassALimitBeforeItIsMade) {
   }
   EXPECT_THAT(refusal(R"({"iterations": 6})"),
               testing::AllOf(StartsWith("/iterations"), HasSubstr("5 rounds keep")));
+}
+
+TEST(Fractal, SaysSoWhereNoNumberIsLargeEnough) {
+  for (const char* json :
+       {R"({"iterations": 240})", R"({"iterations": 1000})",
+        R"({"iterations": 1000, "instructions": "corner_cube_outside"})",
+        R"({"iterations": 1000, "instructions": "sierpinski_pyramid", "element": "pyramid"})"}) {
+    EXPECT_TRUE(Json::accept(canonical_text(derived(json)))) << json;
+  }
+  EXPECT_TRUE(derived(R"({"iterations": 1000})")["pieces"].is_null());
+  EXPECT_THAT(refusal(R"({"iterations": 1000})"),
+              testing::AllOf(HasSubstr("more than 1e+300 triangles"), HasSubstr("5 rounds keep")));
+  EXPECT_THAT(refusal(R"({"iterations": 1000, "element": "sphere"})"),
+              testing::AllOf(HasSubstr("more than 46116"), HasSubstr("4 rounds keep")));
 }
 
 TEST(Fractal, TakesEveryElementWithEveryInstructionOfTheThesis) {
@@ -239,8 +254,65 @@ TEST(Forms, HoldThePointsOrTheEscapeTimes) {
     ASSERT_TRUE(png);
     EXPECT_EQ((*png)[1], 'P');
   }
-  EXPECT_EQ(file("{}", "ply").error().issues.front().pointer, "/method");
-  EXPECT_EQ(file("{}", "png8").error().issues.front().pointer, "/method");
+}
+
+TEST(Forms, AreRefusedBeforeAnythingIsMadeWhereTheMethodHasThemNot) {
+  const auto refused = [](const char* json, const char* format) {
+    const std::vector<Issue> issues = check_form(fractal_params(json), {format});
+    return issues.empty() ? std::string() : issues.front().pointer;
+  };
+  EXPECT_EQ(refused("{}", "ply"), "/method");
+  EXPECT_EQ(refused("{}", "png8"), "/method");
+  EXPECT_EQ(refused(R"({"method": "frcm"})", "png16"), "/method");
+  EXPECT_EQ(refused(R"({"method": "frcm", "stages": [10]})", "ply"), "/stages");
+  EXPECT_EQ(refused(R"({"method": "frcm"})", "ply"), "");
+  EXPECT_EQ(refused(R"({"method": "escape"})", "png16"), "");
+}
+
+/// The pointers of the parameters that do nothing.
+std::vector<std::string> idle(std::string_view json) {
+  std::vector<std::string> pointers;
+  for (const Warning& warning : idle_parameters(fractal_params(json))) pointers.push_back(warning.pointer);
+  return pointers;
+}
+
+TEST(Idle, TellsOfParametersThatTheMethodDoesNotRead) {
+  EXPECT_THAT(idle("{}"), IsEmpty());
+  EXPECT_THAT(idle(R"({"points": 5, "voxels": 8, "palette": ["#000000"], "escape": {"span": 2}})"),
+              testing::UnorderedElementsAre("/points", "/voxels", "/palette", "/escape"));
+  EXPECT_THAT(idle(R"({"method": "frcm", "iterations": 5, "surface": "pieces", "points": 9})"),
+              testing::UnorderedElementsAre("/iterations", "/surface"));
+  EXPECT_THAT(
+      idle(R"({"method": "escape", "instructions": "vicsek", "element": "sphere", "color": "#000000"})"),
+      testing::UnorderedElementsAre("/instructions", "/element", "/color"));
+  EXPECT_THAT(idle_parameters(fractal_params(R"({"palette": ["#000000"]})")).front().message,
+              HasSubstr("belongs to frcm and escape, and the method is mrcm"));
+}
+
+TEST(Idle, TellsOfParametersThatAnotherOneKeepsIdle) {
+  EXPECT_THAT(idle(R"({"columns": 2})"), testing::ElementsAre("/columns"));
+  EXPECT_THAT(idle(R"({"columns": 2, "stages": [1, 2]})"), IsEmpty());
+  EXPECT_THAT(idle(R"({"text": "NO"})"), testing::ElementsAre("/text"));
+  EXPECT_THAT(idle(R"({"text": "NO", "instructions": "word_test"})"), IsEmpty());
+  EXPECT_THAT(idle(R"({"surface": "merged", "element": "sphere"})"), testing::ElementsAre("/surface"));
+  EXPECT_THAT(idle(R"({"surface": "merged"})"), IsEmpty());
+  EXPECT_THAT(idle(R"({"instructions": [{"scale": 0.5}, {"scale": 0.5, "probability": 2}]})"),
+              testing::ElementsAre("/instructions/1/probability"));
+  EXPECT_THAT(idle(R"({"method": "frcm", "voxels": 9, "color": "#000000", "element": "sphere"})"),
+              testing::UnorderedElementsAre("/voxels", "/color", "/element"));
+  EXPECT_THAT(idle(R"({"method": "frcm", "voxels": 9, "color": "#000000", "cloud": "elements"})"), IsEmpty());
+  EXPECT_THAT(idle(R"({"method": "escape", "escape": {"constant": [0, 1]}})"),
+              testing::ElementsAre("/escape/constant"));
+  EXPECT_THAT(idle(R"({"method": "escape", "escape": {"set": "julia", "constant": [0, 1]}})"), IsEmpty());
+}
+
+TEST(Idle, IsToldByEveryRoute) {
+  const char* const json = R"({"points": 5})";
+  EXPECT_EQ(fractal_of(json)->warnings.front().pointer, "/points");
+  EXPECT_EQ(derived(json)["warnings"][0]["pointer"], "/parameters/points");
+  Job job(0, Job::Options{});
+  for (const char* each : {json, R"({"method": "escape", "points": 5})"})
+    EXPECT_EQ(appraise(fractal_params(each), job)->warnings.front().pointer, "/points") << each;
 }
 
 TEST(Plate, FillsTheSnowflake) {

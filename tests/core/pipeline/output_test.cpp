@@ -124,17 +124,78 @@ TEST(Output, RefusesLevelsThatNobodyWouldRead) {
   }
 }
 
-TEST(Output, RefusesLevelsOfAModelThatHasNone) {
-  EXPECT_THAT(refused("menger_sponge", R"({"lods":2,"profile":"web"})"), ElementsAre("/output/lods"));
-  EXPECT_THAT(refused("cga_office", R"({"lods":2,"profile":"web"})"), ElementsAre("/output/lods"));
+TEST(Output, RefusesLevelsOfWhatCannotBeMadeSimpler) {
+  EXPECT_THAT(refused("fern_cloud", R"({"lods":2,"profile":"web"})"), ElementsAre("/output/lods"));
 }
 
-TEST(Output, WarnsOfLevelsThatTheModelDoesNotHave) {
-  EXPECT_EQ(made("church", R"({"lods":3,"profile":"unity"})").statistics.warnings, 0U);
-  const Made asked = made("church", R"({"lods":5,"profile":"unity"})");
-  EXPECT_EQ(asked.statistics.warnings, 1U);
-  EXPECT_THAT(asked.document["asset"]["extras"].dump(),
-              testing::HasSubstr("found 5 levels of detail; this model has 3"));
+/// Triangles of each level of the first node that has some, finest first.
+std::vector<std::uint64_t> levels_of(const json& document) {
+  std::vector<std::uint64_t> levels;
+  const auto add = [&](const json& node) {
+    std::uint64_t corners = 0;
+    for (const json& primitive : document["meshes"][node["mesh"].get<std::size_t>()]["primitives"])
+      corners += document["accessors"][primitive["indices"].get<std::size_t>()]["count"].get<std::uint64_t>();
+    levels.push_back(corners / 3);
+  };
+  for (const json& node : document["nodes"]) {
+    if (!node.contains("extensions") || !node["extensions"].contains("MSFT_lod")) continue;
+    add(node);
+    for (const json& id : node["extensions"]["MSFT_lod"]["ids"])
+      add(document["nodes"][id.get<std::size_t>()]);
+    break;
+  }
+  return levels;
+}
+
+TEST(Output, MakesLevelsOfAModelThatHasNoneOfItsOwn) {
+  for (const char* preset : {"mandelbrot", "sponge_of_spheres", "copies_of_a_plant"}) {
+    const Made made_of = made(preset, R"({"lods":3,"profile":"unity","textures":"none"})");
+    const std::vector<std::uint64_t> levels = levels_of(made_of.document);
+    ASSERT_GE(levels.size(), 2U) << preset;
+    for (std::size_t i = 1; i < levels.size(); ++i) EXPECT_LE(levels[i] * 10, levels[i - 1] * 9) << preset;
+    EXPECT_EQ(made_of.statistics.warnings, levels.size() < 3 ? 1U : 0U) << preset;
+    EXPECT_EQ(made_of.statistics.triangles, made(preset, R"({"textures":"none"})").statistics.triangles);
+  }
+}
+
+TEST(Output, MakesLevelsOfASceneWhoseGroundIsPacked) {
+  const Result<Request> request = read_request(
+      R"({"generator":"scene","parameters":{"layers":[{"model":{"preset":"sponge_of_spheres"},
+          "place":{"method":"scatter","count":3}}]},"output":{"lods":2,"profile":"web"}})",
+      Limits{});
+  ASSERT_TRUE(request);
+  Job job(0, Job::Options{});
+  const Result<Product> product = produce(*request, job);
+  ASSERT_TRUE(product) << product.error().issues.front().message;
+  EXPECT_EQ(product->statistics.warnings, 0U);
+}
+
+TEST(Output, SaysWhereThereAreFewerLevelsThanWanted) {
+  const Made house = made("house", R"({"lods":5,"profile":"unity","textures":"none"})");
+  EXPECT_EQ(house.statistics.warnings, 1U);
+  EXPECT_THAT(house.document["asset"]["extras"]["warnings"][0]["message"].get<std::string>(),
+              HasSubstr("3 levels of detail and not 5"));
+  EXPECT_EQ(made("house", R"({"lods":3,"profile":"unity","textures":"none"})").statistics.warnings, 0U);
+}
+
+TEST(Output, TakesNoWallsOfABuildingForABudget) {
+  EXPECT_THAT(refused("cga_house_2006", R"({"max_triangles":3000,"textures":"none"})"),
+              ElementsAre("/output/max_triangles"));
+  const Made block = made("parisian_block", R"({"max_triangles":20000,"textures":"none"})");
+  EXPECT_LE(block.statistics.triangles, 20'000U);
+  EXPECT_GT(block.statistics.triangles, 5'000U);
+}
+
+TEST(Output, LeavesCollisionShapesOutOfLevels) {
+  const json document =
+      made("church", R"({"lods":2,"profile":"unity","collision":"plain","textures":"none"})").document;
+  std::size_t shapes = 0;
+  for (const json& node : document["nodes"]) {
+    if (!node.value("name", "").starts_with("collision")) continue;
+    ++shapes;
+    EXPECT_FALSE(node.contains("extensions") && node["extensions"].contains("MSFT_lod"));
+  }
+  EXPECT_GT(shapes, 0U);
 }
 
 TEST(Output, PutsCopiesOnTheGpuOnlyWhereThatIsRead) {
@@ -284,10 +345,6 @@ TEST(Output, SpeaksOfTrianglesAloneInTheEstimateAndOfExactOnesWhereTheyAre) {
   EXPECT_EQ(plain["exact"], true);
   EXPECT_EQ(web["exact"], false);
   EXPECT_LT(web["bytes"], plain["bytes"]);
-}
-
-TEST(Output, RefusesLevelsOfDetailOfAGeneratorThatMakesOne) {
-  EXPECT_THAT(refused("menger_sponge", R"({"lods":3,"format":"zip"})"), ElementsAre("/output/lods"));
 }
 
 /// A trunk with a hull, as a generator leaves it.

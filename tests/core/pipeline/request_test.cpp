@@ -68,6 +68,24 @@ TEST(ReadRequest, TellsABrokenPictureWithAllElse) {
               UnorderedElementsAre("/seed", "/parameters/materials/0/images/color"));
 }
 
+TEST(ReadRequest, TellsOnceThatAPresetIsOfAnotherGenerator) {
+  const Error error = error_of(R"({"preset":"oak","generator":"lsystem","seed":-1})");
+  ASSERT_EQ(error.issues.size(), 2U);
+  EXPECT_EQ(error.issues[1].pointer, "/generator");
+  EXPECT_EQ(error.issues[1].message,
+            "found \"lsystem\", but the preset is a request for tree, whose parameters are no parameters of "
+            "lsystem");
+  EXPECT_TRUE(read_request(R"({"preset":"oak","generator":"tree"})", Limits{}));
+  EXPECT_TRUE(read_request(R"({"preset":"oak","generator":"fractal","parameters":null})", Limits{}));
+}
+
+TEST(ReadRequest, SaysWhichGeneratorsThereAre) {
+  EXPECT_EQ(error_of(R"({"generator":"tre"})").issues.front().message,
+            "there is no generator \"tre\"; did you mean \"tree\"?");
+  EXPECT_THAT(error_of(R"({"generator":"galaxies"})").issues.front().message,
+              HasSubstr("there are tree, lsystem, building, terrain, scene, fractal"));
+}
+
 TEST(ReadRequest, IsCanonicalWhateverTheOrder) {
   EXPECT_EQ(
       canonical(plant),

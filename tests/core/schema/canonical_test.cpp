@@ -60,6 +60,12 @@ TEST(CanonicalText, SortsMembersAndLeavesNoSpace) {
       R"({"a":{"Z":"x","z":true},"b":[1,2.5,null]})");
 }
 
+TEST(CanonicalText, WritesNullForWhatIsNoNumber) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(canonical_text(Json::array({infinite, -infinite, infinite - infinite, 1.5})),
+            "[null,null,null,1.5]");
+}
+
 TEST(CanonicalText, EscapesOnlyWhatMustBe) {
   EXPECT_EQ(canonical_text(Json("a\"b\\c/d\n\t\b\f\r\x01\x1f é🌱")),
             "\"a\\\"b\\\\c/d\\n\\t\\b\\f\\r\\u0001\\u001f é🌱\"");

@@ -56,6 +56,14 @@ TEST(Reader, NamesTheMemberThatWasMeant) {
               HasSubstr("known are format"));
 }
 
+TEST(Reader, ListsWhatIsKnownOnceForAllStrangersOfAnObject) {
+  const auto issues = reading<read_output>(R"({"pppppppppppp":1,"qqqqqqqqqqqq":3,"varants":2})").issues;
+  ASSERT_EQ(issues.size(), 3U);
+  EXPECT_THAT(issues[0].message, HasSubstr("known are format"));
+  EXPECT_EQ(issues[1].message, "\"qqqqqqqqqqqq\" is not known here");
+  EXPECT_EQ(issues[2].message, "\"varants\" is not known here; did you mean \"variants\"?");
+}
+
 TEST(Reader, KeepsTheIndexesOfAListWithABadEntry) {
   const auto read = reading<read_lsystem>(R"({"axiom":"F","productions":["a",5,"c"]})");
   EXPECT_THAT(read.pointers(), ElementsAre("/productions/1"));
