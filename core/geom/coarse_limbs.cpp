@@ -190,8 +190,7 @@ void Coarsening::read_limb(std::uint32_t head) {
 /// For another reason than its place.
 bool Coarsening::must_stay(std::uint32_t joint, std::uint32_t next) const {
   if (!options_.bones.empty() && options_.bones[joint] != options_.bones[next]) return true;
-  if (!options_.skin) return false;
-  if (limbs_.color[joint] != limbs_.color[next]) return true;
+  if (!limbs_.color.empty() && limbs_.color[joint] != limbs_.color[next]) return true;
   if (limbs_.contour.empty()) return false;
   if (limbs_.contour[joint] != limbs_.contour[next]) return true;
   if (limbs_.contour[joint] == 0 || limbs_.frame.empty()) return false;

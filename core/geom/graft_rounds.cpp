@@ -168,7 +168,7 @@ GraftWriter::Written GraftWriter::take() {
     mesh_.normal.shrink_to_fit();
     mesh_.uv[0].shrink_to_fit();
     mesh_.index.wide.shrink_to_fit();
-    return {std::move(mesh_), std::move(joints_), std::move(twin_)};
+    return {std::move(mesh_), std::move(joints_), std::move(twin_), std::move(colors_)};
   }
   group_ = {};
   Written out;
@@ -179,6 +179,7 @@ GraftWriter::Written GraftWriter::take() {
       [&] { out.mesh.uv[0] = gathered(mesh_.uv[0], &Place::vertex); },
       [&] { out.joints = gathered(joints_, &Place::vertex); },
       [&] { out.twin = gathered(twin_, &Place::vertex); },
+      [&] { out.colors = gathered(colors_, &Place::triangle); },
   };
   // Great ones one after the other, each of which gives its memory to the next.
   const std::size_t together = vertices_ > most_together ? std::size(tasks) : 1;

@@ -6,11 +6,12 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/math.h"
 #include "core/generators/lsystem/contours.h"
 #include "core/generators/lsystem/surfaces.h"
+#include "core/generators/lsystem/welded.h"
 #include "core/geom/coarse_limbs.h"
 #include "core/geom/detail.h"
-#include "core/geom/foliage_levels.h"
 #include "core/geom/grow.h"
 #include "core/geom/polygons.h"
 #include "core/geom/skin.h"
@@ -20,6 +21,8 @@ namespace {
 
 constexpr std::uint64_t bytes_a_vertex = 32;  // position, normal, uv
 constexpr std::uint64_t bytes_a_triangle = 12;
+constexpr std::uint64_t document = 1500;    // the JSON part of a small model
+constexpr double welded_vertices = 0.71;    // a triangle, as measured
 constexpr std::uint64_t worth_a_word = 10;  // fewer than one in so many is no loss
 constexpr int attempts = 6;                 ///< at a level of as many triangles as it may have
 
@@ -117,12 +120,6 @@ CoarseLimbs coarse_limbs(const Limbs& limbs, const CoarseOptions& wanted, const 
   return coarsen(limbs, coarse, job);
 }
 
-/// Of each joint, how much of it is seen between the others.
-Array<float> shown_of(const Limbs& limbs, Job& job) {
-  const Organs none(job);
-  return FoliageLevels({none, {}, limbs, 1}, job).shown(limbs, job);
-}
-
 /// Faces that look against a normal.
 bool looks_inward(const Mesh& mesh) {
   for (std::size_t i = 0; i + 2 < mesh.index.size(); i += 3) {
@@ -159,15 +156,36 @@ Redrawn repeats_of(const Limbs& limbs, const SkinOptions& options, std::uint64_t
   return skin_triangles(limbs, options) == made ? Redrawn::counted : Redrawn::found;
 }
 
-struct BarkUse {
-  std::span<const std::uint16_t> bones;  ///< of each joint, where the plant grows
-  bool carries_organs = false;
-};
+/// One more level of the last node.
+void add_level(Model& model, int level, std::vector<Bark> parts, Wardrobe& wardrobe) {
+  MeshGroup group{"bark_LOD" + std::to_string(level), {}};
+  for (Bark& part : parts)
+    group.primitives.push_back({std::move(part.mesh), wardrobe.material(part.color, Sides::one), {}});
+  model.nodes.back().lods.push_back(static_cast<int>(model.meshes.size()));
+  model.meshes.push_back(std::move(group));
+}
+
+/// False: nothing was added, since the limbs lie in heaps of which no surface can be made.
+bool add_welded_bark(Model& model, const Limbs& limbs, const BarkUse& use, const LsystemParams& params,
+                     Wardrobe& wardrobe, Job& job) {
+  std::optional<std::vector<std::vector<Bark>>> levels = welded_levels(limbs, use, params, job);
+  if (!levels) {
+    model.warnings.push_back(
+        {"/weld", "has no effect: the limbs lie so densely that their joints leave no closed surface", 0, 0});
+    return false;
+  }
+  if (levels->front().empty()) return true;
+  add_meshes(model, "bark", std::move(levels->front()), Sides::one, wardrobe);
+  for (std::size_t level = 1; level < levels->size(); ++level)
+    add_level(model, static_cast<int>(level), std::move((*levels)[level]), wardrobe);
+  return true;
+}
 
 /// The bark with its coarser levels. Takes the limbs: their memory goes back before polygons and writer need
 /// theirs.
 void add_bark(Model& model, Limbs limbs, const BarkUse& use, const LsystemParams& params, Wardrobe& wardrobe,
               Job& job) {
+  if (params.weld && add_welded_bark(model, limbs, use, params, wardrobe, job)) return;
   std::span<const std::uint16_t> bones = use.bones;
   const int finest = static_cast<int>(model.nodes.size());
   const std::vector<Contour> contours = contours_of(params);
@@ -193,24 +211,19 @@ void add_bark(Model& model, Limbs limbs, const BarkUse& use, const LsystemParams
     repeats = repeats_of(limbs, options, triangles);
   }
   for (int level = 1; level < job.demand().lods; ++level) {
-    const Detail detail(level);
-    MeshGroup group{"bark_LOD" + std::to_string(level), {}};
-    const SkinOptions coarser = skin_options(params, contours, detail);
+    const SkinOptions coarser = skin_options(params, contours, Detail(level));
     CoarseOptions coarse;
-    // What organs hide is missed less than they would be.
-    const std::uint64_t wanted = use.carries_organs ? detail.bark(triangles, 1) : detail.tubes(triangles);
-    coarse.triangles = std::min(wanted, Detail::fewer_than(before));
+    coarse.triangles = std::min(wanted_triangles(level, triangles, use), Detail::fewer_than(before));
     coarse.skin = &options;
     coarse.shown = shown.span();
     coarse.bones = bones;
-    for (Bark& part : coarser_bark(limbs, coarse, {Detail::fewer_than(before), repeats}, coarser, job)) {
-      group.primitives.push_back({std::move(part.mesh), wardrobe.material(part.color, Sides::one), {}});
-    }
-    const std::uint64_t made = triangles_of(group.primitives);
+    std::vector<Bark> parts =
+        coarser_bark(limbs, coarse, {Detail::fewer_than(before), repeats}, coarser, job);
+    std::uint64_t made = 0;
+    for (const Bark& part : parts) made += part.mesh.elements();
     if (made == 0 || made >= before) return;
     before = made;
-    model.nodes.back().lods.push_back(static_cast<int>(model.meshes.size()));
-    model.meshes.push_back(std::move(group));
+    add_level(model, level, std::move(parts), wardrobe);
   }
 }
 
@@ -283,8 +296,14 @@ std::uint64_t most_segments(const LsystemParams& params, const Limits& limits) {
          (2 * static_cast<std::uint64_t>(params.sides) * static_cast<std::uint64_t>(params.stacks));
 }
 
+Estimate estimate_of(const Skeleton& skeleton, const LsystemParams& params, Job& job) {
+  const std::uint64_t triangles = welded_triangles(skeleton.limbs, params, job);
+  const auto vertices =
+      static_cast<std::uint64_t>(math::to_int64(welded_vertices * static_cast<double>(triangles)));
+  return {triangles, document + triangles * bytes_a_triangle + vertices * bytes_a_vertex, false};
+}
+
 Estimate estimate_of(std::uint64_t segments, std::uint64_t limbs, const LsystemParams& params) {
-  constexpr std::uint64_t document = 1500;  // the JSON part of a small model
   if (params.style == LsystemParams::Style::lines) return {0, document + segments * 20, false};
   const auto sides = static_cast<std::uint64_t>(params.sides);
   const std::uint64_t rings = segments * static_cast<std::uint64_t>(params.stacks);

@@ -1,0 +1,231 @@
+#include "core/geom/graft_heirs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/base/rng.h"
+
+namespace seedmesh {
+namespace {
+
+// An heir has at least this share of the radius of the limb that ends, and turns off by less than 75 degrees.
+constexpr float least_heir = 0.4F, least_cosine = 0.26F;
+// How much a straight way on counts beside a like radius.
+constexpr float straightness = 0.5F;
+// Limbs from this share of the radius on are set apart where a thick one leaves too; those from the second on
+// are thick.
+constexpr float least_apart = 0.1F, thick = 0.4F;
+// Room of a fork along the limb: the crotch above, where the tubes part (see fork_at), and more of it to the
+// next ring; in radii, the highest crotch that a fork has and what is below.
+constexpr float parting = 0.9F, to_next_ring = 1.5F, highest_crotch = 6.5F, below_fork = 0.9F;
+// Of an internode, what the forks before its end may take, and the least angle that is reckoned with.
+constexpr float most_of_internode = 0.7F, least_sine = 0.1F;
+// Limbs at one joint that are set apart; those beyond find no room anyway.
+constexpr std::size_t most_apart = 6;
+
+float length_of(const glm::vec3& v) { return std::sqrt(glm::dot(v, v)); }
+
+class Heirs {
+ public:
+  Heirs(const Limbs& limbs, Job& job)
+      : limbs_(limbs), job_(job), out_{Limbs(job), Array<std::uint32_t>(job)} {}
+
+  HeirLimbs run() {
+    link();
+    for (std::size_t i = 0; i < limbs_.size(); ++i) {
+      if (i % 4096 == 0) job_.check();
+      const auto joint = static_cast<std::uint32_t>(i);
+      if (limbs_.parent[joint] != Limbs::none && next_[joint] == Limbs::none) choose_heir(joint);
+    }
+    write();
+    return std::move(out_);
+  }
+
+ private:
+  /// A limb that leaves the internode before a joint, `before` its end.
+  struct Apart {
+    std::uint32_t child;
+    float before;
+  };
+
+  void link();
+  void choose_heir(std::uint32_t joint);
+  void find_apart(std::uint32_t joint, float length);
+  float room_of(std::uint32_t joint, std::uint32_t child, float before) const;
+  void write();
+  void write_internode(std::uint32_t joint);
+  std::uint32_t add(std::uint32_t joint, std::uint32_t parent);
+
+  glm::vec3 step(std::uint32_t joint) const {
+    return limbs_.position[joint] - limbs_.position[limbs_.parent[joint]];
+  }
+
+  const Limbs& limbs_;
+  Job& job_;
+  HeirLimbs out_;
+  std::vector<std::uint32_t> next_;           ///< of each joint, the one that continues its limb
+  std::vector<std::uint32_t> first_, other_;  ///< branches of a joint, and the next one at the same
+  std::vector<std::uint32_t> from_;           ///< of each joint, the new number of the one that it grows from
+  std::vector<Apart> apart_;                  ///< of the joint at hand, the farthest from it first
+  std::vector<std::uint32_t> branches_;
+};
+
+void Heirs::link() {
+  next_.assign(limbs_.size(), Limbs::none);
+  first_.assign(limbs_.size(), Limbs::none);
+  other_.assign(limbs_.size(), Limbs::none);
+  for (std::size_t i = 0; i < limbs_.size(); ++i) {
+    const std::uint32_t from = limbs_.parent[i];
+    if (from != Limbs::none && !limbs_.starts_limb[i] && next_[from] == Limbs::none)
+      next_[from] = static_cast<std::uint32_t>(i);
+  }
+  for (std::size_t i = limbs_.size(); i-- > 0;) {
+    const std::uint32_t from = limbs_.parent[i];
+    if (from == Limbs::none || next_[from] == i) continue;
+    other_[i] = first_[from];
+    first_[from] = static_cast<std::uint32_t>(i);
+  }
+}
+
+void Heirs::choose_heir(std::uint32_t joint) {
+  const glm::vec3 along = step(joint);
+  const float length = length_of(along), radius = limbs_.radius[joint];
+  float best = 0;
+  std::uint32_t heir = Limbs::none;
+  for (std::uint32_t child = first_[joint]; child != Limbs::none; child = other_[child]) {
+    const glm::vec3 on = step(child);
+    const float cosine = glm::dot(along, on), least = least_cosine * length * length_of(on);
+    if (!(limbs_.base_radius[child] >= least_heir * radius) || !(cosine > least)) continue;
+    const float share = radius > 0 ? std::min(1.0F, limbs_.base_radius[child] / radius) : 1.0F;
+    const float worth = share + straightness * cosine / (length * length_of(on));
+    if (worth > best + 1e-4F) {
+      best = worth;
+      heir = child;
+    }
+  }
+  if (heir == Limbs::none) return;
+  next_[joint] = heir;
+  std::uint32_t* link = &first_[joint];
+  while (*link != heir) link = &other_[*link];
+  *link = other_[heir];
+}
+
+/// How far along the limb the fork of a child reaches that leaves it so much before the joint, and farther by
+/// as much as it needs itself.
+float Heirs::room_of(std::uint32_t joint, std::uint32_t child, float before) const {
+  const glm::vec3 along = step(joint), on = step(child);
+  const float length = length_of(along), radius = limbs_.radius[joint];
+  const float own = std::min(radius, limbs_.base_radius[child]);
+  float room = 0;
+  for (int i = 0; i < 2; ++i) {  // farther back, the angle is narrower
+    const glm::vec3 whole = on + along * ((before + room) / length);
+    const float cosine = glm::dot(along, whole) / std::max(length * length_of(whole), 1e-30F);
+    const float sine = std::sqrt(std::max(0.0F, 0.5F * (1 - cosine)));  // of half the angle
+    room = to_next_ring * std::min(parting * own / std::max(sine, least_sine), highest_crotch * radius) +
+           below_fork * radius;
+  }
+  return room;
+}
+
+/// Which limbs leave the internode before the joint instead of it.
+void Heirs::find_apart(std::uint32_t joint, float length) {
+  apart_.clear();
+  const float radius = limbs_.radius[joint];
+  if (next_[joint] == Limbs::none || !(radius > 0) || !(length > 0)) return;
+  branches_.clear();
+  for (std::uint32_t child = first_[joint]; child != Limbs::none; child = other_[child]) {
+    if (limbs_.base_radius[child] >= least_apart * radius && length_of(step(child)) > 0)
+      branches_.push_back(child);
+  }
+  std::stable_sort(branches_.begin(), branches_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return limbs_.base_radius[a] > limbs_.base_radius[b];
+  });
+  if (branches_.size() < 2 || limbs_.base_radius[branches_[0]] < thick * radius) return;
+  if (branches_.size() > most_apart) branches_.resize(most_apart);
+  float before = 0;
+  bool was_thick = true;
+  for (std::size_t i = 1; i < branches_.size(); ++i) {
+    const bool is_thick = limbs_.base_radius[branches_[i]] >= thick * radius;
+    // Thin ones have their collars side by side.
+    if (is_thick || was_thick) before += room_of(joint, branches_[i], before);
+    was_thick = is_thick;
+    if (before > most_of_internode * length) break;
+    apart_.push_back({branches_[i], before});
+  }
+  std::reverse(apart_.begin(), apart_.end());
+}
+
+template <class T>
+void copy_row(const Array<T>& from, std::uint32_t joint, Array<T>& to) {
+  if (!from.empty()) to.push_back(from[joint]);
+}
+
+std::uint32_t Heirs::add(std::uint32_t joint, std::uint32_t parent) {
+  Limbs& to = out_.limbs;
+  to.position.push_back(limbs_.position[joint]);
+  to.radius.push_back(limbs_.radius[joint]);
+  to.base_radius.push_back(limbs_.base_radius[joint]);
+  to.parent.push_back(parent);
+  to.starts_limb.push_back(0);
+  copy_row(limbs_.color, joint, to.color);
+  copy_row(limbs_.order, joint, to.order);
+  copy_row(limbs_.frame, joint, to.frame);
+  copy_row(limbs_.contour, joint, to.contour);
+  copy_row(limbs_.birth, joint, to.birth);
+  copy_row(limbs_.key, joint, to.key);
+  if (to.size() >= Limbs::none) Job::refuse("the limbs have more joints than 32-bit indices can name");
+  out_.was.push_back(joint);
+  return static_cast<std::uint32_t>(to.size() - 1);
+}
+
+void Heirs::write_internode(std::uint32_t joint) {
+  Limbs& to = out_.limbs;
+  const std::uint32_t from = limbs_.parent[joint];
+  const float length = length_of(step(joint));
+  find_apart(joint, length);
+  std::uint32_t parent = from_[joint];
+  bool starts = next_[from] != joint;
+  float radius = limbs_.base_radius[joint];
+  for (std::size_t i = 0; i < apart_.size(); ++i) {
+    const bool is_same = i > 0 && apart_[i].before == apart_[i - 1].before;
+    if (!is_same) {
+      parent = add(joint, parent);
+      const float share = 1 - apart_[i].before / length;
+      to.position[parent] = limbs_.position[from] + step(joint) * share;
+      to.base_radius[parent] = radius;
+      radius = limbs_.base_radius[joint] + (limbs_.radius[joint] - limbs_.base_radius[joint]) * share;
+      to.radius[parent] = radius;
+      if (!to.key.empty()) to.key[parent] = key_at(to.key[parent], i + 1);
+      to.starts_limb[parent] = starts ? 1 : 0;
+      starts = false;
+    }
+    from_[apart_[i].child] = parent;
+  }
+  const std::uint32_t own = add(joint, parent);
+  to.base_radius[own] = radius;
+  to.starts_limb[own] = starts ? 1 : 0;
+}
+
+/// In the old order, in which a limb that leaves before a joint still comes after it.
+void Heirs::write() {
+  from_.assign(limbs_.size(), Limbs::none);
+  std::vector<std::uint32_t> place(limbs_.size());
+  for (std::size_t i = 0; i < limbs_.size(); ++i) {
+    if (i % 4096 == 0) job_.check();
+    const auto joint = static_cast<std::uint32_t>(i);
+    if (limbs_.parent[joint] == Limbs::none) {
+      place[joint] = add(joint, Limbs::none);
+      continue;
+    }
+    if (from_[joint] == Limbs::none) from_[joint] = place[limbs_.parent[joint]];
+    write_internode(joint);
+    place[joint] = static_cast<std::uint32_t>(out_.limbs.size() - 1);
+  }
+}
+
+}  // namespace
+
+HeirLimbs with_heirs(const Limbs& limbs, Job& job) { return Heirs(limbs, job).run(); }
+
+}  // namespace seedmesh
