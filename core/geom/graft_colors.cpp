@@ -1,11 +1,16 @@
 #include "core/geom/graft_colors.h"
 
+#include <meshoptimizer.h>
+
 #include <algorithm>
 
 namespace seedmesh {
 namespace {
 
 constexpr std::uint32_t none = 0xFFFFFFFFU;
+// Of the smallest vertex caches in use; misses a vertex.
+constexpr unsigned cache_entries = 16;
+constexpr float most_misses = 1.2F;
 
 template <class T>
 Array<T> chosen(const Array<T>& from, std::span<const std::uint32_t> vertices, const Job& job) {
@@ -22,6 +27,7 @@ std::vector<Bark> parted_by_color(Mesh mesh, std::span<const std::int16_t> color
   std::vector<std::uint8_t> is_used(256);
   for (const std::int16_t color : colors) is_used[static_cast<std::size_t>(color)] = 1;
   if (std::count(is_used.begin(), is_used.end(), std::uint8_t{1}) == 1) {
+    mesh.cache_ordered = mesh.cache_ordered && suits_cache(mesh);
     barks.push_back({colors[0], std::move(mesh)});
     return barks;
   }
@@ -49,11 +55,18 @@ std::vector<Bark> parted_by_color(Mesh mesh, std::span<const std::int16_t> color
     bark.mesh.normal = chosen(mesh.normal, vertices.span(), job);
     bark.mesh.uv[0] = chosen(mesh.uv[0], vertices.span(), job);
     bark.mesh.bone = chosen(mesh.bone, vertices.span(), job);
-    bark.mesh.cache_ordered = mesh.cache_ordered;
+    bark.mesh.cache_ordered = mesh.cache_ordered && suits_cache(bark.mesh);  // strips have lost parts
     barks.push_back(std::move(bark));
     for (const std::uint32_t vertex : vertices) number[vertex] = none;
   }
   return barks;
+}
+
+bool suits_cache(const Mesh& mesh) {
+  if (mesh.position.empty() || mesh.index.wide.empty()) return true;
+  const meshopt_VertexCacheStatistics told = meshopt_analyzeVertexCache(
+      mesh.index.wide.data(), mesh.index.wide.size(), mesh.position.size(), cache_entries, 0, 0);
+  return told.atvr <= most_misses;
 }
 
 }  // namespace seedmesh

@@ -21,6 +21,8 @@ constexpr float least_apart = 0.1F, thick = 0.4F;
 constexpr float parting = 0.9F, to_next_ring = 1.5F, highest_crotch = 6.5F, below_fork = 0.9F;
 // Of an internode, what the forks before its end may take, and the least angle that is reckoned with.
 constexpr float most_of_internode = 0.7F, least_sine = 0.1F;
+// Of its first internode, what a limb that is set apart goes before it turns to its own line.
+constexpr float bend_share = 0.3F;
 // Limbs at one joint that are set apart; those beyond find no room anyway.
 constexpr std::size_t most_apart = 6;
 
@@ -52,8 +54,9 @@ class Heirs {
   void link();
   void choose_heir(std::uint32_t joint);
   void find_apart(std::uint32_t joint, float length);
-  float room_of(std::uint32_t joint, std::uint32_t child, float before) const;
+  float room_of(std::uint32_t joint, std::uint32_t child) const;
   void write();
+  std::uint32_t add_bend(std::uint32_t joint);
   void write_internode(std::uint32_t joint);
   std::uint32_t add(std::uint32_t joint, std::uint32_t parent);
 
@@ -67,7 +70,10 @@ class Heirs {
   std::vector<std::uint32_t> next_;           ///< of each joint, the one that continues its limb
   std::vector<std::uint32_t> first_, other_;  ///< branches of a joint, and the next one at the same
   std::vector<std::uint32_t> from_;           ///< of each joint, the new number of the one that it grows from
+  std::vector<std::uint32_t> place_;          ///< of each joint, its new number
   std::vector<Apart> apart_;                  ///< of the joint at hand, the farthest from it first
+  float end_radius_ = 0;                      ///< of the limb at that joint,
+  float tapers_ = 0;                          ///< where it tapers to it from so much before it on
   std::vector<std::uint32_t> branches_;
 };
 
@@ -111,26 +117,21 @@ void Heirs::choose_heir(std::uint32_t joint) {
   *link = other_[heir];
 }
 
-/// How far along the limb the fork of a child reaches that leaves it so much before the joint, and farther by
-/// as much as it needs itself.
-float Heirs::room_of(std::uint32_t joint, std::uint32_t child, float before) const {
+/// How far along the limb the fork of a child reaches, and farther by as much as it needs itself.
+float Heirs::room_of(std::uint32_t joint, std::uint32_t child) const {
   const glm::vec3 along = step(joint), on = step(child);
-  const float length = length_of(along), radius = limbs_.radius[joint];
-  const float own = std::min(radius, limbs_.base_radius[child]);
-  float room = 0;
-  for (int i = 0; i < 2; ++i) {  // farther back, the angle is narrower
-    const glm::vec3 whole = on + along * ((before + room) / length);
-    const float cosine = glm::dot(along, whole) / std::max(length * length_of(whole), 1e-30F);
-    const float sine = std::sqrt(std::max(0.0F, 0.5F * (1 - cosine)));  // of half the angle
-    room = to_next_ring * std::min(parting * own / std::max(sine, least_sine), highest_crotch * radius) +
-           below_fork * radius;
-  }
-  return room;
+  const float cosine = glm::dot(along, on) / std::max(length_of(along) * length_of(on), 1e-30F);
+  const float sine = std::sqrt(std::max(0.0F, 0.5F * (1 - cosine)));  // of half the angle
+  const float radius = limbs_.radius[joint], own = std::min(radius, limbs_.base_radius[child]);
+  return to_next_ring * std::min(parting * own / std::max(sine, least_sine), highest_crotch * radius) +
+         below_fork * radius;
 }
 
 /// Which limbs leave the internode before the joint instead of it.
 void Heirs::find_apart(std::uint32_t joint, float length) {
   apart_.clear();
+  end_radius_ = limbs_.radius[joint];
+  tapers_ = 0;
   const float radius = limbs_.radius[joint];
   if (next_[joint] == Limbs::none || !(radius > 0) || !(length > 0)) return;
   branches_.clear();
@@ -148,11 +149,17 @@ void Heirs::find_apart(std::uint32_t joint, float length) {
   for (std::size_t i = 1; i < branches_.size(); ++i) {
     const bool is_thick = limbs_.base_radius[branches_[i]] >= thick * radius;
     // Thin ones have their collars side by side.
-    if (is_thick || was_thick) before += room_of(joint, branches_[i], before);
+    if (is_thick || was_thick) before += room_of(joint, branches_[i]);
     was_thick = is_thick;
     if (before > most_of_internode * length) break;
     apart_.push_back({branches_[i], before});
+    if (is_thick) tapers_ = before;
   }
+  // After each the limb is thinner, as thick at last as what is left; else its bark would be dented behind
+  // the crotches.
+  if (tapers_ > 0)
+    end_radius_ =
+        std::min(radius, std::max(limbs_.base_radius[next_[joint]], limbs_.base_radius[branches_[0]]));
   std::reverse(apart_.begin(), apart_.end());
 }
 
@@ -179,23 +186,42 @@ std::uint32_t Heirs::add(std::uint32_t joint, std::uint32_t parent) {
   return static_cast<std::uint32_t>(to.size() - 1);
 }
 
+/// The bend of a limb that leaves before its joint: it sets out as it was drawn, and comes back to its line.
+std::uint32_t Heirs::add_bend(std::uint32_t joint) {
+  Limbs& to = out_.limbs;
+  const std::uint32_t bend = add(joint, from_[joint]);
+  to.position[bend] = to.position[from_[joint]] + step(joint) * bend_share;
+  to.radius[bend] += (to.base_radius[bend] - to.radius[bend]) * (1 - bend_share);
+  to.starts_limb[bend] = 1;
+  if (!to.key.empty()) to.key[bend] = key_at(to.key[bend], 0);
+  return bend;
+}
+
 void Heirs::write_internode(std::uint32_t joint) {
   Limbs& to = out_.limbs;
-  const std::uint32_t from = limbs_.parent[joint];
-  const float length = length_of(step(joint));
+  const std::uint32_t drawn_from = limbs_.parent[joint];
+  const bool is_moved = from_[joint] != place_[drawn_from];
+  std::uint32_t parent = is_moved ? add_bend(joint) : from_[joint];
+  bool starts = !is_moved && next_[drawn_from] != joint;
+  const glm::vec3 from = to.position[parent], whole = limbs_.position[joint] - from;
+  const float length = length_of(whole);
+  const float first_radius = is_moved ? to.radius[parent] : limbs_.base_radius[joint];
   find_apart(joint, length);
-  std::uint32_t parent = from_[joint];
-  bool starts = next_[from] != joint;
-  float radius = limbs_.base_radius[joint];
+  const auto radius_at = [&](float before) {
+    const auto drawn = [&](float off) {
+      const float share = length > 0 ? 1 - off / length : 1.0F;
+      return first_radius + (limbs_.radius[joint] - first_radius) * share;
+    };
+    if (before >= tapers_) return drawn(before);
+    return end_radius_ + (drawn(tapers_) - end_radius_) * (before / tapers_);
+  };
+  float radius = first_radius;
   for (std::size_t i = 0; i < apart_.size(); ++i) {
-    const bool is_same = i > 0 && apart_[i].before == apart_[i - 1].before;
-    if (!is_same) {
+    if (i == 0 || apart_[i].before != apart_[i - 1].before) {
       parent = add(joint, parent);
-      const float share = 1 - apart_[i].before / length;
-      to.position[parent] = limbs_.position[from] + step(joint) * share;
+      to.position[parent] = from + whole * (1 - apart_[i].before / length);
       to.base_radius[parent] = radius;
-      radius = limbs_.base_radius[joint] + (limbs_.radius[joint] - limbs_.base_radius[joint]) * share;
-      to.radius[parent] = radius;
+      to.radius[parent] = radius = radius_at(apart_[i].before);
       if (!to.key.empty()) to.key[parent] = key_at(to.key[parent], i + 1);
       to.starts_limb[parent] = starts ? 1 : 0;
       starts = false;
@@ -204,23 +230,24 @@ void Heirs::write_internode(std::uint32_t joint) {
   }
   const std::uint32_t own = add(joint, parent);
   to.base_radius[own] = radius;
+  to.radius[own] = end_radius_;
   to.starts_limb[own] = starts ? 1 : 0;
 }
 
 /// In the old order, in which a limb that leaves before a joint still comes after it.
 void Heirs::write() {
   from_.assign(limbs_.size(), Limbs::none);
-  std::vector<std::uint32_t> place(limbs_.size());
+  place_.assign(limbs_.size(), Limbs::none);
   for (std::size_t i = 0; i < limbs_.size(); ++i) {
     if (i % 4096 == 0) job_.check();
     const auto joint = static_cast<std::uint32_t>(i);
     if (limbs_.parent[joint] == Limbs::none) {
-      place[joint] = add(joint, Limbs::none);
+      place_[joint] = add(joint, Limbs::none);
       continue;
     }
-    if (from_[joint] == Limbs::none) from_[joint] = place[limbs_.parent[joint]];
+    if (from_[joint] == Limbs::none) from_[joint] = place_[limbs_.parent[joint]];
     write_internode(joint);
-    place[joint] = static_cast<std::uint32_t>(out_.limbs.size() - 1);
+    place_[joint] = static_cast<std::uint32_t>(out_.limbs.size() - 1);
   }
 }
 

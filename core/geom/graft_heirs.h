@@ -10,14 +10,19 @@ namespace seedmesh {
 
 struct HeirLimbs {
   Limbs limbs;
-  Array<std::uint32_t> was;  ///< of each joint, the one that it was; of one that was put in, that after it
+  Array<std::uint32_t>
+      was;  ///< of each joint, the one that it was; of one that was put in, the next of its limb
 };
 
-/// - Where a limb ends in others, the thickest and straightest goes on in its place, unless it is much thinner
+/// - Where a limb ends in others, the thickest and straightest goes on in its place, unless it is much
+/// thinner
 ///   or turns off sharply.
-/// - Where a thick limb leaves a joint, the others there leave a little before it, as far apart as their forks
-///   need, from joints of their own on the internode, as many as have room.
-/// Joints that were there stay where they are and keep their order. Linear time but for many limbs at a joint.
+/// - Where a thick limb leaves a joint, the others there leave a little before it, as far apart as their
+/// forks
+///   need, from joints of their own on the internode, as many as have room; the limb tapers there to what
+///   goes on.
+/// Joints that were there stay where they are and keep their order. Linear time but for many limbs at a
+/// joint.
 HeirLimbs with_heirs(const Limbs& limbs, Job& job);
 
 }  // namespace seedmesh

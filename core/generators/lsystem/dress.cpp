@@ -300,7 +300,8 @@ Estimate estimate_of(const Skeleton& skeleton, const LsystemParams& params, Job&
   const std::uint64_t triangles = welded_triangles(skeleton.limbs, params, job);
   const auto vertices =
       static_cast<std::uint64_t>(math::to_int64(welded_vertices * static_cast<double>(triangles)));
-  return {triangles, document + triangles * bytes_a_triangle + vertices * bytes_a_vertex, false};
+  const std::uint64_t index = vertices > 65'535 ? bytes_a_triangle : bytes_a_triangle / 2;
+  return {triangles, document + triangles * index + vertices * bytes_a_vertex, false};
 }
 
 Estimate estimate_of(std::uint64_t segments, std::uint64_t limbs, const LsystemParams& params) {
