@@ -278,6 +278,7 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
     writer->write_round();
   }
   if (counts) *counts = writer->counts();
+  if (options.grown) writer->tell_grown(*options.grown);
   // Rings of more corners than a cache has entries come in once more.
   const bool is_ordered = 10 * writer->wide_corners() < writer->corners();
   const auto fallen_back = static_cast<std::uint32_t>(std::count(trust.begin(), trust.end(), Trust::none));

@@ -48,6 +48,8 @@ struct GraftOptions {
   /// Where given, it says whether the limbs lie in heaps, or bend, so that no surface is left; what is
   /// returned is of no use then, and nothing is refused.
   bool* is_heap = nullptr;
+  /// Where given, it gets of each joint 1 where a limb begins there that has grown out of its parent.
+  Array<std::uint8_t>* grown = nullptr;
   /// Where given, it has the position of each joint and gets, for those that have no ring of their own, where
   /// the limb that is drawn passes by.
   Array<glm::vec3>* drawn = nullptr;

@@ -13,9 +13,11 @@ namespace {
 constexpr float least_heir = 0.4F, least_cosine = 0.26F;
 // How much a straight way on counts beside a like radius.
 constexpr float straightness = 0.5F;
-// Limbs from this share of the radius on are set apart where a thick one leaves too; those from the second on
-// are thick.
-constexpr float least_apart = 0.1F, thick = 0.4F;
+// Limbs from this share of the radius on are set apart where a thick one leaves too; which limbs are thick,
+// and which of them have forks.
+constexpr float least_apart = 0.1F, thick = 0.4F, forked = 0.55F;
+// A collar is wider than its limb by so much, and has so many radii of the parent behind it.
+constexpr float collar_width = 1.2F, behind_collar = 0.5F;
 // Room of a fork along the limb: the crotch above, where the tubes part (see fork_at), and more of it to the
 // next ring; in radii, the highest crotch that a fork has and what is below.
 constexpr float parting = 0.9F, to_next_ring = 1.5F, highest_crotch = 6.5F, below_fork = 0.9F;
@@ -30,8 +32,11 @@ float length_of(const glm::vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 class Heirs {
  public:
-  Heirs(const Limbs& limbs, Job& job)
-      : limbs_(limbs), job_(job), out_{Limbs(job), Array<std::uint32_t>(job)} {}
+  Heirs(const Limbs& limbs, Job& job, std::span<const std::uint8_t> stay)
+      : limbs_(limbs),
+        job_(job),
+        stay_(stay),
+        out_{Limbs(job), Array<std::uint32_t>(job), Array<std::uint32_t>(job)} {}
 
   HeirLimbs run() {
     link();
@@ -66,6 +71,7 @@ class Heirs {
 
   const Limbs& limbs_;
   Job& job_;
+  std::span<const std::uint8_t> stay_;
   HeirLimbs out_;
   std::vector<std::uint32_t> next_;           ///< of each joint, the one that continues its limb
   std::vector<std::uint32_t> first_, other_;  ///< branches of a joint, and the next one at the same
@@ -123,6 +129,10 @@ float Heirs::room_of(std::uint32_t joint, std::uint32_t child) const {
   const float cosine = glm::dot(along, on) / std::max(length_of(along) * length_of(on), 1e-30F);
   const float sine = std::sqrt(std::max(0.0F, 0.5F * (1 - cosine)));  // of half the angle
   const float radius = limbs_.radius[joint], own = std::min(radius, limbs_.base_radius[child]);
+  if (own < forked * radius) {  // where it comes out of the limb
+    const float out = std::sqrt(std::max(least_sine * least_sine, 1 - cosine * cosine));
+    return (radius + collar_width * own) * std::abs(cosine) / out + behind_collar * radius;
+  }
   return to_next_ring * std::min(parting * own / std::max(sine, least_sine), highest_crotch * radius) +
          below_fork * radius;
 }
@@ -147,16 +157,18 @@ void Heirs::find_apart(std::uint32_t joint, float length) {
   float before = 0;
   bool was_thick = true;
   for (std::size_t i = 1; i < branches_.size(); ++i) {
-    const bool is_thick = limbs_.base_radius[branches_[i]] >= thick * radius;
+    const std::uint32_t child = branches_[i];
+    if (!stay_.empty() && stay_[child]) continue;
+    const bool is_thick = limbs_.base_radius[child] >= thick * radius;
     // Thin ones have their collars side by side.
-    if (is_thick || was_thick) before += room_of(joint, branches_[i]);
+    if (is_thick || was_thick) before += room_of(joint, child);
     was_thick = is_thick;
     if (before > most_of_internode * length) break;
-    apart_.push_back({branches_[i], before});
-    if (is_thick) tapers_ = before;
+    apart_.push_back({child, before});
+    if (limbs_.base_radius[child] >= forked * radius) tapers_ = before;
   }
-  // After each the limb is thinner, as thick at last as what is left; else its bark would be dented behind
-  // the crotches.
+  // After each fork the limb is thinner, as thick at last as what is left; else its bark would be dented
+  // behind the crotches.
   if (tapers_ > 0)
     end_radius_ =
         std::min(radius, std::max(limbs_.base_radius[next_[joint]], limbs_.base_radius[branches_[0]]));
@@ -193,6 +205,7 @@ std::uint32_t Heirs::add_bend(std::uint32_t joint) {
   to.position[bend] = to.position[from_[joint]] + step(joint) * bend_share;
   to.radius[bend] += (to.base_radius[bend] - to.radius[bend]) * (1 - bend_share);
   to.starts_limb[bend] = 1;
+  out_.apart.push_back(bend);
   if (!to.key.empty()) to.key[bend] = key_at(to.key[bend], 0);
   return bend;
 }
@@ -205,7 +218,11 @@ void Heirs::write_internode(std::uint32_t joint) {
   bool starts = !is_moved && next_[drawn_from] != joint;
   const glm::vec3 from = to.position[parent], whole = limbs_.position[joint] - from;
   const float length = length_of(whole);
-  const float first_radius = is_moved ? to.radius[parent] : limbs_.base_radius[joint];
+  // A limb that goes on begins as thick as what it goes on from, as graft() has it.
+  const float first_radius = is_moved ? to.radius[parent]
+                             : starts || limbs_.parent[drawn_from] == Limbs::none
+                                 ? limbs_.base_radius[joint]
+                                 : std::max(limbs_.base_radius[joint], to.radius[parent]);
   find_apart(joint, length);
   const auto radius_at = [&](float before) {
     const auto drawn = [&](float off) {
@@ -253,6 +270,8 @@ void Heirs::write() {
 
 }  // namespace
 
-HeirLimbs with_heirs(const Limbs& limbs, Job& job) { return Heirs(limbs, job).run(); }
+HeirLimbs with_heirs(const Limbs& limbs, Job& job, std::span<const std::uint8_t> stay) {
+  return Heirs(limbs, job, stay).run();
+}
 
 }  // namespace seedmesh

@@ -34,6 +34,14 @@ GraftCounts GraftWriter::counts() const {
   return counts;
 }
 
+void GraftWriter::tell_grown(Array<std::uint8_t>& grown) const {
+  grown.resize(context_.limbs.size());
+  std::fill(grown.begin(), grown.end(), std::uint8_t{0});
+  for (std::size_t i = 0; i < kind_.size(); ++i) {
+    if (kind_[i] == Kind::collar || kind_[i] == Kind::fork) grown[context_.chains.head[i]] = 1;
+  }
+}
+
 /// The limb that each limb grows from.
 std::vector<std::uint32_t> GraftWriter::find_parents() const {
   const Chains& chains = context_.chains;

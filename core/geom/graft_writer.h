@@ -53,6 +53,8 @@ class GraftWriter {
   std::size_t settle(std::vector<Trust>& trust, bool is_late);
 
   GraftCounts counts() const;
+  /// As GraftOptions::grown.
+  void tell_grown(Array<std::uint8_t>& grown) const;
   /// Vertices on rings, and those of them on rings of more corners than a vertex cache holds.
   std::size_t corners() const { return sum_of(&Place::corners); }
   std::size_t wide_corners() const { return sum_of(&Place::wide_corners); }

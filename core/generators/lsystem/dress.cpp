@@ -12,6 +12,7 @@
 #include "core/generators/lsystem/welded.h"
 #include "core/geom/coarse_limbs.h"
 #include "core/geom/detail.h"
+#include "core/geom/foliage_levels.h"
 #include "core/geom/grow.h"
 #include "core/geom/polygons.h"
 #include "core/geom/skin.h"
@@ -120,6 +121,12 @@ CoarseLimbs coarse_limbs(const Limbs& limbs, const CoarseOptions& wanted, const 
   return coarsen(limbs, coarse, job);
 }
 
+/// Of each joint, how much of it is seen between the others.
+Array<float> shown_of(const Limbs& limbs, Job& job) {
+  const Organs none(job);
+  return FoliageLevels({none, {}, limbs, 1}, job).shown(limbs, job);
+}
+
 /// Faces that look against a normal.
 bool looks_inward(const Mesh& mesh) {
   for (std::size_t i = 0; i + 2 < mesh.index.size(); i += 3) {
@@ -165,40 +172,49 @@ void add_level(Model& model, int level, std::vector<Bark> parts, Wardrobe& wardr
   model.meshes.push_back(std::move(group));
 }
 
-/// False: nothing was added, since the limbs lie in heaps of which no surface can be made.
-bool add_welded_bark(Model& model, const Limbs& limbs, const BarkUse& use, const LsystemParams& params,
-                     Wardrobe& wardrobe, Job& job) {
-  std::optional<std::vector<std::vector<Bark>>> levels = welded_levels(limbs, use, params, job);
-  if (!levels) {
+struct BarkUse {
+  std::span<const std::uint16_t> bones;  ///< of each joint, where the plant grows
+  bool carries_organs = false;
+};
+
+/// Where it is wanted and can be made.
+std::optional<WeldedBark> add_welded_bark(Model& model, const Limbs& limbs, const BarkUse& use,
+                                          const LsystemParams& params, Wardrobe& wardrobe, Job& job) {
+  if (!params.weld) return std::nullopt;
+  std::optional<WeldedBark> welded = welded_bark(limbs, use.bones, params, job);
+  if (welded) {
+    add_meshes(model, "bark", std::move(welded->barks), Sides::one, wardrobe);
+  } else {
     model.warnings.push_back(
         {"/weld", "has no effect: the limbs lie so densely that their joints leave no closed surface", 0, 0});
-    return false;
   }
-  if (levels->front().empty()) return true;
-  add_meshes(model, "bark", std::move(levels->front()), Sides::one, wardrobe);
-  for (std::size_t level = 1; level < levels->size(); ++level)
-    add_level(model, static_cast<int>(level), std::move((*levels)[level]), wardrobe);
-  return true;
+  return welded;
 }
 
 /// The bark with its coarser levels. Takes the limbs: their memory goes back before polygons and writer need
 /// theirs.
 void add_bark(Model& model, Limbs limbs, const BarkUse& use, const LsystemParams& params, Wardrobe& wardrobe,
               Job& job) {
-  if (params.weld && add_welded_bark(model, limbs, use, params, wardrobe, job)) return;
   std::span<const std::uint16_t> bones = use.bones;
   const int finest = static_cast<int>(model.nodes.size());
   const std::vector<Contour> contours = contours_of(params);
   SkinOptions options = skin_options(params, contours, Detail(0));
-  options.bones = bones;
-  add_meshes(model, "bark", skin(limbs, options, job), Sides::one, wardrobe);
+  std::optional<WeldedBark> welded = add_welded_bark(model, limbs, use, params, wardrobe, job);
+  if (welded) {  // of which coarser levels are closed tubes: nobody sees joints from afar
+    limbs = std::move(welded->limbs);
+    bones = welded->bones.span();
+    options.stacks = 1;
+  } else {
+    options.bones = bones;
+    add_meshes(model, "bark", skin(limbs, options, job), Sides::one, wardrobe);
+  }
   if (static_cast<int>(model.nodes.size()) == finest) return;
   const std::uint64_t triangles = triangles_of(model.meshes.back().primitives);
   std::uint64_t before = triangles;
   Array<std::uint16_t> own_bones(job);
   Array<float> shown(job);
   Redrawn repeats = Redrawn::counted;
-  if (job.demand().lods > 1) {
+  if (job.demand().lods > 1 && !welded) {
     KeptLimbs once = without_repeats(limbs, options.sides, job);
     if (once.limbs.size() < limbs.size()) {
       for (std::size_t i = 0; i < bones.size(); ++i) {
@@ -207,14 +223,19 @@ void add_bark(Model& model, Limbs limbs, const BarkUse& use, const LsystemParams
       bones = own_bones.span();
       limbs = std::move(once.limbs);
     }
-    shown = shown_of(limbs, job);
     repeats = repeats_of(limbs, options, triangles);
   }
+  if (job.demand().lods > 1) shown = shown_of(limbs, job);
   for (int level = 1; level < job.demand().lods; ++level) {
-    const SkinOptions coarser = skin_options(params, contours, Detail(level));
+    const Detail detail(level);
+    SkinOptions coarser = skin_options(params, contours, detail);
+    coarser.stacks = std::min(coarser.stacks, options.stacks);
     CoarseOptions coarse;
-    coarse.triangles = std::min(wanted_triangles(level, triangles, use), Detail::fewer_than(before));
+    // What organs hide is missed less than they would be.
+    const std::uint64_t wanted = use.carries_organs ? detail.bark(triangles, 1) : detail.tubes(triangles);
+    coarse.triangles = std::min(wanted, Detail::fewer_than(before));
     coarse.skin = &options;
+    coarse.was_grafted = welded.has_value();
     coarse.shown = shown.span();
     coarse.bones = bones;
     std::vector<Bark> parts =

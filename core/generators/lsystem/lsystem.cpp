@@ -348,8 +348,7 @@ Result<Json> derive(const LsystemParams& params, Job& job) {
 }
 
 /// Corners of welded limbs depend on widths, so that the limbs are drawn.
-static Estimate estimate_of_welded(const Grammar& grammar, const LsystemParams& params,
-                                                  const Job& job) {
+static Estimate estimate_of_welded(const Grammar& grammar, const LsystemParams& params, const Job& job) {
   job.check();
   Job::Options options;
   options.limits = job.limits();

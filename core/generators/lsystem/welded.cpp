@@ -4,46 +4,36 @@
 
 #include "core/generators/lsystem/contours.h"
 #include "core/generators/lsystem/looks.h"
-#include "core/geom/coarse_limbs.h"
 #include "core/geom/detail.h"
-#include "core/geom/foliage_levels.h"
 #include "core/geom/graft.h"
 #include "core/geom/graft_colors.h"
 #include "core/geom/graft_count.h"
 #include "core/geom/graft_heirs.h"
-#include "core/geom/outward.h"
 
 namespace seedmesh::lsystem {
 namespace {
 
-// Of the thickest limb: thinner ones do not grow together with their parent at the coarser levels.
-constexpr float thinnest_joint = 0.1F;
-constexpr int attempts = 4;  // at a level of as many triangles as it may have
+// Times that limbs are joined, where some that were set apart find no room.
+constexpr int attempts = 3;
 
-/// Limbs in which nothing is drawn twice and each goes on as far as it can, with the bones of their joints.
-struct Ready {
+/// Internodes once, with the bones of their joints.
+struct Drawn {
   Limbs limbs;
   Array<std::uint16_t> bones;
 };
-
-Ready ready_of(const Limbs& drawn, std::span<const std::uint16_t> bones, const LsystemParams& params,
-               Job& job) {
-  KeptLimbs once = without_repeats(drawn, params.sides, job);
-  Array<std::uint16_t> kept(job);
+Drawn drawn_once(const Limbs& limbs, std::span<const std::uint16_t> bones, const LsystemParams& params,
+                 Job& job) {
+  KeptLimbs once = without_repeats(limbs, params.sides, job);
+  Drawn drawn{std::move(once.limbs), Array<std::uint16_t>(job)};
   for (std::size_t i = 0; i < bones.size(); ++i) {
-    if (once.new_place[i] != Limbs::none) kept.push_back(bones[i]);
+    if (once.new_place[i] != Limbs::none) drawn.bones.push_back(bones[i]);
   }
-  HeirLimbs heirs = with_heirs(once.limbs, job);
-  Ready ready{std::move(heirs.limbs), Array<std::uint16_t>(job)};
-  if (bones.empty()) return ready;
-  for (const std::uint32_t was : heirs.was) ready.bones.push_back(kept[was]);
-  return ready;
+  return drawn;
 }
 
-GraftOptions graft_options(const LsystemParams& params, std::span<const Contour> contours,
-                           const Detail& detail) {
+GraftOptions graft_options(const LsystemParams& params, std::span<const Contour> contours) {
   GraftOptions options;
-  options.sides = detail.bark_sides(params.sides);
+  options.sides = params.sides;
   options.wrap = wraps_pictures(params);
   options.overlaps = true;
   options.points = true;
@@ -51,108 +41,58 @@ GraftOptions graft_options(const LsystemParams& params, std::span<const Contour>
   return options;
 }
 
-/// A mesh with the colour of each triangle. Nothing: the limbs lie in heaps.
-struct Grafted {
-  Mesh mesh;
-  Array<std::int16_t> colors;
-};
-std::optional<Grafted> grafted(const Limbs& limbs, GraftOptions options, std::span<const std::uint16_t> bones,
-                               Job& job) {
-  Grafted made{{}, Array<std::int16_t>(job)};
-  Array<std::uint32_t> joints(job);
-  bool is_heap = false;
-  options.colors = &made.colors;
-  options.is_heap = &is_heap;
-  if (!bones.empty()) options.joints = &joints;
-  made.mesh = graft(limbs, options, job);
-  if (is_heap) return std::nullopt;
-  if (!bones.empty()) {
-    made.mesh.bone = Array<std::uint16_t>(job, made.mesh.position.size());
-    for (std::size_t i = 0; i < joints.size(); ++i) made.mesh.bone[i] = bones[joints[i]];
-  }
-  return made;
-}
-
-/// Of fewer limbs and joints, about as many triangles as it may have.
-std::optional<Grafted> coarser(const Ready& plant, const CoarseOptions& wanted, GraftOptions options,
-                               Job& job) {
-  CoarseOptions coarse = wanted;
-  options.pointed = true;
-  options.every_bend = true;
-  options.thinnest_joint = thinnest_joint * thickest(plant.limbs);
-  std::optional<Grafted> made;
-  for (int attempt = 0; attempt < attempts; ++attempt) {
-    const CoarseLimbs kept = coarsen(plant.limbs, coarse, job);
-    Array<std::uint16_t> bones(job);
-    for (const std::uint32_t joint : kept.was) {
-      if (!wanted.bones.empty()) bones.push_back(wanted.bones[joint]);
+/// Limbs that left an internode before its end and found no room there either stay where they were drawn, so
+/// that nothing tapers for them. False: there are none.
+bool keep_back(const HeirLimbs& heirs, const Array<std::uint8_t>& grown, std::size_t joints,
+               Array<std::uint8_t>& stay) {
+  bool is_any = false;
+  for (const std::uint32_t joint : heirs.apart) {
+    if (grown[joint]) continue;
+    if (stay.empty()) {
+      stay.resize(joints);
+      std::fill(stay.begin(), stay.end(), std::uint8_t{0});
     }
-    made = grafted(kept.limbs, options, bones.span(), job);
-    if (!made) return std::nullopt;
-    // Forks and collars have more triangles than the tubes that were counted.
-    const std::uint64_t count = made->mesh.elements();
-    if (count <= wanted.triangles + wanted.triangles / 100) break;
-    coarse.triangles = coarse.triangles * wanted.triangles / count;
+    stay[heirs.was[joint]] = 1;
+    is_any = true;
   }
-  turn_outward(made->mesh, job);
-  return made;
+  return is_any;
 }
 
 }  // namespace
 
-Array<float> shown_of(const Limbs& limbs, Job& job) {
-  const Organs none(job);
-  return FoliageLevels({none, {}, limbs, 1}, job).shown(limbs, job);
-}
-
-std::uint64_t wanted_triangles(int level, std::uint64_t finest, const BarkUse& use) {
-  // What organs hide is missed less than they would be.
-  return use.carries_organs ? Detail(level).bark(finest, 1) : Detail(level).tubes(finest);
-}
-
-std::optional<std::vector<std::vector<Bark>>> welded_levels(const Limbs& limbs, const BarkUse& use,
-                                                            const LsystemParams& params, Job& job) {
+std::optional<WeldedBark> welded_bark(const Limbs& limbs, std::span<const std::uint16_t> bones,
+                                      const LsystemParams& params, Job& job) {
   const std::vector<Contour> contours = contours_of(params);
-  const Ready plant = ready_of(limbs, use.bones, params, job);
-  GraftOptions finest = graft_options(params, contours, Detail(0));
-  const int levels = job.demand().lods;
-  Array<glm::vec3> drawn(job);  // where the finest level draws the joints
-  if (levels > 1) {
-    drawn.append(plant.limbs.position.span());
-    finest.drawn = &drawn;
+  const Drawn drawn = drawn_once(limbs, bones, params, job);
+  Array<std::uint8_t> stay(job), grown(job);
+  for (int attempt = 1;; ++attempt) {
+    HeirLimbs heirs = with_heirs(drawn.limbs, job, stay.span());
+    GraftOptions options = graft_options(params, contours);
+    Array<std::int16_t> colors(job);
+    Array<std::uint32_t> joints(job);
+    bool is_heap = false;
+    options.colors = &colors;
+    options.is_heap = &is_heap;
+    options.grown = &grown;
+    if (!bones.empty()) options.joints = &joints;
+    Mesh mesh = graft(heirs.limbs, options, job);
+    if (is_heap) return std::nullopt;
+    if (attempt < attempts && keep_back(heirs, grown, drawn.limbs.size(), stay)) continue;
+    WeldedBark made{{}, std::move(heirs.limbs), Array<std::uint16_t>(job)};
+    if (!bones.empty()) {
+      for (const std::uint32_t was : heirs.was) made.bones.push_back(drawn.bones[was]);
+      mesh.bone = Array<std::uint16_t>(job, mesh.position.size());
+      for (std::size_t i = 0; i < joints.size(); ++i) mesh.bone[i] = made.bones[joints[i]];
+    }
+    made.barks = parted_by_color(std::move(mesh), colors.span(), job);
+    return made;
   }
-  std::optional<Grafted> made = grafted(plant.limbs, finest, plant.bones.span(), job);
-  if (!made) return std::nullopt;
-  const std::uint64_t triangles = made->mesh.elements();
-  std::vector<std::vector<Bark>> all;
-  all.push_back(parted_by_color(std::move(made->mesh), made->colors.span(), job));
-  if (triangles == 0 || levels < 2) return all;
-  const Array<float> shown = shown_of(plant.limbs, job);
-  std::uint64_t before = triangles;
-  for (int level = 1; level < levels; ++level) {
-    const GraftOptions options = graft_options(params, contours, Detail(level));
-    CoarseOptions coarse;
-    coarse.triangles = std::min(wanted_triangles(level, triangles, use), Detail::fewer_than(before));
-    coarse.sides = options.sides;
-    coarse.finest_sides = finest.sides;
-    coarse.pointed = true;
-    coarse.shown = shown.span();
-    coarse.drawn = drawn.span();
-    coarse.bones = plant.bones.span();
-    std::optional<Grafted> simpler = coarser(plant, coarse, options, job);
-    if (!simpler) break;
-    const std::uint64_t count = simpler->mesh.elements();
-    if (count == 0 || count >= before) break;
-    before = count;
-    all.push_back(parted_by_color(std::move(simpler->mesh), simpler->colors.span(), job));
-  }
-  return all;
 }
 
 std::uint64_t welded_triangles(const Limbs& limbs, const LsystemParams& params, Job& job) {
   const std::vector<Contour> contours = contours_of(params);
-  return graft_triangles(ready_of(limbs, {}, params, job).limbs, graft_options(params, contours, Detail(0)),
-                         job);
+  const Drawn drawn = drawn_once(limbs, {}, params, job);
+  return graft_triangles(with_heirs(drawn.limbs, job).limbs, graft_options(params, contours), job);
 }
 
 void warn_of_welded(const LsystemParams& params, std::vector<Warning>& warnings) {

@@ -10,23 +10,19 @@
 
 namespace seedmesh::lsystem {
 
-struct BarkUse {
-  std::span<const std::uint16_t> bones;  ///< of each joint, where the plant grows
-  bool carries_organs = false;
+struct WeldedBark {
+  std::vector<Bark> barks;
+  /// What it was made of: limbs in which nothing is drawn twice and each goes on as far as it can.
+  Limbs limbs;
+  Array<std::uint16_t> bones;  ///< of their joints, where the plant grows
 };
 
-/// Of each joint, how much of it is seen between the others.
-Array<float> shown_of(const Limbs& limbs, Job& job);
+/// The bark of the finest level; `bones` of each joint, or empty. Nullopt: the limbs lie in heaps, of which
+/// graft() makes no surface.
+std::optional<WeldedBark> welded_bark(const Limbs& limbs, std::span<const std::uint16_t> bones,
+                                      const LsystemParams& params, Job& job);
 
-/// How many triangles the bark of a level may have, the finest having `finest`.
-std::uint64_t wanted_triangles(int level, std::uint64_t finest, const BarkUse& use);
-
-/// All levels of detail that the job demands and that have fewer triangles each than the one before, the
-/// finest first. Nullopt: the limbs lie in heaps, of which graft() makes no surface.
-std::optional<std::vector<std::vector<Bark>>> welded_levels(const Limbs& limbs, const BarkUse& use,
-                                                            const LsystemParams& params, Job& job);
-
-/// About how many triangles the finest level has; within a quarter for plants that are no heap.
+/// About how many triangles it has; within a quarter for plants of six sides and more that are no heap.
 std::uint64_t welded_triangles(const Limbs& limbs, const LsystemParams& params, Job& job);
 
 /// What of the parameters welded bark does not look at.
