@@ -172,7 +172,9 @@ void GraftPlan::complete(const GraftAxis& axis, bool has_first, const GraftOptio
     const float share = (at - last_at) / (axis.at[point + 1] - last_at);
     const float between = last_radius + (axis.radius[point + 1] - last_radius) * share;
     const bool turns = glm::dot(heading, axis.along[point]) < most_turn;
-    if (!turns && !axis.is_border(point) && std::abs(between - axis.radius[point]) < most_off * axis.radius[point]) continue;
+    if (!turns && !axis.is_border(point) &&
+        std::abs(between - axis.radius[point]) < most_off * axis.radius[point])
+      continue;
     const float sine = std::sqrt(
         std::max(0.0F, 1 - glm::dot(heading, axis.along[point]) * glm::dot(heading, axis.along[point])));
     const float clear = std::max(margin(axis, at), 0.5F * axis.radius[point] * sine);

@@ -350,9 +350,7 @@ Result<Json> derive(const LsystemParams& params, Job& job) {
 /// Corners of welded limbs depend on widths, so that the limbs are drawn.
 static Estimate estimate_of_welded(const Grammar& grammar, const LsystemParams& params, const Job& job) {
   job.check();
-  Job::Options options;
-  options.limits = job.limits();
-  Job own(job.seed(), options);  // what is looked at here is not spent
+  Job own(job.seed(), {.limits = job.limits()});  // what is looked at here is not spent
   Skeleton skeleton(own);
   Drawing drawing(grammar, params, &skeleton, own);
   draw(grammar, params, drawing, own);
