@@ -25,6 +25,8 @@ constexpr float least_shown = 0.08F;
 constexpr float most_favour = 0.2F;
 // Corners fall with this power of the radius, as graft() has them.
 constexpr double corner_power = 0.3;
+// As graft() has it: of a limb that others leave.
+constexpr int least_opened_corners = 6;
 // What skin() may give a limb instead of as many as it has at the finest level, most first.
 constexpr int fewer_corners[] = {48, 32, 24, 16, 12, 10, 8, 6, 5, 4, 3};
 // Of the width of a limb that is seen, what differs in the mean of all sides: measured for limbs whose rings
@@ -100,6 +102,13 @@ class Coarsening {
   }
   LimbCorners finest_corners(std::uint32_t head) const {
     if (!options_.skin) return {};
+    if (options_.was_grafted) {
+      int own = std::max(least_corners_, corners(first_radius(head), options_.skin->sides));
+      for (std::uint32_t joint = head; joint != Limbs::none; joint = chains_.next[joint]) {
+        if (chains_.mark[joint] & fork) own = std::max(own, least_opened_corners);
+      }
+      return {static_cast<std::uint8_t>(own), static_cast<std::uint8_t>(own)};
+    }
     const auto sides = static_cast<std::uint8_t>(
         options_.skin->adapt ? sides_of_limb(*options_.skin, first_radius(head), thickest_head_)
                              : options_.skin->sides);
@@ -190,8 +199,7 @@ void Coarsening::read_limb(std::uint32_t head) {
 /// For another reason than its place.
 bool Coarsening::must_stay(std::uint32_t joint, std::uint32_t next) const {
   if (!options_.bones.empty() && options_.bones[joint] != options_.bones[next]) return true;
-  if (!options_.skin) return false;
-  if (limbs_.color[joint] != limbs_.color[next]) return true;
+  if (!limbs_.color.empty() && limbs_.color[joint] != limbs_.color[next]) return true;
   if (limbs_.contour.empty()) return false;
   if (limbs_.contour[joint] != limbs_.contour[next]) return true;
   if (limbs_.contour[joint] == 0 || limbs_.frame.empty()) return false;

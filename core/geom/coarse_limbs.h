@@ -21,9 +21,10 @@ struct CoarseOptions {
   /// Of the finest level, where skin() makes the bark: it has different barks and cross-sections along a
   /// limb, so that joints stay where those change. Null: graft() makes it.
   const SkinOptions* skin = nullptr;
-  int sides = 8;         ///< for graft(): corners of the thickest limb at this level,
-  int finest_sides = 8;  ///< and at the finest: limbs of fewer corners become thicker, as wide to see
-  bool pointed = false;  ///< thin ends have no ring (GraftOptions::pointed)
+  bool was_grafted = false;  ///< the finest level is graft()'s, coarser ones are skin()'s
+  int sides = 8;             ///< for graft(): corners of the thickest limb at this level,
+  int finest_sides = 8;      ///< and at the finest: limbs of fewer corners become thicker, as wide to see
+  bool pointed = false;      ///< thin ends have no ring (GraftOptions::pointed)
   std::span<const float> shown = {};          ///< of each joint, how much of it is seen; empty: all
   std::span<const glm::vec3> drawn = {};      ///< where the finest level draws the joints; empty: at them
   std::span<const std::uint16_t> bones = {};  ///< of each joint; where they change, joints stay

@@ -30,9 +30,17 @@ class Leftover {
  public:
   static constexpr std::size_t most_joints = 0xFFFF;
 
+  struct Looks {
+    bool colors = false, contours = false;  ///< that the limbs keep
+  };
   Leftover(const Limbs& limbs, const Chains& chains, const std::vector<Trust>& trust, const Box& box,
-           bool are_trunks)
-      : limbs_(limbs), chains_(chains), trust_(trust), box_(box), are_trunks_(are_trunks) {}
+           bool are_trunks, Looks looks)
+      : limbs_(limbs),
+        chains_(chains),
+        trust_(trust),
+        box_(box),
+        are_trunks_(are_trunks),
+        looks_{looks.colors && !limbs.color.empty(), looks.contours && !limbs.contour.empty()} {}
 
   /// The next limbs; empty at the end. `was` gets the joint that each was.
   Limbs next(std::vector<std::uint32_t>& was, const Job& job);
@@ -54,6 +62,7 @@ class Leftover {
   const std::vector<Trust>& trust_;
   const Box& box_;
   bool are_trunks_;
+  Looks looks_;
   std::size_t at_ = 0;
 };
 
@@ -67,7 +76,11 @@ Limbs Leftover::next(std::vector<std::uint32_t>& was, const Job& job) {
     out.base_radius.push_back(limbs.base_radius[joint]);
     out.parent.push_back(parent);
     out.starts_limb.push_back(0);
-    out.color.push_back(0);
+    out.color.push_back(looks_.colors ? limbs.color[joint] : std::int16_t{0});
+    if (looks_.contours) {
+      out.contour.push_back(limbs.contour[joint]);
+      out.frame.push_back(limbs.frame[joint]);
+    }
     out.order.push_back(0);
     out.key.push_back(limbs.key.empty() ? joint : limbs.key[joint]);
     was.push_back(joint);
@@ -104,6 +117,29 @@ void distrust_overlaps(const Limbs& limbs, const Chains& chains, const Scale& sc
   }
 }
 
+/// Limbs that begin in a point, or are one on the way, go to skin(), which knows how to close them there.
+void distrust_points(const Limbs& limbs, const Chains& chains, const Scale& scale,
+                     std::vector<Trust>& trust) {
+  for (std::size_t i = 0; i < chains.head.size(); ++i) {
+    const std::uint32_t head = chains.head[i];
+    for (std::uint32_t joint = limbs.parent[head] == Limbs::none ? chains.next[head] : head;
+         joint != Limbs::none; joint = chains.next[joint]) {
+      const std::uint32_t next = chains.next[joint];
+      const float least = next == Limbs::none ? limbs.base_radius[joint]
+                                              : std::min(limbs.base_radius[joint], limbs.radius[joint]);
+      if (!(least >= 2 * scale.thinnest)) trust[i] = Trust::none;
+    }
+  }
+}
+
+void distrust_contours(const Limbs& limbs, const Chains& chains, std::vector<Trust>& trust) {
+  for (std::size_t i = 0; i < chains.head.size() && !limbs.contour.empty(); ++i) {
+    for (std::uint32_t joint = chains.head[i]; joint != Limbs::none; joint = chains.next[joint]) {
+      if (limbs.contour[joint] != 0) trust[i] = Trust::none;
+    }
+  }
+}
+
 template <class T>
 void append(Array<T>& to, const Array<T>& from) {
   to.append(from.span());
@@ -117,15 +153,22 @@ void append(Mesh& to, const Mesh& from) {
   for (const std::uint32_t index : from.index.wide) to.index.wide.push_back(first + index);
 }
 
+/// Tells of a heap whoever asked to be told, and refuses it otherwise.
+void refuse_heap(const GraftOptions& options, const char* why) {
+  if (!options.is_heap) Job::refuse(why);
+  *options.is_heap = true;
+}
+
 /// Limbs much thicker than long that bend sharply can be too much for skin(), too.
-void refuse_inward_faces(const Mesh& mesh) {
+void refuse_inward_faces(const Mesh& mesh, const GraftOptions& options) {
   for (std::size_t t = 0; t + 2 < mesh.index.wide.size(); t += 3) {
     const std::uint32_t* corner = mesh.index.wide.data() + t;
     const glm::vec3& a = mesh.position[corner[0]];
     const glm::vec3 face = glm::cross(mesh.position[corner[1]] - a, mesh.position[corner[2]] - a);
     for (int k = 0; k < 3; ++k) {
       if (glm::dot(face, mesh.normal[corner[k]]) < 0)
-        Job::refuse("a limb bends so sharply for its thickness that its bark would look inward");
+        return refuse_heap(options,
+                           "a limb bends so sharply for its thickness that its bark would look inward");
     }
   }
 }
@@ -155,13 +198,17 @@ void append_leftover(GraftWriter::Written& to, Leftover limbs, int sides, const 
     SkinOptions plain;
     plain.sides = sides;
     plain.wrap = options.wrap;
+    plain.contours = options.contours;
+    plain.sides = std::max(plain.sides, least_sides_of(plain));
     if (options.joints && was.size() <= Leftover::most_joints) {
       number.resize(was.size());
       for (std::size_t i = 0; i < number.size(); ++i) number[i] = static_cast<std::uint16_t>(i);
       plain.bones = number;
     }
     for (const Bark& bark : skin(others, plain, job)) {
-      refuse_inward_faces(bark.mesh);
+      refuse_inward_faces(bark.mesh, options);
+      if (options.colors)
+        std::fill_n(to.colors.extend(bark.mesh.index.size() / 3), bark.mesh.index.size() / 3, bark.color);
       append(to.mesh, bark.mesh);
       add_twins(to.mesh, to.twin);
       if (!options.joints) continue;
@@ -198,13 +245,15 @@ Mesh around(const Mesh& mesh, const Array<std::uint8_t>& marked, const Job& job)
 
 /// Limbs that go through each other may touch in points that a reader takes for one. `twin` of the vertices
 /// as GraftWriter::Written has it.
-void refuse_crowds(const Mesh& mesh, const Array<std::uint8_t>& twin, const Scale& scale, const Job& job) {
+void refuse_crowds(const Mesh& mesh, const Array<std::uint8_t>& twin, const Scale& scale,
+                   const GraftOptions& options, const Job& job) {
   const Box box = bounds_of(mesh.position.span());
   const float reach = 1e-6F * std::min(scale.size, glm::length(box.max - box.min));
   // Each limb's surface is closed, and what stands apart keeps it so: faults are at what does not.
   const Array<std::uint8_t> near = near_others(mesh.position.span(), twin.span(), reach, job);
   if (near.empty() || !is_crowded(around(mesh, near, job), reach, job)) return;
-  Job::refuse(
+  refuse_heap(
+      options,
       "the limbs lie in heaps so dense, less than a millionth of the tree apart, that their bark is no "
       "surface; fewer or thicker limbs are needed");
 }
@@ -219,6 +268,8 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
   const Chains chains = link_chains(limbs, job);
   std::vector<Trust> trust(chains.head.size(), options.weld ? Trust::full : Trust::closed);
   if (options.overlaps) distrust_overlaps(limbs, chains, scale, job, trust);
+  if (options.points) distrust_points(limbs, chains, scale, trust);
+  if (!options.contours.empty()) distrust_contours(limbs, chains, trust);
   std::optional<GraftWriter> writer(std::in_place, GraftWriter::Context{limbs, chains, scale, options, trust},
                                     job);
   writer->write_round();
@@ -227,16 +278,21 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
     writer->write_round();
   }
   if (counts) *counts = writer->counts();
+  if (options.grown) writer->tell_grown(*options.grown);
   // Rings of more corners than a cache has entries come in once more.
   const bool is_ordered = 10 * writer->wide_corners() < writer->corners();
   const auto fallen_back = static_cast<std::uint32_t>(std::count(trust.begin(), trust.end(), Trust::none));
   GraftWriter::Written written = writer->take();
   writer.reset();  // others need its memory
   if (options.joints) *options.joints = std::move(written.joints);
-  append_leftover(written, Leftover(limbs, chains, trust, scale.box, true), options.sides, options, job);
-  append_leftover(written, Leftover(limbs, chains, trust, scale.box, false),
-                  std::min(options.sides, most_sides_of_leftover), options, job);
-  const auto look = [&] { refuse_crowds(written.mesh, written.twin, scale, job); };
+  const Leftover::Looks looks{options.colors != nullptr, !options.contours.empty()};
+  append_leftover(written, Leftover(limbs, chains, trust, scale.box, true, looks), options.sides, options,
+                  job);
+  const int most_sides = options.contours.empty() ? most_sides_of_leftover : options.sides;
+  append_leftover(written, Leftover(limbs, chains, trust, scale.box, false, looks),
+                  std::min(options.sides, most_sides), options, job);
+  if (options.colors) *options.colors = std::move(written.colors);
+  const auto look = [&] { refuse_crowds(written.mesh, written.twin, scale, options, job); };
   if (options.meanwhile) {
     run_both(job, look, options.meanwhile);
   } else {

@@ -13,7 +13,9 @@
 /// Cross-sections have corners by their radius, between the rings of a limb too, and joints on a straight
 /// piece have no ring of their own: a twig takes a tenth of the triangles of its trunk.
 #include <functional>
+#include <span>
 
+#include "core/geom/contour.h"
 #include "core/geom/limbs.h"
 #include "core/model/mesh.h"
 
@@ -30,6 +32,8 @@ struct GraftOptions {
   int lobes = 0;             ///< ribs around every limb of order 0
   float lobe_depth = 0;      ///< as a share of the radius, below 1
   bool overlaps = false;  ///< limbs may lie on each other, piece by piece: such are found and left to skin()
+  bool points = false;    ///< limbs may be points where they begin or on the way: such are left to skin()
+  std::span<const Contour> contours = {};  ///< of Limbs::contour; limbs that have one are left to skin()
   float v_scale = 1;      ///< texture lengths a metre along the limb; u is in metres round it
   /// For pictures that repeat: u goes a whole number of times from 0 to 1 round each limb, once a metre of
   /// circumference where it begins and at least once, and v keeps the picture's proportions as the limb grows
@@ -38,6 +42,14 @@ struct GraftOptions {
   /// Where given, it gets for each vertex the joint at the far end of the internode that it moves with. The
   /// rim that two limbs share moves with the older one.
   Array<std::uint32_t>* joints = nullptr;
+  /// Where given, limbs have rings where they change their colour, as far as there is room, and it gets the
+  /// colour of each triangle. The mesh may be parted between triangles of different colours.
+  Array<std::int16_t>* colors = nullptr;
+  /// Where given, it says whether the limbs lie in heaps, or bend, so that no surface is left; what is
+  /// returned is of no use then, and nothing is refused.
+  bool* is_heap = nullptr;
+  /// Where given, it gets of each joint 1 where a limb begins there that has grown out of its parent.
+  Array<std::uint8_t>* grown = nullptr;
   /// Where given, it has the position of each joint and gets, for those that have no ring of their own, where
   /// the limb that is drawn passes by.
   Array<glm::vec3>* drawn = nullptr;

@@ -50,6 +50,12 @@ bool GraftAxis::read(const Limbs& limbs, const Chains& chains, std::uint32_t hea
   return !along.empty();
 }
 
+void GraftAxis::read_colors(const Limbs& limbs) {
+  color.clear();
+  for (std::size_t i = 1; i < joint.size(); ++i)
+    color.push_back(limbs.color.empty() ? std::int16_t{0} : limbs.color[joint[i]]);
+}
+
 void GraftAxis::stretch(float turns) {
   v.assign(1, 0.0F);
   const float least = thinnest_share * radius[0];

@@ -12,6 +12,7 @@ struct GraftAxis {
   std::vector<float> radius;  ///< at each point
   std::vector<float> v;       ///< texture coordinate along the limb at each point
   std::vector<std::uint32_t> joint;
+  std::vector<std::int16_t> color;  ///< of the piece after each point but the last, where it was read
   std::vector<glm::vec3> along, u;  ///< of the piece after each point but the last: unit, at right angles
   int order = 0;
 
@@ -46,6 +47,10 @@ struct GraftAxis {
   /// Reads the limb that begins with `head`; pieces shorter than `shortest` are passed over. False: there is
   /// nothing of it.
   bool read(const Limbs& limbs, const Chains& chains, std::uint32_t head, float shortest);
+  /// Reads the colours of the pieces, after read().
+  void read_colors(const Limbs& limbs);
+  /// Does the limb change its colour at an inner point?
+  bool is_border(std::size_t point_) const { return !color.empty() && color[point_] != color[point_ - 1]; }
   /// Texture coordinates: the length itself, or for `turns` > 0 the length times that by the radius.
   void stretch(float turns);
   /// Frames from a first direction at right angles to the first piece.

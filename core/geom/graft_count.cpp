@@ -25,7 +25,8 @@ class Counter {
         options_(options),
         scale_(scale_of(limbs, with_ribs(options, options.sides))),
         chains_(link_chains(limbs, job)),
-        openings_(job, limbs.size(), 0U) {
+        openings_(job, limbs.size(), 0U),
+        has_loop_(job, limbs.size(), std::uint8_t{0}) {
     for (std::size_t i = 0; i < limbs.size(); ++i) {
       if (limbs.parent[i] != Limbs::none) thickest_ = std::max(thickest_, limbs.base_radius[i]);
     }
@@ -38,7 +39,9 @@ class Counter {
       const auto sides = static_cast<std::uint32_t>(loop_sides(head));
       // A fork shares half of its rings with the limb that it leaves.
       const bool is_fork = limbs_.base_radius[head] >= fork_share * limbs_.radius[joint];
+      if (is_fork && openings_[joint] >= fork_bit) continue;  // a joint has room for one
       openings_[joint] += is_fork ? fork_bit : sides;
+      has_loop_[head] = 1;
     }
     std::uint64_t triangles = 0, limb = 0;
     for (const std::uint32_t head : chains_.head) {
@@ -69,7 +72,7 @@ class Counter {
   std::uint64_t count(std::uint32_t head) {
     if (!axis_.read(limbs_, chains_, head, scale_.shortest)) return 0;
     if (axis_.radius[0] < std::max(2 * scale_.thinnest, options_.thinnest)) return 0;
-    const bool is_root = limbs_.parent[head] == Limbs::none, has_loop = is_opened(head);
+    const bool is_root = limbs_.parent[head] == Limbs::none, has_loop = has_loop_[head] != 0;
     if (!is_root && !has_loop &&
         axis_.length() < std::max(limbs_.radius[limbs_.parent[head]], least_length * scale_.apart))
       return 0;
@@ -115,6 +118,7 @@ class Counter {
   Scale scale_;
   Chains chains_;
   Array<std::uint32_t> openings_;  ///< of each joint, the corners of all loops there
+  Array<std::uint8_t> has_loop_;   ///< of each joint that begins a limb, whether it grows out of another
   GraftAxis axis_;
   float thickest_ = 0;
 };

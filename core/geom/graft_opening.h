@@ -62,6 +62,7 @@ struct Bud {
   glm::vec3 along{0};
   float radius = 0, length = 0;  ///< length of the whole child
   float first_length = 0;        ///< of its first piece
+  float tip = 0;                 ///< length up to its last ring, or to what was looked at
   int sides = 3;
   Phases* phases = nullptr;
 };

@@ -94,6 +94,7 @@ void GraftWriter::write_part(const Parts& parts, std::size_t number) {
   for (const std::uint32_t limb : parts.before[number]) write_anew(limb);
   vertices_ = corners_ = wide_corners_ = made_ = 0;
   mesh_.index.wide.clear();
+  colors_.clear();
   loop_triangles_.clear();
   rib_seams_.clear();
   first_group_ = static_cast<std::uint32_t>(group_normal_.size());
@@ -148,6 +149,7 @@ void GraftWriter::take_vertices(const GraftWriter& part) {
     group_[vertices_ + i] = group != none && group >= part.first_group_ ? group + groups : group;
   }
   vertices_ += count;
+  colors_.append(part.colors_.span());
   const Array<std::uint32_t>& index = part.mesh_.index.wide;
   std::uint32_t* to = mesh_.index.wide.extend(index.size());
   for (std::size_t i = 0; i < index.size(); ++i) to[i] = index[i] + shift;

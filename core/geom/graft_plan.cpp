@@ -86,12 +86,12 @@ bool GraftPlan::open(const GraftAxis& axis, std::size_t at_point, Bud bud) {
     return fork_at(axis, at_point, even, loop_point);
   };
   if (share >= fork_share) wanted = fork();
-  if (wanted && put(axis, at_point, *wanted)) return true;
+  if (wanted && leaves_room(*wanted, bud) && put(axis, at_point, *wanted)) return true;
   const bool has_forked = share >= fork_share;
   loop_point.resize(points);
   wanted = collar(axis, at_point, bud, loop_point);
   if (!wanted && share >= least_fork_share && !has_forked) wanted = fork();
-  return wanted && put(axis, at_point, *wanted);
+  return wanted && leaves_room(*wanted, bud) && put(axis, at_point, *wanted);
 }
 
 void GraftPlan::add(Band& there, const Opening& wanted) {
@@ -172,7 +172,9 @@ void GraftPlan::complete(const GraftAxis& axis, bool has_first, const GraftOptio
     const float share = (at - last_at) / (axis.at[point + 1] - last_at);
     const float between = last_radius + (axis.radius[point + 1] - last_radius) * share;
     const bool turns = glm::dot(heading, axis.along[point]) < most_turn;
-    if (!turns && std::abs(between - axis.radius[point]) < most_off * axis.radius[point]) continue;
+    if (!turns && !axis.is_border(point) &&
+        std::abs(between - axis.radius[point]) < most_off * axis.radius[point])
+      continue;
     const float sine = std::sqrt(
         std::max(0.0F, 1 - glm::dot(heading, axis.along[point]) * glm::dot(heading, axis.along[point])));
     const float clear = std::max(margin(axis, at), 0.5F * axis.radius[point] * sine);

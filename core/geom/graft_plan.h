@@ -45,6 +45,10 @@ struct GraftPlan {
   bool fits(const GraftAxis& axis, const Opening& opening, std::size_t place) const;
   float margin(const GraftAxis& axis, float at) const;
   bool joins(const Opening& opening, const Band& band) const;
+  /// Does it leave anything of the child?
+  bool leaves_room(const Opening& wanted, const Bud& bud) const {
+    return !(wanted.child_reach > bud.tip - 8 * apart_);
+  }
 
   std::vector<Band> all_;  ///< of complete(), kept for its room
   float start_ = 0, tip_ = 0, apart_ = 0, bulge_ = 0;

@@ -34,6 +34,14 @@ GraftCounts GraftWriter::counts() const {
   return counts;
 }
 
+void GraftWriter::tell_grown(Array<std::uint8_t>& grown) const {
+  grown.resize(context_.limbs.size());
+  std::fill(grown.begin(), grown.end(), std::uint8_t{0});
+  for (std::size_t i = 0; i < kind_.size(); ++i) {
+    if (kind_[i] == Kind::collar || kind_[i] == Kind::fork) grown[context_.chains.head[i]] = 1;
+  }
+}
+
 /// The limb that each limb grows from.
 std::vector<std::uint32_t> GraftWriter::find_parents() const {
   const Chains& chains = context_.chains;
@@ -168,7 +176,7 @@ GraftWriter::Written GraftWriter::take() {
     mesh_.normal.shrink_to_fit();
     mesh_.uv[0].shrink_to_fit();
     mesh_.index.wide.shrink_to_fit();
-    return {std::move(mesh_), std::move(joints_), std::move(twin_)};
+    return {std::move(mesh_), std::move(joints_), std::move(twin_), std::move(colors_)};
   }
   group_ = {};
   Written out;
@@ -179,6 +187,7 @@ GraftWriter::Written GraftWriter::take() {
       [&] { out.mesh.uv[0] = gathered(mesh_.uv[0], &Place::vertex); },
       [&] { out.joints = gathered(joints_, &Place::vertex); },
       [&] { out.twin = gathered(twin_, &Place::vertex); },
+      [&] { out.colors = gathered(colors_, &Place::triangle); },
   };
   // Great ones one after the other, each of which gives its memory to the next.
   const std::size_t together = vertices_ > most_together ? std::size(tasks) : 1;

@@ -95,7 +95,8 @@ GraftWriter::GraftWriter(const Context& context, std::shared_ptr<const Common> c
       group_(job),
       group_normal_(job),
       joints_(job),
-      twin_(job) {
+      twin_(job),
+      colors_(job) {
   mesh_.position = Array<glm::vec3>(job);
   mesh_.normal = Array<glm::vec3>(job);
   mesh_.uv[0] = Array<glm::vec2>(job);
@@ -141,6 +142,7 @@ void GraftWriter::write_limb(std::uint32_t limb) {
   const std::uint32_t head = context_.chains.head[limb];
   if (!axis_.read(context_.limbs, context_.chains, head, scale.shortest)) return;
   if (axis_.radius[0] < std::max(2 * scale.thinnest, context_.options.thinnest)) return;
+  if (context_.options.colors) axis_.read_colors(context_.limbs);
   for (float& radius : axis_.radius) radius = std::max(radius, 2 * scale.thinnest);
   const bool is_root = context_.limbs.parent[head] == Limbs::none;
   const Loop& loop = loops_[limb];
@@ -195,12 +197,24 @@ void GraftWriter::write_limb(std::uint32_t limb) {
     begin_loop(loop);
   } else {
     begin_closed(is_root, limb);
+    paint(0);
   }
+  float before = start;
   for (const Band& band : plan_.band) {
     write_band(band);
+    paint(0.5F * (before + band.at));
+    before = band.at;
     if (has_loop && &band == &plan_.band.front()) range_[limb].first_end = here().triangle;
   }
   write_tip(end);
+  paint(axis_.length());
+}
+
+/// The triangles that have no colour yet have that of the piece that holds the length `at`.
+void GraftWriter::paint(float at) {
+  if (!context_.options.colors) return;
+  const std::size_t count = mesh_.index.wide.size() / 3 - colors_.size();
+  std::fill_n(colors_.extend(count), count, axis_.color[axis_.first_piece_at(at, near_piece_)]);
 }
 
 /// Where the rings of the plan draw the axis' points.
@@ -245,6 +259,7 @@ Bud GraftWriter::bud_of(std::uint32_t child) const {
   std::uint32_t joint = context_.chains.head[child];
   glm::vec3 from = limbs.position[limbs.parent[joint]];
   bud.radius = limbs.base_radius[joint];
+  float last_length = 0, end = 0;
   for (; joint != Limbs::none; joint = context_.chains.next[joint]) {
     const glm::vec3 step = limbs.position[joint] - from;
     const float length = std::sqrt(glm::dot(step, step));
@@ -254,9 +269,12 @@ Bud GraftWriter::bud_of(std::uint32_t child) const {
       bud.first_length = length;
     }
     bud.length += length;
+    last_length = length;
+    end = std::max(limbs.radius[joint], 2 * context_.scale.thinnest);
     from = limbs.position[joint];
     if (bud.length > 16 * bud.radius) break;
   }
+  bud.tip = bud.length - (joint == Limbs::none ? std::min(end, 0.3F * last_length) : 0);
   return bud;
 }
 

@@ -53,6 +53,8 @@ class GraftWriter {
   std::size_t settle(std::vector<Trust>& trust, bool is_late);
 
   GraftCounts counts() const;
+  /// As GraftOptions::grown.
+  void tell_grown(Array<std::uint8_t>& grown) const;
   /// Vertices on rings, and those of them on rings of more corners than a vertex cache holds.
   std::size_t corners() const { return sum_of(&Place::corners); }
   std::size_t wide_corners() const { return sum_of(&Place::wide_corners); }
@@ -63,6 +65,7 @@ class GraftWriter {
     Array<std::uint32_t> joints;  ///< of each vertex, where options.joints wants them
     /// Of each vertex, 1: it stands where one before it does, beyond the seam or as part of another limb.
     Array<std::uint8_t> twin;
+    Array<std::int16_t> colors;  ///< of each triangle, where options.colors wants them
   };
   Written take();
 
@@ -225,6 +228,7 @@ class GraftWriter {
   void begin_loop(const Loop& loop);
   void write_band(const Band& band);
   void write_tip(float end_radius);
+  void paint(float at);
   Plane plane_of(const Band& band) const;
   Plane plane_at(float at, std::size_t piece) const;
   int corners_for(float radius) const;
@@ -276,6 +280,7 @@ class GraftWriter {
   bool is_much_ = true;          ///< of what has to be looked at
   Array<std::uint32_t> joints_;  ///< as Written::joints
   Array<std::uint8_t> twin_;     ///< as Written::twin
+  Array<std::int16_t> colors_;   ///< as Written::colors
   std::vector<Trust> trust_;     ///< as it was in the last round
   std::vector<Loop> loops_;
   std::vector<LoopVertex> loop_vertices_;

@@ -36,6 +36,9 @@ constexpr std::array<std::string_view, 22> parameters = {
     "mTwistRate",
     "mTrunkLength",
 };
+// Their twigs are pictures that fill a part of their squares; our bunches of leaves fill them. As the
+// presets.
+constexpr double leaf_size = 0.6;
 constexpr std::array<std::string_view, 2> materials = {"trunkMaterial", "twigMaterial"};
 
 /// "levels" for "mLevels". proctree.js writes one of them in its own way.
@@ -121,6 +124,7 @@ Result<Imported> import_proctree(std::string_view text, const ImportOptions& opt
   }
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   known["model"] = "proctree";
+  known["leaf"] = {{"size", leaf_size}};
   imported.request = {{"generator", "tree"}, {"parameters", std::move(known)}};
   imported.warnings.push_back(
       {"", "chance is drawn by place here: the tree is like the saved one, not the same", 0, 0});

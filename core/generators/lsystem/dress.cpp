@@ -6,8 +6,10 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/math.h"
 #include "core/generators/lsystem/contours.h"
 #include "core/generators/lsystem/surfaces.h"
+#include "core/generators/lsystem/welded.h"
 #include "core/geom/coarse_limbs.h"
 #include "core/geom/detail.h"
 #include "core/geom/foliage_levels.h"
@@ -20,6 +22,8 @@ namespace {
 
 constexpr std::uint64_t bytes_a_vertex = 32;  // position, normal, uv
 constexpr std::uint64_t bytes_a_triangle = 12;
+constexpr std::uint64_t document = 1500;    // the JSON part of a small model
+constexpr double welded_vertices = 0.71;    // a triangle, as measured
 constexpr std::uint64_t worth_a_word = 10;  // fewer than one in so many is no loss
 constexpr int attempts = 6;                 ///< at a level of as many triangles as it may have
 
@@ -159,10 +163,33 @@ Redrawn repeats_of(const Limbs& limbs, const SkinOptions& options, std::uint64_t
   return skin_triangles(limbs, options) == made ? Redrawn::counted : Redrawn::found;
 }
 
+/// One more level of the last node.
+void add_level(Model& model, int level, std::vector<Bark> parts, Wardrobe& wardrobe) {
+  MeshGroup group{"bark_LOD" + std::to_string(level), {}};
+  for (Bark& part : parts)
+    group.primitives.push_back({std::move(part.mesh), wardrobe.material(part.color, Sides::one), {}});
+  model.nodes.back().lods.push_back(static_cast<int>(model.meshes.size()));
+  model.meshes.push_back(std::move(group));
+}
+
 struct BarkUse {
   std::span<const std::uint16_t> bones;  ///< of each joint, where the plant grows
   bool carries_organs = false;
 };
+
+/// Where it is wanted and can be made.
+std::optional<WeldedBark> add_welded_bark(Model& model, const Limbs& limbs, const BarkUse& use,
+                                          const LsystemParams& params, Wardrobe& wardrobe, Job& job) {
+  if (!params.weld) return std::nullopt;
+  std::optional<WeldedBark> welded = welded_bark(limbs, use.bones, params, job);
+  if (welded) {
+    add_meshes(model, "bark", std::move(welded->barks), Sides::one, wardrobe);
+  } else {
+    model.warnings.push_back(
+        {"/weld", "has no effect: the limbs lie so densely that their joints leave no closed surface", 0, 0});
+  }
+  return welded;
+}
 
 /// The bark with its coarser levels. Takes the limbs: their memory goes back before polygons and writer need
 /// theirs.
@@ -172,15 +199,22 @@ void add_bark(Model& model, Limbs limbs, const BarkUse& use, const LsystemParams
   const int finest = static_cast<int>(model.nodes.size());
   const std::vector<Contour> contours = contours_of(params);
   SkinOptions options = skin_options(params, contours, Detail(0));
-  options.bones = bones;
-  add_meshes(model, "bark", skin(limbs, options, job), Sides::one, wardrobe);
+  std::optional<WeldedBark> welded = add_welded_bark(model, limbs, use, params, wardrobe, job);
+  if (welded) {  // of which coarser levels are closed tubes: nobody sees joints from afar
+    limbs = std::move(welded->limbs);
+    bones = welded->bones.span();
+    options.stacks = 1;
+  } else {
+    options.bones = bones;
+    add_meshes(model, "bark", skin(limbs, options, job), Sides::one, wardrobe);
+  }
   if (static_cast<int>(model.nodes.size()) == finest) return;
   const std::uint64_t triangles = triangles_of(model.meshes.back().primitives);
   std::uint64_t before = triangles;
   Array<std::uint16_t> own_bones(job);
   Array<float> shown(job);
   Redrawn repeats = Redrawn::counted;
-  if (job.demand().lods > 1) {
+  if (job.demand().lods > 1 && !welded) {
     KeptLimbs once = without_repeats(limbs, options.sides, job);
     if (once.limbs.size() < limbs.size()) {
       for (std::size_t i = 0; i < bones.size(); ++i) {
@@ -189,28 +223,28 @@ void add_bark(Model& model, Limbs limbs, const BarkUse& use, const LsystemParams
       bones = own_bones.span();
       limbs = std::move(once.limbs);
     }
-    shown = shown_of(limbs, job);
     repeats = repeats_of(limbs, options, triangles);
   }
+  if (job.demand().lods > 1) shown = shown_of(limbs, job);
   for (int level = 1; level < job.demand().lods; ++level) {
     const Detail detail(level);
-    MeshGroup group{"bark_LOD" + std::to_string(level), {}};
-    const SkinOptions coarser = skin_options(params, contours, detail);
+    SkinOptions coarser = skin_options(params, contours, detail);
+    coarser.stacks = std::min(coarser.stacks, options.stacks);
     CoarseOptions coarse;
     // What organs hide is missed less than they would be.
     const std::uint64_t wanted = use.carries_organs ? detail.bark(triangles, 1) : detail.tubes(triangles);
     coarse.triangles = std::min(wanted, Detail::fewer_than(before));
     coarse.skin = &options;
+    coarse.was_grafted = welded.has_value();
     coarse.shown = shown.span();
     coarse.bones = bones;
-    for (Bark& part : coarser_bark(limbs, coarse, {Detail::fewer_than(before), repeats}, coarser, job)) {
-      group.primitives.push_back({std::move(part.mesh), wardrobe.material(part.color, Sides::one), {}});
-    }
-    const std::uint64_t made = triangles_of(group.primitives);
+    std::vector<Bark> parts =
+        coarser_bark(limbs, coarse, {Detail::fewer_than(before), repeats}, coarser, job);
+    std::uint64_t made = 0;
+    for (const Bark& part : parts) made += part.mesh.elements();
     if (made == 0 || made >= before) return;
     before = made;
-    model.nodes.back().lods.push_back(static_cast<int>(model.meshes.size()));
-    model.meshes.push_back(std::move(group));
+    add_level(model, level, std::move(parts), wardrobe);
   }
 }
 
@@ -283,8 +317,15 @@ std::uint64_t most_segments(const LsystemParams& params, const Limits& limits) {
          (2 * static_cast<std::uint64_t>(params.sides) * static_cast<std::uint64_t>(params.stacks));
 }
 
+Estimate estimate_of(const Skeleton& skeleton, const LsystemParams& params, Job& job) {
+  const std::uint64_t triangles = welded_triangles(skeleton.limbs, params, job);
+  const auto vertices =
+      static_cast<std::uint64_t>(math::to_int64(welded_vertices * static_cast<double>(triangles)));
+  const std::uint64_t index = vertices > 65'535 ? bytes_a_triangle : bytes_a_triangle / 2;
+  return {triangles, document + triangles * index + vertices * bytes_a_vertex, false};
+}
+
 Estimate estimate_of(std::uint64_t segments, std::uint64_t limbs, const LsystemParams& params) {
-  constexpr std::uint64_t document = 1500;  // the JSON part of a small model
   if (params.style == LsystemParams::Style::lines) return {0, document + segments * 20, false};
   const auto sides = static_cast<std::uint64_t>(params.sides);
   const std::uint64_t rings = segments * static_cast<std::uint64_t>(params.stacks);

@@ -19,12 +19,14 @@
 #include "core/generators/lsystem/stamping.h"
 #include "core/generators/lsystem/surfaces.h"
 #include "core/generators/lsystem/text.h"
+#include "core/generators/lsystem/welded.h"
 #include "core/generators/lsystem/word.h"
 
 namespace seedmesh::lsystem {
 namespace {
 
 constexpr std::size_t longest_text = std::size_t{16} << 20U;  // of a word in the answer of derive
+constexpr std::uint64_t most_appraised = 50'000;              // segments, drawn in an instant
 
 Result<Grammar> compiled(const LsystemParams& params, const Job& job) {
   std::vector<Issue> issues;
@@ -291,6 +293,7 @@ Result<Model> generate(const LsystemParams& params, Job& job) {
   job.progress("mesh", 0);
   Model model = dress(std::move(skeleton), params, job);
   if (garden) garden->add_others(model);
+  warn_of_welded(params, model.warnings);
   for (Warning& warning : grammar->warnings) model.warnings.push_back(std::move(warning));
   return model;
 }
@@ -344,6 +347,17 @@ Result<Json> derive(const LsystemParams& params, Job& job) {
               {"warnings", described(grammar->warnings)}};
 }
 
+/// Corners of welded limbs depend on widths, so that the limbs are drawn.
+static Estimate estimate_of_welded(const Grammar& grammar, const LsystemParams& params, const Job& job) {
+  job.check();
+  Job own(job.seed(), {.limits = job.limits()});  // what is looked at here is not spent
+  Skeleton skeleton(own);
+  Drawing drawing(grammar, params, &skeleton, own);
+  draw(grammar, params, drawing, own);
+  shape(skeleton, params, own);
+  return estimate_of(skeleton, params, own);
+}
+
 Result<Appraisal> appraise(const LsystemParams& params, const Job& job) {
   Result<Grammar> grammar = compiled(params, job);
   if (!grammar) return std::move(grammar).error();
@@ -355,8 +369,13 @@ Result<Appraisal> appraise(const LsystemParams& params, const Job& job) {
   if (!counts.empty() && grammar->interpretation.productions.empty()) {
     if (share_of(params) == 1) warn_of_word(*grammar, counts, appraisal.warnings);
     const std::uint64_t segments = drawn(*grammar, counts);
-    appraisal.estimate = estimate_of(segments, std::min(segments, 1 + branches(*grammar, counts)), params);
+    if (!params.weld || params.style == LsystemParams::Style::lines) {
+      appraisal.estimate = estimate_of(segments, std::min(segments, 1 + branches(*grammar, counts)), params);
+    } else if (segments <= most_appraised) {
+      appraisal.estimate = estimate_of_welded(*grammar, params, job);
+    }
   }
+  warn_of_welded(params, appraisal.warnings);
   return appraisal;
 }
 

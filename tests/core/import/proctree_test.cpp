@@ -8,7 +8,9 @@ namespace {
 TEST(ProctreeFile, BecomesATreeOfTheSameParameters) {
   const auto result = imported("proctree", R"({"mSeed": 262, "mLevels": 4, "mTwistRate": 3.019})");
   EXPECT_EQ(parameters_of(result),
-            nlohmann::json::parse(R"({"model": "proctree", "mLevels": 4, "mTwistRate": 3.019})"));
+            nlohmann::json::parse(
+                R"({"model": "proctree", "mLevels": 4, "mTwistRate": 3.019, "leaf": {"size": 0.6}})"))
+      << "leaves as large as those of the presets";
   EXPECT_EQ(result->warnings.size(), 1U);
 }
 
@@ -27,7 +29,8 @@ TEST(ProctreeFile, MayHaveTheNamesOfProctreeJs) {
   ASSERT_TRUE(result) << told(result)[0];
   EXPECT_EQ(parameters_of(result),
             nlohmann::json::parse(R"({"model": "proctree", "mSeed": 152, "mSegments": 8,
-    "mLevels": 4, "mInitialBranchLength": 0.6, "mVMultiplier": 1.16, "mMaxRadius": 0.105})"));
+    "mLevels": 4, "mInitialBranchLength": 0.6, "mVMultiplier": 1.16, "mMaxRadius": 0.105,
+    "leaf": {"size": 0.6}})"));
   EXPECT_EQ(result->warnings.size(), 3U) << "two pictures, and chance";
 }
 
