@@ -14,6 +14,8 @@ constexpr std::uint64_t least_triangles_a_joint = 6, least_triangles_a_leaf = 2;
 constexpr std::uint64_t most_of_a_part = std::uint64_t{1} << 18U;
 constexpr std::uint64_t bytes_of_both = 128;  // of a joint and a leaf, at least
 constexpr std::uint64_t spent_at_once = 4096;
+// Leaves that are counted at once: those that do not come are few.
+constexpr std::uint64_t leaves_at_once = 64, least_open = 2 * leaves_at_once;
 
 /// As small amounts, which leave no more of a lease.
 void spend(Meter& meter, std::uint64_t amount) {
@@ -45,23 +47,26 @@ SkeletonWriter::SkeletonWriter(Skeleton& skeleton, Job& job, double density)
       shapes_(job, Resource::shapes),
       most_joints_(job.limits().triangles / least_triangles_a_joint),
       most_leaves_(job.limits().triangles / least_triangles_a_leaf),
-      density_(density) {}
+      density_(density),
+      draws_all_(density >= 1),
+      drawn_below_(drawn_below(density)) {}
 
 SkeletonWriter::SkeletonWriter(Skeleton& part, const SkeletonWriter& whole, std::size_t most)
     : SkeletonWriter(part, whole.job_, whole.density_) {
   is_part_ = true;
+  least_radius_ = whole.least_radius_;
   first_ = static_cast<std::uint32_t>(whole.limbs_.size());
   end_after(most, most);
 }
 
 std::size_t SkeletonWriter::most_of_parts(std::size_t parts) const {
   const Limits& limits = job_.limits();
-  const std::uint64_t joints = limbs_.size();
-  if (is_part_ || end_joints_ != ~std::size_t{0} || joints >= most_joints_ || leaves_ >= most_leaves_)
+  const std::uint64_t joints = this->joints(), leaves = this->leaves();
+  if (is_part_ || end_joints_ != ~std::size_t{0} || joints >= most_joints_ || leaves >= most_leaves_)
     return 0;
   const std::uint64_t left =
       std::min({limits.modules - job_.spent(Resource::modules), limits.shapes - job_.spent(Resource::shapes),
-                most_joints_ - joints, most_leaves_ - leaves_, limits.memory_bytes / bytes_of_both});
+                most_joints_ - joints, most_leaves_ - leaves, limits.memory_bytes / bytes_of_both});
   return static_cast<std::size_t>(std::min(most_of_a_part, left / (2 * std::max<std::size_t>(parts, 1))));
 }
 
@@ -72,9 +77,12 @@ void SkeletonWriter::take(std::span<const SkeletonWriter* const> parts) {
   std::vector<Place> places;
   Place end{limbs_.size(), organs_.organ.size()};
   for (const SkeletonWriter* part : parts) {
-    spend(modules_, part->limbs_.size());
-    spend(shapes_, part->leaves_);
-    leaves_ += part->leaves_;
+    spend(modules_, part->joints());
+    spend(shapes_, part->leaves());
+    leaves_ += part->leaves();
+    passed_ += part->passed_;
+    passed_box_ = {glm::min(passed_box_.min, part->passed_box_.min),
+                   glm::max(passed_box_.max, part->passed_box_.max)};
     places.push_back(end);
     end = {end.joint + part->limbs_.size(), end.leaf + part->organs_.organ.size()};
   }
@@ -115,16 +123,12 @@ void SkeletonWriter::copy(const SkeletonWriter& part, std::size_t joint, std::si
 }
 
 std::uint32_t SkeletonWriter::add(const Joint& joint) {
-  if (!is_part_) {
-    modules_.spend();
-  } else if (limbs_.size() % 1024 == 0) {
-    job_.check();
-  }
-  if (limbs_.size() >= end_joints_) throw Enough{};
-  if (limbs_.size() >= most_joints_) {
-    Job::refuse("the tree has more than " + std::to_string(most_joints_) +
-                " internodes, whose bark would pass the limit of triangles");
-  }
+  count_joint();
+  write(joint);
+  return first_ + static_cast<std::uint32_t>(limbs_.size() - 1);
+}
+
+void SkeletonWriter::write(const Joint& joint) {
   limbs_.position.push_back(glm::vec3(joint.position));
   limbs_.radius.push_back(static_cast<float>(joint.radius));
   limbs_.base_radius.push_back(static_cast<float>(joint.base_radius));
@@ -133,12 +137,34 @@ std::uint32_t SkeletonWriter::add(const Joint& joint) {
   limbs_.color.push_back(0);
   limbs_.order.push_back(static_cast<std::uint16_t>(joint.order));
   limbs_.key.push_back(joint.key);
-  return first_ + static_cast<std::uint32_t>(limbs_.size() - 1);
 }
 
-void SkeletonWriter::refuse_leaves() const {
-  Job::refuse("the tree has more than " + std::to_string(most_leaves_) +
-              " leaves, which would pass the limit of triangles");
+void SkeletonWriter::finish() {
+  if (passed_ == 0) return;
+  for (const glm::vec3& corner : {passed_box_.min, passed_box_.max}) {
+    Joint joint;
+    joint.position = corner;
+    write(joint);
+  }
+}
+
+void SkeletonWriter::refuse_joints() const {
+  Job::refuse("the tree has more than " + std::to_string(most_joints_) +
+              " internodes, whose bark would pass the limit of triangles");
+}
+
+void SkeletonWriter::claim_leaves() {
+  if (leaves_ >= end_leaves_) throw Enough{};
+  if (leaves_ >= most_leaves_) {
+    Job::refuse("the tree has more than " + std::to_string(most_leaves_) +
+                " leaves, which would pass the limit of triangles");
+  }
+  // The last ones before the limit one by one, so that a limit of N lets N through.
+  const std::uint64_t open = job_.limits().shapes - job_.spent(Resource::shapes);
+  const std::uint64_t at_once = open > least_open ? leaves_at_once : 1;
+  claimed_ = std::min<std::uint64_t>({at_once, end_leaves_ - leaves_, most_leaves_ - leaves_});
+  if (!is_part_) shapes_.spend(claimed_);
+  leaves_ += claimed_;
 }
 
 void SkeletonWriter::add(const Leaf& leaf) {
