@@ -14,9 +14,6 @@ constexpr std::uint64_t least_triangles_a_joint = 6, least_triangles_a_leaf = 2;
 constexpr std::uint64_t most_of_a_part = std::uint64_t{1} << 18U;
 constexpr std::uint64_t bytes_of_both = 128;  // of a joint and a leaf, at least
 constexpr std::uint64_t spent_at_once = 4096;
-// Leaves that are counted at once: those that do not come are few.
-constexpr std::uint64_t leaves_at_once = 64, least_open = 2 * leaves_at_once;
-
 /// As small amounts, which leave no more of a lease.
 void spend(Meter& meter, std::uint64_t amount) {
   for (; amount > spent_at_once; amount -= spent_at_once) meter.spend(spent_at_once);
@@ -48,8 +45,8 @@ SkeletonWriter::SkeletonWriter(Skeleton& skeleton, Job& job, double density)
       most_joints_(job.limits().triangles / least_triangles_a_joint),
       most_leaves_(job.limits().triangles / least_triangles_a_leaf),
       density_(density),
-      draws_all_(density >= 1),
-      drawn_below_(drawn_below(density)) {}
+      // The number of hashes of 53 bits that is_drawn() takes: it may be asked after many leaves at once.
+      drawn_below_(static_cast<std::uint64_t>(math::to_int64(std::ceil(density * 0x1p53)))) {}
 
 SkeletonWriter::SkeletonWriter(Skeleton& part, const SkeletonWriter& whole, std::size_t most)
     : SkeletonWriter(part, whole.job_, whole.density_) {
@@ -61,12 +58,12 @@ SkeletonWriter::SkeletonWriter(Skeleton& part, const SkeletonWriter& whole, std:
 
 std::size_t SkeletonWriter::most_of_parts(std::size_t parts) const {
   const Limits& limits = job_.limits();
-  const std::uint64_t joints = this->joints(), leaves = this->leaves();
-  if (is_part_ || end_joints_ != ~std::size_t{0} || joints >= most_joints_ || leaves >= most_leaves_)
+  const std::uint64_t joints = this->joints();
+  if (is_part_ || end_joints_ != ~std::size_t{0} || joints >= most_joints_ || leaves_ >= most_leaves_)
     return 0;
   const std::uint64_t left =
       std::min({limits.modules - job_.spent(Resource::modules), limits.shapes - job_.spent(Resource::shapes),
-                most_joints_ - joints, most_leaves_ - leaves, limits.memory_bytes / bytes_of_both});
+                most_joints_ - joints, most_leaves_ - leaves_, limits.memory_bytes / bytes_of_both});
   return static_cast<std::size_t>(std::min(most_of_a_part, left / (2 * std::max<std::size_t>(parts, 1))));
 }
 
@@ -78,8 +75,8 @@ void SkeletonWriter::take(std::span<const SkeletonWriter* const> parts) {
   Place end{limbs_.size(), organs_.organ.size()};
   for (const SkeletonWriter* part : parts) {
     spend(modules_, part->joints());
-    spend(shapes_, part->leaves());
-    leaves_ += part->leaves();
+    spend(shapes_, part->leaves_);
+    leaves_ += part->leaves_;
     passed_ += part->passed_;
     passed_box_ = {glm::min(passed_box_.min, part->passed_box_.min),
                    glm::max(passed_box_.max, part->passed_box_.max)};
@@ -153,18 +150,9 @@ void SkeletonWriter::refuse_joints() const {
               " internodes, whose bark would pass the limit of triangles");
 }
 
-void SkeletonWriter::claim_leaves() {
-  if (leaves_ >= end_leaves_) throw Enough{};
-  if (leaves_ >= most_leaves_) {
-    Job::refuse("the tree has more than " + std::to_string(most_leaves_) +
-                " leaves, which would pass the limit of triangles");
-  }
-  // The last ones before the limit one by one, so that a limit of N lets N through.
-  const std::uint64_t open = job_.limits().shapes - job_.spent(Resource::shapes);
-  const std::uint64_t at_once = open > least_open ? leaves_at_once : 1;
-  claimed_ = std::min<std::uint64_t>({at_once, end_leaves_ - leaves_, most_leaves_ - leaves_});
-  if (!is_part_) shapes_.spend(claimed_);
-  leaves_ += claimed_;
+void SkeletonWriter::refuse_leaves() const {
+  Job::refuse("the tree has more than " + std::to_string(most_leaves_) +
+              " leaves, which would pass the limit of triangles");
 }
 
 void SkeletonWriter::add(const Leaf& leaf) {

@@ -53,11 +53,6 @@ inline bool is_drawn(std::uint64_t key, double density) {
   return density >= 1 || static_cast<double>(key_at(key, drawn_place) >> 11U) * 0x1p-53 < density;
 }
 
-/// Hashes below this are of the share `density` that is drawn, by their upper 53 bits.
-inline std::uint64_t drawn_below(double density) {
-  return static_cast<std::uint64_t>(math::to_int64(std::ceil(density * 0x1p53)));
-}
-
 /// Appends to a skeleton. Every joint is spent as a module, and refused where its bark would pass the limit
 /// of triangles, so that a hostile request ends early and small.
 class SkeletonWriter {
@@ -112,11 +107,20 @@ class SkeletonWriter {
     std::uint32_t joint = Limbs::none;
     std::uint64_t key = 0;
   };
+  /// Counts leaves; throws where that is too many.
+  void count_leaves(std::uint64_t count) {
+    if (!is_part_) shapes_.spend(count);
+    leaves_ += count;
+    if (leaves_ > end_leaves_) throw Enough{};
+    if (leaves_ > most_leaves_) refuse_leaves();
+  }
+  /// Hashes of a leaf's key at drawn_place, shifted by 11, are below this where it is drawn.
+  std::uint64_t drawn_below() const { return drawn_below_; }
+  bool draws_all() const { return drawn_below_ == std::uint64_t{1} << 53U; }
   /// Counts a leaf. False: it is none of those that are drawn, and need not be made.
   bool wants_leaf(std::uint64_t key) {
-    if (claimed_ == 0) claim_leaves();
-    --claimed_;
-    return draws_all_ || key_at(key, drawn_place) >> 11U < drawn_below_;
+    count_leaves(1);
+    return key_at(key, drawn_place) >> 11U < drawn_below_;
   }
   void add(const Leaf& leaf);
   void add(const Organ& leaf) { *extend(1) = leaf; }
@@ -148,10 +152,9 @@ class SkeletonWriter {
     if (joints() >= most_joints_) refuse_joints();
   }
   [[noreturn]] void refuse_joints() const;
-  void claim_leaves();
+  [[noreturn]] void refuse_leaves() const;
   /// Of all, those that were passed over too.
   std::size_t joints() const { return limbs_.size() + passed_; }
-  std::uint64_t leaves() const { return leaves_ - claimed_; }
   void write(const Joint& joint);
   void copy(const SkeletonWriter& part, std::size_t joint, std::size_t leaf);
 
@@ -159,11 +162,9 @@ class SkeletonWriter {
   Organs& organs_;
   Job& job_;
   Meter modules_, shapes_;
-  std::uint64_t most_joints_, most_leaves_;
-  std::uint64_t leaves_ = 0, claimed_ = 0;  ///< counted, and of those not there yet
+  std::uint64_t most_joints_, most_leaves_, leaves_ = 0;
   std::size_t end_joints_ = ~std::size_t{0}, end_leaves_ = ~std::size_t{0};
   double density_;
-  bool draws_all_;
   std::uint64_t drawn_below_;
   float least_radius_ = 0;
   std::size_t passed_ = 0;

@@ -17,13 +17,14 @@ constexpr std::size_t least_stems = 8, parts_a_thread = 4;
 }  // namespace
 
 void WeberPennGrower::run() {
-  grow(trunk());
+  WeberPennStem stem = trunk();
+  grow(stem);
   if (!grow_parts()) grow_all();
 }
 
 void WeberPennGrower::grow_all() {
   while (!waiting_.empty()) {
-    const WeberPennStem stem = waiting_.back();
+    WeberPennStem stem = waiting_.back();
     waiting_.pop_back();
     grow(stem);
   }
@@ -131,7 +132,7 @@ void WeberPennGrower::split(WeberPennStem& stem, Frame& frame, const glm::dvec3&
     clone.rng = rng.at("clone").at(static_cast<std::uint64_t>(number));
     clone.carried_children = clone.rng.at("phase").unit();
     clone.carried_splits = 0;
-    waiting_.push_back(clone);
+    clones_.push_back(clone);
   }
   const auto [turned, uncurve] = part(0);
   frame = turned;
@@ -146,8 +147,8 @@ void WeberPennGrower::begin(const WeberPennStem& stem) {
   count_ = math::to_int32(std::floor(children_of(stem) + 0.5));
   const bool is_fan = is_last(stem) && p_.Leaves < 0;
   spacing_ = count_ > 0 && !is_fan ? (stem.length - bare_) / count_ : 0;
-  children_.clear();
-  next_child_ = 0;
+  clones_.clear();
+  first_child_ = next_child_ = waiting_.size();
   if (is_last(stem)) {
     leaf_chance_ = chances_.leaves.at(stem.rng.key());
     return;
@@ -159,8 +160,8 @@ void WeberPennGrower::begin(const WeberPennStem& stem) {
   child_max_ = std::max(0.0, next.length + spread(stem.rng.at(place_of("child_length")), next.length_v));
 }
 
-void WeberPennGrower::grow(const WeberPennStem& given) {
-  WeberPennStem stem = given;
+/// What grows from the stem waits then, clones before children.
+void WeberPennGrower::grow(WeberPennStem& stem) {
   const int segments = level(stem.level).curve_res;
   if (!(stem.length > 0)) return;
   begin(stem);
@@ -173,7 +174,8 @@ void WeberPennGrower::grow(const WeberPennStem& given) {
     if (segment + 1 < segments) split(stem, frame, at, segment, last_joint_);
   }
   if (is_last(stem) && p_.Leaves < 0) put_fan(stem, frame, at);
-  waiting_.insert(waiting_.end(), children_.begin(), children_.end());
+  waiting_.insert(waiting_.begin() + static_cast<std::ptrdiff_t>(first_child_), clones_.begin(),
+                  clones_.end());
 }
 
 void grow_weber_penn(const TreeParams& params, const Chances& chances, SkeletonWriter& writer) {

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/base/wide.h"
 #include "core/generators/tree/weber_penn_grower.h"
 
 namespace seedmesh::tree {
@@ -7,6 +8,13 @@ namespace {
 
 // A pruned stem is tried at so much of its length again and again, and is left out below the least share.
 constexpr double prune_step = 0.9, prune_least = 0.15;
+
+/// Which of the leaves from number `first` on are drawn.
+SEEDMESH_WIDE void find_drawn(const Rng& chance, std::uint64_t first, std::uint64_t below,
+                              std::span<std::uint8_t> drawn) {
+  for (std::size_t i = 0; i < drawn.size(); ++i)
+    drawn[i] = key_at(chance.at(first + i).key(), drawn_place) >> 11U < below ? 1 : 0;
+}
 
 }  // namespace
 
@@ -41,11 +49,32 @@ LeafFrames::Stance WeberPennGrower::stance(const WeberPennStem& stem, double off
   return stands;
 }
 
+/// Where children or leaves stand on a piece, in metres of the stem; returns the number of the first.
+int WeberPennGrower::find_places(WeberPennStem& stem, const WeberPennPiece& piece) {
+  places_.clear();
+  const int first = stem.children_before;
+  if (!(spacing_ > 0)) return first;
+  double from = std::max(piece.along, bare_), step = (1 - stem.carried_children) * spacing_ / stem.share;
+  const double whole = spacing_ / stem.share;
+  for (; from < piece.end; step = whole) {
+    if (from + step > piece.end) {
+      const double carried = places_.empty() ? stem.carried_children : 0;
+      stem.carried_children = carried + (piece.end - from) * stem.share / spacing_;
+      break;
+    }
+    from += step;
+    places_.push_back(from);
+  }
+  if (!(from < piece.end) && !places_.empty()) stem.carried_children = 0;
+  stem.children_before += static_cast<int>(places_.size());
+  return first;
+}
+
 void WeberPennGrower::put_children(WeberPennStem& stem, const WeberPennPiece& piece) {
-  each_place(stem, piece, [&](double offset, int number) {
-    const bool is_there = bear(stem, piece, offset, number);
-    if (is_written_ && is_there) stops_.push_back(offset);
-  });
+  int number = find_places(stem, piece);
+  for (const double offset : places_) {
+    if (bear(stem, piece, offset, number++) && is_written_) stops_.push_back(offset);
+  }
 }
 
 /// False: there is nothing of it.
@@ -58,7 +87,7 @@ bool WeberPennGrower::bear(const WeberPennStem& stem, const WeberPennPiece& piec
   LeafFrames::Stance stands = stance(stem, offset, number);
   stands.about += spread(rng.at(place_of("rotate")), l.rotate_v);
   if (l.down_angle_v > 0) stands.down += spread(rng.at(place_of("down")), l.down_angle_v);
-  WeberPennStem& child = children_.emplace_back();
+  WeberPennStem& child = waiting_.emplace_back();
   child.frame = pitch(roll(piece.frame, math::quick_sincos_degrees(stands.about)),
                       math::quick_sincos_degrees(stands.down));
   child.position = piece.at(offset);
@@ -71,7 +100,7 @@ bool WeberPennGrower::bear(const WeberPennStem& stem, const WeberPennPiece& piec
   child.rng = rng;
   child.carried_splits = rng.at(place_of("splits")).uniform(-0.5, 0.5);
   if (p_.PruneRatio > 0 && !prune(child)) {
-    children_.pop_back();
+    waiting_.pop_back();
     return false;
   }
   child.radius = child_radius(stem, offset, child.length);
@@ -121,16 +150,23 @@ bool WeberPennGrower::fits(const WeberPennStem& stem, double length) {
 }
 
 void WeberPennGrower::put_leaves(WeberPennStem& stem, const WeberPennPiece& piece) {
+  const int first = find_places(stem, piece);
+  if (places_.empty()) return;
+  writer_.count_leaves(places_.size());
+  drawn_.assign(places_.size(), 1);
+  if (!writer_.draws_all())
+    find_drawn(leaf_chance_, static_cast<std::uint64_t>(first), writer_.drawn_below(), drawn_);
   std::size_t stop = 0;
-  each_place(stem, piece, [&](double offset, int number) {
-    const std::uint64_t key = leaf_chance_.at(static_cast<std::uint64_t>(number)).key();
-    if (!writer_.wants_leaf(key)) return;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (!drawn_[i]) continue;
+    const double offset = places_[i];
     while (is_written_ && joints_[stop].at < offset) ++stop;
+    const int number = first + static_cast<int>(i);
     LeafFrames::Stance stands = stance(stem, offset, number);
-    stands.key = key;
+    stands.key = leaf_chance_.at(static_cast<std::uint64_t>(number)).key();
     leaf_frames_.add(piece.frame, piece.at(offset), is_written_ ? joints_[stop].joint : last_joint_, stands);
     if (leaf_frames_.is_full()) write_leaves();
-  });
+  }
 }
 
 /// All leaves of a stem at its end.

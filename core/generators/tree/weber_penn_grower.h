@@ -56,7 +56,7 @@ class WeberPennGrower {
 
   // Along a stem.
   WeberPennStem trunk();
-  void grow(const WeberPennStem& given);
+  void grow(WeberPennStem& stem);
   void begin(const WeberPennStem& stem);
   double radius_at(const WeberPennStem& stem, double z) const;
   bool sways() const { return p_.sway.wind != 0 || p_.sway.gust != 0; }
@@ -71,8 +71,7 @@ class WeberPennGrower {
 
   // What stands on it.
   double children_of(const WeberPennStem& stem) const;
-  template <class Each>
-  void each_place(WeberPennStem& stem, const WeberPennPiece& piece, const Each& each) const;
+  int find_places(WeberPennStem& stem, const WeberPennPiece& piece);
   /// Angles in degrees, but for their chance.
   LeafFrames::Stance stance(const WeberPennStem& stem, double offset, int number) const;
   void put_children(WeberPennStem& stem, const WeberPennPiece& piece);
@@ -91,15 +90,17 @@ class WeberPennGrower {
   SkeletonWriter& writer_;
   std::vector<WeberPennStem> waiting_;
   double scale_ = 0, trunk_length_ = 0;
-  LeafFrames leaf_frames_;  ///< that are waited for
+  LeafFrames leaf_frames_;           ///< that are waited for
   std::vector<Frame> trial_frames_;  ///< of a stem that is pruned, segment by segment
   // Of the stem that grows.
   bool is_written_ = true;  ///< its joints; nobody looks at others
   std::uint32_t last_joint_ = Limbs::none;
   double last_radius_ = 0;
-  std::vector<WeberPennStem> children_;
-  std::size_t next_child_ = 0;  ///< whose joint is not there yet
-  std::vector<double> stops_;   ///< of a piece
+  std::vector<WeberPennStem> clones_;
+  std::size_t first_child_ = 0, next_child_ = 0;  ///< of those that wait; whose joint is not there yet
+  std::vector<double> places_;                    ///< of children or leaves on a piece
+  std::vector<std::uint8_t> drawn_;               ///< leaves at these
+  std::vector<double> stops_;                     ///< of a piece
   struct Stop {
     double at;
     std::uint32_t joint;
@@ -110,23 +111,5 @@ class WeberPennGrower {
   double spacing_ = 0, bare_ = 0, child_max_ = 0;
   bool starts_ = false;
 };
-
-/// Calls each(offset, number) for the children or leaves of a piece.
-template <class Each>
-void WeberPennGrower::each_place(WeberPennStem& stem, const WeberPennPiece& piece, const Each& each) const {
-  if (!(spacing_ > 0)) return;
-  const double whole = spacing_ / stem.share;
-  double from = std::max(piece.along, bare_);
-  while (from < piece.end) {
-    const double step = stem.carried_children == 0 ? whole : (1 - stem.carried_children) * spacing_ / stem.share;
-    if (from + step > piece.end) {
-      stem.carried_children += (piece.end - from) * stem.share / spacing_;
-      break;
-    }
-    from += step;
-    stem.carried_children = 0;
-    each(from, stem.children_before++);
-  }
-}
 
 }  // namespace seedmesh::tree

@@ -136,8 +136,8 @@ void WeberPennGrower::write_joints(const WeberPennStem& stem, const WeberPennPie
     last_joint_ = writer_.add(joint);
     starts_ = false;
     before = stop;
-    for (; next_child_ < children_.size() && children_[next_child_].offset <= stop; ++next_child_)
-      children_[next_child_].joint = last_joint_;
+    for (; next_child_ < waiting_.size() && waiting_[next_child_].offset <= stop; ++next_child_)
+      waiting_[next_child_].joint = last_joint_;
     joints_.push_back({stop, last_joint_});
   }
 }
