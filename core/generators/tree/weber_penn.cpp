@@ -153,11 +153,12 @@ void WeberPennGrower::begin(const WeberPennStem& stem) {
     leaf_chance_ = chances_.leaves.at(stem.rng.key());
     return;
   }
-  const Rng own =
-      stem.level == 0 ? chances_.branches.at(stem.segment == 0 ? 0 : stem.rng.key()) : stem.rng;
+  const Rng own = stem.level == 0 ? chances_.branches.at(stem.segment == 0 ? 0 : stem.rng.key()) : stem.rng;
   child_chance_ = own.at(place_of("child"));
   const WeberPennLevel& next = level(stem.level + 1);
   child_max_ = std::max(0.0, next.length + spread(stem.rng.at(place_of("child_length")), next.length_v));
+  bears_limbs_ = is_written_ && (stem.level == 0 || spacing_ > 2 * stem.radius ||
+                                 stem.radius * power(child_max_, p_.RatioPower) >= p_.twig_radius);
 }
 
 /// What grows from the stem waits then, clones before children.

@@ -73,7 +73,7 @@ int WeberPennGrower::find_places(WeberPennStem& stem, const WeberPennPiece& piec
 void WeberPennGrower::put_children(WeberPennStem& stem, const WeberPennPiece& piece) {
   int number = find_places(stem, piece);
   for (const double offset : places_) {
-    if (bear(stem, piece, offset, number++) && is_written_) stops_.push_back(offset);
+    if (bear(stem, piece, offset, number++) && bears_limbs_) stops_.push_back(offset);
   }
 }
 
@@ -141,8 +141,7 @@ bool WeberPennGrower::fits(const WeberPennStem& stem, double length) {
   glm::dvec3 at = stem.position;
   for (int segment = 0; segment < segments; ++segment) {
     const auto number = static_cast<std::size_t>(segment);
-    if (number == trial_frames_.size())
-      trial_frames_.push_back(turned(stem, trial_frames_.back(), segment));
+    if (number == trial_frames_.size()) trial_frames_.push_back(turned(stem, trial_frames_.back(), segment));
     at += trial_frames_[number].heading * step;
     if (!is_in_envelope(p_, scale_, std::sqrt(at.x * at.x + at.z * at.z), at.y)) return false;
   }
@@ -178,8 +177,8 @@ void WeberPennGrower::put_fan(const WeberPennStem& stem, const Frame& frame, con
     if (!writer_.wants_leaf(key)) continue;
     const double across = count > 1 ? l.rotate * (i / (count - 1) - 0.5) : 0;
     SkeletonWriter::Leaf leaf;
-    leaf.frame = pitch(turn(frame, math::quick_sincos_degrees(across)),
-                       math::quick_sincos_degrees(l.down_angle));
+    leaf.frame =
+        pitch(turn(frame, math::quick_sincos_degrees(across)), math::quick_sincos_degrees(l.down_angle));
     if (p_.LeafBend != 0) leaf.frame = to_light(leaf.frame, at, p_.LeafBend);
     leaf.frame = upper_side_up(leaf.frame);
     leaf.position = at;

@@ -94,6 +94,7 @@ class WeberPennGrower {
   std::vector<Frame> trial_frames_;  ///< of a stem that is pruned, segment by segment
   // Of the stem that grows.
   bool is_written_ = true;  ///< its joints; nobody looks at others
+  bool bears_limbs_ = true;
   std::uint32_t last_joint_ = Limbs::none;
   double last_radius_ = 0;
   std::vector<WeberPennStem> clones_;

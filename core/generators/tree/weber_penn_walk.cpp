@@ -32,7 +32,8 @@ Frame WeberPennGrower::turned(const WeberPennStem& stem, const Frame& frame, int
     curve = (2 * segment <= l.curve_res ? l.curve : l.curve_back) / (0.5 * l.curve_res);
   }
   if (l.curve_v > 0)
-    curve += spread(stem.rng.at(place_of("curve")).at(static_cast<std::uint64_t>(segment)), l.curve_v) / l.curve_res;
+    curve += spread(stem.rng.at(place_of("curve")).at(static_cast<std::uint64_t>(segment)), l.curve_v) /
+             l.curve_res;
   curve -= stem.uncurve;
   if (stem.level >= 2 && p_.AttractionUp != 0) {
     const double declination = math::quick_acos(std::clamp(frame.heading.y, -1.0, 1.0));
@@ -113,8 +114,7 @@ bool WeberPennGrower::add_bends(const WeberPennStem& stem, const WeberPennPiece&
   }
   if (l.taper > 1) {
     const int rounds = l.taper > 2 ? 6 : segment + 1 == l.curve_res ? 4 : 0;
-    for (int i = 1; i < rounds; ++i)
-      stops_.push_back(piece.along + (piece.end - piece.along) * i / rounds);
+    for (int i = 1; i < rounds; ++i) stops_.push_back(piece.along + (piece.end - piece.along) * i / rounds);
   }
   return !stops_.empty();
 }

@@ -55,8 +55,8 @@ TEST(LeafFrames, AreToTheBitThoseOfEachLeafByItself) {
         const Wanted& leaf = leaves[i];
         const double about = leaf.about + spread(chance.at("rotate"), vary);
         const double down = leaf.down + spread(chance.at("down"), 0.5 * vary);
-        Frame frame = pitch(roll(leaf.stem, math::quick_sincos_degrees(about)),
-                            math::quick_sincos_degrees(down));
+        Frame frame =
+            pitch(roll(leaf.stem, math::quick_sincos_degrees(about)), math::quick_sincos_degrees(down));
         if (bend > 0) frame = to_light(frame, leaf.position, bend);
         EXPECT_EQ(organs[i].frame, quaternion(upper_side_up(frame))) << i << " bend " << bend;
         EXPECT_EQ(organs[i].position, glm::vec3(leaf.position));
