@@ -1,23 +1,13 @@
 #include "core/generators/tree/leaf_frames.h"
 
-#include <bit>
-
 #include "core/base/wide.h"
+#include "core/generators/tree/wide_chance.h"
 
 namespace seedmesh::tree {
 namespace {
 
 // Lanes of the widest vectors of doubles; a few leaves too many are reckoned rather than one by one.
 constexpr std::size_t lanes = 8;
-
-/// The first draw at `place` below a key, as Rng::uniform(-range, range) makes it. The conversion is exact,
-/// and one that every processor has for several at once: both halves as the last bits of 2^52 and 2^84.
-double drawn_at(std::uint64_t key, std::uint64_t place, double range) {
-  const std::uint64_t bits = key_at(key_at(key, place), 0) >> 11U;
-  const auto low = std::bit_cast<double>((bits & 0xFFFFFFFFU) | 0x4330000000000000U);
-  const auto high = std::bit_cast<double>((bits >> 32U) | 0x4530000000000000U);
-  return -range + (range - -range) * (((high - (0x1p84 + 0x1p52)) + low) * 0x1p-53);
-}
 
 /// Numbers of leaves, and where their frames go.
 struct Columns {
@@ -55,20 +45,6 @@ SEEDMESH_WIDE void reckon_lit(const Columns& c, std::size_t count, const LeafFra
 }
 
 }  // namespace
-
-void LeafFrames::add(const Frame& stem, const glm::dvec3& position, std::uint32_t joint,
-                     const Stance& stance) {
-  const glm::dvec3 axes[] = {stem.heading, stem.left, stem.up};
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int k = 0; k < 3; ++k) stem_[3 * axis + k][count_] = axes[axis][k];
-    position_[axis][count_] = position[axis];
-  }
-  about_[count_] = stance.about;
-  down_[count_] = stance.down;
-  key_[count_] = stance.key;
-  joint_[count_] = joint;
-  ++count_;
-}
 
 void LeafFrames::reckon(const Habit& habit, const glm::vec3& scale, Organ* out) {
   const Columns columns{stem_, position_, about_, down_, key_, x_, y_, z_, w_};

@@ -57,7 +57,18 @@ class LeafFrames {
   void clear() { count_ = 0; }
 
   /// A leaf at `position` of a stem whose frame there is `stem`, moved with `joint`.
-  void add(const Frame& stem, const glm::dvec3& position, std::uint32_t joint, const Stance& stance);
+  void add(const Frame& stem, const glm::dvec3& position, std::uint32_t joint, const Stance& stance) {
+    const glm::dvec3 axes[] = {stem.heading, stem.left, stem.up};
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int k = 0; k < 3; ++k) stem_[3 * axis + k][count_] = axes[axis][k];
+      position_[axis][count_] = position[axis];
+    }
+    about_[count_] = stance.about;
+    down_[count_] = stance.down;
+    key_[count_] = stance.key;
+    joint_[count_] = joint;
+    ++count_;
+  }
 
   /// Writes all, `scale` in size, to as many organs.
   void reckon(const Habit& habit, const glm::vec3& scale, Organ* out);

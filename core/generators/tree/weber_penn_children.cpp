@@ -9,11 +9,16 @@ namespace {
 // A pruned stem is tried at so much of its length again and again, and is left out below the least share.
 constexpr double prune_step = 0.9, prune_least = 0.15;
 
-/// Which of the leaves from number `first` on are drawn.
-SEEDMESH_WIDE void find_drawn(const Rng& chance, std::uint64_t first, std::uint64_t below,
-                              std::span<std::uint8_t> drawn) {
-  for (std::size_t i = 0; i < drawn.size(); ++i)
-    drawn[i] = key_at(chance.at(first + i).key(), drawn_place) >> 11U < below ? 1 : 0;
+/// Marks which of the leaves from number `first` on are drawn; returns how many.
+SEEDMESH_WIDE std::size_t find_drawn(const Rng& chance, std::uint64_t first, std::uint64_t below,
+                                     std::span<std::uint8_t> drawn) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const bool is_drawn = key_at(chance.at(first + i).key(), drawn_place) >> 11U < below;
+    drawn[i] = is_drawn ? 1 : 0;
+    count += is_drawn ? 1 : 0;
+  }
+  return count;
 }
 
 }  // namespace
@@ -35,61 +40,57 @@ double WeberPennGrower::children_of(const WeberPennStem& stem) const {
   return most * (1 - 0.5 * stem.offset / stem.parent_length);
 }
 
-/// How a child or leaf leaves its stem.
-LeafFrames::Stance WeberPennGrower::stance(const WeberPennStem& stem, double offset, int number) const {
+/// Degrees between the stem and a child or leaf, by chance apart.
+double WeberPennGrower::down_at(const WeberPennStem& stem, double offset) const {
   const WeberPennLevel& l = level(stem.level + 1);
-  LeafFrames::Stance stands;
-  stands.about = l.rotate >= 0 ? number * l.rotate : (number % 2) * 180.0 + l.rotate;
-  stands.down = l.down_angle;
-  if (l.down_angle_v < 0) {
-    const double bare = stem.level == 0 ? base_length() : 0;
-    const double room = std::max(1e-9, stem.length - bare);
-    stands.down += l.down_angle_v * (1 - 2 * shape_ratio(p_, 0, (stem.length - offset) / room));
-  }
-  return stands;
+  if (l.down_angle_v >= 0) return l.down_angle;
+  const double bare = stem.level == 0 ? base_length() : 0;
+  const double room = std::max(1e-9, stem.length - bare);
+  return l.down_angle + l.down_angle_v * (1 - 2 * shape_ratio(p_, 0, (stem.length - offset) / room));
 }
 
-/// Where children or leaves stand on a piece, in metres of the stem; returns the number of the first.
-int WeberPennGrower::find_places(WeberPennStem& stem, const WeberPennPiece& piece) {
-  places_.clear();
+/// Where children or leaves stand on a piece, until it is asked again.
+WeberPennGrower::Places WeberPennGrower::find_places(WeberPennStem& stem, const WeberPennPiece& piece) {
   const int first = stem.children_before;
-  if (!(spacing_ > 0)) return first;
-  double from = std::max(piece.along, bare_), step = (1 - stem.carried_children) * spacing_ / stem.share;
+  double from = std::max(piece.along, bare_);
+  if (!(spacing_ > 0) || !(from < piece.end)) return {first, {}};
   const double whole = spacing_ / stem.share;
-  for (; from < piece.end; step = whole) {
-    if (from + step > piece.end) {
-      const double carried = places_.empty() ? stem.carried_children : 0;
-      stem.carried_children = carried + (piece.end - from) * stem.share / spacing_;
-      break;
-    }
+  double step = stem.carried_children == 0 ? whole : (1 - stem.carried_children) * spacing_ / stem.share;
+  // The first step may be short, and sums round.
+  const auto most = static_cast<std::size_t>(math::to_int64((piece.end - from) / whole)) + 3;
+  if (places_.size() < most) places_.resize(most);
+  std::size_t count = 0;
+  for (; from + step <= piece.end && count < most; step = whole) {
     from += step;
-    places_.push_back(from);
+    places_[count++] = from;
   }
-  if (!(from < piece.end) && !places_.empty()) stem.carried_children = 0;
-  stem.children_before += static_cast<int>(places_.size());
-  return first;
+  const double carried = count == 0 ? stem.carried_children : 0;
+  stem.carried_children = carried + (piece.end - from) * stem.share / spacing_;
+  stem.children_before += static_cast<int>(count);
+  return {first, {places_.data(), count}};
 }
 
 void WeberPennGrower::put_children(WeberPennStem& stem, const WeberPennPiece& piece) {
-  int number = find_places(stem, piece);
-  for (const double offset : places_) {
-    if (bear(stem, piece, offset, number++) && bears_limbs_) stops_.push_back(offset);
+  const auto [first, places] = find_places(stem, piece);
+  std::array<double, WeberPennBrood::most> down;
+  for (std::size_t done = 0; done < places.size(); done += down.size()) {
+    const auto offsets = places.subspan(done, std::min(down.size(), places.size() - done));
+    for (std::size_t i = 0; i < offsets.size(); ++i) down[i] = down_at(stem, offsets[i]);
+    brood_.reckon(piece, level(stem.level + 1), child_chance_, first + static_cast<int>(done),
+                  std::span(down.data(), offsets.size()));
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      if (bear(stem, piece, offsets[i], i) && bears_limbs_) stops_.push_back(offsets[i]);
+    }
   }
 }
 
 /// False: there is nothing of it.
 bool WeberPennGrower::bear(const WeberPennStem& stem, const WeberPennPiece& piece, double offset,
-                           int number) {
-  const WeberPennLevel& l = level(stem.level + 1);
+                           std::size_t in_brood) {
   const double length = child_length(stem, offset);
   if (!(length > 0)) return false;
-  const Rng rng = child_chance_.at(static_cast<std::uint64_t>(number));
-  LeafFrames::Stance stands = stance(stem, offset, number);
-  stands.about += spread(rng.at(place_of("rotate")), l.rotate_v);
-  if (l.down_angle_v > 0) stands.down += spread(rng.at(place_of("down")), l.down_angle_v);
   WeberPennStem& child = waiting_.emplace_back();
-  child.frame = pitch(roll(piece.frame, math::quick_sincos_degrees(stands.about)),
-                      math::quick_sincos_degrees(stands.down));
+  child.frame = brood_.frame(in_brood);
   child.position = piece.at(offset);
   child.joint = last_joint_;
   child.level = stem.level + 1;
@@ -97,8 +98,8 @@ bool WeberPennGrower::bear(const WeberPennStem& stem, const WeberPennPiece& piec
   child.offset = offset;
   child.parent_length = stem.length;
   child.parent_length_max = child_max_;
-  child.rng = rng;
-  child.carried_splits = rng.at(place_of("splits")).uniform(-0.5, 0.5);
+  child.rng = brood_.chance(in_brood);
+  child.carried_splits = brood_.carried_splits(in_brood);
   if (p_.PruneRatio > 0 && !prune(child)) {
     waiting_.pop_back();
     return false;
@@ -149,21 +150,24 @@ bool WeberPennGrower::fits(const WeberPennStem& stem, double length) {
 }
 
 void WeberPennGrower::put_leaves(WeberPennStem& stem, const WeberPennPiece& piece) {
-  const int first = find_places(stem, piece);
-  if (places_.empty()) return;
-  writer_.count_leaves(places_.size());
-  drawn_.assign(places_.size(), 1);
-  if (!writer_.draws_all())
-    find_drawn(leaf_chance_, static_cast<std::uint64_t>(first), writer_.drawn_below(), drawn_);
+  const auto [first, places] = find_places(stem, piece);
+  if (places.empty()) return;
+  writer_.count_leaves(places.size());
+  const bool draws_all = writer_.draws_all();
+  if (drawn_.size() < places.size()) drawn_.resize(places.size());
+  if (!draws_all && find_drawn(leaf_chance_, static_cast<std::uint64_t>(first), writer_.drawn_below(),
+                               std::span(drawn_.data(), places.size())) == 0)
+    return;
+  const WeberPennLevel& l = level(stem.level + 1);
   std::size_t stop = 0;
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    if (!drawn_[i]) continue;
-    const double offset = places_[i];
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!draws_all && !drawn_[i]) continue;
+    const double offset = places[i];
     while (is_written_ && joints_[stop].at < offset) ++stop;
     const int number = first + static_cast<int>(i);
-    LeafFrames::Stance stands = stance(stem, offset, number);
-    stands.key = leaf_chance_.at(static_cast<std::uint64_t>(number)).key();
-    leaf_frames_.add(piece.frame, piece.at(offset), is_written_ ? joints_[stop].joint : last_joint_, stands);
+    leaf_frames_.add(piece.frame, piece.at(offset), is_written_ ? joints_[stop].joint : last_joint_,
+                     {about_stem(l, number), down_at(stem, offset),
+                      leaf_chance_.at(static_cast<std::uint64_t>(number)).key()});
     if (leaf_frames_.is_full()) write_leaves();
   }
 }

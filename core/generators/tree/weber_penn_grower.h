@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/generators/tree/leaf_frames.h"
-#include "core/generators/tree/weber_penn_shape.h"
+#include "core/generators/tree/weber_penn_brood.h"
 
 namespace seedmesh::tree {
 
@@ -27,14 +27,6 @@ struct WeberPennStem {
   double carried_splits = 0;
   double carried_children = 0.5;
   int children_before = 0;
-};
-
-/// A straight part of a stem, between two shares of its length.
-struct WeberPennPiece {
-  Frame frame;
-  glm::dvec3 from{0};
-  double along = 0, end = 0;  ///< metres of the stem, where the piece begins and ends
-  glm::dvec3 at(double offset) const { return from + frame.heading * (offset - along); }
 };
 
 class WeberPennGrower {
@@ -71,11 +63,15 @@ class WeberPennGrower {
 
   // What stands on it.
   double children_of(const WeberPennStem& stem) const;
-  int find_places(WeberPennStem& stem, const WeberPennPiece& piece);
-  /// Angles in degrees, but for their chance.
-  LeafFrames::Stance stance(const WeberPennStem& stem, double offset, int number) const;
+  /// In metres of a stem; `first`: the number of the first.
+  struct Places {
+    int first;
+    std::span<const double> at;
+  };
+  Places find_places(WeberPennStem& stem, const WeberPennPiece& piece);
+  double down_at(const WeberPennStem& stem, double offset) const;
   void put_children(WeberPennStem& stem, const WeberPennPiece& piece);
-  bool bear(const WeberPennStem& stem, const WeberPennPiece& piece, double offset, int number);
+  bool bear(const WeberPennStem& stem, const WeberPennPiece& piece, double offset, std::size_t in_brood);
   double child_length(const WeberPennStem& stem, double offset) const;
   double child_radius(const WeberPennStem& stem, double offset, double length) const;
   bool prune(WeberPennStem& child);
@@ -99,8 +95,9 @@ class WeberPennGrower {
   double last_radius_ = 0;
   std::vector<WeberPennStem> clones_;
   std::size_t first_child_ = 0, next_child_ = 0;  ///< of those that wait; whose joint is not there yet
-  std::vector<double> places_;                    ///< of children or leaves on a piece
-  std::vector<std::uint8_t> drawn_;               ///< leaves at these
+  std::vector<double> places_;                    ///< room for those of children or leaves on a piece
+  WeberPennBrood brood_;                          ///< children at some of these
+  std::vector<std::uint8_t> drawn_;               ///< room for whether leaves there are drawn
   std::vector<double> stops_;                     ///< of a piece
   struct Stop {
     double at;
