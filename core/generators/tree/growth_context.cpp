@@ -46,7 +46,7 @@ SkeletonWriter::SkeletonWriter(Skeleton& skeleton, Job& job, double density)
       most_leaves_(job.limits().triangles / least_triangles_a_leaf),
       density_(density),
       // The number of hashes of 53 bits that is_drawn() takes: it may be asked after many leaves at once.
-      drawn_below_(static_cast<std::uint64_t>(math::to_int64(std::ceil(density * 0x1p53)))) {}
+      drawn_below_(math::to_int64(std::ceil(density * 0x1p53))) {}
 
 SkeletonWriter::SkeletonWriter(Skeleton& part, const SkeletonWriter& whole, std::size_t most)
     : SkeletonWriter(part, whole.job_, whole.density_) {

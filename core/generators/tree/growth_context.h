@@ -115,12 +115,12 @@ class SkeletonWriter {
     if (leaves_ > most_leaves_) refuse_leaves();
   }
   /// Hashes of a leaf's key at drawn_place, shifted by 11, are below this where it is drawn.
-  std::uint64_t drawn_below() const { return drawn_below_; }
-  bool draws_all() const { return drawn_below_ == std::uint64_t{1} << 53U; }
+  std::int64_t drawn_below() const { return drawn_below_; }
+  bool draws_all() const { return drawn_below_ == std::int64_t{1} << 53U; }
   /// Counts a leaf. False: it is none of those that are drawn, and need not be made.
   bool wants_leaf(std::uint64_t key) {
     count_leaves(1);
-    return key_at(key, drawn_place) >> 11U < drawn_below_;
+    return static_cast<std::int64_t>(key_at(key, drawn_place) >> 11U) < drawn_below_;
   }
   void add(const Leaf& leaf);
   void add(const Organ& leaf) { *extend(1) = leaf; }
@@ -165,7 +165,7 @@ class SkeletonWriter {
   std::uint64_t most_joints_, most_leaves_, leaves_ = 0;
   std::size_t end_joints_ = ~std::size_t{0}, end_leaves_ = ~std::size_t{0};
   double density_;
-  std::uint64_t drawn_below_;
+  std::int64_t drawn_below_;
   float least_radius_ = 0;
   std::size_t passed_ = 0;
   Box passed_box_{glm::vec3(std::numeric_limits<float>::max()),

@@ -9,16 +9,17 @@ namespace {
 // A pruned stem is tried at so much of its length again and again, and is left out below the least share.
 constexpr double prune_step = 0.9, prune_least = 0.15;
 
-/// Marks which of the leaves from number `first` on are drawn; returns how many.
-SEEDMESH_WIDE std::size_t find_drawn(const Rng& chance, std::uint64_t first, std::uint64_t below,
-                                     std::span<std::uint8_t> drawn) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < drawn.size(); ++i) {
-    const bool is_drawn = key_at(chance.at(first + i).key(), drawn_place) >> 11U < below;
-    drawn[i] = is_drawn ? 1 : 0;
-    count += is_drawn ? 1 : 0;
+// Lanes of the widest vectors of words; a few leaves too many are looked at rather than one by one.
+constexpr std::size_t lanes = 8;
+
+/// Not 0 for those of the leaves from number `first` on that are drawn. Hashes of 53 bits are compared with a
+/// sign, as every processor compares several; the flags are as wide, so that few leaves are enough for that.
+SEEDMESH_WIDE void find_drawn(const Rng chance, std::uint64_t first, std::int64_t below,
+                              std::uint64_t* __restrict drawn, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint64_t hash = key_at(chance.at(first + i).key(), drawn_place) >> 11U;
+    drawn[i] = static_cast<std::int64_t>(hash) < below ? 1 : 0;
   }
-  return count;
 }
 
 }  // namespace
@@ -154,10 +155,11 @@ void WeberPennGrower::put_leaves(WeberPennStem& stem, const WeberPennPiece& piec
   if (places.empty()) return;
   writer_.count_leaves(places.size());
   const bool draws_all = writer_.draws_all();
-  if (drawn_.size() < places.size()) drawn_.resize(places.size());
-  if (!draws_all && find_drawn(leaf_chance_, static_cast<std::uint64_t>(first), writer_.drawn_below(),
-                               std::span(drawn_.data(), places.size())) == 0)
-    return;
+  if (!draws_all) {
+    const std::size_t count = (places.size() + lanes - 1) / lanes * lanes;
+    if (drawn_.size() < count) drawn_.resize(count);
+    find_drawn(leaf_chance_, static_cast<std::uint64_t>(first), writer_.drawn_below(), drawn_.data(), count);
+  }
   const WeberPennLevel& l = level(stem.level + 1);
   std::size_t stop = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {

@@ -97,7 +97,7 @@ class WeberPennGrower {
   std::size_t first_child_ = 0, next_child_ = 0;  ///< of those that wait; whose joint is not there yet
   std::vector<double> places_;                    ///< room for those of children or leaves on a piece
   WeberPennBrood brood_;                          ///< children at some of these
-  std::vector<std::uint8_t> drawn_;               ///< room for whether leaves there are drawn
+  std::vector<std::uint64_t> drawn_;              ///< room for whether leaves there are drawn
   std::vector<double> stops_;                     ///< of a piece
   struct Stop {
     double at;
