@@ -1,6 +1,7 @@
 #include "core/geom/organs.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -229,10 +230,12 @@ class Placer {
     return 1.0F - options_.tint * fraction(key_at(organ.key, 0x7147));
   }
 
-  /// Of surfaces without colours: one gray for all vertices, written as words.
+  /// Of surfaces without colours: one gray for all vertices.
   void place_gray(const Organ& organ, std::size_t first) const {
     const auto gray = static_cast<std::uint8_t>(255.0F * shade_of(organ));
-    const glm::u8vec4 color(gray, gray, gray, 255);
+    // As a word: parts of one are slow to write.
+    const std::uint32_t color = 0xFF000000U | gray * 0x010101U;
+    static_assert(sizeof(color) == sizeof(glm::u8vec4) && std::endian::native == std::endian::little);
     glm::u8vec4* to = out_.color.data() + first;
     for (std::size_t i = 0; i < surface_.position.size(); ++i)
       std::memcpy(static_cast<void*>(to + i), &color, sizeof(color));

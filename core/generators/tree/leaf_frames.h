@@ -21,7 +21,8 @@ inline Frame to_light(const Frame& leaf, const glm::dvec3& position, double bend
   const Frame turned{about_sky(leaf.heading), about_sky(leaf.left), about_sky(leaf.up)};
   const double aside = std::sqrt(turned.up.x * turned.up.x + turned.up.z * turned.up.z);
   const bool is_level = aside < 1e-9;
-  const glm::dvec3 level_axis = glm::dvec3{-turned.up.z, 0, turned.up.x} / (is_level ? 1 : aside);
+  const double by = is_level ? 1 : aside;
+  const glm::dvec3 level_axis{-turned.up.z / by, 0, turned.up.x / by};
   const Frame lit =
       rotated(turned, level_axis, math::quick_sincos(bend * math::quick_atan2(aside, turned.up.y)));
   const auto chosen = [&](const glm::dvec3& yes, const glm::dvec3& no) {

@@ -170,9 +170,12 @@ void WeberPennGrower::grow(WeberPennStem& stem) {
   Frame frame = stem.frame;
   glm::dvec3 at = stem.position;
   for (int segment = stem.segment; segment < segments; ++segment) {
-    if (segment > stem.segment) frame = swayed_at(stem, turned(stem, frame, segment), segment);
+    if (segment > stem.segment) {
+      frame = turned(stem, frame, segment);
+      if (sways()) frame = swayed_at(stem, frame, segment);
+    }
     walk_segment(stem, frame, segment, at);
-    if (segment + 1 < segments) split(stem, frame, at, segment, last_joint_);
+    if (segment + 1 < segments && may_split(stem)) split(stem, frame, at, segment, last_joint_);
   }
   if (is_last(stem) && p_.Leaves < 0) put_fan(stem, frame, at);
   waiting_.insert(waiting_.begin() + static_cast<std::ptrdiff_t>(first_child_), clones_.begin(),

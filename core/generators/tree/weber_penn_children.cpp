@@ -165,11 +165,12 @@ void WeberPennGrower::put_leaves(WeberPennStem& stem, const WeberPennPiece& piec
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (!draws_all && !drawn_[i]) continue;
     const double offset = places[i];
-    while (is_written_ && joints_[stop].at < offset) ++stop;
+    while (joints_[stop].at < offset) ++stop;
     const int number = first + static_cast<int>(i);
-    leaf_frames_.add(piece.frame, piece.at(offset), is_written_ ? joints_[stop].joint : last_joint_,
-                     {about_stem(l, number), down_at(stem, offset),
-                      leaf_chance_.at(static_cast<std::uint64_t>(number)).key()});
+    const double down = l.down_angle_v >= 0 ? l.down_angle : down_at(stem, offset);
+    leaf_frames_.add(
+        piece.frame, piece.at(offset), joints_[stop].joint,
+        {about_stem(l, number), down, leaf_chance_.at(static_cast<std::uint64_t>(number)).key()});
     if (leaf_frames_.is_full()) write_leaves();
   }
 }

@@ -59,6 +59,10 @@ class WeberPennGrower {
   void walk_segment(WeberPennStem& stem, const Frame& axis, int segment, glm::dvec3& at);
   bool add_bends(const WeberPennStem& stem, const WeberPennPiece& piece, int segment);
   void write_joints(const WeberPennStem& stem, const WeberPennPiece& piece);
+  /// What is carried alone, below a half, splits nothing.
+  bool may_split(const WeberPennStem& stem) const {
+    return level(stem.level).seg_splits > 0 || stem.level == 0;
+  }
   void split(WeberPennStem& stem, Frame& frame, const glm::dvec3& at, int segment, std::uint32_t joint);
 
   // What stands on it.
@@ -103,7 +107,7 @@ class WeberPennGrower {
     double at;
     std::uint32_t joint;
   };
-  std::vector<Stop> joints_;  ///< of a piece
+  std::vector<Stop> joints_;  ///< of a piece; of one that is not written, what its leaves move with
   Rng leaf_chance_{0}, child_chance_{0};
   int count_ = 0;  ///< of its children or leaves
   double spacing_ = 0, bare_ = 0, child_max_ = 0;

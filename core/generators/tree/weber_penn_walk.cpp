@@ -44,7 +44,6 @@ Frame WeberPennGrower::turned(const WeberPennStem& stem, const Frame& frame, int
 
 /// In the wind. Stems are pruned in still air.
 Frame WeberPennGrower::swayed_at(const WeberPennStem& stem, const Frame& frame, int segment) const {
-  if (!sways()) return frame;
   Rng chance = stem.rng.at(place_of("sway"));
   SwayingStem swaying;
   swaying.length = stem.length;
@@ -90,6 +89,7 @@ void WeberPennGrower::walk_segment(WeberPennStem& stem, const Frame& axis, int s
       write_joints(stem, piece);
     } else {
       writer_.pass_over(piece.at(piece.end));
+      joints_.assign(1, {piece.end, last_joint_});
     }
     if (is_last(stem)) put_leaves(stem, piece);
     piece.from = piece.at(piece.end);
