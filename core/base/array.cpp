@@ -18,7 +18,7 @@ namespace {
 // leaves empty stays below the third in the whole request. Smaller blocks are the heap's: a huge page is
 // cleared whole, and the heap has pages that were touched before.
 constexpr std::size_t always_mapped = std::size_t{4} << 20U;
-constexpr std::size_t mapped_at_best = std::size_t{2} << 20U;
+constexpr std::size_t mapped_at_best = std::size_t{1} << 20U;  // what the heap would map, in small pages
 constexpr std::uint64_t most_slack = std::uint64_t{6} << 20U;
 // But what the heap is given back stays with the process. A thrifty request maps all that is worth a call, in
 // as many huge pages as it fills and small ones for its end.

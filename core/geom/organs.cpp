@@ -1,6 +1,7 @@
 #include "core/geom/organs.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -78,46 +79,51 @@ class Crossroads {
       const glm::vec3& at = organs.organ[i].position;
       const std::uint64_t bit = mix(word_of(at.x, at.y) ^ word_of(at.z, 0) << 7U) & (size - 1);
       bit_[i] = static_cast<std::uint32_t>(bit);
-      shared_[bit / 64] |= taken[bit / 64] & std::uint64_t{1} << bit % 64;
-      taken[bit / 64] |= std::uint64_t{1} << bit % 64;
+      const std::uint64_t flag = std::uint64_t{1} << bit % 64, met = taken[bit / 64] & flag;
+      taken[bit / 64] |= flag;
+      if (met == 0) continue;
+      shared_[bit / 64] |= flag;
+      ++met_;
     }
   }
   bool is_shared(std::size_t organ) const {
     return (shared_[bit_[organ] / 64] >> bit_[organ] % 64 & 1U) != 0;
   }
-  /// How many they are.
-  std::size_t count() const {
-    std::size_t shared = 0;
-    for (std::size_t i = 0; i < bit_.size(); ++i) shared += is_shared(i) ? 1 : 0;
-    return shared;
-  }
+  /// At least as many as they are.
+  std::size_t most() const { return 2 * met_; }
 
  private:
   Array<std::uint32_t> bit_;  ///< of each organ
   Array<std::uint64_t> shared_;
+  std::size_t met_ = 0;  ///< that came where one was
 };
 
 std::vector<Group> groups_of(const Organs& organs, const FoliageOptions& options, const Job& job) {
   std::map<std::pair<std::uint32_t, std::int16_t>, std::vector<std::uint32_t>> by_look;
   const Crossroads crossroads(organs, job);
-  Seen seen(crossroads.count(), job);
+  Seen seen(crossroads.most(), job);
   std::vector<float> extents;
   for (const Mesh& surface : options.surfaces) {
     const Box box = bounds_of(surface.position.span());
     const glm::vec3 extent = box.max - box.min;
     extents.push_back(std::max({extent.x, extent.y, extent.z}));
   }
-  std::pair<std::uint32_t, std::int16_t> look;
+  const float least = std::max(least_share * options.model_size, least_extent);
+  const std::size_t count = organs.organ.size();
+  std::uint32_t surface = 0;
+  std::int16_t color = 0;
   std::vector<std::uint32_t>* members = nullptr;
-  for (std::uint32_t i = 0; i < organs.organ.size(); ++i) {
+  for (std::uint32_t i = 0; i < count; ++i) {
     if (i % 4096 == 0) job.check();
     const Organ& organ = organs.organ[i];
     const float smallest = std::min({organ.scale.x, organ.scale.y, organ.scale.z}) * extents[organ.surface];
-    if (!(smallest > std::max(least_share * options.model_size, least_extent))) continue;
+    if (!(smallest > least)) continue;
     if (crossroads.is_shared(i) && !seen.insert(place_of(organ))) continue;
-    if (!members || look != std::pair{organ.surface, organ.color}) {
-      look = {organ.surface, organ.color};
-      members = &by_look[look];
+    if (!members || surface != organ.surface || color != organ.color) {
+      surface = organ.surface;
+      color = organ.color;
+      members = &by_look[{surface, color}];
+      if (by_look.size() == 1) members->reserve(count);
     }
     members->push_back(i);
   }
@@ -189,7 +195,13 @@ class Placer {
 
   /// All else.
   void place_rest(const Organ& organ, std::size_t first) const {
-    if (!out_.color.empty()) place_colors(organ, first);
+    if (!out_.color.empty()) {
+      if (surface_.color.empty()) {
+        place_gray(organ, first);
+      } else {
+        place_colors(organ, first);
+      }
+    }
     if (!out_.bone.empty()) std::fill_n(out_.bone.data() + first, surface_.position.size(), bone_of(organ));
     if (options_.wind) place_wind(organ, first);
   }
@@ -214,16 +226,26 @@ class Placer {
     }
   }
 
+  float shade_of(const Organ& organ) const {
+    return 1.0F - options_.tint * fraction(key_at(organ.key, 0x7147));
+  }
+
+  /// Of surfaces without colours: one gray for all vertices.
+  void place_gray(const Organ& organ, std::size_t first) const {
+    const auto gray = static_cast<std::uint8_t>(255.0F * shade_of(organ));
+    // As a word: parts of one are slow to write.
+    const std::uint32_t color = 0xFF000000U | gray * 0x010101U;
+    static_assert(sizeof(color) == sizeof(glm::u8vec4) && std::endian::native == std::endian::little);
+    glm::u8vec4* to = out_.color.data() + first;
+    for (std::size_t i = 0; i < surface_.position.size(); ++i)
+      std::memcpy(static_cast<void*>(to + i), &color, sizeof(color));
+  }
+
   void place_colors(const Organ& organ, std::size_t first) const {
-    const float shade = 1.0F - options_.tint * fraction(key_at(organ.key, 0x7147));
+    const float shade = shade_of(organ);
     const auto dimmed = [&](std::uint8_t value) {
       return static_cast<std::uint8_t>(static_cast<float>(value) * shade);
     };
-    if (surface_.color.empty()) {
-      const std::uint8_t gray = dimmed(255);
-      std::fill_n(out_.color.data() + first, surface_.position.size(), glm::u8vec4(gray, gray, gray, 255));
-      return;
-    }
     for (std::size_t i = 0; i < surface_.position.size(); ++i) {
       const glm::u8vec4 own = surface_.color[i];
       out_.color[first + i] = {dimmed(own.r), dimmed(own.g), dimmed(own.b), own.a};

@@ -14,7 +14,6 @@ constexpr std::uint64_t least_triangles_a_joint = 6, least_triangles_a_leaf = 2;
 constexpr std::uint64_t most_of_a_part = std::uint64_t{1} << 18U;
 constexpr std::uint64_t bytes_of_both = 128;  // of a joint and a leaf, at least
 constexpr std::uint64_t spent_at_once = 4096;
-
 /// As small amounts, which leave no more of a lease.
 void spend(Meter& meter, std::uint64_t amount) {
   for (; amount > spent_at_once; amount -= spent_at_once) meter.spend(spent_at_once);
@@ -45,18 +44,21 @@ SkeletonWriter::SkeletonWriter(Skeleton& skeleton, Job& job, double density)
       shapes_(job, Resource::shapes),
       most_joints_(job.limits().triangles / least_triangles_a_joint),
       most_leaves_(job.limits().triangles / least_triangles_a_leaf),
-      density_(density) {}
+      density_(density),
+      // The number of hashes of 53 bits that is_drawn() takes: it may be asked after many leaves at once.
+      drawn_below_(math::to_int64(std::ceil(density * 0x1p53))) {}
 
 SkeletonWriter::SkeletonWriter(Skeleton& part, const SkeletonWriter& whole, std::size_t most)
     : SkeletonWriter(part, whole.job_, whole.density_) {
   is_part_ = true;
+  least_radius_ = whole.least_radius_;
   first_ = static_cast<std::uint32_t>(whole.limbs_.size());
   end_after(most, most);
 }
 
 std::size_t SkeletonWriter::most_of_parts(std::size_t parts) const {
   const Limits& limits = job_.limits();
-  const std::uint64_t joints = limbs_.size();
+  const std::uint64_t joints = this->joints();
   if (is_part_ || end_joints_ != ~std::size_t{0} || joints >= most_joints_ || leaves_ >= most_leaves_)
     return 0;
   const std::uint64_t left =
@@ -72,9 +74,12 @@ void SkeletonWriter::take(std::span<const SkeletonWriter* const> parts) {
   std::vector<Place> places;
   Place end{limbs_.size(), organs_.organ.size()};
   for (const SkeletonWriter* part : parts) {
-    spend(modules_, part->limbs_.size());
+    spend(modules_, part->joints());
     spend(shapes_, part->leaves_);
     leaves_ += part->leaves_;
+    passed_ += part->passed_;
+    passed_box_ = {glm::min(passed_box_.min, part->passed_box_.min),
+                   glm::max(passed_box_.max, part->passed_box_.max)};
     places.push_back(end);
     end = {end.joint + part->limbs_.size(), end.leaf + part->organs_.organ.size()};
   }
@@ -115,16 +120,12 @@ void SkeletonWriter::copy(const SkeletonWriter& part, std::size_t joint, std::si
 }
 
 std::uint32_t SkeletonWriter::add(const Joint& joint) {
-  if (!is_part_) {
-    modules_.spend();
-  } else if (limbs_.size() % 1024 == 0) {
-    job_.check();
-  }
-  if (limbs_.size() >= end_joints_) throw Enough{};
-  if (limbs_.size() >= most_joints_) {
-    Job::refuse("the tree has more than " + std::to_string(most_joints_) +
-                " internodes, whose bark would pass the limit of triangles");
-  }
+  count_joint();
+  write(joint);
+  return first_ + static_cast<std::uint32_t>(limbs_.size() - 1);
+}
+
+void SkeletonWriter::write(const Joint& joint) {
   limbs_.position.push_back(glm::vec3(joint.position));
   limbs_.radius.push_back(static_cast<float>(joint.radius));
   limbs_.base_radius.push_back(static_cast<float>(joint.base_radius));
@@ -133,7 +134,20 @@ std::uint32_t SkeletonWriter::add(const Joint& joint) {
   limbs_.color.push_back(0);
   limbs_.order.push_back(static_cast<std::uint16_t>(joint.order));
   limbs_.key.push_back(joint.key);
-  return first_ + static_cast<std::uint32_t>(limbs_.size() - 1);
+}
+
+void SkeletonWriter::finish() {
+  if (passed_ == 0) return;
+  for (const glm::vec3& corner : {passed_box_.min, passed_box_.max}) {
+    Joint joint;
+    joint.position = corner;
+    write(joint);
+  }
+}
+
+void SkeletonWriter::refuse_joints() const {
+  Job::refuse("the tree has more than " + std::to_string(most_joints_) +
+              " internodes, whose bark would pass the limit of triangles");
 }
 
 void SkeletonWriter::refuse_leaves() const {

@@ -21,7 +21,8 @@ inline Frame to_light(const Frame& leaf, const glm::dvec3& position, double bend
   const Frame turned{about_sky(leaf.heading), about_sky(leaf.left), about_sky(leaf.up)};
   const double aside = std::sqrt(turned.up.x * turned.up.x + turned.up.z * turned.up.z);
   const bool is_level = aside < 1e-9;
-  const glm::dvec3 level_axis = glm::dvec3{-turned.up.z, 0, turned.up.x} / (is_level ? 1 : aside);
+  const double by = is_level ? 1 : aside;
+  const glm::dvec3 level_axis{-turned.up.z / by, 0, turned.up.x / by};
   const Frame lit =
       rotated(turned, level_axis, math::quick_sincos(bend * math::quick_atan2(aside, turned.up.y)));
   const auto chosen = [&](const glm::dvec3& yes, const glm::dvec3& no) {
@@ -41,20 +42,43 @@ class LeafFrames {
  public:
   static constexpr std::size_t most = 128;
 
+  /// The same of all leaves: the share by which they turn to the light, and by how many degrees their angles
+  /// about and from the stem differ by chance.
+  struct Habit {
+    double bend = 0, about_v = 0, down_v = 0;
+  };
+  /// Of one: in degrees about and from the stem, by chance apart; `key`: of its chance.
+  struct Stance {
+    double about = 0, down = 0;
+    std::uint64_t key = 0;
+  };
+
   bool is_full() const { return count_ == most; }
   std::size_t size() const { return count_; }
   void clear() { count_ = 0; }
 
-  /// A leaf at `position` of a stem whose frame there is `stem`; angles in degrees about and from the stem.
-  void add(const Frame& stem, const glm::dvec3& position, double about, double down);
+  /// A leaf at `position` of a stem whose frame there is `stem`, moved with `joint`.
+  void add(const Frame& stem, const glm::dvec3& position, std::uint32_t joint, const Stance& stance) {
+    const glm::dvec3 axes[] = {stem.heading, stem.left, stem.up};
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int k = 0; k < 3; ++k) stem_[3 * axis + k][count_] = axes[axis][k];
+      position_[axis][count_] = position[axis];
+    }
+    about_[count_] = stance.about;
+    down_[count_] = stance.down;
+    key_[count_] = stance.key;
+    joint_[count_] = joint;
+    ++count_;
+  }
 
-  /// The frames of all, turned to the light by the share `bend`.
-  void reckon(double bend);
-  glm::quat frame(std::size_t i) const { return {w_[i], x_[i], y_[i], z_[i]}; }
+  /// Writes all, `scale` in size, to as many organs.
+  void reckon(const Habit& habit, const glm::vec3& scale, Organ* out);
 
  private:
   std::size_t count_ = 0;
   double stem_[9][most] = {}, position_[3][most] = {}, about_[most] = {}, down_[most] = {};
+  std::uint64_t key_[most] = {};
+  std::uint32_t joint_[most];
   float x_[most], y_[most], z_[most], w_[most];
 };
 

@@ -29,12 +29,28 @@ double foot_flare(const TreeParams& params) {
   return flared_trunk(params, 0);
 }
 
-/// With leaves up to the share `density`. Throws SkeletonWriter::Enough beyond so many joints or leaves.
-Skeleton grow(const TreeParams& params, double density, Job& job, std::size_t most = 0) {
+/// What of a tree is looked at.
+struct Wanted {
+  double density = 1;       ///< share of the leaves
+  double least_radius = 0;  ///< limbs that begin thinner need not be there, as far as that is known early
+  std::size_t most = 0;     ///< throws SkeletonWriter::Enough beyond so many joints; 0: none are too many
+};
+
+/// For a model: limbs that are left out of the bark are of use only to what moves, ages or thins out a tree.
+Wanted wanted_for_model(const TreeParams& params, const Job& job) {
+  const Demand& demand = job.demand();
+  const RangeShares shares = shares_at(params);
+  const bool is_plain = demand.lods < 2 && !demand.wind && !demand.growth && !params.age &&
+                        demand.collision == CollisionNames::none && shares.branches >= 1 && shares.twigs >= 1;
+  return {drawn_leaves(params), is_plain ? params.twig_radius : 0};
+}
+
+Skeleton grow(const TreeParams& params, const Wanted& wanted, Job& job) {
   job.progress("derive", 0);
   Skeleton skeleton(job);
-  SkeletonWriter writer(skeleton, job, density);
-  if (most > 0) writer.end_after(most, leaves_a_joint * most);
+  SkeletonWriter writer(skeleton, job, wanted.density);
+  if (wanted.most > 0) writer.end_after(wanted.most, leaves_a_joint * wanted.most);
+  writer.leave_out_below(wanted.least_radius);
   const Chances chances(params.seeds, seed_of(params, job.seed()));
   switch (params.model) {
     case TreeModel::weber_penn:
@@ -50,6 +66,7 @@ Skeleton grow(const TreeParams& params, double density, Job& job, std::size_t mo
   if (params.age) make_young(skeleton, *params.age / params.mature_age, job);
   // As large as the trunk of this age wants them.
   grow_roots(params.roots, writer.radius(0) / foot_flare(params), chances, writer);
+  writer.finish();
   if (job.demand().growth) skeleton.limbs.birth = births_of(skeleton.limbs, job);
   return skeleton;
 }
@@ -125,7 +142,7 @@ std::vector<Issue> check(const TreeParams& params, const Limits&) {
 }
 
 Result<Model> generate(const TreeParams& params, Job& job) {
-  Skeleton skeleton = grow(params, drawn_leaves(params), job);
+  Skeleton skeleton = grow(params, wanted_for_model(params, job), job);
   degrade(skeleton, params, job);
   job.progress("mesh", 0);
   Model model = dress(std::move(skeleton), params, job);
@@ -134,7 +151,7 @@ Result<Model> generate(const TreeParams& params, Job& job) {
 }
 
 Result<Json> derive(const TreeParams& params, Job& job) {
-  const Skeleton skeleton = grow(params, 1, job);
+  const Skeleton skeleton = grow(params, {}, job);
   const Limbs& limbs = skeleton.limbs;
   Json levels = Json::array();
   std::uint64_t count = 0;
@@ -166,7 +183,9 @@ Result<Appraisal> appraise(const TreeParams& params, const Job& job) {
   Job own(job.seed(), options);
   own.set_demand({.textures = job.demand().textures});
   try {
-    Skeleton skeleton = grow(params, drawn_leaves(params), own, most_appraised);
+    Wanted wanted = wanted_for_model(params, own);
+    wanted.most = most_appraised;
+    Skeleton skeleton = grow(params, wanted, own);
     degrade(skeleton, params, own);
     appraisal.estimate = estimate_of(std::move(skeleton), params, own);
   } catch (const SkeletonWriter::Enough&) {

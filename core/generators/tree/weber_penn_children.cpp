@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/base/wide.h"
 #include "core/generators/tree/weber_penn_grower.h"
 
 namespace seedmesh::tree {
@@ -7,6 +8,19 @@ namespace {
 
 // A pruned stem is tried at so much of its length again and again, and is left out below the least share.
 constexpr double prune_step = 0.9, prune_least = 0.15;
+
+// Lanes of the widest vectors of words; a few leaves too many are looked at rather than one by one.
+constexpr std::size_t lanes = 8;
+
+/// Not 0 for those of the leaves from number `first` on that are drawn. Hashes of 53 bits are compared with a
+/// sign, as every processor compares several; the flags are as wide, so that few leaves are enough for that.
+SEEDMESH_WIDE void find_drawn(const Rng chance, std::uint64_t first, std::int64_t below,
+                              std::uint64_t* __restrict drawn, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint64_t hash = key_at(chance.at(first + i).key(), drawn_place) >> 11U;
+    drawn[i] = static_cast<std::int64_t>(hash) < below ? 1 : 0;
+  }
+}
 
 }  // namespace
 
@@ -27,126 +41,170 @@ double WeberPennGrower::children_of(const WeberPennStem& stem) const {
   return most * (1 - 0.5 * stem.offset / stem.parent_length);
 }
 
-/// How a child or leaf leaves its stem.
-WeberPennGrower::Stance WeberPennGrower::stance(const WeberPennStem& stem, const WeberPennBud& bud,
-                                                const Rng& rng) const {
+/// Degrees between the stem and a child or leaf, by chance apart.
+double WeberPennGrower::down_at(const WeberPennStem& stem, double offset) const {
   const WeberPennLevel& l = level(stem.level + 1);
-  const double vary = spread(rng.at("rotate"), l.rotate_v);
-  const double rotate =
-      l.rotate >= 0 ? bud.number * l.rotate + vary : (bud.number % 2) * 180.0 + l.rotate + vary;
-  double down = l.down_angle;
-  if (l.down_angle_v >= 0) {
-    down += spread(rng.at("down"), l.down_angle_v);
-  } else {
-    const double bare = stem.level == 0 ? base_length() : 0;
-    const double room = std::max(1e-9, stem.length - bare);
-    down += l.down_angle_v * (1 - 2 * shape_ratio(p_, 0, (stem.length - bud.offset) / room));
-  }
-  return {rotate, down};
+  if (l.down_angle_v >= 0) return l.down_angle;
+  const double bare = stem.level == 0 ? base_length() : 0;
+  const double room = std::max(1e-9, stem.length - bare);
+  return l.down_angle + l.down_angle_v * (1 - 2 * shape_ratio(p_, 0, (stem.length - offset) / room));
 }
 
-void WeberPennGrower::bear(const WeberPennStem& stem, const WeberPennBud& bud, double child_max) {
-  const Rng parent =
-      stem.level == 0 ? chances_.branches.at(stem.segment == 0 ? 0 : stem.rng.key()) : stem.rng;
-  const Rng rng = parent.at("child").at(static_cast<std::uint64_t>(bud.number));
-  WeberPennStem child;
-  const Stance stands = stance(stem, bud, rng);
-  child.frame = pitch(roll(bud_frames_[bud.frame], math::quick_sincos_degrees(stands.about)),
-                      math::quick_sincos_degrees(stands.down));
-  child.position = bud.position;
-  child.joint = bud.joint;
-  child.level = stem.level + 1;
-  child.offset = bud.offset;
-  child.parent_length = stem.length;
-  child.parent_length_max = child_max;
-  child.rng = rng;
-  child.carried_splits = rng.at("splits").uniform(-0.5, 0.5);
-  if (stem.level == 0) {
-    const double room = std::max(1e-9, trunk_length_ - base_length());
-    child.length =
-        stem.length * child_max * shape_ratio(p_, p_.crown_shape, (stem.length - bud.offset) / room);
-  } else {
-    child.length = child_max * (stem.length - 0.6 * bud.offset);
+/// Where children or leaves stand on a piece, until it is asked again.
+WeberPennGrower::Places WeberPennGrower::find_places(WeberPennStem& stem, const WeberPennPiece& piece) {
+  const int first = stem.children_before;
+  double from = std::max(piece.along, bare_);
+  if (!(spacing_ > 0) || !(from < piece.end)) return {first, {}};
+  const double whole = spacing_ / stem.share;
+  double step = stem.carried_children == 0 ? whole : (1 - stem.carried_children) * spacing_ / stem.share;
+  // The first step may be short, and sums round.
+  const auto most = static_cast<std::size_t>(math::to_int64((piece.end - from) / whole)) + 3;
+  if (places_.size() < most) places_.resize(most);
+  std::size_t count = 0;
+  for (; from + step <= piece.end && count < most; step = whole) {
+    from += step;
+    places_[count++] = from;
   }
-  if (p_.PruneRatio > 0 && !prune(child)) return;
-  if (!(child.length > 0)) return;
-  const double ratio = std::max(0.0, child.length / stem.length);
-  child.radius =
-      std::min(radius_at(stem, bud.offset / stem.length), stem.radius * math::pow(ratio, p_.RatioPower));
-  waiting_.push_back(child);
+  const double carried = count == 0 ? stem.carried_children : 0;
+  stem.carried_children = carried + (piece.end - from) * stem.share / spacing_;
+  stem.children_before += static_cast<int>(count);
+  return {first, {places_.data(), count}};
+}
+
+void WeberPennGrower::put_children(WeberPennStem& stem, const WeberPennPiece& piece) {
+  const auto [first, places] = find_places(stem, piece);
+  std::array<double, WeberPennBrood::most> down;
+  for (std::size_t done = 0; done < places.size(); done += down.size()) {
+    const auto offsets = places.subspan(done, std::min(down.size(), places.size() - done));
+    for (std::size_t i = 0; i < offsets.size(); ++i) down[i] = down_at(stem, offsets[i]);
+    brood_.reckon(piece, level(stem.level + 1), child_chance_, first + static_cast<int>(done),
+                  std::span(down.data(), offsets.size()));
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      if (bear(stem, piece, offsets[i], i) && bears_limbs_) stops_.push_back(offsets[i]);
+    }
+  }
+}
+
+/// False: there is nothing of it.
+bool WeberPennGrower::bear(const WeberPennStem& stem, const WeberPennPiece& piece, double offset,
+                           std::size_t in_brood) {
+  const double length = child_length(stem, offset);
+  if (!(length > 0)) return false;
+  WeberPennStem& child = waiting_.emplace_back();
+  child.frame = brood_.frame(in_brood);
+  child.position = piece.at(offset);
+  child.joint = last_joint_;
+  child.level = stem.level + 1;
+  child.length = length;
+  child.offset = offset;
+  child.parent_length = stem.length;
+  child.parent_length_max = child_max_;
+  child.rng = brood_.chance(in_brood);
+  child.carried_splits = brood_.carried_splits(in_brood);
+  if (p_.PruneRatio > 0 && !prune(child)) {
+    waiting_.pop_back();
+    return false;
+  }
+  child.radius = child_radius(stem, offset, child.length);
+  return true;
+}
+
+double WeberPennGrower::child_length(const WeberPennStem& stem, double offset) const {
+  if (stem.level > 0) return child_max_ * (stem.length - 0.6 * offset);
+  const double room = std::max(1e-9, trunk_length_ - base_length());
+  return stem.length * child_max_ * shape_ratio(p_, p_.crown_shape, (stem.length - offset) / room);
+}
+
+double WeberPennGrower::child_radius(const WeberPennStem& stem, double offset, double length) const {
+  const double ratio = std::max(0.0, length / stem.length), most = radius_at(stem, offset / stem.length);
+  if (ratio <= 1 && p_.RatioPower >= 1 && !sways()) {
+    // The power is less than the ratio: nobody looks at how thin a stem is that is thinner than all others.
+    const double bound = std::min(most, stem.radius * ratio * (1 + 1e-9));
+    if (writer_.leaves_out(bound)) return bound;
+  }
+  return std::min(most, stem.radius * power(ratio, p_.RatioPower));
 }
 
 /// Shortens a stem to what stays within the envelope, as far as PruneRatio wants. False: nothing is left.
-bool WeberPennGrower::prune(WeberPennStem& child) const {
+bool WeberPennGrower::prune(WeberPennStem& child) {
   const double whole = child.length;
-  WeberPennStem trial = child;
-  while (trial.length > prune_least * whole && !fits(trial)) trial.length *= prune_step;
-  const double fitted = trial.length > prune_least * whole ? trial.length : 0;
+  double trial = whole;
+  trial_frames_.assign(1, child.frame);
+  while (trial > prune_least * whole && !fits(child, trial)) trial *= prune_step;
+  const double fitted = trial > prune_least * whole ? trial : 0;
   child.length = whole - (whole - fitted) * p_.PruneRatio;
   return child.length > 1e-6 * whole;
 }
 
-bool WeberPennGrower::fits(const WeberPennStem& stem) const {
+/// As if it were of another length; its bends are the same at any.
+bool WeberPennGrower::fits(const WeberPennStem& stem, double length) {
+  const int segments = level(stem.level).curve_res;
+  const double step = length / segments;
   glm::dvec3 at = stem.position;
-  Frame frame = stem.frame;
-  for (int segment = 0; segment < level(stem.level).curve_res; ++segment) {
-    if (segment > 0) frame = turned(stem, frame, segment);
-    at += frame.heading * segment_length(stem);
+  for (int segment = 0; segment < segments; ++segment) {
+    const auto number = static_cast<std::size_t>(segment);
+    if (number == trial_frames_.size()) trial_frames_.push_back(turned(stem, trial_frames_.back(), segment));
+    at += trial_frames_[number].heading * step;
     if (!is_in_envelope(p_, scale_, std::sqrt(at.x * at.x + at.z * at.z), at.y)) return false;
   }
   return true;
 }
 
-void WeberPennGrower::leaf(const WeberPennStem& stem, const WeberPennBud& bud) {
-  const Rng rng = leaf_chance_.at(static_cast<std::uint64_t>(bud.number));
-  if (p_.Leaves < 0) return fan_leaf(stem, bud, rng);
-  const Stance stands = stance(stem, bud, rng);
-  Organ& organ = leaves_[leaf_frames_.size()];
-  leaf_frames_.add(bud_frames_[bud.frame], bud.position, stands.about, stands.down);
-  organ.position = glm::vec3(bud.position);
-  organ.limb_joint = bud.joint;
-  organ.key = rng.key();
-  if (leaf_frames_.is_full()) put_leaves();
+void WeberPennGrower::put_leaves(WeberPennStem& stem, const WeberPennPiece& piece) {
+  const auto [first, places] = find_places(stem, piece);
+  if (places.empty()) return;
+  writer_.count_leaves(places.size());
+  const bool draws_all = writer_.draws_all();
+  if (!draws_all) {
+    const std::size_t count = (places.size() + lanes - 1) / lanes * lanes;
+    if (drawn_.size() < count) drawn_.resize(count);
+    find_drawn(leaf_chance_, static_cast<std::uint64_t>(first), writer_.drawn_below(), drawn_.data(), count);
+  }
+  const WeberPennLevel& l = level(stem.level + 1);
+  std::size_t stop = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!draws_all && !drawn_[i]) continue;
+    const double offset = places[i];
+    while (joints_[stop].at < offset) ++stop;
+    const int number = first + static_cast<int>(i);
+    const double down = l.down_angle_v >= 0 ? l.down_angle : down_at(stem, offset);
+    leaf_frames_.add(
+        piece.frame, piece.at(offset), joints_[stop].joint,
+        {about_stem(l, number), down, leaf_chance_.at(static_cast<std::uint64_t>(number)).key()});
+    if (leaf_frames_.is_full()) write_leaves();
+  }
 }
 
-/// One of a fan at the end of a stem.
-void WeberPennGrower::fan_leaf(const WeberPennStem& stem, const WeberPennBud& bud, const Rng& rng) {
+/// All leaves of a stem at its end.
+void WeberPennGrower::put_fan(const WeberPennStem& stem, const Frame& frame, const glm::dvec3& at) {
   const WeberPennLevel& l = level(stem.level + 1);
   const double count = -p_.Leaves;
-  const double across = count > 1 ? l.rotate * (bud.number / (count - 1) - 0.5) : 0;
-  SkeletonWriter::Leaf leaf;
-  leaf.frame = pitch(turn(bud_frames_[bud.frame], math::quick_sincos_degrees(across)),
-                     math::quick_sincos_degrees(l.down_angle));
-  if (p_.LeafBend != 0) leaf.frame = to_light(leaf.frame, bud.position, p_.LeafBend);
-  leaf.frame = upper_side_up(leaf.frame);
-  leaf.position = bud.position;
-  leaf.length = p_.LeafScale;
-  leaf.width = p_.LeafScale * p_.LeafScaleX;
-  leaf.joint = bud.joint;
-  leaf.key = rng.key();
-  writer_.add(leaf);
+  for (int i = 0; i < count_; ++i) {
+    const std::uint64_t key = leaf_chance_.at(static_cast<std::uint64_t>(i)).key();
+    if (!writer_.wants_leaf(key)) continue;
+    const double across = count > 1 ? l.rotate * (i / (count - 1) - 0.5) : 0;
+    SkeletonWriter::Leaf leaf;
+    leaf.frame =
+        pitch(turn(frame, math::quick_sincos_degrees(across)), math::quick_sincos_degrees(l.down_angle));
+    if (p_.LeafBend != 0) leaf.frame = to_light(leaf.frame, at, p_.LeafBend);
+    leaf.frame = upper_side_up(leaf.frame);
+    leaf.position = at;
+    leaf.length = p_.LeafScale;
+    leaf.width = p_.LeafScale * p_.LeafScaleX;
+    leaf.joint = last_joint_;
+    leaf.key = key;
+    writer_.add(leaf);
+  }
 }
 
 /// Those that wait for their frames.
-void WeberPennGrower::put_leaves() {
-  leaf_frames_.reckon(p_.LeafBend);
-  for (std::size_t i = 0; i < leaf_frames_.size(); ++i) {
-    Organ& organ = leaves_[i];
-    organ.frame = leaf_frames_.frame(i);
-    organ.scale = glm::vec3(p_.LeafScale * p_.LeafScaleX, p_.LeafScale, p_.LeafScale);
-  }
-  writer_.add(std::span<const Organ>(leaves_.data(), leaf_frames_.size()));
+void WeberPennGrower::write_leaves() {
+  if (leaf_frames_.size() == 0) return;
+  const WeberPennLevel& l = level(p_.Levels);
+  const LeafFrames::Habit habit{p_.LeafBend, l.rotate_v, std::max(0.0, l.down_angle_v)};
+  leaf_frames_.reckon(habit, glm::vec3(p_.LeafScale * p_.LeafScaleX, p_.LeafScale, p_.LeafScale),
+                      writer_.extend(leaf_frames_.size()));
   leaf_frames_.clear();
-}
-
-void WeberPennGrower::bear_all(const WeberPennStem& stem, double child_max) {
-  for (const WeberPennBud& bud : buds_) {
-    if (is_last(stem)) {
-      leaf(stem, bud);
-    } else {
-      bear(stem, bud, child_max);
-    }
-  }
 }
 
 }  // namespace seedmesh::tree

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/generators/tree/leaf_frames.h"
-#include "core/generators/tree/weber_penn_shape.h"
+#include "core/generators/tree/weber_penn_brood.h"
 
 namespace seedmesh::tree {
 
@@ -29,15 +29,6 @@ struct WeberPennStem {
   int children_before = 0;
 };
 
-/// A child or leaf on a stem, before it is grown.
-struct WeberPennBud {
-  glm::dvec3 position{0};
-  double offset = 0;
-  std::uint32_t joint = Limbs::none;
-  std::uint32_t frame = 0;  ///< of the stem there, in a list
-  int number = 0;
-};
-
 class WeberPennGrower {
  public:
   WeberPennGrower(const TreeParams& params, const Chances& chances, SkeletonWriter& writer)
@@ -57,37 +48,41 @@ class WeberPennGrower {
 
   // Along a stem.
   WeberPennStem trunk();
-  void grow(const WeberPennStem& given);
+  void grow(WeberPennStem& stem);
+  void begin(const WeberPennStem& stem);
   double radius_at(const WeberPennStem& stem, double z) const;
+  bool sways() const { return p_.sway.wind != 0 || p_.sway.gust != 0; }
   Frame turned(const WeberPennStem& stem, const Frame& frame, int segment) const;
   Frame swayed_at(const WeberPennStem& stem, const Frame& frame, int segment) const;
   int pieces(const WeberPennStem& stem) const;
   Frame piece_frame(const WeberPennStem& stem, const Frame& axis, int piece) const;
-  double walk_segment(WeberPennStem& stem, const Frame& axis, int segment, glm::dvec3& at);
+  void walk_segment(WeberPennStem& stem, const Frame& axis, int segment, glm::dvec3& at);
+  bool add_bends(const WeberPennStem& stem, const WeberPennPiece& piece, int segment);
+  void write_joints(const WeberPennStem& stem, const WeberPennPiece& piece);
+  /// What is carried alone, below a half, splits nothing.
+  bool may_split(const WeberPennStem& stem) const {
+    return level(stem.level).seg_splits > 0 || stem.level == 0;
+  }
   void split(WeberPennStem& stem, Frame& frame, const glm::dvec3& at, int segment, std::uint32_t joint);
 
   // What stands on it.
   double children_of(const WeberPennStem& stem) const;
-  void bear_all(const WeberPennStem& stem, double child_max);
-  void bear(const WeberPennStem& stem, const WeberPennBud& bud, double child_max);
-  bool prune(WeberPennStem& child) const;
-  bool fits(const WeberPennStem& stem) const;
-  struct Stance {
-    double about = 0, down = 0;  ///< degrees
+  /// In metres of a stem; `first`: the number of the first.
+  struct Places {
+    int first;
+    std::span<const double> at;
   };
-  Stance stance(const WeberPennStem& stem, const WeberPennBud& bud, const Rng& rng) const;
-  /// Counts a leaf of the stem that grows. False: it is none of those that are drawn.
-  bool wants_leaf(int number) const {
-    return writer_.wants_leaf([&] { return leaf_chance_.at(static_cast<std::uint64_t>(number)).key(); });
-  }
-  /// On the last of the frames.
-  void put_bud(const glm::dvec3& position, double offset, int number) {
-    buds_.push_back(
-        {position, offset, Limbs::none, static_cast<std::uint32_t>(bud_frames_.size() - 1), number});
-  }
-  void leaf(const WeberPennStem& stem, const WeberPennBud& bud);
-  void fan_leaf(const WeberPennStem& stem, const WeberPennBud& bud, const Rng& rng);
-  void put_leaves();
+  Places find_places(WeberPennStem& stem, const WeberPennPiece& piece);
+  double down_at(const WeberPennStem& stem, double offset) const;
+  void put_children(WeberPennStem& stem, const WeberPennPiece& piece);
+  bool bear(const WeberPennStem& stem, const WeberPennPiece& piece, double offset, std::size_t in_brood);
+  double child_length(const WeberPennStem& stem, double offset) const;
+  double child_radius(const WeberPennStem& stem, double offset, double length) const;
+  bool prune(WeberPennStem& child);
+  bool fits(const WeberPennStem& stem, double length);
+  void put_leaves(WeberPennStem& stem, const WeberPennPiece& piece);
+  void put_fan(const WeberPennStem& stem, const Frame& frame, const glm::dvec3& at);
+  void write_leaves();
 
   const TreeParams& p_;
   std::array<WeberPennLevel, 4> levels_;
@@ -95,16 +90,27 @@ class WeberPennGrower {
   SkeletonWriter& writer_;
   std::vector<WeberPennStem> waiting_;
   double scale_ = 0, trunk_length_ = 0;
-  LeafFrames leaf_frames_;
-  std::array<Organ, LeafFrames::most> leaves_;  ///< whose frames are waited for
+  LeafFrames leaf_frames_;           ///< that are waited for
+  std::vector<Frame> trial_frames_;  ///< of a stem that is pruned, segment by segment
   // Of the stem that grows.
+  bool is_written_ = true;  ///< its joints; nobody looks at others
+  bool bears_limbs_ = true;
   std::uint32_t last_joint_ = Limbs::none;
-  std::vector<WeberPennBud> buds_;
-  std::vector<Frame> bud_frames_;
-  std::size_t next_bud_ = 0;  ///< whose joint is not there yet
-  std::vector<double> stops_;
-  Rng leaf_chance_{0};
-  double spacing_ = 0, bare_ = 0;
+  double last_radius_ = 0;
+  std::vector<WeberPennStem> clones_;
+  std::size_t first_child_ = 0, next_child_ = 0;  ///< of those that wait; whose joint is not there yet
+  std::vector<double> places_;                    ///< room for those of children or leaves on a piece
+  WeberPennBrood brood_;                          ///< children at some of these
+  std::vector<std::uint64_t> drawn_;              ///< room for whether leaves there are drawn
+  std::vector<double> stops_;                     ///< of a piece
+  struct Stop {
+    double at;
+    std::uint32_t joint;
+  };
+  std::vector<Stop> joints_;  ///< of a piece; of one that is not written, what its leaves move with
+  Rng leaf_chance_{0}, child_chance_{0};
+  int count_ = 0;  ///< of its children or leaves
+  double spacing_ = 0, bare_ = 0, child_max_ = 0;
   bool starts_ = false;
 };
 

@@ -29,6 +29,12 @@ std::array<WeberPennLevel, 4> weber_penn_levels(const TreeParams& p) {
   }};
 }
 
+double power(double base, double exponent) {
+  if (exponent == 2) return base * base;
+  if (exponent == 0.5) return std::sqrt(base);
+  return exponent == 1 ? base : math::pow(base, exponent);
+}
+
 double shape_ratio(const TreeParams& params, int shape, double ratio) {
   const double r = std::clamp(ratio, 0.0, 1.0);
   switch (shape) {
@@ -55,8 +61,8 @@ double shape_ratio(const TreeParams& params, int shape, double ratio) {
   // the lower half is as long as the peak is high.
   if (ratio < 0 || ratio > 1) return 0;
   const double peak = 1 - params.PruneWidthPeak;
-  if (r < peak) return math::pow(r / peak, params.PrunePowerHigh);
-  return peak >= 1 ? 1 : math::pow((1 - r) / (1 - peak), params.PrunePowerLow);
+  if (r < peak) return power(r / peak, params.PrunePowerHigh);
+  return peak >= 1 ? 1 : power((1 - r) / (1 - peak), params.PrunePowerLow);
 }
 
 double tapered(double taper, double radius, double length, double z) {

@@ -10,13 +10,16 @@
 
 namespace seedmesh::tree {
 
-inline Skeleton skeleton_of(const TreeParams& params, std::uint64_t seed, Job& job) {
+/// Without limbs that begin thinner than `least_radius`, as far as the model knows that early.
+inline Skeleton skeleton_of(const TreeParams& params, std::uint64_t seed, Job& job, double least_radius = 0) {
   Skeleton skeleton(job);
   SkeletonWriter writer(skeleton, job);
+  writer.leave_out_below(least_radius);
   const Chances chances(params.seeds, seed);
   if (params.model == TreeModel::weber_penn) grow_weber_penn(params, chances, writer);
   if (params.model == TreeModel::proctree) grow_proctree(params, chances, writer);
   if (params.model == TreeModel::sculpt) grow_sculpt(params, chances, writer);
+  writer.finish();
   return skeleton;
 }
 

@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "core/generators/tree/weber_penn_shape.h"
+#include "core/geom/graft.h"
 #include "tests/core/tree/support.h"
 
 namespace seedmesh::tree {
@@ -156,6 +159,91 @@ TEST(WeberPenn, LetsTheTrunkAloneWhenItsBranchesChange) {
   params.curve_1 = 20;
   Skeletons after(params, 9);
   EXPECT_EQ(before.trunk_ends(), after.trunk_ends());
+}
+
+/// Twigs of the last level are thinner than this.
+TreeParams twiggy() {
+  TreeParams params;
+  params.Levels = 4;
+  params.branches_1 = 12;
+  params.branches_3 = 6;
+  params.length_3 = 0.4;
+  params.Leaves = 5;
+  params.PruneRatio = 0.5;
+  return params;
+}
+constexpr float thinnest = 0.004F;
+
+TEST(WeberPenn, HasTheSameBarkAndLeavesWithoutLimbsThatAreLeftOut) {
+  Job job(4, Job::Options{});
+  const Skeleton whole = skeleton_of(twiggy(), 4, job), less = skeleton_of(twiggy(), 4, job, thinnest);
+  EXPECT_LT(3 * less.limbs.size(), 2 * whole.limbs.size());
+  const Box box = bounds_of(whole.limbs.position.span()), same = bounds_of(less.limbs.position.span());
+  EXPECT_EQ(box.min, same.min);
+  EXPECT_EQ(box.max, same.max);
+  ASSERT_EQ(whole.organs.organ.size(), less.organs.organ.size());
+  for (std::size_t i = 0; i < whole.organs.organ.size(); ++i) {
+    EXPECT_EQ(whole.organs.organ[i].position, less.organs.organ[i].position) << i;
+    EXPECT_EQ(whole.organs.organ[i].frame, less.organs.organ[i].frame) << i;
+  }
+  GraftOptions options;
+  options.thinnest = thinnest;
+  const Mesh bark = graft(whole.limbs, options, job), drawn = graft(less.limbs, options, job);
+  ASSERT_EQ(bark.position.size(), drawn.position.size());
+  EXPECT_TRUE(std::equal(bark.position.begin(), bark.position.end(), drawn.position.begin()));
+  EXPECT_TRUE(std::equal(bark.normal.begin(), bark.normal.end(), drawn.normal.begin()));
+  ASSERT_EQ(bark.index.wide.size(), drawn.index.wide.size());
+  EXPECT_TRUE(std::equal(bark.index.wide.begin(), bark.index.wide.end(), drawn.index.wide.begin()));
+}
+
+TEST(WeberPenn, LeavesOutTheSameOnEveryNumberOfThreads) {
+  Job one(4, Job::Options{}), two(4, {.threads = 2});
+  const Skeleton a = skeleton_of(twiggy(), 4, one, thinnest), b = skeleton_of(twiggy(), 4, two, thinnest);
+  ASSERT_EQ(a.limbs.size(), b.limbs.size());
+  EXPECT_TRUE(std::equal(a.limbs.position.begin(), a.limbs.position.end(), b.limbs.position.begin()));
+  EXPECT_TRUE(std::equal(a.limbs.parent.begin(), a.limbs.parent.end(), b.limbs.parent.begin()));
+  ASSERT_EQ(a.organs.organ.size(), b.organs.organ.size());
+  for (std::size_t i = 0; i < a.organs.organ.size(); ++i)
+    EXPECT_EQ(a.organs.organ[i].limb_joint, b.organs.organ[i].limb_joint) << i;
+}
+
+TEST(WeberPenn, MakesTheLeavesOfAShareAndNoOthers) {
+  Job job(4, Job::Options{});
+  const Skeleton all = skeleton_of(twiggy(), 4, job);
+  Skeleton some(job);
+  SkeletonWriter writer(some, job, 0.3);
+  const TreeParams params = twiggy();
+  grow_weber_penn(params, Chances(params.seeds, 4), writer);
+  std::vector<std::uint64_t> wanted, found;
+  for (const Organ& leaf : all.organs.organ) {
+    if (is_drawn(leaf.key, 0.3)) wanted.push_back(leaf.key);
+  }
+  for (const Organ& leaf : some.organs.organ) found.push_back(leaf.key);
+  EXPECT_EQ(wanted, found);
+  EXPECT_FALSE(found.empty());
+}
+
+TEST(WeberPenn, HasNoJointsForTwigsThatNobodyDrawsOnAStemThatIsFullOfThem) {
+  TreeParams params;
+  params.Levels = 3;
+  params.branches_1 = 8;
+  params.branches_2 = 10;
+  params.length_2 = 0.05;
+  params.RatioPower = 2;
+  params.Ratio = 0.03;
+  const auto joints_of_limbs = [&] {
+    std::size_t count = 0;
+    const Skeletons grown(params, 3);
+    for (const std::uint16_t order : grown.limbs().order) count += order == 1 ? 1 : 0;
+    return count;
+  };
+  const std::size_t few = joints_of_limbs();
+  params.branches_2 = 300;
+  params.twig_radius = 0;
+  const std::size_t drawn = joints_of_limbs();
+  params.twig_radius = 0.01;
+  EXPECT_LT(joints_of_limbs(), few);
+  EXPECT_GT(drawn, 5 * few);
 }
 
 }  // namespace

@@ -1,0 +1,70 @@
+#include "core/generators/tree/weber_penn_brood.h"
+
+#include <algorithm>
+
+#include "core/base/wide.h"
+#include "core/generators/tree/wide_chance.h"
+
+namespace seedmesh::tree {
+namespace {
+
+// Lanes of the widest vectors of doubles; a few children too many are reckoned rather than one by one.
+constexpr std::size_t lanes = 8;
+// Of a limb's first split: uniform in -0.5 .. 0.5.
+constexpr double split_range = 0.5;
+
+constexpr std::size_t most = WeberPennBrood::most;
+
+/// The same of all children. Passed by value, so that nothing that is read can be what is written.
+struct Turning {
+  Frame stem;
+  double rotate, odd, rotate_v, down_v;  ///< `odd`: more degrees for those of odd numbers
+  double step;                           ///< degrees from one number to the next
+};
+
+SEEDMESH_WIDE void draw_all(const Rng chance, std::uint64_t first, std::size_t count,
+                            std::uint64_t* __restrict key, double* __restrict splits) {
+  for (std::size_t i = 0; i < count; ++i) {
+    key[i] = chance.at(first + i).key();
+    splits[i] = drawn_at(key[i], place_of("splits"), split_range);
+  }
+}
+
+SEEDMESH_WIDE void turn_all(const Turning how, int first, std::size_t count,
+                            const std::uint64_t* __restrict key, const double* __restrict down,
+                            double (*__restrict axis)[most]) {
+  const Frame stem = how.stem;
+  for (std::size_t i = 0; i < count; ++i) {
+    const int number = first + static_cast<int>(i);
+    const double base = number * how.step + (number & 1) * how.odd + how.rotate;
+    const double about = base + drawn_at(key[i], place_of("rotate"), how.rotate_v);
+    const double from = down[i] + drawn_at(key[i], place_of("down"), how.down_v);
+    const Frame frame =
+        pitch(roll(stem, math::quick_sincos_degrees(about)), math::quick_sincos_degrees(from));
+    axis[0][i] = frame.heading.x;
+    axis[1][i] = frame.heading.y;
+    axis[2][i] = frame.heading.z;
+    axis[3][i] = frame.left.x;
+    axis[4][i] = frame.left.y;
+    axis[5][i] = frame.left.z;
+    axis[6][i] = frame.up.x;
+    axis[7][i] = frame.up.y;
+    axis[8][i] = frame.up.z;
+  }
+}
+
+}  // namespace
+
+void WeberPennBrood::reckon(const WeberPennPiece& piece, const WeberPennLevel& level, const Rng& chance,
+                            int first, std::span<const double> down) {
+  std::copy(down.begin(), down.end(), down_);
+  const std::size_t count = (down.size() + lanes - 1) / lanes * lanes;
+  // As about_stem() has it: sums with 0 change nothing.
+  const bool goes_round = level.rotate >= 0;
+  const Turning how{piece.frame,    goes_round ? 0 : level.rotate,     goes_round ? 0 : 180.0,
+                    level.rotate_v, std::max(0.0, level.down_angle_v), goes_round ? level.rotate : 0};
+  draw_all(chance, static_cast<std::uint64_t>(first), count, key_, splits_);
+  turn_all(how, first, count, key_, down_, axis_);
+}
+
+}  // namespace seedmesh::tree
