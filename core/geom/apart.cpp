@@ -13,9 +13,9 @@ namespace {
 
 // Points fall into cells so many reaches wide; nearer to a border than `margin` cells (a reach, and what
 // rounding may take from it) they are in both cells.
-constexpr float cell_width = 128, margin = 1.5F / cell_width;
+constexpr float cell_width = 80, margin = 1.5F / cell_width;
 // Beyond so many cells along the diagonal a float could not tell where in its cell a point is.
-constexpr float most_cells = 20'000;
+constexpr float most_cells = 32'000;
 // Bits for each point in the table of cells that are taken: few share one by chance.
 constexpr std::size_t bits_a_point = 16, least_bits = 1024, most_bits = std::size_t{1} << 30U;
 // So many points in one cell are a heap, and are not compared one by one.
@@ -137,6 +137,7 @@ class Cellmates {
   template <class Near>
   void find_near(std::span<const glm::vec3> points, float reach, Near near) const {
     const double squared = static_cast<double>(reach) * static_cast<double>(reach);
+    const float doubtful = 2 * reach * reach;
     for (const Cell& cell : table_) {
       const bool is_heap = cell.count > most_in_a_cell;
       for (std::uint32_t i = cell.count > 1 ? cell.last : none; i != none; i = next_[i]) {
@@ -144,6 +145,8 @@ class Cellmates {
         if (is_heap) near(one);
         for (std::uint32_t k = is_heap ? none : next_[i]; k != none; k = next_[k]) {
           const std::uint32_t other = visits_[k].point;
+          const glm::vec3 about = points[one] - points[other];
+          if (glm::dot(about, about) > doubtful) continue;
           const glm::dvec3 apart = glm::dvec3(points[one]) - glm::dvec3(points[other]);
           if (glm::dot(apart, apart) > squared) continue;
           near(one);
