@@ -174,6 +174,9 @@ std::vector<GraftWriter::LoopFace> GraftWriter::strained_faces(
         found[part].push_back(face);
     }
   });
+  std::size_t count = 0;
+  for (const std::vector<LoopFace>& part : found) count += part.size();
+  hard.reserve(count);
   for (const std::vector<LoopFace>& part : found) hard.insert(hard.end(), part.begin(), part.end());
   return hard;
 }
