@@ -13,9 +13,9 @@ namespace {
 
 // Points fall into cells so many reaches wide; nearer to a border than `margin` cells (a reach, and what
 // rounding may take from it) they are in both cells.
-constexpr float cell_width = 128, margin = 1.5F / cell_width;
+constexpr float cell_width = 80, margin = 1.5F / cell_width;
 // Beyond so many cells along the diagonal a float could not tell where in its cell a point is.
-constexpr float most_cells = 20'000;
+constexpr float most_cells = 32'000;
 // Bits for each point in the table of cells that are taken: few share one by chance.
 constexpr std::size_t bits_a_point = 16, least_bits = 1024, most_bits = std::size_t{1} << 30U;
 // So many points in one cell are a heap, and are not compared one by one.
@@ -58,13 +58,17 @@ class Cells {
   void each(const glm::vec3& point, Visit visit) const {
     const glm::vec3 at = place(point);
     const glm::ivec3 low(at - margin), high(at + margin);
-    for (std::int32_t z = low.z; z <= high.z; ++z) {
-      for (std::int32_t y = low.y; y <= high.y; ++y) {
-        for (std::int32_t x = low.x; x <= high.x; ++x) {
-          visit(slot(x, y, z), number(x, y, z));
-        }
-      }
-    }
+    // A bit for each axis along which there are two.
+    const std::uint32_t two = (high.x > low.x ? 1U : 0U) | (high.y > low.y ? 2U : 0U) |
+                              (high.z > low.z ? 4U : 0U);
+    std::uint32_t each = 0;
+    do {
+      const std::int32_t x = low.x + static_cast<std::int32_t>(each & 1U),
+                         y = low.y + static_cast<std::int32_t>(each >> 1U & 1U),
+                         z = low.z + static_cast<std::int32_t>(each >> 2U);
+      visit(slot(x, y, z), number(x, y, z));
+      each = (each - two) & two;  // the next with none but these bits
+    } while (each != 0);
   }
 
  private:
@@ -126,53 +130,57 @@ struct Visit {
 /// Points by cell: those of each in a list.
 class Cellmates {
  public:
-  explicit Cellmates(std::span<const Visit> visits) : visits_(visits), next_(visits.size(), none) {
+  explicit Cellmates(std::span<const Visit> visits) : visits_(visits), mates_(visits.size()) {
     std::size_t size = 16;
     while (size < 2 * visits.size()) size *= 2;
-    table_.resize(size);
-    for (std::uint32_t i = 0; i < visits.size(); ++i) add(i);
+    last_.assign(size, none);
   }
 
-  /// Calls near(point) for those that are within the reach of another one in their cell.
+  /// Calls near(point) for those that are within the reach of another one in their cell; once.
   template <class Near>
-  void find_near(std::span<const glm::vec3> points, float reach, Near near) const {
+  void find_near(std::span<const glm::vec3> points, float reach, Near near) {
     const double squared = static_cast<double>(reach) * static_cast<double>(reach);
-    for (const Cell& cell : table_) {
-      const bool is_heap = cell.count > most_in_a_cell;
-      for (std::uint32_t i = cell.count > 1 ? cell.last : none; i != none; i = next_[i]) {
-        const std::uint32_t one = visits_[i].point;
-        if (is_heap) near(one);
-        for (std::uint32_t k = is_heap ? none : next_[i]; k != none; k = next_[k]) {
-          const std::uint32_t other = visits_[k].point;
-          const glm::dvec3 apart = glm::dvec3(points[one]) - glm::dvec3(points[other]);
-          if (glm::dot(apart, apart) > squared) continue;
-          near(one);
-          near(other);
-        }
+    const float doubtful = 2 * reach * reach;
+    for (std::uint32_t i = 0; i < visits_.size(); ++i) {
+      const std::uint32_t one = visits_[i].point, before = add(i);
+      const bool is_heap = mates_[i].count > most_in_a_cell;
+      if (is_heap) near(one);
+      if (mates_[i].count == most_in_a_cell + 1) {
+        for (std::uint32_t k = before; k != none; k = mates_[k].before) near(visits_[k].point);
+      }
+      for (std::uint32_t k = is_heap ? none : before; k != none; k = mates_[k].before) {
+        const std::uint32_t other = visits_[k].point;
+        const glm::vec3 about = points[one] - points[other];
+        if (glm::dot(about, about) > doubtful) continue;
+        const glm::dvec3 apart = glm::dvec3(points[one]) - glm::dvec3(points[other]);
+        if (glm::dot(apart, apart) > squared) continue;
+        near(one);
+        near(other);
       }
     }
   }
 
  private:
   static constexpr std::uint32_t none = 0xFFFFFFFFU;
-  struct Cell {
-    std::uint64_t number = 0;
-    std::uint32_t last = none, count = 0;
+  /// Of a visit: the one before it in its cell, and how many there are up to it.
+  struct Mate {
+    std::uint32_t before = none, count = 0;
   };
 
-  void add(std::uint32_t i) {
+  /// Returns the visit of its cell that was the last.
+  std::uint32_t add(std::uint32_t i) {
     const std::uint64_t number = visits_[i].cell;
-    std::size_t at = mix(number) & (table_.size() - 1);
-    while (table_[at].count > 0 && table_[at].number != number) at = (at + 1) & (table_.size() - 1);
-    table_[at].number = number;
-    next_[i] = table_[at].last;
-    table_[at].last = i;
-    ++table_[at].count;
+    std::size_t at = mix(number) & (last_.size() - 1);
+    while (last_[at] != none && visits_[last_[at]].cell != number) at = (at + 1) & (last_.size() - 1);
+    const std::uint32_t before = last_[at];
+    mates_[i] = {before, before == none ? 1 : mates_[before].count + 1};
+    last_[at] = i;
+    return before;
   }
 
   std::span<const Visit> visits_;
-  std::vector<std::uint32_t> next_;
-  std::vector<Cell> table_;
+  std::vector<Mate> mates_;
+  std::vector<std::uint32_t> last_;  ///< visit of each cell that has any
 };
 
 }  // namespace

@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 #include "core/base/quick_math.h"
+#include "core/base/wide.h"
 #include "core/geom/graft_writer.h"
 
 namespace seedmesh {
@@ -108,31 +111,72 @@ bool GraftWriter::looks_away(const LoopFace& face, std::uint32_t group) const {
   return group != none && glm::dot(group_normal_[group & ~1U], face.normal) < least_lean;
 }
 
+/// Of four faces those that have a normal which looks away from them. `normals` of groups, of which `neutral`
+/// is none and that of corners without a group.
+FourFlags GraftWriter::strained(const LoopFace* faces, const glm::vec3* normals, std::uint32_t neutral) {
+  const Four face = Four::of_rows(Four::row(&faces[0].normal), Four::row(&faces[1].normal),
+                                  Four::row(&faces[2].normal), Four::row(&faces[3].normal));
+  FourFlags away{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto normal = [&](const LoopFace& each) {
+      return Four::row(normals + (std::min(each.group[k], neutral) & ~1U));
+    };
+    away |= dot(Four::of_rows(normal(faces[0]), normal(faces[1]), normal(faces[2]), normal(faces[3])), face) <
+            least_lean;
+  }
+  return away;
+}
+
+/// The first of four of `faces`, from `from` on, that are not all at ease; fewer than four are left at the
+/// end. `normals` with two more than there are groups: none, and room to read.
+SEEDMESH_WIDE std::size_t GraftWriter::first_strained(std::span<const LoopFace> faces,
+                                                      std::span<const glm::vec3> normals, std::size_t from) {
+  const auto neutral = static_cast<std::uint32_t>(normals.size() - 2);
+  while (from + Four::size <= faces.size() &&
+         all_of(~strained(faces.data() + from, normals.data(), neutral)))
+    from += Four::size;
+  return from;
+}
+
 /// The faces that have a normal which looks away from one of its faces.
 std::vector<GraftWriter::LoopFace> GraftWriter::strained_faces(
-    const std::vector<std::vector<LoopFace>>& faces) const {
+    const std::vector<std::vector<LoopFace>>& faces) {
+  // Corners without a group get a normal that does not look away from anything.
+  const std::size_t groups = group_normal_.size();
+  std::fill_n(group_normal_.extend(2), 2, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
+  const std::span<const glm::vec3> normals = std::as_const(group_normal_).span();
   std::vector<std::vector<std::uint32_t>> away(faces.size());
   share_out(faces.size(), 1, [&](std::size_t, std::size_t, std::size_t part) {
-    for (const LoopFace& face : faces[part]) {
-      for (const std::uint32_t group : face.group) {
-        if (looks_away(face, group)) away[part].push_back(group / 2);
+    const std::vector<LoopFace>& all = faces[part];
+    for (std::size_t at = 0; at < all.size();) {
+      at = first_strained(all, normals, at);
+      for (const std::size_t end = std::min(all.size(), at + Four::size); at < end; ++at) {
+        for (const std::uint32_t group : all[at].group) {
+          if (looks_away(all[at], group)) away[part].push_back(group / 2);
+        }
       }
     }
   });
+  group_normal_.resize(groups);
   std::vector<LoopFace> hard;
   if (std::all_of(away.begin(), away.end(), [](const auto& pairs) { return pairs.empty(); })) return hard;
-  std::vector<std::uint8_t> strained(touched_.size(), 0);
+  std::vector<std::uint8_t> strained(touched_.size() + 1, 0);  // the last for corners without a group
   for (const std::vector<std::uint32_t>& pairs : away) {
     for (const std::uint32_t pair : pairs) strained[pair] = 1;
   }
-  const auto is_strained = [&](std::uint32_t group) { return group != none && strained[group / 2]; };
+  const auto strain = [&](std::uint32_t group) {
+    return strained[std::min<std::size_t>(group / 2, strained.size() - 1)];
+  };
   std::vector<std::vector<LoopFace>> found(faces.size());
   share_out(faces.size(), 1, [&](std::size_t, std::size_t, std::size_t part) {
     for (const LoopFace& face : faces[part]) {
-      if (is_strained(face.group[0]) || is_strained(face.group[1]) || is_strained(face.group[2]))
+      if ((strain(face.group[0]) | strain(face.group[1]) | strain(face.group[2])) != 0)
         found[part].push_back(face);
     }
   });
+  std::size_t count = 0;
+  for (const std::vector<LoopFace>& part : found) count += part.size();
+  hard.reserve(count);
   for (const std::vector<LoopFace>& part : found) hard.insert(hard.end(), part.begin(), part.end());
   return hard;
 }

@@ -97,8 +97,8 @@ float GraftWriter::by_seam(float angle) const {
 
 std::uint32_t GraftWriter::group_for(const LoopPoint& point, std::uint32_t child) {
   const auto group = static_cast<std::uint32_t>(group_normal_.size());
-  group_normal_.push_back(glm::vec3(0));  // of the parent's faces
-  group_normal_.push_back(glm::vec3(0));  // of the child's
+  glm::vec3* const normals = group_normal_.extend(2);  // of the parent's faces, of the child's
+  normals[0] = normals[1] = glm::vec3(0);
   group_limb_.push_back(child);
   loop_vertices_.push_back({point.position, point.phase, point.reach, group + 1, joint_});
   return group;
@@ -136,12 +136,17 @@ void GraftWriter::go_round(Corners& order, const Plane& plane, Corners& out) {
   for (std::size_t i = 1; i < order.size(); ++i) {
     if (std::abs(order[i].angle - seam_) < std::abs(order[start].angle - seam_)) start = i;
   }
-  out.clear();
-  for (std::size_t i = 0, at = start; i <= order.size(); ++i, at = at + 1 == order.size() ? 0 : at + 1) {
-    const bool is_beyond = at < start || i == order.size();
-    Mark& mark = marks_[order[at].vertex];
-    out.push_back({mark.angle + (is_beyond ? 2 * pi : 0), vertex_of(mark, plane, is_beyond)});
-  }
+  out.resize(order.size() + 1);
+  Corner* to = out.data();
+  const auto go = [&](std::size_t begin, std::size_t end, bool is_beyond) {
+    for (std::size_t at = begin; at < end; ++at) {
+      Mark& mark = marks_[order[at].vertex];
+      *to++ = {mark.angle + (is_beyond ? 2 * pi : 0), vertex_of(mark, plane, is_beyond)};
+    }
+  };
+  go(start, order.size(), false);
+  go(0, start, true);
+  go(start, start + 1, true);
 }
 
 /// Four corners of a ring without ribs, from `first` on, as ring_corner() writes them one by one; those past
@@ -198,31 +203,40 @@ void GraftWriter::plain_ring(const Plane& plane, Corners& out) {
 
 /// A ring that others leave: `lower_` for the strip below, `upper_` for the one above, which differ there.
 void GraftWriter::open_ring(const Plane& plane, const Band& band) {
-  marks_.clear();
-  lower_order_.clear();
-  upper_order_.clear();
   const int sides = sides_for(plane.radius);
-  const float step = 2 * pi / static_cast<float>(sides);
-  const Circle& circle = common_->circles[static_cast<std::size_t>(sides)];
-  const auto add = [&](const Mark& mark, bool below, bool above) {
-    if (below) lower_order_.push_back({mark.angle, static_cast<std::uint32_t>(marks_.size())});
-    if (above) upper_order_.push_back({mark.angle, static_cast<std::uint32_t>(marks_.size())});
-    marks_.push_back(mark);
+  auto most = static_cast<std::size_t>(sides);
+  for (std::uint32_t k = band.first; k != Opening::none; k = plan_.opening[k].next)
+    most += 2 + plan_.opening[k].lower + plan_.opening[k].upper;
+  marks_.resize(most);
+  lower_order_.resize(most);
+  upper_order_.resize(most);
+  std::uint32_t marks = 0, lower = 0, upper = 0;
+  // Put on both lists, of which it stays on those that it belongs to.
+  const auto add = [&](float angle, bool below, bool above) -> Mark& {
+    lower_order_[lower] = upper_order_[upper] = {angle, marks};
+    lower += below ? 1 : 0;
+    upper += above ? 1 : 0;
+    Mark& mark = marks_[marks++];
+    mark.angle = angle;
+    mark.vertex[0] = mark.vertex[1] = none;
+    return mark;
   };
+  const float step = 2 * pi / static_cast<float>(sides), near = std::min(0.35F * step, 0.25F);
+  const Circle& circle = common_->circles[static_cast<std::size_t>(sides)];
   for (int i = 0; i < sides; ++i) {
     const float angle = by_seam(seam_ + step * static_cast<float>(i));
     const auto takes = [&](const Opening& opening) {
       const float off = std::abs(by_seam(angle - opening.middle + seam_) - seam_);
-      return off < opening.half + std::min(0.35F * step, 0.25F);
+      return off < opening.half + near;
     };
     bool is_taken = false;
     for (std::uint32_t k = band.first; k != Opening::none && !is_taken; k = plan_.opening[k].next)
       is_taken = takes(plan_.opening[k]);
     if (is_taken) continue;
-    Mark mark;
-    mark.angle = angle;
+    Mark& mark = add(angle, true, true);
     mark.direction = turned_to_seam(circle.at(i));
-    add(mark, true, true);
+    mark.point = nullptr;
+    mark.group = none;
   }
   for (std::uint32_t number = band.first; number != Opening::none; number = plan_.opening[number].next) {
     const Opening& opening = plan_.opening[number];
@@ -234,11 +248,9 @@ void GraftWriter::open_ring(const Plane& plane, const Band& band) {
             opening.child_u,
             opening.is_fork};
     const auto put = [&](const LoopPoint& point, bool below, bool above) {
-      Mark mark;
-      mark.angle = by_seam(opening.middle + point.angle);
+      Mark& mark = add(by_seam(opening.middle + point.angle), below, above);
       mark.point = &point;
       mark.group = group_for(point, opening.limb);
-      add(mark, below, above);
     };
     put(opening.first, true, true);
     put(opening.last, true, true);
@@ -246,6 +258,8 @@ void GraftWriter::open_ring(const Plane& plane, const Band& band) {
     for (const LoopPoint& point : opening.above(plan_.loop_point)) put(point, false, true);
     loop.count = static_cast<std::uint32_t>(loop_vertices_.size()) - loop.first;
   }
+  lower_order_.resize(lower);
+  upper_order_.resize(upper);
   go_round(lower_order_, plane, lower_);
   go_round(upper_order_, plane, upper_);
 }

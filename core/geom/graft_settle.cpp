@@ -30,14 +30,15 @@ constexpr std::size_t pairs_a_chunk = 1024;
 
 }  // namespace
 
-/// Faces at loops side by side: twice their area, the normals as long as that, and of each corner how far its
-/// edges go along each other.
+/// Faces at loops side by side: twice their area, the normals as long as that and of unit length, and of each
+/// corner how far its edges go along each other.
 struct GraftWriter::FaceBlock {
   static constexpr std::size_t most = 16;
   std::uint32_t corner[3 * most];
-  float normal[3][most], size[most], along[3][most];
-  // Of the corners that count: tangents of their angles, as two sides, and the angles.
-  float opposite[3 * most], adjacent[3 * most], angle[3 * most];
+  float normal[3][most], unit[3][most], size[most], along[3][most];
+  // Of the corners that count: tangents of their angles, as two sides of which the first is the face's size,
+  // and the angles by that size.
+  float opposite[3 * most], adjacent[3 * most], weight[3 * most];
 };
 
 SEEDMESH_WIDE void GraftWriter::measure(FaceBlock& block, const glm::vec3* position) {
@@ -46,25 +47,35 @@ SEEDMESH_WIDE void GraftWriter::measure(FaceBlock& block, const glm::vec3* posit
     const Four p[3] = {Four::picked(position, corner), Four::picked(position, corner + 1),
                        Four::picked(position, corner + 2)};
     const Four normal = cross(difference(p[1], p[0]), difference(p[2], p[0]));
-    const FourFloats columns[7] = {normal.x,
-                                   normal.y,
-                                   normal.z,
-                                   root(dot(normal, normal)),
-                                   dot(difference(p[1], p[0]), difference(p[2], p[0])),
-                                   dot(difference(p[2], p[1]), difference(p[0], p[1])),
-                                   dot(difference(p[0], p[2]), difference(p[1], p[2]))};
-    float* const out[7] = {block.normal[0], block.normal[1], block.normal[2], block.size,
-                           block.along[0],  block.along[1],  block.along[2]};
-    for (int k = 0; k < 7; ++k) std::memcpy(out[k] + first, &columns[k], sizeof(FourFloats));
+    const FourFloats size = root(dot(normal, normal));
+    const Four unit = scaled(normal, 1.0F / size);
+    const FourFloats columns[10] = {normal.x,
+                                    normal.y,
+                                    normal.z,
+                                    unit.x,
+                                    unit.y,
+                                    unit.z,
+                                    size,
+                                    dot(difference(p[1], p[0]), difference(p[2], p[0])),
+                                    dot(difference(p[2], p[1]), difference(p[0], p[1])),
+                                    dot(difference(p[0], p[2]), difference(p[1], p[2]))};
+    float* const out[10] = {block.normal[0], block.normal[1], block.normal[2], block.unit[0],
+                            block.unit[1],   block.unit[2],   block.size,      block.along[0],
+                            block.along[1],  block.along[2]};
+    for (int k = 0; k < 10; ++k) std::memcpy(out[k] + first, &columns[k], sizeof(FourFloats));
   }
 }
 
 /// The angles at corners, by which faces count, so that it does not matter how the surface is cut into
-/// triangles.
+/// triangles. Of `count` corners, and of more up to whole blocks.
 SEEDMESH_WIDE void GraftWriter::weigh(FaceBlock& block, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    block.angle[i] = static_cast<float>(
-        math::quick_atan2(static_cast<double>(block.opposite[i]), static_cast<double>(block.adjacent[i])));
+  for (std::size_t first = 0; first < count; first += FaceBlock::most) {
+    const float *opposite = block.opposite + first, *adjacent = block.adjacent + first;
+    for (std::size_t i = 0; i < FaceBlock::most; ++i) {
+      const auto angle = static_cast<float>(
+          math::quick_atan2(static_cast<double>(opposite[i]), static_cast<double>(adjacent[i])));
+      block.weight[first + i] = angle / opposite[i];
+    }
   }
 }
 
@@ -143,26 +154,31 @@ void GraftWriter::add_loop_faces(FaceBlock& block, std::size_t count, std::vecto
     std::uint32_t group, lane;
   };
   Part parts[3 * FaceBlock::most];
-  std::size_t angles = 0;
+  std::size_t angles = 0, noted = faces.size();
+  faces.resize(noted + count);
   for (std::size_t l = 0; l < count; ++l) {
     if (!(block.size[l] > 0)) continue;
-    const glm::vec3 normal{block.normal[0][l], block.normal[1][l], block.normal[2][l]};
-    LoopFace& face = faces.emplace_back();
-    face.normal = normal * (1 / block.size[l]);
+    LoopFace& face = faces[noted++];
+    face.normal = {block.unit[0][l], block.unit[1][l], block.unit[2][l]};
+    // Each corner is put on the list, and stays there if it counts: nobody can foresee which do.
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t group = group_[block.corner[3 * l + k]];
-      if (group == none || !touched_[group / 2]) continue;
-      face.group[k] = group;
+      const bool is_shared = group != none;
+      const bool counts = is_shared & (touched_[is_shared ? group / 2 : 0] != 0);
+      face.group[k] = counts ? group : none;
       parts[angles] = {group, static_cast<std::uint32_t>(l)};
       block.opposite[angles] = block.size[l];
-      block.adjacent[angles++] = block.along[k][l];
+      block.adjacent[angles] = block.along[k][l];
+      angles += counts ? 1 : 0;
     }
   }
+  faces.resize(noted);
+  for (std::size_t i = angles; i % FaceBlock::most != 0; ++i) block.opposite[i] = block.adjacent[i] = 1;
   weigh(block, angles);
   for (std::size_t i = 0; i < angles; ++i) {
     const std::size_t l = parts[i].lane;
     const glm::vec3 normal{block.normal[0][l], block.normal[1][l], block.normal[2][l]};
-    group_normal_[parts[i].group] += normal * (block.angle[i] / block.size[l]);
+    group_normal_[parts[i].group] += normal * block.weight[i];
   }
 }
 
@@ -231,10 +247,30 @@ bool GraftWriter::blame(const std::uint32_t* corner, std::vector<Trust>& trust, 
   return touches;
 }
 
+/// join_loop_normals() of four pairs at once; false: one is for math::unit, and all are as they were.
+SEEDMESH_WIDE bool GraftWriter::join_four(glm::vec3* normals) {
+  glm::vec3 pairs[2 * Four::size + 1];
+  std::copy_n(normals, 2 * Four::size, pairs);
+  const auto picked = [&](std::size_t i) {
+    return Four::of_rows(Four::row(pairs + i), Four::row(pairs + i + 2), Four::row(pairs + i + 4),
+                         Four::row(pairs + i + 6));
+  };
+  Four one = picked(0), other = picked(1);
+  if (!to_units(one) || !to_units(other)) return false;
+  Four both = sum(one, other);
+  if (!to_units(both)) return false;
+  for (std::size_t k = 0; k < Four::size; ++k) normals[2 * k] = both.at(k);
+  return true;
+}
+
 /// The mean of both surfaces, whatever the size of their faces. From here on the even group has it.
 void GraftWriter::join_loop_normals() {
   share_out(touched_.size(), pairs_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t pair = begin; pair < end; ++pair) {
+      if (is_first() && pair + Four::size <= end && join_four(group_normal_.data() + 2 * pair)) {
+        pair += Four::size - 1;
+        continue;
+      }
       if (!touched_[pair]) continue;
       const glm::vec3 one = math::quick_unit(group_normal_[2 * pair], glm::vec3{0});
       const glm::vec3 other = math::quick_unit(group_normal_[2 * pair + 1], glm::vec3{0});
@@ -277,8 +313,15 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
   std::vector<std::vector<std::uint32_t>> bad(chunk_count(count, chunk));
   share_out(count, chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
     job_.check();
+    if (is_first()) {
+      // They stand one behind another, and are looked at together unless one may be mended.
+      for (std::size_t limb = begin; limb < end; ++limb) put_loop_normals(limb);
+      look_at(range_[begin].begin.triangle, range_[end - 1].end.triangle, bad[index]);
+      if (bad[index].empty() || !have_seams(begin, end)) return;
+      bad[index].clear();
+    }
     for (std::size_t limb = begin; limb < end; ++limb) {
-      put_loop_normals(limb);
+      if (!is_first()) put_loop_normals(limb);
       const std::size_t before = bad[index].size();
       find_bad(limb, bad[index]);
       if (bad[index].size() == before || !has_seams(limb)) continue;

@@ -26,6 +26,7 @@ constexpr float least_opened = 3;
 // What is reserved at first: most trees of fine twigs need about as much, and small ones of thick limbs twice
 // that.
 constexpr std::size_t vertices_a_joint = 4, triangles_a_joint = 5, more_vertices = std::size_t{1} << 15U;
+constexpr std::size_t groups_a_limb = 4, triangles_a_group = 6, more_groups = std::size_t{1} << 13U;
 // Circles up to so many corners are reckoned once for all.
 constexpr int usual_corners = 64;
 // Of a ring that a vertex cache of 16 entries still holds when the next ring needs it.
@@ -105,6 +106,10 @@ GraftWriter::GraftWriter(const Context& context, std::shared_ptr<const Common> c
   make_room(vertices_a_joint * joints + more + 64);
   mesh_.index.wide.reserve(3 * (triangles_a_joint * joints + more + more / 2));
   const std::size_t count = context.chains.head.size();
+  const std::size_t groups = std::min(more_groups, groups_a_limb * count);
+  group_limb_.reserve(groups);
+  loop_vertices_.reserve(groups);
+  loop_triangles_.reserve(triangles_a_group * groups);
   loops_.resize(count);
   range_.resize(count);
   kind_.assign(count, Kind::none);

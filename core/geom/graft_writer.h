@@ -186,9 +186,13 @@ class GraftWriter {
   void each_at_loops(std::size_t limb, const Each& each) const;
   void add_loop_normals(std::size_t first_limb, std::size_t last_limb, std::vector<LoopFace>& faces);
   void add_loop_faces(FaceBlock& block, std::size_t count, std::vector<LoopFace>& faces);
+  static bool join_four(glm::vec3* normals);
   void join_loop_normals();
   bool looks_away(const LoopFace& face, std::uint32_t group) const;
-  std::vector<LoopFace> strained_faces(const std::vector<std::vector<LoopFace>>& faces) const;
+  static FourFlags strained(const LoopFace* faces, const glm::vec3* normals, std::uint32_t neutral);
+  static std::size_t first_strained(std::span<const LoopFace> faces, std::span<const glm::vec3> normals,
+                                    std::size_t from);
+  std::vector<LoopFace> strained_faces(const std::vector<std::vector<LoopFace>>& faces);
   void ease_loop_normals(const std::vector<std::vector<LoopFace>>& faces);
   void put_loop_normals(std::size_t limb);
   struct Faces;
@@ -200,6 +204,12 @@ class GraftWriter {
   bool has_seams(std::size_t limb) const {
     const auto [first, last] = seams_of(limb);
     return dirty_[limb] && first != last;
+  }
+  bool have_seams(std::size_t begin, std::size_t end) const {
+    for (std::size_t limb = begin; limb < end; ++limb) {
+      if (has_seams(limb)) return true;
+    }
+    return false;
   }
   void settle_ribs(std::size_t limb);
   bool blame(const std::uint32_t* corner, std::vector<Trust>& trust, bool is_late) const;

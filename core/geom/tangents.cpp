@@ -24,7 +24,10 @@ glm::vec3 any_across(const glm::vec3& normal) {
   return math::unit(glm::cross(normal, axis), {0, 0, 1});
 }
 
-/// Along u and along v, summed over the triangles at a vertex; each in the first three lanes.
+using EightFloats = float __attribute__((vector_size(32)));
+
+/// Along u and along v, summed over the triangles at a vertex; each in the first three lanes. Added to as
+/// eight floats.
 struct Sums {
   FourFloats u{}, v{};
 };
@@ -42,8 +45,9 @@ glm::vec4 tangent_of(const glm::vec3& normal, const Sums& sums) {
   return {tangent, w};
 }
 
-/// tangent_of() four vertices at once; false: one of them has no direction of its own.
-SEEDMESH_WIDE bool write_four(const glm::vec3* normals, const Sums* sums, glm::vec4* out) {
+/// tangent_of() four vertices at once; returns a bit for each that has no direction of its own, whose tangent
+/// is none.
+SEEDMESH_WIDE std::uint32_t write_four(const glm::vec3* normals, const Sums* sums, glm::vec4* out) {
   const Four n = Four::of(normals), u = Four::of_rows(sums[0].u, sums[1].u, sums[2].u, sums[3].u),
              v = Four::of_rows(sums[0].v, sums[1].v, sums[2].v, sums[3].v);
   const Four flat = difference(u, scaled(n, dot(n, u)));
@@ -52,7 +56,6 @@ SEEDMESH_WIDE bool write_four(const glm::vec3* normals, const Sums* sums, glm::v
   const FourFloats largest = chosen(more < sizes.z, sizes.z, more);
   const FourFlags good = (dot(flat, flat) > 1e-8F * dot(u, u)) & (largest > 0.0F) &
                          (largest <= std::numeric_limits<float>::max());
-  if (!all_of(good)) return false;
   const Four reduced = divided(flat, largest), tangent = divided(reduced, root(dot(reduced, reduced)));
   const FourFloats one = four_times(1), side = chosen(dot(cross(n, tangent), v) > 0.0F, -one, one);
   const FourFloats xy[2] = {__builtin_shufflevector(tangent.x, tangent.y, 0, 4, 1, 5),
@@ -64,7 +67,10 @@ SEEDMESH_WIDE bool write_four(const glm::vec3* normals, const Sums* sums, glm::v
                                 __builtin_shufflevector(xy[k], zw[k], 2, 3, 6, 7)};
     std::memcpy(static_cast<void*>(out + 2 * k), rows, sizeof(rows));
   }
-  return true;
+  if (all_of(good)) return 0;
+  std::uint32_t bad = 0;
+  for (std::uint32_t k = 0; k < Four::size; ++k) bad |= good[k] ? 0U : 1U << k;
+  return bad;
 }
 
 /// Part of a mesh: its triangles, and its vertices from `first` on.
@@ -93,10 +99,22 @@ void sum_all(const Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>
                      b = vertex_of<has_last>(mesh, corner[2]) - from;
     // Not divided by the area in the picture but by its sign: large triangles count more.
     const float sign = area < 0 ? -1.0F : 1.0F;
-    const FourFloats along_u = (a * t.y - b * s.y) * sign, along_v = (b * s.x - a * t.x) * sign;
+    const EightFloats both_a = __builtin_shufflevector(a, a, 0, 1, 2, 3, 0, 1, 2, 3),
+                      both_b = __builtin_shufflevector(b, b, 0, 1, 2, 3, 0, 1, 2, 3);
+    const FourFloats a_for_u = four_times(t.y), a_for_v = four_times(-t.x), b_for_u = four_times(-s.y),
+                     b_for_v = four_times(s.x);
+    // Along u: a t.y - b s.y; along v: b s.x - a t.x.
+    const EightFloats along =
+        (both_a * __builtin_shufflevector(a_for_u, a_for_v, 0, 1, 2, 3, 4, 5, 6, 7) +
+         both_b * __builtin_shufflevector(b_for_u, b_for_v, 0, 1, 2, 3, 4, 5, 6, 7)) *
+        sign;
     for (const Index k : corner) {
-      sums[k - piece.first].u += along_u;
-      sums[k - piece.first].v += along_v;
+      static_assert(sizeof(Sums) == sizeof(EightFloats));
+      Sums& at = sums[k - piece.first];
+      EightFloats sum;
+      std::memcpy(&sum, &at, sizeof(sum));
+      sum += along;
+      std::memcpy(static_cast<void*>(&at), &sum, sizeof(sum));
     }
   }
 }
@@ -119,9 +137,11 @@ void add_tangents(Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>&
   const glm::vec3* normal = mesh.normal.data() + piece.first;
   glm::vec4* tangent = mesh.tangent.data() + piece.first;
   for (std::size_t i = 0; i < sums.size(); i += Four::size) {
-    if (i + Four::size <= sums.size() && write_four(normal + i, sums.data() + i, tangent + i)) continue;
-    const std::size_t end = std::min(i + Four::size, sums.size());
-    for (std::size_t k = i; k < end; ++k) tangent[k] = tangent_of(normal[k], sums[k]);
+    std::uint32_t left = 0xF;
+    if (i + Four::size <= sums.size()) left = write_four(normal + i, sums.data() + i, tangent + i);
+    for (std::size_t k = i; left != 0 && k < sums.size(); ++k, left >>= 1U) {
+      if (left & 1U) tangent[k] = tangent_of(normal[k], sums[k]);
+    }
   }
 }
 

@@ -157,14 +157,7 @@ class Describer {
                           std::to_string(bin.place(item).view));
     }
     if (options_.dialect.compressed) return compress_views();
-    for (const Bin::View& view : bin.views()) {
-      tinygltf::BufferView& described = out_.bufferViews.emplace_back();
-      described.buffer = 0;
-      described.byteOffset = static_cast<std::size_t>(view.offset);
-      described.byteLength = static_cast<std::size_t>(view.length);
-      described.byteStride = view.stride;
-      described.target = target_of(view.pool);
-    }
+    append_views(view_list_, bin);
   }
 
   /// The JSON that tinygltf makes of the short lists: one object on one line.
@@ -174,6 +167,12 @@ class Describer {
     tinygltf::TinyGLTF().WriteGltfSceneToStream(&out_, stream, false, false);
     std::string text = std::move(stream).str();
     while (text.back() != '}') text.pop_back();
+    if (view_list_.empty()) return text;
+    // After the asset, which comes first. A quote inside a name is always escaped.
+    constexpr std::string_view asset_end = "\"version\":\"2.0\"}";
+    const std::size_t place = text.find(asset_end);
+    assert(place != std::string::npos);
+    text.insert(place + asset_end.size(), ",\"bufferViews\":" + view_list_ + ']');
     return text;
   }
 
@@ -316,8 +315,8 @@ class Describer {
   Accessors accessors_;
   Numbering meshes_, images_, skins_;
   MaterialUse materials_;
-  std::string mesh_list_, animation_list_,
-      image_list_;  ///< JSON arrays without the closing bracket, or empty
+  std::string mesh_list_, animation_list_, image_list_,
+      view_list_;  ///< JSON arrays without the closing bracket, or empty
   std::map<std::pair<int, bool>, int> textures_;
   std::map<bool, int> samplers_;
   std::vector<int> image_items_;

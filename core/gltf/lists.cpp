@@ -211,4 +211,15 @@ void append_animation(std::string& out, const Animation& animation, const Tracks
   out += "],\"samplers\":[" + samplers + "]}";
 }
 
+void append_views(std::string& out, const Bin& bin) {
+  for (const Bin::View& view : bin.views()) {
+    out += out.empty() ? "[{\"buffer\":0" : ",{\"buffer\":0";
+    append_member(out, ",\"byteLength\":", view.length);
+    if (view.offset > 0) append_member(out, ",\"byteOffset\":", view.offset);
+    if (view.stride > 0) append_member(out, ",\"byteStride\":", std::uint64_t{view.stride});
+    if (const int target = target_of(view.pool); target > 0) append_member(out, ",\"target\":", target);
+    out += '}';
+  }
+}
+
 }  // namespace seedmesh::gltf

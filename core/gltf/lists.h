@@ -1,5 +1,5 @@
 #pragma once
-/// The lists of a document that grow with the model, written as text: accessors, meshes, animations.
+/// The lists of a document that grow with the model, written as text: accessors, meshes, animations, views.
 #include <string>
 #include <vector>
 
@@ -61,5 +61,8 @@ void append_mesh(std::string& out, const std::string& name, const std::vector<Pa
 /// Appends one animation object; samplers with the same key times share the accessor.
 void append_animation(std::string& out, const Animation& animation, const Tracks& tracks,
                       Accessors& accessors);
+
+/// Appends the views of a buffer that has been arranged: a JSON array without the closing bracket, or nothing.
+void append_views(std::string& out, const Bin& bin);
 
 }  // namespace seedmesh::gltf
