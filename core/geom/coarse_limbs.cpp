@@ -107,6 +107,7 @@ class Coarsening {
       for (std::uint32_t joint = head; joint != Limbs::none; joint = chains_.next[joint]) {
         if (chains_.mark[joint] & fork) own = std::max(own, least_opened_corners);
       }
+      own = std::min(own, options_.skin->sides);
       return {static_cast<std::uint8_t>(own), static_cast<std::uint8_t>(own)};
     }
     const auto sides = static_cast<std::uint8_t>(

@@ -105,14 +105,19 @@ TEST(Welded, ColoursGoOnBeyondJoints) {
 }
 
 TEST(Welded, CoarserLevelsStayClosedAndHaveFewerTriangles) {
-  Job job = job_of(1);
-  job.set_demand({.lods = 4});
-  const Model model = made(fork_of_three(), job);
-  std::uint64_t before = triangles_of(bark_of(model));
-  for (std::size_t level = 1; level < 4; ++level) {
-    expect_closed(bark_of(model, level));
-    EXPECT_LT(triangles_of(bark_of(model, level)), before) << level;
-    before = triangles_of(bark_of(model, level));
+  for (const int sides : {3, 5, 8, 20}) {
+    LsystemParams params = fork_of_three();
+    params.sides = sides;
+    Job job = job_of(1);
+    job.set_demand({.lods = 4});
+    const Model model = made(params, job);
+    std::uint64_t before = triangles_of(bark_of(model));
+    for (std::size_t level = 1; level < 3; ++level) {
+      SCOPED_TRACE(std::to_string(sides) + " sides, level " + std::to_string(level));
+      expect_closed(bark_of(model, level));
+      EXPECT_LT(triangles_of(bark_of(model, level)), before);
+      before = triangles_of(bark_of(model, level));
+    }
   }
 }
 
