@@ -34,7 +34,7 @@ struct GraftOptions {
   bool overlaps = false;  ///< limbs may lie on each other, piece by piece: such are found and left to skin()
   bool points = false;    ///< limbs may be points where they begin or on the way: such are left to skin()
   std::span<const Contour> contours = {};  ///< of Limbs::contour; limbs that have one are left to skin()
-  float v_scale = 1;      ///< texture lengths a metre along the limb; u is in metres round it
+  float v_scale = 1;  ///< texture lengths a metre along the limb; u is in metres round it
   /// For pictures that repeat: u goes a whole number of times from 0 to 1 round each limb, once a metre of
   /// circumference where it begins and at least once, and v keeps the picture's proportions as the limb grows
   /// thinner.
