@@ -117,6 +117,9 @@ class Check {
     if (params_.terraces) rising("/terraces/from", params_.terraces->from);
     if (params_.island && params_.island->floor && params_.island->depth)
       fault("/island/depth", "the floor says already how deep the rim lies");
+    if (params_.image && params_.image->width && params_.image->encoding != TerrainEncoding::r16 &&
+        params_.image->encoding != TerrainEncoding::r16_big)
+      fault("/image/width", "a PNG tells its own width; this belongs to raw data (r16, r16_big)");
     if (params_.image && params_.image->low == params_.image->high)
       fault("/image/high", "low and high are the same height");
     const TerrainHeightmap& map = params_.heightmap;

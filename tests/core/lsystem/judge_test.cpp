@@ -57,6 +57,21 @@ TEST(Productions, OfATableMayHideThoseOfEveryStep) {
   EXPECT_THAT(warnings_of(params), IsEmpty());
 }
 
+TEST(WidthRules, TellOfWhatBelongsToOthers) {
+  LsystemParams params = grammar_of("F", {"F->FF"});
+  params.width_factor = 0.25;
+  params.tip_width = 0.5;
+  EXPECT_THAT(
+      warnings_of(params),
+      ElementsAre("/width_factor 0:0 has no effect: it belongs to the width rule branch_factor, and the rule "
+                  "is symbols",
+                  "/tip_width 0:0 has no effect: it belongs to the width rules longest_chain and pipe_model, "
+                  "and the rule is symbols"));
+  params.width_rule = LsystemWidthRule::branch_factor;
+  params.tip_width = LsystemParams().tip_width;
+  EXPECT_THAT(warnings_of(params), IsEmpty());
+}
+
 TEST(TurtleSymbols, WithTooFewParametersAreTold) {
   EXPECT_THAT(
       warnings_of(grammar_of("@M(1,2)F", {})),

@@ -294,6 +294,16 @@ TEST(Images, AreRefusedInWordsWhereTheyCannotBeRead) {
   EXPECT_THAT(refusal(base64(rgb.span()), TerrainEncoding::rgba32), HasSubstr("rgba32 is 4 channels"));
 }
 
+TEST(Images, HaveAWidthOnlyWhereTheyAreRaw) {
+  TerrainParams params;
+  params.algorithm = TerrainAlgorithm::image;
+  params.image.emplace();
+  params.image->width = 64;
+  EXPECT_THAT(pointers(params), ElementsAre("/image/width"));
+  params.image->encoding = TerrainEncoding::r16;
+  EXPECT_THAT(pointers(params), IsEmpty());
+}
+
 TEST(Images, AreTakenWithOrWithoutPaddingAndAsDataUrls) {
   const Job job = any_job();
   for (const char* text : {"TWE=", "TWE", "data:image/png;base64,TWE="}) {
