@@ -52,6 +52,7 @@ SkeletonWriter::SkeletonWriter(Skeleton& part, const SkeletonWriter& whole, std:
     : SkeletonWriter(part, whole.job_, whole.density_) {
   is_part_ = true;
   least_radius_ = whole.least_radius_;
+  marks_every_foot_ = whole.marks_every_foot_;
   first_ = static_cast<std::uint32_t>(whole.limbs_.size());
   end_after(most, most);
 }

@@ -70,6 +70,9 @@ class SkeletonWriter {
   /// Limbs that begin thinner, and all that grows from them, need not be written, for nobody looks at them.
   /// Whoever grows them calls pass_over(), and finish() when all is grown.
   void leave_out_below(double radius) { least_radius_ = static_cast<float>(radius); }
+  /// A joint wherever a limb stands, for whoever measures limbs, also where the bark needs none.
+  void mark_every_foot() { marks_every_foot_ = true; }
+  bool marks_every_foot() const { return marks_every_foot_; }
   bool leaves_out(double radius) const { return static_cast<float>(radius) < least_radius_; }
   /// Counts a joint as if it were written; the extent of the skeleton will be what it would be then.
   void pass_over(const glm::dvec3& position) {
@@ -167,6 +170,7 @@ class SkeletonWriter {
   double density_;
   std::int64_t drawn_below_;
   float least_radius_ = 0;
+  bool marks_every_foot_ = false;
   std::size_t passed_ = 0;
   Box passed_box_{glm::vec3(std::numeric_limits<float>::max()),
                   glm::vec3(std::numeric_limits<float>::lowest())};

@@ -33,6 +33,7 @@ double foot_flare(const TreeParams& params) {
 struct Wanted {
   double density = 1;       ///< share of the leaves
   double least_radius = 0;  ///< limbs that begin thinner need not be there, as far as that is known early
+  bool every_foot = false;  ///< a joint wherever a limb stands, also where the bark needs none
   std::size_t most = 0;     ///< throws SkeletonWriter::Enough beyond so many joints; 0: none are too many
 };
 
@@ -42,7 +43,10 @@ Wanted wanted_for_model(const TreeParams& params, const Job& job) {
   const RangeShares shares = shares_at(params);
   const bool is_plain = demand.lods < 2 && !demand.wind && !demand.growth && !params.age &&
                         demand.collision == CollisionNames::none && shares.branches >= 1 && shares.twigs >= 1;
-  return {drawn_leaves(params), is_plain ? params.twig_radius : 0};
+  Wanted wanted;
+  wanted.density = drawn_leaves(params);
+  if (is_plain) wanted.least_radius = params.twig_radius;
+  return wanted;
 }
 
 Skeleton grow(const TreeParams& params, const Wanted& wanted, Job& job) {
@@ -51,6 +55,7 @@ Skeleton grow(const TreeParams& params, const Wanted& wanted, Job& job) {
   SkeletonWriter writer(skeleton, job, wanted.density);
   if (wanted.most > 0) writer.end_after(wanted.most, leaves_a_joint * wanted.most);
   writer.leave_out_below(wanted.least_radius);
+  if (wanted.every_foot) writer.mark_every_foot();
   const Chances chances(params.seeds, seed_of(params, job.seed()));
   switch (params.model) {
     case TreeModel::weber_penn:
@@ -151,7 +156,9 @@ Result<Model> generate(const TreeParams& params, Job& job) {
 }
 
 Result<Json> derive(const TreeParams& params, Job& job) {
-  const Skeleton skeleton = grow(params, {}, job);
+  Wanted wanted;
+  wanted.every_foot = true;
+  const Skeleton skeleton = grow(params, wanted, job);
   const Limbs& limbs = skeleton.limbs;
   Json levels = Json::array();
   std::uint64_t count = 0;

@@ -157,8 +157,9 @@ void WeberPennGrower::begin(const WeberPennStem& stem) {
   child_chance_ = own.at(place_of("child"));
   const WeberPennLevel& next = level(stem.level + 1);
   child_max_ = std::max(0.0, next.length + spread(stem.rng.at(place_of("child_length")), next.length_v));
-  bears_limbs_ = is_written_ && (stem.level == 0 || spacing_ > 2 * stem.radius ||
-                                 stem.radius * power(child_max_, p_.RatioPower) >= p_.twig_radius);
+  // Twigs that nobody draws need no joints where they stand closer than the stem is thick.
+  marks_feet_ = is_written_ && (stem.level == 0 || spacing_ > 2 * stem.radius || writer_.marks_every_foot() ||
+                                stem.radius * power(child_max_, p_.RatioPower) >= p_.twig_radius);
 }
 
 /// What grows from the stem waits then, clones before children.

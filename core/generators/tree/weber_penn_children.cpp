@@ -80,7 +80,7 @@ void WeberPennGrower::put_children(WeberPennStem& stem, const WeberPennPiece& pi
     brood_.reckon(piece, level(stem.level + 1), child_chance_, first + static_cast<int>(done),
                   std::span(down.data(), offsets.size()));
     for (std::size_t i = 0; i < offsets.size(); ++i) {
-      if (bear(stem, piece, offsets[i], i) && bears_limbs_) stops_.push_back(offsets[i]);
+      if (bear(stem, piece, offsets[i], i) && marks_feet_) stops_.push_back(offsets[i]);
     }
   }
 }

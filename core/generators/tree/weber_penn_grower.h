@@ -94,7 +94,7 @@ class WeberPennGrower {
   std::vector<Frame> trial_frames_;  ///< of a stem that is pruned, segment by segment
   // Of the stem that grows.
   bool is_written_ = true;  ///< its joints; nobody looks at others
-  bool bears_limbs_ = true;
+  bool marks_feet_ = true;  ///< by joints where its children stand
   std::uint32_t last_joint_ = Limbs::none;
   double last_radius_ = 0;
   std::vector<WeberPennStem> clones_;
