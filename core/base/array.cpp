@@ -15,11 +15,12 @@ namespace {
 
 // Page faults, not arithmetic, decide what big arrays cost, and huge pages save most of them. A block takes
 // whole huge pages from the first size on always; from the second on while the room that the rounding up
-// leaves empty stays below the third in the whole request. Smaller blocks are the heap's: a huge page is
-// cleared whole, and the heap has pages that were touched before.
+// leaves empty stays below the third in the whole request: from that size on the service has the heap ask the
+// kernel for small pages each time. Smaller blocks are the heap's: a huge page is cleared whole, and the heap
+// has pages that were touched before.
 constexpr std::size_t always_mapped = std::size_t{4} << 20U;
-constexpr std::size_t mapped_at_best = std::size_t{1} << 20U;  // what the heap would map, in small pages
-constexpr std::uint64_t most_slack = std::uint64_t{6} << 20U;
+constexpr std::size_t mapped_at_best = std::size_t{1} << 20U;
+constexpr std::uint64_t most_slack = std::uint64_t{12} << 20U;
 // But what the heap is given back stays with the process. A thrifty request maps all that is worth a call, in
 // as many huge pages as it fills and small ones for its end.
 constexpr std::size_t mapped_by_thrift = std::size_t{256} << 10U;

@@ -2,31 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
-#include "core/base/math.h"
-#include "core/base/rng.h"
-#include "core/geom/chains.h"
+#include "core/geom/coarsening.h"
 
 namespace seedmesh {
 namespace {
 
-constexpr float forever = std::numeric_limits<float>::infinity();
-constexpr std::size_t look_every = 1024;
 // Longer limbs are made simpler piece by piece.
 constexpr std::size_t longest_piece = 2048;
 // Halvings of the price, whose greatest is so many times its least: exact to a few triangles.
 constexpr int halvings = 40;
 constexpr float price_range = 1e-12F;
-// What is hidden counts a little all the same: it is seen through gaps, and when leaves have gone.
-constexpr float least_shown = 0.08F;
-// By how much chance makes a limb dearer or cheaper at most.
-constexpr float most_favour = 0.2F;
-// Corners fall with this power of the radius, as graft() has them.
-constexpr double corner_power = 0.3;
-// As graft() has it: of a limb that others leave.
-constexpr int least_opened_corners = 6;
 // What skin() may give a limb instead of as many as it has at the finest level, most first.
 constexpr int fewer_corners[] = {48, 32, 24, 16, 12, 10, 8, 6, 5, 4, 3};
 // Of the width of a limb that is seen, what differs in the mean of all sides: measured for limbs whose rings
@@ -38,121 +25,7 @@ constexpr float untwisted = 0.99F;
 // An end thinner than this share of the ring before it is a point.
 constexpr float pointed_share = 0.5F;
 
-struct Station {
-  std::uint32_t joint = Limbs::none;
-  glm::vec3 position{0};
-  float radius = 0;
-  float worth = 0;    ///< the area by which the outline changes without it
-  float corners = 3;  ///< of a ring there, for graft()
-};
-
-class Coarsening {
- public:
-  Coarsening(const Limbs& limbs, const CoarseOptions& options, Job& job)
-      : limbs_(limbs), options_(options), job_(job), chains_(link_chains(limbs, job)) {
-    for (std::size_t i = 0; i < limbs.size(); ++i) {
-      if (limbs.parent[i] != Limbs::none) thickest_ = std::max(thickest_, limbs.base_radius[i]);
-    }
-    if (!options.skin) return;
-    least_corners_ = least_sides_of(*options.skin);
-    for (const std::uint32_t head : chains_.head)
-      thickest_head_ = std::max(thickest_head_, first_radius(head));
-  }
-
-  CoarseLimbs run() {
-    read();
-    const float price = price_for(options_.triangles);
-    count(price);
-    return write(price);
-  }
-
- private:
-  void read();
-  void read_limb(std::uint32_t head);
-  void simplify(std::size_t first, std::size_t last);
-  float price_for(std::uint64_t triangles);
-  std::uint64_t count(float price);
-  struct Bill;
-  Bill bill_of(std::size_t limb, int corners, float price) const;
-  Bill best_bill(std::size_t limb, float price) const;
-  static bool stays(const Station& station, float corners, float price) {
-    return station.worth == forever || station.worth > price * 2 * corners;
-  }
-  bool stays(std::size_t limb, std::size_t station, float price) const {
-    return stays(stations_[station], corners_at(limb, station), price);
-  }
-  bool must_stay(std::uint32_t joint, std::uint32_t next) const;
-  CoarseLimbs write(float price);
-  void write_limb(std::size_t limb, float price, CoarseLimbs& out, Array<std::uint32_t>& place);
-  std::uint32_t add(std::size_t limb, std::uint32_t joint, std::uint32_t parent, CoarseLimbs& out) const;
-
-  int corners(float radius, int sides) const {
-    const double share = thickest_ > 0 ? static_cast<double>(std::min(1.0F, radius / thickest_)) : 1;
-    const int wanted = math::to_int32(sides * math::pow(std::max(share, 1e-6), corner_power) + 0.5);
-    if (wanted <= 3) return 3;
-    return wanted != sides ? wanted + wanted % 2 : wanted;
-  }
-  float corners_at(std::size_t limb, std::size_t station) const {
-    return options_.skin ? static_cast<float>(corners_[limb].now) : stations_[station].corners;
-  }
-  /// The radius that a limb begins with.
-  float first_radius(std::uint32_t head) const {
-    const std::uint32_t joint = limbs_.parent[head] == Limbs::none ? chains_.next[head] : head;
-    return joint == Limbs::none ? 0 : limbs_.base_radius[joint];
-  }
-  LimbCorners finest_corners(std::uint32_t head) const {
-    if (!options_.skin) return {};
-    if (options_.was_grafted) {
-      int own = std::max(least_corners_, corners(first_radius(head), options_.skin->sides));
-      for (std::uint32_t joint = head; joint != Limbs::none; joint = chains_.next[joint]) {
-        if (chains_.mark[joint] & fork) own = std::max(own, least_opened_corners);
-      }
-      own = std::min(own, options_.skin->sides);
-      return {static_cast<std::uint8_t>(own), static_cast<std::uint8_t>(own)};
-    }
-    const auto sides = static_cast<std::uint8_t>(
-        options_.skin->adapt ? sides_of_limb(*options_.skin, first_radius(head), thickest_head_)
-                             : options_.skin->sides);
-    return {sides, sides};
-  }
-  /// What a tube of as many corners as this level has must be thicker by to look as wide in the mean, after
-  /// Cauchy: the mean width of a convex outline is its circumference by pi.
-  float widening(std::size_t limb, float radius) const {
-    const auto round = [](int n) { return n * math::sin(math::pi / n); };
-    const LimbCorners own =
-        options_.skin ? corners_[limb]
-                      : LimbCorners{static_cast<std::uint8_t>(corners(radius, options_.sides)),
-                                    static_cast<std::uint8_t>(corners(radius, options_.finest_sides))};
-    return own.now == own.finest ? 1.0F : static_cast<float>(round(own.finest) / round(own.now));
-  }
-  /// Limbs that are alike do not go all at one price.
-  float favour_of(std::uint32_t head) const {
-    const std::uint64_t hash = key_at(key_of(head), 0xFA70);
-    return 1 + most_favour * (static_cast<float>(hash >> 40U) * 0x1p-23F - 1);
-  }
-  std::uint64_t key_of(std::uint32_t joint) const { return limbs_.key.empty() ? joint : limbs_.key[joint]; }
-  const glm::vec3& place_of(std::uint32_t joint) const {
-    return options_.drawn.empty() ? limbs_.position[joint] : options_.drawn[joint];
-  }
-  float shown(std::uint32_t joint) const {
-    return options_.shown.empty() ? 1.0F : std::max(least_shown, options_.shown[joint]);
-  }
-  std::size_t begin(std::size_t limb) const { return first_[limb]; }
-  std::size_t end(std::size_t limb) const { return first_[limb + 1]; }
-
-  const Limbs& limbs_;
-  const CoarseOptions& options_;
-  Job& job_;
-  Chains chains_;
-  float thickest_ = 0, thickest_head_ = 0;
-  int least_corners_ = 3;
-  std::vector<LimbCorners> corners_;   ///< of each limb, for skin(), at the last price that was counted
-  std::vector<Station> stations_;      ///< limb by limb, from where each begins
-  std::vector<std::size_t> first_;     ///< station of each limb; one more at the end
-  std::vector<float> area_;            ///< of each limb, what is seen of it
-  std::vector<std::uint8_t> kept_;     ///< of each limb, at the last price that was counted
-  std::vector<std::uint8_t> is_fork_;  ///< of each joint: limbs that are kept leave it
-};
+}  // namespace
 
 void Coarsening::read() {
   for (const std::uint32_t head : chains_.head) {
@@ -334,97 +207,6 @@ float Coarsening::price_for(std::uint64_t triangles) {
   }
   return high;
 }
-
-template <class T>
-void copy_row(const Array<T>& from, std::uint32_t joint, Array<T>& to) {
-  if (!from.empty()) to.push_back(from[joint]);
-}
-
-std::uint32_t Coarsening::add(std::size_t limb, std::uint32_t joint, std::uint32_t parent,
-                              CoarseLimbs& out) const {
-  Limbs& to = out.limbs;
-  to.position.push_back(place_of(joint));
-  copy_row(limbs_.radius, joint, to.radius);
-  copy_row(limbs_.base_radius, joint, to.base_radius);
-  to.parent.push_back(parent);
-  to.starts_limb.push_back(0);
-  if (options_.skin) out.corners.push_back(corners_[limb]);
-  copy_row(limbs_.color, joint, to.color);
-  copy_row(limbs_.order, joint, to.order);
-  copy_row(limbs_.frame, joint, to.frame);
-  copy_row(limbs_.contour, joint, to.contour);
-  copy_row(limbs_.birth, joint, to.birth);
-  if (options_.skin) {
-    to.key.push_back(key_of(joint));
-  } else {
-    copy_row(limbs_.key, joint, to.key);
-  }
-  copy_row(limbs_.anchor, joint, to.anchor);
-  out.was.push_back(joint);
-  return static_cast<std::uint32_t>(to.size() - 1);
-}
-
-void Coarsening::write_limb(std::size_t limb, float price, CoarseLimbs& out, Array<std::uint32_t>& place) {
-  const std::uint32_t head = chains_.head[limb];
-  const bool is_root = limbs_.parent[head] == Limbs::none;
-  Limbs& to = out.limbs;
-  std::size_t before = begin(limb);
-  std::uint32_t parent =
-      is_root ? place[head] = add(limb, head, Limbs::none, out) : place[limbs_.parent[head]];
-  glm::vec3 from = to.position[parent];  // of a branch: where its parent's joint stands now
-  float from_radius = stations_[before].radius;
-  bool starts = !is_root, is_first = true;
-  for (std::size_t i = before + 1; i < end(limb); ++i) {
-    if (!stays(limb, i, price)) continue;
-    const Station& last = stations_[i];
-    const glm::vec3 to_position = last.position;
-    float length = 0;
-    for (std::size_t k = before + 1; k <= i; ++k)
-      length += glm::distance(stations_[k].position, stations_[k - 1].position);
-    float along = 0, at_radius = from_radius;
-    for (std::size_t k = before + 1; k <= i; ++k) {
-      const Station& each = stations_[k];
-      along += glm::distance(each.position, stations_[k - 1].position);
-      if (k < i && !is_fork_[each.joint]) continue;
-      const float share = length > 0 ? along / length : 1.0F;
-      const float radius = k == i ? last.radius : from_radius + (last.radius - from_radius) * share;
-      const std::uint32_t joint = add(limb, each.joint, parent, out);
-      place[each.joint] = joint;
-      if (k < i) to.position[joint] = from + (to_position - from) * share;
-      to.starts_limb[joint] = starts ? 1 : 0;
-      starts = false;
-      // By the key of its first joint a limb turns.
-      if (options_.skin && is_first) to.key[joint] = key_of(stations_[begin(limb) + 1].joint);
-      is_first = false;
-      to.base_radius[joint] = at_radius * widening(limb, at_radius);
-      to.radius[joint] = radius * widening(limb, radius);
-      at_radius = radius;
-      parent = joint;
-    }
-    from = to_position;
-    before = i;
-    // A limb may go on thicker or thinner than it came.
-    from_radius = i + 1 < end(limb) ? limbs_.base_radius[stations_[i + 1].joint] : last.radius;
-  }
-}
-
-CoarseLimbs Coarsening::write(float price) {
-  CoarseLimbs out{Limbs(job_), Array<std::uint32_t>(job_), {}};
-  Array<std::uint32_t> place(job_, limbs_.size(), Limbs::none);
-  for (std::size_t limb = 0; limb < area_.size(); ++limb) {
-    if (limb % look_every == 0) job_.check();
-    if (kept_[limb]) write_limb(limb, price, out, place);
-  }
-  // What moved with a joint that is gone moves with the nearest one below it that is left.
-  for (std::uint32_t& anchor : out.limbs.anchor) {
-    std::uint32_t joint = anchor;
-    while (joint != Limbs::none && place[joint] == Limbs::none) joint = limbs_.parent[joint];
-    anchor = joint == Limbs::none ? Limbs::none : place[joint];
-  }
-  return out;
-}
-
-}  // namespace
 
 CoarseLimbs coarsen(const Limbs& limbs, const CoarseOptions& options, Job& job) {
   return Coarsening(limbs, options, job).run();

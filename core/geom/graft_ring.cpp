@@ -100,7 +100,7 @@ std::uint32_t GraftWriter::group_for(const LoopPoint& point, std::uint32_t child
   glm::vec3* const normals = group_normal_.extend(2);  // of the parent's faces, of the child's
   normals[0] = normals[1] = glm::vec3(0);
   group_limb_.push_back(child);
-  loop_vertices_.push_back({point.position, point.phase, point.reach, group + 1, joint_});
+  *loop_vertices_.extend(1) = {point.position, point.phase, point.reach, group + 1, joint_};
   return group;
 }
 

@@ -154,11 +154,10 @@ void GraftWriter::add_loop_faces(FaceBlock& block, std::size_t count, std::vecto
     std::uint32_t group, lane;
   };
   Part parts[3 * FaceBlock::most];
-  std::size_t angles = 0, noted = faces.size();
-  faces.resize(noted + count);
+  std::size_t angles = 0;
   for (std::size_t l = 0; l < count; ++l) {
     if (!(block.size[l] > 0)) continue;
-    LoopFace& face = faces[noted++];
+    LoopFace& face = faces.emplace_back();
     face.normal = {block.unit[0][l], block.unit[1][l], block.unit[2][l]};
     // Each corner is put on the list, and stays there if it counts: nobody can foresee which do.
     for (std::size_t k = 0; k < 3; ++k) {
@@ -172,7 +171,6 @@ void GraftWriter::add_loop_faces(FaceBlock& block, std::size_t count, std::vecto
       angles += counts ? 1 : 0;
     }
   }
-  faces.resize(noted);
   for (std::size_t i = angles; i % FaceBlock::most != 0; ++i) block.opposite[i] = block.adjacent[i] = 1;
   weigh(block, angles);
   for (std::size_t i = 0; i < angles; ++i) {

@@ -14,15 +14,15 @@ constexpr float most_lead = 0.5F;
 }  // namespace
 
 void GraftWriter::note_loop_triangles(std::size_t first) {
-  const std::size_t end = mesh_.index.wide.size() / 3, before = loop_triangles_.size();
+  const std::size_t end = mesh_.index.wide.size() / 3;
   const std::uint32_t* corner = mesh_.index.wide.data() + 3 * first;
-  loop_triangles_.resize(before + end - first);
-  std::size_t noted = before;
+  // Each is put on the list, and stays if it touches a loop: nobody can foresee which do.
+  std::uint32_t* noted = loop_triangles_.extend(end - first);
   for (std::size_t t = first; t < end; ++t, corner += 3) {
-    loop_triangles_[noted] = static_cast<std::uint32_t>(t);
+    *noted = static_cast<std::uint32_t>(t);
     noted += (group_[corner[0]] & group_[corner[1]] & group_[corner[2]]) != none ? 1 : 0;
   }
-  loop_triangles_.resize(noted);
+  loop_triangles_.resize(static_cast<std::size_t>(noted - loop_triangles_.data()));
 }
 
 /// Triangles between two rings, by rising angle.

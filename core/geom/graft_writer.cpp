@@ -95,9 +95,11 @@ GraftWriter::GraftWriter(const Context& context, std::shared_ptr<const Common> c
       triangles_(job, Resource::triangles),
       group_(job),
       group_normal_(job),
+      loop_triangles_(job),
       joints_(job),
       twin_(job),
-      colors_(job) {
+      colors_(job),
+      loop_vertices_(job) {
   mesh_.position = Array<glm::vec3>(job);
   mesh_.normal = Array<glm::vec3>(job);
   mesh_.uv[0] = Array<glm::vec2>(job);

@@ -278,7 +278,7 @@ class GraftWriter {
       group_;  ///< of each vertex; those on a loop share a normal: even the parent's, odd the child's
   Array<glm::vec3> group_normal_;
   std::vector<std::uint32_t> group_limb_;      ///< the child of each pair of groups
-  std::vector<std::uint32_t> loop_triangles_;  ///< those that touch a loop, rising
+  Array<std::uint32_t> loop_triangles_;        ///< those that touch a loop, rising
   std::vector<Range> range_;                   ///< of each limb
   std::vector<Kind> kind_;                     ///< of each limb
   std::vector<std::uint32_t> parent_;  ///< of each limb; empty in the first round, where all are dirty
@@ -293,7 +293,7 @@ class GraftWriter {
   Array<std::int16_t> colors_;   ///< as Written::colors
   std::vector<Trust> trust_;     ///< as it was in the last round
   std::vector<Loop> loops_;
-  std::vector<LoopVertex> loop_vertices_;
+  Array<LoopVertex> loop_vertices_;
 
   // Of who writes a part.
   bool is_part_ = false;
