@@ -59,8 +59,8 @@ class Cells {
     const glm::vec3 at = place(point);
     const glm::ivec3 low(at - margin), high(at + margin);
     // A bit for each axis along which there are two.
-    const std::uint32_t two = (high.x > low.x ? 1U : 0U) | (high.y > low.y ? 2U : 0U) |
-                              (high.z > low.z ? 4U : 0U);
+    const std::uint32_t two =
+        (high.x > low.x ? 1U : 0U) | (high.y > low.y ? 2U : 0U) | (high.z > low.z ? 4U : 0U);
     std::uint32_t each = 0;
     do {
       const std::int32_t x = low.x + static_cast<std::int32_t>(each & 1U),

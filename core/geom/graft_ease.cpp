@@ -132,8 +132,7 @@ FourFlags GraftWriter::strained(const LoopFace* faces, const glm::vec3* normals,
 SEEDMESH_WIDE std::size_t GraftWriter::first_strained(std::span<const LoopFace> faces,
                                                       std::span<const glm::vec3> normals, std::size_t from) {
   const auto neutral = static_cast<std::uint32_t>(normals.size() - 2);
-  while (from + Four::size <= faces.size() &&
-         all_of(~strained(faces.data() + from, normals.data(), neutral)))
+  while (from + Four::size <= faces.size() && all_of(~strained(faces.data() + from, normals.data(), neutral)))
     from += Four::size;
   return from;
 }

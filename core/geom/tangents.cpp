@@ -104,10 +104,9 @@ void sum_all(const Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>
     const FourFloats a_for_u = four_times(t.y), a_for_v = four_times(-t.x), b_for_u = four_times(-s.y),
                      b_for_v = four_times(s.x);
     // Along u: a t.y - b s.y; along v: b s.x - a t.x.
-    const EightFloats along =
-        (both_a * __builtin_shufflevector(a_for_u, a_for_v, 0, 1, 2, 3, 4, 5, 6, 7) +
-         both_b * __builtin_shufflevector(b_for_u, b_for_v, 0, 1, 2, 3, 4, 5, 6, 7)) *
-        sign;
+    const EightFloats along = (both_a * __builtin_shufflevector(a_for_u, a_for_v, 0, 1, 2, 3, 4, 5, 6, 7) +
+                               both_b * __builtin_shufflevector(b_for_u, b_for_v, 0, 1, 2, 3, 4, 5, 6, 7)) *
+                              sign;
     for (const Index k : corner) {
       static_assert(sizeof(Sums) == sizeof(EightFloats));
       Sums& at = sums[k - piece.first];

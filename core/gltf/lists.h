@@ -62,7 +62,8 @@ void append_mesh(std::string& out, const std::string& name, const std::vector<Pa
 void append_animation(std::string& out, const Animation& animation, const Tracks& tracks,
                       Accessors& accessors);
 
-/// Appends the views of a buffer that has been arranged: a JSON array without the closing bracket, or nothing.
+/// Appends the views of a buffer that has been arranged: a JSON array without the closing bracket, or
+/// nothing.
 void append_views(std::string& out, const Bin& bin);
 
 }  // namespace seedmesh::gltf
