@@ -273,14 +273,14 @@ class GraftWriter {
   Array<std::uint32_t>
       group_;  ///< of each vertex; those on a loop share a normal: even the parent's, odd the child's
   Array<glm::vec3> group_normal_;
-  std::vector<std::uint32_t> group_limb_;      ///< the child of each pair of groups
-  Array<std::uint32_t> loop_triangles_;        ///< those that touch a loop, rising
-  std::vector<Range> range_;                   ///< of each limb
-  std::vector<Kind> kind_;                     ///< of each limb
-  std::vector<std::uint32_t> parent_;  ///< of each limb; empty in the first round, where all are dirty
-  std::vector<std::uint8_t> dirty_;    ///< limbs that were written in this round
-  std::vector<std::uint8_t> touched_;  ///< pairs of groups of a dirty limb
-  std::vector<Concern> concern_;       ///< of each limb
+  std::vector<std::uint32_t> group_limb_;  ///< the child of each pair of groups
+  Array<std::uint32_t> loop_triangles_;    ///< those that touch a loop, rising
+  std::vector<Range> range_;               ///< of each limb
+  std::vector<Kind> kind_;                 ///< of each limb
+  std::vector<std::uint32_t> parent_;      ///< of each limb; empty in the first round, where all are dirty
+  std::vector<std::uint8_t> dirty_;        ///< limbs that were written in this round
+  std::vector<std::uint8_t> touched_;      ///< pairs of groups of a dirty limb
+  std::vector<Concern> concern_;           ///< of each limb
   /// First and last vertex of each ring with ribs, which stand at one place, rising.
   Seams rib_seams_;
   bool is_much_ = true;          ///< of what has to be looked at
