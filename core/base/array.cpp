@@ -1,6 +1,7 @@
 #include "core/base/array.h"
 
 #include <cstdlib>
+#include <cstring>
 #include <new>
 
 #if defined(__linux__)
@@ -50,6 +51,14 @@ std::byte* map(std::size_t room) {
   return fitted(mmap(nullptr, asked_for(room), access, kind, -1, 0), room);
 }
 std::byte* remap(std::byte* old, std::size_t before, std::size_t after) {
+#if defined(SEEDMESH_STD_THREADS)
+  if (after > before) {  // ThreadSanitizer does not see memory that the kernel moves
+    std::byte* fresh = map(after);
+    std::memcpy(fresh, old, before);
+    munmap(old, before);
+    return fresh;
+  }
+#endif
   if (after > before) return fitted(mremap(old, before, asked_for(after), MREMAP_MAYMOVE), after);
   if (after < before) munmap(old + after, before - after);
   return old;

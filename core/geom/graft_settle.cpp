@@ -193,7 +193,9 @@ struct GraftWriter::Faces {
     const FourFloats size = dot(face, face), least = flattest * size;
     FourFlags flags = size > least_square;
     for (std::size_t k = 0; k < 3; ++k) {
-      const FourFloats over = dot(face, Four::picked(normal, corner + k));
+      // What comes behind a normal may be another's, who writes it now.
+      const auto alone = [&](std::size_t i) { return spread_out(normal[corner[k + i]]); };
+      const FourFloats over = dot(face, Four::of_rows(alone(0), alone(3), alone(6), alone(9)));
       flags &= (over > 0.0F) & (over * over > least);
     }
     return flags;
