@@ -60,14 +60,17 @@ test('the client of Python tells every fault by its place', async () => {
 test('the client of Python waits for a busy server as long as this one says', async () => {
   const busy = await serve(rehearsal, ['--threads', '1', '--queue', '1']);
   const slow = (seed, milliseconds) => ({ generator: 'rehearsal', seed, parameters: { bytes: 500, milliseconds } });
-  const running = busy.generate(slow(1, 3000));
-  await until(async () => (await busy.metric('seedmesh_workers_busy')) === 1);
-  const waiting = busy.generate(slow(2, 0));
-  await until(async () => (await busy.metric('seedmesh_queue_depth')) === 1);
-  assert.equal((await busy.generate(slow(4, 0))).status, 429);
-  const { status, err } = await fetched(slow(3, 0), 'late.glb', { SEEDMESH_URL: busy.url });
-  assert.equal(status, 0, err);
-  assert.equal(fs.statSync(file_of('late.glb')).size, 500);
-  await Promise.all([running, waiting]);
-  await busy.stop();
+  try {
+    const running = busy.generate(slow(1, 3000));
+    await until(async () => (await busy.metric('seedmesh_workers_busy')) === 1);
+    const waiting = busy.generate(slow(2, 0));
+    await until(async () => (await busy.metric('seedmesh_queue_depth')) === 1);
+    assert.equal((await busy.generate(slow(4, 0))).status, 429);
+    const { status, err } = await fetched(slow(3, 0), 'late.glb', { SEEDMESH_URL: busy.url });
+    assert.equal(status, 0, err);
+    assert.equal(fs.statSync(file_of('late.glb')).size, 500);
+    await Promise.all([running, waiting]);
+  } finally {
+    await busy.stop();
+  }
 });
