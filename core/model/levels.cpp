@@ -14,4 +14,12 @@ int mesh_at(const Node& node, std::size_t level) {
   return level == 0 || node.lods.empty() ? node.mesh : node.lods[std::min(level, node.lods.size()) - 1];
 }
 
+std::uint64_t triangles_of(const MeshGroup& group) {
+  std::uint64_t triangles = 0;
+  for (const Primitive& each : group.primitives) {
+    if (each.mesh.topology == Topology::triangles) triangles += each.mesh.elements();
+  }
+  return triangles;
+}
+
 }  // namespace seedmesh

@@ -1,6 +1,7 @@
 #pragma once
 /// Levels of detail of a model, as its nodes have them.
 #include <cstddef>
+#include <cstdint>
 
 #include "core/model/model.h"
 
@@ -11,5 +12,8 @@ std::size_t levels_of(const Model& model);
 
 /// The mesh that a node shows at a level; one with fewer levels shows its coarsest. -1: none.
 int mesh_at(const Node& node, std::size_t level);
+
+/// What is drawn where the mesh is shown once.
+std::uint64_t triangles_of(const MeshGroup& group);
 
 }  // namespace seedmesh

@@ -16,14 +16,6 @@ namespace {
 constexpr int attempts = 6;             ///< at a smaller share each time, where some meshes cannot do theirs
 constexpr double largest_piece = 0.01;  ///< that may go as a detail: the side of its area, of the diagonal
 
-std::uint64_t triangles_of(const MeshGroup& group) {
-  std::uint64_t triangles = 0;
-  for (const Primitive& primitive : group.primitives) {
-    if (primitive.mesh.topology == Topology::triangles) triangles += primitive.mesh.elements();
-  }
-  return triangles;
-}
-
 bool is_packed(const MeshGroup& group) {
   return std::ranges::any_of(group.primitives,
                              [](const Primitive& each) { return each.mesh.packed != nullptr; });

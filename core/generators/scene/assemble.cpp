@@ -11,6 +11,7 @@
 #include "core/generators/scene/levels.h"
 #include "core/generators/scene/looks.h"
 #include "core/model/append.h"
+#include "core/model/levels.h"
 #include "core/schema/json.h"
 #include "core/texture/impostor.h"
 #include "generated/params/scene.h"
@@ -28,13 +29,6 @@ struct Copy {
     return cast == other.cast && level == other.level && chunk == other.chunk;
   }
 };
-
-std::uint64_t triangles_of(const MeshGroup& group) {
-  std::uint64_t triangles = 0;
-  for (const Primitive& each : group.primitives)
-    triangles += each.mesh.topology == Topology::triangles ? each.mesh.elements() : 0;
-  return triangles;
-}
 
 Box box_of(const MeshGroup& group) {
   std::optional<Box> all;
