@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { PNG } from 'pngjs';
-import { choose, difference, extent, fragment_of, go_by, launch, leafy, open, open_menu, outline, overlap, picture, program, rect, serve, set, small_tree, statistics, until_shown, write } from './support.mjs';
+import { choose, difference, extent, fitted_picture, fragment_of, go_by, launch, leafy, open, open_menu, outline, overlap, picture, program, rect, serve, set, small_tree, statistics, until_shown, write } from './support.mjs';
 
 let server, browser, address;
 before(async () => {
@@ -39,6 +39,7 @@ for (const colorScheme of ['light', 'dark']) {
 
 test('the scale stays from one model to the next of a request, unless it is of another size', { timeout: 200_000 }, async () => {
   const page = await open(browser, `${server.url}/${fragment_of(tower)}`);
+  await fitted_picture(page);
   const first = await rows(page);
   const rise = (metres) => until_shown(page, async () => {
     await page.click('#tab-request');
@@ -50,6 +51,25 @@ test('the scale stays from one model to the next of a request, unless it is of a
   await rise(10);
   const framed = await rows(page);
   assert.ok(framed.height > first.height * 0.75, `${framed.height}, framed anew`);
+});
+
+test('the scale stays also where the page is slow to see that the hint is gone', { timeout: 200_000 }, async () => {
+  const page = await open(browser, `${server.url}/${fragment_of(tower)}`, {
+    before: (page) => page.addInitScript(() => {
+      const Own = window.ResizeObserver;
+      window.late = 0;
+      window.ResizeObserver = class extends Own { constructor(act) { super((...all) => setTimeout(() => act(...all), window.late)); } };
+    }),
+  });
+  assert.ok(await page.locator('#hint').isVisible());
+  await fitted_picture(page);
+  const first = await rows(page);
+  await page.evaluate(() => { window.late = 800; });
+  await until_shown(page, () => page.click('#step-fresh'));
+  await until_shown(page, () => page.click('#step-finish'));
+  assert.ok(await page.locator('#hint').isHidden());
+  await page.waitForTimeout(1000);
+  assert.ok(Math.abs((await rows(page)).height - first.height) < 3, `${(await rows(page)).height} of ${first.height}`);
 });
 
 test('leaf cards are cut out by their picture in every mode', { timeout: 200_000 }, async () => {

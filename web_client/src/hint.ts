@@ -5,7 +5,11 @@ const known = 'seedmesh-hint-seen';
 
 export function wire_hint(): void {
   part('hint').hidden = remembered();
-  part('hint-away').addEventListener('click', () => { forget_hint(); part('picture').focus(); });
+  part('hint-away').addEventListener('click', () => {
+    part('hint').dataset['sent'] = 'away';
+    forget_hint();
+    part('picture').focus();
+  });
 }
 
 /** Whoever has done something needs no hint any more. */

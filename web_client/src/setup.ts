@@ -28,15 +28,17 @@ export function is_high(): boolean {
 function watch_rims(viewer: Viewer): void {
   const upper = part('upper'), lower = part('lower'), hint = part('hint'), notice = part('notice');
   const below = lower.parentElement!, view = below.parentElement!;
-  let had_hint = false;
+  let had_hint = false, is_measured = false;
   const rims = new ResizeObserver(() => {
     // A word of the moment takes the place of the figures, and moves nothing.
     const state = document.body.dataset['state'] ?? '';
     const is_passing = !notice.hidden && ['starting', 'growing', 'ready'].includes(state);
-    if (upper.offsetHeight === 0 || is_passing) return;
+    if (upper.offsetHeight === 0 || (is_passing && is_measured)) return;
+    is_measured = true;
     const has_hint = hint.offsetHeight > 0;
     // Who sends the hint away gets its room; where it goes because of a change, both models are seen at one scale.
-    viewer.set_covered({ top: upper.offsetTop + upper.offsetHeight + 8, bottom: Math.max(72, view.clientHeight - below.offsetTop + 10) }, had_hint && !has_hint && state === 'ready');
+    const is_sent_away = had_hint && !has_hint && hint.dataset['sent'] === 'away';
+    viewer.set_covered({ top: upper.offsetTop + upper.offsetHeight + 8, bottom: Math.max(72, view.clientHeight - below.offsetTop + 10) }, is_sent_away);
     had_hint = has_hint;
   });
   // The word itself too: what was not looked at while it stood there is looked at when it goes.
