@@ -100,7 +100,8 @@ class Assembly {
   /// Variants of a model warn alike.
   void cast_warnings(Model& made) {
     for (Warning& each : made.warnings) {
-      if (seen_.insert({each.pointer, each.message, each.line, each.column}).second)
+      if (!is_used_elsewhere(casting_, each) &&
+          seen_.insert({each.pointer, each.message, each.line, each.column}).second)
         model_.warnings.push_back(std::move(each));
     }
   }

@@ -131,6 +131,15 @@ std::optional<Child> model_at(const SceneParams& scene, const SceneLayer& layer,
   return child;
 }
 
+/// The parameter that stands for an age that is left out, where a position of the layer has one.
+std::optional<std::string> used_with_age(const SceneLayer& layer) {
+  const auto has_age = [](const ScenePosition& each) { return each.age.has_value(); };
+  const Json* age = schema_at(layer.model.generator, "age");
+  if (!age || !age->contains("x-full") || std::ranges::none_of(layer.place.positions, has_age))
+    return std::nullopt;
+  return age->at("x-full").get<std::string>();
+}
+
 }  // namespace
 
 bool has_parameter(std::string_view generator, std::string_view path) {
@@ -161,6 +170,10 @@ std::uint32_t Casting::cast_of(std::size_t layer, const Stand& stand) const {
   return own.first + rng.below(own.count);
 }
 
+bool is_used_elsewhere(const Casting& casting, const Warning& warning) {
+  return std::ranges::find(casting.used_with_age, warning.pointer) != casting.used_with_age.end();
+}
+
 std::size_t count_casts(const SceneParams& params) {
   std::size_t count = 0;
   for (const SceneLayer& layer : params.layers) {
@@ -178,6 +191,8 @@ Casting casting_of(const SceneParams& params, const Job& job) {
     const Rng rng = stream_of(layer, i, job);
     const std::string name = layer.name.value_or("layer_" + std::to_string(i));
     const std::string pointer = "/layers/" + std::to_string(i);
+    if (const auto name_of_full = used_with_age(layer))
+      casting.used_with_age.push_back(pointer + "/model/parameters/" + *name_of_full);
     Casting::Layer own;
     own.first = static_cast<std::uint32_t>(casting.casts.size());
     own.count = static_cast<std::uint32_t>(layer.variants);

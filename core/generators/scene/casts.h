@@ -33,12 +33,17 @@ struct Casting {
     std::vector<std::uint32_t> by_position;  ///< which cast a position has; none: a variant of the layer
   };
   std::vector<Layer> layers;
+  /// Pointers to parameters of layers that have an effect where a position has an age (x-full of the schema).
+  std::vector<std::string> used_with_age;
 
   /// Which model stands there.
   std::uint32_t cast_of(std::size_t layer, const Stand& stand) const;
 };
 
 constexpr std::size_t most_casts = 4096;
+
+/// Whether the warning says of a parameter that it has no effect, and it has one at another place.
+bool is_used_elsewhere(const Casting& casting, const Warning& warning);
 
 /// How many models there would be.
 std::size_t count_casts(const SceneParams& params);

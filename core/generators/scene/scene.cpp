@@ -181,7 +181,8 @@ Result<Appraisal> appraise(const SceneParams& params, const Job& job) {
     if (!own) return own;
     estimates.push_back(own->estimate);
     for (Warning& each : own->warnings) {
-      if (seen.insert({each.pointer, each.message}).second) appraisal.warnings.push_back(std::move(each));
+      if (!is_used_elsewhere(casting, each) && seen.insert({each.pointer, each.message}).second)
+        appraisal.warnings.push_back(std::move(each));
     }
   }
   appraisal.estimate = estimate_of(params, casting, estimates, job);

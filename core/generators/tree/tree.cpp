@@ -6,6 +6,7 @@
 #include "core/generators/tree/age.h"
 #include "core/generators/tree/dress.h"
 #include "core/generators/tree/estimate.h"
+#include "core/generators/tree/idle.h"
 #include "core/generators/tree/looks.h"
 #include "core/generators/tree/proctree.h"
 #include "core/generators/tree/range.h"
@@ -76,39 +77,6 @@ Skeleton grow(const TreeParams& params, const Wanted& wanted, Job& job) {
   return skeleton;
 }
 
-/// The model that a parameter belongs to, or all.
-enum class Owner { all, weber_penn, proctree, sculpt };
-
-Owner owner_of(const std::string& name) {
-  if (name == "sculpt") return Owner::sculpt;
-  if (name == "sway") return Owner::weber_penn;
-  const auto first = static_cast<unsigned char>(name[0]);
-  if (first == 'm' && name.size() > 1 && name[1] >= 'A' && name[1] <= 'Z') return Owner::proctree;
-  const bool is_published = (first >= '0' && first <= '9') || (first >= 'A' && first <= 'Z');
-  return is_published ? Owner::weber_penn : Owner::all;
-}
-
-/// A parameter that the model does not read is never passed over without a word.
-std::vector<Warning> warnings_of(const TreeParams& params) {
-  static constexpr const char* names[] = {"weber_penn", "proctree", "sculpt"};
-  const auto model = static_cast<std::size_t>(params.model);
-  std::vector<Warning> warnings;
-  const Json given = write_tree(params);
-  for (const auto& [name, value] : given.items()) {
-    const Owner owner = owner_of(name);
-    if (owner != Owner::all && static_cast<std::size_t>(owner) != model + 1) {
-      warnings.push_back({"/" + name,
-                          "has no effect: it belongs to the model " +
-                              std::string(names[static_cast<std::size_t>(owner) - 1]) +
-                              ", and the model is " + names[model],
-                          0, 0});
-    }
-    if (name == "sides" && params.model == TreeModel::proctree)
-      warnings.push_back({"/sides", "has no effect: the model proctree takes mSegments", 0, 0});
-  }
-  return warnings;
-}
-
 struct LevelFigures {
   std::uint64_t count = 0;
   double length = 0, radius = 0;
@@ -151,7 +119,7 @@ Result<Model> generate(const TreeParams& params, Job& job) {
   degrade(skeleton, params, job);
   job.progress("mesh", 0);
   Model model = dress(std::move(skeleton), params, job);
-  model.warnings = warnings_of(params);
+  model.warnings = idle_parameters(params);
   return model;
 }
 
@@ -170,7 +138,7 @@ Result<Json> derive(const TreeParams& params, Job& job) {
   }
   const Box box = bounds_of(limbs.position.span());
   Json warnings = Json::array();
-  for (const Warning& each : warnings_of(params))
+  for (const Warning& each : idle_parameters(params))
     warnings.push_back({{"pointer", "/parameters" + each.pointer}, {"message", each.message}});
   return Json{{"limbs", count},
               {"levels", std::move(levels)},
@@ -182,7 +150,7 @@ Result<Json> derive(const TreeParams& params, Job& job) {
 
 Result<Appraisal> appraise(const TreeParams& params, const Job& job) {
   Appraisal appraisal;
-  appraisal.warnings = warnings_of(params);
+  appraisal.warnings = idle_parameters(params);
   // A job of its own: what is looked at here is not spent.
   job.check();
   Job::Options options;

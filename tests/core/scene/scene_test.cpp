@@ -321,6 +321,22 @@ TEST(Scene, PassesLevelsOfDetailOn) {
   EXPECT_THAT(faults(*model), IsEmpty());
 }
 
+TEST(Scene, SaysNothingOfAMatureAgeThatAPositionMakesUseOf) {
+  const auto warnings = [](const Json& positions) {
+    const Json tree = {{"generator", "tree"}, {"parameters", {{"Levels", 1}, {"mature_age", 12}}}};
+    const Json place = {{"method", "positions"}, {"positions", positions}};
+    const Json layer = {{"model", tree}, {"variants", 1}, {"place", place}};
+    const Result<Model> model = scene_of({{"ground", {{"size", 30}}}, {"layers", {layer}}});
+    EXPECT_TRUE(model);
+    std::vector<std::string> pointers;
+    for (const Warning& each : model->warnings) pointers.push_back(each.pointer);
+    return pointers;
+  };
+  const Json grown = {{"at", {0, 0}}}, young = {{"at", {5, 0}}, {"age", 4}};
+  EXPECT_THAT(warnings(Json::array({grown})), ElementsAre("/layers/0/model/parameters/mature_age"));
+  EXPECT_THAT(warnings(Json::array({grown, young})), IsEmpty());
+}
+
 TEST(Scene, CountsTheTrianglesOfWaysBeforeTheyAreMade) {
   const Json terrain = {{"generator", "terrain"}, {"parameters", {{"iterations", 8}, {"size", 100}}}};
   const Json across = {{"points", {{-50, 0}, {50, 0}}}, {"width", 100}};
