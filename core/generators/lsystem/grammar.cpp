@@ -4,6 +4,7 @@
 
 #include "core/generators/lsystem/compiler.h"
 #include "core/generators/lsystem/constants.h"
+#include "core/generators/lsystem/idle.h"
 #include "core/schema/json.h"
 
 namespace seedmesh::lsystem {
@@ -28,25 +29,6 @@ void check_age(const LsystemParams& params, std::vector<Issue>& issues) {
   if (!params.age || params.timed || *params.age <= static_cast<double>(params.iterations)) return;
   issues.push_back({"/age", "found an age of " + number_text(*params.age) + "; the plant is derived for " +
                                 std::to_string(params.iterations) + " iterations"});
-}
-
-/// Parameters of other width rules than the one that is chosen; defaults are not told from what is left out.
-void warn_of_width_rule(const LsystemParams& params, std::vector<Warning>& warnings) {
-  using Rule = LsystemParams::WidthRule;
-  const LsystemParams defaults;
-  const auto warn = [&](const char* name, bool is_given, std::initializer_list<Rule> rules) {
-    if (!is_given || std::find(rules.begin(), rules.end(), params.width_rule) != rules.end()) return;
-    std::string owners;
-    for (const Rule each : rules) owners += (owners.empty() ? "" : " and ") + std::string(text_of(each));
-    warnings.push_back({std::string("/") + name,
-                        "has no effect: it belongs to the width rule" +
-                            std::string(rules.size() > 1 ? "s " : " ") + owners + ", and the rule is " +
-                            std::string(text_of(params.width_rule)),
-                        0, 0});
-  };
-  warn("width_factor", params.width_factor != defaults.width_factor, {Rule::branch_factor});
-  warn("tip_width", params.tip_width != defaults.tip_width, {Rule::longest_chain, Rule::pipe_model});
-  warn("pipe_exponent", params.pipe_exponent != defaults.pipe_exponent, {Rule::pipe_model});
 }
 
 /// Between two steps modules of the next word grow in place of those of this one; that needs a successor that
@@ -297,7 +279,7 @@ Grammar compile(const LsystemParams& params, std::uint64_t seed, const Limits& l
   check_age(params, issues);
   Grammar grammar = Compiler(params, seed, limits, issues, job).compile();
   check_between_steps(params, grammar, issues);
-  warn_of_width_rule(params, grammar.warnings);
+  warn_of_idle(params, grammar.warnings);
   return grammar;
 }
 

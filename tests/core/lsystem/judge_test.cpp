@@ -72,6 +72,50 @@ TEST(WidthRules, TellOfWhatBelongsToOthers) {
   EXPECT_THAT(warnings_of(params), IsEmpty());
 }
 
+TEST(Materials, TellOfSeedsAndCutsWithoutPictures) {
+  LsystemParams params = grammar_of("F", {"F->FF"});
+  params.materials.resize(2);
+  for (LsystemMaterial& each : params.materials) {
+    each.color = Color{1, 2, 3};
+    each.texture_seed = 5;
+  }
+  params.materials[1].texture = LsystemTexture::oak_bark;
+  params.materials[1].images.cut_out = true;
+  EXPECT_THAT(warnings_of(params),
+              ElementsAre("/materials/0/texture_seed 0:0 has no effect: there is no `texture`",
+                          "/materials/1/images/cut_out 0:0 has no effect: there is no image"));
+}
+
+TEST(Lines, TellOfWhatTubesAloneHave) {
+  LsystemParams params = grammar_of("F", {"F->FF"});
+  params.sides = 5;
+  params.adapt = true;
+  EXPECT_THAT(warnings_of(params), IsEmpty());
+  params.style = LsystemParams::Style::lines;
+  EXPECT_THAT(warnings_of(params), ElementsAre(HasSubstr("/sides 0:0 has no effect: it belongs to the style"),
+                                               HasSubstr("/adapt 0:0 has no effect")));
+}
+
+TEST(Depths, OfRulesThatThereAreNotAreTold) {
+  LsystemParams params = grammar_of("F", {"F->FF"});
+  params.interpretation_depth = 2;
+  params.decomposition_depth = 3;
+  EXPECT_THAT(warnings_of(params),
+              ElementsAre("/decomposition_depth 0:0 has no effect: there is no `decomposition`",
+                          "/interpretation_depth 0:0 has no effect: there is no `interpretation`"));
+}
+
+TEST(Weather, TellsOfADirectionWithoutWind) {
+  LsystemParams params = grammar_of("F", {"F->FF"});
+  params.weather.emplace();
+  params.weather->direction = 40;
+  params.weather->stiffness = 2;
+  EXPECT_THAT(warnings_of(params),
+              ElementsAre(HasSubstr("/weather/direction"), HasSubstr("/weather/stiffness")));
+  params.weather->snow = 4;
+  EXPECT_THAT(warnings_of(params), ElementsAre(HasSubstr("/weather/direction")));
+}
+
 TEST(TurtleSymbols, WithTooFewParametersAreTold) {
   EXPECT_THAT(
       warnings_of(grammar_of("@M(1,2)F", {})),

@@ -1,0 +1,17 @@
+#pragma once
+/// Parameters that a request gives and its L-system does not read.
+#include <vector>
+
+#include "core/model/model.h"
+
+namespace seedmesh {
+struct LsystemParams;
+}
+
+namespace seedmesh::lsystem {
+
+/// Adds one warning for each parameter that is not its default and has no effect: of another width rule or
+/// style, of rules, weather or pictures that there are not. Pointers are relative to the parameters.
+void warn_of_idle(const LsystemParams& params, std::vector<Warning>& warnings);
+
+}  // namespace seedmesh::lsystem
