@@ -7,6 +7,7 @@
 #include "core/geom/flatten.h"
 #include "core/geom/weld.h"
 #include "core/model/levels.h"
+#include "core/model/transform.h"
 
 namespace seedmesh::scene {
 namespace {
@@ -15,14 +16,10 @@ bool is_same(const TextureUse& a, const TextureUse& b) {
   return a.texture == b.texture && a.uv_set == b.uv_set && a.repeat == b.repeat;
 }
 
-bool is_plain(const Transform& t) {
-  return t.translation == glm::vec3(0) && t.rotation == glm::quat(1, 0, 0, 0) && t.scale == glm::vec3(1);
-}
-
 /// Do all nodes show their meshes where they are?
 bool is_plain(const Model& model) {
   return std::all_of(model.nodes.begin(), model.nodes.end(), [](const Node& node) {
-    return is_plain(node.transform) && node.instances.transforms.empty() && node.skin < 0;
+    return is_identity(node.transform) && node.instances.transforms.empty() && node.skin < 0;
   });
 }
 
