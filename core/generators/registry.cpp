@@ -25,6 +25,7 @@ struct Traits {
   bool grows = false, sways = false, has_collision = false;
   bool has_impostor = false, keeps_budget = false;
   bool parts = false, joins_triangles = false;
+  std::string_view own_levels = {};
 };
 
 Result<Payload> payload_of(Result<Payload> made) { return made; }
@@ -72,6 +73,7 @@ struct Row {
             .keeps_budget = traits.keeps_budget,
             .parts = traits.parts,
             .joins_triangles = traits.joins_triangles,
+            .own_levels = traits.own_levels,
             .read = read,
             .write = write,
             .check = check,
@@ -123,6 +125,9 @@ constexpr OwnForm fractal_forms[] = {
     {"png8", "image/png", "png"},
 };
 
+constexpr std::string_view levels_of_rules =
+    "rules make levels of their own where they declare `attr lod = 0` and ask for it (docs/buildings.md)";
+
 constexpr OwnForm scene_forms[] = {
     {"placements", "application/zip", "zip", false, true},
 };
@@ -135,7 +140,9 @@ constexpr Generator rows[] = {
     Row<LsystemParams, read_lsystem, write_lsystem, lsystem::check, lsystem::generate, lsystem::derive,
         lsystem::appraise, lsystem::vocabulary>::named("lsystem", {.grows = true, .has_impostor = true}),
     Row<BuildingParams, read_building, write_building, building::check, building::generate, building::derive,
-        building::appraise, building::vocabulary>::named("building", {.has_collision = true, .parts = true}),
+        building::appraise, building::vocabulary>::named("building", {.has_collision = true,
+                                                                      .parts = true,
+                                                                      .own_levels = levels_of_rules}),
     Row<TerrainParams, read_terrain, write_terrain, terrain::check, terrain::generate, terrain::derive,
         terrain::appraise,
         terrain::vocabulary>::named<terrain::encode, terrain::check_form>("terrain", terrain_forms,

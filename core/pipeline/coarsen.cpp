@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/geom/simplify.h"
 #include "core/geom/thin.h"
+#include "core/model/transform.h"
 #include "core/model/widen.h"
 
 namespace seedmesh {
@@ -23,10 +25,6 @@ bool is_packed(const MeshGroup& group) {
 
 std::uint64_t copies_of(const Node& node) {
   return std::max<std::size_t>(1, node.instances.transforms.size());
-}
-
-bool is_identity(const Transform& t) {
-  return t.translation == glm::vec3(0) && t.rotation == glm::quat(1, 0, 0, 0) && t.scale == glm::vec3(1);
 }
 
 /// Meshes that are made simpler together, so that their common borders stay common.
@@ -114,6 +112,14 @@ void coarsen(Family& family, double share, const Detail& detail, Job& job) {
   }
 }
 
+Detail detail_of(const Model& model, const Sacrifice& sacrifice) {
+  if (!std::isfinite(sacrifice.detail)) return {};
+  const Box box = bounds_of(model);
+  const auto diagonal = static_cast<double>(glm::distance(box.min, box.max));
+  const double step = sacrifice.detail * diagonal, piece = largest_piece * diagonal;
+  return {step * step * step * step, piece * piece};
+}
+
 MeshGroup copy_of(const MeshGroup& group) {
   MeshGroup out;
   out.name = group.name;
@@ -135,13 +141,7 @@ std::uint64_t drawn_at(const Model& model, std::size_t level) {
 
 void coarsen_all(Model& model, std::size_t level, std::uint64_t most, std::uint64_t least,
                  const Sacrifice& sacrifice, Job& job) {
-  Detail detail;
-  if (std::isfinite(sacrifice.detail)) {
-    const Box box = bounds_of(model);
-    const auto diagonal = static_cast<double>(glm::distance(box.min, box.max));
-    const double step = sacrifice.detail * diagonal, piece = largest_piece * diagonal;
-    detail = {step * step * step * step, piece * piece};
-  }
+  const Detail detail = detail_of(model, sacrifice);
   std::vector<Family> families = families_of(model, level, sacrifice.leaves, job);
   std::erase_if(families, [least](const Family& family) { return elements_of(family) < least; });
   for (int attempt = 0; attempt < attempts; ++attempt) {
@@ -151,6 +151,32 @@ void coarsen_all(Model& model, std::size_t level, std::uint64_t most, std::uint6
     for (Family& family : families) coarsen(family, share, detail, job);
     if (drawn_at(model, level) == before) return;
   }
+}
+
+bool coarsen_if_it_fits(Model& model, std::size_t level, std::uint64_t most, const Sacrifice& sacrifice,
+                        Job& job) {
+  std::vector<std::optional<MeshGroup>> before(model.meshes.size());
+  for (const Node& node : model.nodes) {
+    const int shown = mesh_at(node, level);
+    if (shown < 0 || before[static_cast<std::size_t>(shown)]) continue;
+    const MeshGroup& group = model.meshes[static_cast<std::size_t>(shown)];
+    if (!is_packed(group)) before[static_cast<std::size_t>(shown)] = copy_of(group);
+  }
+  const Detail detail = detail_of(model, sacrifice);
+  std::vector<Family> families = families_of(model, level, sacrifice.leaves, job);
+  std::uint64_t drawn = drawn_at(model, level);
+  for (int attempt = 0; attempt < attempts && drawn > most; ++attempt) {
+    const double share = static_cast<double>(most) / static_cast<double>(drawn);
+    for (Family& family : families) coarsen(family, share, detail, job);
+    const std::uint64_t left = drawn_at(model, level), lost = drawn - left;
+    if (lost < (drawn - most) / 2) break;  // it will not get there
+    drawn = left;
+  }
+  if (drawn <= most) return true;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (before[i]) model.meshes[i] = *std::move(before[i]);
+  }
+  return false;
 }
 
 bool deepen(Model& model, std::uint64_t least, double share, const Sacrifice& sacrifice, Job& job) {

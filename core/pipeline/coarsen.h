@@ -27,6 +27,11 @@ struct Sacrifice {
 void coarsen_all(Model& model, std::size_t level, std::uint64_t most, std::uint64_t least,
                  const Sacrifice& sacrifice, Job& job);
 
+/// The same where the level then draws at most `most` triangles. Else false, as soon as an attempt does not
+/// come half of the way, and its meshes are as they were. Takes the memory of the level a second time.
+bool coarsen_if_it_fits(Model& model, std::size_t level, std::uint64_t most, const Sacrifice& sacrifice,
+                        Job& job);
+
 /// Adds a level behind the coarsest, of half its triangles; meshes of fewer than `least` triangles,
 /// packed ones and collision shapes stay as they are. False, and no such level, where more than `share` of
 /// the triangles would be left. Indices are wide.

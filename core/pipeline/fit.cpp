@@ -1,6 +1,7 @@
 #include "core/pipeline/fit.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,10 @@ std::optional<Issue> fit(Model& model, std::uint64_t most, int lods, const Sacri
   const std::size_t levels = levels_of(model);
   std::size_t level = 0;
   while (level + 1 < levels && drawn_at(model, level) > most) ++level;
+  // Where surfaces move by little, the level before may be brought within the budget and lose less.
+  if (level > 0 && std::isfinite(sacrifice.detail) && drawn_at(model, level) <= most &&
+      coarsen_if_it_fits(model, level - 1, most, sacrifice, job))
+    --level;
   promote(model, level, wanted);
   if (drawn_at(model, 0) > most) coarsen_all(model, 0, most, 0, sacrifice, job);
   const std::uint64_t drawn = drawn_at(model, 0);

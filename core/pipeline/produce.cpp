@@ -243,6 +243,37 @@ Sacrifice sacrifice_of(const Generator& generator) {
   return generator.parts ? Sacrifice{.leaves = false, .detail = detail} : Sacrifice{};
 }
 
+/// One level is less than is wanted: how the request gets more.
+std::string with_hint(std::string message, const Generator& generator) {
+  if (!generator.own_levels.empty()) message.append("; ").append(generator.own_levels);
+  return message;
+}
+
+/// The levels of detail within the budget that are wanted, or why not.
+std::optional<Error> settle_levels(Model& model, const Request& request, Job& job) {
+  const OutputParams& output = request.body().output;
+  const Generator& generator = *request.body().generator;
+  const Sacrifice sacrifice = sacrifice_of(generator);
+  const bool has_one = levels_of(model) == 1;
+  const auto refused = [&](Code code, Issue issue) {
+    if (has_one) issue.message = with_hint(std::move(issue.message), generator);
+    return Error{code, {std::move(issue)}};
+  };
+  if (output.max_triangles) {
+    const auto most = static_cast<std::uint64_t>(*output.max_triangles);
+    const int pictures = output.impostor && generator.keeps_budget ? 1 : 0;
+    if (std::optional<Issue> issue = fit(model, most, output.lods + pictures, sacrifice, job))
+      return refused(Code::limit, *std::move(issue));
+  }
+  if (output.lods < 2) return std::nullopt;
+  const std::size_t told = model.warnings.size();
+  if (std::optional<Issue> issue = add_levels(model, output.lods, sacrifice, job))
+    return refused(Code::invalid, *std::move(issue));
+  if (has_one && model.warnings.size() > told)
+    model.warnings.back().message = with_hint(std::move(model.warnings.back().message), generator);
+  return std::nullopt;
+}
+
 WriteOptions write_options(const Request& request, const Form& form) {
   const OutputParams& output = request.body().output;
   const Profile& profile = profile_of(output.profile);
@@ -268,19 +299,7 @@ Result<Product> produce(const Request& request, Job& job, TextureStore* texture_
       model->warnings.push_back(
           {"", "nothing is to be seen: the model has no triangles, lines or points", 0, 0});
     }
-    const Sacrifice sacrifice = sacrifice_of(*request.body().generator);
-    if (output.max_triangles) {
-      const auto most = static_cast<std::uint64_t>(*output.max_triangles);
-      const bool has_impostors = output.impostor && request.body().generator->keeps_budget;
-      if (std::optional<Issue> issue =
-              fit(*model, most, output.lods + (has_impostors ? 1 : 0), sacrifice, job)) {
-        return Error{Code::limit, {*std::move(issue)}};
-      }
-    }
-    if (output.lods > 1) {
-      if (std::optional<Issue> issue = add_levels(*model, output.lods, sacrifice, job))
-        return Error{Code::invalid, {*std::move(issue)}};
-    }
+    if (std::optional<Error> error = settle_levels(*model, request, job)) return *std::move(error);
     merge_where_wanted(*model, request, job);
     texture::paint(*model, texture_size(output), texture_store, job);
     if (std::optional<Issue> issue = add_impostors(*model, request, job))

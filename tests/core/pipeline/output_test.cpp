@@ -178,6 +178,38 @@ TEST(Output, SaysWhereThereAreFewerLevelsThanWanted) {
   EXPECT_EQ(made("house", R"({"lods":3,"profile":"unity","textures":"none"})").statistics.warnings, 0U);
 }
 
+TEST(Output, SaysHowRulesMakeLevels) {
+  const auto message = [](const std::string& rules) {
+    const std::string body = R"({"generator":"building","parameters":{"rules":")" + rules +
+                             R"("},"output":{"lods":2,"profile":"unity"}})";
+    const Result<Request> request = read_request(body, Limits{});
+    EXPECT_TRUE(request);
+    Job job(0, Job::Options{});
+    const Result<Product> product = produce(*request, job);
+    return product ? "" : product.error().issues.front().message;
+  };
+  EXPECT_THAT(message("Lot --> extrude(5) Mass."),
+              HasSubstr("this model has one and cannot be made simpler; rules make levels of their own where "
+                        "they declare `attr lod = 0`"));
+  EXPECT_EQ(
+      message("attr lod = 0\\nLot --> case lod < 1: extrude(5) comp(f) { all : Wall. } else: extrude(5) "
+              "Mass."),
+      "");
+}
+
+TEST(Output, BringsAFinerLevelOfABuildingWithinTheBudget) {
+  const auto triangles = [](const char* preset, std::uint64_t most) {
+    const std::string budget = most > 0 ? R"(,"max_triangles":)" + std::to_string(most) : "";
+    return made(preset, R"({"textures":"none")" + budget + "}").statistics.triangles;
+  };
+  const std::uint64_t house = triangles("house", 0), temple = triangles("temple", 0);
+  EXPECT_LT(triangles("house", house - 1), house);
+  EXPECT_GT(triangles("house", house - 1), house * 9 / 10);
+  EXPECT_LE(triangles("temple", temple / 2), temple / 2);
+  EXPECT_GT(triangles("temple", temple / 2), temple * 4 / 10);
+  EXPECT_LT(triangles("temple", temple / 6), temple / 6);  // its own next level
+}
+
 TEST(Output, TakesNoWallsOfABuildingForABudget) {
   EXPECT_THAT(refused("cga_house_2006", R"({"max_triangles":3000,"textures":"none"})"),
               ElementsAre("/output/max_triangles"));
