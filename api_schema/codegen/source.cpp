@@ -1,4 +1,7 @@
 #include "api_schema/codegen/emit.h"
+
+#include <cctype>
+
 #include "core/schema/forms.h"
 
 namespace codegen {
@@ -45,6 +48,13 @@ std::string rule_of(const Type& type) {
     rule.add("above", schema, "exclusiveMinimum");
   }
   return rule.text();
+}
+
+/// "Ring" as it stands in a sentence.
+std::string in_a_sentence(const Type& type) {
+  auto title = type.schema.value("title", "list");
+  title[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(title[0])));
+  return title;
 }
 
 std::string read_entries(const Type& type, const std::string& place, const std::string& target, int depth);
@@ -95,8 +105,13 @@ std::string read_entries(const Type& type, const std::string& place, const std::
   const std::string name = type.kind == Kind::list ? "read_list" : "read_map";
   const bool nested = place.starts_with("entry");  // its names must not hide those around it
   const std::string at = nested ? place + "_in" : "entry", value = nested ? target + "_in" : "value";
-  return name + "(" + place + ", " + rule_of(type) + ", " + target + ", [](const Place& " + at + ", " +
-         entry.cpp + "& " + value + ") {\n" + indented(depth + 1) +
+  const bool has_inner = entry.kind == Kind::list && entry.parts[0].kind == Kind::list;
+  const std::string unless_flat = type.kind == Kind::list && has_inner && !nested
+                                      ? "if (check_nesting(" + place + ", " + quoted(in_a_sentence(entry)) +
+                                            ", " + quoted(in_a_sentence(entry.parts[0])) + ")) "
+                                      : "";
+  return unless_flat + name + "(" + place + ", " + rule_of(type) + ", " + target + ", [](const Place& " + at +
+         ", " + entry.cpp + "& " + value + ") {\n" + indented(depth + 1) +
          read_statement(entry, at, value, depth + 1) + "\n" + indented(depth) + "});";
 }
 
@@ -125,14 +140,37 @@ JsonType json_type(const Type& type) {
   }
 }
 
+/// What the alternatives are besides a choice: "an integer from 16 to 4096".
+std::string beside_choice(const Type& variant) {
+  std::string text;
+  for (const Type& part : variant.parts) {
+    if (part.kind == Kind::choice) continue;
+    const bool is_number = part.kind == Kind::number || part.kind == Kind::integer;
+    const bool has_range = part.schema.contains("minimum") && part.schema.contains("maximum");
+    const std::string words = part.kind == Kind::integer ? "an integer" : json_type(part).words;
+    text += (text.empty() ? "" : " or ") + words +
+            (is_number && has_range ? " from " + range_text(part.schema) : "");
+  }
+  return text;
+}
+
+/// A statement that reads one of the alternatives.
+std::string read_alternative(const Type& variant, std::size_t index, const std::string& place,
+                             const std::string& target, int depth) {
+  const Type& part = variant.parts[index];
+  const std::string own = target + ".emplace<" + std::to_string(index) + ">()";
+  if (part.kind != Kind::choice) return read_statement(part, place, own, depth);
+  return "read_choice(" + place + ", " + words_name(part) + ", " + own + ", " +
+         quoted(beside_choice(variant)) + ");";
+}
+
 std::string read_variant(const Type& type, const std::string& place, const std::string& target, int depth) {
   std::string text = "switch (" + place + ".kind()) {\n";
   std::string expected;
   for (std::size_t i = 0; i < type.parts.size(); ++i) {
     const Type& part = type.parts[i];
     text += indented(depth + 1) + "case JsonKind::" + json_type(part).kind + ":\n" + indented(depth + 2) +
-            read_statement(part, place, target + ".emplace<" + std::to_string(i) + ">()", depth + 2) + "\n" +
-            indented(depth + 2) + "break;\n";
+            read_alternative(type, i, place, target, depth + 2) + "\n" + indented(depth + 2) + "break;\n";
     expected += (expected.empty() ? "" : " or ") + json_type(part).words;
   }
   return text + indented(depth + 1) + "default:\n" + indented(depth + 2) + place + ".expected(\"" + expected +

@@ -247,8 +247,10 @@ void read_free_object(const Place& place) {
   if (place.kind() != JsonKind::object) place.expected("an object");
 }
 
-std::optional<std::size_t> read_word(const Place& place, std::span<const std::string_view> words) {
-  const std::string what = (words.size() == 1 ? "" : "one of ") + listed(words);
+std::optional<std::size_t> read_word(const Place& place, std::span<const std::string_view> words,
+                                     std::string_view beside) {
+  const std::string other = beside.empty() ? "" : std::string(beside) + " or ";
+  const std::string what = other + (words.size() == 1 ? "" : "one of ") + listed(words);
   if (place.kind() != JsonKind::text) {
     place.expected(what);
     return std::nullopt;
@@ -293,6 +295,16 @@ bool check_list(const Place& place, const CountRule& rule) {
   }
   check_count(place, place.value().size(), rule.least, rule.most, entries);
   return true;
+}
+
+bool check_nesting(const Place& place, std::string_view entry, std::string_view inner) {
+  const Json& list = place.value();
+  if (!list.is_array() || list.empty() || !list[0].is_array() || list[0].empty() || list[0][0].is_array())
+    return true;
+  place.fault("found lists of numbers, expected one list more around them: each entry is a " +
+              std::string(entry) + ", and each entry of that a " + std::string(inner) +
+              ", as in [[[0, 0], …]]");
+  return false;
 }
 
 bool check_map(const Place& place, const CountRule& rule) {

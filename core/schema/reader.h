@@ -99,11 +99,14 @@ void read_child(const Place& place, Child& out);  ///< its parameters are JSON u
 void read_free_object(const Place& place);        ///< only that it is an object: others read what is in it
 
 /// The index of a word in a list, or nullopt after adding a fault.
-std::optional<std::size_t> read_word(const Place& place, std::span<const std::string_view> words);
+/// `beside`: what else than a word the value may be, for the message.
+std::optional<std::size_t> read_word(const Place& place, std::span<const std::string_view> words,
+                                     std::string_view beside = {});
 
 template <class Choice>
-void read_choice(const Place& place, std::span<const std::string_view> words, Choice& out) {
-  if (const auto index = read_word(place, words)) out = static_cast<Choice>(*index);
+void read_choice(const Place& place, std::span<const std::string_view> words, Choice& out,
+                 std::string_view beside = {}) {
+  if (const auto index = read_word(place, words, beside)) out = static_cast<Choice>(*index);
 }
 
 /// Is it an object? Names the members that are not known and those that are missing. False: there is nothing
@@ -115,6 +118,10 @@ bool check_members(const Place& place, std::span<const std::string_view> known,
 bool check_list(const Place& place, const CountRule& rule);
 bool check_map(const Place& place, const CountRule& rule);
 void check_key(const Place& entry, std::string_view key, const CountRule& rule);
+
+/// Are there lists in the entries of the list? False where its first entry is a list of what is none, so that
+/// a list has been left out: one fault for all, which says what the `entry` is and what stands in it.
+bool check_nesting(const Place& place, std::string_view entry, std::string_view inner);
 
 /// A refused entry stays in place with its default, so that indexes hold; entries beyond the greatest number
 /// are left unread.

@@ -49,6 +49,21 @@ TEST(Reader, SaysWhatItFoundAndWhatItExpected) {
   EXPECT_EQ(message("[]"), "found an empty list, expected an object");
 }
 
+TEST(Reader, SaysWhatElseThanAWordAValueMayBe) {
+  EXPECT_EQ(reading<read_output>(R"({"textures":"512"})").issues.front().message,
+            "found the text \"512\", expected an integer from 16 to 4096 or none");
+}
+
+TEST(Reader, TellsOnceOfAListThatHasBeenLeftOut) {
+  const auto flat = reading<read_lsystem>(R"({"axiom":"F","contours":[[0,0],[1,0],[0,1]]})");
+  EXPECT_THAT(flat.pointers(), ElementsAre("/contours"));
+  EXPECT_EQ(flat.issues.front().message,
+            "found lists of numbers, expected one list more around them: each entry is a contour, and each "
+            "entry of that a point, as in [[[0, 0], …]]");
+  EXPECT_THAT(reading<read_lsystem>(R"({"axiom":"F","contours":[[[0,0],[1,0],[0,1]]]})").pointers(),
+              testing::IsEmpty());
+}
+
 TEST(Reader, NamesTheMemberThatWasMeant) {
   EXPECT_EQ(reading<read_lsystem>(R"({"axiom":"F","angel":3})").issues.front().message,
             "\"angel\" is not known here; did you mean \"angle\"?");
