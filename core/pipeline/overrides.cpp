@@ -78,8 +78,17 @@ std::string unknown_key(std::string_view key, std::string_view generator) {
     return found + " is no option of the output" +
            did_you_mean(key.substr(group.size()), output, std::string(group));
   }
-  return found + " is neither seed, nor output.…, nor a parameter of " + std::string(generator) +
-         did_you_mean(key, parsed_schemas().at(generator), "");
+  constexpr std::string_view parameters = "parameters.";
+  const std::string_view own = key.starts_with(parameters) ? key.substr(parameters.size()) : key;
+  std::string meant;
+  if (part_with(key, "") == "output") {
+    meant = "; did you mean \"output." + std::string(key) + "\"?";
+  } else if (own != key && part_with(own, generator) == "parameters") {
+    meant = "; did you mean \"" + std::string(own) + "\"?";
+  } else {
+    meant = did_you_mean(key, parsed_schemas().at(generator), "");
+  }
+  return found + " is neither seed, nor output.…, nor a parameter of " + std::string(generator) + meant;
 }
 
 bool takes(const Json& schema, const Json& value) {
@@ -126,6 +135,13 @@ void point_at_overrides(std::vector<Issue>& issues,
 }
 
 }  // namespace
+
+std::string_view part_with(std::string_view member, std::string_view generator) {
+  const auto& schemas = parsed_schemas();
+  if (property(*property(schemas.at("request"), "output"), member)) return "output";
+  const auto own = schemas.find(generator);
+  return own != schemas.end() && property(own->second, member) ? "parameters" : "";
+}
 
 std::optional<Result<Request>> read_preset(std::string_view name, const Overrides& overrides,
                                            const Limits& limits) {

@@ -193,6 +193,22 @@ void add_others(const std::vector<Issue>& others, std::vector<Issue>& issues) {
   }
 }
 
+/// A member that stands beside the part of the request that it belongs to is told where that is.
+std::vector<Issue> with_parts(std::vector<Issue> issues, const Json& body, const Generator* generator) {
+  if (!body.is_object()) return issues;
+  for (const auto& [name, value] : body.items()) {
+    const std::string_view part = part_with(name, generator ? generator->name : std::string_view());
+    if (part.empty()) continue;
+    for (Issue& issue : issues) {
+      if (issue.pointer != pointer_token(name) ||
+          issue.message.find("is not known here") == std::string::npos)
+        continue;
+      issue.message = "\"" + name + "\" is not known here; it belongs in \"" + std::string(part) + "\"";
+    }
+  }
+  return issues;
+}
+
 }  // namespace
 
 std::string_view Request::generator() const { return body_->generator->name; }
@@ -232,7 +248,7 @@ Result<Request> read_request_body(const Json& json, const Limits& limits) {
     faults.add({"/output/collision",
                 "the generator " + std::string(body.generator->name) + " makes no collision shapes"});
   }
-  if (!faults.empty()) return Error{Code::invalid, faults.take()};
+  if (!faults.empty()) return Error{Code::invalid, with_parts(faults.take(), merged, body.generator)};
   body.output = frame.output;
   body.seed = frame.seed;
   body.canonical = canonical_request(body);

@@ -135,6 +135,8 @@ TEST(Overrides, OfTheOutputAreToldOfAsSuch) {
   EXPECT_EQ(message("output.foo"), "\"output.foo\" is no option of the output");
   EXPECT_EQ(message("output.lod"),
             "\"output.lod\" is no option of the output; did you mean \"output.lods\"?");
+  EXPECT_THAT(message("lods"), testing::EndsWith("; did you mean \"output.lods\"?"));
+  EXPECT_THAT(message("parameters.angle"), testing::EndsWith("; did you mean \"angle\"?"));
   EXPECT_THAT(message("angel"), testing::EndsWith("; did you mean \"angle\"?"));
 }
 

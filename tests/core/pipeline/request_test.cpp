@@ -140,6 +140,17 @@ TEST(ReadRequest, PointsAtEachUnknownMember) {
       UnorderedElementsAre("/sed", "/parameters/angel", "/output/fromat"));
 }
 
+TEST(ReadRequest, SaysWhereAMemberBelongs) {
+  const Result<Request> request =
+      read_request(R"({"generator":"tree","Levels":2,"lods":3,"colour":1})", Limits{});
+  ASSERT_FALSE(request);
+  std::map<std::string, std::string> told;
+  for (const Issue& issue : request.error().issues) told[issue.pointer] = issue.message;
+  EXPECT_EQ(told["/Levels"], "\"Levels\" is not known here; it belongs in \"parameters\"");
+  EXPECT_EQ(told["/lods"], "\"lods\" is not known here; it belongs in \"output\"");
+  EXPECT_THAT(told["/colour"], testing::StartsWith("\"colour\" is not known here"));
+}
+
 TEST(ReadRequest, FindsSchemaAndGrammarFaultsTogether) {
   EXPECT_THAT(
       pointers(
