@@ -44,6 +44,15 @@ std::optional<std::vector<std::uint8_t>> decoded(std::string_view text) {
   return bytes;
 }
 
+/// What a text that is no picture begins with, or nothing that could be told.
+std::string said_of(std::string_view text) {
+  constexpr std::size_t most = 40;
+  const std::string_view head = text.substr(0, std::min({text.find_first_of(",;"), text.size(), most}));
+  const bool is_plain = std::ranges::all_of(head, [](char c) { return c > ' ' && c < 0x7F && c != '"'; });
+  if (head.empty() || !is_plain) return "no image";
+  return "\"" + std::string(head) + (head.size() < text.size() ? "…" : "") + "\", which is no such picture";
+}
+
 Error fault(std::string message) { return {Code::invalid, {{"", std::move(message)}}}; }
 
 bool is_jpeg(const std::vector<std::uint8_t>& bytes) {
@@ -90,7 +99,8 @@ std::string fault_of_image_uri(std::string_view text) {
     if (is_png) return fault_of_png(*bytes);
     return is_jpeg(*bytes) ? "" : "found no JPEG file, or only a part of one";
   }
-  return "found no image; expected \"" + std::string(png_head) + "…\" or \"" + std::string(jpeg_head) + "…\"";
+  return "found " + said_of(text) + "; expected \"" + std::string(png_head) + "…\" or \"" +
+         std::string(jpeg_head) + "…\"";
 }
 
 Result<std::shared_ptr<const Image>> image_of_data_uri(std::string_view text, const std::string& name,

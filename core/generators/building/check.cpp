@@ -11,6 +11,7 @@
 #include "core/generators/building/shapes.h"
 #include "core/gltf/read.h"
 #include "core/lang/text_places.h"
+#include "core/schema/nearest.h"
 #include "generated/params/building.h"
 
 namespace seedmesh::building {
@@ -39,29 +40,41 @@ std::string choices_of(const Attribute& attribute, const Texts& texts) {
   for (std::size_t i = 0; i < count; ++i) {
     if (i > 0) out += i + 1 == attribute.choices.size() ? " or " : ", ";
     const std::string* const text = texts.of(attribute.choices[i]);
-    out += text != nullptr ? Json(*text).dump() : Json(attribute.choices[i]).dump();
+    out += text != nullptr ? Json(*text).dump() : number_text(attribute.choices[i]);
   }
   return count < attribute.choices.size() ? out + ", ..." : out;
 }
 
-void check_attribute(const Attribute* attribute, const std::string& name, double number, const Texts& texts,
+/// Which attribute of the rules was meant, or which there are.
+std::string help_with(const std::string& name, const Grammar& grammar) {
+  std::vector<std::string_view> known;
+  for (const Attribute& each : grammar.attributes) {
+    if (!each.is_constant) known.push_back(each.name);
+  }
+  if (known.empty()) return "; they declare none";
+  const std::string_view nearest = schema::nearest_word(name, known);
+  if (!nearest.empty()) return "; did you mean \"" + std::string(nearest) + "\"?";
+  std::string list;
+  for (std::size_t i = 0; i < std::min(known.size(), most_named); ++i)
+    list.append(list.empty() ? "" : ", ").append(known[i]);
+  return "; they declare " + list + (known.size() > most_named ? ", ..." : "");
+}
+
+void check_attribute(const Attribute& attribute, const std::string& name, double number, const Texts& texts,
                      std::vector<Issue>& issues) {
   const std::string* const text = texts.of(number);
-  const std::string found = "found " + (text != nullptr ? Json(*text).dump() : Json(number).dump());
+  const std::string found = "found " + (text != nullptr ? Json(*text).dump() : number_text(number));
   const std::string pointer = "/attributes/" + escaped(name);
-  if (attribute == nullptr || attribute->is_constant) {
-    issues.push_back({pointer, attribute == nullptr
-                                   ? "the rules declare no attribute of this name"
-                                   : "the rules declare this name as a constant, which no request sets"});
+  if (attribute.is_constant) {
+    issues.push_back({pointer, "the rules declare this name as a constant, which no request sets"});
     return;
   }
-  if (attribute->has_range && (text != nullptr || number < attribute->low || number > attribute->high)) {
-    issues.push_back({pointer, found + ", expected a number from " + Json(attribute->low).dump() + " to " +
-                                   Json(attribute->high).dump()});
+  if (attribute.has_range && (text != nullptr || number < attribute.low || number > attribute.high)) {
+    issues.push_back({pointer, found + ", expected a number from " + number_text(attribute.low) + " to " +
+                                   number_text(attribute.high)});
   }
-  if (!attribute->choices.empty() &&
-      std::ranges::find(attribute->choices, number) == attribute->choices.end())
-    issues.push_back({pointer, found + ", expected " + choices_of(*attribute, texts)});
+  if (!attribute.choices.empty() && std::ranges::find(attribute.choices, number) == attribute.choices.end())
+    issues.push_back({pointer, found + ", expected " + choices_of(attribute, texts)});
 }
 
 /// A material is whatever its name says, so that a name one letter away from a known one gets a warning.
@@ -138,7 +151,12 @@ Grammar read(const BuildingParams& params, std::vector<Issue>& issues) {
     if (!faults.empty()) break;
     const auto found = std::ranges::find(grammar.attributes, name, &Attribute::name);
     const Attribute* const attribute = found == grammar.attributes.end() ? nullptr : &*found;
-    check_attribute(attribute, name, number_of(grammar.texts, given), grammar.texts, issues);
+    if (attribute == nullptr) {
+      issues.push_back({"/attributes/" + escaped(name),
+                        "the rules declare no attribute of this name" + help_with(name, grammar)});
+      continue;
+    }
+    check_attribute(*attribute, name, number_of(grammar.texts, given), grammar.texts, issues);
   }
   return grammar;
 }

@@ -1,6 +1,8 @@
 #include "core/generators/fractal/fractal.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -34,6 +36,17 @@ std::optional<Lattice> visible_lattice(const FractalParams& params, const Instru
   return lattice_of(instructions);
 }
 
+/// Of many only the first digits say something.
+std::string number_of_triangles(double wanted) {
+  constexpr double exact = 1e15;
+  if (!std::isfinite(wanted)) return "more than 1e+300";
+  if (wanted < exact) return number_text(wanted);
+  std::array<char, 32> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), wanted, std::chars_format::scientific, 1);
+  return "about " + std::string(text.data(), end.ptr);
+}
+
 /// Refuses before the grid is made, where the number of squares is known in closed form.
 void refuse_too_many_squares(const Lattice& lattice, int rounds, const Job& job) {
   const auto limit = static_cast<double>(job.limits().triangles);
@@ -43,10 +56,9 @@ void refuse_too_many_squares(const Lattice& lattice, int rounds, const Job& job)
   int fewer = rounds;
   while (fewer > 0 && !keep(fewer)) --fewer;
   const double wanted = triangles(rounds);
-  Job::refuse("needs " + (std::isfinite(wanted) ? number_text(wanted) : "more than 1e+300") +
-                  " triangles after " + std::to_string(rounds) + " rounds; the limit is " +
-                  std::to_string(job.limits().triangles) + ", which " + std::to_string(fewer) +
-                  " rounds keep",
+  Job::refuse("needs " + number_of_triangles(wanted) + " triangles after " + std::to_string(rounds) +
+                  " rounds; the limit is " + std::to_string(job.limits().triangles) + ", which " +
+                  std::to_string(fewer) + " rounds keep",
               "/iterations");
 }
 

@@ -68,6 +68,9 @@ TEST(BuildingRules, KnowAttributesConstantsAndFunctions) {
   EXPECT_THAT(sizes(derived(params), 0), ElementsAre(1, 1));
   params.attributes["nothing"] = 1.0;
   EXPECT_EQ(check(params, Limits{}).front().pointer, "/attributes/nothing");
+  EXPECT_THAT(check(params, Limits{}).front().message, HasSubstr("; they declare width, base"));
+  params.attributes = {{"widht", 2.0}};
+  EXPECT_THAT(check(params, Limits{}).front().message, HasSubstr("; did you mean \"width\"?"));
 }
 
 TEST(BuildingRules, HoldAttributesToTheirAnnotations) {
@@ -76,6 +79,7 @@ TEST(BuildingRules, HoldAttributesToTheirAnnotations) {
   std::vector<std::string> pointers;
   for (const Issue& issue : check(params, Limits{})) pointers.push_back(issue.pointer);
   EXPECT_THAT(pointers, ElementsAre("/attributes/s", "/attributes/w"));
+  EXPECT_EQ(check(params, Limits{}).back().message, "found 9, expected a number from 1 to 5");
 }
 
 TEST(BuildingRules, CompareTexts) {

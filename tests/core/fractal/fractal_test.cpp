@@ -80,6 +80,7 @@ TEST(Fractal, SaysSoWhereNoNumberIsLargeEnough) {
     EXPECT_TRUE(Json::accept(canonical_text(derived(json)))) << json;
   }
   EXPECT_TRUE(derived(R"({"iterations": 1000})")["pieces"].is_null());
+  EXPECT_THAT(refusal(R"({"iterations": 20})"), HasSubstr("needs about 4.2e+26 triangles"));
   EXPECT_THAT(refusal(R"({"iterations": 1000})"),
               testing::AllOf(HasSubstr("more than 1e+300 triangles"), HasSubstr("5 rounds keep")));
   EXPECT_THAT(refusal(R"({"iterations": 1000, "element": "sphere"})"),

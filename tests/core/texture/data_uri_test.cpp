@@ -1,6 +1,6 @@
 #include "core/texture/data_uri.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 namespace seedmesh::texture {
 namespace {
@@ -32,6 +32,15 @@ TEST(DataUri, RefusesWhatIsNoPicture) {
   EXPECT_EQ(fault_of("data:image/jpeg;base64,AAAA"), "found no JPEG file, or only a part of one");
   EXPECT_FALSE(fault_of("data:image/png;base64,AAAA").empty());
   EXPECT_FALSE(fault_of("data:image/png;base64,").empty());
+}
+
+TEST(DataUri, SaysWhatWasFoundInPlaceOfAPicture) {
+  using testing::StartsWith;
+  EXPECT_THAT(fault_of_image_uri("https://example.org/bark.png"),
+              StartsWith("found \"https://example.org/bark.png\", which is no such picture; expected"));
+  EXPECT_THAT(fault_of_image_uri("data:image/webp;base64,UklGRg=="),
+              StartsWith("found \"data:image/webp…\""));
+  EXPECT_THAT(fault_of_image_uri("\xC3\xA9"), StartsWith("found no image; expected"));
 }
 
 TEST(DataUri, RefusesAPictureThatIsCutShort) {
