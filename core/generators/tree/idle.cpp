@@ -1,10 +1,14 @@
 #include "core/generators/tree/idle.h"
 
+#include <algorithm>
+#include <array>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
 #include "core/generators/tree/looks.h"
+#include "core/generators/tree/weber_penn_shape.h"
 #include "generated/params/tree.h"
 
 namespace seedmesh::tree {
@@ -128,6 +132,9 @@ class Finder {
 
   void look_at_weber_penn() {
     look_at_levels();
+    look_at_splits();
+    if (params_.Levels == 1)
+      warn_of("", {"Shape", "RatioPower", "PruneRatio"}, "`Levels` is 1: the trunk has no limbs");
     if (params_.Leaves == 0) warn_of("", {"LeafScale", "LeafScaleX", "LeafBend"}, "`Leaves` is 0");
     if (params_.Lobes == 0) warn_of("", {"LobeDepth"}, "`Lobes` is 0");
     if (params_.LobeDepth == 0) warn_of("", {"Lobes"}, "`LobeDepth` is 0");
@@ -152,6 +159,18 @@ class Finder {
       if (level < params_.Levels || (level == params_.Levels && is_of_leaves)) continue;
       warn("/" + name, "`Levels` is " + std::to_string(params_.Levels) + ", and limbs of level " +
                            std::to_string(level) + " are there from " + std::to_string(level + 1) + " on");
+    }
+  }
+
+  /// The trunk divides at its base too.
+  void look_at_splits() {
+    const auto levels = weber_penn_levels(params_);
+    for (int i = 0; i < std::min<int>(params_.Levels, static_cast<int>(levels.size())); ++i) {
+      const std::string level = std::to_string(i);
+      if (levels[static_cast<std::size_t>(i)].seg_splits > 0 || (i == 0 && params_.base_splits > 0)) continue;
+      const std::string reason =
+          i == 0 ? "`0SegSplits` and `0BaseSplits` are 0" : "`" + level + "SegSplits` is 0";
+      warn_of("", {level + "SplitAngle", level + "SplitAngleV"}, reason);
     }
   }
 

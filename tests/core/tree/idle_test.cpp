@@ -139,6 +139,23 @@ TEST(IdleParameters, AreThoseOfLevelsThatDoNotBranch) {
   EXPECT_THAT(idle(params), IsEmpty());
 }
 
+TEST(IdleParameters, AreTheAnglesOfStemsThatDoNotSplit) {
+  TreeParams params;
+  params.split_angle_0 = params.split_angle_1 = params.split_angle_v_1 = 20;
+  EXPECT_THAT(idle(params), ElementsAre("/0SplitAngle", "/1SplitAngle", "/1SplitAngleV"));
+  params.base_splits = 1;
+  params.seg_splits_1 = 0.5;
+  EXPECT_THAT(idle(params), IsEmpty());
+}
+
+TEST(IdleParameters, AreTheLengthsOfLimbsThatATrunkHasNot) {
+  TreeParams params;
+  params.Levels = 1;
+  params.crown_shape = 1;
+  params.RatioPower = 2;
+  EXPECT_THAT(idle(params), ElementsAre("/Shape", "/RatioPower"));
+}
+
 TEST(IdleParameters, AreOfAnEnvelopeThatNothingIsPrunedBy) {
   TreeParams params;
   params.PruneWidth = 0.3;
