@@ -68,7 +68,7 @@ TEST(BuildingRules, KnowAttributesConstantsAndFunctions) {
   EXPECT_THAT(sizes(derived(params), 0), ElementsAre(1, 1));
   params.attributes["nothing"] = 1.0;
   EXPECT_EQ(check(params, Limits{}).front().pointer, "/attributes/nothing");
-  EXPECT_THAT(check(params, Limits{}).front().message, HasSubstr("; they declare width, base"));
+  EXPECT_THAT(check(params, Limits{}).front().message, HasSubstr("; they declare base, width"));
   params.attributes = {{"widht", 2.0}};
   EXPECT_THAT(check(params, Limits{}).front().message, HasSubstr("; did you mean \"width\"?"));
 }
