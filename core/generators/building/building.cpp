@@ -19,6 +19,7 @@
 #include "core/generators/child.h"
 #include "core/geom/flatten.h"
 #include "core/gltf/read.h"
+#include "core/model/levels.h"
 #include "generated/params/building.h"
 
 namespace seedmesh::building {
@@ -168,7 +169,15 @@ Sharing sharing_of(const Demand& demand) {
   return demand.share_organs ? Sharing::nodes : Sharing::paying;
 }
 
-/// Nodes whose meshes are the levels: the derivation runs again for each, with its value of `lod`.
+std::uint64_t triangles_of(const Model& model, std::span<const int> meshes) {
+  std::uint64_t triangles = 0;
+  for (const int mesh : meshes)
+    triangles += seedmesh::triangles_of(model.meshes[static_cast<std::size_t>(mesh)]);
+  return triangles;
+}
+
+/// Nodes whose meshes are the levels, each of fewer triangles than the one before: the derivation runs again
+/// for each, with its value of `lod`.
 void add_levels(Model& model, Work& work, const BuildingParams& params, const Shapes& finest,
                 std::span<const double> lods, Looks& looks, Job& job) {
   std::vector<std::vector<int>> levels;
@@ -176,7 +185,11 @@ void add_levels(Model& model, Work& work, const BuildingParams& params, const Sh
   for (const double lod : lods) {
     const Shapes shapes = shapes_of(work, params, job, {.lod = lod});
     looks.show(shapes);
+    const std::size_t meshes = model.meshes.size();
     levels.push_back(add_level(model, shapes, looks, work.assets, Sharing::merged, levels[0].size(), job));
+    if (triangles_of(model, levels.back()) < triangles_of(model, *(levels.end() - 2))) continue;
+    model.meshes.resize(meshes);  // the rules make nothing of this value that would be coarser
+    levels.pop_back();
   }
   looks.show(finest);
   // A level of fewer layers than another is shown by halves of meshes.

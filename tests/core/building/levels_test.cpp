@@ -69,6 +69,18 @@ TEST(Sharing, GivesEveryBodyANodeOrMergesAllWhereThatIsWanted) {
   EXPECT_THAT(faults(merged), IsEmpty());
 }
 
+TEST(Levels, AreNoneOfValuesThatMakeNothingCoarser) {
+  const auto levels = [](const char* rules) {
+    const Model model = demanded(with(rules), {.lods = 4});
+    EXPECT_THAT(faults(model), IsEmpty());
+    std::size_t most = 0;
+    for (const Node& node : model.nodes) most = std::max(most, 1 + node.lods.size());
+    return most;
+  };
+  EXPECT_EQ(levels("attr lod = 0 A --> split(x){ 5: B. }*"), 1U);
+  EXPECT_EQ(levels("attr lod = 0 A --> case lod < 2: split(x){ 5: B. }* else: B."), 2U);
+}
+
 TEST(Levels, OfBlueprintsGetCoarserAndKeepTheirExtent) {
   for (int i = 0; i <= static_cast<int>(BuildingBlueprint::warehouse); ++i) {
     const auto blueprint = static_cast<BuildingBlueprint>(i);
