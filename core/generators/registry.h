@@ -34,8 +34,8 @@ struct Generator {
   bool parts = false;  ///< what it repeats are parts of one thing, which beyond 400 are merged by material
   /// Its meshes fit a budget of triangles better where triangles are joined than at a level of detail.
   bool joins_triangles = false;
-  /// How a request gives its model levels of detail of its own, for who wants more than there are; empty: they
-  /// have them in any case, or never.
+  /// How a request gives its model levels of detail of its own, for who wants more than there are; empty:
+  /// they have them in any case, or never.
   std::string_view own_levels = {};
 
   /// From JSON that stands at `pointer`. Gives parameters even where there are faults: refused members have
