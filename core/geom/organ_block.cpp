@@ -122,7 +122,8 @@ SEEDMESH_WIDE bool face_of(const Lanes3* position, const Lanes3* normal, const s
     put(out, l, across);
     const float square = across.x * across.x + across.y * across.y + across.z * across.z;
     const float least = (least_over + 1e-3F) * std::sqrt(square);
-    const bool is_sound = (square > 1e-30F) & (n0.x[l] * across.x + n0.y[l] * across.y + n0.z[l] * across.z > least) &
+    const bool is_sound = (square > 1e-30F) &
+                          (n0.x[l] * across.x + n0.y[l] * across.y + n0.z[l] * across.z > least) &
                           (n1.x[l] * across.x + n1.y[l] * across.y + n1.z[l] * across.z > least) &
                           (n2.x[l] * across.x + n2.y[l] * across.y + n2.z[l] * across.z > least);
     any |= is_sound ? 0U : 1U;
@@ -151,8 +152,8 @@ SEEDMESH_WIDE void face_forward(const Lanes3& face, Lanes3& __restrict normal,
 using SixteenFloats = float __attribute__((vector_size(64)));
 static_assert(sizeof(SixteenFloats) == lanes * sizeof(float));
 
-/// Lane by lane all `count` >= 4 rows, one lane behind another: a matrix turned about its diagonal, in squares
-/// of four by four.
+/// Lane by lane all `count` >= 4 rows, one lane behind another: a matrix turned about its diagonal, in
+/// squares of four by four.
 SEEDMESH_WIDE void write_columns(const float* rows, std::size_t count, float* out) {
   for (std::size_t done = 0; done < count; done += Four::size) {
     const std::size_t first = std::min(done, count - Four::size);
@@ -163,12 +164,12 @@ SEEDMESH_WIDE void write_columns(const float* rows, std::size_t count, float* ou
     std::memcpy(&d, rows + (first + 3) * lanes, sizeof(d));
     const SixteenFloats low = __builtin_shufflevector(a, b, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28,
                                                       13, 29),
-                        low2 = __builtin_shufflevector(c, d, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12,
-                                                       28, 13, 29),
+                        low2 = __builtin_shufflevector(c, d, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28,
+                                                       13, 29),
                         high = __builtin_shufflevector(a, b, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14,
                                                        30, 15, 31),
-                        high2 = __builtin_shufflevector(c, d, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27,
-                                                        14, 30, 15, 31);
+                        high2 = __builtin_shufflevector(c, d, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14,
+                                                        30, 15, 31);
     // Lane k of every four.
     const SixteenFloats lane[4] = {
         __builtin_shufflevector(low, low2, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29),

@@ -303,8 +303,7 @@ class Placer {
     const std::uint32_t* corner = surface_.index.wide.data();
     for (const std::uint32_t* end = corner + surface_.index.wide.size(); corner != end; corner += 3) {
       const glm::vec3 a = position[corner[0]];
-      const glm::vec3 face =
-          unit_of(glm::cross(position[corner[1]] - a, position[corner[2]] - a), {0, 1, 0});
+      const glm::vec3 face = unit_of(glm::cross(position[corner[1]] - a, position[corner[2]] - a), {0, 1, 0});
       for (int k = 0; k < 3; ++k) {
         glm::vec3& here = normal[corner[k]];
         const float over = glm::dot(here, face);
