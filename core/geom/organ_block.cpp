@@ -97,15 +97,16 @@ SEEDMESH_WIDE void place_tangent(const Lanes3& normal, const Lanes3& u, const La
 }
 
 SEEDMESH_WIDE void turn_outward(const glm::vec3& middle, float share, const Lanes3& position,
-                                Lanes3& __restrict normal, std::uint32_t* __restrict faults) {
+                                const Lanes3& normal, Lanes3& __restrict mixed,
+                                std::uint32_t* __restrict faults) {
   for (std::size_t l = 0; l < lanes; ++l) {
-    const glm::vec3 own{normal.x[l], normal.y[l], normal.z[l]};
+    const glm::vec3 own = at(normal, l);
     const glm::vec3 away{position.x[l] - middle.x, position.y[l] - middle.y, position.z[l] - middle.z};
     const glm::vec3 out = organ_unit(away, faults[l]);
     const float side = out.x * own.x + out.y * own.y + out.z * own.z < 0.0F ? -1.0F : 1.0F;
-    const glm::vec3 mixed{own.x + (out.x * side - own.x) * share, own.y + (out.y * side - own.y) * share,
-                          own.z + (out.z * side - own.z) * share};
-    put(normal, l, organ_unit(mixed, faults[l]));
+    const glm::vec3 between{own.x + (out.x * side - own.x) * share, own.y + (out.y * side - own.y) * share,
+                            own.z + (out.z * side - own.z) * share};
+    put(mixed, l, organ_unit(between, faults[l]));
   }
 }
 
@@ -212,15 +213,18 @@ bool OrganBlock::reckon(const Array<Organ>& organs, std::span<const std::uint32_
   turns_of(quat_, scale_, turns);
   Faults faults = {};
   const std::size_t vertices = surface_.position.size();
+  Lanes3 own;
   for (std::size_t i = 0; i < vertices; ++i) {
     place_point(turns, place_, surface_.position[i], position_[i]);
-    if (i > 0 && surface_.normal[i] == surface_.normal[i - 1]) {  // flat, as most leaves are
-      normal_[i] = normal_[i - 1];
+    if (i == 0 || surface_.normal[i] != surface_.normal[i - 1])  // flat, as most leaves are: only once
+      place_normal(turns, surface_.normal[i], own, faults);
+    if (options_.crown) {
+      turn_outward(*options_.crown, options_.crown_share, position_[i], own, normal_[i], faults);
     } else {
-      place_normal(turns, surface_.normal[i], normal_[i], faults);
+      normal_[i] = own;
     }
   }
-  if (options_.crown) follow_crown(faults);
+  if (options_.crown) face_outward(faults);
   Lanes3 u, across;
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     if (i == 0 || sides_[i] != sides_[i - 1]) place_sides(turns, sides_[i], u, across);
@@ -229,9 +233,8 @@ bool OrganBlock::reckon(const Array<Organ>& organs, std::span<const std::uint32_
   return std::all_of(faults, faults + lanes, [](std::uint32_t fault) { return fault == 0; });
 }
 
-void OrganBlock::follow_crown(std::uint32_t* faults) {
-  for (std::size_t i = 0; i < surface_.position.size(); ++i)
-    turn_outward(*options_.crown, options_.crown_share, position_[i], normal_[i], faults);
+/// Normals that follow a crown stay on the side of all their faces.
+void OrganBlock::face_outward(std::uint32_t* faults) {
   const std::uint32_t* corner = surface_.index.wide.data();
   for (const std::uint32_t* end = corner + surface_.index.wide.size(); corner != end; corner += 3) {
     Lanes3 face;

@@ -44,7 +44,7 @@ class OrganBlock {
   void write(std::size_t count, glm::vec3* position, glm::vec3* normal, glm::vec4* tangent) const;
 
  private:
-  void follow_crown(std::uint32_t* faults);
+  void face_outward(std::uint32_t* faults);
 
   const Mesh& surface_;
   const FoliageOptions& options_;

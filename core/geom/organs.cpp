@@ -175,7 +175,7 @@ class Placer {
         for (std::size_t k = i; k < i + count; ++k) place_shape(organs[numbers[k]], k * vertices);
       }
       place_copies(i, count);
-      for (std::size_t k = i; k < i + count; ++k) place_rest(organs[numbers[k]], k * vertices);
+      place_rest(organs, numbers.subspan(i, count), i * vertices);
     }
   }
 
@@ -203,17 +203,20 @@ class Placer {
           out_.index.wide.data() + first * corners);
   }
 
-  /// All else.
-  void place_rest(const Organ& organ, std::size_t first) const {
-    if (!out_.color.empty()) {
-      if (surface_.color.empty()) {
-        place_gray(organ, first);
-      } else {
-        place_colors(organ, first);
-      }
+  /// All else, of `numbers` one behind another.
+  void place_rest(const Array<Organ>& organs, std::span<const std::uint32_t> numbers,
+                  std::size_t first) const {
+    const std::size_t vertices = surface_.position.size();
+    const bool is_gray = !out_.color.empty() && surface_.color.empty();
+    if (is_gray) place_grays(organs, numbers, out_.color.data() + first);
+    if ((out_.color.empty() || is_gray) && out_.bone.empty() && !options_.wind) return;
+    for (const std::uint32_t number : numbers) {
+      const Organ& organ = organs[number];
+      if (!out_.color.empty() && !is_gray) place_colors(organ, first);
+      if (!out_.bone.empty()) std::fill_n(out_.bone.data() + first, vertices, bone_of(organ));
+      if (options_.wind) place_wind(organ, first);
+      first += vertices;
     }
-    if (!out_.bone.empty()) std::fill_n(out_.bone.data() + first, surface_.position.size(), bone_of(organ));
-    if (options_.wind) place_wind(organ, first);
   }
 
   static float fraction(std::uint64_t hash) { return static_cast<float>(hash >> 40U) * 0x1p-24F; }
@@ -238,15 +241,21 @@ class Placer {
     return 1.0F - options_.tint * fraction(key_at(organ.key, 0x7147));
   }
 
-  /// Of surfaces without colours: one gray for all vertices.
-  void place_gray(const Organ& organ, std::size_t first) const {
-    const auto gray = static_cast<std::uint8_t>(255.0F * shade_of(organ));
-    // As a word: parts of one are slow to write.
-    const std::uint32_t color = 0xFF000000U | gray * 0x010101U;
-    static_assert(sizeof(color) == sizeof(glm::u8vec4) && std::endian::native == std::endian::little);
-    glm::u8vec4* to = out_.color.data() + first;
-    for (std::size_t i = 0; i < surface_.position.size(); ++i)
-      std::memcpy(static_cast<void*>(to + i), &color, sizeof(color));
+  /// Of surfaces without colours: one gray for all vertices of an organ.
+  void place_grays(const Array<Organ>& organs, std::span<const std::uint32_t> numbers,
+                   glm::u8vec4* to) const {
+    constexpr std::size_t together = 4;
+    const std::size_t vertices = surface_.position.size(), rest = vertices % together;
+    for (const std::uint32_t number : numbers) {
+      const auto gray = static_cast<std::uint8_t>(255.0F * shade_of(organs[number]));
+      // As words: parts of one are slow to write.
+      const std::uint32_t color = 0xFF000000U | gray * 0x010101U;
+      static_assert(sizeof(color) == sizeof(glm::u8vec4) && std::endian::native == std::endian::little);
+      const std::uint32_t colors[together] = {color, color, color, color};
+      glm::u8vec4* const end = to + (vertices - rest);
+      for (; to != end; to += together) std::memcpy(static_cast<void*>(to), colors, sizeof(colors));
+      for (std::size_t i = 0; i < rest; ++i) std::memcpy(static_cast<void*>(to++), &color, sizeof(color));
+    }
   }
 
   void place_colors(const Organ& organ, std::size_t first) const {

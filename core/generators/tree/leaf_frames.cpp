@@ -49,15 +49,24 @@ Turn settled(const Turn& q) {
   return {r.w * side + 0.0F, r.x * side + 0.0F, r.y * side + 0.0F, r.z * side + 0.0F};
 }
 
-/// Sine and cosine of half the angles `degrees`, changed by chance.
-SEEDMESH_WIDE void halve(const double* degrees, const std::uint64_t* key, std::uint64_t place, double range,
-                         std::size_t count, float* __restrict sine, float* __restrict cosine) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const math::FloatSinCos half =
-        math::quick_float_sincos_degrees(0.5 * (degrees[i] + drawn_at(key[i], place, range)));
-    sine[i] = half.sin;
-    cosine[i] = half.cos;
-  }
+void put_half(double degrees, std::size_t i, float* __restrict sine, float* __restrict cosine) {
+  const math::FloatSinCos half = math::quick_float_sincos_degrees(0.5 * degrees);
+  sine[i] = half.sin;
+  cosine[i] = half.cos;
+}
+
+/// Sine and cosine of half the angles `degrees`.
+SEEDMESH_WIDE void halve(const double* degrees, std::size_t count, float* __restrict sine,
+                         float* __restrict cosine) {
+  for (std::size_t i = 0; i < count; ++i) put_half(degrees[i], i, sine, cosine);
+}
+
+/// The same of angles that chance has changed by up to `range`.
+SEEDMESH_WIDE void vary_and_halve(const double* degrees, const std::uint64_t* key, std::uint64_t place,
+                                  double range, std::size_t count, float* __restrict sine,
+                                  float* __restrict cosine) {
+  for (std::size_t i = 0; i < count; ++i)
+    put_half(degrees[i] + drawn_at(key[i], place, range), i, sine, cosine);
 }
 
 /// Numbers of leaves by columns; angles as sine and cosine of their halves.
@@ -94,8 +103,13 @@ SEEDMESH_WIDE void turn_lit(const Columns& c, std::size_t count, float bend,
 void LeafFrames::reckon(const Habit& habit, const glm::vec3& scale, Organ* out) {
   float about[2][most], down[2][most], turned[4][most];
   const std::size_t count = (count_ + lanes - 1) / lanes * lanes;
-  halve(about_, key_, place_of("rotate"), habit.about_v, count, about[0], about[1]);
-  halve(down_, key_, place_of("down"), habit.down_v, count, down[0], down[1]);
+  const auto reckon_halves = [&](const double* degrees, std::uint64_t place, double range,
+                                 float(&halves)[2][most]) {
+    if (range == 0) return halve(degrees, count, halves[0], halves[1]);
+    vary_and_halve(degrees, key_, place, range, count, halves[0], halves[1]);
+  };
+  reckon_halves(about_, place_of("rotate"), habit.about_v, about);
+  reckon_halves(down_, place_of("down"), habit.down_v, down);
   const Columns columns{stem_, about, down, position_};
   if (habit.bend == 0) {
     turn_still(columns, count, turned);

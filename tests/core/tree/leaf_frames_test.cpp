@@ -68,7 +68,9 @@ TEST(LeafFrames, AreThoseOfEachLeafByItself) {
         EXPECT_GE(q.w, 0);
         // On the axis of the trunk every side is outward, and a level leaf has no axis to be raised about.
         const bool is_plain = std::abs(frame.up.y) > 1e-5 && i >= 3;
-        if (is_plain) EXPECT_LT(between(q, quaternion(upper_side_up(frame))), 1e-6) << i << " bend " << bend;
+        if (is_plain) {
+          EXPECT_LT(between(q, quaternion(upper_side_up(frame))), 1e-6) << i << " bend " << bend;
+        }
         EXPECT_EQ(organs[i].position, glm::vec3(leaf.position));
         EXPECT_EQ(organs[i].limb_joint, i);
         EXPECT_EQ(organs[i].key, 77U);
