@@ -96,7 +96,9 @@ Generator::Params read_parameters(const Generator& generator, const Json& json, 
 Result<Model> generate_child(const Child& child, const std::string& pointer, Rng place, const Job& job,
                              const Demand& demand) {
   Call call(child, pointer, place, job);
-  call.job.set_demand(demand);
+  Demand own = demand;
+  own.tangents = false;  // whoever has the whole makes those of all meshes that stay
+  call.job.set_demand(own);
   Result<Model> model = call.run<Model>(call.generator->generate);
   if (!model) return model;
   widen(*model, job);

@@ -1,7 +1,9 @@
 #pragma once
-/// Places of organs reckoned many at once: positions and normals, lane by lane the same bits as one by one.
+/// Places of organs reckoned many at once: positions, normals and tangents, lane by lane the same bits as one
+/// by one.
 #include <span>
 
+#include "core/geom/organ_tangents.h"
 #include "core/geom/organs.h"
 
 namespace seedmesh {
@@ -10,8 +12,15 @@ namespace seedmesh {
 constexpr std::size_t organ_lanes = 16;
 struct OrganLanes3 {
   float x[organ_lanes], y[organ_lanes], z[organ_lanes];
-  glm::vec3 at(std::size_t lane) const { return {x[lane], y[lane], z[lane]}; }
 };
+struct OrganLanes4 {
+  OrganLanes3 xyz;
+  float w[organ_lanes];
+};
+
+/// What normals that follow a crown have of a unit vector across each of their faces: those with less get as
+/// much as is wanted.
+constexpr float organ_least_over = 0.1F, organ_wanted_over = 0.15F;
 
 class OrganBlock {
  public:
@@ -22,21 +31,28 @@ class OrganBlock {
            surface.tangent.empty() && !surface.normal.empty();
   }
 
-  OrganBlock(const Mesh& surface, const FoliageOptions& options) : surface_(surface), options_(options) {}
+  /// `sides`: of each vertex of the surface, or empty where no tangents are wanted; borrowed.
+  OrganBlock(const Mesh& surface, const FoliageOptions& options, std::span<const PictureSides> sides)
+      : surface_(surface), options_(options), sides_(sides) {}
 
   /// The organs of one block, by their numbers in `organs`; 1..organ_lanes of them.
   /// False: one has a vector without a direction, and must be placed by itself as all must.
   bool reckon(const Array<Organ>& organs, std::span<const std::uint32_t> numbers);
 
-  /// Writes the vertices of the first `count` lanes, one organ behind another.
-  void write(std::size_t count, glm::vec3* position, glm::vec3* normal) const;
+  /// Writes the vertices of the first `count` lanes, one organ behind another. `tangent` is read only where
+  /// they are wanted.
+  void write(std::size_t count, glm::vec3* position, glm::vec3* normal, glm::vec4* tangent) const;
 
  private:
+  void face_outward(std::uint32_t* faults);
+
   const Mesh& surface_;
   const FoliageOptions& options_;
+  std::span<const PictureSides> sides_;
   OrganLanes3 place_, scale_;
   float quat_[4][organ_lanes];  ///< x y z w
   OrganLanes3 position_[most_vertices], normal_[most_vertices];
+  OrganLanes4 tangent_[most_vertices];
 };
 
 }  // namespace seedmesh

@@ -10,8 +10,9 @@
 #include "core/base/quick_math.h"
 #include "core/base/rng.h"
 #include "core/base/wide.h"
-#include "core/geom/four.h"
 #include "core/geom/organ_block.h"
+#include "core/geom/organ_tangents.h"
+#include "core/geom/tangents.h"
 
 namespace seedmesh {
 namespace {
@@ -137,6 +138,12 @@ SEEDMESH_WIDE void shift(const std::uint32_t* from, std::size_t count, std::uint
   for (std::size_t i = 0; i < count; ++i) out[i] = from[i] + by;
 }
 
+glm::vec3 unit_of(const glm::vec3& v, const glm::vec3& otherwise) {
+  std::uint32_t fault = 0;
+  const glm::vec3 unit = organ_unit(v, fault);
+  return fault == 0 ? unit : math::unit(v, otherwise);
+}
+
 /// Writes organs' vertices and triangles at their places.
 class Placer {
  public:
@@ -146,6 +153,7 @@ class Placer {
         out_(out),
         in_blocks_(OrganBlock::takes(surface)),
         together_(in_blocks_ ? organ_lanes : 1) {
+    if (options.tangents && surface.tangent.empty()) sides_ = picture_sides(surface);
     for (std::size_t k = 0; k < together_; ++k) {
       uv_.insert(uv_.end(), surface.uv[0].begin(), surface.uv[0].end());
       for (const std::uint32_t corner : surface.index.wide)
@@ -156,17 +164,18 @@ class Placer {
   /// Organs `numbers[begin]` to `numbers[end - 1]` of `organs`.
   void place_all(const Array<Organ>& organs, std::span<const std::uint32_t> numbers, std::size_t begin,
                  std::size_t end) const {
-    OrganBlock block(surface_, options_);
+    OrganBlock block(surface_, options_, sides_);
     const std::size_t vertices = surface_.position.size();
     for (std::size_t i = begin; i < end; i += together_) {
       const std::size_t count = std::min(together_, end - i);
       if (in_blocks_ && block.reckon(organs, numbers.subspan(i, count))) {
-        block.write(count, out_.position.data() + i * vertices, out_.normal.data() + i * vertices);
+        block.write(count, out_.position.data() + i * vertices, out_.normal.data() + i * vertices,
+                    out_.tangent.data() + i * vertices);
       } else {
         for (std::size_t k = i; k < i + count; ++k) place_shape(organs[numbers[k]], k * vertices);
       }
       place_copies(i, count);
-      for (std::size_t k = i; k < i + count; ++k) place_rest(organs[numbers[k]], k * vertices);
+      place_rest(organs, numbers.subspan(i, count), i * vertices);
     }
   }
 
@@ -182,6 +191,7 @@ class Placer {
     place_normals(organ, turn, out_.normal.data() + first);
     if (!surface_.tangent.empty()) place_tangents(first, turn, stretch);
     if (options_.crown) follow_crown(position, out_.normal.data() + first);
+    if (!sides_.empty()) place_sides(first, stretch);
   }
 
   /// What is the same of all organs, of up to `together_` of them.
@@ -193,17 +203,20 @@ class Placer {
           out_.index.wide.data() + first * corners);
   }
 
-  /// All else.
-  void place_rest(const Organ& organ, std::size_t first) const {
-    if (!out_.color.empty()) {
-      if (surface_.color.empty()) {
-        place_gray(organ, first);
-      } else {
-        place_colors(organ, first);
-      }
+  /// All else, of `numbers` one behind another.
+  void place_rest(const Array<Organ>& organs, std::span<const std::uint32_t> numbers,
+                  std::size_t first) const {
+    const std::size_t vertices = surface_.position.size();
+    const bool is_gray = !out_.color.empty() && surface_.color.empty();
+    if (is_gray) place_grays(organs, numbers, out_.color.data() + first);
+    if ((out_.color.empty() || is_gray) && out_.bone.empty() && !options_.wind) return;
+    for (const std::uint32_t number : numbers) {
+      const Organ& organ = organs[number];
+      if (!out_.color.empty() && !is_gray) place_colors(organ, first);
+      if (!out_.bone.empty()) std::fill_n(out_.bone.data() + first, vertices, bone_of(organ));
+      if (options_.wind) place_wind(organ, first);
+      first += vertices;
     }
-    if (!out_.bone.empty()) std::fill_n(out_.bone.data() + first, surface_.position.size(), bone_of(organ));
-    if (options_.wind) place_wind(organ, first);
   }
 
   static float fraction(std::uint64_t hash) { return static_cast<float>(hash >> 40U) * 0x1p-24F; }
@@ -213,7 +226,6 @@ class Placer {
   }
 
   void place_normals(const Organ& organ, const glm::mat3& turn, glm::vec3* normal) const {
-    const bool is_even = organ.scale.x == organ.scale.y && organ.scale.y == organ.scale.z;
     const glm::vec3 inverse = 1.0F / organ.scale;
     const glm::vec3* from = surface_.normal.data();
     for (std::size_t i = 0; i < surface_.normal.size(); ++i) {
@@ -221,8 +233,7 @@ class Placer {
         normal[i] = normal[i - 1];
         continue;
       }
-      const glm::vec3 own = is_even ? from[i] : math::quick_unit(from[i] * inverse, {0, 0, 1});
-      normal[i] = math::quick_unit(turn * own, {0, 1, 0});
+      normal[i] = unit_of(turn * (from[i] * inverse), {0, 1, 0});
     }
   }
 
@@ -230,15 +241,21 @@ class Placer {
     return 1.0F - options_.tint * fraction(key_at(organ.key, 0x7147));
   }
 
-  /// Of surfaces without colours: one gray for all vertices.
-  void place_gray(const Organ& organ, std::size_t first) const {
-    const auto gray = static_cast<std::uint8_t>(255.0F * shade_of(organ));
-    // As a word: parts of one are slow to write.
-    const std::uint32_t color = 0xFF000000U | gray * 0x010101U;
-    static_assert(sizeof(color) == sizeof(glm::u8vec4) && std::endian::native == std::endian::little);
-    glm::u8vec4* to = out_.color.data() + first;
-    for (std::size_t i = 0; i < surface_.position.size(); ++i)
-      std::memcpy(static_cast<void*>(to + i), &color, sizeof(color));
+  /// Of surfaces without colours: one gray for all vertices of an organ.
+  void place_grays(const Array<Organ>& organs, std::span<const std::uint32_t> numbers,
+                   glm::u8vec4* to) const {
+    constexpr std::size_t together = 4;
+    const std::size_t vertices = surface_.position.size(), rest = vertices % together;
+    for (const std::uint32_t number : numbers) {
+      const auto gray = static_cast<std::uint8_t>(255.0F * shade_of(organs[number]));
+      // As words: parts of one are slow to write.
+      const std::uint32_t color = 0xFF000000U | gray * 0x010101U;
+      static_assert(sizeof(color) == sizeof(glm::u8vec4) && std::endian::native == std::endian::little);
+      const std::uint32_t colors[together] = {color, color, color, color};
+      glm::u8vec4* const end = to + (vertices - rest);
+      for (; to != end; to += together) std::memcpy(static_cast<void*>(to), colors, sizeof(colors));
+      for (std::size_t i = 0; i < rest; ++i) std::memcpy(static_cast<void*>(to++), &color, sizeof(color));
+    }
   }
 
   void place_colors(const Organ& organ, std::size_t first) const {
@@ -261,6 +278,16 @@ class Placer {
     }
   }
 
+  void place_sides(std::size_t first, const glm::mat3& stretch) const {
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      const glm::vec3 normal = out_.normal[first + i], u = stretch * sides_[i].u;
+      const glm::vec3 across = glm::cross(u, stretch * sides_[i].v);
+      std::uint32_t fault = 0;
+      const glm::vec4 tangent = organ_tangent(normal, u, across, fault);
+      out_.tangent[first + i] = fault == 0 ? tangent : glm::vec4(any_across(normal), tangent.w);
+    }
+  }
+
   /// An organ moves whole with the limb at its base; its own flutter grows from there to its tip.
   void place_wind(const Organ& organ, std::size_t first) const {
     const glm::vec2 sway = options_.wind->at(organ.limb_joint, organ.position);
@@ -276,42 +303,22 @@ class Placer {
     const glm::vec3 middle = *options_.crown;
     const float share = options_.crown_share;
     const std::size_t vertices = surface_.position.size();
-    for (std::size_t i = 0; i < vertices; i += Four::size) {
-      const std::size_t count = std::min(Four::size, vertices - i);
-      if (turn_outward(position + i, normal + i, count)) continue;
-      for (std::size_t k = i; k < i + count; ++k) {
-        const glm::vec3 own = normal[k];
-        glm::vec3 outward = math::quick_unit(position[k] - middle, own);
-        if (glm::dot(outward, own) < 0) outward = -outward;
-        normal[k] = math::quick_unit(own + (outward - own) * share, own);
-      }
+    for (std::size_t i = 0; i < vertices; ++i) {
+      const glm::vec3 own = normal[i];
+      glm::vec3 outward = unit_of(position[i] - middle, own);
+      if (glm::dot(outward, own) < 0) outward = -outward;
+      normal[i] = unit_of(own + (outward - own) * share, own);
     }
     const std::uint32_t* corner = surface_.index.wide.data();
     for (const std::uint32_t* end = corner + surface_.index.wide.size(); corner != end; corner += 3) {
       const glm::vec3 a = position[corner[0]];
-      const glm::vec3 face =
-          math::quick_unit(glm::cross(position[corner[1]] - a, position[corner[2]] - a), {0, 1, 0});
+      const glm::vec3 face = unit_of(glm::cross(position[corner[1]] - a, position[corner[2]] - a), {0, 1, 0});
       for (int k = 0; k < 3; ++k) {
         glm::vec3& here = normal[corner[k]];
         const float over = glm::dot(here, face);
-        if (over < 0.1F) here = math::quick_unit(here + face * (0.15F - over), face);
+        if (over < organ_least_over) here = unit_of(here + face * (organ_wanted_over - over), face);
       }
     }
-  }
-
-  /// The same for up to four normals at once. False: they are left as they are, for there is one without a
-  /// direction.
-  bool turn_outward(const glm::vec3* position, glm::vec3* normal, std::size_t count) const {
-    const glm::vec3& middle = *options_.crown;
-    const Four own = Four::of(normal, count), at = Four::of(position, count);
-    Four out{at.x - middle.x, at.y - middle.y, at.z - middle.z};
-    if (!to_units(out)) return false;
-    const FourFloats one{1, 1, 1, 1};
-    out = scaled(out, chosen(dot(out, own) < 0.0F, -one, one));
-    Four mixed = sum(own, scaled(difference(out, own), one * options_.crown_share));
-    if (!to_units(mixed)) return false;
-    for (std::size_t k = 0; k < count; ++k) normal[k] = mixed.at(k);
-    return true;
   }
 
   const Mesh& surface_;
@@ -322,6 +329,7 @@ class Placer {
   // Of so many organs.
   std::vector<glm::vec2> uv_;
   std::vector<std::uint32_t> index_;
+  std::vector<PictureSides> sides_;  ///< of each vertex, where tangents are made
 };
 
 Mesh room_for(const Mesh& surface, std::size_t count, const FoliageOptions& options, Job& job) {
@@ -332,7 +340,7 @@ Mesh room_for(const Mesh& surface, std::size_t count, const FoliageOptions& opti
   mesh.position = Array<glm::vec3>(job, vertices);
   mesh.normal = Array<glm::vec3>(job, vertices);
   if (!surface.uv[0].empty()) mesh.uv[0] = Array<glm::vec2>(job, vertices);
-  if (!surface.tangent.empty()) mesh.tangent = Array<glm::vec4>(job, vertices);
+  if (options.tangents || !surface.tangent.empty()) mesh.tangent = Array<glm::vec4>(job, vertices);
   if (options.tint > 0 || !surface.color.empty()) mesh.color = Array<glm::u8vec4>(job, vertices);
   if (!options.bones.empty()) mesh.bone = Array<std::uint16_t>(job, vertices);
   if (options.wind) {

@@ -42,12 +42,14 @@ struct FoliageOptions {
   std::span<const std::uint16_t> bones = {};
   /// Where given, wind weights as in wind.h.
   const WindField* wind = nullptr;
+  /// Tangents along uv[0], which surfaces then have, as add_tangents() would make them of the result.
+  bool tangents = false;
 };
 
 /// One Foliage for each surface and colour in use, both rising. Organs that stand exactly on an earlier one
 /// of their surface are passed over, and so are those without extent. Spends Resource::triangles before it
-/// allocates. Runs on job.threads(); the result does not depend on it. 3 ns a vertex and thread, 15 with a
-/// crown. Tangents of a surface come along.
+/// allocates. Runs on job.threads(); the result does not depend on it. 3 ns a vertex and thread, twice that
+/// with a crown. Tangents of a surface come along.
 std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& options, Job& job);
 
 /// The same organs as transforms, for formats that share one mesh among nodes.

@@ -18,12 +18,6 @@
 namespace seedmesh {
 namespace {
 
-/// Some direction at right angles to a unit vector.
-glm::vec3 any_across(const glm::vec3& normal) {
-  const glm::vec3 axis = std::abs(normal.x) < 0.5F ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-  return math::unit(glm::cross(normal, axis), {0, 0, 1});
-}
-
 using EightFloats = float __attribute__((vector_size(32)));
 
 /// Along u and along v, summed over the triangles at a vertex; each in the first three lanes. Added to as
@@ -250,6 +244,11 @@ class Wanted {
 };
 
 }  // namespace
+
+glm::vec3 any_across(const glm::vec3& normal) {
+  const glm::vec3 axis = std::abs(normal.x) < 0.5F ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+  return math::unit(glm::cross(normal, axis), {0, 0, 1});
+}
 
 void add_tangents(Model& model, const Job& job) {
   std::vector<Wanted> wanted;

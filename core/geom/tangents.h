@@ -4,6 +4,9 @@
 
 namespace seedmesh {
 
+/// Some direction at right angles to a unit vector.
+glm::vec3 any_across(const glm::vec3& normal);
+
 /// Gives every triangle mesh whose material has a normal map, and that has normals and the map's texture
 /// coordinates, unit tangents at right angles to its normals: the mean direction of growing u over the
 /// triangles of a vertex, weighted by area, with the sign of the bitangent in w as glTF wants it. A vertex

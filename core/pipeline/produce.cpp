@@ -162,6 +162,10 @@ Demand demand_of(const OutputParams& output, const Generator& generator) {
           .wind = output.wind == OutputWind::weights,
           .collision = static_cast<CollisionNames>(output.collision),
           .textures = texture_size(output),
+          // Else meshes are merged, simplified or drawn before they get tangents.
+          .tangents = output.tangents == OutputTangents::auto_ && !output.max_triangles &&
+                      output.variants == 1 && output.lods == 1 && !output.impostor &&
+                      output.instancing != OutputInstancing::merge,
           .impostor = output.impostor,
           .copies = static_cast<CopyForm>(output.instancing),
           .most_triangles = static_cast<std::uint64_t>(output.max_triangles.value_or(0)),

@@ -30,7 +30,7 @@ LeafBuild leaf_build(TreeBuild build) {
   }
 }
 
-FoliageOptions options_of(const Leaves& leaves) {
+FoliageOptions options_of(const Leaves& leaves, const Job& job) {
   const Organs& organs = leaves.organs;
   const TreeParams& params = leaves.params;
   FoliageOptions options;
@@ -38,6 +38,8 @@ FoliageOptions options_of(const Leaves& leaves) {
   options.tint = static_cast<float>(params.leaf.tint);
   options.bones = leaves.motion.bones;
   options.wind = leaves.motion.wind;
+  const Demand& demand = job.demand();
+  options.tangents = demand.tangents && demand.textures > 0 && has_leaf_relief(params);
   if (params.leaf.crown_normals > 0 && !organs.organ.empty()) {
     Box box{organs.organ[0].position, organs.organ[0].position};
     for (const Organ& organ : organs.organ) {
@@ -87,7 +89,7 @@ void add_merged(Model& model, const Leaves& leaves, TreeLevels& levels,
       const double share =
           levels.leaves_at(Detail(level), leaves.organs.organ.size(), leaf.elements(), before);
       const Organs fewer = levels.foliage->keep(leaves.organs, share, job);
-      parts = place(fewer, leaf, options_of(leaves), job);
+      parts = place(fewer, leaf, options_of(leaves, job), job);
     }
     before = levels.bark.empty() ? 0 : levels.bark[static_cast<std::size_t>(level)];
     for (Foliage& part : parts) {
@@ -157,7 +159,7 @@ void fit_leaves(Organs& organs, const TreeParams& params, const Mesh& leaf, cons
 }
 
 std::vector<Foliage> finest_leaves(const Leaves& leaves, Job& job) {
-  return place(leaves.organs, leaves.leaf, options_of(leaves), job);
+  return place(leaves.organs, leaves.leaf, options_of(leaves, job), job);
 }
 
 void add_leaves(Model& model, const Leaves& leaves, TreeLevels& levels,
@@ -165,7 +167,7 @@ void add_leaves(Model& model, const Leaves& leaves, TreeLevels& levels,
   if (leaves.organs.organ.empty()) return;
   const LeafLook look = add_leaf_look(model, leaves.params, job);
   if (job.demand().share_organs) {
-    add_shared(model, leaves.organs, leaves.params, options_of(leaves), look, job);
+    add_shared(model, leaves.organs, leaves.params, options_of(leaves, job), look, job);
   } else {
     add_merged(model, leaves, levels, std::move(finest), look, job);
   }

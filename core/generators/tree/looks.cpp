@@ -121,6 +121,11 @@ bool wears_picture(const TreeParams& params) {
   return params.leaf.picture == TreePicture::own;
 }
 
+bool has_leaf_relief(const TreeParams& params) {
+  if (!params.leaf.images.normal.empty()) return true;
+  return wears_picture(params) && params.leaf.images.color.empty();
+}
+
 int add_bark_look(Model& model, const TreeParams& params, const Job& job) {
   Material material;
   material.name = "bark";

@@ -161,6 +161,7 @@ void WeberPennGrower::put_leaves(WeberPennStem& stem, const WeberPennPiece& piec
     find_drawn(leaf_chance_, static_cast<std::uint64_t>(first), writer_.drawn_below(), drawn_.data(), count);
   }
   const WeberPennLevel& l = level(stem.level + 1);
+  const glm::quat frame = quaternion(piece.frame);
   std::size_t stop = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (!draws_all && !drawn_[i]) continue;
@@ -169,7 +170,7 @@ void WeberPennGrower::put_leaves(WeberPennStem& stem, const WeberPennPiece& piec
     const int number = first + static_cast<int>(i);
     const double down = l.down_angle_v >= 0 ? l.down_angle : down_at(stem, offset);
     leaf_frames_.add(
-        piece.frame, piece.at(offset), joints_[stop].joint,
+        frame, piece.at(offset), joints_[stop].joint,
         {about_stem(l, number), down, leaf_chance_.at(static_cast<std::uint64_t>(number)).key()});
     if (leaf_frames_.is_full()) write_leaves();
   }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 
 #include "core/base/math.h"
@@ -71,6 +72,57 @@ TEST(OrganBlock, PlacesLeavesToTheBitAsOneByOne) {
   }
 }
 
+/// Of one surface: as they come, and by add_tangents().
+std::array<Mesh, 2> with_tangents(const Mesh& surface, const Organs& organs, Job& job);
+
+TEST(OrganTangents, AreThoseThatAreMadeOfTheWholeMesh) {
+  for (const LeafBuild build : {LeafBuild::card, LeafBuild::cross, LeafBuild::curved, LeafBuild::mesh}) {
+    Job job = job_of();
+    const Mesh leaf = leaf_of(build, job);
+    const auto [placed, summed] = with_tangents(leaf, organs_of(53, job), job);
+    ASSERT_EQ(placed.tangent.size(), 53 * leaf.position.size());
+    ASSERT_EQ(summed.tangent.size(), placed.tangent.size());
+    for (std::size_t i = 0; i < placed.tangent.size(); ++i) {
+      const glm::vec3 own(placed.tangent[i]), other(summed.tangent[i]);
+      EXPECT_NEAR(glm::length(own), 1, 1e-6) << i;
+      EXPECT_NEAR(glm::dot(own, placed.normal[i]), 0, 2e-6) << i;
+      EXPECT_LT(glm::distance(own, other), 2e-3F) << i;
+      EXPECT_EQ(placed.tangent[i].w, summed.tangent[i].w) << i;
+    }
+  }
+}
+
+TEST(OrganTangents, AreSomeDirectionInTheSurfaceWhereThePictureHasNone) {
+  Job job = job_of();
+  Mesh leaf = leaf_of(LeafBuild::card, job);
+  for (glm::vec2& uv : leaf.uv[0]) uv = {0.5F, 0.5F};
+  FoliageOptions options = options_of(leaf);
+  options.tangents = true;
+  const Mesh mesh = std::move(place_organs(organs_of(20, job), options, job)[0].mesh);
+  for (std::size_t i = 0; i < mesh.tangent.size(); ++i) {
+    EXPECT_NEAR(glm::length(glm::vec3(mesh.tangent[i])), 1, 1e-6);
+    EXPECT_NEAR(glm::dot(glm::vec3(mesh.tangent[i]), mesh.normal[i]), 0, 2e-6);
+    EXPECT_EQ(std::abs(mesh.tangent[i].w), 1);
+  }
+}
+
+TEST(OrganTangents, AreToTheBitThoseOfEachLeafByItself) {
+  Job job = job_of();
+  const Mesh leaf = leaf_of(LeafBuild::curved, job);
+  const Organs organs = organs_of(45, job);
+  FoliageOptions options = options_of(leaf);
+  options.tangents = true;
+  const Mesh all = std::move(place_organs(organs, options, job)[0].mesh);
+  for (std::size_t i = 0; i < 45; ++i) {
+    Organs one(job);
+    one.organ.push_back(organs.organ[i]);
+    const Mesh own = std::move(place_organs(one, options, job)[0].mesh);
+    const std::size_t first = i * own.tangent.size();
+    EXPECT_EQ(std::memcmp(own.tangent.data(), all.tangent.data() + first, own.tangent.bytes()), 0) << i;
+    EXPECT_EQ(std::memcmp(own.normal.data(), all.normal.data() + first, own.normal.bytes()), 0) << i;
+  }
+}
+
 TEST(OrganBlock, LeavesOutWhatStandsExactlyOnAnother) {
   Job job = job_of();
   const Mesh leaf = leaf_of(LeafBuild::card, job);
@@ -91,6 +143,15 @@ Model model_of(Mesh mesh) {
   model.meshes.resize(1);
   model.meshes[0].primitives.push_back({std::move(mesh), 0, {}});
   return model;
+}
+
+std::array<Mesh, 2> with_tangents(const Mesh& surface, const Organs& organs, Job& job) {
+  FoliageOptions options = options_of(surface);
+  Model model = model_of(std::move(place_organs(organs, options, job)[0].mesh));
+  add_tangents(model, job);
+  options.tangents = true;
+  return {std::move(place_organs(organs, options, job)[0].mesh),
+          std::move(model.meshes[0].primitives[0].mesh)};
 }
 
 TEST(PieceTangents, AreToTheBitThoseOfEachLeafByItself) {
