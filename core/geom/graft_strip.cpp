@@ -63,6 +63,19 @@ SEEDMESH_WIDE void GraftWriter::write_strip(const Corners& below, const Corners&
   }
 }
 
+/// From the ring `below_` to a point above it or below.
+void GraftWriter::triangles_to(std::uint32_t apex, bool is_below) {
+  const std::size_t count = below_.size() - 1;
+  spend_triangles(count);
+  std::uint32_t* out = mesh_.index.wide.extend(3 * count);
+  for (std::size_t i = 0; i < count; ++i, out += 3) {
+    const std::uint32_t one = below_[i].vertex, next = below_[i + 1].vertex;
+    out[0] = is_below ? apex : one;
+    out[1] = next;
+    out[2] = is_below ? one : apex;
+  }
+}
+
 void GraftWriter::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   spend_triangles(1);
   std::uint32_t* out = mesh_.index.wide.extend(3);

@@ -26,7 +26,7 @@ constexpr float least_opened = 3;
 // What is reserved at first: most trees of fine twigs need about as much, and small ones of thick limbs twice
 // that.
 constexpr std::size_t vertices_a_joint = 4, triangles_a_joint = 5, more_vertices = std::size_t{1} << 15U;
-constexpr std::size_t groups_a_limb = 4, triangles_a_group = 6, more_groups = std::size_t{1} << 13U;
+constexpr std::size_t groups_a_limb = 5, triangles_a_group = 6, more_groups = std::size_t{1} << 13U;
 // Circles up to so many corners are reckoned once for all.
 constexpr int usual_corners = 64;
 // Of a ring that a vertex cache of 16 entries still holds when the next ring needs it.
@@ -110,6 +110,7 @@ GraftWriter::GraftWriter(const Context& context, std::shared_ptr<const Common> c
   const std::size_t count = context.chains.head.size();
   const std::size_t groups = std::min(more_groups, groups_a_limb * count);
   group_limb_.reserve(groups);
+  group_normal_.reserve(2 * groups + 2);
   loop_vertices_.reserve(groups);
   loop_triangles_.reserve(triangles_a_group * groups);
   loops_.resize(count);
@@ -345,7 +346,7 @@ void GraftWriter::begin_closed(bool is_root, std::uint32_t limb) {
   const float cone = cap_share * plane.radius;
   const std::uint32_t apex =
       vertex(plane.centre - along * cone, -along, picture_at(plane.radius, pi, -back - cone), none);
-  for (std::size_t i = 0; i + 1 < below_.size(); ++i) triangle(apex, below_[i + 1].vertex, below_[i].vertex);
+  triangles_to(apex, true);
 }
 
 void GraftWriter::begin_loop(const Loop& loop) {
@@ -395,7 +396,7 @@ void GraftWriter::write_tip(float end_radius) {
   const std::uint32_t apex =
       vertex(axis_.point.back(), along, picture_at(end_radius, pi + seam_, axis_.length()), none);
   const std::size_t first = mesh_.index.wide.size() / 3;
-  for (std::size_t i = 0; i + 1 < below_.size(); ++i) triangle(below_[i].vertex, below_[i + 1].vertex, apex);
+  triangles_to(apex, false);
   if (is_at_loop_) note_loop_triangles(first);
 }
 

@@ -109,7 +109,7 @@ class GraftWriter {
   /// A corner of an open ring before it is a vertex: of the ring itself, or a point of a loop.
   struct Mark {
     float angle = 0;
-    glm::vec2 direction{0};
+    int corner = 0;  ///< of the ring
     const LoopPoint* point = nullptr;
     std::uint32_t group = none;
     std::uint32_t vertex[2] = {none, none};  ///< before the seam and beyond it
@@ -180,7 +180,7 @@ class GraftWriter {
   void mark_touched();
   struct FaceBlock;
   static void measure(FaceBlock& block, const glm::vec3* position);
-  static void weigh(FaceBlock& block, std::size_t count);
+  static void weigh(FaceBlock& block);
   bool is_first() const { return parent_.empty(); }
   template <class Each>
   void each_at_loops(std::size_t limb, const Each& each) const;
@@ -246,6 +246,7 @@ class GraftWriter {
   bool has_ribs() const { return axis_.order == 0 && context_.options.lobes != 0; }
   float ribbed(float angle) const;
   std::uint32_t ring_corner(const Plane& plane, float angle, glm::vec2 direction);
+  std::uint32_t loop_corner(const Mark& mark, float angle);
   glm::vec2 picture_at(float radius, float angle, float at) const;
   void stand_at(float at);
   float by_seam(float angle) const;
@@ -254,7 +255,13 @@ class GraftWriter {
   std::uint32_t vertex_of(Mark& mark, const Plane& plane, bool is_beyond);
   void go_round(Corners& order, const Plane& plane, Corners& out);
   void plain_ring(const Plane& plane, Corners& out);
-  bool write_ring_block(const Plane& plane, const Circle& circle, std::size_t first, std::size_t sides);
+  /// Places and normals of corners, those of a mesh or apart.
+  struct RingRoom {
+    glm::vec3 *position, *normal;
+  };
+  bool write_ring_block(const Plane& plane, const Circle& circle, std::size_t first, const RingRoom& to) const;
+  bool write_ring(const Plane& plane, int sides, const RingRoom& to) const;
+  void triangles_to(std::uint32_t apex, bool is_below);
   glm::vec2 turned_to_seam(const glm::vec2& c) const {
     return {c.x * seam_turn_.x - c.y * seam_turn_.y, c.x * seam_turn_.y + c.y * seam_turn_.x};
   }
@@ -265,7 +272,12 @@ class GraftWriter {
                           const glm::vec3* position, std::uint32_t* out);
   void note_loop_triangles(std::size_t first);
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
-  std::uint32_t vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv, std::uint32_t group);
+  std::uint32_t vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv, std::uint32_t group) {
+    make_room_for(1);
+    return put_vertex(position, normal, uv, group);
+  }
+  std::uint32_t put_vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv,
+                           std::uint32_t group);
   void mark_twin() { twin_[vertices_ - 1] = 1; }
 
   Context context_;
@@ -305,6 +317,8 @@ class GraftWriter {
   GraftPlan plan_;
   Corners below_, lower_, upper_;
   std::vector<Mark> marks_;
+  std::vector<glm::vec3> ring_position_, ring_normal_;  ///< of the open ring's corners, where they have no ribs
+  bool is_ring_known_ = false;                          ///< are they?
   Corners lower_order_, upper_order_;  ///< whose "vertex" is a mark
   std::vector<Wish> wishes_;
   std::vector<const LoopVertex*> loop_order_;
