@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/quick_math.h"
-
 namespace seedmesh {
 namespace {
 
@@ -75,7 +73,7 @@ void GraftAxis::carry(const glm::vec3& first) {
     glm::vec3 turned = u[i - 1];
     if (cosine > -0.999F) turned -= (a + b) * (glm::dot(u[i - 1], b) / (1 + cosine));
     turned -= b * glm::dot(turned, b);
-    u[i] = math::unit_or(turned, [&] { return any_aside(b); });
+    u[i] = unit_again(turned, [&] { return any_aside(b); });
   }
 }
 

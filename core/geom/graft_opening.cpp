@@ -37,8 +37,9 @@ Cross cross_of(const glm::vec3& parent, const glm::vec3& child) {
   c.cosine = glm::dot(parent, child);
   c.sine = std::sqrt(std::max(0.0F, 1 - c.cosine * c.cosine));
   if (c.sine < 1e-3F) return c;
-  c.out = math::unit_or((child - parent * c.cosine) * (1 / c.sine), [&] { return any_aside(parent); });
-  c.top = math::unit_or((parent - child * c.cosine) * (1 / c.sine), [&] { return any_aside(child); });
+  const float by = 1 / c.sine;
+  c.out = unit_again((child - parent * c.cosine) * by, [&] { return any_aside(parent); });
+  c.top = unit_again((parent - child * c.cosine) * by, [&] { return any_aside(child); });
   c.aside = glm::cross(parent, c.out);
   return c;
 }
@@ -168,11 +169,11 @@ std::optional<Opening> fork_at(const GraftAxis& parent, std::size_t at_point, co
   opening.radius = radius;
   opening.is_fork = true;
   const glm::vec3 joint = parent.point[at_point];
-  const glm::vec3 middle = math::unit(before + bud.along, before);
-  const glm::vec3 outer = math::unit(cross.out - middle * glm::dot(middle, cross.out), cross.out);
-  const glm::vec3 outward = math::unit(cross.out - before * glm::dot(before, cross.out), cross.out);
+  const glm::vec3 middle = math::quick_unit(before + bud.along, before);
+  const glm::vec3 outer = math::quick_unit(cross.out - middle * glm::dot(middle, cross.out), cross.out);
+  const glm::vec3 outward = math::quick_unit(cross.out - before * glm::dot(before, cross.out), cross.out);
   const float mitre = 1 / std::max(0.7F, glm::dot(outer, outward));
-  const glm::vec3 crotch = math::unit(after + bud.along, after);
+  const glm::vec3 crotch = math::quick_unit(after + bud.along, after);
   const float cosine_half = glm::dot(crotch, after);
   const float sine_half = std::sqrt(std::max(1e-4F, 1 - cosine_half * cosine_half));
   const float next = parent.at[at_point + 1] - parent.at[at_point];

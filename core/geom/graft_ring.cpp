@@ -33,13 +33,13 @@ GraftWriter::Plane GraftWriter::plane_of(const Band& band) const {
   Plane plane = plane_at(band.at, band.piece);
   if (!band.is_bend || band.piece == 0) return plane;
   const glm::vec3 &before = axis_.along[band.piece - 1], &after = axis_.along[band.piece];
-  plane.tangent = math::unit_or(before + after, [&] { return after; });
+  plane.tangent = math::quick_unit(before + after, after);
   // Halfway back from the frame of the later piece: the least turn that takes its axis to the tangent.
   const float cosine = glm::dot(after, plane.tangent);
   glm::vec3 u = axis_.u[band.piece];
   u -= (after + plane.tangent) * (glm::dot(u, plane.tangent) / (1 + cosine));
   u -= plane.tangent * glm::dot(u, plane.tangent);
-  plane.u = math::unit_or(u, [&] { return any_aside(plane.tangent); });
+  plane.u = unit_again(u, [&] { return any_aside(plane.tangent); });
   plane.v = glm::cross(plane.tangent, plane.u);
   const float length = axis_.at[band.piece] - axis_.at[band.piece - 1];
   plane.slope = 0.5F * (plane.slope + (axis_.radius[band.piece - 1] - axis_.radius[band.piece]) / length);
@@ -50,7 +50,7 @@ GraftWriter::Plane GraftWriter::plane_of(const Band& band) const {
 float GraftWriter::ribbed(float angle) const {
   if (!has_ribs()) return 1;
   const double at = static_cast<double>(angle) * context_.options.lobes;
-  return 1 + context_.options.lobe_depth * static_cast<float>(math::sin(at));
+  return 1 + context_.options.lobe_depth * static_cast<float>(math::quick_sincos(at).sin);
 }
 
 /// Where there is room for it.
@@ -81,7 +81,7 @@ std::uint32_t GraftWriter::ring_corner(const Plane& plane, float angle, glm::vec
   if (factor != 1) {
     const double at = static_cast<double>(angle) * context_.options.lobes;
     const float fall = context_.options.lobe_depth * static_cast<float>(context_.options.lobes) *
-                       static_cast<float>(math::cos(at)) / factor;
+                       static_cast<float>(math::quick_sincos(at).cos) / factor;
     normal -= (plane.v * direction.x - plane.u * direction.y) * fall;
   }
   return vertex(plane.centre + out * (plane.radius * factor), math::quick_unit(normal, out),
