@@ -139,7 +139,8 @@ void GraftWriter::add_loop_normals(std::size_t first_limb, std::size_t last_limb
   std::size_t count = 0;
   const std::uint32_t* index = mesh_.index.wide.data();
   const auto add = [&](std::uint32_t triangle) {
-    std::copy_n(index + std::size_t{3} * triangle, 3, block.corner + 3 * count);
+    const std::uint32_t* corner = index + std::size_t{3} * triangle;
+    for (std::size_t k = 0; k < 3; ++k) block.corner[3 * count + k] = corner[k];
     if (++count < FaceBlock::most) return;
     add_loop_faces(block, count, faces);
     count = 0;

@@ -131,9 +131,8 @@ void GraftWriter::make_room(std::size_t vertices) {
 
 /// Three, or an even number, so that rings of different limbs meet corner to corner.
 int GraftWriter::corners_for(float radius) const {
-  const std::vector<float>& radii = common_->corner_radius;
-  const int wanted =
-      3 + static_cast<int>(std::upper_bound(radii.begin(), radii.end(), radius) - radii.begin());
+  int wanted = 3;
+  for (const float least : common_->corner_radius) wanted += radius >= least ? 1 : 0;  // they rise, and are few
   return wanted <= 3 || wanted == context_.options.sides ? std::max(3, wanted) : wanted + wanted % 2;
 }
 
@@ -377,27 +376,18 @@ void GraftWriter::write_band(const Band& band) {
   if (!is_at_loop) {
     plain_ring(plane_of(band), upper_);
     note_seam(upper_);
-    strip(below_, upper_);
+    strip(below_, upper_, !is_at_loop_ && below_.size() == upper_.size());
   } else {
     open_ring(plane_of(band), band);
     note_seam(lower_);
     note_seam(upper_);
-    strip(below_, lower_);
+    strip(below_, lower_, false);
   }
   if (is_at_loop_ || is_at_loop) note_loop_triangles(first);
   is_at_loop_ = is_at_loop;
   std::swap(below_, upper_);
   corners_ += below_.size();
   if (below_.size() > cached_corners) wide_corners_ += below_.size();
-}
-
-void GraftWriter::write_tip(float end_radius) {
-  const glm::vec3 along = axis_.along.back();
-  const std::uint32_t apex =
-      vertex(axis_.point.back(), along, picture_at(end_radius, pi + seam_, axis_.length()), none);
-  const std::size_t first = mesh_.index.wide.size() / 3;
-  triangles_to(apex, false);
-  if (is_at_loop_) note_loop_triangles(first);
 }
 
 }  // namespace seedmesh

@@ -267,7 +267,9 @@ class GraftWriter {
   }
   float picture_width(float radius) const { return turns_ > 0 ? turns_ : radius; }
   void open_ring(const Plane& plane, const Band& band);
-  void strip(const Corners& below, const Corners& above);
+  void strip(const Corners& below, const Corners& above, bool is_even);
+  static void write_quads(const Corners& below, const Corners& above, const glm::vec3* position,
+                          std::uint32_t* out);
   static void write_strip(const Corners& below, const Corners& above, float farthest,
                           const glm::vec3* position, std::uint32_t* out);
   void note_loop_triangles(std::size_t first);
