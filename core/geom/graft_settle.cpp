@@ -131,9 +131,9 @@ void GraftWriter::each_at_loops(std::size_t limb, const Each& each) const {
   }
 }
 
-/// What the faces of some limbs give to the normals of the loops that they touch. These faces are noted in
-/// `faces`.
-void GraftWriter::add_loop_normals(std::size_t first_limb, std::size_t last_limb,
+/// What the faces of some limbs give to the normals of the loops that they touch, or to the group `nowhere`,
+/// which is behind all others. These faces are noted in `faces`.
+void GraftWriter::add_loop_normals(std::size_t first_limb, std::size_t last_limb, std::uint32_t nowhere,
                                    std::vector<LoopFace>& faces) {
   FaceBlock block;
   std::size_t count = 0;
@@ -142,7 +142,7 @@ void GraftWriter::add_loop_normals(std::size_t first_limb, std::size_t last_limb
     const std::uint32_t* corner = index + std::size_t{3} * triangle;
     for (std::size_t k = 0; k < 3; ++k) block.corner[3 * count + k] = corner[k];
     if (++count < FaceBlock::most) return;
-    add_loop_faces(block, count, faces);
+    add_loop_faces(block, count, nowhere, faces);
     count = 0;
   };
   if (is_first()) {  // they stand one behind another
@@ -151,30 +151,30 @@ void GraftWriter::add_loop_normals(std::size_t first_limb, std::size_t last_limb
   } else {
     for (std::size_t limb = first_limb; limb < last_limb; ++limb) each_at_loops(limb, add);
   }
-  if (count > 0) add_loop_faces(block, count, faces);
+  if (count > 0) add_loop_faces(block, count, nowhere, faces);
 }
 
 /// The first `count` of a block, whose corners are known.
-void GraftWriter::add_loop_faces(FaceBlock& block, std::size_t count, std::vector<LoopFace>& faces) {
+void GraftWriter::add_loop_faces(FaceBlock& block, std::size_t count, std::uint32_t nowhere,
+                                 std::vector<LoopFace>& faces) {
   for (std::size_t l = count; l < FaceBlock::most; ++l) std::copy_n(block.corner, 3, block.corner + 3 * l);
   measure(block, mesh_.position.data());
   weigh(block);
   const bool all = is_first();
-  glm::vec3 nowhere(0);
   const std::size_t before = faces.size();
   faces.resize(before + count);
   LoopFace* face = faces.data() + before;
+  glm::vec3* const sums = group_normal_.data();
   for (std::size_t l = 0; l < count; ++l) {
     if (!(block.size[l] > 0)) continue;
     const glm::vec3 normal{block.normal[0][l], block.normal[1][l], block.normal[2][l]};
     face->normal = {block.unit[0][l], block.unit[1][l], block.unit[2][l]};
     // Chosen, not branched to: nobody can foresee which corners count.
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t group = group_[block.corner[3 * l + k]];
-      const bool is_shared = group != none;
-      const bool counts = all ? is_shared : is_shared & (touched_[is_shared ? group / 2 : 0] != 0);
-      face->group[k] = counts ? group : none;
-      glm::vec3& sum = *(counts ? group_normal_.data() + group : &nowhere);
+      std::uint32_t group = group_[block.corner[3 * l + k]];
+      if (!all && group != none && !touched_[group / 2]) group = none;
+      face->group[k] = group;
+      glm::vec3& sum = sums[std::min(group, nowhere)];
       sum += normal * block.weight[k][l];
     }
     ++face;
@@ -306,9 +306,12 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
       const std::size_t last = std::min(count, (i + 1) * chunk) - 1;
       faces[i].reserve(range_[last].end.loop_triangle - range_[i * chunk].begin.loop_triangle);
     }
+    const auto groups = static_cast<std::uint32_t>(group_normal_.size());
+    std::fill_n(group_normal_.extend(faces.size()), faces.size(), glm::vec3(0));
     share_out(count, chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
-      add_loop_normals(begin, end, faces[index]);
+      add_loop_normals(begin, end, groups + static_cast<std::uint32_t>(index), faces[index]);
     });
+    group_normal_.resize(groups);
     join_loop_normals();
     ease_loop_normals(faces);
   }

@@ -27,6 +27,7 @@ constexpr float least_opened = 3;
 // that.
 constexpr std::size_t vertices_a_joint = 4, triangles_a_joint = 5, more_vertices = std::size_t{1} << 15U;
 constexpr std::size_t groups_a_limb = 5, triangles_a_group = 6, more_groups = std::size_t{1} << 13U;
+constexpr std::size_t added_groups = 128;  // for a while, by settle()
 // Circles up to so many corners are reckoned once for all.
 constexpr int usual_corners = 64;
 // Of a ring that a vertex cache of 16 entries still holds when the next ring needs it.
@@ -110,7 +111,7 @@ GraftWriter::GraftWriter(const Context& context, std::shared_ptr<const Common> c
   const std::size_t count = context.chains.head.size();
   const std::size_t groups = std::min(more_groups, groups_a_limb * count);
   group_limb_.reserve(groups);
-  group_normal_.reserve(2 * groups + 2);
+  group_normal_.reserve(2 * groups + added_groups);
   loop_vertices_.reserve(groups);
   loop_triangles_.reserve(triangles_a_group * groups);
   loops_.resize(count);

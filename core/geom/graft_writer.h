@@ -184,8 +184,10 @@ class GraftWriter {
   bool is_first() const { return parent_.empty(); }
   template <class Each>
   void each_at_loops(std::size_t limb, const Each& each) const;
-  void add_loop_normals(std::size_t first_limb, std::size_t last_limb, std::vector<LoopFace>& faces);
-  void add_loop_faces(FaceBlock& block, std::size_t count, std::vector<LoopFace>& faces);
+  void add_loop_normals(std::size_t first_limb, std::size_t last_limb, std::uint32_t nowhere,
+                        std::vector<LoopFace>& faces);
+  void add_loop_faces(FaceBlock& block, std::size_t count, std::uint32_t nowhere,
+                      std::vector<LoopFace>& faces);
   static bool join_four(glm::vec3* normals);
   void join_loop_normals();
   bool looks_away(const LoopFace& face, std::uint32_t group) const;
