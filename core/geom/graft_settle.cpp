@@ -131,8 +131,8 @@ void GraftWriter::each_at_loops(std::size_t limb, const Each& each) const {
   }
 }
 
-/// What the faces of some limbs give to the normals of the loops that they touch, or to the group `nowhere`,
-/// which is behind all others. These faces are noted in `faces`.
+/// What the faces of some limbs give to the normals of the loops that they touch, or to groups from `nowhere`
+/// on, behind all others: one for each face of a block, so that none waits for another. These faces are noted in `faces`.
 void GraftWriter::add_loop_normals(std::size_t first_limb, std::size_t last_limb, std::uint32_t nowhere,
                                    std::vector<LoopFace>& faces) {
   FaceBlock block;
@@ -174,7 +174,7 @@ void GraftWriter::add_loop_faces(FaceBlock& block, std::size_t count, std::uint3
       std::uint32_t group = group_[block.corner[3 * l + k]];
       if (!all && group != none && !touched_[group / 2]) group = none;
       face->group[k] = group;
-      glm::vec3& sum = sums[std::min(group, nowhere)];
+      glm::vec3& sum = sums[std::min(group, nowhere + static_cast<std::uint32_t>(l))];
       sum += normal * block.weight[k][l];
     }
     ++face;
@@ -307,9 +307,10 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
       faces[i].reserve(range_[last].end.loop_triangle - range_[i * chunk].begin.loop_triangle);
     }
     const auto groups = static_cast<std::uint32_t>(group_normal_.size());
-    std::fill_n(group_normal_.extend(faces.size()), faces.size(), glm::vec3(0));
+    std::fill_n(group_normal_.extend(FaceBlock::most * faces.size()), FaceBlock::most * faces.size(),
+                glm::vec3(0));
     share_out(count, chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
-      add_loop_normals(begin, end, groups + static_cast<std::uint32_t>(index), faces[index]);
+      add_loop_normals(begin, end, groups + static_cast<std::uint32_t>(FaceBlock::most * index), faces[index]);
     });
     group_normal_.resize(groups);
     join_loop_normals();

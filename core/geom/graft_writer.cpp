@@ -27,7 +27,7 @@ constexpr float least_opened = 3;
 // that.
 constexpr std::size_t vertices_a_joint = 4, triangles_a_joint = 5, more_vertices = std::size_t{1} << 15U;
 constexpr std::size_t groups_a_limb = 5, triangles_a_group = 6, more_groups = std::size_t{1} << 13U;
-constexpr std::size_t added_groups = 128;  // for a while, by settle()
+constexpr std::size_t added_groups = 1024;  // for a while, by settle()
 // Circles up to so many corners are reckoned once for all.
 constexpr int usual_corners = 64;
 // Of a ring that a vertex cache of 16 entries still holds when the next ring needs it.
