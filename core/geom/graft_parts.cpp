@@ -184,7 +184,7 @@ void GraftWriter::take_loops(const GraftWriter& part, std::uint32_t first, std::
     loop_vertices_.back().group += groups;
   }
   for (std::size_t group = part.first_group_; group < part.group_normal_.size(); ++group)
-    group_normal_.push_back(glm::vec3(0));
+    group_normal_.push_back({});
   group_limb_.insert(group_limb_.end(),
                      part.group_limb_.begin() + static_cast<std::ptrdiff_t>(part.first_group_ / 2),
                      part.group_limb_.end());

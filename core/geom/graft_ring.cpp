@@ -97,8 +97,7 @@ float GraftWriter::by_seam(float angle) const {
 
 std::uint32_t GraftWriter::group_for(const LoopPoint& point, std::uint32_t child) {
   const auto group = static_cast<std::uint32_t>(group_normal_.size());
-  glm::vec3* const normals = group_normal_.extend(2);  // of the parent's faces, of the child's
-  normals[0] = normals[1] = glm::vec3(0);
+  std::fill_n(group_normal_.extend(2), 2, GroupNormal{});  // of the parent's faces, of the child's
   group_limb_.push_back(child);
   *loop_vertices_.extend(1) = {point.position, point.phase, point.reach, group + 1, joint_};
   return group;

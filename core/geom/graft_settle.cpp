@@ -32,12 +32,13 @@ constexpr std::size_t pairs_a_chunk = 1024;
 
 }  // namespace
 
-/// Faces at loops side by side: twice their area, the normals as long as that and of unit length, and of each
-/// corner how far its edges go along each other; then by how much the face counts there.
+/// Faces at loops: the normals as long as twice their area and of unit length; side by side that area, and of
+/// each corner how far its edges go along each other; then by how much the face counts there.
 struct GraftWriter::FaceBlock {
   static constexpr std::size_t most = 16;
   std::uint32_t corner[3 * most];
-  float normal[3][most], unit[3][most], size[most], along[3][most], weight[3][most];
+  FourFloats normal[most], unit[most];
+  float size[most], along[3][most], weight[3][most];
 };
 
 SEEDMESH_WIDE void GraftWriter::measure(FaceBlock& block, const glm::vec3* position) {
@@ -48,20 +49,13 @@ SEEDMESH_WIDE void GraftWriter::measure(FaceBlock& block, const glm::vec3* posit
     const Four normal = cross(difference(p[1], p[0]), difference(p[2], p[0]));
     const FourFloats size = root(dot(normal, normal));
     const Four unit = scaled(normal, 1.0F / size);
-    const FourFloats columns[10] = {normal.x,
-                                    normal.y,
-                                    normal.z,
-                                    unit.x,
-                                    unit.y,
-                                    unit.z,
-                                    size,
-                                    dot(difference(p[1], p[0]), difference(p[2], p[0])),
-                                    dot(difference(p[2], p[1]), difference(p[0], p[1])),
-                                    dot(difference(p[0], p[2]), difference(p[1], p[2]))};
-    float* const out[10] = {block.normal[0], block.normal[1], block.normal[2], block.unit[0],
-                            block.unit[1],   block.unit[2],   block.size,      block.along[0],
-                            block.along[1],  block.along[2]};
-    for (int k = 0; k < 10; ++k) std::memcpy(out[k] + first, &columns[k], sizeof(FourFloats));
+    normal.to_rows(block.normal + first);
+    unit.to_rows(block.unit + first);
+    const FourFloats columns[4] = {size, dot(difference(p[1], p[0]), difference(p[2], p[0])),
+                                   dot(difference(p[2], p[1]), difference(p[0], p[1])),
+                                   dot(difference(p[0], p[2]), difference(p[1], p[2]))};
+    float* const out[4] = {block.size, block.along[0], block.along[1], block.along[2]};
+    for (int k = 0; k < 4; ++k) std::memcpy(out[k] + first, &columns[k], sizeof(FourFloats));
   }
 }
 
@@ -164,18 +158,18 @@ void GraftWriter::add_loop_faces(FaceBlock& block, std::size_t count, std::uint3
   const std::size_t before = faces.size();
   faces.resize(before + count);
   LoopFace* face = faces.data() + before;
-  glm::vec3* const sums = group_normal_.data();
+  GroupNormal* const sums = group_normal_.data();
   for (std::size_t l = 0; l < count; ++l) {
     if (!(block.size[l] > 0)) continue;
-    const glm::vec3 normal{block.normal[0][l], block.normal[1][l], block.normal[2][l]};
-    face->normal = {block.unit[0][l], block.unit[1][l], block.unit[2][l]};
+    const FourFloats normal = block.normal[l];
+    std::memcpy(static_cast<void*>(face), &block.unit[l], sizeof(FourFloats));  // its groups come behind
     // Chosen, not branched to: nobody can foresee which corners count.
     for (std::size_t k = 0; k < 3; ++k) {
       std::uint32_t group = group_[block.corner[3 * l + k]];
       if (!all && group != none && !touched_[group / 2]) group = none;
       face->group[k] = group;
-      glm::vec3& sum = sums[std::min(group, nowhere + static_cast<std::uint32_t>(l))];
-      sum += normal * block.weight[k][l];
+      GroupNormal& sum = sums[std::min(group, nowhere + static_cast<std::uint32_t>(l))];
+      sum.row += normal * four_times(block.weight[k][l]);
     }
     ++face;
   }
@@ -250,18 +244,17 @@ bool GraftWriter::blame(const std::uint32_t* corner, std::vector<Trust>& trust, 
 }
 
 /// join_loop_normals() of four pairs at once; false: one is for math::unit, and all are as they were.
-SEEDMESH_WIDE bool GraftWriter::join_four(glm::vec3* normals) {
-  glm::vec3 pairs[2 * Four::size + 1];
-  std::copy_n(normals, 2 * Four::size, pairs);
+SEEDMESH_WIDE bool GraftWriter::join_four(GroupNormal* normals) {
   const auto picked = [&](std::size_t i) {
-    return Four::of_rows(Four::row(pairs + i), Four::row(pairs + i + 2), Four::row(pairs + i + 4),
-                         Four::row(pairs + i + 6));
+    return Four::of_rows(normals[i].row, normals[i + 2].row, normals[i + 4].row, normals[i + 6].row);
   };
   Four one = picked(0), other = picked(1);
   if (!to_units(one) || !to_units(other)) return false;
   Four both = sum(one, other);
   if (!to_units(both)) return false;
-  for (std::size_t k = 0; k < Four::size; ++k) normals[2 * k] = both.at(k);
+  FourFloats rows[Four::size];
+  both.to_rows(rows);
+  for (std::size_t k = 0; k < Four::size; ++k) normals[2 * k].row = rows[k];
   return true;
 }
 
@@ -274,9 +267,9 @@ void GraftWriter::join_loop_normals() {
         continue;
       }
       if (!touched_[pair]) continue;
-      const glm::vec3 one = math::quick_unit(group_normal_[2 * pair], glm::vec3{0});
-      const glm::vec3 other = math::quick_unit(group_normal_[2 * pair + 1], glm::vec3{0});
-      group_normal_[2 * pair] = math::quick_unit(one + other, glm::vec3{0, 1, 0});
+      const glm::vec3 one = math::quick_unit(group_normal_[2 * pair].get(), glm::vec3{0});
+      const glm::vec3 other = math::quick_unit(group_normal_[2 * pair + 1].get(), glm::vec3{0});
+      group_normal_[2 * pair].set(math::quick_unit(one + other, glm::vec3{0, 1, 0}));
     }
   });
 }
@@ -288,7 +281,7 @@ void GraftWriter::put_loop_normals(std::size_t limb) {
   const std::size_t end = std::min(range.end.vertex, concern_[limb] == Concern::all ? none : loop_end);
   for (std::size_t i = range.begin.vertex; i < end; ++i) {
     if (group_[i] == none || !touched_[group_[i] / 2]) continue;
-    mesh_.normal[i] = group_normal_[group_[i] & ~1U] + 0.0F;
+    mesh_.normal[i] = group_normal_[group_[i] & ~1U].get() + 0.0F;
   }
 }
 
@@ -297,7 +290,7 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
   const std::size_t count = range_.size(), chunk = limbs_a_chunk(count);
   find_concerned();
   for (std::size_t pair = 0; pair < touched_.size(); ++pair) {
-    if (touched_[pair]) group_normal_[2 * pair] = group_normal_[2 * pair + 1] = glm::vec3(0);
+    if (touched_[pair]) group_normal_[2 * pair] = group_normal_[2 * pair + 1] = {};
   }
   if (!group_limb_.empty()) {
     // What limbs give goes to groups of their own.
@@ -308,7 +301,7 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
     }
     const auto groups = static_cast<std::uint32_t>(group_normal_.size());
     std::fill_n(group_normal_.extend(FaceBlock::most * faces.size()), FaceBlock::most * faces.size(),
-                glm::vec3(0));
+                GroupNormal{});
     share_out(count, chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
       add_loop_normals(begin, end, groups + static_cast<std::uint32_t>(FaceBlock::most * index), faces[index]);
     });

@@ -135,6 +135,13 @@ class GraftWriter {
     bool is_fork = false;
   };
 
+  /// The normal of a group, or the sum that it is made of, in the first lanes.
+  struct GroupNormal {
+    FourFloats row{};
+    glm::vec3 get() const { return {row[0], row[1], row[2]}; }
+    void set(const glm::vec3& normal) { row = spread_out(normal); }
+  };
+
   /// A face at a loop: its unit normal, and the groups of its corners that have changed or none.
   struct LoopFace {
     glm::vec3 normal{0};
@@ -188,11 +195,11 @@ class GraftWriter {
                         std::vector<LoopFace>& faces);
   void add_loop_faces(FaceBlock& block, std::size_t count, std::uint32_t nowhere,
                       std::vector<LoopFace>& faces);
-  static bool join_four(glm::vec3* normals);
+  static bool join_four(GroupNormal* normals);
   void join_loop_normals();
   bool looks_away(const LoopFace& face, std::uint32_t group) const;
-  static FourFlags strained(const LoopFace* faces, const glm::vec3* normals, std::uint32_t neutral);
-  static std::size_t first_strained(std::span<const LoopFace> faces, std::span<const glm::vec3> normals,
+  static FourFlags strained(const LoopFace* faces, const GroupNormal* normals, std::uint32_t neutral);
+  static std::size_t first_strained(std::span<const LoopFace> faces, std::span<const GroupNormal> normals,
                                     std::size_t from);
   std::vector<LoopFace> strained_faces(const std::vector<std::vector<LoopFace>>& faces);
   void ease_loop_normals(const std::vector<std::vector<LoopFace>>& faces);
@@ -292,7 +299,7 @@ class GraftWriter {
   std::size_t vertices_ = 0;  ///< that are written
   Array<std::uint32_t>
       group_;  ///< of each vertex; those on a loop share a normal: even the parent's, odd the child's
-  Array<glm::vec3> group_normal_;
+  Array<GroupNormal> group_normal_;
   std::vector<std::uint32_t> group_limb_;  ///< the child of each pair of groups
   Array<std::uint32_t> loop_triangles_;    ///< those that touch a loop, rising
   std::vector<Range> range_;               ///< of each limb
