@@ -98,20 +98,27 @@ class Slots {
   /// `slot` of each point, with the mark of those near a border; those that have one, and twins, are no
   /// points of this table.
   Slots(const Job& job, std::size_t slots, Array<std::uint32_t> slot, std::span<const std::uint8_t> twin)
-      : last_(job, slots + 1, none), before_(std::move(slot)), crowded_(job, before_.size()) {
-    std::size_t crowds = 0;
+      : last_(job, slots + 1, none),
+        before_(std::move(slot)),
+        crowded_(job, before_.size()),
+        border_(job, before_.size()) {
+    std::size_t crowds = 0, at_borders = 0;
     for (std::size_t i = 0; i < before_.size(); ++i) {
       // Others go to a slot of their own, which nobody asks for. Without branches that nobody can foresee: a
       // point is put on the list, and stays there if it belongs to it.
-      const bool is_other = ((before_[i] & at_border) | twin[i]) != 0;
+      const std::uint32_t is_at_border = before_[i] >> 31U;
+      const bool is_other = (is_at_border | twin[i]) != 0;
       const std::size_t at = is_other ? slots : before_[i];
       const std::uint32_t before = last_[at];
       last_[at] = static_cast<std::uint32_t>(i);
       before_[i] = before;
       crowded_[crowds] = static_cast<std::uint32_t>(i);
       crowds += ((before != none) & !is_other) ? 1 : 0;
+      border_[at_borders] = static_cast<std::uint32_t>(i);
+      at_borders += is_at_border & (twin[i] ? 0U : 1U);
     }
     crowded_.resize(crowds);
+    border_.resize(at_borders);
   }
 
   /// Puts one more there, which gets the next number.
@@ -121,12 +128,14 @@ class Slots {
     if (last_[slot] != none) crowded_.push_back(number);
     last_[slot] = number;
   }
+  /// Points near a border, but for twins: for put().
+  std::span<const std::uint32_t> border() const { return border_.span(); }
   /// Those that came to a slot that was taken.
   std::span<const std::uint32_t> crowded() const { return crowded_.span(); }
   std::uint32_t before(std::uint32_t number) const { return before_[number]; }
 
  private:
-  Array<std::uint32_t> last_, before_, crowded_;
+  Array<std::uint32_t> last_, before_, crowded_, border_;
 };
 
 /// Are two points within `reach`?
@@ -161,21 +170,16 @@ Array<std::uint8_t> near_others(std::span<const glm::vec3> points, std::span<con
   while ((std::size_t{1} << bits) < wanted) ++bits;
   const std::size_t slots = std::size_t{1} << bits;
   const Cells cells(box.min, cell, bits);
-  Array<std::uint32_t> slot(job, points.size()), border(job, points.size());
+  Array<std::uint32_t> slot(job, points.size());
   cells.fill(points, slot.data());
-  std::size_t at_borders = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    border[at_borders] = static_cast<std::uint32_t>(i);
-    at_borders += twin[i] ? 0 : slot[i] >> 31U;
-  }
   job.check();
   Slots taken(job, slots, std::move(slot), twin);
   std::vector<std::uint32_t> who;  // of those that come next
-  who.reserve(3 * at_borders);
-  for (std::size_t k = 0; k < at_borders; ++k) {
-    cells.each(points[border[k]], [&](std::uint32_t at) {
+  who.reserve(3 * taken.border().size());
+  for (const std::uint32_t point : taken.border()) {
+    cells.each(points[point], [&](std::uint32_t at) {
       taken.put(at);
-      who.push_back(border[k]);
+      who.push_back(point);
     });
   }
   job.check();

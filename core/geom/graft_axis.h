@@ -56,6 +56,9 @@ struct GraftAxis {
   void stretch(float turns);
   /// Frames from a first direction at right angles to the first piece.
   void carry(const glm::vec3& first);
+
+ private:
+  void resize(std::size_t points);
 };
 
 /// A unit vector at right angles to the unit vector `along`.

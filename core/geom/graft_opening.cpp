@@ -44,6 +44,16 @@ Cross cross_of(const glm::vec3& parent, const glm::vec3& child) {
   return c;
 }
 
+/// By rising angle; for a few.
+void sort_by_angle(LoopPoint* begin, const LoopPoint* end) {
+  for (LoopPoint* each = begin; each != end; ++each) {
+    const LoopPoint point = *each;
+    LoopPoint* at = each;
+    for (; at != begin && point.angle < at[-1].angle; --at) *at = at[-1];
+    *at = point;
+  }
+}
+
 /// Sorts the corners of the loop, the last in the list from `opening.points` on: two ends on the ring, which
 /// leave the list, those below and those above it.
 void place(Opening& opening, std::vector<LoopPoint>& list) {
@@ -64,7 +74,7 @@ void place(Opening& opening, std::vector<LoopPoint>& list) {
     for (std::size_t i = 0; i < count; ++i) {
       if (i != first && i != last && (std::abs(points[i].phase) < ends) == above) *out++ = points[i];
     }
-    std::sort(begin, out, [](const LoopPoint& a, const LoopPoint& b) { return a.angle < b.angle; });
+    sort_by_angle(begin, out);
     (above ? opening.upper : opening.lower) = static_cast<std::size_t>(out - begin);
   }
   opening.at = 0.5F * (opening.first.height + opening.last.height);

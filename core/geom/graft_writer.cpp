@@ -356,8 +356,12 @@ void GraftWriter::begin_loop(const Loop& loop) {
   std::vector<const LoopVertex*>& order = loop_order_;
   order.clear();
   for (std::uint32_t i = 0; i < loop.count; ++i) order.push_back(&loop_vertices_[loop.first + i]);
-  std::sort(order.begin(), order.end(),
-            [](const LoopVertex* a, const LoopVertex* b) { return a->angle > b->angle; });
+  for (std::size_t i = 1; i < order.size(); ++i) {  // few
+    const LoopVertex* const each = order[i];
+    std::size_t k = i;
+    for (; k > 0 && order[k - 1]->angle < each->angle; --k) order[k] = order[k - 1];
+    order[k] = each;
+  }
   const auto add = [&](const LoopVertex& at, float angle) {
     joint_ = at.joint;
     below_.push_back(
