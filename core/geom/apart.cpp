@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/base/array.h"
-#include "core/base/rng.h"
 #include "core/base/wide.h"
 
 namespace seedmesh {
@@ -13,13 +13,13 @@ namespace {
 
 // Points fall into cells so many reaches wide; nearer to a border than `margin` cells (a reach, and what
 // rounding may take from it) they are in both cells.
-constexpr float cell_width = 80, margin = 1.5F / cell_width;
+constexpr float cell_width = 160, margin = 1.5F / cell_width;
 // Beyond so many cells along the diagonal a float could not tell where in its cell a point is.
 constexpr float most_cells = 32'000;
-// Bits for each point in the table of cells that are taken: few share one by chance.
-constexpr std::size_t bits_a_point = 16, least_bits = 1024, most_bits = std::size_t{1} << 30U;
-// So many points in one cell are a heap, and are not compared one by one.
-constexpr std::size_t most_in_a_cell = 16;
+// At least as many slots for cells as there are points, and half as many more: few share one by chance.
+constexpr std::size_t least_slots = 64, most_slots = std::size_t{1} << 30U;
+// So many points in one slot are a heap, and are not compared with those before.
+constexpr std::size_t most_in_a_slot = 32;
 // Of a slot: the point is near a border.
 constexpr std::uint32_t at_border = 0x80000000U;
 
@@ -43,17 +43,7 @@ class Cells {
   /// The slot of each point's own cell, with the mark of those near a border.
   void fill(std::span<const glm::vec3> points, std::uint32_t* out) const;
 
-  static std::uint64_t number(std::int32_t x, std::int32_t y, std::int32_t z) {
-    return static_cast<std::uint64_t>(x) | static_cast<std::uint64_t>(y) << 21U |
-           static_cast<std::uint64_t>(z) << 42U;
-  }
-  /// The number of the point's own cell.
-  std::uint64_t own(const glm::vec3& point) const {
-    const glm::ivec3 at(place(point));
-    return number(at.x, at.y, at.z);
-  }
-
-  /// visit(slot, number) for every cell that is within the margin of a point.
+  /// visit(slot) for every cell that is within the margin of a point.
   template <class Visit>
   void each(const glm::vec3& point, Visit visit) const {
     const glm::vec3 at = place(point);
@@ -66,7 +56,7 @@ class Cells {
       const std::int32_t x = low.x + static_cast<std::int32_t>(each & 1U),
                          y = low.y + static_cast<std::int32_t>(each >> 1U & 1U),
                          z = low.z + static_cast<std::int32_t>(each >> 2U);
-      visit(slot(x, y, z), number(x, y, z));
+      visit(slot(x, y, z));
       each = (each - two) & two;  // the next with none but these bits
     } while (each != 0);
   }
@@ -100,87 +90,69 @@ class Bits {
   Array<std::uint64_t> words_;
 };
 
-/// Cells that are taken, and those of them that are taken again: words of both in turn, which are asked for
-/// together.
-class Taken {
+/// Points by the slots of their cells, each with the one that was put there before.
+class Slots {
  public:
-  Taken(const Job& job, std::size_t count) : words_(job, 2 * (count / 64), std::uint64_t{0}) {}
-
-  /// `times` 0 or 1.
-  void take(std::uint32_t slot, std::uint64_t times) {
-    const std::uint64_t bit = times << slot % 64;
-    std::uint64_t* word = words_.data() + std::size_t{2} * (slot / 64);
-    word[1] |= word[0] & bit;
-    word[0] |= bit;
-  }
-  bool is_again(std::uint32_t slot) const {
-    return (words_[std::size_t{2} * (slot / 64) + 1] >> slot % 64 & 1U) != 0;
-  }
-
- private:
-  Array<std::uint64_t> words_;
-};
-
-/// A point within the margin of a cell.
-struct Visit {
-  std::uint64_t cell;
-  std::uint32_t slot, point;
-};
-
-/// Points by cell: those of each in a list.
-class Cellmates {
- public:
-  explicit Cellmates(std::span<const Visit> visits) : visits_(visits), mates_(visits.size()) {
-    std::size_t size = 16;
-    while (size < 2 * visits.size()) size *= 2;
-    last_.assign(size, none);
-  }
-
-  /// Calls near(point) for those that are within the reach of another one in their cell; once.
-  template <class Near>
-  void find_near(std::span<const glm::vec3> points, float reach, Near near) {
-    const double squared = static_cast<double>(reach) * static_cast<double>(reach);
-    const float doubtful = 2 * reach * reach;
-    for (std::uint32_t i = 0; i < visits_.size(); ++i) {
-      const std::uint32_t one = visits_[i].point, before = add(i);
-      const bool is_heap = mates_[i].count > most_in_a_cell;
-      if (is_heap) near(one);
-      if (mates_[i].count == most_in_a_cell + 1) {
-        for (std::uint32_t k = before; k != none; k = mates_[k].before) near(visits_[k].point);
-      }
-      for (std::uint32_t k = is_heap ? none : before; k != none; k = mates_[k].before) {
-        const std::uint32_t other = visits_[k].point;
-        const glm::vec3 about = points[one] - points[other];
-        if (glm::dot(about, about) > doubtful) continue;
-        const glm::dvec3 apart = glm::dvec3(points[one]) - glm::dvec3(points[other]);
-        if (glm::dot(apart, apart) > squared) continue;
-        near(one);
-        near(other);
-      }
-    }
-  }
-
- private:
   static constexpr std::uint32_t none = 0xFFFFFFFFU;
-  /// Of a visit: the one before it in its cell, and how many there are up to it.
-  struct Mate {
-    std::uint32_t before = none, count = 0;
-  };
 
-  /// Returns the visit of its cell that was the last.
-  std::uint32_t add(std::uint32_t i) {
-    const std::uint64_t number = visits_[i].cell;
-    std::size_t at = mix(number) & (last_.size() - 1);
-    while (last_[at] != none && visits_[last_[at]].cell != number) at = (at + 1) & (last_.size() - 1);
-    const std::uint32_t before = last_[at];
-    mates_[i] = {before, before == none ? 1 : mates_[before].count + 1};
-    last_[at] = i;
-    return before;
+  /// `slot` of each point, with the mark of those near a border; those that have one, and twins, are no
+  /// points of this table.
+  Slots(const Job& job, std::size_t slots, Array<std::uint32_t> slot, std::span<const std::uint8_t> twin)
+      : last_(job, slots + 1, none),
+        before_(std::move(slot)),
+        crowded_(job, before_.size()),
+        border_(job, before_.size()) {
+    std::size_t crowds = 0, at_borders = 0;
+    for (std::size_t i = 0; i < before_.size(); ++i) {
+      // Others go to a slot of their own, which nobody asks for. Without branches that nobody can foresee: a
+      // point is put on the list, and stays there if it belongs to it.
+      const std::uint32_t is_at_border = before_[i] >> 31U;
+      const bool is_other = (is_at_border | twin[i]) != 0;
+      const std::size_t at = is_other ? slots : before_[i];
+      const std::uint32_t before = last_[at];
+      last_[at] = static_cast<std::uint32_t>(i);
+      before_[i] = before;
+      crowded_[crowds] = static_cast<std::uint32_t>(i);
+      crowds += ((before != none) & !is_other) ? 1 : 0;
+      border_[at_borders] = static_cast<std::uint32_t>(i);
+      at_borders += is_at_border & (twin[i] ? 0U : 1U);
+    }
+    crowded_.resize(crowds);
+    border_.resize(at_borders);
   }
 
-  std::span<const Visit> visits_;
-  std::vector<Mate> mates_;
-  std::vector<std::uint32_t> last_;  ///< visit of each cell that has any
+  /// Puts one more there, which gets the next number.
+  void put(std::uint32_t slot) {
+    const auto number = static_cast<std::uint32_t>(before_.size());
+    before_.push_back(last_[slot]);
+    if (last_[slot] != none) crowded_.push_back(number);
+    last_[slot] = number;
+  }
+  /// Points near a border, but for twins: for put().
+  std::span<const std::uint32_t> border() const { return border_.span(); }
+  /// Those that came to a slot that was taken.
+  std::span<const std::uint32_t> crowded() const { return crowded_.span(); }
+  std::uint32_t before(std::uint32_t number) const { return before_[number]; }
+
+ private:
+  Array<std::uint32_t> last_, before_, crowded_, border_;
+};
+
+/// Are two points within `reach`?
+class Reach {
+ public:
+  explicit Reach(float reach)
+      : squared_(static_cast<double>(reach) * static_cast<double>(reach)), doubtful_(2 * reach * reach) {}
+  bool joins(const glm::vec3& one, const glm::vec3& other) const {
+    const glm::vec3 about = one - other;
+    if (glm::dot(about, about) > doubtful_) return false;
+    const glm::dvec3 apart = glm::dvec3(one) - glm::dvec3(other);
+    return glm::dot(apart, apart) <= squared_;
+  }
+
+ private:
+  double squared_;
+  float doubtful_;
 };
 
 }  // namespace
@@ -194,54 +166,50 @@ Array<std::uint8_t> near_others(std::span<const glm::vec3> points, std::span<con
   if (!(glm::length(box.max - box.min) < most_cells * cell))
     return Array<std::uint8_t>(job, points.size(), std::uint8_t{1});
   int bits = 0;
-  while ((std::size_t{1} << bits) < std::clamp(bits_a_point * points.size(), least_bits, most_bits)) ++bits;
+  const std::size_t wanted = std::clamp(points.size() + points.size() / 2, least_slots, most_slots);
+  while ((std::size_t{1} << bits) < wanted) ++bits;
+  const std::size_t slots = std::size_t{1} << bits;
   const Cells cells(box.min, cell, bits);
   Array<std::uint32_t> slot(job, points.size());
   cells.fill(points, slot.data());
-  Taken taken(job, std::size_t{1} << bits);
   job.check();
-  // Without branches that nobody can foresee: points are put on a list, and stay there if they belong to it.
-  Array<std::uint32_t> list(job, points.size());
-  std::size_t listed = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::uint32_t is_first = twin[i] ? 0 : 1, is_at_border = slot[i] >> 31U;
-    taken.take(slot[i] & ~at_border, is_first & ~is_at_border);
-    list[listed] = static_cast<std::uint32_t>(i);
-    listed += is_first & is_at_border;
-  }
-  std::vector<Visit> visits, shared;
-  visits.reserve(3 * listed);
-  for (std::size_t k = 0; k < listed; ++k) {
-    cells.each(points[list[k]], [&](std::uint32_t at, std::uint64_t number) {
-      taken.take(at, 1);
-      visits.push_back({number, at, list[k]});
+  Slots taken(job, slots, std::move(slot), twin);
+  std::vector<std::uint32_t> who;  // of those that come next
+  who.reserve(3 * taken.border().size());
+  for (const std::uint32_t point : taken.border()) {
+    cells.each(points[point], [&](std::uint32_t at) {
+      taken.put(at);
+      who.push_back(point);
     });
   }
-  listed = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool is_first = !twin[i], is_inside = (slot[i] & at_border) == 0;
-    list[listed] = static_cast<std::uint32_t>(i);
-    const bool is_shared = taken.is_again(slot[i] & ~at_border);
-    listed += (is_first & is_inside & is_shared) ? 1 : 0;
-  }
-  for (const Visit& visit : visits) {
-    if (taken.is_again(visit.slot)) shared.push_back(visit);
-  }
-  for (std::size_t k = 0; k < listed; ++k)
-    shared.push_back({cells.own(points[list[k]]), slot[list[k]], list[k]});
   job.check();
-  if (shared.empty()) return found;
-  Bits near(job, std::size_t{1} << bits);
+  const Reach within(reach);
+  const auto point_of = [&](std::uint32_t number) {
+    return number < points.size() ? number : who[number - points.size()];
+  };
+  Bits near(job, slots);
   bool any = false;
-  Cellmates(shared).find_near(points, reach, [&](std::uint32_t point) {
+  const auto mark = [&](std::uint32_t point) {
     any = true;
-    cells.each(points[point], [&](std::uint32_t at, std::uint64_t) { near.set(at); });
-  });
+    cells.each(points[point], [&](std::uint32_t at) { near.set(at); });
+  };
+  for (const std::uint32_t number : taken.crowded()) {
+    const std::uint32_t one = point_of(number);
+    std::size_t met = 0;
+    std::uint32_t other = taken.before(number);
+    for (; other != Slots::none && met < most_in_a_slot; ++met, other = taken.before(other)) {
+      const std::uint32_t mate = point_of(other);  // itself, where two of its cells share a slot
+      if (mate == one || !within.joins(points[one], points[mate])) continue;
+      mark(one);
+      mark(mate);
+    }
+    if (other != Slots::none) mark(one);  // those that it was not compared with stand near it, too
+  }
   if (!any) return found;
   found.resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     bool is_near = false;
-    cells.each(points[i], [&](std::uint32_t at, std::uint64_t) { is_near = is_near || near.has(at); });
+    cells.each(points[i], [&](std::uint32_t at) { is_near = is_near || near.has(at); });
     found[i] = is_near ? 1 : 0;
   }
   return found;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/quick_math.h"
-
 namespace seedmesh {
 namespace {
 
@@ -20,33 +18,44 @@ std::size_t GraftAxis::piece_at(float s, std::size_t from) const {
   return piece;
 }
 
+/// For so many points; what is new is written later.
+void GraftAxis::resize(std::size_t points) {
+  point.resize(points);
+  at.resize(points);
+  radius.resize(points);
+  joint.resize(points);
+  along.resize(points - 1);
+}
+
 bool GraftAxis::read(const Limbs& limbs, const Chains& chains, std::uint32_t head, float shortest) {
-  point.clear();
-  at.clear();
-  radius.clear();
-  joint.clear();
-  along.clear();
-  u.clear();
   const bool is_root = limbs.parent[head] == Limbs::none;
   std::uint32_t next = is_root ? chains.next[head] : head;
   const std::uint32_t start = is_root ? head : limbs.parent[head];
+  along.clear();
   if (next == Limbs::none) return false;
   order = limbs.order.empty() ? 0 : limbs.order[next];
-  point.push_back(limbs.position[start]);
-  at.push_back(0);
-  radius.push_back(limbs.base_radius[next]);
-  joint.push_back(start);
+  std::size_t most = 1;
+  for (std::uint32_t each = next; each != Limbs::none; each = chains.next[each]) ++most;
+  resize(most);
+  std::size_t last = 0;
+  glm::vec3 from = limbs.position[start];
+  float end = 0;
+  point[0] = from;
+  at[0] = 0;
+  radius[0] = limbs.base_radius[next];
+  joint[0] = start;
   for (; next != Limbs::none; next = chains.next[next]) {
-    const glm::vec3 step = limbs.position[next] - point.back();
+    const glm::vec3 step = limbs.position[next] - from;
     const float length = std::sqrt(glm::dot(step, step));
     if (length <= shortest) continue;
-    if (radius.size() > 1) radius.back() = std::max(radius.back(), limbs.base_radius[next]);
-    along.push_back(step * (1 / length));
-    point.push_back(limbs.position[next]);
-    at.push_back(at.back() + length);
-    radius.push_back(limbs.radius[next]);
-    joint.push_back(next);
+    if (last > 0) radius[last] = std::max(radius[last], limbs.base_radius[next]);
+    along[last++] = step * (1 / length);
+    point[last] = from = limbs.position[next];
+    at[last] = end += length;
+    radius[last] = limbs.radius[next];
+    joint[last] = next;
   }
+  resize(last + 1);
   return !along.empty();
 }
 
@@ -75,7 +84,7 @@ void GraftAxis::carry(const glm::vec3& first) {
     glm::vec3 turned = u[i - 1];
     if (cosine > -0.999F) turned -= (a + b) * (glm::dot(u[i - 1], b) / (1 + cosine));
     turned -= b * glm::dot(turned, b);
-    u[i] = math::unit_or(turned, [&] { return any_aside(b); });
+    u[i] = unit_again(turned, [&] { return any_aside(b); });
   }
 }
 

@@ -2,6 +2,7 @@
 /// The centre line of one limb for graft(): points, lengths, radii, and frames that turn the least.
 #include <vector>
 
+#include "core/base/quick_math.h"
 #include "core/geom/chains.h"
 
 namespace seedmesh {
@@ -55,9 +56,21 @@ struct GraftAxis {
   void stretch(float turns);
   /// Frames from a first direction at right angles to the first piece.
   void carry(const glm::vec3& first);
+
+ private:
+  void resize(std::size_t points);
 };
 
 /// A unit vector at right angles to the unit vector `along`.
 glm::vec3 any_aside(const glm::vec3& along);
+
+/// A vector that is of unit length but for rounding, once more: by a step of Newton's, without a root or a
+/// quotient to wait for. Another is made a unit one, or is otherwise() where it has no direction.
+template <class Otherwise>
+glm::vec3 unit_again(const glm::vec3& v, const Otherwise& otherwise) {
+  const float square = glm::dot(v, v);
+  if (square > 0.999F && square < 1.001F) return v * (1.5F - 0.5F * square);
+  return math::unit_or(v, otherwise);
+}
 
 }  // namespace seedmesh

@@ -108,18 +108,18 @@ void GraftWriter::settle_ribs(std::size_t limb) {
 }
 
 bool GraftWriter::looks_away(const LoopFace& face, std::uint32_t group) const {
-  return group != none && glm::dot(group_normal_[group & ~1U], face.normal) < least_lean;
+  return group != none && glm::dot(group_normal_[group & ~1U].get(), face.normal) < least_lean;
 }
 
 /// Of four faces those that have a normal which looks away from them. `normals` of groups, of which `neutral`
 /// is none and that of corners without a group.
-FourFlags GraftWriter::strained(const LoopFace* faces, const glm::vec3* normals, std::uint32_t neutral) {
+FourFlags GraftWriter::strained(const LoopFace* faces, const GroupNormal* normals, std::uint32_t neutral) {
   const Four face = Four::of_rows(Four::row(&faces[0].normal), Four::row(&faces[1].normal),
                                   Four::row(&faces[2].normal), Four::row(&faces[3].normal));
   FourFlags away{};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto normal = [&](const LoopFace& each) {
-      return Four::row(normals + (std::min(each.group[k], neutral) & ~1U));
+      return normals[std::min(each.group[k], neutral) & ~1U].row;
     };
     away |= dot(Four::of_rows(normal(faces[0]), normal(faces[1]), normal(faces[2]), normal(faces[3])), face) <
             least_lean;
@@ -128,9 +128,10 @@ FourFlags GraftWriter::strained(const LoopFace* faces, const glm::vec3* normals,
 }
 
 /// The first of four of `faces`, from `from` on, that are not all at ease; fewer than four are left at the
-/// end. `normals` with two more than there are groups: none, and room to read.
+/// end. `normals` with two more than there are groups: none.
 SEEDMESH_WIDE std::size_t GraftWriter::first_strained(std::span<const LoopFace> faces,
-                                                      std::span<const glm::vec3> normals, std::size_t from) {
+                                                      std::span<const GroupNormal> normals,
+                                                      std::size_t from) {
   const auto neutral = static_cast<std::uint32_t>(normals.size() - 2);
   while (from + Four::size <= faces.size() && all_of(~strained(faces.data() + from, normals.data(), neutral)))
     from += Four::size;
@@ -142,8 +143,8 @@ std::vector<GraftWriter::LoopFace> GraftWriter::strained_faces(
     const std::vector<std::vector<LoopFace>>& faces) {
   // Corners without a group get a normal that does not look away from anything.
   const std::size_t groups = group_normal_.size();
-  std::fill_n(group_normal_.extend(2), 2, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
-  const std::span<const glm::vec3> normals = std::as_const(group_normal_).span();
+  std::fill_n(group_normal_.extend(2), 2, GroupNormal{four_times(std::numeric_limits<float>::quiet_NaN())});
+  const std::span<const GroupNormal> normals = std::as_const(group_normal_).span();
   std::vector<std::vector<std::uint32_t>> away(faces.size());
   share_out(faces.size(), 1, [&](std::size_t, std::size_t, std::size_t part) {
     const std::vector<LoopFace>& all = faces[part];
@@ -209,9 +210,9 @@ void GraftWriter::ease_loop_normals(const std::vector<std::vector<LoopFace>>& fa
       const LoopFace& face = hard[i];
       for (const std::uint32_t group : face.group) {
         if (!looks_away(face, group)) continue;
-        glm::vec3& normal = group_normal_[group & ~1U];
-        normal =
-            math::quick_unit(normal + face.normal * (wanted_lean - glm::dot(normal, face.normal)), normal);
+        const glm::vec3 normal = group_normal_[group & ~1U].get();
+        const float wanted = wanted_lean - glm::dot(normal, face.normal);
+        group_normal_[group & ~1U].set(math::quick_unit(normal + face.normal * wanted, normal));
         for (std::uint32_t k = first[group / 2]; k < first[group / 2 + 1]; ++k) waiting.add(at_pair[k]);
         turns = true;
       }

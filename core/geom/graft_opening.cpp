@@ -37,10 +37,21 @@ Cross cross_of(const glm::vec3& parent, const glm::vec3& child) {
   c.cosine = glm::dot(parent, child);
   c.sine = std::sqrt(std::max(0.0F, 1 - c.cosine * c.cosine));
   if (c.sine < 1e-3F) return c;
-  c.out = math::unit_or((child - parent * c.cosine) * (1 / c.sine), [&] { return any_aside(parent); });
-  c.top = math::unit_or((parent - child * c.cosine) * (1 / c.sine), [&] { return any_aside(child); });
+  const float by = 1 / c.sine;
+  c.out = unit_again((child - parent * c.cosine) * by, [&] { return any_aside(parent); });
+  c.top = unit_again((parent - child * c.cosine) * by, [&] { return any_aside(child); });
   c.aside = glm::cross(parent, c.out);
   return c;
+}
+
+/// By rising angle; for a few.
+void sort_by_angle(LoopPoint* begin, const LoopPoint* end) {
+  for (LoopPoint* each = begin; each != end; ++each) {
+    const LoopPoint point = *each;
+    LoopPoint* at = each;
+    for (; at != begin && point.angle < at[-1].angle; --at) *at = at[-1];
+    *at = point;
+  }
 }
 
 /// Sorts the corners of the loop, the last in the list from `opening.points` on: two ends on the ring, which
@@ -63,7 +74,7 @@ void place(Opening& opening, std::vector<LoopPoint>& list) {
     for (std::size_t i = 0; i < count; ++i) {
       if (i != first && i != last && (std::abs(points[i].phase) < ends) == above) *out++ = points[i];
     }
-    std::sort(begin, out, [](const LoopPoint& a, const LoopPoint& b) { return a.angle < b.angle; });
+    sort_by_angle(begin, out);
     (above ? opening.upper : opening.lower) = static_cast<std::size_t>(out - begin);
   }
   opening.at = 0.5F * (opening.first.height + opening.last.height);
@@ -168,11 +179,11 @@ std::optional<Opening> fork_at(const GraftAxis& parent, std::size_t at_point, co
   opening.radius = radius;
   opening.is_fork = true;
   const glm::vec3 joint = parent.point[at_point];
-  const glm::vec3 middle = math::unit(before + bud.along, before);
-  const glm::vec3 outer = math::unit(cross.out - middle * glm::dot(middle, cross.out), cross.out);
-  const glm::vec3 outward = math::unit(cross.out - before * glm::dot(before, cross.out), cross.out);
+  const glm::vec3 middle = math::quick_unit(before + bud.along, before);
+  const glm::vec3 outer = math::quick_unit(cross.out - middle * glm::dot(middle, cross.out), cross.out);
+  const glm::vec3 outward = math::quick_unit(cross.out - before * glm::dot(before, cross.out), cross.out);
   const float mitre = 1 / std::max(0.7F, glm::dot(outer, outward));
-  const glm::vec3 crotch = math::unit(after + bud.along, after);
+  const glm::vec3 crotch = math::quick_unit(after + bud.along, after);
   const float cosine_half = glm::dot(crotch, after);
   const float sine_half = std::sqrt(std::max(1e-4F, 1 - cosine_half * cosine_half));
   const float next = parent.at[at_point + 1] - parent.at[at_point];

@@ -137,22 +137,28 @@ void GraftWriter::take_vertices(const GraftWriter& part) {
   const std::size_t count = part.vertices_;
   const auto shift = static_cast<std::uint32_t>(vertices_);
   make_room_for(count);
-  append(mesh_.position, vertices_, part.mesh_.position, count);
-  append(mesh_.normal, vertices_, part.mesh_.normal, count);
-  append(mesh_.uv[0], vertices_, part.mesh_.uv[0], count);
-  append(twin_, vertices_, part.twin_, count);
-  if (context_.options.joints) append(joints_, vertices_, part.joints_, count);
-  // Those of groups of the part's own; others are not known here by their numbers.
-  const std::uint32_t groups = static_cast<std::uint32_t>(group_normal_.size()) - part.first_group_;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t group = part.group_[i];
-    group_[vertices_ + i] = group != none && group >= part.first_group_ ? group + groups : group;
-  }
-  vertices_ += count;
-  colors_.append(part.colors_.span());
   const Array<std::uint32_t>& index = part.mesh_.index.wide;
   std::uint32_t* to = mesh_.index.wide.extend(index.size());
-  for (std::size_t i = 0; i < index.size(); ++i) to[i] = index[i] + shift;
+  run_both(
+      job_,
+      [&] {
+        append(mesh_.position, vertices_, part.mesh_.position, count);
+        append(mesh_.normal, vertices_, part.mesh_.normal, count);
+        append(mesh_.uv[0], vertices_, part.mesh_.uv[0], count);
+      },
+      [&] {
+        append(twin_, vertices_, part.twin_, count);
+        if (context_.options.joints) append(joints_, vertices_, part.joints_, count);
+        // Those of groups of the part's own; others are not known here by their numbers.
+        const std::uint32_t groups = static_cast<std::uint32_t>(group_normal_.size()) - part.first_group_;
+        for (std::size_t i = 0; i < count; ++i) {
+          const std::uint32_t group = part.group_[i];
+          group_[vertices_ + i] = group != none && group >= part.first_group_ ? group + groups : group;
+        }
+        for (std::size_t i = 0; i < index.size(); ++i) to[i] = index[i] + shift;
+      });
+  vertices_ += count;
+  colors_.append(part.colors_.span());
 }
 
 /// Their groups of normals too.
@@ -178,7 +184,7 @@ void GraftWriter::take_loops(const GraftWriter& part, std::uint32_t first, std::
     loop_vertices_.back().group += groups;
   }
   for (std::size_t group = part.first_group_; group < part.group_normal_.size(); ++group)
-    group_normal_.push_back(glm::vec3(0));
+    group_normal_.push_back({});
   group_limb_.insert(group_limb_.end(),
                      part.group_limb_.begin() + static_cast<std::ptrdiff_t>(part.first_group_ / 2),
                      part.group_limb_.end());

@@ -46,8 +46,8 @@ void GraftPlan::begin(float start, float tip, float apart, float bulge) {
   bulge_ = bulge;
 }
 
-float GraftPlan::margin(const GraftAxis& axis, float at) const {
-  return std::max(4 * apart_, bulge_ * axis.radius_at(at, axis.piece_at(at, 0)));
+float GraftPlan::margin(const GraftAxis& axis, float at, std::size_t near) const {
+  return std::max(4 * apart_, bulge_ * axis.radius_at(at, axis.first_piece_at(at, near)));
 }
 
 bool GraftPlan::joins(const Opening& wanted, const Band& there) const {
@@ -57,7 +57,7 @@ bool GraftPlan::joins(const Opening& wanted, const Band& there) const {
 
 /// Does it fit between the bands before and at `place`?
 bool GraftPlan::fits(const GraftAxis& axis, const Opening& wanted, std::size_t place) const {
-  const float margin = std::max(this->margin(axis, wanted.at), 0.12F * (wanted.high - wanted.low));
+  const float margin = std::max(this->margin(axis, wanted.at, wanted.piece), 0.12F * (wanted.high - wanted.low));
   if (wanted.low < start_ + margin || wanted.high > tip_ - margin) return false;
   const auto crosses = [&](const Band& there) {
     return any_on(there, [&](const Opening& other) { return overlap(wanted, other); });
@@ -110,9 +110,9 @@ bool GraftPlan::put(const GraftAxis& axis, std::size_t at_point, const Opening& 
     for (std::size_t near = place > 0 ? place - 1 : 0; near < std::min(place + 1, band.size()); ++near) {
       Band& there = band[near];
       if (there.is_bend || !joins(wanted, there)) continue;
-      const bool has_room =
-          wanted.low > (near > 0 ? band[near - 1].high : start_) + margin(axis, wanted.at) &&
-          wanted.high < (near + 1 < band.size() ? band[near + 1].low : tip_) - margin(axis, wanted.at);
+      const float margin = this->margin(axis, wanted.at, wanted.piece);
+      const bool has_room = wanted.low > (near > 0 ? band[near - 1].high : start_) + margin &&
+                            wanted.high < (near + 1 < band.size() ? band[near + 1].low : tip_) - margin;
       if (!has_room) continue;
       there.low = std::min(there.low, wanted.low);
       there.high = std::max(there.high, wanted.high);
@@ -168,7 +168,7 @@ void GraftPlan::complete(const GraftAxis& axis, bool has_first, const GraftOptio
     take_openings(at);
     if (!all.empty() && all.back().at == at) continue;
     const float last_at = all.empty() ? start_ : all.back().at;
-    const float last_radius = axis.radius_at(last_at, axis.piece_at(last_at, 0));
+    const float last_radius = axis.radius_at(last_at, axis.first_piece_at(last_at, point));
     const float share = (at - last_at) / (axis.at[point + 1] - last_at);
     const float between = last_radius + (axis.radius[point + 1] - last_radius) * share;
     const bool turns = glm::dot(heading, axis.along[point]) < most_turn;
@@ -177,7 +177,7 @@ void GraftPlan::complete(const GraftAxis& axis, bool has_first, const GraftOptio
       continue;
     const float sine = std::sqrt(
         std::max(0.0F, 1 - glm::dot(heading, axis.along[point]) * glm::dot(heading, axis.along[point])));
-    const float clear = std::max(margin(axis, at), 0.5F * axis.radius[point] * sine);
+    const float clear = std::max(margin(axis, at, point), 0.5F * axis.radius[point] * sine);
     const float low = next < band.size() ? band[next].low : tip_;
     if (at < high + clear || at > low - clear) continue;
     all.push_back(plain(at, point, true));
@@ -186,7 +186,7 @@ void GraftPlan::complete(const GraftAxis& axis, bool has_first, const GraftOptio
   }
   take_openings(tip_);
   const float last_at = all.empty() ? start_ : all.back().at;
-  const float last_radius = axis.radius_at(last_at, axis.piece_at(last_at, 0));
+  const float last_radius = axis.radius_at(last_at, axis.first_piece_at(last_at, axis.pieces() - 1));
   if (!options.pointed || axis.radius.back() > pointed_share * last_radius)
     all.push_back(plain(tip_, axis.pieces() - 1, false));
   std::swap(band, all);

@@ -43,7 +43,8 @@ struct GraftPlan {
   void add(Band& ring, const Opening& wanted);
   bool put(const GraftAxis& axis, std::size_t at_point, const Opening& wanted);
   bool fits(const GraftAxis& axis, const Opening& opening, std::size_t place) const;
-  float margin(const GraftAxis& axis, float at) const;
+  /// At `at`, which is on a piece near `near`.
+  float margin(const GraftAxis& axis, float at, std::size_t near) const;
   bool joins(const Opening& opening, const Band& band) const;
   /// Does it leave anything of the child?
   bool leaves_room(const Opening& wanted, const Bud& bud) const {

@@ -33,13 +33,13 @@ GraftWriter::Plane GraftWriter::plane_of(const Band& band) const {
   Plane plane = plane_at(band.at, band.piece);
   if (!band.is_bend || band.piece == 0) return plane;
   const glm::vec3 &before = axis_.along[band.piece - 1], &after = axis_.along[band.piece];
-  plane.tangent = math::unit_or(before + after, [&] { return after; });
+  plane.tangent = math::quick_unit(before + after, after);
   // Halfway back from the frame of the later piece: the least turn that takes its axis to the tangent.
   const float cosine = glm::dot(after, plane.tangent);
   glm::vec3 u = axis_.u[band.piece];
   u -= (after + plane.tangent) * (glm::dot(u, plane.tangent) / (1 + cosine));
   u -= plane.tangent * glm::dot(u, plane.tangent);
-  plane.u = math::unit_or(u, [&] { return any_aside(plane.tangent); });
+  plane.u = unit_again(u, [&] { return any_aside(plane.tangent); });
   plane.v = glm::cross(plane.tangent, plane.u);
   const float length = axis_.at[band.piece] - axis_.at[band.piece - 1];
   plane.slope = 0.5F * (plane.slope + (axis_.radius[band.piece - 1] - axis_.radius[band.piece]) / length);
@@ -50,12 +50,12 @@ GraftWriter::Plane GraftWriter::plane_of(const Band& band) const {
 float GraftWriter::ribbed(float angle) const {
   if (!has_ribs()) return 1;
   const double at = static_cast<double>(angle) * context_.options.lobes;
-  return 1 + context_.options.lobe_depth * static_cast<float>(math::sin(at));
+  return 1 + context_.options.lobe_depth * static_cast<float>(math::quick_sincos(at).sin);
 }
 
-std::uint32_t GraftWriter::vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv,
-                                  std::uint32_t group) {
-  make_room_for(1);
+/// Where there is room for it.
+std::uint32_t GraftWriter::put_vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv,
+                                      std::uint32_t group) {
   const std::size_t index = vertices_++;
   mesh_.position[index] = position + 0.0F;
   mesh_.normal[index] = normal + 0.0F;
@@ -81,7 +81,7 @@ std::uint32_t GraftWriter::ring_corner(const Plane& plane, float angle, glm::vec
   if (factor != 1) {
     const double at = static_cast<double>(angle) * context_.options.lobes;
     const float fall = context_.options.lobe_depth * static_cast<float>(context_.options.lobes) *
-                       static_cast<float>(math::cos(at)) / factor;
+                       static_cast<float>(math::quick_sincos(at).cos) / factor;
     normal -= (plane.v * direction.x - plane.u * direction.y) * fall;
   }
   return vertex(plane.centre + out * (plane.radius * factor), math::quick_unit(normal, out),
@@ -97,11 +97,23 @@ float GraftWriter::by_seam(float angle) const {
 
 std::uint32_t GraftWriter::group_for(const LoopPoint& point, std::uint32_t child) {
   const auto group = static_cast<std::uint32_t>(group_normal_.size());
-  glm::vec3* const normals = group_normal_.extend(2);  // of the parent's faces, of the child's
-  normals[0] = normals[1] = glm::vec3(0);
+  std::fill_n(group_normal_.extend(2), 2, GroupNormal{});  // of the parent's faces, of the child's
   group_limb_.push_back(child);
   *loop_vertices_.extend(1) = {point.position, point.phase, point.reach, group + 1, joint_};
   return group;
+}
+
+/// The vertex of a point of a loop.
+std::uint32_t GraftWriter::loop_corner(const Mark& mark, float angle) {
+  const LoopPoint& point = *mark.point;
+  const float height = std::clamp(point.height, 0.0F, axis_.length());
+  const std::size_t piece = axis_.first_piece_at(height, near_piece_);
+  const float from = axis_.at[piece], share = (height - from) / (axis_.at[piece + 1] - from);
+  const float radius = axis_.radius[piece] + (axis_.radius[piece + 1] - axis_.radius[piece]) * share;
+  // The picture goes on beyond both ends of the limb.
+  const float v = height == point.height ? axis_.v[piece] + (axis_.v[piece + 1] - axis_.v[piece]) * share
+                                         : axis_.v_at(point.height, piece);
+  return put_vertex(point.position, {0, 0, 0}, {picture_width(radius) * angle, v}, mark.group);
 }
 
 /// The vertex of a corner, beyond the seam or before it.
@@ -110,11 +122,14 @@ std::uint32_t GraftWriter::vertex_of(Mark& mark, const Plane& plane, bool is_bey
   if (made != none) return made;
   const float angle = mark.angle + (is_beyond ? 2 * pi : 0);
   if (mark.point) {
-    const float height = std::clamp(mark.point->height, 0.0F, axis_.length());
-    const float radius = axis_.radius_at(height, axis_.first_piece_at(height, near_piece_));
-    made = vertex(mark.point->position, {0, 0, 0}, picture_at(radius, angle, mark.point->height), mark.group);
+    made = loop_corner(mark, angle);
+  } else if (is_ring_known_) {
+    const auto corner = static_cast<std::size_t>(mark.corner);
+    made = put_vertex(ring_position_[corner], ring_normal_[corner],
+                      {picture_width(plane.radius) * angle, plane.v_at}, none);
   } else {
-    made = ring_corner(plane, angle, mark.direction);
+    const Circle& circle = common_->circles[static_cast<std::size_t>(sides_for(plane.radius))];
+    made = ring_corner(plane, angle, turned_to_seam(circle.at(mark.corner)));
   }
   if (mark.vertex[is_beyond ? 0 : 1] != none) mark_twin();
   return made;
@@ -137,6 +152,7 @@ void GraftWriter::go_round(Corners& order, const Plane& plane, Corners& out) {
     if (std::abs(order[i].angle - seam_) < std::abs(order[start].angle - seam_)) start = i;
   }
   out.resize(order.size() + 1);
+  make_room_for(order.size() + 1);
   Corner* to = out.data();
   const auto go = [&](std::size_t begin, std::size_t end, bool is_beyond) {
     for (std::size_t at = begin; at < end; ++at) {
@@ -149,10 +165,10 @@ void GraftWriter::go_round(Corners& order, const Plane& plane, Corners& out) {
   go(start, start + 1, true);
 }
 
-/// Four corners of a ring without ribs, from `first` on, as ring_corner() writes them one by one; those past
-/// the last are written over later. False: one has no direction, and nothing is written.
+/// Four corners of a ring without ribs, from `first` on, as ring_corner() has them one by one. False: one has
+/// no direction, and nothing is written.
 bool GraftWriter::write_ring_block(const Plane& plane, const Circle& circle, std::size_t first,
-                                   std::size_t sides) {
+                                   const RingRoom& to) const {
   FourFloats x, y;
   std::memcpy(&x, circle.x.data() + first, sizeof(x));
   std::memcpy(&y, circle.y.data() + first, sizeof(y));
@@ -166,13 +182,18 @@ bool GraftWriter::write_ring_block(const Plane& plane, const Circle& circle, std
   if (!to_units(normal)) return false;
   const float r = plane.radius;
   const Four position{plane.centre.x + out.x * r, plane.centre.y + out.y * r, plane.centre.z + out.z * r};
-  const std::size_t at = vertices_ + first;
-  position.write(mesh_.position.data() + at);
-  normal.write(mesh_.normal.data() + at);
-  const float step = 2 * pi / static_cast<float>(sides), wide = picture_width(r);
-  const float far = plane.v_at * context_.options.v_scale + 0.0F;
-  for (std::size_t k = 0; k < Four::size; ++k)
-    mesh_.uv[0][at + k] = {wide * (seam_ + step * static_cast<float>(first + k)) + 0.0F, far};
+  position.write(to.position + first);
+  normal.write(to.normal + first);
+  return true;
+}
+
+/// All corners of a ring without ribs, the first again at the end, and up to three more. False: one has no
+/// direction.
+bool GraftWriter::write_ring(const Plane& plane, int sides, const RingRoom& to) const {
+  const Circle& circle = common_->circles[static_cast<std::size_t>(sides)];
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(sides); i += Four::size) {
+    if (!write_ring_block(plane, circle, i, to)) return false;
+  }
   return true;
 }
 
@@ -181,20 +202,21 @@ void GraftWriter::plain_ring(const Plane& plane, Corners& out) {
   const int sides = sides_for(plane.radius);
   const auto count = static_cast<std::size_t>(sides) + 1;
   const float step = 2 * pi / static_cast<float>(sides);
-  const Circle& circle = common_->circles[static_cast<std::size_t>(sides)];
   make_room_for(count);
   out.resize(count);
   for (std::size_t i = 0; i < count; ++i)
     out[i] = {seam_ + step * static_cast<float>(i), static_cast<std::uint32_t>(vertices_ + i)};
-  bool is_written = !has_ribs();
-  for (std::size_t i = 0; is_written && i < count; i += Four::size)
-    is_written = write_ring_block(plane, circle, i, static_cast<std::size_t>(sides));
-  if (is_written) {
+  if (!has_ribs() &&
+      write_ring(plane, sides, {mesh_.position.data() + vertices_, mesh_.normal.data() + vertices_})) {
+    const float wide = picture_width(plane.radius), far = plane.v_at * context_.options.v_scale + 0.0F;
+    for (std::size_t i = 0; i < count; ++i)
+      mesh_.uv[0][vertices_ + i] = {wide * out[i].angle + 0.0F, far};
     std::fill_n(group_.data() + vertices_, count, none);
     std::fill_n(twin_.data() + vertices_, count, std::uint8_t{0});
     if (context_.options.joints) std::fill_n(joints_.data() + vertices_, count, joint_);
     vertices_ += count;
   } else {
+    const Circle& circle = common_->circles[static_cast<std::size_t>(sides)];
     for (int i = 0; i <= sides; ++i)
       ring_corner(plane, out[static_cast<std::size_t>(i)].angle, turned_to_seam(circle.at(i)));
   }
@@ -222,8 +244,12 @@ void GraftWriter::open_ring(const Plane& plane, const Band& band) {
     return mark;
   };
   const float step = 2 * pi / static_cast<float>(sides), near = std::min(0.35F * step, 0.25F);
-  const Circle& circle = common_->circles[static_cast<std::size_t>(sides)];
-  for (int i = 0; i < sides; ++i) {
+  const std::size_t room = static_cast<std::size_t>(sides) + 1 + Four::size;
+  ring_position_.resize(room);
+  ring_normal_.resize(room);
+  is_ring_known_ = !has_ribs() && write_ring(plane, sides, {ring_position_.data(), ring_normal_.data()});
+  for (int turn = 0, i = (sides + 1) / 2; turn < sides; ++turn, ++i) {  // by rising angle
+    if (i >= sides) i -= sides;
     const float angle = by_seam(seam_ + step * static_cast<float>(i));
     const auto takes = [&](const Opening& opening) {
       const float off = std::abs(by_seam(angle - opening.middle + seam_) - seam_);
@@ -234,7 +260,7 @@ void GraftWriter::open_ring(const Plane& plane, const Band& band) {
       is_taken = takes(plan_.opening[k]);
     if (is_taken) continue;
     Mark& mark = add(angle, true, true);
-    mark.direction = turned_to_seam(circle.at(i));
+    mark.corner = i;
     mark.point = nullptr;
     mark.group = none;
   }

@@ -16,6 +16,8 @@ constexpr float least_area = 4e-12F;
 // A normal nearer to the plane of its face than this may be found on the other side by who reckons otherwise.
 constexpr float least_cosine = 1e-4F;
 
+constexpr float pi = static_cast<float>(math::pi);
+
 // Limbs that are looked at together: so many, or more where there are very many.
 constexpr std::size_t least_limbs_a_chunk = 64, most_chunks = 128;
 std::size_t limbs_a_chunk(std::size_t limbs) {
@@ -30,15 +32,13 @@ constexpr std::size_t pairs_a_chunk = 1024;
 
 }  // namespace
 
-/// Faces at loops side by side: twice their area, the normals as long as that and of unit length, and of each
-/// corner how far its edges go along each other.
+/// Faces at loops: the normals as long as twice their area and of unit length; side by side that area, and of
+/// each corner how far its edges go along each other; then by how much the face counts there.
 struct GraftWriter::FaceBlock {
   static constexpr std::size_t most = 16;
   std::uint32_t corner[3 * most];
-  float normal[3][most], unit[3][most], size[most], along[3][most];
-  // Of the corners that count: tangents of their angles, as two sides of which the first is the face's size,
-  // and the angles by that size.
-  float opposite[3 * most], adjacent[3 * most], weight[3 * most];
+  FourFloats normal[most], unit[most];
+  float size[most], along[3][most], weight[3][most];
 };
 
 SEEDMESH_WIDE void GraftWriter::measure(FaceBlock& block, const glm::vec3* position) {
@@ -49,32 +49,29 @@ SEEDMESH_WIDE void GraftWriter::measure(FaceBlock& block, const glm::vec3* posit
     const Four normal = cross(difference(p[1], p[0]), difference(p[2], p[0]));
     const FourFloats size = root(dot(normal, normal));
     const Four unit = scaled(normal, 1.0F / size);
-    const FourFloats columns[10] = {normal.x,
-                                    normal.y,
-                                    normal.z,
-                                    unit.x,
-                                    unit.y,
-                                    unit.z,
-                                    size,
-                                    dot(difference(p[1], p[0]), difference(p[2], p[0])),
-                                    dot(difference(p[2], p[1]), difference(p[0], p[1])),
-                                    dot(difference(p[0], p[2]), difference(p[1], p[2]))};
-    float* const out[10] = {block.normal[0], block.normal[1], block.normal[2], block.unit[0],
-                            block.unit[1],   block.unit[2],   block.size,      block.along[0],
-                            block.along[1],  block.along[2]};
-    for (int k = 0; k < 10; ++k) std::memcpy(out[k] + first, &columns[k], sizeof(FourFloats));
+    normal.to_rows(block.normal + first);
+    unit.to_rows(block.unit + first);
+    const FourFloats columns[4] = {size, dot(difference(p[1], p[0]), difference(p[2], p[0])),
+                                   dot(difference(p[2], p[1]), difference(p[0], p[1])),
+                                   dot(difference(p[0], p[2]), difference(p[1], p[2]))};
+    float* const out[4] = {block.size, block.along[0], block.along[1], block.along[2]};
+    for (int k = 0; k < 4; ++k) std::memcpy(out[k] + first, &columns[k], sizeof(FourFloats));
   }
 }
 
 /// The angles at corners, by which faces count, so that it does not matter how the surface is cut into
-/// triangles. Of `count` corners, and of more up to whole blocks.
-SEEDMESH_WIDE void GraftWriter::weigh(FaceBlock& block, std::size_t count) {
-  for (std::size_t first = 0; first < count; first += FaceBlock::most) {
-    const float *opposite = block.opposite + first, *adjacent = block.adjacent + first;
+/// triangles; by the size of the normals. Within 2e-5, after M. Abramowitz and I. Stegun, Handbook of
+/// Mathematical Functions, 1964, 4.4.47.
+SEEDMESH_WIDE void GraftWriter::weigh(FaceBlock& block) {
+  for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t i = 0; i < FaceBlock::most; ++i) {
-      const auto angle = static_cast<float>(
-          math::quick_atan2(static_cast<double>(opposite[i]), static_cast<double>(adjacent[i])));
-      block.weight[first + i] = angle / opposite[i];
+      const float opposite = block.size[i], adjacent = block.along[k][i], side = std::abs(adjacent);
+      const bool is_steep = opposite > side;
+      const float share = (is_steep ? side : opposite) / (is_steep ? opposite : side), z = share * share;
+      const float angle =
+          share * (0.999866F + z * (-0.3302995F + z * (0.180141F + z * (-0.085133F + z * 0.0208351F))));
+      const float sharp = is_steep ? 0.5F * pi - angle : angle;
+      block.weight[k][i] = (adjacent < 0 ? pi - sharp : sharp) / opposite;
     }
   }
 }
@@ -128,56 +125,55 @@ void GraftWriter::each_at_loops(std::size_t limb, const Each& each) const {
   }
 }
 
-/// What the faces of some limbs give to the normals of the loops that they touch. These faces are noted in
-/// `faces`.
-void GraftWriter::add_loop_normals(std::size_t first_limb, std::size_t last_limb,
+/// What the faces of some limbs give to the normals of the loops that they touch, or to groups from `nowhere`
+/// on, behind all others: one for each face of a block, so that none waits for another. These faces are noted in `faces`.
+void GraftWriter::add_loop_normals(std::size_t first_limb, std::size_t last_limb, std::uint32_t nowhere,
                                    std::vector<LoopFace>& faces) {
   FaceBlock block;
   std::size_t count = 0;
-  for (std::size_t limb = first_limb; limb < last_limb; ++limb) {
-    each_at_loops(limb, [&](std::uint32_t triangle) {
-      const std::uint32_t* corner = mesh_.index.wide.data() + std::size_t{3} * triangle;
-      for (std::size_t k = 0; k < 3; ++k) block.corner[3 * count + k] = corner[k];
-      if (++count < FaceBlock::most) return;
-      add_loop_faces(block, count, faces);
-      count = 0;
-    });
+  const std::uint32_t* index = mesh_.index.wide.data();
+  const auto add = [&](std::uint32_t triangle) {
+    const std::uint32_t* corner = index + std::size_t{3} * triangle;
+    for (std::size_t k = 0; k < 3; ++k) block.corner[3 * count + k] = corner[k];
+    if (++count < FaceBlock::most) return;
+    add_loop_faces(block, count, nowhere, faces);
+    count = 0;
+  };
+  if (is_first()) {  // they stand one behind another
+    const std::size_t end = range_[last_limb - 1].end.loop_triangle;
+    for (std::size_t i = range_[first_limb].begin.loop_triangle; i < end; ++i) add(loop_triangles_[i]);
+  } else {
+    for (std::size_t limb = first_limb; limb < last_limb; ++limb) each_at_loops(limb, add);
   }
-  if (count > 0) add_loop_faces(block, count, faces);
+  if (count > 0) add_loop_faces(block, count, nowhere, faces);
 }
 
 /// The first `count` of a block, whose corners are known.
-void GraftWriter::add_loop_faces(FaceBlock& block, std::size_t count, std::vector<LoopFace>& faces) {
+void GraftWriter::add_loop_faces(FaceBlock& block, std::size_t count, std::uint32_t nowhere,
+                                 std::vector<LoopFace>& faces) {
   for (std::size_t l = count; l < FaceBlock::most; ++l) std::copy_n(block.corner, 3, block.corner + 3 * l);
   measure(block, mesh_.position.data());
-  struct Part {
-    std::uint32_t group, lane;
-  };
-  Part parts[3 * FaceBlock::most];
-  std::size_t angles = 0;
+  weigh(block);
+  const bool all = is_first();
+  const std::size_t before = faces.size();
+  faces.resize(before + count);
+  LoopFace* face = faces.data() + before;
+  GroupNormal* const sums = group_normal_.data();
   for (std::size_t l = 0; l < count; ++l) {
     if (!(block.size[l] > 0)) continue;
-    LoopFace& face = faces.emplace_back();
-    face.normal = {block.unit[0][l], block.unit[1][l], block.unit[2][l]};
-    // Each corner is put on the list, and stays there if it counts: nobody can foresee which do.
+    const FourFloats normal = block.normal[l];
+    std::memcpy(static_cast<void*>(face), &block.unit[l], sizeof(FourFloats));  // its groups come behind
+    // Chosen, not branched to: nobody can foresee which corners count.
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t group = group_[block.corner[3 * l + k]];
-      const bool is_shared = group != none;
-      const bool counts = is_shared & (touched_[is_shared ? group / 2 : 0] != 0);
-      face.group[k] = counts ? group : none;
-      parts[angles] = {group, static_cast<std::uint32_t>(l)};
-      block.opposite[angles] = block.size[l];
-      block.adjacent[angles] = block.along[k][l];
-      angles += counts ? 1 : 0;
+      std::uint32_t group = group_[block.corner[3 * l + k]];
+      if (!all && group != none && !touched_[group / 2]) group = none;
+      face->group[k] = group;
+      GroupNormal& sum = sums[std::min(group, nowhere + static_cast<std::uint32_t>(l))];
+      sum.row += normal * four_times(block.weight[k][l]);
     }
+    ++face;
   }
-  for (std::size_t i = angles; i % FaceBlock::most != 0; ++i) block.opposite[i] = block.adjacent[i] = 1;
-  weigh(block, angles);
-  for (std::size_t i = 0; i < angles; ++i) {
-    const std::size_t l = parts[i].lane;
-    const glm::vec3 normal{block.normal[0][l], block.normal[1][l], block.normal[2][l]};
-    group_normal_[parts[i].group] += normal * block.weight[i];
-  }
+  faces.resize(static_cast<std::size_t>(face - faces.data()));
 }
 
 /// Faces with these corners, four at once, which look along their normals.
@@ -248,18 +244,17 @@ bool GraftWriter::blame(const std::uint32_t* corner, std::vector<Trust>& trust, 
 }
 
 /// join_loop_normals() of four pairs at once; false: one is for math::unit, and all are as they were.
-SEEDMESH_WIDE bool GraftWriter::join_four(glm::vec3* normals) {
-  glm::vec3 pairs[2 * Four::size + 1];
-  std::copy_n(normals, 2 * Four::size, pairs);
+SEEDMESH_WIDE bool GraftWriter::join_four(GroupNormal* normals) {
   const auto picked = [&](std::size_t i) {
-    return Four::of_rows(Four::row(pairs + i), Four::row(pairs + i + 2), Four::row(pairs + i + 4),
-                         Four::row(pairs + i + 6));
+    return Four::of_rows(normals[i].row, normals[i + 2].row, normals[i + 4].row, normals[i + 6].row);
   };
   Four one = picked(0), other = picked(1);
   if (!to_units(one) || !to_units(other)) return false;
   Four both = sum(one, other);
   if (!to_units(both)) return false;
-  for (std::size_t k = 0; k < Four::size; ++k) normals[2 * k] = both.at(k);
+  FourFloats rows[Four::size];
+  both.to_rows(rows);
+  for (std::size_t k = 0; k < Four::size; ++k) normals[2 * k].row = rows[k];
   return true;
 }
 
@@ -272,9 +267,9 @@ void GraftWriter::join_loop_normals() {
         continue;
       }
       if (!touched_[pair]) continue;
-      const glm::vec3 one = math::quick_unit(group_normal_[2 * pair], glm::vec3{0});
-      const glm::vec3 other = math::quick_unit(group_normal_[2 * pair + 1], glm::vec3{0});
-      group_normal_[2 * pair] = math::quick_unit(one + other, glm::vec3{0, 1, 0});
+      const glm::vec3 one = math::quick_unit(group_normal_[2 * pair].get(), glm::vec3{0});
+      const glm::vec3 other = math::quick_unit(group_normal_[2 * pair + 1].get(), glm::vec3{0});
+      group_normal_[2 * pair].set(math::quick_unit(one + other, glm::vec3{0, 1, 0}));
     }
   });
 }
@@ -286,7 +281,7 @@ void GraftWriter::put_loop_normals(std::size_t limb) {
   const std::size_t end = std::min(range.end.vertex, concern_[limb] == Concern::all ? none : loop_end);
   for (std::size_t i = range.begin.vertex; i < end; ++i) {
     if (group_[i] == none || !touched_[group_[i] / 2]) continue;
-    mesh_.normal[i] = group_normal_[group_[i] & ~1U] + 0.0F;
+    mesh_.normal[i] = group_normal_[group_[i] & ~1U].get() + 0.0F;
   }
 }
 
@@ -295,7 +290,7 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
   const std::size_t count = range_.size(), chunk = limbs_a_chunk(count);
   find_concerned();
   for (std::size_t pair = 0; pair < touched_.size(); ++pair) {
-    if (touched_[pair]) group_normal_[2 * pair] = group_normal_[2 * pair + 1] = glm::vec3(0);
+    if (touched_[pair]) group_normal_[2 * pair] = group_normal_[2 * pair + 1] = {};
   }
   if (!group_limb_.empty()) {
     // What limbs give goes to groups of their own.
@@ -304,9 +299,13 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
       const std::size_t last = std::min(count, (i + 1) * chunk) - 1;
       faces[i].reserve(range_[last].end.loop_triangle - range_[i * chunk].begin.loop_triangle);
     }
+    const auto groups = static_cast<std::uint32_t>(group_normal_.size());
+    std::fill_n(group_normal_.extend(FaceBlock::most * faces.size()), FaceBlock::most * faces.size(),
+                GroupNormal{});
     share_out(count, chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
-      add_loop_normals(begin, end, faces[index]);
+      add_loop_normals(begin, end, groups + static_cast<std::uint32_t>(FaceBlock::most * index), faces[index]);
     });
+    group_normal_.resize(groups);
     join_loop_normals();
     ease_loop_normals(faces);
   }

@@ -26,7 +26,8 @@ constexpr float least_opened = 3;
 // What is reserved at first: most trees of fine twigs need about as much, and small ones of thick limbs twice
 // that.
 constexpr std::size_t vertices_a_joint = 4, triangles_a_joint = 5, more_vertices = std::size_t{1} << 15U;
-constexpr std::size_t groups_a_limb = 4, triangles_a_group = 6, more_groups = std::size_t{1} << 13U;
+constexpr std::size_t groups_a_limb = 5, triangles_a_group = 6, more_groups = std::size_t{1} << 13U;
+constexpr std::size_t added_groups = 1024;  // for a while, by settle()
 // Circles up to so many corners are reckoned once for all.
 constexpr int usual_corners = 64;
 // Of a ring that a vertex cache of 16 entries still holds when the next ring needs it.
@@ -110,6 +111,7 @@ GraftWriter::GraftWriter(const Context& context, std::shared_ptr<const Common> c
   const std::size_t count = context.chains.head.size();
   const std::size_t groups = std::min(more_groups, groups_a_limb * count);
   group_limb_.reserve(groups);
+  group_normal_.reserve(2 * groups + added_groups);
   loop_vertices_.reserve(groups);
   loop_triangles_.reserve(triangles_a_group * groups);
   loops_.resize(count);
@@ -130,9 +132,8 @@ void GraftWriter::make_room(std::size_t vertices) {
 
 /// Three, or an even number, so that rings of different limbs meet corner to corner.
 int GraftWriter::corners_for(float radius) const {
-  const std::vector<float>& radii = common_->corner_radius;
-  const int wanted =
-      3 + static_cast<int>(std::upper_bound(radii.begin(), radii.end(), radius) - radii.begin());
+  int wanted = 3;
+  for (const float least : common_->corner_radius) wanted += radius >= least ? 1 : 0;  // they rise, and are few
   return wanted <= 3 || wanted == context_.options.sides ? std::max(3, wanted) : wanted + wanted % 2;
 }
 
@@ -345,7 +346,7 @@ void GraftWriter::begin_closed(bool is_root, std::uint32_t limb) {
   const float cone = cap_share * plane.radius;
   const std::uint32_t apex =
       vertex(plane.centre - along * cone, -along, picture_at(plane.radius, pi, -back - cone), none);
-  for (std::size_t i = 0; i + 1 < below_.size(); ++i) triangle(apex, below_[i + 1].vertex, below_[i].vertex);
+  triangles_to(apex, true);
 }
 
 void GraftWriter::begin_loop(const Loop& loop) {
@@ -355,8 +356,12 @@ void GraftWriter::begin_loop(const Loop& loop) {
   std::vector<const LoopVertex*>& order = loop_order_;
   order.clear();
   for (std::uint32_t i = 0; i < loop.count; ++i) order.push_back(&loop_vertices_[loop.first + i]);
-  std::sort(order.begin(), order.end(),
-            [](const LoopVertex* a, const LoopVertex* b) { return a->angle > b->angle; });
+  for (std::size_t i = 1; i < order.size(); ++i) {  // few
+    const LoopVertex* const each = order[i];
+    std::size_t k = i;
+    for (; k > 0 && order[k - 1]->angle < each->angle; --k) order[k] = order[k - 1];
+    order[k] = each;
+  }
   const auto add = [&](const LoopVertex& at, float angle) {
     joint_ = at.joint;
     below_.push_back(
@@ -376,27 +381,18 @@ void GraftWriter::write_band(const Band& band) {
   if (!is_at_loop) {
     plain_ring(plane_of(band), upper_);
     note_seam(upper_);
-    strip(below_, upper_);
+    strip(below_, upper_, !is_at_loop_ && below_.size() == upper_.size());
   } else {
     open_ring(plane_of(band), band);
     note_seam(lower_);
     note_seam(upper_);
-    strip(below_, lower_);
+    strip(below_, lower_, false);
   }
   if (is_at_loop_ || is_at_loop) note_loop_triangles(first);
   is_at_loop_ = is_at_loop;
   std::swap(below_, upper_);
   corners_ += below_.size();
   if (below_.size() > cached_corners) wide_corners_ += below_.size();
-}
-
-void GraftWriter::write_tip(float end_radius) {
-  const glm::vec3 along = axis_.along.back();
-  const std::uint32_t apex =
-      vertex(axis_.point.back(), along, picture_at(end_radius, pi + seam_, axis_.length()), none);
-  const std::size_t first = mesh_.index.wide.size() / 3;
-  for (std::size_t i = 0; i + 1 < below_.size(); ++i) triangle(below_[i].vertex, below_[i + 1].vertex, apex);
-  if (is_at_loop_) note_loop_triangles(first);
 }
 
 }  // namespace seedmesh

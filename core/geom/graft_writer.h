@@ -109,7 +109,7 @@ class GraftWriter {
   /// A corner of an open ring before it is a vertex: of the ring itself, or a point of a loop.
   struct Mark {
     float angle = 0;
-    glm::vec2 direction{0};
+    int corner = 0;  ///< of the ring
     const LoopPoint* point = nullptr;
     std::uint32_t group = none;
     std::uint32_t vertex[2] = {none, none};  ///< before the seam and beyond it
@@ -133,6 +133,13 @@ class GraftWriter {
     float radius = 0, reach = 0;
     glm::vec3 u{0};
     bool is_fork = false;
+  };
+
+  /// The normal of a group, or the sum that it is made of, in the first lanes.
+  struct GroupNormal {
+    FourFloats row{};
+    glm::vec3 get() const { return {row[0], row[1], row[2]}; }
+    void set(const glm::vec3& normal) { row = spread_out(normal); }
   };
 
   /// A face at a loop: its unit normal, and the groups of its corners that have changed or none.
@@ -180,17 +187,19 @@ class GraftWriter {
   void mark_touched();
   struct FaceBlock;
   static void measure(FaceBlock& block, const glm::vec3* position);
-  static void weigh(FaceBlock& block, std::size_t count);
+  static void weigh(FaceBlock& block);
   bool is_first() const { return parent_.empty(); }
   template <class Each>
   void each_at_loops(std::size_t limb, const Each& each) const;
-  void add_loop_normals(std::size_t first_limb, std::size_t last_limb, std::vector<LoopFace>& faces);
-  void add_loop_faces(FaceBlock& block, std::size_t count, std::vector<LoopFace>& faces);
-  static bool join_four(glm::vec3* normals);
+  void add_loop_normals(std::size_t first_limb, std::size_t last_limb, std::uint32_t nowhere,
+                        std::vector<LoopFace>& faces);
+  void add_loop_faces(FaceBlock& block, std::size_t count, std::uint32_t nowhere,
+                      std::vector<LoopFace>& faces);
+  static bool join_four(GroupNormal* normals);
   void join_loop_normals();
   bool looks_away(const LoopFace& face, std::uint32_t group) const;
-  static FourFlags strained(const LoopFace* faces, const glm::vec3* normals, std::uint32_t neutral);
-  static std::size_t first_strained(std::span<const LoopFace> faces, std::span<const glm::vec3> normals,
+  static FourFlags strained(const LoopFace* faces, const GroupNormal* normals, std::uint32_t neutral);
+  static std::size_t first_strained(std::span<const LoopFace> faces, std::span<const GroupNormal> normals,
                                     std::size_t from);
   std::vector<LoopFace> strained_faces(const std::vector<std::vector<LoopFace>>& faces);
   void ease_loop_normals(const std::vector<std::vector<LoopFace>>& faces);
@@ -246,6 +255,7 @@ class GraftWriter {
   bool has_ribs() const { return axis_.order == 0 && context_.options.lobes != 0; }
   float ribbed(float angle) const;
   std::uint32_t ring_corner(const Plane& plane, float angle, glm::vec2 direction);
+  std::uint32_t loop_corner(const Mark& mark, float angle);
   glm::vec2 picture_at(float radius, float angle, float at) const;
   void stand_at(float at);
   float by_seam(float angle) const;
@@ -254,18 +264,31 @@ class GraftWriter {
   std::uint32_t vertex_of(Mark& mark, const Plane& plane, bool is_beyond);
   void go_round(Corners& order, const Plane& plane, Corners& out);
   void plain_ring(const Plane& plane, Corners& out);
-  bool write_ring_block(const Plane& plane, const Circle& circle, std::size_t first, std::size_t sides);
+  /// Places and normals of corners, those of a mesh or apart.
+  struct RingRoom {
+    glm::vec3 *position, *normal;
+  };
+  bool write_ring_block(const Plane& plane, const Circle& circle, std::size_t first, const RingRoom& to) const;
+  bool write_ring(const Plane& plane, int sides, const RingRoom& to) const;
+  void triangles_to(std::uint32_t apex, bool is_below);
   glm::vec2 turned_to_seam(const glm::vec2& c) const {
     return {c.x * seam_turn_.x - c.y * seam_turn_.y, c.x * seam_turn_.y + c.y * seam_turn_.x};
   }
   float picture_width(float radius) const { return turns_ > 0 ? turns_ : radius; }
   void open_ring(const Plane& plane, const Band& band);
-  void strip(const Corners& below, const Corners& above);
+  void strip(const Corners& below, const Corners& above, bool is_even);
+  static void write_quads(const Corners& below, const Corners& above, const glm::vec3* position,
+                          std::uint32_t* out);
   static void write_strip(const Corners& below, const Corners& above, float farthest,
                           const glm::vec3* position, std::uint32_t* out);
   void note_loop_triangles(std::size_t first);
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
-  std::uint32_t vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv, std::uint32_t group);
+  std::uint32_t vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv, std::uint32_t group) {
+    make_room_for(1);
+    return put_vertex(position, normal, uv, group);
+  }
+  std::uint32_t put_vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv,
+                           std::uint32_t group);
   void mark_twin() { twin_[vertices_ - 1] = 1; }
 
   Context context_;
@@ -276,7 +299,7 @@ class GraftWriter {
   std::size_t vertices_ = 0;  ///< that are written
   Array<std::uint32_t>
       group_;  ///< of each vertex; those on a loop share a normal: even the parent's, odd the child's
-  Array<glm::vec3> group_normal_;
+  Array<GroupNormal> group_normal_;
   std::vector<std::uint32_t> group_limb_;  ///< the child of each pair of groups
   Array<std::uint32_t> loop_triangles_;    ///< those that touch a loop, rising
   std::vector<Range> range_;               ///< of each limb
@@ -305,6 +328,8 @@ class GraftWriter {
   GraftPlan plan_;
   Corners below_, lower_, upper_;
   std::vector<Mark> marks_;
+  std::vector<glm::vec3> ring_position_, ring_normal_;  ///< of the open ring's corners, where they have no ribs
+  bool is_ring_known_ = false;                          ///< are they?
   Corners lower_order_, upper_order_;  ///< whose "vertex" is a mark
   std::vector<Wish> wishes_;
   std::vector<const LoopVertex*> loop_order_;

@@ -14,6 +14,8 @@ constexpr std::uint64_t least_triangles_a_joint = 6, least_triangles_a_leaf = 2;
 constexpr std::uint64_t most_of_a_part = std::uint64_t{1} << 18U;
 constexpr std::uint64_t bytes_of_both = 128;  // of a joint and a leaf, at least
 constexpr std::uint64_t spent_at_once = 4096;
+// Of what is expected, room is made for so many at first: what is larger grows in place.
+constexpr double most_expected = 12'288;
 /// As small amounts, which leave no more of a lease.
 void spend(Meter& meter, std::uint64_t amount) {
   for (; amount > spent_at_once; amount -= spent_at_once) meter.spend(spent_at_once);
@@ -118,6 +120,20 @@ void SkeletonWriter::copy(const SkeletonWriter& part, std::size_t joint, std::si
     organ = part.organs_.organ[i];
     organ.limb_joint = moved(organ.limb_joint);
   }
+}
+
+void SkeletonWriter::expect(double joints, double leaves) {
+  const auto room = [](double count) { return static_cast<std::size_t>(std::clamp(count, 0.0, most_expected)); };
+  const std::size_t count = room(joints);
+  limbs_.position.reserve(count);
+  limbs_.radius.reserve(count);
+  limbs_.base_radius.reserve(count);
+  limbs_.parent.reserve(count);
+  limbs_.starts_limb.reserve(count);
+  limbs_.color.reserve(count);
+  limbs_.order.reserve(count);
+  limbs_.key.reserve(count);
+  organs_.organ.reserve(room(std::min(1.0, density_) * leaves));
 }
 
 std::uint32_t SkeletonWriter::add(const Joint& joint) {

@@ -102,6 +102,8 @@ class SkeletonWriter {
     std::uint64_t key = 0;
   };
   std::uint32_t add(const Joint& joint);
+  /// Room for about so many of both in all; more come in all the same.
+  void expect(double joints, double leaves);
 
   struct Leaf {
     Frame frame;  ///< heading along the leaf, up out of its upper side

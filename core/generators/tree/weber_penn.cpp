@@ -13,13 +13,27 @@ namespace {
 
 // Fewer stems that wait are not worth another thread.
 constexpr std::size_t least_stems = 8, parts_a_thread = 4;
+// Of the children that stems bear at most, what they bear on the whole, and room for chance.
+constexpr double usual_share = 0.7;
 
 }  // namespace
 
 void WeberPennGrower::run() {
+  if (!has_threads(writer_.job())) expect(1);
   WeberPennStem stem = trunk();
   grow(stem);
   if (!grow_parts()) grow_all();
+}
+
+/// Room for as many joints and leaves as a share of the tree may have about.
+void WeberPennGrower::expect(double share) {
+  double stems = 1, joints = 0;
+  for (int n = 0; n < p_.Levels; ++n) {
+    const double children = n + 1 < p_.Levels ? level(n + 1).branches : 0;
+    joints += stems * (level(n).curve_res + children);
+    if (n + 1 < p_.Levels) stems *= children;
+  }
+  writer_.expect(share * usual_share * joints, share * usual_share * stems * std::abs(p_.Leaves));
 }
 
 void WeberPennGrower::grow_all() {
@@ -60,6 +74,7 @@ bool WeberPennGrower::grow_parts() {
       auto part = std::make_unique<Part>(*this, most);
       part->grower.waiting_.assign(waiting_.begin() + static_cast<std::ptrdiff_t>(begin),
                                    waiting_.begin() + static_cast<std::ptrdiff_t>(end));
+      part->grower.expect(1.0 / static_cast<double>(count));
       part->grower.grow_all();
       parts[index] = std::move(part);
     });

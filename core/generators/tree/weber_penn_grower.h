@@ -48,6 +48,7 @@ class WeberPennGrower {
 
   // Along a stem.
   WeberPennStem trunk();
+  void expect(double share);
   void grow(WeberPennStem& stem);
   void begin(const WeberPennStem& stem);
   double radius_at(const WeberPennStem& stem, double z) const;

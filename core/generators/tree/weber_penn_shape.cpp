@@ -1,7 +1,9 @@
 #include "core/generators/tree/weber_penn_shape.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "core/base/math.h"
 
@@ -10,6 +12,32 @@ namespace {
 
 // Flares up to here have the paper's profile; wider ones fall less steeply, down to this base of the power.
 constexpr double widest_steep_flare = 1.25, least_flare_base = 9;
+
+constexpr double root_half = 0.70710678118654752440, log2_e = 1.44269504088896340736,
+                 log_2 = 0.69314718055994530942;
+
+/// By the series of the logarithm about 1 and of the exponential function about 0.
+double series_power(double base, double exponent) {
+  const auto bits = std::bit_cast<std::uint64_t>(base);
+  const double mantissa = std::bit_cast<double>((bits & 0x000FFFFFFFFFFFFFU) | 0x3FE0000000000000U);
+  const bool is_low = mantissa < root_half;
+  const double one = is_low ? 2 * mantissa : mantissa;
+  const auto doublings = static_cast<std::int32_t>(bits >> 52U) - (is_low ? 1023 : 1022);
+  const double s = (one - 1) / (one + 1), z = s * s;
+  const double log =
+      2 * s *
+      (1 + z * (1.0 / 3 +
+                z * (1.0 / 5 +
+                     z * (1.0 / 7 + z * (1.0 / 9 + z * (1.0 / 11 + z * (1.0 / 13 + z * (1.0 / 15))))))));
+  const double exact = exponent * (doublings + log * log2_e), whole = std::floor(exact + 0.5);
+  const double r = (exact - whole) * log_2;
+  double sum = 1.0 / 3'628'800;
+  for (const double each : {1.0 / 362'880, 1.0 / 40'320, 1.0 / 5'040, 1.0 / 720, 1.0 / 120, 1.0 / 24, 1.0 / 6,
+                            0.5, 1.0, 1.0})
+    sum = each + r * sum;
+  const auto scale = static_cast<std::uint64_t>(static_cast<std::int64_t>(whole) + 1023) << 52U;
+  return sum * std::bit_cast<double>(scale);
+}
 
 }  // namespace
 
@@ -32,7 +60,10 @@ std::array<WeberPennLevel, 4> weber_penn_levels(const TreeParams& p) {
 double power(double base, double exponent) {
   if (exponent == 2) return base * base;
   if (exponent == 0.5) return std::sqrt(base);
-  return exponent == 1 ? base : math::pow(base, exponent);
+  if (exponent == 1) return base;
+  // Not for what may leave the range of doubles.
+  const bool is_usual = base > 1e-30 && base < 1e30 && std::abs(exponent) < 8;
+  return is_usual ? series_power(base, exponent) : math::pow(base, exponent);
 }
 
 double shape_ratio(const TreeParams& params, int shape, double ratio) {
