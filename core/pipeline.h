@@ -97,7 +97,9 @@ struct PresetInfo {
   std::vector<std::string> tags;
 };
 const std::vector<PresetInfo>& presets();
-std::optional<std::string> preset_json(std::string_view name);       ///< one whole request
+std::optional<std::string> preset_json(std::string_view name);  ///< one whole request
+/// "There is no preset "ferm"; did you mean "fern"?"
+std::string no_preset(std::string_view name);
 std::optional<std::string_view> schema_json(std::string_view name);  ///< "request", "lsystem", "output", ...
 std::vector<std::string_view> schema_names();
 std::string vocabulary_json();

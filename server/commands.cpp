@@ -186,7 +186,7 @@ int presets_command(const std::string& name) {
     return 0;
   }
   const auto text = preset_json(name);
-  if (!text) return refused({Code::invalid, {{"/preset", "There is no preset called \"" + name + "\"."}}});
+  if (!text) return refused({Code::invalid, {{"/preset", no_preset(name)}}});
   std::printf("%s\n", text->c_str());
   return 0;
 }

@@ -161,6 +161,13 @@ int run(const std::string& command, Told& told, const ConfigResult& loaded) {
   return command == "validate" ? validate_command(config, told.in) : derive_command(config, told.in);
 }
 
+int no_command(const CLI::App& app, const char* word) {
+  std::string all;
+  for (const CLI::App* each : app.get_subcommands({})) all += (all.empty() ? "" : ", ") + each->get_name();
+  std::fprintf(stderr, "seedmesh: there is no command \"%s\"; there are %s\n", word, all.c_str());
+  return usage_error;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -178,6 +185,8 @@ int main(int count, char** arguments) {
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
+    if (count > 1 && arguments[1][0] != '-' && app.get_subcommands().empty())
+      return no_command(app, arguments[1]);
     return app.exit(error) == 0 ? 0 : usage_error;
   }
   const CLI::App& chosen = *app.get_subcommands().front();

@@ -264,12 +264,14 @@ http::Response get_preset(Call& call) {
   if (auto remembered = call.service.targets.find(target))
     return model_answer(call, *remembered, Kept::checked);
   if (!extension.empty() && !is_extension(extension))
-    return refuse(call, problem(404, "There is no such form of a preset."));
+    return refuse(
+        call,
+        problem(404, "A preset's name ends with .glb, .gltf, .zip, .png, .r16, .ply or .json, or is alone."));
   const std::optional<Overrides> overrides = read_query(call.query());
   if (!overrides)
     return refuse(call, problem_of({Code::malformed, {{"", "The query has a malformed percent escape."}}}));
   auto read = preset_in_form(call, name, *overrides, extension);
-  if (!read) return refuse(call, problem(404, "There is no preset of this name."));
+  if (!read) return refuse(call, problem(404, no_preset(name)));
   if (!*read) return refuse(call, problem_of(read->error()));
   if (auto refusal = forbidden(call, **read)) return std::move(*refusal);
   if (extension.empty() || extension == "json") {

@@ -4,6 +4,7 @@
 #include "core/generators/registry.h"
 #include "core/pipeline.h"
 #include "core/schema/embedded.h"
+#include "core/schema/nearest.h"
 #include "core/schema/presets.h"
 
 namespace seedmesh {
@@ -33,6 +34,12 @@ std::optional<std::string> preset_json(std::string_view name) {
   const auto preset = preset_requests().find(name);
   if (preset == preset_requests().end()) return std::nullopt;
   return preset->second.request_text;
+}
+
+std::string no_preset(std::string_view name) {
+  std::string words = schema::unknown_word("preset", name, preset_names());
+  words.front() = 'T';
+  return words;
 }
 
 std::optional<std::string_view> schema_json(std::string_view name) {

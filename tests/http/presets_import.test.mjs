@@ -52,6 +52,9 @@ test('a query that is no setting of the preset is 422 at its place', async () =>
   is_problem(await server.get(`/v1/presets/${name}.glb?seed=%zz`), 400, 'malformed-request');
   is_problem(await server.get('/v1/presets/no-such-preset'), 404, 'not-found');
   is_problem(await server.get('/v1/presets/no-such-preset.glb'), 404, 'not-found');
+  const misspelt = await server.get('/v1/presets/Oak.glb');
+  is_problem(misspelt, 404, 'not-found');
+  assert.match(misspelt.text, /did you mean \\"oak\\"/);
   is_problem(await server.get(`/v1/presets/${name}.obj`), 404, 'not-found');
 });
 

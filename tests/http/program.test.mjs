@@ -122,6 +122,7 @@ test('what is no usage is status 2', async () => {
     assert.equal(status, 2, args.join(' '));
     assert.ok(err.length > 0, args.join(' '));
   }
+  assert.match((await run(program, ['generat'])).err, /no command "generat"; there are serve, generate/);
   assert.equal((await run(program, ['--help'])).status, 0);
 });
 

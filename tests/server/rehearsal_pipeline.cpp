@@ -147,6 +147,8 @@ const std::vector<PresetInfo>& presets() {
       {"small", "rehearsal", "Small", "Two thousand letters.", {"test"}}};
   return all;
 }
+std::string no_preset(std::string_view) { return "There is no preset of this name."; }
+
 std::optional<std::string> preset_json(std::string_view name) {
   if (name != "small") return std::nullopt;
   return std::string(preset_text);
