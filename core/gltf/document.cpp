@@ -1,13 +1,11 @@
 #include "core/gltf/document.h"
 
-#include <tiny_gltf.h>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <deque>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "core/base/array.h"
@@ -16,6 +14,7 @@
 #include "core/gltf/lists.h"
 #include "core/gltf/materials.h"
 #include "core/gltf/nodes.h"
+#include "core/gltf/short_lists.h"
 
 namespace seedmesh::gltf {
 namespace {
@@ -24,10 +23,7 @@ namespace {
 /// it.
 constexpr std::string_view view_mark = "\x01";
 
-/// Opens a member that is an array of objects, or goes on with it.
-void open_entry(std::string& list) { list += list.empty() ? '[' : ','; }
-
-/// Collects the document list by list: the long ones as text, the short ones in a tinygltf model.
+/// Collects the document list by list, as text.
 class Describer {
  public:
   Describer(Model& model, Columns& columns, const DocumentOptions& options, Job& job)
@@ -39,30 +35,23 @@ class Describer {
         meshes_(model.meshes.size()),
         images_(model.textures.size()),
         skins_(model.skins.size()),
-        materials_{Numbering(model.materials.size())} {
-    out_.asset.version = "2.0";
-    out_.asset.generator = options.generator;
-  }
+        materials_{Numbering(model.materials.size())} {}
 
   /// What each node shows at this level; numbers meshes and skins.
   Shown show_nodes() {
     Shown shown;
-    tinygltf::Scene scene;
-    scene.name = model_.name.empty() ? "scene" : model_.name;
     for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
       const Node& node = model_.nodes[i];
       const int mesh = mesh_of(node);
       shown.meshes.push_back(meshes_.use(mesh));
       if (mesh >= 0) skins_.use(node.skin);
       if (options_.dialect.lods_inside) shown.lods.push_back(lods_of(node, mesh));
-      if (node.parent < 0) scene.nodes.push_back(static_cast<int>(i));
+      if (node.parent < 0) roots_.push_back(static_cast<int>(i));
     }
     shown.skins = skins_.numbers();
     if (std::any_of(shown.lods.begin(), shown.lods.end(), [](const auto& lods) { return !lods.empty(); })) {
-      out_.extensionsUsed.emplace_back("MSFT_lod");
+      extensions_used_.emplace_back("MSFT_lod");
     }
-    out_.defaultScene = 0;
-    out_.scenes.push_back(std::move(scene));
     return shown;
   }
 
@@ -101,25 +90,25 @@ class Describer {
 
   void add_materials() {
     bool any_unlit = false;
-    const TextureNumber texture_number = [this](const TextureUse& use) { return texture_of(use); };
+    const TextureNumber texture_number = [this](const TextureUse& use) {
+      return textures_.number(use, images_);
+    };
     for (const std::size_t used : materials_.numbering.used()) {
       const Material& material = model_.materials[used];
-      out_.materials.push_back(material_of(material, texture_number));
+      open_entry(material_list_);
+      append_material(material_list_, material, texture_number);
       any_unlit = any_unlit || material.unlit;
     }
-    if (any_unlit) out_.extensionsUsed.emplace_back("KHR_materials_unlit");
-    if (materials_.any_variants) add_variants();
+    if (any_unlit) extensions_used_.emplace_back("KHR_materials_unlit");
+    if (materials_.any_variants) extensions_used_.emplace_back("KHR_materials_variants");
   }
 
   void add_skins() {
     for (const std::size_t used : skins_.used()) {
       const Skin& skin = model_.skins[used];
-      tinygltf::Skin& described = out_.skins.emplace_back();
-      described.name = skin.name;
-      described.joints = skin.joints;
-      described.skeleton = skin.skeleton;
       const Column& matrices = columns_.inverse_binds[used];
-      if (matrices.count > 0) described.inverseBindMatrices = accessors_.add(Pool::binds, matrices);
+      open_entry(skin_list_);
+      append_skin(skin_list_, skin, matrices.count > 0 ? accessors_.add(Pool::binds, matrices) : -1);
     }
   }
 
@@ -160,19 +149,35 @@ class Describer {
     append_views(view_list_, bin);
   }
 
-  /// The JSON that tinygltf makes of the short lists: one object on one line.
+  /// What is short, as one object on one line, its members by name but for the views, which come early.
   std::string text() const {
-    std::ostringstream stream;
-    stream.imbue(std::locale::classic());
-    tinygltf::TinyGLTF().WriteGltfSceneToStream(&out_, stream, false, false);
-    std::string text = std::move(stream).str();
-    while (text.back() != '}') text.pop_back();
-    if (view_list_.empty()) return text;
-    // After the asset, which comes first. A quote inside a name is always escaped.
-    constexpr std::string_view asset_end = "\"version\":\"2.0\"}";
-    const std::size_t place = text.find(asset_end);
-    assert(place != std::string::npos);
-    text.insert(place + asset_end.size(), ",\"bufferViews\":" + view_list_ + ']');
+    std::string text = "{\"asset\":{";
+    if (!options_.generator.empty()) {
+      text += "\"generator\":";
+      append_string(text, options_.generator);
+      text += ',';
+    }
+    text += "\"version\":\"2.0\"}";
+    append_list(text, ",\"bufferViews\":", view_list_);
+    if (materials_.any_variants) {
+      text += ",\"extensions\":{\"KHR_materials_variants\":";
+      append_variants(text, model_.variants);
+      text += '}';
+    }
+    append_names(text, ",\"extensionsRequired\":", extensions_required_);
+    append_names(text, ",\"extensionsUsed\":", extensions_used_);
+    append_list(text, ",\"materials\":", material_list_);
+    append_list(text, ",\"samplers\":", textures_.samplers());
+    text += ",\"scene\":0,\"scenes\":[{\"name\":";
+    append_string(text, model_.name.empty() ? "scene" : model_.name);
+    if (!roots_.empty()) {
+      text += ",\"nodes\":";
+      append_numbers(text, roots_);
+    }
+    text += "}]";
+    append_list(text, ",\"skins\":", skin_list_);
+    append_list(text, ",\"textures\":", textures_.textures());
+    text += '}';
     return text;
   }
 
@@ -193,16 +198,9 @@ class Describer {
   const std::vector<std::size_t>& images() const { return images_.used(); }
 
  private:
-  static void append_list(std::string& out, std::string_view key, const std::string& list) {
-    if (list.empty()) return;
-    out += key;
-    out += list;
-    out += ']';
-  }
-
   void require(const char* extension) {
-    out_.extensionsUsed.emplace_back(extension);
-    out_.extensionsRequired.emplace_back(extension);
+    extensions_used_.emplace_back(extension);
+    extensions_required_.emplace_back(extension);
   }
 
   void compress_views() {
@@ -276,49 +274,18 @@ class Describer {
     return mesh >= 0 && !columns_.meshes[static_cast<std::size_t>(mesh)].empty() ? mesh : -1;
   }
 
-  void add_variants() {
-    tinygltf::Value::Array variants;
-    for (const std::string& name : model_.variants) {
-      variants.emplace_back(tinygltf::Value::Object{{"name", tinygltf::Value(name)}});
-    }
-    out_.extensions["KHR_materials_variants"] =
-        tinygltf::Value(tinygltf::Value::Object{{"variants", tinygltf::Value(std::move(variants))}});
-    out_.extensionsUsed.emplace_back("KHR_materials_variants");
-  }
-
-  /// A texture is an image with a way of wrapping; both kinds of wrapping have one sampler each.
-  int texture_of(const TextureUse& use) {
-    if (use.texture < 0) return -1;
-    const auto [texture, is_new] = textures_.try_emplace({use.texture, use.repeat}, 0);
-    if (!is_new) return texture->second;
-    const auto [sampler, is_new_sampler] =
-        samplers_.try_emplace(use.repeat, static_cast<int>(out_.samplers.size()));
-    if (is_new_sampler) {
-      tinygltf::Sampler& described = out_.samplers.emplace_back();
-      described.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
-      described.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
-      described.wrapS = use.repeat ? TINYGLTF_TEXTURE_WRAP_REPEAT : TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
-      described.wrapT = described.wrapS;
-    }
-    texture->second = static_cast<int>(out_.textures.size());
-    tinygltf::Texture& described = out_.textures.emplace_back();
-    described.source = images_.use(use.texture);
-    described.sampler = sampler->second;
-    return texture->second;
-  }
-
   Model& model_;
   Columns& columns_;
   const DocumentOptions& options_;
   Job& job_;
-  tinygltf::Model out_;
   Accessors accessors_;
   Numbering meshes_, images_, skins_;
   MaterialUse materials_;
-  std::string mesh_list_, animation_list_, image_list_,
-      view_list_;  ///< JSON arrays without the closing bracket, or empty
-  std::map<std::pair<int, bool>, int> textures_;
-  std::map<bool, int> samplers_;
+  std::vector<int> roots_;
+  std::vector<std::string> extensions_used_, extensions_required_;
+  // JSON arrays without the closing bracket, or empty.
+  std::string mesh_list_, animation_list_, image_list_, view_list_, material_list_, skin_list_;
+  TextureList textures_;
   std::vector<int> image_items_;
   std::deque<Column> copy_columns_;  ///< accessors point at them
   Compressed compressed_;

@@ -1,7 +1,5 @@
 #pragma once
-/// One glTF document of a model: its JSON and the buffer that the JSON describes. tinygltf makes the JSON of
-/// all small lists; what it is slow at (nodes), drops (extensions of bufferViews) or writes wrongly (a buffer
-/// whose data are elsewhere, images, 64-bit numbers in extras) is added to its text here.
+/// One glTF document of a model: its JSON, written as text, and the buffer that the JSON describes.
 #include <string>
 #include <vector>
 

@@ -22,6 +22,19 @@ void append_number(std::string& out, float value) {
   out.append(text, end.ptr);
 }
 
+void append_decimal(std::string& out, float value) {
+  assert(std::isfinite(value));
+  char text[longest_number];
+  const auto end = std::to_chars(text, text + sizeof text, value + 0.0F);
+  const std::string_view number(text, static_cast<std::size_t>(end.ptr - text));
+  if (number.find('e') != std::string_view::npos) {
+    out += nlohmann::json(shortest(value)).dump();
+    return;
+  }
+  out += number;
+  if (number.find('.') == std::string_view::npos) out += ".0";
+}
+
 void append_integer(std::string& out, long long value) {
   char text[longest_number];
   const auto end = std::to_chars(text, text + sizeof text, value);

@@ -12,6 +12,9 @@ namespace seedmesh::gltf {
 /// finite; -0 becomes 0. Does not depend on the locale.
 void append_number(std::string& out, float value);
 
+/// The same with a point at least, 1.0, and in digits from 0.0001 to 1e15, as libraries print doubles.
+void append_decimal(std::string& out, float value);
+
 void append_integer(std::string& out, long long value);
 
 /// In quotes, escaped. Bytes that are no UTF-8 become U+FFFD.

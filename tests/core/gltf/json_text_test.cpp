@@ -2,11 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/base/rng.h"
+#include "core/gltf/materials.h"
 
 namespace seedmesh::gltf {
 namespace {
@@ -17,10 +21,77 @@ std::string number(float value) {
   return text;
 }
 
+std::string decimal(float value) {
+  std::string text;
+  append_decimal(text, value);
+  return text;
+}
+
 std::string quoted(std::string_view value) {
   std::string text;
   append_string(text, value);
   return text;
+}
+
+TEST(JsonText, PrintsDecimalsInTheFormInWhichTheLibraryPrintsDoubles) {
+  EXPECT_EQ(decimal(1.0F), "1.0");
+  EXPECT_EQ(decimal(-0.0F), "0.0");
+  EXPECT_EQ(decimal(0.4F), "0.4");
+  EXPECT_EQ(decimal(1e-4F), "0.0001");
+  EXPECT_EQ(decimal(100'000.0F), "100000.0");
+  std::uint32_t bits = 12345;
+  for (int i = 0; i < 20'000; ++i) {
+    bits = bits * 1'664'525U + 1'013'904'223U;
+    const auto value = std::bit_cast<float>(bits);
+    if (!std::isfinite(value)) continue;
+    // Which now and then has digits more than are needed.
+    const std::string own = decimal(value), other = nlohmann::json(shortest(value)).dump();
+    EXPECT_LE(own.size(), other.size());
+    EXPECT_EQ(nlohmann::json::parse(own).get<double>(), nlohmann::json::parse(other).get<double>());
+    EXPECT_EQ(own.find('e') == std::string::npos, other.find('e') == std::string::npos);
+    EXPECT_TRUE(nlohmann::json::parse(own).is_number_float());
+  }
+}
+
+/// The material as JSON; textures have the numbers of their images.
+std::string described(const Material& material) {
+  std::string text;
+  append_material(text, material, [](const TextureUse& use) { return use.texture; });
+  return text;
+}
+
+TEST(Materials, LeaveOutWhatGltfTakesAsDefault) {
+  Material material;
+  material.base_color = {1, 1, 1, 1};
+  material.metallic = material.roughness = 1;
+  EXPECT_EQ(described(material), "{}");
+  material.name = "a \"b\"";
+  material.roughness = 0.5F;
+  EXPECT_EQ(described(material), R"({"name":"a \"b\"","pbrMetallicRoughness":{"roughnessFactor":0.5}})");
+}
+
+TEST(Materials, HaveTheirMembersByName) {
+  Material material;
+  material.name = "all";
+  material.base_color = {0.25F, 1, 0, 1};
+  material.metallic = 0;
+  material.roughness = 1;
+  material.emissive = {0, 0, 2};
+  material.alpha_mode = AlphaMode::mask;
+  material.alpha_cutoff = 0.4F;
+  material.double_sided = true;
+  material.unlit = true;
+  material.base_color_texture = {0, 1, true};
+  material.metallic_roughness_texture = material.occlusion_texture = {1, 0, true};
+  material.normal_texture = {2, 0, true};
+  material.emissive_texture = {3, 0, true};
+  EXPECT_EQ(described(material),
+            R"({"alphaCutoff":0.4,"alphaMode":"MASK","doubleSided":true,"emissiveFactor":[0.0,0.0,2.0],)"
+            R"("emissiveTexture":{"index":3},"extensions":{"KHR_materials_unlit":{}},"name":"all",)"
+            R"("normalTexture":{"index":2},"occlusionTexture":{"index":1},)"
+            R"("pbrMetallicRoughness":{"baseColorFactor":[0.25,1.0,0.0,1.0],)"
+            R"("baseColorTexture":{"index":0,"texCoord":1},"metallicFactor":0.0,)"
+            R"("metallicRoughnessTexture":{"index":1}}})");
 }
 
 TEST(JsonText, PrintsFloatsAsShortAsTheyReadBack) {
