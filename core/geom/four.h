@@ -68,9 +68,9 @@ struct Four {
   /// Each in the first lanes of one of four; 0 in the last.
   void to_rows(FourFloats* out) const {
     const FourFloats nothing{}, low = __builtin_shufflevector(x, y, 0, 4, 1, 5),
-                     high = __builtin_shufflevector(x, y, 2, 6, 3, 7),
-                     low_z = __builtin_shufflevector(z, nothing, 0, 4, 1, 5),
-                     high_z = __builtin_shufflevector(z, nothing, 2, 6, 3, 7);
+                                high = __builtin_shufflevector(x, y, 2, 6, 3, 7),
+                                low_z = __builtin_shufflevector(z, nothing, 0, 4, 1, 5),
+                                high_z = __builtin_shufflevector(z, nothing, 2, 6, 3, 7);
     out[0] = __builtin_shufflevector(low, low_z, 0, 1, 4, 5);
     out[1] = __builtin_shufflevector(low, low_z, 2, 3, 6, 7);
     out[2] = __builtin_shufflevector(high, high_z, 0, 1, 4, 5);

@@ -57,7 +57,8 @@ bool GraftPlan::joins(const Opening& wanted, const Band& there) const {
 
 /// Does it fit between the bands before and at `place`?
 bool GraftPlan::fits(const GraftAxis& axis, const Opening& wanted, std::size_t place) const {
-  const float margin = std::max(this->margin(axis, wanted.at, wanted.piece), 0.12F * (wanted.high - wanted.low));
+  const float margin =
+      std::max(this->margin(axis, wanted.at, wanted.piece), 0.12F * (wanted.high - wanted.low));
   if (wanted.low < start_ + margin || wanted.high > tip_ - margin) return false;
   const auto crosses = [&](const Band& there) {
     return any_on(there, [&](const Opening& other) { return overlap(wanted, other); });

@@ -209,8 +209,7 @@ void GraftWriter::plain_ring(const Plane& plane, Corners& out) {
   if (!has_ribs() &&
       write_ring(plane, sides, {mesh_.position.data() + vertices_, mesh_.normal.data() + vertices_})) {
     const float wide = picture_width(plane.radius), far = plane.v_at * context_.options.v_scale + 0.0F;
-    for (std::size_t i = 0; i < count; ++i)
-      mesh_.uv[0][vertices_ + i] = {wide * out[i].angle + 0.0F, far};
+    for (std::size_t i = 0; i < count; ++i) mesh_.uv[0][vertices_ + i] = {wide * out[i].angle + 0.0F, far};
     std::fill_n(group_.data() + vertices_, count, none);
     std::fill_n(twin_.data() + vertices_, count, std::uint8_t{0});
     if (context_.options.joints) std::fill_n(joints_.data() + vertices_, count, joint_);

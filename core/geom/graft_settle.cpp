@@ -129,7 +129,8 @@ void GraftWriter::each_at_loops(std::size_t limb, const Each& each) const {
 }
 
 /// What the faces of some limbs give to the normals of the loops that they touch, or to groups from `nowhere`
-/// on, behind all others: one for each face of a block, so that none waits for another. These faces are noted in `faces`.
+/// on, behind all others: one for each face of a block, so that none waits for another. These faces are noted
+/// in `faces`.
 void GraftWriter::add_loop_normals(std::size_t first_limb, std::size_t last_limb, std::uint32_t nowhere,
                                    std::vector<LoopFace>& faces) {
   FaceBlock block;
@@ -327,7 +328,8 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
     std::fill_n(group_normal_.extend(FaceBlock::most * faces.size()), FaceBlock::most * faces.size(),
                 GroupNormal{});
     share_out(count, chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
-      add_loop_normals(begin, end, groups + static_cast<std::uint32_t>(FaceBlock::most * index), faces[index]);
+      add_loop_normals(begin, end, groups + static_cast<std::uint32_t>(FaceBlock::most * index),
+                       faces[index]);
     });
     group_normal_.resize(groups);
     join_loop_normals();

@@ -75,8 +75,8 @@ SEEDMESH_WIDE void GraftWriter::write_strip(const Corners& below, const Corners&
     // The shorter diagonal, unless one side has fallen far behind. Chosen, not branched to: nobody can
     // foresee which it is.
     const float lead = next_a.angle - next_b.angle;
-    const bool is_shorter =
-        apart(position[next_a.vertex], position[b->vertex]) < apart(position[a->vertex], position[next_b.vertex]);
+    const bool is_shorter = apart(position[next_a.vertex], position[b->vertex]) <
+                            apart(position[a->vertex], position[next_b.vertex]);
     const bool is_behind = lead<0, is_far = std::abs(lead)> farthest;
     const bool is_next = (is_far & is_behind) | (!is_far & is_shorter);
     const bool take_below = (b == last_b) | ((a < last_a) & is_next);
@@ -112,7 +112,8 @@ void GraftWriter::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 void GraftWriter::write_tip(float end_radius) {
   const glm::vec3 along = axis_.along.back();
   const std::uint32_t apex =
-      vertex(axis_.point.back(), along, picture_at(end_radius, static_cast<float>(math::pi) + seam_, axis_.length()), none);
+      vertex(axis_.point.back(), along,
+             picture_at(end_radius, static_cast<float>(math::pi) + seam_, axis_.length()), none);
   const std::size_t first = mesh_.index.wide.size() / 3;
   triangles_to(apex, false);
   if (is_at_loop_) note_loop_triangles(first);

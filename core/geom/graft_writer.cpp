@@ -133,7 +133,8 @@ void GraftWriter::make_room(std::size_t vertices) {
 /// Three, or an even number, so that rings of different limbs meet corner to corner.
 int GraftWriter::corners_for(float radius) const {
   int wanted = 3;
-  for (const float least : common_->corner_radius) wanted += radius >= least ? 1 : 0;  // they rise, and are few
+  for (const float least : common_->corner_radius)
+    wanted += radius >= least ? 1 : 0;  // they rise, and are few
   return wanted <= 3 || wanted == context_.options.sides ? std::max(3, wanted) : wanted + wanted % 2;
 }
 

@@ -269,7 +269,8 @@ class GraftWriter {
   struct RingRoom {
     glm::vec3 *position, *normal;
   };
-  bool write_ring_block(const Plane& plane, const Circle& circle, std::size_t first, const RingRoom& to) const;
+  bool write_ring_block(const Plane& plane, const Circle& circle, std::size_t first,
+                        const RingRoom& to) const;
   bool write_ring(const Plane& plane, int sides, const RingRoom& to) const;
   void triangles_to(std::uint32_t apex, bool is_below);
   glm::vec2 turned_to_seam(const glm::vec2& c) const {
@@ -284,7 +285,8 @@ class GraftWriter {
                           const glm::vec3* position, std::uint32_t* out);
   void note_loop_triangles(std::size_t first);
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
-  std::uint32_t vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv, std::uint32_t group) {
+  std::uint32_t vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv,
+                       std::uint32_t group) {
     make_room_for(1);
     return put_vertex(position, normal, uv, group);
   }
@@ -329,8 +331,9 @@ class GraftWriter {
   GraftPlan plan_;
   Corners below_, lower_, upper_;
   std::vector<Mark> marks_;
-  std::vector<glm::vec3> ring_position_, ring_normal_;  ///< of the open ring's corners, where they have no ribs
-  bool is_ring_known_ = false;                          ///< are they?
+  std::vector<glm::vec3> ring_position_,
+      ring_normal_;                    ///< of the open ring's corners, where they have no ribs
+  bool is_ring_known_ = false;         ///< are they?
   Corners lower_order_, upper_order_;  ///< whose "vertex" is a mark
   std::vector<Wish> wishes_;
   std::vector<const LoopVertex*> loop_order_;

@@ -123,7 +123,9 @@ void SkeletonWriter::copy(const SkeletonWriter& part, std::size_t joint, std::si
 }
 
 void SkeletonWriter::expect(double joints, double leaves) {
-  const auto room = [](double count) { return static_cast<std::size_t>(std::clamp(count, 0.0, most_expected)); };
+  const auto room = [](double count) {
+    return static_cast<std::size_t>(std::clamp(count, 0.0, most_expected));
+  };
   const std::size_t count = room(joints);
   limbs_.position.reserve(count);
   limbs_.radius.reserve(count);

@@ -32,8 +32,8 @@ double series_power(double base, double exponent) {
   const double exact = exponent * (doublings + log * log2_e), whole = std::floor(exact + 0.5);
   const double r = (exact - whole) * log_2;
   double sum = 1.0 / 3'628'800;
-  for (const double each : {1.0 / 362'880, 1.0 / 40'320, 1.0 / 5'040, 1.0 / 720, 1.0 / 120, 1.0 / 24, 1.0 / 6,
-                            0.5, 1.0, 1.0})
+  for (const double each :
+       {1.0 / 362'880, 1.0 / 40'320, 1.0 / 5'040, 1.0 / 720, 1.0 / 120, 1.0 / 24, 1.0 / 6, 0.5, 1.0, 1.0})
     sum = each + r * sum;
   const auto scale = static_cast<std::uint64_t>(static_cast<std::int64_t>(whole) + 1023) << 52U;
   return sum * std::bit_cast<double>(scale);
