@@ -24,8 +24,8 @@ std::size_t limbs_a_chunk(std::size_t limbs) {
   return std::max(least_limbs_a_chunk, chunk_count(limbs, most_chunks));
 }
 
-// Of fewer limbs one thread looks at those that were written anew.
-constexpr std::size_t many_limbs = 1024;
+// At fewer triangles one thread looks after what was written anew.
+constexpr std::size_t many_triangles = 4096;
 
 // Pairs of groups of a loop's normals that are joined together.
 constexpr std::size_t pairs_a_chunk = 1024;
@@ -87,7 +87,6 @@ void GraftWriter::share_out(std::size_t count, std::size_t chunk,
 /// Limbs that were written, those that they grow from, and those that begin at one of them.
 void GraftWriter::find_concerned() {
   concern_.assign(range_.size(), Concern::nothing);
-  is_much_ = is_first() || range_.size() >= many_limbs;
   for (std::size_t limb = 0; limb < range_.size(); ++limb) {
     const std::uint32_t parent = parent_.empty() ? none : parent_[limb];
     if (parent != none && dirty_[parent]) concern_[limb] = std::max(concern_[limb], Concern::loop);
@@ -95,6 +94,10 @@ void GraftWriter::find_concerned() {
     concern_[limb] = Concern::all;
     if (parent != none) concern_[parent] = Concern::all;
   }
+  std::size_t triangles = 0;
+  for (std::size_t limb = 0; limb < range_.size(); ++limb)
+    triangles += last_triangle(limb) - range_[limb].begin.triangle;
+  is_much_ = is_first() || triangles >= many_triangles;
 }
 
 /// Is one of three corners of a loop that has changed?
@@ -207,10 +210,14 @@ SEEDMESH_WIDE std::size_t GraftWriter::sound_faces(const Faces& faces, const std
   return sound;
 }
 
+GraftWriter::Faces GraftWriter::faces() const {
+  const float least = 2 * least_area * context_.scale.size * context_.scale.size;
+  return {mesh_.position.data(), mesh_.normal.data(), least * least};
+}
+
 /// Adds to `bad` what is wrong of the triangles `first` to `last - 1`.
 void GraftWriter::look_at(std::uint32_t first, std::uint32_t last, std::vector<std::uint32_t>& bad) const {
-  const float least = 2 * least_area * context_.scale.size * context_.scale.size;
-  const Faces faces{mesh_.position.data(), mesh_.normal.data(), least * least};
+  const Faces faces = this->faces();
   const std::uint32_t* index = mesh_.index.wide.data();
   for (std::uint32_t t = first; t < last;) {
     t += static_cast<std::uint32_t>(sound_faces(faces, index + std::size_t{3} * t, last - t));
@@ -228,7 +235,24 @@ void GraftWriter::look_at(std::uint32_t first, std::uint32_t last, std::vector<s
 /// The triangles of a limb that are bad, as far as something has changed for them.
 void GraftWriter::find_bad(std::size_t limb, std::vector<std::uint32_t>& bad) const {
   if (dirty_[limb]) return look_at(range_[limb].begin.triangle, last_triangle(limb), bad);
-  each_at_loops(limb, [&](std::uint32_t triangle) { look_at(triangle, triangle + 1, bad); });
+  const Faces faces = this->faces();
+  std::uint32_t number[Four::size], corner[3 * Four::size];
+  std::size_t count = 0;
+  const auto look = [&] {
+    for (std::size_t l = count; l < Four::size; ++l) std::copy_n(corner, 3, corner + 3 * l);
+    const FourFlags flags = faces.sound(corner);
+    for (std::size_t l = 0; l < count; ++l) {
+      if (!flags[l]) bad.push_back(number[l]);
+    }
+    count = 0;
+  };
+  each_at_loops(limb, [&](std::uint32_t triangle) {
+    number[count] = triangle;
+    const std::uint32_t* from = mesh_.index.wide.data() + std::size_t{3} * triangle;
+    for (std::size_t k = 0; k < 3; ++k) corner[3 * count + k] = from[k];
+    if (++count == Four::size) look();
+  });
+  if (count > 0) look();
 }
 
 /// A bad face is the fault of the openings that it touches. False: it touches none.

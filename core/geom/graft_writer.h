@@ -205,6 +205,7 @@ class GraftWriter {
   void ease_loop_normals(const std::vector<std::vector<LoopFace>>& faces);
   void put_loop_normals(std::size_t limb);
   struct Faces;
+  Faces faces() const;
   static std::size_t sound_faces(const Faces& faces, const std::uint32_t* corner, std::size_t count);
   void look_at(std::uint32_t first, std::uint32_t last, std::vector<std::uint32_t>& bad) const;
   void find_bad(std::size_t limb, std::vector<std::uint32_t>& bad) const;

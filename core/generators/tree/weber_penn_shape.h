@@ -20,7 +20,7 @@ struct WeberPennLevel {
 /// Levels beyond 3 are like 3. The trunk's has no angles and no number: 0.
 std::array<WeberPennLevel, 4> weber_penn_levels(const TreeParams& params);
 
-/// math::pow within a share of 1e-12, quicker: exact where the exponent is 1, 2 or a half.
+/// math::pow within a share of 1e-11, quicker: exact where the exponent is 1, 2 or a half.
 double power(double base, double exponent);
 
 /// The outline of a crown at `ratio` 1 (its base) to 0 (its top), a share of the greatest length. Shape 8 is

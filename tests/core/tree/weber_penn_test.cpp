@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/math.h"
 #include "core/generators/tree/weber_penn_shape.h"
 #include "core/geom/graft.h"
 #include "tests/core/tree/support.h"
@@ -33,6 +34,17 @@ TEST(WeberPennShape, HasAnEnvelopeWithoutAStepAtItsPeak) {
   EXPECT_EQ(shape_ratio(p, 8, 1.2), 0);
   EXPECT_TRUE(is_in_envelope(p, 10, 0.1, 5));
   EXPECT_FALSE(is_in_envelope(p, 10, 5.1, 5));
+}
+
+TEST(WeberPennShape, RaisesToPowersAsTheLibraryDoes) {
+  for (double base = 1e-32; base < 1e32; base *= 1.37) {
+    for (const double exponent : {-3.3, 0.0, 0.3, 0.5, 1.0, 1.2, 2.0, 2.7, 7.9, 9.5}) {
+      const double exact = math::pow(base, exponent);
+      EXPECT_NEAR(power(base, exponent) / exact, 1, 1e-11) << base << " " << exponent;
+    }
+  }
+  EXPECT_EQ(power(0, 1.2), 0);
+  EXPECT_EQ(power(1, 1.3), 1);
 }
 
 TEST(WeberPennShape, TapersFromACylinderToBeads) {
