@@ -246,9 +246,12 @@ void OrganBlock::face_outward(std::uint32_t* faults) {
 
 void OrganBlock::write(std::size_t count, glm::vec3* position, glm::vec3* normal, glm::vec4* tangent) const {
   const std::size_t vertices = surface_.position.size();
-  write_rows(position_[0].x, 3 * vertices, count, reinterpret_cast<float*>(position));
-  write_rows(normal_[0].x, 3 * vertices, count, reinterpret_cast<float*>(normal));
-  if (!sides_.empty()) write_rows(tangent_[0].xyz.x, 4 * vertices, count, reinterpret_cast<float*>(tangent));
+  write_rows(reinterpret_cast<const float*>(position_), 3 * vertices, count,
+             reinterpret_cast<float*>(position));
+  write_rows(reinterpret_cast<const float*>(normal_), 3 * vertices, count, reinterpret_cast<float*>(normal));
+  if (!tangent) return;
+  write_rows(reinterpret_cast<const float*>(tangent_), 4 * vertices, count,
+             reinterpret_cast<float*>(tangent));
 }
 
 }  // namespace seedmesh

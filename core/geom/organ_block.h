@@ -39,8 +39,8 @@ class OrganBlock {
   /// False: one has a vector without a direction, and must be placed by itself as all must.
   bool reckon(const Array<Organ>& organs, std::span<const std::uint32_t> numbers);
 
-  /// Writes the vertices of the first `count` lanes, one organ behind another. `tangent` is read only where
-  /// they are wanted.
+  /// Writes the vertices of the first `count` lanes, one organ behind another. `tangent`: null where none are
+  /// wanted.
   void write(std::size_t count, glm::vec3* position, glm::vec3* normal, glm::vec4* tangent) const;
 
  private:

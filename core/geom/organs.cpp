@@ -169,8 +169,8 @@ class Placer {
     for (std::size_t i = begin; i < end; i += together_) {
       const std::size_t count = std::min(together_, end - i);
       if (in_blocks_ && block.reckon(organs, numbers.subspan(i, count))) {
-        block.write(count, out_.position.data() + i * vertices, out_.normal.data() + i * vertices,
-                    out_.tangent.data() + i * vertices);
+        glm::vec4* tangent = sides_.empty() ? nullptr : out_.tangent.data() + i * vertices;
+        block.write(count, out_.position.data() + i * vertices, out_.normal.data() + i * vertices, tangent);
       } else {
         for (std::size_t k = i; k < i + count; ++k) place_shape(organs[numbers[k]], k * vertices);
       }
