@@ -7,9 +7,9 @@
 namespace seedmesh {
 namespace {
 
-// Triangles between two rings follow the shorter diagonal as long as neither ring is ahead by more, in
-// radians.
-constexpr float most_lead = 0.5F;
+// Triangles between two rings follow the shorter diagonal as long as the next side of neither has its middle
+// ahead of the other's by more, in radians: a side that went to the farther corner would look past it.
+constexpr float most_lead = 0.3F;
 
 }  // namespace
 
@@ -74,7 +74,7 @@ SEEDMESH_WIDE void GraftWriter::write_strip(const Corners& below, const Corners&
     const Corner &next_a = a[a < last_a ? 1 : 0], &next_b = b[b < last_b ? 1 : 0];
     // The shorter diagonal, unless one side has fallen far behind. Chosen, not branched to: nobody can
     // foresee which it is.
-    const float lead = next_a.angle - next_b.angle;
+    const float lead = 0.5F * ((a->angle + next_a.angle) - (b->angle + next_b.angle));
     const bool is_shorter = apart(position[next_a.vertex], position[b->vertex]) <
                             apart(position[a->vertex], position[next_b.vertex]);
     const bool is_behind = lead<0, is_far = std::abs(lead)> farthest;

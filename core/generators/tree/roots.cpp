@@ -14,8 +14,9 @@ constexpr double least_height = 1.25, wanted_height = 1.6, most_height = 2.2;
 constexpr int pieces_down = 4, pieces_out = 8;
 // A root's axis lies so much of its radius above the flare and the ground, and goes up and down by so much.
 constexpr double over_ground = 0.25, undulation = 0.3;
-// It leaves the trunk as steeply as to fall so much of its radius until it is out of the bark by so much.
-constexpr double first_fall = 0.7, first_step = 0.6;
+// It leaves the trunk as steeply as to fall so much of its radius until it is out of the bark by so much,
+// also where the flare is widest that its collar reaches, so much of its radius below the joint.
+constexpr double first_fall = 0.7, first_step = 0.7, collar_depth = 1.7;
 // A radius at the tip, as a share of that at the trunk.
 constexpr double tip_share = 0.03;
 // A root that forks has a second arm so thick and so long as the rest of the first.
@@ -60,6 +61,7 @@ class RootGrower {
   std::uint32_t add(std::uint32_t parent, const glm::dvec3& at, glm::dvec2 radii, int order, bool starts_limb,
                     std::uint64_t key);
   double surface(double aside) const;
+  double width(double height) const;
   double reach() const { return roots_.length * trunk_; }
   double thickest() const { return roots_.thickness * trunk_; }
 
@@ -80,6 +82,17 @@ double RootGrower::surface(double aside) const {
     before = station;
   }
   return before.y;
+}
+
+/// How wide the flare is at a height.
+double RootGrower::width(double height) const {
+  glm::dvec2 before{writer_.radius(0), 0};
+  for (const glm::dvec2& station : profile_) {
+    if (station.y >= height && station.y > before.y)
+      return before.x + (station.x - before.x) * std::max(0.0, height - before.y) / (station.y - before.y);
+    before = station;
+  }
+  return before.x;
 }
 
 /// The joint of the trunk that roots leave: the foot where no other is near the ground.
@@ -123,7 +136,8 @@ void RootGrower::grow(int number, std::uint32_t from) {
   const double radius = thickest() * Rng(rng.at("thickness")).uniform(0.8, 1.0);
   const double flank = writer_.radius(from), foot = writer_.radius(0);
   // Down along the flare, half out of it, to the ground at its edge.
-  const double near = flank + first_step * radius, far = std::max(foot + trunk_, near + 1.5 * trunk_);
+  const double near = std::max(flank, width(start.y - collar_depth * radius)) + first_step * radius,
+               far = std::max(foot + trunk_, near + 1.5 * trunk_);
   const double high = std::max(start.y - first_fall * radius, surface(near) + over_ground * radius);
   Run run;
   run.rng = rng;
