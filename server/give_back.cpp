@@ -46,8 +46,8 @@ void keep_little_memory(int workers) {
 #endif
 }
 
-GiveBack::GiveBack(std::function<Activity()> activity)
-    : activity_(std::move(activity)), thread_([this] { look(); }) {}
+GiveBack::GiveBack(std::function<Activity()> activity, std::function<void()> also)
+    : activity_(std::move(activity)), also_(std::move(also)), thread_([this] { look(); }) {}
 
 GiveBack::~GiveBack() {
   {
@@ -73,6 +73,7 @@ void GiveBack::look() {
                         (activity.in_flight == 0 || waited >= longest_wait);
     if (!grown && !rested) continue;
     lock.unlock();
+    also_();
     trim();
     lock.lock();
     after = resident();

@@ -23,7 +23,8 @@ class GiveBack {
     std::int64_t in_flight = 0;
   };
 
-  explicit GiveBack(std::function<Activity()> activity);
+  /// `also` gives back what is kept elsewhere.
+  GiveBack(std::function<Activity()> activity, std::function<void()> also);
   ~GiveBack();
   GiveBack(const GiveBack&) = delete;
   GiveBack& operator=(const GiveBack&) = delete;
@@ -32,6 +33,7 @@ class GiveBack {
   void look();
 
   const std::function<Activity()> activity_;
+  const std::function<void()> also_;
   std::mutex mutex_;
   std::condition_variable ending_changed_;
   bool ending_ = false;

@@ -17,6 +17,7 @@
 #include <stop_token>
 #include <thread>
 
+#include "core/base/reserve.h"
 #include "core/pipeline.h"
 #include "server/negotiate.h"
 #include "server/problem.h"
@@ -142,6 +143,7 @@ class ManifestRun {
     options.limits = config_.limits;
     options.threads = std::max(1, config_.threads / static_cast<int>(std::max<std::size_t>(1, jobs_.size())));
     options.stop = stop_.get_token();
+    options.reserve = reserve_;
     const auto begun = Clock::now();
     options.deadline = begun + std::chrono::duration_cast<Clock::duration>(
                                    std::chrono::duration<double>(config_.time_limit));
@@ -217,6 +219,7 @@ class ManifestRun {
   const ManifestOptions& options_;
   const std::vector<ManifestJob> jobs_;
   TextureCache textures_;
+  const std::shared_ptr<Reserve> reserve_ = std::make_shared<Reserve>();
   std::map<std::string, std::string> made_before_;
   std::FILE* results_ = nullptr;
   std::stop_source stop_;

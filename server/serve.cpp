@@ -150,9 +150,11 @@ int serve(const Config& config, const std::vector<std::string>& warnings) {
              {"engine", engine_version()},
              {"threads", config.threads}});
 
-  const GiveBack give_back([&] {
-    return GiveBack::Activity{service.answered.load(), service.in_flight.load()};
-  });
+  const GiveBack give_back(
+      [&] {
+        return GiveBack::Activity{service.answered.load(), service.in_flight.load()};
+      },
+      [&] { service.reserve->clear(); });
   std::thread listening([&] { listener.run(); });
   int signal = 0;
   ::sigwait(&ending, &signal);

@@ -115,6 +115,7 @@ std::optional<Problem> with_worker(const Call& call, const std::stop_token& stop
   const auto& ticket = std::get<Admission::Ticket>(entered);
   service.metrics.spent("queue", std::chrono::duration<double>(Clock::now() - before).count());
   Job::Options options;
+  options.reserve = call.service.reserve;
   options.limits = service.config.limits;
   options.threads = ticket.threads();
   options.stop = stop;

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <variant>
 
+#include "core/base/reserve.h"
 #include "core/pipeline.h"
 #include "server/access.h"
 #include "server/admission.h"
@@ -84,6 +85,7 @@ struct Service {
   Admission admission;
   Cache cache;
   TextureCache textures;
+  const std::shared_ptr<Reserve> reserve = std::make_shared<Reserve>();
   Access access;
   SharedCache shared;
   Metrics metrics;

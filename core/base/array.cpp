@@ -4,14 +4,17 @@
 #include <cstring>
 #include <new>
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
 #if defined(__GLIBC__)
 #include <malloc.h>
 #endif
 
+#include "core/base/pages.h"
+#include "core/base/reserve.h"
+
 namespace seedmesh {
+
+using namespace pages;
+
 namespace {
 
 // Page faults, not arithmetic, decide what big arrays cost, and huge pages save most of them. A block takes
@@ -25,53 +28,6 @@ constexpr std::uint64_t most_slack = std::uint64_t{12} << 20U;
 // But what the heap is given back stays with the process. A thrifty request maps all that is worth a call, in
 // as many huge pages as it fills and small ones for its end.
 constexpr std::size_t mapped_by_thrift = std::size_t{256} << 10U;
-
-#if defined(__linux__)
-constexpr bool can_map = true;
-constexpr std::size_t huge_page = std::size_t{2} << 20U;
-constexpr std::size_t largest_page = std::size_t{64} << 10U;  // of the small ones, on any machine
-
-constexpr std::size_t rounded(std::size_t bytes, std::size_t to) { return (bytes + to - 1) / to * to; }
-
-// The kernel lays whole huge pages where they can be used: so many are asked for, and what is not wanted of
-// them goes back untouched.
-constexpr std::size_t asked_for(std::size_t room) {
-  return room < huge_page ? room : rounded(room, huge_page);
-}
-std::byte* fitted(void* memory, std::size_t room) {
-  if (memory == MAP_FAILED) throw std::bad_alloc();
-  auto* first = static_cast<std::byte*>(memory);
-  if (asked_for(room) > room) munmap(first + room, asked_for(room) - room);
-  if (room >= huge_page) madvise(memory, room, MADV_HUGEPAGE);
-  return first;
-}
-
-std::byte* map(std::size_t room) {
-  constexpr int access = PROT_READ | PROT_WRITE, kind = MAP_PRIVATE | MAP_ANONYMOUS;
-  return fitted(mmap(nullptr, asked_for(room), access, kind, -1, 0), room);
-}
-std::byte* remap(std::byte* old, std::size_t before, std::size_t after) {
-#if defined(SEEDMESH_STD_THREADS)
-  if (after > before) {  // ThreadSanitizer does not see memory that the kernel moves
-    std::byte* fresh = map(after);
-    std::memcpy(fresh, old, before);
-    munmap(old, before);
-    return fresh;
-  }
-#endif
-  if (after > before) return fitted(mremap(old, before, asked_for(after), MREMAP_MAYMOVE), after);
-  if (after < before) munmap(old + after, before - after);
-  return old;
-}
-void unmap(std::byte* memory, std::size_t room) { munmap(memory, room); }
-#else
-constexpr bool can_map = false;
-constexpr std::size_t huge_page = 1, largest_page = 1;
-constexpr std::size_t rounded(std::size_t bytes, std::size_t) { return bytes; }
-std::byte* map(std::size_t) { return nullptr; }
-std::byte* remap(std::byte*, std::size_t, std::size_t) { return nullptr; }
-void unmap(std::byte*, std::size_t) {}
-#endif
 
 /// Pages of the heap that nobody uses go back to the kernel.
 void trim_heap() {
@@ -122,11 +78,24 @@ Block::Home Block::home_for(std::size_t bytes) const {
                                                                                      : Home::heap;
 }
 
+/// Huge pages are touched: the next array need not have them cleared.
+std::byte* Block::mapped(std::size_t room, Home home) const {
+  std::byte* kept = nullptr;
+  if (home == Home::huge_pages && purse_ && purse_->reserve()) kept = purse_->reserve()->take(room);
+  return kept ? kept : map(room);
+}
+
+void Block::leave(std::byte* memory, std::size_t room) const {
+  const bool is_kept = home_ == Home::huge_pages && room % huge_page == 0 && purse_ && purse_->reserve() &&
+                       purse_->reserve()->keep(memory, room, purse_->used());
+  if (!is_kept) unmap(memory, room);
+}
+
 void Block::release() {
   if (home_ == Home::heap) {
     std::free(data_);
   } else {
-    unmap(data_, room_of(size_, home_));
+    leave(data_, room_of(size_, home_));
     if (purse_) purse_->give_back_slack(room_of(size_, home_) - size_);
   }
   home_ = Home::heap;
@@ -135,12 +104,14 @@ void Block::release() {
 void Block::change(std::size_t bytes) {
   const Home home = home_for(bytes);
   if (home_ != Home::heap && home != Home::heap) {
-    data_ = remap(data_, room_of(size_, home_), room_of(bytes, home));
+    const std::size_t before = room_of(size_, home_), after = room_of(bytes, home);
+    if (after > before) data_ = grown(data_, before, after);
+    if (after < before) leave(data_ + after, before - after);
     if (purse_) purse_->give_back_slack(room_of(size_, home_) - size_);
   } else if (home_ == home) {
     data_ = heap(data_, bytes);
   } else {
-    std::byte* fresh = home == Home::heap ? heap(nullptr, bytes) : map(room_of(bytes, home));
+    std::byte* fresh = home == Home::heap ? heap(nullptr, bytes) : mapped(room_of(bytes, home), home);
     if (size_) std::memcpy(fresh, data_, size_ < bytes ? size_ : bytes);
     release();
     data_ = fresh;

@@ -39,6 +39,8 @@ class Block {
   Home home_for(std::size_t bytes) const;
   void change(std::size_t bytes);
   void release();
+  std::byte* mapped(std::size_t room, Home home) const;
+  void leave(std::byte* memory, std::size_t room) const;
 
   std::shared_ptr<Purse> purse_;
   std::byte* data_ = nullptr;

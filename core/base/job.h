@@ -45,10 +45,15 @@ class Stop : public std::exception {
   Issue issue_;
 };
 
+class Reserve;
+
 /// Bytes in use by the arrays of one request. Shared with the arrays, which outlive the Job in the product.
 class Purse {
  public:
-  explicit Purse(std::uint64_t limit) : limit_(limit) {}
+  explicit Purse(std::uint64_t limit, std::shared_ptr<Reserve> reserve = nullptr)
+      : limit_(limit), reserve_(std::move(reserve)) {}
+  /// Where big arrays leave their memory for those of later requests; may be null.
+  Reserve* reserve() const { return reserve_.get(); }
   void take(std::uint64_t bytes);  ///< throws Stop before the limit is passed
   void give_back(std::uint64_t bytes) { used_.fetch_sub(bytes, std::memory_order_relaxed); }
   std::uint64_t used() const { return used_.load(std::memory_order_relaxed); }
@@ -69,6 +74,7 @@ class Purse {
   std::atomic<std::uint64_t> used_{0};
   std::atomic<bool> is_thrifty_{false}, wants_thrift_{false};
   std::uint64_t limit_;
+  std::shared_ptr<Reserve> reserve_;
   std::atomic<std::uint64_t> slack_{0};
 };
 
@@ -106,6 +112,7 @@ class Job {
     int threads = 1;            ///< how many threads the work may use; never changes the result
     std::stop_token stop = {};  ///< set when the caller has gone or the service drains
     Clock::time_point deadline = Clock::time_point::max();
+    std::shared_ptr<Reserve> reserve = {};  ///< memory of earlier requests, for this and later ones
     Progress progress = {};  ///< told of each stage and share 0..1; called from one thread at a time
   };
 
@@ -156,7 +163,8 @@ class Job {
  private:
   struct State {
     State(Options given)
-        : options(std::move(given)), purse(std::make_shared<Purse>(options.limits.memory_bytes)) {}
+        : options(std::move(given)),
+          purse(std::make_shared<Purse>(options.limits.memory_bytes, options.reserve)) {}
     Options options;
     std::shared_ptr<Purse> purse;
     std::atomic<std::uint64_t> spent[4] = {};

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "core/base/reserve.h"
 #include "core/pipeline.h"
 #include "server/give_back.h"
 #include "tests/bench/kept_textures.h"
@@ -24,10 +25,16 @@ bench::KeptTextures& textures() {
   return kept;
 }
 
+/// As the service has it.
+const std::shared_ptr<Reserve>& reserve() {
+  static const auto kept = std::make_shared<Reserve>();
+  return kept;
+}
+
 std::uint64_t triangles_of(const std::string& text, int threads = 1) {
   const Result<Request> request = read_request(text, Limits{});
   if (!request) std::abort();
-  Job job(request->seed(), {.threads = threads});
+  Job job(request->seed(), {.threads = threads, .reserve = reserve()});
   const Result<Product> product = produce(*request, job, &textures());
   if (!product) std::abort();
   return product->statistics.triangles;
@@ -60,8 +67,9 @@ void bench_memory(const std::string& name, const std::string& small, const std::
     triangles_of(small);
     const Result<Request> request = read_request(text, Limits{});
     if (!request) _exit(1);
-    Job job(request->seed(), Job::Options{});
+    Job job(request->seed(), {.reserve = reserve()});
     std::ofstream("/proc/self/clear_refs") << "5";  // the peak begins anew
+    reserve()->clear();                             // as where the service rests
     const double idle = bench::status_bytes("VmRSS");
     const Result<Product> product = produce(*request, job, &textures());
     if (!product) _exit(1);

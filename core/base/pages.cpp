@@ -1,0 +1,60 @@
+#include "core/base/pages.h"
+
+#include <cstring>
+#include <new>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace seedmesh::pages {
+
+#if defined(__linux__)
+namespace {
+
+// The kernel lays whole huge pages where they can be used: so many are asked for, and what is not wanted of
+// them goes back untouched.
+constexpr std::size_t asked_for(std::size_t room) {
+  return room < huge_page ? room : rounded(room, huge_page);
+}
+
+std::byte* fitted(void* memory, std::size_t room) {
+  if (memory == MAP_FAILED) throw std::bad_alloc();
+  auto* first = static_cast<std::byte*>(memory);
+  if (asked_for(room) > room) munmap(first + room, asked_for(room) - room);
+  if (room >= huge_page) madvise(memory, room, MADV_HUGEPAGE);
+  return first;
+}
+
+}  // namespace
+
+std::byte* map(std::size_t room) {
+  constexpr int access = PROT_READ | PROT_WRITE, kind = MAP_PRIVATE | MAP_ANONYMOUS;
+  return fitted(mmap(nullptr, asked_for(room), access, kind, -1, 0), room);
+}
+
+static std::byte* copied(std::byte* old, std::size_t before, std::size_t after) {
+  std::byte* fresh = map(after);
+  std::memcpy(fresh, old, before);
+  munmap(old, before);
+  return fresh;
+}
+
+std::byte* grown(std::byte* old, std::size_t before, std::size_t after) {
+#if defined(SEEDMESH_STD_THREADS)  // ThreadSanitizer does not see memory that the kernel moves
+  return copied(old, before, after);
+#else
+  void* const moved = mremap(old, before, asked_for(after), MREMAP_MAYMOVE);
+  if (moved != MAP_FAILED) return fitted(moved, after);
+  return copied(old, before, after);  // the kernel moves nothing that was mapped in two parts
+#endif
+}
+
+void unmap(std::byte* memory, std::size_t room) { munmap(memory, room); }
+#else
+std::byte* map(std::size_t) { return nullptr; }
+std::byte* grown(std::byte*, std::size_t, std::size_t) { return nullptr; }
+void unmap(std::byte*, std::size_t) {}
+#endif
+
+}  // namespace seedmesh::pages

@@ -1,0 +1,41 @@
+#pragma once
+/// Huge pages that arrays of requests have left, for those of the next requests: the kernel clears each page
+/// that it gives, which is a tenth of the time of a tree of 100,000 triangles. Safe for use from many
+/// threads.
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+namespace seedmesh {
+
+class Reserve {
+ public:
+  static constexpr std::size_t usual = std::size_t{64} << 20U;
+
+  explicit Reserve(std::size_t most = usual) : most_(most) {}
+  ~Reserve() { clear(); }
+  Reserve(const Reserve&) = delete;
+  Reserve& operator=(const Reserve&) = delete;
+
+  /// So many bytes, whole huge pages whose content is anything; null where there are no such.
+  std::byte* take(std::size_t room);
+  /// False: the caller unmaps it. It is kept as long as all that is kept and what its request still uses stay
+  /// below the most together, so that a great request is not greater by what it has let go.
+  bool keep(std::byte* memory, std::size_t room, std::uint64_t used);
+  /// Gives all back to the system.
+  void clear();
+  std::size_t kept() const;
+
+ private:
+  struct Piece {
+    std::byte* memory;
+    std::size_t room;
+  };
+  mutable std::mutex mutex_;
+  std::vector<Piece> pieces_;
+  std::size_t kept_ = 0;
+  const std::size_t most_;
+};
+
+}  // namespace seedmesh

@@ -1,0 +1,98 @@
+#include "core/base/reserve.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "core/base/array.h"
+#include "core/base/pages.h"
+
+namespace seedmesh {
+namespace {
+
+constexpr std::size_t mebibyte = std::size_t{1} << 20U;
+
+Job job_with(const std::shared_ptr<Reserve>& reserve) {
+  Job::Options options;
+  options.reserve = reserve;
+  return Job(0, options);
+}
+
+#if defined(__linux__)
+TEST(Reserve, GivesTheMemoryOfAnArrayToTheNextOne) {
+  const auto reserve = std::make_shared<Reserve>(32 * mebibyte);
+  const char* where = nullptr;
+  {
+    const Array<char> first(job_with(reserve), 5 * mebibyte, 'x');
+    where = first.data();
+    EXPECT_EQ(reserve->kept(), 0U);
+  }
+  EXPECT_EQ(reserve->kept(), 6 * mebibyte);
+  const Array<char> second(job_with(reserve), 6 * mebibyte);
+  EXPECT_EQ(second.data(), where);
+  EXPECT_EQ(reserve->kept(), 0U);
+}
+
+TEST(Reserve, CutsWhatIsKeptAndMakesItWholeAgain) {
+  const auto reserve = std::make_shared<Reserve>(32 * mebibyte);
+  { const Array<char> whole(job_with(reserve), 12 * mebibyte, 'x'); }
+  {
+    const Array<char> one(job_with(reserve), 5 * mebibyte, 'a'), other(job_with(reserve), 6 * mebibyte, 'b');
+    EXPECT_EQ(reserve->kept(), 0U);
+    EXPECT_TRUE(std::all_of(one.begin(), one.end(), [](char c) { return c == 'a'; }));
+  }
+  EXPECT_EQ(reserve->kept(), 12 * mebibyte);
+  const Array<char> again(job_with(reserve), 12 * mebibyte);
+  EXPECT_EQ(reserve->kept(), 0U);
+}
+
+TEST(Reserve, KeepsTheEndThatAnArrayDoesNotNeed) {
+  const auto reserve = std::make_shared<Reserve>(32 * mebibyte);
+  Array<char> array(job_with(reserve), 11 * mebibyte, 'x');
+  array.resize(5 * mebibyte);
+  array.shrink_to_fit();
+  EXPECT_EQ(reserve->kept(), 6 * mebibyte);
+  EXPECT_EQ(array.back(), 'x');
+}
+
+TEST(Reserve, LetsAnArrayGrowOverMemoryOfTwoThatWere) {
+  const auto reserve = std::make_shared<Reserve>(64 * mebibyte);
+  {
+    const Array<char> one(job_with(reserve), 6 * mebibyte, 'x'), other(job_with(reserve), 6 * mebibyte, 'x');
+  }
+  Array<std::uint32_t> array(job_with(reserve));
+  for (std::uint32_t i = 0; i < 9'000'000; ++i) array.push_back(i);
+  for (std::uint32_t i = 0; i < 9'000'000; i += 977) ASSERT_EQ(array[i], i);
+}
+
+TEST(Reserve, KeepsNoMoreThanItsMostTogetherWithWhatTheRequestStillUses) {
+  const auto reserve = std::make_shared<Reserve>(16 * mebibyte);
+  const Job great = job_with(reserve);
+  const Array<char> used(great, 14 * mebibyte, 'x');
+  { const Array<char> passing(great, 4 * mebibyte, 'x'); }
+  EXPECT_EQ(reserve->kept(), 0U);
+  { const Array<char> of_another(job_with(reserve), 4 * mebibyte, 'x'); }
+  EXPECT_EQ(reserve->kept(), 4 * mebibyte);
+}
+
+TEST(Reserve, GivesAllBackWhenItIsCleared) {
+  const auto reserve = std::make_shared<Reserve>(32 * mebibyte);
+  { const Array<char> array(job_with(reserve), 8 * mebibyte, 'x'); }
+  EXPECT_EQ(reserve->kept(), 8 * mebibyte);
+  reserve->clear();
+  EXPECT_EQ(reserve->kept(), 0U);
+  EXPECT_EQ(reserve->take(pages::huge_page), nullptr);
+}
+#endif
+
+TEST(Reserve, IsNotForThriftyRequests) {
+  const auto reserve = std::make_shared<Reserve>(32 * mebibyte);
+  const Job job = job_with(reserve);
+  job.purse()->be_thrifty();
+  { const Array<char> array(job, 9 * mebibyte, 'x'); }
+  EXPECT_EQ(reserve->kept(), 0U);
+}
+
+}  // namespace
+}  // namespace seedmesh
