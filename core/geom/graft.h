@@ -60,15 +60,16 @@ struct GraftOptions {
 
 struct GraftCounts {
   std::uint32_t limbs = 0, collars = 0, forks = 0, closed = 0, fallen_back = 0;
+  std::uint32_t creases = 0;  ///< faces with a normal of their own
 };
 
-/// The bark of all limbs, whatever their colour. Guarantees as skin(): closed, welded by position every edge
-/// in two triangles; unit normals that no face looks against; no unused vertex; u and v in metres (unless
-/// `wrap`), one seam.
-/// Heaps of limbs so dense that no surface is left are refused (Code::limit). `counts` may be null. Limbs
-/// that would break a guarantee are skinned by skin() instead. Spends Resource::triangles as it goes. Runs
-/// on job.threads(); the result does not depend on it. About 40 bytes a vertex beside the mesh, and the mesh
-/// once more where a limb had to be written anew.
+/// The bark of all limbs, whatever their colour. Where limbs part so sharply that no normal of a corner is in
+/// front of all its faces, the one behind has a vertex of its own there: a crease. Guarantees as skin():
+/// closed, welded by position every edge in two triangles; unit normals that no face looks against; no unused
+/// vertex; u and v in metres (unless `wrap`), one seam. Heaps of limbs so dense that no surface is left are
+/// refused (Code::limit). `counts` may be null. Limbs that would break a guarantee are skinned by skin()
+/// instead. Spends Resource::triangles as it goes. Runs on job.threads(); the result does not depend on it.
+/// About 40 bytes a vertex beside the mesh, and the mesh once more where a limb had to be written anew.
 Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCounts* counts = nullptr);
 
 }  // namespace seedmesh

@@ -30,6 +30,7 @@ GraftCounts GraftWriter::counts() const {
   counts.collars = count(Kind::collar);
   counts.forks = count(Kind::fork);
   counts.closed = count(Kind::closed);
+  counts.creases = static_cast<std::uint32_t>(creases_at_last().size());
   counts.limbs = count(Kind::root) + counts.collars + counts.forks + counts.closed;
   return counts;
 }
@@ -160,7 +161,7 @@ bool GraftWriter::is_in_order() const {
 template <class T>
 Array<T> GraftWriter::gathered(Array<T>& from, std::uint32_t Place::*what) const {
   Array<T> out(job_);
-  out.reserve(from.empty() ? 0 : sum_of(what));
+  out.reserve(from.empty() ? 0 : sum_of(what) + 3 * creased_.size());
   for (const Range& range : range_) {
     if (!from.empty())
       out.append(from.span().subspan(range.begin.*what, range.end.*what - range.begin.*what));
@@ -170,13 +171,16 @@ Array<T> GraftWriter::gathered(Array<T>& from, std::uint32_t Place::*what) const
 }
 
 GraftWriter::Written GraftWriter::take() {
+  const std::vector<Crease> creases = creases_at_last();
   if (is_in_order()) {
     make_room(vertices_);
-    mesh_.position.shrink_to_fit();
-    mesh_.normal.shrink_to_fit();
-    mesh_.uv[0].shrink_to_fit();
-    mesh_.index.wide.shrink_to_fit();
-    return {std::move(mesh_), std::move(joints_), std::move(twin_), std::move(colors_)};
+    Written out{std::move(mesh_), std::move(joints_), std::move(twin_), std::move(colors_)};
+    write_creases(creases, out);
+    out.mesh.position.shrink_to_fit();
+    out.mesh.normal.shrink_to_fit();
+    out.mesh.uv[0].shrink_to_fit();
+    out.mesh.index.wide.shrink_to_fit();
+    return out;
   }
   group_ = {};
   Written out;
@@ -195,6 +199,7 @@ GraftWriter::Written GraftWriter::take() {
     for (std::size_t i = begin; i < end; ++i) tasks[i]();
   });
   mesh_ = {};
+  write_creases(creases, out);
   return out;
 }
 

@@ -13,9 +13,6 @@ namespace {
 // Area of a face that cannot be told from none, as a share of the squared size of the model.
 constexpr float least_area = 4e-12F;
 
-// A normal nearer to the plane of its face than this may be found on the other side by who reckons otherwise.
-constexpr float least_cosine = 1e-4F;
-
 constexpr float pi = static_cast<float>(math::pi);
 
 // Limbs that are looked at together: so many, or more where there are very many.
@@ -186,7 +183,7 @@ struct GraftWriter::Faces {
   float least_square;
 
   FourFlags sound(const std::uint32_t* corner) const {
-    constexpr float flattest = least_cosine * least_cosine;
+    constexpr float flattest = least_cosine_of_face * least_cosine_of_face;
     const Four a = Four::picked(position, corner);
     const Four face = cross(difference(Four::picked(position, corner + 1), a),
                             difference(Four::picked(position, corner + 2), a));
@@ -210,9 +207,13 @@ SEEDMESH_WIDE std::size_t GraftWriter::sound_faces(const Faces& faces, const std
   return sound;
 }
 
-GraftWriter::Faces GraftWriter::faces() const {
+float GraftWriter::least_square_of_face() const {
   const float least = 2 * least_area * context_.scale.size * context_.scale.size;
-  return {mesh_.position.data(), mesh_.normal.data(), least * least};
+  return least * least;
+}
+
+GraftWriter::Faces GraftWriter::faces() const {
+  return {mesh_.position.data(), mesh_.normal.data(), least_square_of_face()};
 }
 
 /// Adds to `bad` what is wrong of the triangles `first` to `last - 1`.
@@ -358,9 +359,10 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
   return take_blame(bad, trust, is_late);
 }
 
-/// Lowers the trust in the limbs of these triangles, limb by limb; returns how many there are.
+/// Lowers the trust in the limbs of these triangles, limb by limb; returns how many there are, but for those
+/// that are creased.
 std::size_t GraftWriter::take_blame(const std::vector<std::vector<std::uint32_t>>& bad,
-                                    std::vector<Trust>& trust, bool is_late) const {
+                                    std::vector<Trust>& trust, bool is_late) {
   std::size_t faults = 0;
   for (std::size_t index = 0; index < bad.size(); ++index) {
     std::size_t limb = index * limbs_a_chunk(range_.size());
@@ -371,8 +373,15 @@ std::size_t GraftWriter::take_blame(const std::vector<std::vector<std::uint32_t>
     for (std::size_t i = 0; i < bad[index].size();) {
       while (!is_of(bad[index][i])) ++limb;
       bool is_bad = false;
-      for (; i < bad[index].size() && is_of(bad[index][i]); ++i, ++faults)
-        is_bad = !blame(mesh_.index.wide.data() + std::size_t{3} * bad[index][i], trust, is_late) || is_bad;
+      for (; i < bad[index].size() && is_of(bad[index][i]); ++i) {
+        const std::uint32_t triangle = bad[index][i];
+        if (can_be_creased(triangle, limb)) {
+          creased_.push_back(triangle);
+          continue;
+        }
+        ++faults;
+        is_bad = !blame(mesh_.index.wide.data() + std::size_t{3} * triangle, trust, is_late) || is_bad;
+      }
       if (is_bad) trust[limb] = trust[limb] < Trust::closed && !is_late ? Trust::closed : Trust::none;
     }
   }

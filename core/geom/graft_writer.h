@@ -49,7 +49,7 @@ class GraftWriter {
 
   /// Makes the normals of loops, then looks at every triangle for which something has changed. Lowers the
   /// trust in limbs with faces that look against a normal or have no area, at once to none where `is_late`;
-  /// returns how many faces.
+  /// returns how many faces. Small faces that look against a normal get normals of their own instead.
   std::size_t settle(std::vector<Trust>& trust, bool is_late);
 
   GraftCounts counts() const;
@@ -159,6 +159,10 @@ class GraftWriter {
     Place begin, end;
     std::uint32_t first_end = 0;
   };
+  /// A triangle that gets vertices of its own, among those of its limb.
+  struct Crease {
+    std::uint32_t triangle = 0, first = 0, last = 0;
+  };
   /// What of a limb has to be looked at again: nothing, the faces at the loop that it begins with, all.
   enum class Concern : std::uint8_t { nothing, loop, all };
   enum class Kind : std::uint8_t { none, root, collar, fork, closed };
@@ -204,6 +208,10 @@ class GraftWriter {
   std::vector<LoopFace> strained_faces(const std::vector<std::vector<LoopFace>>& faces);
   void ease_loop_normals(const std::vector<std::vector<LoopFace>>& faces);
   void put_loop_normals(std::size_t limb);
+  /// A normal nearer to the plane of its face than this may be found on the other side by who reckons
+  /// otherwise.
+  static constexpr float least_cosine_of_face = 1e-4F;
+  float least_square_of_face() const;
   struct Faces;
   Faces faces() const;
   static std::size_t sound_faces(const Faces& faces, const std::uint32_t* corner, std::size_t count);
@@ -222,9 +230,12 @@ class GraftWriter {
     return false;
   }
   void settle_ribs(std::size_t limb);
+  bool can_be_creased(std::uint32_t triangle, std::size_t limb) const;
+  std::vector<Crease> creases_at_last() const;
+  void write_creases(const std::vector<Crease>& creases, Written& to) const;
   bool blame(const std::uint32_t* corner, std::vector<Trust>& trust, bool is_late) const;
   std::size_t take_blame(const std::vector<std::vector<std::uint32_t>>& bad, std::vector<Trust>& trust,
-                         bool is_late) const;
+                         bool is_late);
   void find_concerned();
   void share_out(std::size_t count, std::size_t chunk,
                  const std::function<void(std::size_t, std::size_t, std::size_t)>& body) const;
@@ -313,11 +324,12 @@ class GraftWriter {
   std::vector<Concern> concern_;           ///< of each limb
   /// First and last vertex of each ring with ribs, which stand at one place, rising.
   Seams rib_seams_;
-  bool is_much_ = true;          ///< of what has to be looked at
-  Array<std::uint32_t> joints_;  ///< as Written::joints
-  Array<std::uint8_t> twin_;     ///< as Written::twin
-  Array<std::int16_t> colors_;   ///< as Written::colors
-  std::vector<Trust> trust_;     ///< as it was in the last round
+  std::vector<std::uint32_t> creased_;  ///< triangles that get vertices of their own, unless they are no more
+  bool is_much_ = true;                 ///< of what has to be looked at
+  Array<std::uint32_t> joints_;         ///< as Written::joints
+  Array<std::uint8_t> twin_;            ///< as Written::twin
+  Array<std::int16_t> colors_;          ///< as Written::colors
+  std::vector<Trust> trust_;            ///< as it was in the last round
   std::vector<Loop> loops_;
   Array<LoopVertex> loop_vertices_;
 

@@ -107,6 +107,39 @@ TEST(Graft, TurnsTheNormalsOfANarrowCollarRatherThanCloseIt) {
   EXPECT_EQ(pieces_of(mesh), 1U);
 }
 
+/// Forks of like thickness from wide to narrow angles, at bends.
+Limbs zigzag(const Job& job, double lean, double twist) {
+  SkeletonMaker maker(job);
+  std::uint32_t trunk = maker.root({0, 0, 0});
+  glm::vec3 at{0};
+  for (int i = 1; i < 12; ++i) {
+    const math::SinCos way = math::quick_sincos_degrees(i % 2 ? lean : -lean);
+    at += glm::vec3(0.6 * way.sin, 0.8 * way.cos, 0.02 * i);
+    trunk = maker.grow(trunk, at, {0.1F, 0.1F});
+    const math::SinCos side = math::quick_sincos_degrees(twist * i);
+    maker.branch(trunk, at + glm::vec3(0.3 * side.cos, 1.3, 0.3 * side.sin), {0.06F, 0.03F});
+  }
+  return std::move(maker.limbs);
+}
+
+TEST(Graft, CreasesSharpForksRatherThanCloseThem) {
+  std::uint32_t creases = 0, grown = 0, closed = 0;
+  for (int lean = 0; lean <= 30; lean += 5) {
+    for (int twist = 20; twist < 160; twist += 20) {
+      Job job(1, Job::Options{});
+      GraftCounts counts;
+      const Mesh mesh = graft(zigzag(job, lean, twist), {}, job, &counts);
+      ASSERT_TRUE(faults(mesh).empty()) << lean << ", " << twist;
+      EXPECT_EQ(pieces_of(mesh), 1 + counts.closed + counts.fallen_back);
+      creases += counts.creases;
+      grown += counts.collars + counts.forks;
+      closed += counts.closed;
+    }
+  }
+  EXPECT_GT(creases, 0U);
+  EXPECT_GT(grown, 3 * closed) << "the others find no room";
+}
+
 TEST(Graft, StaysSoundWhateverTheLimbsAre) {
   int made = 0;
   for (std::uint64_t seed = 0; seed < 120; ++seed) {
