@@ -87,7 +87,7 @@ std::byte* Block::mapped(std::size_t room, Home home) const {
 
 void Block::leave(std::byte* memory, std::size_t room) const {
   const bool is_kept = home_ == Home::huge_pages && room % huge_page == 0 && purse_ && purse_->reserve() &&
-                       purse_->reserve()->keep(memory, room, purse_->used());
+                       purse_->reserve()->keep(memory, room, purse_->used(), purse_->peak());
   if (!is_kept) unmap(memory, room);
 }
 

@@ -41,6 +41,9 @@ void Purse::take(std::uint64_t bytes) {
   do {
     if (bytes > limit_ || used > limit_ - bytes) refuse_limit("bytes of memory", limit_, used + bytes);
   } while (!used_.compare_exchange_weak(used, used + bytes, std::memory_order_relaxed));
+  std::uint64_t peak = peak_.load(std::memory_order_relaxed);
+  while (used + bytes > peak && !peak_.compare_exchange_weak(peak, used + bytes, std::memory_order_relaxed)) {
+  }
   if (used + bytes >= worth_thrift && wants_thrift()) is_thrifty_.store(true, std::memory_order_relaxed);
 }
 

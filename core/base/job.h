@@ -57,6 +57,7 @@ class Purse {
   void take(std::uint64_t bytes);  ///< throws Stop before the limit is passed
   void give_back(std::uint64_t bytes) { used_.fetch_sub(bytes, std::memory_order_relaxed); }
   std::uint64_t used() const { return used_.load(std::memory_order_relaxed); }
+  std::uint64_t peak() const { return peak_.load(std::memory_order_relaxed); }  ///< the most that was used
 
   /// Bytes that blocks leave empty at the ends of their last pages. Not counted as used.
   std::uint64_t slack() const { return slack_.load(std::memory_order_relaxed); }
@@ -71,7 +72,7 @@ class Purse {
   bool is_thrifty() const { return is_thrifty_.load(std::memory_order_relaxed); }
 
  private:
-  std::atomic<std::uint64_t> used_{0};
+  std::atomic<std::uint64_t> used_{0}, peak_{0};
   std::atomic<bool> is_thrifty_{false}, wants_thrift_{false};
   std::uint64_t limit_;
   std::shared_ptr<Reserve> reserve_;

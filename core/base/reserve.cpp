@@ -24,9 +24,9 @@ std::byte* Reserve::take(std::size_t room) {
   return memory;
 }
 
-bool Reserve::keep(std::byte* memory, std::size_t room, std::uint64_t used) {
+bool Reserve::keep(std::byte* memory, std::size_t room, std::uint64_t used, std::uint64_t peak) {
   const std::lock_guard lock(mutex_);
-  if (kept_ + room + used > most_) return false;
+  if (kept_ + room > most_ || kept_ + used > std::max<std::uint64_t>(most_ / 2, peak)) return false;
   // Neighbours are joined, so that what was cut can be whole again.
   Piece whole{memory, room};
   for (std::size_t i = pieces_.size(); i-- > 0;) {

@@ -11,8 +11,9 @@ namespace seedmesh {
 
 class Reserve {
  public:
-  static constexpr std::size_t usual = std::size_t{64} << 20U;
+  static constexpr std::size_t usual = std::size_t{128} << 20U;
 
+  /// Keeps so many bytes at most.
   explicit Reserve(std::size_t most = usual) : most_(most) {}
   ~Reserve() { clear(); }
   Reserve(const Reserve&) = delete;
@@ -20,9 +21,10 @@ class Reserve {
 
   /// So many bytes, whole huge pages whose content is anything; null where there are no such.
   std::byte* take(std::size_t room);
-  /// False: the caller unmaps it. It is kept as long as all that is kept and what its request still uses stay
-  /// below the most together, so that a great request is not greater by what it has let go.
-  bool keep(std::byte* memory, std::size_t room, std::uint64_t used);
+  /// False: the caller unmaps it. It is kept as long as all that is kept and what its request uses, this
+  /// included, are together no more than half the most or than the request has used at its peak, so that a
+  /// great request is not greater by what it has let go.
+  bool keep(std::byte* memory, std::size_t room, std::uint64_t used, std::uint64_t peak);
   /// Gives all back to the system.
   void clear();
   std::size_t kept() const;

@@ -66,14 +66,29 @@ TEST(Reserve, LetsAnArrayGrowOverMemoryOfTwoThatWere) {
   for (std::uint32_t i = 0; i < 9'000'000; i += 977) ASSERT_EQ(array[i], i);
 }
 
-TEST(Reserve, KeepsNoMoreThanItsMostTogetherWithWhatTheRequestStillUses) {
-  const auto reserve = std::make_shared<Reserve>(16 * mebibyte);
-  const Job great = job_with(reserve);
-  const Array<char> used(great, 14 * mebibyte, 'x');
-  { const Array<char> passing(great, 4 * mebibyte, 'x'); }
+TEST(Reserve, KeepsNoMoreThanItsMost) {
+  const auto reserve = std::make_shared<Reserve>(8 * mebibyte);
+  { const Array<char> greater(job_with(reserve), 10 * mebibyte, 'x'); }
   EXPECT_EQ(reserve->kept(), 0U);
-  { const Array<char> of_another(job_with(reserve), 4 * mebibyte, 'x'); }
+  { const Array<char> one(job_with(reserve), 4 * mebibyte), other(job_with(reserve), 6 * mebibyte); }
+  EXPECT_LE(reserve->kept(), 8 * mebibyte);
+  EXPECT_GE(reserve->kept(), 4 * mebibyte);
+}
+
+TEST(Reserve, DoesNotMakeAGreatRequestGreater) {
+  const auto reserve = std::make_shared<Reserve>(24 * mebibyte);
+  const Job great = job_with(reserve);
+  Array<char> used(great, 10 * mebibyte, 'x');
+  { const Array<char> passing(great, 4 * mebibyte, 'x'); }
+  EXPECT_EQ(reserve->kept(), 4 * mebibyte) << "as much as there was before";
+  Array<char> more(great, 14 * mebibyte, 'x');
+  used.resize(20 * mebibyte);
+  EXPECT_EQ(great.purse()->peak(), 34 * mebibyte);
   EXPECT_EQ(reserve->kept(), 4 * mebibyte);
+  { const Array<char> last(great, 12 * mebibyte, 'x'); }
+  EXPECT_EQ(reserve->kept(), 4 * mebibyte) << "with 46 MiB used, as many as ever";
+  more = {};
+  EXPECT_EQ(reserve->kept(), 18 * mebibyte) << "with 34 MiB used";
 }
 
 TEST(Reserve, GivesAllBackWhenItIsCleared) {
