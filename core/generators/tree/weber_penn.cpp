@@ -38,6 +38,10 @@ void WeberPennGrower::expect(double share) {
 
 void WeberPennGrower::grow_all() {
   while (!waiting_.empty()) {
+    if (is_twig(waiting_.back())) {
+      grow_twigs();
+      continue;
+    }
     WeberPennStem stem = waiting_.back();
     waiting_.pop_back();
     grow(stem);
@@ -193,6 +197,7 @@ void WeberPennGrower::grow(WeberPennStem& stem) {
     walk_segment(stem, frame, segment, at);
     if (segment + 1 < segments && may_split(stem)) split(stem, frame, at, segment, last_joint_);
   }
+  settle(stem);
   if (is_last(stem) && p_.Leaves < 0) put_fan(stem, frame, at);
   waiting_.insert(waiting_.begin() + static_cast<std::ptrdiff_t>(first_child_), clones_.begin(),
                   clones_.end());

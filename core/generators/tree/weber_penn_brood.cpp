@@ -17,25 +17,26 @@ constexpr std::size_t most = WeberPennBrood::most;
 
 /// The same of all children. Passed by value, so that nothing that is read can be what is written.
 struct Turning {
-  Frame stem;
   double rotate, odd, rotate_v, down_v;  ///< `odd`: more degrees for those of odd numbers
   double step;                           ///< degrees from one number to the next
 };
 
-SEEDMESH_WIDE void draw_all(const Rng chance, std::uint64_t first, std::size_t count,
+SEEDMESH_WIDE void draw_all(const Rng chance, std::size_t count, const std::int32_t* __restrict number,
                             std::uint64_t* __restrict key, double* __restrict splits) {
   for (std::size_t i = 0; i < count; ++i) {
-    key[i] = chance.at(first + i).key();
+    key[i] = chance.at(static_cast<std::uint64_t>(number[i])).key();
     splits[i] = drawn_at(key[i], place_of("splits"), split_range);
   }
 }
 
-SEEDMESH_WIDE void turn_all(const Turning how, int first, std::size_t count,
+SEEDMESH_WIDE void turn_all(const Turning how, std::size_t count, const std::int32_t* __restrict numbers,
                             const std::uint64_t* __restrict key, const double* __restrict down,
-                            double (*__restrict axis)[most]) {
-  const Frame stem = how.stem;
+                            const double (*__restrict stems)[most], double (*__restrict axis)[most]) {
   for (std::size_t i = 0; i < count; ++i) {
-    const int number = first + static_cast<int>(i);
+    const Frame stem{{stems[0][i], stems[1][i], stems[2][i]},
+                     {stems[3][i], stems[4][i], stems[5][i]},
+                     {stems[6][i], stems[7][i], stems[8][i]}};
+    const std::int32_t number = numbers[i];
     const double base = number * how.step + (number & 1) * how.odd + how.rotate;
     const double about = base + drawn_at(key[i], place_of("rotate"), how.rotate_v);
     const double from = down[i] + drawn_at(key[i], place_of("down"), how.down_v);
@@ -55,16 +56,14 @@ SEEDMESH_WIDE void turn_all(const Turning how, int first, std::size_t count,
 
 }  // namespace
 
-void WeberPennBrood::reckon(const WeberPennPiece& piece, const WeberPennLevel& level, const Rng& chance,
-                            int first, std::span<const double> down) {
-  std::copy(down.begin(), down.end(), down_);
-  const std::size_t count = (down.size() + lanes - 1) / lanes * lanes;
+void WeberPennBrood::reckon(const WeberPennLevel& level, const Rng& chance) {
+  const std::size_t count = (size_ + lanes - 1) / lanes * lanes;
   // As about_stem() has it: sums with 0 change nothing.
   const bool goes_round = level.rotate >= 0;
-  const Turning how{piece.frame,    goes_round ? 0 : level.rotate,     goes_round ? 0 : 180.0,
-                    level.rotate_v, std::max(0.0, level.down_angle_v), goes_round ? level.rotate : 0};
-  draw_all(chance, static_cast<std::uint64_t>(first), count, key_, splits_);
-  turn_all(how, first, count, key_, down_, axis_);
+  const Turning how{goes_round ? 0 : level.rotate, goes_round ? 0 : 180.0, level.rotate_v,
+                    std::max(0.0, level.down_angle_v), goes_round ? level.rotate : 0};
+  draw_all(chance, count, number_, key_, splits_);
+  turn_all(how, count, number_, key_, down_, stem_, axis_);
 }
 
 }  // namespace seedmesh::tree
