@@ -42,9 +42,11 @@ void WeberPennGrower::grow_all() {
       grow_twigs();
       continue;
     }
+    if (bends_ahead_ && next_bend_ == bends_.size() && is_last(waiting_.back())) bend_ahead();
     WeberPennStem stem = waiting_.back();
     waiting_.pop_back();
     grow(stem);
+    if (next_bend_ < bends_.size()) ++next_bend_;
   }
   write_leaves();
 }
@@ -191,7 +193,7 @@ void WeberPennGrower::grow(WeberPennStem& stem) {
   glm::dvec3 at = stem.position;
   for (int segment = stem.segment; segment < segments; ++segment) {
     if (segment > stem.segment) {
-      frame = turned(stem, frame, segment);
+      frame = next_bend_ < bends_.size() ? bends_.frame(next_bend_, segment) : turned(stem, frame, segment);
       if (sways()) frame = swayed_at(stem, frame, segment);
     }
     walk_segment(stem, frame, segment, at);

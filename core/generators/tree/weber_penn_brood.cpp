@@ -1,6 +1,7 @@
 #include "core/generators/tree/weber_penn_brood.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/wide.h"
 #include "core/generators/tree/wide_chance.h"
@@ -54,7 +55,41 @@ SEEDMESH_WIDE void turn_all(const Turning how, std::size_t count, const std::int
   }
 }
 
+/// For one whole tree.
+struct Envelope {
+  double scale, depth, peak, width, high, low;
+};
+
+/// As is_in_envelope() begins.
+SEEDMESH_WIDE void find_all_inside(const Envelope by, std::size_t count,
+                                   const double (*__restrict axis)[most],
+                                   const double (*__restrict position)[most], const double* __restrict length,
+                                   std::uint64_t* __restrict inside) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = position[0][i] + axis[0][i] * length[i], y = position[1][i] + axis[1][i] * length[i],
+                 z = position[2][i] + axis[2][i] * length[i];
+    const double ratio = (by.scale - y) / by.depth;
+    const bool is_above = ratio < by.peak;
+    const double base = (is_above ? ratio : 1 - ratio) / (is_above ? by.peak : 1 - by.peak);
+    const double exponent = is_above ? by.high : by.low;
+    const double least = least_power(base, exponent);
+    const bool is_known = (ratio > 0) & (ratio < 1) & (base > 0) & (exponent <= 1);
+    const bool is_near = std::sqrt(x * x + z * z) / by.scale < by.width * least;
+    inside[i] = is_known & is_near ? 1U : 0U;
+  }
+}
+
 }  // namespace
+
+void WeberPennBrood::find_inside(const TreeParams& params, double scale) {
+  const Envelope envelope{scale,
+                          scale * (1 - params.BaseSize),
+                          1 - params.PruneWidthPeak,
+                          params.PruneWidth,
+                          params.PrunePowerHigh,
+                          params.PrunePowerLow};
+  find_all_inside(envelope, (size_ + lanes - 1) / lanes * lanes, axis_, position_, length_, inside_);
+}
 
 void WeberPennBrood::reckon(const WeberPennLevel& level, const Rng& chance) {
   const std::size_t count = (size_ + lanes - 1) / lanes * lanes;

@@ -41,6 +41,15 @@ class WeberPennBrood {
   /// All that were added, whose chance is chance.at(number), of a level that is `level`.
   void reckon(const WeberPennLevel& level, const Rng& chance);
 
+  /// Which of them, straight and of such lengths, end within the envelope of a tree that is `scale` high, as
+  /// far as its bounds tell at once. is_in_envelope() says the same of these.
+  void find_inside(const TreeParams& params, double scale);
+  void place(std::size_t i, const glm::dvec3& position, double length) {
+    for (int axis = 0; axis < 3; ++axis) position_[axis][i] = position[axis];
+    length_[i] = length;
+  }
+  bool is_inside(std::size_t i) const { return inside_[i] != 0; }
+
   Rng chance(std::size_t i) const { return Rng(key_[i]); }
   Frame frame(std::size_t i) const {
     return {{axis_[0][i], axis_[1][i], axis_[2][i]},
@@ -53,7 +62,8 @@ class WeberPennBrood {
  private:
   std::size_t size_ = 0;
   std::int32_t number_[most] = {};
-  std::uint64_t key_[most];
+  std::uint64_t key_[most], inside_[most];
+  double position_[3][most] = {}, length_[most] = {};
   double stem_[9][most] = {}, down_[most] = {}, axis_[9][most], splits_[most];
 };
 

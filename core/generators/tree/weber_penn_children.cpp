@@ -110,12 +110,19 @@ void WeberPennGrower::settle(const WeberPennStem& stem) {
   if (brood_.size() == 0) return;
   brood_.reckon(level(stem.level + 1), child_chance_);
   WeberPennStem* const children = waiting_.data() + (waiting_.size() - brood_.size());
+  const bool is_straight = p_.PruneRatio > 0 && level(stem.level + 1).curve_res == 1;
+  if (is_straight) {
+    for (std::size_t i = 0; i < brood_.size(); ++i) brood_.place(i, children[i].position, children[i].length);
+    brood_.find_inside(p_, scale_);
+  }
   for (std::size_t i = 0; i < brood_.size(); ++i) {
     WeberPennStem& child = children[i];
     child.frame = brood_.frame(i);
     child.rng = brood_.chance(i);
     child.carried_splits = brood_.carried_splits(i);
-    if (p_.PruneRatio > 0 && !prune(child)) {
+    // One that stays within the envelope as it is need not be tried.
+    const bool fits_whole = is_straight && brood_.is_inside(i);
+    if (p_.PruneRatio > 0 && !fits_whole && !prune(child)) {
       child.length = 0;
     } else {
       child.radius = child_radius(stem, child.offset, child.length);

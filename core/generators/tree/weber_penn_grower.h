@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/generators/tree/leaf_frames.h"
+#include "core/generators/tree/weber_penn_bends.h"
 #include "core/generators/tree/weber_penn_brood.h"
 #include "core/generators/tree/weber_penn_twigs.h"
 
@@ -35,6 +36,8 @@ class WeberPennGrower {
   WeberPennGrower(const TreeParams& params, const Chances& chances, SkeletonWriter& writer)
       : p_(params), levels_(weber_penn_levels(params)), chances_(chances), writer_(writer) {
     const WeberPennLevel& last = level(params.Levels - 1);
+    bends_ahead_ = params.Levels > 1 && last.curve_res > 1 &&
+                   last.curve_res <= WeberPennBends::most_segments && !(last.seg_splits > 0) && !sways();
     has_twigs_ = last.curve_res == 1 && last.curve_v >= 0 && params.Leaves >= 0 &&
                  params.Leaves <= static_cast<int>(WeberPennTwigs::most_leaves);
   }
@@ -58,6 +61,7 @@ class WeberPennGrower {
   void begin(const WeberPennStem& stem);
   double radius_at(const WeberPennStem& stem, double z) const;
   bool sways() const { return p_.sway.wind != 0 || p_.sway.gust != 0; }
+  void bend_ahead();
   Frame turned(const WeberPennStem& stem, const Frame& frame, int segment) const;
   Frame swayed_at(const WeberPennStem& stem, const Frame& frame, int segment) const;
   int pieces(const WeberPennStem& stem) const;
@@ -99,6 +103,7 @@ class WeberPennGrower {
   SkeletonWriter& writer_;
   std::vector<WeberPennStem> waiting_;
   double scale_ = 0, trunk_length_ = 0;
+  bool bends_ahead_ = false;         ///< last stems bend, and neither split nor sway
   bool has_twigs_ = false;           ///< last stems are straight, and bear not too many leaves
   LeafFrames leaf_frames_;           ///< that are waited for
   std::vector<Frame> trial_frames_;  ///< of a stem that is pruned, segment by segment
@@ -112,6 +117,8 @@ class WeberPennGrower {
   std::vector<double> places_;                    ///< room for those of children or leaves on a piece
   WeberPennBrood brood_;                          ///< the last of its children, not yet settled
   WeberPennTwigs twigs_;
+  WeberPennBends bends_;              ///< of stems that wait, which grow one after the other
+  std::size_t next_bend_ = 0;         ///< of the stem that grows, if it is one of these
   std::vector<std::uint64_t> drawn_;  ///< room for whether leaves there are drawn
   std::vector<double> stops_;         ///< of a piece
   struct Stop {
