@@ -47,6 +47,9 @@ class WeberPennGrower {
  private:
   /// Stems that wait one after the other, and what grows from them.
   struct Part;
+  struct Plan;
+  void plan_parts(const WeberPennGrower& from, std::size_t most, Plan& plan) const;
+  static void join_steps(Plan& plan, std::size_t stems);
   void grow_all();
   bool grow_parts();
   const WeberPennLevel& level(int n) const { return levels_[static_cast<std::size_t>(std::min(n, 3))]; }
