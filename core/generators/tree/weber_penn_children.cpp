@@ -224,9 +224,9 @@ void WeberPennGrower::grow_twigs() {
     for (; drawn != 0; drawn &= drawn - 1) {
       const auto leaf = static_cast<std::size_t>(std::countr_zero(drawn));
       const double offset = twigs_.place(i, leaf);
-      leaf_frames_.add(
-          frame, stem.position + stem.frame.heading * offset, stem.joint,
-          {about_stem(l, static_cast<int>(leaf)), down_at(stem, offset), twigs_.leaf_key(i, leaf)});
+      const double down = l.down_angle_v >= 0 ? l.down_angle : down_at(stem, offset);
+      leaf_frames_.add(frame, stem.position + stem.frame.heading * offset, stem.joint,
+                       {about_stem(l, static_cast<int>(leaf)), down, twigs_.leaf_key(i, leaf)});
       if (leaf_frames_.is_full()) write_leaves();
     }
   }
