@@ -53,9 +53,10 @@ SkeletonWriter::SkeletonWriter(Skeleton& skeleton, Job& job, double density)
 SkeletonWriter::SkeletonWriter(Skeleton& part, const SkeletonWriter& whole, std::size_t most)
     : SkeletonWriter(part, whole.job_, whole.density_) {
   is_part_ = true;
+  whole_ = &whole;
   least_radius_ = whole.least_radius_;
   marks_every_foot_ = whole.marks_every_foot_;
-  first_ = static_cast<std::uint32_t>(whole.limbs_.size());
+  first_ = whole.first_ + static_cast<std::uint32_t>(whole.limbs_.size());
   end_after(most, most);
 }
 
@@ -70,38 +71,45 @@ std::size_t SkeletonWriter::most_of_parts(std::size_t parts) const {
   return static_cast<std::size_t>(std::min(most_of_a_part, left / (2 * std::max<std::size_t>(parts, 1))));
 }
 
-void SkeletonWriter::take(std::span<const SkeletonWriter* const> parts) {
-  struct Place {
-    std::size_t joint, leaf;
-  };
-  std::vector<Place> places;
-  Place end{limbs_.size(), organs_.organ.size()};
-  for (const SkeletonWriter* part : parts) {
+void SkeletonWriter::take(std::span<SkeletonWriter* const> parts) {
+  std::vector<std::size_t> leaves;
+  std::size_t last_joint = limbs_.size(), last_leaf = organs_.organ.size();
+  for (SkeletonWriter* part : parts) {
     spend(modules_, part->joints());
     spend(shapes_, part->leaves_);
     leaves_ += part->leaves_;
     passed_ += part->passed_;
     passed_box_ = {glm::min(passed_box_.min, part->passed_box_.min),
                    glm::max(passed_box_.max, part->passed_box_.max)};
-    places.push_back(end);
-    end = {end.joint + part->limbs_.size(), end.leaf + part->organs_.organ.size()};
+    part->place_ = static_cast<std::uint32_t>(last_joint);
+    leaves.push_back(last_leaf);
+    last_joint += part->limbs_.size();
+    last_leaf += part->organs_.organ.size();
   }
-  limbs_.position.resize(end.joint);
-  limbs_.radius.resize(end.joint);
-  limbs_.base_radius.resize(end.joint);
-  limbs_.parent.resize(end.joint);
-  limbs_.starts_limb.resize(end.joint);
-  limbs_.color.resize(end.joint);
-  limbs_.order.resize(end.joint);
-  limbs_.key.resize(end.joint);
-  organs_.organ.resize(end.leaf);
-  parallel_for(job_, parts.size(), 1, [&](std::size_t, std::size_t, std::size_t i) {
-    copy(*parts[i], places[i].joint, places[i].leaf);
-  });
+  limbs_.position.resize(last_joint);
+  limbs_.radius.resize(last_joint);
+  limbs_.base_radius.resize(last_joint);
+  limbs_.parent.resize(last_joint);
+  limbs_.starts_limb.resize(last_joint);
+  limbs_.color.resize(last_joint);
+  limbs_.order.resize(last_joint);
+  limbs_.key.resize(last_joint);
+  organs_.organ.resize(last_leaf);
+  parallel_for(job_, parts.size(), 1,
+               [&](std::size_t, std::size_t, std::size_t i) { copy(*parts[i], leaves[i]); });
 }
 
-/// To the places from `joint` and `leaf` on.
-void SkeletonWriter::copy(const SkeletonWriter& part, std::size_t joint, std::size_t leaf) {
+/// The number that a joint of a part, or of what it hangs on, has where all were taken.
+std::uint32_t SkeletonWriter::taken(std::uint32_t joint) const {
+  if (joint == Limbs::none) return joint;
+  const SkeletonWriter* writer = this;
+  while (writer->is_part_ && joint < writer->first_) writer = writer->whole_;
+  return writer->is_part_ ? joint - writer->first_ + writer->place_ : joint;
+}
+
+/// Leaves to the places from `leaf` on.
+void SkeletonWriter::copy(const SkeletonWriter& part, std::size_t leaf) {
+  const std::size_t joint = part.place_;
   copy_all(part.limbs_.position, limbs_.position, joint);
   copy_all(part.limbs_.radius, limbs_.radius, joint);
   copy_all(part.limbs_.base_radius, limbs_.base_radius, joint);
@@ -109,16 +117,12 @@ void SkeletonWriter::copy(const SkeletonWriter& part, std::size_t joint, std::si
   copy_all(part.limbs_.color, limbs_.color, joint);
   copy_all(part.limbs_.order, limbs_.order, joint);
   copy_all(part.limbs_.key, limbs_.key, joint);
-  const std::uint32_t by = static_cast<std::uint32_t>(joint) - part.first_;
-  const auto moved = [&](std::uint32_t number) {
-    return number == Limbs::none || number < part.first_ ? number : number + by;
-  };
   for (std::size_t i = 0; i < part.limbs_.size(); ++i)
-    limbs_.parent[joint + i] = moved(part.limbs_.parent[i]);
+    limbs_.parent[joint + i] = part.taken(part.limbs_.parent[i]);
   for (std::size_t i = 0; i < part.organs_.organ.size(); ++i) {
     Organ& organ = organs_.organ[leaf + i];
     organ = part.organs_.organ[i];
-    organ.limb_joint = moved(organ.limb_joint);
+    organ.limb_joint = part.taken(organ.limb_joint);
   }
 }
 

@@ -87,11 +87,12 @@ class SkeletonWriter {
   /// Several write at once, each a part that begins behind what is written here. `most`: joints and leaves of
   /// one, so many that `parts` of them meet no limit of the request; 0: there is no room for that.
   std::size_t most_of_parts(std::size_t parts) const;
-  /// Writes to `part`, numbering joints as if they came next after those of `whole`; throws Enough beyond
-  /// `most` joints or leaves. Nothing is spent before the part is taken.
+  /// Writes to `part`, numbering joints as if they came next after those of `whole`, which may be a part
+  /// itself and lives as long; throws Enough beyond `most` joints or leaves. Nothing is spent before the part
+  /// is taken.
   SkeletonWriter(Skeleton& part, const SkeletonWriter& whole, std::size_t most);
-  /// Appends what `parts` have written, on all threads.
-  void take(std::span<const SkeletonWriter* const> parts);
+  /// Appends what `parts` have written, on all threads; none hangs on one behind it.
+  void take(std::span<SkeletonWriter* const> parts);
 
   struct Joint {
     std::uint32_t parent = Limbs::none;
@@ -161,7 +162,8 @@ class SkeletonWriter {
   /// Of all, those that were passed over too.
   std::size_t joints() const { return limbs_.size() + passed_; }
   void write(const Joint& joint);
-  void copy(const SkeletonWriter& part, std::size_t joint, std::size_t leaf);
+  void copy(const SkeletonWriter& part, std::size_t leaf);
+  std::uint32_t taken(std::uint32_t joint) const;
 
   Limbs& limbs_;
   Organs& organs_;
@@ -178,6 +180,8 @@ class SkeletonWriter {
                   glm::vec3(std::numeric_limits<float>::lowest())};
   bool is_part_ = false;
   std::uint32_t first_ = 0;  ///< number of a part's first joint
+  std::uint32_t place_ = 0;  ///< its number where the part was taken
+  const SkeletonWriter* whole_ = nullptr;
 };
 
 }  // namespace seedmesh::tree

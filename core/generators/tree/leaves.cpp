@@ -146,16 +146,11 @@ void fit_leaves(Organs& organs, const TreeParams& params, const Mesh& leaf, cons
   const bool is_round = build == TreeBuild::cross || build == TreeBuild::bunch;
   const double density = drawn_leaves(params);
   const auto size = static_cast<float>(params.leaf.size / std::sqrt(std::max(density, 1e-3)));
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < organs.organ.size(); ++i) {
-    if (i % 4096 == 0) job.check();
-    if (!is_drawn(organs.organ[i].key, density)) continue;
-    if (kept < i) organs.organ[kept] = organs.organ[i];
-    glm::vec3& scale = organs.organ[kept++].scale;
-    const float width = scale.x * size / across, length = scale.y * size;
-    scale = {width, length, is_round ? width : length};
+  job.check();
+  for (Organ& organ : organs.organ) {
+    const float width = organ.scale.x * size / across, length = organ.scale.y * size;
+    organ.scale = {width, length, is_round ? width : length};
   }
-  organs.organ.resize(kept);
 }
 
 std::vector<Foliage> finest_leaves(const Leaves& leaves, Job& job) {

@@ -18,7 +18,7 @@ struct LeafMotion {
 /// The mesh of one leaf, 1 long.
 Mesh leaf_of(const TreeParams& params, int level, const Job& job);
 
-/// Leaves only those that are drawn, and gives them the size of the mesh of one, `leaf`.
+/// Gives leaves, as they were grown, the size of the mesh of one, `leaf`.
 void fit_leaves(Organs& organs, const TreeParams& params, const Mesh& leaf, const Job& job);
 
 /// Leaves that were fitted; `model_size` is the diagonal of the tree, `leaf` one of the finest level.

@@ -13,6 +13,8 @@ namespace {
 
 // Fewer stems that wait are not worth another thread.
 constexpr std::size_t least_stems = 8, parts_a_thread = 4;
+// Trunks that split off are grown ahead, for one may bear half the tree; not more of them.
+constexpr std::size_t most_trunks = 16;
 // Of the children that stems bear at most, what they bear on the whole, and room for chance.
 constexpr double usual_share = 0.7;
 
@@ -38,17 +40,23 @@ void WeberPennGrower::expect(double share) {
 
 void WeberPennGrower::grow_all() {
   while (!waiting_.empty()) {
+    if (is_twig(waiting_.back())) {
+      grow_twigs();
+      continue;
+    }
+    if (bends_ahead_ && next_bend_ == bends_.size() && is_last(waiting_.back())) bend_ahead();
     WeberPennStem stem = waiting_.back();
     waiting_.pop_back();
     grow(stem);
+    if (next_bend_ < bends_.size()) ++next_bend_;
   }
   write_leaves();
 }
 
 struct WeberPennGrower::Part {
-  Part(const WeberPennGrower& whole, std::size_t most)
+  Part(const WeberPennGrower& whole, const SkeletonWriter& base, std::size_t most)
       : skeleton(whole.writer_.job()),
-        writer(skeleton, whole.writer_, most),
+        writer(skeleton, base, most),
         grower(whole.p_, whole.chances_, writer) {
     grower.scale_ = whole.scale_;
     grower.trunk_length_ = whole.trunk_length_;
@@ -58,31 +66,82 @@ struct WeberPennGrower::Part {
   WeberPennGrower grower;
 };
 
+/// In the order in which they are written.
+struct WeberPennGrower::Plan {
+  /// A trunk that is grown, or else stems that wait at a grower and hang on what it wrote.
+  struct Step {
+    std::unique_ptr<Part> part;
+    const WeberPennGrower* from = nullptr;
+    std::size_t begin = 0, end = 0;
+  };
+  std::vector<Step> steps;
+  std::size_t trunks = 0, stems = 0;
+};
+
+/// What waits at `from`, the last first; trunks are grown, and what waits at them comes next.
+void WeberPennGrower::plan_parts(const WeberPennGrower& from, std::size_t most, Plan& plan) const {
+  for (std::size_t end = from.waiting_.size(); end > 0; --end) {
+    if (from.waiting_[end - 1].level > 0 || plan.trunks == most_trunks) {
+      plan.steps.push_back({nullptr, &from, end - 1, end});
+      ++plan.stems;
+      continue;
+    }
+    ++plan.trunks;
+    auto part = std::make_unique<Part>(*this, from.writer_, most);
+    WeberPennStem trunk = from.waiting_[end - 1];
+    part->grower.grow(trunk);
+    part->grower.write_leaves();
+    const WeberPennGrower& grower = part->grower;
+    plan.steps.push_back({std::move(part), nullptr, 0, 0});
+    plan_parts(grower, most, plan);
+  }
+}
+
+/// Joins stems that wait at one grower, up to so many.
+void WeberPennGrower::join_steps(Plan& plan, std::size_t stems) {
+  std::vector<Plan::Step> joined;
+  for (Plan::Step& step : plan.steps) {
+    const bool goes_on = !joined.empty() && step.from && joined.back().from == step.from &&
+                         joined.back().begin == step.end && joined.back().end - step.begin <= stems;
+    if (goes_on) {
+      joined.back().begin = step.begin;
+    } else {
+      joined.push_back(std::move(step));
+    }
+  }
+  plan.steps = std::move(joined);
+}
+
 /// What waits, on all threads; false: nothing is grown. No stem knows of another that waits, and what is
 /// drawn by chance is drawn by place, so that the result is that of one thread.
 bool WeberPennGrower::grow_parts() {
   const Job& job = writer_.job();
   if (!has_threads(job) || waiting_.size() < least_stems) return false;
   const std::size_t wanted = parts_a_thread * static_cast<std::size_t>(job.threads());
-  const std::size_t stems = std::max<std::size_t>(1, waiting_.size() / wanted);
-  const std::size_t count = chunk_count(waiting_.size(), stems), most = writer_.most_of_parts(count);
-  if (most == 0) return false;
+  const std::size_t most_of_trunk = writer_.most_of_parts(wanted + most_trunks);
+  if (most_of_trunk == 0) return false;
   write_leaves();
-  std::vector<std::unique_ptr<Part>> parts(count);
+  Plan plan;
   try {
-    parallel_for(job, waiting_.size(), stems, [&](std::size_t begin, std::size_t end, std::size_t index) {
-      auto part = std::make_unique<Part>(*this, most);
-      part->grower.waiting_.assign(waiting_.begin() + static_cast<std::ptrdiff_t>(begin),
-                                   waiting_.begin() + static_cast<std::ptrdiff_t>(end));
-      part->grower.expect(1.0 / static_cast<double>(count));
+    plan_parts(*this, most_of_trunk, plan);
+    join_steps(plan, std::max<std::size_t>(1, plan.stems / wanted));
+    std::vector<Plan::Step>& steps = plan.steps;
+    const std::size_t most = writer_.most_of_parts(steps.size());
+    parallel_for(job, steps.size(), 1, [&](std::size_t, std::size_t, std::size_t i) {
+      if (steps[i].part) return;
+      const WeberPennGrower& from = *steps[i].from;
+      auto part = std::make_unique<Part>(*this, from.writer_, most);
+      part->grower.waiting_.assign(from.waiting_.begin() + static_cast<std::ptrdiff_t>(steps[i].begin),
+                                   from.waiting_.begin() + static_cast<std::ptrdiff_t>(steps[i].end));
+      part->grower.expect(1.0 / static_cast<double>(steps.size()));
       part->grower.grow_all();
-      parts[index] = std::move(part);
+      steps[i].part = std::move(part);
     });
   } catch (const SkeletonWriter::Enough&) {
     return false;  // so large that it may meet a limit
   }
-  std::vector<const SkeletonWriter*> written;
-  for (std::size_t i = count; i-- > 0;) written.push_back(&parts[i]->writer);  // the last first, as they wait
+  std::vector<SkeletonWriter*> written;
+  for (Plan::Step& step : plan.steps) written.push_back(&step.part->writer);
   writer_.take(written);
   return true;
 }
@@ -187,12 +246,13 @@ void WeberPennGrower::grow(WeberPennStem& stem) {
   glm::dvec3 at = stem.position;
   for (int segment = stem.segment; segment < segments; ++segment) {
     if (segment > stem.segment) {
-      frame = turned(stem, frame, segment);
+      frame = next_bend_ < bends_.size() ? bends_.frame(next_bend_, segment) : turned(stem, frame, segment);
       if (sways()) frame = swayed_at(stem, frame, segment);
     }
     walk_segment(stem, frame, segment, at);
     if (segment + 1 < segments && may_split(stem)) split(stem, frame, at, segment, last_joint_);
   }
+  settle(stem);
   if (is_last(stem) && p_.Leaves < 0) put_fan(stem, frame, at);
   waiting_.insert(waiting_.begin() + static_cast<std::ptrdiff_t>(first_child_), clones_.begin(),
                   clones_.end());

@@ -1,7 +1,7 @@
 #pragma once
-/// The children on a straight piece of a stem, many reckoned at once. About 10 ns a child.
+/// The children of a stem, many reckoned at once. About 10 ns a child.
 #include <cstddef>
-#include <span>
+#include <cstdint>
 
 #include "core/generators/tree/weber_penn_shape.h"
 
@@ -22,12 +22,33 @@ inline double about_stem(const WeberPennLevel& level, int number) {
 
 class WeberPennBrood {
  public:
-  static constexpr std::size_t most = 32;
+  static constexpr std::size_t most = 64;
 
-  /// Up to `most` children from number `first` on, whose chance is chance.at(number), of a level that is
-  /// `level`; `down`: how many degrees each leaves the stem, by chance apart.
-  void reckon(const WeberPennPiece& piece, const WeberPennLevel& level, const Rng& chance, int first,
-              std::span<const double> down);
+  std::size_t size() const { return size_; }
+  bool is_full() const { return size_ == most; }
+  void clear() { size_ = 0; }
+  /// Child `number` of a stem whose frame there is `stem`; `down`: how many degrees it leaves the stem, by
+  /// chance apart.
+  void add(const Frame& stem, int number, double down) {
+    for (int axis = 0; axis < 3; ++axis) {
+      stem_[axis][size_] = stem.heading[axis];
+      stem_[3 + axis][size_] = stem.left[axis];
+      stem_[6 + axis][size_] = stem.up[axis];
+    }
+    number_[size_] = number;
+    down_[size_++] = down;
+  }
+  /// All that were added, whose chance is chance.at(number), of a level that is `level`.
+  void reckon(const WeberPennLevel& level, const Rng& chance);
+
+  /// Which of them, straight and of such lengths, end within the envelope of a tree that is `scale` high, as
+  /// far as its bounds tell at once. is_in_envelope() says the same of these.
+  void find_inside(const TreeParams& params, double scale);
+  void place(std::size_t i, const glm::dvec3& position, double length) {
+    for (int axis = 0; axis < 3; ++axis) position_[axis][i] = position[axis];
+    length_[i] = length;
+  }
+  bool is_inside(std::size_t i) const { return inside_[i] != 0; }
 
   Rng chance(std::size_t i) const { return Rng(key_[i]); }
   Frame frame(std::size_t i) const {
@@ -39,8 +60,11 @@ class WeberPennBrood {
   double carried_splits(std::size_t i) const { return splits_[i]; }
 
  private:
-  std::uint64_t key_[most];
-  double down_[most] = {}, axis_[9][most], splits_[most];
+  std::size_t size_ = 0;
+  std::int32_t number_[most] = {};
+  std::uint64_t key_[most], inside_[most];
+  double position_[3][most] = {}, length_[most] = {};
+  double stem_[9][most] = {}, down_[most] = {}, axis_[9][most], splits_[most];
 };
 
 }  // namespace seedmesh::tree

@@ -1,3 +1,4 @@
+#include <bit>
 #include <cmath>
 
 #include "core/base/wide.h"
@@ -73,25 +74,28 @@ WeberPennGrower::Places WeberPennGrower::find_places(WeberPennStem& stem, const 
 
 void WeberPennGrower::put_children(WeberPennStem& stem, const WeberPennPiece& piece) {
   const auto [first, places] = find_places(stem, piece);
-  std::array<double, WeberPennBrood::most> down;
-  for (std::size_t done = 0; done < places.size(); done += down.size()) {
-    const auto offsets = places.subspan(done, std::min(down.size(), places.size() - done));
-    for (std::size_t i = 0; i < offsets.size(); ++i) down[i] = down_at(stem, offsets[i]);
-    brood_.reckon(piece, level(stem.level + 1), child_chance_, first + static_cast<int>(done),
-                  std::span(down.data(), offsets.size()));
-    for (std::size_t i = 0; i < offsets.size(); ++i) {
-      if (bear(stem, piece, offsets[i], i) && marks_feet_) stops_.push_back(offsets[i]);
-    }
+  // Whether anything is left of a child is known when it is settled.
+  const bool may_vanish = p_.PruneRatio > 0;
+  const std::size_t before = waiting_.size();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double offset = places[i], length = child_length(stem, offset);
+    if (!(length > 0)) continue;
+    if (brood_.is_full()) settle(stem);
+    bear(stem, piece, offset, length);
+    brood_.add(piece.frame, first + static_cast<int>(i), down_at(stem, offset));
+    if (marks_feet_ && !may_vanish) stops_.push_back(offset);
+  }
+  if (!marks_feet_ || !may_vanish) return;
+  settle(stem);
+  for (std::size_t i = before; i < waiting_.size(); ++i) {
+    if (waiting_[i].length > 0) stops_.push_back(waiting_[i].offset);
   }
 }
 
-/// False: there is nothing of it.
-bool WeberPennGrower::bear(const WeberPennStem& stem, const WeberPennPiece& piece, double offset,
-                           std::size_t in_brood) {
-  const double length = child_length(stem, offset);
-  if (!(length > 0)) return false;
+/// A child that waits, as far as it is known before it is settled.
+void WeberPennGrower::bear(const WeberPennStem& stem, const WeberPennPiece& piece, double offset,
+                           double length) {
   WeberPennStem& child = waiting_.emplace_back();
-  child.frame = brood_.frame(in_brood);
   child.position = piece.at(offset);
   child.joint = last_joint_;
   child.level = stem.level + 1;
@@ -99,14 +103,32 @@ bool WeberPennGrower::bear(const WeberPennStem& stem, const WeberPennPiece& piec
   child.offset = offset;
   child.parent_length = stem.length;
   child.parent_length_max = child_max_;
-  child.rng = brood_.chance(in_brood);
-  child.carried_splits = brood_.carried_splits(in_brood);
-  if (p_.PruneRatio > 0 && !prune(child)) {
-    waiting_.pop_back();
-    return false;
+}
+
+/// Where the last children head, and how large they are; 0 in length: there is nothing of it.
+void WeberPennGrower::settle(const WeberPennStem& stem) {
+  if (brood_.size() == 0) return;
+  brood_.reckon(level(stem.level + 1), child_chance_);
+  WeberPennStem* const children = waiting_.data() + (waiting_.size() - brood_.size());
+  const bool is_straight = p_.PruneRatio > 0 && level(stem.level + 1).curve_res == 1;
+  if (is_straight) {
+    for (std::size_t i = 0; i < brood_.size(); ++i) brood_.place(i, children[i].position, children[i].length);
+    brood_.find_inside(p_, scale_);
   }
-  child.radius = child_radius(stem, offset, child.length);
-  return true;
+  for (std::size_t i = 0; i < brood_.size(); ++i) {
+    WeberPennStem& child = children[i];
+    child.frame = brood_.frame(i);
+    child.rng = brood_.chance(i);
+    child.carried_splits = brood_.carried_splits(i);
+    // One that stays within the envelope as it is need not be tried.
+    const bool fits_whole = is_straight && brood_.is_inside(i);
+    if (p_.PruneRatio > 0 && !fits_whole && !prune(child)) {
+      child.length = 0;
+    } else {
+      child.radius = child_radius(stem, child.offset, child.length);
+    }
+  }
+  brood_.clear();
 }
 
 double WeberPennGrower::child_length(const WeberPennStem& stem, double offset) const {
@@ -116,13 +138,13 @@ double WeberPennGrower::child_length(const WeberPennStem& stem, double offset) c
 }
 
 double WeberPennGrower::child_radius(const WeberPennStem& stem, double offset, double length) const {
-  const double ratio = std::max(0.0, length / stem.length), most = radius_at(stem, offset / stem.length);
+  const double ratio = std::max(0.0, length / stem.length);
   if (ratio <= 1 && p_.RatioPower >= 1 && !sways()) {
     // The power is less than the ratio: nobody looks at how thin a stem is that is thinner than all others.
-    const double bound = std::min(most, stem.radius * ratio * (1 + 1e-9));
+    const double bound = stem.radius * ratio * (1 + 1e-9);
     if (writer_.leaves_out(bound)) return bound;
   }
-  return std::min(most, stem.radius * power(ratio, p_.RatioPower));
+  return std::min(radius_at(stem, offset / stem.length), stem.radius * power(ratio, p_.RatioPower));
 }
 
 /// Shortens a stem to what stays within the envelope, as far as PruneRatio wants. False: nothing is left.
@@ -173,6 +195,40 @@ void WeberPennGrower::put_leaves(WeberPennStem& stem, const WeberPennPiece& piec
         frame, piece.at(offset), joints_[stop].joint,
         {about_stem(l, number), down, leaf_chance_.at(static_cast<std::uint64_t>(number)).key()});
     if (leaf_frames_.is_full()) write_leaves();
+  }
+}
+
+/// Last stems that are straight, and of which there is nothing but leaves.
+bool WeberPennGrower::is_twig(const WeberPennStem& stem) const {
+  return has_twigs_ && is_last(stem) && stem.level > 0 && writer_.leaves_out(stem.radius);
+}
+
+/// What walk_segment() makes of those twigs that wait before all other stems, several at once.
+void WeberPennGrower::grow_twigs() {
+  const WeberPennLevel& l = level(p_.Levels);
+  twigs_.clear();
+  for (std::size_t i = waiting_.size(); i-- > 0 && !twigs_.is_full() && is_twig(waiting_[i]);) {
+    const WeberPennStem& stem = waiting_[i];
+    twigs_.add(std::max(0.0, stem.length), stem.parent_length > 0 ? stem.offset / stem.parent_length : 0,
+               stem.rng.key());
+  }
+  twigs_.find_leaves(chances_.leaves, p_.Leaves, writer_.drawn_below());
+  for (std::size_t i = 0; i < twigs_.size(); ++i, waiting_.pop_back()) {
+    const WeberPennStem& stem = waiting_.back();
+    if (!(stem.length > 0)) continue;
+    writer_.pass_over(stem.position + stem.frame.heading * stem.length);
+    if (twigs_.count(i) > 0) writer_.count_leaves(twigs_.count(i));
+    std::uint64_t drawn = twigs_.drawn(i);
+    if (drawn == 0) continue;
+    const glm::quat frame = quaternion(stem.frame);
+    for (; drawn != 0; drawn &= drawn - 1) {
+      const auto leaf = static_cast<std::size_t>(std::countr_zero(drawn));
+      const double offset = twigs_.place(i, leaf);
+      const double down = l.down_angle_v >= 0 ? l.down_angle : down_at(stem, offset);
+      leaf_frames_.add(frame, stem.position + stem.frame.heading * offset, stem.joint,
+                       {about_stem(l, static_cast<int>(leaf)), down, twigs_.leaf_key(i, leaf)});
+      if (leaf_frames_.is_full()) write_leaves();
+    }
   }
 }
 

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "core/generators/tree/leaf_frames.h"
+#include "core/generators/tree/weber_penn_bends.h"
 #include "core/generators/tree/weber_penn_brood.h"
+#include "core/generators/tree/weber_penn_twigs.h"
 
 namespace seedmesh::tree {
 
@@ -32,13 +34,22 @@ struct WeberPennStem {
 class WeberPennGrower {
  public:
   WeberPennGrower(const TreeParams& params, const Chances& chances, SkeletonWriter& writer)
-      : p_(params), levels_(weber_penn_levels(params)), chances_(chances), writer_(writer) {}
+      : p_(params), levels_(weber_penn_levels(params)), chances_(chances), writer_(writer) {
+    const WeberPennLevel& last = level(params.Levels - 1);
+    bends_ahead_ = params.Levels > 1 && last.curve_res > 1 &&
+                   last.curve_res <= WeberPennBends::most_segments && !(last.seg_splits > 0) && !sways();
+    has_twigs_ = last.curve_res == 1 && last.curve_v >= 0 && params.Leaves >= 0 &&
+                 params.Leaves <= static_cast<int>(WeberPennTwigs::most_leaves);
+  }
 
   void run();
 
  private:
   /// Stems that wait one after the other, and what grows from them.
   struct Part;
+  struct Plan;
+  void plan_parts(const WeberPennGrower& from, std::size_t most, Plan& plan) const;
+  static void join_steps(Plan& plan, std::size_t stems);
   void grow_all();
   bool grow_parts();
   const WeberPennLevel& level(int n) const { return levels_[static_cast<std::size_t>(std::min(n, 3))]; }
@@ -53,6 +64,7 @@ class WeberPennGrower {
   void begin(const WeberPennStem& stem);
   double radius_at(const WeberPennStem& stem, double z) const;
   bool sways() const { return p_.sway.wind != 0 || p_.sway.gust != 0; }
+  void bend_ahead();
   Frame turned(const WeberPennStem& stem, const Frame& frame, int segment) const;
   Frame swayed_at(const WeberPennStem& stem, const Frame& frame, int segment) const;
   int pieces(const WeberPennStem& stem) const;
@@ -76,13 +88,16 @@ class WeberPennGrower {
   Places find_places(WeberPennStem& stem, const WeberPennPiece& piece);
   double down_at(const WeberPennStem& stem, double offset) const;
   void put_children(WeberPennStem& stem, const WeberPennPiece& piece);
-  bool bear(const WeberPennStem& stem, const WeberPennPiece& piece, double offset, std::size_t in_brood);
+  void bear(const WeberPennStem& stem, const WeberPennPiece& piece, double offset, double length);
+  void settle(const WeberPennStem& stem);
   double child_length(const WeberPennStem& stem, double offset) const;
   double child_radius(const WeberPennStem& stem, double offset, double length) const;
   bool prune(WeberPennStem& child);
   bool fits(const WeberPennStem& stem, double length);
   void put_leaves(WeberPennStem& stem, const WeberPennPiece& piece);
   void put_fan(const WeberPennStem& stem, const Frame& frame, const glm::dvec3& at);
+  bool is_twig(const WeberPennStem& stem) const;
+  void grow_twigs();
   void write_leaves();
 
   const TreeParams& p_;
@@ -91,6 +106,8 @@ class WeberPennGrower {
   SkeletonWriter& writer_;
   std::vector<WeberPennStem> waiting_;
   double scale_ = 0, trunk_length_ = 0;
+  bool bends_ahead_ = false;         ///< last stems bend, and neither split nor sway
+  bool has_twigs_ = false;           ///< last stems are straight, and bear not too many leaves
   LeafFrames leaf_frames_;           ///< that are waited for
   std::vector<Frame> trial_frames_;  ///< of a stem that is pruned, segment by segment
   // Of the stem that grows.
@@ -101,9 +118,12 @@ class WeberPennGrower {
   std::vector<WeberPennStem> clones_;
   std::size_t first_child_ = 0, next_child_ = 0;  ///< of those that wait; whose joint is not there yet
   std::vector<double> places_;                    ///< room for those of children or leaves on a piece
-  WeberPennBrood brood_;                          ///< children at some of these
-  std::vector<std::uint64_t> drawn_;              ///< room for whether leaves there are drawn
-  std::vector<double> stops_;                     ///< of a piece
+  WeberPennBrood brood_;                          ///< the last of its children, not yet settled
+  WeberPennTwigs twigs_;
+  WeberPennBends bends_;              ///< of stems that wait, which grow one after the other
+  std::size_t next_bend_ = 0;         ///< of the stem that grows, if it is one of these
+  std::vector<std::uint64_t> drawn_;  ///< room for whether leaves there are drawn
+  std::vector<double> stops_;         ///< of a piece
   struct Stop {
     double at;
     std::uint32_t joint;

@@ -134,7 +134,7 @@ struct PowerBounds {
 PowerBounds bounds_of_power(double base, double power) {
   PowerBounds bounds;
   if (power > 1 || base <= 0) return bounds;
-  bounds.low = (1 - 1e-9) / (1 + power * (1 / base - 1));
+  bounds.low = least_power(base, power);
   bounds.high = (1 + 1e-9) * (1 - power * (1 - base));
   return bounds;
 }

@@ -37,6 +37,9 @@ double flared(double flare, double z);
 /// By Flare and trunk_flare: at the ground the product of both factors, as one flare.
 double flared_trunk(const TreeParams& params, double z);
 
+/// Bernoulli's bound: base^power is more, for a base in 0 .. 1 and a power up to 1. A little less than it is.
+inline double least_power(double base, double power) { return (1 - 1e-9) / (1 + power * (1 / base - 1)); }
+
 /// True where a point lies within the envelope; `aside` from the axis and `height` above the ground of a tree
 /// that is `scale` high.
 bool is_in_envelope(const TreeParams& params, double scale, double aside, double height);

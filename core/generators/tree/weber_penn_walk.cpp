@@ -14,19 +14,6 @@ constexpr double flare_stations[] = {0.0, 1.0 / 128, 1.0 / 48, 1.0 / 24, 1.0 / 1
 // A flare wider than this has more.
 constexpr double wide_flare = 1.25;
 constexpr double wide_flare_stations[] = {1.0 / 256, 1.0 / 72, 1.0 / 32, 1.0 / 16, 5.0 / 48};
-/// The inverse cosine, within 3e-8: what it turns by a stem is a share of it. After M. Abramowitz and I.
-/// Stegun, Handbook of Mathematical Functions, 1964, 4.4.46.
-double rough_acos(double x) {
-  const double a = std::abs(x);
-  const double angle =
-      std::sqrt(1 - a) *
-      (1.5707963050 +
-       a * (-0.2145988016 +
-            a * (0.0889789874 +
-                 a * (-0.0501743046 +
-                      a * (0.0308918810 + a * (-0.0170881256 + a * (0.0066700901 + a * -0.0012624911)))))));
-  return x < 0 ? math::pi - angle : angle;
-}
 
 std::uint64_t number_of(double x) { return static_cast<std::uint64_t>(math::to_int64(x)); }
 
@@ -41,19 +28,22 @@ double WeberPennGrower::radius_at(const WeberPennStem& stem, double z) const {
 /// The turn from one segment to the next.
 Frame WeberPennGrower::turned(const WeberPennStem& stem, const Frame& frame, int segment) const {
   const WeberPennLevel& l = level(stem.level);
-  double curve = l.curve / l.curve_res;
-  if (l.curve_back != 0 && l.curve_res > 1) {
-    curve = (2 * segment <= l.curve_res ? l.curve : l.curve_back) / (0.5 * l.curve_res);
-  }
+  double curve = curve_before(l, segment);
   if (l.curve_v > 0)
     curve += spread(stem.rng.at(place_of("curve")).at(static_cast<std::uint64_t>(segment)), l.curve_v) /
              l.curve_res;
   curve -= stem.uncurve;
-  if (stem.level >= 2 && p_.AttractionUp != 0) {
-    const double declination = rough_acos(std::clamp(frame.heading.y, -1.0, 1.0));
-    curve -= math::degrees(p_.AttractionUp * declination * std::clamp(frame.up.y, -1.0, 1.0)) / l.curve_res;
-  }
+  if (stem.level >= 2 && p_.AttractionUp != 0) curve -= lift(frame, p_.AttractionUp, l.curve_res);
   return pitch(frame, math::quick_sincos_degrees(std::clamp(curve, -170.0, 170.0)));
+}
+
+/// Of last stems that wait one behind the other, beginning with the next.
+void WeberPennGrower::bend_ahead() {
+  bends_.clear();
+  next_bend_ = 0;
+  for (std::size_t i = waiting_.size(); i-- > 0 && !bends_.is_full() && is_last(waiting_[i]);)
+    bends_.add(waiting_[i].frame, waiting_[i].rng.key());
+  bends_.reckon(level(p_.Levels - 1), p_.Levels > 2 ? p_.AttractionUp : 0);
 }
 
 /// In the wind. Stems are pruned in still air.

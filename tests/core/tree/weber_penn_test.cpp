@@ -79,9 +79,16 @@ Skeleton grown_by(int threads, const TreeParams& params, const Limits& limits, s
 
 TEST(WeberPenn, GrowsTheSameOnAnyNumberOfThreads) {
   TreeParams params;
-  for (const bool splits : {false, true}) {
-    params.seg_splits_0 = splits ? 0.6 : 0;
-    params.split_angle_0 = 20;
+  params.split_angle_0 = 20;
+  struct Trunk {
+    double splits;
+    int at_base, segments;
+  };
+  // One, some, some from the ground, and more than are grown ahead.
+  for (const Trunk& trunk : {Trunk{0, 0, 3}, Trunk{0.6, 0, 3}, Trunk{0.3, 2, 8}, Trunk{1, 1, 6}}) {
+    params.seg_splits_0 = trunk.splits;
+    params.base_splits = trunk.at_base;
+    params.curve_res_0 = trunk.segments;
     std::string refusal;
     const Skeleton one = grown_by(1, params, Limits{}, refusal);
     EXPECT_GT(one.limbs.size(), 3000U);
@@ -101,6 +108,32 @@ TEST(WeberPenn, GrowsTheSameOnAnyNumberOfThreads) {
                     a.limb_joint == b.limb_joint)
             << i;
       }
+    }
+  }
+}
+
+Skeleton grown_without(double radius, const TreeParams& params) {
+  Job job(7, Job::Options{});
+  Skeleton skeleton(job);
+  SkeletonWriter writer(skeleton, job, 0.5);
+  writer.leave_out_below(radius);
+  grow_weber_penn(params, Chances(params.seeds, 7), writer);
+  return skeleton;
+}
+
+TEST(WeberPenn, BearsTheSameLeavesWhereNobodyDrawsTheTwigs) {
+  TreeParams params;
+  params.curve_res_2 = 1;
+  for (const double prune : {0.0, 1.0}) {
+    params.PruneRatio = prune;
+    params.PruneWidth = 0.25;
+    const Skeleton all = grown_without(0, params), thick = grown_without(1, params);
+    EXPECT_GT(all.limbs.size(), 2 * thick.limbs.size());
+    ASSERT_EQ(all.organs.organ.size(), thick.organs.organ.size());
+    EXPECT_GT(all.organs.organ.size(), 1000U);
+    for (std::size_t i = 0; i < all.organs.organ.size(); ++i) {
+      const Organ &a = all.organs.organ[i], &b = thick.organs.organ[i];
+      ASSERT_TRUE(a.position == b.position && a.frame == b.frame && a.key == b.key) << i;
     }
   }
 }
