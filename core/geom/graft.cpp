@@ -210,6 +210,7 @@ void append_leftover(GraftWriter::Written& to, Leftover limbs, int sides, const 
       if (options.colors)
         std::fill_n(to.colors.extend(bark.mesh.index.size() / 3), bark.mesh.index.size() / 3, bark.color);
       append(to.mesh, bark.mesh);
+      to.mesh.tangent = {};  // for add_tangents(), which makes all
       add_twins(to.mesh, to.twin);
       if (!options.joints) continue;
       for (std::size_t i = 0; i < bark.mesh.position.size(); ++i)

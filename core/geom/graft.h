@@ -39,6 +39,9 @@ struct GraftOptions {
   /// circumference where it begins and at least once, and v keeps the picture's proportions as the limb grows
   /// thinner.
   bool wrap = false;
+  /// The mesh gets tangents along u, as add_tangents() would make them of the result; but none where limbs
+  /// are left to skin().
+  bool tangents = false;
   /// Where given, it gets for each vertex the joint at the far end of the internode that it moves with. The
   /// rim that two limbs share moves with the older one.
   Array<std::uint32_t>* joints = nullptr;

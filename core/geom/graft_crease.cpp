@@ -73,6 +73,7 @@ void GraftWriter::write_creases(const std::vector<Crease>& creases, Written& to)
       if (std::find(begin, end, before) == end) {  // nobody else stands there
         corner[k] = before;
         mesh.normal[before] = normal;
+        if (has_tangents()) lay_tangent(mesh, before);
         continue;
       }
       const auto same = std::find_if(made.begin(), made.end(), [&](const auto& each) {
@@ -87,6 +88,10 @@ void GraftWriter::write_creases(const std::vector<Crease>& creases, Written& to)
       mesh.position.push_back(mesh.position[before]);
       mesh.normal.push_back(normal);
       mesh.uv[0].push_back(mesh.uv[0][before]);
+      if (has_tangents()) {
+        mesh.tangent.push_back(mesh.tangent[before]);
+        lay_tangent(mesh, corner[k]);
+      }
       to.twin.push_back(1);
       if (context_.options.joints) to.joints.push_back(to.joints[before]);
     }

@@ -103,7 +103,9 @@ void GraftWriter::settle_ribs(std::size_t limb) {
     }
   }
   for (std::size_t i = 0; i < same.size(); ++i) {
-    if (group_[first + i] == none) mesh_.normal[first + i] = sum[same[i]] + 0.0F;
+    if (group_[first + i] != none) continue;
+    mesh_.normal[first + i] = sum[same[i]] + 0.0F;
+    if (has_tangents()) lay_tangent(mesh_, first + i);
   }
 }
 

@@ -144,6 +144,7 @@ void GraftWriter::take_vertices(const GraftWriter& part) {
       [&] {
         append(mesh_.position, vertices_, part.mesh_.position, count);
         append(mesh_.normal, vertices_, part.mesh_.normal, count);
+        if (has_tangents()) append(mesh_.tangent, vertices_, part.mesh_.tangent, count);
         append(mesh_.uv[0], vertices_, part.mesh_.uv[0], count);
       },
       [&] {

@@ -63,7 +63,23 @@ std::uint32_t GraftWriter::put_vertex(const glm::vec3& position, const glm::vec3
   group_[index] = group;
   twin_[index] = 0;
   if (context_.options.joints) joints_[index] = joint_;
+  if (!has_tangents()) return static_cast<std::uint32_t>(index);
+  // Round the limb; that of a loop's vertex waits for its normal.
+  mesh_.tangent[index] = {glm::cross(along_, position - on_axis_), -1};
+  if (group == none) lay_tangent(mesh_, index);
   return static_cast<std::uint32_t>(index);
+}
+
+/// At right angles to the normal, which may be new.
+void GraftWriter::lay_tangent(Mesh& mesh, std::size_t vertex) const {
+  glm::vec4& tangent = mesh.tangent[vertex];
+  const glm::vec3& normal = mesh.normal[vertex];
+  glm::vec3 way(tangent);
+  const float before = glm::dot(way, way);
+  way -= normal * glm::dot(way, normal);
+  constexpr float least = 1e-3F;
+  const bool is_found = before > 0 && glm::dot(way, way) > least * least * before;
+  tangent = {math::quick_unit(is_found ? way : any_aside(normal), {1, 0, 0}) + 0.0F, tangent.w};
 }
 
 /// u round the limb and v along it.
@@ -127,6 +143,7 @@ std::uint32_t GraftWriter::vertex_of(Mark& mark, const Plane& plane, bool is_bey
     const auto corner = static_cast<std::size_t>(mark.corner);
     made = put_vertex(ring_position_[corner], ring_normal_[corner],
                       {picture_width(plane.radius) * angle, plane.v_at}, none);
+    if (has_tangents()) mesh_.tangent[made] = ring_tangent_[corner];
   } else {
     const Circle& circle = common_->circles[static_cast<std::size_t>(sides_for(plane.radius))];
     made = ring_corner(plane, angle, turned_to_seam(circle.at(mark.corner)));
@@ -184,6 +201,15 @@ bool GraftWriter::write_ring_block(const Plane& plane, const Circle& circle, std
   const Four position{plane.centre.x + out.x * r, plane.centre.y + out.y * r, plane.centre.z + out.z * r};
   position.write(to.position + first);
   normal.write(to.normal + first);
+  if (!to.tangent) return true;
+  const Four way{v.x * along_u - u.x * along_v, v.y * along_u - u.y * along_v, v.z * along_u - u.z * along_v};
+  FourFloats rows[Four::size];
+  way.to_rows(rows);
+  for (std::size_t k = 0; k < Four::size; ++k) {
+    rows[k] += 0.0F;
+    rows[k][3] = -1;
+  }
+  std::memcpy(static_cast<void*>(to.tangent + first), rows, sizeof(rows));
   return true;
 }
 
@@ -202,12 +228,14 @@ void GraftWriter::plain_ring(const Plane& plane, Corners& out) {
   const int sides = sides_for(plane.radius);
   const auto count = static_cast<std::size_t>(sides) + 1;
   const float step = 2 * pi / static_cast<float>(sides);
+  stand_on(plane);
   make_room_for(count);
   out.resize(count);
   for (std::size_t i = 0; i < count; ++i)
     out[i] = {seam_ + step * static_cast<float>(i), static_cast<std::uint32_t>(vertices_ + i)};
-  if (!has_ribs() &&
-      write_ring(plane, sides, {mesh_.position.data() + vertices_, mesh_.normal.data() + vertices_})) {
+  if (!has_ribs() && write_ring(plane, sides,
+                                {mesh_.position.data() + vertices_, mesh_.normal.data() + vertices_,
+                                 has_tangents() ? mesh_.tangent.data() + vertices_ : nullptr})) {
     const float wide = picture_width(plane.radius), far = plane.v_at * context_.options.v_scale + 0.0F;
     for (std::size_t i = 0; i < count; ++i) mesh_.uv[0][vertices_ + i] = {wide * out[i].angle + 0.0F, far};
     std::fill_n(group_.data() + vertices_, count, none);
@@ -224,6 +252,7 @@ void GraftWriter::plain_ring(const Plane& plane, Corners& out) {
 
 /// A ring that others leave: `lower_` for the strip below, `upper_` for the one above, which differ there.
 void GraftWriter::open_ring(const Plane& plane, const Band& band) {
+  stand_on(plane);
   const int sides = sides_for(plane.radius);
   auto most = static_cast<std::size_t>(sides);
   for (std::uint32_t k = band.first; k != Opening::none; k = plan_.opening[k].next)
@@ -246,7 +275,10 @@ void GraftWriter::open_ring(const Plane& plane, const Band& band) {
   const std::size_t room = static_cast<std::size_t>(sides) + 1 + Four::size;
   ring_position_.resize(room);
   ring_normal_.resize(room);
-  is_ring_known_ = !has_ribs() && write_ring(plane, sides, {ring_position_.data(), ring_normal_.data()});
+  if (has_tangents()) ring_tangent_.resize(room);
+  is_ring_known_ = !has_ribs() && write_ring(plane, sides,
+                                             {ring_position_.data(), ring_normal_.data(),
+                                              has_tangents() ? ring_tangent_.data() : nullptr});
   for (int turn = 0, i = (sides + 1) / 2; turn < sides; ++turn, ++i) {  // by rising angle
     if (i >= sides) i -= sides;
     const float angle = by_seam(seam_ + step * static_cast<float>(i));
@@ -287,6 +319,31 @@ void GraftWriter::open_ring(const Plane& plane, const Band& band) {
   upper_order_.resize(upper);
   go_round(lower_order_, plane, lower_);
   go_round(upper_order_, plane, upper_);
+}
+
+void GraftWriter::begin_loop(const Loop& loop) {
+  // The child's angles run the other way round than the phases of its loop.
+  is_at_loop_ = true;
+  stand_on(plane_at(loop.reach, axis_.piece_at(loop.reach, 0)));
+  below_.clear();
+  std::vector<const LoopVertex*>& order = loop_order_;
+  order.clear();
+  for (std::uint32_t i = 0; i < loop.count; ++i) order.push_back(&loop_vertices_[loop.first + i]);
+  for (std::size_t i = 1; i < order.size(); ++i) {  // few
+    const LoopVertex* const each = order[i];
+    std::size_t k = i;
+    for (; k > 0 && order[k - 1]->angle < each->angle; --k) order[k] = order[k - 1];
+    order[k] = each;
+  }
+  const auto add = [&](const LoopVertex& at, float angle) {
+    joint_ = at.joint;
+    below_.push_back(
+        {angle, vertex(at.position, {0, 0, 0}, picture_at(loop.radius, angle, at.reach), at.group)});
+    mark_twin();
+  };
+  for (const LoopVertex* each : order) add(*each, -each->angle);
+  add(*order.front(), 2 * pi - order.front()->angle);
+  set_seam(below_.front().angle);
 }
 
 /// A limb that leans where it leaves the ground goes on straight down into it, to a level end: its first ring

@@ -178,6 +178,7 @@ GraftWriter::Written GraftWriter::take() {
     write_creases(creases, out);
     out.mesh.position.shrink_to_fit();
     out.mesh.normal.shrink_to_fit();
+    out.mesh.tangent.shrink_to_fit();
     out.mesh.uv[0].shrink_to_fit();
     out.mesh.index.wide.shrink_to_fit();
     return out;
@@ -187,6 +188,7 @@ GraftWriter::Written GraftWriter::take() {
   const std::function<void()> tasks[] = {
       [&] { out.mesh.position = gathered(mesh_.position, &Place::vertex); },
       [&] { out.mesh.normal = gathered(mesh_.normal, &Place::vertex); },
+      [&] { out.mesh.tangent = gathered(mesh_.tangent, &Place::vertex); },
       [&] { out.mesh.index.wide = gathered_index(); },
       [&] { out.mesh.uv[0] = gathered(mesh_.uv[0], &Place::vertex); },
       [&] { out.joints = gathered(joints_, &Place::vertex); },

@@ -308,6 +308,7 @@ void GraftWriter::put_loop_normals(std::size_t limb) {
   for (std::size_t i = range.begin.vertex; i < end; ++i) {
     if (group_[i] == none || !touched_[group_[i] / 2]) continue;
     mesh_.normal[i] = group_normal_[group_[i] & ~1U].get() + 0.0F;
+    if (has_tangents()) lay_tangent(mesh_, i);
   }
 }
 

@@ -104,6 +104,7 @@ GraftWriter::GraftWriter(const Context& context, std::shared_ptr<const Common> c
   mesh_.position = Array<glm::vec3>(job);
   mesh_.normal = Array<glm::vec3>(job);
   mesh_.uv[0] = Array<glm::vec2>(job);
+  mesh_.tangent = Array<glm::vec4>(job);
   mesh_.index.wide = Array<std::uint32_t>(job);
   const std::size_t more = std::min(more_vertices, vertices_a_joint * joints);
   make_room(vertices_a_joint * joints + more + 64);
@@ -125,6 +126,7 @@ void GraftWriter::make_room(std::size_t vertices) {
   mesh_.position.resize(vertices);
   mesh_.normal.resize(vertices);
   mesh_.uv[0].resize(vertices);
+  if (has_tangents()) mesh_.tangent.resize(vertices);
   group_.resize(vertices);
   twin_.resize(vertices);
   if (context_.options.joints) joints_.resize(vertices);
@@ -334,6 +336,10 @@ void GraftWriter::begin_closed(bool is_root, std::uint32_t limb) {
       rim.push_back(vertex(at, down, {glm::dot(off, plane.u), glm::dot(off, plane.v)}, none));
       mark_twin();
     }
+    for (std::size_t i = centre; has_tangents() && i <= rim.back(); ++i) {
+      mesh_.tangent[i] = {plane.u, 1};  // as a picture from below
+      lay_tangent(mesh_, i);
+    }
     for (std::size_t i = 0; i < rim.size(); ++i) triangle(centre, rim[(i + 1) % rim.size()], rim[i]);
     return;
   }
@@ -348,30 +354,6 @@ void GraftWriter::begin_closed(bool is_root, std::uint32_t limb) {
   const std::uint32_t apex =
       vertex(plane.centre - along * cone, -along, picture_at(plane.radius, pi, -back - cone), none);
   triangles_to(apex, true);
-}
-
-void GraftWriter::begin_loop(const Loop& loop) {
-  // The child's angles run the other way round than the phases of its loop.
-  is_at_loop_ = true;
-  below_.clear();
-  std::vector<const LoopVertex*>& order = loop_order_;
-  order.clear();
-  for (std::uint32_t i = 0; i < loop.count; ++i) order.push_back(&loop_vertices_[loop.first + i]);
-  for (std::size_t i = 1; i < order.size(); ++i) {  // few
-    const LoopVertex* const each = order[i];
-    std::size_t k = i;
-    for (; k > 0 && order[k - 1]->angle < each->angle; --k) order[k] = order[k - 1];
-    order[k] = each;
-  }
-  const auto add = [&](const LoopVertex& at, float angle) {
-    joint_ = at.joint;
-    below_.push_back(
-        {angle, vertex(at.position, {0, 0, 0}, picture_at(loop.radius, angle, at.reach), at.group)});
-    mark_twin();
-  };
-  for (const LoopVertex* each : order) add(*each, -each->angle);
-  add(*order.front(), 2 * pi - order.front()->angle);
-  set_seam(below_.front().angle);
 }
 
 void GraftWriter::write_band(const Band& band) {

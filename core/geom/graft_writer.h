@@ -279,6 +279,7 @@ class GraftWriter {
   /// Places and normals of corners, those of a mesh or apart.
   struct RingRoom {
     glm::vec3 *position, *normal;
+    glm::vec4* tangent;  ///< null: none are wanted
   };
   bool write_ring_block(const Plane& plane, const Circle& circle, std::size_t first,
                         const RingRoom& to) const;
@@ -304,6 +305,12 @@ class GraftWriter {
   std::uint32_t put_vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv,
                            std::uint32_t group);
   void mark_twin() { twin_[vertices_ - 1] = 1; }
+  bool has_tangents() const { return context_.options.tangents; }
+  void stand_on(const Plane& plane) {
+    along_ = plane.tangent;
+    on_axis_ = plane.centre;
+  }
+  void lay_tangent(Mesh& mesh, std::size_t vertex) const;
 
   Context context_;
   std::shared_ptr<const Common> common_;
@@ -344,7 +351,8 @@ class GraftWriter {
   Corners below_, lower_, upper_;
   std::vector<Mark> marks_;
   std::vector<glm::vec3> ring_position_,
-      ring_normal_;                    ///< of the open ring's corners, where they have no ribs
+      ring_normal_;  ///< of the open ring's corners, where they have no ribs
+  std::vector<glm::vec4> ring_tangent_;
   bool is_ring_known_ = false;         ///< are they?
   Corners lower_order_, upper_order_;  ///< whose "vertex" is a mark
   std::vector<Wish> wishes_;
@@ -354,9 +362,10 @@ class GraftWriter {
   float seam_ = 0;
   glm::vec2 seam_turn_{1, 0};  ///< its cosine and sine
   int least_sides_ = 3, loop_sides_ = 0;
-  float turns_ = 0;             ///< of the picture round the limb, by a radian; 0: u is in metres
-  std::uint32_t joint_ = none;  ///< what the vertices being written move with
-  bool is_at_loop_ = false;     ///< the ring `below_`
+  glm::vec3 along_{0, 1, 0}, on_axis_{0};  ///< the limb's axis where it is written
+  float turns_ = 0;                        ///< of the picture round the limb, by a radian; 0: u is in metres
+  std::uint32_t joint_ = none;             ///< what the vertices being written move with
+  bool is_at_loop_ = false;                ///< the ring `below_`
   std::size_t corners_ = 0, wide_corners_ = 0;
 };
 

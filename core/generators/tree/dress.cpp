@@ -51,6 +51,12 @@ GraftOptions graft_options(const TreeParams& params, const Detail& detail) {
   return options;
 }
 
+GraftOptions finest_options(const TreeParams& params, const Job& job) {
+  GraftOptions options = graft_options(params, Detail(0));
+  options.tangents = job.demand().tangents && job.demand().textures > 0 && has_bark_relief(params);
+  return options;
+}
+
 /// What moves the tree: bones that grow, wind.
 struct Motion {
   std::optional<GrowthPlan> growth;
@@ -131,7 +137,7 @@ Made make_both(const Skeleton& skeleton, const TreeParams& params, const Motion&
   if (!has_threads(job) || has_levels || job.demand().share_organs || leaves.organs.organ.empty())
     return made;
   if (!is_modest(skeleton, leaves.leaf.elements(), job)) return made;
-  GraftOptions options = graft_options(params, Detail(0));
+  GraftOptions options = finest_options(params, job);
   options.meanwhile = [&] { made.leaves = finest_leaves(leaves, job); };
   made.bark = bark_of(skeleton.limbs, options, motion.bones(), motion.wind ? &*motion.wind : nullptr, job);
   return made;
@@ -143,7 +149,7 @@ void add_bark(Model& model, const Limbs& limbs, const TreeParams& params, const 
   node.name = "bark";
   node.parent = 0;
   const int material = add_bark_look(model, params, job);
-  GraftOptions finest = graft_options(params, Detail(0));
+  GraftOptions finest = finest_options(params, job);
   Array<glm::vec3> drawn(job);  // where the finest level draws the joints
   if (job.demand().lods > 1) {
     drawn.append(limbs.position.span());

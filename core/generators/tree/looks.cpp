@@ -126,6 +126,11 @@ bool has_leaf_relief(const TreeParams& params) {
   return wears_picture(params) && params.leaf.images.color.empty();
 }
 
+bool has_bark_relief(const TreeParams& params) {
+  if (!params.bark_images.normal.empty()) return true;
+  return params.bark != TreeBark::none && params.bark_images.color.empty();
+}
+
 int add_bark_look(Model& model, const TreeParams& params, const Job& job) {
   Material material;
   material.name = "bark";

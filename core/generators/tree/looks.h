@@ -26,8 +26,9 @@ bool has_leaves(const TreeParams& params);
 /// True where leaves wear one made by seed.
 bool wears_picture(const TreeParams& params);
 
-/// True where they have a normal map, if pictures are wanted.
+/// True where they have a normal map, if pictures are wanted; and where bark has one.
 bool has_leaf_relief(const TreeParams& params);
+bool has_bark_relief(const TreeParams& params);
 
 /// The number of the new material. Throws Stop (Code::invalid) for an image that is damaged.
 int add_bark_look(Model& model, const TreeParams& params, const Job& job);

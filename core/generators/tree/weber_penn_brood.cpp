@@ -75,7 +75,7 @@ SEEDMESH_WIDE void find_all_inside(const Envelope by, std::size_t count,
     const double least = least_power(base, exponent);
     const bool is_known = (ratio > 0) & (ratio < 1) & (base > 0) & (exponent <= 1);
     const bool is_near = std::sqrt(x * x + z * z) / by.scale < by.width * least;
-    inside[i] = is_known & is_near ? 1U : 0U;
+    inside[i] = (is_known & is_near) ? 1U : 0U;
   }
 }
 

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/base/quick_math.h"
+#include "core/geom/tangents.h"
 #include "tests/core/geom/skeletons.h"
 #include "tests/support/mesh_faults.h"
 
@@ -138,6 +140,36 @@ TEST(Graft, CreasesSharpForksRatherThanCloseThem) {
   }
   EXPECT_GT(creases, 0U);
   EXPECT_GT(grown, 3 * closed) << "the others find no room";
+}
+
+TEST(Graft, HasTangentsAsTheTrianglesWouldGiveThem) {
+  for (const int lobes : {0, 5}) {
+    Job job(1, Job::Options{});
+    GraftOptions options;
+    options.wrap = true;
+    options.lobes = lobes;
+    options.lobe_depth = 0.2F;
+    options.tangents = true;
+    Mesh mesh = graft(spiral(job, 80), options, job);
+    ASSERT_EQ(mesh.tangent.size(), mesh.position.size());
+    Array<glm::vec4> written = std::exchange(mesh.tangent, {});
+    Model model;
+    model.materials.emplace_back().normal_texture.texture = 0;
+    model.meshes.emplace_back().primitives.push_back({std::move(mesh), 0, {}});
+    add_tangents(model, job);
+    const Mesh& summed = model.meshes[0].primitives[0].mesh;
+    std::size_t near = 0, same_hand = 0;
+    for (std::size_t i = 0; i < written.size(); ++i) {
+      const glm::vec3 tangent(written[i]);
+      ASSERT_NEAR(glm::length(tangent), 1, 1e-4);
+      ASSERT_NEAR(glm::dot(tangent, summed.normal[i]), 0, 1e-3);
+      near += glm::dot(tangent, glm::vec3(summed.tangent[i])) > 0.9F ? 1U : 0U;
+      same_hand += written[i].w == summed.tangent[i].w ? 1U : 0U;
+    }
+    // Others are at tips, where the picture runs together, and on loops, where it bends.
+    EXPECT_GT(near, written.size() * 8 / 10) << near << " of " << written.size();
+    EXPECT_GT(same_hand, written.size() * 97 / 100) << same_hand << " of " << written.size();
+  }
 }
 
 TEST(Graft, StaysSoundWhateverTheLimbsAre) {
