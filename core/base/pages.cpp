@@ -26,18 +26,18 @@ std::byte* fitted(void* memory, std::size_t room) {
   return first;
 }
 
+std::byte* copied(std::byte* old, std::size_t before, std::size_t after) {
+  std::byte* fresh = map(after);
+  std::memcpy(fresh, old, before);
+  munmap(old, before);
+  return fresh;
+}
+
 }  // namespace
 
 std::byte* map(std::size_t room) {
   constexpr int access = PROT_READ | PROT_WRITE, kind = MAP_PRIVATE | MAP_ANONYMOUS;
   return fitted(mmap(nullptr, asked_for(room), access, kind, -1, 0), room);
-}
-
-static std::byte* copied(std::byte* old, std::size_t before, std::size_t after) {
-  std::byte* fresh = map(after);
-  std::memcpy(fresh, old, before);
-  munmap(old, before);
-  return fresh;
 }
 
 std::byte* grown(std::byte* old, std::size_t before, std::size_t after) {

@@ -6,6 +6,11 @@
 
 namespace seedmesh {
 
+Reserve::Reserve(std::size_t most) : most_(most) {
+  // Keeping is part of destructors: it must not need memory. Pieces are whole huge pages.
+  pieces_.reserve(most / pages::huge_page);
+}
+
 std::byte* Reserve::take(std::size_t room) {
   const std::lock_guard lock(mutex_);
   auto best = pieces_.end();
@@ -43,13 +48,10 @@ bool Reserve::keep(std::byte* memory, std::size_t room, std::uint64_t used, std:
 }
 
 void Reserve::clear() {
-  std::vector<Piece> pieces;
-  {
-    const std::lock_guard lock(mutex_);
-    std::swap(pieces, pieces_);
-    kept_ = 0;
-  }
-  for (const Piece& piece : pieces) pages::unmap(piece.memory, piece.room);
+  const std::lock_guard lock(mutex_);
+  for (const Piece& piece : pieces_) pages::unmap(piece.memory, piece.room);
+  pieces_.clear();
+  kept_ = 0;
 }
 
 std::size_t Reserve::kept() const {

@@ -14,7 +14,7 @@ class Reserve {
   static constexpr std::size_t usual = std::size_t{128} << 20U;
 
   /// Keeps so many bytes at most.
-  explicit Reserve(std::size_t most = usual) : most_(most) {}
+  explicit Reserve(std::size_t most = usual);
   ~Reserve() { clear(); }
   Reserve(const Reserve&) = delete;
   Reserve& operator=(const Reserve&) = delete;

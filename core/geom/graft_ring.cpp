@@ -55,7 +55,7 @@ float GraftWriter::ribbed(float angle) const {
 
 /// Where there is room for it.
 std::uint32_t GraftWriter::put_vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv,
-                                      std::uint32_t group) {
+                                      std::uint32_t group, const glm::vec4* tangent) {
   const std::size_t index = vertices_++;
   mesh_.position[index] = position + 0.0F;
   mesh_.normal[index] = normal + 0.0F;
@@ -64,6 +64,10 @@ std::uint32_t GraftWriter::put_vertex(const glm::vec3& position, const glm::vec3
   twin_[index] = 0;
   if (context_.options.joints) joints_[index] = joint_;
   if (!has_tangents()) return static_cast<std::uint32_t>(index);
+  if (tangent) {
+    mesh_.tangent[index] = *tangent;
+    return static_cast<std::uint32_t>(index);
+  }
   // Round the limb; that of a loop's vertex waits for its normal.
   mesh_.tangent[index] = {glm::cross(along_, position - on_axis_), -1};
   if (group == none) lay_tangent(mesh_, index);
@@ -142,8 +146,8 @@ std::uint32_t GraftWriter::vertex_of(Mark& mark, const Plane& plane, bool is_bey
   } else if (is_ring_known_) {
     const auto corner = static_cast<std::size_t>(mark.corner);
     made = put_vertex(ring_position_[corner], ring_normal_[corner],
-                      {picture_width(plane.radius) * angle, plane.v_at}, none);
-    if (has_tangents()) mesh_.tangent[made] = ring_tangent_[corner];
+                      {picture_width(plane.radius) * angle, plane.v_at}, none,
+                      has_tangents() ? &ring_tangent_[corner] : nullptr);
   } else {
     const Circle& circle = common_->circles[static_cast<std::size_t>(sides_for(plane.radius))];
     made = ring_corner(plane, angle, turned_to_seam(circle.at(mark.corner)));

@@ -49,7 +49,8 @@ class GraftWriter {
 
   /// Makes the normals of loops, then looks at every triangle for which something has changed. Lowers the
   /// trust in limbs with faces that look against a normal or have no area, at once to none where `is_late`;
-  /// returns how many faces. Small faces that look against a normal get normals of their own instead.
+  /// returns how many faces. Those that look against a normal without a fold, or are small, are creased
+  /// instead.
   std::size_t settle(std::vector<Trust>& trust, bool is_late);
 
   GraftCounts counts() const;
@@ -302,8 +303,9 @@ class GraftWriter {
     make_room_for(1);
     return put_vertex(position, normal, uv, group);
   }
+  /// `tangent`: null where it is not known yet.
   std::uint32_t put_vertex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv,
-                           std::uint32_t group);
+                           std::uint32_t group, const glm::vec4* tangent = nullptr);
   void mark_twin() { twin_[vertices_ - 1] = 1; }
   bool has_tangents() const { return context_.options.tangents; }
   void stand_on(const Plane& plane) {
