@@ -21,23 +21,12 @@ struct Bend {
 SEEDMESH_WIDE void bend_all(const Bend how, std::size_t count, const std::uint64_t* __restrict key,
                             const double (*__restrict from)[most], double (*__restrict to)[most]) {
   for (std::size_t i = 0; i < count; ++i) {
-    const Frame frame{{from[0][i], from[1][i], from[2][i]},
-                      {from[3][i], from[4][i], from[5][i]},
-                      {from[6][i], from[7][i], from[8][i]}};
+    const Frame frame = frame_in(from, i);
     const double chance =
         drawn_at(key_at(key[i], place_of("curve")), how.segment, how.curve_v) / how.segments;
     const double varied = how.curve_v > 0 ? how.curve + chance : how.curve;
     const double lifted = how.attraction != 0 ? varied - lift(frame, how.attraction, how.segments) : varied;
-    const Frame bent = pitch(frame, math::quick_sincos_degrees(std::clamp(lifted, -170.0, 170.0)));
-    to[0][i] = bent.heading.x;
-    to[1][i] = bent.heading.y;
-    to[2][i] = bent.heading.z;
-    to[3][i] = bent.left.x;
-    to[4][i] = bent.left.y;
-    to[5][i] = bent.left.z;
-    to[6][i] = bent.up.x;
-    to[7][i] = bent.up.y;
-    to[8][i] = bent.up.z;
+    put_frame(to, i, pitch(frame, math::quick_sincos_degrees(std::clamp(lifted, -170.0, 170.0))));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/generators/tree/frame_columns.h"
 #include "core/generators/tree/weber_penn_shape.h"
 
 namespace seedmesh::tree {
@@ -45,20 +46,13 @@ class WeberPennBends {
   void clear() { size_ = 0; }
   /// `key`: of its chance.
   void add(const Frame& frame, std::uint64_t key) {
-    for (int axis = 0; axis < 3; ++axis) {
-      axis_[0][axis][size_] = frame.heading[axis];
-      axis_[0][3 + axis][size_] = frame.left[axis];
-      axis_[0][6 + axis][size_] = frame.up[axis];
-    }
+    put_frame(axis_[0], size_, frame);
     key_[size_++] = key;
   }
   /// All that were added, along at most most_segments; `attraction` to the sky, 0: none.
   void reckon(const WeberPennLevel& level, double attraction);
 
-  Frame frame(std::size_t i, int segment) const {
-    const auto& a = axis_[segment];
-    return {{a[0][i], a[1][i], a[2][i]}, {a[3][i], a[4][i], a[5][i]}, {a[6][i], a[7][i], a[8][i]}};
-  }
+  Frame frame(std::size_t i, int segment) const { return frame_in(axis_[segment], i); }
 
  private:
   std::size_t size_ = 0;

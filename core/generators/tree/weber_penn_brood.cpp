@@ -34,24 +34,13 @@ SEEDMESH_WIDE void turn_all(const Turning how, std::size_t count, const std::int
                             const std::uint64_t* __restrict key, const double* __restrict down,
                             const double (*__restrict stems)[most], double (*__restrict axis)[most]) {
   for (std::size_t i = 0; i < count; ++i) {
-    const Frame stem{{stems[0][i], stems[1][i], stems[2][i]},
-                     {stems[3][i], stems[4][i], stems[5][i]},
-                     {stems[6][i], stems[7][i], stems[8][i]}};
+    const Frame stem = frame_in(stems, i);
     const std::int32_t number = numbers[i];
     const double base = number * how.step + (number & 1) * how.odd + how.rotate;
     const double about = base + drawn_at(key[i], place_of("rotate"), how.rotate_v);
     const double from = down[i] + drawn_at(key[i], place_of("down"), how.down_v);
-    const Frame frame =
-        pitch(roll(stem, math::quick_sincos_degrees(about)), math::quick_sincos_degrees(from));
-    axis[0][i] = frame.heading.x;
-    axis[1][i] = frame.heading.y;
-    axis[2][i] = frame.heading.z;
-    axis[3][i] = frame.left.x;
-    axis[4][i] = frame.left.y;
-    axis[5][i] = frame.left.z;
-    axis[6][i] = frame.up.x;
-    axis[7][i] = frame.up.y;
-    axis[8][i] = frame.up.z;
+    put_frame(axis, i,
+              pitch(roll(stem, math::quick_sincos_degrees(about)), math::quick_sincos_degrees(from)));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/generators/tree/frame_columns.h"
 #include "core/generators/tree/weber_penn_shape.h"
 
 namespace seedmesh::tree {
@@ -30,11 +31,7 @@ class WeberPennBrood {
   /// Child `number` of a stem whose frame there is `stem`; `down`: how many degrees it leaves the stem, by
   /// chance apart.
   void add(const Frame& stem, int number, double down) {
-    for (int axis = 0; axis < 3; ++axis) {
-      stem_[axis][size_] = stem.heading[axis];
-      stem_[3 + axis][size_] = stem.left[axis];
-      stem_[6 + axis][size_] = stem.up[axis];
-    }
+    put_frame(stem_, size_, stem);
     number_[size_] = number;
     down_[size_++] = down;
   }
@@ -51,11 +48,7 @@ class WeberPennBrood {
   bool is_inside(std::size_t i) const { return inside_[i] != 0; }
 
   Rng chance(std::size_t i) const { return Rng(key_[i]); }
-  Frame frame(std::size_t i) const {
-    return {{axis_[0][i], axis_[1][i], axis_[2][i]},
-            {axis_[3][i], axis_[4][i], axis_[5][i]},
-            {axis_[6][i], axis_[7][i], axis_[8][i]}};
-  }
+  Frame frame(std::size_t i) const { return frame_in(axis_, i); }
   /// Of what its parent had for splits.
   double carried_splits(std::size_t i) const { return splits_[i]; }
 
