@@ -1,11 +1,11 @@
 #include "core/generators/fractal/idle.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
 #include "core/generators/fractal/lattice.h"
+#include "core/generators/idle.h"
 #include "generated/params/fractal.h"
 
 namespace seedmesh::fractal {
@@ -55,73 +55,52 @@ bool is_cube(const FractalParams& params) {
   return name == FractalElement::cube || name == FractalElement::rainbow_cube;
 }
 
-class Finder {
- public:
-  explicit Finder(const FractalParams& params) : params_(params), given_(write_fractal(params)) {}
+void look_at_escape(const FractalParams& params, IdleParameters& idle) {
+  if (params.escape.set != FractalSet::julia)
+    idle.warn_of("/escape", {"constant"}, "it belongs to the set julia, and the set is mandelbrot");
+}
 
-  std::vector<Warning> run() && {
-    for (const Readers& each : readers) {
-      if (given_.contains(each.parameter) && !reads(each, params_.method)) {
-        warn("/" + std::string(each.parameter), "it belongs to " + methods_of(each) + ", and the method is " +
-                                                    std::string(text_of(params_.method)));
-      }
-    }
-    if (params_.method == FractalMethod::escape) {
-      look_at_escape();
-    } else {
-      look_at_machine();
-      if (params_.method == FractalMethod::frcm) look_at_cloud();
-    }
-    return std::move(warnings_);
+void look_at_machine(const FractalParams& params, IdleParameters& idle) {
+  if (params.stages.empty()) idle.warn_of("", {"columns"}, "there are no stages");
+  if (!is_word(params)) idle.warn_of("", {"text"}, "only the instructions word_test write it");
+  if (params.method != FractalMethod::mrcm) return;
+  const bool is_merged = params.surface == FractalSurface::merged;
+  idle.warn_if(is_merged && !(is_cube(params) && lattice_of(instructions_of(params))), "/surface",
+               "the maps do not fill cells of a lattice with cubes, so that all is made of pieces");
+  if (params.instructions.index() == 0) return;
+  const std::vector<FractalMap>& maps = std::get<1>(params.instructions);
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    idle.warn_if(maps[i].probability.has_value(), "/instructions/" + std::to_string(i) + "/probability",
+                 "it belongs to frcm, and the method is mrcm");
   }
+}
 
- private:
-  void warn(std::string pointer, const std::string& reason) {
-    warnings_.push_back({std::move(pointer), "has no effect: " + reason, 0, 0});
-  }
-
-  void look_at_escape() {
-    const bool is_julia = params_.escape.set == FractalSet::julia;
-    if (!is_julia && given_.contains("escape") && given_["escape"].contains("constant"))
-      warn("/escape/constant", "it belongs to the set julia, and the set is mandelbrot");
-  }
-
-  void look_at_machine() {
-    if (given_.contains("columns") && params_.stages.empty()) warn("/columns", "there are no stages");
-    if (given_.contains("text") && !is_word(params_))
-      warn("/text", "only the instructions word_test write it");
-    if (params_.method != FractalMethod::mrcm) return;
-    if (params_.surface == FractalSurface::merged &&
-        !(is_cube(params_) && lattice_of(instructions_of(params_))))
-      warn("/surface", "the maps do not fill cells of a lattice with cubes, so that all is made of pieces");
-    if (params_.instructions.index() == 0) return;
-    const std::vector<FractalMap>& maps = std::get<1>(params_.instructions);
-    for (std::size_t i = 0; i < maps.size(); ++i) {
-      if (maps[i].probability)
-        warn("/instructions/" + std::to_string(i) + "/probability",
-             "it belongs to frcm, and the method is mrcm");
-    }
-  }
-
-  void look_at_cloud() {
-    const std::string cloud(text_of(params_.cloud));
-    if (given_.contains("element") && params_.cloud != FractalCloud::elements)
-      warn("/element", "it belongs to the cloud elements, and the cloud is " + cloud);
-    if (params_.cloud != FractalCloud::points) return;
-    for (const char* name : {"voxels", "color"}) {
-      if (given_.contains(name))
-        warn("/" + std::string(name),
-             "it belongs to the clouds elements and voxels, and the cloud is points");
-    }
-  }
-
-  const FractalParams& params_;
-  const Json given_;
-  std::vector<Warning> warnings_;
-};
+void look_at_cloud(const FractalParams& params, IdleParameters& idle) {
+  const std::string cloud(text_of(params.cloud));
+  if (params.cloud != FractalCloud::elements)
+    idle.warn_of("", {"element"}, "it belongs to the cloud elements, and the cloud is " + cloud);
+  if (params.cloud == FractalCloud::points)
+    idle.warn_of("", {"voxels", "color"},
+                 "it belongs to the clouds elements and voxels, and the cloud is points");
+}
 
 }  // namespace
 
-std::vector<Warning> idle_parameters(const FractalParams& params) { return Finder(params).run(); }
+std::vector<Warning> idle_parameters(const FractalParams& params) {
+  IdleParameters idle(write_fractal(params));
+  for (const Readers& each : readers) {
+    if (reads(each, params.method)) continue;
+    idle.warn_of(
+        "", {each.parameter},
+        "it belongs to " + methods_of(each) + ", and the method is " + std::string(text_of(params.method)));
+  }
+  if (params.method == FractalMethod::escape) {
+    look_at_escape(params, idle);
+  } else {
+    look_at_machine(params, idle);
+    if (params.method == FractalMethod::frcm) look_at_cloud(params, idle);
+  }
+  return idle.take();
+}
 
 }  // namespace seedmesh::fractal

@@ -279,7 +279,8 @@ Grammar compile(const LsystemParams& params, std::uint64_t seed, const Limits& l
   check_age(params, issues);
   Grammar grammar = Compiler(params, seed, limits, issues, job).compile();
   check_between_steps(params, grammar, issues);
-  warn_of_idle(params, grammar.warnings);
+  const std::vector<Warning> idle = idle_parameters(params);
+  grammar.warnings.insert(grammar.warnings.end(), idle.begin(), idle.end());
   return grammar;
 }
 

@@ -10,8 +10,8 @@ struct LsystemParams;
 
 namespace seedmesh::lsystem {
 
-/// Adds one warning for each parameter that is not its default and has no effect: of another width rule or
+/// One warning for each parameter that is not its default and has no effect: of another width rule or
 /// style, of rules, weather or pictures that there are not. Pointers are relative to the parameters.
-void warn_of_idle(const LsystemParams& params, std::vector<Warning>& warnings);
+std::vector<Warning> idle_parameters(const LsystemParams& params);
 
 }  // namespace seedmesh::lsystem
