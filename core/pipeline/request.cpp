@@ -80,15 +80,19 @@ Generator::Params mixed_parameters(const Json& merged, const std::string& other,
   return params;
 }
 
+constexpr std::string_view forms_of_models[] = {"glb", "gltf", "zip"};
+
+bool is_model(const OutputParams& output) {
+  return std::ranges::find(forms_of_models, text_of(output.format)) != std::end(forms_of_models);
+}
+
 /// A form that only other generators have is refused.
 void add_form_fault(const Generator& generator, const OutputParams& output, Faults& faults) {
-  constexpr std::string_view of_models[] = {"glb", "gltf", "zip"};
+  if (is_model(output)) return;
   const std::string_view format = text_of(output.format);
   std::string known;
-  for (const std::string_view each : of_models) {
-    if (each == format) return;
+  for (const std::string_view each : forms_of_models)
     known += std::string(known.empty() ? "" : ", ") + std::string(each);
-  }
   for (const OwnForm& form : generator.forms) {
     if (form.format == format) return;
     known += ", " + std::string(form.format);
@@ -151,16 +155,26 @@ void check_output(const OutputParams& output, std::uint64_t seed, Faults& faults
     faults.add({"/output/variants",
                 "found " + std::to_string(output.variants) + " seeds, of which some would be 2^64 or more"});
   }
-  check_profile(output, faults);
+  if (is_model(output)) check_profile(output, faults);  // other forms have none of these options
+}
+
+/// What the generator cannot add to its models is refused.
+void check_abilities(const Generator& generator, const OutputParams& output, Faults& faults) {
+  check_impostor(generator, output, faults);
+  const auto refuse = [&](const char* option, bool is_wanted, const char* lack) {
+    if (is_wanted)
+      faults.add({std::string("/output/") + option, "the generator " + std::string(generator.name) + lack});
+  };
+  refuse("animation", output.animation == OutputParams::Animation::growth && !generator.grows,
+         " makes no growth animation");
+  refuse("wind", output.wind != OutputWind::none && !generator.sways, " has no wind weights");
+  refuse("collision", output.collision != OutputCollision::none && !generator.has_collision,
+         " makes no collision shapes");
 }
 
 /// A form that is no model has no use for what only models have, and the parameters must suit it.
-void check_own_form(const Generator& generator, const Generator::Params& params, const OutputParams& output,
-                    Faults& faults) {
-  const std::string_view format = text_of(output.format);
-  const auto is_own = [format](const OwnForm& form) { return form.format == format; };
-  const auto own = std::find_if(generator.forms.begin(), generator.forms.end(), is_own);
-  if (own == generator.forms.end()) return;
+void check_own_form(const OwnForm& own, const Generator& generator, const Generator::Params& params,
+                    const OutputParams& output, Faults& faults) {
   // Where parameters are refused already, others stand in for them.
   const bool sound = std::none_of(faults.issues().begin(), faults.issues().end(), [](const Issue& issue) {
     return issue.pointer.starts_with("/parameters");
@@ -173,14 +187,27 @@ void check_own_form(const Generator& generator, const Generator::Params& params,
   }
   Json options = write_output(output);
   options.erase("format");
-  if (own->has_profiles) options.erase("profile");
-  if (own->has_models) {
+  if (own.has_profiles) options.erase("profile");
+  if (own.has_models) {
     options.erase("textures");
     options.erase("tangents");
   }
   for (const auto& [name, value] : options.items()) {
-    faults.add({"/output/" + name, "found " + value.dump() + " with the format " + std::string(format) +
+    faults.add({"/output/" + name, "found " + value.dump() + " with the format " + std::string(own.format) +
                                        ", which is no model and has no such option"});
+  }
+}
+
+/// Whether the generator can make what the output asks for. Each option is refused once: of a form that is no
+/// model, for that alone.
+void check_use(const Generator& generator, const Generator::Params& params, const OutputParams& output,
+               Faults& faults) {
+  const auto is_wanted = [&](const OwnForm& form) { return form.format == text_of(output.format); };
+  const auto own = std::ranges::find_if(generator.forms, is_wanted);
+  if (own == generator.forms.end()) {
+    check_abilities(generator, output, faults);
+  } else {
+    check_own_form(*own, generator, params, output, faults);
   }
 }
 
@@ -233,20 +260,7 @@ Result<Request> read_request_body(const Json& json, const Limits& limits) {
   }
   if (body.generator) {
     add_form_fault(*body.generator, frame.output, faults);
-    check_own_form(*body.generator, body.params, frame.output, faults);
-    check_impostor(*body.generator, frame.output, faults);
-  }
-  if (body.generator && !body.generator->grows && frame.output.animation == OutputParams::Animation::growth) {
-    faults.add({"/output/animation",
-                "the generator " + std::string(body.generator->name) + " makes no growth animation"});
-  }
-  if (body.generator && !body.generator->sways && frame.output.wind != OutputWind::none) {
-    faults.add(
-        {"/output/wind", "the generator " + std::string(body.generator->name) + " has no wind weights"});
-  }
-  if (body.generator && !body.generator->has_collision && frame.output.collision != OutputCollision::none) {
-    faults.add({"/output/collision",
-                "the generator " + std::string(body.generator->name) + " makes no collision shapes"});
+    check_use(*body.generator, body.params, frame.output, faults);
   }
   if (!faults.empty()) return Error{Code::invalid, with_parts(faults.take(), merged, body.generator)};
   body.output = frame.output;
@@ -273,7 +287,7 @@ Result<Request> with_format(const Request& request, std::string_view format) {
   body.output = read_output(output, "/output", faults);
   if (faults.empty()) add_form_fault(*body.generator, body.output, faults);
   if (faults.empty()) check_output(body.output, body.seed, faults);
-  if (faults.empty()) check_own_form(*body.generator, body.params, body.output, faults);
+  if (faults.empty()) check_use(*body.generator, body.params, body.output, faults);
   if (!faults.empty()) return Error{Code::invalid, faults.take()};
   body.canonical = canonical_request(body);
   return Request(std::make_shared<const Request::Body>(std::move(body)));

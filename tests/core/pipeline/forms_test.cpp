@@ -107,6 +107,21 @@ TEST(Forms, FollowTheConventionsOfAnEngineWhereTheyHaveAny) {
               ::testing::Contains("/output/profile"));
 }
 
+TEST(Forms, ThatAreNoModelsRefuseEachOptionOfModelsOnce) {
+  constexpr const char* options[] = {R"("lods":3)",           R"("impostor":true)",
+                                     R"("instancing":"gpu")", R"("animation":"growth")",
+                                     R"("wind":"weights")",   R"("collision":"plain")"};
+  for (const std::string option : options) {
+    const Result<Request> request =
+        read_request(R"({"generator":"terrain","output":{"format":"png16",)" + option + "}}", Limits{});
+    ASSERT_FALSE(request) << option;
+    ASSERT_EQ(request.error().issues.size(), 1U) << option;
+    EXPECT_EQ(request.error().issues[0].pointer, "/output/" + option.substr(1, option.find('"', 1) - 1));
+    EXPECT_THAT(request.error().issues[0].message, HasSubstr("the format png16, which is no model"))
+        << option;
+  }
+}
+
 TEST(Forms, ThatDoNotSuitTheParametersAreRefusedBeforeAnythingIsMade) {
   EXPECT_THAT(pointers_of(R"({"generator":"terrain","parameters":{"algorithm":"fbm","shape":"sphere"},
                               "output":{"format":"png16"}})"),
