@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/generators/tree/tree.h"
+
 namespace seedmesh::tree {
 namespace {
 
@@ -38,6 +40,19 @@ TEST(Looks, NamePicturesAfterTheLeafWhereOnlyNormalsAreOnesOwn) {
   add_leaf_look(model, params, job);
   ASSERT_EQ(model.textures.size(), 1U);
   EXPECT_EQ(model.textures[0]->name, "leaf_normal");
+}
+
+TEST(Looks, TellThatLeavesOfOneMeshDoNotMoveInTheWind) {
+  TreeParams params;
+  params.Levels = 2;
+  for (const bool shares : {false, true}) {
+    Job job(0, Job::Options{});
+    job.set_demand({.share_organs = shares, .wind = true});
+    const Result<Model> model = generate(params, job);
+    ASSERT_TRUE(model);
+    ASSERT_EQ(model->warnings.size(), shares ? 1U : 0U);
+    for (const Warning& warning : model->warnings) EXPECT_EQ(warning.pointer, "/output/wind");
+  }
 }
 
 }  // namespace
