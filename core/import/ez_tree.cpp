@@ -178,7 +178,6 @@ class Writer {
     out_["RatioPower"] = clamped(power, 0.3, 3);
     out_["Flare"] = 0.3;
     out_["Lobes"] = 0;
-    out_["LobeDepth"] = 0;
     out_["sides"] = static_cast<int>(level_[0].segments);
   }
 

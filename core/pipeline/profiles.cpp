@@ -6,6 +6,8 @@
 #include <set>
 #include <string_view>
 
+#include "core/model/collision_name.h"
+
 namespace seedmesh {
 namespace {
 
@@ -99,22 +101,34 @@ std::string collision_name(const std::string& seen, CollisionShape shape, std::s
   return seen + "_collision" + numbered(number) + "-convcolonly";
 }
 
-/// A generator may have been asked for names of its own.
-bool is_named(std::string_view name) {
-  for (const std::string_view prefix : {"UBX_", "UCP_", "USP_", "UCX_"}) {
-    if (name.starts_with(prefix)) return true;
-  }
-  return name.ends_with("-convcolonly") || name.ends_with("-colonly");
+/// The convention that `output.collision` asked a generator for, read from the name that it gave.
+CollisionNames asked_of(std::string_view name) {
+  if (name.starts_with("UCX_")) return CollisionNames::unreal;
+  if (name.ends_with("-convcolonly")) return CollisionNames::godot;
+  return CollisionNames::plain;
 }
 
+/// Generators name the shapes of one model and number them from 1. Where several stand in one file, an ending
+/// that makes a name unique would hide the one that Godot reads, and Unreal would look for a mesh of that
+/// name; so the numbers go on, and Unreal finds the mesh that is seen under the name that it has in this
+/// file.
 void name_collisions(Model& model, OutputProfile profile) {
-  if (profile != OutputProfile::unreal && profile != OutputProfile::godot) return;
+  const bool is_engine = profile == OutputProfile::unreal || profile == OutputProfile::godot;
   std::map<std::string, std::size_t> shapes;  // of each mesh that is seen
+  std::size_t asked_by_godot = 0;
   for (Node& node : model.nodes) {
-    if (node.collision == CollisionShape::none || is_named(node.name)) continue;
+    const CollisionNames asked = asked_of(node.name);
+    if (node.collision == CollisionShape::none || (asked == CollisionNames::plain && !is_engine)) continue;
     const MeshGroup* group = seen_beside(model, node);
     const std::string seen = group ? group->name : "model";
-    node.name = collision_name(seen, node.collision, shapes[seen]++, profile);
+    if (asked == CollisionNames::godot) {
+      node.name = collision_name(asked, seen, ++asked_by_godot);
+    } else if (asked == CollisionNames::unreal) {
+      node.name = collision_name(asked, seen, ++shapes[seen]);
+    } else {
+      node.name = collision_name(seen, node.collision, shapes[seen]++, profile);
+    }
+    // Unreal reads the names of meshes.
     if (node.mesh >= 0) model.meshes[static_cast<std::size_t>(node.mesh)].name = node.name;
   }
 }

@@ -25,8 +25,10 @@ std::string profiles_where(bool Profile::*reads);
 
 /// Turns names to those that the program understands, after finish(). Collision shapes: UCX_bark_00 and its
 /// like (by shape) for Unreal, bark_collision_00-convcolonly for Godot, where bark is the mesh that they
-/// stand for; names that are so already stay. Finest levels in a file with several: bark_LOD0 for Unity.
-/// Godot: no `. : @ / " %`, and an animation of wind goes on ("wind-loop"). Unreal: letters, digits, `-` and
+/// stand for. What output.collision asked for, in UCX_bark_01 or collision_01-convcolonly, stays so whatever
+/// the profile, after the mesh and with numbers that count all models of the file. Finest levels in a file
+/// with several: bark_LOD0 for Unity. Godot: no `. : @ / " %`, and an animation of wind goes on
+/// ("wind-loop"). Unreal: letters, digits, `-` and
 /// `_` only. Blender: at most 63 bytes. Names stay unique.
 void name_for(Model& model, OutputProfile profile);
 

@@ -122,4 +122,20 @@ Result<std::shared_ptr<const Image>> image_of_data_uri(std::string_view text, co
   return std::shared_ptr<const Image>(std::move(image));
 }
 
+bool has_alpha(const Image& image) {
+  // The signature, then IHDR: length, name, width, height, depth, and the type of colour, whose bit 2 is
+  // alpha.
+  constexpr std::size_t type_of_color = 25, after_header = 33, around = 12;
+  const std::vector<std::uint8_t>& bytes = image.bytes;
+  if (image.mime != "image/png" || bytes.size() < after_header) return false;
+  if ((bytes[type_of_color] & 4U) != 0) return true;
+  for (std::size_t at = after_header; at + around <= bytes.size();) {
+    const std::size_t length = big_endian(bytes.data() + at);
+    if (std::string_view(reinterpret_cast<const char*>(bytes.data()) + at + 4, 4) == "tRNS") return true;
+    if (length > bytes.size() - at - around) return false;
+    at += around + length;
+  }
+  return false;
+}
+
 }  // namespace seedmesh::texture

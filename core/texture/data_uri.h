@@ -19,4 +19,7 @@ std::string fault_of_image_uri(std::string_view text);
 Result<std::shared_ptr<const Image>> image_of_data_uri(std::string_view text, const std::string& name,
                                                        const Job& job);
 
+/// Has a picture that came so an alpha channel, or one colour that is transparent? JPEG files have none.
+bool has_alpha(const Image& image);
+
 }  // namespace seedmesh::texture

@@ -212,7 +212,8 @@ Model dress(Skeleton skeleton, const TreeParams& params, Job& job) {
   Motion motion;
   if (job.demand().growth) {
     if (job.demand().share_organs)
-      Job::reject({"", "found leaves as nodes; the growth animation needs them merged", 0, 0});
+      Job::reject(
+          {"/output/instancing", "found leaves as nodes; the growth animation needs them merged", 0, 0});
     motion.growth = plan_growth(skeleton.limbs, {.most_bones = job.demand().most_bones}, job);
   }
   if (job.demand().wind) motion.wind.emplace(skeleton.limbs, job);

@@ -88,6 +88,16 @@ void put_images_on(Material& material, const Images& images, const std::string& 
   if (images.cut_out) material.alpha_mode = AlphaMode::mask;
 }
 
+/// A leaf's own picture with alpha is cut out unasked: without that every leaf would be a whole square.
+void cut_out_by_alpha(Material& material, Model& model) {
+  const int color = material.base_color_texture.texture;
+  if (color < 0 || !texture::has_alpha(*model.textures[static_cast<std::size_t>(color)])) return;
+  material.alpha_mode = AlphaMode::mask;
+  for (TextureUse* use : {&material.base_color_texture, &material.normal_texture,
+                          &material.metallic_roughness_texture, &material.occlusion_texture})
+    use->repeat = false;
+}
+
 }  // namespace
 
 void check_images(const TreeParams& params, std::vector<Issue>& issues) {
@@ -159,14 +169,14 @@ LeafLook add_leaf_look(Model& model, const TreeParams& params, const Job& job) {
     material.recipe.color = {{most.red, most.green, most.blue}};
   }
   LeafLook look;
+  material.name = "leaf";
+  put_images_on(material, params.leaf.images, "/leaf/images", model, job);
   if (!params.leaf.images.color.empty()) {
-    material.name = "leaf";
-    put_images_on(material, params.leaf.images, "/leaf/images", model, job);
+    cut_out_by_alpha(material, model);
     look.material = static_cast<int>(model.materials.size());
     model.materials.push_back(std::move(material));
     return look;
   }
-  put_images_on(material, params.leaf.images, "/leaf/images", model, job);
   for (std::size_t season = 0; season < leafy_seasons.size(); ++season) {
     const glm::vec3 color = linear(leaf_color(params.leaf, season));
     material.name = std::string("leaf_") + leafy_seasons[season];

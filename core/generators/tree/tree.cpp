@@ -120,6 +120,10 @@ Result<Model> generate(const TreeParams& params, Job& job) {
   job.progress("mesh", 0);
   Model model = dress(std::move(skeleton), params, job);
   model.warnings = idle_parameters(params);
+  // Leaves that share one mesh have no place for weights of their own.
+  if (job.demand().wind && job.demand().share_organs && has_leaves(params))
+    model.warnings.push_back(
+        {"/output/wind", "leaves that share a mesh have no weights; only bark moves", 0, 0});
   return model;
 }
 

@@ -409,11 +409,48 @@ TEST(Names, AreThoseOfTheImporter) {
   EXPECT_EQ(unity.nodes[0].name, "old bark_LOD0");
 }
 
-TEST(Names, StayAsTheyAreWhereTheyFollowAConvention) {
+TEST(Names, KeepTheConventionThatWasAskedFor) {
   Model model = trunk();
   model.nodes[1].name = "UCX_bark_01";
   name_for(model, OutputProfile::godot);
-  EXPECT_EQ(model.nodes[1].name, "UCX_bark_01");
+  EXPECT_EQ(model.nodes[1].name, "UCX_old bark_01");
+  EXPECT_EQ(model.meshes[1].name, "UCX_old bark_01");
+}
+
+/// Two trunks, each below a node of its own, as variants stand in one file.
+Model two_trunks(const char* hull) {
+  Model model;
+  for (int i = 0; i < 2; ++i) {
+    Model one = trunk();
+    one.nodes[1].name = hull;
+    one.meshes[0].name = i == 0 ? "bark" : "bark_2";
+    for (MeshGroup& group : one.meshes) model.meshes.push_back(std::move(group));
+    Node parent;
+    parent.name = i == 0 ? "tree_seed_0" : "tree_seed_1";
+    model.nodes.push_back(parent);
+    for (Node& node : one.nodes) {
+      node.parent = 3 * i;
+      node.mesh += 2 * i;
+      model.nodes.push_back(std::move(node));
+    }
+  }
+  return model;
+}
+
+TEST(Names, OfCollisionShapesAreReadByEnginesInEveryVariant) {
+  for (const OutputProfile profile : {OutputProfile::core, OutputProfile::unreal, OutputProfile::web}) {
+    Model model = two_trunks("UCX_bark_01");
+    name_for(model, profile);
+    EXPECT_EQ(model.nodes[2].name, "UCX_bark_01");
+    EXPECT_EQ(model.nodes[5].name, "UCX_bark_2_01") << "the mesh that it stands for is bark_2";
+    EXPECT_EQ(model.meshes[3].name, "UCX_bark_2_01");
+  }
+  for (const OutputProfile profile : {OutputProfile::core, OutputProfile::godot}) {
+    Model model = two_trunks("collision_01-convcolonly");
+    name_for(model, profile);
+    EXPECT_EQ(model.nodes[2].name, "collision_01-convcolonly");
+    EXPECT_EQ(model.nodes[5].name, "collision_02-convcolonly") << "nothing may follow the ending";
+  }
 }
 
 TEST(Names, EndWhereBlenderEndsThem) {

@@ -56,5 +56,23 @@ TEST(DataUri, TellsOfAPictureThatIsCutShortWithoutItsPixels) {
             "the PNG is truncated: it ends after 8 bytes, before its data do");
 }
 
+TEST(DataUri, TellsWhetherAPictureHasAlpha) {
+  Job job(0, Job::Options{});
+  const std::string head = "data:image/png;base64,";
+  const std::pair<std::string, bool> pictures[] = {
+      {"iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGMwOmEDAAJmATdXu5wqAAAAAElFTkSuQmCC", false},
+      {"iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR4nGMwOmHDAAADnQE3dmMj8wAAAABJRU5ErkJggg==",
+       true},
+      // RGB with one transparent colour
+      {"iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAABnRSTlMAMgDIADwFlFcIAAAADElEQVR4nGMwOmEDAAJmATdXu5wqA"
+       "AAAAElFTkSuQmCC",
+       true}};
+  for (const auto& [file, expected] : pictures) {
+    const auto image = image_of_data_uri(head + file, "leaf", job);
+    ASSERT_TRUE(image);
+    EXPECT_EQ(has_alpha(**image), expected) << file;
+  }
+}
+
 }  // namespace
 }  // namespace seedmesh::texture
