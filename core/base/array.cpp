@@ -18,12 +18,14 @@ using namespace pages;
 namespace {
 
 // Page faults, not arithmetic, decide what big arrays cost, and huge pages save most of them. A block takes
-// whole huge pages from the first size on always; from the second on while the room that the rounding up
-// leaves empty stays below the third in the whole request: from that size on the service has the heap ask the
-// kernel for small pages each time. Smaller blocks are the heap's: a huge page is cleared whole, and the heap
-// has pages that were touched before.
+// whole huge pages from the first size on always. From the second on it shares them with others where there
+// is a reserve, which knows of them, and without one takes them whole too, while the room that the rounding
+// up leaves empty stays below the third in the whole request: from that size on the service has the heap ask
+// the kernel for small pages each time. Smaller blocks are the heap's: a huge page is cleared whole, and the
+// heap has pages that were touched before.
 constexpr std::size_t always_mapped = std::size_t{4} << 20U;
 constexpr std::size_t mapped_at_best = std::size_t{1} << 20U;
+constexpr std::size_t least_shared = std::size_t{256} << 10U;
 constexpr std::uint64_t most_slack = std::uint64_t{12} << 20U;
 // But what the heap is given back stays with the process. A thrifty request maps all that is worth a call, in
 // as many huge pages as it fills and small ones for its end.
@@ -71,8 +73,10 @@ std::size_t Block::room_of(std::size_t bytes, Home home) {
 Block::Home Block::home_for(std::size_t bytes) const {
   if (!can_map) return Home::heap;
   if (purse_ && purse_->is_thrifty()) return bytes < mapped_by_thrift ? Home::heap : Home::pages;
-  if (bytes < mapped_at_best) return Home::heap;
+  const bool has_reserve = purse_ && purse_->reserve() && !purse_->wants_thrift();
+  if (bytes < (has_reserve ? least_shared : mapped_at_best)) return Home::heap;
   if (purse_ && purse_->wants_thrift()) return Home::pages;
+  if (bytes < always_mapped && has_reserve) return Home::shared;
   const std::size_t slack = room_of(bytes, Home::huge_pages) - bytes;
   return bytes >= always_mapped || (purse_ && purse_->slack() + slack <= most_slack) ? Home::huge_pages
                                                                                      : Home::heap;
@@ -80,13 +84,15 @@ Block::Home Block::home_for(std::size_t bytes) const {
 
 /// Huge pages are touched: the next array need not have them cleared.
 std::byte* Block::mapped(std::size_t room, Home home) const {
+  if (home == Home::shared) return purse_->reserve()->share(room);
   std::byte* kept = nullptr;
   if (home == Home::huge_pages && purse_ && purse_->reserve()) kept = purse_->reserve()->take(room);
   return kept ? kept : map(room);
 }
 
 void Block::leave(std::byte* memory, std::size_t room) const {
-  const bool is_kept = home_ == Home::huge_pages && room % huge_page == 0 && purse_ && purse_->reserve() &&
+  const bool is_whole = home_ == Home::huge_pages && room % huge_page == 0;
+  const bool is_kept = (is_whole || home_ == Home::shared) && purse_ && purse_->reserve() &&
                        purse_->reserve()->keep(memory, room, purse_->used(), purse_->peak());
   if (!is_kept) unmap(memory, room);
 }
@@ -102,16 +108,18 @@ void Block::release() {
 }
 
 void Block::change(std::size_t bytes) {
-  const Home home = home_for(bytes);
-  if (home_ != Home::heap && home != Home::heap) {
-    const std::size_t before = room_of(size_, home_), after = room_of(bytes, home);
+  Home home = home_for(bytes);
+  if (home == Home::shared && home_ == Home::huge_pages) home = home_;
+  const std::size_t before = room_of(size_, home_), after = room_of(bytes, home);
+  const bool is_shared = home_ == Home::shared || home == Home::shared;
+  if (is_shared ? home_ == home && after <= before : home_ != Home::heap && home != Home::heap) {
     if (after > before) data_ = grown(data_, before, after);
     if (after < before) leave(data_ + after, before - after);
     if (purse_) purse_->give_back_slack(room_of(size_, home_) - size_);
-  } else if (home_ == home) {
+  } else if (home_ == home && home == Home::heap) {
     data_ = heap(data_, bytes);
   } else {
-    std::byte* fresh = home == Home::heap ? heap(nullptr, bytes) : mapped(room_of(bytes, home), home);
+    std::byte* fresh = home == Home::heap ? heap(nullptr, bytes) : mapped(after, home);
     if (size_) std::memcpy(fresh, data_, size_ < bytes ? size_ : bytes);
     release();
     data_ = fresh;

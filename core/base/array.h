@@ -33,8 +33,9 @@ class Block {
   const std::shared_ptr<Purse>& purse() const { return purse_; }
 
  private:
-  /// Where the bytes are: of the heap, or mapped by the kernel in whole huge pages or as many as are needed.
-  enum class Home : unsigned char { heap, huge_pages, pages };
+  /// Where the bytes are: of the heap, or mapped by the kernel in whole huge pages, in some that others
+  /// share, or in as many pages as are needed.
+  enum class Home : unsigned char { heap, huge_pages, shared, pages };
   static std::size_t room_of(std::size_t bytes, Home home);
   Home home_for(std::size_t bytes) const;
   void change(std::size_t bytes);

@@ -1,39 +1,42 @@
 #include "core/base/reserve.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "core/base/pages.h"
 
 namespace seedmesh {
 
 Reserve::Reserve(std::size_t most) : most_(most) {
-  // Keeping is part of destructors: it must not need memory. Pieces are whole huge pages.
-  pieces_.reserve(most / pages::huge_page);
+  // Keeping is part of destructors: it must not need memory.
+  pieces_.reserve(most_pieces);
 }
 
-std::byte* Reserve::take(std::size_t room) {
-  const std::lock_guard lock(mutex_);
+/// From the smallest piece that has room; null where none has.
+std::byte* Reserve::cut(std::size_t room, std::size_t aligned) {
+  const auto skipped = [&](const Piece& piece) {
+    return (aligned - reinterpret_cast<std::uintptr_t>(piece.memory) % aligned) % aligned;
+  };
   auto best = pieces_.end();
   for (auto piece = pieces_.begin(); piece != pieces_.end(); ++piece) {
-    if (piece->room >= room && (best == pieces_.end() || piece->room < best->room)) best = piece;
+    const bool is_smaller = best == pieces_.end() || piece->room < best->room;
+    if (is_smaller && piece->room >= room + skipped(*piece)) best = piece;
   }
   if (best == pieces_.end()) return nullptr;
-  std::byte* const memory = best->memory;
-  best->memory += room;
-  best->room -= room;
-  if (best->room == 0) {
-    *best = pieces_.back();
-    pieces_.pop_back();
-  }
+  const Piece whole = *best;
+  const std::size_t before = skipped(whole), behind = whole.room - before - room;
+  if (before > 0 && behind > 0 && pieces_.size() == most_pieces) return nullptr;
+  *best = pieces_.back();
+  pieces_.pop_back();
+  if (before > 0) pieces_.push_back({whole.memory, before});
+  if (behind > 0) pieces_.push_back({whole.memory + before + room, behind});
   kept_ -= room;
-  return memory;
+  return whole.memory + before;
 }
 
-bool Reserve::keep(std::byte* memory, std::size_t room, std::uint64_t used, std::uint64_t peak) {
-  const std::lock_guard lock(mutex_);
-  if (kept_ + room > most_ || kept_ + used > std::max<std::uint64_t>(most_ / 2, peak)) return false;
-  // Neighbours are joined, so that what was cut can be whole again.
-  Piece whole{memory, room};
+/// Neighbours become one, so that what was cut can be whole again.
+void Reserve::join(Piece whole) {
+  kept_ += whole.room;
   for (std::size_t i = pieces_.size(); i-- > 0;) {
     const Piece& piece = pieces_[i];
     const bool is_before = piece.memory + piece.room == whole.memory;
@@ -43,7 +46,31 @@ bool Reserve::keep(std::byte* memory, std::size_t room, std::uint64_t used, std:
     pieces_.pop_back();
   }
   pieces_.push_back(whole);
-  kept_ += room;
+}
+
+std::byte* Reserve::take(std::size_t room) {
+  const std::lock_guard lock(mutex_);
+  return cut(room, pages::huge_page);
+}
+
+std::byte* Reserve::share(std::size_t room) {
+  const std::lock_guard lock(mutex_);
+  if (std::byte* memory = cut(room, pages::largest_page)) return memory;
+  const std::size_t whole = pages::rounded(room, pages::huge_page);
+  std::byte* memory = pages::map(whole);
+  if (whole > room && pieces_.size() < most_pieces) {
+    join({memory + room, whole - room});
+  } else if (whole > room) {
+    pages::unmap(memory + room, whole - room);
+  }
+  return memory;
+}
+
+bool Reserve::keep(std::byte* memory, std::size_t room, std::uint64_t used, std::uint64_t peak) {
+  const std::lock_guard lock(mutex_);
+  if (kept_ + room > most_ || kept_ + used > std::max<std::uint64_t>(most_ / 2, peak)) return false;
+  if (pieces_.size() == most_pieces) return false;
+  join({memory, room});
   return true;
 }
 

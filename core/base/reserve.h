@@ -21,9 +21,12 @@ class Reserve {
 
   /// So many bytes, whole huge pages whose content is anything; null where there are no such.
   std::byte* take(std::size_t room);
-  /// False: the caller unmaps it. It is kept as long as all that is kept and what its request uses, this
-  /// included, are together no more than half the most or than the request has used at its peak, so that a
-  /// great request is not greater by what it has let go.
+  /// So many bytes, pages of the largest size (pages.h), out of huge pages that others have the rest of; new
+  /// ones where there are none. Throws std::bad_alloc.
+  std::byte* share(std::size_t room);
+  /// Any pages. False: the caller unmaps them. It is kept as long as all that is kept and what its request
+  /// uses, this included, are together no more than half the most or than the request has used at its peak,
+  /// so that a great request is not greater by what it has let go.
   bool keep(std::byte* memory, std::size_t room, std::uint64_t used, std::uint64_t peak);
   /// Gives all back to the system.
   void clear();
@@ -34,6 +37,11 @@ class Reserve {
     std::byte* memory;
     std::size_t room;
   };
+  std::byte* cut(std::size_t room, std::size_t aligned);
+  void join(Piece whole);
+
+  static constexpr std::size_t most_pieces = 4096;
+
   mutable std::mutex mutex_;
   std::vector<Piece> pieces_;
   std::size_t kept_ = 0;

@@ -91,6 +91,38 @@ TEST(Reserve, DoesNotMakeAGreatRequestGreater) {
   EXPECT_EQ(reserve->kept(), 18 * mebibyte) << "with 34 MiB used";
 }
 
+TEST(Reserve, LaysSmallerArraysTogether) {
+  const auto reserve = std::make_shared<Reserve>(32 * mebibyte);
+  const Job job = job_with(reserve);
+  {
+    const Array<char> one(job, mebibyte / 2, 'a'), other(job, mebibyte, 'b');
+    EXPECT_EQ(reserve->kept(), mebibyte / 2) << "the rest of the huge page that they share";
+    EXPECT_TRUE(std::all_of(one.begin(), one.end(), [](char c) { return c == 'a'; }));
+    EXPECT_TRUE(std::all_of(other.begin(), other.end(), [](char c) { return c == 'b'; }));
+  }
+  EXPECT_EQ(reserve->kept(), 2 * mebibyte);
+  const Array<char> whole(job, 4 * mebibyte, 'c');
+  EXPECT_EQ(reserve->kept(), 2 * mebibyte) << "too small for it";
+}
+
+TEST(Reserve, LetsSmallerArraysGrowOneAmongOthers) {
+  const auto reserve = std::make_shared<Reserve>(32 * mebibyte);
+  const Job job = job_with(reserve);
+  Array<std::uint32_t> arrays[] = {Array<std::uint32_t>(job), Array<std::uint32_t>(job),
+                                   Array<std::uint32_t>(job)};
+  for (std::uint32_t i = 0; i < 2'000'000; ++i) {
+    for (std::uint32_t k = 0; k < 3; ++k) arrays[k].push_back(3 * i + k);
+  }
+  for (std::uint32_t size = 2'000'000; size > 1000; size = size / 10 * 7) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      arrays[k].resize(size);
+      arrays[k].shrink_to_fit();
+      for (std::uint32_t i = 0; i < size; i += 97) ASSERT_EQ(arrays[k][i], 3 * i + k);
+    }
+  }
+  EXPECT_LE(reserve->kept(), 32 * mebibyte);
+}
+
 TEST(Reserve, GivesAllBackWhenItIsCleared) {
   const auto reserve = std::make_shared<Reserve>(32 * mebibyte);
   { const Array<char> array(job_with(reserve), 8 * mebibyte, 'x'); }
