@@ -4,13 +4,15 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cctype>
+#include <functional>
+#include <numeric>
 #include <set>
+#include <span>
 #include <string_view>
 
 #include "core/base/parallel.h"
-#include "core/base/wide.h"
+#include "core/geom/minus_zero.h"
 #include "core/geom/repeats.h"
 
 namespace seedmesh {
@@ -19,8 +21,9 @@ namespace {
 // Entries of the smallest vertex caches in use.
 constexpr unsigned cache_entries = 16;
 constexpr std::size_t many_meshes = 16;
-// Floats that are looked through at once for -0; a small mesh has fewer positions than so many times that.
-constexpr std::size_t float_chunk = std::size_t{1} << 16U, small_mesh = 4;
+constexpr std::size_t most_narrow = 65'535;  ///< vertices: the next number restarts a strip
+// Of an array, what is looked through at once.
+constexpr std::size_t bytes_a_strip = std::size_t{64} << 10U;
 
 // What Godot makes of a node whose name ends so after '-', '_' or '$': a collision body, a rigid body,
 // nothing at all.
@@ -77,42 +80,90 @@ void reorder(Array<T>& values, const Array<std::uint32_t>& new_place, std::size_
   values = std::move(moved);
 }
 
-SEEDMESH_WIDE bool has_negative_zero(const float* values, std::size_t count) {
-  std::uint32_t found = 0;
-  for (std::size_t i = 0; i < count; ++i)
-    found |= std::bit_cast<std::uint32_t>(values[i]) == 0x80000000U ? 1U : 0U;
-  return found != 0;
-}
+/// The last look at meshes, in strips of their arrays: -0 becomes 0, boxes are measured, and indices are as
+/// short as they can be.
+class LastLook {
+ public:
+  /// Every strip of a mesh; its boxes are where those of all meshes begin.
+  void add(Mesh& mesh, const Job& job) {
+    const bool is_clean = mesh.no_minus_zero;
+    boxes_.push_back({&mesh, strips_.size()});
+    cut(mesh.position, [this, is_clean](std::span<glm::vec3> points, std::size_t strip) {
+      if (!is_clean) clear_minus_zeros(&points.front().x, 3 * points.size());
+      box_[strip] = bounds_of(points);
+    });
+    boxes_.back().end = strips_.size();
+    if (!is_clean) {
+      add_floats(mesh.normal);
+      add_floats(mesh.uv[0]);
+      add_floats(mesh.tangent);
+    }
+    for (std::size_t set = 1; set < mesh.uv.size(); ++set) add_floats(mesh.uv[set]);
+    add_floats(mesh.weights);
+    if (mesh.index.wide.empty() || mesh.position.size() > most_narrow) return;
+    mesh.index.small = Array<std::uint16_t>(job, mesh.index.wide.size());
+    narrowed_.push_back(&mesh);
+    cut(mesh.index.wide, [&mesh](std::span<const std::uint32_t> wide, std::size_t) {
+      std::uint16_t* to = mesh.index.small.data() + (wide.data() - mesh.index.wide.data());
+      for (const std::uint32_t index : wide) *to++ = static_cast<std::uint16_t>(index);
+    });
+  }
 
-/// Reads everything and, in the common case, writes nothing.
-template <class T>
-void clear_negative_zeros(Array<T>& values, const Job& job) {
-  static_assert(sizeof(T) % sizeof(float) == 0);
-  auto* numbers = reinterpret_cast<float*>(values.data());
-  parallel_for(job, values.bytes() / sizeof(float), float_chunk,
-               [&](std::size_t begin, std::size_t end, std::size_t) {
-                 if (!has_negative_zero(numbers + begin, end - begin)) return;
-                 for (std::size_t i = begin; i < end; ++i) numbers[i] += 0.0F;
-               });
-}
+  void look(const Job& job) {
+    box_.resize(strips_.size());
+    // Each thread has what is at about the same place of every array: it may have made it.
+    std::vector<std::size_t> order(strips_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return strips_[a].where < strips_[b].where; });
+    parallel_for(job, order.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
+      job.check();
+      strips_[order[i]].look(order[i]);
+    });
+    for (const Boxes& boxes : boxes_) {
+      Box box = box_[boxes.begin];
+      for (std::size_t i = boxes.begin; i < boxes.end; ++i)
+        box = {glm::min(box.min, box_[i].min), glm::max(box.max, box_[i].max)};
+      boxes.mesh->bounds = box;
+    }
+    for (Mesh* mesh : narrowed_) mesh->index.wide = Array<std::uint32_t>(job);
+  }
 
-void clear_negative_zeros(Mesh& mesh, const Job& job) {
-  clear_negative_zeros(mesh.position, job);
-  clear_negative_zeros(mesh.normal, job);
-  for (auto& uv : mesh.uv) clear_negative_zeros(uv, job);
-  clear_negative_zeros(mesh.tangent, job);
-  clear_negative_zeros(mesh.weights, job);
-}
+ private:
+  struct Strip {
+    float where;  ///< its middle, as a share of the array
+    std::function<void(std::size_t)> look;
+  };
+  struct Boxes {
+    Mesh* mesh;
+    std::size_t begin, end = 0;
+  };
 
-Box bounds_in_parallel(const Array<glm::vec3>& position, const Job& job) {
-  std::vector<Box> parts(chunk_count(position.size(), float_chunk));
-  parallel_for(job, position.size(), float_chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
-    parts[index] = bounds_of(position.span().subspan(begin, end - begin));
-  });
-  Box box = parts.front();
-  for (const Box& part : parts) box = {glm::min(box.min, part.min), glm::max(box.max, part.max)};
-  return box;
-}
+  /// look(elements, number of the strip) for each.
+  template <class T, class Look>
+  void cut(Array<T>& values, const Look& look) {
+    constexpr std::size_t length = bytes_a_strip / sizeof(T);
+    for (std::size_t first = 0; first < values.size(); first += length) {
+      const std::span<T> part = values.span().subspan(first, std::min(length, values.size() - first));
+      const float middle = static_cast<float>(first) + 0.5F * static_cast<float>(part.size());
+      strips_.push_back({middle / static_cast<float>(values.size()),
+                         [look, part](std::size_t strip) { look(part, strip); }});
+    }
+  }
+
+  template <class T>
+  void add_floats(Array<T>& values) {
+    static_assert(sizeof(T) % sizeof(float) == 0);
+    cut(values, [](std::span<T> part, std::size_t) {
+      clear_minus_zeros(reinterpret_cast<float*>(part.data()), part.size_bytes() / sizeof(float));
+    });
+  }
+
+  std::vector<Strip> strips_;
+  std::vector<Box> box_;  ///< of each strip
+  std::vector<Boxes> boxes_;
+  std::vector<Mesh*> narrowed_;
+};
 
 bool ends_with_meaning(const std::string& name) {
   const std::size_t mark = name.find_last_of("-_$");
@@ -146,15 +197,6 @@ void name_everything(Model& model) {
   }
   for (MeshGroup& group : model.meshes) group.name = meshes.unique(group.name, "mesh");
   for (Material& material : model.materials) material.name = materials.unique(material.name, "material");
-}
-
-void finish(Mesh& mesh, const Job& job) {
-  if (mesh.packed || is_empty(mesh)) return;
-  order_for_cache(mesh, job);
-  narrow(mesh, job);
-  clear_negative_zeros(mesh, job);
-  mesh.bounds = bounds_in_parallel(mesh.position, job);
-  job.check();
 }
 
 }  // namespace
@@ -198,15 +240,18 @@ void finish_meshes(Model& model, const Job& job) {
   for (MeshGroup& group : model.meshes) {
     for (Primitive& primitive : group.primitives) meshes.push_back(&primitive.mesh);
   }
-  // Many meshes side by side, and small ones; of a few great ones, each by all threads.
-  const bool is_small = std::all_of(meshes.begin(), meshes.end(), [](const Mesh* mesh) {
-    return 3 * mesh->position.size() < small_mesh * float_chunk;
-  });
-  const std::size_t together =
-      is_small || meshes.size() >= many_meshes ? 1 : std::max<std::size_t>(1, meshes.size());
-  parallel_for(job, meshes.size(), together, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t i = begin; i < end; ++i) finish(*meshes[i], job);
-  });
+  std::erase_if(meshes, [](const Mesh* mesh) { return mesh->packed || is_empty(*mesh); });
+  // Many meshes side by side; of a few, the arrays.
+  const auto finish_from = [&](std::size_t begin, std::size_t end) {
+    parallel_for(job, end - begin, 1,
+                 [&](std::size_t i, std::size_t, std::size_t) { order_for_cache(*meshes[begin + i], job); });
+    LastLook last;
+    for (std::size_t i = begin; i < end; ++i) last.add(*meshes[i], job);
+    last.look(job);
+  };
+  if (meshes.size() < many_meshes) return finish_from(0, meshes.size());
+  parallel_for(job, meshes.size(), 1,
+               [&](std::size_t begin, std::size_t end, std::size_t) { finish_from(begin, end); });
 }
 
 void finish(Model& model, Job& job) {

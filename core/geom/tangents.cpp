@@ -12,6 +12,7 @@
 #include "core/base/quick_math.h"
 #include "core/base/wide.h"
 #include "core/geom/four.h"
+#include "core/geom/minus_zero.h"
 #include "core/geom/piece_tangents.h"
 #include "core/geom/repeats.h"
 
@@ -136,6 +137,7 @@ void add_tangents(Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>&
       if (left & 1U) tangent[k] = tangent_of(normal[k], sums[k]);
     }
   }
+  clear_minus_zeros(mesh.tangent, piece.first, sums.size());
 }
 
 // Of vertices whose sums are still near when their tangents are made of them; pieces in whole blocks.
@@ -229,7 +231,9 @@ class Wanted {
     const std::size_t begin = part * pieces_a_part, end = std::min(pieces(), begin + pieces_a_part);
     const std::span<const std::uint32_t> index = mesh_.index.wide.span();
     Array<Sums> sums(job, one_.vertices);
-    for (std::size_t piece = pieces_->write_all(begin, end); piece < end; ++piece) {
+    std::size_t piece = pieces_->write_all(begin, end);
+    clear_minus_zeros(mesh_.tangent, begin * one_.vertices, (piece - begin) * one_.vertices);
+    for (; piece < end; ++piece) {
       const std::size_t first = piece * one_.corners;
       add_tangents(mesh_, Piece<std::uint32_t>{index.subspan(first, one_.corners), piece * one_.vertices},
                    uv_, sums.span());

@@ -69,13 +69,4 @@ Box bounds_of(const Mesh& mesh) {
   return mesh.packed ? mesh.packed->bounds : bounds_of(mesh.position.span());
 }
 
-void narrow(Mesh& mesh, const Job& job) {
-  if (mesh.index.wide.empty() || mesh.position.size() > 65'535) return;
-  Array<std::uint16_t> small(job, mesh.index.wide.size());
-  std::transform(mesh.index.wide.begin(), mesh.index.wide.end(), small.begin(),
-                 [](std::uint32_t i) { return static_cast<std::uint16_t>(i); });
-  mesh.index.small = std::move(small);
-  mesh.index.wide = Array<std::uint32_t>(job);
-}
-
 }  // namespace seedmesh

@@ -16,8 +16,8 @@ struct Box {
 
 enum class Topology { triangles, lines, points };
 
-/// Indices of a mesh: 32 bit while it is built; `narrow` turns them to 16 bit where the vertices allow. At
-/// most one of the two arrays is in use; both empty means "not indexed" (points only).
+/// Indices of a mesh: 32 bit while it is built; finish() (core/geom/finish.h) turns them to 16 bit where the
+/// vertices allow. At most one of the two arrays is in use; both empty means "not indexed" (points only).
 struct Indices {
   Array<std::uint32_t> wide;
   Array<std::uint16_t> small;
@@ -52,6 +52,7 @@ struct Mesh {
   Indices index;               ///< 3 a triangle, 2 a line
   Box bounds;                  ///< of `position`; set by finish
   bool cache_ordered = false;  ///< the maker emitted triangles in cache order already
+  bool no_minus_zero = false;  ///< nor wrote a -0 to positions, normals, uv[0] and tangents
   std::shared_ptr<const PackedMesh> packed;  ///< instead of all the arrays; null: they are here
 
   std::size_t elements() const;  ///< triangles, lines or points
@@ -62,8 +63,5 @@ struct Mesh {
 /// Smallest box that holds `position`; {0,0} where it is empty.
 Box bounds_of(std::span<const glm::vec3> position);
 Box bounds_of(const Mesh& mesh);
-
-/// Turns the indices to 16 bit where all vertices can be named so (65,535 restarts a strip and is left out).
-void narrow(Mesh& mesh, const Job& job);
 
 }  // namespace seedmesh

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
@@ -49,8 +50,30 @@ class Presets : public testing::TestWithParam<PresetInfo> {
       ADD_FAILURE() << model.error().issues.front().message;
       return std::nullopt;
     }
+    expect_zeros_as_told(*model);
     finish(*model, job);
     return std::move(*model);
+  }
+
+  template <class T>
+  static bool has_minus_zero(const Array<T>& values) {
+    const std::span<const float> numbers(reinterpret_cast<const float*>(values.data()),
+                                         values.bytes() / sizeof(float));
+    return std::any_of(numbers.begin(), numbers.end(),
+                       [](float number) { return number == 0 && std::signbit(number); });
+  }
+
+  /// finish() does not look where a maker says that there are none.
+  static void expect_zeros_as_told(const Model& model) {
+    for (const MeshGroup& group : model.meshes) {
+      for (const Primitive& primitive : group.primitives) {
+        const Mesh& mesh = primitive.mesh;
+        if (!mesh.no_minus_zero) continue;
+        EXPECT_FALSE(has_minus_zero(mesh.position) || has_minus_zero(mesh.normal) ||
+                     has_minus_zero(mesh.uv[0]) || has_minus_zero(mesh.tangent))
+            << group.name;
+      }
+    }
   }
 
   static Box bounds(const Model& model) {

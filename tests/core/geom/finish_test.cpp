@@ -107,6 +107,35 @@ TEST(Finish, ReplacesNegativeZeros) {
   EXPECT_EQ(measure({&model.meshes[0].primitives[0].mesh}).negative_zeros, 0U);
 }
 
+TEST(Finish, BelievesAMakerThatHasWrittenNone) {
+  Job job = job_of();
+  Model model;
+  add_node(model, "leaf", triangle(job));
+  Mesh& mesh = model.meshes[0].primitives[0].mesh;
+  mesh.no_minus_zero = true;
+  finish(model, job);
+  EXPECT_EQ(measure({&model.meshes[0].primitives[0].mesh}).negative_zeros, 4U);
+  EXPECT_EQ(model.meshes[0].primitives[0].mesh.bounds.max.x, 1);
+}
+
+TEST(Finish, LooksAtEveryPartOfGreatMeshes) {
+  Model models[2];
+  for (int i = 0; i < 2; ++i) {
+    Job job(1, {.threads = 1 + 7 * i});
+    add_node(models[i], "sheet", shuffled_sheet(job, 240));
+    for (glm::vec2& uv : models[i].meshes[0].primitives[0].mesh.uv[0]) uv.x = -0.0F;
+    finish(models[i], job);
+  }
+  const Mesh &one = models[0].meshes[0].primitives[0].mesh, &other = models[1].meshes[0].primitives[0].mesh;
+  EXPECT_EQ(measure({&one}).negative_zeros, 0U);
+  EXPECT_EQ(one.bounds.min, bounds_of(one.position.span()).min);
+  EXPECT_EQ(one.bounds.max, bounds_of(one.position.span()).max);
+  EXPECT_GT(one.index.small.size(), 300'000U);
+  EXPECT_TRUE(one.index.wide.empty());
+  EXPECT_TRUE(std::equal(one.index.small.begin(), one.index.small.end(), other.index.small.begin(),
+                         other.index.small.end()));
+}
+
 TEST(Finish, DropsEmptyMeshesAndKeepsReferencesRight) {
   Job job = job_of();
   Model model;

@@ -10,6 +10,7 @@
 #include "tests/core/geom/barks.h"
 #include "tests/core/geom/skeletons.h"
 #include "tests/support/mesh_faults.h"
+#include "tests/support/narrow.h"
 
 namespace seedmesh {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "core/gltf/quantize.h"
 #include "tests/core/gltf/samples.h"
+#include "tests/support/narrow.h"
 
 namespace seedmesh {
 namespace {

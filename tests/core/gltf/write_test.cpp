@@ -8,6 +8,7 @@
 #include <set>
 
 #include "tests/core/gltf/samples.h"
+#include "tests/support/narrow.h"
 
 namespace seedmesh {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "core/base/rng.h"
 #include "tests/support/mesh_faults.h"
+#include "tests/support/narrow.h"
 
 namespace seedmesh::building {
 namespace {

@@ -1,0 +1,17 @@
+#pragma once
+/// Indices of 16 bits, as finish() makes them of a model.
+#include <algorithm>
+
+#include "core/model/mesh.h"
+
+namespace seedmesh {
+
+inline void narrow(Mesh& mesh, const Job& job) {
+  Array<std::uint16_t> small(job, mesh.index.wide.size());
+  std::transform(mesh.index.wide.begin(), mesh.index.wide.end(), small.begin(),
+                 [](std::uint32_t i) { return static_cast<std::uint16_t>(i); });
+  mesh.index.small = std::move(small);
+  mesh.index.wide = Array<std::uint32_t>(job);
+}
+
+}  // namespace seedmesh
