@@ -12,30 +12,37 @@ namespace seedmesh::tree {
 namespace {
 
 // Fewer stems that wait are not worth another thread.
-constexpr std::size_t least_stems = 8, parts_a_thread = 4;
+constexpr std::size_t least_stems = 8;
 // Trunks that split off are grown ahead, for one may bear half the tree; not more of them.
 constexpr std::size_t most_trunks = 16;
 // Of the children that stems bear at most, what they bear on the whole, and room for chance.
 constexpr double usual_share = 0.7;
+// A part may be greater than the others by so much. Small trees have few parts, each of which takes time.
+constexpr double room_of_part = 1.5, many_joints = 12'000;
 
 }  // namespace
 
 void WeberPennGrower::run() {
-  if (!has_threads(writer_.job())) expect(1);
+  if (!has_threads(writer_.job())) make_room(1);
   WeberPennStem stem = trunk();
   grow(stem);
   if (!grow_parts()) grow_all();
 }
 
-/// Room for as many joints and leaves as a share of the tree may have about.
-void WeberPennGrower::expect(double share) {
+/// About as many joints and leaves as the tree may have.
+WeberPennGrower::Expected WeberPennGrower::expected() const {
   double stems = 1, joints = 0;
   for (int n = 0; n < p_.Levels; ++n) {
     const double children = n + 1 < p_.Levels ? level(n + 1).branches : 0;
     joints += stems * (level(n).curve_res + children);
     if (n + 1 < p_.Levels) stems *= children;
   }
-  writer_.expect(share * usual_share * joints, share * usual_share * stems * std::abs(p_.Leaves));
+  return {usual_share * joints, usual_share * stems * std::abs(p_.Leaves)};
+}
+
+void WeberPennGrower::make_room(double share) {
+  const Expected all = expected();
+  writer_.expect(share * all.joints, share * all.leaves);
 }
 
 void WeberPennGrower::grow_all() {
@@ -117,6 +124,7 @@ void WeberPennGrower::join_steps(Plan& plan, std::size_t stems) {
 bool WeberPennGrower::grow_parts() {
   const Job& job = writer_.job();
   if (!has_threads(job) || waiting_.size() < least_stems) return false;
+  const std::size_t parts_a_thread = expected().joints < many_joints ? 2 : 4;
   const std::size_t wanted = parts_a_thread * static_cast<std::size_t>(job.threads());
   const std::size_t most_of_trunk = writer_.most_of_parts(wanted + most_trunks);
   if (most_of_trunk == 0) return false;
@@ -133,7 +141,7 @@ bool WeberPennGrower::grow_parts() {
       auto part = std::make_unique<Part>(*this, from.writer_, most);
       part->grower.waiting_.assign(from.waiting_.begin() + static_cast<std::ptrdiff_t>(steps[i].begin),
                                    from.waiting_.begin() + static_cast<std::ptrdiff_t>(steps[i].end));
-      part->grower.expect(1.0 / static_cast<double>(steps.size()));
+      part->grower.make_room(room_of_part / static_cast<double>(steps.size()));
       part->grower.grow_all();
       steps[i].part = std::move(part);
     });

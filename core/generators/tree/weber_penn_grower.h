@@ -59,7 +59,11 @@ class WeberPennGrower {
 
   // Along a stem.
   WeberPennStem trunk();
-  void expect(double share);
+  struct Expected {
+    double joints = 0, leaves = 0;
+  };
+  Expected expected() const;
+  void make_room(double share);  ///< for so much of what is expected
   void grow(WeberPennStem& stem);
   void begin(const WeberPennStem& stem);
   double radius_at(const WeberPennStem& stem, double z) const;
