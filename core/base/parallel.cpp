@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <exception>
 #include <new>
+#include <utility>
+
+#include "core/base/chunks.h"
 
 #if defined(SEEDMESH_STD_THREADS)
-#include <mutex>
 #include <thread>
 #include <vector>
 #else
@@ -20,70 +21,10 @@
 namespace seedmesh {
 namespace {
 
-#if defined(SEEDMESH_STD_THREADS)
-void run(int threads, std::size_t chunks, const std::function<void(std::size_t)>& each) {
-  std::atomic<std::size_t> next{0};
-  std::exception_ptr failure;
-  std::mutex mutex;
-  auto work = [&] {
-    for (std::size_t i = next++; i < chunks; i = next++) {
-      try {
-        each(i);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failure) failure = std::current_exception();
-        next = chunks;
-      }
-    }
-  };
-  std::vector<std::jthread> pool;
-  for (int i = 1; i < threads; ++i) pool.emplace_back(work);
-  work();
-  pool.clear();
-  if (failure) std::rethrow_exception(failure);
-}
-#else
-/// All threads that there are belong to the caller's own arena; to make another takes 4 microseconds.
-bool is_for_all(int threads) {
-  return static_cast<std::size_t>(threads) >=
-         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-}
-
-void run(int threads, std::size_t chunks, const std::function<void(std::size_t)>& each) {
-  const auto share_out = [&] { tbb::parallel_for(std::size_t{0}, chunks, each, tbb::simple_partitioner()); };
-  if (is_for_all(threads)) return share_out();
-  tbb::task_arena arena(threads);
-  arena.execute(share_out);
-}
-#endif
-
-/// Set on a thread that runs a chunk: what is cut into chunks within one has no threads left.
-thread_local bool in_a_chunk = false;
-
-class InAChunk {
- public:
-  InAChunk() : before_(in_a_chunk) { in_a_chunk = true; }
-  ~InAChunk() { in_a_chunk = before_; }
-  InAChunk(const InAChunk&) = delete;
-  InAChunk& operator=(const InAChunk&) = delete;
-
- private:
-  bool before_;
-};
-
-}  // namespace
-
-#if defined(SEEDMESH_STD_THREADS)
-struct KeepAwake::Waiters {};
-KeepAwake::KeepAwake(const Job&) {}
-KeepAwake::~KeepAwake() = default;
-class Released {};
-#else
-namespace {
 // How long a thread waits for work, and how often it looks at the clock.
 constexpr std::chrono::microseconds longest_wait{300};
 constexpr int waits_a_look = 64;
-// What takes a millisecond has no use for more.
+// So many wait: what takes a millisecond has no use for more.
 constexpr int most_waiters = 7;
 
 void wait_a_little() {
@@ -94,86 +35,224 @@ void wait_a_little() {
 #endif
 }
 
+#if defined(SEEDMESH_STD_THREADS)
+class Threads {
+ public:
+  template <class Task>
+  void start(Task task) {
+    pool_.emplace_back(std::move(task));
+  }
+  void wait() { pool_.clear(); }
+  static int most(int threads) { return threads; }
+
+ private:
+  std::vector<std::jthread> pool_;
+};
+
+bool is_for_all(int) { return true; }
+
+void run(int threads, std::size_t chunks, const std::function<void(std::size_t)>& each) {
+  Region region(chunks, static_cast<std::size_t>(threads), each);
+  Threads others;
+  for (int i = 1; i < threads; ++i) others.start([&region, i] { region.work(static_cast<std::size_t>(i)); });
+  region.work(0);
+  others.wait();
+  region.throw_on();
+}
+#else
+class Threads {
+ public:
+  template <class Task>
+  void start(Task task) {
+    group_.run(std::move(task));
+  }
+  void wait() { group_.wait(); }
+  static int most(int) { return tbb::this_task_arena::max_concurrency(); }
+
+ private:
+  tbb::task_group group_;
+};
+
+/// All threads that there are belong to the caller's own arena; to make another takes 4 microseconds.
+bool is_for_all(int threads) {
+  return static_cast<std::size_t>(threads) >=
+         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+}
+
+void run(int threads, std::size_t chunks, const std::function<void(std::size_t)>& each) {
+  const auto share_out = [&] {
+    tbb::parallel_for(
+        std::size_t{0}, chunks,
+        [&](std::size_t i) {
+          const InAChunk mark;
+          each(i);
+        },
+        tbb::simple_partitioner());
+  };
+  if (is_for_all(threads)) return share_out();
+  tbb::task_arena arena(threads);
+  arena.execute(share_out);
+}
+#endif
+
 }  // namespace
 
-/// Tasks that do nothing as long as there is nothing to do.
-struct KeepAwake::Waiters {
-  explicit Waiters(int count) : wanted(count) {}
-  ~Waiters() {
-    release();
-    group.wait();
+/// The threads that help one other, who alone calls what is public.
+class Crew {
+ public:
+  explicit Crew(int helpers) : most_(helpers) { muster(1); }
+  ~Crew() {
+    is_over_ = true;
+    threads_.wait();
   }
-  void hold() noexcept {
-    const std::uint64_t own = ++turn;
-    try {
-      for (int i = 0; i < wanted; ++i) group.run([this, own] { wait_for_work(own); });
-    } catch (const std::bad_alloc&) {  // then they go to sleep
-    }
-  }
-  void release() { ++turn; }
-  void wait_for_work(std::uint64_t own) const {
-    const auto end = std::chrono::steady_clock::now() + longest_wait;
-    do {
-      for (int i = 0; i < waits_a_look && turn == own; ++i) wait_a_little();
-    } while (turn == own && std::chrono::steady_clock::now() < end);
+  Crew(const Crew&) = delete;
+  Crew& operator=(const Crew&) = delete;
+
+  void run(std::size_t chunks, const std::function<void(std::size_t)>& each) {
+    muster(chunks - 1);
+    Region region(chunks, 1 + static_cast<std::size_t>(awake_), each);
+    region_.show(&region);
+    region.work(0);
+    region_.hide([&] { return help_beside(); });
+    region.throw_on();
   }
 
-  int wanted;
-  std::atomic<std::uint64_t> turn{0};  ///< another than a task's own: there is work
-  tbb::task_group group;
+  /// False: it knows of others.
+  bool learn_of(Pieces& pieces) {
+    if (beside_.is_shown()) return false;
+    muster(1);
+    beside_.show(&pieces);
+    return true;
+  }
+  void forget_pieces() {
+    beside_.hide([] { return false; });
+  }
+
+ private:
+  /// What threads may work at, and how many do.
+  template <class Work>
+  class Place {
+   public:
+    void show(Work* work) { work_ = work; }
+    bool is_shown() const { return work_ != nullptr; }
+
+    /// From here on nobody has it. What is done meanwhile is done with `otherwise`, while that returns true.
+    template <class Otherwise>
+    void hide(const Otherwise& otherwise) {
+      work_ = nullptr;
+      while (inside_ > 0) {
+        if (!otherwise()) wait_a_little();
+      }
+    }
+
+    /// Calls `visit` with what is there; returns what that does.
+    template <class Visit>
+    bool enter(const Visit& visit) {
+      if (!is_shown()) return false;
+      ++inside_;  // before the second look: whoever hides it waits for those whom he cannot see
+      Work* work = work_;
+      const bool done = work && visit(*work);
+      --inside_;
+      return done;
+    }
+
+   private:
+    alignas(cache_line) std::atomic<Work*> work_{nullptr};
+    alignas(cache_line) std::atomic<int> inside_{0};
+  };
+
+  bool help_region(std::size_t number) {
+    return region_.enter([number](Region& region) {
+      const bool is_left = region.is_left();
+      if (is_left) region.work(number);
+      return is_left;
+    });
+  }
+  bool help_beside() {
+    return beside_.enter([](Pieces& pieces) { return pieces.do_one(); });
+  }
+
+  /// Calls those who sleep, where fewer are awake than those who wait, or can be of use.
+  void muster(std::size_t useful) noexcept {
+    const int wanted =
+        std::min(most_, std::max(most_waiters, static_cast<int>(std::min<std::size_t>(useful, 1024))));
+    try {
+      while (awake_ < wanted) {
+        const int number = ++awake_;
+        threads_.start([this, number] { help(static_cast<std::size_t>(number)); });
+      }
+    } catch (const std::bad_alloc&) {  // then there are fewer
+      --awake_;
+    }
+  }
+
+  void help(std::size_t number) {
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point end = Clock::now() + longest_wait;
+    for (int waits = 1; !is_over_; ++waits) {
+      if (help_region(number) || help_beside()) {
+        waits = 0;
+        end = Clock::time_point::max();
+        continue;
+      }
+      wait_a_little();
+      if (waits % waits_a_look != 0) continue;
+      const Clock::time_point now = Clock::now();
+      if (end == Clock::time_point::max()) end = now + longest_wait;
+      if (now > end || awake_ > most_waiters) break;
+    }
+    --awake_;
+  }
+
+  int most_;
+  std::atomic<int> awake_{0};
+  std::atomic<bool> is_over_{false};
+  Place<Region> region_;
+  Place<Pieces> beside_;
+  Threads threads_;
 };
 
 namespace {
 /// Of the thread whose helpers are kept awake.
-thread_local KeepAwake* keeper = nullptr;
-thread_local int working = 0;
+thread_local Crew* own_crew = nullptr;
+
+Crew* crew_for(const Job& job) { return is_for_all(job.threads()) ? own_crew : nullptr; }
 }  // namespace
 
 KeepAwake::KeepAwake(const Job& job) {
-  if (!has_threads(job) || keeper || !is_for_all(job.threads())) return;
-  waiters_ = std::make_unique<Waiters>(std::min(most_waiters, tbb::this_task_arena::max_concurrency() - 1));
-  keeper = this;
-  waiters_->hold();
+  if (!has_threads(job) || own_crew || !is_for_all(job.threads())) return;
+  crew_ = std::make_unique<Crew>(Threads::most(job.threads()) - 1);
+  own_crew = crew_.get();
 }
 
 KeepAwake::~KeepAwake() {
-  if (keeper == this) keeper = nullptr;
+  if (crew_) own_crew = nullptr;
 }
 
-/// While there is work for them.
-class Released {
- public:
-  Released() : keeper_(keeper) {
-    if (keeper_ && working++ == 0) keeper_->waiters_->release();
-  }
-  ~Released() {
-    if (keeper_ && --working == 0) keeper_->waiters_->hold();
-  }
-  Released(const Released&) = delete;
-  Released& operator=(const Released&) = delete;
+Beside::Beside(const Job& job, std::function<std::size_t()> prepare, std::function<void(std::size_t)> piece)
+    : job_(job), pieces_(std::make_unique<Pieces>(std::move(prepare), std::move(piece))) {
+  if (!has_threads(job)) return;
+  Crew* crew = crew_for(job);
+  if (crew && crew->learn_of(*pieces_)) crew_ = crew;
+}
 
- private:
-  KeepAwake* keeper_;
-};
-#endif
+Beside::~Beside() {
+  pieces_->stop();
+  if (crew_) crew_->forget_pieces();
+}
 
-void run_both(const Job& job, const std::function<void()>& one, const std::function<void()>& other) {
-  if (!has_threads(job)) {
-    one();
-    return other();
+void Beside::finish() {
+  while (!pieces_->is_prepared()) {
+    if (!pieces_->do_one()) wait_a_little();
   }
-  [[maybe_unused]] const Released released;
-  std::exception_ptr failures[2];
-  run(job.threads(), 2, [&](std::size_t i) {
-    try {
-      (i == 0 ? one : other)();
-    } catch (...) {
-      failures[i] = std::current_exception();
-    }
-  });
-  for (const std::exception_ptr& failure : failures) {
-    if (failure) std::rethrow_exception(failure);
-  }
+  parallel_for(job_, std::min<std::size_t>(pieces_->left(), static_cast<std::size_t>(job_.threads())), 1,
+               [&](std::size_t, std::size_t, std::size_t) {
+                 while (pieces_->do_one()) {
+                 }
+               });
+  if (crew_) crew_->forget_pieces();
+  crew_ = nullptr;
+  pieces_->throw_on();
 }
 
 bool has_threads(const Job& job) { return job.threads() > 1 && !in_a_chunk; }
@@ -184,12 +263,10 @@ void parallel_for(const Job& job, std::size_t count, std::size_t chunk,
   const auto each = [&](std::size_t i) { body(i * chunk, std::min(count, (i + 1) * chunk), i); };
   if (!has_threads(job) || chunks <= 1) {
     for (std::size_t i = 0; i < chunks; ++i) each(i);
+  } else if (Crew* crew = crew_for(job)) {
+    crew->run(chunks, each);
   } else {
-    [[maybe_unused]] const Released released;
-    run(job.threads(), chunks, [&](std::size_t i) {
-      const InAChunk mark;
-      each(i);
-    });
+    run(job.threads(), chunks, each);
   }
 }
 

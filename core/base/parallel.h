@@ -10,15 +10,14 @@
 
 namespace seedmesh {
 
+class Crew;
+class Pieces;
+
 /// Calls body(begin, end, chunk_index) for every chunk [i*chunk, min((i+1)*chunk, count)). An exception of a
 /// body (Stop) ends the whole and is thrown on here. With job.threads() == 1 everything runs on the caller;
 /// there are never more threads than oneTBB's max_allowed_parallelism, by default the number of cores.
 void parallel_for(const Job& job, std::size_t count, std::size_t chunk,
                   const std::function<void(std::size_t begin, std::size_t end, std::size_t index)>& body);
-
-/// Calls both, side by side where there are threads. Unlike in a chunk of parallel_for, what is cut into
-/// chunks within them may use all threads. Of two exceptions that of `one` is thrown on.
-void run_both(const Job& job, const std::function<void()>& one, const std::function<void()>& other);
 
 /// Does parallel_for use more than one thread here? For those who would rather do it otherwise on one.
 bool has_threads(const Job& job);
@@ -34,9 +33,29 @@ class KeepAwake {
   KeepAwake& operator=(const KeepAwake&) = delete;
 
  private:
-  friend class Released;
-  struct Waiters;
-  std::unique_ptr<Waiters> waiters_;
+  std::unique_ptr<Crew> crew_;
+};
+
+/// Work that the rest of its caller's does not wait for, cut into pieces: threads that KeepAwake holds do
+/// them wherever the caller leaves them nothing else, in what is done by one thread and at the end of each
+/// parallel_for. Without such threads, or beside another, all is done by finish(). The caller does what does
+/// not meet the pieces' memory meanwhile.
+class Beside {
+ public:
+  /// `prepare` is called first and returns how many pieces there are; then piece(0), piece(1) ..., each once,
+  /// by any thread. A piece takes some tens of microseconds at most: the next parallel_for waits for it.
+  Beside(const Job& job, std::function<std::size_t()> prepare, std::function<void(std::size_t)> piece);
+  ~Beside();  ///< what has not begun is not done
+  Beside(const Beside&) = delete;
+  Beside& operator=(const Beside&) = delete;
+
+  /// Does the rest, on all threads, and throws on what a piece has thrown.
+  void finish();
+
+ private:
+  const Job& job_;
+  std::unique_ptr<Pieces> pieces_;
+  Crew* crew_ = nullptr;  ///< that knows of it
 };
 
 constexpr std::size_t chunk_count(std::size_t count, std::size_t chunk) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/array.h"
+#include "core/base/parallel.h"
 #include "core/base/wide.h"
 
 namespace seedmesh {
@@ -20,8 +21,17 @@ constexpr float most_cells = 32'000;
 constexpr std::size_t least_slots = 64, most_slots = std::size_t{1} << 30U;
 // So many points in one slot are a heap, and are not compared with those before.
 constexpr std::size_t most_in_a_slot = 32;
+// With fewer points no other thread is of use.
+constexpr std::size_t least_points_to_share = 65'536, most_shares = 8, points_a_chunk = 4096;
 // Of a slot: the point is near a border.
 constexpr std::uint32_t at_border = 0x80000000U;
+
+/// The least power of two that is not below `wanted`, as an exponent.
+int bits_for(std::size_t wanted) {
+  int bits = 0;
+  while ((std::size_t{1} << bits) < wanted) ++bits;
+  return bits;
+}
 
 class Cells {
  public:
@@ -90,52 +100,108 @@ class Bits {
   Array<std::uint64_t> words_;
 };
 
-/// Points by the slots of their cells, each with the one that was put there before.
+/// Points by the slots of their cells, each with the one that was put there before. Each thread has a share
+/// of the slots.
 class Slots {
  public:
   static constexpr std::uint32_t none = 0xFFFFFFFFU;
 
-  /// `slot` of each point, with the mark of those near a border; those that have one, and twins, are no
-  /// points of this table.
-  Slots(const Job& job, std::size_t slots, Array<std::uint32_t> slot, std::span<const std::uint8_t> twin)
-      : last_(job, slots + 1, none),
-        before_(std::move(slot)),
-        crowded_(job, before_.size()),
-        border_(job, before_.size()) {
-    std::size_t crowds = 0, at_borders = 0;
-    for (std::size_t i = 0; i < before_.size(); ++i) {
-      // Others go to a slot of their own, which nobody asks for. Without branches that nobody can foresee: a
-      // point is put on the list, and stays there if it belongs to it.
-      const std::uint32_t is_at_border = before_[i] >> 31U;
-      const bool is_other = (is_at_border | twin[i]) != 0;
-      const std::size_t at = is_other ? slots : before_[i];
-      const std::uint32_t before = last_[at];
-      last_[at] = static_cast<std::uint32_t>(i);
-      before_[i] = before;
-      crowded_[crowds] = static_cast<std::uint32_t>(i);
-      crowds += ((before != none) & !is_other) ? 1 : 0;
-      border_[at_borders] = static_cast<std::uint32_t>(i);
-      at_borders += is_at_border & (twin[i] ? 0U : 1U);
+  /// 2^bits slots.
+  Slots(const Cells& cells, int bits, std::span<const glm::vec3> points, std::span<const std::uint8_t> twin,
+        const Job& job)
+      : points_(points), before_(job, points.size()), last_(job, std::size_t{1} << bits, none) {
+    const bool is_shared = has_threads(job) && points_.size() >= least_points_to_share;
+    const int share_bits =
+        is_shared ? bits_for(std::min<std::size_t>(most_shares, static_cast<std::size_t>(job.threads()))) : 0;
+    share_shift_ = static_cast<std::uint32_t>(bits - share_bits);
+    crowded_.resize(std::size_t{1} << share_bits);
+    chunks_.resize(chunk_count(points_.size(), points_a_chunk));
+    parallel_for(job, points_.size(), points_a_chunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                   sort_out(cells, twin, begin, end, chunks_[chunk]);
+                 });
+    std::size_t entries = 0;
+    for (Chunk& chunk : chunks_) {
+      chunk.first = entries;
+      entries += chunk.border.size();
     }
-    crowded_.resize(crowds);
-    border_.resize(at_borders);
+    border_.resize(entries);
+    before_.resize(points_.size() + entries);
+    parallel_for(job, crowded_.size(), 1, [&](std::size_t share, std::size_t, std::size_t) {
+      for (Chunk& chunk : chunks_) put(chunk, static_cast<std::uint32_t>(share));
+    });
   }
 
-  /// Puts one more there, which gets the next number.
-  void put(std::uint32_t slot) {
-    const auto number = static_cast<std::uint32_t>(before_.size());
-    before_.push_back(last_[slot]);
-    if (last_[slot] != none) crowded_.push_back(number);
-    last_[slot] = number;
-  }
-  /// Points near a border, but for twins: for put().
-  std::span<const std::uint32_t> border() const { return border_.span(); }
-  /// Those that came to a slot that was taken.
-  std::span<const std::uint32_t> crowded() const { return crowded_.span(); }
+  /// Those that came to a slot that was taken, share by share.
+  const std::vector<std::vector<std::uint32_t>>& crowded() const { return crowded_; }
   std::uint32_t before(std::uint32_t number) const { return before_[number]; }
+  std::uint32_t point_of(std::uint32_t number) const {
+    return number < points_.size() ? number : border_[number - points_.size()];
+  }
 
  private:
-  Array<std::uint32_t> last_, before_, crowded_, border_;
+  /// One of the cells of a point that is near a border.
+  struct Entry {
+    std::uint32_t point, slot;
+  };
+  struct Chunk {
+    std::vector<std::vector<std::uint32_t>>
+        inside;  ///< points by shares, but for twins and those near borders
+    std::vector<Entry> border;
+    std::size_t first = 0;  ///< of `border`
+  };
+
+  void sort_out(const Cells& cells, std::span<const std::uint8_t> twin, std::size_t begin, std::size_t end,
+                Chunk& chunk) {
+    std::uint32_t* const slot = before_.data();  // until what was there before comes here
+    cells.fill(points_.subspan(begin, end - begin), slot + begin);
+    const std::size_t shares = crowded_.size();
+    chunk.inside.resize(shares);
+    for (std::vector<std::uint32_t>& list : chunk.inside) list.resize(end - begin + 1);
+    std::vector<std::size_t> count(shares, 0);
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto point = static_cast<std::uint32_t>(i);
+      const bool is_at_border = (slot[i] & at_border) != 0;
+      if (is_at_border && !twin[i])
+        cells.each(points_[i], [&](std::uint32_t at) { chunk.border.push_back({point, at}); });
+      // Without a branch that nobody can foresee: it is put on a list, and stays there if it belongs to it.
+      const std::size_t share = (slot[i] & ~at_border) >> share_shift_;
+      chunk.inside[share][count[share]] = point;
+      count[share] += (is_at_border | (twin[i] != 0)) ? 0 : 1;
+    }
+    for (std::size_t share = 0; share < shares; ++share) chunk.inside[share].resize(count[share]);
+  }
+
+  void put(const Chunk& chunk, std::uint32_t share) {
+    std::vector<std::uint32_t>& crowded = crowded_[share];
+    const auto put_one = [&](std::uint32_t number, std::uint32_t slot) {
+      const std::uint32_t last = std::exchange(last_[slot], number);
+      before_[number] = last;
+      return last != none;
+    };
+    const std::vector<std::uint32_t>& inside = chunk.inside[share];
+    std::size_t crowds = crowded.size();
+    crowded.resize(crowds + inside.size() + 1);
+    for (const std::uint32_t point : inside) {
+      crowded[crowds] = point;
+      crowds += put_one(point, before_[point]) ? 1 : 0;
+    }
+    crowded.resize(crowds);
+    for (std::size_t i = 0; i < chunk.border.size(); ++i) {
+      const Entry& entry = chunk.border[i];
+      if (entry.slot >> share_shift_ != share) continue;
+      border_[chunk.first + i] = entry.point;
+      const auto number = static_cast<std::uint32_t>(points_.size() + chunk.first + i);
+      if (put_one(number, entry.slot)) crowded.push_back(number);
+    }
+  }
+
+  std::span<const glm::vec3> points_;
+  std::uint32_t share_shift_ = 0;
+  Array<std::uint32_t> before_, last_;
+  std::vector<std::uint32_t> border_;  ///< the points of numbers beyond those of points
+  std::vector<Chunk> chunks_;
+  std::vector<std::vector<std::uint32_t>> crowded_;
 };
 
 /// Are two points within `reach`?
@@ -158,52 +224,42 @@ class Reach {
 }  // namespace
 
 Array<std::uint8_t> near_others(std::span<const glm::vec3> points, std::span<const std::uint8_t> twin,
-                                float reach, const Job& job) {
+                                const Box& box, float reach, const Job& job) {
   Array<std::uint8_t> found(job);
   if (points.empty() || !(reach > 0)) return found;
-  const Box box = bounds_of(points);
   const float cell = cell_width * reach;
   if (!(glm::length(box.max - box.min) < most_cells * cell))
     return Array<std::uint8_t>(job, points.size(), std::uint8_t{1});
-  int bits = 0;
-  const std::size_t wanted = std::clamp(points.size() + points.size() / 2, least_slots, most_slots);
-  while ((std::size_t{1} << bits) < wanted) ++bits;
-  const std::size_t slots = std::size_t{1} << bits;
+  const int bits = bits_for(std::clamp(points.size() + points.size() / 2, least_slots, most_slots));
   const Cells cells(box.min, cell, bits);
-  Array<std::uint32_t> slot(job, points.size());
-  cells.fill(points, slot.data());
-  job.check();
-  Slots taken(job, slots, std::move(slot), twin);
-  std::vector<std::uint32_t> who;  // of those that come next
-  who.reserve(3 * taken.border().size());
-  for (const std::uint32_t point : taken.border()) {
-    cells.each(points[point], [&](std::uint32_t at) {
-      taken.put(at);
-      who.push_back(point);
-    });
-  }
+  const Slots taken(cells, bits, points, twin, job);
   job.check();
   const Reach within(reach);
-  const auto point_of = [&](std::uint32_t number) {
-    return number < points.size() ? number : who[number - points.size()];
-  };
-  Bits near(job, slots);
+  Bits near(job, std::size_t{1} << bits);
   bool any = false;
   const auto mark = [&](std::uint32_t point) {
     any = true;
     cells.each(points[point], [&](std::uint32_t at) { near.set(at); });
   };
-  for (const std::uint32_t number : taken.crowded()) {
-    const std::uint32_t one = point_of(number);
-    std::size_t met = 0;
-    std::uint32_t other = taken.before(number);
-    for (; other != Slots::none && met < most_in_a_slot; ++met, other = taken.before(other)) {
-      const std::uint32_t mate = point_of(other);  // itself, where two of its cells share a slot
-      if (mate == one || !within.joins(points[one], points[mate])) continue;
-      mark(one);
-      mark(mate);
+  // What is near another of each share.
+  std::vector<std::vector<std::uint32_t>> marked(taken.crowded().size());
+  parallel_for(job, marked.size(), 1, [&](std::size_t share, std::size_t, std::size_t) {
+    for (const std::uint32_t number : taken.crowded()[share]) {
+      const std::uint32_t one = taken.point_of(number);
+      std::size_t met = 0;
+      std::uint32_t other = taken.before(number);
+      for (; other != Slots::none && met < most_in_a_slot; ++met, other = taken.before(other)) {
+        const std::uint32_t mate = taken.point_of(other);  // itself, where two of its cells share a slot
+        if (mate == one || !within.joins(points[one], points[mate])) continue;
+        marked[share].push_back(one);
+        marked[share].push_back(mate);
+      }
+      if (other != Slots::none)
+        marked[share].push_back(one);  // what it was not compared with stands near, too
     }
-    if (other != Slots::none) mark(one);  // those that it was not compared with stand near it, too
+  });
+  for (const std::vector<std::uint32_t>& points_of_share : marked) {
+    for (const std::uint32_t point : points_of_share) mark(point);
   }
   if (!any) return found;
   found.resize(points.size());

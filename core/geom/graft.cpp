@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <tuple>
@@ -23,6 +25,8 @@ namespace {
 constexpr int rounds = 4;
 // Of limbs that skin() makes, but for trunks.
 constexpr int most_sides_of_leftover = 8;
+
+constexpr std::size_t points_a_chunk = std::size_t{1} << 14U;
 
 /// The limbs that skin() must make, trunks or the others, each with a root of its own where it begins. At
 /// most so many joints at once that their numbers fit Mesh::bone.
@@ -146,6 +150,7 @@ void append(Array<T>& to, const Array<T>& from) {
 }
 
 void append(Mesh& to, const Mesh& from) {
+  to.no_minus_zero = to.no_minus_zero && from.no_minus_zero;
   const auto first = static_cast<std::uint32_t>(to.position.size());
   append(to.position, from.position);
   append(to.normal, from.normal);
@@ -244,14 +249,25 @@ Mesh around(const Mesh& mesh, const Array<std::uint8_t>& marked, const Job& job)
   return part;
 }
 
+Box box_of(std::span<const glm::vec3> points, const Job& job) {
+  std::vector<Box> boxes(chunk_count(points.size(), points_a_chunk));
+  parallel_for(job, points.size(), points_a_chunk,
+               [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                 boxes[chunk] = bounds_of(points.subspan(begin, end - begin));
+               });
+  Box box = boxes.empty() ? Box{} : boxes.front();
+  for (const Box& each : boxes) box = {glm::min(box.min, each.min), glm::max(box.max, each.max)};
+  return box;
+}
+
 /// Limbs that go through each other may touch in points that a reader takes for one. `twin` of the vertices
 /// as GraftWriter::Written has it.
 void refuse_crowds(const Mesh& mesh, const Array<std::uint8_t>& twin, const Scale& scale,
                    const GraftOptions& options, const Job& job) {
-  const Box box = bounds_of(mesh.position.span());
+  const Box box = box_of(mesh.position.span(), job);
   const float reach = 1e-6F * std::min(scale.size, glm::length(box.max - box.min));
   // Each limb's surface is closed, and what stands apart keeps it so: faults are at what does not.
-  const Array<std::uint8_t> near = near_others(mesh.position.span(), twin.span(), reach, job);
+  const Array<std::uint8_t> near = near_others(mesh.position.span(), twin.span(), box, reach, job);
   if (near.empty() || !is_crowded(around(mesh, near, job), reach, job)) return;
   refuse_heap(
       options,
@@ -268,11 +284,18 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
   const Scale scale = scale_of(limbs, with_ribs(options, options.sides));
   const Chains chains = link_chains(limbs, job);
   std::vector<Trust> trust(chains.head.size(), options.weld ? Trust::full : Trust::closed);
-  if (options.overlaps) distrust_overlaps(limbs, chains, scale, job, trust);
-  if (options.points) distrust_points(limbs, chains, scale, trust);
-  if (!options.contours.empty()) distrust_contours(limbs, chains, trust);
-  std::optional<GraftWriter> writer(std::in_place, GraftWriter::Context{limbs, chains, scale, options, trust},
-                                    job);
+  std::optional<GraftWriter> writer;
+  const std::function<void()> tasks[] = {
+      [&] {
+        writer.emplace(GraftWriter::Context{limbs, chains, scale, options, trust}, job);
+      },
+      [&] {
+        if (options.overlaps) distrust_overlaps(limbs, chains, scale, job, trust);
+        if (options.points) distrust_points(limbs, chains, scale, trust);
+        if (!options.contours.empty()) distrust_contours(limbs, chains, trust);
+      },
+  };
+  parallel_for(job, std::size(tasks), 1, [&](std::size_t i, std::size_t, std::size_t) { tasks[i](); });
   writer->write_round();
   for (int round = 0; writer->settle(trust, round >= rounds) > 0; ++round) {
     if (round + 1 == 2 * rounds) std::fill(trust.begin(), trust.end(), Trust::none);
@@ -284,6 +307,7 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
   const bool is_ordered = 10 * writer->wide_corners() < writer->corners();
   const auto fallen_back = static_cast<std::uint32_t>(std::count(trust.begin(), trust.end(), Trust::none));
   GraftWriter::Written written = writer->take();
+  written.mesh.no_minus_zero = true;
   writer.reset();  // others need its memory
   if (options.joints) *options.joints = std::move(written.joints);
   const Leftover::Looks looks{options.colors != nullptr, !options.contours.empty()};
@@ -293,12 +317,7 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
   append_leftover(written, Leftover(limbs, chains, trust, scale.box, false, looks),
                   std::min(options.sides, most_sides), options, job);
   if (options.colors) *options.colors = std::move(written.colors);
-  const auto look = [&] { refuse_crowds(written.mesh, written.twin, scale, options, job); };
-  if (options.meanwhile) {
-    run_both(job, look, options.meanwhile);
-  } else {
-    look();
-  }
+  refuse_crowds(written.mesh, written.twin, scale, options, job);
   if (counts) counts->fallen_back = fallen_back;
   written.mesh.cache_ordered = is_ordered;
   return std::move(written.mesh);

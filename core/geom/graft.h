@@ -12,7 +12,6 @@
 ///
 /// Cross-sections have corners by their radius, between the rings of a limb too, and joints on a straight
 /// piece have no ring of their own: a twig takes a tenth of the triangles of its trunk.
-#include <functional>
 #include <span>
 
 #include "core/geom/contour.h"
@@ -56,9 +55,6 @@ struct GraftOptions {
   /// Where given, it has the position of each joint and gets, for those that have no ring of their own, where
   /// the limb that is drawn passes by.
   Array<glm::vec3>* drawn = nullptr;
-  /// Where given, it is called once beside the last look at the whole, for which one thread is enough: work
-  /// of the caller's that has nothing to do with the bark. Not called where there are no limbs.
-  std::function<void()> meanwhile = {};
 };
 
 struct GraftCounts {

@@ -141,15 +141,15 @@ SEEDMESH_WIDE std::size_t GraftWriter::first_strained(std::span<const LoopFace> 
 }
 
 /// The faces that have a normal which looks away from one of its faces.
-std::vector<GraftWriter::LoopFace> GraftWriter::strained_faces(
-    const std::vector<std::vector<LoopFace>>& faces) {
+std::vector<GraftWriter::LoopFace> GraftWriter::strained_faces(const LoopFaces& faces) {
+  const std::size_t parts = faces.chunk.size();
   // Corners without a group get a normal that does not look away from anything.
   const std::size_t groups = group_normal_.size();
   std::fill_n(group_normal_.extend(2), 2, GroupNormal{four_times(std::numeric_limits<float>::quiet_NaN())});
   const std::span<const GroupNormal> normals = std::as_const(group_normal_).span();
-  std::vector<std::vector<std::uint32_t>> away(faces.size());
-  share_out(faces.size(), 1, [&](std::size_t, std::size_t, std::size_t part) {
-    const std::vector<LoopFace>& all = faces[part];
+  std::vector<std::vector<std::uint32_t>> away(parts);
+  share_out(parts, 1, [&](std::size_t, std::size_t, std::size_t part) {
+    const std::span<const LoopFace> all = faces.chunk[part];
     for (std::size_t at = 0; at < all.size();) {
       at = first_strained(all, normals, at);
       for (const std::size_t end = std::min(all.size(), at + Four::size); at < end; ++at) {
@@ -169,9 +169,9 @@ std::vector<GraftWriter::LoopFace> GraftWriter::strained_faces(
   const auto strain = [&](std::uint32_t group) {
     return strained[std::min<std::size_t>(group / 2, strained.size() - 1)];
   };
-  std::vector<std::vector<LoopFace>> found(faces.size());
-  share_out(faces.size(), 1, [&](std::size_t, std::size_t, std::size_t part) {
-    for (const LoopFace& face : faces[part]) {
+  std::vector<std::vector<LoopFace>> found(parts);
+  share_out(parts, 1, [&](std::size_t, std::size_t, std::size_t part) {
+    for (const LoopFace& face : faces.chunk[part]) {
       if ((strain(face.group[0]) | strain(face.group[1]) | strain(face.group[2])) != 0)
         found[part].push_back(face);
     }
@@ -185,7 +185,7 @@ std::vector<GraftWriter::LoopFace> GraftWriter::strained_faces(
 
 /// Where a limb leaves at a narrow angle, the mean of both surfaces may look away from one of their faces;
 /// the normal gives way, so that the limb need not.
-void GraftWriter::ease_loop_normals(const std::vector<std::vector<LoopFace>>& faces) {
+void GraftWriter::ease_loop_normals(const LoopFaces& faces) {
   const std::vector<LoopFace> hard = strained_faces(faces);
   if (hard.empty()) return;
   // The faces at each pair of groups: from first[pair] to first[pair + 1].

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <functional>
+#include <iterator>
 
 #include "core/base/parallel.h"
 #include "core/geom/graft_writer.h"
@@ -23,9 +25,10 @@ void append(Array<T>& to, std::size_t at, const Array<T>& from, std::size_t coun
 
 }  // namespace
 
-/// Limbs that follow each other, as many parts as there are threads. `before`: the limbs of earlier parts
-/// that limbs of a part grow from, and what these grow from, which a part writes for the sake of their loops.
-/// Trees whose stems are written one after the other, each with all that grows from it, have few of these.
+/// Limbs behind the first that follow each other, as many parts as there are threads. `before`: the limbs of
+/// earlier parts that limbs of a part grow from, and what these grow from but for the first limb, which a
+/// part writes for the sake of their loops. Trees whose stems are written one after the other, each with all
+/// that grows from it, have few of these.
 struct GraftWriter::Parts {
   std::vector<std::uint32_t> first;  ///< of each part, and the end
   std::vector<std::vector<std::uint32_t>> before;
@@ -45,10 +48,11 @@ bool GraftWriter::is_worth_parting() const {
 GraftWriter::Parts GraftWriter::find_parts() const {
   const Array<std::uint32_t>& head = context_.chains.head;
   const std::size_t wanted = std::min<std::size_t>(most_parts, static_cast<std::size_t>(job_.threads()));
-  const std::size_t joints = context_.limbs.size();
+  const std::size_t joints = context_.limbs.size(), trunk = head.size() > 1 ? head[1] : joints;
   Parts parts;
   for (std::size_t i = 0; i <= wanted; ++i) {
-    const std::uint32_t* first = std::lower_bound(head.begin(), head.end(), joints * i / wanted);
+    const std::uint32_t* first =
+        std::lower_bound(head.begin(), head.end(), trunk + (joints - trunk) * i / wanted);
     parts.first.push_back(i == wanted ? static_cast<std::uint32_t>(head.size())
                                       : static_cast<std::uint32_t>(first - head.begin()));
   }
@@ -58,8 +62,8 @@ GraftWriter::Parts GraftWriter::find_parts() const {
   for (std::uint32_t part = 0; part < wanted; ++part) {
     std::vector<std::uint32_t>& before = parts.before.emplace_back();
     for (std::uint32_t limb = parts.first[part]; limb < parts.first[part + 1]; ++limb) {
-      for (std::uint32_t at = parents[limb]; at != none && at < parts.first[part] && needed_by[at] != part;
-           at = parents[at]) {
+      for (std::uint32_t at = parents[limb];
+           at != none && at > 0 && at < parts.first[part] && needed_by[at] != part; at = parents[at]) {
         needed_by[at] = part;
         before.push_back(at);
         for (std::uint32_t joint = head[at]; joint != none; joint = context_.chains.next[joint]) ++twice;
@@ -75,13 +79,17 @@ bool GraftWriter::write_parts() {
   if (!is_worth_parting()) return false;
   const Parts parts = find_parts();
   if (parts.count() < 2) return false;
+  write_anew(0);  // the trunk, which all need
   std::vector<std::unique_ptr<GraftWriter>> others(parts.count());
-  parallel_for(job_, parts.count(), 1, [&](std::size_t, std::size_t, std::size_t number) {
-    if (number == 0) return write_part(parts, 0);
+  for (std::size_t i = 1; i < others.size(); ++i) {
     const std::size_t joints = context_.limbs.size() / parts.count();
-    others[number].reset(new GraftWriter(context_, common_, joints, job_));
-    others[number]->is_part_ = true;
-    others[number]->write_part(parts, number);
+    others[i].reset(new GraftWriter(context_, common_, joints, job_));
+    others[i]->is_part_ = true;
+    others[i]->know_loops_of(*this);
+  }
+  parallel_for(job_, parts.count(), 1, [&](std::size_t, std::size_t, std::size_t number) {
+    GraftWriter& writer = number == 0 ? *this : *others[number];
+    writer.write_part(parts, number);
   });
   for (std::size_t i = 1; i < parts.count(); ++i) {
     take_part(*others[i], parts.first[i], parts.first[i + 1]);
@@ -90,15 +98,25 @@ bool GraftWriter::write_parts() {
   return true;
 }
 
+/// As if the limbs that another has written were written here.
+void GraftWriter::know_loops_of(const GraftWriter& other) {
+  loop_vertices_.append(other.loop_vertices_.span());
+  group_normal_.append(other.group_normal_.span());
+  group_limb_ = other.group_limb_;
+  for (const std::uint32_t limb : group_limb_) loops_[limb] = other.loops_[limb];
+}
+
 void GraftWriter::write_part(const Parts& parts, std::size_t number) {
-  for (const std::uint32_t limb : parts.before[number]) write_anew(limb);
-  vertices_ = corners_ = wide_corners_ = made_ = 0;
-  mesh_.index.wide.clear();
-  colors_.clear();
-  loop_triangles_.clear();
-  rib_seams_.clear();
-  first_group_ = static_cast<std::uint32_t>(group_normal_.size());
-  first_loop_vertex_ = static_cast<std::uint32_t>(loop_vertices_.size());
+  if (is_part_) {
+    for (const std::uint32_t limb : parts.before[number]) write_anew(limb);
+    vertices_ = corners_ = wide_corners_ = made_ = 0;
+    mesh_.index.wide.clear();
+    colors_.clear();
+    loop_triangles_.clear();
+    rib_seams_.clear();
+    first_group_ = static_cast<std::uint32_t>(group_normal_.size());
+    first_loop_vertex_ = static_cast<std::uint32_t>(loop_vertices_.size());
+  }
   for (std::uint32_t limb = parts.first[number]; limb < parts.first[number + 1]; ++limb) {
     if (limb % 64 == 0) job_.check();
     write_anew(limb);
@@ -139,25 +157,30 @@ void GraftWriter::take_vertices(const GraftWriter& part) {
   make_room_for(count);
   const Array<std::uint32_t>& index = part.mesh_.index.wide;
   std::uint32_t* to = mesh_.index.wide.extend(index.size());
-  run_both(
-      job_,
+  // Those of groups of the part's own; others are not known here by their numbers.
+  const std::uint32_t groups = static_cast<std::uint32_t>(group_normal_.size()) - part.first_group_;
+  const std::function<void()> tasks[] = {
+      [&] { append(mesh_.position, vertices_, part.mesh_.position, count); },
+      [&] { append(mesh_.normal, vertices_, part.mesh_.normal, count); },
       [&] {
-        append(mesh_.position, vertices_, part.mesh_.position, count);
-        append(mesh_.normal, vertices_, part.mesh_.normal, count);
         if (has_tangents()) append(mesh_.tangent, vertices_, part.mesh_.tangent, count);
-        append(mesh_.uv[0], vertices_, part.mesh_.uv[0], count);
       },
+      [&] { append(mesh_.uv[0], vertices_, part.mesh_.uv[0], count); },
       [&] {
         append(twin_, vertices_, part.twin_, count);
         if (context_.options.joints) append(joints_, vertices_, part.joints_, count);
-        // Those of groups of the part's own; others are not known here by their numbers.
-        const std::uint32_t groups = static_cast<std::uint32_t>(group_normal_.size()) - part.first_group_;
+      },
+      [&] {
         for (std::size_t i = 0; i < count; ++i) {
           const std::uint32_t group = part.group_[i];
           group_[vertices_ + i] = group != none && group >= part.first_group_ ? group + groups : group;
         }
+      },
+      [&] {
         for (std::size_t i = 0; i < index.size(); ++i) to[i] = index[i] + shift;
-      });
+      },
+  };
+  parallel_for(job_, std::size(tasks), 1, [&](std::size_t i, std::size_t, std::size_t) { tasks[i](); });
   vertices_ += count;
   colors_.append(part.colors_.span());
 }

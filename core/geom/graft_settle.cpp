@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 #include "core/base/parallel.h"
 #include "core/base/quick_math.h"
@@ -127,9 +128,9 @@ void GraftWriter::each_at_loops(std::size_t limb, const Each& each) const {
 
 /// What the faces of some limbs give to the normals of the loops that they touch, or to groups from `nowhere`
 /// on, behind all others: one for each face of a block, so that none waits for another. These faces are noted
-/// in `faces`.
-void GraftWriter::add_loop_normals(std::size_t first_limb, std::size_t last_limb, std::uint32_t nowhere,
-                                   std::vector<LoopFace>& faces) {
+/// at `to`; returns where they end.
+GraftWriter::LoopFace* GraftWriter::add_loop_normals(std::size_t first_limb, std::size_t last_limb,
+                                                     std::uint32_t nowhere, LoopFace* to) {
   FaceBlock block;
   std::size_t count = 0;
   const std::uint32_t* index = mesh_.index.wide.data();
@@ -137,7 +138,7 @@ void GraftWriter::add_loop_normals(std::size_t first_limb, std::size_t last_limb
     const std::uint32_t* corner = index + std::size_t{3} * triangle;
     for (std::size_t k = 0; k < 3; ++k) block.corner[3 * count + k] = corner[k];
     if (++count < FaceBlock::most) return;
-    add_loop_faces(block, count, nowhere, faces);
+    to = add_loop_faces(block, count, nowhere, to);
     count = 0;
   };
   if (is_first()) {  // they stand one behind another
@@ -146,19 +147,16 @@ void GraftWriter::add_loop_normals(std::size_t first_limb, std::size_t last_limb
   } else {
     for (std::size_t limb = first_limb; limb < last_limb; ++limb) each_at_loops(limb, add);
   }
-  if (count > 0) add_loop_faces(block, count, nowhere, faces);
+  return count > 0 ? add_loop_faces(block, count, nowhere, to) : to;
 }
 
 /// The first `count` of a block, whose corners are known.
-void GraftWriter::add_loop_faces(FaceBlock& block, std::size_t count, std::uint32_t nowhere,
-                                 std::vector<LoopFace>& faces) {
+GraftWriter::LoopFace* GraftWriter::add_loop_faces(FaceBlock& block, std::size_t count, std::uint32_t nowhere,
+                                                   LoopFace* face) {
   for (std::size_t l = count; l < FaceBlock::most; ++l) std::copy_n(block.corner, 3, block.corner + 3 * l);
   measure(block, mesh_.position.data());
   weigh(block);
   const bool all = is_first();
-  const std::size_t before = faces.size();
-  faces.resize(before + count);
-  LoopFace* face = faces.data() + before;
   GroupNormal* const sums = group_normal_.data();
   for (std::size_t l = 0; l < count; ++l) {
     if (!(block.size[l] > 0)) continue;
@@ -174,7 +172,7 @@ void GraftWriter::add_loop_faces(FaceBlock& block, std::size_t count, std::uint3
     }
     ++face;
   }
-  faces.resize(static_cast<std::size_t>(face - faces.data()));
+  return face;
 }
 
 /// Faces with these corners, four at once, which look along their normals.
@@ -312,6 +310,27 @@ void GraftWriter::put_loop_normals(std::size_t limb) {
   }
 }
 
+/// Of all limbs, so many at once; what each gives goes to groups of its own.
+GraftWriter::LoopFaces GraftWriter::sum_loop_normals(std::size_t chunk) {
+  const std::size_t limbs = range_.size(), chunks = chunk_count(limbs, chunk);
+  LoopFaces faces{Array<LoopFace>(job_), std::vector<std::span<const LoopFace>>(chunks)};
+  std::vector<std::size_t> first(chunks + 1, 0);
+  for (std::size_t i = 0; i < limbs; ++i)
+    first[i / chunk + 1] += range_[i].end.loop_triangle - range_[i].begin.loop_triangle;
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  faces.all.resize(first.back());
+  const auto groups = static_cast<std::uint32_t>(group_normal_.size());
+  std::fill_n(group_normal_.extend(FaceBlock::most * chunks), FaceBlock::most * chunks, GroupNormal{});
+  share_out(limbs, chunk, [&](std::size_t begin, std::size_t end, std::size_t i) {
+    LoopFace* const own = faces.all.data() + first[i];
+    const LoopFace* const last =
+        add_loop_normals(begin, end, groups + static_cast<std::uint32_t>(FaceBlock::most * i), own);
+    faces.chunk[i] = {own, last};
+  });
+  group_normal_.resize(groups);
+  return faces;
+}
+
 std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
   mark_touched();
   const std::size_t count = range_.size(), chunk = limbs_a_chunk(count);
@@ -320,20 +339,7 @@ std::size_t GraftWriter::settle(std::vector<Trust>& trust, bool is_late) {
     if (touched_[pair]) group_normal_[2 * pair] = group_normal_[2 * pair + 1] = {};
   }
   if (!group_limb_.empty()) {
-    // What limbs give goes to groups of their own.
-    std::vector<std::vector<LoopFace>> faces(chunk_count(count, chunk));
-    for (std::size_t i = 0; is_first() && i < faces.size(); ++i) {
-      const std::size_t last = std::min(count, (i + 1) * chunk) - 1;
-      faces[i].reserve(range_[last].end.loop_triangle - range_[i * chunk].begin.loop_triangle);
-    }
-    const auto groups = static_cast<std::uint32_t>(group_normal_.size());
-    std::fill_n(group_normal_.extend(FaceBlock::most * faces.size()), FaceBlock::most * faces.size(),
-                GroupNormal{});
-    share_out(count, chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
-      add_loop_normals(begin, end, groups + static_cast<std::uint32_t>(FaceBlock::most * index),
-                       faces[index]);
-    });
-    group_normal_.resize(groups);
+    const LoopFaces faces = sum_loop_normals(chunk);
     join_loop_normals();
     ease_loop_normals(faces);
   }

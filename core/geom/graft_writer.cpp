@@ -25,7 +25,8 @@ constexpr float cap_share = 0.5F;
 constexpr float least_opened = 3;
 // What is reserved at first: most trees of fine twigs need about as much, and small ones of thick limbs twice
 // that.
-constexpr std::size_t vertices_a_joint = 4, triangles_a_joint = 5, more_vertices = std::size_t{1} << 15U;
+constexpr std::size_t vertices_a_joint = 4, triangles_a_joint = 5, more_vertices = std::size_t{1} << 15U,
+                      more_vertices_a_joint = 2;
 constexpr std::size_t groups_a_limb = 5, triangles_a_group = 6, more_groups = std::size_t{1} << 13U;
 constexpr std::size_t added_groups = 1024;  // for a while, by settle()
 // Circles up to so many corners are reckoned once for all.
@@ -106,7 +107,8 @@ GraftWriter::GraftWriter(const Context& context, std::shared_ptr<const Common> c
   mesh_.uv[0] = Array<glm::vec2>(job);
   mesh_.tangent = Array<glm::vec4>(job);
   mesh_.index.wide = Array<std::uint32_t>(job);
-  const std::size_t more = std::min(more_vertices, vertices_a_joint * joints);
+  const std::size_t more =
+      std::min(more_vertices + more_vertices_a_joint * joints, vertices_a_joint * joints);
   make_room(vertices_a_joint * joints + more + 64);
   mesh_.index.wide.reserve(3 * (triangles_a_joint * joints + more + more / 2));
   const std::size_t count = context.chains.head.size();

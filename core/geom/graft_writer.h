@@ -148,6 +148,11 @@ class GraftWriter {
     glm::vec3 normal{0};
     std::uint32_t group[3] = {none, none, none};
   };
+  /// Of each chunk of limbs, one behind another with room between them.
+  struct LoopFaces {
+    Array<LoopFace> all;
+    std::vector<std::span<const LoopFace>> chunk;
+  };
 
   /// A place in what is written.
   struct Place {
@@ -181,6 +186,7 @@ class GraftWriter {
   bool is_worth_parting() const;
   Parts find_parts() const;
   bool write_parts();
+  void know_loops_of(const GraftWriter& other);
   void write_part(const Parts& parts, std::size_t number);
   void take_part(const GraftWriter& part, std::uint32_t first, std::uint32_t last);
   void take_vertices(const GraftWriter& part);
@@ -196,18 +202,18 @@ class GraftWriter {
   bool is_first() const { return parent_.empty(); }
   template <class Each>
   void each_at_loops(std::size_t limb, const Each& each) const;
-  void add_loop_normals(std::size_t first_limb, std::size_t last_limb, std::uint32_t nowhere,
-                        std::vector<LoopFace>& faces);
-  void add_loop_faces(FaceBlock& block, std::size_t count, std::uint32_t nowhere,
-                      std::vector<LoopFace>& faces);
+  LoopFace* add_loop_normals(std::size_t first_limb, std::size_t last_limb, std::uint32_t nowhere,
+                             LoopFace* to);
+  LoopFace* add_loop_faces(FaceBlock& block, std::size_t count, std::uint32_t nowhere, LoopFace* to);
+  LoopFaces sum_loop_normals(std::size_t chunk);
   static bool join_four(GroupNormal* normals);
   void join_loop_normals();
   bool looks_away(const LoopFace& face, std::uint32_t group) const;
   static FourFlags strained(const LoopFace* faces, const GroupNormal* normals, std::uint32_t neutral);
   static std::size_t first_strained(std::span<const LoopFace> faces, std::span<const GroupNormal> normals,
                                     std::size_t from);
-  std::vector<LoopFace> strained_faces(const std::vector<std::vector<LoopFace>>& faces);
-  void ease_loop_normals(const std::vector<std::vector<LoopFace>>& faces);
+  std::vector<LoopFace> strained_faces(const LoopFaces& faces);
+  void ease_loop_normals(const LoopFaces& faces);
   void put_loop_normals(std::size_t limb);
   /// A normal nearer to the plane of its face than this may be found on the other side by who reckons
   /// otherwise.

@@ -4,134 +4,21 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <map>
 
 #include "core/base/parallel.h"
 #include "core/base/quick_math.h"
 #include "core/base/rng.h"
 #include "core/base/wide.h"
+#include "core/geom/minus_zero.h"
 #include "core/geom/organ_block.h"
+#include "core/geom/organ_groups.h"
 #include "core/geom/organ_tangents.h"
 #include "core/geom/tangents.h"
 
 namespace seedmesh {
 namespace {
 
-constexpr std::size_t organs_a_chunk = 512;
-constexpr std::size_t bits_an_organ = 16;  // there are fewer than 2^28
-constexpr float least_share = 2e-4F;       // of the model's size
-constexpr float least_extent = 1e-9F;
-
-/// Organs of one surface and colour, in their order.
-struct Group {
-  std::uint32_t surface;
-  std::int16_t color;
-  std::vector<std::uint32_t> organs;
-};
-
-/// Hashes seen so far, in a table with open addresses.
-class Seen {
- public:
-  Seen(std::size_t most, const Job& job) {
-    std::size_t size = 16;
-    while (size < 2 * most) size *= 2;
-    table_ = Array<std::uint64_t>(job, size, std::uint64_t{0});
-  }
-  /// False: it was there before.
-  bool insert(std::uint64_t hash) {
-    hash += hash == 0 ? 1 : 0;
-    std::size_t at = hash & (table_.size() - 1);
-    for (; table_[at] != 0; at = (at + 1) & (table_.size() - 1)) {
-      if (table_[at] == hash) return false;
-    }
-    table_[at] = hash;
-    return true;
-  }
-
- private:
-  Array<std::uint64_t> table_;
-};
-
-std::uint64_t word_of(float a, float b) {
-  std::uint32_t words[2];
-  std::memcpy(words, &a, sizeof(a));
-  std::memcpy(words + 1, &b, sizeof(b));
-  return words[0] | std::uint64_t{words[1]} << 32U;
-}
-
-/// Of all that places an organ.
-std::uint64_t place_of(const Organ& organ) {
-  std::uint64_t hash = mix(word_of(organ.position.x, organ.position.y) + organ.surface);
-  hash = mix(hash ^ word_of(organ.position.z, organ.frame.w));
-  hash = mix(hash ^ word_of(organ.frame.x, organ.frame.y));
-  hash = mix(hash ^ word_of(organ.frame.z, organ.scale.x));
-  return mix(hash ^ word_of(organ.scale.y, organ.scale.z));
-}
-
-/// Tells which organs may stand where another does: those whose places have one bit in common of a table.
-class Crossroads {
- public:
-  Crossroads(const Organs& organs, const Job& job) : bit_(job, organs.organ.size()) {
-    std::size_t size = 1024;
-    while (size < bits_an_organ * organs.organ.size()) size *= 2;
-    Array<std::uint64_t> taken(job, size / 64, std::uint64_t{0});
-    shared_ = Array<std::uint64_t>(job, size / 64, std::uint64_t{0});
-    for (std::size_t i = 0; i < bit_.size(); ++i) {
-      const glm::vec3& at = organs.organ[i].position;
-      const std::uint64_t bit = mix(word_of(at.x, at.y) ^ word_of(at.z, 0) << 7U) & (size - 1);
-      bit_[i] = static_cast<std::uint32_t>(bit);
-      const std::uint64_t flag = std::uint64_t{1} << bit % 64, met = taken[bit / 64] & flag;
-      taken[bit / 64] |= flag;
-      if (met == 0) continue;
-      shared_[bit / 64] |= flag;
-      ++met_;
-    }
-  }
-  bool is_shared(std::size_t organ) const {
-    return (shared_[bit_[organ] / 64] >> bit_[organ] % 64 & 1U) != 0;
-  }
-  /// At least as many as they are.
-  std::size_t most() const { return 2 * met_; }
-
- private:
-  Array<std::uint32_t> bit_;  ///< of each organ
-  Array<std::uint64_t> shared_;
-  std::size_t met_ = 0;  ///< that came where one was
-};
-
-std::vector<Group> groups_of(const Organs& organs, const FoliageOptions& options, const Job& job) {
-  std::map<std::pair<std::uint32_t, std::int16_t>, std::vector<std::uint32_t>> by_look;
-  const Crossroads crossroads(organs, job);
-  Seen seen(crossroads.most(), job);
-  std::vector<float> extents;
-  for (const Mesh& surface : options.surfaces) {
-    const Box box = bounds_of(surface.position.span());
-    const glm::vec3 extent = box.max - box.min;
-    extents.push_back(std::max({extent.x, extent.y, extent.z}));
-  }
-  const float least = std::max(least_share * options.model_size, least_extent);
-  const std::size_t count = organs.organ.size();
-  std::uint32_t surface = 0;
-  std::int16_t color = 0;
-  std::vector<std::uint32_t>* members = nullptr;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if (i % 4096 == 0) job.check();
-    const Organ& organ = organs.organ[i];
-    const float smallest = std::min({organ.scale.x, organ.scale.y, organ.scale.z}) * extents[organ.surface];
-    if (!(smallest > least)) continue;
-    if (crossroads.is_shared(i) && !seen.insert(place_of(organ))) continue;
-    if (!members || surface != organ.surface || color != organ.color) {
-      surface = organ.surface;
-      color = organ.color;
-      members = &by_look[{surface, color}];
-      if (by_look.size() == 1) members->reserve(count);
-    }
-    members->push_back(i);
-  }
-  std::vector<Group> groups;
-  for (auto& [key, list] : by_look) groups.push_back({key.first, key.second, std::move(list)});
-  return groups;
-}
+constexpr std::size_t organs_a_chunk = 64;
 
 SEEDMESH_WIDE void shift(const std::uint32_t* from, std::size_t count, std::uint32_t by,
                          std::uint32_t* __restrict out) {
@@ -177,6 +64,11 @@ class Placer {
       place_copies(i, count);
       place_rest(organs, numbers.subspan(i, count), i * vertices);
     }
+    const std::size_t first = begin * vertices, count = (end - begin) * vertices;
+    clear_minus_zeros(out_.position, first, count);
+    clear_minus_zeros(out_.normal, first, count);
+    clear_minus_zeros(out_.uv[0], first, count);
+    clear_minus_zeros(out_.tangent, first, count);
   }
 
  private:
@@ -348,29 +240,66 @@ Mesh room_for(const Mesh& surface, std::size_t count, const FoliageOptions& opti
   }
   mesh.index.wide = Array<std::uint32_t>(job, surface.index.wide.size() * count);
   mesh.cache_ordered = surface.cache_ordered;
+  mesh.no_minus_zero = true;
   return mesh;
 }
 
 }  // namespace
 
-std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& options, Job& job) {
-  std::vector<Foliage> foliage;
-  for (const Group& group : groups_of(organs, options, job)) {
-    const Mesh& surface = options.surfaces[group.surface];
-    foliage.push_back({group.surface, group.color, room_for(surface, group.organs.size(), options, job)});
-    const Placer placer(surface, options, foliage.back().mesh);
-    parallel_for(job, group.organs.size(), organs_a_chunk,
-                 [&](std::size_t begin, std::size_t end, std::size_t) {
-                   job.check();
-                   placer.place_all(organs.organ, group.organs, begin, end);
-                 });
+/// The organs that one Foliage is made of, in pieces.
+struct OrganPlacing::Share {
+  Share(OrganGroup all, const FoliageOptions& options, Job& job)
+      : group(std::move(all)),
+        foliage{group.surface, group.color,
+                room_for(options.surfaces[group.surface], group.organs.size(), options, job)},
+        placer(options.surfaces[group.surface], options, foliage.mesh) {}
+  std::size_t pieces() const { return chunk_count(group.organs.size(), organs_a_chunk); }
+
+  OrganGroup group;
+  Foliage foliage;
+  Placer placer;
+};
+
+OrganPlacing::OrganPlacing(const Organs& organs, const FoliageOptions& options, Job& job)
+    : organs_(organs), options_(options), job_(job) {}
+
+OrganPlacing::~OrganPlacing() = default;
+
+std::size_t OrganPlacing::prepare() {
+  std::size_t pieces = 0;
+  for (OrganGroup& group : organ_groups(organs_, options_, job_)) {
+    shares_.push_back(std::make_unique<Share>(std::move(group), options_, job_));
+    pieces += shares_.back()->pieces();
   }
+  return pieces;
+}
+
+void OrganPlacing::place(std::size_t piece) const {
+  job_.check();
+  auto share = shares_.begin();
+  for (; piece >= (*share)->pieces(); ++share) piece -= (*share)->pieces();
+  const std::vector<std::uint32_t>& numbers = (*share)->group.organs;
+  const std::size_t begin = piece * organs_a_chunk;
+  (*share)->placer.place_all(organs_.organ, numbers, begin, std::min(numbers.size(), begin + organs_a_chunk));
+}
+
+std::vector<Foliage> OrganPlacing::take() {
+  std::vector<Foliage> foliage;
+  for (const std::unique_ptr<Share>& share : shares_) foliage.push_back(std::move(share->foliage));
+  shares_.clear();
   return foliage;
+}
+
+std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& options, Job& job) {
+  OrganPlacing placing(organs, options, job);
+  parallel_for(job, placing.prepare(), 1,
+               [&](std::size_t piece, std::size_t, std::size_t) { placing.place(piece); });
+  return placing.take();
 }
 
 std::vector<FoliagePlaces> organ_places(const Organs& organs, const FoliageOptions& options, Job& job) {
   std::vector<FoliagePlaces> all;
-  for (const Group& group : groups_of(organs, options, job)) {
+  for (const OrganGroup& group : organ_groups(organs, options, job)) {
     const Mesh& surface = options.surfaces[group.surface];
     job.spend(Resource::triangles, surface.index.wide.size() / 3 * group.organs.size());
     FoliagePlaces places{group.surface, group.color, {}};

@@ -1,5 +1,6 @@
 #pragma once
 /// Organs -> Mesh: copies of small meshes where leaves, petals and fruits stand.
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -51,6 +52,24 @@ struct FoliageOptions {
 /// allocates. Runs on job.threads(); the result does not depend on it. 3 ns a vertex and thread, twice that
 /// with a crown. Tangents of a surface come along.
 std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& options, Job& job);
+
+/// place_organs() in pieces, for whoever shares them out himself: prepare() returns how many there are, each
+/// is placed once, by any thread, and take() returns the whole. `organs` and `job` are borrowed.
+class OrganPlacing {
+ public:
+  OrganPlacing(const Organs& organs, const FoliageOptions& options, Job& job);
+  ~OrganPlacing();
+  std::size_t prepare();
+  void place(std::size_t piece) const;
+  std::vector<Foliage> take();
+
+ private:
+  struct Share;
+  const Organs& organs_;
+  FoliageOptions options_;
+  Job& job_;
+  std::vector<std::unique_ptr<Share>> shares_;
+};
 
 /// The same organs as transforms, for formats that share one mesh among nodes.
 std::vector<FoliagePlaces> organ_places(const Organs& organs, const FoliageOptions& options, Job& job);

@@ -117,7 +117,7 @@ struct Made {
 // Bark has at most so many triangles a joint, and no triangle takes so many bytes while it is made.
 constexpr std::uint64_t most_triangles_a_joint = 256, most_bytes_a_triangle = 64;
 
-// Of leaves that are made beside the last look at the bark, which then has its memory at the same time.
+// Of leaves that are made beside the bark, which then has its memory at the same time.
 constexpr std::uint64_t most_side_by_side = 1'000'000;
 
 /// Are they so few that no limit can be met? Where one is, what is made first decides about the message.
@@ -129,7 +129,7 @@ bool is_modest(const Skeleton& skeleton, std::uint64_t triangles_a_leaf, const J
   return triangles < left && most_bytes_a_triangle * triangles < job.limits().memory_bytes / 2;
 }
 
-/// Leaves beside the last step of the bark, where that is of use.
+/// Leaves beside the bark, where that is of use.
 Made make_both(const Skeleton& skeleton, const TreeParams& params, const Motion& motion, const Leaves& leaves,
                Job& job) {
   Made made;
@@ -137,9 +137,13 @@ Made make_both(const Skeleton& skeleton, const TreeParams& params, const Motion&
   if (!has_threads(job) || has_levels || job.demand().share_organs || leaves.organs.organ.empty())
     return made;
   if (!is_modest(skeleton, leaves.leaf.elements(), job)) return made;
-  GraftOptions options = finest_options(params, job);
-  options.meanwhile = [&] { made.leaves = finest_leaves(leaves, job); };
-  made.bark = bark_of(skeleton.limbs, options, motion.bones(), motion.wind ? &*motion.wind : nullptr, job);
+  OrganPlacing placing = finest_leaves(leaves, job);
+  Beside beside(
+      job, [&] { return placing.prepare(); }, [&](std::size_t piece) { placing.place(piece); });
+  made.bark = bark_of(skeleton.limbs, finest_options(params, job), motion.bones(),
+                      motion.wind ? &*motion.wind : nullptr, job);
+  beside.finish();
+  made.leaves = placing.take();
   return made;
 }
 

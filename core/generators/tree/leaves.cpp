@@ -83,7 +83,7 @@ void add_merged(Model& model, const Leaves& leaves, TreeLevels& levels,
     MeshGroup group{level_name("leaves", level), {}};
     std::vector<Foliage> parts;
     if (level == 0) {
-      parts = finest ? *std::move(finest) : finest_leaves(leaves, job);
+      parts = finest ? *std::move(finest) : place(leaves.organs, leaves.leaf, options_of(leaves, job), job);
     } else {
       const Mesh leaf = leaf_of(leaves.params, level, job);
       const double share =
@@ -153,8 +153,10 @@ void fit_leaves(Organs& organs, const TreeParams& params, const Mesh& leaf, cons
   }
 }
 
-std::vector<Foliage> finest_leaves(const Leaves& leaves, Job& job) {
-  return place(leaves.organs, leaves.leaf, options_of(leaves, job), job);
+OrganPlacing finest_leaves(const Leaves& leaves, Job& job) {
+  FoliageOptions options = options_of(leaves, job);
+  options.surfaces = std::span(&leaves.leaf, 1);
+  return OrganPlacing(leaves.organs, options, job);
 }
 
 void add_leaves(Model& model, const Leaves& leaves, TreeLevels& levels,

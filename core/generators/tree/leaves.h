@@ -31,11 +31,11 @@ struct Leaves {
   float model_size;
 };
 
-/// The finest level of leaves that are not places of one mesh.
-std::vector<Foliage> finest_leaves(const Leaves& leaves, Job& job);
+/// The finest level of leaves that are not places of one mesh, yet to be made. `leaves` is borrowed.
+OrganPlacing finest_leaves(const Leaves& leaves, Job& job);
 
 /// Adds the node "leaves" with all levels of detail, or, where the output asks for it, as places of one mesh.
-/// `finest`: what finest_leaves() made, where it was asked before.
+/// `finest`: what finest_leaves() has made, where it was asked before.
 void add_leaves(Model& model, const Leaves& leaves, TreeLevels& levels,
                 std::optional<std::vector<Foliage>> finest, Job& job);
 

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -46,13 +49,7 @@ TEST(KeepAwake, LetsThreadsGoToWorkAgainAndAgain) {
       const auto visit = [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) ++visits[i];
       };
-      run_both(
-          job, [&] { parallel_for(job, 32, 1, visit); },
-          [&] {
-            parallel_for(job, 32, 1, [&](std::size_t begin, std::size_t end, std::size_t) {
-              visit(begin + 32, end + 32, 0);
-            });
-          });
+      parallel_for(job, 64, 1, visit);
       EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), 64);
     }
     const auto fails = [](std::size_t, std::size_t, std::size_t i) {
@@ -62,35 +59,98 @@ TEST(KeepAwake, LetsThreadsGoToWorkAgainAndAgain) {
   }
 }
 
-TEST(RunBoth, CallsBothAndLetsThemCutTheirWork) {
+/// Counts how often each piece of some work was done.
+struct Pieces {
+  explicit Pieces(std::size_t count) : done(count) {}
+  std::size_t prepare() {
+    ++prepared;
+    return done.size();
+  }
+  void expect_once() const {
+    EXPECT_EQ(prepared, 1);
+    for (const std::atomic<int>& each : done) EXPECT_EQ(each, 1);
+  }
+  std::vector<std::atomic<int>> done;
+  std::atomic<int> prepared{0};
+};
+
+TEST(Beside, DoesEachPieceOnceWhateverItsCallerDoesMeanwhile) {
   for (const int threads : {1, 2, 8}) {
-    const Job job = with_threads(threads);
-    std::vector<int> one(1000, 0), other(1000, 0);
-    const auto count_up = [&](std::vector<int>& visits) {
-      parallel_for(job, visits.size(), 7, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) ++visits[i];
-      });
-    };
-    run_both(
-        job, [&] { count_up(one); }, [&] { count_up(other); });
-    EXPECT_EQ(std::count(one.begin(), one.end(), 1), 1000);
-    EXPECT_EQ(std::count(other.begin(), other.end(), 1), 1000);
+    for (const bool is_awake : {false, true}) {
+      const Job job = with_threads(threads);
+      std::optional<KeepAwake> awake;
+      if (is_awake) awake.emplace(job);
+      for (int round = 0; round < 100; ++round) {
+        Pieces pieces(30);
+        Beside beside(
+            job, [&] { return pieces.prepare(); }, [&](std::size_t i) { ++pieces.done[i]; });
+        std::vector<int> visits(64, 0);
+        for (int times = 0; times < round % 4; ++times)
+          parallel_for(job, visits.size(), 1, [&](std::size_t i, std::size_t, std::size_t) { ++visits[i]; });
+        beside.finish();
+        pieces.expect_once();
+        EXPECT_EQ(std::count(visits.begin(), visits.end(), round % 4), 64);
+      }
+    }
   }
 }
 
-TEST(RunBoth, ThrowsOnWhatTheFirstThrowsWhereBothDo) {
-  for (const int threads : {1, 8}) {
-    const auto fail = [](const char* message) { Job::refuse(message); };
+TEST(Beside, IsDoneWhileItsCallerIsBusy) {
+  const Job job = with_threads(2);
+  const KeepAwake awake(job);
+  Pieces pieces(8);
+  Beside beside(
+      job, [&] { return pieces.prepare(); }, [&](std::size_t i) { ++pieces.done[i]; });
+  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "nobody can do it";
+  for (int waits = 0; waits < 5000 && pieces.done.back() == 0; ++waits)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  pieces.expect_once();
+  beside.finish();
+  pieces.expect_once();
+}
+
+TEST(Beside, DoesTheSecondAtItsEnd) {
+  const Job job = with_threads(2);
+  const KeepAwake awake(job);
+  Pieces one(20), other(20);
+  Beside first(
+      job, [&] { return one.prepare(); }, [&](std::size_t i) { ++one.done[i]; });
+  Beside second(
+      job, [&] { return other.prepare(); }, [&](std::size_t i) { ++other.done[i]; });
+  second.finish();
+  other.expect_once();
+  first.finish();
+  one.expect_once();
+}
+
+TEST(Beside, ThrowsAtItsEndOnWhatAPieceThrows) {
+  for (const int threads : {1, 2, 8}) {
+    const Job job = with_threads(threads);
+    const KeepAwake awake(job);
+    const auto fail = [](std::size_t i) {
+      if (i == 5) Job::refuse("enough");
+    };
+    Beside pieces(
+        job, [] { return std::size_t{10}; }, fail);
+    EXPECT_THROW(pieces.finish(), Stop);
+    Beside start(
+        job, []() -> std::size_t { Job::refuse("enough"); }, [](std::size_t) {});
+    EXPECT_THROW(start.finish(), Stop);
+  }
+}
+
+TEST(Beside, LeavesOutWhatHasNotBegunWhereItsCallerThrows) {
+  const Job job = with_threads(8);
+  const KeepAwake awake(job);
+  for (int round = 0; round < 100; ++round) {
+    std::vector<int> memory(4, 0);
     try {
-      run_both(
-          with_threads(threads), [&] { fail("one"); }, [&] { fail("other"); });
-      FAIL() << "nothing was thrown";
-    } catch (const Stop& stop) {
-      EXPECT_EQ(stop.issue().message, "one");
+      Beside beside(
+          job, [&] { return memory.size(); }, [&](std::size_t i) { ++memory[i]; });
+      Job::refuse("enough");
+    } catch (const Stop&) {
+      memory = {};  // nobody writes there any more
     }
-    EXPECT_THROW(run_both(
-                     with_threads(threads), [] {}, [&] { fail("other"); }),
-                 Stop);
   }
 }
 

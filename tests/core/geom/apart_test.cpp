@@ -39,7 +39,7 @@ TEST(NearOthers, AreNoneWherePointsStandApart) {
   Rng rng(3);
   const std::vector<glm::vec3> points = scattered(12, rng);
   const std::vector<std::uint8_t> twin(points.size(), 0);
-  EXPECT_TRUE(near_others(points, twin, reach, job_of()).empty());
+  EXPECT_TRUE(near_others(points, twin, bounds_of(points), reach, job_of()).empty());
 }
 
 TEST(NearOthers, AreFoundWhereverTheBordersOfCellsLie) {
@@ -48,7 +48,7 @@ TEST(NearOthers, AreFoundWhereverTheBordersOfCellsLie) {
   const std::size_t whole = points.size();
   for (std::size_t i = 0; i < whole; ++i) points.push_back(points[i] + direction(rng) * (0.9F * reach));
   const Array<std::uint8_t> near =
-      near_others(points, std::vector<std::uint8_t>(points.size(), 0), reach, job_of());
+      near_others(points, std::vector<std::uint8_t>(points.size(), 0), bounds_of(points), reach, job_of());
   ASSERT_EQ(near.size(), points.size());
   EXPECT_EQ(std::count(near.begin(), near.end(), 1), static_cast<std::ptrdiff_t>(points.size()));
 }
@@ -59,7 +59,7 @@ TEST(NearOthers, AreFewWhereFewAre) {
   points.push_back(points[100] + direction(rng) * (0.5F * reach));
   points.push_back(points[200] + direction(rng) * (3 * reach));
   const Array<std::uint8_t> near =
-      near_others(points, std::vector<std::uint8_t>(points.size(), 0), reach, job_of());
+      near_others(points, std::vector<std::uint8_t>(points.size(), 0), bounds_of(points), reach, job_of());
   ASSERT_EQ(near.size(), points.size());
   EXPECT_EQ(near[100], 1);
   EXPECT_EQ(near[points.size() - 2], 1);
@@ -74,7 +74,7 @@ TEST(NearOthers, AreNotTwins) {
     points.push_back(points[i]);
     twin.push_back(1);
   }
-  EXPECT_TRUE(near_others(points, twin, reach, job_of()).empty());
+  EXPECT_TRUE(near_others(points, twin, bounds_of(points), reach, job_of()).empty());
 }
 
 TEST(NearOthers, AreAllOfAHeap) {
@@ -83,9 +83,30 @@ TEST(NearOthers, AreAllOfAHeap) {
   const std::size_t whole = points.size();
   for (int i = 0; i < 100; ++i) points.push_back(points[50] + direction(rng) * (0.4F * reach));
   const Array<std::uint8_t> near =
-      near_others(points, std::vector<std::uint8_t>(points.size(), 0), reach, job_of());
+      near_others(points, std::vector<std::uint8_t>(points.size(), 0), bounds_of(points), reach, job_of());
   ASSERT_EQ(near.size(), points.size());
   EXPECT_EQ(std::count(near.begin() + static_cast<std::ptrdiff_t>(whole), near.end(), 1), 100);
+}
+
+TEST(NearOthers, AreTheSameForAnyNumberOfThreads) {
+  Rng rng(8);
+  std::vector<glm::vec3> points = scattered(42, rng);
+  const std::size_t whole = points.size();
+  ASSERT_GT(whole, 65'536U) << "so many that threads share the cells";
+  for (std::size_t i = 0; i < whole; i += 100) points.push_back(points[i] + direction(rng) * (0.9F * reach));
+  const std::vector<std::uint8_t> twin(points.size(), 0);
+  const auto found_by = [&](int threads) {
+    return near_others(points, twin, bounds_of(points), reach, Job(1, {.threads = threads}));
+  };
+  const Array<std::uint8_t> one = found_by(1);
+  ASSERT_EQ(one.size(), points.size());
+  for (std::size_t i = whole; i < points.size(); ++i) ASSERT_EQ(one[i], 1);
+  for (std::size_t i = 0; i < whole; i += 100) ASSERT_EQ(one[i], 1);
+  EXPECT_LT(std::count(one.begin(), one.end(), 1), static_cast<std::ptrdiff_t>(whole / 20));
+  for (const int threads : {2, 3, 8}) {
+    const Array<std::uint8_t> other = found_by(threads);
+    EXPECT_TRUE(std::equal(one.begin(), one.end(), other.begin(), other.end())) << threads;
+  }
 }
 
 }  // namespace
