@@ -10,7 +10,6 @@
 
 #if defined(SEEDMESH_STD_THREADS)
 #include <thread>
-#include <vector>
 #else
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -38,15 +37,22 @@ void wait_a_little() {
 #if defined(SEEDMESH_STD_THREADS)
 class Threads {
  public:
+  ~Threads() { wait(); }
   template <class Task>
   void start(Task task) {
-    pool_.emplace_back(std::move(task));
+    ++running_;
+    std::thread([this, task = std::move(task)] {
+      task();
+      --running_;  // the last that it does here
+    }).detach();
   }
-  void wait() { pool_.clear(); }
+  void wait() const {
+    while (running_ > 0) std::this_thread::yield();
+  }
   static int most(int threads) { return threads; }
 
  private:
-  std::vector<std::jthread> pool_;
+  std::atomic<int> running_{0};
 };
 
 bool is_for_all(int) { return true; }
@@ -177,7 +183,8 @@ class Crew {
     const int wanted =
         std::min(most_, std::max(most_waiters, static_cast<int>(std::min<std::size_t>(useful, 1024))));
     try {
-      while (awake_ < wanted) {
+      // Counted once: the first may sleep again before the last is called.
+      for (int missing = wanted - awake_; missing > 0; --missing) {
         const int number = ++awake_;
         threads_.start([this, number] { help(static_cast<std::size_t>(number)); });
       }
