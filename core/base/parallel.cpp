@@ -4,13 +4,12 @@
 #include <atomic>
 #include <chrono>
 #include <new>
+#include <thread>
 #include <utility>
 
 #include "core/base/chunks.h"
 
-#if defined(SEEDMESH_STD_THREADS)
-#include <thread>
-#else
+#if !defined(SEEDMESH_STD_THREADS)
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -23,6 +22,8 @@ namespace {
 // How long a thread waits for work, and how often it looks at the clock.
 constexpr std::chrono::microseconds longest_wait{300};
 constexpr int waits_a_look = 64;
+// After so many, a tenth of a millisecond, others may have the core.
+constexpr int most_waits = 2048;
 // So many wait: what takes a millisecond has no use for more.
 constexpr int most_waiters = 7;
 
@@ -33,6 +34,21 @@ void wait_a_little() {
   asm volatile("isb");
 #endif
 }
+
+/// For what another thread is about to end, which may have no core.
+class Wait {
+ public:
+  void a_little() {
+    if (++times_ < most_waits) {
+      wait_a_little();
+    } else {
+      std::this_thread::yield();
+    }
+  }
+
+ private:
+  int times_ = 0;
+};
 
 #if defined(SEEDMESH_STD_THREADS)
 class Threads {
@@ -146,8 +162,9 @@ class Crew {
     template <class Otherwise>
     void hide(const Otherwise& otherwise) {
       work_ = nullptr;
+      Wait wait;
       while (inside_ > 0) {
-        if (!otherwise()) wait_a_little();
+        if (!otherwise()) wait.a_little();
       }
     }
 
@@ -249,8 +266,9 @@ Beside::~Beside() {
 }
 
 void Beside::finish() {
+  Wait wait;
   while (!pieces_->is_prepared()) {
-    if (!pieces_->do_one()) wait_a_little();
+    if (!pieces_->do_one()) wait.a_little();
   }
   parallel_for(job_, std::min<std::size_t>(pieces_->left(), static_cast<std::size_t>(job_.threads())), 1,
                [&](std::size_t, std::size_t, std::size_t) {
