@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -109,7 +110,10 @@ class Slots {
   /// 2^bits slots.
   Slots(const Cells& cells, int bits, std::span<const glm::vec3> points, std::span<const std::uint8_t> twin,
         const Job& job)
-      : points_(points), before_(job, points.size()), last_(job, std::size_t{1} << bits, none) {
+      : points_(points),
+        before_(job, points.size()),
+        last_(job, std::size_t{1} << bits, none),
+        inside_(job, points.size()) {
     const bool is_shared = has_threads(job) && points_.size() >= least_points_to_share;
     const int share_bits =
         is_shared ? bits_for(std::min<std::size_t>(most_shares, static_cast<std::size_t>(job.threads()))) : 0;
@@ -145,8 +149,8 @@ class Slots {
     std::uint32_t point, slot;
   };
   struct Chunk {
-    std::vector<std::vector<std::uint32_t>>
-        inside;  ///< points by shares, but for twins and those near borders
+    /// By shares: where the points begin that are neither twins nor near borders, and the end.
+    std::vector<std::size_t> inside;
     std::vector<Entry> border;
     std::size_t first = 0;  ///< of `border`
   };
@@ -155,21 +159,24 @@ class Slots {
                 Chunk& chunk) {
     std::uint32_t* const slot = before_.data();  // until what was there before comes here
     cells.fill(points_.subspan(begin, end - begin), slot + begin);
-    const std::size_t shares = crowded_.size();
-    chunk.inside.resize(shares);
-    for (std::vector<std::uint32_t>& list : chunk.inside) list.resize(end - begin + 1);
-    std::vector<std::size_t> count(shares, 0);
+    const auto is_other = [&](std::size_t i) { return (slot[i] & at_border) != 0 || twin[i] != 0; };
+    const auto share_of = [&](std::size_t i) { return (slot[i] & ~at_border) >> share_shift_; };
+    chunk.inside.assign(crowded_.size() + 1, 0);
+    for (std::size_t i = begin; i < end; ++i) chunk.inside[share_of(i) + 1] += is_other(i) ? 0 : 1;
+    chunk.inside[0] = begin;
+    std::partial_sum(chunk.inside.begin(), chunk.inside.end(), chunk.inside.begin());
+    std::vector<std::size_t> at = chunk.inside;
     for (std::size_t i = begin; i < end; ++i) {
       const auto point = static_cast<std::uint32_t>(i);
-      const bool is_at_border = (slot[i] & at_border) != 0;
-      if (is_at_border && !twin[i])
-        cells.each(points_[i], [&](std::uint32_t at) { chunk.border.push_back({point, at}); });
-      // Without a branch that nobody can foresee: it is put on a list, and stays there if it belongs to it.
-      const std::size_t share = (slot[i] & ~at_border) >> share_shift_;
-      chunk.inside[share][count[share]] = point;
-      count[share] += (is_at_border | (twin[i] != 0)) ? 0 : 1;
+      if ((slot[i] & at_border) != 0 && !twin[i])
+        cells.each(points_[i], [&](std::uint32_t each) { chunk.border.push_back({point, each}); });
+      // Without a branch that nobody can foresee.
+      const bool is_out = is_other(i);
+      const std::size_t share = share_of(i);
+      std::uint32_t nowhere = 0;
+      *(is_out ? &nowhere : &inside_[at[share]]) = point;
+      at[share] += is_out ? 0 : 1;
     }
-    for (std::size_t share = 0; share < shares; ++share) chunk.inside[share].resize(count[share]);
   }
 
   void put(const Chunk& chunk, std::uint32_t share) {
@@ -179,7 +186,8 @@ class Slots {
       before_[number] = last;
       return last != none;
     };
-    const std::vector<std::uint32_t>& inside = chunk.inside[share];
+    const std::span<const std::uint32_t> inside =
+        inside_.span().subspan(chunk.inside[share], chunk.inside[share + 1] - chunk.inside[share]);
     std::size_t crowds = crowded.size();
     crowded.resize(crowds + inside.size() + 1);
     for (const std::uint32_t point : inside) {
@@ -198,7 +206,7 @@ class Slots {
 
   std::span<const glm::vec3> points_;
   std::uint32_t share_shift_ = 0;
-  Array<std::uint32_t> before_, last_;
+  Array<std::uint32_t> before_, last_, inside_;
   std::vector<std::uint32_t> border_;  ///< the points of numbers beyond those of points
   std::vector<Chunk> chunks_;
   std::vector<std::vector<std::uint32_t>> crowded_;
