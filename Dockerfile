@@ -11,18 +11,17 @@ WORKDIR /seedmesh
 # Packages first, so that a change of the code installs nothing anew. A network that signs traffic with a certificate of its own
 # hands it in as the secret "certificates"; it stays out of the image.
 COPY dev ./
-RUN --mount=type=secret,id=certificates \
+RUN --mount=type=secret,id=certificates --mount=type=cache,target=/var/cache/apt \
   if [ -s /run/secrets/certificates ]; then export NODE_EXTRA_CA_CERTS=/run/secrets/certificates; fi; ./dev setup build
 COPY web_client/package.json web_client/package-lock.json web_client/
 RUN --mount=type=secret,id=certificates \
   if [ -s /run/secrets/certificates ]; then export NODE_EXTRA_CA_CERTS=/run/secrets/certificates; fi; ./dev setup build
 
-# The page, then the program that carries it. Of the tests only the folder that CMake asks for.
+# The page, then the program that carries it. No test is compiled here.
 COPY web_client web_client
 RUN cd web_client && PATH="/seedmesh/build/tools/node_modules/.bin:$PATH" npm run --silent build
 COPY CMakeLists.txt CMakePresets.json LICENSE README.md ./
 COPY api_schema api_schema
-COPY tests/bench tests/bench
 COPY core core
 COPY server server
 RUN --mount=type=cache,target=/root/.cache/ccache \

@@ -5,7 +5,7 @@ set -euo pipefail
 root=$1
 compiler=$(g++ -dumpversion | cut -d. -f1)
 packages=("libstdc++-$compiler-dev" libglm-dev libspdlog-dev nlohmann-json3-dev libtbb-dev zlib1g-dev libmeshoptimizer-dev
-  libsleef-dev libpng-dev libzip-dev libxxhash-dev libtinygltf-dev)
+  libsleef-dev libpng-dev libjpeg-dev libwebp-dev libtiff-dev libpugixml-dev libzip-dev libxxhash-dev libtinygltf-dev)
 stamp=$root/.made-from
 if [ "$(cat "$stamp" 2>/dev/null)" = "${packages[*]}" ]; then echo "$root is there"; exit 0; fi
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Proves the README on a machine that has nothing: makes a bare Debian in a folder with debootstrap, puts a clone of HEAD into it, and
-# runs a command there, by default ./dev test. Needs root. The folder is kept, so that a second run starts warm; delete it to start anew.
+# runs a command there, by default ./dev test. Needs root. The folder is kept, so that a second run starts warm; delete it to start from nothing.
 #   .ci/bare.sh [bookworm|trixie] [command...]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -20,7 +20,7 @@ if [ -d "$root/seedmesh/build" ]; then mv "$root/seedmesh/build" "$root/seedmesh
 rm -rf "$root/seedmesh"
 mv "$root/seedmesh.new" "$root/seedmesh"
 
-# A network that signs traffic with a certificate of its own tells Node so by this variable; the bare machine has to know, too.
+# A network that signs traffic with its own certificate names it to Node by this variable. The bare machine needs the certificate, too.
 environment=(HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin CI=true LANG=C.UTF-8)
 if [ -n "${NODE_EXTRA_CA_CERTS:-}" ]; then
   cp "$NODE_EXTRA_CA_CERTS" "$root/usr/local/share/host-certificates.pem"

@@ -1,6 +1,6 @@
 #pragma once
-/// The one door into core: request text in, bytes out. The server and the program include this header of core
-/// only. Pure: everything here may run on any number of threads at once; nothing is global.
+/// The interface of core: request text in, bytes out. The server and the program use core through this
+/// header. All functions may run on any number of threads at once; there is no global state.
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -11,13 +11,14 @@
 
 #include "core/base/job.h"
 #include "core/base/result.h"
-#include "core/base/texture_store.h"
 #include "core/gltf/payload.h"
 #include "core/model/model.h"
+#include "core/pipeline/formats.h"
+#include "core/texture/texture_store.h"
 
 namespace seedmesh {
 
-/// A request read, checked and with its preset resolved. Cheap to copy (shared, immutable).
+/// A request that has been read and checked, with its preset resolved. Immutable; copies share it.
 class Request {
  public:
   struct Body;
@@ -25,29 +26,30 @@ class Request {
   const Body& body() const { return *body_; }
   std::string_view generator() const;
   std::string_view format() const;       ///< "glb", "gltf", "zip", ...
-  const std::string& canonical() const;  ///< canonical JSON: preset resolved, defaults left out, keys sorted
+  const std::string& canonical() const;  ///< canonical JSON: without defaults, keys sorted
   std::uint64_t seed() const;
 
  private:
   std::shared_ptr<const Body> body_;
 };
 
-/// Reads a request body. Malformed JSON gives Code::malformed; otherwise every fault of schema and grammar at
-/// once, as Code::invalid. `limits` bound iterations and expression depth.
+/// Reads a request body. Malformed JSON gives Code::malformed. Otherwise Code::invalid holds every error of
+/// the schema and of the generator's own checks. `limits` bound iterations and expression depth.
 Result<Request> read_request(std::string_view json, const Limits& limits);
 
-/// A preset's request with a query's overrides: keys are `seed`, `output.x`, `constants.x` or the name of a
-/// parameter; values are JSON where they parse as such, else text. Unknown preset: nullopt. A bad override
-/// points at "/<key>".
+/// Reads the request of a preset with the overrides of a query. Keys are `seed`, `output.x`, `constants.x` or
+/// the name of a parameter. Values are JSON where they parse as the type of the schema, otherwise text.
+/// Returns nullopt for an unknown preset. Errors of an override have the pointer "/<key>".
 using Overrides = std::vector<std::pair<std::string, std::string>>;
 std::optional<Result<Request>> read_preset(std::string_view name, const Overrides& overrides,
                                            const Limits& limits);
 
-/// The same request in another format (the extension of a URL wins over output.format); an Issue where it has
-/// no such form.
+/// The same request with another output.format. An error where the request does not allow the format.
 Result<Request> with_format(const Request& request, std::string_view format);
 
-/// The model that a request describes. `texture_store` is the caller's; may be null.
+/// The functions below run a request within `options`. The seed comes from the request alone.
+
+/// Makes the model of a request. `texture_store` is the caller's; may be null.
 struct Statistics {
   std::uint64_t triangles = 0, vertices = 0;
   std::uint32_t warnings = 0;
@@ -57,41 +59,62 @@ struct Product {
   std::string media_type;  ///< "model/gltf-binary", ...
   std::string extension;   ///< "glb", ...
   Statistics statistics;
-  std::vector<Warning> warnings;  ///< those that the model carries, with pointers into the request
+  std::vector<Warning> warnings;  ///< the warnings in the model, with pointers into the request
   struct Span {
     std::string name;
     double milliseconds;
   };
   std::vector<Span> timing;  ///< derive, mesh, encode
 };
-Result<Product> produce(const Request& request, Job& job, TextureStore* texture_store = nullptr);
+Result<Product> produce(const Request& request, const Job::Options& options,
+                        TextureStore* texture_store = nullptr);
 
-/// The generator's own result before geometry, as JSON text.
-Result<std::string> derive(const Request& request, Job& job);
+/// The image of a generated texture by its name, which `output.textures: "links"` puts into models after the engine
+/// version (core/texture/link.h). An unknown name is Code::invalid.
+Result<std::shared_ptr<const Image>> make_texture(std::string_view name, const Job::Options& options,
+                                                  TextureStore* texture_store = nullptr);
 
-/// `{valid, warnings, estimate}` as JSON text; makes no geometry.
-Result<std::string> validate(const Request& request, Job& job);
+/// The generator's result before geometry, as JSON text.
+Result<std::string> derive(const Request& request, const Job::Options& options);
 
-/// A foreign file, and what became of it. `format` empty: the one that the text has most marks of. `entry`
-/// names the system of a file that holds several; empty: the only one.
+/// `{valid, warnings, estimate}` as JSON text. Makes no model.
+Result<std::string> validate(const Request& request, const Job::Options& options);
+
+/// A file of another program. An empty `format` means that the text decides. `entry` names one system of a
+/// file with several; empty means the only one.
 struct ImportQuestion {
   std::string_view format, entry, text;
+  std::map<std::string, std::string> files = {};  ///< further files beside the text, by name
 };
 struct ImportedRequest {
   Request request;
   std::string answer;             ///< {format, request, warnings} as JSON text
-  std::vector<Warning> warnings;  ///< what the file says and a request cannot; line and column of the file
+  std::vector<Warning> warnings;  ///< what a request cannot express; line and column of the file
 };
-/// Reads a file of another program as a request of ours. Bytes that are no UTF-8 give Code::malformed; an
-/// unknown format points at "/format"; what the format's reader does not understand is Code::invalid with
-/// pointer "" at its line and column.
+/// Turns a file of another program into a request. Text that is not UTF-8 gives Code::malformed. An unknown
+/// format has the pointer "/format". What the reader does not understand is Code::invalid with pointer "" and
+/// its line and column.
+Result<ImportedRequest> import_request(const ImportQuestion& question, const Job::Options& options);
+/// The same without a time limit.
 Result<ImportedRequest> import_request(const ImportQuestion& question, const Limits& limits);
 struct ImportFormatInfo {
   std::string name, title, text;
 };
 std::vector<ImportFormatInfo> import_format_list();
 
-/// What is shipped inside: presets, schemas, vocabulary, OpenAPI. All JSON text, made once.
+/// The request as a file of another program, and what such a file cannot hold. `format`: "proctree".
+struct ExportedFile {
+  std::string text;
+  std::vector<Warning> warnings;  ///< with pointers into the request
+};
+Result<ExportedFile> export_request(const Request& request, std::string_view format,
+                                    const Job::Options& options);
+
+/// The name of the format that import_request() detects in a text if the request names none; empty if it
+/// detects none.
+std::string_view likely_import_format(std::string_view text);
+
+/// The embedded texts: presets, schemas, vocabulary, OpenAPI.
 struct PresetInfo {
   std::string name, generator, title, description;
   std::vector<std::string> tags;
@@ -106,7 +129,8 @@ std::string vocabulary_json();
 std::string_view openapi_json();
 std::vector<std::string_view> generator_names();
 
-/// Our own number plus a fingerprint of the libraries that touch bytes; part of every ETag and permalink.
+/// The engine number and a fingerprint of the libraries that affect bytes; part of every ETag and
+/// permalink.
 std::string_view engine_version();
 std::string_view program_version();
 

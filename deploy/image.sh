@@ -1,16 +1,22 @@
 #!/usr/bin/env bash
 # Builds the image with docker, podman or buildah, runs it as the README says, asks it for a model, and ends it. Where no base
-# image can be pulled, debootstrap makes one (Debian 13, or else 12) from the package mirror of this machine. Its files are in
-# build/image.
-#   SEEDMESH_ENGINE   docker, podman or buildah (default: the first that works)
-#   SEEDMESH_BASE     the base image (default: debian:trixie-slim)
+# image can be pulled, debootstrap makes one (Debian 13, or else 12) from the package mirror of this machine. Logs are in build/image.
+#   image.sh           any base
+#   image.sh <release> a base of this release of Debian (trixie) by debootstrap, and nothing else
+#   SEEDMESH_ENGINE    docker, podman or buildah (default: the first that works)
+#   SEEDMESH_BASE      the base image (default: debian:trixie-slim)
+#   SEEDMESH_CACHE     keeps the base, Debian packages and the compiler cache between runs (default: ~/.cache/seedmesh)
+# Exit status 77: this machine cannot make images (no engine and no root, no mounts, or no package mirror).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 work=$PWD/build/image
+cache=${SEEDMESH_CACHE:-${XDG_CACHE_HOME:-$HOME/.cache}/seedmesh}/image
 image=seedmesh
+release=${1:-}
 
 say() { printf '\n=== %s\n' "$*"; }
 fail() { printf 'image: %s\n' "$*" >&2; exit 1; }
+cannot() { printf 'image: skipped: %s\n' "$*" >&2; exit 77; }
 has() { command -v "$1" >/dev/null 2>&1; }
 
 find_engine() {
@@ -29,12 +35,12 @@ mirror_of() {
     awk -v release="$1" '$2 == release && !found { print $1; found = 1 }'
 }
 
-make_base() {  # <release>: a minimal Debian in $work/<release>
-  local release=$1 here root=$work/$1 mirror security
+make_base() {  # <release>: a minimal Debian in $cache/<release>
+  local release=$1 here root=$cache/$1 mirror security
   [ ! -f "$root.made" ] || return 0
-  here=$(. /etc/os-release && echo "$VERSION_CODENAME")
+  here=$(. /etc/os-release && echo "${VERSION_CODENAME:-}")
   mirror=$(mirror_of "$here") security=$(mirror_of "$here-security")
-  [ -n "$mirror" ] || fail "apt here knows no mirror of $here"
+  [ -n "$mirror" ] || cannot "apt here knows no mirror of '$here'"
   say "Making Debian $release with debootstrap"
   rm -rf "$root"
   debootstrap --variant=minbase --include=ca-certificates "$release" "$root" "$mirror" >"$work/debootstrap.log" 2>&1 || return 1
@@ -51,11 +57,11 @@ import_base() {  # <release>: prints the name of the image
   local name=localhost/seedmesh-base:$1 container
   if [ "$engine" = buildah ]; then
     container=$(buildah from scratch)
-    buildah add --quiet "$container" "$work/$1" / >/dev/null
+    buildah add --quiet "$container" "$cache/$1" / >/dev/null
     buildah config --cmd bash "$container"
     buildah commit --quiet --rm "$container" "$name" >/dev/null
   else
-    tar -C "$work/$1" -c . | "$engine" import - "$name" >/dev/null
+    tar -C "$cache/$1" -c . | "$engine" import - "$name" >/dev/null
   fi
   echo "$name"
 }
@@ -68,17 +74,19 @@ there() {  # <image>
 }
 
 choose_base() {  # sets base
+  local releases=(trixie bookworm) each
   base=${SEEDMESH_BASE:-debian:trixie-slim}
-  if there "$base" || timeout 120 "$engine" pull -q "$base" </dev/null >"$work/pull.log" 2>&1; then return; fi
-  [ -z "${SEEDMESH_BASE:-}" ] || fail "cannot pull $base: $(tail -1 "$work/pull.log")"
-  local release
-  for release in trixie bookworm; do
-    base=localhost/seedmesh-base:$release
+  if [ -n "$release" ]; then
+    releases=("$release")
+  elif there "$base" || timeout 120 "$engine" pull -q "$base" </dev/null >"$work/pull.log" 2>&1; then return; fi
+  [ -n "$release" ] || [ -z "${SEEDMESH_BASE:-}" ] || fail "cannot pull $base: $(tail -1 "$work/pull.log")"
+  for each in "${releases[@]}"; do
+    base=localhost/seedmesh-base:$each
     if there "$base"; then return; fi
-    has debootstrap || fail "cannot pull debian:trixie-slim, and there is no debootstrap to make it: ./dev setup image"
-    if make_base "$release"; then import_base "$release" >/dev/null; return; fi
+    has debootstrap || ./dev setup image
+    if make_base "$each"; then import_base "$each" >/dev/null; return; fi
   done
-  fail "debootstrap could make no base image: $(tail -1 "$work/debootstrap.log")"
+  cannot "debootstrap could make no base image: $(tail -1 "$work/debootstrap.log")"
 }
 
 # --- Building -------------------------------------------------------------------------------------------------------
@@ -91,7 +99,8 @@ build_image() {
   options+=(--build-arg "BASE=$base" --build-arg "VERSION=$version" --build-arg "REVISION=$revision" -t "$image" .)
   case $engine in
     # The older of its two formats: the other has no place for a check of health.
-    buildah) buildah bud --layers --format docker --isolation chroot --pull-never "${options[@]}" ;;
+    # Its cache of `RUN --mount=type=cache` is below TMPDIR.
+    buildah) TMPDIR=$cache buildah bud --layers --format docker --isolation chroot --pull-never "${options[@]}" ;;
     podman) podman build --layers --format docker --pull=never "${options[@]}" ;;
     docker) DOCKER_BUILDKIT=1 docker build "${options[@]}" ;;
   esac </dev/null >"$work/build.log" 2>&1 && return
@@ -101,12 +110,17 @@ build_image() {
 
 engine=${SEEDMESH_ENGINE:-$(find_engine)}
 if [ -z "$engine" ]; then
-  ./dev setup image
+  [ "$(id -u)" = 0 ] || cannot "there is no docker or podman, and buildah needs root: sudo ./dev image"
+  has apt-get || cannot "there is no docker, podman or buildah"
+  ./dev setup image || cannot "apt cannot install buildah and debootstrap"
   engine=$(find_engine)
 fi
-has "$engine" || fail "there is no docker, podman or buildah here"
-[ "$engine" != buildah ] || [ "$(id -u)" = 0 ] || fail "with buildah this needs root: sudo ./dev image"
-mkdir -p "$work"
+has "$engine" || fail "there is no '$engine' here"
+if [ "$engine" = buildah ]; then
+  [ "$(id -u)" = 0 ] || cannot "buildah needs root: sudo ./dev image"
+  unshare --mount true 2>/dev/null || cannot "buildah needs mounts, which this container does not allow"
+fi
+mkdir -p "$work" "$cache"
 choose_base
 say "Building the image with $engine on $base"
 start=$SECONDS

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs the image as the README says, asks it for a model, looks at what it may do, and ends it.   smoke.sh <engine> <image>
+# Runs the image as in the README, requests a model, checks its permissions, and stops it.   smoke.sh <engine> <image>
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 engine=$1 image=$2
@@ -85,7 +85,7 @@ clean() {
 }
 trap clean EXIT
 
-# --- What has to hold -----------------------------------------------------------------------------------------------
+# --- Checks ---------------------------------------------------------------------------------------------------------
 
 passed=0
 holds() {  # <sentence> <command...>
@@ -96,7 +96,7 @@ holds() {  # <sentence> <command...>
 
 healthy() { curl -fsS --max-time 5 -o /dev/null "http://127.0.0.1:$port/healthz" 2>/dev/null; }
 has_status() { grep -qE "^$1:[[:space:]]+$2\$" "/proc/$process/status"; }
-has_sound_model() {  # <preset>: a GLB whose header tells its length
+has_sound_model() {  # <preset>: a GLB whose header has its length
   local file=$work/model.glb length
   curl -fsS --max-time 30 -o "$file" "http://127.0.0.1:$port/v1/presets/$1.glb?seed=3"
   length=$(od -An -tu4 -j8 -N4 "$file" | tr -d ' ')
@@ -128,7 +128,7 @@ if [ -n "$process" ]; then
   holds "cannot gain one" has_status NoNewPrivs 1
 fi
 holds "cannot write to its root" cannot_write "$preset"
-holds "ends with 0 when told to" ends_well
+holds "ends with 0 after SIGTERM" ends_well
 
 size_of() {
   if [ "$engine" = buildah ]; then buildah images --format '{{.Size}}' "localhost/$image"

@@ -5,38 +5,34 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "server/http/text.h"
+
 namespace seedmesh {
 namespace {
 
 using Json = nlohmann::json;
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-/// The API key that a request shows; nothing where it shows none.
-std::optional<std::string> shown_key(const http::Request& request) {
+/// The API key that a request carries.
+std::optional<std::string> given_key(const http::Request& request) {
   const std::string authorization = request.header("Authorization");
   const std::string_view scheme = "Bearer ";
-  if (http::same_name(std::string_view(authorization).substr(0, scheme.size()), scheme))
-    return std::string(trimmed(std::string_view(authorization).substr(scheme.size())));
+  if (http::equals_ignoring_case(std::string_view(authorization).substr(0, scheme.size()), scheme))
+    return std::string(http::trimmed(std::string_view(authorization).substr(scheme.size())));
   if (request.has_header("X-Api-Key")) return request.header("X-Api-Key");
   return std::nullopt;
 }
 
-/// What of a canonical request a preset decides: all but seed and output.
-std::string core_of(const std::string& canonical) {
+/// A canonical request without seed and output, which may vary in a preset.
+std::string preset_part(const std::string& canonical) {
   Json object = Json::parse(canonical);
   object.erase("seed");
   object.erase("output");
   return object.dump();
 }
 
-/// The first generator in a request, or in requests inside it, for which `allowed` is false.
+/// The first generator in a request, or in requests nested in it, for which `allowed` is false.
 template <class Allowed>
-std::optional<std::string> find_foreign(const Json& value, const Allowed& allowed) {
+std::optional<std::string> find_forbidden(const Json& value, const Allowed& allowed) {
   if (value.is_object()) {
     const auto generator = value.find("generator");
     if (generator != value.end() && generator->is_string() &&
@@ -45,7 +41,7 @@ std::optional<std::string> find_foreign(const Json& value, const Allowed& allowe
   }
   if (!value.is_structured()) return std::nullopt;
   for (const Json& inner : value) {
-    if (auto foreign = find_foreign(inner, allowed)) return foreign;
+    if (auto forbidden = find_forbidden(inner, allowed)) return forbidden;
   }
   return std::nullopt;
 }
@@ -63,22 +59,23 @@ Denial over_limit(std::string detail, double seconds, std::string_view reason) {
 
 }  // namespace
 
-double Bucket::take(Clock::time_point now) {
+double TokenBucket::take(Clock::time_point now) {
   if (rate_ <= 0) return 0;
-  if (last_) left_ = std::min(most(), left_ + rate_ * std::chrono::duration<double>(now - *last_).count());
+  if (last_)
+    left_ = std::min(capacity(), left_ + rate_ * std::chrono::duration<double>(now - *last_).count());
   last_ = now;
   if (left_ < 1) return (1 - left_) / rate_;
   left_ -= 1;
   return 0;
 }
 
-/// What one key does at the moment.
-struct Access::Use {
-  Use(double rate, int most) : bucket(rate), most_at_once(most) {}
+/// The present use of one key.
+struct Access::Usage {
+  Usage(double rate, int limit) : bucket(rate), concurrency(limit) {}
   std::mutex mutex;
-  Bucket bucket;
-  const int most_at_once;
-  int now = 0;
+  TokenBucket bucket;
+  const int concurrency;  ///< most concurrent requests; 0: no limit
+  int running = 0;
 };
 
 Access::Access(const Config& config)
@@ -88,13 +85,14 @@ Access::Access(const Config& config)
       only_presets_(config.only_presets),
       link_lifetime_(config.link_lifetime) {
   for (const ApiKey& key : api_keys_) {
-    uses_.push_back(std::make_shared<Use>(key.rate < 0 ? config.key_rate : key.rate,
-                                          key.concurrency < 0 ? config.key_concurrency : key.concurrency));
+    usages_.push_back(
+        std::make_shared<Usage>(key.rate < 0 ? config.key_rate : key.rate,
+                                key.concurrency < 0 ? config.key_concurrency : key.concurrency));
   }
   if (!only_presets_) return;
   for (const PresetInfo& preset : presets()) {
     const auto request = read_preset(preset.name, {}, config.limits);
-    if (request && *request) presets_.insert(core_of((*request)->canonical()));
+    if (request && *request) presets_.insert(preset_part((*request)->canonical()));
   }
 }
 
@@ -110,14 +108,14 @@ std::variant<Grant, Denial> Access::admit(const http::Request& request) {
   if (!signing_keys_.empty() && reads)
     signature = check_signature(request.target, signing_keys_, std::time(nullptr));
   grant.target_size = signature.target_size;
-  if (const auto shown = shown_key(request)) return admit_key(*shown, std::move(grant));
+  if (const auto key = given_key(request)) return admit_key(*key, std::move(grant));
   switch (signature.state) {
     case SignatureState::good:
       grant.by = Grant::By::signature;
       grant.expires = signature.expires;
       return grant;
     case SignatureState::wrong:
-      return denied(403, "The signature of this URL does not hold.", "signature_wrong");
+      return denied(403, "The signature of this URL is not valid.", "signature_wrong");
     case SignatureState::expired:
       return denied(403, "The signature of this URL has expired.", "signature_expired");
     case SignatureState::absent:
@@ -129,27 +127,28 @@ std::variant<Grant, Denial> Access::admit(const http::Request& request) {
       "key_missing");
 }
 
-std::variant<Grant, Denial> Access::admit_key(const std::string& shown, Grant grant) {
-  const std::string digest = sha256(shown);
+std::variant<Grant, Denial> Access::admit_key(const std::string& key, Grant grant) {
+  const std::string digest = sha256(key);
   std::size_t found = api_keys_.size();
-  for (std::size_t i = 0; i < api_keys_.size(); ++i) {  // all of them: time shall not tell which
+  for (std::size_t i = 0; i < api_keys_.size(); ++i) {  // all of them, so that the time reveals nothing
     if (same_in_constant_time(api_keys_[i].digest, digest)) found = i;
   }
-  if (found == api_keys_.size()) return denied(403, "The API key is not known here.", "key_wrong");
-  const std::shared_ptr<Use>& use = uses_[found];
-  const std::lock_guard lock(use->mutex);
-  if (use->most_at_once > 0 && use->now >= use->most_at_once) {
-    return over_limit("This key has " + std::to_string(use->now) + " requests at once, which is its limit.",
-                      1, "key_concurrency");
+  if (found == api_keys_.size()) return denied(403, "The API key is not known.", "key_wrong");
+  const std::shared_ptr<Usage>& usage = usages_[found];
+  const std::lock_guard lock(usage->mutex);
+  if (usage->concurrency > 0 && usage->running >= usage->concurrency) {
+    return over_limit(
+        "This key has reached its limit of " + std::to_string(usage->running) + " concurrent requests.", 1,
+        "key_concurrency");
   }
-  if (const double wait = use->bucket.take(Bucket::Clock::now()); wait > 0)
-    return over_limit("This key has used up its requests a second.", wait, "key_rate");
-  ++use->now;
+  if (const double wait = usage->bucket.take(TokenBucket::Clock::now()); wait > 0)
+    return over_limit("This key has reached its limit of requests per second.", wait, "key_rate");
+  ++usage->running;
   grant.by = Grant::By::key;
   grant.key = api_keys_[found].name;
-  grant.place = std::shared_ptr<const void>(nullptr, [use](const void*) {
-    const std::lock_guard release(use->mutex);
-    --use->now;
+  grant.slot = std::shared_ptr<const void>(nullptr, [usage](const void*) {
+    const std::lock_guard release(usage->mutex);
+    --usage->running;
   });
   return grant;
 }
@@ -161,11 +160,11 @@ bool Access::allows_generator(std::string_view name) const {
 std::optional<Denial> Access::forbid(const Request& request) const {
   if (!generators_.empty()) {
     const auto allowed = [&](const std::string& name) { return allows_generator(name); };
-    if (const auto foreign = find_foreign(Json::parse(request.canonical()), allowed))
-      return denied(403, "The generator " + *foreign + " is not allowed here.", "generator");
+    if (const auto forbidden = find_forbidden(Json::parse(request.canonical()), allowed))
+      return denied(403, "The generator " + *forbidden + " is not allowed on this service.", "generator");
   }
-  if (only_presets_ && presets_.count(core_of(request.canonical())) == 0)
-    return denied(403, "Only presets are made here, with any seed and output.", "only_presets");
+  if (only_presets_ && presets_.count(preset_part(request.canonical())) == 0)
+    return denied(403, "This service makes only presets, with any seed and output.", "only_presets");
   return std::nullopt;
 }
 

@@ -1,9 +1,8 @@
 #pragma once
-/// Who may ask for what: API keys with limits of their own, signed URLs, generators and presets.
+/// Access control: API keys with limits of their own, signed URLs, allowed generators and presets.
 ///
-/// A service without keys is open. As soon as there are API keys or signing keys it is closed: whoever wants
-/// a model shows an API key (`Authorization: Bearer ...` or `X-Api-Key: ...`), or a URL that a signing key
-/// has signed (GET and HEAD).
+/// A service without keys is open. With API keys or signing keys it is closed: a request for a model needs an
+/// API key (`Authorization: Bearer ...` or `X-Api-Key: ...`) or, for GET and HEAD, a signed URL.
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -20,36 +19,37 @@
 
 namespace seedmesh {
 
-/// Requests of one key a second, as a bucket that holds one second's worth and at least one.
-class Bucket {
+/// Limits the requests of one key by a token bucket. The bucket holds the requests of one second, at least one.
+class TokenBucket {
  public:
   using Clock = std::chrono::steady_clock;
-  explicit Bucket(double rate) : rate_(rate), left_(most()) {}
+  /// `rate` in requests a second; 0: no limit.
+  explicit TokenBucket(double rate) : rate_(rate), left_(capacity()) {}
 
-  /// 0 where a request may pass, else the seconds until the next one may.
+  /// Returns 0 where the request may pass, else the seconds until the next request may pass.
   double take(Clock::time_point now);
 
  private:
-  double most() const { return rate_ > 1 ? rate_ : 1; }
+  double capacity() const { return rate_ > 1 ? rate_ : 1; }
   const double rate_;
   double left_;
   std::optional<Clock::time_point> last_;
 };
 
-/// What a request has been let in with.
+/// The credential with which a request was admitted.
 struct Grant {
   enum class By { nothing, key, signature };
   By by = By::nothing;
   std::string key;                      ///< name of the API key
-  std::optional<std::int64_t> expires;  ///< of the signature
-  std::size_t target_size = 0;          ///< characters of the raw target without the signature
-  std::shared_ptr<const void> place;    ///< one of the key's requests at once, given back with the last copy
+  std::optional<std::int64_t> expires;  ///< of the signature, in seconds since 1970
+  std::size_t target_size = 0;          ///< characters of the undecoded target without the signature
+  std::shared_ptr<const void> slot;  ///< counts as one concurrent request of the key until the last copy ends
 };
 
-/// Why a request was not let in, and the word for the metrics, of a bounded set.
+/// Why a request was not admitted.
 struct Denial {
   Problem problem;
-  std::string_view reason;
+  std::string_view reason;  ///< label for the metrics, from a bounded set
 };
 
 class Access {
@@ -57,38 +57,39 @@ class Access {
   explicit Access(const Config& config);
   ~Access();
 
-  /// Whether models are for those alone who show a key or a signature.
+  /// Whether requests for models need a key or a signature.
   bool closed() const { return !api_keys_.empty() || !signing_keys_.empty(); }
 
-  /// 401 where nothing was shown, 403 where it does not hold, 429 over a limit of the key.
+  /// Denies with 401 without a credential, 403 with one that is not valid, 429 beyond a limit of the key.
   std::variant<Grant, Denial> admit(const http::Request& request);
 
-  /// 403 where the request, or one inside it, is of a generator that is not allowed, or of no preset where
-  /// there shall be nothing else. Seed and output are free.
+  /// Denies with 403 where the request, or one nested in it, uses a generator that is not allowed; and where only
+  /// presets are allowed and it is not a preset. Seed and output do not matter.
   std::optional<Denial> forbid(const Request& request) const;
 
   bool allows_generator(std::string_view name) const;
   bool only_presets() const { return only_presets_; }
 
-  /// The permalink as the holder of `grant` may have it: signed where the service has signing keys. Empty for
-  /// those who came by a signature, since a new one would outlive theirs.
+  /// The permalink for the holder of `grant`, signed where the service has signing keys. Empty for a request
+  /// that was itself signed, because the new signature would outlive the given one.
   std::string signed_for(const Grant& grant, const std::string& permalink) const;
 
-  /// The same link for the same time: for the redirection of a signed permalink.
+  /// The permalink with a signature that expires with that of `grant`; for redirects of signed permalinks.
   std::string signed_until(const Grant& grant, const std::string& permalink) const;
 
  private:
-  struct Use;
+  struct Usage;
 
-  std::variant<Grant, Denial> admit_key(const std::string& shown, Grant grant);
+  std::variant<Grant, Denial> admit_key(const std::string& key, Grant grant);
 
   const std::vector<ApiKey> api_keys_;
   const std::vector<SigningKey> signing_keys_;
   const std::vector<std::string> generators_;
   const bool only_presets_;
   const double link_lifetime_;
-  std::vector<std::shared_ptr<Use>> uses_;  ///< beside api_keys_
-  std::set<std::string> presets_;  ///< their requests without seed and output, where only they may pass
+  std::vector<std::shared_ptr<Usage>> usages_;  ///< one for each of api_keys_
+  std::set<std::string>
+      presets_;  ///< canonical requests without seed and output, where only presets are allowed
 };
 
 }  // namespace seedmesh

@@ -28,7 +28,7 @@ void Admission::leave() {
       --busy_;
       return;
     }
-    waiting_.front()->admitted = true;  // the place goes over to the first in the queue
+    waiting_.front()->admitted = true;  // the worker passes to the first in the queue
     waiting_.pop_front();
   }
   changed_.notify_all();

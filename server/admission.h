@@ -1,8 +1,8 @@
 #pragma once
-/// How many requests are worked on at once, and how many may wait for it. First come, first served.
+/// Limits how many requests are worked on at the same time and how many may wait, in order of arrival.
 ///
-/// The scheme of imgproxy: a bounded queue refuses at once what would wait too long anyway, so that an
-/// overload costs the surplus an answer and not everybody their time.
+/// As in imgproxy, the queue is bounded: a request that would wait too long is refused at once, so that an
+/// overload does not slow down the requests that are accepted.
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
@@ -21,17 +21,17 @@ class Admission {
 
   Admission(int workers, std::size_t queue) : workers_(workers), most_waiting_(queue) {}
 
-  /// The right to work, given back when it goes out of scope.
+  /// The right to work. Ends with the object.
   class Ticket {
    public:
-    explicit Ticket(Admission& admission, int threads) : admission_(&admission), threads_(threads) {}
+    Ticket(Admission& admission, int threads) : admission_(&admission), threads_(threads) {}
     Ticket(Ticket&& other) noexcept
         : admission_(std::exchange(other.admission_, nullptr)), threads_(other.threads_) {}
     Ticket& operator=(Ticket&&) = delete;
     ~Ticket() {
       if (admission_) admission_->leave();
     }
-    /// How many threads this request may use: the workers divided by the requests that are here now.
+    /// Threads that this request may use: the workers divided by the requests that run or wait now.
     int threads() const { return threads_; }
 
    private:
@@ -41,10 +41,10 @@ class Admission {
 
   enum class Refused { queue_full, deadline_passed, draining, client_gone };
 
-  /// Waits for a worker until `deadline` or until `gone` is set.
+  /// Waits for a worker until `deadline` or until `gone` is set, which means that the client has left.
   std::variant<Ticket, Refused> enter(Clock::time_point deadline, const std::stop_token& gone);
 
-  /// Refuses whoever comes from now on; who waits already is served.
+  /// Refuses all further requests. Requests that wait already are served.
   void drain();
 
   int workers() const { return workers_; }

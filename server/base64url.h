@@ -1,5 +1,5 @@
 #pragma once
-/// base64url without padding (RFC 4648 section 5), for what stands in URLs.
+/// base64url without padding (RFC 4648 section 5), for URLs.
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,7 +8,7 @@ namespace seedmesh {
 
 std::string base64url(std::string_view bytes);
 
-/// Strict: no padding, no other characters, and no bits that are left over, so that bytes have one spelling.
+/// Strict: no padding, no other characters and no unused bits that are set, so that each value has one spelling.
 std::optional<std::string> from_base64url(std::string_view text);
 
 }  // namespace seedmesh

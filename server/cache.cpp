@@ -3,17 +3,17 @@
 namespace seedmesh {
 namespace {
 
-/// What an entry costs beside its bytes: nodes of list and map, the product's small strings.
+/// Bytes of an entry besides the model: nodes of list and map, small strings of the product.
 constexpr std::uint64_t overhead = 1'024;
 
-Problem client_gone() { return problem_of({Code::cancelled, {{"", "The client has gone."}}}); }
+Problem client_gone() { return problem(499, "The client closed the connection."); }
 
 }  // namespace
 
 Cache::Answer Cache::get(const std::string& key, const Gone& gone, const Make& make) {
   std::unique_lock lock(mutex_);
   while (true) {
-    if (Entry entry = touch(key)) {
+    if (Entry entry = models_.find(key)) {
       ++figures_.hits;
       return {std::move(entry), true};
     }
@@ -27,18 +27,18 @@ Cache::Answer Cache::get(const std::string& key, const Gone& gone, const Make& m
   auto flight = std::make_shared<Flight>();
   flights_.emplace(key, flight);
   lock.unlock();
-  return {fly(key, flight, gone, make), false};
+  return {run(key, flight, gone, make), false};
 }
 
-/// Waits for another request's work. Nothing where that work was stopped because all others had gone: try
-/// again.
+/// Waits for the work of another request. Returns nothing where that work was stopped because all other
+/// clients had left; the caller tries again.
 std::optional<Cache::Outcome> Cache::join(std::unique_lock<std::mutex>& lock,
                                           const std::shared_ptr<Flight>& flight, const Gone& gone) {
   ++flight->waiting;
   lock.unlock();
-  const std::stop_token left = gone();  // not under the lock: it may tell others at once
+  const std::stop_token left = gone();  // not under the lock: it may call back at once
   lock.lock();
-  flight->landed.wait(lock, left, [&] { return flight->outcome.has_value(); });
+  flight->ended.wait(lock, left, [&] { return flight->outcome.has_value(); });
   if (--flight->waiting == 0 && !flight->outcome) flight->stop.request_stop();
   if (left.stop_requested()) return Outcome(client_gone());
   const auto* problem = std::get_if<Problem>(&*flight->outcome);
@@ -46,14 +46,14 @@ std::optional<Cache::Outcome> Cache::join(std::unique_lock<std::mutex>& lock,
   return flight->outcome;
 }
 
-Cache::Outcome Cache::fly(const std::string& key, const std::shared_ptr<Flight>& flight, const Gone& gone,
+Cache::Outcome Cache::run(const std::string& key, const std::shared_ptr<Flight>& flight, const Gone& gone,
                           const Make& make) {
-  const auto land = [&](const Outcome& outcome) {
+  const auto end = [&](const Outcome& outcome) {
     const std::lock_guard lock(mutex_);
     flight->outcome = outcome;
     if (const Entry* entry = std::get_if<Entry>(&outcome)) keep(key, *entry);
     flights_.erase(key);
-    flight->landed.notify_all();
+    flight->ended.notify_all();
   };
   try {
     const std::stop_token own = gone();
@@ -62,47 +62,36 @@ Cache::Outcome Cache::fly(const std::string& key, const std::shared_ptr<Flight>&
       if (--flight->waiting == 0) flight->stop.request_stop();
     });
     Outcome outcome = make(flight->stop.get_token());
-    land(outcome);
+    end(outcome);
     return outcome;
   } catch (...) {
-    land(problem(500, "Something went wrong here. The instance names the request in the log."));
+    end(internal_error("an exception in another request for the same model"));
     throw;
   }
 }
 
+/// Needs the lock.
+void Cache::keep(const std::string& key, const Entry& entry) {
+  const std::uint64_t payload = entry->payload ? entry->payload->size() : 0;
+  models_.insert(key, entry, payload + entry->token.size() + key.size() + overhead);
+}
+
 Cache::Entry Cache::find(const std::string& key) {
   const std::lock_guard lock(mutex_);
-  Entry entry = touch(key);
-  if (entry) ++figures_.hits;
-  return entry;
+  return models_.find(key);
 }
 
-Cache::Entry Cache::touch(const std::string& key) {
-  const auto found = by_key_.find(key);
-  if (found == by_key_.end()) return nullptr;
-  by_use_.splice(by_use_.begin(), by_use_, found->second);
-  return found->second->entry;
-}
-
-void Cache::keep(const std::string& key, const Entry& entry) {
-  const std::uint64_t bytes = entry->payload->size() + key.size() + entry->token.size() + overhead;
-  if (bytes > most_bytes_ || by_key_.count(key) > 0) return;
-  by_use_.push_front({key, entry, bytes});
-  by_key_.emplace(by_use_.front().key, by_use_.begin());
-  figures_.bytes += bytes;
-  while (figures_.bytes > most_bytes_) {
-    const Kept& oldest = by_use_.back();
-    figures_.bytes -= oldest.bytes;
-    ++figures_.evictions;
-    by_key_.erase(oldest.key);
-    by_use_.pop_back();
-  }
+void Cache::put(const std::string& key, const Entry& entry) {
+  const std::lock_guard lock(mutex_);
+  keep(key, entry);
 }
 
 Cache::Figures Cache::figures() const {
   const std::lock_guard lock(mutex_);
   Figures figures = figures_;
-  figures.entries = by_use_.size();
+  figures.bytes = models_.bytes();
+  figures.entries = models_.size();
+  figures.evictions = models_.evictions();
   return figures;
 }
 

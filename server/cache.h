@@ -1,11 +1,10 @@
 #pragma once
-/// Answers kept in memory: bounded in bytes, least recently used go first; and single flight, so that many
-/// equal requests at once cost one. Keyed by the canonical request itself and not by its hash: whoever found
-/// two requests with one hash could otherwise put a model of theirs in the place of another.
+/// Finished models in memory, bounded in bytes. Equal requests at the same time cost one generation.
+/// The key is the canonical request and not its hash: with two requests of one hash, a client could otherwise
+/// replace the model of another client.
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
-#include <list>
 #include <memory>
 #include <mutex>
 #include <stop_token>
@@ -14,69 +13,66 @@
 #include <variant>
 
 #include "core/pipeline.h"
+#include "server/lru.h"
 #include "server/problem.h"
 
 namespace seedmesh {
 
 /// A finished model, shared and never changed.
-struct Made {
+struct CachedModel {
   Product product;
-  std::shared_ptr<const Payload> payload;  ///< the product's bytes, taken out of it
-  std::string token;                       ///< of the permalink; "" where it is too long for any URL
-  bool shared = false;                     ///< another replica made it: it came from the shared cache
+  std::shared_ptr<const Payload> payload;  ///< the bytes, moved out of `product`
+  std::string token;                       ///< of the permalink; "" where it is too long for a URL
+  bool shared = false;                     ///< it came from the shared cache
 };
 
 class Cache {
  public:
-  using Entry = std::shared_ptr<const Made>;
+  using Entry = std::shared_ptr<const CachedModel>;
   using Outcome = std::variant<Entry, Problem>;
   using Make = std::function<Outcome(const std::stop_token& stop)>;
   using Gone = std::function<std::stop_token()>;
 
-  explicit Cache(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
+  explicit Cache(std::uint64_t capacity) : models_(capacity) {}
 
   struct Answer {
     Outcome outcome;
-    bool hit = false;  ///< it was there, or another request was about to make it
+    bool hit = false;  ///< the model was in memory, or another request was generating it
   };
 
-  /// The entry at `key`, or what `make` yields. The first to ask makes; others wait for it. `gone` is asked
-  /// for only where there is something to wait for. The work is stopped when all who wait for it have gone. A
-  /// Problem is given to all of them and not kept.
+  /// The entry at `key`, or the result of `make`. The first request calls `make`; equal requests wait for it.
+  /// `gone` is called only where there is something to wait for. The work stops when the clients of all these
+  /// requests have left. A Problem goes to all of them and is not kept.
   Answer get(const std::string& key, const Gone& gone, const Make& make);
-
-  /// The entry at `key` if it is there.
-  Entry find(const std::string& key);
 
   struct Figures {
     std::uint64_t bytes = 0, entries = 0, hits = 0, misses = 0, joins = 0, evictions = 0;
   };
   Figures figures() const;
 
+  /// The entry at `key`, or null. Not counted as a hit or a miss.
+  Entry find(const std::string& key);
+
+  /// Keeps an entry that was made elsewhere, such as an encoded form. Its payload may be null.
+  void put(const std::string& key, const Entry& entry);
+
  private:
+  /// One generation in progress.
   struct Flight {
-    std::condition_variable_any landed;
+    std::condition_variable_any ended;
     std::optional<Outcome> outcome;
     int waiting = 1;
     std::stop_source stop;
   };
-  struct Kept {
-    std::string key;
-    Entry entry;
-    std::uint64_t bytes = 0;
-  };
 
-  Outcome fly(const std::string& key, const std::shared_ptr<Flight>& flight, const Gone& gone,
+  void keep(const std::string& key, const Entry& entry);
+  Outcome run(const std::string& key, const std::shared_ptr<Flight>& flight, const Gone& gone,
               const Make& make);
   std::optional<Outcome> join(std::unique_lock<std::mutex>& lock, const std::shared_ptr<Flight>& flight,
                               const Gone& gone);
-  Entry touch(const std::string& key);
-  void keep(const std::string& key, const Entry& entry);
 
-  const std::uint64_t most_bytes_;
   mutable std::mutex mutex_;
-  std::list<Kept> by_use_;                                                  ///< most recently used first
-  std::unordered_map<std::string_view, std::list<Kept>::iterator> by_key_;  ///< views into by_use_
+  LruMap<Entry> models_;
   std::unordered_map<std::string, std::shared_ptr<Flight>> flights_;
   Figures figures_;
 };

@@ -13,6 +13,8 @@
 
 #include "core/pipeline.h"
 #include "server/base64url.h"
+#include "server/files.h"
+#include "server/http/text.h"
 #include "server/problem.h"
 #include "server/service.h"
 #include "server/signature.h"
@@ -20,52 +22,23 @@
 namespace seedmesh {
 namespace {
 
-int refused(const Error& error) {
+int print_refusal(const Error& error) {
   const std::string text = problem_json(problem_of(error), "", 2);
   std::fprintf(stderr, "%s\n", text.c_str());
   return 1;
 }
 
-int unusable(const std::string& name) {
+int print_file_error(const std::string& name) {
   std::fprintf(stderr, "seedmesh: %s: %s\n", name.c_str(), std::strerror(errno));
   return 2;
 }
 
-std::optional<std::string> read_file(const std::string& name) {
-  std::FILE* file = name == "-" ? stdin : std::fopen(name.c_str(), "rb");
-  if (!file) return std::nullopt;
-  std::string text;
-  char part[64 * 1'024];
-  while (const std::size_t count = std::fread(part, 1, sizeof(part), file)) text.append(part, count);
-  const bool failed = std::ferror(file) != 0;  // a folder opens, but cannot be read
-  const int reason = errno;
-  if (file != stdin) std::fclose(file);
-  errno = reason;
-  if (failed) return std::nullopt;
-  return text;
+void print_warning(const std::string& file, const std::string& position, const std::string& message) {
+  std::fprintf(stderr, "%s:%s: warning: %s\n", file.c_str(), position.c_str(), message.c_str());
 }
 
-bool write_all(std::FILE* file, const Payload& payload) {
-  for (const auto piece : payload.pieces()) {
-    if (std::fwrite(piece.data(), 1, piece.size(), file) != piece.size()) return false;
-  }
-  return std::fflush(file) == 0;
-}
-
-bool write_file(const std::string& name, const Payload& payload) {
-  if (name == "-") return write_all(stdout, payload);
-  std::FILE* file = std::fopen(name.c_str(), "wb");
-  if (!file) return false;
-  const bool written = write_all(file, payload);
-  return std::fclose(file) == 0 && written;
-}
-
-void print_warning(const std::string& file, const std::string& place, const std::string& message) {
-  std::fprintf(stderr, "%s:%s: warning: %s\n", file.c_str(), place.c_str(), message.c_str());
-}
-
-/// "4:2", a place in a text.
-std::string place_in_text(const Warning& warning) {
+/// Line and column of a warning: "4:2".
+std::string position_of(const Warning& warning) {
   return std::to_string(warning.line) + ":" + std::to_string(warning.column);
 }
 
@@ -78,61 +51,81 @@ Job::Options options_of(const Config& config) {
   return options;
 }
 
-constexpr std::string_view extensions[] = {"glb", "gltf", "zip", "png", "r16", "ply"};
-
 /// "model.glb" -> "glb".
 std::string extension_in(const std::string& name) {
   const std::string extension = std::filesystem::path(name).extension().string();
   return extension.empty() ? "" : extension.substr(1);
 }
 
-/// A request in the format that the extension of a file's name asks for; names without one leave it as it is.
-Result<Request> in_form_of(const Request& request, const std::string& extension) {
-  if (extension.empty() || extension_of(request.format()) == extension) return request;
-  return with_format(request, extension == "png" ? "png16" : extension);
+/// The request in the format that a file extension selects; unchanged without an extension.
+Result<Request> in_format(const Request& request, const std::string& extension) {
+  if (extension.empty() || format_named(request.format()).extension == extension) return request;
+  return with_format(request, format_with_extension(extension)->name);
+}
+
+/// The format that a request names itself; "" where it names none. The text is valid.
+std::string named_format(const std::string& text) {
+  const nlohmann::json request = nlohmann::json::parse(text, nullptr, false);
+  const auto output = request.find("output");
+  return output != request.end() && output->is_object() ? output->value("format", "") : "";
 }
 
 int print_result(const Config& config, const std::string& in,
-                 Result<std::string> (*work)(const Request&, Job&)) {
+                 Result<std::string> (*work)(const Request&, const Job::Options&)) {
   const auto text = read_file(in);
-  if (!text) return unusable(in);
+  if (!text) return print_file_error(in);
   Result<Request> request = read_request(*text, config.limits);
-  if (!request) return refused(request.error());
-  Job job(request->seed(), options_of(config));
-  const Result<std::string> result = work(*request, job);
-  if (!result) return refused(result.error());
+  if (!request) return print_refusal(request.error());
+  const Result<std::string> result = work(*request, options_of(config));
+  if (!result) return print_refusal(result.error());
   std::printf("%s\n", result->c_str());
   return 0;
+}
+
+/// Writes the request as a file of the program `files.to`.
+int export_command(const Config& config, const ImportFiles& files, const Request& request) {
+  const Result<ExportedFile> file = export_request(request, files.to, options_of(config));
+  if (!file) return print_refusal(file.error());
+  for (const Warning& warning : file->warnings) print_warning(files.in, warning.pointer, warning.message);
+  Payload payload;
+  payload.add(file->text);
+  return write_file(files.out, payload) ? 0 : print_file_error(files.out);
 }
 
 }  // namespace
 
 int generate_command(const Config& config, const std::string& in, const std::string& out) {
   const std::string extension = extension_in(out);
-  if (!extension.empty() && std::ranges::find(extensions, extension) == std::end(extensions)) {
-    std::fprintf(stderr,
-                 "seedmesh: found the extension .%s; expected .glb, .gltf, .zip, .png, .r16 or .ply\n",
-                 extension.c_str());
+  if (!extension.empty() && !format_with_extension(extension)) {
+    std::fprintf(stderr, "seedmesh: found the extension .%s; expected %s\n", extension.c_str(),
+                 output_extension_list().c_str());
     return 2;
   }
   const auto text = read_file(in);
-  if (!text) return unusable(in);
+  if (!text) return print_file_error(in);
   Result<Request> request = read_request(*text, config.limits);
-  if (request) request = in_form_of(*request, extension);
-  if (!request) return refused(request.error());
-  if (out == "-" && request->format() != "gltf" && isatty(STDOUT_FILENO) != 0) {
-    std::fputs("seedmesh: a model is no text for a terminal; name a file, as in -o model.glb, or pipe it\n",
-               stderr);
+  if (const std::string format = request ? named_format(*text) : "";
+      !format.empty() && !extension.empty() && format_named(format).extension != extension) {
+    std::fprintf(stderr,
+                 "seedmesh: found the file %s, but \"format\": \"%s\" in the request; name a file with .%s\n",
+                 out.c_str(), format.c_str(), std::string(format_named(format).extension).c_str());
     return 2;
   }
-  Job job(request->seed(), options_of(config));
-  const Result<Product> product = produce(*request, job);
-  if (!product) return refused(product.error());
+  if (request) request = in_format(*request, extension);
+  if (!request) return print_refusal(request.error());
+  if (out == "-" && request->format() != "gltf" && isatty(STDOUT_FILENO) != 0) {
+    std::fputs(
+        "seedmesh: a model cannot be shown in a terminal; name a file, as in -o model.glb, or use a pipe\n",
+        stderr);
+    return 2;
+  }
+  const Result<Product> product = produce(*request, options_of(config));
+  if (!product) return print_refusal(product.error());
   for (const Warning& warning : product->warnings) {
-    print_warning(in, warning.pointer + (warning.line > 0 ? ":" + place_in_text(warning) : ""),
+    print_warning(in, warning.pointer + (warning.line > 0 ? ":" + position_of(warning) : ""),
                   warning.message);
   }
-  if (!write_file(out, product->payload)) return unusable(out);
+  if (!write_file(out, product->payload)) return print_file_error(out);
   return 0;
 }
 
@@ -144,25 +137,36 @@ int derive_command(const Config& config, const std::string& in) { return print_r
 
 int import_command(const Config& config, const ImportFiles& files) {
   const auto text = read_file(files.in);
-  if (!text) return unusable(files.in);
-  const Result<ImportedRequest> imported = import_request({files.format, files.entry, *text}, config.limits);
-  if (!imported) return refused(imported.error());
-  for (const Warning& warning : imported->warnings) {
-    print_warning(files.in, warning.line > 0 ? place_in_text(warning) : warning.pointer, warning.message);
+  if (!text) return print_file_error(files.in);
+  ImportQuestion question{files.format, files.entry, *text};
+  for (const std::string& each : files.with) {
+    const auto further = read_file(each);
+    if (!further) return print_file_error(each);
+    question.files[each.substr(each.find_last_of('/') + 1)] = *further;
   }
+  if (!files.to.empty() && likely_import_format(*text).empty()) {
+    const Result<Request> request = read_request(*text, config.limits);
+    return request ? export_command(config, files, *request) : print_refusal(request.error());
+  }
+  const Result<ImportedRequest> imported = import_request(question, options_of(config));
+  if (!imported) return print_refusal(imported.error());
+  for (const Warning& warning : imported->warnings) {
+    print_warning(files.in, warning.line > 0 ? position_of(warning) : warning.pointer, warning.message);
+  }
+  if (!files.to.empty()) return export_command(config, files, imported->request);
   const auto request = nlohmann::ordered_json::parse(imported->request.canonical());
   Payload payload;
   payload.add(request.dump(2) + "\n");
-  return write_file(files.out, payload) ? 0 : unusable(files.out);
+  return write_file(files.out, payload) ? 0 : print_file_error(files.out);
 }
 
 int sign_command(const Config& config, const std::string& target, double valid_for) {
   if (config.signing_keys.empty()) {
-    std::fputs("seedmesh: there are no signing-keys\n", stderr);
+    std::fputs("seedmesh: the setting signing-keys is empty\n", stderr);
     return 2;
   }
   if (target.empty() || target.front() != '/') {
-    std::fputs("seedmesh: a target begins with a slash\n", stderr);
+    std::fputs("seedmesh: the target has to begin with a slash\n", stderr);
     return 2;
   }
   std::optional<std::int64_t> expires;
@@ -174,8 +178,8 @@ int sign_command(const Config& config, const std::string& target, double valid_f
 int key_command(const std::string& name) {
   const std::string key = base64url(secret_bytes(24));
   std::printf("API key      %s\n", key.c_str());
-  std::printf("api-keys     %s:%s\n", name.c_str(), hex(sha256(key)).c_str());
-  std::printf("signing-keys %s:%s\n", name.c_str(), hex(secret_bytes(32)).c_str());
+  std::printf("api-keys     %s:%s\n", name.c_str(), http::hex(sha256(key)).c_str());
+  std::printf("signing-keys %s:%s\n", name.c_str(), http::hex(secret_bytes(32)).c_str());
   return 0;
 }
 
@@ -186,7 +190,7 @@ int presets_command(const std::string& name) {
     return 0;
   }
   const auto text = preset_json(name);
-  if (!text) return refused({Code::invalid, {{"/preset", no_preset(name)}}});
+  if (!text) return print_refusal({Code::invalid, {{IssueKind::unknown_name, "/preset", no_preset(name)}}});
   std::printf("%s\n", text->c_str());
   return 0;
 }

@@ -1,29 +1,36 @@
 #pragma once
-/// The program's subcommands that work on files. Each gives the exit status: 0, 1 (refused: the problem as
-/// JSON on standard error) or 2 (a file cannot be read or written).
+/// The commands that work on files. Each returns the exit status: 0; 1 for a refused request, with the problem as
+/// JSON on standard error; 2 for a file that cannot be read or written.
 #include <string>
+#include <vector>
 
 #include "server/config.h"
 
 namespace seedmesh {
 
-/// Both names may be "-" for standard input and output. The extension of `out` chooses the format, as in a
-/// URL.
+/// Both names may be "-" for standard input and output. The extension of `out` selects the format, as in a URL.
 int generate_command(const Config& config, const std::string& in, const std::string& out);
 int validate_command(const Config& config, const std::string& in);
 int derive_command(const Config& config, const std::string& in);
-/// The request that a foreign file becomes, on standard output or in `out`; warnings on standard error.
+
 struct ImportFiles {
-  std::string in, out, format, entry;
+  std::string in, out;
+  std::string format, entry;           ///< as in ImportQuestion
+  std::vector<std::string> with = {};  ///< further files beside it
+  std::string to = {};  ///< the program for which the request is written; empty: the request itself
 };
+/// Writes the request that a file of another program becomes, or a file of the program `to`, for which `in` can also be
+/// a request; prints warnings on standard error.
 int import_command(const Config& config, const ImportFiles& files);
-/// All names, one a line with title; or one preset's request.
-/// Prints the target with a signature; 2 where there are no signing keys.
+
+/// Prints the target with a signature that is valid for some seconds, or without end for 0. Returns 2 without
+/// signing keys.
 int sign_command(const Config& config, const std::string& target, double valid_for);
 
 /// Prints a new API key, and the lines for the settings `api-keys` and `signing-keys`.
 int key_command(const std::string& name);
 
+/// Prints all names with titles, or the request of one preset.
 int presets_command(const std::string& name);
 
 }  // namespace seedmesh

@@ -1,6 +1,8 @@
 #pragma once
-/// Content codings for answers; raw deflate for permalinks, and the bounded way back.
+/// Compression: content codings for responses, and raw deflate for permalinks.
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,17 +13,40 @@
 
 namespace seedmesh {
 
-/// What an answer is worth: a model, whose vertex data hardly gains from more, at several times the cost; a
-/// text made at the moment; a text that is made once.
-enum class Effort { model, text, once };
+/// How much work a coding may cost. `fast` takes 1 to 2 ms per MB, for what is made for a request: Zstandard
+/// level 1, Brotli quality 0, and gzip by ISA-L. `once` is the highest level of each coding, for texts that are
+/// encoded once; it takes up to a second per MB.
+enum class Effort { fast, once };
 
-/// All pieces in one stream of a coding other than identity.
+/// Encodes bytes that arrive in parts as one stream. Not for use from several threads.
+class Encoder {
+ public:
+  virtual ~Encoder() = default;
+
+  /// Encodes a part, or keeps it for later; adds what is ready to `out`. The part may be gone afterwards.
+  virtual void add(std::span<const std::byte> part, std::string& out) = 0;
+
+  /// Ends the stream and adds the rest to `out`.
+  virtual void end(std::string& out) = 0;
+};
+
+/// An encoder for `size` bytes in all; it uses at most `encoder_memory` bytes with Effort::fast. `coding` is not
+/// identity. Throws std::bad_alloc.
+std::unique_ptr<Encoder> encoder_of(Coding coding, Effort effort, std::uint64_t size);
+constexpr std::uint64_t encoder_memory = 3U << 20U;
+
+/// Encodes all pieces as one stream.
 std::string encode(Coding coding, const std::vector<std::span<const std::byte>>& pieces, Effort effort);
 std::string encode(Coding coding, std::string_view text, Effort effort);
 
+/// The share of bytes that compression is likely to save, 0 to 1, from samples of the pieces. Images (PNG, WebP,
+/// JPEG, KTX 2) count as not compressible. Costs about 1/20 of Effort::fast.
+double likely_saving(const std::vector<std::span<const std::byte>>& pieces);
+
+/// Raw deflate (RFC 1951) without header and checksum.
 std::string deflate_raw(std::string_view text);
 
-/// Nothing where `data` is not one whole raw deflate stream, or opens to more than `most` bytes.
-std::optional<std::string> inflate_raw(std::string_view data, std::size_t most);
+/// The inverse. Returns nothing where `data` is not exactly one whole stream, or yields more than `limit` bytes.
+std::optional<std::string> inflate_raw(std::string_view data, std::size_t limit);
 
 }  // namespace seedmesh

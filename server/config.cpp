@@ -4,13 +4,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
+#include "server/http/text.h"
 #include "server/settings.h"
 
 namespace seedmesh {
@@ -18,12 +18,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The number of cores that a control group's quota is worth, in version 2 or 1; nothing where there is none.
+/// The CPU quota of the control group (version 2 or 1) in cores; nothing where there is no quota.
 std::optional<double> quota() {
   std::string most;
   double period = 0;
   if (std::ifstream file("/sys/fs/cgroup/cpu.max"); file >> most >> period) {
-    const auto value = number<double>(most);
+    const auto value = http::parse_number<double>(most);
     if (value && period > 0) return *value / period;
   }
   double amount = -1;
@@ -45,19 +45,19 @@ std::vector<SettingInfo> settings() {
                    : value.is_string()   ? value.get<std::string>()
                    : value.is_array()    ? ""
                                          : value.dump(),
-                   row.is_switch});
+                   row.is_switch, row.unit});
   }
   return all;
 }
 
-/// Sets one value; the fault begins with `source`, and shows the text unless that may be a secret.
+/// Sets one value. An error message begins with `source` and repeats the value unless it may be a secret.
 static void set_value(ConfigResult& result, const Setting& setting, const std::string& source,
                       const std::string& value) {
-  const std::string fault = setting.set(result.config, value);
-  if (fault.empty()) return;
+  const std::string error = setting.set(result.config, value);
+  if (error.empty()) return;
   const bool secret =
       setting.name == "api-keys" || setting.name == "signing-keys" || setting.name == "redis-url";
-  result.faults.push_back(source + (secret ? ": it " : " is \"" + value + "\": it ") + fault);
+  result.errors.push_back(source + (secret ? ": it " : " is \"" + value + "\": it ") + error);
 }
 
 static void read_environment(ConfigResult& result, const std::vector<std::string>& environment) {
@@ -68,7 +68,7 @@ static void read_environment(ConfigResult& result, const std::vector<std::string
     if (equals == std::string::npos) continue;
     const std::string variable = entry.substr(0, equals);
     const std::string value = entry.substr(equals + 1);
-    // Kubernetes gives every pod of a namespace SEEDMESH_PORT=tcp://... when a Service is called seedmesh.
+    // Kubernetes sets SEEDMESH_PORT=tcp://... in every pod of a namespace with a Service named seedmesh.
     if (value.compare(0, 6, "tcp://") == 0 || variable == "SEEDMESH_CONFIG") continue;
     std::string name = variable.substr(prefix.size());
     std::transform(name.begin(), name.end(), name.begin(), [](char c) {
@@ -77,12 +77,12 @@ static void read_environment(ConfigResult& result, const std::vector<std::string
     if (const Setting* setting = find_setting(name)) {
       set_value(result, *setting, variable, value);
     } else {
-      result.warnings.push_back(variable + " is no setting");
+      result.warnings.push_back(variable + " is not a setting");
     }
   }
 }
 
-/// A value of the file as the text that a flag would have; nothing where it is of no such type.
+/// A value of the file as the text of a flag; nothing where its type is not allowed.
 static std::optional<std::string> flag_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_number() || value.is_boolean()) return value.dump();
@@ -99,29 +99,29 @@ static void read_config_file(ConfigResult& result, const std::string& name) {
   std::ifstream file(name, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(file)), {});
   if (!file.good() && !file.eof()) {
-    result.faults.push_back("config: " + name + " cannot be read");
+    result.errors.push_back("config: " + name + " cannot be read");
     return;
   }
   Json object;
   try {
     object = Json::parse(text, nullptr, true, true);
   } catch (const Json::parse_error& error) {
-    result.faults.push_back("config: " + name + " is no JSON: " + error.what());
+    result.errors.push_back("config: " + name + " is not valid JSON: " + error.what());
     return;
   }
   if (!object.is_object()) {
-    result.faults.push_back("config: " + name + " holds no object");
+    result.errors.push_back("config: " + name + " does not contain an object");
     return;
   }
   for (const auto& [key, value] : object.items()) {
     const Setting* setting = find_setting(key);
     const std::string source = name + ": " + key;
     if (!setting) {
-      result.faults.push_back(source + " is no setting");
+      result.errors.push_back(source + " is not a setting");
     } else if (const auto given = flag_text(value)) {
       set_value(result, *setting, source, *given);
     } else {
-      result.faults.push_back(source + " must be a text, a number, true, false or a list of texts");
+      result.errors.push_back(source + " must be a string, a number, true, false or a list of strings");
     }
   }
 }
@@ -130,18 +130,18 @@ static void read_certificate(ConfigResult& result) {
   Config& config = result.config;
   if (config.tls_certificate.empty() && config.tls_key.empty()) return;
   if (config.tls_certificate.empty() || config.tls_key.empty()) {
-    result.faults.push_back("tls-certificate and tls-key are needed together");
+    result.errors.push_back("tls-certificate and tls-key are needed together");
     return;
   }
   auto read = http::TlsIdentity::read(config.tls_certificate, config.tls_key);
-  if (auto* fault = std::get_if<std::string>(&read)) {
-    result.faults.push_back("tls: " + *fault);
+  if (auto* error = std::get_if<std::string>(&read)) {
+    result.errors.push_back("tls: " + *error);
   } else {
     config.tls = std::get<0>(std::move(read));
   }
 }
 
-/// The file that flags or else environment name; "" where none is.
+/// The configuration file named by flags or environment; "" where there is none.
 static std::string config_file(const std::vector<std::string>& environment,
                                const std::vector<std::pair<std::string, std::string>>& flags) {
   for (const auto& [name, value] : flags) {
@@ -164,14 +164,15 @@ ConfigResult load_config(const std::vector<std::string>& environment,
     if (const Setting* setting = find_setting(name)) {
       set_value(result, *setting, "--" + name, value);
     } else {
-      result.faults.push_back("--" + name + " is no setting");
+      result.errors.push_back("--" + name + " is not a setting");
     }
   }
   if (result.config.body_limit > result.config.body_memory) {
-    result.faults.push_back("body-limit is larger than body-memory: no such body could ever be taken");
+    result.errors.push_back(
+        "body-limit is larger than body-memory, so that such a body would always be refused");
   }
   if (result.config.link_lifetime > 0 && result.config.signing_keys.empty()) {
-    result.faults.push_back("link-lifetime is set, but there are no signing-keys: links would hold for ever");
+    result.errors.push_back("link-lifetime needs signing-keys, because links are not signed without them");
   }
   read_certificate(result);
   if (result.config.threads == 0) result.config.threads = usable_cores();

@@ -2,20 +2,22 @@
 
 #include <algorithm>
 
+#include "server/http/text.h"
+
 namespace seedmesh {
 namespace {
 
-constexpr const char* sent_by_pages =
+constexpr const char* allowed_fields =
     "Accept, Authorization, Content-Type, If-None-Match, If-Range, Range, Traceparent, X-Api-Key, "
     "X-Request-Id";
-constexpr const char* read_by_pages =
+constexpr const char* exposed_fields =
     "Content-Location, Content-Range, ETag, Retry-After, Seedmesh-Triangles, Seedmesh-Vertices, "
     "Seedmesh-Warnings, Server-Timing, Traceparent, X-Request-Id";
-constexpr const char* remembered_for = "86400";
+constexpr const char* max_age_seconds = "86400";
 
 void vary_by_origin(http::Response& response) {
   for (auto& [name, value] : response.headers) {
-    if (!http::same_name(name, "Vary")) continue;
+    if (!http::equals_ignoring_case(name, "Vary")) continue;
     value += ", Origin";
     return;
   }
@@ -34,13 +36,13 @@ void allow_origin(const std::vector<std::string>& origins, const http::Request& 
   if (!any && std::find(origins.begin(), origins.end(), origin) == origins.end()) return;
   response.set("Access-Control-Allow-Origin", any ? "*" : origin);
   if (request.method == "OPTIONS" && request.has_header("Access-Control-Request-Method")) {
-    const std::string allowed = http::joined(response.headers, "Allow");
+    const std::string allowed = http::field_value(response.headers, "Allow");
     response.set("Access-Control-Allow-Methods", allowed.empty() ? "GET, HEAD, POST, OPTIONS" : allowed);
-    response.set("Access-Control-Allow-Headers", sent_by_pages);
-    response.set("Access-Control-Max-Age", remembered_for);
+    response.set("Access-Control-Allow-Headers", allowed_fields);
+    response.set("Access-Control-Max-Age", max_age_seconds);
     return;
   }
-  response.set("Access-Control-Expose-Headers", read_by_pages);
+  response.set("Access-Control-Expose-Headers", exposed_fields);
   response.set("Timing-Allow-Origin", any ? "*" : origin);
   response.set("Cross-Origin-Resource-Policy", "cross-origin");
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Pages of other origins (Fetch standard, "CORS protocol"): which may read answers, and what they may send.
+/// Cross-origin resource sharing (Fetch standard, "CORS protocol").
 #include <string>
 #include <vector>
 
@@ -7,8 +7,8 @@
 
 namespace seedmesh {
 
-/// Adds what lets a page of the request's origin read the answer, where `origins` name it. Answers that
-/// depend on the origin say so in Vary. No origins: nothing is added.
+/// Adds the fields that let a page of the request's origin read the response, if `origins` contain the origin or
+/// "*". Adds Vary where the response depends on the origin. Without `origins` it adds nothing.
 void allow_origin(const std::vector<std::string>& origins, const http::Request& request,
                   http::Response& response);
 

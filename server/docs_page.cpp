@@ -10,39 +10,31 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* style =
-    "body{font:16px/1.5 system-ui,sans-serif;max-width:62rem;margin:2rem auto;padding:0 "
-    "1rem;color:#1c2420;background:#fff}"
-    "h2{margin-top:2.5rem;border-bottom:1px solid #ccd5cf}h3 code{font-size:1.1em}"
-    "code,pre{font-family:ui-monospace,monospace;font-size:.9em;background:#f1f5f2;border-radius:3px}code{"
-    "padding:.1em .3em}"
-    "pre{padding:.7rem;overflow:auto}table{border-collapse:collapse;width:100%}td,th{text-align:left;"
-    "vertical-align:top;"
-    "padding:.3rem .6rem;border-bottom:1px solid #e2e8e4}.method{color:#fff;background:#2c6e49;padding:.1em "
-    ".5em;border-radius:3px}"
-    "nav "
-    "a{margin-right:1rem}@media(prefers-color-scheme:dark){body{background:#141a17;color:#dde5e0}code,pre{"
-    "background:#222b26}"
-    "td,th,h2{border-color:#38443d}a{color:#8fd0a8}}";
+constexpr const char* style = R"(
+body{font:16px/1.5 system-ui,sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#1c2420;background:#fff}
+h2{margin-top:2.5rem;border-bottom:1px solid #ccd5cf} h3 code{font-size:1.1em}
+code,pre{font-family:ui-monospace,monospace;font-size:.9em;background:#f1f5f2;border-radius:3px}
+code{padding:.1em .3em} pre{padding:.7rem;overflow:auto} table{border-collapse:collapse;width:100%}
+td,th{text-align:left;vertical-align:top;padding:.3rem .6rem;border-bottom:1px solid #e2e8e4}
+.method{color:#fff;background:#2c6e49;padding:.1em .5em;border-radius:3px} nav a{margin-right:1rem}
+@media(prefers-color-scheme:dark){body{background:#141a17;color:#dde5e0} code,pre{background:#222b26}
+td,th,h2{border-color:#38443d} a{color:#8fd0a8}}
+)";
 
+/// Text for HTML content and attributes.
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else {
+      out += c;
     }
   }
   return out;
@@ -57,7 +49,7 @@ std::string code(const Json& value) {
   return "<code>" + escaped(value.is_string() ? value.get<std::string>() : value.dump()) + "</code>";
 }
 
-/// A reference leads to a table of this page where it names a schema that is served.
+/// A link to the table of a schema on this page, or the name of what a reference refers to.
 std::string reference(const std::string& target) {
   const std::string served = "/v1/schemas/";
   if (target.compare(0, served.size(), served) == 0) {
@@ -100,7 +92,7 @@ std::string range_of(const Json& schema) {
   return range + text_at(schema, "x-unit");
 }
 
-/// Rows of an object's properties, those of objects inside below them.
+/// Adds a row for each property of an object; those of a nested object follow it.
 void add_properties(std::string& out, const Json& schema, const std::string& prefix, int depth) {
   const auto properties = schema.find("properties");
   if (properties == schema.end() || depth > 4) return;
@@ -124,7 +116,7 @@ void add_schema(std::string& out, const std::string& name, const Json& schema) {
          "</table>\n";
 }
 
-/// Follows "#/a/b" inside the document, once.
+/// Follows one reference "#/a/b" inside the document.
 const Json& resolved(const Json& document, const Json& object) {
   const auto target = object.find("$ref");
   if (target == object.end() || !target->is_string()) return object;
@@ -195,10 +187,11 @@ void add_paths(std::string& out, const Json& document) {
 
 void add_problems(std::string& out) {
   out +=
-      "<p>A refusal is <code>application/problem+json</code> (RFC 9457). Its <code>type</code> leads to a "
-      "row of this "
-      "table; <code>errors</code> lists every fault with a JSON Pointer, and line and column inside a "
-      "grammar.</p>\n"
+      "<p>An error response is <code>application/problem+json</code> (RFC 9457). Its <code>type</code> links "
+      "to a "
+      "row of this table. <code>errors</code> lists every error with a JSON Pointer, and with line and "
+      "column "
+      "inside a grammar.</p>\n"
       "<table><tr><th>Status</th><th>Type ends with</th><th>Title</th></tr>\n";
   for (const ProblemKind& kind : problem_kinds()) {
     out += "<tr id=\"" + std::string(kind.word) + "\"><td>" + std::to_string(kind.status) +

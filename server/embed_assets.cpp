@@ -1,10 +1,5 @@
-/// Host tool:  embed_assets <folder> <out.cpp>
-/// Writes every file of the folder as C++ string literals, with its media type and its forms in gzip and br.
-#include <brotli/encode.h>
-#include <zlib.h>
-
-#include <algorithm>
-#include <cstdint>
+/// Build tool: embed_assets <folder> <out.cpp>
+/// Writes every file of the folder as C++ string literals, with its media type and its gzip and Brotli forms.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +7,8 @@
 #include <map>
 #include <string>
 #include <string_view>
+
+#include "server/compress.h"
 
 namespace {
 
@@ -39,39 +36,14 @@ std::string_view type_of(const std::string& extension) {
   return found == types.end() ? "application/octet-stream" : found->second;
 }
 
-std::string gzip(const std::string& bytes) {
-  z_stream stream{};
-  if (deflateInit2(&stream, 9, Z_DEFLATED, 15 + 16, 9, Z_DEFAULT_STRATEGY) != Z_OK) return {};
-  std::string out(deflateBound(&stream, static_cast<uLong>(bytes.size())), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = static_cast<uInt>(out.size());
-  deflate(&stream, Z_FINISH);
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  return out;
+/// The compressed form, or "" where it saves less than a tenth.
+std::string compressed(seedmesh::Coding coding, const std::string& bytes) {
+  std::string encoded = seedmesh::encode(coding, bytes, seedmesh::Effort::once);
+  if (encoded.size() + encoded.size() / 10 > bytes.size()) encoded.clear();
+  return encoded;
 }
 
-std::string brotli(const std::string& bytes) {
-  std::size_t size = BrotliEncoderMaxCompressedSize(bytes.size());
-  std::string out(size, '\0');
-  if (!BrotliEncoderCompress(BROTLI_MAX_QUALITY, BROTLI_DEFAULT_WINDOW, BROTLI_MODE_GENERIC, bytes.size(),
-                             reinterpret_cast<const std::uint8_t*>(bytes.data()), &size,
-                             reinterpret_cast<std::uint8_t*>(out.data()))) {
-    return {};
-  }
-  out.resize(size);
-  return out;
-}
-
-/// "" where the form is not worth the client's time.
-std::string worthy(std::string packed, const std::string& bytes) {
-  if (packed.size() + packed.size() / 10 > bytes.size()) packed.clear();
-  return packed;
-}
-
-/// A string view of a literal in octal escapes, in lines that compilers take quickly.
+/// Writes a string view of a literal with octal escapes, in short lines, which compilers read quickly.
 void write_literal(std::ofstream& out, std::string_view bytes) {
   out << "std::string_view(";
   if (bytes.empty()) out << "\"\"";
@@ -100,14 +72,14 @@ int main(int count, char** arguments) {
     return 2;
   }
   const std::filesystem::path folder = arguments[1];
-  std::map<std::string, std::filesystem::path>
-      files;  // in order of path, so that the output is the same each time
+  std::map<std::string, std::filesystem::path> files;  // sorted, so that the output is reproducible
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (entry.is_regular_file())
       files["/" + entry.path().lexically_relative(folder).generic_string()] = entry.path();
   }
   std::ofstream out(arguments[2]);
-  out << "// Made by embed_assets. Do not edit.\n#include \"server/pages.h\"\n\nnamespace seedmesh {\n\n"
+  out << "// CachedModel by embed_assets. Do not edit.\n#include \"server/pages.h\"\n\nnamespace seedmesh "
+         "{\n\n"
       << "std::span<const Asset> embedded_assets() {\n  static constexpr Asset assets[] = {\n";
   for (const auto& [name, path] : files) {
     std::ifstream in(path, std::ios::binary);
@@ -115,9 +87,9 @@ int main(int count, char** arguments) {
     out << "    {\"" << name << "\", \"" << type_of(path.extension().string()) << "\", ";
     write_literal(out, bytes);
     out << ", ";
-    write_literal(out, worthy(gzip(bytes), bytes));
+    write_literal(out, compressed(seedmesh::Coding::gzip, bytes));
     out << ", ";
-    write_literal(out, worthy(brotli(bytes), bytes));
+    write_literal(out, compressed(seedmesh::Coding::br, bytes));
     out << "},\n";
   }
   out << "  };\n  return assets;\n}\n\n}  // namespace seedmesh\n";

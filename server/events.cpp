@@ -1,8 +1,8 @@
-/// POST /v1/generate with Accept: text/event-stream.
+/// POST /v1/generate with Accept: text/event-stream: server-sent events.
 ///
-/// The work runs on a thread of its own and leaves what it has to tell in a box; the connection's thread
-/// takes it out and writes it, or a comment when there has been nothing for ten seconds. A refusal that comes
-/// before anything was written is an ordinary answer with its own status.
+/// The generation runs on a thread of its own and puts its progress into a mailbox. The connection's thread takes
+/// it from there and writes an event, or a comment after ten seconds without progress. An error before the first
+/// event is an ordinary response with its own status.
 #include <condition_variable>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -16,15 +16,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr std::chrono::seconds heartbeat{10};
-constexpr std::string_view comment = ": still at work\n\n";
+constexpr std::string_view comment = ": still working\n\n";
 
 struct Progress {
   std::string stage;
   double share = 0;
 };
 
-/// Between the two threads. Progress that was not yet written is replaced by later progress.
-struct Box {
+/// Passes progress and result between the two threads. Later progress replaces progress that is not written yet.
+struct Mailbox {
   std::mutex mutex;
   std::condition_variable filled;
   std::optional<Progress> progress;
@@ -39,15 +39,15 @@ std::string event(std::string_view name, const std::string& data) {
   std::string text = "event: ";
   text += name;
   text += "\ndata: ";
-  text += data;  // JSON on one line has no line break
+  text += data;  // JSON on one line
   text += "\n\n";
   return text;
 }
 
-std::string done_event(const Call& call, const Known& known, const Made& made) {
+std::string done_event(const Call& call, const TaggedRequest& wanted, const CachedModel& made) {
   const Statistics& statistics = made.product.statistics;
   Json data = {{"permalink", nullptr},
-               {"etag", "\"" + known.tag + "\""},
+               {"etag", "\"" + wanted.tag + "\""},
                {"media_type", made.product.media_type},
                {"statistics",
                 {{"triangles", statistics.triangles},
@@ -64,74 +64,72 @@ std::string done_event(const Call& call, const Known& known, const Made& made) {
   return event("done", data.dump());
 }
 
-/// Everything a stream needs while it is being written; the work ends before this does.
+/// A generation whose progress is being written. The destructor waits for the end of the work.
 struct Generation {
-  Generation(Call given, Known wanted) : call(std::move(given)), known(std::move(wanted)) {}
+  Generation(Call given, TaggedRequest request) : call(std::move(given)), wanted(std::move(request)) {}
   ~Generation() {
     if (worker.joinable()) worker.join();
   }
 
   void start() {
     worker = std::thread([this] {
-      const auto tell = [this](std::string_view stage, double share) {
-        const std::lock_guard lock(box.mutex);
-        box.progress = Progress{std::string(stage), share};
-        box.filled.notify_one();
+      const auto report = [this](std::string_view stage, double share) {
+        const std::lock_guard lock(mailbox.mutex);
+        mailbox.progress = Progress{std::string(stage), share};
+        mailbox.filled.notify_one();
       };
       Cache::Answer answer;
       try {
-        answer = model_of(call, known, tell);
+        answer = model_of(call, wanted, report);
       } catch (const std::exception& error) {
-        Problem fault = problem(500, "Something went wrong here. The instance names the request in the log.");
-        fault.log_text = error.what();
-        answer.outcome = std::move(fault);
+        answer.outcome = internal_error(error.what());
       }
-      const std::lock_guard lock(box.mutex);
-      box.end = std::move(answer);
-      box.filled.notify_one();
+      const std::lock_guard lock(mailbox.mutex);
+      mailbox.end = std::move(answer);
+      mailbox.filled.notify_one();
     });
   }
 
   void write(const http::Write& send) {
-    bool reading = !silent || send(comment);
-    std::unique_lock lock(box.mutex);
+    bool connected = !silent || send(comment);
+    std::unique_lock lock(mailbox.mutex);
     while (true) {
-      const bool news = box.wait(lock);
-      const std::optional<Progress> progress = std::exchange(box.progress, std::nullopt);
-      const bool ended = box.end.has_value();
+      const bool changed = mailbox.wait(lock);
+      const std::optional<Progress> progress = std::exchange(mailbox.progress, std::nullopt);
+      const bool ended = mailbox.end.has_value();
       lock.unlock();
-      if (progress && reading) {
-        reading =
+      if (progress && connected) {
+        connected =
             send(event("progress", Json{{"stage", progress->stage}, {"share", progress->share}}.dump()));
       }
-      if (!news && reading) reading = send(comment);
+      if (!changed && connected) connected = send(comment);
       if (ended) break;
       lock.lock();
     }
-    if (const auto* entry = std::get_if<Cache::Entry>(&box.end->outcome)) {
-      send(done_event(call, known, **entry));
+    if (const auto* entry = std::get_if<Cache::Entry>(&mailbox.end->outcome)) {
+      send(done_event(call, wanted, **entry));
     } else {
-      send(event("error", problem_json(std::get<Problem>(box.end->outcome), call.request.id)));
+      send(event("error", problem_json(std::get<Problem>(mailbox.end->outcome), call.request.id)));
     }
   }
 
   Call call;
-  Known known;
-  Box box;
-  bool silent = false;  ///< the first heartbeat is due already
+  TaggedRequest wanted;
+  Mailbox mailbox;
+  bool silent = false;  ///< the first comment is already due
   std::thread worker;
 };
 
 }  // namespace
 
-http::Response generate_events(Call& call, const Known& known) {
-  auto generation = std::make_shared<Generation>(call, known);
+http::Response generate_events(Call& call, const TaggedRequest& wanted) {
+  auto generation = std::make_shared<Generation>(call, wanted);
   generation->start();
   {
-    std::unique_lock lock(generation->box.mutex);
-    generation->silent = !generation->box.wait(lock);
-    if (generation->box.end) {
-      if (const auto* refused = std::get_if<Problem>(&generation->box.end->outcome))
+    std::unique_lock lock(generation->mailbox.mutex);
+    generation->silent = !generation->mailbox.wait(lock);
+    if (generation->mailbox.end) {
+      if (const auto* refused = std::get_if<Problem>(&generation->mailbox.end->outcome))
         return refuse(call, *refused);
     }
   }
@@ -139,7 +137,7 @@ http::Response generate_events(Call& call, const Known& known) {
   response.type = "text/event-stream";
   response.set("Cache-Control", "no-store");
   response.set("Vary", "Accept, Accept-Encoding");
-  response.set("X-Accel-Buffering", "no");  // nginx would hold the events back
+  response.set("X-Accel-Buffering", "no");  // nginx would buffer the events
   response.body = http::Stream([generation](const http::Write& send) { generation->write(send); });
   return response;
 }

@@ -1,12 +1,12 @@
 #include "server/keys.h"
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 #include <iterator>
 #include <optional>
 
 #include "core/pipeline.h"
+#include "server/http/text.h"
 
 namespace seedmesh {
 namespace {
@@ -15,61 +15,55 @@ constexpr std::size_t digest_size = 32;
 constexpr std::size_t shortest_secret = 16;
 
 bool is_name(std::string_view text) {
-  const auto sound = [](char c) {
+  const auto valid = [](char c) {
     return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' ||
            c == '_' || c == '.';
   };
-  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), sound);
-}
-
-/// Cuts `rest` at the next colon and gives the part before it.
-std::string_view take(std::string_view& rest) {
-  const auto end = std::min(rest.find(':'), rest.size());
-  const std::string_view part = rest.substr(0, end);
-  rest.remove_prefix(std::min(end + 1, rest.size()));
-  return part;
+  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), valid);
 }
 
 template <class Number>
 bool read_number(std::string_view text, Number low, Number high, Number& value) {
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return fault == std::errc() && end == text.data() + text.size() && value >= low && value <= high;
+  const auto number = http::parse_number<Number>(text);
+  if (number) value = *number;
+  return number && value >= low && value <= high;
 }
 
-/// "" or the fault of one API key.
+/// Parses one API key. Returns "" or an error message.
 std::string read_api_key(std::string_view element, ApiKey& key) {
-  if (element.find(':') == std::string_view::npos) return "must be name:SHA-256";  // it may be a key itself
-  key.name = take(element);
-  if (!is_name(key.name)) return "has a name that is not of letters, digits, - _ and .";
-  const auto digest = from_hex(take(element));
+  if (element.find(':') == std::string_view::npos)
+    return "must have the form name:SHA-256";  // the text may be a key
+  key.name = http::take_part(element, ':');
+  if (!is_name(key.name)) return "has a name with characters other than letters, digits, - _ and .";
+  const auto digest = from_hex(http::take_part(element, ':'));
   if (!digest || digest->size() != digest_size)
     return "must give the SHA-256 of " + key.name + " in 64 hexadecimal digits";
   key.digest = *digest;
-  if (!element.empty() && !read_number(take(element), 0.0, 1e6, key.rate))
-    return "must give " + key.name + " a rate from 0 to 1000000 requests a second";
-  if (!element.empty() && !read_number(take(element), 0, 100'000, key.concurrency))
-    return "must let " + key.name + " have from 0 to 100000 requests at once";
-  if (!element.empty()) return "has more than name, SHA-256, rate and concurrency for " + key.name;
+  if (!element.empty() && !read_number(http::take_part(element, ':'), 0.0, 1e6, key.rate))
+    return "must give " + key.name + " a rate from 0 to 1000000 requests per second";
+  if (!element.empty() && !read_number(http::take_part(element, ':'), 0, 100'000, key.concurrency))
+    return "must give " + key.name + " a concurrency from 0 to 100000 requests";
+  if (!element.empty()) return "has more parts than name, SHA-256, rate and concurrency for " + key.name;
   return {};
 }
 
 template <class Item>
-bool has_twice(const std::vector<Item>& items, std::string Item::*name) {
+bool has_duplicate(const std::vector<Item>& items, std::string Item::*name) {
   std::vector<std::string> names;
   for (const Item& item : items) names.push_back(item.*name);
   std::sort(names.begin(), names.end());
   return std::adjacent_find(names.begin(), names.end()) != names.end();
 }
 
-/// scheme://host[:port] and nothing after it, as browsers send it.
+/// Whether the text is scheme://host[:port] without a path, as browsers send it.
 bool is_origin(std::string_view text) {
   for (const std::string_view scheme : {"http://", "https://"}) {
     if (text.substr(0, scheme.size()) != scheme) continue;
     const std::string_view host = text.substr(scheme.size());
-    const auto sound = [](char c) {
+    const auto valid = [](char c) {
       return c > 0x20 && c < 0x7F && std::string_view("/?#@*,\"").find(c) == std::string_view::npos;
     };
-    return !host.empty() && std::all_of(host.begin(), host.end(), sound);
+    return !host.empty() && std::all_of(host.begin(), host.end(), valid);
   }
   return false;
 }
@@ -102,27 +96,28 @@ std::string read_api_keys(std::string_view text, std::vector<ApiKey>& keys) {
   keys.clear();
   for (const std::string& element : list_elements(text)) {
     ApiKey key;
-    if (std::string fault = read_api_key(element, key); !fault.empty()) return fault;
+    if (std::string error = read_api_key(element, key); !error.empty()) return error;
     keys.push_back(std::move(key));
   }
-  return has_twice(keys, &ApiKey::name) ? "has two keys of one name" : "";
+  return has_duplicate(keys, &ApiKey::name) ? "contains two keys with the same name" : "";
 }
 
 std::string read_signing_keys(std::string_view text, std::vector<SigningKey>& keys) {
   keys.clear();
   for (const std::string& element : list_elements(text)) {
     std::string_view rest = element;
-    if (rest.find(':') == std::string_view::npos) return "must be id:hex";  // it may be a secret itself
+    if (rest.find(':') == std::string_view::npos)
+      return "must have the form id:hex";  // the text may be a secret
     SigningKey key;
-    key.id = take(rest);
-    if (!is_name(key.id)) return "has an id that is not of letters, digits, - _ and .";
+    key.id = http::take_part(rest, ':');
+    if (!is_name(key.id)) return "has an id with characters other than letters, digits, - _ and .";
     const auto secret = from_hex(rest);
     if (!secret || secret->size() < shortest_secret)
       return "must give key " + key.id + " at least 32 hexadecimal digits";
     key.secret = *secret;
     keys.push_back(std::move(key));
   }
-  return has_twice(keys, &SigningKey::id) ? "has two keys of one id" : "";
+  return has_duplicate(keys, &SigningKey::id) ? "contains two keys with the same id" : "";
 }
 
 std::string read_origins(std::string_view text, std::vector<std::string>& origins) {
@@ -140,7 +135,7 @@ std::string read_generators(std::string_view text, std::vector<std::string>& gen
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     std::string all;
     for (const std::string_view each : known) all += (all.empty() ? "" : ", ") + std::string(each);
-    return "names \"" + name + "\", which is no generator; there are " + all;
+    return "contains \"" + name + "\", which is not a generator; the generators are " + all;
   }
   return {};
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// Settings that are lists: API keys, signing keys, names, origins. Each reader gives "" or what is wrong
-/// with the text, and never repeats a secret.
+/// Parsers of settings that are lists: API keys, signing keys, generators, origins. Each returns "" or an error
+/// message that continues "the setting ..." and never repeats a secret.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,20 +9,19 @@
 
 namespace seedmesh {
 
-/// A client's right to ask. The service knows the key's SHA-256 alone.
+/// The key of a client. The service stores only its SHA-256.
 struct ApiKey {
   std::string name;
   std::string digest;    ///< 32 bytes
-  double rate = -1;      ///< requests a second; 0 = any number, -1 = what the setting `key-rate` says
-  int concurrency = -1;  ///< requests at once; 0 = any number, -1 = what `key-concurrency` says
+  double rate = -1;      ///< requests per second; 0: no limit, -1: the setting `key-rate`
+  int concurrency = -1;  ///< concurrent requests; 0: no limit, -1: the setting `key-concurrency`
 };
 
-/// The elements of a list: separated by commas, white space or line ends; "#" begins a comment that ends with
-/// its line.
+/// Splits a list at commas, white space and line ends. "#" begins a comment to the end of the line.
 std::vector<std::string> list_elements(std::string_view text);
 
-/// What a setting holds that may also stand in a file: the file's text for "@/run/secrets/keys", else the
-/// text itself. False where the file cannot be read.
+/// Resolves a setting that may refer to a file: the text of the file for "@/run/secrets/keys", else the setting
+/// itself. False where the file cannot be read.
 bool read_indirect(std::string_view given, std::string& text);
 
 /// "alice:<64 hex digits>", "alice:<64 hex digits>:10:2": name, SHA-256 of the key, rate, concurrency.
@@ -34,7 +33,7 @@ std::string read_signing_keys(std::string_view text, std::vector<SigningKey>& ke
 /// "*", or origins such as https://example.org.
 std::string read_origins(std::string_view text, std::vector<std::string>& origins);
 
-/// Names of generators that there are.
+/// Names of generators.
 std::string read_generators(std::string_view text, std::vector<std::string>& generators);
 
 }  // namespace seedmesh

@@ -1,5 +1,5 @@
 #pragma once
-/// One line of JSON for each event, on standard error.
+/// The log: one line of JSON for each event, on standard error.
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -19,7 +19,7 @@ class Log {
   ~Log();
 
   bool writes(Level level) const;
-  /// `fields` are added to time, level and message.
+  /// Writes time, level, message and `fields`.
   void write(Level level, std::string_view message, const nlohmann::ordered_json& fields) const;
   void write(Level level, std::string_view message) const;
 

@@ -19,6 +19,7 @@
 
 #include "core/base/reserve.h"
 #include "core/pipeline.h"
+#include "server/files.h"
 #include "server/negotiate.h"
 #include "server/problem.h"
 #include "server/texture_cache.h"
@@ -30,49 +31,37 @@ using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 namespace fs = std::filesystem;
 
-constexpr std::chrono::milliseconds drawn_every{200};  ///< the progress bar
-constexpr std::chrono::seconds told_every{10};         ///< a line of progress where nobody looks
+constexpr std::chrono::milliseconds bar_interval{200};  ///< between two drawings of the progress bar
+constexpr std::chrono::seconds line_interval{10};       ///< between two lines of progress without a terminal
 
-std::string extension_of_format(std::string_view format) {
-  const bool png = format == "png16" || format == "png8" || format == "rgb24" || format == "rgba32";
-  return std::string(png ? "png" : format);
-}
+/// The results of earlier runs by file name.
+using Results = std::map<std::string, Json>;
 
-/// What earlier runs made: tag by file name.
-std::map<std::string, std::string> read_results(const fs::path& folder) {
-  std::map<std::string, std::string> tags;
-  std::error_code fault;
-  for (const auto& entry : fs::directory_iterator(folder, fault)) {
-    const std::string name = entry.path().filename().string();
-    if (name.compare(0, 7, "results") != 0 || entry.path().extension() != ".jsonl") continue;
-    std::ifstream file(entry.path());
-    for (std::string line; std::getline(file, line);) {
-      const Json result =
-          Json::parse(line, nullptr, false);  // the last line of a run that was killed may be cut
-      if (!result.is_object() || !result.contains("file") || !result.contains("tag")) continue;
-      tags[result["file"].get<std::string>()] = result["tag"].get<std::string>();
-    }
+/// Adds the results of one file. The last line of a run that was killed may be incomplete.
+void read_results(const fs::path& path, Results& results) {
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    Json result = Json::parse(line, nullptr, false);
+    if (!result.is_object() || !result.contains("file") || !result.contains("tag")) continue;
+    std::string name = result["file"].get<std::string>();
+    results[std::move(name)] = std::move(result);
   }
-  return tags;
 }
 
-bool write_whole(const fs::path& path, const Payload& payload) {
-  std::error_code fault;
-  if (path.has_parent_path()) fs::create_directories(path.parent_path(), fault);
-  const fs::path partial = path.string() + "." + std::to_string(::getpid()) + ".part";
-  std::FILE* file = std::fopen(partial.c_str(), "wb");
-  if (!file) return false;
-  bool sound = true;
-  for (const auto piece : payload.pieces())
-    sound = sound && std::fwrite(piece.data(), 1, piece.size(), file) == piece.size();
-  sound = std::fflush(file) == 0 && sound;
-  sound = std::fclose(file) == 0 && sound;
-  if (sound) fs::rename(partial, path, fault);
-  if (sound && !fault) return true;
-  const int reason = fault ? fault.value() : errno;
-  fs::remove(partial, fault);
-  errno = reason;
-  return false;
+/// The results of all parts in a folder.
+Results read_all_results(const fs::path& folder) {
+  Results results;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("results") && entry.path().extension() == ".jsonl")
+      read_results(entry.path(), results);
+  }
+  return results;
+}
+
+std::string line_of(const Json& result) {
+  return result.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 /// "[#########...........] 451/1000, 12 refused, 103.2/s, 5 s left"
@@ -89,14 +78,19 @@ std::string bar(std::size_t done, std::size_t all, std::size_t refused, double r
   return line;
 }
 
-/// All threads of a run, and what they share.
+/// The threads of one run and their shared state.
 class ManifestRun {
  public:
   ManifestRun(const Config& config, const ManifestOptions& options, std::vector<ManifestJob> jobs)
-      : config_(config), options_(options), jobs_(std::move(jobs)), textures_(config.texture_bytes) {}
+      : config_(config),
+        options_(options),
+        jobs_(std::move(jobs)),
+        in_order_(jobs_.size()),
+        textures_(config.texture_bytes) {}
 
-  int go(const fs::path& results) {
-    made_before_ = read_results(options_.folder);
+  /// Returns the exit status. Results are appended to the file `results`, which is put in order at the end.
+  int run(const fs::path& results) {
+    earlier_ = read_all_results(options_.folder);
     results_ = std::fopen(results.c_str(), "ab");
     if (!results_) return 2;
     const auto begun = Clock::now();
@@ -105,38 +99,42 @@ class ManifestRun {
     for (std::size_t i = 0; i < count; ++i) threads.emplace_back([this] { work(); });
     watch(begun);
     for (std::thread& thread : threads) thread.join();
-    const bool written = std::fclose(results_) == 0;
+    const bool written = std::fclose(results_) == 0 && put_in_order(results);
     const double seconds = std::chrono::duration<double>(Clock::now() - begun).count();
-    std::fprintf(stderr, "%zu made, %zu there already, %zu refused, %zu not done, in %.1f s\n", made_.load(),
-                 there_.load(), refused_.load(), jobs_.size() - done(), seconds);
+    std::fprintf(stderr, "%zu made, %zu unchanged, %zu refused, %zu not done, in %.1f s\n", made_.load(),
+                 unchanged_.load(), refused_.load(), jobs_.size() - done(), seconds);
     if (!written || unwritable_) return 2;
     return refused_ > 0 || done() < jobs_.size() ? 1 : 0;
   }
 
  private:
-  std::size_t done() const { return made_ + there_ + refused_; }
+  std::size_t done() const { return made_ + unchanged_ + refused_; }
 
   void work() {
     while (!stop_.stop_requested() && !unwritable_) {
       const std::size_t index = next_++;
       if (index >= jobs_.size()) break;
-      make(jobs_[index]);
+      make(index);
     }
     const std::lock_guard lock(mutex_);
     ++ended_;
     changed_.notify_all();
   }
 
-  void make(const ManifestJob& job) {
+  void make(std::size_t index) {
+    const ManifestJob& job = jobs_[index];
     const Result<Request> request = read_request(job.request, config_.limits);
-    if (!request) return refuse(job, request.error());
-    const std::string file = job.name + "." + extension_of_format(request->format());
+    if (!request) return refuse(index, request.error());
+    const std::string file = job.name + "." + std::string(format_named(request->format()).extension);
     const std::string tag = tag_of(request->canonical(), engine_version());
     const fs::path path = fs::path(options_.folder) / file;
-    const auto before = made_before_.find(file);
-    std::error_code fault;
-    if (before != made_before_.end() && before->second == tag && fs::exists(path, fault)) {
-      ++there_;
+    const auto before = earlier_.find(file);
+    std::error_code error;
+    if (before != earlier_.end() && before->second["tag"] == tag && fs::exists(path, error)) {
+      in_order_[index] = before->second;
+      in_order_[index]["line"] = job.line;
+      if (!options_.times) in_order_[index].erase("milliseconds");
+      ++unchanged_;
       return;
     }
     Job::Options options;
@@ -148,51 +146,69 @@ class ManifestRun {
     options.deadline = begun + std::chrono::duration_cast<Clock::duration>(
                                    std::chrono::duration<double>(config_.time_limit));
     const Result<Product> product = produced(*request, std::move(options));
-    if (!product && product.error().code == Code::cancelled) return;  // neither made nor refused
-    if (!product) return refuse(job, product.error());
-    if (!write_whole(path, product->payload)) {
+    if (!product && product.error().code == Code::cancelled) return;  // interrupted: neither made nor refused
+    if (!product) return refuse(index, product.error());
+    if (!write_file_atomically(path.string(), product->payload)) {
       std::fprintf(stderr, "\nseedmesh: %s: %s\n", path.c_str(), std::strerror(errno));
       unwritable_ = true;
       return;
     }
-    const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
-    tell({{"line", job.line},
-          {"name", job.name},
-          {"file", file},
-          {"tag", tag},
-          {"bytes", product->payload.size()},
-          {"triangles", product->statistics.triangles},
-          {"milliseconds", milliseconds}});
+    Json result = {{"line", job.line},
+                   {"name", job.name},
+                   {"file", file},
+                   {"tag", tag},
+                   {"bytes", product->payload.size()},
+                   {"triangles", product->statistics.triangles}};
+    if (options_.times)
+      result["milliseconds"] = std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
+    record(index, std::move(result));
     ++made_;
   }
 
-  Result<Product> produced(const Request& request, Job::Options options) {
+  Result<Product> produced(const Request& request, const Job::Options& options) {
     try {
-      Job work(request.seed(), std::move(options));
-      return produce(request, work, &textures_);
-    } catch (const std::exception& error) {  // one line shall not end the others
-      return Error{Code::internal, {{"", error.what()}}};
+      return produce(request, options, &textures_);
+    } catch (const std::exception& error) {  // an error in one line does not end the others
+      return Error{Code::internal, {{IssueKind::internal, "", error.what()}}};
     }
   }
 
-  void refuse(const ManifestJob& job, const Error& error) {
-    tell({{"line", job.line},
-          {"name", job.name},
-          {"problem", Json::parse(problem_json(problem_of(error), ""))}});
+  void refuse(std::size_t index, const Error& error) {
+    record(index, {{"line", jobs_[index].line},
+                   {"name", jobs_[index].name},
+                   {"problem", Json::parse(problem_json(problem_of(error), ""))}});
     ++refused_;
   }
 
-  void tell(const Json& result) {
-    const std::string line = result.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  /// Appends a line to the results.
+  void record(std::size_t index, Json result) {
+    const std::string line = line_of(result);
+    in_order_[index] = std::move(result);
     const std::lock_guard lock(mutex_);
     std::fwrite(line.data(), 1, line.size(), results_);
     std::fflush(results_);
   }
 
-  /// Until all threads have ended: draws the bar, and ends them on a signal (blocked, taken here).
+  /// Writes the results anew: those of the input in its order, then those of other models.
+  bool put_in_order(const fs::path& path) const {
+    Results others;
+    read_results(path, others);
+    std::string text;
+    for (const Json& result : in_order_) {
+      if (result.is_null()) continue;  // the run was interrupted
+      text += line_of(result);
+      if (result.contains("file")) others.erase(result["file"].get<std::string>());
+    }
+    for (const auto& [file, result] : others) text += line_of(result);
+    Payload payload;
+    payload.add(std::move(text));
+    return write_file_atomically(path.string(), payload);
+  }
+
+  /// Draws the progress until all threads have ended. Stops them on SIGINT and SIGTERM, which are blocked.
   void watch(Clock::time_point begun) {
-    const bool seen = ::isatty(STDERR_FILENO) == 1;
-    auto told = Clock::now();
+    const bool terminal = ::isatty(STDERR_FILENO) == 1;
+    auto last = Clock::now();
     sigset_t ending;
     ::sigemptyset(&ending);
     ::sigaddset(&ending, SIGINT);
@@ -201,62 +217,51 @@ class ManifestRun {
     while (true) {
       {
         std::unique_lock lock(mutex_);
-        if (changed_.wait_for(lock, drawn_every, [&] { return ended_ == count; })) break;
+        if (changed_.wait_for(lock, bar_interval, [&] { return ended_ == count; })) break;
       }
       const timespec at_once{0, 0};
       if (::sigtimedwait(&ending, nullptr, &at_once) > 0) stop_.request_stop();
-      if (options_.quiet || (!seen && Clock::now() - told < told_every)) continue;
-      told = Clock::now();
-      const double seconds = std::chrono::duration<double>(told - begun).count();
+      if (options_.quiet || (!terminal && Clock::now() - last < line_interval)) continue;
+      last = Clock::now();
+      const double seconds = std::chrono::duration<double>(last - begun).count();
       const std::string line =
           bar(done(), jobs_.size(), refused_, static_cast<double>(made_ + refused_) / seconds);
-      std::fprintf(stderr, seen ? "\r\033[K%s" : "%s\n", line.c_str());
+      std::fprintf(stderr, terminal ? "\r\033[K%s" : "%s\n", line.c_str());
     }
-    if (seen && !options_.quiet) std::fputs("\r\033[K", stderr);
+    if (terminal && !options_.quiet) std::fputs("\r\033[K", stderr);
   }
 
   const Config& config_;
   const ManifestOptions& options_;
   const std::vector<ManifestJob> jobs_;
+  std::vector<Json> in_order_;  ///< the result of each job; each thread writes those of its jobs
   TextureCache textures_;
   const std::shared_ptr<Reserve> reserve_ = std::make_shared<Reserve>();
-  std::map<std::string, std::string> made_before_;
+  Results earlier_;
   std::FILE* results_ = nullptr;
   std::stop_source stop_;
-  std::atomic<std::size_t> next_{0}, made_{0}, there_{0}, refused_{0};
+  std::atomic<std::size_t> next_{0}, made_{0}, unchanged_{0}, refused_{0};
   std::atomic<bool> unwritable_{false};
   std::mutex mutex_;
   std::condition_variable changed_;
   std::size_t ended_ = 0;
 };
 
-std::optional<std::string> read_whole(const std::string& name) {
-  std::FILE* file = name == "-" ? stdin : std::fopen(name.c_str(), "rb");
-  if (!file) return std::nullopt;
-  std::string text;
-  char part[64 * 1'024];
-  while (const std::size_t count = std::fread(part, 1, sizeof(part), file)) text.append(part, count);
-  const bool failed = std::ferror(file) != 0;
-  if (file != stdin) std::fclose(file);
-  if (failed) return std::nullopt;
-  return text;
-}
-
 }  // namespace
 
 int manifest_command(const Config& config, const ManifestOptions& options) {
-  const auto unusable = [](const std::string& what, const std::string& why) {
+  const auto fail = [](const std::string& what, const std::string& why) {
     std::fprintf(stderr, "seedmesh: %s: %s\n", what.c_str(), why.c_str());
     return 2;
   };
   ManifestPart part;
   if (!options.part.empty()) {
     const auto given = read_part(options.part);
-    if (!given) return unusable("--part", "must be index/count, with index from 0 to count - 1");
+    if (!given) return fail("--part", "must be index/count, with index from 0 to count - 1");
     part = *given;
   }
-  const auto text = read_whole(options.file);
-  if (!text) return unusable(options.file, std::strerror(errno));
+  const auto text = read_file(options.file);
+  if (!text) return fail(options.file, std::strerror(errno));
   auto jobs = read_manifest(*text);
   if (!jobs) {
     for (const Issue& issue : jobs.error().issues) {
@@ -266,11 +271,11 @@ int manifest_command(const Config& config, const ManifestOptions& options) {
     return 1;
   }
   std::erase_if(*jobs, [&](const ManifestJob& job) { return (job.line - 1) % part.count != part.index; });
-  std::error_code fault;
-  fs::create_directories(options.folder, fault);
-  if (fault) return unusable(options.folder, fault.message());
+  std::error_code error;
+  fs::create_directories(options.folder, error);
+  if (error) return fail(options.folder, error.message());
 
-  sigset_t ending;  // taken by the thread that watches
+  sigset_t ending;  // watch() receives them
   ::sigemptyset(&ending);
   ::sigaddset(&ending, SIGINT);
   ::sigaddset(&ending, SIGTERM);
@@ -279,8 +284,8 @@ int manifest_command(const Config& config, const ManifestOptions& options) {
                                               : "results-" + std::to_string(part.index) + "-of-" +
                                                     std::to_string(part.count) + ".jsonl";
   const fs::path path = fs::path(options.folder) / results;
-  const int status = ManifestRun(config, options, std::move(*jobs)).go(path);
-  if (status == 2) return unusable(path.string(), "the folder cannot be written to");
+  const int status = ManifestRun(config, options, std::move(*jobs)).run(path);
+  if (status == 2) return fail(path.string(), "cannot be written");
   return status;
 }
 

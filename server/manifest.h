@@ -1,11 +1,12 @@
 #pragma once
-/// Thousands of requests from one file: `seedmesh manifest jobs.jsonl -o dir`.
+/// Generates the models of many requests in one file: `seedmesh manifest jobs.jsonl -o dir`.
 ///
-/// A line of the file is a request, or {"name": "oaks/7", "request": {…}}; a line without a name is called
-/// after its number. The model of a line goes to <dir>/<name>.<extension of its format>, by way of a
-/// temporary file, so that what is there is whole. What became of a line is a line of <dir>/results.jsonl
-/// (results-<part>-of-<parts>.jsonl where several share the work). Run again, it makes what is missing and
-/// what is no longer what the file says.
+/// Each line of the file is a request, or {"name": "oaks/7", "request": {…}}; the default name is the number of
+/// the line. The model goes to <dir>/<name>.<extension of the format> through a temporary file, so that each file
+/// is complete. The result of each line is a line of <dir>/results.jsonl (results-<index>-of-<count>.jsonl for
+/// one part of several). During the run, lines are added as models are done, so that a run that is killed can be
+/// resumed. At the end they are in the order of the input, and results of models that are not in the input follow.
+/// A second run makes only the models that are missing or whose request has changed.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,9 +20,10 @@ namespace seedmesh {
 
 struct ManifestOptions {
   std::string file;    ///< "-" = standard input
-  std::string folder;  ///< made where it is not there
-  std::string part;    ///< "3/8": the lines of part 3 of the parts 0 to 7; "" = all
+  std::string folder;  ///< created if it does not exist
+  std::string part;    ///< "3/8": part 3 of the parts 0 to 7; "": all lines
   bool quiet = false;  ///< no progress
+  bool times = false;  ///< add `milliseconds` to each result, so that equal runs have different results
 };
 
 /// A line of the file.
@@ -31,17 +33,18 @@ struct ManifestJob {
   std::string request;  ///< JSON
 };
 
-/// Which lines a part takes: those whose number minus one leaves `index` when divided by `count`.
+/// A part contains the lines whose number minus one is `index` modulo `count`.
 struct ManifestPart {
   std::size_t index = 0, count = 1;
 };
 std::optional<ManifestPart> read_part(std::string_view text);
 
-/// The lines of a manifest, empty ones left out; all faults at once: no JSON, an unknown member, a name that
-/// leads out of the folder or stands twice. A fault's line is that of the file.
+/// Parses a manifest; empty lines are skipped. Returns all errors: invalid JSON, an unknown member, a name that
+/// leaves the folder or occurs twice. The line of an error is the line of the file.
 Result<std::vector<ManifestJob>> read_manifest(std::string_view text);
 
-/// Runs it. 0 = all is made, 1 = some were refused or it was interrupted, 2 = file or folder cannot be used.
+/// Runs a manifest. Returns the exit status: 0 if all models exist, 1 if some were refused or the run was
+/// interrupted, 2 if a file or folder cannot be used.
 int manifest_command(const Config& config, const ManifestOptions& options);
 
 }  // namespace seedmesh

@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
+#include "server/http/text.h"
 #include "server/manifest.h"
 
 namespace seedmesh {
@@ -14,24 +14,24 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t longest_name = 200;
 constexpr int deepest = 64;
 
-/// "" where a name is a path below the folder, else what is wrong with it.
-std::string fault_of_name(std::string_view name) {
-  if (name.empty() || name.size() > longest_name) return "a name has 1 to 200 characters";
+/// Returns "" for a path below the folder, else an error message.
+std::string check_name(std::string_view name) {
+  if (name.empty() || name.size() > longest_name) return "expected a name with 1 to 200 characters";
   for (std::string_view rest = name; !rest.empty();) {
     const auto slash = std::min(rest.find('/'), rest.size());
     const std::string_view segment = rest.substr(0, slash);
-    if (segment.empty() || segment.front() == '.') return "no part of a name is empty or begins with a dot";
-    const auto sound = [](char c) {
+    if (segment.empty() || segment.front() == '.') return "a part of the name is empty or begins with a dot";
+    const auto valid = [](char c) {
       return static_cast<unsigned char>(c) > 0x20 && c != 0x7F && c != '\\' && c != ':';
     };
-    if (!std::all_of(segment.begin(), segment.end(), sound))
-      return "a name holds no space, control character, backslash or colon";
+    if (!std::all_of(segment.begin(), segment.end(), valid))
+      return "the name contains a space, control character, backslash or colon";
     rest.remove_prefix(std::min(slash + 1, rest.size()));
   }
-  return name.back() == '/' ? "a name does not end with a slash" : "";
+  return name.back() == '/' ? "the name ends with a slash" : "";
 }
 
-/// Reads one line into `job`; the fault as pointer and message.
+/// Parses one line into `job`. Returns the error.
 std::optional<Issue> read_line(std::string_view text, ManifestJob& job) {
   bool deep = false;
   const auto watch_depth = [&](int depth, Json::parse_event_t, Json&) {
@@ -39,20 +39,22 @@ std::optional<Issue> read_line(std::string_view text, ManifestJob& job) {
     return !deep;
   };
   const Json line = Json::parse(text, watch_depth, false);
-  if (deep || !line.is_object()) return Issue{"", "a line is one JSON object"};
+  if (deep || !line.is_object()) return Issue{IssueKind::wrong_type, "", "expected one JSON object"};
   if (!line.contains("request")) {
     job.request = text;
     return std::nullopt;
   }
   for (const auto& [key, value] : line.items()) {
-    if (key != "request" && key != "name") return Issue{"/" + key, "beside request there is name alone"};
+    if (key != "request" && key != "name")
+      return Issue{IssueKind::unknown_key, "/" + key, "expected only the members request and name"};
   }
   if (line.contains("name")) {
-    if (!line["name"].is_string()) return Issue{"/name", "the name is a text"};
+    if (!line["name"].is_string()) return Issue{IssueKind::wrong_type, "/name", "expected a string"};
     job.name = line["name"].get<std::string>();
-    if (std::string fault = fault_of_name(job.name); !fault.empty()) return Issue{"/name", fault};
+    if (std::string error = check_name(job.name); !error.empty())
+      return Issue{IssueKind::invalid_value, "/name", error};
   }
-  if (!line["request"].is_object()) return Issue{"/request", "the request is an object"};
+  if (!line["request"].is_object()) return Issue{IssueKind::wrong_type, "/request", "expected an object"};
   job.request = line["request"].dump();
   return std::nullopt;
 }
@@ -62,15 +64,10 @@ std::optional<Issue> read_line(std::string_view text, ManifestJob& job) {
 std::optional<ManifestPart> read_part(std::string_view text) {
   const auto slash = text.find('/');
   if (slash == std::string_view::npos) return std::nullopt;
-  const auto number = [](std::string_view digits, std::size_t& value) {
-    const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    return fault == std::errc() && end == digits.data() + digits.size();
-  };
-  ManifestPart part;
-  if (!number(text.substr(0, slash), part.index) || !number(text.substr(slash + 1), part.count) ||
-      part.index >= part.count || part.count > 1'000'000)
-    return std::nullopt;
-  return part;
+  const auto index = http::parse_number<std::size_t>(text.substr(0, slash));
+  const auto count = http::parse_number<std::size_t>(text.substr(slash + 1));
+  if (!index || !count || *index >= *count || *count > 1'000'000) return std::nullopt;
+  return ManifestPart{*index, *count};
 }
 
 Result<std::vector<ManifestJob>> read_manifest(std::string_view text) {
@@ -93,8 +90,8 @@ Result<std::vector<ManifestJob>> read_manifest(std::string_view text) {
       }
       const auto [first, is_new] = lines_by_name.emplace(job.name, number);
       if (!is_new) {
-        issue = Issue{"/name",
-                      "\"" + job.name + "\" is the name of line " + std::to_string(first->second) + " too"};
+        issue = Issue{IssueKind::duplicate_key, "/name",
+                      "\"" + job.name + "\" is also the name of line " + std::to_string(first->second)};
       }
     }
     if (issue) {

@@ -9,10 +9,12 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <mutex>
 #include <sstream>
+#include <vector>
 
 #include "core/pipeline.h"
 
@@ -24,24 +26,22 @@ using prometheus::BuildGauge;
 using prometheus::BuildHistogram;
 using prometheus::Counter;
 using prometheus::Family;
-using prometheus::Gauge;
 using prometheus::Histogram;
 
 const Histogram::BucketBoundaries answer_seconds = {.0005, .001, .0025, .005, .01, .025, .05, .1,
                                                     .25,   .5,   1,     2.5,  5,   10,   30};
 
-/// What the kernel tells of this process.
+/// What the kernel reports about this process.
 struct Process {
   double cpu_seconds = 0, started = 0;
   double resident = 0, virtual_bytes = 0, threads = 0, open_files = 0, most_files = 0;
 };
 
-Process look_at_process() {
+Process read_process() {
   Process seen;
   std::ifstream stat("/proc/self/stat");
   std::string text((std::istreambuf_iterator<char>(stat)), {});
-  // The name of the program stands in parentheses and may hold spaces; the fields after it are counted
-  // from 3.
+  // The second field is the name of the program in parentheses, which may contain spaces.
   std::istringstream fields(text.substr(text.rfind(')') + 1));
   const double ticks = static_cast<double>(::sysconf(_SC_CLK_TCK));
   std::string value;
@@ -66,101 +66,109 @@ Process look_at_process() {
   return seen;
 }
 
+/// A series whose value is read when /metrics is requested.
+struct Level {
+  template <class Number>
+  Level(const char* given_name, const char* given_help, Number given)
+      : name(given_name), help(given_help), value(static_cast<double>(given)) {}
+  const char* name;
+  const char* help;
+  double value;
+};
+
+std::vector<Level> gauges(const Metrics::Levels& l, const Process& p) {
+  return {
+      {"seedmesh_in_flight", "Requests in progress, without health and metrics.", l.in_flight},
+      {"seedmesh_memory_in_flight_bytes", "Bytes of responses that are being sent.", l.memory_in_flight},
+      {"seedmesh_queue_depth", "Requests that wait for a worker.", l.waiting},
+      {"seedmesh_workers", "Largest number of concurrent generations.", l.workers},
+      {"seedmesh_workers_busy", "Generations that run now.", l.busy},
+      {"seedmesh_workers_utilization", "Share of the workers that are busy, 0 to 1.",
+       l.workers > 0 ? static_cast<double>(l.busy) / l.workers : 0.0},
+      {"seedmesh_cache_bytes", "Bytes of finished models in memory.", l.cache.bytes},
+      {"seedmesh_cache_entries", "Finished models in memory.", l.cache.entries},
+      {"seedmesh_shared_cache_connections", "Open connections to the shared cache.", l.shared.connections},
+      {"process_start_time_seconds", "Start time of the process since the epoch.", p.started},
+      {"process_resident_memory_bytes", "Resident memory.", p.resident},
+      {"process_virtual_memory_bytes", "Virtual memory.", p.virtual_bytes},
+      {"process_threads", "Threads of the process.", p.threads},
+      {"process_open_fds", "Open file descriptors.", p.open_files},
+      {"process_max_fds", "Largest number of open file descriptors.", p.most_files},
+  };
+}
+
+std::vector<Level> counters(const Metrics::Levels& l, const Process& p) {
+  return {
+      {"seedmesh_cache_hits_total", "Models answered from memory.", l.cache.hits},
+      {"seedmesh_cache_joins_total", "Requests that waited for an equal request.", l.cache.joins},
+      {"seedmesh_cache_misses_total", "Models that were not in memory.", l.cache.misses},
+      {"seedmesh_cache_evictions_total", "Models removed from memory for others.", l.cache.evictions},
+      {"seedmesh_shared_cache_hits_total", "Models found in the shared cache.", l.shared.hits},
+      {"seedmesh_shared_cache_misses_total", "Models not found in the shared cache.", l.shared.misses},
+      {"seedmesh_shared_cache_writes_total", "Models written to the shared cache.", l.shared.writes},
+      {"seedmesh_shared_cache_errors_total", "Failed commands to the shared cache.", l.shared.errors},
+      {"seedmesh_shared_cache_skips_total", "Commands not sent, because the shared cache was away or busy.",
+       l.shared.skips},
+      {"process_cpu_seconds_total", "User and system time of the process.", p.cpu_seconds},
+  };
+}
+
 }  // namespace
 
 struct Metrics::Series {
   prometheus::Registry registry;
-  Family<Counter>& requests = BuildCounter()
-                                  .Name("seedmesh_requests_total")
-                                  .Help("Requests answered, by route and status.")
-                                  .Register(registry);
-  Family<Histogram>& seconds = BuildHistogram()
-                                   .Name("seedmesh_request_duration_seconds")
-                                   .Help("From a request's arrival to the last byte of its answer.")
-                                   .Register(registry);
+  Family<Counter>& requests =
+      counters_by("seedmesh_requests_total", "Requests answered, by route and status.");
+  Family<Histogram>& seconds = histograms_by(
+      "seedmesh_request_duration_seconds", "Time from the arrival of a request to the end of its response.");
   Family<Histogram>& spans =
-      BuildHistogram()
-          .Name("seedmesh_span_duration_seconds")
-          .Help("Parts of a generation: waiting for a worker, deriving, meshing, encoding.")
-          .Register(registry);
-  Family<Counter>& rejected = BuildCounter()
-                                  .Name("seedmesh_rejected_total")
-                                  .Help("Requests turned away before any work, by reason.")
-                                  .Register(registry);
-  Family<Counter>& denied = BuildCounter()
-                                .Name("seedmesh_denied_total")
-                                .Help("Requests that were not let in (401, 403), by reason.")
-                                .Register(registry);
-  Family<Counter>& limited = BuildCounter()
-                                 .Name("seedmesh_limited_total")
-                                 .Help("Requests refused because they would pass a limit, by limit.")
-                                 .Register(registry);
-  Family<Counter>& cancelled = BuildCounter()
-                                   .Name("seedmesh_cancelled_total")
-                                   .Help("Generations stopped before their end, by reason.")
-                                   .Register(registry);
-  Family<Counter>& used = BuildCounter()
-                              .Name("seedmesh_key_requests_total")
-                              .Help("Requests let in with an API key, by its name.")
-                              .Register(registry);
-  Counter& bytes = counter("seedmesh_response_bytes_total", "Bytes sent, heads included.");
-  Counter& models = counter("seedmesh_models_total", "Models generated.");
-  Counter& triangles = counter("seedmesh_triangles_total", "Triangles generated.");
-  Counter& vertices = counter("seedmesh_vertices_total", "Vertices generated.");
-  Gauge& in_flight = gauge("seedmesh_in_flight", "Requests being answered, health and metrics not counted.");
-  Gauge& queue_depth = gauge("seedmesh_queue_depth", "Requests waiting for a worker.");
-  Gauge& workers = gauge("seedmesh_workers", "Generations that may run at once.");
-  Gauge& workers_busy = gauge("seedmesh_workers_busy", "Generations that run now.");
-  Gauge& utilization = gauge("seedmesh_workers_utilization", "Share of the workers that is busy, 0 to 1.");
-  Gauge& cache_bytes = gauge("seedmesh_cache_bytes", "Bytes of finished models in memory.");
-  Gauge& cache_entries = gauge("seedmesh_cache_entries", "Finished models in memory.");
-  Counter& cache_hits = counter("seedmesh_cache_hits_total", "Models answered from memory.");
-  Counter& cache_joins = counter("seedmesh_cache_joins_total", "Requests that waited for an equal one.");
-  Counter& cache_misses = counter("seedmesh_cache_misses_total", "Models that had to be made.");
-  Counter& cache_evictions = counter("seedmesh_cache_evictions_total", "Models dropped to make room.");
-  Gauge& shared_up = gauge("seedmesh_shared_cache_connections", "Open connections to the shared cache.");
-  Counter& shared_hits = counter("seedmesh_shared_cache_hits_total", "Models found in the shared cache.");
-  Counter& shared_misses = counter("seedmesh_shared_cache_misses_total", "Models not found there.");
-  Counter& shared_writes = counter("seedmesh_shared_cache_writes_total", "Models written there.");
-  Counter& shared_errors = counter("seedmesh_shared_cache_errors_total", "Exchanges with it that failed.");
-  Counter& shared_skips =
-      counter("seedmesh_shared_cache_skips_total", "Exchanges not tried: it was away or busy.");
-  Counter& cpu = counter("process_cpu_seconds_total", "User and system time of the process.");
-  Gauge& started = gauge("process_start_time_seconds", "Start of the process since the epoch.");
-  Gauge& resident = gauge("process_resident_memory_bytes", "Resident memory.");
-  Gauge& virtual_bytes = gauge("process_virtual_memory_bytes", "Virtual memory.");
-  Gauge& threads = gauge("process_threads", "Threads of the process.");
-  Gauge& open_files = gauge("process_open_fds", "Open file descriptors.");
-  Gauge& most_files = gauge("process_max_fds", "Most file descriptors that may be open.");
+      histograms_by("seedmesh_span_duration_seconds",
+                    "Parts of a response: waiting for a worker, deriving, meshing, encoding, compressing.");
+  Family<Counter>& rejected =
+      counters_by("seedmesh_rejected_total", "Requests refused before any work, by reason.");
+  Family<Counter>& denied =
+      counters_by("seedmesh_denied_total", "Requests that were not admitted (401, 403), by reason.");
+  Family<Counter>& limited =
+      counters_by("seedmesh_limited_total", "Requests refused because they would exceed a limit, by limit.");
+  Family<Counter>& cancelled =
+      counters_by("seedmesh_cancelled_total", "Requests stopped before their end, by reason.");
+  Family<Counter>& used =
+      counters_by("seedmesh_key_requests_total", "Requests admitted with an API key, by its name.");
+  Counter& bytes = counters_by("seedmesh_response_bytes_total", "Bytes sent, with heads.").Add({});
+  Counter& models = counters_by("seedmesh_models_total", "Models generated.").Add({});
+  Counter& triangles = counters_by("seedmesh_triangles_total", "Triangles generated.").Add({});
+  Counter& vertices = counters_by("seedmesh_vertices_total", "Vertices generated.").Add({});
 
   std::mutex mutex;
   std::map<std::pair<std::string, int>, std::pair<Counter*, Histogram*>, std::less<>> by_route;
   std::mutex scraping;
 
-  Counter& counter(const char* name, const char* help) {
-    return BuildCounter().Name(name).Help(help).Register(registry).Add({});
+  Family<Counter>& counters_by(const char* name, const char* help) {
+    return BuildCounter().Name(name).Help(help).Register(registry);
   }
-  Gauge& gauge(const char* name, const char* help) {
-    return BuildGauge().Name(name).Help(help).Register(registry).Add({});
+  Family<Histogram>& histograms_by(const char* name, const char* help) {
+    return BuildHistogram().Name(name).Help(help).Register(registry);
   }
 };
 
 Metrics::Metrics() : series_(std::make_unique<Series>()) {
+  Series& s = *series_;
   BuildGauge()
       .Name("seedmesh_build_info")
-      .Help("Always 1; the labels tell the versions.")
-      .Register(series_->registry)
+      .Help("Always 1; the labels are the versions.")
+      .Register(s.registry)
       .Add({{"version", std::string(program_version())}, {"engine", std::string(engine_version())}})
       .Set(1);
-  for (const char* reason :
-       {"queue_full", "deadline", "draining", "connections", "bodies", "key_rate", "key_concurrency"})
-    series_->rejected.Add({{"reason", reason}});
+  // The values of labels that are known exist from the start, so that a first event is an increase from 0.
+  for (const char* reason : {"queue_full", "deadline", "draining", "connections", "bodies",
+                             "memory_in_flight", "key_rate", "key_concurrency"})
+    s.rejected.Add({{"reason", reason}});
   for (const char* reason :
        {"key_missing", "key_wrong", "signature_wrong", "signature_expired", "generator", "only_presets"})
-    series_->denied.Add({{"reason", reason}});
-  for (const char* reason : {"client_gone", "deadline"}) series_->cancelled.Add({{"reason", reason}});
-  for (const char* limit : {"modules", "shapes", "triangles", "memory", "output", "body"})
-    series_->limited.Add({{"limit", limit}});
+    s.denied.Add({{"reason", reason}});
+  for (const char* reason : {"client_gone", "deadline", "slow_client"}) s.cancelled.Add({{"reason", reason}});
+  for (const char* limit : {"modules", "shapes", "triangles", "memory_bytes", "output_bytes", "body"})
+    s.limited.Add({{"limit", limit}});
 }
 
 Metrics::~Metrics() = default;
@@ -169,7 +177,7 @@ void Metrics::answered(std::string_view route, int status, double seconds, std::
   std::pair<Counter*, Histogram*> found;
   {
     const std::lock_guard lock(series_->mutex);
-    // The registry hashes all labels on each look-up; this map is an order of magnitude cheaper.
+    // The registry hashes all labels on each look-up; this map costs a tenth of that.
     auto& row = series_->by_route[{std::string(route), status}];
     if (!row.first) {
       row.first = &series_->requests.Add({{"route", std::string(route)}, {"status", std::to_string(status)}});
@@ -212,36 +220,14 @@ void Metrics::made(const Statistics& statistics) {
 
 std::string Metrics::text(const Levels& levels) {
   const std::lock_guard lock(series_->scraping);  // two scrapes must not add the same difference twice
-  Series& s = *series_;
-  const auto raise = [](Counter& counter, double to) {
-    counter.Increment(std::max(0.0, to - counter.Value()));
-  };
-  s.in_flight.Set(static_cast<double>(levels.in_flight));
-  s.queue_depth.Set(static_cast<double>(levels.waiting));
-  s.workers.Set(levels.workers);
-  s.workers_busy.Set(levels.busy);
-  s.utilization.Set(levels.workers > 0 ? static_cast<double>(levels.busy) / levels.workers : 0);
-  s.cache_bytes.Set(static_cast<double>(levels.cache.bytes));
-  s.cache_entries.Set(static_cast<double>(levels.cache.entries));
-  raise(s.cache_hits, static_cast<double>(levels.cache.hits));
-  raise(s.cache_joins, static_cast<double>(levels.cache.joins));
-  raise(s.cache_misses, static_cast<double>(levels.cache.misses));
-  raise(s.cache_evictions, static_cast<double>(levels.cache.evictions));
-  s.shared_up.Set(static_cast<double>(levels.shared.connections));
-  raise(s.shared_hits, static_cast<double>(levels.shared.hits));
-  raise(s.shared_misses, static_cast<double>(levels.shared.misses));
-  raise(s.shared_writes, static_cast<double>(levels.shared.writes));
-  raise(s.shared_errors, static_cast<double>(levels.shared.errors));
-  raise(s.shared_skips, static_cast<double>(levels.shared.skips));
-  const Process process = look_at_process();
-  raise(s.cpu, process.cpu_seconds);
-  s.started.Set(process.started);
-  s.resident.Set(process.resident);
-  s.virtual_bytes.Set(process.virtual_bytes);
-  s.threads.Set(process.threads);
-  s.open_files.Set(process.open_files);
-  s.most_files.Set(process.most_files);
-  return prometheus::TextSerializer().Serialize(s.registry.Collect());
+  const Process process = read_process();
+  for (const Level& level : gauges(levels, process))
+    BuildGauge().Name(level.name).Help(level.help).Register(series_->registry).Add({}).Set(level.value);
+  for (const Level& level : counters(levels, process)) {
+    Counter& counter = series_->counters_by(level.name, level.help).Add({});
+    counter.Increment(std::max(0.0, level.value - counter.Value()));
+  }
+  return prometheus::TextSerializer().Serialize(series_->registry.Collect());
 }
 
 }  // namespace seedmesh

@@ -1,5 +1,5 @@
 #pragma once
-/// What the operator can ask at /metrics, in Prometheus' text form.
+/// Metrics for /metrics in the text format of Prometheus.
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -15,32 +15,35 @@ class Metrics {
   Metrics();
   ~Metrics();
 
-  /// A request has been answered. `route` is a pattern, so that the number of series stays bounded.
+  /// Counts a response. `route` is a pattern, so that the number of series is bounded.
   void answered(std::string_view route, int status, double seconds, std::uint64_t bytes);
-  /// A request has been turned away by admission: "queue_full", "deadline", "draining", "connections",
-  /// "bodies"; or by a limit of its key: "key_rate", "key_concurrency".
+  /// Counts a request that was refused by admission ("queue_full", "deadline", "draining", "connections",
+  /// "bodies", "memory_in_flight") or by a limit of its key ("key_rate", "key_concurrency").
   void rejected(std::string_view reason);
-  /// A request was not let in: "key_missing", "key_wrong", "signature_wrong", "signature_expired",
+  /// Counts a request that was not admitted: "key_missing", "key_wrong", "signature_wrong", "signature_expired",
   /// "generator", "only_presets".
   void denied(std::string_view reason);
-  /// A request would have passed a limit: "modules", "triangles", "memory", ... (limit_of in problem.h).
+  /// Counts a request that would have exceeded a limit: the name of a Resource (limit_of in problem.h), or "body".
   void limited(std::string_view limit);
-  /// Work was stopped before its end: "client_gone", "deadline".
+  /// Counts a request that was stopped before its end: "client_gone", "deadline", "slow_client".
   void cancelled(std::string_view reason);
-  /// A request has been let in with an API key; names come from the configuration.
+  /// Counts a request that was admitted with an API key. The names come from the configuration.
   void used(std::string_view key);
-  /// A part of a generation: "queue", "derive", "mesh", "encode".
+  /// Records the time of a part of a generation: "queue", "derive", "mesh", "encode", "compress".
   void spent(std::string_view span, double seconds);
+  /// Counts a generated model.
   void made(const Statistics& statistics);
 
-  /// Values that are read when somebody asks.
+  /// Values at the time of a request for /metrics.
   struct Levels {
     std::int64_t in_flight = 0;
+    std::uint64_t memory_in_flight = 0;
     std::uint64_t waiting = 0;
     int workers = 0, busy = 0;
     Cache::Figures cache;
     SharedCache::Figures shared;
   };
+  /// The response body for /metrics.
   std::string text(const Levels& levels);
 
  private:

@@ -1,28 +1,29 @@
 #pragma once
-/// What a browser gets: the web client's files, built into the program, and the documentation page.
+/// Files for browsers: the web client, which is built into the program, and the documentation page.
 #include <span>
 #include <string>
 #include <string_view>
 
 namespace seedmesh {
 
-/// A file that was built into the program (embed_assets.cpp).
+/// A file of the web client, written by embed_assets.cpp.
 struct Asset {
   std::string_view path;  ///< "/index.html", "/assets/main-1a2b3c4d.js"
   std::string_view type;
   std::string_view bytes;
-  std::string_view gzip;  ///< "" where compression gains nothing
+  std::string_view gzip;  ///< "" where compression saves less than a tenth
   std::string_view br;    ///< the same
 };
 std::span<const Asset> embedded_assets();
 
-/// Whether the name carries a hash of its contents, as Vite names files: such a file never changes.
+/// Whether the name contains a hash of the contents, as Vite names files. Such a file never changes.
 bool has_hashed_name(std::string_view path);
 
 class Pages {
  public:
   Pages();
-  const Asset* find(std::string_view path) const;  ///< "/" is the web client's page
+  const Asset* find(
+      std::string_view path) const;  ///< "/" stands for "/index.html"; null where there is no file
   const std::string& docs() const { return docs_; }
 
  private:

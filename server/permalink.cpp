@@ -11,10 +11,12 @@ namespace {
 
 constexpr int deepest = 64;
 
-Error malformed(std::string message) { return {Code::malformed, {{"", std::move(message)}}}; }
+Error malformed(std::string message) {
+  return {Code::malformed, {{IssueKind::syntax, "", std::move(message)}}};
+}
 
-/// For tokens whose `engine` is not where ours stands: reads the object, takes the member out, writes the
-/// rest again.
+/// Reads a token in which `engine` is not the first member: parses the object, removes the member, and writes
+/// the rest.
 Result<Token> separate(const std::string& text) {
   bool deep = false;
   const auto watch_depth = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
@@ -22,7 +24,7 @@ Result<Token> separate(const std::string& text) {
     return !deep;
   };
   nlohmann::json object = nlohmann::json::parse(text, watch_depth, false);
-  if (deep || !object.is_object()) return malformed("The token does not hold a JSON object.");
+  if (deep || !object.is_object()) return malformed("The token does not contain a JSON object.");
   const auto engine = object.find("engine");
   if (engine == object.end()) return Token{std::nullopt, text};
   if (!engine->is_string()) return malformed("The token's engine is not a string.");
@@ -42,12 +44,12 @@ std::string write_token(std::string_view canonical, std::string_view engine) {
   return base64url(deflate_raw(text));
 }
 
-Result<Token> read_token(std::string_view token, std::size_t most) {
+Result<Token> read_token(std::string_view token, std::size_t limit) {
   const std::optional<std::string> packed = from_base64url(token);
   if (!packed || packed->empty()) return malformed("The token is not base64url.");
-  const std::optional<std::string> text = inflate_raw(*packed, most);
-  if (!text) return malformed("The token does not open.");
-  // What write_token wrote can be taken apart as text: an engine version has nothing to escape.
+  const std::optional<std::string> text = inflate_raw(*packed, limit);
+  if (!text) return malformed("The token cannot be decompressed.");
+  // A token from write_token() can be split as text, because an engine version needs no escapes.
   const std::string_view start = R"({"engine":")";
   if (text->compare(0, start.size(), start) == 0) {
     const auto end = text->find_first_of("\"\\", start.size());

@@ -1,7 +1,6 @@
 #include "server/problem.h"
 
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 
 namespace seedmesh {
@@ -20,26 +19,29 @@ std::string joined_messages(const Error& error) {
   return all;
 }
 
-/// A list that would be too long ends with a line without a place that counts the rest, "and 899 more
-/// faults": the number in it; 0 where the list is whole.
-std::uint64_t unlisted(const std::vector<Issue>& issues) {
-  constexpr std::string_view before = "and ", after = " more faults";
-  const std::string_view text = issues.back().message;
-  const bool counts = issues.back().pointer.empty() && text.starts_with(before) && text.ends_with(after) &&
-                      text.size() > before.size() + after.size();
-  std::uint64_t count = 0;
-  if (counts) std::from_chars(text.data() + before.size(), text.data() + text.size(), count);
-  return count;
+std::string summary(const Error& error) {
+  if (error.issues.size() == 1) return error.issues.front().message;
+  std::uint64_t listed = 0, unlisted = 0;
+  for (const Issue& issue : error.issues) {
+    listed += issue.kind == IssueKind::truncated_list ? 0 : 1;
+    unlisted += issue.unlisted;
+  }
+  const std::string found = std::to_string(listed + unlisted) + " errors were found; `errors` lists ";
+  return found + (unlisted > 0 ? "the first " + std::to_string(listed) + "." : "them all.");
 }
 
-std::string summary(const Error& error) {
-  const std::size_t listed = error.issues.size();
-  if (listed == 1) return error.issues.front().message;
-  if (const std::uint64_t rest = unlisted(error.issues); rest > 0) {
-    return std::to_string(listed - 1 + rest) + " faults were found; errors lists the first " +
-           std::to_string(listed - 1) + ".";
+nlohmann::ordered_json json_of(const Issue& issue) {
+  nlohmann::ordered_json entry = {
+      {"pointer", issue.pointer}, {"code", word_of(issue.kind)}, {"message", issue.message}};
+  if (issue.line > 0) entry["line"] = issue.line;
+  if (issue.column > 0) entry["column"] = issue.column;
+  if (issue.limit) {
+    entry["resource"] = word_of(issue.limit->resource);
+    entry["limit"] = issue.limit->bound;
+    entry["needed"] = issue.limit->needed;
   }
-  return std::to_string(listed) + " faults were found; errors lists them all.";
+  if (issue.unlisted > 0) entry["unlisted"] = issue.unlisted;
+  return entry;
 }
 
 }  // namespace
@@ -51,21 +53,21 @@ const std::vector<ProblemKind>& problem_kinds() {
       {403, "forbidden", "This is not allowed"},
       {404, "not-found", "There is nothing here"},
       {405, "method-not-allowed", "The method is not allowed here"},
-      {406, "not-acceptable", "No acceptable form of the answer"},
+      {406, "not-acceptable", "No acceptable representation"},
       {411, "length-required", "Content-Length is required"},
       {413, "content-too-large", "The body is too large"},
       {414, "uri-too-long", "The URL is too long"},
-      {415, "unsupported-media-type", "The body is not of a type that is taken here"},
+      {415, "unsupported-media-type", "The media type of the body is not supported"},
       {416, "range-not-satisfiable", "The range lies outside the answer"},
       {417, "expectation-failed", "The expectation cannot be met"},
       {422, "invalid-request", "The request is not valid"},
-      {422, "limit-exceeded", "The request passes a limit"},
+      {422, "limit-exceeded", "The request exceeds a limit"},
       {429, "queue-full", "Too many requests are waiting"},
       {429, "rate-limited", "Too many requests with this key"},
       {431, "headers-too-large", "The header fields are too large"},
       {499, "client-gone", "The client has gone"},
       {500, "internal-error", "Internal error"},
-      {503, "unavailable", "The service cannot take the request now"},
+      {503, "unavailable", "The service cannot accept the request now"},
       {504, "deadline-exceeded", "The request took too long"},
       {505, "version-not-supported", "The version of HTTP is not supported"},
   };
@@ -77,8 +79,14 @@ Problem problem(int status, std::string detail) {
   const auto found =
       std::find_if(kinds.begin(), kinds.end(), [&](const auto& kind) { return kind.status == status; });
   assert(found != kinds.end());
-  Problem made{status, std::string(found->word), std::move(detail), {}, 0, {}};
+  Problem made{status, std::string(found->word), std::move(detail), {}, {}, 0, {}};
   if (status == 429 || status == 503) made.retry_after = 1;
+  return made;
+}
+
+Problem internal_error(std::string log_text) {
+  Problem made = problem(500, "An internal error occurred. The instance identifies the request in the log.");
+  made.log_text = std::move(log_text);
   return made;
 }
 
@@ -102,25 +110,15 @@ Problem problem_of(const Error& error) {
       made = problem(499, "The client has gone; the work has been stopped.");
       break;
     case Code::internal:
-      made = problem(500, "Something went wrong here. The instance names the request in the log.");
-      made.log_text = joined_messages(error);
-      return made;
+      return internal_error(joined_messages(error));
   }
   made.errors = error.issues;
   return made;
 }
 
 std::string_view limit_of(const Problem& problem) {
-  const std::string_view text = problem.errors.empty() ? problem.detail : problem.errors.front().message;
-  // As Job and the generators name what they count.
-  static constexpr std::pair<std::string_view, std::string_view> words[] = {
-      {"memory", "memory"}, {"output bytes", "output"}, {"modules", "modules"},
-      {"shapes", "shapes"}, {"triangles", "triangles"}, {"iterations", "iterations"},
-      {"points", "points"}, {"segments", "segments"},   {"leaves", "leaves"},
-      {"deep", "depth"},    {"depth", "depth"},         {"values", "values"},
-  };
-  for (const auto& [word, limit] : words) {
-    if (text.find(word) != std::string_view::npos) return limit;
+  for (const Issue& issue : problem.errors) {
+    if (issue.limit) return word_of(issue.limit->resource);
   }
   return "other";
 }
@@ -130,16 +128,12 @@ std::string problem_json(const Problem& problem, std::string_view instance, int 
       {"type", "/docs#" + problem.word}, {"title", title_of(problem)}, {"status", problem.status},
       {"detail", problem.detail},        {"instance", instance},
   };
+  if (!problem.format.empty()) object["format"] = problem.format;
   if (!problem.errors.empty()) {
     auto& errors = object["errors"] = nlohmann::ordered_json::array();
-    for (const Issue& issue : problem.errors) {
-      nlohmann::ordered_json entry = {{"pointer", issue.pointer}, {"message", issue.message}};
-      if (issue.line > 0) entry["line"] = issue.line;
-      if (issue.column > 0) entry["column"] = issue.column;
-      errors.push_back(std::move(entry));
-    }
+    for (const Issue& issue : problem.errors) errors.push_back(json_of(issue));
   }
-  // A message may quote what the client sent, and a quote may cut a character in two.
+  // A message may quote bytes of the client that are not valid UTF-8.
   return object.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

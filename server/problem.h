@@ -1,6 +1,6 @@
 #pragma once
-/// Refusals as RFC 9457 "problem details". What the client reads and what the operator reads are different
-/// fields: nothing of the inside of the program goes into the public ones.
+/// Error responses as "problem details" (RFC 9457). Texts for the client and texts for the operator are separate
+/// fields, so that internal details never reach a client.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,30 +12,34 @@ namespace seedmesh {
 
 struct Problem {
   int status = 500;
-  std::string word;           ///< ends the problem's type: "invalid-request"; part of the contract
+  std::string word;  ///< the end of the problem type, such as "invalid-request"; part of the public contract
   std::string detail;         ///< one sentence
-  std::vector<Issue> errors;  ///< every fault, with its place
-  int retry_after = 0;        ///< seconds, 0 = not said
+  std::vector<Issue> errors;  ///< every error, with its pointer
+  std::string format;         ///< of an import: the format that the file was read as; empty: none
+  int retry_after = 0;        ///< seconds; 0: no Retry-After
   std::string log_text;       ///< for the operator only
 };
 
-/// 400 malformed, 422 invalid or over a limit, 504 over time, 500 otherwise with nothing but the request's
-/// id. A client that has gone gets 499, which only the log sees.
+/// Status 400 for malformed, 422 for invalid and for a limit, 504 for the deadline. Internal errors are 500 with only the
+/// request id. A cancelled request is 499, which appears only in the log.
 Problem problem_of(const Error& error);
 
-/// A problem that needs no list of faults, by status: 401, 403, 404, 405, 406, 411, 413, 414, 415, 416, 417,
+/// A problem without a list of errors, by status: 401, 403, 404, 405, 406, 411, 413, 414, 415, 416, 417,
 /// 429, 431, 503, 505, ...
 Problem problem(int status, std::string detail);
 
-/// Which limit a "limit-exceeded" is about, in one word of a bounded set; "other" where its text tells none.
+/// 500 without details for the client; `log_text` goes to the log.
+Problem internal_error(std::string log_text);
+
+/// The resource whose limit a "limit-exceeded" is about, a word_of(Resource); "other" where no error names one.
 std::string_view limit_of(const Problem& problem);
 
-/// The whole object as JSON; `instance` is the request's id, `indent` as of nlohmann (-1 = one line).
+/// The problem as JSON. `instance` is the request id; `indent` is that of nlohmann::json (-1: one line).
 std::string problem_json(const Problem& problem, std::string_view instance, int indent = -1);
 
 http::Response to_response(const Problem& problem, std::string_view instance);
 
-/// Every word with its title and status, for the documentation.
+/// All problem types with status and title, for the documentation.
 struct ProblemKind {
   int status;
   std::string_view word;

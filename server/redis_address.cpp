@@ -1,9 +1,8 @@
 #include "server/redis_address.h"
 
 #include <algorithm>
-#include <charconv>
 
-#include "server/http/head.h"
+#include "server/http/text.h"
 
 namespace seedmesh {
 namespace {
@@ -11,8 +10,9 @@ namespace {
 constexpr const char* form = "must be redis://[user:password@]host[:port][/database] or unix:///path";
 
 bool read_number(std::string_view text, int most, int& value) {
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return fault == std::errc() && end == text.data() + text.size() && value >= 0 && value <= most;
+  const auto number = http::parse_number<int>(text);
+  value = number.value_or(-1);
+  return value >= 0 && value <= most;
 }
 
 bool take_prefix(std::string_view& text, std::string_view prefix) {
@@ -33,8 +33,12 @@ bool read_unix(std::string_view rest, RedisAddress& address) {
 bool read_credentials(std::string_view text, RedisAddress& address) {
   const auto colon = text.find(':');
   if (colon == std::string_view::npos) return false;
-  return http::percent_decode(text.substr(0, colon), http::Plus::literal, address.user) &&
-         http::percent_decode(text.substr(colon + 1), http::Plus::literal, address.password);
+  auto user = http::percent_decode(text.substr(0, colon)),
+       password = http::percent_decode(text.substr(colon + 1));
+  if (!user || !password) return false;
+  address.user = std::move(*user);
+  address.password = std::move(*password);
+  return true;
 }
 
 bool read_host(std::string_view text, RedisAddress& address) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the shared cache is.
+/// The address of the shared cache.
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,8 +14,8 @@ struct RedisAddress {
   int database = 0;
 };
 
-/// redis://[[user]:password@]host[:port][/database], or unix:///path[?db=n]. "" or what is wrong with the
-/// text, which is not repeated, since it may hold a password. An empty text is no address.
+/// Parses redis://[[user]:password@]host[:port][/database] or unix:///path[?db=n]. Returns "" or an error
+/// message, which does not repeat the text, because it may contain a password. An empty text yields no address.
 std::string read_redis_address(std::string_view text, std::optional<RedisAddress>& address);
 
 /// The address without user and password, for logs and --print-config.

@@ -2,22 +2,21 @@
 
 #include <string_view>
 
-#include "server/http/head.h"
+#include "server/http/text.h"
 #include "server/negotiate.h"
 
 namespace seedmesh {
 namespace {
 
-/// Whether a closed service (access.h) asks for a key or a signature.
+/// Whether the route needs a key or a signature on a closed service (access.h).
 enum class Guard { open, closed };
 
-/// What becomes of a query: refused, read by the route itself, or overlooked, for what asks a probe or a page
-/// is not for us to choose.
-enum class Query { refused, read, overlooked };
+/// How a query is treated: refused, read by the route, or ignored, because probes and browsers may add one.
+enum class Query { refused, read, ignored };
 
 struct Route {
-  std::string_view method;   ///< GET rows answer HEAD too
-  std::string_view pattern;  ///< ends with "/{...}" where a last segment is free
+  std::string_view method;   ///< GET includes HEAD
+  std::string_view pattern;  ///< "/{...}" at the end matches any one segment
   http::Response (*answer)(Call&);
   Guard guard = Guard::open;
   Query query = Query::refused;
@@ -26,6 +25,7 @@ struct Route {
 constexpr Route table[] = {
     {"POST", "/v1/generate", post_generate, Guard::closed},
     {"GET", "/v1/models/{token}", get_model, Guard::closed, Query::read},
+    {"GET", "/v1/textures/{name}", get_texture, Guard::closed},
     {"GET", "/v1/presets", get_presets},
     {"GET", "/v1/presets/{name}", get_preset, Guard::closed, Query::read},
     {"POST", "/v1/validate", post_validate, Guard::closed},
@@ -34,19 +34,19 @@ constexpr Route table[] = {
     {"GET", "/v1/schemas/{name}", get_schema},
     {"GET", "/v1/vocabulary", get_vocabulary},
     {"GET", "/openapi.json", get_openapi},
-    {"GET", "/docs", get_docs, Guard::open, Query::overlooked},
-    {"GET", "/healthz", get_healthz, Guard::open, Query::overlooked},
-    {"GET", "/readyz", get_readyz, Guard::open, Query::overlooked},
-    {"GET", "/metrics", get_metrics, Guard::open, Query::overlooked},
+    {"GET", "/docs", get_docs, Guard::open, Query::ignored},
+    {"GET", "/healthz", get_healthz, Guard::open, Query::ignored},
+    {"GET", "/readyz", get_readyz, Guard::open, Query::ignored},
+    {"GET", "/metrics", get_metrics, Guard::open, Query::ignored},
     {"GET", "/version", get_version},
 };
-/// Reading a larger body takes long enough to count as work.
-constexpr std::size_t quickly_read = 256 * 1'024;
+/// Parsing a larger text needs a worker.
+constexpr std::size_t largest_without_worker = 256 * 1'024;
 
-constexpr Route asset_route = {"GET", "/", get_asset, Guard::open, Query::overlooked};
+constexpr Route asset_route = {"GET", "/", get_asset, Guard::open, Query::ignored};
 
-/// The free segment where `path` fits the pattern.
-std::optional<std::string> fit(std::string_view pattern, std::string_view path) {
+/// The segment that matches {...}, or "" for a pattern without it; nothing where the path does not match.
+std::optional<std::string> match(std::string_view pattern, std::string_view path) {
   const auto brace = pattern.find('{');
   if (brace == std::string_view::npos) {
     if (path != pattern) return std::nullopt;
@@ -57,29 +57,27 @@ std::optional<std::string> fit(std::string_view pattern, std::string_view path) 
       segment.find('/') != std::string_view::npos) {
     return std::nullopt;
   }
-  std::string name;
-  if (!http::percent_decode(segment, http::Plus::literal, name)) return std::nullopt;
-  return name;
+  return http::percent_decode(segment);
 }
 
 bool allows(const Route& row, std::string_view method) {
   return row.method == method || (row.method == "GET" && method == "HEAD");
 }
 
-/// An option that nobody reads is refused like an unknown field of a body.
+/// Refuses a query on a route that reads none, as an unknown member of a body is refused.
 std::optional<http::Response> refuse_query(const Route& row, const Call& call) {
   if (row.query != Query::refused || call.query().empty()) return std::nullopt;
-  const std::optional<Overrides> query = read_query(call.query());
-  if (!query)
-    return refuse(call, problem_of({Code::malformed, {{"", "The query has a malformed percent escape."}}}));
-  constexpr std::size_t most_told = 20, longest = 40;
+  auto query = parse_query(call);
+  if (auto* refusal = std::get_if<http::Response>(&query)) return std::move(*refusal);
+  constexpr std::size_t most_issues = 20, longest_key = 40;
   std::vector<Issue> issues;
-  for (const auto& [key, value] : *query) {
-    if (issues.size() == most_told) break;
+  for (const auto& [key, value] : std::get<Overrides>(query)) {
+    if (issues.size() == most_issues) break;
     std::string pointer = "/";
-    for (const char c : key.substr(0, longest))
+    for (const char c : key.substr(0, longest_key))
       pointer += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-    issues.push_back({std::move(pointer), std::string(row.pattern) + " takes no query."});
+    issues.push_back(
+        {IssueKind::unknown_key, std::move(pointer), std::string(row.pattern) + " takes no query."});
   }
   if (issues.empty()) return std::nullopt;  // `?` or `?&` alone
   return refuse(call, problem_of({Code::invalid, std::move(issues)}));
@@ -108,14 +106,15 @@ http::Response run(const Route& row, Call& call) {
   return response;
 }
 
-/// A path that is here, asked with a method that is not.
+/// The response to a method that the route does not have.
 http::Response other_method(const Route& row, Call& call) {
   const std::string allowed = row.method == "GET" ? "GET, HEAD, OPTIONS" : "POST, OPTIONS";
   http::Response response;
   if (call.request.method == "OPTIONS") {
     response.status = 204;
   } else {
-    response = refuse(call, problem(405, call.request.method + " is not allowed here; " + allowed + " are."));
+    response = refuse(
+        call, problem(405, call.request.method + " is not allowed on this path; it allows " + allowed + "."));
   }
   response.set("Allow", allowed);
   response.route = row.pattern;
@@ -128,7 +127,7 @@ http::Response route(Service& service, const http::Request& request) {
   Call call{service, request, {}, {}};
   call.grant.target_size = request.target.size();
   for (const Route& row : table) {
-    std::optional<std::string> name = fit(row.pattern, request.path);
+    std::optional<std::string> name = match(row.pattern, request.path);
     if (!name) continue;
     call.name = std::move(*name);
     return allows(row, request.method) ? run(row, call) : other_method(row, call);
@@ -136,7 +135,7 @@ http::Response route(Service& service, const http::Request& request) {
   if (service.pages.find(request.path)) {
     return allows(asset_route, request.method) ? run(asset_route, call) : other_method(asset_route, call);
   }
-  http::Response response = refuse(call, problem(404, "There is nothing at this path."));
+  http::Response response = refuse(call, problem(404, "There is no resource at this path."));
   response.route = "none";
   return response;
 }
@@ -149,27 +148,32 @@ std::optional<Overrides> read_query(std::string_view query) {
     query.remove_prefix(std::min(end + 1, query.size()));
     if (pair.empty()) continue;
     const auto equals = std::min(pair.find('='), pair.size());
-    std::string key, value;
-    if (!http::percent_decode(pair.substr(0, equals), http::Plus::space, key) ||
-        !http::percent_decode(pair.substr(std::min(equals + 1, pair.size())), http::Plus::space, value)) {
-      return std::nullopt;
-    }
-    overrides.emplace_back(std::move(key), std::move(value));
+    std::optional<std::string> key = http::percent_decode(pair.substr(0, equals), http::Plus::space);
+    std::optional<std::string> value =
+        http::percent_decode(pair.substr(std::min(equals + 1, pair.size())), http::Plus::space);
+    if (!key || !value) return std::nullopt;
+    overrides.emplace_back(std::move(*key), std::move(*value));
   }
   return overrides;
+}
+
+std::variant<Overrides, http::Response> parse_query(const Call& call) {
+  if (auto query = read_query(call.query())) return std::move(*query);
+  return refuse(call, problem_of({Code::malformed,
+                                  {{IssueKind::syntax, "", "The query has a malformed percent escape."}}}));
 }
 
 std::variant<Request, http::Response> read_text(Call& call, const std::string& text) {
   std::optional<Result<Request>> request;
   const auto read = [&] { request = read_request(text, call.service.config.limits); };
-  if (text.size() <= quickly_read) {
+  if (text.size() <= largest_without_worker) {
     read();
   } else if (const auto refused =
                  with_worker(call, call.request.gone(), [&](const Job::Options&) { read(); })) {
     return refuse(call, *refused);
   }
   if (!*request) return refuse(call, problem_of(request->error()));
-  if (auto refusal = forbidden(call, **request)) return std::move(*refusal);
+  if (auto refusal = check_allowed(call, **request)) return std::move(*refusal);
   return std::move(**request);
 }
 

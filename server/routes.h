@@ -1,16 +1,18 @@
 #pragma once
-/// From a request to its answer: one table of patterns, methods and functions.
+/// Routing: one table of patterns, methods and functions.
 #include "server/service.h"
 
 namespace seedmesh {
 
-/// Answers any request; never throws what a client can cause.
+/// Answers any request. A client cannot cause an exception.
 http::Response route(Service& service, const http::Request& request);
 
 // The functions of the table, by file.
 http::Response post_generate(Call& call);  // routes_models.cpp
 http::Response get_model(Call& call);
 http::Response get_preset(Call& call);
+
+http::Response get_texture(Call& call);  // routes_textures.cpp
 
 http::Response post_validate(Call& call);  // routes_json.cpp
 http::Response post_derive(Call& call);
@@ -27,16 +29,19 @@ http::Response get_version(Call& call);
 http::Response get_docs(Call& call);
 http::Response get_asset(Call& call);
 
-/// Progress, heartbeats and the end of a generation as server-sent events (events.cpp).
-http::Response generate_events(Call& call, const Known& known);
+/// Reports the progress and result of a generation as server-sent events (events.cpp).
+http::Response generate_events(Call& call, const TaggedRequest& wanted);
 
-/// The query as pairs, or nothing where an escape is malformed.
+/// The query as decoded pairs; nothing where an escape is malformed.
 std::optional<Overrides> read_query(std::string_view query);
 
-/// Reads a text as a request that is allowed here, with a worker where that takes long, or gives the refusal.
+/// The query of a call; the response (400) where an escape is malformed.
+std::variant<Overrides, http::Response> parse_query(const Call& call);
+
+/// Parses a text as an allowed request, with a worker if the text is large. Returns the response on an error.
 std::variant<Request, http::Response> read_text(Call& call, const std::string& text);
 
-/// Reads the body of a POST as a request, or gives the refusal: 415, 400, 422.
+/// Parses the body of a POST as a request. Returns the response on an error (415, 400, 422).
 std::variant<Request, http::Response> read_body(Call& call);
 
 }  // namespace seedmesh

@@ -1,4 +1,4 @@
-/// Routes that answer with JSON about requests and about what is shipped.
+/// Routes that answer with JSON: checks of requests, imports, presets and schemas.
 #include <nlohmann/json.hpp>
 
 #include "server/negotiate.h"
@@ -10,21 +10,18 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Runs derive() or validate() with a worker.
-http::Response answer_with(Call& call, Result<std::string> (*work)(const Request&, Job&)) {
+http::Response answer_with(Call& call, Result<std::string> (*work)(const Request&, const Job::Options&)) {
   auto body = read_body(call);
   if (auto* refusal = std::get_if<http::Response>(&body)) return std::move(*refusal);
   const Request request = std::get<Request>(std::move(body));
   std::optional<Result<std::string>> result;
-  const auto run = [&](Job::Options options) {
-    Job job(request.seed(), std::move(options));
-    result = work(request, job);
-  };
+  const auto run = [&](const Job::Options& options) { result = work(request, options); };
   if (const auto refused = with_worker(call, call.request.gone(), run)) return refuse(call, *refused);
   if (!*result) return refuse(call, problem_of(result->error()));
   return json_answer(call, std::move(**result));
 }
 
-/// format and entry of an import's query; the refusal where it says anything else.
+/// The question of an import from its query; the response for an unknown key.
 std::variant<ImportQuestion, http::Response> import_question(Call& call, const Overrides& query) {
   ImportQuestion question{{}, {}, call.request.body};
   std::vector<Issue> issues;
@@ -34,14 +31,15 @@ std::variant<ImportQuestion, http::Response> import_question(Call& call, const O
     } else if (key == "entry") {
       question.entry = value;
     } else {
-      issues.push_back({"/" + key, "an import takes format and entry alone"});
+      issues.push_back(
+          {IssueKind::unknown_key, "/" + key, "expected format or entry; an import has no other options"});
     }
   }
   if (!issues.empty()) return refuse(call, problem_of({Code::invalid, std::move(issues)}));
   return question;
 }
 
-/// The generators in the order of the registry, with what they are called.
+/// The generators with their titles, in the order of the registry.
 Json generator_list(const Access& access) {
   Json list = Json::array();
   for (const std::string_view name : generator_names()) {
@@ -73,29 +71,33 @@ http::Response post_derive(Call& call) { return answer_with(call, derive); }
 
 http::Response post_import(Call& call) {
   if (call.service.access.only_presets())
-    return deny(
-        call, {problem(403, "Only presets are made here: there is nothing to import for."), "only_presets"});
-  const std::optional<Overrides> query = read_query(call.query());
-  if (!query)
-    return refuse(call, problem_of({Code::malformed, {{"", "The query has a malformed percent escape."}}}));
+    return deny(call, {problem(403, "This service makes only presets, so that an import has no use."),
+                       "only_presets"});
+  auto query = parse_query(call);
+  if (auto* refusal = std::get_if<http::Response>(&query)) return std::move(*refusal);
   if (!is_text_or_json_type(call.request.header("Content-Type"))) {
-    http::Response response = refuse(call, problem(415, "Send the file as text/plain or application/json."));
-    response.set("Accept", "text/plain, application/json");
+    http::Response response =
+        refuse(call, problem(415, "Send the file as text/plain, application/json or application/xml."));
+    response.set("Accept", "text/plain, application/json, application/xml");
     return response;
   }
-  auto asked = import_question(call, *query);
+  auto asked = import_question(call, std::get<Overrides>(query));
   if (auto* refusal = std::get_if<http::Response>(&asked)) return std::move(*refusal);
   const auto question = std::get<ImportQuestion>(asked);
   std::optional<Result<ImportedRequest>> imported;
-  const auto read = [&](const Job::Options& options) { imported = import_request(question, options.limits); };
+  const auto read = [&](const Job::Options& options) { imported = import_request(question, options); };
   if (const auto refused = with_worker(call, call.request.gone(), read)) return refuse(call, *refused);
-  if (!*imported) return refuse(call, problem_of(imported->error()));
+  if (!*imported) {
+    Problem problem = problem_of(imported->error());
+    if (question.format.empty()) problem.format = likely_import_format(question.text);
+    return refuse(call, problem);
+  }
   return json_answer(call, std::move((*imported)->answer));
 }
 
 http::Response get_presets(Call& call) {
-  return fixed_answer(call, "/v1/presets", "application/json",
-                      [&] { return preset_list(call.service.access); });
+  return static_answer(call, "/v1/presets", "application/json",
+                       [&] { return preset_list(call.service.access); });
 }
 
 http::Response get_schema(Call& call) {
@@ -107,17 +109,17 @@ http::Response get_schema(Call& call) {
     }
   }
   const auto text = schema_json(name);
-  if (!text) return refuse(call, problem(404, "There is no schema of this name."));
-  return fixed_answer(call, "/v1/schemas/" + name, "application/schema+json",
-                      [&] { return std::string(*text); });
+  if (!text) return refuse(call, problem(404, "There is no schema with this name."));
+  return static_answer(call, "/v1/schemas/" + name, "application/schema+json",
+                       [&] { return std::string(*text); });
 }
 
 http::Response get_vocabulary(Call& call) {
-  return fixed_answer(call, "/v1/vocabulary", "application/json", vocabulary_json);
+  return static_answer(call, "/v1/vocabulary", "application/json", vocabulary_json);
 }
 
 http::Response get_openapi(Call& call) {
-  return fixed_answer(call, "/openapi.json", "application/json", [] { return std::string(openapi_json()); });
+  return static_answer(call, "/openapi.json", "application/json", [] { return std::string(openapi_json()); });
 }
 
 }  // namespace seedmesh

@@ -4,8 +4,7 @@
 #include <cstdio>
 #include <ctime>
 
-#include "server/compress.h"
-#include "server/http/head.h"
+#include "server/coded_body.h"
 #include "server/negotiate.h"
 #include "server/permalink.h"
 #include "server/routes.h"
@@ -14,11 +13,9 @@ namespace seedmesh {
 namespace {
 
 constexpr std::size_t longest_location = 2'048;
-constexpr std::uint64_t least_compressed = 1'024;
-constexpr std::uint64_t most_compressed = 64U << 20U;
-constexpr std::uint64_t most_opened =
-    1U << 20U;  ///< of a token; its 8,000 characters hold a tenth of it at most
+constexpr std::uint64_t largest_token_text = 1U << 20U;  ///< bytes of a decompressed token
 constexpr std::int64_t year = 31'536'000;
+constexpr std::string_view proctree_end = ".proctree";
 
 std::string milliseconds(std::string_view name, double duration) {
   char text[96];
@@ -26,39 +23,31 @@ std::string milliseconds(std::string_view name, double duration) {
   return text;
 }
 
-/// What this answer cost: spans of a model from the cache were paid for by an earlier one.
-std::string server_timing(const Call& call, std::string_view cache_use, const Made& made) {
-  const bool is_made = cache_use == "miss";
-  double total = std::chrono::duration<double, std::milli>(Clock::now() - call.request.arrived).count();
-  std::string spans;
-  for (const Product::Span& span : made.product.timing) {
-    const double spent = is_made ? span.milliseconds : 0;
-    spans += ", " + milliseconds(span.name, spent);
-    total -= spent;
-  }
-  if (!is_made) spans += ", cache;desc=\"" + std::string(cache_use) + "\"";
-  return milliseconds("parse", std::max(0.0, total)) + spans;
-}
-
-/// A coded form of a model. It is kept beside the model itself, so that it is made once.
-Cache::Entry compressed(const Call& call, const Known& known, const Cache::Entry& plain, Coding coding) {
-  const auto make = [&](const std::stop_token& stop) -> Cache::Outcome {
-    auto made = std::make_shared<Made>(*plain);
-    const auto work = [&](const Job::Options&) {
-      auto payload = std::make_shared<Payload>();
-      payload->add(encode(coding, plain->payload->pieces(), Effort::model));
-      made->payload = std::move(payload);
-    };
-    if (auto refused = with_worker(call, stop, work)) return std::move(*refused);
-    return Cache::Entry(std::move(made));
+/// The Server-Timing field of a response whose head is about to be sent. The parts sum up to the total: `parse` until
+/// the model was looked for, the parts of its generation, `wait` for a worker, a cache or another request, and
+/// `compress`. A model from a cache has no generation. Large models are compressed later, while they are sent.
+std::string server_timing(const Call& call, std::string_view cache_use, const CachedModel& made,
+                          Clock::time_point asked, Clock::time_point found) {
+  const auto between = [](Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double, std::milli>(to - from).count();
   };
-  const Cache::Answer answer = call.service.cache.get(
-      std::string(name_of(coding)) + " " + known.request.canonical(), call.request.gone, make);
-  const Cache::Entry* entry = std::get_if<Cache::Entry>(&answer.outcome);
-  return entry ? *entry : nullptr;
+  const auto now = Clock::now();
+  double wait = between(asked, found);
+  std::string text = milliseconds("parse", between(call.request.arrived, asked));
+  if (cache_use == "miss") {
+    for (const Product::Span& span : made.product.timing) {
+      text += ", " + milliseconds(span.name, span.milliseconds);
+      wait -= span.milliseconds;
+    }
+  } else {
+    text += ", cache;desc=\"" + std::string(cache_use) + "\"";
+  }
+  text += ", " + milliseconds("wait", std::max(0.0, wait));
+  text += ", " + milliseconds("compress", between(found, now));
+  return text + ", " + milliseconds("total", between(call.request.arrived, now));
 }
 
-/// Applies a Range to a whole answer (RFC 9110 section 14), for models only: they are what is worth resuming.
+/// Applies a Range field to a whole response (RFC 9110 section 14). Only models support ranges.
 void apply_range(const Call& call, http::Response& response, const std::string& validator) {
   auto& slice = std::get<http::Slice>(response.body);
   response.set("Accept-Ranges", "bytes");
@@ -70,7 +59,7 @@ void apply_range(const Call& call, http::Response& response, const std::string& 
     case RangeKind::none:
       return;
     case RangeKind::unsatisfiable:
-      response = refuse(call, problem(416, "The answer has " + size + " bytes."));
+      response = refuse(call, problem(416, "The whole response has " + size + " bytes."));
       response.set("Content-Range", "bytes */" + size);
       return;
     case RangeKind::one:
@@ -82,46 +71,47 @@ void apply_range(const Call& call, http::Response& response, const std::string& 
   }
 }
 
-void describe(http::Response& response, const Made& made) {
+void describe(http::Response& response, const CachedModel& made) {
   const Statistics& statistics = made.product.statistics;
   response.set("Seedmesh-Triangles", std::to_string(statistics.triangles));
   response.set("Seedmesh-Vertices", std::to_string(statistics.vertices));
   response.set("Seedmesh-Warnings", std::to_string(statistics.warnings));
 }
 
-/// The permalink, where it fits in a URL.
-void locate(const Call& call, http::Response& response, const std::string& token,
-            std::string_view extension) {
+/// Adds the permalink as Content-Location, where it is not too long.
+void add_location(const Call& call, http::Response& response, const std::string& token,
+                  std::string_view extension) {
   if (token.empty()) return;
   const std::string location = call.service.access.signed_for(call.grant, permalink(token, extension));
   if (!location.empty() && location.size() <= longest_location) response.set("Content-Location", location);
 }
 
-/// How long an answer may be kept, and by whom: what was shown to get it is not shown to a cache on the way.
-enum class Kept { for_ever, checked };
-std::string cache_control(const Call& call, Kept kept) {
+/// How caches may use a response: as immutable, or after revalidation.
+enum class Caching { immutable, revalidate };
+
+/// The Cache-Control field. A response to an API key is private, because caches do not check keys.
+std::string cache_control(const Call& call, Caching caching) {
   const Grant& grant = call.grant;
   const char* owner = grant.by == Grant::By::key ? "private" : "public";
-  if (kept == Kept::checked) return grant.by == Grant::By::key ? "private, no-cache" : "no-cache";
+  if (caching == Caching::revalidate) return grant.by == Grant::By::key ? "private, no-cache" : "no-cache";
   const std::int64_t left = grant.expires ? *grant.expires - std::time(nullptr) : year;
   return std::string(owner) + ", max-age=" + std::to_string(std::clamp<std::int64_t>(left, 0, year)) +
          ", immutable";
 }
 
-/// Vary of models: what was shown to get one is part of it where keys are asked for.
+/// The Vary field of models; with the credentials on a closed service.
 std::string varies(const Call& call, const char* fields) {
   return call.service.access.closed() ? std::string(fields) + ", Authorization, X-Api-Key" : fields;
 }
 
-/// A preset has no body: what an override asked for is told of at the override.
+/// Replaces pointers into the parameters by pointers to the keys of the query that set them.
 void point_at_overrides(const Overrides& overrides, std::vector<Issue>& issues) {
   for (Issue& issue : issues) {
     for (const auto& [key, value] : overrides) {
-      std::string place = "/" + key;
-      std::replace(place.begin(), place.end(), '.', '/');
-      if (key != "seed" && !key.starts_with("output.")) place.insert(0, "/parameters");
-      const bool is_inside = issue.pointer.starts_with(place) &&
-                             (issue.pointer.size() == place.size() || issue.pointer[place.size()] == '/');
+      std::string target = "/" + key;
+      std::replace(target.begin(), target.end(), '.', '/');
+      if (key != "seed" && !key.starts_with("output.")) target.insert(0, "/parameters");
+      const bool is_inside = (issue.pointer + "/").starts_with(target + "/");
       if (!is_inside) continue;
       issue.pointer = "/" + key;
       break;
@@ -136,44 +126,43 @@ Problem pointed(const Call& call, Problem problem) {
   return problem;
 }
 
-http::Response model_answer(Call& call, const Known& known, Kept kept) {
+http::Response model_answer(Call& call, const TaggedRequest& wanted, Caching caching) {
   const auto coding = choose_coding(call.request.header("Accept-Encoding"));
   if (!coding) return refuse(call, not_acceptable());
   const bool post = call.request.method == "POST";
   http::Response response;
-  response.set("Cache-Control", cache_control(call, kept));
+  response.set("Cache-Control", cache_control(call, caching));
   response.set("Vary", varies(call, post ? "Accept, Accept-Encoding" : "Accept-Encoding"));
-  if (!post && matches(call.request.header("If-None-Match"), known.tag)) {
+  if (!post && matches(call.request.header("If-None-Match"), wanted.tag)) {
     response.status = 304;
-    response.set("ETag", etag(known.tag, *coding));
-    locate(call, response, known.token.empty() ? token_of(known.request) : known.token,
-           extension_of(known.request.format()));
+    response.set("ETag", etag(wanted.tag, *coding));
+    add_location(call, response, wanted.token.empty() ? token_of(wanted.request) : wanted.token,
+                 format_named(wanted.request.format()).extension);
     return response;
   }
 
-  Cache::Answer answer = model_of(call, known, {});
+  if (!wait_for_memory(call)) return refuse(call, too_much_in_flight(call.service));
+  const auto asked = Clock::now();
+  Cache::Answer answer = model_of(call, wanted, {});
   if (const auto* refused = std::get_if<Problem>(&answer.outcome))
     return refuse(call, pointed(call, *refused));
+  const auto found = Clock::now();
   const Cache::Entry entry = std::get<Cache::Entry>(answer.outcome);
-  std::shared_ptr<const Payload> payload = entry->payload;
-  Coding used = Coding::identity;
-  if (*coding != Coding::identity && payload->size() >= least_compressed &&
-      payload->size() <= most_compressed) {
-    if (const Cache::Entry packed = compressed(call, known, entry, *coding)) {
-      payload = packed->payload;
-      used = *coding;
-    }
-  }
+  std::optional<CodedBody> coded = coded_body(call, wanted, entry, *coding);
+  if (!coded) return refuse(call, too_much_in_flight(call.service));
   response.cache_use = answer.hit ? "hit" : entry->shared ? "shared" : "miss";
   response.type = entry->product.media_type;
-  response.set("ETag", etag(known.tag, used));
-  if (used != Coding::identity) response.set("Content-Encoding", std::string(name_of(used)));
-  response.set("Server-Timing", server_timing(call, response.cache_use, *entry));
+  response.set("ETag", etag(wanted.tag, coded->used));
+  if (coded->used != Coding::identity) response.set("Content-Encoding", std::string(name_of(coded->used)));
+  response.set("Server-Timing", server_timing(call, response.cache_use, *entry, asked, found));
   describe(response, *entry);
-  locate(call, response, entry->token, entry->product.extension);
-  const std::uint64_t size = payload->size();
-  response.body = http::Slice{std::move(payload), 0, size};
-  apply_range(call, response, etag(known.tag, used));
+  add_location(call, response, entry->token, entry->product.extension);
+  if (auto* stream = std::get_if<http::Stream>(&coded->body)) {
+    response.body = std::move(*stream);
+  } else {
+    response.body = std::get<http::Slice>(std::move(coded->body));
+    if (coded->used == Coding::identity) apply_range(call, response, etag(wanted.tag, coded->used));
+  }
   return response;
 }
 
@@ -184,26 +173,21 @@ std::pair<std::string, std::string> split_extension(const std::string& name) {
   return {name.substr(0, dot), name.substr(dot + 1)};
 }
 
-bool is_extension(std::string_view text) {
-  static constexpr std::string_view all[] = {"glb", "gltf", "zip", "png", "r16", "ply", "json"};
-  return std::find(std::begin(all), std::end(all), text) != std::end(all);
+bool is_extension(std::string_view text) { return text == "json" || format_with_extension(text) != nullptr; }
+
+/// The request in the format that the extension of a URL names.
+Result<Request> in_format(const Request& request, std::string_view extension) {
+  if (extension == "json" || format_named(request.format()).extension == extension) return request;
+  return with_format(request, format_with_extension(extension)->name);
 }
 
-std::string_view format_of(std::string_view extension) { return extension == "png" ? "png16" : extension; }
-
-/// The request in the form that a URL's extension names.
-Result<Request> in_form(const Request& request, std::string_view extension) {
-  if (extension == "json" || extension_of(request.format()) == extension) return request;
-  return with_format(request, format_of(extension));
-}
-
-/// Null where there is no such preset. What a query asks of the output may go with the form of the extension
-/// alone.
-std::optional<Result<Request>> preset_in_form(const Call& call, const std::string& name, Overrides overrides,
-                                              std::string_view extension) {
+/// A preset with overrides; nothing where there is no such preset. Overrides of the output may be valid only in
+/// the format of the extension, so an error leads to a second attempt with that format.
+std::optional<Result<Request>> preset_in_format(const Call& call, const std::string& name,
+                                                Overrides overrides, std::string_view extension) {
   auto read = read_preset(name, overrides, call.service.config.limits);
   if (!read || *read || extension.empty() || extension == "json") return read;
-  overrides.emplace_back("output.format", format_of(extension));
+  overrides.emplace_back("output.format", format_with_extension(extension)->name);
   return read_preset(name, overrides, call.service.config.limits);
 }
 
@@ -223,66 +207,77 @@ http::Response redirect_to_own(const Call& call, const Request& request, const s
 http::Response post_generate(Call& call) {
   auto body = read_body(call);
   if (auto* refusal = std::get_if<http::Response>(&body)) return std::move(*refusal);
-  const Known wanted = known(std::get<Request>(std::move(body)));
-  // HTTP/1.0 has no body without a known length.
+  const TaggedRequest wanted = tagged(std::get<Request>(std::move(body)));
+  // HTTP/1.0 has no chunked bodies.
   if (call.request.minor == 1 && wants_events(call.request.header("Accept")))
     return generate_events(call, wanted);
-  return model_answer(call, wanted, Kept::checked);
+  return model_answer(call, wanted, Caching::revalidate);
 }
 
 http::Response get_model(Call& call) {
   if (!call.query().empty())
-    return refuse(call, problem_of({Code::invalid, {{"", "A permalink takes no query."}}}));
-  const auto [text, extension] = split_extension(call.name);
+    return refuse(call,
+                  problem_of({Code::invalid, {{IssueKind::unknown_key, "", "A permalink has no query."}}}));
+  auto [text, extension] = split_extension(call.name);
+  // "token.proctree.json" is the request as a file of proctree.
+  const bool for_proctree = extension == "json" && text.ends_with(proctree_end);
+  if (for_proctree) text.resize(text.size() - proctree_end.size());
   const std::string target(call.target());
   if (auto remembered = call.service.targets.find(target))
-    return model_answer(call, *remembered, Kept::for_ever);
+    return model_answer(call, *remembered, Caching::immutable);
   if (!is_extension(extension))
-    return refuse(call, problem(404, "A permalink ends with .glb, .gltf, .zip, .png, .r16, .ply or .json."));
+    return refuse(call, problem(404, "A permalink ends with " + output_extension_list({"json"}) + "."));
 
-  Result<Token> token = read_token(text, std::min(call.service.config.body_limit, most_opened));
+  Result<Token> token = read_token(text, std::min(call.service.config.body_limit, largest_token_text));
   if (!token) return refuse(call, problem_of(token.error()));
   auto read = read_text(call, token->request);
   if (auto* refusal = std::get_if<http::Response>(&read)) return std::move(*refusal);
   const auto request = std::make_optional(std::get<Request>(std::move(read)));
-  if (token->engine && *token->engine != engine_version()) return redirect_to_own(call, *request, extension);
-  // A token without an engine may mean other bytes tomorrow.
-  const Kept kept = token->engine ? Kept::for_ever : Kept::checked;
+  if (token->engine && *token->engine != engine_version())
+    return redirect_to_own(call, *request, for_proctree ? "proctree.json" : extension);
+  // Without an engine version, a later version may answer with other bytes.
+  const Caching caching = token->engine ? Caching::immutable : Caching::revalidate;
+  if (for_proctree) {
+    Job::Options options;
+    options.limits = call.service.config.limits;
+    Result<ExportedFile> file = export_request(*request, "proctree", options);
+    if (!file) return refuse(call, problem_of(file.error()));
+    return json_answer(call, std::move(file->text), "application/json", cache_control(call, caching));
+  }
   if (extension == "json")
-    return json_answer(call, request->canonical(), "application/json", cache_control(call, kept));
-  Result<Request> formed = in_form(*request, extension);
-  if (!formed) return refuse(call, problem_of(formed.error()));
-  Known wanted = known(std::move(*formed));
+    return json_answer(call, request->canonical(), "application/json", cache_control(call, caching));
+  Result<Request> formatted = in_format(*request, extension);
+  if (!formatted) return refuse(call, problem_of(formatted.error()));
+  TaggedRequest wanted = tagged(std::move(*formatted));
   wanted.token = token_of(wanted.request);
-  if (token->engine) call.service.targets.keep(target, wanted);
-  return model_answer(call, wanted, kept);
+  if (token->engine) call.service.targets.insert(target, wanted);
+  return model_answer(call, wanted, caching);
 }
 
 http::Response get_preset(Call& call) {
   const auto [name, extension] = split_extension(call.name);
   const std::string target(call.target());
   if (auto remembered = call.service.targets.find(target))
-    return model_answer(call, *remembered, Kept::checked);
+    return model_answer(call, *remembered, Caching::revalidate);
   if (!extension.empty() && !is_extension(extension))
-    return refuse(
-        call,
-        problem(404, "A preset's name ends with .glb, .gltf, .zip, .png, .r16, .ply or .json, or is alone."));
-  const std::optional<Overrides> overrides = read_query(call.query());
-  if (!overrides)
-    return refuse(call, problem_of({Code::malformed, {{"", "The query has a malformed percent escape."}}}));
-  auto read = preset_in_form(call, name, *overrides, extension);
+    return refuse(call, problem(404, "The name of a preset ends with " + output_extension_list({"json"}) +
+                                         ", or has no extension."));
+  auto query = parse_query(call);
+  if (auto* refusal = std::get_if<http::Response>(&query)) return std::move(*refusal);
+  const Overrides overrides = std::get<Overrides>(std::move(query));
+  auto read = preset_in_format(call, name, overrides, extension);
   if (!read) return refuse(call, problem(404, no_preset(name)));
   if (!*read) return refuse(call, problem_of(read->error()));
-  if (auto refusal = forbidden(call, **read)) return std::move(*refusal);
+  if (auto refusal = check_allowed(call, **read)) return std::move(*refusal);
   if (extension.empty() || extension == "json") {
-    return json_answer(call, overrides->empty() ? *preset_json(name) : (*read)->canonical());
+    return json_answer(call, overrides.empty() ? *preset_json(name) : (*read)->canonical());
   }
-  Result<Request> formed = in_form(**read, extension);
-  if (!formed) return refuse(call, pointed(call, problem_of(formed.error())));
-  Known wanted = known(std::move(*formed));
+  Result<Request> formatted = in_format(**read, extension);
+  if (!formatted) return refuse(call, pointed(call, problem_of(formatted.error())));
+  TaggedRequest wanted = tagged(std::move(*formatted));
   wanted.token = token_of(wanted.request);
-  call.service.targets.keep(target, wanted);
-  return model_answer(call, wanted, Kept::checked);
+  call.service.targets.insert(target, wanted);
+  return model_answer(call, wanted, Caching::revalidate);
 }
 
 }  // namespace seedmesh

@@ -1,4 +1,4 @@
-/// Routes for operators and browsers. None of them waits for a worker.
+/// Routes for operators and browsers. They need no worker.
 #include <nlohmann/json.hpp>
 
 #include "server/negotiate.h"
@@ -7,19 +7,18 @@
 namespace seedmesh {
 namespace {
 
-/// The client's page: everything comes from here, and nothing stands inside the page itself. The viewer reads
-/// the textures that a model carries through blob addresses.
+/// For the web client: all files come from this service, without inline scripts and styles. The viewer reads the
+/// textures of a model through blob URLs.
 constexpr const char* client_security =
-    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self' "
-    "blob:; "
-    "base-uri 'none'; form-action 'none'; frame-ancestors 'self'";
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
+    "connect-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'self'";
 
-/// The reference is one file with its style inside; it runs no script.
+/// For the reference: one file with an inline style and without scripts.
 constexpr const char* docs_security =
-    "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'; frame-ancestors "
-    "'self'";
+    "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'self'";
 
-/// What embed_assets makes of files that gain from it.
+/// The codings that embed_assets.cpp writes.
 constexpr Coding asset_codings[] = {Coding::br, Coding::gzip};
 
 http::Response status_answer(int status, std::string_view word) {
@@ -33,7 +32,6 @@ http::Response status_answer(int status, std::string_view word) {
 
 void add_page_headers(http::Response& response, const char* security) {
   response.set("Content-Security-Policy", security);
-  response.set("X-Content-Type-Options", "nosniff");
   response.set("Referrer-Policy", "no-referrer");
 }
 
@@ -43,8 +41,7 @@ http::Response get_healthz(Call&) { return status_answer(200, "ok"); }
 
 http::Response get_readyz(Call& call) {
   if (!call.service.draining) return status_answer(200, "ready");
-  http::Response response = refuse(call, problem(503, "The service is about to end."));
-  return response;
+  return refuse(call, problem(503, "The service is shutting down."));
 }
 
 http::Response get_version(Call&) {
@@ -62,6 +59,7 @@ http::Response get_metrics(Call& call) {
   Service& service = call.service;
   Metrics::Levels levels;
   levels.in_flight = service.in_flight;
+  levels.memory_in_flight = service.in_flight_memory.bytes();
   levels.waiting = service.admission.waiting();
   levels.workers = service.admission.workers();
   levels.busy = service.admission.busy();
@@ -76,7 +74,7 @@ http::Response get_metrics(Call& call) {
 
 http::Response get_docs(Call& call) {
   http::Response response =
-      fixed_answer(call, "/docs", "text/html; charset=utf-8", [&] { return call.service.pages.docs(); });
+      static_answer(call, "/docs", "text/html; charset=utf-8", [&] { return call.service.pages.docs(); });
   add_page_headers(response, docs_security);
   return response;
 }

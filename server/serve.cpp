@@ -1,10 +1,6 @@
 #include "server/serve.h"
 
-#include <arpa/inet.h>
-#include <netdb.h>
 #include <signal.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <cstring>
@@ -13,7 +9,7 @@
 
 #include "server/cors.h"
 #include "server/give_back.h"
-#include "server/http/listener.h"
+#include "server/http/server.h"
 #include "server/routes.h"
 #include "server/service.h"
 #include "server/trace.h"
@@ -27,8 +23,8 @@ std::chrono::seconds whole_seconds(double seconds) {
   return std::chrono::seconds(static_cast<long>(seconds + 0.5));
 }
 
-http::ListenerOptions listener_options(const Config& config) {
-  http::ListenerOptions options;
+http::ServerOptions server_options(const Config& config) {
+  http::ServerOptions options;
   options.host = config.host;
   options.port = config.port;
   options.limits.body = config.body_limit;
@@ -38,13 +34,15 @@ http::ListenerOptions listener_options(const Config& config) {
   options.head_time = whole_seconds(config.head_timeout);
   options.body_time = whole_seconds(config.body_timeout);
   options.idle_time = whole_seconds(config.idle_timeout);
-  options.write_time = whole_seconds(config.write_timeout);
+  options.pace.timeout = whole_seconds(config.write_timeout);
+  options.pace.grace = whole_seconds(config.min_rate_grace);
+  options.pace.rate = config.min_rate;
   return options;
 }
 
 bool is_probe(std::string_view path) { return path == "/healthz" || path == "/readyz" || path == "/metrics"; }
 
-/// What every answer has, whatever its route: the origin's permission and our place in the caller's trace.
+/// Adds what every response has: CORS fields and the trace.
 http::Response finish(const Service& service, const http::Request& request, http::Response response) {
   allow_origin(service.config.cors_origins, request, response);
   const auto trace = read_traceparent(request.header("Traceparent"));
@@ -58,7 +56,6 @@ http::Response finish(const Service& service, const http::Request& request, http
 
 http::Response handle(Service& service, const http::Request& request) {
   if (is_probe(request.path)) return route(service, request);
-  // Counts down when the answer is made; the bytes are on their way then.
   struct InFlight {
     explicit InFlight(std::atomic<std::int64_t>& given) : count(given) { ++count; }
     ~InFlight() { --count; }
@@ -76,9 +73,7 @@ http::Response refuse_unread(Service& service, const http::Request& request, con
 }
 
 http::Response fail(const Service& service, const http::Request& request, const std::string& what) {
-  Problem fault = problem(500, "Something went wrong here. The instance names the request in the log.");
-  fault.log_text = what;
-  http::Response response = to_response(fault, request.id);
+  http::Response response = to_response(internal_error(what), request.id);
   response.route = "failed";
   return finish(service, request, std::move(response));
 }
@@ -88,6 +83,7 @@ void record(Service& service, const http::Exchange& exchange) {
   const http::Response& response = exchange.response;
   ++service.answered;
   service.metrics.answered(response.route, response.status, exchange.seconds, exchange.sent);
+  if (exchange.slow) service.metrics.cancelled("slow_client");
   const auto level = response.status == 500   ? Log::Level::error
                      : is_probe(request.path) ? Log::Level::debug
                                               : Log::Level::info;
@@ -105,6 +101,7 @@ void record(Service& service, const http::Exchange& exchange) {
   for (const auto& [name, value] : response.log_fields) fields[name] = value;
   if (!response.log_text.empty()) fields["reason"] = response.log_text;
   if (!exchange.complete) fields["complete"] = false;
+  if (exchange.slow) fields["reason"] = "the client read too slowly";
   service.log.write(level, "request", fields);
 }
 
@@ -122,7 +119,7 @@ int serve(const Config& config, const std::vector<std::string>& warnings) {
   ::sigemptyset(&ending);
   ::sigaddset(&ending, SIGTERM);
   ::sigaddset(&ending, SIGINT);
-  ::pthread_sigmask(SIG_BLOCK, &ending, nullptr);  // threads made from here on inherit it
+  ::pthread_sigmask(SIG_BLOCK, &ending, nullptr);  // later threads inherit the mask
 
   const Log log(config.log_level);
   for (const std::string& warning : warnings) log.write(Log::Level::warn, warning);
@@ -134,8 +131,8 @@ int serve(const Config& config, const std::vector<std::string>& warnings) {
   };
   callbacks.fail = [&](const auto& request, const auto& what) { return fail(service, request, what); };
   callbacks.done = [&](const http::Exchange& exchange) { record(service, exchange); };
-  http::Listener listener(listener_options(config), std::move(callbacks));
-  const int port = listener.bind();
+  http::Server server(server_options(config), std::move(callbacks));
+  const int port = server.bind();
   if (port == 0) {
     log.write(Log::Level::error, "cannot listen",
               {{"url", url_of(config, config.port)}, {"reason", std::strerror(errno)}});
@@ -155,43 +152,17 @@ int serve(const Config& config, const std::vector<std::string>& warnings) {
         return GiveBack::Activity{service.answered.load(), service.in_flight.load()};
       },
       [&] { service.reserve->clear(); });
-  std::thread listening([&] { listener.run(); });
+  std::thread listening([&] { server.run(); });
   int signal = 0;
   ::sigwait(&ending, &signal);
   service.draining = true;
   log.write(Log::Level::info, "draining", {{"in_flight", service.in_flight.load()}});
   std::this_thread::sleep_for(std::chrono::duration<double>(config.drain_delay));
   service.admission.drain();
-  listener.drain();
+  server.drain();
   listening.join();
   log.write(Log::Level::info, "ended");
   return 0;
-}
-
-int healthcheck(const Config& config) {
-  const bool any = config.host == "0.0.0.0" || config.host == "::";
-  addrinfo hints{};
-  hints.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  const std::string port = std::to_string(config.port);
-  if (::getaddrinfo(any ? "localhost" : config.host.c_str(), port.c_str(), &hints, &found) != 0) return 1;
-  bool healthy = false;
-  for (const addrinfo* address = found; address && !healthy; address = address->ai_next) {
-    const int socket = ::socket(address->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    const timeval patience{3, 0};
-    ::setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
-    ::setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof(patience));
-    const std::string_view request = "GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
-    char answer[16] = {};
-    healthy = ::connect(socket, address->ai_addr, address->ai_addrlen) == 0 &&
-              (config.tls ? http::ask_over_tls(socket, request, 12) == "HTTP/1.1 200"
-                          : ::send(socket, request.data(), request.size(), MSG_NOSIGNAL) > 0 &&
-                                ::recv(socket, answer, 12, MSG_WAITALL) == 12 &&
-                                std::string_view(answer) == "HTTP/1.1 200");
-    ::close(socket);
-  }
-  ::freeaddrinfo(found);
-  return healthy ? 0 : 1;
 }
 
 }  // namespace seedmesh

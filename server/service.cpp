@@ -6,10 +6,10 @@
 namespace seedmesh {
 namespace {
 
-constexpr std::size_t worth_compressing = 1'024;
+constexpr std::size_t smallest_compressed = 1'024;
 constexpr std::size_t longest_token = 8'000;
 
-Problem turned_away(Service& service, Admission::Refused why) {
+Problem not_admitted(Service& service, Admission::Refused why) {
   switch (why) {
     case Admission::Refused::queue_full:
       service.metrics.rejected("queue_full");
@@ -19,42 +19,41 @@ Problem turned_away(Service& service, Admission::Refused why) {
       return problem(503, "The time limit passed while the request waited for a worker.");
     case Admission::Refused::draining:
       service.metrics.rejected("draining");
-      return problem(503, "The service is about to end.");
+      return problem(503, "The service is shutting down.");
     case Admission::Refused::client_gone:
-      return problem(499, "The client has gone.");
+      return problem(499, "The client closed the connection.");
   }
-  return problem(503, "The service cannot take the request.");
+  return problem(503, "The service cannot accept the request.");
 }
 
-Cache::Outcome make(const Call& call, const Known& known, const std::stop_token& stop,
-                    const Job::Progress& progress) {
+Cache::Outcome generate(const Call& call, const TaggedRequest& wanted, const std::stop_token& stop,
+                        const Job::Progress& progress) {
   SharedCache& shared = call.service.shared;
-  if (Cache::Entry there = shared.get(known.request.canonical(), token_of(known.request))) return there;
+  if (Cache::Entry entry = shared.get(wanted.request.canonical(), token_of(wanted.request))) return entry;
   Cache::Outcome outcome;
   const auto work = [&](Job::Options options) {
     options.progress = progress;
-    Job job(known.request.seed(), std::move(options));
-    Result<Product> product = produce(known.request, job, &call.service.textures);
+    Result<Product> product = produce(wanted.request, options, &call.service.textures);
     if (!product) {
       outcome = problem_of(product.error());
       return;
     }
-    auto made = std::make_shared<Made>();
+    auto made = std::make_shared<CachedModel>();
     made->product = std::move(*product);
     made->payload = std::make_shared<const Payload>(std::move(made->product.payload));
-    made->product.warnings.clear();  // the model carries them
-    made->token = token_of(known.request);
+    made->product.warnings.clear();  // they are inside the model
+    made->token = token_of(wanted.request);
     call.service.metrics.made(made->product.statistics);
     for (const Product::Span& span : made->product.timing)
       call.service.metrics.spent(span.name, span.milliseconds / 1e3);
     outcome = Cache::Entry(std::move(made));
   };
   if (auto refused = with_worker(call, stop, work)) return std::move(*refused);
-  if (const auto* entry = std::get_if<Cache::Entry>(&outcome)) shared.put(known.request.canonical(), *entry);
+  if (const auto* entry = std::get_if<Cache::Entry>(&outcome)) shared.put(wanted.request.canonical(), *entry);
   return outcome;
 }
 
-/// An answer with its validator; 304 where the client has it already.
+/// The fields of a response with a validator; 304 where the client has the body already.
 http::Response validated(const Call& call, const std::string& tag, Coding used,
                          std::string_view cache_control) {
   http::Response response;
@@ -71,7 +70,7 @@ http::Response validated(const Call& call, const std::string& tag, Coding used,
 
 }  // namespace
 
-Known known(Request request) {
+TaggedRequest tagged(Request request) {
   std::string tag = tag_of(request.canonical(), engine_version());
   return {std::move(request), std::move(tag)};
 }
@@ -82,23 +81,23 @@ std::string token_of(const Request& request) {
   return token;
 }
 
-std::optional<Known> KnownTargets::find(const std::string& target) const {
+std::optional<TaggedRequest> TargetCache::find(const std::string& target) const {
   const std::lock_guard lock(mutex_);
   const auto found = by_target_.find(target);
   if (found == by_target_.end()) return std::nullopt;
   return found->second;
 }
 
-void KnownTargets::keep(const std::string& target, const Known& known) {
-  // Twice: the request holds about as much again beside its canonical text.
-  const std::size_t bytes = target.size() + known.token.size() + 2 * known.request.canonical().size() + 512;
-  if (bytes > most_bytes / 16) return;
+void TargetCache::insert(const std::string& target, const TaggedRequest& wanted) {
+  // Twice the canonical text: the rest of the request takes about as much.
+  const std::size_t bytes = target.size() + wanted.token.size() + 2 * wanted.request.canonical().size() + 512;
+  if (bytes > capacity / 16) return;
   const std::lock_guard lock(mutex_);
-  if (bytes_ + bytes > most_bytes) {
+  if (bytes_ + bytes > capacity) {
     by_target_.clear();
     bytes_ = 0;
   }
-  if (by_target_.emplace(target, known).second) bytes_ += bytes;
+  if (by_target_.emplace(target, wanted).second) bytes_ += bytes;
 }
 
 Clock::time_point deadline_of(const Call& call) {
@@ -111,7 +110,7 @@ std::optional<Problem> with_worker(const Call& call, const std::stop_token& stop
   Service& service = call.service;
   const auto before = Clock::now();
   auto entered = service.admission.enter(deadline_of(call), stop);
-  if (const auto* why = std::get_if<Admission::Refused>(&entered)) return turned_away(service, *why);
+  if (const auto* why = std::get_if<Admission::Refused>(&entered)) return not_admitted(service, *why);
   const auto& ticket = std::get<Admission::Ticket>(entered);
   service.metrics.spent("queue", std::chrono::duration<double>(Clock::now() - before).count());
   Job::Options options;
@@ -124,28 +123,33 @@ std::optional<Problem> with_worker(const Call& call, const std::stop_token& stop
   return std::nullopt;
 }
 
-Cache::Answer model_of(const Call& call, const Known& known, const Job::Progress& progress) {
+bool wait_for_memory(const Call& call) {
+  constexpr std::chrono::seconds longest_wait{2};
+  return call.service.in_flight_memory.wait(std::min(deadline_of(call), Clock::now() + longest_wait));
+}
+
+Problem too_much_in_flight(Service& service) {
+  service.metrics.rejected("memory_in_flight");
+  return problem(503, "Responses in flight to other clients use all memory that they may use.");
+}
+
+Cache::Answer model_of(const Call& call, const TaggedRequest& wanted, const Job::Progress& progress) {
   return call.service.cache.get(
-      known.request.canonical(), call.request.gone,
-      [&](const std::stop_token& stop) { return make(call, known, stop, progress); });
+      wanted.request.canonical(), call.request.gone,
+      [&](const std::stop_token& stop) { return generate(call, wanted, stop, progress); });
 }
 
-std::string extension_of(std::string_view format) {
-  const bool png = format == "png16" || format == "png8" || format == "rgb24" || format == "rgba32";
-  return std::string(png ? "png" : format == "placements" ? "zip" : format);
-}
-
-std::shared_ptr<const FixedText> FixedTexts::get(const std::string& path, Coding coding,
-                                                 const std::function<std::string()>& make) {
+std::shared_ptr<const StaticText> StaticTexts::get(const std::string& path, Coding coding,
+                                                   const std::function<std::string()>& make) {
   const std::string key = std::string(name_of(coding)) + " " + path;
   const std::lock_guard lock(mutex_);
   auto& text = by_path_[key];
   if (!text) {
-    FixedText made{make(), {}, {}};
+    StaticText made{make(), {}, {}};
     made.tag = tag_of(made.text, path);
-    if (coding != Coding::identity && made.text.size() >= worth_compressing)
-      made.packed = encode(coding, made.text, Effort::once);
-    text = std::make_shared<const FixedText>(std::move(made));
+    if (coding != Coding::identity && made.text.size() >= smallest_compressed)
+      made.encoded = encode(coding, made.text, Effort::once);
+    text = std::make_shared<const StaticText>(std::move(made));
   }
   return text;
 }
@@ -154,29 +158,39 @@ http::Response json_answer(const Call& call, std::string text, std::string_view 
                            std::string_view cache_control) {
   const auto coding = choose_coding(call.request.header("Accept-Encoding"));
   if (!coding) return refuse(call, not_acceptable());
-  const Coding used = text.size() >= worth_compressing ? *coding : Coding::identity;
+  const Coding used = text.size() >= smallest_compressed ? *coding : Coding::identity;
   http::Response response = validated(call, tag_of(text, type), used, cache_control);
   if (response.status == 304) return response;
   response.type = type;
-  response.body = used == Coding::identity ? std::move(text) : encode(used, text, Effort::text);
+  if (used != Coding::identity) text = encode(used, text, Effort::fast);
+  if (text.size() < InFlight::smallest) {
+    response.body = std::move(text);
+    return response;
+  }
+  auto payload = std::make_shared<Payload>();
+  payload->add(std::move(text));
+  auto held = call.service.in_flight_memory.hold(std::move(payload));
+  if (!held) return refuse(call, too_much_in_flight(call.service));
+  const std::uint64_t size = held->size();
+  response.body = http::Slice{std::move(held), 0, size};
   return response;
 }
 
-http::Response fixed_answer(const Call& call, const std::string& path, std::string_view type,
-                            const std::function<std::string()>& make) {
+http::Response static_answer(const Call& call, const std::string& path, std::string_view type,
+                             const std::function<std::string()>& make) {
   const auto coding = choose_coding(call.request.header("Accept-Encoding"), small_codings);
   if (!coding) return refuse(call, not_acceptable());
   const auto fixed = call.service.texts.get(path, *coding, make);
-  const Coding used = fixed->packed.empty() ? Coding::identity : *coding;
+  const Coding used = fixed->encoded.empty() ? Coding::identity : *coding;
   http::Response response = validated(call, fixed->tag, used, "no-cache");
   if (response.status == 304) return response;
   response.type = type;
-  response.body = used == Coding::identity ? fixed->text : fixed->packed;
+  response.body = used == Coding::identity ? fixed->text : fixed->encoded;
   return response;
 }
 
 Problem not_acceptable() {
-  return problem(406, "Neither gzip, br, zstd nor an unencoded answer is acceptable to the client.");
+  return problem(406, "The client accepts neither gzip, br, zstd nor an unencoded response.");
 }
 
 http::Response refuse(const Call& call, const Problem& problem) {
@@ -198,7 +212,7 @@ http::Response deny(const Call& call, const Denial& denial) {
   return response;
 }
 
-std::optional<http::Response> forbidden(const Call& call, const Request& request) {
+std::optional<http::Response> check_allowed(const Call& call, const Request& request) {
   const auto denial = call.service.access.forbid(request);
   if (!denial) return std::nullopt;
   return deny(call, *denial);

@@ -1,10 +1,11 @@
 #pragma once
-/// The parts that all routes share, and the steps that several of them take.
+/// State that all routes share, and steps that several routes take.
 #include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <semaphore>
 #include <string>
 #include <unordered_map>
 #include <variant>
@@ -16,6 +17,7 @@
 #include "server/cache.h"
 #include "server/config.h"
 #include "server/http/message.h"
+#include "server/in_flight.h"
 #include "server/log.h"
 #include "server/metrics.h"
 #include "server/negotiate.h"
@@ -26,48 +28,48 @@
 
 namespace seedmesh {
 
-/// A request that has been read, with the tag of its answer.
-struct Known {
+/// A request with the tag that identifies its result.
+struct TaggedRequest {
   Request request;
   std::string tag;
-  std::string token = {};  ///< of its permalink; "" where it has not been written yet, or is too long
+  std::string token = {};  ///< of its permalink; "" if not computed yet, or too long for a URL
 };
 
-Known known(Request request);
+TaggedRequest tagged(Request request);
 
-/// The token of the permalink; "" where it is too long for any URL.
+/// The token of the permalink; "" where it is too long for a URL.
 std::string token_of(const Request& request);
 
-/// Requests that URLs stand for, by raw target: reading a permalink or a preset gives the same each time, and
-/// a 304 need not open a token to find that out. Bounded; cleared as a whole when it is full.
-class KnownTargets {
+/// The requests of permalinks and presets by undecoded target, so that a 304 need not decompress a token.
+/// Bounded in bytes; emptied when it is full.
+class TargetCache {
  public:
-  std::optional<Known> find(const std::string& target) const;
-  void keep(const std::string& target, const Known& known);
+  std::optional<TaggedRequest> find(const std::string& target) const;
+  void insert(const std::string& target, const TaggedRequest& wanted);
 
  private:
-  static constexpr std::size_t most_bytes = 16U << 20U;
+  static constexpr std::size_t capacity = 16U << 20U;
   mutable std::mutex mutex_;
-  std::unordered_map<std::string, Known> by_target_;
+  std::unordered_map<std::string, TaggedRequest> by_target_;
   std::size_t bytes_ = 0;
 };
 
-/// A text that never changes while the program runs, with everything that answering with it takes.
-struct FixedText {
+/// A text that does not change while the program runs.
+struct StaticText {
   std::string text, tag;
-  std::string packed;  ///< in the coding that was asked for; "" where that gains nothing
+  std::string encoded;  ///< in the requested coding; "" for identity and small texts
 };
 
-/// Fixed texts by path, made when they are first asked for: compressing the OpenAPI document for each client
-/// would cost more than many a model.
-class FixedTexts {
+/// Static texts by path and coding, made at the first request: compressing the OpenAPI document for each client
+/// would cost more than many models.
+class StaticTexts {
  public:
-  std::shared_ptr<const FixedText> get(const std::string& path, Coding coding,
-                                       const std::function<std::string()>& make);
+  std::shared_ptr<const StaticText> get(const std::string& path, Coding coding,
+                                        const std::function<std::string()>& make);
 
  private:
   std::mutex mutex_;
-  std::unordered_map<std::string, std::shared_ptr<const FixedText>> by_path_;  ///< "br /docs"
+  std::unordered_map<std::string, std::shared_ptr<const StaticText>> by_path_;  ///< keys such as "br /docs"
 };
 
 struct Service {
@@ -75,6 +77,8 @@ struct Service {
       : config(given),
         log(given_log),
         admission(given.threads, static_cast<std::size_t>(given.queue)),
+        in_flight_memory(given.memory_in_flight),
+        compressors(given.threads),
         cache(given.cache_bytes),
         textures(given.texture_bytes),
         access(given),
@@ -83,14 +87,16 @@ struct Service {
   const Config config;
   const Log& log;
   Admission admission;
+  InFlight in_flight_memory;
+  std::counting_semaphore<> compressors;
   Cache cache;
   TextureCache textures;
   const std::shared_ptr<Reserve> reserve = std::make_shared<Reserve>();
   Access access;
   SharedCache shared;
   Metrics metrics;
-  KnownTargets targets;
-  FixedTexts texts;
+  TargetCache targets;
+  StaticTexts texts;
   const Pages pages;
   std::atomic<std::int64_t> in_flight{0};
   std::atomic<std::uint64_t> answered{0};
@@ -101,10 +107,10 @@ struct Service {
 struct Call {
   Service& service;
   const http::Request& request;
-  std::string name;  ///< what stands in the place of the pattern's {…}
-  Grant grant;       ///< what it was let in with
+  std::string name;  ///< the segment that matches {...} in the pattern
+  Grant grant;       ///< the credential with which it was admitted
 
-  /// Target and query without the signature that the grant is of.
+  /// Target and query without the signature.
   std::string_view target() const { return std::string_view(request.target).substr(0, grant.target_size); }
   std::string_view query() const;
 };
@@ -112,34 +118,38 @@ struct Call {
 using Clock = std::chrono::steady_clock;
 Clock::time_point deadline_of(const Call& call);
 
-/// Waits for a worker and calls `work` with everything but seed and progress. A Problem where admission
-/// refuses; what the work itself refuses is its own business.
+/// Waits for a worker, then calls `work` with all options but the progress callback. Returns a Problem where no
+/// worker became free; errors of the work itself are handled by `work`.
 std::optional<Problem> with_worker(const Call& call, const std::stop_token& stop,
                                    const std::function<void(Job::Options)>& work);
 
-/// The model of a request, from the cache or made now.
-Cache::Answer model_of(const Call& call, const Known& known, const Job::Progress& progress);
+/// The model of a request, from a cache or generated now.
+Cache::Answer model_of(const Call& call, const TaggedRequest& wanted, const Job::Progress& progress);
 
-/// "glb" -> "glb", "png16" -> "png": the extension that a format has in URLs.
-std::string extension_of(std::string_view format);
+/// Waits until the memory of responses in flight is below its limit. False after two seconds or the deadline.
+bool wait_for_memory(const Call& call);
 
-/// An answer with a validator of its own: 304 where the client has it, gzip where it likes it.
+/// 503: too many responses are being sent to clients that read slowly.
+Problem too_much_in_flight(Service& service);
+
+/// A response with an ETag: 304 where the client has the text already, else the text in the best coding.
 http::Response json_answer(const Call& call, std::string text, std::string_view type = "application/json",
                            std::string_view cache_control = "no-cache");
 
-/// The same for a text that is fixed at `path`; `make` is called at most once.
-http::Response fixed_answer(const Call& call, const std::string& path, std::string_view type,
-                            const std::function<std::string()>& make);
+/// The same for the static text at `path`. Calls `make` at most once for each coding.
+http::Response static_answer(const Call& call, const std::string& path, std::string_view type,
+                             const std::function<std::string()>& make);
 
-/// 406: the client takes none of the codings there are.
+/// 406: the client accepts none of the codings.
 Problem not_acceptable();
 
+/// The response for an error. Counts it in the metrics.
 http::Response refuse(const Call& call, const Problem& problem);
 
-/// The same, counted by its reason.
+/// The response for a request that was not admitted. Counts it by its reason.
 http::Response deny(const Call& call, const Denial& denial);
 
-/// The refusal of a request that is not allowed here (Access::forbid); nothing where it is.
-std::optional<http::Response> forbidden(const Call& call, const Request& request);
+/// The response for a request that Access::forbid denies; nothing for an allowed request.
+std::optional<http::Response> check_allowed(const Call& call, const Request& request);
 
 }  // namespace seedmesh

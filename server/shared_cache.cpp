@@ -8,14 +8,15 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "server/http/text.h"
 #include "server/signature.h"
 
 namespace seedmesh {
 namespace {
 
 constexpr std::string_view magic = "seedmesh model 1\n";
-constexpr std::uint64_t most_waiting = 64U << 20U;
-constexpr std::chrono::milliseconds pause{1'000};  ///< after an attempt to connect that failed
+constexpr std::uint64_t most_queued = 64U << 20U;
+constexpr std::chrono::milliseconds pause{1'000};  ///< after a failed attempt to connect
 
 struct FreeReply {
   void operator()(redisReply* reply) const { freeReplyObject(reply); }
@@ -31,8 +32,8 @@ timeval time_of(double seconds) {
   return {static_cast<time_t>(whole), static_cast<suseconds_t>((seconds - whole) * 1e6)};
 }
 
-/// Header and hash of what follows: statistics, type and extension as JSON on one line, then the model.
-std::string header_of(const Made& made) {
+/// The first lines of the stored form: a magic line, then one line of JSON with statistics, type, size and hash.
+std::string header_of(const CachedModel& made) {
   const Statistics& statistics = made.product.statistics;
   XXH3_state_t* state = XXH3_createState();
   XXH3_64bits_reset(state);
@@ -51,7 +52,7 @@ std::string header_of(const Made& made) {
 
 }  // namespace
 
-std::string pack(const Made& made) { return header_of(made) + made.payload->text(); }
+std::string pack(const CachedModel& made) { return header_of(made) + made.payload->text(); }
 
 Cache::Entry unpack(std::shared_ptr<const void> owner, std::string_view bytes, const std::string& token) {
   if (bytes.substr(0, magic.size()) != magic) return nullptr;
@@ -64,7 +65,7 @@ Cache::Entry unpack(std::shared_ptr<const void> owner, std::string_view bytes, c
     if (header.at("bytes").get<std::uint64_t>() != bytes.size() ||
         header.at("hash").get<std::uint64_t>() != XXH3_64bits(bytes.data(), bytes.size()))
       return nullptr;
-    auto made = std::make_shared<Made>();
+    auto made = std::make_shared<CachedModel>();
     made->product.media_type = header.at("type");
     made->product.extension = header.at("extension");
     made->product.statistics.triangles = header.at("triangles");
@@ -76,7 +77,7 @@ Cache::Entry unpack(std::shared_ptr<const void> owner, std::string_view bytes, c
     made->token = token;
     made->shared = true;
     return made;
-  } catch (const nlohmann::json::exception&) {  // another header than ours
+  } catch (const nlohmann::json::exception&) {  // the header lacks a member
     return nullptr;
   }
 }
@@ -88,9 +89,9 @@ SharedCache::SharedCache(const Config& config, const Log& log)
       timeout_(config.redis_timeout),
       lifetime_(std::llround(config.redis_lifetime)),
       largest_(config.redis_value),
-      wanted_(static_cast<std::size_t>(config.threads) + 2),
+      pool_size_(static_cast<std::size_t>(config.threads) + 2),
       log_(log) {
-  if (address_) thread_ = std::thread([this] { look_after(); });
+  if (address_) thread_ = std::thread([this] { maintain(); });
 }
 
 SharedCache::~SharedCache() {
@@ -104,7 +105,7 @@ SharedCache::~SharedCache() {
 }
 
 std::string SharedCache::key_of(const std::string& canonical) const {
-  return "seedmesh:" + std::string(engine_version()) + ":" + hex(sha256(canonical));
+  return "seedmesh:" + std::string(engine_version()) + ":" + http::hex(sha256(canonical));
 }
 
 Cache::Entry SharedCache::get(const std::string& canonical, const std::string& token) {
@@ -118,7 +119,7 @@ Cache::Entry SharedCache::get(const std::string& canonical, const std::string& t
     count_error(connection->errstr);
     return nullptr;
   }
-  give_back(std::move(connection));
+  put_back(std::move(connection));
   Cache::Entry entry;
   if (reply->type == REDIS_REPLY_STRING) entry = unpack(reply, {reply->str, reply->len}, token);
   const std::lock_guard lock(mutex_);
@@ -132,11 +133,11 @@ void SharedCache::put(const std::string& canonical, const Cache::Entry& entry) {
   Write write{key_of(canonical), entry};
   {
     const std::lock_guard lock(mutex_);
-    if (failing_ || waiting_bytes_ + bytes > most_waiting) {
+    if (failing_ || queued_bytes_ + bytes > most_queued) {
       ++figures_.skips;
       return;
     }
-    waiting_bytes_ += bytes;
+    queued_bytes_ += bytes;
     writes_.push_back(std::move(write));
   }
   changed_.notify_all();
@@ -153,12 +154,12 @@ SharedCache::Connection SharedCache::take() {
   return connection;
 }
 
-void SharedCache::give_back(Connection connection) {
+void SharedCache::put_back(Connection connection) {
   const std::lock_guard lock(mutex_);
   ready_.push_back(std::move(connection));
 }
 
-/// A connection was lost. Those that are ready go with it, since they have most likely failed too.
+/// Counts a lost connection. Closes the connections that are ready, because they have most likely failed too.
 void SharedCache::count_error(const std::string& what) {
   bool first = false;
   {
@@ -170,7 +171,7 @@ void SharedCache::count_error(const std::string& what) {
   }
   changed_.notify_all();
   if (first)
-    log_.write(Log::Level::warn, "the shared cache fails",
+    log_.write(Log::Level::warn, "the shared cache does not respond",
                {{"address", shown_address(*address_)}, {"reason", what}});
 }
 
@@ -190,7 +191,7 @@ SharedCache::Connection SharedCache::connect() const {
     if (!succeeded(reply)) return nullptr;
   }
   if (a.database != 0 && !succeeded(as_reply(redisCommand(context, "SELECT %d", a.database)))) return nullptr;
-  // A Redis that hangs still takes connections.
+  // A Redis that hangs still accepts connections.
   if (!succeeded(as_reply(redisCommand(context, "PING")))) return nullptr;
   return connection;
 }
@@ -202,11 +203,11 @@ bool SharedCache::write(redisContext& connection, const Write& write) const {
                                          value.data(), value.size(), seconds.c_str())));
 }
 
-void SharedCache::look_after() {
+void SharedCache::maintain() {
   std::unique_lock lock(mutex_);
   Connection own;  // for writing
   while (!ending_) {
-    if (!own || open_ < wanted_) {
+    if (!own || open_ < pool_size_) {
       lock.unlock();
       Connection made = connect();
       lock.lock();
@@ -214,14 +215,14 @@ void SharedCache::look_after() {
         failing_ = true;
         own.reset();
         writes_.clear();
-        waiting_bytes_ = 0;
+        queued_bytes_ = 0;
         ++figures_.errors;
         changed_.wait_for(lock, pause, [this] { return ending_; });
         continue;
       }
       if (failing_ || (!own && open_ == 0)) {
         lock.unlock();
-        log_.write(Log::Level::info, "the shared cache answers", {{"address", shown_address(*address_)}});
+        log_.write(Log::Level::info, "the shared cache responds", {{"address", shown_address(*address_)}});
         lock.lock();
       }
       failing_ = false;
@@ -234,15 +235,15 @@ void SharedCache::look_after() {
       continue;
     }
     if (writes_.empty()) {
-      changed_.wait(lock, [this] { return ending_ || open_ < wanted_ || !writes_.empty(); });
+      changed_.wait(lock, [this] { return ending_ || open_ < pool_size_ || !writes_.empty(); });
       continue;
     }
     const Write next = std::move(writes_.front());
     writes_.pop_front();
-    waiting_bytes_ -= next.entry->payload->size();
+    queued_bytes_ -= next.entry->payload->size();
     lock.unlock();
     const bool written = write(*own, next);
-    const bool lost = own->err != 0;  // else it said no, as a Redis without memory does
+    const bool lost = own->err != 0;  // else Redis refused, for example without memory
     if (lost) own.reset();
     lock.lock();
     ++(written ? figures_.writes : figures_.errors);

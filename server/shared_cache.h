@@ -1,13 +1,12 @@
 #pragma once
-/// Models that replicas share through a Redis, so that what one has made no other makes again. The seam of
-/// hiredis.
+/// Models that replicas share through a Redis, so that each model is generated once. Uses hiredis.
 ///
-/// It is never a reason to fail or to wait: a thread of its own opens connections, looks after them and
-/// writes; a request takes a connection that is ready, for one bounded exchange, or goes on without. What is
-/// found is checked (form, lengths, a hash of all bytes); what does not hold counts as not found.
+/// The shared cache never makes a request fail or wait: a thread in the background opens connections and
+/// writes; a request takes a connection that is ready, for one command with a time limit, or continues without.
+/// A model that is found is verified (form, length, hash of all bytes); an invalid one counts as not found.
 ///
-/// Keys are "seedmesh:" + engine version + ":" + SHA-256 of the canonical request: whoever can write into the
-/// database can put models there, but no client of ours can make two requests that share a key.
+/// Keys are "seedmesh:" + engine version + ":" + SHA-256 of the canonical request. Anyone who can write into the
+/// database can replace models, but no client of the service can make two requests with the same key.
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -27,16 +26,16 @@ namespace seedmesh {
 
 class SharedCache {
  public:
-  /// Without an address in `config` it does nothing.
+  /// Does nothing where `config` has no address.
   SharedCache(const Config& config, const Log& log);
   ~SharedCache();
   SharedCache(const SharedCache&) = delete;
   SharedCache& operator=(const SharedCache&) = delete;
 
-  /// The model of a canonical request, or null. `token` becomes that of the entry.
+  /// The model of a canonical request, or null. The entry receives `token`.
   Cache::Entry get(const std::string& canonical, const std::string& token);
 
-  /// Hands the model to the thread that writes; drops it where too much waits already.
+  /// Queues a model to be written; drops it where the queue is full.
   void put(const std::string& canonical, const Cache::Entry& entry);
 
   struct Figures {
@@ -56,9 +55,9 @@ class SharedCache {
 
   std::string key_of(const std::string& canonical) const;
   Connection take();
-  void give_back(Connection connection);
+  void put_back(Connection connection);
   void count_error(const std::string& what);
-  void look_after();
+  void maintain();
   Connection connect() const;
   bool write(redisContext& connection, const Write& write) const;
 
@@ -66,7 +65,7 @@ class SharedCache {
   const double timeout_;
   const std::int64_t lifetime_;
   const std::uint64_t largest_;
-  const std::size_t wanted_;  ///< connections
+  const std::size_t pool_size_;  ///< connections for reading
   const Log& log_;
 
   mutable std::mutex mutex_;
@@ -74,15 +73,16 @@ class SharedCache {
   std::vector<Connection> ready_;
   std::size_t open_ = 0;  ///< ready and in use
   std::deque<Write> writes_;
-  std::uint64_t waiting_bytes_ = 0;
+  std::uint64_t queued_bytes_ = 0;
   Figures figures_;
-  bool failing_ = false;  ///< since the last exchange, so that the log tells once
+  bool failing_ = false;  ///< since the last command, so that the log reports it once
   bool ending_ = false;
   std::thread thread_;
 };
 
-/// A model as the bytes that are kept, and back; null where they are not what pack() made.
-std::string pack(const Made& made);
+/// The stored form of a model, and its inverse. unpack() returns null for bytes that are not from pack(); `owner`
+/// keeps the bytes alive.
+std::string pack(const CachedModel& made);
 Cache::Entry unpack(std::shared_ptr<const void> owner, std::string_view bytes, const std::string& token);
 
 }  // namespace seedmesh

@@ -10,13 +10,14 @@
 #include <stdexcept>
 
 #include "server/base64url.h"
+#include "server/http/text.h"
 
 namespace seedmesh {
 namespace {
 
 constexpr std::size_t digest_size = 32;
 
-/// The last parameter of `text` where it is called `name`: its value, taken off together with its separator.
+/// Removes the last query parameter from `text` if it is called `name`, and returns its value.
 std::optional<std::string_view> take_last(std::string_view& text, std::string_view name) {
   const auto separator = text.find_last_of("?&");
   if (separator == std::string_view::npos) return std::nullopt;
@@ -27,11 +28,9 @@ std::optional<std::string_view> take_last(std::string_view& text, std::string_vi
   return last.substr(name.size() + 1);
 }
 
-std::optional<std::int64_t> seconds_of(std::string_view text) {
-  std::int64_t value = 0;
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (fault != std::errc() || end != text.data() + text.size() || value < 0) return std::nullopt;
-  return value;
+std::optional<std::int64_t> parse_seconds(std::string_view text) {
+  const auto value = http::parse_number<std::int64_t>(text);
+  return value && *value >= 0 ? value : std::nullopt;
 }
 
 }  // namespace
@@ -49,7 +48,7 @@ SignatureCheck check_signature(std::string_view target, const std::vector<Signin
   const auto given = from_base64url(*signature);
   if (!id || !given || given->size() != digest_size) return check;
   const auto expires = take_last(rest, "expires");
-  if (expires && !(check.expires = seconds_of(*expires))) return check;
+  if (expires && !(check.expires = parse_seconds(*expires))) return check;
   check.target_size = rest.size();
   bool genuine = false;
   for (const SigningKey& key : keys) {
@@ -62,16 +61,12 @@ SignatureCheck check_signature(std::string_view target, const std::vector<Signin
 
 std::string sign_target(std::string_view target, const SigningKey& key, std::optional<std::int64_t> expires) {
   std::string text(target);
-  const auto add = [&](const char* name, const std::string& value) {
-    text += text.find('?') == std::string::npos ? '?' : '&';
-    text += name;
-    text += '=';
-    text += value;
+  const auto add = [&](const std::string& name, const std::string& value) {
+    text += (text.find('?') == std::string::npos ? "?" : "&") + name + "=" + value;
   };
   if (expires) add("expires", std::to_string(*expires));
   add("key", key.id);
-  const std::string signature = base64url(hmac_sha256(key.secret, text));
-  add("signature", signature);
+  add("signature", base64url(hmac_sha256(key.secret, text)));
   return text;
 }
 
@@ -100,20 +95,8 @@ bool same_in_constant_time(std::string_view a, std::string_view b) {
 std::string secret_bytes(std::size_t count) {
   std::string bytes(count, '\0');
   if (RAND_bytes(reinterpret_cast<unsigned char*>(bytes.data()), static_cast<int>(count)) != 1)
-    throw std::runtime_error("the system gives no random bytes");
+    throw std::runtime_error("the system provides no random bytes");
   return bytes;
-}
-
-std::string hex(std::string_view bytes) {
-  static constexpr char digits[] = "0123456789abcdef";
-  std::string text;
-  text.reserve(2 * bytes.size());
-  for (const char c : bytes) {
-    const auto byte = static_cast<unsigned char>(c);
-    text.push_back(digits[byte >> 4U]);
-    text.push_back(digits[byte & 15U]);
-  }
-  return text;
 }
 
 std::optional<std::string> from_hex(std::string_view text) {
@@ -122,8 +105,8 @@ std::optional<std::string> from_hex(std::string_view text) {
   bytes.reserve(text.size() / 2);
   for (std::size_t i = 0; i < text.size(); i += 2) {
     unsigned value = 0;
-    const auto [end, fault] = std::from_chars(text.data() + i, text.data() + i + 2, value, 16);
-    if (fault != std::errc() || end != text.data() + i + 2) return std::nullopt;
+    const auto [end, error] = std::from_chars(text.data() + i, text.data() + i + 2, value, 16);
+    if (error != std::errc() || end != text.data() + i + 2) return std::nullopt;
     bytes.push_back(static_cast<char>(value));
   }
   return bytes;

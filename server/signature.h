@@ -1,12 +1,12 @@
 #pragma once
-/// Signed URLs: who holds a key of the service can hand out single models, for a time, to those who hold
-/// none. The seam of OpenSSL's libcrypto.
+/// Signed URLs: the holder of a signing key can give single models, for a limited time, to clients without a
+/// key. Uses OpenSSL's libcrypto.
 ///
-/// A signature covers the whole raw target, query included, and stands at its end:
+/// A signature covers the whole undecoded target with its query and stands at its end:
 ///   /v1/models/<token>.glb?expires=1798761600&key=2026a&signature=<base64url of HMAC-SHA256>
-/// signs the text before "&signature=". `expires` (seconds since 1970) may be absent. Several keys hold at
-/// once: the first signs, all verify, so that a key can be exchanged while links of the old one are still
-/// around.
+/// The signed text is everything before "&signature=". `expires` (seconds since 1970) is optional. Several keys
+/// are valid at the same time: the first signs and all verify, so that a key can be replaced while its links
+/// are still in use.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,28 +24,27 @@ enum class SignatureState { absent, good, wrong, expired };
 
 struct SignatureCheck {
   SignatureState state = SignatureState::absent;
-  std::size_t target_size = 0;          ///< characters of the target before what the signature added to it
-  std::optional<std::int64_t> expires;  ///< of a good or expired one
+  std::size_t target_size = 0;          ///< characters of the target without expires, key and signature
+  std::optional<std::int64_t> expires;  ///< of a good or expired signature
 };
 
-/// Verifies in constant time. An expired signature counts as one only where it is genuine.
+/// Verifies a signature in constant time. `expired` is reported only for a genuine signature.
 SignatureCheck check_signature(std::string_view target, const std::vector<SigningKey>& keys,
                                std::int64_t now);
 
-/// The target with its signature.
+/// Appends a signature to the target.
 std::string sign_target(std::string_view target, const SigningKey& key, std::optional<std::int64_t> expires);
 
-/// 32 bytes.
+/// Digests of 32 bytes.
 std::string sha256(std::string_view bytes);
 std::string hmac_sha256(std::string_view secret, std::string_view bytes);
 
-/// Takes as long wherever the two differ. Only lengths may be told apart by time.
+/// Compares in a time that depends on the lengths alone.
 bool same_in_constant_time(std::string_view a, std::string_view b);
 
-/// Bytes that nobody can guess; for new keys.
+/// Random bytes from the system, for new keys.
 std::string secret_bytes(std::size_t count);
 
-std::string hex(std::string_view bytes);
 std::optional<std::string> from_hex(std::string_view text);
 
 }  // namespace seedmesh

@@ -1,5 +1,5 @@
 #pragma once
-/// W3C Trace Context: what ties the lines of our log to the trace of whoever asked.
+/// W3C Trace Context: connects log lines with the trace of the client.
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,16 +8,16 @@ namespace seedmesh {
 
 struct Trace {
   std::string trace_id;   ///< 32 hexadecimal digits
-  std::string parent_id;  ///< the caller's span, 16 digits
-  std::string span_id;    ///< ours
-  std::string flags;      ///< two digits, as the caller sent them
+  std::string parent_id;  ///< the client's span, 16 digits
+  std::string span_id;    ///< our own span, 16 digits
+  std::string flags;      ///< two digits, as the client sent them
 };
 
-/// Reads a `traceparent` field and draws a span of our own. Nothing where the field is absent or malformed:
-/// such a one is to be overlooked.
+/// Parses a `traceparent` field and creates a span of our own. Returns nothing where the field is absent or
+/// malformed, because the standard asks to ignore such a field.
 std::optional<Trace> read_traceparent(std::string_view field);
 
-/// The field as our span would send it on; the answer carries it, so that the caller can name our span.
+/// The field with our span. The response carries it, so that the client can refer to the span.
 std::string traceparent(const Trace& trace);
 
 }  // namespace seedmesh

@@ -9,12 +9,12 @@ namespace {
 
 using Words = std::set<std::string>;
 
-const Words annotations = {"$schema",    "title",      "description", "default",         "examples",
-                           "x-unit",     "x-group",    "x-step",      "x-order",         "x-short",
-                           "x-advanced", "x-cpp-name", "x-grammar",   "x-widget",        "x-steps",
-                           "x-params",   "x-formats",  "x-full",      "x-formats-where", "x-motions"};
+const Words annotations = {
+    "$schema", "title",    "description", "default",    "examples",        "x-unit",    "x-group",
+    "x-step",  "x-order",  "x-short",     "x-advanced", "x-cpp-name",      "x-grammar", "x-widget",
+    "x-steps", "x-params", "x-formats",   "x-full",     "x-formats-where", "x-motions", "x-applies-when"};
 
-/// The keywords that mean something for each type of value, annotations aside.
+/// The keywords that each type of value allows, without annotations.
 Words keywords_for(const std::string& type) {
   if (type == "object") {
     return {"type",          "properties",    "required",     "additionalProperties",
@@ -43,7 +43,8 @@ void check_keywords(const Schema& schema, const Words& known, const std::string&
 void check_text(const Schema& schema, const std::string& where) {
   if (schema.contains("pattern")) {
     const auto pattern = schema["pattern"].get<std::string>();
-    if (!seedmesh::schema::find_form(pattern)) refuse(where, "no form for the pattern " + pattern);
+    if (!seedmesh::schema::find_form(pattern))
+      refuse(where, "the pattern " + pattern + " is none of core/schema/forms.h");
   }
   const Words grammars = {"production", "axiom", "expression", "cga"};
   if (schema.contains("x-grammar") && !grammars.contains(schema["x-grammar"].get<std::string>())) {
@@ -52,48 +53,50 @@ void check_text(const Schema& schema, const std::string& where) {
   if (!schema.contains("enum")) return;
   for (const Schema& word : schema["enum"]) {
     if (!word.is_string() || !is_identifier(word.get<std::string>()))
-      refuse(where, "an enum is of plain words");
+      refuse(where, "the words of an enum have to be identifiers");
   }
 }
 
 void check_number(const Schema& schema, const std::string& where) {
   if (schema["type"] != "integer") return;
   for (const char* key : {"minimum", "maximum"}) {
-    if (!schema.contains(key)) refuse(where, std::string("an integer has a ") + key);
+    if (!schema.contains(key)) refuse(where, std::string("an integer needs a ") + key);
   }
 }
 
 void check_object(const Schema& schema, const std::string& where) {
-  if (!schema.contains("additionalProperties")) refuse(where, "an object says additionalProperties");
+  if (!schema.contains("additionalProperties")) refuse(where, "an object needs additionalProperties");
   const Schema& others = schema["additionalProperties"];
   const bool structure = others == false;
   if (structure != schema.contains("properties"))
-    refuse(where, "properties go with additionalProperties: false");
+    refuse(where, "properties need additionalProperties: false, and the reverse");
   if (others.is_object()) check(others, where + "/additionalProperties");
   if (schema.contains("propertyNames")) {
     const Schema& names = schema["propertyNames"];
-    if (names.size() != 1 || !names.contains("pattern")) refuse(where, "propertyNames is a pattern");
+    if (names.size() != 1 || !names.contains("pattern")) refuse(where, "propertyNames has to be a pattern");
     if (!seedmesh::schema::find_form(names["pattern"].get<std::string>()))
-      refuse(where, "no form for its pattern");
+      refuse(where, "the pattern of propertyNames is none of core/schema/forms.h");
   }
   if (!structure) return;
   for (const auto& [name, property] : schema["properties"].items()) {
     const std::string there = where + "/properties/" + name;
-    if (!is_identifier(property.value("x-cpp-name", name))) refuse(there, "no C++ name: give x-cpp-name");
+    if (!is_identifier(property.value("x-cpp-name", name)))
+      refuse(there, "the name is no C++ identifier; add x-cpp-name");
     for (const char* key : {"title", "description"}) {
-      if (property.value(key, "").empty()) refuse(there, std::string("a parameter has a ") + key);
+      if (property.value(key, "").empty()) refuse(there, std::string("a parameter needs a ") + key);
     }
     check(property, there);
   }
   for (const Schema& name : schema.value("required", Schema::array())) {
     const auto word = name.get<std::string>();
-    if (!schema["properties"].contains(word)) refuse(where, "requires " + word + ", which it does not have");
+    if (!schema["properties"].contains(word))
+      refuse(where, "the required property " + word + " does not exist");
     if (schema["properties"][word].contains("default"))
       refuse(where, word + " is required and has a default");
   }
 }
 
-/// The JSON type that tells an alternative apart; integer and number are one.
+/// The JSON type by which alternatives are distinguished; integer and number are the same.
 std::string json_type(const Schema& schema) {
   const std::string type = schema.value("type", "");
   return type == "integer" ? "number" : type;
@@ -106,21 +109,23 @@ void check_alternatives(const Schema& schema, const std::string& where) {
     const Schema& alternative = schema["oneOf"][i];
     check(alternative, where + "/oneOf/" + std::to_string(i));
     if (!types.insert(json_type(alternative)).second)
-      refuse(where, "alternatives are told apart by their JSON type");
+      refuse(where, "two alternatives have the same JSON type");
   }
   if (!schema.contains("x-short")) return;
-  if (types != Words{"number", "object"}) refuse(where, "x-short goes with a number and an object");
+  if (types != Words{"number", "object"})
+    refuse(where, "x-short needs a number and an object as alternatives");
   const Schema& object = schema["oneOf"][0]["type"] == "object" ? schema["oneOf"][0] : schema["oneOf"][1];
   for (const Schema& name : schema["x-short"]) {
     const auto word = name.get<std::string>();
-    if (!object["properties"].contains(word)) refuse(where, "x-short names " + word + ", which is no member");
+    if (!object["properties"].contains(word))
+      refuse(where, "x-short names " + word + ", which is not a member");
     if (object["properties"][word].value("default", Schema()) != schema.value("default", Schema(nullptr))) {
       refuse(where, "the default differs from that of " + word);
     }
   }
 }
 
-/// Is the default one that the schema itself takes, as far as its range goes?
+/// Checks the type of the default, its range and its word.
 void check_default(const Schema& schema, const std::string& where) {
   const Schema& value = schema["default"];
   const std::string type = schema.value("type", "");
@@ -128,7 +133,7 @@ void check_default(const Schema& schema, const std::string& where) {
       type.empty() || (type == "object" && value.is_object()) || (type == "array" && value.is_array()) ||
       (type == "string" && value.is_string()) || (type == "number" && value.is_number()) ||
       (type == "integer" && value.is_number_integer()) || (type == "boolean" && value.is_boolean());
-  if (!fits) refuse(where, "the default is no " + type);
+  if (!fits) refuse(where, "the default is not of the type " + type);
   if (schema.contains("minimum") && value < schema["minimum"])
     refuse(where, "the default is below the minimum");
   if (schema.contains("maximum") && value > schema["maximum"])
@@ -141,18 +146,18 @@ void check_default(const Schema& schema, const std::string& where) {
 }  // namespace
 
 void check(const Schema& schema, const std::string& where) {
-  if (!schema.is_object()) refuse(where, "a schema is an object");
+  if (!schema.is_object()) refuse(where, "a schema has to be an object");
   if (schema.contains("default")) check_default(schema, where);
   if (schema.contains("oneOf")) return check_alternatives(schema, where);
   const std::string type = schema.value("type", "");
   const Words known = keywords_for(type);
-  if (known.empty()) refuse(where, "a schema has a type or oneOf");
+  if (known.empty()) refuse(where, "a schema needs a type or oneOf");
   check_keywords(schema, known, where);
   if (type == "object") check_object(schema, where);
   if (type == "string") check_text(schema, where);
   if (type == "number" || type == "integer") check_number(schema, where);
   if (type == "array") {
-    if (!schema.contains("items")) refuse(where, "a list says what its items are");
+    if (!schema.contains("items")) refuse(where, "a list needs items");
     check(schema["items"], where + "/items");
   }
 }

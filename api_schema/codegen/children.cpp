@@ -1,4 +1,4 @@
-/// Where requests stand inside parameters: the walk that generated code makes over them.
+/// The generated function children_of(), which finds all requests inside parameters.
 #include "api_schema/codegen/emit.h"
 #include "core/schema/json.h"
 
@@ -7,7 +7,7 @@ namespace {
 
 bool is_child(const Schema& schema) { return schema.value("x-widget", "") == "request"; }
 
-/// Is there a request anywhere in what the schema describes?
+/// Whether values of the schema can contain a request.
 bool holds_child(const Schema& node) {
   if (node.is_object() && is_child(node)) return true;
   if (!node.is_structured()) return false;
@@ -19,7 +19,8 @@ bool holds_child(const Schema& node) {
 
 std::string indented(int depth) { return std::string(static_cast<std::size_t>(depth) * 2, ' '); }
 
-/// A value on the walk, in C++: how it is reached, and its pointer, an expression that begins with a literal.
+/// A value that the generated code visits: the C++ expressions of the value and of its pointer. The latter begins
+/// with a string literal.
 struct Step {
   std::string value;
   std::string pointer;
@@ -91,7 +92,7 @@ std::string walk_variant(const Type& type, const Step& at) {
 std::string walk(const Type& type, const Step& at) {
   switch (type.kind) {
     case Kind::child:
-      return indented(at.depth) + "places.push_back({" + at.pointer + ", &" + at.value + "});\n";
+      return indented(at.depth) + "locations.push_back({" + at.pointer + ", &" + at.value + "});\n";
     case Kind::structure:
     case Kind::shorthand:
       return walk_members(type, at);
@@ -101,8 +102,8 @@ std::string walk(const Type& type, const Step& at) {
     case Kind::variant:
       return walk_variant(type, at);
     case Kind::params:
-      return indented(at.depth) + "for (ChildPlace& inner : children_of(" + at.value +
-             ")) places.push_back({" + at.pointer + " + inner.pointer, inner.child});\n";
+      return indented(at.depth) + "for (ChildLocation& inner : children_of(" + at.value +
+             ")) locations.push_back({" + at.pointer + " + inner.pointer, inner.child});\n";
     default:
       return "";
   }
@@ -114,9 +115,9 @@ bool has_children(const Unit& unit) { return holds_child(unit.root.schema); }
 
 std::string emit_children(const Unit& unit) {
   if (!has_children(unit)) return "";
-  return "std::vector<ChildPlace> children_of(" + unit.root.cpp +
-         "& params) {\n  std::vector<ChildPlace> places;\n" + walk(unit.root, {"params", "\"\"", 1}) +
-         "  return places;\n}\n\n";
+  return "std::vector<ChildLocation> children_of(" + unit.root.cpp +
+         "& params) {\n  std::vector<ChildLocation> locations;\n" + walk(unit.root, {"params", "\"\"", 1}) +
+         "  return locations;\n}\n\n";
 }
 
 }  // namespace codegen

@@ -26,7 +26,7 @@ std::string schema_name(const fs::path& path) {
   return file.substr(0, file.size() - std::string(schema_ending).size());
 }
 
-/// The schemas that are served: all but the pieces, which are resolved into the others.
+/// The schemas that the service answers: all but common.schema.json, which is resolved into the others.
 std::vector<fs::path> served_schemas(const fs::path& folder) {
   std::vector<fs::path> files = files_in(folder, schema_ending);
   std::erase_if(files, [](const fs::path& file) { return schema_name(file) == "common"; });
@@ -41,15 +41,15 @@ void check_preset(const Schema& preset, const std::string& name, const std::stri
                   const fs::path& file) {
   const auto refuse = [&](const std::string& what) { throw SchemaError(file.string() + ": " + what); };
   if (!seedmesh::schema::forms::preset_name.accepts(name))
-    refuse("a preset's name is of small letters, digits, - and _");
+    refuse("the name of a preset has to consist of lower-case letters, digits, - and _");
   for (const char* key : {"title", "description", "generator"}) {
     if (!preset.contains(key) || !preset[key].is_string())
-      refuse(std::string("a preset has the text ") + key);
+      refuse(std::string("a preset needs the text ") + key);
   }
-  if (preset["generator"] != generator) refuse("its generator is not the name of its folder");
-  if (!preset.contains("parameters")) refuse("a preset has parameters");
+  if (preset["generator"] != generator) refuse("the generator differs from the name of the folder");
+  if (!preset.contains("parameters")) refuse("a preset needs parameters");
   if (!preset.contains("tags") || !preset["tags"].is_array())
-    refuse("a preset has a list of tags, which may be empty");
+    refuse("a preset needs a list of tags, which may be empty");
 }
 
 std::string preset_rows(const fs::path& folder) {
@@ -66,7 +66,7 @@ std::string preset_rows(const fs::path& folder) {
       const Schema preset = load_json(file);
       check_preset(preset, name, each.filename().string(), file);
       if (!rows.emplace(name, row(name, preset.dump())).second)
-        throw SchemaError(file.string() + ": the name is taken");
+        throw SchemaError(file.string() + ": another preset has the same name");
     }
   }
   std::string text;
@@ -74,7 +74,7 @@ std::string preset_rows(const fs::path& folder) {
   return text;
 }
 
-/// A table by the name `name`; without rows it still has a first element, which the span leaves out.
+/// The table `name`. A last, empty element keeps the array valid without rows; the span excludes it.
 std::string table(const std::string& name, const std::string& rows) {
   return "constexpr EmbeddedText " + name + "_rows[] = {\n" + rows + "    {\"\", \"\"},\n};\n\n";
 }
@@ -84,8 +84,7 @@ std::string accessor(const std::string& name) {
          "_rows).first(std::size(" + name + "_rows) - 1);\n}\n\n";
 }
 
-/// Turns {"$ref": "lsystem.schema.json"} into a reference to a component and remembers which schemas are
-/// needed.
+/// Turns {"$ref": "lsystem.schema.json"} into a reference to a component.
 void link_components(Schema& node) {
   if (node.is_object() && node.contains("$ref")) {
     const auto reference = node["$ref"].get<std::string>();
@@ -105,7 +104,7 @@ Schema openapi_with_components(const fs::path& folder) {
     schema.erase("$schema");
     document["components"]["schemas"][schema_name(file)] = std::move(schema);
   }
-  // The request's own schema leaves the parameters open; the document names those of each generator.
+  // The schema of a request allows any parameters; the document names those of each generator.
   Schema& schemas = document["components"]["schemas"];
   schemas["request"]["properties"]["parameters"] = {{"$ref", "#/components/schemas/parameters"}};
   schemas["request"]["properties"]["output"] = {{"$ref", "#/components/schemas/output"}};

@@ -1,5 +1,5 @@
 #pragma once
-/// What is made from a schema. Each gives the text of one file.
+/// The texts that are generated from a schema, one function for each file.
 #include <filesystem>
 #include <string>
 
@@ -12,29 +12,33 @@ std::string emit_header(
 std::string emit_source(const Unit& unit);     ///< generated/params/<name>.cpp
 std::string emit_reference(const Unit& unit);  ///< docs/reference/<name>.md
 
-/// Do the parameters hold requests (x-widget: request)? Then the body of children_of(params), else "".
+/// Whether the parameters can contain requests (x-widget: request), and the function children_of(params) or "".
 bool has_children(const Unit& unit);
 std::string emit_children(const Unit& unit);
 
-/// generated/embedded.cpp: the bodies of core/schema/embedded.h. `folder` is api_schema.
+/// generated/params/<name>_unused.h, which declares unused_parameters(params), and the body of the function.
+std::string emit_unused_header(const Unit& unit);
+std::string emit_unused(const Unit& unit);
+
+/// generated/embedded.cpp, which implements core/schema/embedded.h. `folder` is api_schema.
 std::string emit_embedded(const std::filesystem::path& folder);
 
-/// openapi.json with every "<name>.schema.json" reference turned to a component that holds the schema.
+/// openapi.json with each reference to "<name>.schema.json" replaced by a component with that schema.
 Schema openapi_with_components(const std::filesystem::path& folder);
 
 /// A C++ string literal of any length, broken into lines.
 std::string quoted(const std::string& text);
 
-/// The C++ expression of a default of this type, "" where the type's own is meant.
+/// The C++ expression of a default of this type; "" for the default of the C++ type.
 std::string initializer(const Type& type, const Schema& value);
 
-/// "a number from 0 to 1", as docs and comments say it; "" where nothing is to be said.
+/// "a number from 0 to 1", for docs and comments; "" for an unlimited value.
 std::string range_text(const Schema& schema);
 
 /// Breaks a paragraph into lines that begin with `lead`.
 std::string wrapped(const std::string& text, const std::string& lead);
 
-/// What C++ calls a word of a choice: the word, with an underscore where the language has taken it ("auto_").
+/// The enumerator for a word of a choice: the word, with an underscore if it is a C++ keyword ("auto_").
 std::string enumerator(const std::string& word);
 
 /// The name of a choice's words: "lsystem_style_words".

@@ -5,7 +5,7 @@
 namespace codegen {
 namespace {
 
-/// What a number means, for the comment: "Range 0 to 1, m."
+/// Range and unit of a number, for a comment: " [0 to 1, m]".
 std::string facts(const Schema& schema) {
   const std::string range = range_text(schema);
   const std::string unit = schema.value("x-unit", "");
@@ -82,7 +82,7 @@ void add_includes(const Type& type, std::set<std::string>& standard, std::set<st
 
 std::string emit_header(const Unit& unit) {
   std::set<std::string> standard = {"string_view"};
-  std::set<std::string> own = {"core/schema/faults.h", "core/schema/json.h"};
+  std::set<std::string> own = {"core/schema/issue_list.h", "core/schema/json.h"};
   add_includes(unit.root, standard, own);
   if (has_children(unit)) standard.insert("vector");
 
@@ -97,17 +97,18 @@ std::string emit_header(const Unit& unit) {
   }
   const std::string& params = unit.root.cpp;
   text +=
-      "/// Reads and checks `json`, which stands at `pointer` of the request. Adds every fault; what is "
-      "refused or left out\n"
-      "/// keeps its default.\n";
-  text += params + " read_" + unit.name + "(const Json& json, std::string_view pointer, Faults& faults);\n\n";
+      "/// Reads and checks `json`, the value at `pointer` of the request. Adds every error; a member with "
+      "an\n"
+      "/// error, or without a value, keeps its default.\n";
   text +=
-      "/// The canonical form: defaults left out, one form for equal meaning. Reading it gives equal "
+      params + " read_" + unit.name + "(const Json& json, std::string_view pointer, IssueList& issues);\n\n";
+  text +=
+      "/// The canonical form, without defaults. Equal params give equal JSON, and reading it gives equal "
       "params.\n";
   text += "Json write_" + unit.name + "(const " + params + "& params);\n\n";
   if (has_children(unit)) {
-    text += "/// The requests inside, each with its pointer, in the order of the schema.\n";
-    text += "std::vector<ChildPlace> children_of(" + params + "& params);\n\n";
+    text += "/// The inner requests, each with its pointer, in the order of the schema.\n";
+    text += "std::vector<ChildLocation> children_of(" + params + "& params);\n\n";
   }
   return text + "}  // namespace seedmesh\n";
 }

@@ -1,10 +1,10 @@
-/// Makes C++, docs and embedded texts from api_schema at build time:
+/// Generates C++, docs and embedded texts from api_schema at build time:
 ///
-///   seedmesh_codegen params <name>.schema.json <folder>      <folder>/<name>.h and .cpp
+///   seedmesh_codegen params <name>.schema.json <folder>      <folder>/<name>.h, _unused.h and .cpp
 ///   seedmesh_codegen reference <name>.schema.json <folder>   <folder>/<name>.md
 ///   seedmesh_codegen embed <api_schema> <folder>             <folder>/embedded.cpp and openapi.json
 ///
-/// Exit status 0, 1 (a schema is not in order; the message says where) or 2 (usage).
+/// Exit status: 0, 1 for an error in a schema (the message names its position), 2 for wrong arguments.
 #include <fstream>
 #include <iostream>
 #include <span>
@@ -28,6 +28,7 @@ void run(const std::string& task, const fs::path& source, const fs::path& folder
   if (task == "params") {
     const codegen::Unit unit = codegen::load_unit(source);
     write_file(folder / (unit.name + ".h"), codegen::emit_header(unit));
+    write_file(folder / (unit.name + "_unused.h"), codegen::emit_unused_header(unit));
     write_file(folder / (unit.name + ".cpp"), codegen::emit_source(unit));
   } else if (task == "reference") {
     const codegen::Unit unit = codegen::load_unit(source);
@@ -50,8 +51,8 @@ int main(int count, char** words) {
   }
   try {
     run(arguments[1], arguments[2], arguments[3]);
-  } catch (const std::exception& fault) {
-    std::cerr << fault.what() << "\n";
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
     return 1;
   }
   return 0;

@@ -61,10 +61,12 @@ std::string facts(const Member& member) {
   if (schema.contains("x-unit")) text += ", in " + schema["x-unit"].get<std::string>();
   if (member.required) text += "; **required**";
   if (schema.contains("default")) text += "; default " + code(schema["default"].dump());
+  for (std::size_t i = 0; i < member.applies_when.size(); ++i)
+    text += (i == 0 ? "; used if " : ", and if ") + member.applies_when[i].words;
   return text;
 }
 
-/// The structure inside a type that has members of its own to tell of, or null.
+/// The structure inside a type whose members are documented too, or null.
 const Type* inner(const Type& type) {
   if (type.kind == Kind::shorthand) return &type.parts[1];
   if (type.kind == Kind::structure) return &type;

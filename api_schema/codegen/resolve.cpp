@@ -5,7 +5,7 @@
 namespace codegen {
 namespace {
 
-constexpr int deepest = 64;  ///< references in references: more is a cycle
+constexpr int deepest = 64;  ///< nested references; more are a cycle
 
 bool is_annotation(const std::string& key) {
   return key == "title" || key == "description" || key == "default" || key == "examples" ||
@@ -14,7 +14,7 @@ bool is_annotation(const std::string& key) {
 
 Schema resolved(const Schema& node, const std::filesystem::path& file, Marks marks, int depth);
 
-/// Where a reference leads: its file and the node in it.
+/// The target of a reference: a file and a node in it.
 struct Target {
   std::filesystem::path file;
   std::string pointer;
@@ -27,21 +27,22 @@ Target target_of(const std::string& reference, const std::filesystem::path& file
           hash == std::string::npos ? "" : reference.substr(hash + 1)};
 }
 
-/// The node referred to, with the annotations beside the $ref put over its own. Draft 7 overlooks other
-/// keywords beside $ref and 2020-12 does not, so there may be none.
+/// The node that a $ref names. Annotations beside the $ref replace those of the node. Draft 7 ignores other keywords
+/// beside a $ref and 2020-12 does not, so that they are errors here.
 Schema follow(const Schema& node, const std::filesystem::path& file, Marks marks, int depth) {
   const auto reference = node.at("$ref").get<std::string>();
-  if (depth == deepest) throw SchemaError(file.string() + ": $ref " + reference + " leads in a circle");
+  if (depth == deepest) throw SchemaError(file.string() + ": $ref " + reference + " is part of a cycle");
   const Target target = target_of(reference, file);
   const Schema whole = load_json(target.file);
   const Schema::json_pointer pointer(target.pointer);
-  if (!whole.contains(pointer)) throw SchemaError(file.string() + ": $ref " + reference + " leads nowhere");
+  if (!whole.contains(pointer))
+    throw SchemaError(file.string() + ": $ref " + reference + " names nothing that exists");
   Schema result = resolved(whole.at(pointer), target.file, marks, depth + 1);
   result.erase("$schema");
   for (const auto& [key, value] : node.items()) {
     if (key == "$ref") continue;
     if (!is_annotation(key)) throw SchemaError(file.string() + ": " + key + " beside $ref " + reference);
-    result[key] = value;
+    result[key] = resolved(value, file, marks, depth);
   }
   if (marks == Marks::keep && target.pointer.empty()) {
     result["x-params"] = target.file.filename().string().substr(0, target.file.filename().string().find('.'));
@@ -70,8 +71,8 @@ Schema load_json(const std::filesystem::path& path) {
   if (!file) throw SchemaError(path.string() + ": cannot be read");
   try {
     return Schema::parse(file);
-  } catch (const Schema::exception& fault) {
-    throw SchemaError(path.string() + ": " + fault.what());
+  } catch (const Schema::exception& error) {
+    throw SchemaError(path.string() + ": " + error.what());
   }
 }
 

@@ -1,7 +1,6 @@
 #pragma once
-/// A JSON Schema of api_schema/ read into what the emitters need: C++ types with their rules. The subset is
-/// what Draft 7 and 2020-12 share and mean alike; every keyword outside it is refused, so that nothing in a
-/// schema is ever ignored.
+/// Reads a JSON Schema of api_schema/ into C++ types with their rules, for the emitters. The supported keywords
+/// mean the same in Draft 7 and in 2020-12. Every other keyword is an error, so that nothing in a schema is ignored.
 ///
 ///   type, properties, required, additionalProperties (false; or one schema: a map; or true: an object that
 ///   others read), propertyNames {pattern}, items, minItems, maxItems, maxProperties, minimum, maximum,
@@ -9,9 +8,10 @@
 ///   (alternatives of different JSON types), $ref (a file, or file#/$defs/name; beside it only annotations),
 ///   $defs, $schema, title, description, default, examples
 ///
-/// Annotations of our own: x-unit, x-group, x-step, x-order, x-advanced, x-grammar, x-cpp-name, x-widget,
-/// x-steps, x-full: the member beside it that stands for a number that is left out, and x-short: beside a
-/// oneOf of number and object, the members that the number stands for.
+/// Annotations of our own: x-unit, x-group, x-step, x-steps, x-order, x-advanced, x-grammar, x-cpp-name, x-widget;
+/// x-applies-when: the condition under which the parameter has an effect (docs/add-a-generator.md); x-full: the
+/// member that replaces an omitted number; x-short: beside a oneOf of number and object, the members that the
+/// number sets.
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -21,10 +21,10 @@
 
 namespace codegen {
 
-/// Keeps members in the order of the file: it is the order of the struct, the form and the docs.
+/// Keeps members in the order of the file, which is the order of the struct, the form and the docs.
 using Schema = nlohmann::ordered_json;
 
-/// A fault in a schema; the text names the file and the place.
+/// An error in a schema. The text names the file and the position in it.
 class SchemaError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -44,18 +44,25 @@ enum class Kind {
   shorthand,  ///< a structure that may also be written as one number (x-short)
   variant,    ///< std::variant of the alternatives
   child,      ///< Child: a request inside the request; an object with x-widget "request"
-  free,       ///< an object left to others: no member
+  free,       ///< an object that other code reads: no member
 };
 
 struct Member;
 
 struct Type {
   Kind kind = Kind::free;
-  std::string cpp;          ///< how C++ spells it
+  std::string cpp;          ///< the C++ type
   std::string json_name;    ///< for Kind::params: the other schema's name
   Schema schema;            ///< keywords and annotations, references resolved
   std::vector<Type> parts;  ///< list, map: the entry; variant: the alternatives; shorthand: number, structure
   std::vector<Member> members;  ///< structure and shorthand
+};
+
+/// A part of x-applies-when.
+struct Clause {
+  std::string holds;   ///< an expression of C++ over `root`, the parameters, and `value`, the structure
+  std::string words;   ///< "`leaf.build` is not none"
+  std::string reason;  ///< why a parameter has no effect: "if `leaf.build` is none", "unless `age` is given"
 };
 
 struct Member {
@@ -64,10 +71,11 @@ struct Member {
   bool required = false;
   bool optional = false;  ///< neither required nor with a default: std::optional
   Type type;
+  std::vector<Clause> applies_when;  ///< all have to hold; empty: it always has an effect
+  std::string shown_name;            ///< with applies_when: what messages call it, "leaf.fold"
 };
 
-/// A whole schema. `declared` has the structures and choices in an order in which each comes after what it is
-/// made of.
+/// A whole schema. `declared` lists the structures and choices; each comes after the types of its members.
 struct Unit {
   std::string name;    ///< "lsystem"
   std::string prefix;  ///< "Lsystem"
@@ -77,13 +85,17 @@ struct Unit {
 
 Schema load_json(const std::filesystem::path& path);
 
-/// The schema without a single $ref, as it is served. `marks` leaves "x-params": name where a whole file was
-/// referred to.
+/// The schema with all references resolved, as the service answers it. Marks::keep adds "x-params": name where a
+/// reference names a whole file.
 enum class Marks { leave_out, keep };
 Schema resolve(const std::filesystem::path& path, Marks marks = Marks::leave_out);
 
-/// Throws SchemaError at the first keyword, default or name that is not in order.
+/// Throws SchemaError at the first keyword, default or name that is invalid.
 void check(const Schema& schema, const std::string& where);
+
+/// Translates x-applies-when of every member. Throws SchemaError where a path leads nowhere or a value cannot
+/// be compared.
+void translate_conditions(Unit& unit);
 
 /// Reads, checks and types a schema file "<name>.schema.json".
 Unit load_unit(const std::filesystem::path& path);

@@ -50,21 +50,23 @@ std::string rule_of(const Type& type) {
   return rule.text();
 }
 
-/// "Ring" as it stands in a sentence.
+/// The title of a schema inside a sentence: "Ring" gives "ring".
 std::string in_a_sentence(const Type& type) {
   auto title = type.schema.value("title", "list");
   title[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(title[0])));
   return title;
 }
 
-std::string read_entries(const Type& type, const std::string& place, const std::string& target, int depth);
-std::string read_variant(const Type& type, const std::string& place, const std::string& target, int depth);
-std::string read_shorthand(const Type& type, const std::string& place, const std::string& target, int depth);
+std::string read_entries(const Type& type, const std::string& location, const std::string& target, int depth);
+std::string read_variant(const Type& type, const std::string& location, const std::string& target, int depth);
+std::string read_shorthand(const Type& type, const std::string& location, const std::string& target,
+                           int depth);
 
-/// A statement that reads the value at `place` into `target`, without indentation and line end.
-std::string read_statement(const Type& type, const std::string& place, const std::string& target, int depth) {
-  const std::string both = "(" + place + ", " + target + ");";
-  const std::string with_rule = "(" + place + ", " + rule_of(type) + ", " + target + ");";
+/// The statement that reads the value at `location` into `target`, without indentation and line end.
+std::string read_statement(const Type& type, const std::string& location, const std::string& target,
+                           int depth) {
+  const std::string both = "(" + location + ", " + target + ");";
+  const std::string with_rule = "(" + location + ", " + rule_of(type) + ", " + target + ");";
   switch (type.kind) {
     case Kind::flag:
       return "read_flag" + both;
@@ -79,39 +81,41 @@ std::string read_statement(const Type& type, const std::string& place, const std
     case Kind::seed:
       return "read_seed" + both;
     case Kind::choice:
-      return "read_choice(" + place + ", " + words_name(type) + ", " + target + ");";
+      return "read_choice(" + location + ", " + words_name(type) + ", " + target + ");";
     case Kind::structure:
       return "read" + both;
     case Kind::free:
-      return "read_free_object(" + place + ");";
+      return "read_free_object(" + location + ");";
     case Kind::child:
       return "read_child" + both;
     case Kind::params:
-      return target + " = read_" + type.json_name + "(" + place + ".value(), " + place + ".pointer(), " +
-             place + ".faults());";
+      return target + " = read_" + type.json_name + "(" + location + ".value(), " + location +
+             ".pointer(), " + location + ".issue_list());";
     case Kind::list:
     case Kind::map:
-      return read_entries(type, place, target, depth);
+      return read_entries(type, location, target, depth);
     case Kind::variant:
-      return read_variant(type, place, target, depth);
+      return read_variant(type, location, target, depth);
     case Kind::shorthand:
-      return read_shorthand(type, place, target, depth);
+      return read_shorthand(type, location, target, depth);
   }
   return "";
 }
 
-std::string read_entries(const Type& type, const std::string& place, const std::string& target, int depth) {
+std::string read_entries(const Type& type, const std::string& location, const std::string& target,
+                         int depth) {
   const Type& entry = type.parts[0];
   const std::string name = type.kind == Kind::list ? "read_list" : "read_map";
-  const bool nested = place.starts_with("entry");  // its names must not hide those around it
-  const std::string at = nested ? place + "_in" : "entry", value = nested ? target + "_in" : "value";
+  const bool nested = location.starts_with("entry");  // its names must not hide those of the outer entry
+  const std::string at = nested ? location + "_in" : "entry", value = nested ? target + "_in" : "value";
   const bool has_inner = entry.kind == Kind::list && entry.parts[0].kind == Kind::list;
   const std::string unless_flat = type.kind == Kind::list && has_inner && !nested
-                                      ? "if (check_nesting(" + place + ", " + quoted(in_a_sentence(entry)) +
-                                            ", " + quoted(in_a_sentence(entry.parts[0])) + ")) "
+                                      ? "if (check_nesting(" + location + ", " +
+                                            quoted(in_a_sentence(entry)) + ", " +
+                                            quoted(in_a_sentence(entry.parts[0])) + ")) "
                                       : "";
-  return unless_flat + name + "(" + place + ", " + rule_of(type) + ", " + target + ", [](const Place& " + at +
-         ", " + entry.cpp + "& " + value + ") {\n" + indented(depth + 1) +
+  return unless_flat + name + "(" + location + ", " + rule_of(type) + ", " + target +
+         ", [](const Location& " + at + ", " + entry.cpp + "& " + value + ") {\n" + indented(depth + 1) +
          read_statement(entry, at, value, depth + 1) + "\n" + indented(depth) + "});";
 }
 
@@ -140,7 +144,7 @@ JsonType json_type(const Type& type) {
   }
 }
 
-/// What the alternatives are besides a choice: "an integer from 16 to 4096".
+/// The alternatives that are no choice, for messages: "an integer from 16 to 4096".
 std::string beside_choice(const Type& variant) {
   std::string text;
   for (const Type& part : variant.parts) {
@@ -154,40 +158,54 @@ std::string beside_choice(const Type& variant) {
   return text;
 }
 
-/// A statement that reads one of the alternatives.
-std::string read_alternative(const Type& variant, std::size_t index, const std::string& place,
+/// All alternatives, for messages: "an integer from 16 to 4096 or none".
+std::string alternatives(const Type& variant) {
+  std::string text = beside_choice(variant);
+  for (const Type& part : variant.parts) {
+    if (part.kind != Kind::choice) continue;
+    std::string words;
+    for (const Schema& word : part.schema["enum"])
+      words += (words.empty() ? "" : ", ") + word.get<std::string>();
+    text +=
+        (text.empty() ? "" : " or ") + std::string(part.schema["enum"].size() > 1 ? "one of " : "") + words;
+  }
+  return text;
+}
+
+/// The statement that reads one of the alternatives.
+std::string read_alternative(const Type& variant, std::size_t index, const std::string& location,
                              const std::string& target, int depth) {
   const Type& part = variant.parts[index];
   const std::string own = target + ".emplace<" + std::to_string(index) + ">()";
-  if (part.kind != Kind::choice) return read_statement(part, place, own, depth);
-  return "read_choice(" + place + ", " + words_name(part) + ", " + own + ", " +
+  if (part.kind != Kind::choice) return read_statement(part, location, own, depth);
+  return "read_choice(" + location + ", " + words_name(part) + ", " + own + ", " +
          quoted(beside_choice(variant)) + ");";
 }
 
-std::string read_variant(const Type& type, const std::string& place, const std::string& target, int depth) {
-  std::string text = "switch (" + place + ".kind()) {\n";
-  std::string expected;
+std::string read_variant(const Type& type, const std::string& location, const std::string& target,
+                         int depth) {
+  std::string text = "switch (" + location + ".kind()) {\n";
   for (std::size_t i = 0; i < type.parts.size(); ++i) {
     const Type& part = type.parts[i];
     text += indented(depth + 1) + "case JsonKind::" + json_type(part).kind + ":\n" + indented(depth + 2) +
-            read_alternative(type, i, place, target, depth + 2) + "\n" + indented(depth + 2) + "break;\n";
-    expected += (expected.empty() ? "" : " or ") + json_type(part).words;
+            read_alternative(type, i, location, target, depth + 2) + "\n" + indented(depth + 2) + "break;\n";
   }
-  return text + indented(depth + 1) + "default:\n" + indented(depth + 2) + place + ".expected(\"" + expected +
-         "\");\n" + indented(depth) + "}";
+  return text + indented(depth + 1) + "default:\n" + indented(depth + 2) + location + ".expected(\"" +
+         alternatives(type) + "\");\n" + indented(depth) + "}";
 }
 
-std::string read_shorthand(const Type& type, const std::string& place, const std::string& target, int depth) {
+std::string read_shorthand(const Type& type, const std::string& location, const std::string& target,
+                           int depth) {
   const Schema& members = type.schema["x-short"];
   const std::string first = target + "." + members[0].get<std::string>();
-  std::string text = "if (" + place + ".kind() == JsonKind::number) {\n" + indented(depth + 1) +
-                     read_statement(type.parts[0], place, first, depth + 1) + "\n";
+  std::string text = "if (" + location + ".kind() == JsonKind::number) {\n" + indented(depth + 1) +
+                     read_statement(type.parts[0], location, first, depth + 1) + "\n";
   for (std::size_t i = 1; i < members.size(); ++i) {
     text += indented(depth + 1) + target + "." + members[i].get<std::string>() + " = " + first + ";\n";
   }
-  return text + indented(depth) + "} else if (" + place + ".kind() == JsonKind::object) {\n" +
-         indented(depth + 1) + "read(" + place + ", " + target + ");\n" + indented(depth) + "} else {\n" +
-         indented(depth + 1) + place + ".expected(\"a number or an object\");\n" + indented(depth) + "}";
+  return text + indented(depth) + "} else if (" + location + ".kind() == JsonKind::object) {\n" +
+         indented(depth + 1) + "read(" + location + ", " + target + ");\n" + indented(depth) + "} else {\n" +
+         indented(depth + 1) + location + ".expected(\"a number or an object\");\n" + indented(depth) + "}";
 }
 
 std::string reader_of(const Type& type) {
@@ -196,15 +214,15 @@ std::string reader_of(const Type& type) {
     known += (known.empty() ? "" : ", ") + quoted(member.name);
     if (member.required) required += (required.empty() ? "" : ", ") + quoted(member.name);
     const std::string target = "out." + member.cpp_name + (member.optional ? ".emplace()" : "");
-    body += "  if (const auto at = place.member(" + quoted(member.name) + ")) {\n    " +
+    body += "  if (const auto at = location.member(" + quoted(member.name) + ")) {\n    " +
             read_statement(member.type, "(*at)", target, 2) + "\n  }\n";
   }
-  return "void read(const Place& place, " + type.cpp +
+  return "void read(const Location& location, " + type.cpp +
          "& out) {\n  static constexpr std::string_view known[] = {" + known +
-         "};\n  if (!check_members(place, known, {" + required + "})) return;\n" + body + "}\n\n";
+         "};\n  if (!check_members(location, known, {" + required + "})) return;\n" + body + "}\n\n";
 }
 
-/// An expression that gives the Json of `value`.
+/// The expression of the Json of `value`.
 std::string write_expression(const Type& type, const std::string& value) {
   switch (type.kind) {
     case Kind::color:
@@ -242,7 +260,7 @@ std::string write_expression(const Type& type, const std::string& value) {
   }
 }
 
-/// A structure that means the same as one number is written as that number.
+/// The statement that writes a structure as one number where both mean the same.
 std::string write_short(const Type& type) {
   const Schema& members = type.schema["x-short"];
   const std::string first = members[0].get<std::string>();
@@ -295,7 +313,8 @@ std::string emit_source(const Unit& unit) {
       "// Made from api_schema/" + unit.name +
       ".schema.json. Do not edit: edit the schema.\n#include \"generated/params/" + unit.name +
       ".h\"\n\n#include <string>\n\n#include \"core/schema/forms.h\"\n#include \"core/schema/reader.h\"\n"
-      "#include \"core/schema/writer.h\"\n\nnamespace seedmesh {\nnamespace {\n\nusing namespace schema;\n\n";
+      "#include \"core/schema/writer.h\"\n#include \"generated/params/" +
+      unit.name + "_unused.h\"\n\nnamespace seedmesh {\nnamespace {\n\nusing namespace schema;\n\n";
   for (const Type& type : unit.declared) {
     text += type.kind == Kind::choice ? words_of(type) : "";
   }
@@ -312,10 +331,10 @@ std::string emit_source(const Unit& unit) {
   text += writers + "}  // namespace\n\n" + choices;
   const std::string& params = unit.root.cpp;
   text += params + " read_" + unit.name +
-          "(const Json& json, std::string_view pointer, Faults& faults) {\n  " + params +
-          " params;\n  read(Place(json, pointer, faults), params);\n  return params;\n}\n\n";
+          "(const Json& json, std::string_view pointer, IssueList& issues) {\n  " + params +
+          " params;\n  read(Location(json, pointer, issues), params);\n  return params;\n}\n\n";
   text += "Json write_" + unit.name + "(const " + params + "& params) { return write(params); }\n\n" +
-          emit_children(unit);
+          emit_children(unit) + emit_unused(unit);
   return text + "}  // namespace seedmesh\n";
 }
 

@@ -20,7 +20,7 @@ std::string wrapped(const std::string& text, const std::string& lead) {
   std::string result, line = lead, word;
   while (words >> word) {
     const bool full = line.size() > lead.size() && line.size() + word.size() + 1 > line_length;
-    if (full && !line.ends_with('\\')) {  // a backslash at the end would draw the next line into the comment
+    if (full && !line.ends_with('\\')) {  // a backslash at the end would continue the comment
       result += line + "\n";
       line = lead;
     }
@@ -114,7 +114,7 @@ std::string initializer(const Type& type, const Schema& value) {
           return part.cpp + "{" + initializer(part, value) + "}";
         if (value.is_array() && json_type == "array") return part.cpp + "{" + initializer(part, value) + "}";
       }
-      throw SchemaError("no alternative takes the default " + value.dump());
+      throw SchemaError("no alternative accepts the default " + value.dump());
     case Kind::structure:
     case Kind::params:
     case Kind::shorthand:
@@ -123,7 +123,7 @@ std::string initializer(const Type& type, const Schema& value) {
       break;
   }
   if (value.is_object() && !value.empty())
-    throw SchemaError("an object's default is {}: its members have their own");
+    throw SchemaError("the default of an object has to be {}, since its members have defaults");
   return "";
 }
 

@@ -9,12 +9,12 @@
 namespace codegen {
 namespace {
 
-/// Turns one schema's nodes into types and collects what has to be declared.
+/// Turns the nodes of one schema into types and collects those that need a declaration.
 class Typing {
  public:
   explicit Typing(Unit& unit) : unit_(unit) {}
 
-  /// `name` is what a structure or choice made from this node is called, after the prefix.
+  /// A structure or choice made from this node is called prefix + `name`.
   Type type_of(const Schema& schema, const std::string& name) {
     Type type;
     type.schema = schema;
@@ -90,16 +90,18 @@ class Typing {
     declare(type);
   }
 
-  /// What several places refer to is declared once.
+  /// Declares a type once, however often it is used.
   void declare(const Type& type) {
     const auto known = std::ranges::find(unit_.declared, type.cpp, &Type::cpp);
     if (known == unit_.declared.end()) return unit_.declared.push_back(type);
     const auto keywords = [](const Type& each) {
       Schema rest = each.schema;
-      for (const char* word : {"title", "description", "default", "examples"}) rest.erase(word);
+      for (const char* word : {"title", "description", "default", "examples", "x-applies-when"})
+        rest.erase(word);
       return rest;
     };
-    if (keywords(*known) != keywords(type)) throw SchemaError("two different types are called " + type.cpp);
+    if (keywords(*known) != keywords(type))
+      throw SchemaError("two different types have the name " + type.cpp);
   }
 
   Member member(const Type& owner, const std::string& key, const Schema& property) {
@@ -160,7 +162,9 @@ Unit load_unit(const std::filesystem::path& path) {
   const Schema schema = resolve(path, Marks::keep);
   check(schema, file + "#");
   unit.root = Typing(unit).type_of(schema, "Params");
-  if (unit.root.kind != Kind::structure) throw SchemaError(file + ": the whole is an object with properties");
+  if (unit.root.kind != Kind::structure)
+    throw SchemaError(file + ": the root has to be an object with properties");
+  translate_conditions(unit);
   return unit;
 }
 

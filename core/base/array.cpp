@@ -17,21 +17,21 @@ using namespace pages;
 
 namespace {
 
-// Page faults, not arithmetic, decide what big arrays cost, and huge pages save most of them. A block takes
-// whole huge pages from the first size on always. From the second on it shares them with others where there
-// is a reserve, which knows of them, and without one takes them whole too, while the room that the rounding
-// up leaves empty stays below the third in the whole request: from that size on the service has the heap ask
-// the kernel for small pages each time. Smaller blocks are the heap's: a huge page is cleared whole, and the
-// heap has pages that were touched before.
+// Page faults decide what big arrays cost, and huge pages avoid most of them.
+// - A block of at least `always_mapped` bytes always takes whole huge pages.
+// - With a reserve, a smaller block of at least `least_shared` bytes shares huge pages with other blocks.
+// - Without a reserve, a block of at least `mapped_at_best` bytes takes whole huge pages, as long as the empty
+//   ends of all such blocks of the request stay below `most_slack`.
+// - All other blocks are on the heap, whose pages are often in memory already.
 constexpr std::size_t always_mapped = std::size_t{4} << 20U;
 constexpr std::size_t mapped_at_best = std::size_t{1} << 20U;
 constexpr std::size_t least_shared = std::size_t{256} << 10U;
 constexpr std::uint64_t most_slack = std::uint64_t{12} << 20U;
-// But what the heap is given back stays with the process. A thrifty request maps all that is worth a call, in
-// as many huge pages as it fills and small ones for its end.
-constexpr std::size_t mapped_by_thrift = std::size_t{256} << 10U;
+// Memory that is freed to the heap stays with the process. A request that saves memory therefore maps each
+// block from this size on: huge pages as far as it fills them, small pages for its end.
+constexpr std::size_t mapped_to_save = std::size_t{256} << 10U;
 
-/// Pages of the heap that nobody uses go back to the kernel.
+/// Returns unused pages of the heap to the kernel.
 void trim_heap() {
 #if defined(__GLIBC__)
   malloc_trim(0);
@@ -47,7 +47,7 @@ std::byte* heap(std::byte* old, std::size_t bytes) {
 }  // namespace
 
 Block::Block(Block&& other) noexcept
-    : purse_(other.purse_),
+    : budget_(other.budget_),
       data_(std::exchange(other.data_, nullptr)),
       size_(std::exchange(other.size_, 0)),
       home_(std::exchange(other.home_, Home::heap)) {}
@@ -63,7 +63,7 @@ Block& Block::operator=(Block&& other) noexcept {
 Block::~Block() {
   if (size_ == 0) return;
   release();
-  if (purse_) purse_->give_back(size_);
+  if (budget_) budget_->give_back(size_);
 }
 
 std::size_t Block::room_of(std::size_t bytes, Home home) {
@@ -72,28 +72,28 @@ std::size_t Block::room_of(std::size_t bytes, Home home) {
 
 Block::Home Block::home_for(std::size_t bytes) const {
   if (!can_map) return Home::heap;
-  if (purse_ && purse_->is_thrifty()) return bytes < mapped_by_thrift ? Home::heap : Home::pages;
-  const bool has_reserve = purse_ && purse_->reserve() && !purse_->wants_thrift();
+  if (budget_ && budget_->saves_memory()) return bytes < mapped_to_save ? Home::heap : Home::pages;
+  const bool has_reserve = budget_ && budget_->reserve() && !budget_->prefers_low_memory();
   if (bytes < (has_reserve ? least_shared : mapped_at_best)) return Home::heap;
-  if (purse_ && purse_->wants_thrift()) return Home::pages;
+  if (budget_ && budget_->prefers_low_memory()) return Home::pages;
   if (bytes < always_mapped && has_reserve) return Home::shared;
   const std::size_t slack = room_of(bytes, Home::huge_pages) - bytes;
-  return bytes >= always_mapped || (purse_ && purse_->slack() + slack <= most_slack) ? Home::huge_pages
-                                                                                     : Home::heap;
+  return bytes >= always_mapped || (budget_ && budget_->slack() + slack <= most_slack) ? Home::huge_pages
+                                                                                       : Home::heap;
 }
 
-/// Huge pages are touched: the next array need not have them cleared.
+/// Pages of the reserve were used before, so the kernel need not clear them.
 std::byte* Block::mapped(std::size_t room, Home home) const {
-  if (home == Home::shared) return purse_->reserve()->share(room);
+  if (home == Home::shared) return budget_->reserve()->share(room);
   std::byte* kept = nullptr;
-  if (home == Home::huge_pages && purse_ && purse_->reserve()) kept = purse_->reserve()->take(room);
+  if (home == Home::huge_pages && budget_ && budget_->reserve()) kept = budget_->reserve()->take(room);
   return kept ? kept : map(room);
 }
 
 void Block::leave(std::byte* memory, std::size_t room) const {
   const bool is_whole = home_ == Home::huge_pages && room % huge_page == 0;
-  const bool is_kept = (is_whole || home_ == Home::shared) && purse_ && purse_->reserve() &&
-                       purse_->reserve()->keep(memory, room, purse_->used(), purse_->peak());
+  const bool is_kept = (is_whole || home_ == Home::shared) && budget_ && budget_->reserve() &&
+                       budget_->reserve()->keep(memory, room, budget_->used(), budget_->peak());
   if (!is_kept) unmap(memory, room);
 }
 
@@ -102,7 +102,7 @@ void Block::release() {
     std::free(data_);
   } else {
     leave(data_, room_of(size_, home_));
-    if (purse_) purse_->give_back_slack(room_of(size_, home_) - size_);
+    if (budget_) budget_->give_back_slack(room_of(size_, home_) - size_);
   }
   home_ = Home::heap;
 }
@@ -115,7 +115,7 @@ void Block::change(std::size_t bytes) {
   if (is_shared ? home_ == home && after <= before : home_ != Home::heap && home != Home::heap) {
     if (after > before) data_ = grown(data_, before, after);
     if (after < before) leave(data_ + after, before - after);
-    if (purse_) purse_->give_back_slack(room_of(size_, home_) - size_);
+    if (budget_) budget_->give_back_slack(room_of(size_, home_) - size_);
   } else if (home_ == home && home == Home::heap) {
     data_ = heap(data_, bytes);
   } else {
@@ -125,15 +125,15 @@ void Block::change(std::size_t bytes) {
     data_ = fresh;
   }
   home_ = home;
-  if (home_ != Home::heap && purse_) purse_->take_slack(room_of(bytes, home_) - bytes);
+  if (home_ != Home::heap && budget_) budget_->take_slack(room_of(bytes, home_) - bytes);
 }
 
 void Block::resize(std::size_t bytes) {
   if (bytes == size_) return;
-  if (bytes > size_ && purse_) {
-    const bool was_thrifty = purse_->is_thrifty();
-    purse_->take(bytes - size_);
-    if (!was_thrifty && purse_->is_thrifty()) trim_heap();
+  if (bytes > size_ && budget_) {
+    const bool was_saving_memory = budget_->saves_memory();
+    budget_->take(bytes - size_);
+    if (!was_saving_memory && budget_->saves_memory()) trim_heap();
   }
   const std::size_t before = size_;
   if (bytes == 0) {
@@ -142,7 +142,7 @@ void Block::resize(std::size_t bytes) {
   } else {
     change(bytes);
   }
-  if (bytes < before && purse_) purse_->give_back(before - bytes);
+  if (bytes < before && budget_) budget_->give_back(before - bytes);
   size_ = bytes;
 }
 

@@ -1,8 +1,7 @@
 #pragma once
-/// Growing arrays for big models: elements start uninitialised, big blocks come from the kernel with huge
-/// pages advised (first touch of memory, not arithmetic, bounds big models), in thrifty requests also
-/// middling ones, which the heap would keep, and every byte is charged to the purse of the request before it
-/// is allocated. Move-only; not safe for use from two threads at once.
+/// Growing arrays for big models. New elements are uninitialised. Every byte is charged to the memory budget
+/// of the request before it is allocated. Big blocks come from the kernel as huge pages, because page faults
+/// cost more than arithmetic in big models. Move-only; not safe for use from two threads at once.
 #include <cstddef>
 #include <cstring>
 #include <memory>
@@ -14,27 +13,28 @@
 
 namespace seedmesh {
 
-/// Raw storage charged to a purse. Grows in place where the kernel can (mremap).
+/// Raw storage charged to a memory budget. Grows in place where the kernel can (mremap).
 class Block {
  public:
   Block() = default;
-  explicit Block(std::shared_ptr<Purse> purse) : purse_(std::move(purse)) {}
+  explicit Block(std::shared_ptr<MemoryBudget> budget) : budget_(std::move(budget)) {}
   Block(Block&& other) noexcept;
   Block& operator=(Block&& other) noexcept;
   Block(const Block&) = delete;
   Block& operator=(const Block&) = delete;
   ~Block();
 
-  /// Changes the size to `bytes`, keeping what fits. Throws Stop before the purse is passed.
+  /// Changes the size to `bytes` and keeps the content up to it. Throws Stop before the budget is
+  /// exceeded.
   void resize(std::size_t bytes);
 
   std::byte* data() const { return data_; }
   std::size_t size() const { return size_; }
-  const std::shared_ptr<Purse>& purse() const { return purse_; }
+  const std::shared_ptr<MemoryBudget>& budget() const { return budget_; }
 
  private:
-  /// Where the bytes are: of the heap, or mapped by the kernel in whole huge pages, in some that others
-  /// share, or in as many pages as are needed.
+  /// Where the bytes are: on the heap, in whole huge pages, in huge pages shared with other blocks, or in
+  /// exactly as many pages as they need.
   enum class Home : unsigned char { heap, huge_pages, shared, pages };
   static std::size_t room_of(std::size_t bytes, Home home);
   Home home_for(std::size_t bytes) const;
@@ -43,7 +43,7 @@ class Block {
   std::byte* mapped(std::size_t room, Home home) const;
   void leave(std::byte* memory, std::size_t room) const;
 
-  std::shared_ptr<Purse> purse_;
+  std::shared_ptr<MemoryBudget> budget_;
   std::byte* data_ = nullptr;
   std::size_t size_ = 0;
   Home home_ = Home::heap;
@@ -56,14 +56,14 @@ class Array {
  public:
   using value_type = T;
 
-  Array() = default;  ///< empty and not charged to anybody; can only stay empty or be assigned to
-  explicit Array(const Job& job) : block_(job.purse()) {}
-  Array(const Job& job, std::size_t size) : block_(job.purse()) { resize(size); }
-  Array(const Job& job, std::size_t size, const T& value) : block_(job.purse()) {
+  Array() = default;  ///< empty and without a budget; it can only stay empty or be assigned to
+  explicit Array(const Job& job) : block_(job.budget()) {}
+  Array(const Job& job, std::size_t size) : block_(job.budget()) { resize(size); }
+  Array(const Job& job, std::size_t size, const T& value) : block_(job.budget()) {
     resize(size);
     for (T& each : *this) each = value;
   }
-  explicit Array(std::shared_ptr<Purse> purse) : block_(std::move(purse)) {}
+  explicit Array(std::shared_ptr<MemoryBudget> budget) : block_(std::move(budget)) {}
   Array(Array&& other) noexcept : block_(std::move(other.block_)), size_(std::exchange(other.size_, 0)) {}
   Array& operator=(Array&& other) noexcept {
     block_ = std::move(other.block_);
@@ -71,10 +71,10 @@ class Array {
     return *this;
   }
 
-  /// An empty array of other elements, charged to the same purse.
+  /// An empty array of other elements, charged to the same budget.
   template <class Other>
   Array<Other> like() const {
-    return Array<Other>(block_.purse());
+    return Array<Other>(block_.budget());
   }
 
   std::size_t size() const { return size_; }
@@ -95,7 +95,7 @@ class Array {
   std::span<T> span() { return {data(), size_}; }
   std::span<const T> span() const { return {data(), size_}; }
 
-  /// Exact: no slack beyond what is asked for.
+  /// Allocates exactly `capacity` elements, not more.
   void reserve(std::size_t capacity) {
     if (capacity > this->capacity()) block_.resize(capacity * sizeof(T));
   }
@@ -104,7 +104,7 @@ class Array {
     reserve(size);
     size_ = size;
   }
-  /// Gives memory beyond size() back.
+  /// Frees the memory beyond size().
   void shrink_to_fit() { block_.resize(size_ * sizeof(T)); }
   void clear() { size_ = 0; }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// What every generator gets besides its parameters: seed, limits, stop, progress. One argument, from the
-/// first line to the last, so that cancellation and limits never have to be threaded in later.
+/// The context that every generator gets besides its parameters: seed, limits, deadline, cancellation, memory
+/// budget and progress, in one argument.
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -9,13 +9,14 @@
 #include <memory>
 #include <stop_token>
 #include <string_view>
+#include <utility>
 
 #include "core/base/result.h"
 #include "core/base/rng.h"
 
 namespace seedmesh {
 
-/// The greatest amounts one request may use. Flags and environment of the server change them.
+/// The greatest amounts that one request may use. Flags and environment variables of the server change them.
 struct Limits {
   std::uint64_t modules = 64'000'000;
   std::uint64_t shapes = 4'000'000;
@@ -27,12 +28,12 @@ struct Limits {
   std::uint32_t expression_depth = 200;
 };
 
-/// What is counted while a request runs.
-enum class Resource { modules, shapes, triangles, output_bytes };
+/// For a request of `found` iterations, above limits.iterations, at the parameter "iterations".
+Issue iterations_issue(std::uint64_t found, const Limits& limits);
 
-/// "Stop now": over a limit, over time, or the caller has gone. Thrown by Job (and its Purse) alone, caught
-/// in the pipeline alone; no code between the two may swallow it (core/generators/child throws it on with the
-/// place that it belongs to).
+/// The exception that ends a request: a limit is exceeded, the deadline has passed, the request is cancelled,
+/// or a value turns out to be unusable while the work runs. Only Job and MemoryBudget throw it, and only
+/// core/pipeline catches it. Its pointer is relative to the parameters of the outermost request.
 class Stop : public std::exception {
  public:
   Stop(Code code, Issue issue) : code_(code), issue_(std::move(issue)) {}
@@ -47,14 +48,15 @@ class Stop : public std::exception {
 
 class Reserve;
 
-/// Bytes in use by the arrays of one request. Shared with the arrays, which outlive the Job in the product.
-class Purse {
+/// Counts the bytes of all arrays of one request. The arrays share it, because those of the finished model
+/// outlive the Job.
+class MemoryBudget {
  public:
-  explicit Purse(std::uint64_t limit, std::shared_ptr<Reserve> reserve = nullptr)
+  explicit MemoryBudget(std::uint64_t limit, std::shared_ptr<Reserve> reserve = nullptr)
       : limit_(limit), reserve_(std::move(reserve)) {}
-  /// Where big arrays leave their memory for those of later requests; may be null.
+  /// Keeps the memory of big arrays for later requests; may be null.
   Reserve* reserve() const { return reserve_.get(); }
-  void take(std::uint64_t bytes);  ///< throws Stop before the limit is passed
+  void take(std::uint64_t bytes);  ///< throws Stop before the limit is exceeded
   void give_back(std::uint64_t bytes) { used_.fetch_sub(bytes, std::memory_order_relaxed); }
   std::uint64_t used() const { return used_.load(std::memory_order_relaxed); }
   std::uint64_t peak() const { return peak_.load(std::memory_order_relaxed); }  ///< the most that was used
@@ -64,42 +66,19 @@ class Purse {
   void take_slack(std::uint64_t bytes) { slack_.fetch_add(bytes, std::memory_order_relaxed); }
   void give_back_slack(std::uint64_t bytes) { slack_.fetch_sub(bytes, std::memory_order_relaxed); }
 
-  /// Big arrays take no page more than they need, and once the request has used 8 MiB, memory goes back to
-  /// the system with each array, at the cost of touching it anew. For an answer that is much smaller than
-  /// what it is made of.
-  void be_thrifty() { wants_thrift_.store(true, std::memory_order_relaxed); }
-  bool wants_thrift() const { return wants_thrift_.load(std::memory_order_relaxed); }
-  bool is_thrifty() const { return is_thrifty_.load(std::memory_order_relaxed); }
+  /// From now on, big arrays take only the pages that they need. Once the request uses 8 MiB, each array also
+  /// returns its memory to the system. Later arrays then pay for page faults again. Meant for answers that are
+  /// much smaller than the data they are made of.
+  void prefer_low_memory() { prefers_low_memory_.store(true, std::memory_order_relaxed); }
+  bool prefers_low_memory() const { return prefers_low_memory_.load(std::memory_order_relaxed); }
+  bool saves_memory() const { return saves_memory_.load(std::memory_order_relaxed); }
 
  private:
   std::atomic<std::uint64_t> used_{0}, peak_{0};
-  std::atomic<bool> is_thrifty_{false}, wants_thrift_{false};
+  std::atomic<bool> saves_memory_{false}, prefers_low_memory_{false};
   std::uint64_t limit_;
   std::shared_ptr<Reserve> reserve_;
   std::atomic<std::uint64_t> slack_{0};
-};
-
-/// Whose names collision shapes have; none: there are none.
-enum class CollisionNames { none, plain, unreal, godot };
-
-/// How what stands many times is to be written; any: as the profile likes it.
-enum class CopyForm { any, nodes, gpu, merge };
-
-/// What of the wanted output bears on how a model is made. Whoever is asked for what it cannot make is not
-/// called: the pipeline refuses the request.
-struct Demand {
-  int lods = 1;               ///< levels of detail, 1 to 5
-  bool share_organs = false;  ///< organs as nodes that share a mesh, instead of one mesh of all
-  bool growth = false;        ///< the animation "growth"
-  bool wind = false;          ///< wind weights in TEXCOORD_2 and TEXCOORD_3
-  CollisionNames collision = CollisionNames::none;
-  int textures = 512;                ///< texels of a side; 0: none
-  bool tangents = true;              ///< for forms that hold models themselves
-  bool impostor = false;             ///< a picture as the coarsest level of each plant of a scene
-  CopyForm copies = CopyForm::any;   ///< of what is repeated in a scene or a building
-  std::uint64_t most_triangles = 0;  ///< of whoever keeps a budget by itself; 0: as many as there are
-  std::uint32_t most_bones = 240;    ///< of the animation "growth"
-  bool packs = false;  ///< no mesh that is done is looked at again: it may be packed (core/gltf/pack.h)
 };
 
 /// The context of one request. Safe to use from the worker threads of that request.
@@ -114,37 +93,52 @@ class Job {
     std::stop_token stop = {};  ///< set when the caller has gone or the service drains
     Clock::time_point deadline = Clock::time_point::max();
     std::shared_ptr<Reserve> reserve = {};  ///< memory of earlier requests, for this and later ones
-    Progress progress = {};  ///< told of each stage and share 0..1; called from one thread at a time
+    Progress progress = {};  ///< called for each stage with a share 0..1, from one thread at a time
   };
 
   Job(std::uint64_t seed, Options options);
 
-  /// The same purse, limits, stop and deadline with another seed, for a request inside this one. Its stages
-  /// are part of a stage of this one: it tells no progress.
-  Job for_child(std::uint64_t seed) const;
+  /// The same budget, limits, stop and deadline with another seed, for a request inside this one. `pointer`
+  /// leads from the parameters of this request to those of the inner one; every Stop of the child's Job starts
+  /// with it. The child reports no progress: its stages are part of a stage of this request.
+  Job for_child(std::uint64_t seed, std::string_view pointer = {}) const;
+
+  /// For an estimate inside this request: the same seed, limits, stop, deadline and memory budget, but it counts
+  /// modules, shapes, triangles and bytes from 0, so that an estimate spends nothing of the request. It works on
+  /// one thread and reports no progress.
+  Job for_estimate() const;
+
+  /// While the scope lives, a limit of this job or of its children that has no pointer of its own is reported
+  /// at `pointer`. Not while other threads work with this job.
+  class PointerScope {
+   public:
+    PointerScope(Job& job, std::string_view pointer)
+        : job_(job), before_(std::exchange(job.fallback_, job.prefix_ + std::string(pointer))) {}
+    ~PointerScope() { job_.fallback_ = std::move(before_); }
+    PointerScope(const PointerScope&) = delete;
+    PointerScope& operator=(const PointerScope&) = delete;
+
+   private:
+    Job& job_;
+    std::string before_;
+  };
 
   Rng rng() const { return Rng::of_seed(seed_); }
   std::uint64_t seed() const { return seed_; }
   const Limits& limits() const { return state_->options.limits; }
   int threads() const { return state_->options.threads; }
-  const std::shared_ptr<Purse>& purse() const { return state_->purse; }
+  const std::shared_ptr<MemoryBudget>& budget() const { return state_->budget; }
 
-  /// Throws Stop when the caller has gone or the deadline has passed. Costs a clock reading (about 25 ns):
+  /// Throws Stop when the request is cancelled or the deadline has passed. Reads the clock (about 25 ns):
   /// call it every 4,096 steps, or through Meter.
   void check() const;
 
-  /// Set by the pipeline before a generator runs. Of this job alone: a request inside another is made
-  /// plainly.
-  void set_demand(const Demand& demand) { demand_ = demand; }
-  const Demand& demand() const { return demand_; }
-
-  /// Counts `amount` of a resource before it is made; throws Stop when the limit would be passed. Looks at
-  /// stop and deadline too, so call it in batches (Meter does).
+  /// Counts `amount` of a resource before it is made. Throws Stop when the limit would be exceeded. Calls
+  /// check() too, so spend many units at once; Meter does.
   void spend(Resource resource, std::uint64_t amount);
   std::uint64_t spent(Resource resource) const;
 
-  /// Names the stage that runs and how much of it is done, for the caller's progress bar. From one thread at
-  /// a time.
+  /// Reports the running stage and the share of it that is done, 0..1. Called from one thread at a time.
   void progress(std::string_view stage, double share) const;
 
   /// The stages named so far and when each began.
@@ -154,20 +148,19 @@ class Job {
   };
   const std::vector<Stage>& stages() const { return state_->stages; }
 
-  /// Refuses with a limit of the caller's own wording; for limits that are no Resource (depth, iterations).
-  [[noreturn]] static void refuse(std::string message, std::string pointer = "");
-
-  /// Refuses the request itself (Code::invalid) for a fault that shows only while it runs, as a division by
-  /// zero.
-  [[noreturn]] static void reject(Issue issue);
+  /// Throws Stop for an issue that is found only while the request runs: with Code::limit where its kind is
+  /// limit, else with Code::invalid. The issue's pointer is relative to the parameters of this job's request.
+  [[noreturn]] void refuse(Issue issue) const;
 
  private:
   struct State {
     State(Options given)
         : options(std::move(given)),
-          purse(std::make_shared<Purse>(options.limits.memory_bytes, options.reserve)) {}
+          budget(std::make_shared<MemoryBudget>(options.limits.memory_bytes, options.reserve)) {}
+    State(Options given, std::shared_ptr<MemoryBudget> shared)
+        : options(std::move(given)), budget(std::move(shared)) {}
     Options options;
-    std::shared_ptr<Purse> purse;
+    std::shared_ptr<MemoryBudget> budget;
     std::atomic<std::uint64_t> spent[4] = {};
     std::vector<Stage> stages;
   };
@@ -176,13 +169,15 @@ class Job {
 
   std::uint64_t seed_;
   bool is_child_ = false;
-  Demand demand_;
+  std::string prefix_;    ///< from the parameters of the outermost request to those of this one
+  std::string fallback_;  ///< pointer of limits that have none
   std::shared_ptr<State> state_;
 };
 
-/// Spends one unit at a time for an inner loop: takes leases of 4,096 from the Job and looks at stop and
-/// deadline with each lease. One per thread. What is left of the last lease is not given back, so a count may
-/// be high by 4,095 a thread; a refusal therefore never comes late, and early by less than that.
+/// Counts single units in an inner loop. It takes them from the Job in portions of 4,096 and calls
+/// Job::check() with each portion. Each thread needs its own Meter. The rest of the last portion is not
+/// returned, so a count may be too high by 4,095 for each thread: the limit may be reported by that much too
+/// early, but never too late.
 class Meter {
  public:
   Meter(Job& job, Resource resource) : job_(&job), resource_(resource) {}

@@ -1,8 +1,8 @@
 #pragma once
-/// The only transcendental functions of core: SLEEF's deterministic scalar functions (Shibata and Petrogalli,
-/// "SLEEF: A Portable Vectorized Library of C Standard Mathematical Functions", 2020), which give the same
-/// bits on every CPU, unlike libm. Arguments in radians. Errors at most 1.0 ulp. `std::sqrt`, `floor`, `fabs`
-/// are exact by IEEE 754 and may be used as they are.
+/// The transcendental functions of core. They wrap the deterministic scalar functions of SLEEF (Shibata and
+/// Petrogalli, "SLEEF: A Portable Vectorized Library of C Standard Mathematical Functions", 2020), which give
+/// the same bits on every CPU; libm does not. Angles are in radians. Errors are at most 1.0 ulp. `std::sqrt`,
+/// `floor` and `fabs` are exact by IEEE 754 and may be used directly.
 #include <cstdint>
 #include <glm/vec3.hpp>
 
@@ -32,14 +32,14 @@ SinCos sincos_degrees(double degrees);
 constexpr double radians(double degrees) { return degrees * (pi / 180); }
 constexpr double degrees(double radians) { return radians * (180 / pi); }
 
-/// Integer nearest to zero from `x`, or the nearest representable one; NaN gives 0. The plain cast is
-/// undefined out of range, and x86 and ARM then differ.
+/// `x` rounded toward zero and clamped to the range of the type; NaN gives 0. The plain cast is undefined out
+/// of range, and x86 and ARM then differ.
 std::int64_t to_int64(double x);
 std::int32_t to_int32(double x);
 std::uint32_t to_uint32(double x);
 
-/// The vector of length 1 along `v`, or `otherwise` where v has no direction. Divides by the correctly
-/// rounded root (glm::normalize multiplies by a reciprocal, which loses the last bits).
+/// The unit vector along `v`, or `otherwise` where v is zero or not finite. Divides by the correctly rounded
+/// root. glm::normalize multiplies by a reciprocal instead, which loses the last bits.
 glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& otherwise);
 glm::vec3 unit(const glm::vec3& v, const glm::vec3& otherwise);
 

@@ -12,8 +12,8 @@ namespace seedmesh::pages {
 #if defined(__linux__)
 namespace {
 
-// The kernel lays whole huge pages where they can be used: so many are asked for, and what is not wanted of
-// them goes back untouched.
+// The kernel aligns mappings of whole huge pages so that it can use them. So whole huge pages are mapped, and
+// the unwanted end is unmapped before it is touched.
 constexpr std::size_t asked_for(std::size_t room) {
   return room < huge_page ? room : rounded(room, huge_page);
 }
@@ -41,12 +41,12 @@ std::byte* map(std::size_t room) {
 }
 
 std::byte* grown(std::byte* old, std::size_t before, std::size_t after) {
-#if defined(SEEDMESH_STD_THREADS)  // ThreadSanitizer does not see memory that the kernel moves
+#if defined(__SANITIZE_THREAD__)  // ThreadSanitizer does not see memory that the kernel moves
   return copied(old, before, after);
 #else
   void* const moved = mremap(old, before, asked_for(after), MREMAP_MAYMOVE);
   if (moved != MAP_FAILED) return fitted(moved, after);
-  return copied(old, before, after);  // the kernel moves nothing that was mapped in two parts
+  return copied(old, before, after);  // the kernel cannot move memory that was mapped in two parts
 #endif
 }
 

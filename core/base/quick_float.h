@@ -1,6 +1,6 @@
 #pragma once
-/// Sine, cosine and arctangent in single precision, within 3e-7, for loops that the compiler makes vectors
-/// of. The same bits everywhere, as those of quick_math.h: nothing but additions, products and quotients.
+/// Sine, cosine and arctangent in single precision, for loops that the compiler vectorises. The error is below
+/// 3e-7. They use only additions, products and quotients, so the bits are the same on every machine.
 ///
 /// Polynomials of Cephes (S. Moshier, sinf.c and atanf.c, 1989).
 #include <cmath>
@@ -11,13 +11,15 @@ struct FloatSinCos {
   float sin = 0, cos = 1;
 };
 
-/// To the nearest whole number, ties to the even one; of less than a 4th of what the type holds exactly.
+/// Rounds to the nearest whole number, ties to even. |x| must be below a quarter of the greatest whole number
+/// that the type represents exactly.
 inline float nearest(float x) { return (x + 0x1.8p23F) - 0x1.8p23F; }
 inline double nearest(double x) { return (x + 0x1.8p52) - 0x1.8p52; }
 
 namespace quick {
 
-/// Of `rest`, within an eighth of a turn, and so many right angles; that is, of -2, -1, 0, 1 or 2.
+/// Sine and cosine of rest + quarters * 90 degrees. |rest| is at most 45 degrees, in radians; `quarters` is
+/// -2, -1, 0, 1 or 2.
 inline FloatSinCos turned(float rest, float quarters) {
   const float z = rest * rest;
   const float sine = rest + rest * z * (-1.6666654611e-1F + z * (8.3321608736e-3F + z * -1.9515295891e-4F));
@@ -36,7 +38,7 @@ inline double last_two_bits(double quarters) { return quarters - 4 * nearest(0.2
 
 }  // namespace quick
 
-/// Of up to some hundred turns.
+/// Sine and cosine of `x` radians, for angles up to some hundred turns.
 inline FloatSinCos quick_sincos(float x) {
   const float quarters = nearest(x * 0.636619772F);
   const float rest =
@@ -44,14 +46,14 @@ inline FloatSinCos quick_sincos(float x) {
   return quick::turned(rest, quick::last_two_bits(quarters));
 }
 
-/// Exact at multiples of 90 degrees.
+/// Sine and cosine of an angle in degrees; exact at multiples of 90 degrees.
 inline FloatSinCos quick_float_sincos_degrees(double degrees) {
   const double quarters = nearest(degrees * (1.0 / 90));
   const auto rest = static_cast<float>((degrees - 90 * quarters) * 0.017453292519943295);
   return quick::turned(rest, static_cast<float>(quick::last_two_bits(quarters)));
 }
 
-/// In [-pi, pi]; 0 for (0, 0).
+/// The angle of (x, y) in [-pi, pi]; 0 for (0, 0).
 inline float quick_atan2(float y, float x) {
   constexpr float half_turn = 3.14159265F;
   const float a = std::abs(x), b = std::abs(y), most = a > b ? a : b, least = a > b ? b : a;

@@ -8,11 +8,11 @@
 namespace seedmesh {
 
 Reserve::Reserve(std::size_t most) : most_(most) {
-  // Keeping is part of destructors: it must not need memory.
+  // keep() runs in destructors, so it must not allocate.
   pieces_.reserve(most_pieces);
 }
 
-/// From the smallest piece that has room; null where none has.
+/// Cuts `room` bytes out of the smallest sufficient piece; null where there is none.
 std::byte* Reserve::cut(std::size_t room, std::size_t aligned) {
   const auto skipped = [&](const Piece& piece) {
     return (aligned - reinterpret_cast<std::uintptr_t>(piece.memory) % aligned) % aligned;
@@ -34,7 +34,7 @@ std::byte* Reserve::cut(std::size_t room, std::size_t aligned) {
   return whole.memory + before;
 }
 
-/// Neighbours become one, so that what was cut can be whole again.
+/// Adds a piece and joins it with adjacent ones, so that cut huge pages become whole again.
 void Reserve::join(Piece whole) {
   kept_ += whole.room;
   for (std::size_t i = pieces_.size(); i-- > 0;) {

@@ -1,7 +1,7 @@
 #pragma once
-/// Huge pages that arrays of requests have left, for those of the next requests: the kernel clears each page
-/// that it gives, which is a tenth of the time of a tree of 100,000 triangles. Safe for use from many
-/// threads.
+/// A cache of huge pages that arrays of finished requests have freed, for later requests. It saves the kernel
+/// from clearing each page again, which is a tenth of the time of a tree of 100,000 triangles. Safe for use
+/// from many threads.
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
@@ -13,22 +13,22 @@ class Reserve {
  public:
   static constexpr std::size_t usual = std::size_t{128} << 20U;
 
-  /// Keeps so many bytes at most.
+  /// Keeps at most `most` bytes.
   explicit Reserve(std::size_t most = usual);
   ~Reserve() { clear(); }
   Reserve(const Reserve&) = delete;
   Reserve& operator=(const Reserve&) = delete;
 
-  /// So many bytes, whole huge pages whose content is anything; null where there are no such.
+  /// `room` bytes in whole huge pages with unspecified content. Null where the reserve has none.
   std::byte* take(std::size_t room);
-  /// So many bytes, pages of the largest size (pages.h), out of huge pages that others have the rest of; new
-  /// ones where there are none. Throws std::bad_alloc.
+  /// `room` bytes in pages of the largest small size (pages.h), cut from huge pages that several blocks share.
+  /// Maps a new huge page where none has enough space. Throws std::bad_alloc.
   std::byte* share(std::size_t room);
-  /// Any pages. False: the caller unmaps them. It is kept as long as all that is kept and what its request
-  /// uses, this included, are together no more than half the most or than the request has used at its peak,
-  /// so that a great request is not greater by what it has let go.
+  /// Keeps pages that a request frees. `used` and `peak` are those of its budget, `memory` included in `used`.
+  /// Keeps them only while all kept pages and `used` together are at most max(most / 2, peak), so that the
+  /// reserve does not increase the memory that a big request needs. False: the caller unmaps the pages.
   bool keep(std::byte* memory, std::size_t room, std::uint64_t used, std::uint64_t peak);
-  /// Gives all back to the system.
+  /// Returns all kept pages to the system.
   void clear();
   std::size_t kept() const;
 

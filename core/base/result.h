@@ -2,6 +2,8 @@
 /// Outcomes of work that a request can make fail. What a request can cause is a Result; a broken promise
 /// inside the code is an assert; "stop now" is the one exception, Stop, thrown by Job (job.h).
 #include <cassert>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -10,43 +12,118 @@
 
 namespace seedmesh {
 
-/// Why a request was refused. Append only: the words made from these are part of the public contract.
+/// Why a request was refused as a whole. Append only: their names are part of the public contract.
 enum class Code {
-  malformed,  ///< not JSON, duplicate key, bad UTF-8, nested too deep, bad token
-  invalid,    ///< the schema or the grammar says no
-  limit,      ///< it would pass a limit
-  deadline,   ///< over the time limit
-  cancelled,  ///< the caller has gone or the service drains
-  internal,   ///< never on purpose
+  malformed,  ///< not JSON, duplicate key, bad UTF-8, nested too deep
+  invalid,    ///< the schema, the grammar or the generator does not accept the request
+  limit,      ///< the request would exceed a limit
+  deadline,   ///< the time limit has passed
+  cancelled,  ///< the client has closed the connection, or the service shuts down
+  internal,   ///< a defect of this program
 };
 
-/// One fault, tied to the place in the request that caused it.
+/// What is wrong with one value of a request. Code decides by the kind, never by the words of the message.
+/// Append only: word_of(kind) is the member `code` of a problem body, which is part of the public contract.
+enum class IssueKind : std::uint8_t {
+  syntax,          ///< a text that cannot be read: JSON, grammar, expression, percent escape, foreign file
+  duplicate_key,   ///< a key or a name that is given twice
+  unknown_key,     ///< a member that its object does not have
+  unknown_name,    ///< a name that refers to something which does not exist
+  missing,         ///< something required is absent
+  wrong_type,      ///< another JSON type, or a number where a text is expected
+  out_of_range,    ///< a number, a length or a count outside its range
+  invalid_value,   ///< the type is right but the value cannot be used: a form, an image, a polygon
+  conflict,        ///< values that exclude each other, or one that needs another
+  not_available,   ///< the generator, format or profile does not offer the requested feature
+  evaluation,      ///< an expression or rule has no usable result: division by zero, an infinite size
+  limit,           ///< Issue::limit says which
+  truncated_list,  ///< not an error: Issue::unlisted more errors were found than the list holds
+  deadline,        ///< the time limit has passed
+  cancelled,       ///< the work was cancelled
+  internal,        ///< a defect of this program
+};
+
+/// "unknown_key" and so on: the name of the enumerator.
+std::string_view word_of(IssueKind kind);
+
+/// What a limit is about. Job counts the first four while a request runs.
+enum class Resource : std::uint8_t {
+  modules,
+  shapes,
+  triangles,
+  output_bytes,
+  memory_bytes,
+  file_bytes,  ///< of one file inside the output, whose format ends there
+  vertices,    ///< of one mesh, whose indices have 32 bits
+  points,
+  segments,  ///< of a turtle
+  joints,    ///< of a skeleton
+  leaves,
+  iterations,
+  depth,  ///< of nested brackets, lists, expressions or requests
+  json_values,
+  steps,  ///< of a loop that rules run: rule applications, matches, cells
+};
+
+/// "memory_bytes" and so on: the name of the enumerator.
+std::string_view word_of(Resource resource);
+
+struct Limit {
+  Resource resource;
+  std::uint64_t bound = 0;
+  std::uint64_t needed = 0;  ///< at least this much is needed; above `bound`
+};
+
+bool operator==(const Limit& a, const Limit& b);
+
+/// One error, tied to the value in the request that caused it.
 struct Issue {
-  std::string pointer;  ///< JSON Pointer into the request body, "" = the whole body
-  std::string message;  ///< one sentence for a human: what was found, what was expected
-  int line = 0;         ///< line inside the string that `pointer` names, from 1; 0 = not in a string
-  int column = 0;       ///< column inside that line in characters (code points), from 1; 0 = not in a string
+  Issue() = default;
+  Issue(IssueKind what, std::string at, std::string sentence, int in_line = 0, int in_column = 0)
+      : kind(what), pointer(std::move(at)), message(std::move(sentence)), line(in_line), column(in_column) {}
+
+  IssueKind kind = IssueKind::internal;
+  std::string pointer;         ///< JSON Pointer into the request body, "" = the whole body
+  std::string message;         ///< one sentence for a human: what was found, what was expected
+  int line = 0;                ///< line inside the string that `pointer` names, from 1; 0 = not in a string
+  int column = 0;              ///< column inside that line in code points, from 1; 0 = not in a string
+  std::optional<Limit> limit;  ///< for IssueKind::limit
+  std::uint64_t unlisted = 0;  ///< for IssueKind::truncated_list: how many more were found
 
   friend bool operator==(const Issue&, const Issue&) = default;
 };
 
-/// Every fault found, in document order; never empty.
+/// A remark on the request that does not refuse it.
+struct Warning {
+  std::string pointer;
+  std::string message;
+  int line = 0, column = 0;
+};
+
+/// Every error found, in document order; never empty.
 struct Error {
   Code code = Code::internal;
   std::vector<Issue> issues;
 };
 
+/// An Issue of IssueKind::limit. `message` says what needs how much, and the limit.
+Issue limit_issue(const Limit& limit, std::string message, std::string pointer = "");
+
+/// The last entry of a list that was cut: "and 12 more errors".
+Issue truncated_list(std::uint64_t unlisted);
+
 /// Line and column, both from 1, of byte `offset` in UTF-8 `text`. Columns count code points.
-struct TextPlace {
+struct TextPosition {
   int line = 1;
   int column = 1;
 };
-TextPlace place_of(std::string_view text, std::size_t offset);
+TextPosition text_position(std::string_view text, std::size_t offset);
 
-/// An Issue that points at byte `offset` of the string `text` which stands at `pointer`.
-Issue issue_at(std::string pointer, std::string_view text, std::size_t offset, std::string message);
+/// An Issue about byte `offset` of the string `text`, which is the value at `pointer`.
+Issue issue_at(IssueKind kind, std::string pointer, std::string_view text, std::size_t offset,
+               std::string message);
 
-/// A value, or the faults that prevented it.
+/// A value, or the errors that prevented it.
 template <class T>
 class [[nodiscard]] Result {
  public:

@@ -1,7 +1,7 @@
 #pragma once
-/// Random numbers by place: the n-th draw of a stream depends on nothing but (seed, path, n), so that a
-/// choice made in one place never moves the choices elsewhere. No <random> distributions: they differ by
-/// library.
+/// Random numbers by key. The n-th draw of a stream depends on nothing but the seed, the path of names and
+/// indices that leads to the stream, and n. A draw in one part of a model therefore never changes the draws
+/// elsewhere. The distributions of <random> are not used, because they differ between standard libraries.
 ///
 /// The mixing function is the finaliser of SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom
 /// number generators", 2014, variant 13 of Stafford's mixers).
@@ -20,12 +20,12 @@ constexpr std::uint64_t mix(std::uint64_t x) {
   return x;
 }
 
-/// The key of place `index` below the place `key`. The order of the two matters.
+/// The key of child `index` of `key`. The order of the arguments matters.
 constexpr std::uint64_t key_at(std::uint64_t key, std::uint64_t index) {
   return mix(key + 0x9E3779B97F4A7C15U * (index + 1));
 }
 
-/// A stream of random numbers at one place. Cheap to copy; `at` does not advance it.
+/// A stream of random numbers. Cheap to copy; `at` does not advance it.
 class Rng {
  public:
   explicit constexpr Rng(std::uint64_t key) : key_(key) {}

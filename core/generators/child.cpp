@@ -1,127 +1,132 @@
 #include "core/generators/child.h"
 
+#include <algorithm>
+#include <cassert>
 #include <nlohmann/json.hpp>
 
-#include "core/model/widen.h"
+#include "core/model/index_width.h"
 #include "core/schema/nearest.h"
 
 namespace seedmesh {
 namespace {
 
-Generator::Params read_at_depth(const Generator& generator, const Json& json, const std::string& pointer,
-                                const Limits& limits, Faults& faults, int depth);
+/// Where the reading of a request has come to.
+struct Reading {
+  const CheckContext& context;
+  IssueList& errors;
+  int depth;
+};
 
-/// Reads the parameters of a child and puts their canonical form in their place.
-void settle(Child& child, const std::string& pointer, const Limits& limits, Faults& faults, int depth) {
-  if (child.generator.empty() || faults.covers(pointer)) return;
+Generator::Params read_at(const Generator& generator, const Json& json, const std::string& pointer,
+                          const Reading& reading);
+
+/// Reads the parameters of a child and replaces them by their canonical form.
+void read_child(Child& child, const std::string& pointer, const Reading& reading) {
+  auto& [context, errors, depth] = reading;
+  if (child.generator.empty() || errors.covers(pointer)) return;
   if (depth > deepest_child) {
-    faults.add({pointer, "found a request inside " + std::to_string(depth) + " others, expected at most " +
-                             std::to_string(deepest_child)});
+    errors.add(limit_issue({Resource::depth, deepest_child, static_cast<std::uint64_t>(depth)},
+                           "found a request inside " + std::to_string(depth) + " others, expected at most " +
+                               std::to_string(deepest_child),
+                           pointer));
     return;
   }
-  const Generator* generator = find_generator(child.generator);
+  const Generator* generator = find_generator(context.generators, child.generator);
   if (!generator) {
-    faults.add({pointer + "/generator", unknown_generator(child.generator)});
+    errors.add({IssueKind::unknown_name, pointer + "/generator",
+                unknown_generator(context.generators, child.generator)});
     return;
   }
   const Json json = Json::parse(child.parameters);
-  const Generator::Params params =
-      read_at_depth(*generator, json, pointer + "/parameters", limits, faults, depth);
+  const Generator::Params params = read_at(*generator, json, pointer + "/parameters", reading);
   child.parameters = canonical_text(generator->write(params));
 }
 
-/// Schema faults and grammar faults come together, but not the second as an echo of the first.
-void add_grammar_faults(const Generator& generator, const Generator::Params& params,
-                        const std::string& pointer, const Limits& limits, Faults& faults) {
-  std::vector<Issue> found = generator.check(params, limits);
+/// Adds the errors of check(), but not where the schema has refused a value already.
+void add_checked(std::vector<Issue> found, const std::string& pointer, IssueList& errors) {
   for (Issue& issue : found) issue.pointer.insert(0, pointer);
-  std::erase_if(found, [&faults](const Issue& issue) { return faults.covers(issue.pointer); });
-  for (Issue& issue : found) faults.add(std::move(issue));
+  std::erase_if(found, [&errors](const Issue& issue) { return errors.covers(issue.pointer); });
+  for (Issue& issue : found) errors.add(std::move(issue));
 }
 
-Generator::Params read_at_depth(const Generator& generator, const Json& json, const std::string& pointer,
-                                const Limits& limits, Faults& faults, int depth) {
-  const Generator::Settle settle_child = [&](const ChildPlace& place) {
-    settle(*place.child, pointer + place.pointer, limits, faults, depth + 1);
+Generator::Params read_at(const Generator& generator, const Json& json, const std::string& pointer,
+                          const Reading& reading) {
+  const Generator::VisitChild visit = [&](const ChildLocation& place) {
+    read_child(*place.child, pointer + place.pointer, {reading.context, reading.errors, reading.depth + 1});
   };
-  Generator::Params params = generator.read(json, pointer, faults, settle_child);
-  if (json.is_object()) add_grammar_faults(generator, params, pointer, limits, faults);
+  Generator::Params params = generator.read(json, pointer, reading.errors, visit);
+  if (json.is_object()) add_checked(generator.check(params, reading.context), pointer, reading.errors);
   return params;
 }
 
-/// A child on its way to a model: what it is made by, and where its faults belong.
+/// The making of a child's model.
 struct Call {
   const Generator* generator;
   Generator::Params params;
   std::string pointer;
   Job job;
 
-  Call(const Child& child, const std::string& at, Rng place, const Job& around)
-      : generator(find_generator(child.generator)),
+  Call(const Child& child, const std::string& at, Rng stream, const GenerateContext& around)
+      : generator(find_generator(around.generators, child.generator)),
         pointer(at + "/parameters"),
-        job(around.for_child(child.seed.value_or(place.key()))) {
-    Faults faults;
-    params = generator->read(Json::parse(child.parameters), "", faults, {});
-    assert(faults.empty());  // read_parameters has seen them
+        job(around.job.for_child(child.seed.value_or(stream.key()), at + "/parameters")) {
+    IssueList errors;
+    params = generator->read(Json::parse(child.parameters), "", errors, {});
+    assert(errors.empty());  // read_parameters() has reported them
   }
 
-  /// What `work` gives, its faults pointing to the child.
+  /// The result of `work`; pointers of its errors lead to the child.
   template <class T, class Work>
-  Result<T> run(const Work& work) {
-    try {
-      Result<T> result = work(params, job);
-      if (result) return result;
-      Error error = std::move(result).error();
-      for (Issue& issue : error.issues) issue.pointer.insert(0, pointer);
-      return error;
-    } catch (const Stop& stop) {  // the same stop, told of where it belongs
-      Issue issue = stop.issue();
-      if (!issue.pointer.empty()) issue.pointer.insert(0, pointer);
-      throw Stop(stop.code(), std::move(issue));
-    }
+  Result<T> run(const Work& work, const GenerateContext& context) {
+    Result<T> result = work(params, context);
+    if (result) return result;
+    Error error = std::move(result).error();
+    for (Issue& issue : error.issues) issue.pointer.insert(0, pointer);
+    return error;
   }
 
-  void point(std::vector<Warning>& warnings) const {
+  void prefix_pointers(std::vector<Warning>& warnings) const {
     for (Warning& warning : warnings) warning.pointer.insert(0, pointer);
   }
 };
 
 }  // namespace
 
-Generator::Params read_parameters(const Generator& generator, const Json& json, const std::string& pointer,
-                                  const Limits& limits, Faults& faults) {
-  return read_at_depth(generator, json, pointer, limits, faults, 0);
+const Generator* find_generator(GeneratorList generators, std::string_view name) {
+  const auto found = std::ranges::find(generators, name, &Generator::name);
+  return found == generators.end() ? nullptr : &*found;
 }
 
-Result<Model> generate_child(const Child& child, const std::string& pointer, Rng place, const Job& job,
-                             const Demand& demand) {
-  Call call(child, pointer, place, job);
+Generator::Params read_parameters(const Generator& generator, const Json& json, const std::string& pointer,
+                                  const CheckContext& context, IssueList& errors) {
+  return read_at(generator, json, pointer, {context, errors, 0});
+}
+
+Result<Model> generate_child(const Child& child, const std::string& pointer, Rng stream,
+                             const GenerateContext& around, const Demand& demand) {
+  Call call(child, pointer, stream, around);
   Demand own = demand;
-  own.tangents = false;  // whoever has the whole makes those of all meshes that stay
-  call.job.set_demand(own);
-  Result<Model> model = call.run<Model>(call.generator->generate);
+  own.tangents = false;
+  Result<Model> model = call.run<Model>(call.generator->generate, {call.job, own, around.generators});
   if (!model) return model;
-  widen(*model, job);
-  call.point(model->warnings);
+  widen(*model, around.job);
+  call.prefix_pointers(model->warnings);
   return model;
 }
 
-Result<Appraisal> appraise_child(const Child& child, const std::string& pointer, Rng place, const Job& job) {
-  Call call(child, pointer, place, job);
-  Result<Appraisal> appraisal = call.run<Appraisal>(call.generator->appraise);
-  if (appraisal) call.point(appraisal->warnings);
+Result<Appraisal> appraise_child(const Child& child, const std::string& pointer, Rng stream,
+                                 const GenerateContext& around) {
+  Call call(child, pointer, stream, around);
+  Result<Appraisal> appraisal =
+      call.run<Appraisal>(call.generator->appraise, {call.job, {}, around.generators});
+  if (appraisal) call.prefix_pointers(appraisal->warnings);
   return appraisal;
 }
 
-std::string unknown_generator(std::string_view name) {
+std::string unknown_generator(GeneratorList generators, std::string_view name) {
   std::vector<std::string_view> names;
-  for (const Generator& generator : generators()) names.push_back(generator.name);
-  std::string message = schema::unknown_word("generator", name, names);
-  if (!message.ends_with('?')) {
-    message += "; there are ";
-    for (std::size_t i = 0; i < names.size(); ++i) message.append(i > 0 ? ", " : "").append(names[i]);
-  }
-  return message;
+  for (const Generator& generator : generators) names.push_back(generator.name);
+  return schema::unknown_word_of_few("generator", name, names);
 }
 
 }  // namespace seedmesh

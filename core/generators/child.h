@@ -1,39 +1,36 @@
 #pragma once
-/// Requests inside requests. A schema takes one where it refers to common.schema.json#/$defs/child; its
-/// generator is handed a Child and asks here for the model. One Job serves all of them, so limits, deadline
-/// and memory are those of the whole request.
+/// Requests inside requests. Where a schema refers to common.schema.json#/$defs/child, the generator gets a
+/// Child and makes its model with these functions. All models of a request share one set of limits, one
+/// deadline and one memory budget.
 #include <string>
 #include <string_view>
 
-#include "core/base/job.h"
-#include "core/generators/appraisal.h"
-#include "core/generators/registry.h"
-#include "core/model/model.h"
-#include "core/schema/child.h"
-#include "core/schema/faults.h"
+#include "core/base/rng.h"
+#include "core/generators/api.h"
 
 namespace seedmesh {
 
-/// Requests may stand in each other this deep. Presets count too, so that shipped ones cannot go in circles.
+/// Greatest depth of requests inside requests. Presets count too, so that presets cannot refer to each other
+/// in a circle.
 constexpr int deepest_child = 4;
 
-/// Reads the parameters that stand at `pointer` and those of every request inside them, which become
-/// canonical. Adds the faults of the schema and those that only the generators know, each once. Schemas bound
-/// how many children there can be.
+/// Reads the parameters at `pointer` and those of every request inside them, which become canonical. Adds the
+/// errors of the schemas and of the generators' check(), each once.
 Generator::Params read_parameters(const Generator& generator, const Json& json, const std::string& pointer,
-                                  const Limits& limits, Faults& faults);
+                                  const CheckContext& context, IssueList& errors);
 
-/// The model of a child that stands at `pointer` of the parameters around it, not finished. Where the child
-/// has no seed of its own it grows from `place`, which is to be a different stream for each place. Faults and
-/// warnings point into the parameters around it. Stages of the child are not told as progress.
-/// `demand`: what is asked of its model; plain where nothing is said.
-Result<Model> generate_child(const Child& child, const std::string& pointer, Rng place, const Job& job,
-                             const Demand& demand = {});
+/// Makes the model of the child at `pointer` of the surrounding parameters; finish() has not run on it. A
+/// child without a seed takes its seed from `stream`, which must differ for each location. Errors and
+/// warnings point into the surrounding parameters. The child reports no progress. The child's model has no
+/// tangents: the pipeline makes those of the whole model.
+Result<Model> generate_child(const Child& child, const std::string& pointer, Rng stream,
+                             const GenerateContext& around, const Demand& demand = {});
 
-/// The same for the estimate.
-Result<Appraisal> appraise_child(const Child& child, const std::string& pointer, Rng place, const Job& job);
+/// The same for the appraisal.
+Result<Appraisal> appraise_child(const Child& child, const std::string& pointer, Rng stream,
+                                 const GenerateContext& around);
 
-/// "there is no generator "tre"; did you mean "tree"?", or which there are.
-std::string unknown_generator(std::string_view name);
+/// The message for a generator that does not exist, with the nearest name or with all names.
+std::string unknown_generator(GeneratorList generators, std::string_view name);
 
 }  // namespace seedmesh

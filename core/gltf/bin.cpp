@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <limits>
 #include <numeric>
 
 #include "core/base/array.h"
@@ -158,6 +159,13 @@ void Bin::drain(Job& job, const std::function<void(Slice)>& sink) {
     sink({std::move(block), whole});
     job.check();
   }
+}
+
+void refuse_beyond_4_gib(std::uint64_t bytes, const Job& job) {
+  constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max() - 1;
+  if (bytes <= most) return;
+  job.refuse(limit_issue({Resource::file_bytes, most, bytes}, "the file would have " + std::to_string(bytes) +
+                                                                  " bytes; its format ends at 4 GiB"));
 }
 
 Payload raw(Bin bin, Job& job) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The one buffer of a document: where each array lies in it, and its bytes in that order.
+/// The buffer of a glTF document: the location of each array, and the bytes.
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -10,16 +10,16 @@
 
 namespace seedmesh::gltf {
 
-/// Arrays of one use and stride lie together, so that small ones share a bufferView (several vertex
-/// attributes in one view must agree on the stride). The buffer holds the pools in this order.
+/// Arrays with equal use and stride are stored together, so that small ones share a bufferView: all vertex
+/// attributes of a view have one stride. The buffer holds the pools in this order.
 enum class Pool {
   vertex4,
   vertex8,
   vertex12,
   vertex16,
-  octahedral8,  ///< only where it will be compressed, as the three below
+  octahedral8,  ///< only in compressed files, like the three below
   exponential8,
-  sequence2,  ///< indices that are no triangles
+  sequence2,  ///< indices of lines and points
   sequence4,
   index2,
   index4,
@@ -28,22 +28,22 @@ enum class Pool {
   image
 };
 
-/// Bytes of an element of a pool of vertices or indices, else 0.
+/// Bytes of one element; 0 for pools of neither vertices nor indices.
 std::uint32_t stride_of(Pool pool);
 
-/// What the pool is for, as OpenGL numbers it; 0 for neither vertices nor indices.
+/// The bufferView target (a number of OpenGL); 0 for neither vertices nor indices.
 int target_of(Pool pool);
 
-/// The pool of a vertex attribute, or of indices, by the stride (and the filter).
+/// The pool of a vertex attribute or of indices, which follows from stride and filter.
 Pool vertex_pool(const Column& column);
 Pool index_pool(const Column& column);
 
-/// Whether arrays that share a view start at multiples of 4, or follow each other without a gap.
+/// Do arrays that share a view start at multiples of 4, or follow each other without gaps?
 enum class Packing { aligned, tight };
 
 class Bin {
  public:
-  /// A place in the buffer, for the accessor or the image that reads it.
+  /// The location of an array, for its accessor or image.
   struct Place {
     int view = -1;
     std::uint64_t offset = 0;  ///< within the view; below 1 MiB
@@ -54,29 +54,29 @@ class Bin {
     std::uint32_t stride = 0;  ///< 0 unless vertex attributes share the view
   };
 
-  /// Does an array of so many bytes get a view of its own, whatever is beside it?
+  /// Does an array of this size always get a view of its own?
   static bool has_own_view(std::uint64_t bytes);
 
-  /// Adds an array and returns its number. Not after arrange().
+  /// Adds an array and returns its number. Call it before arrange().
   int add(Pool pool, Slice slice);
 
-  /// Gives each array its place: views start at multiples of 4, and are of at most 1 MiB unless one array
-  /// alone is larger.
+  /// Computes the location of each array. Views start at multiples of 4 and have at most 1 MiB, unless one
+  /// array is larger.
   void arrange(Packing packing = Packing::aligned);
 
   Place place(int number) const { return places_[static_cast<std::size_t>(number)]; }
   const std::vector<View>& views() const { return views_; }
   std::uint64_t size() const { return size_; }  ///< a multiple of 4
 
-  /// The arrays of each view, in order. Only between arrange() and drain().
+  /// The arrays of each view, in order. Call it between arrange() and drain().
   std::vector<std::vector<Slice>> slices() const;
 
-  /// Lets go of all arrays; the places stay.
-  void forget() { items_.clear(); }
+  /// Releases all arrays; the locations stay.
+  void release() { items_.clear(); }
 
-  /// Hands the bytes out in order, padding included, and lets go of each array when it has been handed out.
-  /// Arrays are shared, not copied; neighbours below 4 KiB come gathered in one block (charged to `job`),
-  /// because a socket wants few writes.
+  /// Passes the bytes to `sink` in order, with padding, and releases each array afterwards. Arrays are shared
+  /// and not copied. Neighbours below 4 KiB are copied into one block (charged to `job`), so that a socket
+  /// gets few writes.
   void drain(Job& job, const std::function<void(Slice)>& sink);
 
  private:
@@ -86,12 +86,16 @@ class Bin {
   };
   std::vector<Item> items_;
   std::vector<Place> places_;
-  std::vector<std::size_t> order_;  ///< items as they lie in the buffer
+  std::vector<std::size_t> order_;  ///< numbers of the items in buffer order
   std::vector<View> views_;
   std::uint64_t size_ = 0;
 };
 
-/// The buffer as it is.
+/// Throws Stop where a file would have 4 GiB or more: sizes are 32-bit words in GLB, and in zip without
+/// zip64.
+void refuse_beyond_4_gib(std::uint64_t bytes, const Job& job);
+
+/// The bytes of the buffer.
 Payload raw(Bin bin, Job& job);
 
 /// The buffer in base64 (RFC 4648, padded), in blocks of 4 MiB charged to `job`.

@@ -54,7 +54,7 @@ void take_uv(Part& part, Mesh& mesh) {
   }
 }
 
-/// JOINTS_0 and WEIGHTS_0 of vertices that one joint each moves: four numbers of which the first counts.
+/// JOINTS_0 and WEIGHTS_0 of vertices with one joint each: only the first of four numbers is used.
 template <class Number>
 void name_bones(Part& part, Array<std::uint16_t>& bone, Component component) {
   using Four = glm::vec<4, Number>;
@@ -109,7 +109,7 @@ Part take_part(Primitive& primitive) {
 
 namespace {
 
-/// The arrays of a packed mesh, with the materials that the primitive has by now.
+/// The arrays of a packed mesh, with the current materials of the primitive.
 Part take_packed(Primitive& primitive) {
   Part part = static_cast<const PackedPart&>(*primitive.mesh.packed).part;
   primitive.mesh.packed.reset();
@@ -120,7 +120,7 @@ Part take_packed(Primitive& primitive) {
 
 Column take_inverse_binds(Skin& skin) {
   for (glm::mat4& matrix :
-       skin.inverse_bind) {  // glTF wants the last row exact, and an inversion may leave crumbs
+       skin.inverse_bind) {  // glTF requires an exact last row; an inversion may leave rounding errors
     for (int column = 0; column < 4; ++column) matrix[column][3] = column < 3 ? 0.0F : 1.0F;
   }
   const std::size_t count = skin.inverse_bind.size();
@@ -179,7 +179,7 @@ Columns take_columns(Model& model) {
   return columns;
 }
 
-void let_go(Columns& columns) {
+void release(Columns& columns) {
   for (std::vector<Part>& mesh : columns.meshes) {
     for (Part& part : mesh) {
       for (Column& column : part.columns) column.slice = {};

@@ -10,27 +10,27 @@ namespace {
 using lang::Token;
 using lang::TokenKind;
 
-constexpr std::size_t longest_expansion = 1'000'000;  // bytes that macros may write into one line
+constexpr std::size_t longest_expansion = 1'000'000;  // bytes in one line
 constexpr int deepest_expansion = 50;
-constexpr std::size_t most_macros = 1'000;  // as many as a request may have constants
+constexpr std::size_t most_macros = 1'000;  // the most constants of a request
 
 std::string_view part(std::string_view text, Line line) {
   return text.substr(line.from, line.to - line.from);
 }
 
-/// Where a name begins at `at`, its end; else `at`.
+/// The end of the name that begins at `at`; `at` if none does.
 std::size_t name_end(std::string_view text, std::size_t at) {
   if (at >= text.size() || is_digit(text[at]) || !is_name_part(text[at])) return at;
   while (at < text.size() && is_name_part(text[at])) ++at;
   return at;
 }
 
-/// Whether the text is one operand wherever it is pasted: a number, a name, a call, or in parentheses.
+/// Whether the text is one operand in every context: a number, a name, a call, or in parentheses.
 bool is_operand(std::string_view text) {
-  std::vector<lang::Fault> faults;
-  const std::vector<Token> tokens = lang::tokenize(text, 0, text.size(), faults);
+  std::vector<lang::TextError> errors;
+  const std::vector<Token> tokens = lang::tokenize(text, 0, text.size(), errors);
   const std::size_t count = tokens.size() - 1;
-  if (!faults.empty() || count == 0) return false;
+  if (!errors.empty() || count == 0) return false;
   const bool is_single = tokens[0].kind == TokenKind::number || tokens[0].kind == TokenKind::name;
   if (count == 1) return is_single;
   if (count == 2) return lang::is_symbol(tokens[0], "-") && tokens[1].kind == TokenKind::number;
@@ -54,15 +54,15 @@ void CpfgMacros::define(std::string_view text, Line line) {
   std::size_t end = at;
   while (end < line.to && is_letter(text[end])) ++end;
   if (part(text, {at, end}) != "define") {
-    source_.fault(line.from, "found " + lang::in_quotes(part(text, {line.from, end})) +
-                                 "; of the preprocessor only #define is understood");
+    source_.report(line.from, "found " + lang::in_quotes(part(text, {line.from, end})) +
+                                  "; the supported commands of the preprocessor are #define, #undef and #if");
     return;
   }
   at = trimmed(text, {end, line.to}).from;
   end = at;
   while (end < line.to && is_name_part(text[end])) ++end;
   if (end == at || is_digit(text[at])) {
-    source_.fault(at, "expected the name of a macro");
+    source_.report(at, "expected the name of a macro");
     return;
   }
   Macro macro;
@@ -71,7 +71,7 @@ void CpfgMacros::define(std::string_view text, Line line) {
   if (end < line.to && text[end] == '(') {
     const std::size_t close = lsystem::closing(text, end, line.to);
     if (close == line.to) {
-      source_.fault(end, "found `(` without its `)`");
+      source_.report(end, "found `(` without its `)`");
       return;
     }
     macro.has_parameters = true;
@@ -84,23 +84,27 @@ void CpfgMacros::define(std::string_view text, Line line) {
     end = close + 1;
   }
   macro.body = part(text, trimmed(text, {end, line.to}));
+  const auto known = macros_.find(name);
+  if (known != macros_.end() && known->second.body == macro.body &&
+      known->second.parameter_list == macro.parameter_list)
+    return;
   if (macros_.size() == most_macros) {
-    source_.fault(at, "found more than 1,000 macros");
+    source_.report(at, "found more than 1,000 macros");
   } else if (!macros_.emplace(name, std::move(macro)).second) {
-    source_.fault(at, "found a second macro of this name");
+    source_.report(at, "found a second macro of this name");
   }
 }
 
 bool CpfgMacros::parses(lang::Names& names, const Macro& macro) const {
   const std::size_t outer = names.size();
   for (const std::string& parameter : macro.parameters) names.bind_constant(parameter, 1);
-  std::vector<lang::Fault> faults;
-  const std::vector<Token> tokens = lang::tokenize(macro.body, 0, macro.body.size(), faults);
+  std::vector<lang::TextError> errors;
+  const std::vector<Token> tokens = lang::tokenize(macro.body, 0, macro.body.size(), errors);
   lang::Program program;
   std::size_t at = 0;
-  program.parse(tokens, at, names, faults);
+  program.parse(tokens, at, names, errors);
   names.forget_after(outer);
-  return faults.empty() && tokens[at].kind == TokenKind::end;
+  return errors.empty() && tokens[at].kind == TokenKind::end;
 }
 
 void CpfgMacros::sort() {
@@ -111,12 +115,12 @@ void CpfgMacros::sort() {
       continue;
     }
     lang::Names::Defined function;
-    std::vector<lang::Fault> faults;
+    std::vector<lang::TextError> errors;
     const std::string definition = name + macro.parameter_list + " = 1";
-    lang::read_definition(definition, function, faults);
-    if (!faults.empty()) continue;
+    lang::read_definition(definition, function, errors);
+    if (!errors.empty()) continue;
     function.body.clear();
-    function.is_sound = false;  // calls are not judged here
+    function.is_valid = false;  // calls are not checked here
     names.define(name, std::move(function));
   }
   for (auto& [name, macro] : macros_) {
@@ -148,7 +152,7 @@ std::vector<CpfgMacros::Expression> CpfgMacros::functions() {
 }
 
 void CpfgMacros::stop(std::size_t at, const char* why) {
-  if (!std::exchange(is_stopped_, true)) source_.fault(at, why);
+  if (!std::exchange(is_stopped_, true)) source_.report(at, why);
 }
 
 TracedText CpfgMacros::expanded(const TracedText& text) {
@@ -165,7 +169,7 @@ TracedText CpfgMacros::expand(const TracedText& text, int depth) {
     const auto found = end > at ? macros_.find(text.text().substr(at, end - at)) : macros_.end();
     const std::size_t from = text.origin(at);
     if (found == macros_.end()) {
-      // A number takes the letters behind it along, as in 1e3.
+      // Letters behind a number belong to it, as in 1e3.
       std::size_t rest = std::max(end, at + 1);
       if (is_digit(text[at])) {
         while (rest < text.size() && is_name_part(text[rest])) ++rest;
@@ -192,8 +196,8 @@ TracedText CpfgMacros::expand(const TracedText& text, int depth) {
   return out;
 }
 
-/// A macro with parameters at text[at]: a call where the request has its function and every argument is one
-/// operand, pasted elsewhere. False: no parameters follow.
+/// Expands the macro with parameters at text[at]. It stays a call if the request has the function and every argument is
+/// a single operand; otherwise its text is pasted. False: no parameters follow.
 bool CpfgMacros::expand_call(const std::string& name, const Macro& macro, const TracedText& text,
                              std::size_t& at, int depth, TracedText& out) {
   const std::size_t open = lsystem::skip_spaces(text.text(), at + name.size(), text.size());
@@ -222,8 +226,8 @@ bool CpfgMacros::expand_call(const std::string& name, const Macro& macro, const 
   }
   at = close + 1;
   if (arguments.size() != macro.parameters.size() && !are_operands) {
-    source_.fault(from, "found " + std::to_string(arguments.size()) + " arguments of the macro " +
-                            lang::in_quotes(name) + "; it has " + std::to_string(macro.parameters.size()));
+    source_.report(from, "found " + std::to_string(arguments.size()) + " arguments of the macro " +
+                             lang::in_quotes(name) + "; it has " + std::to_string(macro.parameters.size()));
   } else if (are_operands) {
     out.write(name + "(", from);
     for (std::size_t i = 0; i < arguments.size(); ++i) {

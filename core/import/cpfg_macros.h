@@ -1,6 +1,6 @@
 #pragma once
-/// The macros of a file of cpfg: #define NAME text and #define NAME(parameters) text. The preprocessor pastes
-/// text; what gives the same as a constant or a function of a request becomes one.
+/// The macros of a file of cpfg: #define NAME text and #define NAME(parameters) text. A macro whose text is an
+/// operand becomes a constant or a function of the request. Every other macro is expanded as text.
 #include <map>
 #include <string>
 #include <vector>
@@ -15,18 +15,21 @@ class CpfgMacros {
  public:
   explicit CpfgMacros(ForeignText& source) : source_(source) {}
 
-  /// Reads text[line], which begins with `#`.
+  /// Reads a line that begins with `#`.
   void define(std::string_view text, Line line);
 
-  /// Tells constants and functions from texts. After the last define().
+  bool knows(const std::string& name) const { return macros_.contains(name); }
+  void undefine(const std::string& name) { macros_.erase(name); }
+
+  /// Decides which macros are constants or functions. Call it after the last define().
   void sort();
 
-  /// `text` with the macros pasted that are texts, and functions where an argument is more than one operand.
-  /// Empty, with a fault, where they contain themselves or become too long.
+  /// `text` with its macros expanded, except for constants and for functions whose arguments are single operands. Empty,
+  /// with an error, if macros contain themselves or the result is too long.
   TracedText expanded(const TracedText& text);
 
   struct Expression {
-    std::string name, text;  ///< of a function the whole definition
+    std::string name, text;  ///< for a function, the whole definition
     std::size_t at = 0;
   };
   std::vector<Expression> constants();
@@ -38,7 +41,7 @@ class CpfgMacros {
     bool has_parameters = false;
     std::vector<std::string> parameters;
     std::string parameter_list, body;
-    bool is_value = false;  ///< a constant or a function: a request can say it
+    bool is_value = false;  ///< a constant or a function of the request
   };
   bool parses(lang::Names& names, const Macro& macro) const;
   TracedText expand(const TracedText& text, int depth);
@@ -49,7 +52,7 @@ class CpfgMacros {
 
   ForeignText& source_;
   std::map<std::string, Macro> macros_;
-  std::size_t spent_ = 0;  ///< bytes written for the text that is expanded
+  std::size_t spent_ = 0;  ///< bytes written by the current expansion
   bool is_stopped_ = false;
 };
 

@@ -23,7 +23,7 @@ bool is_star(const TracedText& text, Slice slice) {
 
 enum class Occurrence { first, last };
 
-/// Place of `mark` outside parentheses in text[slice]; slice.to where it does not occur.
+/// The offset of `mark` outside of parentheses in text[slice]; slice.to if there is none.
 std::size_t find_outside(const TracedText& text, Slice slice, char mark, Occurrence which) {
   int depth = 0;
   std::size_t found = slice.to;
@@ -37,7 +37,7 @@ std::size_t find_outside(const TracedText& text, Slice slice, char mark, Occurre
   return found;
 }
 
-/// `-->`, or `-o>` of rayshade's objects, with something before it.
+/// The offset of `-->`, or of `-o>` for objects of rayshade, behind a predecessor.
 std::size_t find_arrow(const std::string& text) {
   int depth = 0;
   for (std::size_t i = 0; i + 2 < text.size(); ++i) {
@@ -50,42 +50,61 @@ std::size_t find_arrow(const std::string& text) {
   return text.size();
 }
 
-/// `*` as a condition holds always; so it may stand behind statements.
-TracedText condition_of(const TracedText& text, Slice slice, const CpfgWords& words) {
+/// The condition with the statements around it; `*` is always true.
+TracedText condition_of(const TracedText& text, Slice slice, const CpfgWords& words,
+                        CpfgStatements& statements) {
   slice = without_blanks(text, slice);
-  TracedText changed = text.part(slice.from, slice.to);
-  std::size_t at = 0;
-  if (at < changed.size() && changed[at] == '{') {
-    at = std::min(lsystem::closing(changed.text(), at, changed.size()) + 1, changed.size());
-    at = lsystem::skip_spaces(changed.text(), at, changed.size());
+  TracedText out;
+  const auto block = [&](std::size_t open) {
+    const std::size_t close = lsystem::closing(text.text(), open, slice.to);
+    const TracedText inner = statements.converted(text, {open + 1, close});
+    out.write("{", text.origin(open));
+    out.copy(inner, 0, inner.size());
+    out.write("}", text.origin(std::min(close, slice.to - 1)));
+    return std::min(close + 1, slice.to);
+  };
+  std::size_t at = slice.from;
+  if (at < slice.to && text[at] == '{') {
+    at = block(at);
+    out.write(" ", text.origin(at - 1));
   }
-  if (at < changed.size() && changed[at] == '*') changed.replace(at, '1');
-  return words.expression(changed, {0, changed.size()});
+  const std::size_t open = find_outside(text, {at, slice.to}, '{', Occurrence::first);
+  const Slice condition = without_blanks(text, {at, open});
+  if (is_star(text, condition)) {
+    out.write("1", text.origin(condition.from));
+  } else {
+    const TracedText value = words.expression(text, condition);
+    out.copy(value, 0, value.size());
+  }
+  if (open < slice.to) {
+    out.write(" ", text.origin(open));
+    block(open);
+  }
+  return out;
 }
 
 class RuleReader {
  public:
-  RuleReader(const TracedText& text, ForeignText& source, CpfgWords& words)
-      : text_(text), source_(source), words_(words) {}
+  RuleReader(const TracedText& text, ForeignText& source, CpfgWords& words, CpfgStatements& statements)
+      : text_(text), source_(source), words_(words), statements_(statements) {}
 
   std::optional<CpfgRule> read(std::size_t arrow, CpfgContexts contexts) {
-    const std::size_t faults = source_.fault_count();
+    const std::size_t errors = source_.error_count();
     const Slice head{0, arrow};
     const std::size_t colon = find_outside(text_, head, ':', Occurrence::first);
-    if (colon < arrow) rule_.condition = condition_of(text_, {colon + 1, arrow}, words_);
+    if (colon < arrow) rule_.condition = condition_of(text_, {colon + 1, arrow}, words_, statements_);
     predecessor({0, colon}, contexts);
     Slice successor{arrow + 3, text_.size()};
     const std::size_t weight = find_outside(text_, successor, ':', Occurrence::last);
     if (weight < text_.size()) {
       const Slice chance = without_blanks(text_, {weight + 1, text_.size()});
       rule_.weight = words_.expression(text_, chance);
-      if (rule_.weight.size() == 0) source_.fault(text_.origin(weight), "found `:` without a probability");
+      if (rule_.weight.size() == 0) source_.report(text_.origin(weight), "found `:` without a probability");
       successor.to = weight;
     }
-    if (!is_star(text_, successor))
-      rule_.successor = words_.modules(text_, successor, CpfgWords::Place::word);
+    if (!is_star(text_, successor)) rule_.successor = words_.modules(text_, successor, CpfgWords::Role::word);
     if (rule_.successor.size() == 0) rule_.successor.write("*", text_.origin(arrow + 3));
-    if (source_.fault_count() > faults) return std::nullopt;
+    if (source_.error_count() > errors) return std::nullopt;
     return std::move(rule_);
   }
 
@@ -96,25 +115,21 @@ class RuleReader {
     const std::size_t from = less < head.to ? less + 1 : head.from;
     if (less < head.to) rule_.left = context({head.from, less}, contexts);
     if (greater < head.to) rule_.right = context({greater + 1, head.to}, contexts);
-    const std::size_t faults = source_.fault_count();
-    rule_.predecessor = words_.modules(text_, {from, std::max(from, greater)}, CpfgWords::Place::pattern);
+    const std::size_t errors = source_.error_count();
+    rule_.predecessor = words_.modules(text_, {from, std::max(from, greater)}, CpfgWords::Role::pattern);
     const std::size_t count = CpfgWords::count(rule_.predecessor);
-    const std::size_t place = without_blanks(text_, {from, std::max(from, greater)}).from;
-    if (count == 0 && source_.fault_count() == faults) {
-      source_.fault(text_.origin(place), "found no predecessor; expected one module before the arrow");
-    } else if (count > 1) {
-      source_.fault(text_.origin(place), "found a strict predecessor of " + std::to_string(count) +
-                                             " modules; a production rewrites one here, and contexts are "
-                                             "written `left < module > right`");
+    const std::size_t first = without_blanks(text_, {from, std::max(from, greater)}).from;
+    if (count == 0 && source_.error_count() == errors) {
+      source_.report(text_.origin(first), "found no predecessor; expected one module before the arrow");
     }
+    rule_.is_strict = count > 1;
   }
 
   TracedText context(Slice slice, CpfgContexts contexts) {
     const Slice inner = without_blanks(text_, slice);
     if (inner.from == inner.to || is_star(text_, slice)) return {};
-    if (contexts == CpfgContexts::passed_over) {
-      words_.warn_once(text_.origin(inner.from), "<",
-                       "and `>` of a homomorphism are passed over, as by cpfg");
+    if (contexts == CpfgContexts::ignored) {
+      words_.warn_once(text_.origin(inner.from), "<", "and `>` of a homomorphism are ignored, as in cpfg");
       return {};
     }
     // [H=] names the beginning of a branch, which is what [H] means here.
@@ -122,12 +137,13 @@ class RuleReader {
     for (std::size_t i = 0; i + 1 < changed.size(); ++i) {
       if (changed[i] == '=' && changed[i + 1] == ']') changed.replace(i, ' ');
     }
-    return words_.modules(changed, {0, changed.size()}, CpfgWords::Place::pattern);
+    return words_.modules(changed, {0, changed.size()}, CpfgWords::Role::pattern);
   }
 
   const TracedText& text_;
   ForeignText& source_;
   CpfgWords& words_;
+  CpfgStatements& statements_;
   CpfgRule rule_;
 };
 
@@ -139,7 +155,7 @@ std::optional<CpfgRule> rule_for_surface(const CpfgRule& rule, CpfgWords& words)
   if (!is_letter(first) && !is_digit(first)) {
     words.warn_once(rule.at, surface,
                     "is not rewritten by the rule for " + lang::in_quotes(std::string_view(&symbol, 1)) +
-                        ", as it is in cpfg: what that writes is no surface");
+                        ", unlike in cpfg, because that rule writes no surface");
     return std::nullopt;
   }
   words.add_surface(first, rule.at);
@@ -175,17 +191,17 @@ TracedText CpfgRule::written() const {
 }
 
 std::optional<CpfgRule> read_cpfg_rule(const TracedText& text, CpfgContexts contexts, ForeignText& source,
-                                       CpfgWords& words) {
+                                       CpfgWords& words, CpfgStatements& statements) {
   const std::size_t arrow = find_arrow(text.text());
   if (arrow == text.size()) {
     const std::size_t other = text.text().find("->");
-    source.fault(text.origin(0),
-                 other == std::string::npos
-                     ? "found no keyword and no production; expected `predecessor --> successor`"
-                     : "found no keyword and no production; the arrow of cpfg is `-->`");
+    source.report(text.origin(0),
+                  other == std::string::npos
+                      ? "found no keyword and no production; expected `predecessor --> successor`"
+                      : "found no keyword and no production; the arrow of cpfg is `-->`");
     return std::nullopt;
   }
-  std::optional<CpfgRule> rule = RuleReader(text, source, words).read(arrow, contexts);
+  std::optional<CpfgRule> rule = RuleReader(text, source, words, statements).read(arrow, contexts);
   if (rule) rule->at = text.origin(0);
   return rule;
 }

@@ -1,32 +1,35 @@
 #pragma once
-/// Productions of cpfg as productions of ours.
+/// Converts productions of cpfg.
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "core/import/cpfg_statements.h"
 #include "core/import/cpfg_words.h"
 
 namespace seedmesh {
 
 struct CpfgRule {
-  TracedText left, predecessor, right, condition, successor, weight;  ///< empty: not there
+  TracedText left, predecessor, right, condition, successor, weight;  ///< empty if absent
   std::size_t at = 0;                                                 ///< of the line
+  bool is_strict = false;  ///< it replaces several modules together
 
-  bool is_for_one_letter() const { return predecessor.size() == 1 || predecessor[1] == '('; }
+  bool has_context() const { return is_strict || left.size() > 0 || right.size() > 0; }
+  bool is_for_one_letter() const { return !is_strict && (predecessor.size() == 1 || predecessor[1] == '('); }
 
   /// left < predecessor > right : condition --> successor : weight
   TracedText written() const;
 };
 
-/// Contexts count in productions and decompositions; cpfg passes over those of a homomorphism.
-enum class CpfgContexts { counted, passed_over };
+/// Contexts have a meaning in productions and decompositions; cpfg ignores those of a homomorphism.
+enum class CpfgContexts { used, ignored };
 
-/// Empty: it has a fault, which was told.
+/// Nullopt after an error, which was reported.
 std::optional<CpfgRule> read_cpfg_rule(const TracedText& text, CpfgContexts contexts, ForeignText& source,
-                                       CpfgWords& words);
+                                       CpfgWords& words, CpfgStatements& statements);
 
-/// In cpfg a rule for `l` rewrites the `l` of `~l` too: adds the rules for `~l` that do so, and those for
-/// what they write.
+/// In cpfg a rule for `l` also rewrites the `l` of `~l`. Adds rules for `~l` that do the same, and rules for the
+/// surfaces that those write.
 void add_cpfg_rules_for_surfaces(std::span<std::vector<CpfgRule>> lists, CpfgWords& words);
 
 }  // namespace seedmesh

@@ -12,6 +12,12 @@ bool begins_comment(std::string_view text, std::size_t at) {
   return is_blank(text[at - 1]) && (at + 2 >= text.size() || is_blank(text[at + 2]));
 }
 
+/// The end of the line if only blanks follow; the end of the text otherwise.
+std::size_t line_end_behind(std::string_view text, std::size_t at) {
+  while (at < text.size() && (text[at] == ' ' || text[at] == '\t' || text[at] == '\r')) ++at;
+  return at < text.size() && text[at] == '\n' ? at : text.size();
+}
+
 }  // namespace
 
 std::string cpfg_without_comments(ForeignText& source) {
@@ -23,7 +29,7 @@ std::string cpfg_without_comments(ForeignText& source) {
     if (out[i] == '\n') line = i + 1;
     if (out[i] == '/' && next == '*') {
       const std::size_t end = std::min(text.find("*/", i + 2), text.size());
-      if (end == text.size()) source.fault(i, "found a comment without its end; expected `*/`");
+      if (end == text.size()) source.report(i, "found a comment without its end; expected `*/`");
       for (const std::size_t stop = std::min(end + 2, text.size()); i < stop; ++i) {
         if (out[i] != '\n') out[i] = ' ';
       }
@@ -36,11 +42,13 @@ std::string cpfg_without_comments(ForeignText& source) {
       --i;
     } else if (out[i] == '/' && next == '/') {
       while (i + 1 < out.size() && out[i + 1] == '/') ++i;
-    } else if (out[i] == '\\' &&
-               (next == '\n' || (next == '\r' && i + 2 < out.size() && out[i + 2] == '\n'))) {
-      out[i] = ' ';
-      if (next == '\r') out[++i] = ' ';
-      out[++i] = ' ';
+    } else if (const std::size_t end = out[i] == '\\' ? line_end_behind(out, i + 1) : out.size();
+               end < out.size()) {
+      // In a macro, `\\\\` is read as one sign by cpfg before its preprocessor joins the lines.
+      const bool is_macro = trimmed(out, {line, i}).from < i && out[trimmed(out, {line, i}).from] == '#';
+      if (is_macro && i > 0 && out[i - 1] == '\\') out[i - 1] = ' ';
+      for (; i <= end; ++i) out[i] = ' ';
+      --i;
     }
   }
   return out;

@@ -1,18 +1,17 @@
 #pragma once
-/// What the preprocessor does to a file of cpfg before its macros.
+/// The steps of cpfg's preprocessor before macros.
 #include <string>
 
 #include "core/import/foreign_text.h"
 
 namespace seedmesh {
 
-/// The text without comments and with lines joined where a backslash ends one; every byte keeps its place.
-/// `//` begins a comment at the beginning of a line or between blanks; elsewhere it is two rolls, for cpfg's
-/// own preprocessor knows no such comments.
+/// The text with blanks for comments and for backslashes at line ends. Every byte keeps its offset. `//` begins a
+/// comment at the beginning of a line or between blanks; elsewhere it is two rolls, because cpfg itself has no such
+/// comments.
 std::string cpfg_without_comments(ForeignText& source);
 
-/// Whether text[line], without blanks at its ends, is `#` and a word of the preprocessor; elsewhere # is a
-/// module.
+/// Whether the trimmed line is `#` and a word of the preprocessor. Elsewhere # is a module.
 bool is_cpfg_directive(std::string_view text, Line line);
 
 /// Whether the line has the arrow of a production.

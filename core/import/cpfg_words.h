@@ -1,6 +1,6 @@
 #pragma once
-/// Modules of cpfg as modules of ours. cpfg knows symbols of one character alone: `@Gs`, `~l` and `?P` are
-/// two or three modules there, which its turtle reads together, and one here.
+/// Converts modules of cpfg. Symbols of cpfg have one character, so that `@Gs`, `~l` and `?P` are two or three modules
+/// that its turtle reads together. Here each of them is one module.
 #include <map>
 #include <set>
 #include <string>
@@ -16,56 +16,63 @@ class CpfgWords {
  public:
   explicit CpfgWords(ForeignText& source) : source_(source) {}
 
-  /// A word is written, a pattern looked for: its parameters are names.
-  enum class Place { word, pattern };
+  /// A word is written; a pattern is matched, and its parameters are names.
+  enum class Role { word, pattern };
 
-  /// The modules of text[slice]. What has no counterpart is left out of words with a warning and a fault in
-  /// patterns.
-  TracedText modules(const TracedText& text, lsystem::Slice slice, Place place);
+  /// The modules of text[slice]. A module without a counterpart is left out of a word, with a warning; in a pattern it
+  /// is an error.
+  TracedText modules(const TracedText& text, lsystem::Slice slice, Role role);
 
-  /// An expression or statements: in cpfg a sign binds closer than `^`, which groups from the left.
+  /// An expression or statements. In cpfg a sign binds closer than `^`, which is left associative, and `a ? b : c`
+  /// chooses.
   TracedText expression(const TracedText& text, lsystem::Slice slice) const;
 
-  /// How many modules text[slice] has in our notation.
+  /// The number of modules in our notation.
   static std::size_t count(const TracedText& text);
 
-  /// Those that `~` places, by the character behind it, with the first place of each.
+  /// The surfaces that `~` places, by their character, with the first offset of each.
   const std::map<char, std::size_t>& surfaces() const { return surfaces_; }
   void add_surface(char symbol, std::size_t at) { surfaces_.emplace(symbol, at); }
   static std::string surface_name(char symbol);
 
+  /// The circles and spheres that occur, by the name of their surface: `_o`, `_c` and `_O`.
+  const std::map<std::string, std::size_t, std::less<>>& rounds() const { return rounds_; }
+
   /// The symbols of more than one character that occur, such as `@v` and `~l`.
   const std::set<std::string>& longer() const { return longer_; }
 
-  /// The symbols of a list of characters to ignore or consider. cpfg looks at single characters: a longer
-  /// symbol counts where its first one does.
+  /// The symbols for a list of characters to ignore or consider. cpfg compares single characters, so that a longer symbol
+  /// belongs to the list if its first character does.
   std::string listed(std::string_view characters) const;
 
-  /// Characters that are part of such a symbol, with the symbol.
+  /// The characters behind the first of such a symbol, with the symbol.
   const std::map<char, std::string>& inside() const { return inside_; }
 
   void warn_once(std::size_t at, const std::string& symbol, const std::string& text);
 
  private:
+  static TracedText powers(const TracedText& text, lsystem::Slice slice);
   struct Module;
   Module read(const TracedText& text, std::size_t at, std::size_t to) const;
-  void write(const Module& module, const TracedText& text, Place place, TracedText& out);
-  void write_command(const Module& module, const TracedText& text, Place place, TracedText& out);
+  void write(const Module& module, const TracedText& text, Role role, TracedText& out);
+  void write_command(const Module& module, const TracedText& text, Role role, TracedText& out);
+  void write_round(const Module& module, std::string_view surface, const TracedText& text, TracedText& out);
   void write_surface(const Module& module, const TracedText& text, TracedText& out);
-  void write_query(const Module& module, const TracedText& text, Place place, TracedText& out);
+  void write_query(const Module& module, const TracedText& text, Role role, TracedText& out);
   void write_curve(const Module& module, const TracedText& text, TracedText& out);
-  void copy(const Module& module, const TracedText& text, Place place, TracedText& out);
-  void copy_arguments(const Module& module, const TracedText& text, Place place, TracedText& out);
-  void pad(const Module& module, const TracedText& text, Place place, TracedText& out);
-  void leave_out(const Module& module, Place place, const std::string& why);
+  void copy(const Module& module, const TracedText& text, Role role, TracedText& out);
+  void copy_arguments(const Module& module, const TracedText& text, Role role, TracedText& out);
+  void pad(const Module& module, const TracedText& text, Role role, TracedText& out);
+  void leave_out(const Module& module, Role role, const std::string& why);
 
   ForeignText& source_;
   std::map<char, std::size_t> surfaces_;
+  std::map<std::string, std::size_t, std::less<>> rounds_;
   std::set<std::string> longer_;
   std::map<char, std::string> inside_;
   std::set<std::string> warned_;
-  bool in_curve_ = false;  ///< of the word that is read
-  int unnamed_ = 0;        ///< parameters that were added to patterns
+  bool in_curve_ = false;  ///< in the word that is being read
+  int unnamed_ = 0;        ///< number of parameters that were added to patterns
 };
 
 }  // namespace seedmesh

@@ -5,18 +5,18 @@
 
 namespace seedmesh {
 
-void ForeignText::fault(std::size_t offset, std::string message) {
+void ForeignText::report(std::size_t offset, std::string message, IssueKind kind) {
   if (issues_.size() < most) {
-    issues_.push_back(issue_at("", text_, offset, std::move(message)));
+    issues_.push_back(issue_at(kind, "", text_, offset, std::move(message)));
   } else {
-    ++untold_;
+    ++unlisted_;
   }
 }
 
 void ForeignText::warn(std::size_t offset, std::string message, std::string pointer) {
   if (warnings_.size() >= most) return;
-  const TextPlace place = place_of(text_, offset);
-  warnings_.push_back({std::move(pointer), std::move(message), place.line, place.column});
+  const TextPosition position = text_position(text_, offset);
+  warnings_.push_back({std::move(pointer), std::move(message), position.line, position.column});
 }
 
 Imported ForeignText::finish(Imported imported) {
@@ -25,9 +25,14 @@ Imported ForeignText::finish(Imported imported) {
   };
   std::stable_sort(issues_.begin(), issues_.end(), earlier);
   std::stable_sort(warnings_.begin(), warnings_.end(), earlier);
-  imported.faults = std::move(issues_);
+  imported.errors = std::move(issues_);
   imported.warnings = std::move(warnings_);
   return imported;
+}
+
+std::optional<Error> entry_error(const ImportOptions& options, const std::string& what) {
+  if (options.entry.empty()) return std::nullopt;
+  return Error{Code::invalid, {{IssueKind::not_available, "/entry", what + "; expected no entry"}}};
 }
 
 std::vector<Line> lines_of(std::string_view text) {

@@ -1,5 +1,6 @@
 #pragma once
-/// What the readers of foreign texts share: faults and warnings at their line, and words.
+/// Shared parts of the readers of foreign texts: errors and warnings with line and column, and small lexical helpers.
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,34 +9,37 @@
 
 namespace seedmesh {
 
-/// A foreign text with what was found in it.
+/// A foreign text, with its errors and warnings.
 class ForeignText {
  public:
   explicit ForeignText(std::string_view text) : text_(text) {}
 
   std::string_view text() const { return text_; }
-  void fault(std::size_t offset, std::string message);
+  void report(std::size_t offset, std::string message, IssueKind kind = IssueKind::syntax);
   void warn(std::size_t offset, std::string message, std::string pointer = "");
-  bool sound() const { return issues_.empty(); }
-  std::size_t fault_count() const { return issues_.size() + untold_; }
+  std::size_t error_count() const { return issues_.size() + unlisted_; }
 
-  /// What `imported` became, with the faults and warnings in the order of the text.
+  /// `imported` with the errors and warnings, in the order of the text.
   Imported finish(Imported imported);
 
  private:
-  static constexpr std::size_t most = 100;  // faults and warnings that are told
+  static constexpr std::size_t most = 100;  ///< errors, and warnings, that are kept
 
   std::string_view text_;
   std::vector<Issue> issues_;
   std::vector<Warning> warnings_;
-  std::size_t untold_ = 0;  // faults beyond the most
+  std::size_t unlisted_ = 0;  ///< errors that were not kept
 };
 
-/// A line without its end: bytes [from, to) of the text.
+/// A line without its line end: bytes [from, to) of the text.
 struct Line {
   std::size_t from = 0, to = 0;
 };
 std::vector<Line> lines_of(std::string_view text);
+
+/// An error for an entry that is chosen from a format without entries; nullopt without one. `what`: "a file of cpfg
+/// holds one system".
+std::optional<Error> entry_error(const ImportOptions& options, const std::string& what);
 
 bool is_blank(char c);
 bool is_letter(char c);
@@ -43,11 +47,11 @@ bool is_digit(char c);
 char lower(char c);
 std::string lower(std::string_view text);
 
-/// text[from, to) without blanks at its ends.
+/// `line` without blanks at both ends.
 Line trimmed(std::string_view text, Line line);
 
-/// The number that stands at text[at, to) with digits, one point and no sign; `at` moves behind it. False:
-/// there is none.
+/// Reads the unsigned number at text[at, to) (digits and at most one point) and moves `at` behind it. False if there
+/// is none.
 bool take_number(std::string_view text, std::size_t& at, std::size_t to, double& number);
 
 }  // namespace seedmesh

@@ -8,7 +8,7 @@
 ///   }
 ///
 /// Letters are the same in both cases; entries without a name or called comment are comments. The turtle
-/// starts to the right, in the plane of the picture. It has two headings: + - | turn that of F and G, \\ and
+/// starts to the right, in the plane of the image. It has two headings: + - | turn that of F and G, \\ and
 /// / that of D and M.
 #include <algorithm>
 #include <array>
@@ -26,7 +26,7 @@
 namespace seedmesh {
 namespace {
 
-constexpr int usual_order = 4;       // the file leaves the number of steps to who looks at it
+constexpr int usual_order = 4;       // the file does not contain the number of steps
 constexpr double most_colors = 256;  // a palette of VGA
 constexpr std::size_t longest_rule = 1'000'000;
 
@@ -39,13 +39,13 @@ class EntryReader {
     find_angle();
     find_headings();
     for (const Line& line : entry_.lines) read_line(line);
-    if (!has_axiom_) source_.fault(entry_.name_at, "found no axiom in this entry");
-    if (divisions_ == 0) source_.fault(entry_.name_at, "found no angle in this entry");
+    if (!has_axiom_) source_.report(entry_.name_at, "found no axiom in this entry");
+    if (divisions_ == 0) source_.report(entry_.name_at, "found no angle in this entry");
     return made();
   }
 
  private:
-  /// The first word of a line, which ends at a blank or `=`; `rest` is what stands behind it and its `=`.
+  /// The first word of a line, which ends at a blank or `=`; `rest` is the text after it and its `=`.
   std::string word(Line line, Line& rest) const {
     const std::string_view text = source_.text();
     std::size_t end = line.from;
@@ -56,7 +56,7 @@ class EntryReader {
     return lower(text.substr(line.from, end - line.from));
   }
 
-  /// Rules may stand before the angle, and what | means depends on it.
+  /// Reads the angle first, because the meaning of | in earlier rules depends on it.
   void find_angle() {
     for (const Line& line : entry_.lines) {
       Line rest;
@@ -65,7 +65,8 @@ class EntryReader {
       double value = 0;
       const bool number = take_number(source_.text(), at, rest.to, value) && at == rest.to;
       if (!number || value != std::floor(value) || value < 3 || value > 50) {
-        source_.fault(rest.from, "found no angle; expected a whole number from 3 to 50, the parts of a turn");
+        source_.report(rest.from,
+                       "found no angle; expected a whole number from 3 to 50, the parts of a turn");
         divisions_ = 6;
       } else {
         divisions_ = static_cast<int>(value);
@@ -73,7 +74,7 @@ class EntryReader {
     }
   }
 
-  /// Whether the entry draws by steps (F, G), by degrees (D, M) or by both.
+  /// Whether the entry draws with steps (F, G), with degrees (D, M) or with both.
   void find_headings() {
     for (const Line& line : entry_.lines) {
       Line rest;
@@ -85,9 +86,9 @@ class EntryReader {
         by_degrees_ = by_degrees_ || c == 'D' || c == 'M';
         has_mirror_ = has_mirror_ || c == '!';
         if (by_steps_ && by_degrees_) {
-          source_.fault(at,
-                        "found F or G beside D or M, which turn apart from each other; the turtle has one "
-                        "heading here");
+          source_.report(at,
+                         "found F or G beside D or M, which have separate headings; the turtle has one "
+                         "heading here");
           return;
         }
       }
@@ -100,14 +101,14 @@ class EntryReader {
     const std::string name = word(line, rest);
     if (name == "angle") return;
     if (name == "axiom") {
-      if (std::exchange(has_axiom_, true)) source_.fault(line.from, "found a second axiom");
-      axiom_.write("-(90)", rest.from);  // Fractint's turtle looks to the right
+      if (std::exchange(has_axiom_, true)) source_.report(line.from, "found a second axiom");
+      axiom_.write("-(90)", rest.from);  // the turtle of Fractint starts to the right
       commands(rest, axiom_);
       return;
     }
     const Line after = trimmed(text, {line.from + name.size(), line.to});
     if (name.size() > 1 || after.from >= line.to || text[after.from] != '=') {
-      source_.fault(line.from, "found no command; expected Angle, Axiom or a rule such as F=F+F");
+      source_.report(line.from, "found no command; expected Angle, Axiom or a rule such as F=F+F");
       return;
     }
     rule(upper(text[line.from]), line.from, rest);
@@ -116,13 +117,13 @@ class EntryReader {
   void rule(char symbol, std::size_t at, Line successor) {
     const std::string predecessor = predecessor_of(symbol);
     if (predecessor.empty()) {
-      source_.fault(at, std::string("found a rule for `") + symbol +
-                            "`; expected one for a letter, a digit or a command without brackets");
+      source_.report(at, std::string("found a rule for `") + symbol +
+                             "`; expected one for a letter, a digit or a command without brackets");
       return;
     }
     if (predecessor.back() == ')' && successor.from < successor.to) {
-      source_.fault(at, std::string("found a rule that gives `") + symbol +
-                            "` with its number a successor; only one that removes it is understood");
+      source_.report(at, std::string("found a rule that gives `") + symbol +
+                             "` with its number a successor; only one that removes it is supported");
       return;
     }
     auto known = std::find_if(rules_.begin(), rules_.end(),
@@ -135,7 +136,7 @@ class EntryReader {
     commands(successor, known->text);
   }
 
-  /// Our module of a symbol, with a parameter where the command has a number; empty: there is none.
+  /// The module for a symbol, with a parameter if the command has a number; empty if there is none.
   std::string predecessor_of(char symbol) const {
     switch (symbol) {
       case 'C':
@@ -165,7 +166,7 @@ class EntryReader {
 
   static std::string text_of(double number) { return number_text(number); }
 
-  /// The turtle's commands in text[line] in our symbols.
+  /// Converts the commands in text[line] to our symbols.
   void commands(Line line, TracedText& out) {
     const std::string_view text = source_.text();
     for (std::size_t at = line.from; at < line.to;) {
@@ -192,21 +193,21 @@ class EntryReader {
         out.write("@Di(" + text_of(factor(start, at, line.to)) + ")", start);
       } else {
         while (at < line.to && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U) ++at;
-        warn_once(start, text.substr(start, at - start), "is no command of Fractint, which passes over it");
+        warn_once(start, text.substr(start, at - start), "is not a command of Fractint, which ignores it");
       }
       if (out.size() > longest_rule) {
-        source_.fault(start, "found a rule that is too long");
+        source_.report(start, "found a rule that is too long");
         break;
       }
     }
   }
 
-  /// Turns of the heading that nothing is drawn by are left out.
+  /// Whether a turn has an effect. Turns of a heading that nothing uses are left out.
   bool turns(bool by_this, bool by_other, char symbol, std::size_t at) {
     if (by_this || !by_other) return true;
     warn_once(at, std::string_view(&symbol, 1),
-              symbol == '\\' || symbol == '/' ? "turns D and M alone, which do not occur, and is left out"
-                                              : "turns F and G alone, which do not occur, and is left out");
+              symbol == '\\' || symbol == '/' ? "turns only D and M, which do not occur, and is left out"
+                                              : "turns only F and G, which do not occur, and is left out");
     return false;
   }
 
@@ -214,18 +215,17 @@ class EntryReader {
     if (warned_.insert(std::string(symbol)).second) source_.warn(at, lang::in_quotes(symbol) + " " + text);
   }
 
-  /// As near to 180 degrees as the parts of a turn allow: to the right, and ! does not change it.
+  /// The turn nearest to 180 degrees that the divisions allow, to the right. `!` does not change it.
   std::string half_turn(std::size_t at) {
     if (divisions_ % 2 == 0) return "|";
-    if (has_mirror_)
-      warn_once(at, "|", "goes to the other side where `!` has exchanged the sides, unlike in Fractint");
+    if (has_mirror_) warn_once(at, "|", "turns to the other side after `!`, unlike in Fractint");
     return "-(" + text_of(360.0 / std::max(divisions_, 1) * (divisions_ / 2)) + ")";
   }
 
   double number(std::size_t start, std::size_t& at, std::size_t to) {
     double value = 0;
     if (!take_number(source_.text(), at, to, value)) {
-      source_.fault(start, std::string("found `") + source_.text()[start] + "` without its number");
+      source_.report(start, std::string("found `") + source_.text()[start] + "` without its number");
     }
     return value;
   }
@@ -244,7 +244,7 @@ class EntryReader {
     if (root) value = std::sqrt(value);
     if (inverse) value = 1 / value;
     if (!(value > 0) || !std::isfinite(value)) {
-      source_.fault(start, "found a factor of the step that is not above 0");
+      source_.report(start, "found a factor of the step that is not above 0");
       return 1;
     }
     return value;
@@ -255,12 +255,11 @@ class EntryReader {
     double value = 0;
     take_number(source_.text(), at, to, value);
     if (value != std::floor(value) || value >= most_colors) {
-      source_.fault(start, "found a colour that is no whole number below 256");
+      source_.report(start, "found a colour that is not a whole number below 256");
       return "";
     }
-    warn_once(
-        start, "C",
-        "and `<` `>`: the colours of Fractint's palette are not known here; numbers choose from `materials`");
+    warn_once(start, "C",
+              "and `<` `>`: Fractint's palette is not available; numbers select from `materials`");
     if (command == 'C') return ";(" + text_of(value) + ")";
     return std::string(static_cast<std::size_t>(value), command == '<' ? ';' : ',');
   }
@@ -287,10 +286,9 @@ class EntryReader {
     parameters["interpretation"] = std::move(interpretation);
     out.origins.push_back({"/parameters/axiom", axiom_.runs()});
     out.request = {{"generator", "lsystem"}, {"parameters", std::move(parameters)}};
-    source_.warn(
-        entry_.name_at,
-        "an entry does not say how many steps it wants; `iterations` is " + std::to_string(usual_order),
-        "/parameters/iterations");
+    source_.warn(entry_.name_at,
+                 "an entry has no number of steps; `iterations` is " + std::to_string(usual_order),
+                 "/parameters/iterations");
     return out;
   }
 
@@ -332,14 +330,16 @@ Result<Imported> import_fractint(std::string_view text, const ImportOptions& opt
     }
   }
   if (entries.empty()) {
-    source.fault(0, "found no entry; expected a name and braces with Angle, Axiom and rules between");
+    source.report(0, "found no entry; expected a name and braces with Angle, Axiom and rules between");
   } else if (!chosen) {
-    return Error{Code::invalid,
-                 {{"/entry", "there is no entry \"" + shortened(options.entry, 40) + "\"; the file has " +
-                                 list_of(entries)}}};
+    return Error{
+        Code::invalid,
+        {{IssueKind::unknown_name, "/entry",
+          "there is no entry \"" + shortened(options.entry, 40) + "\"; the file has " + list_of(entries)}}};
   } else if (options.entry.empty() && entries.size() > 1) {
     return Error{Code::invalid,
-                 {{"/entry", "the file holds several systems; choose one of " + list_of(entries)}}};
+                 {{IssueKind::missing, "/entry",
+                   "the file contains several systems; expected one of " + list_of(entries)}}};
   }
   Imported imported;
   if (chosen) imported = EntryReader(source, *chosen).read();

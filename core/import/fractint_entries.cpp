@@ -20,7 +20,7 @@ std::vector<FractintEntry> fractint_entries(ForeignText& source) {
       const Line part = trimmed(text, {line.from, line.from + end});
       if (inside && part.from < part.to) entries.back().lines.push_back(part);
       if (end == rest.size()) {
-        if (!inside) source.fault(line.from, "found text outside an entry; expected a name and `{`");
+        if (!inside) source.report(line.from, "found text outside an entry; expected a name and `{`");
         break;
       }
       if (!inside)
@@ -29,11 +29,11 @@ std::vector<FractintEntry> fractint_entries(ForeignText& source) {
       line = trimmed(text, {line.from + end + 1, line.to});
     }
   }
-  if (inside) source.fault(entries.back().name_at, "found an entry without its `}`");
+  if (inside) source.report(entries.back().name_at, "found an entry without its `}`");
   return entries;
 }
 
-/// After `;`, and between the braces of entries that are comments.
+/// Comments follow `;`, or are entries without a name or with the name comment.
 std::string fractint_without_comments(std::string_view text) {
   std::string out(text);
   const auto blank = [&](std::size_t from, std::size_t to) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The entries of a file of Fractint's L-systems.
+/// The entries of an L-system file of Fractint.
 #include <string>
 #include <vector>
 
@@ -13,7 +13,7 @@ struct FractintEntry {
   std::vector<Line> lines;  ///< without comments and blanks at their ends
 };
 
-/// Text between entries that is no comment is a fault, as is a brace that lacks its partner.
+/// Reports text between entries that is no comment, and braces without their partner.
 std::vector<FractintEntry> fractint_entries(ForeignText& source);
 
 }  // namespace seedmesh

@@ -1,11 +1,11 @@
-/// L-systems as they are typed into Houdini's L-System node, one line a parameter, and its rules, after
-/// "L-System" in SideFX's documentation of the node:
+/// Reads L-systems of Houdini's L-System node: its parameters and rules, one in each line, after "L-System" in SideFX's
+/// documentation of the node:
 ///
 ///   Premise: A(1)                     Generations: 7    Angle: 28    Step Size: 0.1    Thickness: 0.05
 ///   Rule 1: A(s) : s > b = F(s)[+A(s*b)]-A(s*b) : 0.5           b: 0.7    (a rule may also stand alone)
 ///
-/// What Houdini turns the other way is exchanged: + is right there and & up. What scales by the node's own
-/// factors is written out with them.
+/// Symbols that turn the other way in Houdini are exchanged: there + turns right and & turns up. Symbols that scale by a
+/// parameter of the node get its value as an argument.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -15,6 +15,7 @@
 #include "core/generators/lsystem/notation.h"
 #include "core/import/foreign_text.h"
 #include "core/import/formats.h"
+#include "core/import/houdini_names.h"
 #include "core/import/houdini_settings.h"
 #include "core/import/traced_text.h"
 #include "core/lang/lexer.h"
@@ -36,21 +37,23 @@ class HoudiniReader {
       if (line.from == line.to || two == "//" || two == "# ") continue;
       read_line(line, rules);
     }
+    find_group(rules);
     if (!premise_) {
-      source_.fault(0, "found no premise");
+      source_.report(0, "found no premise");
     } else {
       TracedText axiom;
-      modules(*premise_, Place::word, axiom);
+      modules(*premise_, Role::word, axiom);
       put("/axiom", axiom.text(), axiom.runs());
     }
-    if (is_bare_ && rules.empty()) source_.fault(premise_->from, "found no rule; expected such as `A=FA`");
+    if (is_bare_ && rules.empty()) source_.report(premise_->from, "found no rule; expected such as `A=FA`");
     parameters_["productions"] = Json::array();
     for (const Line& each : rules) rule(each);
+    names_.put(values_["gravity"].value, parameters_, source_);
     return made();
   }
 
  private:
-  enum class Place { word, pattern };
+  enum class Role { word, pattern };
 
   void read_line(Line line, std::vector<Line>& rules) {
     const std::size_t colon = std::min(text_.substr(0, line.to).find(':', line.from), line.to);
@@ -61,11 +64,11 @@ class HoudiniReader {
         std::all_of(key.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(4, key.size())),
                     key.end(), is_digit);
     if (colon < line.to && key == "premise") {
-      if (premise_) source_.fault(line.from, "found a second premise");
+      if (premise_) source_.report(line.from, "found a second premise");
       premise_ = rest;
     } else if (colon < line.to && key == "contextignore") {
       TracedText ignored;
-      modules(rest, Place::pattern, ignored);
+      modules(rest, Role::pattern, ignored);
       put("/ignore", ignored.text(), ignored.runs());
     } else if (colon < line.to && numbered_rule) {
       rules.push_back(rest);
@@ -73,24 +76,38 @@ class HoudiniReader {
       number(rest, value->second);
     } else if (const std::size_t equals = equals_of(line);
                colon == line.to && equals < line.to && is_setting(line.from, equals)) {
-      source_.fault(equals, "found `=` behind a parameter; expected a colon such as in `Angle: 28`");
+      source_.report(equals, "found `=` behind a parameter; expected a colon such as in `Angle: 28`");
     } else if (equals < line.to) {
       rules.push_back(line);
+    } else if (colon < line.to && is_label(line.from, colon)) {
+      source_.warn(line.from, lang::in_quotes(text_.substr(line.from, colon - line.from)) +
+                                  " is no parameter that has a counterpart here");
     } else if (colon == line.to && begins_setting(line)) {
-      source_.fault(line.from, "found no colon; expected such as `Premise: A` or `Angle: 28`");
+      source_.report(line.from, "found no colon; expected such as `Premise: A` or `Angle: 28`");
     } else if (!premise_ && colon == line.to) {
       premise_ = line;
       is_bare_ = true;
     } else {
-      source_.fault(line.from,
-                    "found no parameter of the node and no rule; expected such as `Angle: 28` or `A=FA`");
+      source_.report(line.from,
+                     "found no parameter of the node and no rule; expected such as `Angle: 28` or `A=FA`");
     }
   }
 
-  /// A parameter's name; those of one letter may be modules.
+  /// Whether a text is the name of a parameter. Names of one letter may be modules.
   bool is_setting(std::size_t from, std::size_t to) const {
     const std::string word = houdini_name(text_.substr(from, to - from));
     return word.size() > 1 && (word == "premise" || values_.count(word) != 0);
+  }
+
+  /// Whether a text looks like the label of a parameter: words that begin with a letter.
+  bool is_label(std::size_t from, std::size_t to) const {
+    if (to - from < 2 || !is_letter(text_[from])) return false;
+    for (std::size_t i = from; i < to; ++i) {
+      if (!is_letter(text_[i]) && !is_digit(text_[i]) && !is_blank(text_[i]) && text_[i] != '/' &&
+          text_[i] != '_')
+        return false;
+    }
+    return true;
   }
 
   /// Whether the line begins with the name of a parameter and a blank.
@@ -114,13 +131,13 @@ class HoudiniReader {
     std::size_t at = line.from + (negative ? 1 : 0);
     double found = 0;
     if (!take_number(text_, at, line.to, found) || at != line.to) {
-      source_.fault(line.from, "expected a number");
+      source_.report(line.from, "expected a number");
     } else {
       value = negative ? -found : found;
     }
   }
 
-  /// The = of a rule: outside parentheses, and no part of a comparison; line.to where there is none.
+  /// The offset of the = of a rule, outside of parentheses and comparisons; line.to if there is none.
   std::size_t equals_of(Line line) const {
     int depth = 0;
     for (std::size_t i = line.from; i < line.to; ++i) {
@@ -138,7 +155,7 @@ class HoudiniReader {
     return line.to;
   }
 
-  /// <= and >= occur in conditions alone.
+  /// Whether the line has a condition before `to`: <= and >= occur only there.
   bool has_condition(Line line, std::size_t to) const {
     return text_.substr(0, to).find(':', line.from) != std::string_view::npos;
   }
@@ -147,25 +164,40 @@ class HoudiniReader {
   void rule(Line line) {
     const std::size_t equals = equals_of(line);
     if (equals == line.to) {
-      source_.fault(line.from, "found a rule without `=`");
+      source_.report(line.from, "found a rule without `=`");
       return;
     }
     std::size_t head = outside(':', {line.from, equals});
     const Line condition = head < equals ? trimmed(text_, {head + 1, equals}) : Line{equals, equals};
     const std::size_t weight = outside(':', {equals + 1, line.to});
     TracedText out;
+    names_.begin_rule(text_.substr(line.from, head - line.from));
     pattern({line.from, head}, out);
     const auto append = [&](std::string_view before, Line part) {
       out.write(before, part.from);
+      names_.note(text_.substr(part.from, part.to - part.from), part.from);
       out.copy(text_, part.from, part.to);
     };
     if (condition.from < condition.to) append(" : ", condition);
     out.write(" -> ", equals);
-    modules({equals + 1, weight}, Place::word, out);
+    modules({equals + 1, weight}, Role::word, out);
     if (weight < line.to) append(" : ", trimmed(text_, {weight + 1, line.to}));
     const std::string index = std::to_string(parameters_["productions"].size());
     out_.origins.push_back({"/parameters/productions/" + index, out.runs()});
     parameters_["productions"].push_back(out.text());
+    names_.end_rule();
+  }
+
+  /// Whether a rule rewrites g, which names a group otherwise: then it is a mere variable.
+  void find_group(const std::vector<Line>& rules) {
+    for (const Line& each : rules) {
+      const std::size_t equals = equals_of(each);
+      const Line head = trimmed(text_, {each.from, outside(':', {each.from, equals})});
+      const std::size_t less = outside('<', head), greater = outside('>', head);
+      const Line center = trimmed(text_, {less < head.to ? less + 1 : head.from, greater});
+      has_group_ = has_group_ || (center.from < center.to && text_[center.from] == 'g');
+    }
+    if (has_group_) parameters_["modules"] = {"var_g"};
   }
 
   std::size_t outside(char mark, Line line) const {
@@ -182,37 +214,44 @@ class HoudiniReader {
     const std::size_t less = outside('<', line);
     const std::size_t greater = outside('>', line);
     if (less < line.to) {
-      modules({line.from, less}, Place::pattern, out);
+      modules({line.from, less}, Role::pattern, out);
       out.write(" < ", less);
     }
     const std::size_t from = less < line.to ? less + 1 : line.from;
-    modules({from, std::max(greater, from)}, Place::pattern, out);
+    modules({from, std::max(greater, from)}, Role::pattern, out);
     if (greater < line.to) {
       out.write(" > ", greater);
-      modules({greater + 1, line.to}, Place::pattern, out);
+      modules({greater + 1, line.to}, Role::pattern, out);
     }
   }
 
-  /// Writes the modules of text[line] in our symbols. A column of an argument is told at its own place.
-  void modules(Line line, Place place, TracedText& out) {
+  /// Writes the modules of text[line] in our symbols. Arguments keep their own source positions.
+  void modules(Line line, Role role, TracedText& out) {
+    std::size_t index = 0;
     for (std::size_t at = line.from; at < line.to;) {
       const std::size_t start = at;
       const char c = text_[at++];
       if (is_blank(c)) continue;
+      const std::size_t number = index++;
       std::string arguments;
       std::size_t open = at;
       if (at < line.to && text_[at] == '(') {
         const std::size_t close = lsystem::closing(text_, at, line.to);
         if (close == line.to) {
-          source_.fault(at, "found `(` without its `)`");
+          source_.report(at, "found `(` without its `)`");
           break;
         }
         arguments = text_.substr(at, close + 1 - at);
+        if (role == Role::word) {
+          arguments = names_.with_index(arguments, number);
+          names_.note(arguments, at);
+        }
         at = close + 1;
       }
-      const std::string written = module(c, arguments, start, place);
+      const std::string written = module(c, arguments, start, role);
       const std::size_t same = written.size() - std::min(written.size(), arguments.size());
-      if (!arguments.empty() && written.substr(same) == arguments) {
+      if (!arguments.empty() && written.substr(same) == arguments &&
+          text_.substr(open, at - open) == arguments) {
         out.write(std::string_view(written).substr(0, same), start);
         out.copy(text_, open, at);
       } else {
@@ -221,17 +260,22 @@ class HoudiniReader {
     }
   }
 
-  std::string module(char c, const std::string& arguments, std::size_t at, Place place) {
+  std::string module(char c, const std::string& arguments, std::size_t at, Role role) {
     const std::string_view exchanged = "+-&^", with = "-+^&";
     const std::size_t turn = exchanged.find(c);
     if (turn != std::string_view::npos) return with[turn] + arguments;
     const bool own = std::string_view("\"!;_?@*~'#gTJKM").find(c) != std::string_view::npos;
     if (c == 'a' && arguments.find('"') != std::string::npos) {
-      warn_once(at, c, " sets an attribute, which nobody has here");
+      warn_once(at, c, " sets an attribute, which does not exist here");
       return "";
     }
+    if (c == 'G') {  // moves without a vertex, and draws nothing
+      arities_.note('g', arguments);
+      return "g" + arguments;
+    }
+    if (c == 'g' && has_group_) return "var_g" + arguments;
     if (!own) {
-      if (c == 'H' || c == 'h' || c == 'F' || c == 'f' || c == 'G') note_arity(c, arguments);
+      if (c == 'H' || c == 'h' || c == 'F' || c == 'f') arities_.note(c, arguments);
       if (c == '$' && !arguments.empty()) {
         warn_once(at, c, " rolls towards the sky here and not towards a point");
         return "$";
@@ -240,19 +284,19 @@ class HoudiniReader {
     }
     if (std::string_view("gJKM").find(c) != std::string_view::npos) {
       warn_once(at, c,
-                c == 'g' ? " names a group, which nobody has here"
-                         : " copies geometry of an input, which nobody has here");
+                c == 'g' ? " names a group, which does not exist here"
+                         : " copies geometry of an input, which does not exist here");
       return c == 'g' ? "" : c + arguments;
     }
-    if (place == Place::pattern) {
-      source_.fault(
-          at, lang::in_quotes(std::string_view(&c, 1)) + " is written out here, so no rule can look for it");
+    if (role == Role::pattern) {
+      source_.report(at, lang::in_quotes(std::string_view(&c, 1)) +
+                             " is replaced by other symbols here, so that no rule can match it");
       return "";
     }
     return written_out(c, arguments, at);
   }
 
-  /// Symbols that scale or turn by a factor of the node where they carry none.
+  /// Symbols that scale or turn by a parameter of the node if they have no argument.
   std::string written_out(char c, const std::string& arguments, std::size_t at) {
     const auto by = [&](const char* setting) {
       return arguments.empty() ? "(" + number_text(values_[setting].value) + ")" : arguments;
@@ -278,50 +322,22 @@ class HoudiniReader {
         return "/" + angle + "&" + angle + "+" + angle;
       }
       default:
-        warn_once(at, c,
-                  c == 'T' ? " is left out: give a `tropism`" : " moves textures, which nobody has here");
+        warn_once(
+            at, c,
+            c == 'T' ? " is left out: give a `tropism`" : " moves textures, which is not supported here");
         return "";
     }
-  }
-
-  void note_arity(char c, const std::string& arguments) {
-    std::size_t count = arguments.empty() ? 0 : 1;
-    int depth = 0;
-    for (const char each : arguments) {
-      if (each == '(') ++depth;
-      if (each == ')') --depth;
-      if (each == ',' && depth == 1) ++count;
-    }
-    arities_.insert({c, count});
   }
 
   void warn_once(std::size_t at, char symbol, const char* text) {
     if (warned_.insert(symbol).second) source_.warn(at, lang::in_quotes(std::string_view(&symbol, 1)) + text);
   }
 
-  /// H is half of F; F(l,w,s,d) has its own width.
-  Json interpretation() const {
-    Json rules = Json::array();
-    constexpr const char* parameters[] = {"", "(l)", "(l,w)", "(l,w,s)", "(l,w,s,d)"};
-    for (const auto& [symbol, count] : arities_) {
-      if (count > 4) continue;
-      const bool half = symbol == 'H' || symbol == 'h';
-      const char draws = symbol == 'H' ? 'F' : symbol == 'h' ? 'f' : symbol;
-      if (!half && count < 2) continue;
-      std::string rule = symbol + std::string(parameters[count]) + " -> ";
-      if (count > 1) rule += "!(w)";
-      rule += half && count == 0 ? std::string("@Di(0.5)") + draws + "@Dd(0.5)"
-                                 : draws + std::string(half ? "(l/2)" : "(l)");
-      rules.push_back(rule);
-    }
-    return rules;
-  }
-
-  /// A fraction of a generation is a plant that has grown so far.
+  /// A fraction of a generation becomes an age.
   void put_generations() {
     const HoudiniSetting& setting = values_["generations"];
     if (!(setting.value >= 0 && setting.value <= 1000)) {
-      source_.fault(setting.at, "expected generations from 0 to 1000");
+      source_.report(setting.at, "expected generations from 0 to 1000");
       return;
     }
     const double whole = std::ceil(setting.value);
@@ -332,14 +348,14 @@ class HoudiniReader {
   void put_seed() {
     const HoudiniSetting& setting = values_["randomseed"];
     if (!(setting.value >= 0 && setting.value <= 1e9) || setting.value != std::floor(setting.value)) {
-      source_.fault(setting.at, "expected a random seed that is a whole number up to 1e9");
+      source_.report(setting.at, "expected a random seed that is a whole number up to 1e9");
       return;
     }
     out_.request["seed"] = static_cast<int>(setting.value);
   }
 
   Imported made() {
-    Json rules = interpretation();
+    Json rules = arities_.interpretation();
     if (!rules.empty()) parameters_["interpretation"] = std::move(rules);
     put_generations();
     put_seed();
@@ -360,8 +376,10 @@ class HoudiniReader {
   std::string_view text_;
   std::map<std::string, HoudiniSetting> values_;
   std::optional<Line> premise_;
-  bool is_bare_ = false;  ///< the premise stands without its name
-  std::set<std::pair<char, std::size_t>> arities_;
+  bool is_bare_ = false;    ///< the premise has no name in the file
+  bool has_group_ = false;  ///< g is a variable
+  HoudiniNames names_;
+  HoudiniArities arities_;
   std::set<char> warned_;
   Json parameters_ = Json::object();
   Imported out_;
@@ -370,9 +388,8 @@ class HoudiniReader {
 }  // namespace
 
 Result<Imported> import_houdini(std::string_view text, const ImportOptions& options) {
-  if (!options.entry.empty()) {
-    return Error{Code::invalid, {{"/entry", "a node holds one system; expected no entry"}}};
-  }
+  if (std::optional<Error> error = entry_error(options, "a node contains one system"))
+    return *std::move(error);
   ForeignText source(text);
   Imported imported = HoudiniReader(source).read();
   return source.finish(std::move(imported));

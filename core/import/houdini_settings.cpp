@@ -17,6 +17,7 @@ constexpr HoudiniSetting settings[] = {
     {"thicknessscale", 0.8},
     {"anglescale", 0.9},
     {"randomseed", 1},
+    {"gravity", 0},
     {"b", 0},
     {"c", 0},
     {"d", 0},

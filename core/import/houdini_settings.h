@@ -1,5 +1,5 @@
 #pragma once
-/// The numbers of Houdini's L-System node.
+/// The numeric parameters of Houdini's L-System node.
 #include <cstddef>
 #include <span>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace seedmesh {
 
-/// A number of the node: its name in the file, without blanks, and what the node has where it is not given.
+/// A parameter: its name in the file without blanks, and its default value in Houdini.
 struct HoudiniSetting {
   std::string_view name;
   double value;
@@ -15,7 +15,7 @@ struct HoudiniSetting {
 };
 std::span<const HoudiniSetting> houdini_settings();
 
-/// A name as the settings have it: small letters without blanks.
+/// The name of a parameter in lower case, without blanks.
 std::string houdini_name(std::string_view text);
 
 }  // namespace seedmesh

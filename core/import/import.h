@@ -1,8 +1,9 @@
 #pragma once
-/// Foreign files as requests of ours. Every format has one row; the pipeline, the route, the program and the
-/// documentation walk the rows. A format's reader understands the whole text or refuses it at its line: what
-/// it knows but cannot say in a request becomes a warning, what it does not know an error.
+/// Converts foreign files to requests. Every format has one row, which the pipeline, the route, the program and the
+/// documentation read. A reader understands the whole text or refuses it at the line of each error. What it
+/// understands but a request cannot express becomes a warning; what it does not understand is an error.
 #include <cstddef>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -15,60 +16,62 @@
 
 namespace seedmesh {
 
-/// From byte `at` of a text of the request on stands what came from byte `from` of the foreign text: the same
-/// bytes (a blank for a line's end) where it is verbatim, something else for what stands at `from` where not.
+/// The text of the request from byte `at` on comes from byte `from` of the foreign text. If verbatim, the bytes are
+/// the same (with a blank for each line end); otherwise all of them stand for the byte at `from`.
 struct TextRun {
   std::size_t at = 0, from = 0;
   bool verbatim = false;
 };
 
-/// Where a value of the request came from, so that a fault that only the generator finds can be told at the
-/// place in the foreign text.
+/// The source of a value of the request, so that an error of the generator is reported at the line and column of the
+/// foreign text.
 struct Origin {
   std::string pointer;        ///< into the request, such as "/parameters/productions/2"
-  std::vector<TextRun> runs;  ///< the first at byte 0; of a number one run alone
+  std::vector<TextRun> runs;  ///< the first begins at byte 0; a number has one run
 };
 
 struct Imported {
   Json request = Json::object();
 
-  /// Of a text with line and column and a pointer into the request or ""; of JSON with a pointer into the
-  /// file.
+  /// For a text: line and column, and a pointer into the request or "". For JSON: a pointer into the file.
   std::vector<Warning> warnings;
   std::vector<Origin> origins;
 
-  /// What was not understood. Where there is any, the request is what is left: it is looked at for further
-  /// faults and not answered.
-  std::vector<Issue> faults;
+  /// What was not understood. If there are any, the request contains the rest: it is checked for further errors and
+  /// not returned to the client.
+  std::vector<Issue> errors;
 };
 
 struct ImportOptions {
-  std::string entry;  ///< which system of a file that holds several; empty: the only one
+  std::string entry;  ///< the system in a file of several; empty: the only one
+  std::map<std::string, std::string>
+      files;  ///< further files beside the text, by name, such as a view file of cpfg
 };
 
 struct ImportFormat {
-  std::string_view name;        ///< of the query's `format`
-  std::string_view title;       ///< whose files these are
-  std::string_view text;        ///< one sentence: what becomes of them
-  std::string_view media_type;  ///< "text/plain" or "application/json"
+  std::string_view name;        ///< the value of the query parameter `format`
+  std::string_view title;       ///< the program and kind of file
+  std::string_view text;        ///< one sentence on the result
+  std::string_view media_type;  ///< "text/plain", "application/json" or "application/xml"
 
-  /// The text with blanks for its comments, byte for byte: they may be in any encoding. Null: no comments.
+  /// The text with each byte of its comments replaced by a blank, because they can have any encoding. Null: the
+  /// format has no comments.
   std::string (*without_comments)(std::string_view text);
 
-  /// How many marks of this format the text has, such as its keywords; 0: none. `text` is valid UTF-8.
+  /// A score for how likely the text has this format, from its keywords; 0: it has none. `text` is valid UTF-8.
   int (*marks)(std::string_view text);
 
-  /// `text` is valid UTF-8. Faults: every one, with pointer "" and line and column of `text` (of JSON: with
-  /// a pointer into it). Cost: linear.
+  /// Reads valid UTF-8. All errors are reported, each with pointer "" and line and column (for JSON, with a pointer into
+  /// the file). Cost: linear.
   Result<Imported> (*read)(std::string_view text, const ImportOptions& options);
 };
 
 std::span<const ImportFormat> import_formats();
 
-/// Null: there is none of this name.
+/// The format of this name; null if there is none.
 const ImportFormat* find_import_format(std::string_view name);
 
-/// The format that the text has most marks of; null: it has none of any.
+/// The format with the greatest score; null if all are 0.
 const ImportFormat* likeliest_format(std::string_view text);
 
 }  // namespace seedmesh

@@ -1,5 +1,5 @@
 #pragma once
-/// A text that is made piece by piece from a foreign one and knows where each of its bytes came from.
+/// A text that is built from pieces of a foreign text, and the source position of each of its bytes.
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -22,17 +22,17 @@ class TracedText {
 
   void copy(std::string_view source, std::size_t from, std::size_t to);
 
-  /// other.text()[from, to) with its origins.
+  /// Appends other.text()[from, to) with its origins.
   void copy(const TracedText& other, std::size_t from, std::size_t to);
   TracedText part(std::size_t from, std::size_t to) const;
 
-  /// `text`, which the source does not have, for what stands at its byte `from`.
+  /// Appends a `text` that stands for byte `from` of the source.
   void write(std::string_view text, std::size_t from);
 
-  /// One byte for another.
+  /// Replaces one byte.
   void replace(std::size_t at, char with) { text_[at] = with; }
 
-  /// The byte of the source that text()[at] came from; the end has the place behind the last one.
+  /// The source offset of text()[at]; for the end, the offset behind the last byte.
   std::size_t origin(std::size_t at) const;
 
   const std::vector<TextRun>& runs() const { return runs_; }
@@ -44,7 +44,7 @@ class TracedText {
   std::vector<TextRun> runs_;
 };
 
-/// The place of byte `at` in runs; 0 where there are none.
+/// The source offset of byte `at`; 0 without runs.
 std::size_t origin_in(const std::vector<TextRun>& runs, std::size_t at);
 
 }  // namespace seedmesh

@@ -6,7 +6,7 @@
 namespace seedmesh::lang {
 namespace {
 
-/// The same comparison or operation with its sides exchanged; `copy` where there is none.
+/// The operation with its sides exchanged; `copy` if there is none.
 Operation mirrored(Operation operation) {
   switch (operation) {
     case Operation::add:
@@ -36,14 +36,15 @@ bool has_two_sides(Operation operation) { return operation <= Operation::not_equ
 }  // namespace
 
 Program::Emitter::Emitter(Program& program)
-    : code_(program.code_), numbers_(program.numbers_), start_(position()) {}
+    : code_(program.code_), numbers_(program.numbers_), texts_(program.texts_), start_(position()) {}
 
 Program::Emitter::Operand Program::Emitter::combine(Operation operation, const Operand& left,
                                                     const Operand& right, std::uint32_t mark) {
   next_register_ = mark;
-  if (left.is_constant() && right.is_constant()) return constant(apply(operation, left.value, right.value));
+  if (left.is_constant() && right.is_constant())
+    return constant(apply(operation, left.tagged(), right.tagged()));
   Instruction both = instruction(operation, left);
-  both.right_place = right.place;
+  both.right_in = right.storage;
   both.right = index_of(right);
   Operand result = emit(both, mark);
   result.is_truth = operation >= Operation::less && operation <= Operation::not_equal;
@@ -57,19 +58,20 @@ Program::Emitter::Operand Program::Emitter::call(const Function& row, const Oper
   next_register_ = mark;
   const bool folds =
       !row.random && std::all_of(arguments.begin(), end, [](const Operand& a) { return a.is_constant(); });
+  if (folds && row.name == "select") return arguments[arguments[0].value != 0 ? 1 : 2];
   if (folds) {
     std::array<double, max_arity> values{};
     std::transform(arguments.begin(), end, values.begin(), [](const Operand& a) { return a.value; });
     Rng unused(0);
     return constant(row.call(values.data(), unused));
   }
-  Operand first = {Place::registers, mark, 0, false};
+  Operand first = {Storage::registers, mark, 0, false, 0};
   if (arity == 1) {
-    first = arguments[0];  // read where it lies
+    first = arguments[0];  // no copy needed
   } else {
     for (std::uint32_t i = 0; i < arity; ++i) {
-      // A register is its own, or that of a parameter below.
-      const bool in_place = arguments[i].place == Place::registers && arguments[i].index == mark + i;
+      // The register may be that of a parameter.
+      const bool in_place = arguments[i].storage == Storage::registers && arguments[i].index == mark + i;
       if (!in_place) emit(instruction(Operation::copy, arguments[i]), mark + i);
     }
   }
@@ -78,9 +80,22 @@ Program::Emitter::Operand Program::Emitter::call(const Function& row, const Oper
   return emit(calling, mark);
 }
 
+Program::Emitter::Operand Program::Emitter::element(const Operand& index, std::uint32_t slot,
+                                                    std::uint32_t count, std::uint32_t mark) {
+  next_register_ = mark;
+  if (index.is_constant() && index.text == 0 && index.value >= 0 && index.value < count) {
+    return Operand{Storage::slots, slot + static_cast<std::uint32_t>(index.value), 0, false, 0};
+  }
+  Instruction made = instruction(Operation::element, index);
+  made.right_in = Storage::numbers;
+  made.right = index_of(constant(slot));
+  index_of(constant(count));  // follows it
+  return emit(made, mark);
+}
+
 Program::Emitter::Operand Program::Emitter::settle(const Operand& operand, std::uint32_t mark) {
   next_register_ = mark;
-  if (operand.place != Place::registers) return operand;
+  if (operand.storage != Storage::registers) return operand;
   next_register_ = mark + 1;
   if (operand.index == mark) return operand;
   Operand moved = emit(instruction(Operation::copy, operand), mark);
@@ -95,6 +110,7 @@ Program::Emitter::Operand Program::Emitter::truth(const Operand& operand, std::u
 void Program::Emitter::forget_after(Position position) {
   code_.resize(position.code);
   numbers_.resize(position.numbers);
+  texts_.resize(position.numbers);
 }
 
 Program::Emitter::Position Program::Emitter::begin_logic(Operation stop, const Operand& left,
@@ -108,7 +124,7 @@ Program::Emitter::Position Program::Emitter::begin_logic(Operation stop, const O
 Program::Emitter::Operand Program::Emitter::end_logic(Position begun, const Operand& right,
                                                       std::uint32_t mark) {
   const Operand value = truth(right, mark);
-  Operand result = {Place::registers, mark, 0, true};
+  Operand result = {Storage::registers, mark, 0, true, 0};
   if (value.is_constant()) emit(instruction(Operation::copy, value), mark);
   next_register_ = mark + 1;
   if (!is_too_long_) code_[begun.code].right = static_cast<std::uint32_t>(code_.size() - start_.code);
@@ -118,7 +134,7 @@ Program::Emitter::Operand Program::Emitter::end_logic(Position begun, const Oper
 Program::Instruction Program::Emitter::instruction(Operation operation, const Operand& left) {
   Instruction made;
   made.operation = operation;
-  made.left_place = left.place;
+  made.left_in = left.storage;
   made.left = index_of(left);
   return made;
 }
@@ -129,26 +145,30 @@ Program::Emitter::Operand Program::Emitter::emit(Instruction instruction, std::u
   instruction.into = static_cast<std::uint16_t>(mark);
   is_too_long_ = is_too_long_ || code_.size() - start_.code >= max_operations;
   if (!is_too_long_) code_.push_back(instruction);
-  return {Place::registers, mark, 0, false};
+  return {Storage::registers, mark, 0, false, 0};
 }
 
 std::uint32_t Program::Emitter::index_of(const Operand& operand) {
   if (!operand.is_constant()) return operand.index;
-  if (!is_too_long_) numbers_.push_back(operand.value);
+  if (!is_too_long_) {
+    numbers_.push_back(operand.value);
+    texts_.push_back(operand.text);
+  }
   return static_cast<std::uint32_t>(numbers_.size() - 1);
 }
 
-Expression Program::Emitter::constant_expression(double value) {
+Expression Program::Emitter::constant_expression(const TaggedValue& value) {
   Expression expression;
   expression.is_constant = true;
-  expression.value = value;
+  expression.value = value.is_text() ? std::numeric_limits<double>::quiet_NaN() : value.number;
+  expression.text = value.text;
   return expression;
 }
 
 Expression Program::Emitter::expression_of(const Operand& result) {
-  if (result.is_constant()) return constant_expression(result.value);
+  if (result.is_constant()) return constant_expression(result.tagged());
   Expression expression;
-  if (result.place == Place::slots) {
+  if (result.storage == Storage::slots) {
     expression.form = Expression::Form::slot;
     expression.left = result.index;
     return expression;
@@ -164,22 +184,24 @@ Expression Program::Emitter::expression_of(const Operand& result) {
   return expression;
 }
 
-/// Takes a single operation on slots and numbers out of the code into the handle; false where it is none.
+/// Moves a single operation on slots and numbers from the code into the handle; false if it has no such form.
 bool Program::Emitter::shorten(Expression& expression) const {
   const Instruction& only = code_.back();
   if (!has_two_sides(only.operation)) return false;
-  const bool swaps = only.left_place == Place::numbers;
+  const bool swaps = only.left_in == Storage::numbers;
   const Operation operation = swaps ? mirrored(only.operation) : only.operation;
   if (operation == Operation::copy) return false;
 
   expression.operation = operation;
   expression.left = swaps ? only.right : only.left;
-  if (only.left_place == Place::slots && only.right_place == Place::slots) {
+  if (only.left_in == Storage::slots && only.right_in == Storage::slots) {
     expression.form = Expression::Form::slot_and_slot;
     expression.right = only.right;
   } else {
     expression.form = Expression::Form::slot_and_value;
-    expression.value = numbers_[swaps ? only.left : only.right];
+    const std::uint32_t constant = swaps ? only.left : only.right;
+    expression.value = numbers_[constant];
+    expression.text = texts_[constant];
   }
   return true;
 }

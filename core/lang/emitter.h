@@ -1,16 +1,17 @@
 #pragma once
-/// Writes register code for one expression of a Program; the parser (parser.cpp) drives it. A constant or a
-/// slot stays an operand until an operation takes it, which folds constants and lets operations read slots in
-/// place. Registers are handed out like a stack: each function leaves its result in a constant, a slot or the
-/// register `mark`, and gives all registers above that back.
+/// Emits register code for one expression of a Program, called by the parser (parser.cpp). A constant or a slot stays
+/// an operand until an operation uses it, so that constants are folded and operations read slots directly. Registers
+/// form a stack: each function leaves its result in a constant, a slot or the register `mark`, and frees all registers
+/// above that.
 #include <array>
 #include <cstddef>
+#include <limits>
 
 #include "core/lang/expression.h"
 
 namespace seedmesh::lang {
 
-/// What one level of depth can hold while the next is worked out: the left sides of a comparison, a sum, a
+/// Registers that one level of depth keeps while the next one is computed: the left sides of a comparison, a sum, a
 /// product and a power, and all arguments of a call but the last.
 constexpr std::size_t registers_per_level = 4 + (max_arity - 1);
 
@@ -19,32 +20,40 @@ constexpr std::size_t register_count = registers_per_level * (Program::greatest_
 
 class Program::Emitter {
  public:
-  /// A value that is known now, or where it will lie.
+  /// A constant, or the slot or register of a value.
   struct Operand {
-    Place place = Place::numbers;
+    Storage storage = Storage::numbers;
     std::uint32_t index = 0;  ///< slot or register
     double value = 0;         ///< of a constant
-    bool is_truth = false;    ///< can only be 0 or 1
+    bool is_truth = false;    ///< is 0 or 1
+    std::uint32_t text = 0;   ///< not 0: the constant is this text, and `value` is NaN
 
-    bool is_constant() const { return place == Place::numbers; }
+    bool is_constant() const { return storage == Storage::numbers; }
+    TaggedValue tagged() const { return text != 0 ? TaggedValue{0, text} : TaggedValue{value, 0}; }
   };
   using Operands = std::array<Operand, max_arity>;
 
-  static Operand constant(double value) { return {Place::numbers, 0, value, false}; }
-  static Operand slot(std::uint32_t slot) { return {Place::slots, slot, 0, false}; }
+  static Operand constant(double value) { return {Storage::numbers, 0, value, false, 0}; }
+  static Operand constant(const TaggedValue& value) {
+    if (!value.is_text()) return constant(value.number);
+    return {Storage::numbers, 0, std::numeric_limits<double>::quiet_NaN(), false, value.text};
+  }
+  static Operand slot(std::uint32_t slot) { return {Storage::slots, slot, 0, false, 0}; }
 
   explicit Emitter(Program& program);
 
-  /// The lowest register that is free; where the result of what is parsed next may go.
+  /// The lowest free register, for the next result.
   std::uint32_t mark() const { return next_register_; }
   void free_from(std::uint32_t mark) { next_register_ = mark; }
 
   Operand combine(Operation operation, const Operand& left, const Operand& right, std::uint32_t mark);
   Operand call(const Function& row, const Operands& arguments, std::uint32_t mark);
-  Operand settle(const Operand& operand, std::uint32_t mark);  ///< a register's value moves to `mark`
+  /// The element `index` of the array of `count` slots from `slot` on.
+  Operand element(const Operand& index, std::uint32_t slot, std::uint32_t count, std::uint32_t mark);
+  Operand settle(const Operand& operand, std::uint32_t mark);  ///< moves the value of a register to `mark`
   Operand truth(const Operand& operand, std::uint32_t mark);   ///< 1 where the operand is not 0, else 0
 
-  /// The end of the code so far, to go back to.
+  /// The end of the code so far.
   struct Position {
     std::size_t code = 0, numbers = 0;
   };
@@ -52,16 +61,16 @@ class Program::Emitter {
   void forget_after(Position position);
   void forget_all() { forget_after(start_); }
 
-  /// `left && right` and `left || right`: begin_logic, then the code of the right side, which gets the
-  /// register of the left, then end_logic with what begin_logic returned. `left` is no constant.
+  /// `left && right` and `left || right`: begin_logic(), then the code of the right side, then end_logic() with the
+  /// result of begin_logic(). Both sides use the same register. `left` is not a constant.
   Position begin_logic(Operation stop, const Operand& left, std::uint32_t mark);
   Operand end_logic(Position begun, const Operand& right, std::uint32_t mark);
 
-  /// More than Program::max_operations were asked for; those beyond are not there.
+  /// Whether there were more than Program::max_operations; those beyond were not emitted.
   bool is_too_long() const { return is_too_long_; }
 
   Expression expression_of(const Operand& result);
-  static Expression constant_expression(double value);
+  static Expression constant_expression(const TaggedValue& value);
 
  private:
   Operand emit(Instruction instruction, std::uint32_t mark);
@@ -71,6 +80,7 @@ class Program::Emitter {
 
   std::vector<Instruction>& code_;
   std::vector<double>& numbers_;
+  std::vector<std::uint32_t>& texts_;
   Position start_;
   std::uint32_t next_register_ = 0;
   bool is_too_long_ = false;

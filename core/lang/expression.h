@@ -1,20 +1,24 @@
 #pragma once
-/// Arithmetic and conditions, parsed once and evaluated millions of times. Knows neither L-systems nor shape
-/// grammars: the caller gives the names that may occur and a slot for each, and the values of the slots when
-/// it evaluates.
+/// Expressions: arithmetic and conditions, parsed once and evaluated millions of times. They depend on no grammar:
+/// the caller binds names to slots before parsing, and gives the values of the slots for each evaluation.
 ///
-///   expression = or ;                         or  = and { ("||"|"|") and } ;    and = comparison {
-///   ("&&"|"&") comparison } ; comparison = sum [ ("<"|"<="|">"|">="|"=="|"!="|"=") sum ] ; sum = product {
-///   ("+"|"-") product } ;     product = unary { ("*"|"/"|"%"|"mod") unary } ; unary = { "-"|"+"|"!" } power
-///   ; power = primary [ ("^"|"**") unary ] ;  right associative primary = number | dotted | name "(" [
-///   expression { "," expression } ] ")" | "(" expression ")" ; dotted = name { "." name } ; without space
-///   around the points: one name, as in Scope.sx
+///   expression = or ;
+///   or         = and { ("||" | "|") and } ;
+///   and        = comparison { ("&&" | "&") comparison } ;
+///   comparison = sum [ ("<" | "<=" | ">" | ">=" | "==" | "!=" | "=") sum ] ;
+///   sum        = product { ("+" | "-") product } ;
+///   product    = unary { ("*" | "/" | "%" | "mod") unary } ;
+///   unary      = { "-" | "+" | "!" } power ;
+///   power      = primary [ ("^" | "**") unary ] ;        right associative
+///   primary    = number | dotted | name "(" [ expression { "," expression } ] ")" | "(" expression ")" ;
+///   dotted     = name { "." name } | array "[" expression "]" ;   without spaces: one name, as in Scope.sx
 ///
-/// All values are double; a condition holds when its value is not 0; comparisons give 1 or 0; && and || stop
-/// early and give 1 or 0. `!` binds like a minus sign, as in C: !a < b is (!a) < b. Comparisons do not chain.
-/// `%` is the modulo of mod() (result has the sign of the divisor), and only where an operand follows: in
-/// `30% : A` the expression is 30. Trigonometric functions take and give degrees. Division by zero and the
-/// like give infinities or NaN: the caller decides what to refuse. Results are the same bits on every machine
+/// All values are doubles. A condition holds if its value is not 0; comparisons give 1 or 0. && and || give 1 or 0
+/// and do not evaluate the right side if the left one decides. `!` binds like a minus sign, as in C: !a < b is
+/// (!a) < b. Comparisons do not chain. The index of an array is truncated to a whole number; outside of the array the
+/// result is NaN. `%` is mod(), whose result has the sign of the divisor; it is an operator only
+/// before an operand, so that the expression of `30% : A` is 30. Angles are in degrees. Division by zero gives an
+/// infinity or NaN, and the caller decides what to refuse. Results have the same bits on every machine
 /// (core/base/math.h).
 #include <cstdint>
 #include <map>
@@ -28,12 +32,23 @@
 
 namespace seedmesh::lang {
 
-/// Where names live while expressions are parsed. A name is bound to a slot (a value known at evaluation) or
-/// to a constant (folded into the code). Later bindings hide earlier ones of the same name.
+/// A number, or a text of a table of the caller, by its number from 1.
+struct TaggedValue {
+  double number = 0;
+  std::uint32_t text = 0;  ///< 0: the value is a number
+
+  bool is_text() const { return text != 0; }
+  friend auto operator<=>(const TaggedValue&, const TaggedValue&) = default;
+};
+
+/// The names that expressions may use. A name is bound to a slot, whose value is given at evaluation, or to a
+/// constant, which is folded into the code. Later bindings hide earlier ones of the same name.
 class Names {
  public:
   void bind_slot(std::string name, std::uint32_t slot);
   void bind_constant(std::string name, double value);
+  /// An array of `count` values, at least 1, in the slots from `slot` on.
+  void bind_array(std::string name, std::uint32_t slot, std::uint32_t count);
   void forget_after(std::size_t count);  ///< keeps the first `count` bindings
   std::size_t size() const { return bindings_.size(); }
 
@@ -42,24 +57,25 @@ class Names {
     bool is_constant = false;
     std::uint32_t slot = 0;
     double value = 0;
+    std::uint32_t count = 0;  ///< of the elements of an array; 0: the name is a value
   };
-  const Binding* find(std::string_view name) const;  ///< null: unknown; valid until the next change
-  /// The constant of this name though a slot hides it; null: there is none.
+  const Binding* find(std::string_view name) const;  ///< null if unknown; valid until the next change
+  /// The latest constant of this name, even if a slot hides it; null if there is none.
   const Binding* find_constant(std::string_view name) const;
 
-  /// A function of the user's, written out where it is called. Its body knows its parameters and constants.
+  /// A user-defined function. Calls are expanded inline; its body can use its parameters and constants.
   struct Defined {
     std::vector<std::string> parameters;  ///< at most most_parameters
-    std::vector<Token> body;              ///< ended by TokenKind::end; the text must outlive the Names
-    bool is_sound = true;                 ///< false: its own text has a fault, so calls are not judged
+    std::vector<Token> body;              ///< ends with TokenKind::end; its text has to outlive the Names
+    bool is_valid = true;                 ///< false after an error in its text: calls are not checked
   };
   static constexpr std::size_t most_parameters = 8;
-  void define(std::string name, Defined function);  ///< takes the place of an earlier one of the same name
-  void spoil(std::string_view name);                ///< is_sound becomes false
+  void define(std::string name, Defined function);  ///< replaces an earlier one of the same name
+  void mark_invalid(std::string_view name);         ///< sets is_valid to false
   const Defined* find_function(std::string_view name) const;
-  /// The bound name most like `name` for a hint, or empty. Looks at the latest 256 bindings.
+  /// The bound name most similar to `name`, for a hint, or an empty text. Compares the latest 256 bindings.
   std::string_view nearest(std::string_view name) const;
-  /// Asked before each hint: false when there were most_hints. A hint costs more than many a text.
+  /// Call it before each hint, which is expensive. False after most_hints calls.
   bool may_hint() const { return hints_ < most_hints && ++hints_ > 0; }
   static constexpr std::uint32_t most_hints = 20;
 
@@ -68,37 +84,37 @@ class Names {
 
   std::vector<Binding> bindings_;
   std::map<std::string, std::vector<std::uint32_t>, std::less<>>
-      places_;  ///< of each name in bindings_, the latest last
+      indices_;  ///< of each name into bindings_, the latest last
   std::map<std::string, Defined, std::less<>> functions_;
   mutable std::uint32_t hints_ = 0;
 };
 
-/// Reads `name ( parameter, ... ) = body` and returns the name; the body is only cut into tokens. Faults: at
-/// the token that is wrong, a name that a built-in function has, a parameter twice, too many of them.
-std::string read_definition(std::string_view text, Names::Defined& function, std::vector<Fault>& faults);
+/// Reads `name ( parameter, ... ) = body` and returns the name. The body is split into tokens but not parsed. Errors:
+/// a token that is not expected, the name of a built-in function, a repeated parameter, too many parameters.
+std::string read_definition(std::string_view text, Names::Defined& function, std::vector<TextError>& errors);
 
-/// How alike two names are for a hint: 0 = equal, 1 = equal but for case; else 1 for each letter of another
-/// case, 2 for each letter put in, left out, exchanged or swapped with its neighbour. Names longer than 64
-/// bytes are like nothing.
+/// The distance of two names, for hints. Equal names have 0, and names that differ only in case have 1. Otherwise each
+/// letter of another case adds 1, and each inserted, missing, changed or swapped letter adds 2. Names of more than
+/// 64 bytes have a distance beyond every hint.
 std::uint32_t name_distance(std::string_view a, std::string_view b);
-/// The greatest distance at which a hint for a name of that length is of use.
+/// The greatest distance of a useful hint for `name`.
 std::uint32_t hint_distance(std::string_view name);
 
-/// A built-in function: one row serves the parser, the evaluator, the docs and GET /v1/vocabulary. A name may
-/// have several rows of different arity (ran); they stand together.
+/// A built-in function, for the parser, the evaluator, the docs and GET /v1/vocabulary. A name may have several rows of
+/// different arity (ran), which follow each other.
 struct Function {
   std::string_view name;
   int arity;                   ///< number of arguments, at most max_arity
-  std::string_view arguments;  ///< their names, as the docs print them: "low, high"
-  std::string_view text;       ///< one sentence for the reader
+  std::string_view arguments;  ///< their names, for the docs: "low, high"
+  std::string_view text;       ///< one sentence for the docs
   std::string_view example;    ///< an expression that the tests evaluate
   double (*call)(const double* arguments, Rng& rng);
-  bool random;  ///< draws from the stream: never folded
+  bool random;  ///< draws random numbers, so that it is never folded
 };
 std::span<const Function> functions();
 constexpr int max_arity = 3;
 
-/// The operators `%` and `^`: as mod() and pow().
+/// The operators `%` and `^`.
 double modulo(double dividend, double divisor);
 double power(double base, double exponent);
 
@@ -121,49 +137,53 @@ enum class Operation : std::uint8_t {
   stop_if_false,
   stop_if_true,
   call,
+  element,  ///< the element `left` of the array whose first slot and count are the numbers from `right` on
 };
 
-/// A handle to compiled code in a Program. Constants, single slots and one operation on a slot need no code.
+/// A handle to compiled code in a Program. A constant, a slot, and one operation on a slot need no code.
 struct Expression {
-  /// How evaluate() gets the value.
+  /// What evaluate() has to do.
   enum class Form : std::uint8_t { constant, slot, slot_and_value, slot_and_slot, code };
 
   std::uint32_t first = 0, count = 0;  ///< instructions
-  bool is_constant = false;            ///< `value` holds everywhere, no code needs to run
+  bool is_constant = false;            ///< its value is always `value`
   Form form = Form::constant;
   Operation operation = Operation::copy;  ///< of the two middle forms
   double value = 0;
+  std::uint32_t text = 0;             ///< not 0: the constant is this text, and `value` is NaN
   std::uint32_t left = 0, right = 0;  ///< slots
+
+  TaggedValue constant() const { return text != 0 ? TaggedValue{0, text} : TaggedValue{value, 0}; }
 };
 
-/// Compiled expressions of one grammar, in one flat array of instructions. evaluate() may run in many threads
-/// at once.
+/// The compiled expressions of one grammar, in one array of instructions. evaluate() is thread-safe.
 class Program {
  public:
-  /// An expression with more operations than this (after folding) is a fault: it bounds the time of one
-  /// evaluation.
+  /// The most operations of an expression after folding, which bounds the time of one evaluation.
   static constexpr std::uint32_t max_operations = 1'000;
-  /// Functions of the user's that are written out may come to so many tokens in one program; more are a
-  /// fault: a long function that is called in every line would else be read as often.
-  static constexpr std::uint64_t max_written_out = 4'000'000;
-  /// The greatest depth that max_depth may ask for; more counts as this.
+  /// The most tokens of expanded functions in one program, which bounds the cost of a long function that is called
+  /// often.
+  static constexpr std::uint64_t max_expanded = 4'000'000;
+  /// The greatest useful value of max_depth; a larger one counts as this.
   static constexpr std::uint32_t greatest_depth = 256;
 
-  /// Parses tokens from `at` on, leaves `at` on the first token that does not belong, and compiles. On a
-  /// fault: adds it (at the offending token; all that can be told at once, in the order of the text, at most
-  /// max_faults), moves `at` to the first token after the damage that is one of , ; : ) ] } { or an arrow
-  /// outside brackets opened here, or the end; returns a constant 0. Depth (of brackets, calls, signs and
-  /// powers) beyond `max_depth` is a fault. Never recurses deeper than max_depth.
+  /// Parses and compiles the expression that begins at token `at`, and moves `at` to the first token behind it.
+  /// After errors it adds all of them in the order of the text, at most max_errors, and returns the constant 0. `at`
+  /// is then the next token that is one of , ; : ) ] } { or an arrow outside of brackets opened here, or the end.
+  /// Brackets, calls, signs and powers deeper than `max_depth` are an error. Recurses at most max_depth deep.
   Expression parse(std::span<const Token> tokens, std::size_t& at, const Names& names,
-                   std::vector<Fault>& faults, std::uint32_t max_depth = 200);
+                   std::vector<TextError>& errors, std::uint32_t max_depth = 200);
 
-  /// `slots` as bound when it was parsed; at least slots_used() of them. Draws only from `rng`, in the order
-  /// of evaluation: left to right, nothing where && or || stopped before. Allocates nothing. About 2 ns for a
-  /// constant, a slot or one operation on slots and constants; otherwise about 5 ns, 3 ns for each operation
-  /// and up to 100 ns for a transcendental function.
+  /// The value of the expression. `slots` has at least slots_used() values, as bound at parsing. Draws random numbers
+  /// from `rng` in the order of evaluation, from left to right. Allocates nothing. Cost: about 2 ns for a constant, a
+  /// slot or one operation; otherwise 5 ns, 3 ns for each operation and up to 100 ns for a transcendental function.
   double evaluate(const Expression& expression, const double* slots, Rng& rng) const;
 
-  /// The highest slot that the expression reads plus one, 0 when none.
+  /// The same if values may be texts. == and != compare texts; a text equals no number; select() passes texts
+  /// on. All other operations and functions take a text as NaN. Cost: about twice that of evaluate().
+  TaggedValue evaluate_tagged(const Expression& expression, const TaggedValue* slots, Rng& rng) const;
+
+  /// The number of the highest slot that the expression reads, plus one; 0 if it reads none.
   std::uint32_t slots_used(const Expression& expression) const;
 
   bool draws(const Expression& expression) const;  ///< calls a random function
@@ -172,28 +192,28 @@ class Program {
   class Parser;
   class Emitter;
 
-  /// Where an operand lies: in the numbers of the program, in the slots of the caller, in a register of the
-  /// evaluation.
-  enum class Place : std::uint8_t { numbers, slots, registers };
+  /// The array of an operand: the numbers of the program, the slots of the caller, the registers of the evaluation.
+  enum class Storage : std::uint8_t { numbers, slots, registers };
 
-  /// registers[into] = left operation right. A call has its first argument at `left`, the others behind it,
-  /// and its row of functions() in `right`; stop_if_* goes to instruction `right` of the expression with the
-  /// truth of `left`.
+  /// registers[into] = left operation right. A call has its first argument at `left`, the others behind it, and its row
+  /// of functions() in `right`. stop_if_* stores the truth of `left` and jumps to instruction `right` if it decides.
   struct Instruction {
     Operation operation = Operation::copy;
-    Place left_place = Place::registers, right_place = Place::registers;
+    Storage left_in = Storage::registers, right_in = Storage::registers;
     std::uint16_t into = 0;
     std::uint32_t left = 0, right = 0;
   };
 
   double run(const Expression& expression, const double* slots, Rng& rng) const;
+  TaggedValue run_tagged(const Expression& expression, const TaggedValue* slots, Rng& rng) const;
 
   std::vector<Instruction> code_;
   std::vector<double> numbers_;
-  std::uint64_t written_out_ = 0;  ///< tokens of functions so far
+  std::vector<std::uint32_t> texts_;  ///< of numbers_: those that are texts, else 0
+  std::uint64_t expanded_ = 0;        ///< tokens of functions so far
 };
 
-/// One operation of the kinds that need no code; defined here so that the common case costs no call.
+/// One binary operation. Inline, because most evaluations are only this.
 inline double apply(Operation operation, double left, double right) {
   switch (operation) {
     case Operation::add:
@@ -228,10 +248,13 @@ inline double apply(Operation operation, double left, double right) {
     case Operation::stop_if_false:
     case Operation::stop_if_true:
     case Operation::call:
+    case Operation::element:
       break;
   }
   return left;
 }
+
+TaggedValue apply(Operation operation, const TaggedValue& left, const TaggedValue& right);
 
 inline double Program::evaluate(const Expression& expression, const double* slots, Rng& rng) const {
   switch (expression.form) {

@@ -1,5 +1,5 @@
-/// The built-in functions: the set that grammars written for cpfg, ABOP and CGA use. Everything that is not
-/// exact in IEEE 754 goes through core/base/math.h.
+/// The built-in functions that grammars for cpfg, ABOP and CGA use. Operations that IEEE 754 does not define exactly
+/// come from core/base/math.h.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,24 +11,24 @@
 namespace seedmesh::lang {
 
 double modulo(double dividend, double divisor) {
-  constexpr double exact = 2147483648.0;  // below it the quotient of two integers rounds to no wrong floor
+  constexpr double exact = 2147483648.0;  // below it, the floor of a rounded quotient of integers is right
   const bool integers = std::abs(dividend) < exact && std::abs(divisor) < exact && divisor != 0 &&
                         std::floor(dividend) == dividend && std::floor(divisor) == divisor;
   if (integers) return dividend - divisor * std::floor(dividend / divisor);
-  const double rest = std::fmod(dividend, divisor);  // exact by definition, so the same on every machine
+  const double rest = std::fmod(dividend, divisor);  // exact, so the same on every machine
   return rest != 0 && (rest < 0) != (divisor < 0) ? rest + divisor : rest;
 }
 
 double power(double base, double exponent) {
-  return exponent == 2 ? base * base : math::pow(base, exponent);  // squares are most of all powers
+  return exponent == 2 ? base * base : math::pow(base, exponent);  // most powers are squares
 }
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Sines and cosines that should be 1/2 come out as such (grammars compare them): those whose angle is
-/// `special` or the same distance below a half turn. Adding 0 turns -0 into 0.
+/// Makes sines and cosines of exactly 1/2 exact, because grammars compare them: angles of `special` and of 180 -
+/// `special` degrees. Adding 0 turns -0 into 0.
 double with_exact_half(double value, double degrees, double special) {
   if (std::abs(std::abs(value) - 0.5) < 1e-15) {
     const double half_turn = modulo(degrees, 180);
@@ -97,8 +97,8 @@ constexpr Function table[] = {
     {"sqrt", 1, "x", "Square root.", "sqrt(2.25)", [](Arguments a, Rng&) { return std::sqrt(a[0]); }, false},
     {"pow", 2, "base, exponent", "Power, as base^exponent.", "pow(2, 10)",
      [](Arguments a, Rng&) { return power(a[0], a[1]); }, false},
-    {"abs", 1, "x", "Distance from 0.", "abs(-3)", [](Arguments a, Rng&) { return std::abs(a[0]); }, false},
-    {"fabs", 1, "x", "Distance from 0, as abs.", "fabs(-0.5)",
+    {"abs", 1, "x", "Absolute value.", "abs(-3)", [](Arguments a, Rng&) { return std::abs(a[0]); }, false},
+    {"fabs", 1, "x", "Absolute value, as abs.", "fabs(-0.5)",
      [](Arguments a, Rng&) { return std::abs(a[0]); }, false},
     {"sign", 1, "x", "-1, 0 or 1, as x is negative, zero or positive.", "sign(-7)",
      [](Arguments a, Rng&) { return sign(a[0]); }, false},
@@ -123,7 +123,7 @@ constexpr Function table[] = {
      [](Arguments a, Rng&) { return least(greatest(a[0], a[1]), a[2]); }, false},
     {"lerp", 3, "a, b, t", "The value at share t of the way from a to b.", "lerp(10, 20, 0.25)",
      [](Arguments a, Rng&) { return a[0] + (a[1] - a[0]) * a[2]; }, false},
-    {"select", 3, "condition, a, b", "a where the condition holds, else b; both are worked out.",
+    {"select", 3, "condition, a, b", "a where the condition holds, else b; both are evaluated.",
      "select(2 > 1, 10, 20)", [](Arguments a, Rng&) { return a[0] != 0 ? a[1] : a[2]; }, false},
     {"isnan", 1, "x", "1 when x is not a number (0/0), else 0.", "isnan(0/0)",
      [](Arguments a, Rng&) { return std::isnan(a[0]) ? 1.0 : 0.0; }, false},

@@ -8,20 +8,20 @@
 namespace seedmesh::lang {
 namespace {
 
-// `char` may be signed and <cctype> depends on the locale, so the classes are spelled out.
+// The functions of <cctype> depend on the locale.
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_name_start(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_name_part(char c) { return is_name_start(c) || is_digit(c); }
 bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 bool is_sign(char c) { return c > ' ' && c < '\x7F' && !is_name_part(c); }
 
-/// Longest first, so that the first hit is the token.
+/// Longest first, so that the first match is the token.
 constexpr std::array<std::string_view, 11> long_symbols = {"-->", "==", "!=", "<=", ">=", "&&",
                                                            "||",  "->", "~>", "<<", ">>"};
 constexpr std::array<std::string_view, 2> arrows = {"\u2192", "\u27F6"};
 constexpr std::string_view no_break_space = "\u00A0";
 
-/// Signs that typesetting puts where a keyboard has another one.
+/// Typographic characters, and the ASCII characters that they replace.
 struct Lookalike {
   std::string_view found, meant;
 };
@@ -35,7 +35,7 @@ constexpr std::array<Lookalike, 9> lookalikes = {{{"\u2212", "-"},
                                                   {"\u2260", "!="},
                                                   {"\u2032", "'"}}};
 
-/// Bytes of the UTF-8 character at the front of `text`, 0 where it is not well-formed.
+/// The bytes of the first code point of `text`, 0 if it is not valid UTF-8.
 std::size_t character_length(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text.front());
   const std::size_t length = lead < 0x80   ? 1
@@ -51,9 +51,9 @@ std::size_t character_length(std::string_view text) {
   return length;
 }
 
-/// Of a number that is too great or too small for a double: which of the two. `text` is digits, point and
-/// exponent as the lexer reads them, so the sign of its decimal exponent decides.
-bool is_too_great(std::string_view text) {
+/// Whether a number beyond the range of a double is too large, not too small. `text` consists of digits, a point
+/// and an exponent, so that the sign of the decimal exponent decides.
+bool is_too_large(std::string_view text) {
   const std::size_t mark = text.find_first_of("eE");
   const std::string_view digits = text.substr(0, mark);
   const std::size_t point = std::min(digits.find('.'), digits.size());
@@ -72,13 +72,13 @@ bool is_too_great(std::string_view text) {
 
 class Lexer {
  public:
-  Lexer(std::string_view text, std::size_t from, std::size_t to, std::vector<Fault>& faults)
-      : text_(text.substr(0, to)), at_(from), faults_(faults), faults_before_(faults.size()) {}
+  Lexer(std::string_view text, std::size_t from, std::size_t to, std::vector<TextError>& errors)
+      : text_(text.substr(0, to)), at_(from), errors_(errors), errors_before_(errors.size()) {}
 
   std::vector<Token> read() {
     while (skip_space()) {
-      if (tokens_.size() >= max_tokens || faults_.size() - faults_before_ >= max_faults - 2) {
-        fault(at_, "too many tokens or faults: the text was not read from here on");
+      if (tokens_.size() >= max_tokens || errors_.size() - errors_before_ >= max_errors - 2) {
+        report(at_, "too many tokens or errors: the text was not read from here on");
         break;
       }
       read_one();
@@ -89,7 +89,7 @@ class Lexer {
 
  private:
   std::string_view rest() const { return text_.substr(at_); }
-  void fault(std::size_t offset, std::string message) { faults_.push_back({offset, std::move(message)}); }
+  void report(std::size_t offset, std::string message) { errors_.push_back({offset, std::move(message)}); }
 
   void add(TokenKind kind, std::size_t length) {
     tokens_.push_back({kind, text_.substr(at_, length), at_, length, 0});
@@ -126,10 +126,10 @@ class Lexer {
     const auto [end, error] = std::from_chars(source.data(), source.data() + source.size(), value);
     const auto length = static_cast<std::size_t>(end - source.data());
     if (error == std::errc::result_out_of_range) {
-      value = 0;  // right for a number that is too small
-      if (is_too_great(source.substr(0, length))) {
-        fault(at_, "the number " + in_quotes(source.substr(0, length)) +
-                       " is too great: the greatest is about 1.8e308");
+      value = 0;  // the nearest value of a number that is too small
+      if (is_too_large(source.substr(0, length))) {
+        report(at_, "the number " + in_quotes(source.substr(0, length)) +
+                        " is too large: the largest is about 1.8e308");
       }
     }
     add(TokenKind::number, length);
@@ -145,7 +145,7 @@ class Lexer {
   void read_string() {
     const std::size_t open = at_;
     std::size_t end = open + 1;
-    std::size_t bad_escape = 0;  // one is told, the others of the same string look alike
+    std::size_t bad_escape = 0;  // only the first of a string is reported
     while (end < text_.size() && text_[end] != '"' && text_[end] != '\n') {
       if (text_[end] == '\\' && end + 1 < text_.size() && text_[end + 1] != '\n') {
         const bool known = std::string_view("\"\\nt").find(text_[end + 1]) != std::string_view::npos;
@@ -155,8 +155,8 @@ class Lexer {
       ++end;
     }
     const bool closed = end < text_.size() && text_[end] == '"';
-    if (!closed) fault(open, "the string that opens here is not closed on its line");
-    if (bad_escape > 0) fault(bad_escape, R"(unknown escape in a string: there are \" \\ \n \t)");
+    if (!closed) report(open, "the string that opens here is not closed on its line");
+    if (bad_escape > 0) report(bad_escape, R"(unknown escape in a string: there are \" \\ \n \t)");
     tokens_.push_back(
         {TokenKind::string, text_.substr(open + 1, end - open - 1), open, end + (closed ? 1 : 0) - open, 0});
     at_ = end + (closed ? 1 : 0);
@@ -170,7 +170,7 @@ class Lexer {
     add(TokenKind::symbol, found == long_symbols.end() ? 1 : found->size());
   }
 
-  /// Arrows are symbols; any other character beyond ASCII, and control characters, are faults.
+  /// Arrows are symbols. Every other character beyond ASCII, and every control character, is an error.
   void read_foreign() {
     const std::string_view source = rest();
     for (const std::string_view arrow : arrows) {
@@ -183,7 +183,7 @@ class Lexer {
     const std::size_t length = character_length(source);
     const auto byte = static_cast<unsigned char>(source.front());
     if (length == 0 || byte < 0x80) {
-      fault(at_, "unexpected byte " + std::to_string(int{byte}) + ": it is no character of a text");
+      report(at_, "unexpected byte " + std::to_string(int{byte}) + ", which is not part of a text");
       ++at_;
       return;
     }
@@ -192,23 +192,23 @@ class Lexer {
     for (const Lookalike& pair : lookalikes) {
       if (pair.found == character) message += "; write " + in_quotes(pair.meant);
     }
-    fault(at_, std::move(message));
+    report(at_, std::move(message));
     at_ += length;
   }
 
   std::string_view text_;
   std::size_t at_;
-  std::vector<Fault>& faults_;
-  std::size_t faults_before_;
+  std::vector<TextError>& errors_;
+  std::size_t errors_before_;
   std::vector<Token> tokens_;
 };
 
 }  // namespace
 
 std::vector<Token> tokenize(std::string_view text, std::size_t from, std::size_t to,
-                            std::vector<Fault>& faults) {
+                            std::vector<TextError>& errors) {
   assert(from <= to && to <= text.size());
-  return Lexer(text, from, to, faults).read();
+  return Lexer(text, from, to, errors).read();
 }
 
 std::string in_quotes(std::string_view text) {
@@ -218,7 +218,7 @@ std::string in_quotes(std::string_view text) {
     const std::size_t length = character_length(text.substr(i));
     if (i + length > longest) return "`" + shown + "...`";
     const bool is_shown = length > 1 || (length == 1 && text[i] >= ' ' && text[i] != '\x7F');
-    shown += is_shown ? text.substr(i, length) : "?";  // a message is valid UTF-8 whatever the text is
+    shown += is_shown ? text.substr(i, length) : "?";  // a message is valid UTF-8 even if the text is not
     i += std::max<std::size_t>(length, 1);
   }
   return "`" + shown + "`";

@@ -6,7 +6,7 @@
 namespace seedmesh::lang {
 
 void Names::bind(Binding binding) {
-  places_[binding.name].push_back(static_cast<std::uint32_t>(bindings_.size()));
+  indices_[binding.name].push_back(static_cast<std::uint32_t>(bindings_.size()));
   bindings_.push_back(std::move(binding));
 }
 
@@ -14,24 +14,28 @@ void Names::bind_slot(std::string name, std::uint32_t slot) { bind({std::move(na
 
 void Names::bind_constant(std::string name, double value) { bind({std::move(name), true, 0, value}); }
 
+void Names::bind_array(std::string name, std::uint32_t slot, std::uint32_t count) {
+  bind({std::move(name), false, slot, 0, count});
+}
+
 void Names::forget_after(std::size_t count) {
   while (bindings_.size() > count) {
-    const auto place = places_.find(bindings_.back().name);
-    place->second.pop_back();
-    if (place->second.empty()) places_.erase(place);
+    const auto found = indices_.find(bindings_.back().name);
+    found->second.pop_back();
+    if (found->second.empty()) indices_.erase(found);
     bindings_.pop_back();
   }
 }
 
 const Names::Binding* Names::find(std::string_view name) const {
-  const auto place = places_.find(name);
-  return place == places_.end() ? nullptr : &bindings_[place->second.back()];
+  const auto found = indices_.find(name);
+  return found == indices_.end() ? nullptr : &bindings_[found->second.back()];
 }
 
 const Names::Binding* Names::find_constant(std::string_view name) const {
-  const auto place = places_.find(name);
-  if (place == places_.end()) return nullptr;
-  for (auto each = place->second.rbegin(); each != place->second.rend(); ++each) {
+  const auto found = indices_.find(name);
+  if (found == indices_.end()) return nullptr;
+  for (auto each = found->second.rbegin(); each != found->second.rend(); ++each) {
     if (bindings_[*each].is_constant) return &bindings_[*each];
   }
   return nullptr;
@@ -41,19 +45,19 @@ void Names::define(std::string name, Defined function) {
   functions_.insert_or_assign(std::move(name), std::move(function));
 }
 
-void Names::spoil(std::string_view name) {
-  const auto place = functions_.find(name);
-  if (place != functions_.end()) place->second.is_sound = false;
+void Names::mark_invalid(std::string_view name) {
+  const auto found = functions_.find(name);
+  if (found != functions_.end()) found->second.is_valid = false;
 }
 
 const Names::Defined* Names::find_function(std::string_view name) const {
-  const auto place = functions_.find(name);
-  return place == functions_.end() ? nullptr : &place->second;
+  const auto found = functions_.find(name);
+  return found == functions_.end() ? nullptr : &found->second;
 }
 
 std::string_view Names::nearest(std::string_view name) const {
   if (!may_hint()) return {};
-  constexpr std::size_t looked_at = 256;  // a hint is not worth a search through a hostile list
+  constexpr std::size_t looked_at = 256;  // bounds the cost for a hostile list
   const std::size_t first = bindings_.size() > looked_at ? bindings_.size() - looked_at : 0;
   std::string_view best;
   std::uint32_t least = hint_distance(name) + 1;
@@ -66,12 +70,12 @@ std::string_view Names::nearest(std::string_view name) const {
   return best;
 }
 
-std::string read_definition(std::string_view text, Names::Defined& function, std::vector<Fault>& faults) {
-  const std::vector<Token> tokens = tokenize(text, 0, text.size(), faults);
+std::string read_definition(std::string_view text, Names::Defined& function, std::vector<TextError>& errors) {
+  const std::vector<Token> tokens = tokenize(text, 0, text.size(), errors);
   std::size_t at = 0;
   const auto expect = [&](bool found, const char* what) {
     if (!found) {
-      faults.push_back(
+      errors.push_back(
           {tokens[at].offset, "expected " + std::string(what) + ", found " + in_quotes(tokens[at])});
     }
     return found;
@@ -80,7 +84,8 @@ std::string read_definition(std::string_view text, Names::Defined& function, std
   const std::string name(tokens[at].text);
   const auto same = [&](const Function& row) { return row.name == name; };
   if (std::any_of(functions().begin(), functions().end(), same)) {
-    faults.push_back({tokens[at].offset, in_quotes(name) + " is a function that there is already"});
+    errors.push_back({tokens[at].offset, in_quotes(name) + " is the name of a built-in function",
+                      IssueKind::duplicate_key});
   }
   ++at;
   if (!expect(is_symbol(tokens[at], "("), "`(`")) return name;
@@ -94,17 +99,18 @@ std::string read_definition(std::string_view text, Names::Defined& function, std
     const std::string parameter(tokens[at].text);
     if (std::find(function.parameters.begin(), function.parameters.end(), parameter) !=
         function.parameters.end()) {
-      faults.push_back({tokens[at].offset, "the parameter " + in_quotes(parameter) + " is named twice"});
+      errors.push_back({tokens[at].offset, "the parameter " + in_quotes(parameter) + " is named twice",
+                        IssueKind::duplicate_key});
     }
     if (function.parameters.size() == Names::most_parameters) {
-      faults.push_back({tokens[at].offset, "found more than 8 parameters"});
+      errors.push_back({tokens[at].offset, "found more than 8 parameters", IssueKind::out_of_range});
       return name;
     }
     function.parameters.push_back(parameter);
     ++at;
   }
   ++at;
-  if (!expect(is_symbol(tokens[at], "="), "`=` and what the function gives")) return name;
+  if (!expect(is_symbol(tokens[at], "="), "`=` and the value of the function")) return name;
   function.body.assign(tokens.begin() + static_cast<std::ptrdiff_t>(at) + 1, tokens.end());
   return name;
 }
@@ -123,7 +129,7 @@ std::uint32_t exchange_cost(char a, char b) { return a == b ? 0U : lower(a) == l
 }  // namespace
 
 // The table of Wagner and Fischer, "The String-to-String Correction Problem", 1974, with Damerau's swap of
-// neighbours; three rows of it are alive at a time.
+// neighbours; only three rows are kept.
 std::uint32_t name_distance(std::string_view a, std::string_view b) {
   constexpr std::size_t longest = 64;
   constexpr std::uint32_t edit = 2;

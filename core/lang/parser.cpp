@@ -1,5 +1,5 @@
-/// Precedence climbing (Richards, "The structure and organisation of a compiler", 1979) straight into
-/// register code, without a tree between.
+/// Precedence climbing (Richards, "The structure and organisation of a compiler", 1979). It emits register code
+/// directly, without a syntax tree.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -7,13 +7,13 @@
 
 #include "core/lang/emitter.h"
 #include "core/lang/expression.h"
+#include "core/lang/parse_messages.h"
 #include "core/lang/reader.h"
 
 namespace seedmesh::lang {
 namespace {
 
-/// How tightly an operator binds.
-enum class Rank { either, both, comparison, sum, product, power };
+enum class Rank { either, both, comparison, sum, product, power };  ///< the precedence of an operator
 
 Rank above(Rank rank) { return static_cast<Rank>(static_cast<int>(rank) + 1); }
 
@@ -39,71 +39,13 @@ constexpr std::array<Infix, 17> infixes = {{{"||", Rank::either, Operation::stop
                                             {"/", Rank::product, Operation::divide},
                                             {"%", Rank::product, Operation::modulo},
                                             {"^", Rank::power, Operation::power}}};
-/// Two tokens, since `**` may stand for two symbols elsewhere.
-/// A word can only be an operator where a value stands before it.
-constexpr Infix modulo_word = {"mod", Rank::product, Operation::modulo};
-constexpr Infix star_star = {"**", Rank::power, Operation::power};
+constexpr Infix modulo_word = {"mod", Rank::product, Operation::modulo};  ///< an operator only after a value
+constexpr Infix star_star = {"**", Rank::power, Operation::power};        ///< two tokens
 
 bool may_begin_operand(const Token& token) {
   if (token.kind == TokenKind::number || token.kind == TokenKind::name) return true;
+  if (token.kind == TokenKind::string) return token.number > 0;
   return is_symbol(token, "(") || is_symbol(token, "-") || is_symbol(token, "+") || is_symbol(token, "!");
-}
-
-std::span<const Function> rows_of(std::string_view name) {
-  const std::span<const Function> all = functions();
-  std::size_t first = 0;
-  while (first < all.size() && all[first].name != name) ++first;
-  std::size_t count = 0;
-  while (first + count < all.size() && all[first + count].name == name) ++count;
-  return all.subspan(first, count);
-}
-
-std::string_view nearest_function(const Names& names, std::string_view name) {
-  if (!names.may_hint()) return {};
-  std::string_view best;
-  std::uint32_t least = hint_distance(name) + 1;
-  for (const Function& row : functions()) {
-    const std::uint32_t distance = name_distance(name, row.name);
-    if (distance >= least) continue;
-    least = distance;
-    best = row.name;
-  }
-  return best;
-}
-
-std::string did_you_mean(std::string_view hint) {
-  return hint.empty() ? "" : "; did you mean " + in_quotes(hint) + "?";
-}
-
-std::string wrong_number_of_arguments(std::span<const Function> rows, std::size_t found) {
-  std::string counts;
-  for (const Function& row : rows) counts += (counts.empty() ? "" : " or ") + std::to_string(row.arity);
-  const bool is_one = rows.size() == 1 && rows[0].arity == 1;
-  return in_quotes(rows[0].name) + " takes " + counts + (is_one ? " argument (" : " arguments (") +
-         std::string(rows.back().arguments) + "), found " + std::to_string(found);
-}
-
-std::string unknown_name(const Names& names, std::string_view name) {
-  const std::span<const Function> rows = rows_of(name);
-  if (rows.empty()) return "unknown name " + in_quotes(name) + did_you_mean(names.nearest(name));
-  const std::string call = std::string(name) + "(" + std::string(rows.back().arguments) + ")";
-  return in_quotes(name) + " is a function: write " + in_quotes(call);
-}
-
-std::string wrong_number_of_arguments(std::string_view name, const Names::Defined& function,
-                                      std::size_t found) {
-  std::string parameters;
-  for (const std::string& each : function.parameters) parameters += (parameters.empty() ? "" : ", ") + each;
-  const std::size_t count = function.parameters.size();
-  return in_quotes(name) + " takes " + std::to_string(count) + (count == 1 ? " argument (" : " arguments (") +
-         parameters + "), found " + std::to_string(found);
-}
-
-std::string unknown_function(const Names& names, std::string_view name) {
-  if (names.find(name) != nullptr) {
-    return in_quotes(name) + " is a value and no function: write `*` between it and the bracket";
-  }
-  return "unknown function " + in_quotes(name) + did_you_mean(nearest_function(names, name));
 }
 
 }  // namespace
@@ -116,16 +58,16 @@ class Program::Parser {
   Expression parse() {
     const Operand result = climb(Rank::either);
     check_length();
-    if (!reader_->has_faults()) return emitter_.expression_of(result);
-    reader_->skip_to_end_of_damage();
+    if (!reader_->has_errors()) return emitter_.expression_of(result);
+    reader_->skip_expression();
     emitter_.forget_all();
-    return Emitter::constant_expression(0);
+    return Emitter::constant_expression({});
   }
 
  private:
   using Operand = Emitter::Operand;
 
-  /// The parameters of a function that is written out.
+  /// The arguments of a function that is being expanded.
   struct Scope {
     const Names::Defined* function;
     const Scope* outer;
@@ -142,11 +84,11 @@ class Program::Parser {
 
   void check_length() {
     if (!emitter_.is_too_long() || !reader_->is_sound()) return;
-    reader_->give_up(reader_->token(),
+    reader_->abandon(reader_->token(),
                      "more than " + std::to_string(max_operations) + " operations in one expression");
   }
 
-  /// The operator that follows, or null; `%` is none where no operand follows it.
+  /// The operator at this token, or null. `%` is an operator only if an operand follows.
   const Infix* infix_here() const {
     const Token &now = reader_->token(), &next = reader_->token(1);
     if (now.kind == TokenKind::name && now.text == "mod") return &modulo_word;
@@ -158,7 +100,7 @@ class Program::Parser {
     return found == infixes.end() ? nullptr : found;
   }
 
-  /// A run of operands joined by operators that bind at least as tightly as `lowest`.
+  /// Operands joined by operators that bind at least as tightly as `lowest`.
   Operand climb(Rank lowest) {
     const std::uint32_t mark = emitter_.mark();
     Operand left = unary();
@@ -167,7 +109,7 @@ class Program::Parser {
       const Infix* const infix = infix_here();
       if (infix == nullptr || infix->rank < lowest) break;
       if (compared && infix->rank == Rank::comparison) {
-        reader_->break_off("`&&` or the end of the comparison (comparisons do not chain)");
+        reader_->report_expected("`&&` or the end of the comparison (comparisons do not chain)");
         break;
       }
       compared = infix->rank == Rank::comparison;
@@ -180,7 +122,7 @@ class Program::Parser {
 
   Operand arithmetic(const Infix& infix, const Operand& left, std::uint32_t mark) {
     Operand right;
-    if (infix.rank == Rank::power) {  // from right to left, so as deep as there are operators
+    if (infix.rank == Rank::power) {  // right associative: one level of depth for each operator
       if (!reader_->enter()) return constant(0);
       right = climb(Rank::power);
       reader_->leave();
@@ -190,8 +132,7 @@ class Program::Parser {
     return emitter_.combine(infix.operation, left, right, mark);
   }
 
-  /// `left && right` and `left || right`; where `left` decides at once, the other side is read for faults
-  /// only.
+  /// `left && right` and `left || right`. If a constant on the left decides, the right side is only checked.
   Operand logic(const Infix& infix, const Operand& left, std::uint32_t mark) {
     if (!left.is_constant()) {
       const Emitter::Position begun = emitter_.begin_logic(infix.operation, left, mark);
@@ -227,9 +168,13 @@ class Program::Parser {
       reader_->advance();
       return constant(here.number);
     }
+    if (here.kind == TokenKind::string && here.number > 0) {
+      reader_->advance();
+      return Emitter::constant({0, static_cast<std::uint32_t>(here.number)});
+    }
     if (here.kind == TokenKind::name) return is_symbol(reader_->token(1), "(") ? call() : name();
     if (reader_->is_here("(")) return bracket();
-    reader_->break_off(reader_->place_for_message());
+    reader_->report_expected(reader_->expected_value());
     return constant(0);
   }
 
@@ -238,15 +183,15 @@ class Program::Parser {
     reader_->advance();
     const std::uint32_t mark = emitter_.mark();
     const Operand inside = climb(Rank::either);
-    if (reader_->is_sound() && !reader_->is_here(")")) reader_->break_off("an operator or `)`");
+    if (reader_->is_sound() && !reader_->is_here(")")) reader_->report_expected("an operator or `)`");
     reader_->recover(Reader::Until::bracket);
     if (reader_->is_sound()) reader_->advance();
-    if (inside.is_constant()) emitter_.free_from(mark);  // a fault inside may have left registers behind
+    if (inside.is_constant()) emitter_.free_from(mark);  // after an error, registers may still be in use
     reader_->leave();
     return inside;
   }
 
-  /// Names joined by points without space are one name.
+  /// A name, or names joined by points without spaces, which are one name.
   Operand name() {
     const Token start = reader_->token();
     std::size_t length = start.length;
@@ -257,16 +202,40 @@ class Program::Parser {
       reader_->advance(2);
     }
     reader_->advance();
-    const std::string_view whole(start.text.data(), length);  // tokens of names lie in one text
+    const std::string_view whole(start.text.data(), length);  // tokens of names are parts of one text
     if (scope_ != nullptr) {
       if (const Operand* const argument = scope_->find(whole)) return *argument;
     }
-    const Names::Binding* const binding = scope_ ? names_.find_constant(whole) : names_.find(whole);
+    const Names::Binding* binding = names_.find(whole);
+    const bool is_array = binding != nullptr && binding->count > 0;  // functions see them, too
+    if (scope_ != nullptr && !is_array) binding = names_.find_constant(whole);
     if (binding == nullptr) {
-      reader_->fault(start, unknown_name(names_, whole));
+      reader_->report(start, unknown_name(names_, whole), IssueKind::unknown_name);
       return constant(0);
     }
+    if (binding->count > 0) return element(start, *binding);
     return binding->is_constant ? constant(binding->value) : Emitter::slot(binding->slot);
+  }
+
+  /// `[ index ]` behind the name of an array.
+  Operand element(const Token& array, const Names::Binding& binding) {
+    if (!reader_->is_here("[")) {
+      reader_->report(array, in_quotes(array) + " is an array: write " +
+                                 in_quotes(std::string(array.text) + "[0]") + " for its first element");
+      return constant(0);
+    }
+    if (!reader_->enter()) return constant(0);
+    reader_->advance();
+    const std::uint32_t mark = emitter_.mark();
+    const Operand index = climb(Rank::either);
+    if (reader_->is_sound() && !reader_->is_here("]"))
+      reader_->abandon(reader_->token(),
+                       "found " + in_quotes(reader_->token()) + ", expected an operator or `]`",
+                       IssueKind::syntax);
+    if (!reader_->is_sound()) return constant(0);
+    reader_->advance();
+    reader_->leave();
+    return emitter_.element(index, binding.slot, binding.count, mark);
   }
 
   Operand call() {
@@ -290,27 +259,29 @@ class Program::Parser {
       return static_cast<std::size_t>(each.arity) == *count;
     });
     if (row != rows.end()) return emitter_.call(*row, arguments, mark);
-    reader_->fault(called, rows.empty() ? unknown_function(names_, called.text)
-                                        : wrong_number_of_arguments(rows, *count));
+    if (rows.empty()) {
+      reader_->report(called, unknown_function(names_, called.text), IssueKind::unknown_name);
+    } else {
+      reader_->report(called, wrong_number_of_arguments(rows, *count), IssueKind::out_of_range);
+    }
     return constant(0);
   }
 
-  /// A function of the user's, written out with its arguments in the place of its parameters. Takes two
-  /// levels of depth, whose registers hold the arguments.
+  /// Expands a call of a user-defined function inline. Takes two levels of depth, whose registers hold the arguments.
   Operand call_defined(const Token& called, const Names::Defined& own) {
     for (const Scope* each = scope_; each != nullptr; each = each->outer) {
       if (each->function != &own) continue;
-      reader_->give_up(called, in_quotes(called) + " calls itself, which has no end");
+      reader_->abandon(called, in_quotes(called) + " calls itself without end");
       return constant(0);
     }
-    if (++written_out_ > max_operations) {  // constants fold, so that no code would tell
-      reader_->give_up(called, "more than " + std::to_string(max_operations) + " calls written out");
+    if (++expanded_ > max_operations) {  // folded constants emit no code that could be counted
+      reader_->abandon(called, "more than " + std::to_string(max_operations) + " calls expanded");
       return constant(0);
     }
-    program_.written_out_ += own.body.size();
-    if (program_.written_out_ > max_written_out) {
-      reader_->give_up(called, "the functions come to more than " + std::to_string(max_written_out) +
-                                   " words and signs where they are written out");
+    program_.expanded_ += own.body.size();
+    if (program_.expanded_ > max_expanded) {
+      reader_->abandon(called,
+                       "the expanded functions have more than " + std::to_string(max_expanded) + " tokens");
       return constant(0);
     }
     if (!reader_->enter()) return constant(0);
@@ -323,32 +294,33 @@ class Program::Parser {
     const std::optional<std::size_t> count = read_arguments({scope.arguments.data(), arity});
     Operand result = constant(0);
     if (count && *count != arity) {
-      reader_->fault(called, wrong_number_of_arguments(called.text, own, *count));
-    } else if (count && own.is_sound) {
+      reader_->report(called, wrong_number_of_arguments(called.text, own, *count), IssueKind::out_of_range);
+    } else if (count && own.is_valid) {
       emitter_.free_from(mark + static_cast<std::uint32_t>(arity));
-      result = write_out(called, own, scope);
+      result = expand(called, own, scope);
     }
     reader_->leave();
     reader_->leave();
     return emitter_.settle(result, mark);
   }
 
-  Operand write_out(const Token& called, const Names::Defined& own, const Scope& scope) {
-    Reader inner(own.body, 0, reader_->room());
+  Operand expand(const Token& called, const Names::Defined& own, const Scope& scope) {
+    Reader inner(own.body, 0, reader_->remaining_depth());
     Reader* const outer = std::exchange(reader_, &inner);
     const Scope* const around = std::exchange(scope_, &scope);
     const Operand result = climb(Rank::either);
-    if (inner.is_sound() && inner.token().kind != TokenKind::end) inner.break_off("the end of the function");
+    if (inner.is_sound() && inner.token().kind != TokenKind::end)
+      inner.report_expected("the end of the function");
     reader_ = outer;
     scope_ = around;
-    if (!inner.has_faults()) return result;
-    reader_->give_up(called, in_quotes(called) + ": " + inner.take_faults()[0].message);
+    if (!inner.has_errors()) return result;
+    const TextError first = std::move(inner.take_errors()[0]);
+    reader_->abandon(called, in_quotes(called) + ": " + first.message, first.kind);
     return constant(0);
   }
 
-  /// The arguments up to and with the closing bracket; returns how many there are, or nothing after damage.
-  /// The n-th has the n-th register from here on to itself. Those that no function of the name takes are read
-  /// for faults only.
+  /// Reads the arguments and the closing bracket. Returns the number of arguments, or nullopt after an error. The n-th
+  /// argument owns the n-th register from mark() on. Arguments beyond the greatest arity are only checked.
   std::optional<std::size_t> read_arguments(std::span<Operand> arguments) {
     const std::size_t most = arguments.size();
     const std::size_t last = std::max<std::size_t>(most, max_arity) - 1;
@@ -360,7 +332,7 @@ class Program::Parser {
       emitter_.free_from(mark + static_cast<std::uint32_t>(std::min(count, last)));
       const Operand argument = climb(Rank::either);
       const bool ends = reader_->is_here(",") || reader_->is_here(")");
-      if (reader_->is_sound() && !ends) reader_->break_off("an operator, `,` or `)`");
+      if (reader_->is_sound() && !ends) reader_->report_expected("an operator, `,` or `)`");
       is_whole = is_whole && reader_->is_sound();
       reader_->recover(Reader::Until::bracket_or_comma);
       if (!reader_->is_sound()) return std::nullopt;
@@ -380,16 +352,16 @@ class Program::Parser {
   Emitter emitter_;
   Reader* reader_;
   const Names& names_;
-  std::uint32_t written_out_ = 0;
-  const Scope* scope_ = nullptr;  ///< of the function that is written out now
+  std::uint32_t expanded_ = 0;
+  const Scope* scope_ = nullptr;  ///< of the function that is being expanded
 };
 
 Expression Program::parse(std::span<const Token> tokens, std::size_t& at, const Names& names,
-                          std::vector<Fault>& faults, std::uint32_t max_depth) {
+                          std::vector<TextError>& errors, std::uint32_t max_depth) {
   Reader reader(tokens, at, std::min(max_depth, greatest_depth));
   const Expression expression = Parser(*this, reader, names).parse();
   at = reader.at();
-  for (Fault& fault : reader.take_faults()) faults.push_back(std::move(fault));
+  for (TextError& error : reader.take_errors()) errors.push_back(std::move(error));
   return expression;
 }
 

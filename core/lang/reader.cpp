@@ -6,7 +6,7 @@
 namespace seedmesh::lang {
 namespace {
 
-/// Where a text that went wrong starts to make sense again, whatever is open.
+/// Whether the token ends every expression, even inside of brackets.
 bool ends_any_expression(const Token& token) {
   if (token.kind == TokenKind::end) return true;
   constexpr std::array<std::string_view, 7> marks = {"->", "-->", "~>", ":", ";", "{", "}"};
@@ -20,25 +20,25 @@ Reader::Reader(std::span<const Token> tokens, std::size_t at, std::uint32_t max_
   if (!tokens.empty()) end_.offset = tokens.back().offset + tokens.back().length;
 }
 
-void Reader::fault(const Token& where, std::string message) {
-  if (!faults_.empty() && faults_.back().offset == where.offset) return;
-  faults_.push_back({where.offset, std::move(message)});
-  if (faults_.size() >= max_faults) damage_ = Damage::total;
+void Reader::report(const Token& where, std::string message, IssueKind kind) {
+  if (!errors_.empty() && errors_.back().offset == where.offset) return;
+  errors_.push_back({where.offset, std::move(message), kind});
+  if (errors_.size() >= max_errors) panic_ = Panic::expression;
 }
 
-void Reader::break_off(const std::string& expected) {
-  fault(token(), "expected " + expected + ", found " + in_quotes(token()));
-  damage_ = std::max(damage_, Damage::local);
+void Reader::report_expected(const std::string& expected) {
+  report(token(), "expected " + expected + ", found " + in_quotes(token()));
+  panic_ = std::max(panic_, Panic::bracket);
 }
 
-void Reader::give_up(const Token& where, std::string message) {
-  fault(where, std::move(message));
-  damage_ = Damage::total;
+void Reader::abandon(const Token& where, std::string message, IssueKind kind) {
+  report(where, std::move(message), kind);
+  panic_ = Panic::expression;
 }
 
 bool Reader::enter() {
   if (depth_ >= max_depth_) {
-    give_up(token(), "nested deeper than " + std::to_string(max_depth_));
+    abandon(token(), "nested deeper than " + std::to_string(max_depth_));
     return false;
   }
   ++depth_;
@@ -46,12 +46,12 @@ bool Reader::enter() {
 }
 
 void Reader::recover(Until until) {
-  if (damage_ != Damage::local) return;
+  if (panic_ != Panic::bracket) return;
   std::size_t open = 0;
   for (; !ends_any_expression(token()); ++at_) {
     const bool ends = is_here(")") || (until == Until::bracket_or_comma && is_here(","));
     if (open == 0 && ends) {
-      damage_ = Damage::none;
+      panic_ = Panic::none;
       return;
     }
     if (is_here("(")) ++open;
@@ -59,8 +59,8 @@ void Reader::recover(Until until) {
   }
 }
 
-void Reader::skip_to_end_of_damage() {
-  if (damage_ == Damage::none) return;
+void Reader::skip_expression() {
+  if (panic_ == Panic::none) return;
   std::size_t open = 0;
   for (; !ends_any_expression(token()); ++at_) {
     const bool closes = is_here(")") || is_here("]");
@@ -70,14 +70,14 @@ void Reader::skip_to_end_of_damage() {
   }
 }
 
-std::string Reader::place_for_message() const {
+std::string Reader::expected_value() const {
   return at_ > first_ ? "a value after " + in_quotes(tokens_[at_ - 1]) : "an expression";
 }
 
-std::vector<Fault> Reader::take_faults() {
-  std::stable_sort(faults_.begin(), faults_.end(),
-                   [](const Fault& a, const Fault& b) { return a.offset < b.offset; });
-  return std::move(faults_);
+std::vector<TextError> Reader::take_errors() {
+  std::stable_sort(errors_.begin(), errors_.end(),
+                   [](const TextError& a, const TextError& b) { return a.offset < b.offset; });
+  return std::move(errors_);
 }
 
 }  // namespace seedmesh::lang

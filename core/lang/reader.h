@@ -1,6 +1,6 @@
 #pragma once
-/// A walk over tokens that survives faults: where the parser is, what went wrong so far, and how to get back
-/// on the road.
+/// The position of a parser in its tokens, its errors so far, and panic-mode error recovery (Aho, Lam, Sethi, Ullman,
+/// "Compilers", 2nd edition, 4.1.4): after an error, tokens are skipped up to one where parsing can go on.
 #include <cstdint>
 #include <span>
 #include <string>
@@ -10,16 +10,16 @@
 
 namespace seedmesh::lang {
 
-/// What keeps a parser from going on.
-enum class Damage {
+/// What has to be skipped after an error.
+enum class Panic {
   none,
-  local,  ///< the next bracket or comma of the open call saves it
-  total,  ///< the expression is over
+  bracket,     ///< up to the next bracket or comma of the open call
+  expression,  ///< the rest of the expression
 };
 
 class Reader {
  public:
-  /// Brackets, calls, signs and powers inside each other beyond `max_depth` are a fault.
+  /// Brackets, calls, signs and powers that nest deeper than `max_depth` are an error.
   Reader(std::span<const Token> tokens, std::size_t at, std::uint32_t max_depth);
 
   std::size_t at() const { return at_; }
@@ -29,40 +29,39 @@ class Reader {
   bool is_here(std::string_view symbol) const { return is_symbol(token(), symbol); }
   void advance(std::size_t count = 1) { at_ += count; }
 
-  /// Tells a fault and goes on. Of several faults in a row at one place only the first is told: the others
+  /// Reports an error and goes on. Of several errors in a row at one offset only the first is kept, since the others
   /// follow from it.
-  void fault(const Token& where, std::string message);
-  /// Tells that something else was expected at this token.
-  void break_off(const std::string& expected);
-  /// Tells a fault that ends the whole expression.
-  void give_up(const Token& where, std::string message);
-  bool is_sound() const { return damage_ == Damage::none; }
-  bool has_faults() const { return !faults_.empty(); }
+  void report(const Token& where, std::string message, IssueKind kind = IssueKind::syntax);
+  /// Reports that something else was expected at this token, and enters Panic::bracket.
+  void report_expected(const std::string& expected);
+  /// Reports an error that ends the expression: enters Panic::expression.
+  void abandon(const Token& where, std::string message, IssueKind kind = IssueKind::out_of_range);
+  bool is_sound() const { return panic_ == Panic::none; }
+  bool has_errors() const { return !errors_.empty(); }
 
-  /// False, and the end, where it goes too deep at this token. After true comes leave().
+  /// Enters one level of nesting, for leave() to leave. False: it would be too deep, and the expression is abandoned.
   bool enter();
   void leave() { --depth_; }
-  std::uint32_t room() const { return max_depth_ - depth_; }  ///< how much deeper it may go
+  std::uint32_t remaining_depth() const { return max_depth_ - depth_; }
 
   enum class Until { bracket, bracket_or_comma };
-  /// After local damage: goes to the `)` (or comma) of the brackets that are open now; if there is one, all
-  /// is well again.
+  /// In Panic::bracket: skips to the `)` (or comma) of the open brackets, and goes on normally if there is one.
   void recover(Until until);
-  /// After damage: goes to the first token that another parser may make sense of; see Program::parse.
-  void skip_to_end_of_damage();
+  /// After an error: skips to the first token that does not belong to the expression; see Program::parse.
+  void skip_expression();
 
-  /// What the expression begins with or what it has just read, for "expected ... after".
-  std::string place_for_message() const;
+  /// "an expression", or "a value after `x`" behind its first token, for "expected ...".
+  std::string expected_value() const;
 
-  /// In the order of the text.
-  std::vector<Fault> take_faults();
+  /// Moves the errors out, in the order of the text.
+  std::vector<TextError> take_errors();
 
  private:
   std::span<const Token> tokens_;
   std::size_t at_, first_;
   std::uint32_t max_depth_, depth_ = 0;
-  Damage damage_ = Damage::none;
-  std::vector<Fault> faults_;
+  Panic panic_ = Panic::none;
+  std::vector<TextError> errors_;
   Token end_;
 };
 

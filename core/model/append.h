@@ -1,12 +1,12 @@
 #pragma once
-/// Models put together.
+/// Appends one model to another.
 #include "core/model/model.h"
 
 namespace seedmesh {
 
-/// Puts everything of `other` at the end of `model`, under a new node with the transform `at` below the node
-/// `parent` (-1: a root). Animations of one name become one, so that they play together. Warnings come along,
-/// extras and variants do not.
+/// Appends everything of `other` to `model`, under a new node with the transform `at` below the node `parent`
+/// (-1: the new node is a root). Animations of the same name are joined, so that they play together. Warnings
+/// are appended too; extras and variants are not.
 void append(Model& model, Model other, int parent, const Transform& at);
 
 }  // namespace seedmesh

@@ -1,12 +1,12 @@
 #pragma once
-/// Names by which engines know collision bodies (docs/output.md has a table for each engine).
+/// Names by which engines recognise collision bodies. docs/output.md has a table for each engine.
 #include <string>
 
-#include "core/base/job.h"
+#include "core/model/demand.h"
 
 namespace seedmesh {
 
-/// The name of body `number` of the mesh `of`, whose own name Unreal wants to find in it.
+/// The name of collision body `number` of the mesh named `of`. Unreal requires the mesh's name in it.
 inline std::string collision_name(CollisionNames names, const std::string& of, std::size_t number) {
   const std::string digits = (number < 10 ? "0" : "") + std::to_string(number);
   switch (names) {

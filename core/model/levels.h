@@ -1,5 +1,5 @@
 #pragma once
-/// Levels of detail of a model, as its nodes have them.
+/// Queries on the levels of detail of a model.
 #include <cstddef>
 #include <cstdint>
 
@@ -7,13 +7,14 @@
 
 namespace seedmesh {
 
-/// The most that a node has, the finest counted; at least 1.
+/// The greatest number of levels of any node, the finest included; at least 1.
 std::size_t levels_of(const Model& model);
 
-/// The mesh that a node shows at a level; one with fewer levels shows its coarsest. -1: none.
+/// The mesh that `node` shows at `level` (0 is the finest), or -1 where it shows none. A node with fewer
+/// levels shows its coarsest.
 int mesh_at(const Node& node, std::size_t level);
 
-/// What is drawn where the mesh is shown once.
+/// Triangles of all primitives of `group`.
 std::uint64_t triangles_of(const MeshGroup& group);
 
 }  // namespace seedmesh

@@ -30,10 +30,10 @@ std::uint64_t Mesh::bytes() const {
 
 namespace {
 
-// Coordinates that are looked at side by side: whole vectors of any width, and whole points.
+// Coordinates in one row: a multiple of 8 for vectors of up to 256 bits, and of 3 for whole points.
 constexpr std::size_t row = 24;
 
-/// Takes rows of coordinates into the least and greatest of each place of a row; returns how many.
+/// Updates the minimum and maximum of each column over whole rows of coordinates; returns the number of rows.
 SEEDMESH_WIDE std::size_t take_rows(const float* at, std::size_t count, float* __restrict low,
                                     float* __restrict high) {
   std::size_t rows = 0;

@@ -1,6 +1,6 @@
 #pragma once
-/// Geometry as arrays by attribute. Facts of the whole project: lengths in metres, angles in radians, +Y up,
-/// right-handed, triangles counter-clockwise seen from outside. Degrees exist in JSON alone.
+/// A mesh as one array for each attribute. Conventions of the whole project: lengths in metres, angles in
+/// radians, +Y up, right-handed, triangles counter-clockwise seen from outside. Only JSON has degrees.
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -16,8 +16,9 @@ struct Box {
 
 enum class Topology { triangles, lines, points };
 
-/// Indices of a mesh: 32 bit while it is built; finish() (core/geom/finish.h) turns them to 16 bit where the
-/// vertices allow. At most one of the two arrays is in use; both empty means "not indexed" (points only).
+/// Indices of a mesh: 32 bits while it is built. finish() (core/geom/mesh/finish.h) narrows them to 16 bits
+/// where the number of vertices allows. At most one of the two arrays is in use. Both are empty for points
+/// only, which are not indexed.
 struct Indices {
   Array<std::uint32_t> wide;
   Array<std::uint16_t> small;
@@ -25,11 +26,11 @@ struct Indices {
   std::uint32_t at(std::size_t i) const { return small.empty() ? wide[i] : small[i]; }
 };
 
-/// What is left of a mesh that was packed for a file before the rest of its model was made
-/// (core/gltf/pack.h).
+/// The summary of a mesh that was packed for a file before the rest of its model was made
+/// (core/gltf/compress/pack.h). The packed data are in a derived class.
 struct PackedMesh {
   std::size_t elements = 0, vertices = 0;
-  std::uint64_t bytes = 0;  ///< of the arrays that it had
+  std::uint64_t bytes = 0;  ///< of the arrays before they were packed
   Box bounds;
 
   PackedMesh() = default;
@@ -46,21 +47,21 @@ struct Mesh {
   std::array<Array<glm::vec2>, 4> uv;  ///< 0: texture, in metres or 0..1; 1: lightmap; 2, 3: wind
   Array<glm::u8vec4> color;            ///< linear RGBA, multiplies the base colour
   Array<glm::vec4> tangent;            ///< w = handedness; only where a normal map is
-  Array<glm::u16vec4> joints;          ///< with `weights`: up to four joints of the node's skin
+  Array<glm::u16vec4> joints;          ///< up to four joints of the node's skin, with `weights`
   Array<glm::vec4> weights;
-  Array<std::uint16_t> bone;   ///< instead of the two: the one joint that moves the vertex whole
-  Indices index;               ///< 3 a triangle, 2 a line
-  Box bounds;                  ///< of `position`; set by finish
-  bool cache_ordered = false;  ///< the maker emitted triangles in cache order already
-  bool no_minus_zero = false;  ///< nor wrote a -0 to positions, normals, uv[0] and tangents
-  std::shared_ptr<const PackedMesh> packed;  ///< instead of all the arrays; null: they are here
+  Array<std::uint16_t> bone;   ///< instead of joints and weights: the only joint that moves the vertex
+  Indices index;               ///< 3 for each triangle, 2 for each line
+  Box bounds;                  ///< of `position`; set by finish()
+  bool cache_ordered = false;  ///< the triangles are in vertex cache order already
+  bool no_minus_zero = false;  ///< positions, normals, uv[0] and tangents have no -0
+  std::shared_ptr<const PackedMesh> packed;  ///< replaces all arrays; null where the arrays are in use
 
   std::size_t elements() const;  ///< triangles, lines or points
   std::size_t vertices() const { return packed ? packed->vertices : position.size(); }
   std::uint64_t bytes() const;  ///< of all arrays
 };
 
-/// Smallest box that holds `position`; {0,0} where it is empty.
+/// The bounding box of `position`; {0, 0} where it is empty.
 Box bounds_of(std::span<const glm::vec3> position);
 Box bounds_of(const Mesh& mesh);
 

@@ -16,7 +16,7 @@ bool same(const TextureUse& a, const TextureUse& b) {
   return std::tie(a.texture, a.uv_set, a.repeat) == std::tie(b.texture, b.uv_set, b.repeat);
 }
 
-/// Equal in all but the seed of the textures.
+/// True where the materials differ at most in the seed of their textures.
 bool alike(const Material& a, const Material& b) {
   if (!a.impostor.parts.empty() || !b.impostor.parts.empty()) return false;
   const auto plain = [](const Material& m) {
@@ -29,7 +29,7 @@ bool alike(const Material& a, const Material& b) {
          same(a.occlusion_texture, b.occlusion_texture) && same(a.emissive_texture, b.emissive_texture);
 }
 
-/// Images with the same bytes become the first of them.
+/// Replaces images with the same bytes by the first of them.
 void share_textures(Model& model) {
   std::vector<int> place(model.textures.size());
   std::vector<std::shared_ptr<const Image>> kept;
@@ -72,7 +72,7 @@ void share_materials(Model& model) {
   model.materials = std::move(kept);
 }
 
-/// The names of all variants, in the order in which they first come.
+/// The names of all variants, in the order of their first occurrence.
 std::vector<std::string> all_variants(const std::vector<Model>& models) {
   std::vector<std::string> names;
   for (const Model& model : models) {
@@ -83,7 +83,8 @@ std::vector<std::string> all_variants(const std::vector<Model>& models) {
   return names;
 }
 
-/// The primitives of `model` with a material for each of `names`: their own where they have no such variant.
+/// Gives the primitives of `model` a material for each of `names`; where the model has no such variant, their
+/// default material.
 void widen_variants(Model& model, const std::vector<std::string>& names) {
   for (MeshGroup& group : model.meshes) {
     for (Primitive& primitive : group.primitives) {

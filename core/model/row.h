@@ -1,5 +1,5 @@
 #pragma once
-/// Models side by side in one.
+/// Joins models side by side.
 #include <cstdint>
 #include <vector>
 
@@ -7,10 +7,10 @@
 
 namespace seedmesh {
 
-/// Stands the models in a row along +X, the first where it is, a fifth of the widest apart, each under a node
-/// of its own named after it. Materials that differ in nothing but the seed of their textures become one, and
-/// so do images with the same bytes and warnings that say the same. Model::variants are joined by name; the
-/// extras of each model go to its node. `models` is not empty.
+/// Places the models in a row along +X, each under a node with the model's name. The first keeps its
+/// position; gaps are a fifth of the widest model. Materials that differ only in the seed of their textures
+/// are shared, and so are images with the same bytes and equal warnings. Model::variants are joined by name.
+/// The extras of each model move to its node. `models` must not be empty.
 Model row_of(std::vector<Model> models);
 
 }  // namespace seedmesh

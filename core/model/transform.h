@@ -1,10 +1,10 @@
 #pragma once
-/// What a transform of a node does.
+/// Queries on the transform of a node.
 #include "core/model/model.h"
 
 namespace seedmesh {
 
-/// Whether all stays where it is, to the bit.
+/// True where the transform changes no bit of any point.
 bool is_identity(const Transform& transform);
 
 }  // namespace seedmesh

@@ -1,9 +1,9 @@
 #pragma once
-/// What a Request holds, for the files of core/pipeline alone.
+/// The contents of a Request, for core/pipeline only.
 #include <string>
 
-#include "core/generators/registry.h"
 #include "core/pipeline.h"
+#include "core/registry/registry.h"
 #include "generated/params/output.h"
 
 namespace seedmesh {
@@ -16,15 +16,15 @@ struct Request::Body {
   std::string canonical;
 };
 
-inline WantedForm wanted_form(const OutputParams& output) {
+inline WantedFormat wanted_format(const OutputParams& output) {
   return {text_of(output.format), text_of(output.profile)};
 }
 
-/// Which part of a request has a member of this name: "output", "parameters" (of the generator, which may be
-/// empty), or "": none.
+/// The part of a request that has a member of this name: "output", "parameters" (of `generator`), or "" for
+/// none.
 std::string_view part_with(std::string_view member, std::string_view generator);
 
-/// Reads a whole request that is JSON already. Every fault at once, as Code::invalid.
+/// Reads a request from parsed JSON. Code::invalid holds all errors.
 Result<Request> read_request_body(const Json& json, const Limits& limits);
 
 }  // namespace seedmesh

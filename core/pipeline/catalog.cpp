@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/generators/registry.h"
 #include "core/pipeline.h"
+#include "core/registry/registry.h"
 #include "core/schema/embedded.h"
 #include "core/schema/nearest.h"
 #include "core/schema/presets.h"

@@ -7,16 +7,16 @@
 #include <utility>
 #include <vector>
 
-#include "core/geom/simplify.h"
-#include "core/geom/thin.h"
+#include "core/geom/lod/simplify.h"
+#include "core/geom/lod/thin.h"
+#include "core/model/index_width.h"
 #include "core/model/transform.h"
-#include "core/model/widen.h"
 
 namespace seedmesh {
 namespace {
 
-constexpr int attempts = 6;             ///< at a smaller share each time, where some meshes cannot do theirs
-constexpr double largest_piece = 0.01;  ///< that may go as a detail: the side of its area, of the diagonal
+constexpr int attempts = 6;             ///< each with a smaller share, because some meshes lose too little
+constexpr double largest_piece = 0.01;  ///< that may be removed: root of its area, as a share of the diagonal
 
 bool is_packed(const MeshGroup& group) {
   return std::ranges::any_of(group.primitives,
@@ -27,15 +27,15 @@ std::uint64_t copies_of(const Node& node) {
   return std::max<std::size_t>(1, node.instances.transforms.size());
 }
 
-/// Meshes that are made simpler together, so that their common borders stay common.
-struct Family {
+/// Meshes that are simplified together, so that their common borders still match.
+struct MeshFamily {
   std::vector<Mesh*> meshes;
-  std::vector<bool> foliage;  ///< of each: it loses leaves instead
+  std::vector<bool> foliage;  ///< for each mesh: it is thinned out instead
 };
 
-/// All meshes that stand once and untransformed are one family; every other is one of its own. Meshes that a
-/// finer level shows too are none.
-std::vector<Family> families_of(Model& model, std::size_t level, bool leaves, const Job& job) {
+/// All meshes that are shown once and untransformed form one family; every other mesh forms its own. Meshes
+/// that a finer level also shows belong to none.
+std::vector<MeshFamily> families_of(Model& model, std::size_t level, bool leaves, const Job& job) {
   std::vector<std::uint64_t> uses(model.meshes.size(), 0);
   std::vector<bool> plain(model.nodes.size()), together(model.meshes.size(), false);
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
@@ -47,12 +47,12 @@ std::vector<Family> families_of(Model& model, std::size_t level, bool leaves, co
     uses[shown] += copies_of(node);
     together[shown] = plain[i] && node.instances.transforms.empty();
   }
-  std::vector<Family> families(1);
+  std::vector<MeshFamily> families(1);
   for (std::size_t i = 0; i < uses.size(); ++i) {
     if (uses[i] == 0) continue;
     const bool joins = uses[i] == 1 && together[i];
     if (!joins) families.emplace_back();
-    Family& family = joins ? families.front() : families.back();
+    MeshFamily& family = joins ? families.front() : families.back();
     for (Primitive& primitive : model.meshes[i].primitives) {
       if (primitive.mesh.topology != Topology::triangles) continue;
       family.meshes.push_back(&primitive.mesh);
@@ -66,7 +66,7 @@ std::uint64_t share_of(std::uint64_t triangles, double share) {
   return static_cast<std::uint64_t>(static_cast<double>(triangles) * share);
 }
 
-std::uint64_t triangles_of(const Family& family, bool foliage) {
+std::uint64_t triangles_of(const MeshFamily& family, bool foliage) {
   std::uint64_t triangles = 0;
   for (std::size_t i = 0; i < family.meshes.size(); ++i) {
     if (family.foliage[i] == foliage) triangles += family.meshes[i]->elements();
@@ -74,18 +74,18 @@ std::uint64_t triangles_of(const Family& family, bool foliage) {
   return triangles;
 }
 
-std::uint64_t elements_of(const Family& family) {
+std::uint64_t elements_of(const MeshFamily& family) {
   return triangles_of(family, true) + triangles_of(family, false);
 }
 
-/// Of what size details may go: how dear a collapse, how large a piece.
+/// Limits of what is removed: cost of an edge collapse, area of a piece.
 struct Detail {
   double cost = std::numeric_limits<double>::infinity(), area = std::numeric_limits<double>::infinity();
 };
 
-/// What is no foliage, with at most `wanted` triangles if that can be: simpler, and without its smallest
-/// pieces where that is not enough.
-void coarsen_limbs(Family& family, std::uint64_t wanted, const Detail& detail, Job& job) {
+/// Simplifies all meshes but foliage to `wanted` triangles, and removes their smallest pieces where that is
+/// not enough.
+void coarsen_limbs(MeshFamily& family, std::uint64_t wanted, const Detail& detail, Job& job) {
   const std::uint64_t leaves = triangles_of(family, true);
   const std::uint64_t left =
       simplify(family.meshes, leaves + wanted, family.foliage, job, detail.cost) - leaves;
@@ -97,26 +97,26 @@ void coarsen_limbs(Family& family, std::uint64_t wanted, const Detail& detail, J
   }
 }
 
-/// The family with `share` of its triangles. Leaves make up for limbs that could not lose as many, down to a
-/// tenth of what was theirs.
-void coarsen(Family& family, double share, const Detail& detail, Job& job) {
+/// Reduces a family to `share` of its triangles. Where limbs cannot lose enough, leaves lose more, down to a
+/// tenth of their share.
+void coarsen(MeshFamily& family, double share, const Detail& detail, Job& job) {
   const std::uint64_t leaves = triangles_of(family, true), limbs = triangles_of(family, false);
   if (limbs > 0) coarsen_limbs(family, share_of(limbs, share), detail, job);
   if (leaves == 0) return;
   const std::uint64_t total = share_of(leaves + limbs, share), left = triangles_of(family, false);
-  const double room = static_cast<double>(total > left ? total - left : 0) / static_cast<double>(leaves);
-  const double kept = std::clamp(room, share / 10, share);
+  const double rest = static_cast<double>(total > left ? total - left : 0) / static_cast<double>(leaves);
+  const double kept = std::clamp(rest, share / 10, share);
   for (std::size_t i = 0; i < family.meshes.size(); ++i) {
     Mesh& mesh = *family.meshes[i];
     if (family.foliage[i]) thin_sheets(mesh, share_of(mesh.elements(), kept), job);
   }
 }
 
-Detail detail_of(const Model& model, const Sacrifice& sacrifice) {
-  if (!std::isfinite(sacrifice.detail)) return {};
+Detail detail_of(const Model& model, const SimplifyLimits& limits) {
+  if (!std::isfinite(limits.detail)) return {};
   const Box box = bounds_of(model);
   const auto diagonal = static_cast<double>(glm::distance(box.min, box.max));
-  const double step = sacrifice.detail * diagonal, piece = largest_piece * diagonal;
+  const double step = limits.detail * diagonal, piece = largest_piece * diagonal;
   return {step * step * step * step, piece * piece};
 }
 
@@ -140,20 +140,20 @@ std::uint64_t drawn_at(const Model& model, std::size_t level) {
 }
 
 void coarsen_all(Model& model, std::size_t level, std::uint64_t most, std::uint64_t least,
-                 const Sacrifice& sacrifice, Job& job) {
-  const Detail detail = detail_of(model, sacrifice);
-  std::vector<Family> families = families_of(model, level, sacrifice.leaves, job);
-  std::erase_if(families, [least](const Family& family) { return elements_of(family) < least; });
+                 const SimplifyLimits& limits, Job& job) {
+  const Detail detail = detail_of(model, limits);
+  std::vector<MeshFamily> families = families_of(model, level, limits.leaves, job);
+  std::erase_if(families, [least](const MeshFamily& family) { return elements_of(family) < least; });
   for (int attempt = 0; attempt < attempts; ++attempt) {
     const std::uint64_t before = drawn_at(model, level);
     if (before <= most) return;
     const double share = static_cast<double>(most) / static_cast<double>(before);
-    for (Family& family : families) coarsen(family, share, detail, job);
+    for (MeshFamily& family : families) coarsen(family, share, detail, job);
     if (drawn_at(model, level) == before) return;
   }
 }
 
-bool coarsen_if_it_fits(Model& model, std::size_t level, std::uint64_t most, const Sacrifice& sacrifice,
+bool coarsen_if_it_fits(Model& model, std::size_t level, std::uint64_t most, const SimplifyLimits& limits,
                         Job& job) {
   std::vector<std::optional<MeshGroup>> before(model.meshes.size());
   for (const Node& node : model.nodes) {
@@ -162,14 +162,14 @@ bool coarsen_if_it_fits(Model& model, std::size_t level, std::uint64_t most, con
     const MeshGroup& group = model.meshes[static_cast<std::size_t>(shown)];
     if (!is_packed(group)) before[static_cast<std::size_t>(shown)] = copy_of(group);
   }
-  const Detail detail = detail_of(model, sacrifice);
-  std::vector<Family> families = families_of(model, level, sacrifice.leaves, job);
+  const Detail detail = detail_of(model, limits);
+  std::vector<MeshFamily> families = families_of(model, level, limits.leaves, job);
   std::uint64_t drawn = drawn_at(model, level);
   for (int attempt = 0; attempt < attempts && drawn > most; ++attempt) {
     const double share = static_cast<double>(most) / static_cast<double>(drawn);
-    for (Family& family : families) coarsen(family, share, detail, job);
+    for (MeshFamily& family : families) coarsen(family, share, detail, job);
     const std::uint64_t left = drawn_at(model, level), lost = drawn - left;
-    if (lost < (drawn - most) / 2) break;  // it will not get there
+    if (lost < (drawn - most) / 2) break;  // too slow to reach the budget
     drawn = left;
   }
   if (drawn <= most) return true;
@@ -179,7 +179,7 @@ bool coarsen_if_it_fits(Model& model, std::size_t level, std::uint64_t most, con
   return false;
 }
 
-bool deepen(Model& model, std::uint64_t least, double share, const Sacrifice& sacrifice, Job& job) {
+bool add_level(Model& model, std::uint64_t least, double share, const SimplifyLimits& limits, Job& job) {
   const std::size_t last = levels_of(model) - 1, meshes = model.meshes.size();
   const std::uint64_t drawn = drawn_at(model, last);
   std::vector<std::vector<int>> before;
@@ -200,7 +200,7 @@ bool deepen(Model& model, std::uint64_t least, double share, const Sacrifice& sa
     node.lods.push_back(copy);
   }
   if (levels_of(model) > last + 1) {
-    coarsen_all(model, last + 1, drawn / 2, least, sacrifice, job);
+    coarsen_all(model, last + 1, drawn / 2, least, limits, job);
     if (static_cast<double>(drawn_at(model, last + 1)) <= share * static_cast<double>(drawn)) return true;
   }
   for (std::size_t i = 0; i < before.size(); ++i) model.nodes[i].lods = std::move(before[i]);

@@ -1,9 +1,9 @@
-/// Which engine made a file: our own number, raised by hand whenever a seed yields something else, and a
-/// fingerprint of the libraries that touch bytes.
+/// The engine version: a number that is raised by hand whenever a seed yields another model, and a
+/// fingerprint of the libraries that decide about bytes.
+#include <libdeflate.h>
 #include <meshoptimizer.h>
 #include <png.h>
 #include <sleef.h>
-#include <zip.h>
 #include <zlib.h>
 
 #include <array>
@@ -30,7 +30,7 @@ std::string made_version() {
       part("meshoptimizer", MESHOPTIMIZER_VERSION) +
       part("zlib", ZLIB_VER_MAJOR, ZLIB_VER_MINOR, ZLIB_VER_REVISION) +
       part("libpng", PNG_LIBPNG_VER_MAJOR, PNG_LIBPNG_VER_MINOR, PNG_LIBPNG_VER_RELEASE) +
-      part("libzip", LIBZIP_VERSION_MAJOR, LIBZIP_VERSION_MINOR, LIBZIP_VERSION_MICRO) +
+      part("libdeflate", LIBDEFLATE_VERSION_MAJOR, LIBDEFLATE_VERSION_MINOR) +
       part("json", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH);
   std::array<char, 16> digits{};
   const std::uint64_t fingerprint = Rng(0).at(libraries).key() & 0xFFFFFFFFU;

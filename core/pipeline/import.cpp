@@ -1,11 +1,12 @@
-/// The door for foreign files: a format's reader makes a request, which is then read like any other, so that
-/// what comes out can be sent back as it is.
+/// Import of foreign files. The reader of a format makes a request, which is then checked like any other, so
+/// that the result can be sent back unchanged.
 #include "core/import/import.h"
 
 #include <algorithm>
 
 #include "core/pipeline/body.h"
 #include "core/schema/nearest.h"
+#include "core/schema/warning_list.h"
 
 namespace seedmesh {
 namespace {
@@ -17,15 +18,12 @@ Error unknown_format(std::string_view name) {
     names.push_back(row.name);
     list += (list.empty() ? "" : ", ") + std::string(row.name);
   }
-  const std::string_view nearest = schema::nearest_word(name, names);
-  std::string message = name.empty() ? "found no marks of a format that is known"
-                                     : "there is no format \"" + shortened(name, 40) + "\"";
-  message +=
-      nearest.empty() ? "; expected one of " + list : "; did you mean \"" + std::string(nearest) + "\"?";
-  return {Code::invalid, {{"/format", std::move(message)}}};
+  std::string message = name.empty() ? "found no keywords of a known format; expected one of " + list
+                                     : schema::unknown_word_of_few("format", name, names);
+  return {Code::invalid, {{IssueKind::unknown_name, "/format", std::move(message)}}};
 }
 
-/// The byte of line and column in `text`.
+/// The byte offset of line and column in `text`.
 std::size_t byte_of(std::string_view text, int line, int column) {
   std::size_t at = 0;
   for (; line > 1 && at < text.size(); ++at) {
@@ -38,59 +36,46 @@ std::size_t byte_of(std::string_view text, int line, int column) {
   return at;
 }
 
-/// Puts a fault or a warning of the request that was made at the place of the foreign text that it came from.
-/// False: it came from nowhere there.
-template <class Told>
-bool put_at_origin(Told& told, const Imported& imported, std::string_view text) {
+/// Moves an error or warning of the converted request to its origin in the foreign text. False: the value has
+/// no origin there.
+template <class Located>
+bool put_at_origin(Located& located, const Imported& imported, std::string_view text) {
   const auto origin = std::find_if(imported.origins.begin(), imported.origins.end(),
-                                   [&](const Origin& each) { return each.pointer == told.pointer; });
+                                   [&](const Origin& each) { return each.pointer == located.pointer; });
   if (origin == imported.origins.end() || origin->runs.empty()) return false;
   std::size_t at = 0;
-  const Json::json_pointer place_in_request(told.pointer);
-  if (told.line > 0 && imported.request.contains(place_in_request)) {
+  const Json::json_pointer place_in_request(located.pointer);
+  if (located.line > 0 && imported.request.contains(place_in_request)) {
     const Json& value = imported.request.at(place_in_request);
-    if (value.is_string()) at = byte_of(value.get_ref<const std::string&>(), told.line, told.column);
+    if (value.is_string()) at = byte_of(value.get_ref<const std::string&>(), located.line, located.column);
   }
   const auto behind = [](std::size_t value, const TextRun& run) { return value < run.at; };
   auto run = std::upper_bound(origin->runs.begin() + 1, origin->runs.end(), at, behind) - 1;
-  const TextPlace place = place_of(text, run->from + (run->verbatim ? at - run->at : 0));
-  told.line = place.line;
-  told.column = place.column;
-  told.pointer.clear();
+  const TextPosition place = text_position(text, run->from + (run->verbatim ? at - run->at : 0));
+  located.line = place.line;
+  located.column = place.column;
+  located.pointer.clear();
   return true;
 }
 
-/// Faults that only the generator finds stand beside those that the reader found, in the order of the text.
-Error all_faults(std::vector<Issue> faults, std::vector<Issue> found, const Imported& imported,
+/// The errors of the reader and of the generator, in the order of the text.
+Error all_errors(std::vector<Issue> errors, std::vector<Issue> found, const Imported& imported,
                  std::string_view text) {
-  const bool alone = faults.empty();
+  const bool alone = errors.empty();
   for (Issue& issue : found) {
-    const bool placed = put_at_origin(issue, imported, text);
-    const bool is_told = std::any_of(faults.begin(), faults.end(), [&](const Issue& each) {
+    const bool has_position = put_at_origin(issue, imported, text);
+    const bool is_known = std::any_of(errors.begin(), errors.end(), [&](const Issue& each) {
       return each.line == issue.line && each.column == issue.column;
     });
-    if (alone || (placed && !is_told)) faults.push_back(std::move(issue));
+    if (alone || (has_position && !is_known)) errors.push_back(std::move(issue));
   }
-  std::stable_sort(faults.begin(), faults.end(), [](const Issue& a, const Issue& b) {
+  std::stable_sort(errors.begin(), errors.end(), [](const Issue& a, const Issue& b) {
     return a.line != b.line ? a.line < b.line : a.column < b.column;
   });
-  return {Code::invalid, std::move(faults)};
+  return {Code::invalid, std::move(errors)};
 }
 
-Json described(const std::vector<Warning>& warnings) {
-  Json list = Json::array();
-  for (const Warning& warning : warnings) {
-    Json row = {{"pointer", warning.pointer}, {"message", warning.message}};
-    if (warning.line > 0) {
-      row["line"] = warning.line;
-      row["column"] = warning.column;
-    }
-    list.push_back(std::move(row));
-  }
-  return list;
-}
-
-/// The faults of a file whose format was found by its marks: the first says which it was.
+/// The errors of a file whose format was guessed; the first one names the format.
 Error in_format(Error error, const ImportQuestion& question, const ImportFormat& format) {
   if (question.format.empty() && !error.issues.empty()) {
     error.issues[0].message = "read as " + std::string(format.name) + ": " + error.issues[0].message;
@@ -100,34 +85,70 @@ Error in_format(Error error, const ImportQuestion& question, const ImportFormat&
 
 /// What the generator says of the request before it makes anything. A request that is more than the limits
 /// allow is a request still: it can be made smaller.
-void append_appraisal(const Request& request, Imported& imported, const Limits& limits,
-                      std::string_view text) {
-  Job::Options options;
-  options.limits = limits;
-  Job job(request.seed(), options);
+/// Returns the error where the time has passed or the caller has gone.
+std::optional<Error> append_appraisal(const Request& request, Imported& imported, const Job::Options& options,
+                                      std::string_view text) {
   const auto append = [&](Warning warning) {
     put_at_origin(warning, imported, text);
     imported.warnings.push_back(std::move(warning));
   };
-  const Result<std::string> appraisal = validate(request, job);
+  const Result<std::string> appraisal = validate(request, options);
   if (!appraisal) {
+    const Code code = appraisal.error().code;
+    if (code == Code::deadline || code == Code::cancelled) return appraisal.error();
     for (const Issue& issue : appraisal.error().issues) {
       append(
           {issue.pointer, "the model is refused as it stands: " + issue.message, issue.line, issue.column});
     }
-    return;
+    return std::nullopt;
   }
-  const Json told = Json::parse(*appraisal);
-  for (const Json& each : told.at("warnings")) {
+  const Json answer = Json::parse(*appraisal);
+  for (const Json& each : answer.at("warnings")) {
     append({each.value("pointer", ""), each.value("message", ""), each.value("line", 0),
             each.value("column", 0)});
   }
+  return std::nullopt;
+}
+
+/// A body `{"files": {name: text, ...}}` holds several files. The one that looks most like a format is the text, the
+/// others are beside it. `main` owns its text.
+void unpack(ImportQuestion& question, std::string& main) {
+  const std::size_t first = question.text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos || question.text[first] != '{' ||
+      question.text.find("\"files\"") == std::string_view::npos)
+    return;
+  const Result<Json> body = parse_json(question.text);
+  if (!body || !body->is_object() || body->size() != 1 || !body->contains("files")) return;
+  const Json& files = body->at("files");
+  if (!files.is_object() || files.empty()) return;
+  std::string chosen;
+  int most = -1;
+  for (const auto& [name, text] : files.items()) {
+    if (!text.is_string()) return;
+    const std::string& content = text.get_ref<const std::string&>();
+    const ImportFormat* const format =
+        question.format.empty() ? likeliest_format(content) : find_import_format(question.format);
+    const int marks = format ? format->marks(content) : 0;
+    if (marks <= most) continue;
+    most = marks;
+    chosen = name;
+  }
+  for (const auto& [name, text] : files.items()) {
+    if (name == chosen) {
+      main = text.get<std::string>();
+    } else {
+      question.files[name] = text.get<std::string>();
+    }
+  }
+  question.text = main;
 }
 
 }  // namespace
 
-Result<ImportedRequest> import_request(const ImportQuestion& asked, const Limits& limits) {
+Result<ImportedRequest> import_request(const ImportQuestion& asked, const Job::Options& options) {
   ImportQuestion question = asked;
+  std::string main;
+  unpack(question, main);
   const ImportFormat* format =
       question.format.empty() ? likeliest_format(question.text) : find_import_format(question.format);
   std::string clean;
@@ -138,23 +159,36 @@ Result<ImportedRequest> import_request(const ImportQuestion& asked, const Limits
     bad = find_bad_utf8(question.text);
   }
   if (bad != std::string_view::npos) {
-    return Error{Code::malformed, {issue_at("", question.text, bad, "found a byte that is not UTF-8")}};
+    return Error{Code::malformed,
+                 {issue_at(IssueKind::syntax, "", question.text, bad, "found a byte that is not UTF-8")}};
   }
   if (!format) return unknown_format(question.format);
-  Result<Imported> imported = format->read(question.text, {std::string(question.entry)});
+  Result<Imported> imported = format->read(question.text, {std::string(question.entry), question.files});
   if (!imported) return in_format(std::move(imported).error(), question, *format);
-  Result<Request> request = read_request_body(imported->request, limits);
-  if (!request || !imported->faults.empty()) {
+  Result<Request> request = read_request_body(imported->request, options.limits);
+  if (!request || !imported->errors.empty()) {
     std::vector<Issue> found;
     if (!request) found = std::move(request).error().issues;
-    return in_format(all_faults(std::move(imported->faults), std::move(found), *imported, question.text),
+    return in_format(all_errors(std::move(imported->errors), std::move(found), *imported, question.text),
                      question, *format);
   }
-  append_appraisal(*request, *imported, limits, question.text);
+  if (auto stopped = append_appraisal(*request, *imported, options, question.text))
+    return std::move(*stopped);
   Json answer = {{"format", format->name},
                  {"request", Json::parse(request->canonical())},
-                 {"warnings", described(imported->warnings)}};
+                 {"warnings", warning_list(imported->warnings)}};
   return ImportedRequest{std::move(*request), canonical_text(answer), std::move(imported->warnings)};
+}
+
+Result<ImportedRequest> import_request(const ImportQuestion& question, const Limits& limits) {
+  Job::Options options;
+  options.limits = limits;
+  return import_request(question, options);
+}
+
+std::string_view likely_import_format(std::string_view text) {
+  const ImportFormat* format = likeliest_format(text);
+  return format ? format->name : std::string_view();
 }
 
 std::vector<ImportFormatInfo> import_format_list() {

@@ -1,4 +1,4 @@
-/// Presets with the overrides of a query. Every value comes as text, so the schema decides what it is.
+/// Presets with the overrides of a query. Every value is text, so the schema determines its type.
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
@@ -10,7 +10,7 @@
 namespace seedmesh {
 namespace {
 
-/// Where an override goes and the schema of what stands there.
+/// The location that an override changes, and the schema of the value there.
 struct Target {
   std::vector<std::string> tokens;
   const Json* schema = nullptr;
@@ -59,8 +59,8 @@ std::optional<Target> target_of(std::string_view key, std::string_view generator
   return Target{{"parameters", group, name}, &map->at("additionalProperties")};
 }
 
-/// The one of the properties that `name` is most likely a misspelling of, as the end of a sentence; empty:
-/// none is.
+/// The property that `name` most likely misspells, as the end of a sentence; empty where there is no similar
+/// property.
 std::string did_you_mean(std::string_view name, const Json& schema, const std::string& group) {
   std::vector<std::string_view> words;
   for (const auto& [word, unused] : schema.at("properties").get_ref<const Json::object_t&>())
@@ -69,13 +69,13 @@ std::string did_you_mean(std::string_view name, const Json& schema, const std::s
   return nearest.empty() ? "" : "; did you mean \"" + group + std::string(nearest) + "\"?";
 }
 
-/// What is said of a key that nothing takes; of the output where it begins so.
+/// The message for an unknown key. Keys that begin with "output." are compared with options of the output.
 std::string unknown_key(std::string_view key, std::string_view generator) {
   constexpr std::string_view group = "output.";
   const std::string found = "\"" + shortened(key, 40) + "\"";
   if (key.starts_with(group)) {
     const Json& output = *property(parsed_schemas().at("request"), "output");
-    return found + " is no option of the output" +
+    return found + " is not an option of the output" +
            did_you_mean(key.substr(group.size()), output, std::string(group));
   }
   constexpr std::string_view parameters = "parameters.";
@@ -87,6 +87,8 @@ std::string unknown_key(std::string_view key, std::string_view generator) {
     meant = "; did you mean \"" + std::string(own) + "\"?";
   } else {
     meant = did_you_mean(key, parsed_schemas().at(generator), "");
+    constexpr std::string_view seed[] = {"seed"};
+    if (meant.empty() && !schema::nearest_word(key, seed).empty()) meant = "; did you mean \"seed\"?";
   }
   return found + " is neither seed, nor output.…, nor a parameter of " + std::string(generator) + meant;
 }
@@ -105,11 +107,15 @@ bool takes(const Json& schema, const Json& value) {
   return type == "object" && value.is_object();
 }
 
-/// JSON where the schema takes a value of that type, else the text itself, which the reader then judges.
+/// The value as JSON where the schema accepts its type, else the text itself, which the reader then checks.
 Json value_of(const Json& schema, const std::string& text) {
   Result<Json> value = parse_json(text);
   if (value && takes(schema, *value)) return *std::move(value);
   return text;
+}
+
+bool is_digits(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
 void place(Json& request, const Target& target, Json value) {
@@ -122,7 +128,7 @@ bool is_inside(std::string_view pointer, std::string_view outer) {
   return pointer.starts_with(outer) && (pointer.size() == outer.size() || pointer[outer.size()] == '/');
 }
 
-/// A fault in what an override put there points at the override.
+/// Moves the pointer of an error in an overridden value to the override.
 void point_at_overrides(std::vector<Issue>& issues,
                         const std::vector<std::pair<std::string, std::string>>& places) {
   for (Issue& issue : issues) {
@@ -150,19 +156,22 @@ std::optional<Result<Request>> read_preset(std::string_view name, const Override
   Json request = preset->second.request;
   const std::string generator = request.at("generator");
 
-  Faults faults;
+  IssueList faults;
   std::set<std::string_view> seen;
   std::vector<std::pair<std::string, std::string>> places;
   for (const auto& [key, value] : overrides) {
     if (find_bad_utf8(key) != std::string_view::npos || find_bad_utf8(value) != std::string_view::npos) {
-      faults.add({"", "the query is not UTF-8"});
+      faults.add({IssueKind::syntax, "", "the query is not UTF-8"});
     } else if (!seen.insert(key).second) {
-      faults.add({pointer_token(key), "\"" + shortened(key, 40) + "\" stands in the query twice"});
+      faults.add({IssueKind::duplicate_key, pointer_token(key),
+                  "\"" + shortened(key, 40) + "\" is given twice in the query"});
     } else if (const auto target = target_of(key, generator)) {
-      place(request, *target, value_of(*target->schema, value));
+      // A seed stays a text where it is beyond 64 bits, so that a message repeats all its digits.
+      place(request, *target,
+            key == "seed" && is_digits(value) ? Json(value) : value_of(*target->schema, value));
       places.emplace_back(target->pointer(), key);
     } else {
-      faults.add({pointer_token(key), unknown_key(key, generator)});
+      faults.add({IssueKind::unknown_key, pointer_token(key), unknown_key(key, generator)});
     }
   }
   Result<Request> result = read_request_body(request, limits);

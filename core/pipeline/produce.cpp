@@ -1,76 +1,45 @@
 #include <algorithm>
-#include <new>
 #include <nlohmann/json.hpp>
 
-#include "core/base/parallel.h"
-#include "core/geom/copies.h"
-#include "core/geom/finish.h"
-#include "core/geom/tangents.h"
-#include "core/gltf/write.h"
+#include "core/geom/mesh/copies.h"
+#include "core/geom/mesh/finish.h"
+#include "core/geom/mesh/tangents.h"
+#include "core/gltf/write/write.h"
 #include "core/lang/expression.h"
 #include "core/model/row.h"
 #include "core/pipeline/body.h"
 #include "core/pipeline/fit.h"
+#include "core/pipeline/guarded.h"
 #include "core/pipeline/profiles.h"
+#include "core/schema/warning_list.h"
 #include "core/texture/impostor.h"
 #include "core/texture/paint.h"
 
 namespace seedmesh {
 namespace {
 
-/// Meshes that are quantised and compressed come to so small a part of their bytes, about.
+/// Quantization and compression divide the bytes of a mesh by about this.
 constexpr std::uint64_t compression = 4;
 
-struct Form {
-  std::string_view name;
-  Container container;
-  std::string_view media_type;
-};
-constexpr Form forms[] = {
-    {"glb", Container::glb, "model/gltf-binary"},
-    {"gltf", Container::gltf, "model/gltf+json"},
-    {"zip", Container::zip, "application/zip"},
-};
-
-const Form& form_of(const Request& request) {
-  for (const Form& form : forms) {
-    if (form.name == request.format()) return form;
-  }
-  return forms[0];
+Container container_of(std::string_view format) {
+  return format == "zip" ? Container::zip : format == "gltf" ? Container::gltf : Container::glb;
 }
 
-/// The generator's own form that the request asks for; null where it asks for a model.
-const OwnForm* own_form_of(const Request& request) {
-  for (const OwnForm& form : request.body().generator->forms) {
+void set_format(Product& product, std::string_view name) {
+  const FormatInfo& format = format_named(name);
+  product.media_type = format.media_type;
+  product.extension = format.extension;
+}
+
+/// The generator's own format that the request asks for; null where it asks for a model.
+const OwnFormat* own_format_of(const Request& request) {
+  for (const OwnFormat& form : request.body().generator->formats) {
     if (form.format == request.format()) return &form;
   }
   return nullptr;
 }
 
-/// Generators point into their parameters; a request holds these under "/parameters". What is wrong with the
-/// wanted output stands beside them.
-std::string in_request(std::string pointer) {
-  return pointer.empty() || pointer.starts_with("/output/") ? pointer : "/parameters" + pointer;
-}
-
-Error in_request(Error error) {
-  for (Issue& issue : error.issues) issue.pointer = in_request(std::move(issue.pointer));
-  return error;
-}
-
-/// The only catch of Stop: whatever `work` makes, or why it ended early.
-template <class T, class Work>
-Result<T> guarded(Work&& work) {
-  try {
-    return work();
-  } catch (const Stop& stop) {
-    return in_request(Error{stop.code(), {stop.issue()}});
-  } catch (const std::bad_alloc&) {
-    return Error{Code::limit, {{"", "the machine has no memory left for this request"}}};
-  }
-}
-
-/// Of a long list the first, and one last line that counts the others.
+/// Keeps the first warnings of a long list; a last line counts the others.
 void shorten(std::vector<Warning>& warnings) {
   constexpr std::size_t most = 100;
   if (warnings.size() <= most + 1) return;  // the last may be such a line already
@@ -79,17 +48,9 @@ void shorten(std::vector<Warning>& warnings) {
   warnings.push_back({"", "and " + std::to_string(rest) + " more warnings", 0, 0});
 }
 
-Json described(const std::vector<Warning>& warnings) {
-  Json list = Json::array();
-  for (const Warning& warning : warnings) {
-    Json row = {{"pointer", in_request(warning.pointer)}, {"message", warning.message}};
-    if (warning.line > 0) {
-      row["line"] = warning.line;
-      row["column"] = warning.column;
-    }
-    list.push_back(std::move(row));
-  }
-  return list;
+/// Points the warnings into the request.
+void point_into_request(std::vector<Warning>& warnings) {
+  for (Warning& warning : warnings) warning.pointer = in_request(std::move(warning.pointer));
 }
 
 Json seed_json(std::uint64_t seed) {
@@ -102,21 +63,29 @@ void sign(Model& model, const Request& request) {
   model.extras.push_back({"generator", Json(request.generator()).dump()});
   model.extras.push_back({"seed", seed_json(request.seed()).dump()});
   shorten(model.warnings);
-  for (Warning& warning : model.warnings) warning.pointer = in_request(std::move(warning.pointer));
+  point_into_request(model.warnings);
 }
 
 static_assert(static_cast<int>(OutputCollision::godot) == static_cast<int>(CollisionNames::godot));
 
+constexpr int linked_texture_size = 512;
+
 int texture_size(const OutputParams& output) {
-  const auto* size = std::get_if<std::int32_t>(&output.textures);
-  return size ? *size : 0;
+  if (const auto* size = std::get_if<std::int32_t>(&output.textures)) return *size;
+  return std::get<OutputTextures>(output.textures) == OutputTextures::links ? linked_texture_size : 0;
+}
+
+texture::Linking linking_of(const OutputParams& output) {
+  const auto* choice = std::get_if<OutputTextures>(&output.textures);
+  const bool is_linked = choice && *choice == OutputTextures::links;
+  return {is_linked, "/v1/textures/" + std::string(engine_version()) + "."};
 }
 
 double milliseconds(Job::Clock::duration span) {
   return std::chrono::duration<double, std::milli>(span).count();
 }
 
-/// What each stage took; the last one ends now.
+/// The duration of each stage; the last one ends now.
 std::vector<Product::Span> timing_of(const Job& job) {
   std::vector<Product::Span> spans;
   const std::vector<Job::Stage>& stages = job.stages();
@@ -127,27 +96,25 @@ std::vector<Product::Span> timing_of(const Job& job) {
   return spans;
 }
 
-/// What is no model comes from its generator as one file.
-Result<Product> produce_own(const Request& request, const OwnForm& form, Job& job) {
+/// A file that is not a model.
+Result<Product> produce_own(const Request& request, Job& job) {
   Demand demand;
   demand.textures = texture_size(request.body().output);
   demand.tangents = request.body().output.tangents == OutputTangents::auto_;
-  job.set_demand(demand);
-  Result<Payload> file =
-      request.body().generator->encode(request.body().params, wanted_form(request.body().output), job);
+  Result<Payload> file = request.body().generator->encode(
+      request.body().params, wanted_format(request.body().output), {job, demand, generators()});
   if (!file) return in_request(std::move(file).error());
-  // Some spend it on the way, before they write.
+  // Some generators spend bytes before they write them.
   const std::uint64_t spent = job.spent(Resource::output_bytes);
   if (file->size() > spent) job.spend(Resource::output_bytes, file->size() - spent);
   Product product;
-  product.media_type = form.media_type;
-  product.extension = form.extension;
+  set_format(product, request.format());
   product.payload = *std::move(file);
   product.timing = timing_of(job);
   return product;
 }
 
-/// Parts of one thing that are repeated more often than this are merged by material.
+/// Beyond this number of copies, the parts of one object are merged by material.
 constexpr std::uint64_t most_parts = 400;
 
 static_assert(static_cast<int>(OutputInstancing::merge) == static_cast<int>(CopyForm::merge));
@@ -162,28 +129,29 @@ Demand demand_of(const OutputParams& output, const Generator& generator) {
           .wind = output.wind == OutputWind::weights,
           .collision = static_cast<CollisionNames>(output.collision),
           .textures = texture_size(output),
-          // Else meshes are merged, simplified or drawn before they get tangents.
+          // Otherwise a later stage changes or merges the meshes first.
           .tangents = output.tangents == OutputTangents::auto_ && !output.max_triangles &&
                       output.variants == 1 && output.lods == 1 && !output.impostor &&
                       output.instancing != OutputInstancing::merge,
           .impostor = output.impostor,
           .copies = static_cast<CopyForm>(output.instancing),
           .most_triangles = static_cast<std::uint64_t>(output.max_triangles.value_or(0)),
-          // Else fit(), row_of() or merge_copies() look at meshes again.
+          // Otherwise fit(), row_of() or merge_copies() read the meshes again.
           .packs = profile_of(output.profile).compressed && !output.max_triangles && output.variants == 1 &&
                    output.instancing != OutputInstancing::merge};
 }
 
-/// The model of one seed, as its generator makes it.
+/// The model of one seed.
 Result<Model> generate(const Request& request, Job& job) {
   const OutputParams& output = request.body().output;
-  job.set_demand(demand_of(output, *request.body().generator));
-  Result<Model> model = request.body().generator->generate(request.body().params, job);
+  const Generator& generator = *request.body().generator;
+  Result<Model> model =
+      generator.generate(request.body().params, {job, demand_of(output, generator), generators()});
   if (!model) return in_request(std::move(model).error());
   return model;
 }
 
-/// The models of as many seeds as are wanted, side by side.
+/// One model, or the models of output.variants seeds side by side.
 Result<Model> generate_all(const Request& request, Job& job) {
   const int variants = request.body().output.variants;
   if (variants == 1) return generate(request, job);
@@ -201,16 +169,16 @@ Result<Model> generate_all(const Request& request, Job& job) {
   return row_of(std::move(models));
 }
 
-/// Copies as meshes of their own, where that is wanted.
+/// Merges copies into meshes where the output asks for it, or where there are too many parts.
 void merge_where_wanted(Model& model, const Request& request, Job& job) {
   const OutputInstancing instancing = request.body().output.instancing;
-  const bool crowded = instancing == OutputInstancing::auto_ && request.body().generator->parts &&
-                       count_copies(model) > most_parts;
-  if (instancing == OutputInstancing::merge || crowded) merge_copies(model, job);
+  const bool has_too_many = instancing == OutputInstancing::auto_ && request.body().generator->parts &&
+                            count_copies(model) > most_parts;
+  if (instancing == OutputInstancing::merge || has_too_many) merge_copies(model, job);
 }
 
-/// Whether merge_where_wanted will take the variants side by side as crowded. Their copies are not counted
-/// before they are made: a copy with its share of a mesh takes about 200 bytes.
+/// Predicts whether merge_where_wanted() will find too many parts in the variants side by side. A copy with
+/// its share of a mesh takes about 200 bytes.
 bool is_merged_as_a_row(const Appraisal& appraisal, const OutputParams& output) {
   constexpr std::uint64_t bytes_of_copy = 200;
   if (output.variants == 1 || output.instancing != OutputInstancing::auto_ || !appraisal.estimate)
@@ -225,39 +193,41 @@ bool is_empty(const Model& model) {
   });
 }
 
-/// Pictures as the coarsest level where they are wanted; those that a scene has chosen in any case.
+/// Adds impostors as the coarsest level where the output asks for them, and draws those of a scene.
 std::optional<Issue> add_impostors(Model& model, const Request& request, Job& job) {
   const OutputParams& output = request.body().output;
   const int size = texture_size(output);
   const bool is_scene = request.body().generator->keeps_budget;
   if (output.impostor && !is_scene && is_empty(model))
-    return Issue{"/output/impostor", "the model is empty, and no picture can take the place of nothing"};
+    return Issue{IssueKind::not_available, "/output/impostor",
+                 "the model is empty, and an empty model has no impostor"};
   if (output.impostor && !is_scene && texture::add_impostor_levels(model, job) == 0) {
-    return Issue{"/output/impostor",
-                 "the model has no mesh that stands still by itself, which an impostor could take the place "
-                 "of; expected `instancing` auto"};
+    return Issue{
+        IssueKind::not_available, "/output/impostor",
+        "the model has no static mesh of its own that an impostor could replace; expected `instancing` "
+        "auto"};
   }
   texture::draw_impostors(model, is_scene ? std::max(size / 2, 64) : size, job);
   return std::nullopt;
 }
 
-/// Walls are sheets, too, and what would take them away is no coarser building.
-Sacrifice sacrifice_of(const Generator& generator) {
+/// Walls are sheets too, and must not be thinned out like leaves.
+SimplifyLimits simplify_limits(const Generator& generator) {
   constexpr double detail = 0.004;
-  return generator.parts ? Sacrifice{.leaves = false, .detail = detail} : Sacrifice{};
+  return generator.parts ? SimplifyLimits{.leaves = false, .detail = detail} : SimplifyLimits{};
 }
 
-/// One level is less than is wanted: how the request gets more.
+/// Adds how a request gets more levels to a message about a model that has one.
 std::string with_hint(std::string message, const Generator& generator) {
   if (!generator.own_levels.empty()) message.append("; ").append(generator.own_levels);
   return message;
 }
 
-/// The levels of detail within the budget that are wanted, or why not.
-std::optional<Error> settle_levels(Model& model, const Request& request, Job& job) {
+/// Gives the model the wanted levels of detail within the budget; an error where that is impossible.
+std::optional<Error> make_levels(Model& model, const Request& request, Job& job) {
   const OutputParams& output = request.body().output;
   const Generator& generator = *request.body().generator;
-  const Sacrifice sacrifice = sacrifice_of(generator);
+  const SimplifyLimits limits = simplify_limits(generator);
   const bool has_one = levels_of(model) == 1;
   const auto refused = [&](Code code, Issue issue) {
     if (has_one) issue.message = with_hint(std::move(issue.message), generator);
@@ -266,46 +236,45 @@ std::optional<Error> settle_levels(Model& model, const Request& request, Job& jo
   if (output.max_triangles) {
     const auto most = static_cast<std::uint64_t>(*output.max_triangles);
     const int pictures = output.impostor && generator.keeps_budget ? 1 : 0;
-    if (std::optional<Issue> issue = fit(model, most, output.lods + pictures, sacrifice, job))
+    if (std::optional<Issue> issue = fit(model, most, output.lods + pictures, limits, job))
       return refused(Code::limit, *std::move(issue));
   }
   if (output.lods < 2) return std::nullopt;
-  const std::size_t told = model.warnings.size();
-  if (std::optional<Issue> issue = add_levels(model, output.lods, sacrifice, job))
+  const std::size_t before = model.warnings.size();
+  if (std::optional<Issue> issue = add_levels(model, output.lods, limits, job))
     return refused(Code::invalid, *std::move(issue));
-  if (has_one && model.warnings.size() > told)
+  if (has_one && model.warnings.size() > before)
     model.warnings.back().message = with_hint(std::move(model.warnings.back().message), generator);
   return std::nullopt;
 }
 
-WriteOptions write_options(const Request& request, const Form& form) {
+WriteOptions write_options(const Request& request) {
   const OutputParams& output = request.body().output;
   const Profile& profile = profile_of(output.profile);
-  const bool by_itself =
+  const bool profile_default =
       output.instancing == OutputInstancing::auto_ && profile.prefers_gpu && !request.body().generator->parts;
-  return {.container = form.container,
+  return {.container = container_of(request.format()),
           .generator = "Seedmesh " + std::string(program_version()),
           .dialect = {.compressed = profile.compressed,
-                      .gpu_instances = by_itself || output.instancing == OutputInstancing::gpu,
+                      .gpu_instances = profile_default || output.instancing == OutputInstancing::gpu,
                       .lods_inside = profile.lods_inside}};
 }
 
 }  // namespace
 
-Result<Product> produce(const Request& request, Job& job, TextureStore* texture_store) {
+Result<Product> produce(const Request& request, const Job::Options& options, TextureStore* texture_store) {
   return guarded<Product>([&]() -> Result<Product> {
-    const KeepAwake awake(job);
-    if (const OwnForm* form = own_form_of(request)) return produce_own(request, *form, job);
+    Job job(request.seed(), options);
+    if (own_format_of(request) != nullptr) return produce_own(request, job);
     const OutputParams& output = request.body().output;
     Result<Model> model = generate_all(request, job);
     if (!model) return std::move(model).error();
     if (model->warnings.empty() && is_empty(*model)) {
-      model->warnings.push_back(
-          {"", "nothing is to be seen: the model has no triangles, lines or points", 0, 0});
+      model->warnings.push_back({"", "the model is empty: it has no triangles, lines or points", 0, 0});
     }
-    if (std::optional<Error> error = settle_levels(*model, request, job)) return *std::move(error);
+    if (std::optional<Error> error = make_levels(*model, request, job)) return *std::move(error);
     merge_where_wanted(*model, request, job);
-    texture::paint(*model, texture_size(output), texture_store, job);
+    texture::paint(*model, texture_size(output), linking_of(output), texture_store, job);
     if (std::optional<Issue> issue = add_impostors(*model, request, job))
       return Error{Code::invalid, {*std::move(issue)}};
     if (output.tangents == OutputTangents::auto_) add_tangents(*model, job);
@@ -316,11 +285,9 @@ Result<Product> produce(const Request& request, Job& job, TextureStore* texture_
     Product product;
     product.statistics.warnings = static_cast<std::uint32_t>(model->warnings.size());
     product.warnings = model->warnings;
-    const Form& form = form_of(request);
-    product.media_type = form.media_type;
-    product.extension = form.name;
+    set_format(product, request.format());
     job.progress("encode", 0);
-    WriteOptions written = write_options(request, form);
+    WriteOptions written = write_options(request);
     written.counts = &counts;
     product.payload = write(std::move(*model), written, job);
     product.statistics.triangles = counts.triangles;
@@ -330,34 +297,55 @@ Result<Product> produce(const Request& request, Job& job, TextureStore* texture_
   });
 }
 
-Result<std::string> derive(const Request& request, Job& job) {
+Result<std::string> derive(const Request& request, const Job::Options& options) {
   return guarded<std::string>([&]() -> Result<std::string> {
-    Result<Json> answer = request.body().generator->derive(request.body().params, job);
+    Job job(request.seed(), options);
+    Result<Json> answer = request.body().generator->derive(request.body().params, {job, {}, generators()});
     if (!answer) return in_request(std::move(answer).error());
+    if (const auto warnings = answer->find("warnings"); warnings != answer->end()) {
+      for (Json& each : *warnings) each["pointer"] = in_request(each["pointer"].get<std::string>());
+    }
     return canonical_text(*answer);
   });
 }
 
-/// Whether the output holds the generator's own triangles, no more and no fewer.
+/// Does the output hold exactly the triangles of the generator?
 static bool leaves_meshes(const OutputParams& output) {
   return !profile_of(output.profile).compressed && output.lods == 1 && !output.impostor;
 }
 
-Result<std::string> validate(const Request& request, Job& job) {
+/// A warning where simplification to the budget takes seconds.
+static void warn_of_simplification(Appraisal& appraisal, std::uint64_t most) {
+  constexpr double seconds_a_triangle = 2e-6, long_time = 1;
+  const std::uint64_t triangles = appraisal.estimate->triangles;
+  const double seconds = seconds_a_triangle * static_cast<double>(triangles);
+  if (triangles <= most || seconds < long_time) return;
+  appraisal.warnings.push_back({"/output/max_triangles",
+                                "about " + std::to_string(triangles) +
+                                    " triangles are made and then simplified to " + std::to_string(most) +
+                                    ", which takes about " +
+                                    std::to_string(static_cast<std::uint64_t>(seconds)) +
+                                    " s; parameters that make fewer triangles cost less",
+                                0, 0});
+}
+
+Result<std::string> validate(const Request& request, const Job::Options& options) {
   return guarded<std::string>([&]() -> Result<std::string> {
+    Job job(request.seed(), options);
     const OutputParams& output = request.body().output;
     const Generator& generator = *request.body().generator;
-    Demand demand = demand_of(output, generator);
-    job.set_demand(demand);
-    Result<Appraisal> appraisal = generator.appraise(request.body().params, job);
+    GenerateContext context{job, demand_of(output, generator), generators()};
+    Result<Appraisal> appraisal = generator.appraise(request.body().params, context);
     if (appraisal && generator.parts && is_merged_as_a_row(*appraisal, output)) {
-      demand.copies = CopyForm::merge;
-      job.set_demand(demand);
-      appraisal = generator.appraise(request.body().params, job);
+      context.demand.copies = CopyForm::merge;
+      appraisal = generator.appraise(request.body().params, context);
     }
     if (!appraisal) return in_request(std::move(appraisal).error());
+    if (appraisal->estimate && output.max_triangles && !generator.keeps_budget)
+      warn_of_simplification(*appraisal, static_cast<std::uint64_t>(*output.max_triangles));
     shorten(appraisal->warnings);
-    Json answer = {{"valid", true}, {"warnings", described(appraisal->warnings)}, {"estimate", nullptr}};
+    point_into_request(appraisal->warnings);
+    Json answer = {{"valid", true}, {"warnings", warning_list(appraisal->warnings)}, {"estimate", nullptr}};
     if (std::optional<Estimate>& estimate = appraisal->estimate) {
       const auto variants = static_cast<std::uint64_t>(output.variants);
       *estimate = {estimate->triangles * variants, estimate->bytes * variants,

@@ -11,7 +11,6 @@
 namespace seedmesh {
 namespace {
 
-//                                           compressed  gpu  prefers it  lods
 constexpr std::array<Profile, 6> profiles = {{{OutputProfile::core, false, false, false, false},
                                               {OutputProfile::web, true, true, true, true},
                                               {OutputProfile::unity, false, true, false, true},
@@ -21,7 +20,7 @@ constexpr std::array<Profile, 6> profiles = {{{OutputProfile::core, false, false
 
 constexpr std::size_t longest_in_blender = 63;
 
-/// Gives out each name once: "bark", "bark_2", ... Blender's names have an end, and so has the stem then.
+/// Makes names unique: "bark", "bark_2", ... Cuts the stem where names have a greatest length.
 class Names {
  public:
   explicit Names(std::size_t longest) : longest_(longest) {}
@@ -36,7 +35,7 @@ class Names {
   }
 
  private:
-  /// No letter of UTF-8 is cut in two.
+  /// Cuts between characters of UTF-8.
   static std::string cut(std::string_view name, std::size_t longest) {
     std::size_t end = std::min(name.size(), longest);
     while (end > 0 && end < name.size() && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;
@@ -75,58 +74,57 @@ std::string_view unreal_prefix(CollisionShape shape) {
   return "UCX_";
 }
 
-bool is_seen(const Node& node) { return node.mesh >= 0 && node.collision == CollisionShape::none; }
+bool is_visible(const Node& node) { return node.mesh >= 0 && node.collision == CollisionShape::none; }
 
-/// The mesh that a collision shape stands for: its parent's, a sibling's, or the first of the model.
-const MeshGroup* seen_beside(const Model& model, const Node& shape) {
+/// The mesh that a collision shape encloses: its parent's, a sibling's, or the first of the model.
+const MeshGroup* enclosed_by(const Model& model, const Node& shape) {
   const Node* found = nullptr;
-  if (shape.parent >= 0 && is_seen(model.nodes[static_cast<std::size_t>(shape.parent)])) {
+  if (shape.parent >= 0 && is_visible(model.nodes[static_cast<std::size_t>(shape.parent)])) {
     found = &model.nodes[static_cast<std::size_t>(shape.parent)];
   }
   for (const Node& node : model.nodes) {
-    if (!found && is_seen(node) && node.parent == shape.parent) found = &node;
+    if (!found && is_visible(node) && node.parent == shape.parent) found = &node;
   }
   for (const Node& node : model.nodes) {
-    if (!found && is_seen(node)) found = &node;
+    if (!found && is_visible(node)) found = &node;
   }
   return found ? &model.meshes[static_cast<std::size_t>(found->mesh)] : nullptr;
 }
 
-/// "_00" and so on: Unreal wants a number where a mesh has several shapes.
+/// "_00" and so on: Unreal expects a number where a mesh has several shapes.
 std::string numbered(std::size_t number) { return (number < 10 ? "_0" : "_") + std::to_string(number); }
 
-std::string collision_name(const std::string& seen, CollisionShape shape, std::size_t number,
+std::string collision_name(const std::string& mesh, CollisionShape shape, std::size_t number,
                            OutputProfile profile) {
-  if (profile == OutputProfile::unreal) return std::string(unreal_prefix(shape)) + seen + numbered(number);
-  return seen + "_collision" + numbered(number) + "-convcolonly";
+  if (profile == OutputProfile::unreal) return std::string(unreal_prefix(shape)) + mesh + numbered(number);
+  return mesh + "_collision" + numbered(number) + "-convcolonly";
 }
 
-/// The convention that `output.collision` asked a generator for, read from the name that it gave.
-CollisionNames asked_of(std::string_view name) {
+/// The convention that `output.collision` asked for, read from the name that the generator chose.
+CollisionNames convention_of(std::string_view name) {
   if (name.starts_with("UCX_")) return CollisionNames::unreal;
   if (name.ends_with("-convcolonly")) return CollisionNames::godot;
   return CollisionNames::plain;
 }
 
-/// Generators name the shapes of one model and number them from 1. Where several stand in one file, an ending
-/// that makes a name unique would hide the one that Godot reads, and Unreal would look for a mesh of that
-/// name; so the numbers go on, and Unreal finds the mesh that is seen under the name that it has in this
-/// file.
+/// Generators number the shapes of one model from 1. In a file of several models, a suffix that makes a name
+/// unique would hide the suffix that Godot reads, and Unreal would search for a mesh of that name. So the
+/// numbers count through the file, and Unreal's names contain the mesh's name in this file.
 void name_collisions(Model& model, OutputProfile profile) {
   const bool is_engine = profile == OutputProfile::unreal || profile == OutputProfile::godot;
-  std::map<std::string, std::size_t> shapes;  // of each mesh that is seen
+  std::map<std::string, std::size_t> shapes;  // of each visible mesh
   std::size_t asked_by_godot = 0;
   for (Node& node : model.nodes) {
-    const CollisionNames asked = asked_of(node.name);
+    const CollisionNames asked = convention_of(node.name);
     if (node.collision == CollisionShape::none || (asked == CollisionNames::plain && !is_engine)) continue;
-    const MeshGroup* group = seen_beside(model, node);
-    const std::string seen = group ? group->name : "model";
+    const MeshGroup* group = enclosed_by(model, node);
+    const std::string mesh = group ? group->name : "model";
     if (asked == CollisionNames::godot) {
-      node.name = collision_name(asked, seen, ++asked_by_godot);
+      node.name = collision_name(asked, mesh, ++asked_by_godot);
     } else if (asked == CollisionNames::unreal) {
-      node.name = collision_name(asked, seen, ++shapes[seen]);
+      node.name = collision_name(asked, mesh, ++shapes[mesh]);
     } else {
-      node.name = collision_name(seen, node.collision, shapes[seen]++, profile);
+      node.name = collision_name(mesh, node.collision, shapes[mesh]++, profile);
     }
     // Unreal reads the names of meshes.
     if (node.mesh >= 0) model.meshes[static_cast<std::size_t>(node.mesh)].name = node.name;

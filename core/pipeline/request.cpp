@@ -10,6 +10,7 @@
 #include "core/schema/nearest.h"
 #include "core/schema/parse_body.h"
 #include "core/schema/presets.h"
+#include "core/schema/reader.h"
 #include "generated/params/request.h"
 
 namespace seedmesh {
@@ -22,36 +23,38 @@ std::string canonical_request(const Request::Body& body) {
   RequestParams frame;
   frame.seed = body.seed;
   frame.output = body.output;
-  json.update(write_request(frame));  // seed and output, where they are no defaults
+  json.update(write_request(frame));  // seed and output, unless they are defaults
   Json params = body.generator->write(body.params);
   if (!params.empty()) json["parameters"] = std::move(params);
   return canonical_text(json);
 }
 
-const Generator* named_generator(const Json& json, const RequestParams& frame, Faults& faults) {
+const Generator* named_generator(const Json& json, const RequestParams& frame, IssueList& errors) {
   if (!frame.generator) {
-    // A preset that is no preset would have told it; one fault is enough for that.
+    // An unknown preset is reported elsewhere as a separate error.
     if (json.is_object() && !json.contains("preset") && !json.contains("generator")) {
-      faults.add_missing("", "generator", "\"generator\" is missing, and no \"preset\" tells it");
+      errors.add_missing("", "generator",
+                         "\"generator\" is missing, and there is no \"preset\" that names one");
     }
     return nullptr;
   }
   const Generator* generator = find_generator(*frame.generator);
-  if (!generator && !faults.covers("/generator")) {
-    faults.add({"/generator", unknown_generator(*frame.generator)});
+  if (!generator && !errors.covers("/generator")) {
+    errors.add({IssueKind::unknown_name, "/generator", unknown_generator(generators(), *frame.generator)});
   }
   return generator;
 }
 
 Generator::Params parameters_of(const Json& body, const Generator& generator, const Limits& limits,
-                                Faults& faults) {
+                                IssueList& errors) {
   if (body.contains("parameters"))
-    return read_parameters(generator, body["parameters"], "/parameters", limits, faults);
-  Faults lacking;
-  Generator::Params params = read_parameters(generator, Json::object(), "/parameters", limits, lacking);
-  for (const Issue& issue : lacking.issues()) {
-    // There is no object yet that could lack the member: the body lacks the object.
-    faults.add_missing("", "parameters", "\"parameters\" is missing: in it, " + issue.message);
+    return read_parameters(generator, body["parameters"], "/parameters", {limits, generators()}, errors);
+  IssueList missing;
+  Generator::Params params =
+      read_parameters(generator, Json::object(), "/parameters", {limits, generators()}, missing);
+  for (const Issue& issue : missing.issues()) {
+    // The object itself is missing, not one of its members.
+    errors.add_missing("", "parameters", "\"parameters\" is missing: in it, " + issue.message);
   }
   return params;
 }
@@ -63,107 +66,128 @@ std::string preset_of_another(const Json& json) {
   const auto preset = preset_requests().find(json["preset"].get_ref<const std::string&>());
   if (preset == preset_requests().end()) return {};
   const auto own = preset->second.request["generator"].get<std::string>();
-  return own == json["generator"] ? std::string() : own;
+  return own == json["generator"].get_ref<const std::string&>() ? std::string() : own;
 }
 
-/// The parameters of a body that is merged over a preset of another generator: one fault for all that is left
-/// of the other's parameters.
+/// The parameters of a body that was merged over a preset of another generator. One error covers all
+/// parameters of the other generator.
 Generator::Params mixed_parameters(const Json& merged, const std::string& other, const Generator& generator,
-                                   const Limits& limits, Faults& faults) {
-  Faults strangers;
-  Generator::Params params = parameters_of(merged, generator, limits, strangers);
-  if (!strangers.empty()) {
+                                   const Limits& limits, IssueList& errors) {
+  IssueList foreign;
+  Generator::Params params = parameters_of(merged, generator, limits, foreign);
+  if (!foreign.empty()) {
     const std::string name(generator.name);
-    faults.add({"/generator", "found \"" + name + "\", but the preset is a request for " + other +
-                                  ", whose parameters are no parameters of " + name});
+    errors.add({IssueKind::conflict, "/generator",
+                "found \"" + name + "\", but the preset is a request for " + other +
+                    ", which has other parameters than " + name});
   }
   return params;
 }
 
-constexpr std::string_view forms_of_models[] = {"glb", "gltf", "zip"};
+bool is_model(const OutputParams& output) { return format_named(text_of(output.format)).is_model; }
 
-bool is_model(const OutputParams& output) {
-  return std::ranges::find(forms_of_models, text_of(output.format)) != std::end(forms_of_models);
-}
-
-/// A form that only other generators have is refused.
-void add_form_fault(const Generator& generator, const OutputParams& output, Faults& faults) {
+/// Refuses a format that only other generators have.
+void check_format(const Generator& generator, const OutputParams& output, IssueList& errors) {
   if (is_model(output)) return;
   const std::string_view format = text_of(output.format);
   std::string known;
-  for (const std::string_view each : forms_of_models)
-    known += std::string(known.empty() ? "" : ", ") + std::string(each);
-  for (const OwnForm& form : generator.forms) {
+  for (const FormatInfo& each : output_formats) {
+    if (each.is_model) known += std::string(known.empty() ? "" : ", ") + std::string(each.name);
+  }
+  for (const OwnFormat& form : generator.formats) {
     if (form.format == format) return;
     known += ", " + std::string(form.format);
   }
-  faults.add({"/output/format", "found \"" + std::string(format) + "\"; the forms of " +
-                                    std::string(generator.name) + " are " + known});
+  errors.add({IssueKind::not_available, "/output/format",
+              "found \"" + std::string(format) + "\"; the formats of " + std::string(generator.name) +
+                  " are " + known});
 }
 
-/// Levels of detail need somebody who reads them, and copies on the GPU too.
-void check_profile(const OutputParams& output, Faults& faults) {
+/// Refuses levels of detail and GPU instances where no reader of the profile supports them.
+void check_profile(const OutputParams& output, IssueList& errors) {
   const Profile& profile = profile_of(output.profile);
   const std::string named = "the profile " + std::string(text_of(output.profile));
   if (output.lods > 1 && output.format != OutputFormat::zip && !profile.lods_inside) {
-    faults.add({"/output/lods", "found " + std::to_string(output.lods) + " levels of detail in the format " +
-                                    std::string(text_of(output.format)) + " with " + named +
-                                    ", which hold one; expected the format zip, or one of the profiles " +
-                                    profiles_where(&Profile::lods_inside)});
+    errors.add({IssueKind::not_available, "/output/lods",
+                "found " + std::to_string(output.lods) + " levels of detail in the format " +
+                    std::string(text_of(output.format)) + " with " + named +
+                    ", which hold one; expected the format zip, or one of the profiles " +
+                    profiles_where(&Profile::lods_inside)});
   }
   if (output.impostor && output.format != OutputFormat::zip && !profile.lods_inside) {
-    faults.add({"/output/impostor", "found an impostor, which is one more level of detail, in the format " +
-                                        std::string(text_of(output.format)) + " with " + named +
-                                        ", which hold one; expected the format zip, or one of the profiles " +
-                                        profiles_where(&Profile::lods_inside)});
+    errors.add({IssueKind::not_available, "/output/impostor",
+                "found an impostor, which is one more level of detail, in the format " +
+                    std::string(text_of(output.format)) + " with " + named +
+                    ", which hold one; expected the format zip, or one of the profiles " +
+                    profiles_where(&Profile::lods_inside)});
   }
   if (output.instancing == OutputInstancing::gpu && !profile.gpu_instances) {
-    faults.add(
-        {"/output/instancing", "found gpu with " + named +
-                                   ", whose readers do not all take it; expected one of the profiles " +
-                                   profiles_where(&Profile::gpu_instances)});
+    errors.add({IssueKind::not_available, "/output/instancing",
+                "found gpu with " + named +
+                    ", which some of its readers do not support; expected one of the profiles " +
+                    profiles_where(&Profile::gpu_instances)});
   }
 }
 
-/// A picture needs texels, and something that stands still.
-void check_impostor(const Generator& generator, const OutputParams& output, Faults& faults) {
+/// An impostor needs texels, and a model that does not move.
+void check_impostor(const Generator& generator, const OutputParams& output, IssueList& errors) {
   if (!output.impostor) return;
-  const auto refuse = [&faults](std::string message) {
-    faults.add({"/output/impostor", std::move(message)});
+  const auto refuse = [&errors](std::string message, IssueKind kind = IssueKind::conflict) {
+    errors.add({kind, "/output/impostor", std::move(message)});
   };
   const auto* size = std::get_if<std::int32_t>(&output.textures);
-  if (!generator.has_impostor) refuse("the generator " + std::string(generator.name) + " makes no impostors");
-  if (!size)
-    refuse("an impostor is a picture, and `textures` is none; expected textures of at least " +
+  const auto* choice = std::get_if<OutputTextures>(&output.textures);
+  if (!generator.has_impostor)
+    refuse("the generator " + std::string(generator.name) + " makes no impostors", IssueKind::not_available);
+  if (choice && *choice == OutputTextures::none)
+    refuse("an impostor is a texture, and `textures` is none; expected textures of at least " +
            std::to_string(least_impostor) + " texels");
   if (size && *size < least_impostor) {
     refuse("found textures of " + std::to_string(*size) + " texels for an impostor; expected at least " +
            std::to_string(least_impostor));
   }
   if (output.animation == OutputParams::Animation::growth)
-    refuse("found an impostor and the growth animation; a picture does not grow");
+    refuse("found an impostor and the growth animation; an impostor cannot grow");
 }
 
-/// What the schema cannot say of the output.
-void check_output(const OutputParams& output, std::uint64_t seed, Faults& faults) {
+/// Linked textures are beside the model, where a file on a disk finds none, and impostors are drawn of their texels.
+void check_links(const OutputParams& output, IssueList& errors) {
+  const auto* choice = std::get_if<OutputTextures>(&output.textures);
+  if (!choice || *choice != OutputTextures::links) return;
+  if (output.format != OutputFormat::glb && output.format != OutputFormat::gltf) {
+    errors.add({IssueKind::conflict, "/output/textures",
+                "found links in the format " + std::string(text_of(output.format)) +
+                    "; expected the format glb or gltf, or textures inside the file"});
+  }
+  if (output.impostor) {
+    errors.add({IssueKind::conflict, "/output/textures",
+                "found links and an impostor, which is drawn of the textures; expected their size, as 512"});
+  }
+}
+
+/// Errors of the output that the schema cannot express.
+void check_output(const OutputParams& output, std::uint64_t seed, IssueList& errors) {
   const auto* size = std::get_if<std::int32_t>(&output.textures);
-  if (size && !std::has_single_bit(static_cast<std::uint32_t>(*size)) && !faults.covers("/output/textures")) {
-    faults.add({"/output/textures", "found " + std::to_string(*size) + "; expected a power of two, as 512"});
+  if (size && !std::has_single_bit(static_cast<std::uint32_t>(*size)) && !errors.covers("/output/textures")) {
+    errors.add({IssueKind::invalid_value, "/output/textures",
+                "found " + std::to_string(*size) + "; expected a power of two, as 512"});
   }
   const auto more = static_cast<std::uint64_t>(output.variants - 1);
   if (seed + more < seed) {
-    faults.add({"/output/variants",
+    errors.add({IssueKind::out_of_range, "/output/variants",
                 "found " + std::to_string(output.variants) + " seeds, of which some would be 2^64 or more"});
   }
-  if (is_model(output)) check_profile(output, faults);  // other forms have none of these options
+  check_links(output, errors);
+  if (is_model(output)) check_profile(output, errors);  // other formats have none of these options
 }
 
-/// What the generator cannot add to its models is refused.
-void check_abilities(const Generator& generator, const OutputParams& output, Faults& faults) {
-  check_impostor(generator, output, faults);
+/// Refuses options that the generator does not support.
+void check_abilities(const Generator& generator, const OutputParams& output, IssueList& errors) {
+  check_impostor(generator, output, errors);
   const auto refuse = [&](const char* option, bool is_wanted, const char* lack) {
     if (is_wanted)
-      faults.add({std::string("/output/") + option, "the generator " + std::string(generator.name) + lack});
+      errors.add({IssueKind::not_available, std::string("/output/") + option,
+                  "the generator " + std::string(generator.name) + lack});
   };
   refuse("animation", output.animation == OutputParams::Animation::growth && !generator.grows,
          " makes no growth animation");
@@ -172,17 +196,17 @@ void check_abilities(const Generator& generator, const OutputParams& output, Fau
          " makes no collision shapes");
 }
 
-/// A form that is no model has no use for what only models have, and the parameters must suit it.
-void check_own_form(const OwnForm& own, const Generator& generator, const Generator::Params& params,
-                    const OutputParams& output, Faults& faults) {
-  // Where parameters are refused already, others stand in for them.
-  const bool sound = std::none_of(faults.issues().begin(), faults.issues().end(), [](const Issue& issue) {
+/// Refuses options of models for a format that is not a model, and parameters that do not suit the format.
+void check_own_format(const OwnFormat& own, const Generator& generator, const Generator::Params& params,
+                      const OutputParams& output, IssueList& errors) {
+  // Refused parameters were replaced by defaults, which are not those of the request.
+  const bool sound = std::none_of(errors.issues().begin(), errors.issues().end(), [](const Issue& issue) {
     return issue.pointer.starts_with("/parameters");
   });
-  if (params && generator.check_form && sound) {
-    for (Issue& issue : generator.check_form(params, wanted_form(output))) {
+  if (params && generator.check_format && sound) {
+    for (Issue& issue : generator.check_format(params, wanted_format(output))) {
       if (!issue.pointer.starts_with("/output/")) issue.pointer = "/parameters" + issue.pointer;
-      faults.add(std::move(issue));
+      errors.add(std::move(issue));
     }
   }
   Json options = write_output(output);
@@ -193,43 +217,42 @@ void check_own_form(const OwnForm& own, const Generator& generator, const Genera
     options.erase("tangents");
   }
   for (const auto& [name, value] : options.items()) {
-    faults.add({"/output/" + name, "found " + value.dump() + " with the format " + std::string(own.format) +
-                                       ", which is no model and has no such option"});
+    errors.add({IssueKind::conflict, "/output/" + name,
+                "found " + value.dump() + " with the format " + std::string(own.format) +
+                    ", which is not a model and does not have this option"});
   }
 }
 
-/// Whether the generator can make what the output asks for. Each option is refused once: of a form that is no
-/// model, for that alone.
+/// Refuses what the generator cannot make. Each option is refused once.
 void check_use(const Generator& generator, const Generator::Params& params, const OutputParams& output,
-               Faults& faults) {
-  const auto is_wanted = [&](const OwnForm& form) { return form.format == text_of(output.format); };
-  const auto own = std::ranges::find_if(generator.forms, is_wanted);
-  if (own == generator.forms.end()) {
-    check_abilities(generator, output, faults);
+               IssueList& errors) {
+  const auto is_wanted = [&](const OwnFormat& form) { return form.format == text_of(output.format); };
+  const auto own = std::ranges::find_if(generator.formats, is_wanted);
+  if (own == generator.formats.end()) {
+    check_abilities(generator, output, errors);
   } else {
-    check_own_form(*own, generator, params, output, faults);
+    check_own_format(*own, generator, params, output, errors);
   }
 }
 
-/// What else is wrong with a body; not that there is null where a number is told of already.
+/// Adds the other errors of a body. Numbers that are too large were read as null; the wrong type there is not
+/// a separate error.
 void add_others(const std::vector<Issue>& others, std::vector<Issue>& issues) {
-  std::set<std::string, std::less<>> told;
-  for (const Issue& issue : issues) told.insert(issue.pointer);
+  std::set<std::string, std::less<>> too_large;
+  for (const Issue& issue : issues) too_large.insert(issue.pointer);
   for (const Issue& issue : others) {
-    if (!issue.message.starts_with("found null") || !told.contains(issue.pointer)) issues.push_back(issue);
+    if (issue.kind != IssueKind::wrong_type || !too_large.contains(issue.pointer)) issues.push_back(issue);
   }
 }
 
-/// A member that stands beside the part of the request that it belongs to is told where that is.
+/// Returns a hint for a member that is outside the part of the request to which it belongs.
 std::vector<Issue> with_parts(std::vector<Issue> issues, const Json& body, const Generator* generator) {
   if (!body.is_object()) return issues;
   for (const auto& [name, value] : body.items()) {
     const std::string_view part = part_with(name, generator ? generator->name : std::string_view());
     if (part.empty()) continue;
     for (Issue& issue : issues) {
-      if (issue.pointer != pointer_token(name) ||
-          issue.message.find("is not known here") == std::string::npos)
-        continue;
+      if (issue.pointer != pointer_token(name) || issue.kind != IssueKind::unknown_key) continue;
       issue.message = "\"" + name + "\" is not known here; it belongs in \"" + std::string(part) + "\"";
     }
   }
@@ -244,25 +267,35 @@ const std::string& Request::canonical() const { return body_->canonical; }
 std::uint64_t Request::seed() const { return body_->seed; }
 
 Result<Request> read_request_body(const Json& json, const Limits& limits) {
-  Faults faults;
-  const Json merged = with_preset(json);
-  const RequestParams frame = read_request(merged, "", faults);
-  if (frame.preset && !faults.covers("/preset")) {
-    faults.add({"/preset", schema::unknown_word("preset", *frame.preset, preset_names())});
+  if (const std::string_view type = schema::geojson_type(json);
+      !type.empty() && !json.contains("generator")) {
+    return Error{
+        Code::invalid,
+        {{IssueKind::wrong_type, "",
+          "found GeoJSON (" + std::string(type) +
+              "), expected a request with \"generator\" or \"preset\"; \"coordinates\" in metres belong "
+              "in one of its parameters, such as \"footprint\" of the generator building"}}};
   }
-  check_output(frame.output, frame.seed, faults);
+  IssueList errors;
+  const Json merged = with_preset(json);
+  const RequestParams frame = read_request(merged, "", errors);
+  if (frame.preset && !errors.covers("/preset")) {
+    errors.add(
+        {IssueKind::unknown_name, "/preset", schema::unknown_word("preset", *frame.preset, preset_names())});
+  }
+  check_output(frame.output, frame.seed, errors);
   Request::Body body;
-  body.generator = named_generator(merged, frame, faults);
+  body.generator = named_generator(merged, frame, errors);
   if (body.generator && (!merged.contains("parameters") || merged["parameters"].is_object())) {
     const std::string other = preset_of_another(json);
-    body.params = other.empty() ? parameters_of(merged, *body.generator, limits, faults)
-                                : mixed_parameters(merged, other, *body.generator, limits, faults);
+    body.params = other.empty() ? parameters_of(merged, *body.generator, limits, errors)
+                                : mixed_parameters(merged, other, *body.generator, limits, errors);
   }
   if (body.generator) {
-    add_form_fault(*body.generator, frame.output, faults);
-    check_use(*body.generator, body.params, frame.output, faults);
+    check_format(*body.generator, frame.output, errors);
+    check_use(*body.generator, body.params, frame.output, errors);
   }
-  if (!faults.empty()) return Error{Code::invalid, with_parts(faults.take(), merged, body.generator)};
+  if (!errors.empty()) return Error{Code::invalid, with_parts(errors.take(), merged, body.generator)};
   body.output = frame.output;
   body.seed = frame.seed;
   body.canonical = canonical_request(body);
@@ -282,13 +315,13 @@ Result<Request> read_request(std::string_view json, const Limits& limits) {
 Result<Request> with_format(const Request& request, std::string_view format) {
   Json output = write_output(request.body().output);
   output["format"] = format;
-  Faults faults;
+  IssueList errors;
   Request::Body body = request.body();
-  body.output = read_output(output, "/output", faults);
-  if (faults.empty()) add_form_fault(*body.generator, body.output, faults);
-  if (faults.empty()) check_output(body.output, body.seed, faults);
-  if (faults.empty()) check_use(*body.generator, body.params, body.output, faults);
-  if (!faults.empty()) return Error{Code::invalid, faults.take()};
+  body.output = read_output(output, "/output", errors);
+  if (errors.empty()) check_format(*body.generator, body.output, errors);
+  if (errors.empty()) check_output(body.output, body.seed, errors);
+  if (errors.empty()) check_use(*body.generator, body.params, body.output, errors);
+  if (!errors.empty()) return Error{Code::invalid, errors.take()};
   body.canonical = canonical_request(body);
   return Request(std::make_shared<const Request::Body>(std::move(body)));
 }

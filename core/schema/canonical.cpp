@@ -60,7 +60,7 @@ void append(std::string& out, const Json& value) {
       break;
     case Json::value_t::number_float: {
       const auto number = value.get<double>();
-      out += std::isfinite(number) ? number_text(number) : "null";  // JSON has no word for it
+      out += std::isfinite(number) ? number_text(number) : "null";  // JSON cannot express it
       break;
     }
     case Json::value_t::string:

@@ -11,37 +11,37 @@ namespace {
 
 constexpr std::string_view known_members[] = {"generator", "parameters", "preset", "seed"};
 
-void refuse_unknown_preset(const Place& place) {
-  const auto at = place.member("preset");
+void refuse_unknown_preset(const Location& location) {
+  const auto at = location.member("preset");
   if (!at) return;
-  const std::size_t faults_before = place.faults().issues().size();
+  const std::size_t issues_before = location.issue_list().issues().size();
   std::string name;
   read_text(*at, {.form = &forms::preset_name}, name);
-  if (place.faults().issues().size() != faults_before || preset_requests().contains(name)) return;
-  at->fault(unknown_word("preset", name, preset_names()));
+  if (location.issue_list().issues().size() != issues_before || preset_requests().contains(name)) return;
+  at->report(IssueKind::unknown_name, unknown_word("preset", name, preset_names()));
 }
 
-/// The request as it stands there, its preset under it.
-Json merged_request(const Place& place) {
-  Json merged = with_preset(place.value());
+/// The inner request merged over its preset.
+Json merged_request(const Location& location) {
+  Json merged = with_preset(location.value());
   merged.erase("preset");
-  merged.erase("output");  // of the preset: what comes back is the outer request's business
+  merged.erase("output");  // the outer request decides on the output
   return merged;
 }
 
 }  // namespace
 
-void read_child(const Place& place, Child& out) {
-  if (!check_members(place, known_members, {})) return;
-  refuse_unknown_preset(place);
-  const Json merged = merged_request(place);
-  const std::string pointer = place.pointer();
-  const Place inner(merged, pointer, place.faults());
+void read_child(const Location& location, Child& out) {
+  if (!check_members(location, known_members, {})) return;
+  refuse_unknown_preset(location);
+  const Json merged = merged_request(location);
+  const std::string pointer = location.pointer();
+  const Location inner(merged, pointer, location.issue_list());
   if (const auto at = inner.member("generator")) {
     read_text(*at, {}, out.generator);
-  } else if (!place.value().contains("preset")) {
-    place.faults().add_missing(place.pointer(), "generator",
-                               "\"generator\" is missing, and no \"preset\" tells it");
+  } else if (!location.value().contains("preset")) {
+    location.issue_list().add_missing(location.pointer(), "generator",
+                                      "\"generator\" is missing, and there is no \"preset\" that names one");
   }
   if (const auto at = inner.member("seed")) read_seed(*at, out.seed.emplace());
   if (const auto at = inner.member("parameters")) {

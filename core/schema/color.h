@@ -6,7 +6,7 @@
 
 namespace seedmesh {
 
-/// A colour in sRGB, 8 bits a channel, as it stands in a request.
+/// A colour in sRGB with 8 bits a channel, as a request writes it.
 struct Color {
   std::uint8_t red = 0, green = 0, blue = 0;
 
@@ -16,7 +16,7 @@ struct Color {
 /// "#rrggbb" in hexadecimal digits of either case; anything else is nullopt.
 std::optional<Color> color_of(std::string_view text);
 
-/// "#rrggbb" in small letters.
+/// "#rrggbb" in lower case.
 std::string text_of(const Color& color);
 
 }  // namespace seedmesh

@@ -1,5 +1,5 @@
 #pragma once
-/// The texts of api_schema inside the program, made at build time (generated/embedded.cpp).
+/// The files of api_schema as texts inside the program. The build generates them (generated/embedded.cpp).
 #include <span>
 #include <string_view>
 
@@ -10,13 +10,13 @@ struct EmbeddedText {
   std::string_view text;  ///< JSON
 };
 
-/// Schemas without references, sorted by name: "lsystem", "output", "problem", "request", ...
+/// The schemas with all references resolved, sorted by name: "lsystem", "output", "problem", "request", ...
 std::span<const EmbeddedText> embedded_schemas();
 
-/// Preset files, sorted by name: {title, description, tags, generator, seed?, parameters, output?}.
+/// The preset files, sorted by name: {title, description, tags, generator, seed?, parameters, output?}.
 std::span<const EmbeddedText> embedded_presets();
 
-/// OpenAPI 3.1 with the schemas as components.
+/// The OpenAPI 3.1 document, with the schemas as components.
 std::string_view embedded_openapi();
 
 }  // namespace seedmesh

@@ -7,7 +7,7 @@
 namespace seedmesh::schema {
 namespace {
 
-// Character classes by hand: those of <cctype> depend on the locale.
+// The functions of <cctype> depend on the locale.
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_small(char c) { return c >= 'a' && c <= 'z'; }
 bool is_letter(char c) { return is_small(c) || (c >= 'A' && c <= 'Z'); }
@@ -34,7 +34,7 @@ namespace forms {
 const Form color = {"^#[0-9a-fA-F]{6}$", "color", "a colour such as #8c6b4f", is_color};
 const Form name = {"^[A-Za-z_][A-Za-z0-9_]*$", "name",
                    "a name of letters, digits and _ that does not begin with a digit", is_name};
-const Form preset_name = {"^[a-z0-9_-]+$", "preset_name", "a name of small letters, digits, - and _",
+const Form preset_name = {"^[a-z0-9_-]+$", "preset_name", "a name of lower-case letters, digits, - and _",
                           is_preset_name};
 const Form digits = {"^[0-9]{1,20}$", "digits", "1 to 20 decimal digits", is_digits};
 }  // namespace forms

@@ -1,5 +1,5 @@
 #pragma once
-/// JSON as the service takes and gives it: one strict way in, one canonical way out.
+/// JSON of the service: one strict parser, and one canonical text.
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -9,43 +9,41 @@
 
 namespace seedmesh {
 
-/// Members of objects are sorted by their bytes, so that walking a value is deterministic.
+/// Members of objects are sorted by the bytes of their keys, so that iteration is deterministic.
 using Json = nlohmann::json;
 
-/// How far a text may go before it is refused unread.
+/// The limits of parse_json.
 struct JsonLimits {
-  std::size_t depth = 64;          ///< nested lists and objects
-  std::size_t values = 2'000'000;  ///< values of any kind: a value costs up to 80 bytes where the text has 2
+  std::size_t depth = 64;          ///< of nested lists and objects
+  std::size_t values = 2'000'000;  ///< of any type; a value takes up to 80 bytes, its text as few as 2
 };
 
-/// Reads RFC 8259 and nothing more: duplicate members, bad UTF-8, text after the value, NaN and comments are
-/// Code::malformed, at the line and column of the whole text where that is known. Never throws but for want
-/// of memory, never recurses. Numbers: integers up to 64 bits are exact, -0 becomes 0, an integer beyond
-/// becomes the nearest double; a number beyond a double (1e999) is Code::invalid at its own pointer. Cost:
-/// linear.
+/// Parses a JSON text strictly after RFC 8259. Duplicate members, invalid UTF-8, text after the value, NaN and
+/// comments are Code::malformed, with line and column in the whole text where they are known. Integers of up to
+/// 64 bits are exact, larger ones become the nearest double, and -0 becomes 0. A number beyond the range of a
+/// double (1e999) is Code::invalid at its own pointer. Throws only std::bad_alloc; does not recurse. Cost: linear.
 Result<Json> parse_json(std::string_view text, const JsonLimits& limits = {});
 
-/// The canonical text: no spaces, members sorted, numbers as ECMAScript prints them (7.0 is 7), only what
-/// must be escaped escaped. Equal values give equal texts. A NaN or infinity is a broken promise of the
-/// caller.
+/// The canonical text: no spaces, sorted members, numbers as ECMAScript prints them (7.0 is 7), and escapes only
+/// where JSON requires them. Equal values give equal texts. All numbers have to be finite.
 std::string canonical_text(const Json& value);
 
-/// RFC 7396: `patch` over `target`; objects member by member, null removes, anything else replaces. Recurses
-/// as deep as the patch, which parse_json has bounded.
+/// Applies a JSON Merge Patch (RFC 7396): objects are merged member by member, null removes a member, and any
+/// other value replaces the old one. Recurses as deep as the patch, whose depth parse_json bounds.
 void merge_patch(Json& target, const Json& patch);
 
-/// One reference token of a JSON Pointer (RFC 6901) with its leading slash: "a/b" gives "/a~1b".
+/// One reference token of a JSON Pointer (RFC 6901), with its leading slash: "a/b" gives "/a~1b".
 std::string pointer_token(std::string_view key);
 
-/// The decimal digits ECMAScript's Number::toString gives (ECMA-262, 6.1.6.1.20): the shortest that read back
-/// as the same double. 1e21 and more, and below 1e-6, get an exponent; -0 gives "0". Finite numbers only.
+/// The text of ECMAScript's Number::toString (ECMA-262, 6.1.6.1.20): the fewest digits that read back as the
+/// same double. Numbers from 1e21 and below 1e-6 get an exponent; -0 gives "0". `number` has to be finite.
 std::string number_text(double number);
 
-/// Is it UTF-8 throughout (no overlong forms, no surrogates, nothing above U+10FFFF)? Gives the offset of the
-/// first byte that is not, or std::string_view::npos.
+/// The offset of the first byte that is not valid UTF-8, or npos. Overlong forms, surrogates and code points
+/// above U+10FFFF are invalid.
 std::size_t find_bad_utf8(std::string_view text);
 
-/// The first `most` characters of UTF-8 `text`, with "…" where some were left off: for messages.
+/// The first `most` code points of UTF-8 `text`, followed by "…" if there are more. For messages.
 std::string shortened(std::string_view text, std::size_t most);
 
 }  // namespace seedmesh

@@ -15,7 +15,7 @@ namespace {
 constexpr int number_out_of_range = 406;  ///< nlohmann's id of "number overflow"
 constexpr std::size_t most_too_large = 100;
 
-/// A number beyond a double in whose place a null stands: which of all nulls, and the number as written.
+/// A number beyond the range of a double that was replaced by null: the index among all nulls, and its text.
 struct TooLarge {
   std::size_t null = 0;
   std::string written;
@@ -25,8 +25,8 @@ std::string too_large_text(std::string_view number) {
   return "found " + shortened(number, 40) + ", which is too large for a number";
 }
 
-/// Builds the value from the parser's events. Every event answers whether to go on; a fault stops the parser
-/// and stays in `error`.
+/// Builds the value from the events of the parser. Each event returns whether to go on; the first error stops the
+/// parser and is kept in `error`.
 class Builder {
  public:
   Builder(std::string_view text, const JsonLimits& limits) : text_(text), limits_(limits) {}
@@ -35,7 +35,7 @@ class Builder {
   bool is_too_large = false;  ///< the error is a number beyond a double
   Json root;
 
-  /// Nulls that stand for numbers, in the order of the text, and where their faults go.
+  /// The nulls that replace numbers, in the order of the text. Their errors go to `issues`.
   void expect(std::span<const TooLarge> numbers, std::vector<Issue>& issues) {
     numbers_ = numbers;
     issues_ = &issues;
@@ -43,7 +43,7 @@ class Builder {
 
   bool null() {
     if (!numbers_.empty() && numbers_.front().null == nulls_) {
-      issues_->push_back({pointer(), too_large_text(numbers_.front().written)});
+      issues_->push_back({IssueKind::out_of_range, pointer(), too_large_text(numbers_.front().written)});
       numbers_ = numbers_.subspan(1);
     }
     ++nulls_;
@@ -52,7 +52,11 @@ class Builder {
   bool boolean(bool value) { return add(value); }
   bool number_integer(std::int64_t value) { return add(value); }
   bool number_unsigned(std::uint64_t value) { return add(value); }
-  bool number_float(double value, const std::string&) { return add(value == 0 ? 0.0 : value); }
+  bool number_float(double value, const std::string& written) {
+    // A seed beyond 64 bits stays a text, so that its error repeats all digits.
+    if (key_ == "seed" && written.find_first_not_of("-0123456789") == std::string::npos) return add(written);
+    return add(value == 0 ? 0.0 : value);
+  }
   bool string(std::string& value) { return add(std::move(value)); }
   bool binary(Json::binary_t&) { return false; }
 
@@ -64,21 +68,22 @@ class Builder {
   bool key(std::string& name) {
     if (open_.back()->contains(name)) {
       key_ = name;
-      return refuse(Code::malformed, {pointer(), "\"" + shortened(name, 40) + "\" stands here twice"});
+      return refuse(Code::malformed,
+                    {IssueKind::duplicate_key, pointer(), "\"" + shortened(name, 40) + "\" is given twice"});
     }
     key_ = std::move(name);
     return true;
   }
 
-  bool parse_error(std::size_t position, const std::string& token, const Json::exception& fault) {
-    if (fault.id == number_out_of_range) {
+  bool parse_error(std::size_t position, const std::string& token, const Json::exception& failure) {
+    if (failure.id == number_out_of_range) {
       is_too_large = true;
-      return refuse(Code::invalid, {pointer(), too_large_text(token)});
+      return refuse(Code::invalid, {IssueKind::out_of_range, pointer(), too_large_text(token)});
     }
     // `position` counts the characters read, the offending one included.
     const std::size_t offset = std::min(position == 0 ? 0 : position - 1, text_.size());
     return refuse(Code::malformed,
-                  issue_at("", text_, offset, "this is not JSON: " + unexpected(offset) + expected(fault)));
+                  issue_at(IssueKind::syntax, "", text_, offset, "this is not JSON: " + unexpected(offset)));
   }
 
  private:
@@ -86,7 +91,9 @@ class Builder {
 
   bool open(Json container) {
     if (open_.size() == limits_.depth) {
-      return refuse(Code::malformed, {"", "nested deeper than " + std::to_string(limits_.depth) + " levels"});
+      return refuse(Code::malformed,
+                    limit_issue({Resource::depth, limits_.depth, limits_.depth + 1},
+                                "nested deeper than " + std::to_string(limits_.depth) + " levels"));
     }
     Json* const place = put(std::move(container));
     if (place) {
@@ -103,10 +110,11 @@ class Builder {
     return true;
   }
 
-  /// Puts a value where it belongs and gives its address, which holds until its list gets the next entry.
+  /// Inserts a value. Its address is valid until the list around it gets the next entry.
   Json* put(Json value) {
     if (++values_ > limits_.values) {
-      refuse(Code::limit, {"", "more than " + std::to_string(limits_.values) + " JSON values"});
+      refuse(Code::limit, limit_issue({Resource::json_values, limits_.values, values_},
+                                      "more than " + std::to_string(limits_.values) + " JSON values"));
       return nullptr;
     }
     if (open_.empty()) return &(root = std::move(value));
@@ -116,7 +124,7 @@ class Builder {
     return &parent.back();
   }
 
-  /// The way to the value that comes next.
+  /// The pointer of the value that comes next.
   std::string pointer() const {
     std::string text;
     for (std::size_t i = 0; i < open_.size(); ++i) {
@@ -136,25 +144,17 @@ class Builder {
   }
 
   std::string unexpected(std::size_t offset) const {
-    if (offset == text_.size()) return "it ends too early";
+    if (offset == text_.size()) return "the text ends too early";
     std::size_t end = offset + 1;
     while (end < text_.size() && (static_cast<unsigned char>(text_[end]) & 0xC0U) == 0x80U) ++end;
     return "unexpected \"" + std::string(text_.substr(offset, end - offset)) + "\"";
   }
 
-  /// What the parser would have taken instead; its own words, which are plain.
-  static std::string expected(const Json::exception& fault) {
-    const std::string_view words = fault.what();
-    const std::size_t at = words.rfind("; expected ");
-    return at == std::string_view::npos ? "" : std::string(words.substr(at));
-  }
-
   std::string_view text_;
   JsonLimits limits_;
-  std::vector<Json*> open_;  ///< the containers that are not closed yet, outermost first
-  std::vector<std::string>
-      keys_;         ///< for each open container the key it stands at in its parent, if that is an object
-  std::string key_;  ///< of the value that comes next
+  std::vector<Json*> open_;        ///< the open lists and objects, outermost first
+  std::vector<std::string> keys_;  ///< for each open container its key in its parent, if that is an object
+  std::string key_;                ///< of the value that comes next
   std::size_t values_ = 0;
   std::size_t nulls_ = 0;
   std::span<const TooLarge> numbers_;
@@ -171,7 +171,7 @@ bool is_beyond_double(const std::string& number) {
   return error == std::errc::result_out_of_range && std::isinf(std::strtod(number.c_str(), nullptr));
 }
 
-/// Puts null in the place of the numbers beyond a double. The text is JSON at least up to the first of them.
+/// Replaces numbers beyond the range of a double by null. The text is valid JSON up to the first of them.
 std::vector<TooLarge> blank_too_large(std::string& text) {
   constexpr std::string_view null = "null";
   std::vector<TooLarge> found;
@@ -199,10 +199,10 @@ std::vector<TooLarge> blank_too_large(std::string& text) {
 Result<Json> parse_with(Builder& builder, std::string_view text) {
   constexpr std::string_view blank = " \t\r\n";
   if (text.find_first_not_of(blank) == std::string_view::npos) {
-    return Error{Code::malformed, {{"", "the body is empty, expected a JSON object"}}};
+    return Error{Code::malformed, {{IssueKind::syntax, "", "the body is empty, expected a JSON object"}}};
   }
   if (const std::size_t bad = find_bad_utf8(text); bad != std::string_view::npos) {
-    return Error{Code::malformed, {issue_at("", text, bad, "this is not UTF-8")}};
+    return Error{Code::malformed, {issue_at(IssueKind::syntax, "", text, bad, "this is not UTF-8")}};
   }
   if (!Json::sax_parse(text.begin(), text.end(), &builder)) return *std::move(builder.error);
   return std::move(builder.root);

@@ -1,6 +1,6 @@
 #pragma once
-/// A body whose faults are to come all at once: a number that is too large for a double does not end the
-/// reading.
+/// The parser for request bodies. It goes on after a number that is too large for a double, so that all errors of
+/// the body are reported together.
 #include <nlohmann/json_fwd.hpp>
 #include <string_view>
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace seedmesh {
 
-/// As parse_json, but numbers beyond a double (1e999) come as null, each with an Issue at its pointer; of
-/// more than a hundred the first. Cost: as parse_json, twice where there is such a number.
+/// As parse_json, but a number beyond the range of a double (1e999) becomes null and adds an error to `too_large`,
+/// for at most 100 numbers. Cost: that of parse_json, and twice that if there is such a number.
 Result<Json> parse_body(std::string_view text, std::vector<Issue>& too_large);
 
 }  // namespace seedmesh

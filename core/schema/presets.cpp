@@ -5,7 +5,7 @@
 namespace seedmesh {
 namespace {
 
-/// What a preset file has beside the request.
+/// The members of a preset file that are not part of the request.
 constexpr std::string_view gallery_members[] = {"title", "description", "tags"};
 
 Preset preset_of(const EmbeddedText& row) {

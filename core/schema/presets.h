@@ -1,5 +1,5 @@
 #pragma once
-/// The presets that are shipped inside, parsed.
+/// The presets that the program contains, parsed.
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -12,17 +12,17 @@ namespace seedmesh {
 
 struct Preset {
   Json request;              ///< {generator, seed?, parameters, output?}
-  std::string request_text;  ///< the same in the order of its author
+  std::string request_text;  ///< the same, with members in the order of the file
 };
 
-/// By name. Made once, on first use; safe on any number of threads.
+/// All presets by name. Parsed once, on first use; thread-safe.
 const std::map<std::string, Preset, std::less<>>& preset_requests();
 
 /// The names of all presets, sorted.
 std::vector<std::string_view> preset_names();
 
-/// `json` merged over the preset that it names; or as it is, `preset` included, where it names none that
-/// there is.
+/// The request `json` merged over the preset that it names, without its member "preset". Unchanged if it names no
+/// preset, or one that does not exist.
 Json with_preset(const Json& json);
 
 }  // namespace seedmesh

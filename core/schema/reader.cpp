@@ -11,10 +11,12 @@
 namespace seedmesh::schema {
 namespace {
 
-constexpr std::size_t quoted = 40;  ///< characters of a text that a message repeats
+constexpr std::size_t quoted = 40;  ///< code points of a text that a message quotes
 
-/// What stands there, for a human who looks for it in the request.
+/// The value as a message names it.
 std::string found(const Json& value) {
+  if (const std::string_view geometry = geojson_type(value); !geometry.empty())
+    return "GeoJSON (" + std::string(geometry) + ")";
   switch (value.type()) {
     case Json::value_t::boolean:
       return value.get<bool>() ? "true" : "false";
@@ -40,7 +42,7 @@ std::size_t count_characters(std::string_view text) {
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-/// "from 0 to 1", "of at least 3", "of at most 7", "above 0" or nothing; with the blank before it.
+/// "from 0 to 1", "of at least 3", "of at most 7", "above 0" or nothing; with a leading space.
 std::string range_words(const std::optional<std::string>& minimum,
                         const std::optional<std::string>& maximum) {
   if (minimum && maximum) return " from " + *minimum + " to " + *maximum;
@@ -66,7 +68,7 @@ std::string words_for(const IntegerRule& rule) {
   return "an integer" + range_words(minimum, maximum);
 }
 
-/// What is counted, once and many times.
+/// A noun in the singular and in the plural.
 struct Counted {
   std::string_view one, many;
 };
@@ -91,14 +93,15 @@ std::string count_words(std::size_t least, std::size_t most, const Counted& what
   return words.append(" ").append(last == 1 ? what.one : what.many);
 }
 
-/// Adds a fault where there are too many or too few.
-void check_count(const Place& place, std::size_t count, std::size_t least, std::size_t most,
+/// Reports a count outside of its range.
+void check_count(const Location& location, std::size_t count, std::size_t least, std::size_t most,
                  const Counted& what) {
   if (count >= least && count <= most) return;
-  place.fault("found " + count_words(count, count, what) + ", expected " + count_words(least, most, what));
+  location.report(IssueKind::out_of_range, "found " + count_words(count, count, what) + ", expected " +
+                                               count_words(least, most, what));
 }
 
-/// Whole numbers come as 5 or as 5.0; JSON knows no difference. Nullopt: not whole, or beyond 64 bits.
+/// JSON does not distinguish 5 and 5.0. Nullopt: a fraction, or beyond 64 bits.
 std::optional<std::int64_t> whole_number(const Json& value) {
   if (value.is_number_unsigned()) {
     const auto number = value.get<std::uint64_t>();
@@ -124,7 +127,20 @@ std::string listed(std::span<const std::string_view> words) {
 
 }  // namespace
 
-JsonKind Place::kind() const {
+std::string_view geojson_type(const Json& value) {
+  static constexpr std::string_view types[] = {
+      "Point",        "MultiPoint",         "LineString", "MultiLineString",  "Polygon",
+      "MultiPolygon", "GeometryCollection", "Feature",    "FeatureCollection"};
+  if (!value.is_object()) return {};
+  const auto type = value.find("type");
+  if (type == value.end() || !type->is_string()) return {};
+  const bool has_content = value.contains("coordinates") || value.contains("geometries") ||
+                           value.contains("geometry") || value.contains("features");
+  const auto found_type = std::ranges::find(types, type->get_ref<const std::string&>());
+  return has_content && found_type != std::end(types) ? *found_type : std::string_view();
+}
+
+JsonKind Location::kind() const {
   switch (value_->type()) {
     case Json::value_t::boolean:
       return JsonKind::flag;
@@ -143,183 +159,192 @@ JsonKind Place::kind() const {
   }
 }
 
-std::string Place::pointer() const {
+std::string Location::pointer() const {
   if (!parent_) return std::string(token_);
   if (index_ != npos) return parent_->pointer() + "/" + std::to_string(index_);
   return parent_->pointer() + pointer_token(token_);
 }
 
-std::optional<Place> Place::member(std::string_view key) const {
+std::optional<Location> Location::member(std::string_view key) const {
   const auto found_member = value_->find(key);
   if (found_member == value_->end()) return std::nullopt;
   return child(*found_member, key);
 }
 
-void Place::expected(std::string_view what) const {
-  if (faults_->full()) return faults_->count();
-  fault("found " + found(*value_) + ", expected " + std::string(what));
+void Location::expected(std::string_view what, IssueKind kind) const {
+  if (issues_->full()) return issues_->count();
+  std::string message = "found " + found(*value_) + ", expected " + std::string(what);
+  if (!geojson_type(*value_).empty()) message += "; \"coordinates\" of a geometry are one, in metres here";
+  report(kind, std::move(message));
 }
 
-void Place::fault(std::string message) const {
-  if (faults_->full()) return faults_->count();
-  faults_->add({pointer(), std::move(message)});
+void Location::report(IssueKind kind, std::string message) const {
+  if (issues_->full()) return issues_->count();
+  issues_->add({kind, pointer(), std::move(message)});
 }
 
-void read_flag(const Place& place, bool& out) {
-  if (place.kind() == JsonKind::flag) {
-    out = place.value().get<bool>();
+void read_flag(const Location& location, bool& out) {
+  if (location.kind() == JsonKind::flag) {
+    out = location.value().get<bool>();
   } else {
-    place.expected("true or false");
+    location.expected("true or false");
   }
 }
 
-void read_number(const Place& place, const NumberRule& rule, double& out) {
-  const double number = place.kind() == JsonKind::number ? place.value().get<double>() : 0;
-  const bool inside = number >= rule.minimum && number <= rule.maximum && number > rule.above;
-  if (place.kind() == JsonKind::number && inside) {
+void read_number(const Location& location, const NumberRule& rule, double& out) {
+  if (location.kind() != JsonKind::number) return location.expected(words_for(rule));
+  const auto number = location.value().get<double>();
+  if (number >= rule.minimum && number <= rule.maximum && number > rule.above) {
     out = number;
   } else {
-    place.expected(words_for(rule));
+    location.expected(words_for(rule), IssueKind::out_of_range);
   }
 }
 
-void read_integer(const Place& place, const IntegerRule& rule, std::int64_t& out) {
-  const auto number = place.kind() == JsonKind::number ? whole_number(place.value()) : std::nullopt;
+void read_integer(const Location& location, const IntegerRule& rule, std::int64_t& out) {
+  if (location.kind() != JsonKind::number) return location.expected(words_for(rule));
+  const auto number = whole_number(location.value());
   if (number && *number >= rule.minimum && *number <= rule.maximum) {
     out = *number;
   } else {
-    place.expected(words_for(rule));
+    location.expected(words_for(rule), number ? IssueKind::out_of_range : IssueKind::wrong_type);
   }
 }
 
-void read_integer(const Place& place, const IntegerRule& rule, std::int32_t& out) {
+void read_integer(const Location& location, const IntegerRule& rule, std::int32_t& out) {
   std::int64_t wide = out;
-  read_integer(place, rule, wide);
-  out = static_cast<std::int32_t>(wide);  // the tool takes 32 bits only where the rule fits into them
+  read_integer(location, rule, wide);
+  out =
+      static_cast<std::int32_t>(wide);  // the generated code uses 32 bits only if the range of the rule fits
 }
 
-void read_text(const Place& place, const TextRule& rule, std::string& out) {
-  if (place.kind() != JsonKind::text) return place.expected(rule.form ? rule.form->expected : "a text");
-  const auto& text = place.value().get_ref<const std::string&>();
-  if (rule.form && !rule.form->accepts(text)) return place.expected(rule.form->expected);
+void read_text(const Location& location, const TextRule& rule, std::string& out) {
+  if (location.kind() != JsonKind::text) return location.expected(rule.form ? rule.form->expected : "a text");
+  const auto& text = location.value().get_ref<const std::string&>();
+  if (rule.form && !rule.form->accepts(text))
+    return location.expected(rule.form->expected, IssueKind::invalid_value);
   const std::size_t length = count_characters(text);
   if (length < rule.least || length > rule.most)
-    return check_count(place, length, rule.least, rule.most, characters);
+    return check_count(location, length, rule.least, rule.most, characters);
   out = text;
 }
 
-void read_color(const Place& place, Color& out) {
-  const auto* const text = place.value().get_ptr<const std::string*>();
+void read_color(const Location& location, Color& out) {
+  const auto* const text = location.value().get_ptr<const std::string*>();
   if (const auto color = text ? color_of(*text) : std::nullopt) {
     out = *color;
   } else {
-    place.expected(forms::color.expected);
+    location.expected(forms::color.expected, text ? IssueKind::invalid_value : IssueKind::wrong_type);
   }
 }
 
-void read_seed(const Place& place, std::uint64_t& out) {
+void read_seed(const Location& location, std::uint64_t& out) {
   constexpr std::string_view what =
       "an integer from 0 to 18446744073709551615, or its decimal digits as a text";
-  const Json& value = place.value();
+  const Json& value = location.value();
   if (value.is_number_unsigned()) {
     out = value.get<std::uint64_t>();
   } else if (value.is_number_float()) {
     const double number = value.get<double>();
-    // Integers of 2^64 and more come as doubles too; 2^64 itself is the first that does not fit.
-    if (std::floor(number) != number || number < 0 || number >= 0x1p64) return place.expected(what);
+    // The parser turns integers of 2^64 and more into doubles.
+    if (std::floor(number) != number || number < 0 || number >= 0x1p64)
+      return location.expected(what, IssueKind::out_of_range);
     out = static_cast<std::uint64_t>(number);
   } else if (value.is_string()) {
     const auto& text = value.get_ref<const std::string&>();
     std::uint64_t number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (!forms::digits.accepts(text) || error != std::errc{} || end != text.data() + text.size()) {
-      return place.expected(what);
+      const bool is_large = error == std::errc::result_out_of_range;
+      return location.expected(what, is_large ? IssueKind::out_of_range : IssueKind::invalid_value);
     }
     out = number;
   } else if (value.is_number_integer() && value.get<std::int64_t>() >= 0) {
     out = static_cast<std::uint64_t>(value.get<std::int64_t>());
   } else {
-    place.expected(what);
+    location.expected(what, value.is_number() ? IssueKind::out_of_range : IssueKind::wrong_type);
   }
 }
 
-void read_free_object(const Place& place) {
-  if (place.kind() != JsonKind::object) place.expected("an object");
+void read_free_object(const Location& location) {
+  if (location.kind() != JsonKind::object) location.expected("an object");
 }
 
-std::optional<std::size_t> read_word(const Place& place, std::span<const std::string_view> words,
+std::optional<std::size_t> read_word(const Location& location, std::span<const std::string_view> words,
                                      std::string_view beside) {
   const std::string other = beside.empty() ? "" : std::string(beside) + " or ";
   const std::string what = other + (words.size() == 1 ? "" : "one of ") + listed(words);
-  if (place.kind() != JsonKind::text) {
-    place.expected(what);
+  if (location.kind() != JsonKind::text) {
+    location.expected(what);
     return std::nullopt;
   }
-  const auto& text = place.value().get_ref<const std::string&>();
+  const auto& text = location.value().get_ref<const std::string&>();
   const auto word = std::ranges::find(words, std::string_view(text));
   if (word == words.end()) {
-    place.expected(what + hint(text, words));
+    location.expected(what + hint(text, words), IssueKind::invalid_value);
     return std::nullopt;
   }
   return static_cast<std::size_t>(word - words.begin());
 }
 
-bool check_members(const Place& place, std::span<const std::string_view> known,
+bool check_members(const Location& location, std::span<const std::string_view> known,
                    std::initializer_list<std::string_view> required) {
-  if (place.kind() != JsonKind::object) {
-    place.expected("an object");
+  if (location.kind() != JsonKind::object) {
+    location.expected("an object");
     return false;
   }
   for (const std::string_view name : required) {
-    if (place.value().contains(name)) continue;
-    place.faults().add_missing(place.pointer(), name, "\"" + std::string(name) + "\" is missing");
+    if (location.value().contains(name)) continue;
+    location.issue_list().add_missing(location.pointer(), name, "\"" + std::string(name) + "\" is missing");
   }
-  bool is_listed = false;  // once for all strangers of an object
-  for (const auto& [key, value] : place.value().get_ref<const Json::object_t&>()) {
+  bool is_listed = false;  // the known names are listed once for all unknown members
+  for (const auto& [key, value] : location.value().get_ref<const Json::object_t&>()) {
     if (std::ranges::find(known, std::string_view(key)) != known.end()) continue;
-    if (place.faults().full()) {
-      place.faults().count();
+    if (location.issue_list().full()) {
+      location.issue_list().count();
       continue;
     }
     std::string help = hint(key, known);
     if (help.empty() && !std::exchange(is_listed, true)) help = "; known are " + listed(known);
-    place.child(value, key).fault("\"" + shortened(key, quoted) + "\" is not known here" + help);
+    location.child(value, key)
+        .report(IssueKind::unknown_key, "\"" + shortened(key, quoted) + "\" is not known here" + help);
   }
   return true;
 }
 
-bool check_list(const Place& place, const CountRule& rule) {
-  if (place.kind() != JsonKind::list) {
-    place.expected("a list");
+bool check_list(const Location& location, const CountRule& rule) {
+  if (location.kind() != JsonKind::list) {
+    location.expected("a list");
     return false;
   }
-  check_count(place, place.value().size(), rule.least, rule.most, entries);
+  check_count(location, location.value().size(), rule.least, rule.most, entries);
   return true;
 }
 
-bool check_nesting(const Place& place, std::string_view entry, std::string_view inner) {
-  const Json& list = place.value();
+bool check_nesting(const Location& location, std::string_view entry, std::string_view inner) {
+  const Json& list = location.value();
   if (!list.is_array() || list.empty() || !list[0].is_array() || list[0].empty() || list[0][0].is_array())
     return true;
-  place.fault("found lists of numbers, expected one list more around them: each entry is a " +
-              std::string(entry) + ", and each entry of that a " + std::string(inner) +
-              ", as in [[[0, 0], …]]");
+  location.report(IssueKind::wrong_type,
+                  "found lists of numbers, expected one list more around them: each entry is a " +
+                      std::string(entry) + ", and each entry of that a " + std::string(inner) +
+                      ", as in [[[0, 0], …]]");
   return false;
 }
 
-bool check_map(const Place& place, const CountRule& rule) {
-  if (place.kind() != JsonKind::object) {
-    place.expected("an object");
+bool check_map(const Location& location, const CountRule& rule) {
+  if (location.kind() != JsonKind::object) {
+    location.expected("an object");
     return false;
   }
-  check_count(place, place.value().size(), rule.least, rule.most, members);
+  check_count(location, location.value().size(), rule.least, rule.most, members);
   return true;
 }
 
-void check_key(const Place& entry, std::string_view key, const CountRule& rule) {
+void check_key(const Location& entry, std::string_view key, const CountRule& rule) {
   if (!rule.names || rule.names->accepts(key)) return;
-  entry.fault("\"" + shortened(key, quoted) + "\" is not a good name; expected " +
-              std::string(rule.names->expected));
+  entry.report(IssueKind::invalid_value, "\"" + shortened(key, quoted) + "\" is not a good name; expected " +
+                                             std::string(rule.names->expected));
 }
 
 }  // namespace seedmesh::schema

@@ -5,8 +5,8 @@
 namespace seedmesh {
 namespace {
 
-/// How a character that begins with `lead` goes on: bytes in all (0: it cannot begin one) and the range of
-/// the second byte, which keeps out overlong forms, surrogates and what is above U+10FFFF (The Unicode
+/// The bytes of a code point that begins with `lead`: their number (0: no code point begins so) and the range of
+/// the second byte. The range excludes overlong forms, surrogates and code points above U+10FFFF (The Unicode
 /// Standard, table 3-7).
 struct Shape {
   std::size_t length = 0;

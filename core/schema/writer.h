@@ -1,6 +1,6 @@
 #pragma once
-/// What the writers made from api_schema are built of. Includes the whole of nlohmann/json: for .cpp files
-/// only.
+/// Functions that the generated writers of api_schema call. Includes the whole of nlohmann/json, so only .cpp
+/// files may include it.
 #include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@
 
 namespace seedmesh::schema {
 
-/// A number where JavaScript reads it exactly, else its digits as a text.
+/// A number if JavaScript reads it exactly, else its digits as a text.
 Json write_seed(std::uint64_t seed);
 
 Json write_child(const Child& child);

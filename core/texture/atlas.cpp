@@ -50,7 +50,7 @@ Texel texel_of(const Canvas& canvas, std::uint32_t x, std::uint32_t y, std::uint
   return texel;
 }
 
-/// The count from which texels are there, so that their number is that of the samples.
+/// The threshold of coverage for which as many texels are drawn as samples.
 std::uint32_t limit_of(const std::vector<Texel>& texels, std::uint32_t whole) {
   std::vector<std::size_t> with(whole + 1, 0);
   std::size_t covered = 0;
@@ -66,7 +66,7 @@ std::uint32_t limit_of(const std::vector<Texel>& texels, std::uint32_t whole) {
   return 1;
 }
 
-/// Straight from 0 to the cutoff at the limit, and on to 1.
+/// A piecewise linear map: 0 to 0, the limit to the cutoff, and full coverage to 1.
 std::uint8_t alpha_of(std::uint32_t count, std::uint32_t limit, std::uint32_t whole) {
   if (count < limit) return static_cast<std::uint8_t>(count * (middle - 1) / limit);
   if (whole == limit) return 255;
@@ -116,7 +116,7 @@ void Atlas::put_normals(const Canvas& canvas, const glm::uvec2& corner, const Ce
   spread(corner, cell.size);
 }
 
-/// Ring after ring, each texel the mean of its neighbours that have a colour.
+/// Spreads colours outwards, ring by ring: each texel gets the mean of its neighbours with a colour.
 void Atlas::spread(const glm::uvec2& corner, std::uint32_t side) {
   std::vector<std::uint8_t> known(std::size_t{side} * side, 0);
   glm::u64vec3 sum(0);
@@ -179,7 +179,7 @@ std::shared_ptr<const Image> Atlas::normal_image(const std::string& name, const 
   Array<std::uint8_t> channels(job);
   channels.reserve(3 * texels_.size());
   for (const glm::u8vec4& texel : texels_) {
-    // The free corner and all else that nothing is near to is level.
+    // Texels far from any image have a neutral normal.
     const bool is_level = glm::u8vec3(texel) == glm::u8vec3(0);
     for (int c = 0; c < 3; ++c)
       channels.push_back(is_level ? (c == 2 ? std::uint8_t{255} : middle) : texel[c]);

@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures side by side, cut out by alpha, as a texture.
+/// An atlas: several images in one texture, cut out by alpha.
 #include <memory>
 #include <string>
 
@@ -10,7 +10,7 @@ namespace seedmesh::texture {
 
 class Atlas {
  public:
-  /// What has less alpha is not there.
+  /// Texels with less alpha are empty.
   static constexpr float cutoff = 0.5F;
 
   Atlas(std::uint32_t size, const Job& job);
@@ -18,19 +18,19 @@ class Atlas {
   std::uint32_t size() const { return size_; }
 
   struct Cell {
-    std::uint32_t size;     ///< texels of a side
-    std::uint32_t edge;     ///< texels around the picture that stay empty
-    std::uint32_t samples;  ///< of a texel, each way
+    std::uint32_t size;     ///< texels along a side
+    std::uint32_t edge;     ///< empty texels around the image
+    std::uint32_t samples;  ///< of a texel along each axis
   };
-  /// The samples of the canvas as texels of the cell that begins there. So much of the picture is there as of
-  /// the samples; colours go on beyond the edges, so that no size of the texture has a rim. Different cells
-  /// at once are safe.
+  /// Writes the samples of the canvas as texels of the cell that begins at `corner`. The image covers as many
+  /// texels as the samples do. Colours continue beyond the outline, so that no mip level has a rim. Threads
+  /// may write different cells at the same time.
   void put(const Canvas& canvas, const glm::uvec2& corner, const Cell& cell);
 
-  /// The same for the mean normals of the samples, in the space of the picture as glTF has them.
+  /// The same for the mean normals of the samples, in the tangent space of glTF.
   void put_normals(const Canvas& canvas, const glm::uvec2& corner, const Cell& cell);
 
-  /// PNG files: of colours, RGBA in sRGB; of normals, RGB.
+  /// PNG files: colours as RGBA in sRGB, normals as RGB.
   std::shared_ptr<const Image> image(const std::string& name, const Job& job) const;
   std::shared_ptr<const Image> normal_image(const std::string& name, const Job& job) const;
 

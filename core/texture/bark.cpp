@@ -15,7 +15,7 @@ Relief bare(int size, const Job& job) {
 
 float clamp(float x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
 
-/// Fine grain that every bark has, coarser along the limb than round it.
+/// The fine grain of every bark, coarser along the limb than around it.
 Field grain(int size, Rng rng, const Job& job) {
   Field field(job, size);
   add_noise(field, {24, 10}, {3, 0.6F}, 0.55F, rng.at("grain"), job);
@@ -29,7 +29,7 @@ Field patches(int size, Rng rng, const Job& job) {
   return field;
 }
 
-/// Plates between cracks: what oak, pine and spruce have in common.
+/// Plates between cracks, as of oak, pine and spruce.
 struct Plates {
   Lattice lattice;
   Lattice wobble;
@@ -63,7 +63,7 @@ Relief oak(int size, Rng rng, const Job& job) {
   return plated({{9, 3}, {10, 4}, 0.34F, 0.4F, 0.3F, 0.25F}, size, rng, job);
 }
 
-/// Long plates of many sizes between deep furrows, each of thin flakes that lie over one another.
+/// Long plates of many sizes between deep furrows, each with overlapping thin flakes.
 Relief pine(int size, Rng rng, const Job& job) {
   Field wobble(job, size), gap(job, size);
   add_noise(wobble, {6, 3}, {5, 0.6F}, 1, rng.at("wobble"), job);
@@ -73,7 +73,7 @@ Relief pine(int size, Rng rng, const Job& job) {
   const Field fine = grain(size, rng, job), large = patches(size, rng, job);
   Relief relief = bare(size, job);
   relief.height.each(job, [&](float, int x, int y) {
-    // Furrows are narrow in places, so that plates hang together.
+    // Furrows are partly narrow, so that plates stay connected.
     const float width = 0.12F + 0.2F * (0.5F + gap.row(y)[x]);
     const float flat = step_between(0.02F, std::max(0.08F, width), plate.border.row(y)[x]);
     const float layer = 0.62F + 0.3F * flake.shade.row(y)[x] + 0.08F * plate.shade.row(y)[x];
@@ -91,7 +91,7 @@ Relief spruce(int size, Rng rng, const Job& job) {
   return plated({{14, 14}, {12, 12}, 0.3F, 0.3F, 0.6F, 0.2F}, size, rng, job);
 }
 
-/// A net of ridges round long furrows, as of old willows and ashes: the borders of cells, raised.
+/// A net of ridges around long furrows, as of old willows and ashes: raised borders of cells.
 Relief willow(int size, Rng rng, const Job& job) {
   Field wobble(job, size);
   add_noise(wobble, {8, 4}, {4, 0.55F}, 1, rng.at("wobble"), job);
@@ -109,7 +109,7 @@ Relief willow(int size, Rng rng, const Job& job) {
   return relief;
 }
 
-/// Marks along the limb's circumference: long and thin, where noise is above `from`.
+/// Long thin marks around the limb, where the noise is above `from`.
 Field dashes(int size, Lattice lattice, float from, float to, Rng rng, const Job& job) {
   Field field(job, size);
   add_noise(field, lattice, 1, rng, job);
@@ -172,7 +172,7 @@ Relief cherry(int size, Rng rng, const Job& job) {
   return relief;
 }
 
-/// Rings that fallen leaves left, each a step, with fibres.
+/// Rings of leaf scars, each a step, with fibres.
 Relief palm(int size, Rng rng, const Job& job) {
   constexpr float rings = 11;
   Field sway(job, size);

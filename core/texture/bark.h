@@ -1,7 +1,7 @@
 #pragma once
-/// Bark by seed: heights, tones and colours of nine kinds. Each repeats in both directions without a seam; up
-/// the limb is down the picture, as v grows. A picture stands for about a metre of a trunk, or once round a
-/// thinner limb.
+/// Bark textures by seed, of nine kinds. They tile seamlessly in both directions. v grows along the limb, so
+/// that the direction of growth is down in the image. An image covers about a metre of a trunk, or the whole
+/// girth of a thinner limb.
 #include <array>
 #include <optional>
 #include <span>
@@ -11,10 +11,10 @@
 
 namespace seedmesh::texture {
 
-/// "oak_bark", ...
+/// The names of all kinds: "oak_bark", ...
 std::span<const std::string_view> bark_kinds();
 
-/// A colour in sRGB bytes that takes the place of the kind's main colour; the others follow it.
+/// A colour in sRGB bytes that replaces the main colour of a kind. The other colours follow it.
 using Tint = std::optional<std::array<std::uint8_t, 3>>;
 
 struct Painting {
@@ -22,10 +22,10 @@ struct Painting {
   Finish finish;
 };
 
-/// The dark, main and light colour round `main`, or round `tint` where there is one.
+/// The dark, main and light colours around `main`, or around `tint` if it is given.
 Ramp ramp_round(glm::vec3 main, float dark, float light, glm::vec3 accent, const Tint& tint);
 
-/// `kind` is one of bark_kinds(). About 40 ns a texel for the kinds that crack, 15 for smooth ones.
+/// `kind` is one of bark_kinds(). Cost: about 40 ns a texel for cracked kinds, 15 ns for smooth ones.
 Painting paint_bark(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job);
 
 }  // namespace seedmesh::texture

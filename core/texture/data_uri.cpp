@@ -23,7 +23,7 @@ constexpr auto values = [] {
   return table;
 }();
 
-/// Nothing where the text is no base64. Padding may be left out; bits that stand for nothing are 0.
+/// None if the text is not base64. Padding is optional; unused bits must be 0.
 std::optional<std::vector<std::uint8_t>> decoded(std::string_view text) {
   while (!text.empty() && text.back() == '=' && text.size() % 4 != 1) text.remove_suffix(1);
   if (text.size() % 4 == 1) return std::nullopt;
@@ -44,21 +44,17 @@ std::optional<std::vector<std::uint8_t>> decoded(std::string_view text) {
   return bytes;
 }
 
-/// What a text that is no picture begins with, or nothing that could be told.
+/// The media type or the first characters of a text that is no image, for a message; may be empty.
 std::string said_of(std::string_view text) {
   constexpr std::size_t most = 40;
   const std::string_view head = text.substr(0, std::min({text.find_first_of(",;"), text.size(), most}));
   const bool is_plain = std::ranges::all_of(head, [](char c) { return c > ' ' && c < 0x7F && c != '"'; });
   if (head.empty() || !is_plain) return "no image";
-  return "\"" + std::string(head) + (head.size() < text.size() ? "…" : "") + "\", which is no such picture";
+  return "\"" + std::string(head) + (head.size() < text.size() ? "…" : "") + "\", which is not such an image";
 }
 
-Error fault(std::string message) { return {Code::invalid, {{"", std::move(message)}}}; }
-
-bool is_jpeg(const std::vector<std::uint8_t>& bytes) {
-  const std::size_t size = bytes.size();
-  return size > 4 && bytes[0] == 0xFF && bytes[1] == 0xD8 && bytes[2] == 0xFF && bytes[size - 2] == 0xFF &&
-         bytes[size - 1] == 0xD9;
+Error fault(std::string message) {
+  return {Code::invalid, {{IssueKind::invalid_value, "", std::move(message)}}};
 }
 
 std::uint32_t big_endian(const std::uint8_t* bytes) {
@@ -66,11 +62,11 @@ std::uint32_t big_endian(const std::uint8_t* bytes) {
          std::uint32_t{bytes[3]};
 }
 
-/// Walks the chunks of a PNG file (ISO/IEC 15948, 5.3) in the words of decode_png, which looks closer.
+/// Checks the chunks of a PNG file (ISO/IEC 15948, 5.3), with the messages of decode_png.
 std::string fault_of_png(const std::vector<std::uint8_t>& bytes) {
   constexpr std::array<std::uint8_t, 8> signature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
   if (bytes.size() < signature.size() || !std::equal(signature.begin(), signature.end(), bytes.begin()))
-    return "found " + std::to_string(bytes.size()) + " bytes that do not begin as a PNG does";
+    return "found " + std::to_string(bytes.size()) + " bytes without the signature of a PNG";
   constexpr std::size_t around = 12;  // length, name and checksum
   for (std::size_t at = signature.size(); at + around <= bytes.size();) {
     const std::size_t length = big_endian(bytes.data() + at);
@@ -86,7 +82,37 @@ std::string fault_of_png(const std::vector<std::uint8_t>& bytes) {
     }
     at += around + length;
   }
-  return "the PNG is truncated: it ends after " + std::to_string(bytes.size()) + " bytes, before its data do";
+  return "the PNG is truncated: it ends after " + std::to_string(bytes.size()) +
+         " bytes, before the end of its data";
+}
+
+/// Checks the segments of a JPEG file up to its frame header (ISO/IEC 10918-1, B.1.1.4 and B.2.2), and its end.
+std::string fault_of_jpeg(const std::vector<std::uint8_t>& bytes) {
+  const std::string partial = "found no complete JPEG file";
+  const std::size_t size = bytes.size();
+  if (size < 4 || bytes[0] != 0xFF || bytes[1] != 0xD8 || bytes[size - 2] != 0xFF || bytes[size - 1] != 0xD9)
+    return partial;
+  for (std::size_t at = 2; at + 9 <= size && bytes[at] == 0xFF;) {
+    const std::uint8_t marker = bytes[at + 1];
+    if (marker == 0xFF) {  // filling before a marker
+      ++at;
+      continue;
+    }
+    // A frame header is C0 to CF, but for C4, C8 and CC, which are tables and an extension.
+    if (marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC) {
+      const unsigned height = bytes[at + 5] * 256U + bytes[at + 6],
+                     width = bytes[at + 7] * 256U + bytes[at + 8];
+      if (width == 0 || height == 0) return "the JPEG does not state its size";
+      if (std::max(width, height) <= longest_side) return "";
+      return "the JPEG has " + std::to_string(width) + " x " + std::to_string(height) +
+             " pixels; a side may have " + std::to_string(longest_side);
+    }
+    if (marker < 0xC0 || marker == 0xD9 || marker == 0xDA) break;  // data before a frame
+    const std::size_t length = bytes[at + 2] * 256U + bytes[at + 3];
+    if (length < 2) break;
+    at += 2 + length;
+  }
+  return partial;
 }
 
 }  // namespace
@@ -95,9 +121,9 @@ std::string fault_of_image_uri(std::string_view text) {
   const bool is_png = text.starts_with(png_head);
   if (is_png || text.starts_with(jpeg_head)) {
     const auto bytes = decoded(text.substr(is_png ? png_head.size() : jpeg_head.size()));
-    if (!bytes) return "found characters that are no base64";
+    if (!bytes) return "found characters that are not base64";
     if (is_png) return fault_of_png(*bytes);
-    return is_jpeg(*bytes) ? "" : "found no JPEG file, or only a part of one";
+    return fault_of_jpeg(*bytes);
   }
   return "found " + said_of(text) + "; expected \"" + std::string(png_head) + "…\" or \"" +
          std::string(jpeg_head) + "…\"";
@@ -108,12 +134,12 @@ Result<std::shared_ptr<const Image>> image_of_data_uri(std::string_view text, co
   const bool is_png = text.starts_with(png_head);
   if (!is_png && !text.starts_with(jpeg_head)) return fault(fault_of_image_uri(text));
   auto bytes = decoded(text.substr(is_png ? png_head.size() : jpeg_head.size()));
-  if (!bytes) return fault("found characters that are no base64");
+  if (!bytes) return fault("found characters that are not base64");
   if (is_png) {
     if (auto picture = decode_png(std::as_bytes(std::span(*bytes)), {longest_side}, job); !picture)
       return std::move(picture).error();
-  } else if (!is_jpeg(*bytes)) {
-    return fault("found no JPEG file, or only a part of one");
+  } else if (std::string message = fault_of_jpeg(*bytes); !message.empty()) {
+    return fault(std::move(message));
   }
   auto image = std::make_shared<Image>();
   image->name = name;

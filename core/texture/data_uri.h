@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures that come inside a request, as data URIs (RFC 2397) in base64 (RFC 4648).
+/// Images inside a request: data URIs (RFC 2397) in base64 (RFC 4648).
 #include <memory>
 #include <string>
 #include <string_view>
@@ -9,17 +9,17 @@
 
 namespace seedmesh::texture {
 
-/// Is it the data URI of a PNG or JPEG file that is there from its first to its last byte? Empty where it is,
-/// else what is wrong. The pixels are not looked at. Cost: that of reading base64, about 2 ns a byte.
+/// Checks that a text is the data URI of a complete PNG or JPEG file. Returns an empty text if so, else the
+/// error. The pixels are not decoded. Cost: about 2 ns a byte.
 std::string fault_of_image_uri(std::string_view text);
 
-/// The file, byte for byte. A PNG file is read through (png.h), so that none that is damaged or larger than
-/// 8,192 texels goes out again; of a JPEG file only the first and last bytes are looked at. The text is
-/// hostile until shown otherwise; an Issue with an empty pointer says what is wrong.
+/// The bytes of the file. A PNG file is decoded (png.h), so that a damaged file or one of more than 8,192
+/// texels along a side is an error. Of a JPEG file, its end and the segments before its data are checked, and the
+/// same limit holds for the size in its frame header. The text may be hostile. The Issue of an error has an empty pointer.
 Result<std::shared_ptr<const Image>> image_of_data_uri(std::string_view text, const std::string& name,
                                                        const Job& job);
 
-/// Has a picture that came so an alpha channel, or one colour that is transparent? JPEG files have none.
+/// Whether an image from a data URI has an alpha channel or a transparent colour. JPEG files have none.
 bool has_alpha(const Image& image);
 
 }  // namespace seedmesh::texture

@@ -82,7 +82,7 @@ struct CellPoint {
   float shade;
 };
 
-/// The points of all squares, one a square, jittered.
+/// The jittered points of all squares, one in each.
 std::vector<CellPoint> cell_points(Lattice lattice, Rng rng) {
   std::vector<CellPoint> points;
   for (int row = 0; row < lattice.rows; ++row) {
@@ -95,7 +95,7 @@ std::vector<CellPoint> cell_points(Lattice lattice, Rng rng) {
   return points;
 }
 
-/// Nearest and second nearest point to `at` (in squares): the distance to the border between the two.
+/// The distance from `at` (in squares) to the border between its nearest and second nearest point.
 void find_cell(const std::vector<CellPoint>& points, Lattice lattice, glm::vec2 at, float& border,
                float& shade) {
   const int column = static_cast<int>(std::floor(at.x)), row = static_cast<int>(std::floor(at.y));

@@ -1,10 +1,10 @@
 #pragma once
-/// Square pictures of one number a texel that repeat in both directions, and the noises that textures are
+/// Square images of one number for each texel that tile in both directions, and the noise that textures are
 /// made of.
 ///
-/// Gradient noise after Perlin, "Improving Noise", 2002, on a lattice that wraps; cells after Worley, "A
-/// Cellular Texture Basis Function", 1996, with one point a lattice square. Everything is drawn by place from
-/// an Rng, so a texture depends on its seed and its size alone.
+/// Gradient noise after Perlin, "Improving Noise", 2002, on a periodic lattice. Cells after Worley, "A
+/// Cellular Texture Basis Function", 1996, with one point in each lattice square. Random numbers are keyed by
+/// position, so that a texture depends on its seed and its size only.
 #include <glm/vec2.hpp>
 
 #include "core/base/array.h"
@@ -22,9 +22,9 @@ class Field {
   const float* row(int y) const { return values_.data() + index(0, y); }
   float& at(int x, int y) { return values_[index(x & (size_ - 1), y & (size_ - 1))]; }
   float at(int x, int y) const { return values_[index(x & (size_ - 1), y & (size_ - 1))]; }
-  /// Between texels, wrapped; in texels.
+  /// The interpolated value at a position in texels; positions wrap around.
   float sample(float x, float y) const;
-  /// Replaces each value by body(value, x, y); rows in parallel.
+  /// Replaces each value by body(value, x, y). Rows run in parallel.
   template <class Body>
   void each(const Job& job, Body&& body);
 
@@ -36,31 +36,31 @@ class Field {
   Array<float> values_;
 };
 
-/// What becomes of a noise value n in -1 .. 1 before it is added.
+/// The function of a noise value n in -1 .. 1 that is added.
 enum class Fold {
   plain,  ///< n
   ridge,  ///< 1 - |n|: sharp crests
 };
 
-/// Squares of the lattice across and down the picture; noise has features of about one square.
+/// The number of lattice squares across and down the image. Features of the noise are about one square large.
 struct Lattice {
   int columns = 4, rows = 4;
 };
 
-/// field += amplitude * fold(noise). About 1 ns a texel. A lattice finer than half the texels adds nothing.
+/// field += amplitude * fold(noise). A lattice finer than two texels adds nothing. Cost: about 1 ns a texel.
 void add_noise(Field& field, Lattice lattice, float amplitude, Rng rng, const Job& job,
                Fold fold = Fold::plain);
 
-/// The same over `octaves` lattices, each twice as fine and `gain` times as high as the one before.
+/// The same over several lattices, each twice as fine and `gain` times as high as the one before.
 struct Octaves {
   int count = 4;
   float gain = 0.5F;
 };
 void add_noise(Field& field, Lattice lattice, Octaves octaves, float amplitude, Rng rng, const Job& job);
 
-/// Cells: for each texel how far the border to the next cell is (0 on the border, about 0.5 in the middle, in
-/// lattice squares), and a random number of its cell in 0 .. 1. `wobble` (texels, may be null) moves the
-/// place that is looked up. About 20 ns a texel.
+/// For each texel the distance to the border of its cell in lattice squares (0 on the border, about 0.5 in
+/// the middle), and the random number of its cell in 0 .. 1. `wobble` (in texels, may be null) displaces the
+/// lookup. Cost: about 20 ns a texel.
 struct Cells {
   Field border, shade;
 };
@@ -79,7 +79,7 @@ inline float step_between(float low, float high, float x) {
 
 namespace seedmesh::texture {
 
-/// Rows that a worker takes at once.
+/// Rows of one parallel task.
 constexpr std::size_t rows_a_chunk = 32;
 
 template <class Body>

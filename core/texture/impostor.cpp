@@ -20,7 +20,8 @@ constexpr std::uint32_t large = 4096;  ///< where a view of four samples each wa
 constexpr std::uint32_t edges =
     32;  ///< of a cell, one is free on each side, so that neighbours do not bleed in
 constexpr std::uint32_t least_halved = 128;  ///< texels from which on normals have half as many a side
-constexpr double apart = 5e-4;  ///< how far a quad lies before the axis, of its width: no face is there twice
+constexpr double apart =
+    5e-4;  ///< distance of a quad from the axis, as a share of its width, so that no two faces coincide
 constexpr float impostor_roughness = 0.9F;
 
 ViewFrame frame_of(std::size_t view) {
@@ -44,7 +45,7 @@ void each_mesh(const Model& model, const std::vector<ImpostorRecipe::Part>& part
   }
 }
 
-/// What the pictures show.
+/// The extent of the images.
 struct Windows {
   std::array<ViewWindow, views> of;
   bool is_flat = true;
@@ -73,7 +74,7 @@ Windows windows_of(const Model& model, const std::vector<ImpostorRecipe::Part>& 
   return windows;
 }
 
-/// The corner of a picture in its atlas, in cells: the fourth stays free.
+/// The corner of an image in its atlas, in cells; the fourth cell stays empty.
 glm::uvec2 cell_of(std::size_t view) {
   return {static_cast<std::uint32_t>(view % 2), static_cast<std::uint32_t>(view / 2)};
 }
@@ -111,11 +112,11 @@ Mesh quads_of(const Windows& windows, const Job& job) {
 
 // --- The levels of a model
 
-/// Where everything stands against the root above it, which has no say itself.
+/// The transforms of all nodes relative to their root.
 struct Places {
   std::vector<std::size_t> root;
   std::vector<glm::mat4> at;
-  std::vector<bool> still;  ///< at the root's own place
+  std::vector<bool> still;  ///< at the position of the root
 };
 
 Places places_of(const Model& model) {
@@ -139,7 +140,7 @@ bool is_shown(const Node& node) {
   return node.mesh >= 0 && node.skin < 0 && node.collision == CollisionShape::none;
 }
 
-/// The coarsest that a node has, so often that there are `levels` beside the finest.
+/// Repeats the coarsest mesh of a node until it has `levels` levels after the finest.
 void fill_levels(Node& node, std::size_t levels) {
   const int coarsest = node.lods.empty() ? node.mesh : node.lods.back();
   node.lods.resize(levels, coarsest);
@@ -173,7 +174,7 @@ bool add_level(Model& model, const Places& places, std::size_t root, Job& job) {
 
 // --- Pictures
 
-/// The textures that recipes need, read once. What is no PNG is left out.
+/// The textures that recipes need, decoded once. Images that are not PNG are left out.
 using Library = std::map<std::pair<int, float>, Texels>;
 
 std::pair<int, float> key_of(const Material& material) {
@@ -209,14 +210,14 @@ Surface surface_of(const Model& model, const Primitive& primitive, const Library
   return surface;
 }
 
-/// What all pictures are drawn of.
+/// The input of all images.
 struct Scenery {
   const Model& model;
   const Library& library;
   const Job& job;
 };
 
-/// Colours, and normals in fewer texels.
+/// The atlas of colours, and that of normals with fewer texels.
 struct Sheets {
   Atlas color, normal;
 
@@ -224,10 +225,10 @@ struct Sheets {
       : color(size, job), normal(size >= least_halved ? size / 2 : size, job) {}
 };
 
-/// How many a texel has, each way.
+/// Samples of a texel along each axis.
 std::uint32_t samples_of(std::uint32_t size) { return size < large ? 4 : 2; }
 
-/// One of the pictures, in its cell.
+/// Renders one image into its cell.
 void draw_view(const Scenery& scenery, const std::vector<ImpostorRecipe::Part>& parts, std::size_t view,
                const ViewWindow& window, Sheets& sheets) {
   const std::uint32_t cell = sheets.color.size() / 2, edge = cell / edges, inside = cell - 2 * edge;

@@ -13,7 +13,7 @@ using glm::dvec2;
 using glm::vec2;
 
 constexpr int leaves_of_a_twig = 9;
-// Of a blossom: how much of the accent's colour its heart has, and where on the petals that ends.
+// The share of the accent colour in the heart of a blossom, and where on the petals it ends.
 constexpr float heart = 0.85F, heart_end = 0.3F;
 
 float clamp(float x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
@@ -25,7 +25,7 @@ struct Window {
   bool empty() const { return x0 >= x1 || y0 >= y1; }
 };
 
-/// From the leaf's frame to texels: y turns round, since pictures begin at their top.
+/// The map from the frame of the leaf to texels; y is reversed, because images begin at the top.
 class View {
  public:
   View(const LeafDrawing& drawing, int size) : low_(drawing.low), high_(drawing.high), size_(size) {
@@ -35,7 +35,7 @@ class View {
   vec2 leaf(int x, int y) const {
     return vec2(low_.x + (x + 0.5) / scale_.x, high_.y - (y + 0.5) / scale_.y);
   }
-  /// The longer side of a texel, in the leaf's frame.
+  /// The longer side of a texel in the frame of the leaf.
   float texel_size() const { return static_cast<float>(1 / std::min(scale_.x, scale_.y)); }
   Window around(dvec2 low, dvec2 high) const {
     const dvec2 a = texel({low.x, high.y}), b = texel({high.x, low.y});
@@ -51,8 +51,8 @@ class View {
   int size_;
 };
 
-/// How much of each texel a polygon covers, exactly: every edge leaves in each row what it closes off to its
-/// right, and a running sum along the row turns that to cover.
+/// The exact coverage of texels by a polygon: every edge adds, in each row, the signed area to its right, and
+/// a running sum along the row gives the coverage.
 class Coverage {
  public:
   Coverage(const std::vector<dvec2>& outline, const Window& window) : window_(window) {
@@ -61,7 +61,7 @@ class Coverage {
     for (std::size_t i = 0; i < outline.size(); ++i) add(outline[i], outline[(i + 1) % outline.size()]);
   }
 
-  /// Of one row, from the left of the window on.
+  /// The coverage of one row, from the left of the window.
   void read(int y, std::vector<float>& out) const {
     double sum = 0;
     const double* change = change_.data() + row(y);
@@ -118,7 +118,7 @@ class Coverage {
 
 class Painter {
  public:
-  /// `has_hearts`: blades have the accent's colour where they begin.
+  /// `has_hearts`: blades have the accent colour at their base.
   Painter(const LeafDrawing& drawing, Relief& relief, Rng rng, bool has_hearts, const Job& job)
       : view_(drawing, relief.height.size()),
         relief_(relief),
@@ -126,7 +126,7 @@ class Painter {
         has_hearts_(has_hearts),
         job_(job) {}
 
-  /// `woody` lines have the accent's colour.
+  /// `woody` lines have the accent colour.
   void paint_line(const LeafLine& line, std::uint64_t number, float woody) {
     Rng own = rng_.at("line").at(number);
     const auto tone = static_cast<float>(own.uniform(0.35, 0.65));
@@ -157,7 +157,7 @@ class Painter {
     if (window.empty()) return;
     fill(blade, Coverage(outline, window), window, number);
     for (const LeafLine& vein : blade.veins) {
-      // Wide enough to be seen in the distance, however small the picture.
+      // Wide enough to be visible in the distance, even in small images.
       const float least = std::max(1.0F, 1.2F * view_.texel_size() / static_cast<float>(vein.width));
       each_texel_of(vein, least, [&](int x, int y, float cover, float) {
         const float strength = cover * relief_.cover.at(x, y) / least;
@@ -195,7 +195,7 @@ class Painter {
     }
   }
 
-  /// Calls body(x, y, cover, |across| 0..1) for the texels of a line, `widen` times as wide as it is.
+  /// Calls body(x, y, cover, |across| 0..1) for the texels of a line, `widen` times its width.
   template <class Body>
   void each_texel_of(const LeafLine& line, float widen, Body&& body) {
     const double reach = 0.5 * std::max(line.width, line.end_width) * widen + view_.texel_size();
@@ -336,8 +336,8 @@ std::string_view leaf_kind(LeafShape shape, bool is_twig) {
   return leaf;
 }
 
-// At most 0.4: opaque to half a texel beyond the middle of the edge, so that leaves do not thin out in the
-// distance.
+// At most 0.4: opaque to half a texel beyond the middle of the edge, so that distant leaves do not become
+// thinner.
 float leaf_cutoff(std::string_view kind) {
   switch (leaf_picture(kind).shape) {
     case LeafShape::needles:

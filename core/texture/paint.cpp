@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/texture/leaf.h"
+#include "core/texture/link.h"
 #include "core/texture/wall.h"
 
 namespace seedmesh::texture {
@@ -28,15 +29,17 @@ std::shared_ptr<const Maps> make(const TextureRecipe& recipe, int size, const Jo
   return std::make_shared<const Maps>(make_maps(painting.relief, painting.finish, recipe.kind, job));
 }
 
-std::shared_ptr<const Maps> find_or_make(const std::string& key, const TextureRecipe& recipe, int size,
-                                         TextureStore* store, const Job& job) {
-  if (store) {
-    if (const std::shared_ptr<const void> kept = store->find(key))
-      return std::static_pointer_cast<const Maps>(kept);
-  }
-  std::shared_ptr<const Maps> maps = make(recipe, size, job);
-  if (store) store->keep(key, maps, maps->bytes());
-  return maps;
+/// Images that have no bytes here, but the URLs of generated textures.
+std::shared_ptr<const Maps> linked_maps(const TextureRecipe& recipe, int size, const std::string& prefix) {
+  const auto linked = [&](Channel channel, const char* suffix) {
+    auto image = std::make_shared<Image>();
+    image->name = recipe.kind + suffix;
+    image->uri = prefix + name_of({recipe, size, channel}) + ".png";
+    return image;
+  };
+  return std::make_shared<const Maps>(Maps{linked(Channel::color, "_color"),
+                                           linked(Channel::normal, "_normal"),
+                                           linked(Channel::surface, "_surface")});
 }
 
 void strip(Model& model) {
@@ -51,12 +54,12 @@ void strip(Model& model) {
   model.textures.clear();
 }
 
-/// Where in Model::textures.
+/// Positions in Model::textures.
 struct Places {
   int color = 0, normal = 0, surface = 0;
 };
 
-/// Pictures that the material has already stay.
+/// Sets the textures of a material, except those that it has already.
 void put(TextureUse& use, int texture, bool repeats) {
   if (use.texture < 0) use = {texture, 0, repeats};
 }
@@ -94,7 +97,19 @@ Painting paint_kind(std::string_view kind, int size, std::uint64_t seed, const T
                             : paint_leaf(kind, size, seed, tint, job);
 }
 
-void paint(Model& model, int size, TextureStore* store, const Job& job) {
+std::shared_ptr<const Maps> maps_of(const TextureRecipe& recipe, int size, TextureStore* store,
+                                    const Job& job) {
+  const std::string key = key_of(recipe, size);
+  if (store) {
+    if (const std::shared_ptr<const void> kept = store->find(key))
+      return std::static_pointer_cast<const Maps>(kept);
+  }
+  std::shared_ptr<const Maps> maps = make(recipe, size, job);
+  if (store) store->keep(key, maps, maps->bytes());
+  return maps;
+}
+
+void paint(Model& model, int size, const Linking& linking, TextureStore* store, const Job& job) {
   if (size == 0) return strip(model);
   std::map<std::string, Places> made;
   std::map<std::string, Places> uncolored;  // the relief of a wall is the same in every colour
@@ -103,7 +118,9 @@ void paint(Model& model, int size, TextureStore* store, const Job& job) {
     const std::string key = key_of(material.recipe, size);
     const auto [place, is_new] = made.try_emplace(key);
     if (is_new) {
-      const std::shared_ptr<const Maps> maps = find_or_make(key, material.recipe, size, store, job);
+      const std::shared_ptr<const Maps> maps = linking.is_linked
+                                                   ? linked_maps(material.recipe, size, linking.prefix)
+                                                   : maps_of(material.recipe, size, store, job);
       const auto first = static_cast<int>(model.textures.size());
       place->second = {first, first + 1, first + 2};
       model.textures.push_back(maps->color);

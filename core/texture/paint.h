@@ -1,27 +1,41 @@
 #pragma once
-/// Material::recipe -> textures of the model.
+/// Makes the textures that the recipes of materials (Material::recipe) name.
+#include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
-#include "core/base/texture_store.h"
 #include "core/model/model.h"
 #include "core/texture/bark.h"
+#include "core/texture/relief.h"
+#include "core/texture/texture_store.h"
 
 namespace seedmesh::texture {
 
-/// All kinds that a recipe may name: barks, leaves, twigs, petals, walls and roofs.
+/// All kinds that a recipe can name: bark, leaves, twigs, petals, walls and roofs.
 std::span<const std::string_view> texture_kinds();
 
-/// Bark and walls: what goes on beyond its edges.
+/// Whether a kind tiles; bark and walls do.
 bool is_repeating_kind(std::string_view name);
 
 /// `kind` is one of texture_kinds().
 Painting paint_kind(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job);
 
-/// Makes what the recipes ask for, `size` texels wide and high (a power of two from 16 to 4096), equal
-/// recipes once, and lets their materials use it: base colour, normals, occlusion and roughness; leaves and
-/// petals are cut out by alpha and seen from both sides. `store` may be null. Size 0 takes all textures off
-/// the model instead, those that generators put there too; colours stay.
-void paint(Model& model, int size, TextureStore* store, const Job& job);
+/// The images of a recipe, from `store` or made now. `store` may be null.
+std::shared_ptr<const Maps> maps_of(const TextureRecipe& recipe, int size, TextureStore* store,
+                                    const Job& job);
+
+/// What a model holds of its generated textures: their bytes, or only their names (core/texture/link.h) after
+/// `prefix` and before ".png".
+struct Linking {
+  bool is_linked = false;
+  std::string prefix;
+};
+
+/// Makes the textures of all recipes, `size` texels wide and high (a power of two from 16 to 4096), once for
+/// equal recipes, and sets them in the materials: base colour, normals, occlusion and roughness. Leaves and
+/// petals are cut out by alpha and double-sided. `store` may be null. Size 0 removes all textures of the
+/// model instead, and keeps the colours. With `linking`, nothing is drawn: images get a uri and no bytes.
+void paint(Model& model, int size, const Linking& linking, TextureStore* store, const Job& job);
 
 }  // namespace seedmesh::texture

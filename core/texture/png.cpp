@@ -1,5 +1,6 @@
 #include "core/texture/png.h"
 
+#include <libdeflate.h>
 #include <png.h>
 
 #include <algorithm>
@@ -8,7 +9,9 @@
 #include <csetjmp>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <string>
+#include <vector>
 
 // libpng leaves a call by longjmp. Every function here that calls it is a frame of plain data: what has a
 // destructor belongs to its caller, and no callback lets an exception pass through the library.
@@ -19,15 +22,15 @@ namespace {
 
 constexpr bool little_endian = std::endian::native == std::endian::little;
 
-// Rows between two looks at the clock.
+// Rows between two checks of the deadline.
 constexpr std::uint32_t rows_a_look = 64;
 // Deflate cannot hold more than this many bytes in one (RFC 1951: 258 bytes in a code of 2 bits, and
 // framing).
 constexpr std::uint64_t densest_deflate = 1032;
-// What a chunk other than image data may hold: profiles and texts are skipped, palettes have 768 bytes.
+// The most bytes of a chunk other than image data. Palettes have 768; profiles and texts are skipped.
 constexpr png_alloc_size_t largest_chunk = 1 << 20U;
 
-/// What libpng said last; its texts are short.
+/// The last message of libpng.
 struct Complaint {
   std::array<char, 128> text{};
   void take(const char* message) {
@@ -43,7 +46,7 @@ struct Complaint {
 }
 void on_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
-// --- Writing
+// --- Writing row by row
 // --------------------------------------------------------------------------------------------------
 
 struct Writer {
@@ -80,7 +83,7 @@ int color_type(int channels) {
   return types[static_cast<std::size_t>(channels - 1)];
 }
 
-bool write_head(Writer& writer, const PictureView& picture, PngEffort effort) {
+bool write_head(Writer& writer, const PictureView& picture) {
   if (setjmp(png_jmpbuf(writer.png))) return false;
   png_set_write_fn(writer.png, &writer, on_write, on_flush);
   png_set_user_limits(writer.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
@@ -88,13 +91,10 @@ bool write_head(Writer& writer, const PictureView& picture, PngEffort effort) {
                color_type(picture.channels), PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                PNG_FILTER_TYPE_DEFAULT);
   png_set_compression_buffer_size(writer.png, std::size_t{1} << 16U);
-  png_set_compression_level(writer.png, effort == PngEffort::small ? 6 : 1);
+  png_set_compression_level(writer.png, 1);
   png_set_compression_mem_level(writer.png, 8);
-  png_set_compression_strategy(writer.png, effort == PngEffort::quick ? 3 : 1);  // Z_RLE, Z_FILTERED
-  png_set_filter(writer.png, PNG_FILTER_TYPE_BASE,
-                 effort == PngEffort::fast    ? PNG_FILTER_UP
-                 : effort == PngEffort::quick ? PNG_FILTER_SUB
-                                              : PNG_FILTER_PAETH);
+  png_set_compression_strategy(writer.png, 1);  // Z_FILTERED
+  png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
   png_write_info(writer.png, writer.info);
   if (picture.bits == 16 && little_endian) png_set_swap(writer.png);
   return true;
@@ -112,6 +112,114 @@ bool write_end(Writer& writer) {
   if (setjmp(png_jmpbuf(writer.png))) return false;
   png_write_end(writer.png, nullptr);
   return true;
+}
+
+// --- Writing at once
+// ------------------------------------------------------------------------------------------
+
+constexpr std::array<std::uint8_t, 8> signature = {137, 'P', 'N', 'G', '\r', '\n', 26, '\n'};
+constexpr std::size_t chunk_head = 8, chunk_foot = 4;  // length and type; checksum
+
+void put_big_endian(std::uint8_t* out, std::uint32_t value) {
+  for (int i = 0; i < 4; ++i) out[i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
+}
+
+/// Writes the length, the type and the checksum around `length` bytes of data that follow the head.
+void seal_chunk(std::uint8_t* head, const char* type, std::size_t length) {
+  put_big_endian(head, static_cast<std::uint32_t>(length));
+  std::memcpy(head + 4, type, 4);
+  put_big_endian(head + chunk_head + length, libdeflate_crc32(0, head + 4, length + 4));
+}
+
+std::vector<std::uint8_t> chunk(const char* type, std::span<const std::uint8_t> data) {
+  std::vector<std::uint8_t> made(chunk_head + data.size() + chunk_foot);
+  std::copy(data.begin(), data.end(), made.begin() + chunk_head);
+  seal_chunk(made.data(), type, data.size());
+  return made;
+}
+
+std::array<std::uint8_t, 13> header_bytes(const PictureView& picture) {
+  std::array<std::uint8_t, 13> made{};
+  put_big_endian(made.data(), picture.width);
+  put_big_endian(made.data() + 4, picture.height);
+  made[8] = static_cast<std::uint8_t>(picture.bits);
+  made[9] = static_cast<std::uint8_t>(color_type(picture.channels));
+  return made;  // deflate, adaptive filters, no interlacing: three zeros
+}
+
+/// Swaps the bytes of 16-bit values: PNG has the high byte first.
+void swap_bytes(std::uint8_t* values, std::size_t bytes) {
+  for (std::size_t i = 0; i + 1 < bytes; i += 2) std::swap(values[i], values[i + 1]);
+}
+
+/// Rows as the file holds them: the number of the filter Up, then each byte less the one above it.
+Array<std::uint8_t> filtered_up(const PictureView& picture, std::size_t row_bytes, const Job& job) {
+  constexpr std::uint8_t filter_up = 2;
+  Array<std::uint8_t> rows(job, (row_bytes + 1) * picture.height);
+  const auto* pixels = reinterpret_cast<const std::uint8_t*>(picture.bytes.data());
+  for (std::uint32_t y = 0; y < picture.height; ++y) {
+    if (y % rows_a_look == 0) job.check();
+    const std::uint8_t* now = pixels + y * row_bytes;
+    std::uint8_t* out = rows.data() + y * (row_bytes + 1);
+    *out++ = filter_up;
+    if (y == 0) {
+      std::memcpy(out, now, row_bytes);
+    } else {
+      const std::uint8_t* above = now - row_bytes;
+      for (std::size_t i = 0; i < row_bytes; ++i) out[i] = static_cast<std::uint8_t>(now[i] - above[i]);
+    }
+    if (picture.bits == 16 && little_endian) swap_bytes(out, row_bytes);
+  }
+  return rows;
+}
+
+std::size_t row_size(const PictureView& picture) {
+  return std::size_t{picture.width} * static_cast<std::size_t>(picture.channels) *
+         static_cast<std::size_t>(picture.bits / 8);
+}
+
+/// The whole file in memory at once with libdeflate.
+Array<std::uint8_t> encode_at_once(const PictureView& picture, PngEffort effort, const Job& job) {
+  const Array<std::uint8_t> rows = filtered_up(picture, row_size(picture), job);
+  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+      libdeflate_alloc_compressor(effort == PngEffort::small ? 4 : 1), &libdeflate_free_compressor);
+  if (!compressor) throw std::bad_alloc();
+
+  Array<std::uint8_t> out(job);
+  out.append(signature);
+  out.append(chunk("IHDR", header_bytes(picture)));
+  const std::size_t start = out.size();
+  const std::size_t bound = libdeflate_zlib_compress_bound(compressor.get(), rows.size());
+  out.resize(start + chunk_head + bound + chunk_foot);
+  const std::size_t length = libdeflate_zlib_compress(compressor.get(), rows.data(), rows.size(),
+                                                      out.data() + start + chunk_head, bound);
+  assert(length > 0);
+  seal_chunk(out.data() + start, "IDAT", length);
+  out.resize(start + chunk_head + length + chunk_foot);
+  out.append(chunk("IEND", {}));
+  out.shrink_to_fit();
+  job.check();
+  return out;
+}
+
+/// Row by row with libpng, so that large pictures need no second copy.
+Array<std::uint8_t> encode_in_rows(const PictureView& picture, const Job& job) {
+  const std::size_t row_bytes = row_size(picture);
+  Writer writer(job);
+  writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer.complaint, on_error, on_warning);
+  if (writer.png) writer.info = png_create_info_struct(writer.png);
+  if (!writer.info) throw std::bad_alloc();
+  bool good = write_head(writer, picture);
+  for (std::uint32_t row = 0; good && row < picture.height; row += rows_a_look) {
+    job.check();
+    good = write_rows(writer, picture.bytes.data() + row * row_bytes, row_bytes,
+                      std::min(rows_a_look, picture.height - row));
+  }
+  good = good && write_end(writer);
+  if (writer.failure) std::rethrow_exception(writer.failure);
+  if (!good) throw std::bad_alloc();  // all that can still fail is libpng's own memory
+  writer.out.shrink_to_fit();
+  return std::move(writer.out);
 }
 
 // --- Reading
@@ -178,12 +286,14 @@ bool read_end(Reader& reader) {
   return true;
 }
 
-Error refused(std::string message) { return Error{Code::invalid, {{"", std::move(message)}}}; }
+Error refused(std::string message) {
+  return Error{Code::invalid, {{IssueKind::invalid_value, "", std::move(message)}}};
+}
 
 Error damaged(const Reader& reader, std::size_t size) {
   if (reader.ended)
     return refused("the PNG is truncated: it ends after " + std::to_string(size) +
-                   " bytes, before its data do");
+                   " bytes, before the end of its data");
   return refused(std::string("the PNG is damaged: ") + reader.complaint.text.data());
 }
 
@@ -203,32 +313,15 @@ std::uint32_t Picture::channel(std::size_t index) const {
 Array<std::uint8_t> encode_png(const PictureView& picture, PngEffort effort, const Job& job) {
   assert(picture.width > 0 && picture.height > 0 && (picture.bits == 8 || picture.bits == 16));
   assert(picture.channels >= 1 && picture.channels <= 4);
-  const std::size_t row_bytes = std::size_t{picture.width} * static_cast<std::size_t>(picture.channels) *
-                                static_cast<std::size_t>(picture.bits / 8);
-  assert(picture.bytes.size() == row_bytes * picture.height);
-
-  Writer writer(job);
-  writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer.complaint, on_error, on_warning);
-  if (writer.png) writer.info = png_create_info_struct(writer.png);
-  if (!writer.info) throw std::bad_alloc();
-  bool good = write_head(writer, picture, effort);
-  for (std::uint32_t row = 0; good && row < picture.height; row += rows_a_look) {
-    job.check();
-    good = write_rows(writer, picture.bytes.data() + row * row_bytes, row_bytes,
-                      std::min(rows_a_look, picture.height - row));
-  }
-  good = good && write_end(writer);
-  if (writer.failure) std::rethrow_exception(writer.failure);
-  if (!good) throw std::bad_alloc();  // all that can still fail is libpng's own memory
-  writer.out.shrink_to_fit();
-  return std::move(writer.out);
+  assert(picture.bytes.size() == row_size(picture) * picture.height);
+  return effort == PngEffort::streamed ? encode_in_rows(picture, job) : encode_at_once(picture, effort, job);
 }
 
 Result<Picture> decode_png(std::span<const std::byte> file, const PngLimits& limits, const Job& job) {
   constexpr std::size_t signature_size = 8;
   if (file.size() < signature_size ||
       png_sig_cmp(reinterpret_cast<png_const_bytep>(file.data()), 0, signature_size) != 0) {
-    return refused("found " + std::to_string(file.size()) + " bytes that do not begin as a PNG does");
+    return refused("found " + std::to_string(file.size()) + " bytes without the signature of a PNG");
   }
   Reader reader(file);
   reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader.complaint, on_error, on_warning);

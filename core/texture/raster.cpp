@@ -12,16 +12,16 @@ namespace seedmesh::texture {
 namespace {
 
 constexpr std::int64_t one = 16;  ///< a sample in fixed-point numbers
-// Beyond this a place is off the picture anyway, and products of two still fit 64 bits.
+// Coordinates are clamped to this: it is outside of every image, and products of two still fit 64 bits.
 constexpr double farthest = 1 << 24;
-// What lies deep in a crown gets less of the sky. Without that a crown is flat.
+// Surfaces deep in a crown are darker, or crowns would look flat.
 constexpr double light_behind = 0.8;
 
 std::int64_t fixed(double samples) {
   return math::to_int64(std::floor(std::clamp(samples, -farthest, farthest) * one + 0.5));
 }
 
-/// Twice the area of a, b and p, which is above 0 where p lies on the inner side of a to b.
+/// Twice the signed area of a, b and p; above 0 if p lies on the inner side of the edge.
 struct Edge {
   std::int64_t ax, ay, dx, dy;
   std::int64_t least;  ///< 0 where the edge belongs to this triangle, else 1

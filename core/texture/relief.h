@@ -1,5 +1,5 @@
 #pragma once
-/// A texture before it is pictures, and the pictures that are made of it.
+/// The relief that painters make, and the images that are made of it.
 #include <glm/vec3.hpp>
 #include <memory>
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace seedmesh::texture {
 
-/// What a painter fills; all values 0 .. 1.
+/// The result of a painter; all values are from 0 to 1.
 struct Relief {
   Field height;  ///< 0 lowest
   Field tone;    ///< 0 the dark colour, 0.5 the main one, 1 the light one
-  Field accent;  ///< how much of the accent's colour
-  Field cover;   ///< what is there; size 1 where everything is
+  Field accent;  ///< the share of the accent colour
+  Field cover;   ///< alpha; a field of size 1 if the image has no gaps
 };
 
 /// Colours in sRGB, 0 .. 1.
@@ -22,26 +22,26 @@ struct Ramp {
   glm::vec3 dark{0}, main{0.5F}, light{1}, accent{0};
 };
 
-/// From relief to pictures.
+/// How a relief becomes images.
 struct Finish {
   Ramp ramp;
-  float depth = 0.02F;     ///< from height 0 to 1, as a share of the picture's width
+  float depth = 0.02F;     ///< from height 0 to 1, as a share of the width of the image
   float rough_low = 0.9F;  ///< roughness at height 0
   float rough_high = 0.8F;
   float rough_accent = 0.9F;
-  float shade = 0.6F;     ///< how much of the light is kept out of the lowest places
-  bool is_grey = false;   ///< the colour picture has one channel: that of red
-  bool is_small = false;  ///< files are kept small: values in coarser steps, more time for PNG
+  float shade = 0.6F;     ///< the occlusion at height 0, as a share
+  bool is_grey = false;   ///< the colour image has one channel, red
+  bool is_small = false;  ///< smaller files: coarser values and a higher PNG level
 };
 
-/// Three PNG files: colour (RGB, RGBA with the cover as alpha, or grey), normals (RGB, +y up in the picture,
-/// glTF's tangent space), and occlusion, roughness, metallic (RGB, as glTF packs them; metallic is 0).
+/// Three PNG files: colour (RGB, RGBA with the cover as alpha, or grey), normals (RGB, in the tangent space
+/// of glTF), and occlusion, roughness and metallic (RGB, as glTF packs them; metallic is 0).
 struct Maps {
   std::shared_ptr<const Image> color, normal, surface;
   std::size_t bytes() const { return color->bytes.size() + normal->bytes.size() + surface->bytes.size(); }
 };
 
-/// The pictures are named after `name`.
+/// Makes the images of a relief. Their names begin with `name`.
 Maps make_maps(const Relief& relief, const Finish& finish, const std::string& name, const Job& job);
 
 }  // namespace seedmesh::texture

@@ -1,4 +1,4 @@
-/// Keeping the cover of a cut-out at every size: Castaño, "Computing alpha mipmaps", 2010.
+/// The coverage of cut-out images stays the same at every level: Castaño, "Computing alpha mipmaps", 2010.
 #include "core/texture/texels.h"
 
 #include <algorithm>
@@ -16,13 +16,13 @@ std::uint16_t word_of(float share) {
   return static_cast<std::uint16_t>(std::clamp(share, 0.0F, 1.0F) * whole + 0.5F);
 }
 
-/// Channels of 16 bits keep their upper 8: what is shown of them is no larger.
+/// Of channels with 16 bits, only the upper 8 are used.
 std::uint8_t byte_at(const Picture& picture, std::size_t index) {
   const std::uint32_t value = picture.channel(index);
   return static_cast<std::uint8_t>(picture.bits == 16 ? value >> 8U : value);
 }
 
-/// Four texels as one, colours by how much of each is there.
+/// The mean of four texels, with colours weighted by alpha.
 glm::u16vec4 mean_of(const std::array<glm::u16vec4, 4>& four) {
   std::uint64_t weight = 0, plain[3] = {}, weighted[3] = {};
   for (const glm::u16vec4& texel : four) {
@@ -39,7 +39,7 @@ glm::u16vec4 mean_of(const std::array<glm::u16vec4, 4>& four) {
   return mean;
 }
 
-/// The greatest limit that at least `share` of the texels reach.
+/// The greatest threshold that at least `share` of the texels reach.
 std::uint16_t limit_for(const Array<glm::u16vec4>& texels, double share) {
   std::vector<std::size_t> count(257, 0);
   for (const glm::u16vec4& texel : texels) ++count[texel.w >> 8U];

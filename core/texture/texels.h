@@ -1,6 +1,5 @@
 #pragma once
-/// Pictures as a rasteriser reads them: linear colours at several sizes, so that a texture seen from afar is
-/// its mean and not a texel by chance.
+/// Images for the rasteriser: linear colours with mip levels, so that distant textures are averaged.
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <vector>
@@ -12,16 +11,16 @@ namespace seedmesh::texture {
 
 class Texels {
  public:
-  /// Of a picture of 8 bits or more a channel. Each size is half the one before, down to one texel. Below
-  /// `cutoff` nothing is there: how much of the picture that is stays the same at every size. About 40 ns a
-  /// texel.
+  /// Makes the levels of an image of at least 8 bits a channel, each half the size of the one before, down to
+  /// one texel. Texels with alpha below `cutoff` are empty; the share of empty texels is the same at every
+  /// level. Cost: about 40 ns a texel.
   Texels(const Picture& picture, float cutoff, const Job& job);
 
-  /// The size for one sample that covers so many texels.
+  /// The level for a sample that covers this many texels.
   std::size_t level_of(double texels) const;
 
-  /// Linear RGB, 0..65535, and alpha: 0 where nothing is there. `repeat`: outside of 0..1 the picture goes
-  /// on, else its edge does.
+  /// Linear RGB and alpha from 0 to 65535; empty texels have alpha 0. With `repeat` the image tiles, else its
+  /// edge continues.
   glm::u16vec4 at(const glm::dvec2& uv, std::size_t level, bool repeat) const;
 
   std::uint32_t width() const { return levels_.front().width; }
@@ -30,7 +29,7 @@ class Texels {
  private:
   struct Level {
     std::uint32_t width = 1, height = 1;
-    std::uint16_t cutoff = 0;  ///< least alpha of what is there
+    std::uint16_t cutoff = 0;  ///< least alpha of texels that are not empty
     Array<glm::u16vec4> texels;
   };
   std::vector<Level> levels_;

@@ -19,7 +19,7 @@ Relief bare(int size, const Job& job) {
 
 float clamp(float x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
 
-/// Texels in which one thing lies in another's rows: where in it, and what it draws by chance.
+/// A position in a pattern of pieces: the piece, the position in it, and its random numbers.
 struct Course {
   int row = 0, column = 0;
   float x = 0, y = 0;             ///< within, 0 .. 1; y down
@@ -49,7 +49,7 @@ struct Bond {
   }
 };
 
-/// A number of each piece by its place.
+/// A random number of each piece, by its position.
 float chance(Rng rng, const Course& course) {
   return static_cast<float>(
       Rng(rng.at(static_cast<std::uint64_t>(course.row)).at(static_cast<std::uint64_t>(course.column)).key())
@@ -62,8 +62,8 @@ Field noise(int size, Lattice lattice, Octaves octaves, float amplitude, Rng rng
   return field;
 }
 
-/// Stones or bricks with joints between them. `joint` is half a joint, `round` how far edges are worn,
-/// metres.
+/// Stones or bricks with joints between them. `joint` is half the width of a joint and `round` the radius of
+/// worn edges, in metres.
 struct Masonry {
   Bond bond;
   float joint, round;
@@ -143,7 +143,7 @@ Relief concrete(int size, Rng rng, const Job& job) {
   return relief;
 }
 
-/// Pantiles: each a wave across, rising down the slope to where it lies on the next.
+/// Pantiles: a wave across, rising down the slope to the overlap with the next tile.
 Relief roof_tile(int size, Rng rng, const Job& job) {
   const Bond bond{8, 8, 0, roof_tile_tile};
   const Field fine = noise(size, {32, 32}, {2, 0.6F}, 0.6F, rng.at("grain"), job);
@@ -189,7 +189,7 @@ Relief slate(int size, Rng rng, const Job& job) {
   return relief;
 }
 
-/// Boards that overlap, laid level, with their grain.
+/// Overlapping horizontal boards with grain.
 Relief planks(int size, Rng rng, const Job& job) {
   const Bond bond{1, 16, 0.37F, planks_tile};
   Field grain(job, size);
@@ -211,7 +211,7 @@ Relief planks(int size, Rng rng, const Job& job) {
   return relief;
 }
 
-/// Ribs that run up the wall.
+/// Vertical ribs.
 Relief sheet(int size, Rng rng, const Job& job) {
   constexpr int ribs = 10;
   const Field large = noise(size, {3, 2}, {4, 0.55F}, 0.6F, rng.at("patches"), job);

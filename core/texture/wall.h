@@ -1,7 +1,7 @@
 #pragma once
-/// Surfaces of buildings by seed: brick, plaster, roof tiles, slate, planks, dressed stone, concrete, sheet
-/// metal. Each repeats in both directions without a seam, has a size in metres, and up the wall or the slope
-/// is up the picture.
+/// Textures of building surfaces by seed: brick, plaster, roof tiles, slate, planks, ashlar, concrete and
+/// sheet metal. They tile seamlessly in both directions and have a size in metres. Up the wall or the slope
+/// is up in the image.
 #include <glm/vec2.hpp>
 #include <span>
 #include <string_view>
@@ -12,21 +12,21 @@ namespace seedmesh::texture {
 
 struct WallKind {
   std::string_view name;
-  glm::dvec2 tile;  ///< metres across and up that the picture shows
-  /// Painted in shades of a light grey, which TextureRecipe::factor colours: joints take the colour too. The
-  /// others are painted in TextureRecipe::color, and their mortar has a colour of its own.
+  glm::dvec2 tile;  ///< the size of the image in metres
+  /// Whether the texture is light grey and gets its colour, joints included, from TextureRecipe::factor.
+  /// Others have the colour of TextureRecipe::color, and mortar of its own colour.
   bool is_grey;
 };
 
 std::span<const WallKind> wall_kinds();
 
-/// Null for a name that is none.
+/// Null if no kind has this name.
 const WallKind* wall_kind(std::string_view name);
 
-/// The grey that takes a colour: linear.
+/// The mean grey of such textures, linear.
 glm::vec3 wall_grey();
 
-/// `name` is that of one of wall_kinds(). About 30 ns a texel.
+/// `name` is the name of one of wall_kinds(). Cost: about 30 ns a texel.
 Painting paint_wall(std::string_view name, int size, std::uint64_t seed, const Tint& tint, const Job& job);
 
 }  // namespace seedmesh::texture

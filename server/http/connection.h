@@ -1,6 +1,7 @@
 #pragma once
-/// One client's socket: reading with absolute deadlines, writing that joins small pieces, and an end that
-/// lets the client read the last answer. Owns the socket. One thread.
+/// The connection to one client: reads with absolute deadlines, joins small writes, ends slow readers, and closes
+/// so that the client can read the last response. Owns the socket. Used by one thread, except for end_if_idle().
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -12,58 +13,78 @@
 
 namespace seedmesh::http {
 
+/// How fast a client has to read a response. Only the time counts in which the socket takes no more bytes, so a
+/// response that fits into the buffers of the kernel is never too slow.
+struct ReadingPace {
+  std::chrono::steady_clock::duration timeout = std::chrono::seconds(30);  ///< for each `step`
+  std::uint64_t step = 64 * 1'024;  ///< bytes; single bytes do not extend the timeout
+  std::chrono::steady_clock::duration grace = std::chrono::seconds(10);  ///< of waiting before `rate` holds
+  double rate = 0;  ///< least bytes per second from the first wait on; 0: no limit
+};
+
 class Connection {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `drain` is a file descriptor that becomes readable when idle connections shall end. With an `identity`
-  /// the client has to speak TLS.
-  Connection(int socket, int drain, const TlsIdentity* identity = nullptr);
+  /// Without TLS, `socket` is blocking and has a receive timeout (SO_RCVTIMEO), the longest time without a
+  /// request. With an `identity` the client has to use TLS, and `socket` is non-blocking.
+  Connection(int socket, const TlsIdentity* identity, const ReadingPace& pace);
   ~Connection();
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
   int socket() const { return socket_; }
-  std::string remote() const;
 
-  /// Agrees with the client on keys; false when it does not in time. Nothing to do without TLS.
-  bool shake_hands(Clock::time_point until);
+  /// Completes the TLS handshake. False on failure or after the deadline; true at once without TLS.
+  bool handshake(Clock::time_point deadline);
 
-  /// Waits for the first byte of a request; false when the client leaves, the time is over or the service
-  /// drains.
-  bool wait_for_request(Clock::time_point until);
+  /// Waits for the first byte of a request. False when the client leaves, after end_if_idle(), when `draining`
+  /// is set, and after the receive timeout (with TLS: the deadline).
+  bool wait_for_request(Clock::time_point deadline, const std::atomic<bool>& draining);
 
-  /// Reads more into the buffer; false when the client has closed or the time is over.
-  bool fill(Clock::time_point until);
+  /// Ends the wait for a request, if this connection is waiting. May be called from any thread.
+  void end_if_idle();
+
+  /// Reads more bytes into the buffer. False after the deadline or when the client has closed.
+  bool read_more(Clock::time_point deadline);
   std::string_view buffered() const { return std::string_view(buffer_).substr(consumed_); }
-  void consume(std::size_t bytes);
+  void consume(std::size_t bytes);  ///< removes bytes from the front of the buffer
 
-  /// Queues a small piece, sends a big one at once together with what is queued. False once the client cannot
-  /// be written to.
+  /// Queues a small piece; sends a large one at once, after what is queued. False when the client cannot be
+  /// written to any more.
   bool write(std::string_view piece);
   bool flush();
+  void begin_response();  ///< the pace is measured for each response
   bool broken() const { return broken_; }
-  std::uint64_t sent() const { return sent_; }
+  bool slow() const { return slow_; }           ///< the client did not keep the pace; broken() is true, too
+  std::uint64_t sent() const { return sent_; }  ///< bytes before encryption
 
-  /// Ends our side and reads what the client still sends, for two seconds and `most` bytes: closing a socket
-  /// with unread bytes resets it, and the client would lose the answer that tells what was wrong.
+  /// Closes our side, then reads and discards up to `most` bytes for at most two seconds. Closing a socket
+  /// with unread bytes resets the connection, and the client would lose the response.
   void linger(std::size_t most);
 
  private:
-  bool receive(Clock::time_point until);
+  bool wait(short event, Clock::time_point deadline) const;
+  bool wait_for_reader(short event);
+  Transfer try_read(char* to, std::size_t size);
+  void append(const char* bytes, std::size_t size);
+  Transfer try_send(std::string_view first, std::string_view second);
   bool send_all(std::string_view first, std::string_view second);
-  bool send_encrypted(std::string_view plain);
-  bool send_wire(std::string_view first, std::string_view second);
-  void say_goodbye();
+  void close_session();
 
-  int socket_;
-  int drain_;
+  const int socket_;
+  const ReadingPace pace_;
   std::optional<TlsSession> tls_;
-  std::string buffer_;
+  std::atomic<bool> idle_{false};
+  std::string buffer_;  ///< bytes that have been read
   std::size_t consumed_ = 0;
-  std::string queued_;
+  std::string queue_;  ///< bytes to be sent
   std::uint64_t sent_ = 0;
-  bool broken_ = false;
+  bool broken_ = false, slow_ = false;
+
+  // Of the present response: time spent waiting for the client, and bytes sent before.
+  Clock::duration waited_{0}, waited_for_step_{0};
+  std::uint64_t sent_before_waiting_ = 0, sent_before_step_ = 0;
 };
 
 }  // namespace seedmesh::http

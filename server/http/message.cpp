@@ -2,23 +2,15 @@
 
 #include <algorithm>
 
+#include "server/http/text.h"
+
 namespace seedmesh::http {
-namespace {
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-}  // namespace
-
-bool same_name(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](char x, char y) { return lower(x) == lower(y); });
-}
-
-std::string joined(const Headers& headers, std::string_view name) {
+std::string field_value(const Headers& headers, std::string_view name) {
   std::string all;
   bool found = false;
   for (const auto& [field, value] : headers) {
-    if (!same_name(field, name)) continue;
+    if (!equals_ignoring_case(field, name)) continue;
     if (found) all += ", ";
     all += value;
     found = true;
@@ -26,9 +18,9 @@ std::string joined(const Headers& headers, std::string_view name) {
   return all;
 }
 
-bool has(const Headers& headers, std::string_view name) {
-  return std::any_of(headers.begin(), headers.end(),
-                     [&](const auto& field) { return same_name(field.first, name); });
+std::size_t field_count(const Headers& headers, std::string_view name) {
+  const auto named = [&](const auto& field) { return equals_ignoring_case(field.first, name); };
+  return static_cast<std::size_t>(std::count_if(headers.begin(), headers.end(), named));
 }
 
 }  // namespace seedmesh::http

@@ -1,5 +1,5 @@
 #pragma once
-/// Requests and responses as the routes see them: nothing here knows the HTTP library.
+/// Requests and responses as routes see them.
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -15,60 +15,59 @@
 
 namespace seedmesh::http {
 
-/// Header fields in order of arrival or of sending; names keep their spelling and compare without case.
+/// Header fields in the order in which they arrive or are sent. Names keep their spelling.
 using Headers = std::vector<std::pair<std::string, std::string>>;
 
-bool same_name(std::string_view a, std::string_view b);
-
 /// All values of a field joined by ", " as RFC 9110 section 5.3 allows; "" where the field is absent.
-std::string joined(const Headers& headers, std::string_view name);
-bool has(const Headers& headers, std::string_view name);
+std::string field_value(const Headers& headers, std::string_view name);
+std::size_t field_count(const Headers& headers, std::string_view name);
 
 struct Request {
   using Clock = std::chrono::steady_clock;
 
   std::string method;  ///< a token, as sent
-  std::string target;  ///< raw, origin form: "/path?query"; printable ASCII
-  std::string path;    ///< raw part before '?', checked: valid escapes, no NUL, no dot segments
-  std::string query;   ///< raw part after '?'
-  int minor = 1;       ///< HTTP/1.0 or HTTP/1.1
+  std::string target;  ///< undecoded, in origin form: "/path?query"; printable ASCII
+  std::string path;    ///< undecoded part before '?': its escapes are valid, it has no NUL and no dot segment
+  std::string query;   ///< undecoded part after '?'
+  int minor = 1;       ///< 0 for HTTP/1.0, 1 for HTTP/1.1
   Headers headers;
   std::string body;
-  std::string id;      ///< the client's X-Request-Id where it is sane, else one of ours
-  std::string remote;  ///< address of the peer
+  std::string id;      ///< the client's X-Request-Id if it is well formed, else a new one
+  std::string remote;  ///< IP address of the client
   Clock::time_point arrived{};
 
-  /// A token that is set when the client closes its side. Watching begins with the call and costs a system
-  /// call, so only work that takes long asks for it.
+  /// Returns a token that is set when the client closes its side of the connection. The first call starts
+  /// the watch and costs a system call, so only long work asks for it.
   std::function<std::stop_token()> gone;
 
-  std::string header(std::string_view name) const { return joined(headers, name); }
-  bool has_header(std::string_view name) const { return has(headers, name); }
+  std::string header(std::string_view name) const { return field_value(headers, name); }
+  bool has_header(std::string_view name) const { return field_count(headers, name) > 0; }
 };
 
-/// Part of a body: shared bytes, and which of them.
+/// Part of a payload as a response body. The bytes are shared and not copied.
 struct Slice {
   std::shared_ptr<const Payload> payload;
   std::uint64_t offset = 0;
   std::uint64_t length = 0;
 };
 
-/// Writes a body of unknown length piece by piece. `write` is false when the client has gone; end then.
+/// Writes a body of unknown length piece by piece. `write` returns false when the client has left; the
+/// stream has to end then.
 using Write = std::function<bool(std::string_view piece)>;
 using Stream = std::function<void(const Write& write)>;
 
 struct Response {
   int status = 200;
-  std::string type;  ///< media type of the body, "" = no body
+  std::string type;  ///< media type of the body; "" without a body
   Headers headers;
   std::variant<std::string, Slice, Stream> body;
-  bool close = false;  ///< end the connection after this answer
+  bool close = false;  ///< close the connection after this response
 
-  // For the log and the metrics, not sent.
-  std::string route;      ///< the pattern that matched; bounded in number
-  std::string log_text;   ///< what went wrong, in words for the operator only
-  std::string cache_use;  ///< "hit", "shared", "miss", "" where no cache was asked
-  std::vector<std::pair<std::string, std::string>> log_fields;  ///< whatever else the line shall have
+  // For the log and the metrics. They are not sent.
+  std::string route;      ///< the pattern that matched, so that the number of values is bounded
+  std::string log_text;   ///< the reason of an error, for the operator only
+  std::string cache_use;  ///< "hit", "shared", "miss", or "" where no cache was used
+  std::vector<std::pair<std::string, std::string>> log_fields;  ///< further fields of the log line
 
   void set(std::string name, std::string value) { headers.emplace_back(std::move(name), std::move(value)); }
 };

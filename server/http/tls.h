@@ -1,22 +1,30 @@
 #pragma once
-/// TLS for a service that stands without a proxy: a certificate, and the server's side of one session between
-/// the bytes on the wire and those of HTTP. Does no input or output itself, so that deadlines and limits stay
-/// those of the connection. With OpenSSL; 1.2 and 1.3 are spoken.
+/// TLS for a service without a proxy in front of it: a certificate with its key, and the server side of one
+/// session over a non-blocking socket. Uses OpenSSL; supports TLS 1.2 and 1.3.
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 
 struct ssl_ctx_st;
 struct ssl_st;
-struct bio_st;
 
 namespace seedmesh::http {
 
-/// A certificate and its key. May be used from many threads.
+/// Outcome of one attempt to read or write without blocking. With neither bytes nor an event the connection
+/// has ended.
+struct Transfer {
+  std::size_t bytes = 0;
+  short wait_for = 0;  ///< the poll() event after which the attempt is to be repeated
+};
+
+/// A certificate and its private key. May be used from many threads.
 class TlsIdentity {
  public:
-  /// Reads PEM files: the certificate, followed by the rest of its chain, and the key. Or why not.
+  /// Reads PEM files: the certificate followed by the rest of its chain, and the key. Returns an error message
+  /// where a file is not valid.
   static std::variant<std::shared_ptr<const TlsIdentity>, std::string> read(const std::string& certificate,
                                                                             const std::string& key);
   ~TlsIdentity();
@@ -29,35 +37,25 @@ class TlsIdentity {
   ssl_ctx_st* const context_;
 };
 
-/// One thread.
+/// One session. Not for use from several threads.
 class TlsSession {
  public:
-  explicit TlsSession(const TlsIdentity& identity);
+  /// `socket` is a connected non-blocking socket, which the session does not own.
+  TlsSession(const TlsIdentity& identity, int socket);
   ~TlsSession();
   TlsSession(const TlsSession&) = delete;
   TlsSession& operator=(const TlsSession&) = delete;
 
-  /// Reads what came over the wire and appends what it says to `plain`. False when the client has ended the
-  /// session or speaks no TLS.
-  bool take(std::string_view wire, std::string& plain);
-
-  /// Encrypts; false when the session cannot carry it.
-  bool put(std::string_view plain);
-  void end();  ///< tells the client that nothing more comes
-
-  bool is_open() const;  ///< hands have been shaken
-  /// What is to be sent next, until sent().
-  std::string_view pending() const;
-  void sent();
+  Transfer handshake();  ///< `bytes` is 1 once the handshake is complete
+  Transfer read(std::span<char> to);
+  Transfer write(std::string_view from);
+  void close();  ///< tells the client that no more data follows; does not wait
 
  private:
-  ssl_st* session_;
-  bio_st* in_;   ///< owned by the session
-  bio_st* out_;  ///< the same
-};
+  Transfer outcome(int result);
 
-/// Sends `request` over a connected socket as a client that trusts any certificate, and gives back the first
-/// `most` bytes of the answer, or fewer. For asking ourselves on this machine.
-std::string ask_over_tls(int socket, std::string_view request, std::size_t most);
+  ssl_st* session_;
+  bool failed_ = false;
+};
 
 }  // namespace seedmesh::http

@@ -1,16 +1,18 @@
 #!/usr/bin/env node
-// Runs the benches of build/release and their peers, most of them three times in turn, and prints a table of the medians. Figures also go to
-// build/bench.jsonl, one a line, for comparing two commits.   bench.mjs [words of a name]
+// Runs the benchmarks of build/release and their peers, most of them three times in turn, and prints a table
+// of the medians. Also appends the results to build/bench.jsonl, one per line, so that two commits can be
+// compared. Usage: bench.mjs [words of a name]. SEEDMESH_STORE_COLD=1 stores the table of `cold` as that of a release.
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
+import { print_cold } from './cold.mjs';
 
 const words = process.argv[2] ?? '';
 const build = 'build/release';
 /** How often each program runs; seconds of work need no repetition for the sake of start-up. */
 const launches = 3, launches_of = { scene: 1 };
 
-// What we aim at: figures of the best engine known, measured on a machine of this class.
+// Targets: the figures of the best known engine, measured on comparable hardware.
 const aims = {
   'D0L bush n=7': { rate: 430e6, over_peer: 5 },
   'D0L bush n=8': { rate: 430e6, over_peer: 5 },
@@ -18,7 +20,7 @@ const aims = {
   'context signal': { rate: 200e6 },
   'Tajic A n=14, lines': { seconds: 0.3 },
   'Tajic B n=14, lines': { seconds: 0.3 },
-  // Terrain: seconds for the whole.
+  // Terrain: total seconds.
   'diamond-square 4097': { seconds: 0.06 },
   'fBm of 8 octaves 1025': { seconds: 30e-9 * 1025 * 1025 },
   '65536 droplets 513': { seconds: 0.2 },
@@ -29,7 +31,7 @@ const aims = {
   'Menger 4, 1 thread': { seconds: 0.04 },
   'Menger 5, 1 thread': { seconds: 0.4 },
   'tree to GLB: 20,000 triangles': { seconds: 0.001 },
-  // Scenes: places a second, or seconds for the whole.
+  // Scenes: positions per second, or total seconds.
   'Poisson disk': { rate: 1e6 },
   '1 M placements as list': { seconds: 3 },
   '100,000 trees on 1025 x 1025 for the web': { seconds: 2, megabytes: 10 },
@@ -125,7 +127,7 @@ function run_own() {
 
 /** The programs over Google Benchmark print tables of their own. */
 function run_library_benches() {
-  const own = new Set(Object.keys(figures).map((bench) => `${bench}_bench`));
+  const own = new Set([...Object.keys(figures), 'cold'].map((bench) => `${bench}_bench`));
   const folder = `${build}/bench`;
   for (const name of fs.readdirSync(folder).filter((file) => file.endsWith('_bench') && !own.has(file) && file.includes(words)).sort()) {
     console.log(`\n--- ${name}`);
@@ -138,6 +140,10 @@ const rows = chosen.length > 0 ? run_own() : [];
 fs.mkdirSync('build', { recursive: true });
 fs.appendFileSync('build/bench.jsonl', rows.map((row) => `${JSON.stringify({ at: new Date().toISOString(), ...row })}\n`).join(''));
 run_library_benches();
+if (words === '' || 'cold'.includes(words)) {
+  console.log('\n--- cold: one thread, no cache, a new seed');
+  print_cold(lines_of(output_of(`${build}/bench/cold_bench`)), process.env.SEEDMESH_STORE_COLD);
+}
 const http = ['tests/bench/http_bench.mjs', 'tests/bench/http_bench.sh'].find((file) => fs.existsSync(file));
 if (http && (words === '' || 'http'.includes(words))) {
   console.log(`\n--- ${http}`);

@@ -1,5 +1,5 @@
-/// What one evaluation of an expression costs: the short forms that parametric L-systems are full of, longer
-/// code, calls and random draws. The slots change with every evaluation, as from module to module.
+/// The time of one evaluation of an expression: short forms typical of parametric L-systems, longer code,
+/// calls and random draws. The parameter values change with every evaluation, as from module to module.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -17,7 +17,7 @@ void evaluate(benchmark::State& state, const char* text) {
   names.bind_slot("w", 1);
   names.bind_constant("r1", 0.9);
   names.bind_constant("wr", 0.707);
-  std::vector<lang::Fault> faults;
+  std::vector<lang::TextError> faults;
   lang::Program program;
   std::size_t at = 0;
   const std::string source = text;
@@ -36,7 +36,7 @@ void evaluate(benchmark::State& state, const char* text) {
   }
 }
 
-/// The nine expressions of a production of ABOP's tree 2.6, one after the other.
+/// The nine expressions of a production of ABOP's tree 2.6, evaluated in turn.
 void evaluate_production(benchmark::State& state) {
   lang::Names names;
   names.bind_slot("l", 0);
@@ -45,7 +45,7 @@ void evaluate_production(benchmark::State& state) {
        {std::pair{"r1", 0.9}, {"r2", 0.6}, {"a0", 45.0}, {"d", 137.5}, {"wr", 0.707}}) {
     names.bind_constant(name, value);
   }
-  std::vector<lang::Fault> faults;
+  std::vector<lang::TextError> faults;
   lang::Program program;
   std::vector<lang::Expression> expressions;
   for (const std::string source : {"w", "l", "a0", "l*r2", "w*wr", "d", "l*r1", "w*wr"}) {

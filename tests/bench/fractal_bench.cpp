@@ -1,5 +1,5 @@
-/// Fractals: the Menger sponge from the text of a request to the bytes of a GLB, with the memory that it
-/// takes beside the answer, and the chaos game.
+/// Fractals: the Menger sponge from the request text to the bytes of a GLB, with its memory in addition to
+/// the response, and the chaos game.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -25,8 +25,7 @@ std::string sponge(int rounds, const std::string& surface = "faces") {
 Product made(const std::string& text, int threads) {
   const Result<Request> request = read_request(text, Limits{});
   if (!request) std::abort();
-  Job job(request->seed(), {.threads = threads});
-  Result<Product> product = produce(*request, job);
+  Result<Product> product = produce(*request, {.threads = threads});
   if (!product) std::abort();
   return *std::move(product);
 }
@@ -47,7 +46,7 @@ void bench_merged(int rounds) {
                 static_cast<double>(product.statistics.triangles), seconds);
 }
 
-/// In a process of its own, while this one is small.
+/// Forks a process for the measurement. Must run while this process is small.
 void bench_memory(int rounds) {
   std::fflush(stdout);
   const pid_t child = fork();

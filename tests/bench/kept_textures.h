@@ -1,11 +1,11 @@
 #pragma once
-/// Textures as a server keeps them from one request to the next, without a bound.
+/// An unbounded texture cache that lasts from one request to the next, as in a server.
 #include <map>
 #include <memory>
 #include <string>
 #include <utility>
 
-#include "core/base/texture_store.h"
+#include "core/texture/texture_store.h"
 
 namespace seedmesh::bench {
 

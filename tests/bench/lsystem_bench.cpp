@@ -1,6 +1,5 @@
-/// How fast words are derived: plain symbols, parameters, contexts. Whole derivations from the axiom; the
-/// word itself is made in memory for plain and context systems, and streamed module by module for parametric
-/// ones, as generate() does.
+/// The speed of derivations from the axiom: plain symbols, parameters, contexts. Plain and context-sensitive
+/// systems build the word in memory; parametric ones stream it module by module, as generate() does.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -15,6 +14,7 @@
 #include "core/generators/lsystem/text.h"
 #include "generated/params/lsystem.h"
 #include "tests/bench/report.h"
+#include "tests/support/context.h"
 
 namespace {
 
@@ -37,7 +37,7 @@ Grammar compiled(const LsystemParams& params) {
   return grammar;
 }
 
-/// A system of plain symbols, the whole word into memory as derive() makes it.
+/// A system of plain symbols. The whole word is built in memory, as by derive().
 void bench_plain(const std::string& name, const LsystemParams& params, std::uint32_t steps) {
   const Grammar grammar = compiled(params);
   if (!is_plain(grammar)) std::abort();
@@ -49,7 +49,7 @@ void bench_plain(const std::string& name, const LsystemParams& params, std::uint
   bench::report(name, "modules", modules, seconds);
 }
 
-/// One symbol travels through a long word: every module is looked at in every step.
+/// One symbol moves through a long word, so that every step has to visit every module.
 void bench_signal() {
   constexpr std::uint32_t steps = 50;
   constexpr std::size_t length = 900'000;
@@ -65,7 +65,8 @@ void bench_signal() {
   bench::report("context signal", "rewrites", static_cast<double>(length) * steps, seconds);
 }
 
-/// Counts modules and takes one bit of each parameter, so that no argument can be left out by the compiler.
+/// Counts modules and reads one bit of each parameter, so that the compiler cannot remove the evaluation of
+/// an argument.
 struct Counter {
   std::uint64_t modules = 0;
   double sum = 0;
@@ -75,7 +76,7 @@ struct Counter {
   }
 };
 
-/// A context-free system depth first into a reader, without the word.
+/// A context-free system, expanded depth first without storing the word.
 void bench_stream(const std::string& name, const LsystemParams& params, std::uint32_t steps) {
   const Grammar grammar = compiled(params);
   Counter counter;
@@ -123,7 +124,7 @@ LsystemParams tajic(char system) {
   return params;
 }
 
-/// The modules of the word, handed on one by one.
+/// Streams the modules of the word one by one.
 void bench_words(char system, std::uint32_t steps) {
   const Grammar grammar = compiled(tajic(system));
   Counter counter;
@@ -136,7 +137,7 @@ void bench_words(char system, std::uint32_t steps) {
                 static_cast<double>(counter.modules), seconds);
 }
 
-/// The model by the limits of a service; a refusal is told instead of a figure.
+/// Generates the model with the limits of a service. A refusal is printed instead of a result.
 void bench_model(char system, std::uint32_t steps, LsystemParams::Style style) {
   LsystemParams params = tajic(system);
   params.iterations = static_cast<std::int32_t>(steps);
@@ -148,7 +149,7 @@ void bench_model(char system, std::uint32_t steps, LsystemParams::Style style) {
   try {
     const double seconds = bench::median_seconds<bench::CpuClock>(3, [&] {
       Job job(0, Job::Options{});
-      const Result<Model> model = generate(params, job);
+      const Result<Model> model = generate(params, context_of(job));
       if (!model) std::abort();
       elements = 0;
       for (const MeshGroup& group : model->meshes) {

@@ -1,5 +1,5 @@
-// Trees by npm @dgreenheck/ez-tree, the peer: CPU time of generate() and of writing a GLB without textures, without start-up. Its
-// presets stand beside ours of like triangle count.
+// Trees by the peer, npm @dgreenheck/ez-tree: CPU time of generate() and of writing a GLB without textures,
+// without start-up. Its presets are compared with ours of similar triangle count.
 import { stand_in_for_browser } from './peer_support.mjs';
 
 stand_in_for_browser();

@@ -1,5 +1,5 @@
-// The same derivation by npm lindenmayer, the peer: CPU time of iterate() and of
-// making the text one flat string, without start-up.
+// The same derivation by the peer, npm lindenmayer: CPU time of iterate() and of flattening the resulting
+// string, without start-up.
 import LSystem from 'lindenmayer';
 
 function seconds_of(steps) {
@@ -7,7 +7,7 @@ function seconds_of(steps) {
   const start = process.cpuUsage();
   lsystem.iterate(steps);
   const text = lsystem.getString();
-  text.charCodeAt(text.length - 1); // flattens the rope that the engine builds
+  text.charCodeAt(text.length - 1); // flattens the rope that the JavaScript engine builds
   return { length: text.length, seconds: (({ user, system }) => (user + system) / 1e6)(process.cpuUsage(start)) };
 }
 

@@ -1,5 +1,5 @@
-// The Menger sponge of three rounds by npm manifold-3d, the peer: a cube less the square prisms of every round along the three
-// axes, as CSG kernels make it. Wall time, without start-up.
+// A Menger sponge of level 3 by the peer, npm manifold-3d: a cube minus the square prisms of every level
+// along the three axes, the usual CSG construction. Wall time, without start-up.
 import Module from 'manifold-3d';
 
 const kernel = await Module();

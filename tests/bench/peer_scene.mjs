@@ -1,6 +1,7 @@
-// The same scenes by what npm has for them, put together: fast-2d-poisson-disk-sampling for places, delatin for the ground, ez-tree for
-// the trees, three.js with its GLTFExporter for the file: as nodes that share meshes, and as InstancedMesh (EXT_mesh_gpu_instancing).
-// 16 trees by 100,000 places on 1025 x 1025 samples, as in scene_bench.cpp; without textures and without compression, which they do not do.
+// The same scenes by a combination of npm packages: fast-2d-poisson-disk-sampling for positions, delatin for
+// the terrain, ez-tree for the trees, and three.js with its GLTFExporter for the file, as nodes that share
+// meshes and as InstancedMesh (EXT_mesh_gpu_instancing). 16 trees at 100,000 positions on 1025 x 1025
+// samples, as in scene_bench.cpp; without textures and compression, which the packages do not support.
 import { performance } from 'node:perf_hooks';
 import Delatin from 'delatin';
 import FastPoissonDiskSampling from 'fast-2d-poisson-disk-sampling';

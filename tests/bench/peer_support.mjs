@@ -1,4 +1,5 @@
-// What several peers need: the parts of a browser that three.js asks for when it writes a file, and hills to reduce.
+// Shared by the peers: the browser interfaces that three.js needs to write a file, and a height field to
+// simplify.
 
 /** Before ez-tree and three.js are imported, which look for a browser then. */
 export function stand_in_for_browser() {

@@ -1,6 +1,7 @@
-// The same fields and meshes by their peers on npm: three.terrain.js for diamond-square, @mapbox/martini for right triangles, delatin for
-// greedy insertion. The reduced meshes are of a field of eight octaves of value noise, with an error of .002 of its range: terrain_bench.cpp
-// makes the same field, sample for sample. Its gain is one at which martini has as many triangles (427,000) as on the field of the first figures.
+// The same fields and meshes by peers on npm: three.terrain.js for diamond-square, @mapbox/martini for
+// right-triangulated meshes, delatin for greedy insertion. The simplified field has eight octaves of value
+// noise and an error bound of 0.002 of its range; terrain_bench.cpp computes the same samples. With the
+// chosen gain, martini needs as many triangles (427,000) as on the field of the first measurements.
 import { performance } from 'node:perf_hooks';
 import Martini from '@mapbox/martini';
 import Delatin from 'delatin';
@@ -23,13 +24,13 @@ async function fields() {
   const three = await import('three');
   globalThis.THREE = { ...three, Math: three.MathUtils };
   const module = await import('three.terrain.js');
-  globalThis.noise ??= module.noise ?? module.default?.noise;  // it looks for its own noise there
+  globalThis.noise ??= module.noise ?? module.default?.noise;  // the library expects its noise function there
   const terrain = globalThis.THREE.Terrain ?? module.default ?? module;
   const run = (method, segments, frequency) => () => {
     method(new Float32Array((segments + 1) ** 2), { xSegments: segments, ySegments: segments, xSize: segments, ySize: segments, minHeight: 0, maxHeight: 100, frequency, easing: (x) => x });
   };
   print('diamond-square 4097', 'three.terrain.js, 1025', 'cells', 1025 ** 2, run(terrain.DiamondSquare, 1024, 2.5));
-  // Four octaves count as half of eight.
+  // The time of four octaves is half of that of eight.
   print('fBm of 8 octaves 1025', 'three.terrain.js, PerlinLayers by octave', 'cells', 1025 ** 2 / 2, run(terrain.PerlinLayers, 1024, 2.5));
   print('362 faults 257', 'three.terrain.js', 'cells and faults', 257 ** 2 * 362, run(terrain.Fault, 256, 1));
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// One figure a line, as JSON, for tests/bench/bench.mjs to gather.
+/// Prints results as JSON, one per line, for tests/bench/bench.mjs.
 #include <time.h>
 
 #include <algorithm>
@@ -12,15 +12,15 @@
 
 namespace seedmesh::bench {
 
-/// `amount` of `unit` took `seconds`.
+/// Reports that `amount` units took `seconds`.
 inline void report(const std::string& name, const char* unit, double amount, double seconds) {
   std::printf("{\"name\":\"%s\",\"unit\":\"%s\",\"amount\":%.0f,\"seconds\":%.9f}\n", name.c_str(), unit,
               amount, seconds);
   std::fflush(stdout);
 }
 
-/// Time that the cores spent on this process, which other processes of a busy machine do not lengthen. For
-/// work on one thread.
+/// Processor time of this process, which other processes on the machine do not affect. For single-threaded
+/// work.
 struct CpuClock {
   static double seconds() {
     timespec now = {};
@@ -29,15 +29,15 @@ struct CpuClock {
   }
 };
 
-/// Time on the wall, for work on several threads.
+/// Wall time, for multi-threaded work.
 struct WallClock {
   static double seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   }
 };
 
-/// `rounds` timings of `work` in seconds, rising. `work` runs once before, so that memory and caches are
-/// warm.
+/// Returns `rounds` times of `work` in seconds, in ascending order. `work` runs once before the measurement
+/// to warm memory and caches.
 template <class Clock, class Work>
 std::vector<double> timings(int rounds, Work&& work) {
   work();
@@ -56,13 +56,13 @@ double median_seconds(int rounds, Work&& work) {
   return timings<Clock>(rounds, work)[static_cast<std::size_t>(rounds / 2)];
 }
 
-/// Of several threads on a machine that others use too: what it takes when they happen to be idle.
+/// The minimum time, for multi-threaded work on a machine with other load.
 template <class Clock, class Work>
 double least_seconds(int rounds, Work&& work) {
   return timings<Clock>(rounds, work).front();
 }
 
-/// A figure of /proc/self/status in bytes, as VmRSS or VmHWM.
+/// Returns a size from /proc/self/status in bytes, for example VmRSS or VmHWM.
 inline double status_bytes(const std::string& key) {
   std::ifstream file("/proc/self/status");
   for (std::string line; std::getline(file, line);) {

@@ -1,5 +1,5 @@
-/// From the text of a request to the bytes of a GLB: time a triangle of each generator's three biggest
-/// presets, and how much memory one big answer takes beside its own size.
+/// From the request text to the bytes of a GLB: the time per triangle of the three largest presets of each
+/// generator, and the memory of one large response in addition to its own size.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -25,13 +25,12 @@ struct Sized {
 };
 
 Sized made(const std::string& name, const Request& request, int threads) {
-  Job job(request.seed(), {.threads = threads});
-  const Result<Product> product = produce(request, job);
+  const Result<Product> product = produce(request, {.threads = threads});
   if (!product) return {name, 0, 0};
   return {name, product->statistics.triangles, product->payload.size()};
 }
 
-/// The biggest presets of each generator, biggest first.
+/// The largest presets of each generator, in descending order.
 std::vector<Sized> biggest_presets(std::size_t count) {
   std::map<std::string, std::vector<Sized>> by_generator;
   for (const PresetInfo& preset : presets()) {
@@ -61,17 +60,17 @@ void bench_preset(const Sized& preset, int threads) {
                 seconds);
 }
 
-/// Makes the preset with so many iterations in a process of its own and prints what it took; false when the
-/// answer has fewer bytes than asked for, or is refused.
+/// Generates the preset with this number of iterations in a forked process and prints the result. Returns
+/// false if the response is smaller than required or refused.
 bool bench_memory(const std::string& name, int iterations, std::uint64_t least_bytes) {
   std::fflush(stdout);
   const pid_t child = fork();
   if (child == 0) {
     const auto request = read_preset(name, {{"iterations", std::to_string(iterations)}}, Limits{});
     if (!request || !*request) _exit(1);
-    Job job((*request)->seed(), {.threads = static_cast<int>(std::thread::hardware_concurrency())});
     const double idle = bench::status_bytes("VmRSS");
-    const Result<Product> product = produce(**request, job);
+    const Result<Product> product =
+        produce(**request, {.threads = static_cast<int>(std::thread::hardware_concurrency())});
     if (!product || product->payload.size() < least_bytes) _exit(1);
     const double peak = bench::status_bytes("VmHWM");
     std::printf(
@@ -96,7 +95,7 @@ int iterations_of(const std::string& name) {
 
 int main() {
   const std::vector<Sized> biggest = biggest_presets(3);
-  // First, while this process is small: a child starts with its parent's memory.
+  // Runs first, while this process is small, because a forked process starts with the memory of its parent.
   for (const Sized& preset : biggest) {
     constexpr std::uint64_t big = 50'000'000;
     const int from = iterations_of(preset.name);

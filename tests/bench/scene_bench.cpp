@@ -1,5 +1,5 @@
-/// How fast scenes are planted, listed and written. On two threads, by the clock on the wall. And how much
-/// memory they take beside their own size.
+/// The speed of placing, listing and writing scenes on two threads, in wall time, and their memory in
+/// addition to the response size.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/base/math.h"
-#include "core/generators/scene/stands.h"
+#include "core/generators/scene/candidate_positions.h"
 #include "core/pipeline.h"
 #include "core/schema/json.h"
 #include "tests/bench/kept_textures.h"
@@ -22,19 +22,22 @@ namespace {
 
 using namespace seedmesh;
 
-// A first round warms memory and caches. After it there are as many as fit into the time, one at least.
+// The first round warms memory and caches. The number of further rounds depends on the time limit, with a
+// minimum of one.
 constexpr std::size_t most_rounds = 5;
 constexpr double enough_seconds = 4;
 
-Job roomy() {
+Job::Options roomy_options() {
   Job::Options options;
   options.threads = 2;
   options.limits.memory_bytes = std::uint64_t{6} << 30U;
   options.limits.output_bytes = std::uint64_t{3} << 30U;
-  return Job(1, options);
+  return options;
 }
 
-/// On the wall, and of all threads on their cores, which other processes of a busy machine hardly lengthen.
+Job roomy() { return Job(1, roomy_options()); }
+
+/// Wall time, and processor time of all threads, which other processes on the machine hardly affect.
 struct Seconds {
   double wall = 0, cores = 0;
 };
@@ -55,7 +58,7 @@ Seconds timed(Work&& work) {
   return *middle;
 }
 
-/// `bytes`: of the answer; 0: it is not written.
+/// `bytes` is the response size, or 0 if no response is written.
 void print(const std::string& name, const char* unit, double amount, double bytes, const Seconds& seconds) {
   std::printf(
       "{\"name\":\"%s\",\"unit\":\"%s\",\"amount\":%.0f,\"bytes\":%.0f,\"seconds\":%.9f,\"cores\":%.9f}\n",
@@ -72,14 +75,13 @@ void bench_poisson() {
   print("Poisson disk", "places", places, 0, seconds);
 }
 
-/// Bytes of the answer; 0 where the request is refused.
+/// Returns the response size in bytes, or 0 if the request is refused.
 double made(const Json& json, Seconds& seconds) {
   const Result<Request> request = read_request(json.dump(), Limits{});
   if (!request) return 0;
   double bytes = 0;
   seconds = timed([&] {
-    Job job = roomy();
-    const Result<Product> product = produce(*request, job);
+    const Result<Product> product = produce(*request, roomy_options());
     if (!product) std::abort();
     bytes = static_cast<double>(product->payload.size());
   });
@@ -96,7 +98,7 @@ Json tree(int levels) {
   return {{"preset", "proctree_0"}, {"parameters", {{"mLevels", levels}, {"mSegments", 6}}}};
 }
 
-/// A sample each 2 m of smooth noise (gain 0.5), reduced to an error of 0.002 of its range of 206 m.
+/// Smooth noise (gain 0.5) with one sample per 2 m, simplified to an error of 0.002 of its range of 206 m.
 Json terrain(int resolution = 1025) {
   return {{"generator", "terrain"},
           {"parameters",
@@ -118,7 +120,7 @@ Json list(int placements) {
           {"output", {{"format", "placements"}}}};
 }
 
-/// 16 models of a tree on a terrain.
+/// 16 tree models on a terrain.
 Json forest(int trees, int resolution, const Json& output = Json::object()) {
   return {{"generator", "scene"},
           {"output", output},
@@ -147,20 +149,19 @@ void bench_forest() {
 Product produced(const Json& json, TextureStore& textures) {
   const Result<Request> request = read_request(json.dump(), Limits{});
   if (!request) std::abort();
-  Job job = roomy();
-  Result<Product> product = produce(*request, job, &textures);
+  Result<Product> product = produce(*request, roomy_options(), &textures);
   if (!product) std::abort();
   return *std::move(product);
 }
 
-/// In a process of its own, which has made a small scene of the same models before.
+/// Measures in a forked process that has already generated a small scene of the same models.
 void bench_memory(const std::string& name, const Json& small, const Json& large) {
   std::fflush(stdout);
   const pid_t child = fork();
   if (child == 0) {
     bench::KeptTextures textures;
     produced(small, textures);
-    std::ofstream("/proc/self/clear_refs") << "5";  // the peak begins anew
+    std::ofstream("/proc/self/clear_refs") << "5";  // resets the peak
     const double idle = bench::status_bytes("VmRSS");
     const Product product = produced(large, textures);
     std::printf("{\"name\":\"memory: %s\",\"unit\":\"bytes\",\"amount\":%llu,\"peak_less_idle\":%.0f}\n",
@@ -174,7 +175,7 @@ void bench_memory(const std::string& name, const Json& small, const Json& large)
   if (status != 0) std::abort();
 }
 
-/// The same plants with bones and the animation.
+/// The same plants with a skeleton and the animation.
 void bench_animation(int count) {
   const Json model = {{"preset", "growing_tree"}, {"parameters", {{"sides", 5}, {"iterations", 5}}}};
   const Json place = {{"method", "scatter"}, {"count", count}};
@@ -184,7 +185,7 @@ void bench_animation(int count) {
                {"output", {{"textures", "none"}, {"animation", "growth"}}}});
 }
 
-/// Every tree another model, at another age.
+/// Every tree is a separate model with its own age.
 void bench_growth(int count) {
   Json positions = Json::array();
   for (int i = 0; i < count; ++i)
@@ -204,7 +205,7 @@ void bench_growth(int count) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // First, while this process is small: a child starts with its parent's memory.
+  // Runs first, while this process is small, because a forked process starts with the memory of its parent.
   const Json web = {{"profile", "web"}};
   bench_memory("100,000 trees as nodes", forest(100, 65), forest(100'000, 1025));
   bench_memory("100,000 trees for the web", forest(100, 65, web), forest(100'000, 1025, web));

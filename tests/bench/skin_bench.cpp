@@ -1,14 +1,15 @@
-/// Time of skin() and wires() a triangle or segment, on a synthetic tree whose limbs bend, taper and fork.
+/// The time of skin() and wires() per triangle or segment, on a synthetic tree whose limbs bend, taper and
+/// fork.
 #include <benchmark/benchmark.h>
 
-#include "core/geom/skin.h"
+#include "core/geom/plant/skin.h"
 #include "tests/core/geom/skeletons.h"
 
 namespace seedmesh {
 namespace {
 
-/// About `internodes` internodes in limbs of eight, each joint with a side branch now and then, written depth
-/// first like the turtle does.
+/// About `internodes` internodes in limbs of eight with random side branches, stored depth first as by the
+/// turtle.
 Limbs synthetic_tree(const Job& job, std::size_t internodes) {
   SkeletonMaker maker(job);
   Rng rng(11);

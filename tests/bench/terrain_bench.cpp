@@ -1,5 +1,5 @@
-/// How fast fields, erosion and meshes are made. On two threads, by the clock on the wall; `bytes` are those
-/// of the result, which bench.mjs compares with copying as many.
+/// The speed of fields, erosion and meshing on two threads, in wall time. `bytes` is the size of the result;
+/// bench.mjs compares the speed with copying the same number of bytes.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -22,13 +22,15 @@ using namespace seedmesh::terrain;
 
 constexpr int rounds = 5;
 
-Job roomy() {
+Job::Options roomy_options() {
   Job::Options options;
   options.threads = 2;
   options.limits.memory_bytes = std::uint64_t{6} << 30U;
   options.limits.output_bytes = std::uint64_t{3} << 30U;
-  return Job(1, options);
+  return options;
 }
+
+Job roomy() { return Job(1, roomy_options()); }
 
 void line(const std::string& name, const char* unit, double amount, double bytes, double seconds) {
   std::printf("{\"name\":\"%s\",\"unit\":\"%s\",\"amount\":%.0f,\"bytes\":%.0f,\"seconds\":%.9f}\n",
@@ -77,7 +79,7 @@ void bench_fields() {
   line("65536 droplets 513", "droplets", 65'536, 4.0 * 513 * 513, seconds);
 }
 
-/// Value noise of eight octaves, sample for sample that of peer_terrain.mjs, whose figures are of it too.
+/// Value noise of eight octaves with the same samples as in peer_terrain.mjs.
 Field peer_hills() {
   constexpr std::int32_t side = 1025;
   constexpr double gain = 0.525;
@@ -125,7 +127,7 @@ void bench_reduced(const std::string& name, Reducer reduce) {
   line(name, "reduced triangles", triangles, 12 * triangles + 4 * vertices, seconds);
 }
 
-/// Faults that slope over two samples, as those of the peer do.
+/// Geological faults with a slope over two samples, as in the peer.
 void bench_faults() {
   constexpr std::int32_t side = 257;
   const FaultPlan plan{.planned = 362, .greatest = 10, .step = FaultStep::cosine, .width = 2};
@@ -142,14 +144,13 @@ void bench_smoothing() {
   line("smooth 4097", "cells", cells, 4 * cells, timed([&] { smooth(field, 40, roomy()); }));
 }
 
-/// A request by its whole way, with what it makes counted in `unit`: triangles, or else samples.
+/// A complete request. `unit` selects what is counted: triangles or samples.
 void bench_request(const char* name, const char* unit, const char* json, double samples) {
   const Result<Request> request = read_request(json, Limits{});
   if (!request) std::abort();
   double bytes = 0, triangles = 0;
   const double seconds = timed([&] {
-    Job job = roomy();
-    const Result<Product> product = produce(*request, job);
+    const Result<Product> product = produce(*request, roomy_options());
     if (!product) std::abort();
     bytes = static_cast<double>(product->payload.size());
     triangles = static_cast<double>(product->statistics.triangles);
@@ -159,7 +160,7 @@ void bench_request(const char* name, const char* unit, const char* json, double 
 
 }  // namespace
 
-// terrain_bench [words of a name]
+// Usage: terrain_bench [words of a name]
 int main(int argc, char** argv) {
   struct Bench {
     const char* name;

@@ -1,9 +1,7 @@
-/// From the text of a request to the bytes of a GLB for trees of each model: time a triangle, bark and leaves
-/// together. Textures are kept from one request to the next, as the server keeps them. And how much memory
-/// big trees take beside their own size.
-///
-///   tree_bench [preset [rounds [threads]]]: one preset alone, for a profiler; small: that of 20,000
-///   triangles
+/// Trees of each model, from the request text to the bytes of a GLB: the time per triangle of bark and leaves
+/// together, and the memory of large trees in addition to the response size. Textures are cached between
+/// requests, as in the server. Usage: tree_bench [preset [rounds [threads]]] runs one preset for a profiler;
+/// the preset `small` is a tree of 20,000 triangles.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -25,7 +23,7 @@ bench::KeptTextures& textures() {
   return kept;
 }
 
-/// As the service has it.
+/// The configuration of the service.
 const std::shared_ptr<Reserve>& reserve() {
   static const auto kept = std::make_shared<Reserve>();
   return kept;
@@ -34,8 +32,7 @@ const std::shared_ptr<Reserve>& reserve() {
 std::uint64_t triangles_of(const std::string& text, int threads = 1) {
   const Result<Request> request = read_request(text, Limits{});
   if (!request) std::abort();
-  Job job(request->seed(), {.threads = threads, .reserve = reserve()});
-  const Result<Product> product = produce(*request, job, &textures());
+  const Result<Product> product = produce(*request, {.threads = threads, .reserve = reserve()}, &textures());
   if (!product) std::abort();
   return product->statistics.triangles;
 }
@@ -51,7 +48,7 @@ void bench_tree(const std::string& name, const std::string& text, int rounds = 1
   bench::report("tree to GLB: " + name, "triangles", static_cast<double>(triangles), seconds);
 }
 
-/// Until the answer is there, on the wall, at best.
+/// The minimum wall time until the response is complete.
 void bench_answer(const std::string& name, const std::string& text, int threads, int rounds) {
   const std::uint64_t triangles = triangles_of(text, threads);
   const double seconds = bench::least_seconds<bench::WallClock>(rounds, [&] { triangles_of(text, threads); });
@@ -59,7 +56,7 @@ void bench_answer(const std::string& name, const std::string& text, int threads,
                 static_cast<double>(triangles), seconds);
 }
 
-/// In a process of its own, which has made a small tree with the same textures before.
+/// Measures in a forked process that has already generated a small tree with the same textures.
 void bench_memory(const std::string& name, const std::string& small, const std::string& text) {
   std::fflush(stdout);
   const pid_t child = fork();
@@ -67,11 +64,10 @@ void bench_memory(const std::string& name, const std::string& small, const std::
     triangles_of(small);
     const Result<Request> request = read_request(text, Limits{});
     if (!request) _exit(1);
-    Job job(request->seed(), {.reserve = reserve()});
-    std::ofstream("/proc/self/clear_refs") << "5";  // the peak begins anew
-    reserve()->clear();                             // as where the service rests
+    std::ofstream("/proc/self/clear_refs") << "5";  // resets the peak
+    reserve()->clear();                             // as in an idle service
     const double idle = bench::status_bytes("VmRSS");
-    const Result<Product> product = produce(*request, job, &textures());
+    const Result<Product> product = produce(*request, {.reserve = reserve()}, &textures());
     if (!product) _exit(1);
     std::printf("{\"name\":\"memory: %s\",\"unit\":\"bytes\",\"amount\":%llu,\"peak_less_idle\":%.0f}\n",
                 name.c_str(), static_cast<unsigned long long>(product->payload.size()),
@@ -87,7 +83,7 @@ void bench_memory(const std::string& name, const std::string& small, const std::
 }  // namespace
 
 int main(int argc, char** argv) {
-  keep_little_memory(2);  // pages go to and fro as in the service
+  keep_little_memory(2);  // memory pages are recycled as in the service
   if (argc > 1) {
     const std::string name = argv[1], text = name == "small" ? small_tree : preset_text(name);
     const int rounds = argc > 2 ? std::atoi(argv[2]) : 15;
@@ -98,7 +94,7 @@ int main(int argc, char** argv) {
     }
     return 0;
   }
-  // First, while this process is small: a child starts with its parent's memory.
+  // Runs first, while this process is small, because a forked process starts with the memory of its parent.
   bench_memory("an oak with mesh leaves", R"({"preset":"oak"})",
                R"({"preset":"oak","parameters":{"leaf":{"build":"mesh"}}})");
   bench_memory("a row of 12 oaks", R"({"preset":"oak"})", R"({"preset":"oak","output":{"variants":12}})");

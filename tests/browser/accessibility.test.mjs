@@ -1,4 +1,4 @@
-// axe-core on every panel and state in both themes, and the page by keyboard alone.
+// Runs axe-core on every panel and state in both themes, and uses the page with the keyboard only.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { createRequire } from 'node:module';
@@ -20,20 +20,21 @@ after(async () => { await browser?.close(); await server?.stop(); });
 async function passes(page, words, within = 'html') {
   await page.evaluate(axe);
   const { violations, passes } = await page.evaluate(({ tags, within }) => axe.run(document.querySelector(within), { runOnly: tags }), { tags, within });
-  const told = violations.map((each) => `${each.id}: ${each.nodes.map((node) => `${node.html} ${node.failureSummary}`).join('; ')}`);
-  assert.deepEqual(told, [], words);
-  // Beside an open dialog or menu there is little to look at.
+  const summary = violations.map((each) => `${each.id}: ${each.nodes.map((node) => `${node.html} ${node.failureSummary}`).join('; ')}`);
+  assert.deepEqual(summary, [], words);
+  // An open dialog or menu covers most of the page, so fewer elements can be checked.
   assert.ok(passes.length >= 5, `${words}: ${passes.length} rules`);
 }
 
 for (const colorScheme of ['light', 'dark']) {
-  test(`axe finds nothing in any panel and state, ${colorScheme}`, { timeout: 600_000 }, async () => {
+  test(`axe reports no violation in any panel or state, ${colorScheme}`, { timeout: 600_000 }, async () => {
     const page = await open(browser, address, { colorScheme, viewport: { width: 1000, height: 600 } });
     await page.click('.more-tags > summary');
     await passes(page, 'gallery');
     for (const menu of ['seeds-menu', 'code-menu', 'download-menu', 'view-menu']) {
       await page.click(`#${menu} > summary`);
-      // What an open menu half covers is out of reach until it is closed, and so is no target.
+      // Targets that an open menu partly covers cannot be reached until it is closed, so they are not
+      // checked.
       await passes(page, menu, `#${menu}`);
     }
     await page.keyboard.press('Escape');
@@ -49,7 +50,7 @@ for (const colorScheme of ['light', 'dark']) {
     await page.keyboard.press('Escape');
     await page.setInputFiles('#file', { name: 'letter.txt', mimeType: 'text/plain', buffer: Buffer.from('Dear all,\nthis is a letter.\n') });
     await page.waitForSelector('#import-dialog[open]');
-    await passes(page, 'a file that nobody understands');
+    await passes(page, 'a file of an unknown format');
     await page.keyboard.press('Escape');
     await page.click('#tab-request');
     await code(page.locator('#request')).waitFor();
@@ -86,7 +87,7 @@ const house = { generator: 'building', seed: 1, parameters: { rules: 'Lot --> ex
 const leafy = { generator: 'tree', seed: 2, parameters: { model: 'weber_penn', Levels: 2, Leaves: 8, sides: 4 }, output: { textures: 'none' } };
 
 for (const colorScheme of ['light', 'dark']) {
-  test(`axe finds nothing in scenes, buildings, maps and motions, ${colorScheme}`, { timeout: 600_000 }, async () => {
+  test(`axe reports no violation in scenes, buildings, maps and animations, ${colorScheme}`, { timeout: 600_000 }, async () => {
     const page = await open(browser, `${server.url}/${fragment_of(garden)}`, { colorScheme, viewport: { width: 1000, height: 600 } });
     const show = (request) => until_shown(page, () => page.evaluate((hash) => { location.hash = hash; }, fragment_of(request)));
     await open_parameters(page);
@@ -123,11 +124,11 @@ for (const colorScheme of ['light', 'dark']) {
     await page.fill('#seed', '4');
     await until_state(page, 'asking');
     await passes(page, 'a question');
-    assert.deepEqual(page.faults, []);
+    assert.deepEqual(page.errors, []);
   });
 }
 
-test('axe finds nothing on a narrow screen', { timeout: 300_000 }, async () => {
+test('axe reports no violation on a narrow screen', { timeout: 300_000 }, async () => {
   const page = await open(browser, address, { viewport: { width: 360, height: 640 }, hasTouch: true, isMobile: true });
   await passes(page, 'gallery');
   await page.click('#fold');
@@ -150,7 +151,7 @@ test('axe finds nothing on a narrow screen', { timeout: 300_000 }, async () => {
   assert.ok(wide <= 360, `the page is ${wide} px wide`);
 });
 
-test('the page can be used by keyboard alone', { timeout: 300_000 }, async () => {
+test('the page can be used with the keyboard only', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
   const focused = () => page.evaluate(() => document.activeElement.id);
   await page.keyboard.press('Tab');
@@ -171,27 +172,28 @@ test('the page can be used by keyboard alone', { timeout: 300_000 }, async () =>
   assert.equal(await page.getAttribute('#wireframe', 'aria-pressed'), 'true', 'letters typed into a field are no commands');
 });
 
-test('what happens is told to assistive tools', { timeout: 200_000 }, async () => {
+test('changes are announced to assistive technology', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   assert.equal(await page.getByRole('img', { name: /seed 3: [\d,]+ triangles, .* m high/ }).count(), 1);
   await until_shown(page, () => page.click('#dice'));
   assert.equal(await page.getByRole('img', { name: new RegExp(`seed ${await page.inputValue('#seed')}:`) }).count(), 1);
   assert.equal(await page.locator('#status[role=status]').count(), 1);
   assert.equal(await page.locator('#alert[role=alert]').count(), 1);
-  // A model that comes is told, once no other follows: a slider in motion is told once.
-  const told = () => page.textContent('#told');
-  await page.waitForFunction(() => /, seed \d+: [\d,]+ triangles$/.test(document.getElementById('told').textContent));
+  // A finished model is announced only if no other follows shortly, so a moving slider causes one
+  // announcement.
+  const summary = () => page.textContent('#announcement');
+  await page.waitForFunction(() => /, seed \d+: [\d,]+ triangles$/.test(document.getElementById('announcement').textContent));
   await page.evaluate(() => {
     window.changes = 0;
-    new MutationObserver(() => { window.changes += 1; }).observe(document.getElementById('told'), { childList: true, characterData: true, subtree: true });
+    new MutationObserver(() => { window.changes += 1; }).observe(document.getElementById('announcement'), { childList: true, characterData: true, subtree: true });
   });
   for (const seed of ['21', '22', '23']) await until_shown(page, () => page.fill('#seed', seed));
-  await page.waitForFunction(() => /seed 23:/.test(document.getElementById('told').textContent));
-  assert.match(await told(), /^L-system.*, seed 23: [\d,]+ triangles$/);
+  await page.waitForFunction(() => /seed 23:/.test(document.getElementById('announcement').textContent));
+  assert.match(await summary(), /^L-system.*, seed 23: [\d,]+ triangles$/);
   assert.ok(await page.evaluate(() => window.changes) < 3);
 });
 
-test('the gallery is a few stops of the Tab key, and its keys go through all of it', { timeout: 200_000 }, async () => {
+test('the gallery has few tab stops, and the arrow keys reach every card', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   const stops = await page.locator('#gallery').evaluate((gallery) => [...gallery.querySelectorAll('button, input, summary')]
     .filter((each) => each.checkVisibility() && each.tabIndex >= 0).length);

@@ -1,4 +1,4 @@
-// Chromium without a screen and without a graphics card: WebGL 2 is drawn by its software renderer.
+// Headless Chromium without a graphics card. Its software renderer draws WebGL 2.
 import { chromium } from 'playwright-core';
 
 const flags = [

@@ -1,4 +1,4 @@
-// The code editor in the form, and the JSON of the whole request: two hands on one state.
+// The code editor in the form and the JSON editor of the whole request, which edit the same state.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { code, field, fragment_of, launch, open, open_parameters, program, selected, serve, small_tree, statistics, until_shown, until_state, write, written } from './support.mjs';
@@ -21,7 +21,7 @@ async function open_json(page) {
   await code(request(page)).waitFor();
 }
 
-test('the editor is fetched when its first text comes into sight, and not before', { timeout: 200_000 }, async () => {
+test('the editor chunk is fetched when its first text becomes visible, and not before', { timeout: 200_000 }, async () => {
   const fetched = [];
   const page = await open(browser, address, { before: async (page) => { page.on('request', (each) => fetched.push(each.url())); } });
   assert.ok(!fetched.some((url) => /editor-/.test(url)));
@@ -29,10 +29,10 @@ test('the editor is fetched when its first text comes into sight, and not before
   await code(productions(page)).waitFor();
   assert.equal(fetched.filter((url) => /editor-/.test(url)).length, 1);
   assert.equal(await written(productions(page)), small_tree.parameters.productions.join('\n'));
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('without the editor a text area does its work', { timeout: 200_000 }, async () => {
+test('a text area replaces an editor that cannot be loaded', { timeout: 200_000 }, async () => {
   const page = await open(browser, address, { before: (page) => page.route('**/editor-*.js', (route) => route.abort()) });
   await open_parameters(page);
   const area = productions(page).locator('textarea');
@@ -43,7 +43,7 @@ test('without the editor a text area does its work', { timeout: 200_000 }, async
   assert.equal(await productions(page).locator('mark').first().textContent(), '[');
 });
 
-test('symbols, arrows, numbers and functions have colours of their own', { timeout: 200_000 }, async () => {
+test('symbols, arrows, numbers and functions have different colours', { timeout: 200_000 }, async () => {
   const parametric = { ...small_tree, parameters: { axiom: 'A(1)', productions: ['A(l) : l > 0.1 -> F(l)[+(sin(30)*50)A(l*0.6)] : 0.5', 'A(l) -> F(l) : 0.5'], iterations: 2 } };
   const page = await open(browser, `${server.url}/${fragment_of(parametric)}`);
   await open_parameters(page);
@@ -56,7 +56,7 @@ test('symbols, arrows, numbers and functions have colours of their own', { timeo
   }
 });
 
-test('completion offers the words of the vocabulary with their text', { timeout: 200_000 }, async () => {
+test('completion offers the words of the vocabulary with their descriptions', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   await open_parameters(page);
   const { turtle, functions } = (await server.get('/v1/vocabulary')).json;
@@ -70,7 +70,8 @@ test('completion offers the words of the vocabulary with their text', { timeout:
   const info = page.locator('.cm-completionInfo');
   await info.waitFor();
   assert.ok((await info.textContent()).startsWith(functions.find((each) => each.name === 'sqrt').text));
-  // The editor takes no choice in the first moment, lest a key that was meant for the text take one.
+  // Completion ignores keys for a short time after it opens, so that it does not capture keys meant for the
+  // text.
   await page.waitForTimeout(150);
   await page.keyboard.press('Enter');
   assert.match(await written(productions(page)), /F\(sqrt\($/);
@@ -81,7 +82,7 @@ test('completion offers the words of the vocabulary with their text', { timeout:
   assert.ok((await options.allTextContents()).every((text) => turtle.some((each) => text.startsWith(each.symbol))));
 });
 
-test('rules of buildings have colours, completion and faults of their own notation', { timeout: 300_000 }, async () => {
+test('shape grammar rules have their own highlighting, completion and errors', { timeout: 300_000 }, async () => {
   const rules = 'Lot --> extrude(9) comp(f) { side : floor | top : Roof. }\nfloor --> split(\"y\") { ~3 : Band }*\nBand --> color(\"#aa8866\") Wall.';
   const house = { generator: 'building', seed: 1, parameters: { rules, start: 'Lot', size: [8, 0, 6] } };
   const page = await open(browser, `${server.url}/${fragment_of(house)}`);
@@ -116,12 +117,12 @@ test('rules of buildings have colours, completion and faults of their own notati
   await text.locator('.cm-lintRange-error').first().waitFor();
   assert.match(await text.locator('.spot').first().textContent(), /^Line 1, column \d+: /);
   await until_shown(page, () => write(text, rules));
-  // The text is validated by a request of its own, which may be answered after the model has come.
+  // The text is validated by a separate request, whose answer may arrive after the model.
   await page.waitForFunction(() => document.querySelectorAll('#parameters .spot:not(.mild)').length === 0);
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('what the server says of a text is underlined at its line and column, warnings too', { timeout: 200_000 }, async () => {
+test('errors and warnings are underlined at the line and column that the server reports', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   await open_parameters(page);
   await write(productions(page), 'F -> F[+F]\nX -> Y(');
@@ -130,13 +131,13 @@ test('what the server says of a text is underlined at its line and column, warni
   assert.equal(await productions(page).locator('.cm-lintRange-error').first().textContent(), '(');
   await productions(page).locator('.spot').first().click();
   assert.equal(await selected(productions(page)), '(');
-  // Weights that do not sum to 1 are a warning: there is a model, and a word about it.
+  // Weights that do not sum to 1 cause a warning, so there is a model as well as a message.
   await until_shown(page, () => write(productions(page), 'F -> F[+F] : 0.5\nF -> F[-F] : 0.2'));
   await productions(page).locator('.spot.mild').first().waitFor();
   assert.equal(await code(productions(page)).getAttribute('aria-invalid'), 'false');
 });
 
-test('faults come from the check although the model is slow', { timeout: 200_000 }, async () => {
+test('validation reports errors even if the model is slow', { timeout: 200_000 }, async () => {
   const page = await open(browser, address, { before: async (page) => { page.held = false; await page.route('**/v1/generate', (route) => (page.held ? undefined : route.continue())); } });
   await open_parameters(page);
   page.held = true;
@@ -144,7 +145,7 @@ test('faults come from the check although the model is slow', { timeout: 200_000
   await productions(page).locator('.cm-lintRange-error').waitFor();
 });
 
-test('the JSON shows every change of the form, and the form every change of the JSON', { timeout: 300_000 }, async () => {
+test('changes in the form appear in the JSON and vice versa', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
   await open_parameters(page);
   const box = field(page, '/parameters/iterations').locator('input[type=number]');
@@ -160,12 +161,12 @@ test('the JSON shows every change of the form, and the form every change of the 
   assert.equal((await as_json(page)).seed, 10);
 });
 
-test('what is no JSON, and what is no request, is said where it stands', { timeout: 300_000 }, async () => {
+test('JSON syntax errors and invalid requests are reported at their position', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
   await open_json(page);
   const before = await statistics(page);
   await write(request(page), '{"generator": "lsystem",\n "seed": 3,, }');
-  await page.waitForFunction(() => /line 2, column 12/i.test(document.getElementById('request-fault').textContent));
+  await page.waitForFunction(() => /line 2, column 12/i.test(document.getElementById('request-error').textContent));
   assert.deepEqual(await statistics(page), before, 'the last model stays');
   await write(request(page), JSON.stringify({ ...small_tree, parameters: { ...small_tree.parameters, sides: 100_000 } }, null, 1));
   await until_state(page, 'refused');
@@ -175,7 +176,7 @@ test('what is no JSON, and what is no request, is said where it stands', { timeo
   await page.waitForFunction(() => document.getElementById('seed').value === '4');
 });
 
-test('Tab leaves the editor', { timeout: 200_000 }, async () => {
+test('the Tab key leaves the editor', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   await open_parameters(page);
   await code(productions(page)).click();

@@ -1,4 +1,5 @@
-// The form knows JSON Schema and the x- words, and no generator. So most of these tests give it a made-up one.
+// The form depends on JSON Schema and the x- keywords but on no generator, so most of these tests use an
+// invented generator.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
@@ -83,10 +84,10 @@ test('every kind of value has its control, in groups, with unit, range and help'
   assert.deepEqual(await at('wood').locator('option').allTextContents(), ['dry oak', 'pine']);
   assert.equal(await at('glaze').locator('input[type=color]').inputValue(), '#112233');
   assert.ok(await at('odd').isHidden(), 'what is advanced is folded away');
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('what a request leaves out is shown as such, and at what stands for it', { timeout: 300_000 }, async () => {
+test('an omitted value is shown as such, with the value that applies instead', { timeout: 300_000 }, async () => {
   const { page, sends, at } = await open_kiln({ wood: 'ivory' });
   const ash = at('ash');
   assert.deepEqual(await ash.locator('input[type=range]').evaluate((each) => [each.min, each.max, each.value]), ['0', '20', '20']);
@@ -104,10 +105,10 @@ test('what a request leaves out is shown as such, and at what stands for it', { 
   assert.ok(!('flame' in await sends(() => flame.selectOption({ label: 'not set' }))));
   assert.equal(await at('wood').locator('option:checked').textContent(), 'ivory: not known');
   assert.equal(await at('slip').locator('input[type=text]').inputValue(), '');
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('a change reaches the server as the type that the schema asks for', { timeout: 300_000 }, async () => {
+test('a change is sent with the type that the schema requires', { timeout: 300_000 }, async () => {
   const { page, sends, at } = await open_kiln();
   assert.deepEqual(await sends(() => at('heat').locator('input[type=number]').fill('21.5')), { heat: 21.5 });
   assert.equal(await at('heat').locator('input[type=range]').inputValue(), '21.5');
@@ -120,10 +121,10 @@ test('a change reaches the server as the type that the schema asks for', { timeo
   await at('heat').locator('input[type=number]').fill('');
   await at('heat').locator('input[type=number]').blur();
   assert.equal(await at('heat').locator('input[type=number]').inputValue(), '21.5', 'an emptied box says nothing');
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('maps, lists and two forms of one value can be changed and taken back', { timeout: 300_000 }, async () => {
+test('maps, lists and values with two forms can be edited and reset', { timeout: 300_000 }, async () => {
   const { sends, at } = await open_kiln({ names: { k: 1 }, tilt: 7 });
   assert.deepEqual((await sends(() => at('names/k').locator('input').fill('2 * 3'))).names, { k: '2 * 3' });
   assert.deepEqual((await sends(() => at('names/k').locator('input').fill('6'))).names, { k: 6 });
@@ -139,7 +140,7 @@ test('maps, lists and two forms of one value can be changed and taken back', { t
   assert.deepEqual((await sends(() => at('pots').getByRole('button', { name: 'Remove Pot 0' }).click())).pots, []);
 });
 
-test('vectors, colours, pictures and requests have fields of their own', { timeout: 300_000 }, async () => {
+test('vectors, colours, images and nested requests have their own fields', { timeout: 300_000 }, async () => {
   const { page, sends, at } = await open_kiln();
   assert.deepEqual(await at('pull').locator('input').evaluateAll((each) => each.map((input) => input.getAttribute('aria-label'))), ['Pull, x', 'Pull, y', 'Pull, z']);
   assert.deepEqual(await at('pull').locator('.axis, .unit').allTextContents(), ['x', 'm', 'y', 'm', 'z', 'm']);
@@ -161,10 +162,10 @@ test('vectors, colours, pictures and requests have fields of their own', { timeo
   await at('inset').locator('option[value=koch_snowflake]').waitFor({ state: 'attached' });
   assert.deepEqual((await sends(() => at('inset').locator('select').selectOption('koch_snowflake'))).inset, { preset: 'koch_snowflake' });
   assert.equal(await at('inset').locator('img').getAttribute('src'), './thumbnails/koch_snowflake.webp');
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('places are planted, chosen, moved and taken away in the picture', { timeout: 300_000 }, async () => {
+test('positions are added, selected, moved and removed in the view', { timeout: 300_000 }, async () => {
   const { page, sends, at } = await open_kiln();
   await page.click('#hint-away');
   const canvas = page.locator('#picture');
@@ -177,7 +178,7 @@ test('places are planted, chosen, moved and taken away in the picture', { timeou
   assert.equal(two[1].years, 30, 'like the one that was chosen');
   assert.ok(two[1].spot[0] > first.spot[0], 'further to the right');
   await at('shelf').getByRole('button', { name: 'Plant by click' }).click();
-  // A click chooses the nearest.
+  // A click selects the nearest position.
   await canvas.click({ position: { x: 140, y: 230 } });
   assert.match(await at('shelf').locator('.chosen').textContent(), /^Pot 1/);
   await at('shelf').getByRole('button', { name: 'Move by click' }).click();
@@ -185,10 +186,10 @@ test('places are planted, chosen, moved and taken away in the picture', { timeou
   assert.equal(moved.length, 2);
   assert.notDeepEqual(moved[0].spot, first.spot);
   assert.equal((await sends(() => at('shelf').getByRole('button', { name: 'Remove Pot 1' }).click())).shelf.length, 1);
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('reset returns one field to what the request was opened with', { timeout: 300_000 }, async () => {
+test('reset restores the original value of one field', { timeout: 300_000 }, async () => {
   const { sends, at } = await open_kiln({ heat: 30 });
   const reset = at('heat').getByRole('button', { name: 'Reset Heat' });
   assert.ok(await reset.isHidden());
@@ -198,51 +199,51 @@ test('reset returns one field to what the request was opened with', { timeout: 3
   assert.ok(!('lid' in (await sends(() => at('lid').getByRole('button', { name: 'Reset Lid' }).click()))));
 });
 
-test('all faults stand at their fields at once; columns count characters', { timeout: 300_000 }, async () => {
+test('all errors are shown at their fields at once, and columns count characters', { timeout: 300_000 }, async () => {
   const broken = { ...small_tree, parameters: { ...small_tree.parameters, productions: ['F -> F', 'Ф -> 🌲 [', 'X -> ('], iterations: -1, sides: 1000 } };
   const page = await open(browser, `${server.url}/${fragment_of(broken)}`, { states: ['refused'] });
   await page.locator('#alert button').click();
   const spots = field(page, '/parameters/productions').locator('.spot');
   await spots.nth(1).waitFor();
   const answer = await server.generate(broken);
-  const told = answer.json.errors.filter((fault) => fault.pointer.startsWith('/parameters/productions/'));
-  assert.equal(await spots.count(), told.length);
-  assert.ok(told.length >= 2);
-  for (const [index, fault] of told.entries()) {
-    const line = Number(fault.pointer.split('/').at(-1)) + 1;
-    assert.equal(await spots.nth(index).textContent(), `Line ${line}, column ${fault.column}: ${fault.message}`);
+  const listed = answer.json.errors.filter((issue) => issue.pointer.startsWith('/parameters/productions/'));
+  assert.equal(await spots.count(), listed.length);
+  assert.ok(listed.length >= 2);
+  for (const [index, issue] of listed.entries()) {
+    const line = Number(issue.pointer.split('/').at(-1)) + 1;
+    assert.equal(await spots.nth(index).textContent(), `Line ${line}, column ${issue.column}: ${issue.message}`);
   }
   assert.equal(await field(page, '/parameters/iterations').locator('input[type=number]').getAttribute('aria-invalid'), 'true');
-  assert.ok((await field(page, '/parameters/sides').locator('.fault').textContent()).length > 0);
+  assert.ok((await field(page, '/parameters/sides').locator('.issue').textContent()).length > 0);
   await field(page, '/parameters/productions').locator('.spot', { hasText: 'Line 2' }).first().click();
   assert.equal(await selected(field(page, '/parameters/productions')), '[');
 });
 
-test('one fault is told with the name of its field, many by their number', { timeout: 300_000 }, async () => {
+test('a single error is reported with the label of its field, several by their number', { timeout: 300_000 }, async () => {
   const wrong = (parameters) => `${server.url}/${fragment_of({ ...small_tree, parameters: { ...small_tree.parameters, ...parameters } })}`;
   const page = await open(browser, wrong({ iterations: -1 }), { states: ['refused'] });
   await open_parameters(page);
   const label = await field(page, '/parameters/iterations').locator('.label').first().textContent();
   await page.waitForFunction((label) => document.getElementById('alert').textContent.startsWith(`${label}: `), label);
   const many = await open(browser, wrong({ iterations: -1, sides: 1000000 }), { states: ['refused'] });
-  assert.match(await many.textContent('#alert'), /^This request has 2 faults\./);
+  assert.match(await many.textContent('#alert'), /^This request has 2 errors\./);
   await open_parameters(many);
-  assert.match(await field(many, '/parameters/sides').locator('.fault').textContent(), /1,000,000/);
+  assert.match(await field(many, '/parameters/sides').locator('.issue').textContent(), /1,000,000/);
 });
 
-test('a fault without a field is told in the alert', { timeout: 300_000 }, async () => {
+test('an error without a field is shown in the alert', { timeout: 300_000 }, async () => {
   const strange = { ...small_tree, parameters: { ...small_tree.parameters, unheard_of: 1 } };
   const page = await open(browser, `${server.url}/${fragment_of(strange)}`, { states: ['refused'] });
   assert.match(await page.textContent('#alert'), /unheard_of/);
 });
 
-test('the address keeps what is edited, and Back returns to the preset before', { timeout: 300_000 }, async () => {
+test('the address stores edits, and Back returns to the previous preset', { timeout: 300_000 }, async () => {
   const page = await open(browser, `${server.url}/`);
   await until_shown(page, () => page.click('[data-preset="koch_snowflake"]'));
   const preset_hash = new URL(page.url()).hash;
   await until_shown(page, () => page.fill('#seed', '77'));
   const title = await page.textContent('#title');
-  // The address follows a moment after the picture.
+  // The address is updated shortly after the view.
   await page.waitForFunction((hash) => location.hash !== hash, preset_hash);
   assert.equal(request_of(new URL(page.url()).hash).seed, 77);
   await until_shown(page, () => page.click('[data-preset="dragon_curve"]'));
@@ -255,7 +256,7 @@ test('the address keeps what is edited, and Back returns to the preset before', 
   assert.equal(await page.textContent('#title'), title);
 });
 
-test('no name of a parameter occurs in the source of the client', () => {
+test('the client source contains no parameter name', () => {
   const folder = path.join(root, 'web_client/src');
   const source = fs.readdirSync(folder, { recursive: true }).filter((file) => file.endsWith('.ts'))
     .map((file) => fs.readFileSync(path.join(folder, file), 'utf8')).join('\n');
@@ -268,15 +269,18 @@ test('no name of a parameter occurs in the source of the client', () => {
     if (/^(common|output|problem|request)\./.test(file)) continue;
     collect(JSON.parse(fs.readFileSync(path.join(root, 'api_schema', file), 'utf8')));
   }
-  // Words that HTML, three.js and the output use too; they count only where they are looked up among the parameters.
+  // HTML, three.js and the output use these words too. They count only where the code looks them up among the
+  // parameters.
   const common = new Set(['width', 'style', 'step', 'value', 'name', 'color', 'text', 'span', 'role', 'map', 'form', 'start', 'center', 'position', 'direction',
     'grid', 'cell', 'reach', 'low', 'high', 'glb',
-    // The name of a DOM event, coordinates, a widget of the schema, a list of the vocabulary.
+    // A DOM event, coordinates, a widget of the schema, a list of the vocabulary.
     'drop', 'x', 'z', 'image', 'functions',
-    // A type of input, three's word for a dependency, a member of the answer of derive, a class.
+    // An input type, a three.js term, a member of the derive response, a class name.
     'range', 'material', 'shapes', 'pair',
-    // Classes and parts of the page.
-    'soft', 'shown', 'at', 'near', 'place', 'picture', 'fold']);
+    // Class names and elements of the page.
+    'soft', 'shown', 'at', 'near', 'place', 'picture', 'fold',
+    // A value that a shader reads, an element and an event of the page.
+    'centre', 'detail', 'y']);
   assert.ok(names.has('productions'));
   for (const name of names) {
     assert.doesNotMatch(source, new RegExp(`parameters(\\.|\\[['"])${name}\\b`), name);

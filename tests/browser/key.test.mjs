@@ -1,4 +1,5 @@
-// A service that is closed: the page asks for the key, shows it where it has to, and keeps it nowhere unasked.
+// A service with access control: the page asks for the key, sends it where it is required, and stores it only
+// with consent.
 import assert from 'node:assert/strict';
 import { createHash } from 'node:crypto';
 import fs from 'node:fs';
@@ -20,19 +21,19 @@ after(async () => { await browser?.close(); await server?.stop(); });
 const give = async (page, key) => { await page.fill('#key', key); await page.click('#key-dialog button.first'); };
 const stored = (page) => page.evaluate(() => JSON.stringify([{ ...sessionStorage }, { ...localStorage }, document.cookie, location.href]));
 
-test('the page asks for the key, says when it is wrong, and goes on with the right one', { timeout: 200_000 }, async () => {
+test('the page asks for the key, reports a wrong one, and continues with the right one', { timeout: 200_000 }, async () => {
   const page = await open(browser, address, { states: ['locked'], permissions: ['clipboard-read', 'clipboard-write'] });
   assert.ok(await page.isVisible('#key-dialog'));
   assert.equal(await page.getAttribute('#key', 'type'), 'password');
   assert.equal(await page.evaluate(() => document.activeElement.id), 'key');
   await give(page, 'guess');
-  await page.waitForFunction(() => /does not know/.test(document.getElementById('key-fault').textContent));
+  await page.waitForFunction(() => /does not accept/.test(document.getElementById('key-error').textContent));
   assert.equal(await page.getAttribute('#key', 'aria-invalid'), 'true');
   await until_shown(page, () => give(page, 'open sesame'));
   assert.ok(await page.isHidden('#key-dialog'));
   const { headers } = await server.generate(small_tree, { authorization: 'Bearer open sesame' });
   assert.equal(Number((await statistics(page)).triangles.replaceAll(',', '')), Number(headers['seedmesh-triangles']));
-  // All that needs it shows it.
+  // Every request that requires the key sends it.
   await until_shown(page, () => page.click('#dice'));
   const [download] = await Promise.all([page.waitForEvent('download'), page.click('[data-format=glb]')]);
   assert.ok(fs.statSync(await download.path()).size > 1000);
@@ -46,10 +47,10 @@ test('the page asks for the key, says when it is wrong, and goes on with the rig
   assert.doesNotMatch(await stored(page), /sesame/, 'unasked it is kept nowhere');
   await page.reload();
   await until_state(page, 'locked');
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('the tab remembers the key where that is ticked, and no other tab', { timeout: 200_000 }, async () => {
+test('the tab remembers the key if the box is ticked, other tabs do not', { timeout: 200_000 }, async () => {
   const page = await open(browser, address, { states: ['locked'] });
   await page.check('#key-in-tab');
   await until_shown(page, () => give(page, 'another'));
@@ -61,7 +62,7 @@ test('the tab remembers the key where that is ticked, and no other tab', { timeo
   await until_state(other, 'locked');
 });
 
-test('whoever has no key looks round and can still give one later', { timeout: 200_000 }, async () => {
+test('a visitor without a key can browse and enter one later', { timeout: 200_000 }, async () => {
   const page = await open(browser, server.url, { states: ['locked'] });
   await page.keyboard.press('Escape');
   await until_state(page, 'refused');
@@ -77,7 +78,7 @@ test('whoever has no key looks round and can still give one later', { timeout: 2
   assert.equal(await page.textContent('#title'), await page.locator('[data-preset="koch_snowflake"] span').textContent(), 'what was asked for last');
 });
 
-test('a key that no longer holds is asked for anew, and what a key may not do is said as such', { timeout: 200_000 }, async () => {
+test('a revoked key is asked for again, and missing permissions are reported', { timeout: 200_000 }, async () => {
   const page = await open(browser, address, { states: ['locked'] });
   await until_shown(page, () => give(page, 'open sesame'));
   const denied = { status: 403, contentType: 'application/problem+json', body: '{"detail":"The generator is not allowed here."}' };
@@ -88,14 +89,14 @@ test('a key that no longer holds is asked for anew, and what a key may not do is
   await page.route('**/v1/validate', (route) => route.fulfill(denied));
   await page.fill('#seed', '9');
   await until_state(page, 'locked');
-  assert.match(await page.textContent('#key-dialog'), /does not know the key/);
+  assert.match(await page.textContent('#key-dialog'), /does not accept the key/);
 });
 
 for (const colorScheme of ['light', 'dark']) {
-  test(`axe finds nothing in the question for a key, ${colorScheme}`, { timeout: 200_000 }, async () => {
+  test(`axe reports no violation in the key dialog, ${colorScheme}`, { timeout: 200_000 }, async () => {
     const page = await open(browser, address, { states: ['locked'], colorScheme });
     await give(page, 'guess');
-    await page.waitForFunction(() => document.getElementById('key-fault').textContent !== '');
+    await page.waitForFunction(() => document.getElementById('key-error').textContent !== '');
     await page.evaluate(axe);
     const { violations } = await page.evaluate(() => axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] }));
     assert.deepEqual(violations.map((each) => `${each.id}: ${each.nodes.map((node) => node.html).join('; ')}`), []);

@@ -1,4 +1,5 @@
-// Phones, narrow windows and small models: nothing is cut off or covered; and whoever works by keys keeps the place.
+// Phones, narrow windows and small models: nothing is truncated or covered, and the keyboard focus is not
+// lost.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { PNG } from 'pngjs';
@@ -18,7 +19,7 @@ const phone = { hasTouch: true, isMobile: true };
 const tell = (page, words) => page.evaluate((words) => document.getElementById('picture').dispatchEvent(new CustomEvent('tell', { bubbles: true, detail: words })), words);
 const frames = (page) => page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
 
-/** What stands out of a box, sideways, by more than half a pixel. */
+/** The elements that extend beyond a box, sideways, by more than half a pixel. */
 const cut_off = (page, within, selector) => page.evaluate(([within, selector]) => {
   const { left, right } = within === '' ? { left: 0, right: innerWidth } : document.querySelector(within).getBoundingClientRect();
   return [...document.querySelectorAll(selector)].filter((each) => each.checkVisibility() && !each.closest('.menu-body')).filter((each) => {
@@ -68,7 +69,7 @@ for (const [width, height, options] of [[390, 844, phone], [844, 390, phone], [3
   });
 }
 
-test('a model that was turned stays whole in a narrower window; the left one of two is fitted too', { timeout: 300_000 }, async () => {
+test('a rotated model and a compared model stay fully visible in a narrower window', { timeout: 300_000 }, async () => {
   const wide = building('Lot --> extrude(4) color("#aa8866") Mass.', [24, 0, 6]);
   const page = await open(browser, `${server.url}/${fragment_of(wide)}`, { viewport: { width: 1300, height: 600 } });
   await page.click('#hint-away');
@@ -84,10 +85,10 @@ test('a model that was turned stays whole in a narrower window; the left one of 
   await page.locator('#divider').evaluate((slider) => { slider.value = 100; slider.dispatchEvent(new Event('input')); });
   const left = await extent(page);
   assert.ok(left.left > view.left + 2 && left.right < view.right - 2, JSON.stringify({ left, view }));
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('a person stands beside what is no smaller, and elsewhere on demand', { timeout: 300_000 }, async () => {
+test('the person is shown beside models of similar or larger size, and elsewhere on demand', { timeout: 300_000 }, async () => {
   const shrub = building('Lot --> extrude(0.9) color("#557744") Mass.', [1.2, 0, 1.2]);
   const page = await open(browser, `${server.url}/${fragment_of(shrub)}`);
   await page.click('#hint-away');
@@ -100,7 +101,7 @@ test('a person stands beside what is no smaller, and elsewhere on demand', { tim
   assert.ok(beside.bottom - beside.top < (alone.bottom - alone.top) * 0.8, 'the person needs room');
   await page.click('#figure');
   await page.waitForFunction(() => document.getElementById('figure').getAttribute('aria-pressed') === 'false');
-  // What lies under the hand does not look as if it were on.
+  // A hovered button must not look like a pressed one.
   const ground = (id) => page.locator(id).evaluate((button) => getComputedStyle(button).backgroundColor);
   await page.emulateMedia({ reducedMotion: 'reduce' });
   const on = await ground('#grid');
@@ -110,12 +111,12 @@ test('a person stands beside what is no smaller, and elsewhere on demand', { tim
   assert.notEqual(await ground('#grid'), on);
 });
 
-test('a level ground hides the grid at its height, and from below no grid lies over the model', { timeout: 300_000 }, async () => {
+test('level terrain hides the grid at its height, and the grid is not drawn over the model from below', { timeout: 300_000 }, async () => {
   const page = await open(browser, `${server.url}/${fragment_of(building('Lot --> color("#7d9650") Mass.', [40, 0, 40]))}`, { viewport: { width: 1000, height: 600 } });
   await page.click('#hint-away');
   const { left, right, top, bottom } = await extent(page);
   const area = await rect(page, '#picture');
-  /** The share of what is drawn in the middle of the model that the grid changes. */
+  /** The share of pixels in the middle of the model that the grid changes. */
   const share = async () => {
     const clip = (png) => {
       const whole = PNG.sync.read(png);
@@ -137,7 +138,7 @@ test('a level ground hides the grid at its height, and from below no grid lies o
   assert.equal(await share(), 0, 'from below');
 });
 
-test('the way to a building ends before its wall, by wheel and by keys', { timeout: 300_000 }, async () => {
+test('zooming by wheel and by keys stops in front of a wall', { timeout: 300_000 }, async () => {
   const page = await open(browser, `${server.url}/?stage&quality=low${fragment_of(tower)}`, { viewport: { width: 480, height: 360 } });
   const in_the_middle = async () => { const seen = outline(await page.screenshot({ omitBackground: true })); return seen[180 * 480 + 240]; };
   for (let step = 0; step < 60; step += 1) await page.locator('#picture').press('+');
@@ -152,7 +153,7 @@ test('the way to a building ends before its wall, by wheel and by keys', { timeo
   assert.equal(await in_the_middle(), 1, 'by wheel');
 });
 
-test('a model without UVs is drawn plain, and that is said', { timeout: 300_000 }, async () => {
+test('a model without UVs is drawn without squares, with a message', { timeout: 300_000 }, async () => {
   const sponge = { generator: 'fractal', seed: 0, parameters: (await server.get('/v1/presets/menger_sponge')).json.parameters };
   const page = await open(browser, `${server.url}/${fragment_of(sponge)}`);
   await page.click('#hint-away');
@@ -169,12 +170,12 @@ test('a model without UVs is drawn plain, and that is said', { timeout: 300_000 
       shades.add(Math.round((r + g + b) / 24));
       assert.ok(b < 1.4 * r + 20, `${r} ${g} ${b} is blue`);
     }
-  assert.ok(shades.size > 3, 'faces are told apart');
+  assert.ok(shades.size > 3, 'faces have different shades');
   await until_shown(page, () => page.evaluate((hash) => { location.hash = hash; }, fragment_of(leafy)));
   assert.equal(await page.locator('#shading option[value="uv"]').textContent(), 'UV squares');
 });
 
-test('the time of a picture is that of the finished one, and the switch that levels turn on goes with them', { timeout: 300_000 }, async () => {
+test('the frame time includes the GPU work, and the timer that levels switch on is switched off with them', { timeout: 300_000 }, async () => {
   const page = await open(browser, address, {
     before: (page) => page.addInitScript(() => {
       window.waits = 0;
@@ -197,7 +198,7 @@ test('the time of a picture is that of the finished one, and the switch that lev
   assert.ok(await page.isHidden('#drawn-box'));
 });
 
-test('whoever works by keys keeps the focus near where it was', { timeout: 300_000 }, async () => {
+test('the keyboard focus stays near its previous position', { timeout: 300_000 }, async () => {
   let hold = false, release = () => {};
   const page = await open(browser, address, {
     before: (page) => page.route('**/v1/generate*', async (route) => { if (hold) await new Promise((resolve) => { release = resolve; }); await route.continue().catch(() => {}); }),
@@ -229,7 +230,7 @@ test('whoever works by keys keeps the focus near where it was', { timeout: 300_0
   await is_at('#picture');
 });
 
-test('growth names its unit, and what is not known is told without all that is', { timeout: 300_000 }, async () => {
+test('growth shows its unit, and a long list of names in an error is shortened', { timeout: 300_000 }, async () => {
   const page = await open(browser, `${server.url}/?quality=low${fragment_of(leafy)}`);
   await open_parameters(page);
   await field(page, '/parameters/age').getByRole('button', { name: /^Grow by/ }).click();

@@ -1,4 +1,5 @@
-// The same tree at every level of detail from the same camera: its outline stays, its triangles fall.
+// The same tree at every level of detail from the same camera: the outline is stable and the number of
+// triangles falls.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { fragment_of, launch, open, outline, overlap, program, serve } from './support.mjs';
@@ -48,12 +49,12 @@ function check({ counts, overlaps }, shares, fall) {
 }
 
 for (const name of Object.keys(least)) {
-  test(`${name} keeps its outline from level to level`, { timeout: 300_000 }, async (t) => {
+  test(`${name} keeps its outline across the levels of detail`, { timeout: 300_000 }, async (t) => {
     check(await look(t, name, { width: 640, height: 480 }), least[name], 0.9);
   });
 }
 
-test('every tree keeps its outline from level to level', { timeout: 1_200_000 }, async (t) => {
+test('every tree keeps its outline across the levels of detail', { timeout: 1_200_000 }, async (t) => {
   const { presets } = (await server.get('/v1/presets')).json;
   const names = presets.filter((each) => each.generator === 'tree').map((each) => each.name).filter((name) => !(name in least));
   assert.ok(names.length > 20);
@@ -62,7 +63,7 @@ test('every tree keeps its outline from level to level', { timeout: 1_200_000 },
   }
 });
 
-test('plants of L-systems keep their outline from level to level', { timeout: 1_200_000 }, async (t) => {
+test('plants of L-systems keep their outline across the levels of detail', { timeout: 1_200_000 }, async (t) => {
   for (const name of grown) {
     await t.test(name, async (inner) => check(await look(inner, name, { width: 640, height: 480 }), usual_grown, 0.95));
   }

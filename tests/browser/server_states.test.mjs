@@ -1,4 +1,5 @@
-// The server slow, full, gone and back: the page says so, keeps the last model, and goes on by itself.
+// The server is slow, busy, unreachable and back: the page reports it, keeps the last model, and continues
+// automatically.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { field, fragment_of, launch, open, open_parameters, program, serve, small_tree, until_shown, until_state } from './support.mjs';
@@ -15,7 +16,7 @@ const says = (page, words) =>
   page.waitForFunction((words) => document.getElementById('status').textContent.includes(words), words);
 const set_seed = (page, seed) => page.fill('#seed', String(seed));
 
-test('a full server is asked again after the time that it named', { timeout: 200_000 }, async () => {
+test('a busy server is asked again after the time that it requested', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   const asked = [];
   await page.route('**/v1/generate', async (route) => {
@@ -29,15 +30,15 @@ test('a full server is asked again after the time that it named', { timeout: 200
   await until_shown(page, async () => {
     await set_seed(page, 4);
     await until_state(page, 'full');
-    await says(page, 'The server is full');
+    await says(page, 'The server is busy');
     assert.ok(await page.isVisible('#statistics'), 'the last model stays');
   });
   assert.ok(asked.length >= 3);
   assert.ok(asked[1] - asked[0] >= 2000, `${asked[1] - asked[0]} ms`);
-  await says(page, 'The server is back');
+  await says(page, 'The server is available again');
 });
 
-test('a server that is gone is named, and the page goes on when it is back', { timeout: 200_000 }, async () => {
+test('an unreachable server is reported, and the page continues when it is back', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   await until_shown(page, async () => {
     await page.context().setOffline(true);
@@ -50,7 +51,7 @@ test('a server that is gone is named, and the page goes on when it is back', { t
   assert.match(await page.getAttribute('#picture', 'aria-label'), /seed 5/);
 });
 
-test('cancel gives up a preset that a full server has not given', { timeout: 200_000 }, async () => {
+test('cancel stops waiting for a preset from a busy server', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   let is_full = true;
   await page.route('**/v1/presets/koch_island*', (route) =>
@@ -65,7 +66,7 @@ test('cancel gives up a preset that a full server has not given', { timeout: 200
   assert.notEqual(await page.textContent('#title'), 'Koch island');
 });
 
-test('a thumbnail that an outage took is asked for again', { timeout: 200_000 }, async () => {
+test('a thumbnail that failed during an outage is requested again', { timeout: 200_000 }, async () => {
   const page = await open(browser, address, { before: (page) => page.route('**/thumbnails/*', (route) => route.abort(), { times: 1 }) });
   const missing = page.locator('.card img.missing');
   await page.waitForFunction(() => [...document.querySelectorAll('.card img')].filter((each) => each.complete && each.naturalWidth > 0).length > 3);
@@ -73,7 +74,7 @@ test('a thumbnail that an outage took is asked for again', { timeout: 200_000 },
   assert.equal(await missing.count(), 0);
 });
 
-test('a server that has ended is tried again on demand', { timeout: 200_000 }, async () => {
+test('a stopped server is asked again on demand', { timeout: 200_000 }, async () => {
   const mortal = await serve(program);
   const page = await open(browser, `${mortal.url}/${fragment_of(small_tree)}`);
   await mortal.stop('SIGKILL');
@@ -85,7 +86,7 @@ test('a server that has ended is tried again on demand', { timeout: 200_000 }, a
   await until_state(page, 'gone');
 });
 
-test('a slow server shows a bar after 300 ms, and cancel ends the request', { timeout: 200_000 }, async () => {
+test('a slow server shows a progress bar after 300 ms, and cancel aborts the request', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   let held;
   await page.route('**/v1/generate', (route) => { held = route; });
@@ -104,7 +105,7 @@ test('a slow server shows a bar after 300 ms, and cancel ends the request', { ti
   assert.match(await page.getAttribute('#picture', 'aria-label'), /seed 7/);
 });
 
-test('after a slow model the next one is followed by events', { timeout: 200_000 }, async () => {
+test('after a slow model the next one uses the event stream', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   const accepted = [];
   await page.route('**/v1/generate', async (route) => {
@@ -117,7 +118,7 @@ test('after a slow model the next one is followed by events', { timeout: 200_000
   assert.deepEqual(accepted.slice(-2), ['text/event-stream', '*/*']);
 });
 
-test('events that tell of progress move the bar, and an error among them is shown', { timeout: 200_000 }, async () => {
+test('progress events move the bar, and an error event is shown', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   let is_second = false;
   await page.route('**/v1/generate', async (route) => {
@@ -139,12 +140,12 @@ test('events that tell of progress move the bar, and an error among them is show
   assert.equal(await page.evaluate(() => document.getElementById('progress').value), 0.5);
 });
 
-test('a slider in motion asks once it rests, and only the last answer counts', { timeout: 200_000 }, async () => {
+test('a moving slider sends one request after it stops, and only the last response counts', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   await open_parameters(page);
   const bodies = [];
   await page.route('**/v1/generate', async (route) => {
-    // A page that was slow so far follows events first; the model itself is asked for once all the same.
+    // After a slow response the page first opens an event stream. The model itself is still requested once.
     if (await route.request().headerValue('accept') === '*/*') bodies.push(JSON.parse(route.request().postData()));
     await route.continue();
   });
@@ -158,7 +159,7 @@ test('a slider in motion asks once it rests, and only the last answer counts', {
   assert.equal(bodies[0].parameters.angle, 60);
 });
 
-test('an answer that is overtaken by the next request is dropped', { timeout: 200_000 }, async () => {
+test('a response that a later request supersedes is dropped', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   const aborted = page.waitForEvent('requestfailed');
   let count = 0;

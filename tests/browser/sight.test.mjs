@@ -1,4 +1,4 @@
-// What is in sight: the whole model beside what lies over the picture, at a scale that stays, and words that can be read.
+// Visibility: the whole model between the overlays of the view, at a stable scale, and readable text.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { PNG } from 'pngjs';
@@ -20,7 +20,7 @@ const rows = async (page) => {
 };
 
 for (const colorScheme of ['light', 'dark']) {
-  test(`the heading can be read over leaves and sky, ${colorScheme}`, { timeout: 200_000 }, async () => {
+  test(`the heading is readable over leaves and sky, ${colorScheme}`, { timeout: 200_000 }, async () => {
     const page = await open(browser, `${server.url}/${fragment_of(leafy)}`, { colorScheme, viewport: { width: 1000, height: 600 } });
     await set(page, 'sky', true);
     await page.focus('#picture');
@@ -31,13 +31,13 @@ for (const colorScheme of ['light', 'dark']) {
     const ink = await page.locator('#measures').evaluate((each) => getComputedStyle(each).color.match(/\d+/g).map(Number));
     const { data, width, height } = PNG.sync.read(await page.locator('.heading').screenshot());
     let worst = 21;
-    // Left of the words, inside the round corners.
+    // Left of the text, inside the rounded corners.
     for (let y = 10; y < height - 10; y += 1) for (let x = 2; x < 9; x += 1) worst = Math.min(worst, contrast(ink, data.subarray((y * width + x) * 4, (y * width + x) * 4 + 3)));
     assert.ok(worst >= 4.5, `contrast ${worst}`);
   });
 }
 
-test('the scale stays from one model to the next of a request, unless it is of another size', { timeout: 200_000 }, async () => {
+test('the scale is stable across models of a request unless the size changes', { timeout: 200_000 }, async () => {
   const page = await open(browser, `${server.url}/${fragment_of(tower)}`);
   await fitted_picture(page);
   const first = await rows(page);
@@ -53,7 +53,7 @@ test('the scale stays from one model to the next of a request, unless it is of a
   assert.ok(framed.height > first.height * 0.75, `${framed.height}, framed anew`);
 });
 
-test('the scale stays also where the page is slow to see that the hint is gone', { timeout: 200_000 }, async () => {
+test('the scale is stable even if the page notices late that the hint is closed', { timeout: 200_000 }, async () => {
   const page = await open(browser, `${server.url}/${fragment_of(tower)}`, {
     before: (page) => page.addInitScript(() => {
       const Own = window.ResizeObserver;
@@ -72,7 +72,7 @@ test('the scale stays also where the page is slow to see that the hint is gone',
   assert.ok(Math.abs((await rows(page)).height - first.height) < 3, `${(await rows(page)).height} of ${first.height}`);
 });
 
-test('leaf cards are cut out by their picture in every mode', { timeout: 200_000 }, async () => {
+test('leaf cards are cut out by their texture in every shading mode', { timeout: 200_000 }, async () => {
   const request = (await server.get('/v1/presets/oak')).json;
   for (const word of ['title', 'description', 'tags']) delete request[word];
   const page = await open(browser, `${server.url}/?stage&quality=low${fragment_of(request)}`, { viewport: { width: 480, height: 360 } });
@@ -87,10 +87,10 @@ test('leaf cards are cut out by their picture in every mode', { timeout: 200_000
   assert.ok(own.some((is) => is === 0) && own.some((is) => is === 1));
   for (const [mode, other] of [['normals', normals], ['uv', squares]]) assert.ok(overlap(own, other) > 0.98, `${mode}: ${overlap(own, other)}`);
   assert.ok(difference(seen[0], seen[1]) > 0.1 && difference(seen[1], seen[2]) > 0.1, 'the modes differ');
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('motions are offered also to whoever opened the menu before they were known, and kept it open', { timeout: 300_000 }, async () => {
+test('motions are also offered in a menu that was opened before they were known', { timeout: 300_000 }, async () => {
   let release;
   const known = new Promise((resolve) => { release = resolve; });
   const page = await open(browser, `${server.url}/?quality=low${fragment_of(small_tree)}`, {
@@ -104,10 +104,10 @@ test('motions are offered also to whoever opened the menu before they were known
   await page.evaluate((fragment) => { location.hash = fragment; }, fragment_of({ ...small_tree, seed: 4 }));
   await page.waitForFunction(() => document.getElementById('seed').value === '4');
   await motions();
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('growth begins when it is chosen, also after the wind; whoever wants less motion starts it by hand', { timeout: 300_000 }, async () => {
+test('growth starts when it is selected, also after wind; with reduced motion it starts on demand', { timeout: 300_000 }, async () => {
   const both = { ...small_tree, parameters: { ...small_tree.parameters, productions: ['F -> F[+F]'] } };
   const offered = (page) => page.waitForFunction(() => document.querySelectorAll('#motion-kind option').length > 1);
   const page = await open(browser, `${server.url}/?quality=low${fragment_of(both)}`, { reducedMotion: 'no-preference' });
@@ -138,7 +138,7 @@ test('growth begins when it is chosen, also after the wind; whoever wants less m
   assert.equal(await still.locator('#motion-time').inputValue(), '1000');
 });
 
-test('the triangles that are told are those that are drawn, and another seed keeps the level', { timeout: 300_000 }, async () => {
+test('the triangle count is that of the drawn level, and another seed keeps the level', { timeout: 300_000 }, async () => {
   const page = await open(browser, `${server.url}/${fragment_of({ ...small_tree, parameters: { ...small_tree.parameters, productions: ['F -> F[+F] : 0.5', 'F -> F[-F] : 0.5'], sides: 12, iterations: 2 } })}`);
   const made = (await statistics(page)).triangles;
   await choose(page, '#detail', 'ask');
@@ -159,7 +159,7 @@ test('the triangles that are told are those that are drawn, and another seed kee
   assert.doesNotMatch((await statistics(page)).triangles, / of /);
 });
 
-test('in flight the place alone is told, another preset comes into sight, and Fit leads back', { timeout: 300_000 }, async () => {
+test('flight shows only the position, another preset is framed, and Fit returns to orbit', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
   await go_by(page, 'fly');
   assert.match(await page.textContent('#whereabouts'), /^x -?[\d.]+, y -?[\d.]+, z -?[\d.]+ m · \d+°$|^$/);
@@ -175,7 +175,7 @@ test('in flight the place alone is told, another preset comes into sight, and Fi
   assert.equal(await page.inputValue('#gait'), 'orbit');
   assert.ok(await page.isHidden('#whereabouts'));
   const fitted = await rows(page);
-  // Fitted it leaves room for steps that came since.
+  // Fitting leaves space for the step bar that has appeared since.
   assert.ok(Math.abs(model.height - fitted.height) < fitted.height * 0.3, `${model.height} rows in flight, ${fitted.height} fitted`);
   await go_by(page, 'walk');
   await page.focus('#picture');
@@ -184,7 +184,7 @@ test('in flight the place alone is told, another preset comes into sight, and Fi
   assert.ok(Math.abs((await rows(page)).height - fitted.height) < 6);
 });
 
-test('a finger walks and flies by buttons', { timeout: 200_000 }, async () => {
+test('touch buttons walk and fly', { timeout: 200_000 }, async () => {
   const page = await open(browser, address, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
   await page.evaluate(() => document.getElementById('hint-away').click());
   assert.ok(await page.isHidden('#pad'));
@@ -211,10 +211,10 @@ test('a finger walks and flies by buttons', { timeout: 200_000 }, async () => {
   assert.ok(right <= 390);
   await page.click('#fit');
   assert.ok(await page.isHidden('#pad'));
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('the seed of the left side is readable, and apart from the slider', { timeout: 200_000 }, async () => {
+test('the seed of the left side is readable and does not overlap the slider', { timeout: 200_000 }, async () => {
   for (const width of [390, 900]) {
     const page = await open(browser, `${server.url}/${fragment_of({ ...small_tree, seed: 4294967295 })}`, { viewport: { width, height: 844 } });
     await page.evaluate(() => { document.getElementById('hint-away').click(); document.getElementById('compare').click(); });
@@ -226,7 +226,7 @@ test('the seed of the left side is readable, and apart from the slider', { timeo
   }
 });
 
-test('what the server had made before is said to come from memory', { timeout: 200_000 }, async () => {
+test('a cached model is reported as such', { timeout: 200_000 }, async () => {
   const request = { ...small_tree, seed: 918273 };
   const page = await open(browser, `${server.url}/${fragment_of(request)}`);
   assert.equal(await page.textContent('#made'), 'Made in');
@@ -236,7 +236,7 @@ test('what the server had made before is said to come from memory', { timeout: 2
   assert.equal(`${await page.textContent('#made')} ${await page.textContent('#milliseconds')}`, 'Taken from memory');
 });
 
-test('edges of shapes are told from any ground', { timeout: 200_000 }, async () => {
+test('shape edges are visible on any background', { timeout: 200_000 }, async () => {
   for (const [colorScheme, wall] of [['light', '#f4f4f4'], ['dark', '#151515'], ['light', '#d55e00']]) {
     const rules = tower.parameters.rules.replace('#aa8866', wall);
     const page = await open(browser, `${server.url}/${fragment_of({ ...tower, parameters: { ...tower.parameters, rules } })}`, { colorScheme });
@@ -247,7 +247,7 @@ test('edges of shapes are told from any ground', { timeout: 200_000 }, async () 
   }
 });
 
-test('a click picks a shape and marks it, a drag turns the view alone', { timeout: 200_000 }, async () => {
+test('a click selects a shape, a drag only rotates the view', { timeout: 200_000 }, async () => {
   const axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
   const shapes = [
     { id: 0, parent: null, symbol: 'Lot', active: false, scope: { origin: [-5, 0, -5], axes, size: [10, 0, 10] } },
@@ -275,7 +275,7 @@ test('a click picks a shape and marks it, a drag turns the view alone', { timeou
   assert.ok(difference(before, await picture(page)) > 0.02, 'it is marked');
 });
 
-test('the line of a rule is selected at the first click, and seen from its start', { timeout: 200_000 }, async () => {
+test('the first click selects the line of a rule and scrolls to its start', { timeout: 200_000 }, async () => {
   const tail = ` color("#aa8866") ${'t("0 0 0") '.repeat(30)}`;
   const rules = `${Array.from({ length: 30 }, (_, index) => `Idle${index} --> color("#ffffff") Idle.`).join('\n')}\nLot --> extrude(6)${tail}Mass\nMass --> color("#ff0000")${tail}Face.`;
   const page = await open(browser, `${server.url}/${fragment_of({ generator: 'building', seed: 1, parameters: { rules: rules.replaceAll(/t\("0 0 0"\)/g, 't(0, 0, 0)'), start: 'Lot', size: [8, 0, 6] } })}`);

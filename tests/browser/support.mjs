@@ -1,4 +1,4 @@
-// What the tests of the page share: the real server, a browser, and the page opened in it.
+// Shared by the browser tests: the real server, a browser, and the page opened in it.
 import assert from 'node:assert/strict';
 import zlib from 'node:zlib';
 import pixelmatch from 'pixelmatch';
@@ -11,7 +11,7 @@ export { launch, program, serve, until_shown, until_state };
 export const fragment_of = (request, is_text = false) => `#${zlib.deflateRawSync(is_text ? request : JSON.stringify(request)).toString('base64url')}`;
 export const request_of = (fragment) => JSON.parse(zlib.inflateRawSync(Buffer.from(fragment.replace('#', ''), 'base64url')));
 
-/** A tree of a few hundred triangles, so that the software renderer is not what is waited for. */
+/** A tree of a few hundred triangles, so that tests do not wait for the software renderer. */
 export const small_tree = {
   generator: 'lsystem', seed: 3,
   parameters: { axiom: 'F', productions: ['F -> F[+F]', 'X -> Y'], iterations: 3, angle: 25, step: 0.4 },
@@ -25,13 +25,13 @@ export async function open(browser, address, { states = ['ready'], before = asyn
   const context = await browser.newContext({ viewport: { width: 800, height: 450 }, ...options });
   const page = await context.newPage();
   page.setDefaultTimeout(90_000);
-  page.faults = [];
-  page.on('pageerror', (error) => page.faults.push(error.message));
-  page.on('console', (message) => { if (/Content Security Policy/.test(message.text())) page.faults.push(message.text()); });
+  page.errors = [];
+  page.on('pageerror', (error) => page.errors.push(error.message));
+  page.on('console', (message) => { if (/Content Security Policy/.test(message.text())) page.errors.push(message.text()); });
   await before(page);
   await page.goto(address);
   await until_state(page, ...states);
-  // What is not needed for the first model comes a moment later.
+  // Code that the first model does not need is loaded later.
   await page.waitForFunction(() => document.body.dataset.tools === 'ready');
   return page;
 }
@@ -44,7 +44,7 @@ export async function open_parameters(page) {
   await page.waitForSelector('#parameters .form');
 }
 
-/** The code editor in a field, once it has taken the place of the text area. Locators look into its shadow root. */
+/** The code editor in a field, after it has replaced the text area. Locators look into its shadow root. */
 export const code = (place) => place.locator('.cm-content');
 
 export async function written(place) {
@@ -52,7 +52,7 @@ export async function written(place) {
   return (await code(place).locator('.cm-line').allTextContents()).join('\n');
 }
 
-/** Pastes a text in place of all that is there. */
+/** Replaces the whole text by pasting. */
 export async function write(place, text) {
   await code(place).click();
   await code(place).press('Control+a');
@@ -63,7 +63,7 @@ export async function write(place, text) {
   }, text);
 }
 
-/** What is selected in a code editor: its selection is that of the shadow root. */
+/** The selection in a code editor, which is that of the shadow root. */
 export const selected = (place) => code(place).evaluate((content) => content.getRootNode().getSelection().toString());
 
 /** Opens a menu and clicks a button in it. */
@@ -100,9 +100,9 @@ export const statistics = (page) => page.evaluate(() => ({
   bytes: Number(document.getElementById('bytes').dataset.bytes),
 }));
 
-/** The model as it is drawn, without what lies over it. */
+/** The drawn model, without overlays. */
 export async function picture(page) {
-  // With the form come the steps, and the model gives way to them.
+  // The step bar appears with the form, and the model is framed above it.
   await page.waitForSelector('#parameters .form', { state: 'attached' });
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
   const flip = (hidden) => page.evaluate((hidden) => { for (const each of document.querySelectorAll('.overlay')) each.hidden = hidden; }, hidden);
@@ -112,7 +112,7 @@ export async function picture(page) {
   return png;
 }
 
-/** The same, once the camera fits the model between all that has come to lie over the rims of the picture. */
+/** The same, after the camera has fitted the model between the overlays. */
 export async function fitted_picture(page) {
   await picture(page);
   await page.click('#fit');
@@ -126,7 +126,7 @@ export function difference(a, b, threshold = 0.2) {
   return pixelmatch(first.data, second.data, null, first.width, first.height, { threshold }) / (first.width * first.height);
 }
 
-/** Which pixels something stands on: the page draws on a transparent ground at `/?stage`. */
+/** The pixels that the model covers. The page draws on a transparent ground at `/?stage`. */
 export function outline(png) {
   const { data } = PNG.sync.read(png);
   return Uint8Array.from({ length: data.length / 4 }, (_, pixel) => (data[pixel * 4 + 3] > 127 ? 1 : 0));
@@ -139,7 +139,7 @@ export function overlap(a, b) {
   return both / either;
 }
 
-/** Sets a control of the menu that may be out of sight, and waits for two pictures. */
+/** Sets a control of the menu that may be outside the window, and waits for two frames. */
 export const set = (page, id, value) => page.evaluate(([id, value]) => new Promise((resolve) => {
   const control = document.getElementById(id);
   if (typeof value === 'boolean') control.checked = value;

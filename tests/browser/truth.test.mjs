@@ -1,4 +1,4 @@
-// What the page says is true of what it shows: names, figures, seeds and questions belong to the model in the picture.
+// Consistency: titles, figures, seeds and questions belong to the model in the view.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { choose, code, difference, drop, field, fragment_of, from_menu, go_by, launch, open, open_parameters, picture, program, request_of, serve, small_tree, statistics, until_shown, until_state, write } from './support.mjs';
@@ -21,7 +21,7 @@ async function write_json(page, text) {
   await write(page.locator('#request'), text);
 }
 
-/** Holds the answers of a route until they are let go. */
+/** Delays the responses of a route until they are released. */
 async function hold(page, route, applies = () => true) {
   let let_go, came;
   const gate = new Promise((resolve) => { let_go = resolve; });
@@ -35,9 +35,9 @@ async function hold(page, route, applies = () => true) {
   return { asked, let_go };
 }
 
-test('A | B that is switched off at once leaves nothing behind', { timeout: 200_000 }, async () => {
+test('a comparison that is switched off at once leaves nothing behind', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
-  // The second click comes before the first one's model is read.
+  // The second click precedes the end of the first model load.
   await page.evaluate(() => { const button = document.getElementById('compare'); button.click(); button.click(); });
   assert.equal(await page.getAttribute('#compare', 'aria-pressed'), 'false');
   await until_shown(page, () => page.evaluate((hash) => { location.hash = hash; }, fragment_of({ ...small_tree, parameters: { ...small_tree.parameters, angle: 70 } })));
@@ -48,7 +48,7 @@ test('A | B that is switched off at once leaves nothing behind', { timeout: 200_
   assert.equal(difference(right, await picture(page)), 0);
 });
 
-test('a seed of 64 bits is exact from JSON, files and links, and what is no seed is marked', { timeout: 300_000 }, async () => {
+test('a 64-bit seed is exact from JSON, files and links, and an invalid seed is marked', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
   const sent = [];
   page.on('request', (request) => { if (request.url().endsWith('/v1/generate')) sent.push(JSON.parse(request.postData()).seed); });
@@ -64,10 +64,10 @@ test('a seed of 64 bits is exact from JSON, files and links, and what is no seed
   await page.evaluate((hash) => { location.hash = hash; }, fragment_of({ ...small_tree, seed: 'hello' }));
   await until_state(page, 'refused');
   assert.deepEqual([await page.inputValue('#seed'), await page.getAttribute('#seed', 'aria-invalid')], ['hello', 'true']);
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('files bear the name of what was asked for, tell formats apart, and come once', { timeout: 300_000 }, async () => {
+test('downloads have the name of their request, distinguish formats, and arrive once', { timeout: 300_000 }, async () => {
   const page = await open(browser, `${server.url}/`);
   await until_shown(page, () => page.click('[data-preset="menger_sponge"]'));
   await page.waitForSelector('#parameters .form', { state: 'attached' });
@@ -103,18 +103,18 @@ test('files bear the name of what was asked for, tell formats apart, and come on
   assert.match(map.suggestedFilename(), /^island-\d+-png16\.png$/);
   await until_shown(page, () => page.click('[data-preset="small_planet"]'));
   await page.waitForFunction(() => document.querySelectorAll('[data-format=png16]').length === 0);
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('points and lines are counted, an empty model measures nothing, and warnings lead to where they stand', { timeout: 300_000 }, async () => {
+test('points and lines are counted, an empty model has no size, and warnings lead to their field', { timeout: 300_000 }, async () => {
   const page = await open(browser, `${server.url}/${fragment_of({ ...small_tree, parameters: { axiom: 'X' } })}`);
-  assert.equal(await page.textContent('#measures').then((text) => text.split(' · ')[0]), 'Nothing to be seen');
+  assert.equal(await page.textContent('#measures').then((text) => text.split(' · ')[0]), 'Nothing to show');
   assert.doesNotMatch(await page.getAttribute('#picture', 'aria-label'), / m wide/);
   const warned = Number(await page.textContent('#warnings'));
   assert.ok(warned > 0);
   await page.waitForSelector('#parameters .form', { state: 'attached' });
   await page.click('#warnings');
-  const mild = page.locator('.fault.mild:visible, .spot.mild:visible');
+  const mild = page.locator('.issue.mild:visible, .spot.mild:visible');
   await mild.first().waitFor();
   assert.ok((await mild.first().textContent()).length > 10);
   const lines = { ...small_tree, parameters: { ...small_tree.parameters, style: 'lines' } };
@@ -126,7 +126,7 @@ test('points and lines are counted, an empty model measures nothing, and warning
   assert.ok(await page.isHidden('#warnings-box'));
 });
 
-test('another request in the JSON is another model: name, link and form follow it', { timeout: 300_000 }, async () => {
+test('an unrelated request in the JSON is a new model with its own title, link and form', { timeout: 300_000 }, async () => {
   const page = await open(browser, `${server.url}/`);
   await until_shown(page, () => page.click('[data-preset="koch_snowflake"]'));
   const snowflake = await title(page);
@@ -146,17 +146,17 @@ test('another request in the JSON is another model: name, link and form follow i
   assert.equal(await page.getAttribute('[data-preset="koch_island"]', 'aria-pressed'), 'true');
   await page.click('#undo');
   await page.waitForFunction(() => document.getElementById('title').textContent.endsWith('from JSON'));
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('a file that cannot be read, is empty, is one of two, or names what is not there', { timeout: 300_000 }, async () => {
+test('unreadable, empty, multiple and unknown files are reported', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
   const noise = [];
   page.on('console', (message) => { if (message.type() === 'error') noise.push(message.text()); });
-  // What a browser does where a folder is read as a file.
+  // Browsers reject with this error when a folder is read as a file.
   await page.evaluate(() => { File.prototype.text = function () { return this.name === 'folder' ? Promise.reject(new DOMException('gone', 'NotFoundError')) : Blob.prototype.text.call(this); }; });
   await drop(page, 'folder', 'x');
-  await alert_says(page, 'folder cannot be read. A folder is not opened');
+  await alert_says(page, 'folder cannot be read. Folders cannot be opened');
   await drop(page, 'nothing.json', ' \n');
   await alert_says(page, 'nothing.json is empty.');
   await drop(page, 'p.json', '{"preset": "no_such_preset"}');
@@ -166,13 +166,14 @@ test('a file that cannot be read, is empty, is one of two, or names what is not 
   await until_shown(page, () => drop(page, ['one.json', 'two.json'], JSON.stringify({ ...small_tree, seed: 21 })));
   await status_says(page, 'one.json is opened. It is one of 2 files');
 
-  // What is refused does not pass off the model before as its own, and no form writes into what it does not belong to.
+  // After a refusal, the previous model must not appear as the new one, and the form must not write into the
+  // new request.
   await open_parameters(page);
   await drop(page, 'strange.json', '{"generator": "nope", "parameters": {}}');
   await until_state(page, 'refused');
   await alert_says(page, 'There is no generator "nope"');
   assert.equal(await title(page), 'strange');
-  assert.equal(await page.textContent('#measures'), 'The picture still shows one');
+  assert.equal(await page.textContent('#measures'), 'The view still shows one');
   assert.ok(await page.isHidden('#statistics'));
   assert.match(await page.getAttribute('#picture', 'aria-label'), /^one, seed 21/);
   assert.match(await page.textContent('#parameters'), /no generator “nope”/);
@@ -184,10 +185,10 @@ test('a file that cannot be read, is empty, is one of two, or names what is not 
   const linked = await open(browser, `${server.url}/${fragment_of({ generator: 'nope', parameters: {} })}`, { states: ['refused'] });
   assert.equal(await title(linked), 'Unknown generator');
   await alert_says(linked, 'There is no generator "nope"');
-  assert.deepEqual([...page.faults, ...linked.faults], []);
+  assert.deepEqual([...page.errors, ...linked.errors], []);
 });
 
-test('cancel also gives up what was to be opened while another model was waited for', { timeout: 300_000 }, async () => {
+test('cancel also stops an opening that was started while another model was loading', { timeout: 300_000 }, async () => {
   const page = await open(browser, `${server.url}/`);
   const shown = await title(page);
   const card = await page.getAttribute('[data-preset][aria-pressed=true]', 'data-preset');
@@ -206,7 +207,7 @@ test('cancel also gives up what was to be opened while another model was waited 
   assert.equal(asked_again, 0);
 });
 
-test('a huge model is asked for before it is fetched, and what is left changes nothing', { timeout: 300_000 }, async () => {
+test('a huge model needs confirmation before the download, and declining changes nothing', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
   const before = await statistics(page);
   const label = await page.getAttribute('#picture', 'aria-label');
@@ -229,7 +230,7 @@ test('a huge model is asked for before it is fetched, and what is left changes n
   assert.match(await page.getAttribute('#picture', 'aria-label'), /seed 4/);
 });
 
-test('levels are those of the model that grows', { timeout: 300_000 }, async () => {
+test('levels of detail belong to the model that grows', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
   await open_parameters(page);
   await field(page, '/parameters/age').getByRole('button', { name: /^Grow/ }).click();
@@ -246,7 +247,7 @@ test('levels are those of the model that grows', { timeout: 300_000 }, async () 
   await page.waitForFunction((made) => document.getElementById('triangles').textContent === made, made);
 });
 
-test('on foot one begins on land, stays on it, and comes to its end', { timeout: 300_000 }, async () => {
+test('walking begins on the terrain, stays on it, and stops at its end', { timeout: 300_000 }, async () => {
   const land = { generator: 'terrain', seed: 3, parameters: { algorithm: 'fbm', resolution: 33, size: 400, amplitude: 60, base: 30 }, output: { textures: 'none' } };
   const page = await open(browser, `${server.url}/${fragment_of(land)}`);
   const place = async () => (await page.textContent('#whereabouts')).match(/-?[\d.]+/g).map(Number);
@@ -257,7 +258,7 @@ test('on foot one begins on land, stays on it, and comes to its end', { timeout:
   const heights = [];
   await page.exposeFunction('seen', (text) => heights.push(Number(/y (-?[\d.]+)/.exec(text)[1])));
   await page.evaluate(() => new MutationObserver(() => window.seen(document.getElementById('whereabouts').textContent)).observe(document.getElementById('whereabouts'), { childList: true, characterData: true, subtree: true }));
-  // Backwards, out of the land: it ends at the rim.
+  // Walking backwards ends at the edge of the terrain.
   await page.keyboard.down('Shift');
   await page.keyboard.down('s');
   await page.waitForFunction(() => { const [x, , z] = document.getElementById('whereabouts').textContent.match(/-?[\d.]+/g).map(Number); return Math.max(Math.abs(x), Math.abs(z)) > 185; });

@@ -1,4 +1,4 @@
-// Ways to look at a model: shading, light, levels, materials, motion, camera; steps; what was derived.
+// View options: shading, light, levels, materials, motion, camera; steps; intermediate results.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
@@ -21,7 +21,7 @@ const switch_to = async (page, id, on) => {
   await page.keyboard.press('Escape');
 };
 
-/** The picture changes by at least so much of it. */
+/** Waits until at least this share of the view has changed. */
 async function changes(page, words, act, least = 0.0005) {
   const earlier = await picture(page);
   await act();
@@ -31,7 +31,7 @@ async function changes(page, words, act, least = 0.0005) {
   return earlier;
 }
 
-test('a model is seen shaded, flat, by its normals and with squares', { timeout: 300_000 }, async () => {
+test('a model is shown shaded, flat, with normals and with a checkerboard', { timeout: 300_000 }, async () => {
   const page = await open(browser, `${server.url}/${fragment_of({ generator: 'terrain', seed: 1, parameters: { algorithm: 'diamond_square', iterations: 3, size: 20, amplitude: 4 } })}`, { states: ['ready', 'refused'] });
   const first = await picture(page);
   for (const mode of ['flat', 'normals', 'uv']) await changes(page, mode, () => choose(page, '#shading', mode));
@@ -42,10 +42,10 @@ test('a model is seen shaded, flat, by its normals and with squares', { timeout:
   await page.focus('#picture');
   await changes(page, 'N', () => page.keyboard.press('n'));
   await changes(page, 'wires over it', () => page.keyboard.press('w'));
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('sky, shadow, and a light that is moved and switched off', { timeout: 300_000 }, async () => {
+test('sky, shadow, and a light that can be moved and switched off', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
   await changes(page, 'sky', () => switch_to(page, '#sky', true), 0.1);
   await switch_to(page, '#sky', false);
@@ -54,10 +54,10 @@ test('sky, shadow, and a light that is moved and switched off', { timeout: 300_0
   await changes(page, 'from another side', () => page.getByLabel('Light from').fill('200'));
   await changes(page, 'from above', () => page.getByLabel('Height of light').fill('88'));
   await changes(page, 'off', () => switch_to(page, '#light-on', false));
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('levels of detail are fetched, counted, chosen, and change with the distance', { timeout: 300_000 }, async () => {
+test('levels of detail are fetched, counted, selected, and change with the distance', { timeout: 300_000 }, async () => {
   const page = await open(browser, `${server.url}/${fragment_of({ ...small_tree, parameters: { ...small_tree.parameters, sides: 12, iterations: 2 } })}`);
   const made = number((await statistics(page)).triangles);
   await choose(page, '#detail', 'ask');
@@ -71,16 +71,16 @@ test('levels of detail are fetched, counted, chosen, and change with the distanc
   await changes(page, 'the coarsest level', () => choose(page, '#detail', String(counts.length - 1)), 0.0001);
   await choose(page, '#detail', '');
   assert.equal(number((await page.locator('#detail option').first().textContent()).split('·')[1]), made);
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('by distance one level gives way to the next by dots, and the time of a picture is told', { timeout: 300_000 }, async () => {
+test('levels fade by dithering when they change with the distance, and the frame time is shown', { timeout: 300_000 }, async () => {
   const page = await open(browser, `${server.url}/${fragment_of({ ...small_tree, parameters: { ...small_tree.parameters, sides: 12, iterations: 2 } })}`, { reducedMotion: 'no-preference' });
   await choose(page, '#detail', 'ask');
   await page.waitForFunction(() => document.querySelector('#detail').value === 'auto');
   const level = () => page.evaluate(() => Number(/level (\d)$/.exec(document.getElementById('drawn').textContent)?.[1] ?? -1));
   assert.match(await page.textContent('#drawn'), /^[\d.]+ ms(, frame [\d.]+ ms)?, level 0$/);
-  // Every program that is drawn with while one level gives way names the dots.
+  // Every shader program used during a fade contains the dithering.
   await page.evaluate(() => {
     window.fades = [];
     const { uniform2fv, uniform2f } = WebGL2RenderingContext.prototype;
@@ -95,15 +95,15 @@ test('by distance one level gives way to the next by dots, and the time of a pic
   for (let step = 0; step < 9; step += 1) await page.keyboard.press('+');
   await page.waitForFunction(() => / level 0$/.test(document.getElementById('drawn').textContent));
   assert.equal(await level(), 0);
-  // It comes to rest.
+  // The fade ends.
   await page.waitForFunction(() => new Promise((resolve) => {
     const text = document.getElementById('drawn').textContent;
     setTimeout(() => resolve(text === document.getElementById('drawn').textContent), 700);
   }));
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('whoever wants less motion gets levels at once, and wind on demand alone', { timeout: 300_000 }, async () => {
+test('with reduced motion, levels change without a fade and wind is optional', { timeout: 300_000 }, async () => {
   const page = await open(browser, `${server.url}/${fragment_of(leafy)}`, { reducedMotion: 'reduce' });
   await page.click('#view-menu > summary');
   await page.waitForFunction(() => [...document.querySelectorAll('#motion-kind option')].some((option) => option.textContent === 'Wind'));
@@ -116,7 +116,7 @@ test('whoever wants less motion gets levels at once, and wind on demand alone', 
   assert.equal(await page.textContent('#motion-play'), 'Play');
 });
 
-test('a tree sways in the wind by the weights of its file, its wires and normals too', { timeout: 300_000 }, async () => {
+test('a tree sways by the wind weights of its file, as do its wireframe and normals', { timeout: 300_000 }, async () => {
   const page = await open(browser, `${server.url}/?quality=low${fragment_of(leafy)}`, { reducedMotion: 'no-preference' });
   const asked = [];
   page.on('request', (request) => { if (request.url().endsWith('/v1/generate')) asked.push(JSON.parse(request.postData()).output); });
@@ -145,24 +145,24 @@ test('a tree sways in the wind by the weights of its file, its wires and normals
   await until_shown(page, () => page.fill('#seed', '5'));
   assert.equal(asked.at(-1).wind, 'weights', 'the wind stays');
   assert.ok(await page.isVisible('#motion'));
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('a model is shown in the materials of another season without asking the server', { timeout: 300_000 }, async () => {
+test('a season variant is shown without a request to the server', { timeout: 300_000 }, async () => {
   const page = await open(browser, `${server.url}/${fragment_of(leafy)}`);
   const asked = [];
   page.on('request', (request) => { if (request.url().endsWith('/v1/generate')) asked.push(request.url()); });
   await open_menu(page);
   const names = await page.locator('#material-set option').allTextContents();
-  assert.deepEqual(names, ['As asked for', 'spring', 'summer', 'autumn']);
+  assert.deepEqual(names, ['As requested', 'spring', 'summer', 'autumn']);
   await changes(page, 'autumn', () => choose(page, '#material-set', 'autumn'), 0.001);
   assert.deepEqual(asked, []);
   await until_shown(page, () => page.fill('#seed', '3'));
   assert.equal(await page.inputValue('#material-set'), 'autumn', 'the choice stays');
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('growth is played and stands at any moment; a generator without it offers none', { timeout: 300_000 }, async () => {
+test('growth can be played and paused anywhere, and is offered only by generators that have it', { timeout: 300_000 }, async () => {
   const page = await open(browser, address, { reducedMotion: 'reduce' });
   await page.click('#view-menu > summary');
   await page.waitForFunction(() => [...document.querySelectorAll('#motion-kind option')].some((option) => option.value === 'growth'));
@@ -185,10 +185,10 @@ test('growth is played and stands at any moment; a generator without it offers n
   await page.waitForTimeout(500);
   assert.ok(await page.isHidden('#motion-kind'));
   assert.ok(await page.isHidden('#motion'));
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('on foot and in flight, with the place read out', { timeout: 300_000 }, async () => {
+test('walking and flying show the position', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
   const place = async () => (await page.textContent('#whereabouts')).match(/-?[\d.]+/g).map(Number);
   await go_by(page, 'walk');
@@ -216,7 +216,7 @@ test('on foot and in flight, with the place read out', { timeout: 300_000 }, asy
   assert.equal(await page.inputValue('#gait'), 'orbit');
 });
 
-test('steps: from the start, on, back, all in turn, and to the last', { timeout: 300_000 }, async () => {
+test('steps: first, forward, back, play all, and last', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
   const now = () => page.textContent('#step-now');
   assert.equal(await now(), 'step 3 of 3');
@@ -242,12 +242,12 @@ test('steps: from the start, on, back, all in turn, and to the last', { timeout:
   assert.equal(await now(), 'step 2 of 3');
 });
 
-test('the camera rises over wide and low land', { timeout: 200_000 }, async () => {
+test('the camera is higher above wide and flat terrain', { timeout: 200_000 }, async () => {
   const page = await open(browser, `${server.url}/${fragment_of({ generator: 'terrain', seed: 1, parameters: { algorithm: 'midpoint', iterations: 3 } })}`, { states: ['ready', 'refused'], viewport: { width: 1280, height: 720 } });
   await until_shown(page, () => page.click('[data-preset="midpoint_hills"]'));
   await page.click('#grid');
   const { width, height, data } = PNG.sync.read(await picture(page));
-  // Rows in which something stands that is not the pale background.
+  // Rows with pixels that differ from the pale background.
   let rows = 0;
   for (let y = 0; y < height; y += 1) {
     let ink = 0;
@@ -257,7 +257,7 @@ test('the camera rises over wide and low land', { timeout: 200_000 }, async () =
   assert.ok(rows > height * 0.25, `${rows} of ${height} rows`);
 });
 
-test('heights are shown as a map with its size, figures and words as such', { timeout: 300_000 }, async () => {
+test('heights are shown as a map with its size, beside figures and words', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
   await page.click('#tab-result');
   await page.waitForSelector('#result .figures');
@@ -269,12 +269,12 @@ test('heights are shown as a map with its size, figures and words as such', { ti
   assert.deepEqual(await page.locator('.height-map').evaluate((map) => [map.width, map.height]), [json.width, json.height]);
   await page.locator('.height-map').hover({ position: { x: 100, y: 60 } });
   await page.waitForFunction(() => /Sample \d/.test(document.querySelector('.map-of-heights output').textContent));
-  const [, x, y, told] = /Sample (\d+), (\d+): (-?[\d.]+) m/.exec(await page.textContent('.map-of-heights output')).map(Number);
+  const [, x, y, shown] = /Sample (\d+), (\d+): (-?[\d.]+) m/.exec(await page.textContent('.map-of-heights output')).map(Number);
   const height = json.heights[y * json.width + x];
-  assert.ok(x > 10 && y > 5 && Math.abs(told - height) <= Math.abs(height) * 0.01 + 0.01, `${told} for ${height} at ${x}, ${y}`);
+  assert.ok(x > 10 && y > 5 && Math.abs(shown - height) <= Math.abs(height) * 0.01 + 0.01, `${shown} for ${height} at ${x}, ${y}`);
 });
 
-test('shapes lie over the model as boxes, and one that is pointed at tells what it is', { timeout: 300_000 }, async () => {
+test('shapes are drawn as boxes over the model, and the selected one is described', { timeout: 300_000 }, async () => {
   const axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
   const shapes = [
     { id: 0, parent: null, symbol: 'Lot', parameters: {}, active: false, rule: 'Lot --> Wall', line: 2, choice: 3, scope: { origin: [-1, -0.2, -0.5], axes, size: [1.2, 0, 1] } },
@@ -287,12 +287,12 @@ test('shapes lie over the model as boxes, and one that is pointed at tells what 
   await changes(page, 'boxes', () => page.check('#show-shapes'));
   await page.locator('#picture').click({ position: { x: 200, y: 200 } });
   await page.waitForSelector('.picked h4');
-  const told = await page.textContent('.picked');
-  for (const words of ['Wall', 'Lot', 'Made byLot --> Wall (choice 3)', '1.2 × 1 × 1 m', '"bays":3']) assert.ok(told.includes(words), `${words} in ${told}`);
+  const picked = await page.textContent('.picked');
+  for (const words of ['Wall', 'Lot', 'Made byLot --> Wall (choice 3)', '1.2 × 1 × 1 m', '"bays":3']) assert.ok(picked.includes(words), `${words} in ${picked}`);
   await changes(page, 'no boxes', () => page.uncheck('#show-shapes'));
 });
 
-test('a part of a building that is pointed at leads to its rule, and its edges are drawn apart from triangles', { timeout: 300_000 }, async () => {
+test('a selected part of a building leads to its rule, and shape edges differ from triangle edges', { timeout: 300_000 }, async () => {
   const rules = 'Lot --> extrude(6) Mass\n\nMass --> comp(f) { side : Wall | top : Lid. }\nWall --> color("#aa8866") Face.';
   const page = await open(browser, `${server.url}/${fragment_of({ generator: 'building', seed: 1, parameters: { rules, start: 'Lot', size: [8, 0, 6] } })}`);
   await page.click('#hint-away');
@@ -306,14 +306,14 @@ test('a part of a building that is pointed at leads to its rule, and its edges a
   await page.locator('#picture').click({ position: { x: 180, y: 130 } });
   await page.waitForSelector('.picked h4');
   assert.equal(await page.textContent('.picked h4'), 'Mass');
-  const told = await page.textContent('.picked');
-  for (const words of ['Made byLot --> extrude(6) Mass', 'Replaced byMass --> comp(f)', '8 × 6 × 6 m']) assert.ok(told.includes(words), `${words} in ${told}`);
+  const picked = await page.textContent('.picked');
+  for (const words of ['Made byLot --> extrude(6) Mass', 'Replaced byMass --> comp(f)', '8 × 6 × 6 m']) assert.ok(picked.includes(words), `${words} in ${picked}`);
   await page.getByRole('button', { name: '3', exact: true }).click();
   assert.ok(await page.isVisible('#parameters'));
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('what stands many times is drawn at once', { timeout: 300_000 }, async () => {
+test('repeated meshes are drawn with instancing', { timeout: 300_000 }, async () => {
   const stone = { generator: 'fractal', parameters: { iterations: 1 } };
   const field_of = (count) => ({ generator: 'scene', seed: 3, parameters: { ground: { size: 60 }, layers: [{ name: 'stone', model: stone, variants: 2, place: { method: 'scatter', count } }] } });
   const page = await open(browser, `${server.url}/?quality=low${fragment_of(field_of(300))}`);
@@ -331,10 +331,10 @@ test('what stands many times is drawn at once', { timeout: 300_000 }, async () =
   const made = number((await page.locator('#detail option').first().textContent()).split('·')[1]);
   assert.equal(made, number((await statistics(page)).triangles));
   await changes(page, 'wires', () => page.click('#wireframe'));
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('a heavy model is drawn only when asked for', { timeout: 200_000 }, async () => {
+test('a heavy model is drawn only after confirmation', { timeout: 200_000 }, async () => {
   const page = await open(browser, address, { before: (page) => page.route('**/v1/generate', async (route) => {
     const response = await route.fetch();
     await route.fulfill({ response, headers: { ...response.headers(), 'seedmesh-triangles': JSON.parse(route.request().postData()).seed === 4 ? '5000000' : '100' } });
@@ -346,10 +346,10 @@ test('a heavy model is drawn only when asked for', { timeout: 200_000 }, async (
   assert.equal(await page.textContent('#alert'), '');
 });
 
-// Pictures that are kept in the repository: `SEEDMESH_NEW_PICTURES=1` takes them anew.
+// Reference images in the repository. `SEEDMESH_NEW_PICTURES=1` renders them again.
 const kept = path.join(import.meta.dirname, 'pictures');
 for (const name of ['koch_snowflake', 'menger_sponge', 'abop_1_24f']) {
-  test(`${name} looks as it did`, { timeout: 200_000 }, async () => {
+  test(`${name} matches its reference image`, { timeout: 200_000 }, async () => {
     const page = await open(browser, `${server.url}/?stage&quality=low${fragment_of((await server.get(`/v1/presets/${name}`)).json)}`, { viewport: { width: 320, height: 180 }, colorScheme: 'light' });
     const png = await page.screenshot();
     const file = path.join(kept, `${name}.png`);
@@ -360,7 +360,7 @@ for (const name of ['koch_snowflake', 'menger_sponge', 'abop_1_24f']) {
 }
 
 for (const name of ['oak', 'orchard', 'alps']) {
-  test(`${name} made for the web, compressed, looks as it does in core glTF`, { timeout: 120_000 }, async () => {
+  test(`${name} in compressed web glTF looks the same as in core glTF`, { timeout: 120_000 }, async () => {
     const request = (await server.get(`/v1/presets/${name}`)).json;
     for (const word of ['title', 'description', 'tags']) delete request[word];
     const pictures = [], compressed = [];
@@ -373,7 +373,7 @@ for (const name of ['oak', 'orchard', 'alps']) {
       const page = await open(browser, `${server.url}/?stage&quality=low${fragment_of(asked)}`, { before, viewport: { width: 480, height: 360 } });
       pictures.push(outline(await page.screenshot({ omitBackground: true })));
       compressed.push((await Promise.all(kinds)).includes(true));
-      assert.deepEqual(page.faults, []);
+      assert.deepEqual(page.errors, []);
       await page.context().close();
     }
     assert.deepEqual(compressed, [false, true]);

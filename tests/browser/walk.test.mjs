@@ -1,4 +1,4 @@
-// A newcomer's walk through the page, from the first sight to a link that somebody else opens.
+// A first visit to the page, from the first model to a link that another browser opens.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { code, difference, field, fitted_picture, launch, open, open_parameters, program, selected, serve, statistics, until_shown, until_state, write, written } from './support.mjs';
@@ -7,7 +7,7 @@ let server, browser;
 before(async () => { server = await serve(program); browser = await launch(); });
 after(async () => { await browser?.close(); await server?.stop(); });
 
-test('a newcomer grows a tree, mends a production and shares the result', { timeout: 600_000 }, async (t) => {
+test('a new visitor grows a tree, corrects a production and shares the result', { timeout: 600_000 }, async (t) => {
   const page = await open(browser, server.url, { permissions: ['clipboard-read', 'clipboard-write'] });
   const productions = field(page, '/parameters/productions');
   let whole, link, shown, drawing;
@@ -21,7 +21,7 @@ test('a newcomer grows a tree, mends a production and shares the result', { time
     assert.equal(await page.getAttribute('[data-preset="kogovsek_willow_random"]', 'aria-pressed'), 'true');
     assert.match(new URL(page.url()).hash, /^#[\w-]{50,}\.kogovsek_willow_random$/);
   });
-  await t.test('a number is changed, and the picture follows', async () => {
+  await t.test('a number is changed, and the view follows', async () => {
     await open_parameters(page);
     const before = await statistics(page);
     const box = field(page, '/parameters/iterations').locator('input[type=number]');
@@ -29,7 +29,7 @@ test('a newcomer grows a tree, mends a production and shares the result', { time
     await until_shown(page, () => box.fill(String(value - 1)));
     assert.notDeepEqual(await statistics(page), before);
   });
-  await t.test('a broken production is read at its line and column', async () => {
+  await t.test('an invalid production is reported at its line and column', async () => {
     whole = await written(productions);
     const lines = whole.split('\n');
     const last = lines.length - 1;
@@ -44,12 +44,12 @@ test('a newcomer grows a tree, mends a production and shares the result', { time
     assert.equal(await code(productions).getAttribute('aria-invalid'), 'true');
     assert.ok((await page.textContent('#alert')).length > 0);
   });
-  await t.test('it is mended, and the fault goes away', async () => {
+  await t.test('it is corrected, and the error disappears', async () => {
     await until_shown(page, () => write(productions, whole));
     assert.equal(await field(page, '/parameters/productions').locator('.spot').count(), 0);
     assert.equal(await page.textContent('#alert'), '');
   });
-  await t.test('the seed is rolled', async () => {
+  await t.test('a random seed is chosen', async () => {
     const seed = await page.inputValue('#seed');
     const before = await statistics(page);
     await until_shown(page, () => page.click('#dice'));
@@ -62,11 +62,11 @@ test('a newcomer grows a tree, mends a production and shares the result', { time
     link = await page.evaluate(() => navigator.clipboard.readText());
     assert.ok(link.startsWith(`${server.url}/#`), link);
     shown = await statistics(page);
-    // The camera stands as it did for the seed before, so that seeds can be compared, and the model gives way to the
-    // figures under it, which tell how long the making took: a page that is opened anew has neither.
+    // The camera keeps its position when the seed changes, so that seeds can be compared, and the statistics
+    // under the model show the generation time. A newly opened page has neither.
     drawing = await fitted_picture(await open(browser, link));
   });
-  await t.test('a fresh browser opens it: the same picture, the same statistics, the same fields', async () => {
+  await t.test('a new browser opens it with the same view, statistics and fields', async () => {
     const other_browser = await launch();
     try {
       const other = await open(other_browser, link);
@@ -76,17 +76,17 @@ test('a newcomer grows a tree, mends a production and shares the result', { time
       assert.equal(await written(field(other, '/parameters/productions')), whole);
       const differs = difference(drawing, await fitted_picture(other));
       assert.ok(differs < 0.002, `${differs} of the picture differs`);
-      // The measure itself can tell pictures apart.
+      // The comparison itself can distinguish images.
       await until_shown(other, () => other.fill('#seed', '12345'));
       assert.ok(difference(drawing, await fitted_picture(other)) > 0.002);
     } finally {
       await other_browser.close();
     }
   });
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });
 
-test('a stranger picks the oak, ages and seasons a tree, breaks and mends a grammar, undoes and shares', { timeout: 600_000 }, async (t) => {
+test('a visitor opens the oak, changes its age and season, breaks and corrects a grammar, undoes and shares', { timeout: 600_000 }, async (t) => {
   const page = await open(browser, server.url, { permissions: ['clipboard-read', 'clipboard-write'] });
   const triangles = async () => Number((await statistics(page)).triangles.replaceAll(',', ''));
   const choose = async (name) => {
@@ -101,7 +101,7 @@ test('a stranger picks the oak, ages and seasons a tree, breaks and mends a gram
     await until_shown(page, () => field(page, '/parameters/season').locator('select').selectOption({ label: 'winter' }));
     assert.ok(await triangles() < summer);
   });
-  await t.test('undo brings the summer back', async () => {
+  await t.test('undo restores the summer', async () => {
     await until_shown(page, () => page.click('#undo'));
     assert.equal(await field(page, '/parameters/season').locator('select option:checked').textContent(), 'summer');
   });
@@ -120,7 +120,7 @@ test('a stranger picks the oak, ages and seasons a tree, breaks and mends a gram
     await until_shown(page, () => age.fill('4'));
     assert.ok(await triangles() < grown);
   });
-  await t.test('a grammar is broken, read at its place, and mended by undo', async () => {
+  await t.test('an invalid grammar is reported at its position and restored by undo', async () => {
     const productions = field(page, '/parameters/productions');
     await productions.scrollIntoViewIfNeeded();
     const whole = await written(productions);
@@ -132,7 +132,7 @@ test('a stranger picks the oak, ages and seasons a tree, breaks and mends a gram
     assert.equal(await written(productions), whole);
     assert.equal(await page.textContent('#alert'), '');
   });
-  await t.test('and mended by hand', async () => {
+  await t.test('and corrected in the editor', async () => {
     const productions = field(page, '/parameters/productions');
     await productions.scrollIntoViewIfNeeded();
     const whole = await written(productions);
@@ -142,7 +142,7 @@ test('a stranger picks the oak, ages and seasons a tree, breaks and mends a gram
     await until_shown(page, () => write(productions, whole));
     assert.equal(await productions.locator('.spot').count(), 0);
   });
-  await t.test('a fresh browser shows the same from the link', async () => {
+  await t.test('a new browser shows the same from the link', async () => {
     await page.click('#copy-link');
     await page.waitForFunction(() => document.getElementById('status').textContent.startsWith('The link is copied'));
     const link = await page.evaluate(() => navigator.clipboard.readText());
@@ -155,5 +155,5 @@ test('a stranger picks the oak, ages and seasons a tree, breaks and mends a gram
       await other_browser.close();
     }
   });
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.errors, []);
 });

@@ -1,4 +1,4 @@
-// Undo, seeds, comparison, what leaves the page and what comes in.
+// Undo, seeds, comparison, exports and imports.
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -19,7 +19,7 @@ after(async () => { await browser?.close(); await server?.stop(); });
 const clipboard = { permissions: ['clipboard-read', 'clipboard-write'] };
 const steps_apart = (page) => page.waitForTimeout(800);
 
-test('undo and redo go through the edits, and a slider in motion is one', { timeout: 300_000 }, async () => {
+test('undo and redo step through the edits, and a moving slider is one step', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
   await open_parameters(page);
   const angle = field(page, '/parameters/angle').locator('input[type=number]');
@@ -48,7 +48,7 @@ test('undo and redo go through the edits, and a slider in motion is one', { time
   assert.equal(request_of(new URL(page.url()).hash).seed, 8, 'and the address follows');
 });
 
-test('seeds so far can be taken again', { timeout: 200_000 }, async () => {
+test('earlier seeds can be chosen again', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   await until_shown(page, () => page.fill('#seed', '11'));
   await until_shown(page, () => page.fill('#seed', '12'));
@@ -58,7 +58,7 @@ test('seeds so far can be taken again', { timeout: 200_000 }, async () => {
   assert.equal(await page.inputValue('#seed'), '3');
 });
 
-test('nine seeds are shown as pictures, and one is taken', { timeout: 300_000 }, async () => {
+test('nine seeds are shown as thumbnails, and one is chosen', { timeout: 300_000 }, async () => {
   const chance = { generator: 'lsystem', seed: '18446744073709551614', parameters: { axiom: 'F', productions: ['F -> F[+F]F : 0.5', 'F -> F[-F]F : 0.5'], iterations: 4, step: 0.2 } };
   const page = await open(browser, `${server.url}/${fragment_of(chance)}`);
   const before = await picture(page);
@@ -77,17 +77,17 @@ test('nine seeds are shown as pictures, and one is taken', { timeout: 300_000 },
   assert.equal(await page.inputValue('#seed'), '1');
 });
 
-test('nine seeds wait where the server is full', { timeout: 300_000 }, async () => {
+test('nine seeds wait for a busy server', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
   let busy = 2;
   await page.route('**/v1/generate', (route) => ((busy -= 1) >= 0 ? route.fulfill({ status: 503, headers: { 'Retry-After': '1' }, json: {} }) : route.continue()));
   await from_menu(page, 'seeds-menu', '#nine');
-  await page.getByText('The server is full. Trying again').waitFor();
+  await page.getByText('The server is busy. Next attempt soon').waitFor();
   await page.waitForFunction(() => document.getElementById('nine-dialog').dataset.filled === '9');
   assert.equal(await page.locator('.cell canvas').count(), 9);
 });
 
-test('A | B keeps a model to the left of a divider that moves', { timeout: 300_000 }, async () => {
+test('a comparison keeps a model to the left of a movable divider', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
   await page.focus('#picture');
   await page.keyboard.press('c');
@@ -132,7 +132,7 @@ test('the copied JavaScript and Python programs save the same model', { timeout:
   fs.rmSync(folder, { recursive: true });
 });
 
-test('zip, picture and request are saved', { timeout: 300_000 }, async () => {
+test('zip, image and request are saved', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
   const saved = async (button) => {
     const [download] = await Promise.all([page.waitForEvent('download'), from_menu(page, 'download-menu', button)]);
@@ -152,7 +152,7 @@ test('zip, picture and request are saved', { timeout: 300_000 }, async () => {
   assert.equal(download.suggestedFilename(), 'seedmesh-3.json');
 });
 
-test('a request that is too long for a link is said to be', { timeout: 200_000 }, async () => {
+test('a request that is too long for a link is reported', { timeout: 200_000 }, async () => {
   const page = await open(browser, address, clipboard);
   let text = '';
   for (let value = 1; text.length < 60_000; value = (value * 48271) % 2147483647) text += value.toString(36);
@@ -163,13 +163,13 @@ test('a request that is too long for a link is said to be', { timeout: 200_000 }
   await page.waitForFunction(() => /too long for a link/.test(document.getElementById('alert').textContent));
 });
 
-test('a request that is dropped or chosen is opened', { timeout: 300_000 }, async () => {
+test('a dropped or chosen request is opened', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
   await until_shown(page, () => drop(page, 'mine.json', JSON.stringify({ ...small_tree, seed: 77 })));
   assert.equal(await page.inputValue('#seed'), '77');
   assert.equal(await page.textContent('#title'), 'mine');
   assert.ok(await page.isHidden('#drop-sign'));
-  // One who listens all the time: else the browser may hear of the listener after the key.
+  // The listener is registered permanently, because a listener added with the key press might be too late.
   page.on('filechooser', () => {});
   const choose = async (act, file) => {
     const [chooser] = await Promise.all([page.waitForEvent('filechooser'), act()]);
@@ -187,12 +187,12 @@ test('a request that is dropped or chosen is opened', { timeout: 300_000 }, asyn
   assert.equal(request_of(new URL(page.url()).hash).generator, 'lsystem');
 });
 
-test('a file of another program is imported, and one that nobody understands is explained', { timeout: 300_000 }, async () => {
+test('a file of another program is imported, and an unknown format is explained', { timeout: 300_000 }, async () => {
   const page = await open(browser, address);
   const koch = 'Koch1 {\n  Angle 6\n  Axiom F--F--F\n  F=F+F--F+F\n}\n';
   await until_shown(page, () => drop(page, 'koch.l', koch));
   await page.waitForFunction(() => document.getElementById('status').textContent.includes('koch.l is imported from fractint'));
-  assert.match(await page.textContent('#alert'), /What koch\.l says and a request cannot: Line 1, column 1: an entry does not say how many steps/);
+  assert.match(await page.textContent('#alert'), /These parts of koch\.l cannot be imported: Line 1, column 1: an entry has no number of steps/);
   assert.ok((await statistics(page)).bytes > 0);
   await page.waitForFunction(() => location.hash.length > 50);
   assert.match(JSON.stringify(request_of(new URL(page.url()).hash)), /F\+F--F\+F/);
@@ -213,7 +213,7 @@ test('a file of another program is imported, and one that nobody understands is 
   await page.getByRole('button', { name: 'Close' }).click();
 });
 
-test('a first visit is told in one line what to do, and only a first one', { timeout: 200_000 }, async () => {
+test('the first visit shows a one-line hint, later visits do not', { timeout: 200_000 }, async () => {
   const page = await open(browser, server.url);
   assert.match(await page.textContent('#hint'), /Choose a model/);
   assert.ok(await page.isVisible('#hint'));
@@ -224,7 +224,7 @@ test('a first visit is told in one line what to do, and only a first one', { tim
   assert.ok(await page.isHidden('#hint'));
 });
 
-test('the question mark lists the keys, and the form leads to the page of its generator', { timeout: 200_000 }, async () => {
+test('the question mark lists the shortcuts, and the form links to the page of its generator', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   await page.focus('#picture');
   await page.keyboard.press('?');
@@ -246,7 +246,7 @@ test('the question mark lists the keys, and the form leads to the page of its ge
   assert.match((await server.get('/docs')).text, /id="schema-lsystem"/);
 });
 
-test('the gallery goes by keyboard: slash, words, arrows, Enter', { timeout: 200_000 }, async () => {
+test('the gallery works by keyboard: slash, words, arrows, Enter', { timeout: 200_000 }, async () => {
   const page = await open(browser, address);
   await page.focus('#picture');
   await page.keyboard.press('/');

@@ -35,8 +35,7 @@ Json derived(const Json& parameters, std::uint64_t seed = 1) {
     ADD_FAILURE() << body.dump() << ": " << request.error().issues.front().message;
     return Json::object();
   }
-  Job job(seed, Job::Options{});
-  const Result<std::string> answer = derive(*request, job);
+  const Result<std::string> answer = derive(*request, {});
   if (!answer) {
     ADD_FAILURE() << body.dump() << ": " << answer.error().issues.front().message;
     return Json::object();

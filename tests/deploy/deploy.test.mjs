@@ -1,12 +1,13 @@
 // What deploy/ ships is what it says: manifests after the schemas of Kubernetes, settings that there are, metrics that there are.
 import assert from 'node:assert/strict';
-import { spawnSync } from 'node:child_process';
+import { spawn, spawnSync } from 'node:child_process';
 import crypto from 'node:crypto';
 import fs from 'node:fs';
+import os from 'node:os';
 import path from 'node:path';
 import { test } from 'node:test';
 import yaml from 'yaml';
-import { rehearsal, run, serve } from '../http/support.mjs';
+import { ask, rehearsal, run, serve, until } from '../http/support.mjs';
 
 const root = path.resolve(path.dirname(new URL(import.meta.url).pathname), '../..');
 const deploy = path.join(root, 'deploy');
@@ -73,18 +74,81 @@ test('a pod has the time that draining takes', () => {
   assert.ok(terminationGracePeriodSeconds > Number(literals.SEEDMESH_DRAIN_DELAY) + Number(literals.SEEDMESH_TIME_LIMIT));
 });
 
+test('no balancer gives a request that has timed out to another replica', () => {
+  const nginx = read('nginx/nginx.conf');
+  const seconds = (name) => Number(new RegExp(`^\\s*${name} (\\d+)s;`, 'm').exec(nginx)?.[1]);
+  assert.ok(seconds('proxy_next_upstream_timeout') < seconds('proxy_read_timeout'), 'a retry must not follow a read timeout');
+  assert.ok(seconds('proxy_next_upstream_timeout') > seconds('proxy_connect_timeout'), 'a retry must follow a connect timeout');
+  const haproxy = read('haproxy/haproxy.cfg');
+  assert.doesNotMatch(/^\s*retry-on (.*)$/m.exec(haproxy)[1], /response-timeout|all-retryable-errors/);
+});
+
 test('the shares of the batch are as many as its pods', () => {
   const { spec } = of_kind('Job');
   const { args } = spec.template.spec.containers[0];
   assert.equal(args[args.indexOf('--part') + 1], `$(JOB_COMPLETION_INDEX)/${spec.completions}`);
 });
 
+const mebibytes = (text) => Number(/^(\d+)/.exec(text)[1]) * { MiB: 1, GiB: 1024, Mi: 1, Gi: 1024, m: 1, g: 1024 }[/[A-Za-z]+$/.exec(text)[0]];
+
+/** The memory formula of deploy/README.md in MiB, with variables over the defaults of the program. */
+async function memory_of(variables, threads) {
+  const { out } = await run(rehearsal, ['serve', '--print-config'], { env: { ...variables, SEEDMESH_THREADS: String(threads) } });
+  const of = (name) => JSON.parse(out)[name] / 2 ** 20;
+  return threads * of('max-memory') + Math.max(of('memory-in-flight'), of('max-output')) + of('body-memory') + of('cache-bytes') + of('texture-bytes') + 64;
+}
+
+test('both pages give one formula of memory, its example is right, and every deployment has that memory', async () => {
+  const formula = /^The process uses at most\n\n(.+)\n\n(.+= (\d+) MiB)\./m;
+  const [, words, example, number] = formula.exec(read('README.md'));
+  const [, other_words, other_example] = formula.exec(read('../docs/operating.md'));
+  assert.equal(words, other_words);
+  assert.equal(example, other_example);
+  assert.equal(await memory_of({}, 2), Number(number));
+  const replicas = yaml.parse(read('compose.replicas.yaml')).services;
+  for (const service of [yaml.parse(read('compose.yaml')).services.seedmesh, replicas['seedmesh-1'], replicas['seedmesh-2']])
+    assert.ok(await memory_of(service.environment, service.cpus) <= mebibytes(service.mem_limit));
+  const literals = Object.fromEntries(yaml.parse(read('kubernetes/service/kustomization.yaml')).configMapGenerator[0].literals.map((each) => each.split('=')));
+  const { limits } = of_kind('Deployment').spec.template.spec.containers[0].resources;
+  assert.ok(await memory_of(literals, Number(limits.cpu)) <= mebibytes(limits.memory));
+});
+
 test('every variable that is set somewhere is a setting', async () => {
-  const files = ['README.md', 'compose.yaml', 'kubernetes/service/kustomization.yaml', 'kubernetes/service/deployment.yaml', '../Dockerfile', '../docs/operating.md'];
+  const files = ['README.md', 'compose.yaml', 'compose.replicas.yaml', 'kubernetes/service/kustomization.yaml', 'kubernetes/service/deployment.yaml', '../Dockerfile', '../docs/operating.md'];
   const { out } = await run(rehearsal, ['serve', '--print-config']);
   const settings = Object.keys(JSON.parse(out)).map((name) => `SEEDMESH_${name.toUpperCase().replaceAll('-', '_')}`);
   const known = new Set([...settings, 'SEEDMESH_CONFIG', 'SEEDMESH_TESTS', 'SEEDMESH_ENGINE', 'SEEDMESH_BASE']);
   for (const file of files) for (const [name] of read(file).matchAll(/SEEDMESH_[A-Z_]+[A-Z]/g)) assert.ok(known.has(name), `${file}: ${name}`);
+});
+
+test('the compose file starts nginx before two replicas that answer', { skip: spawnSync('nginx', ['-v']).error ? 'there is no nginx here' : false }, async () => {
+  const { services } = yaml.parse(read('compose.replicas.yaml'));
+  const edit = /^sed '([^']+)' \S+ >(\S+) && exec nginx -c (\S+) /.exec(services.nginx.command[2]);
+  assert.equal(edit[2], edit[3]);
+  const { stdout: shipped } = spawnSync('sed', [edit[1], path.join(deploy, 'nginx/nginx.conf')], { encoding: 'utf8' });
+  const names = new Set([...shipped.matchAll(/server (seedmesh-\d):8080/g)].map(([, name]) => name));
+  assert.deepEqual([...names], Object.keys(services).filter((name) => name.startsWith('seedmesh-')));
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'seedmesh-compose-'));
+  fs.chmodSync(folder, 0o777);
+  const replicas = await Promise.all([...names].map(() => serve(rehearsal)));
+  const port = 18151;
+  let text = shipped.replace('worker_processes auto;', 'daemon off; worker_processes 1;').replaceAll('/tmp/nginx.pid', `${folder}/pid`).replaceAll('/var/cache/nginx', `${folder}/cache`).replace('listen 8000;', `listen 127.0.0.1:${port};`)
+    .replace('  access_log off;', ['client_body', 'proxy', 'fastcgi', 'uwsgi', 'scgi'].map((name) => `  ${name}_temp_path ${folder}/${name};`).join('\n') + '\n  access_log off;');
+  [...names].forEach((name, i) => { text = text.replaceAll(`${name}:8080`, `127.0.0.1:${replicas[i].port}`); });
+  fs.writeFileSync(path.join(folder, 'nginx.conf'), text);
+  const nginx = spawn('nginx', ['-p', folder, '-c', path.join(folder, 'nginx.conf')], { stdio: 'ignore' });
+  const ended = new Promise((resolve) => { nginx.on('close', resolve); });
+  try {
+    const get = (seed) => ask({ port }, 'GET', `/v1/presets/small.glb?seed=${seed}`);
+    await until(() => get(0).then((answer) => answer.status === 200, () => false));
+    for (let seed = 1; seed < 20; ++seed) assert.equal((await get(seed)).status, 200);
+    for (const replica of replicas) assert.ok((await replica.metric('seedmesh_models_total')) > 0, 'both replicas work');
+  } finally {
+    nginx.kill();
+    await ended;
+    for (const replica of replicas) await replica.stop();
+    fs.rmSync(folder, { recursive: true, force: true });
+  }
 });
 
 test('every metric of dashboard, alerts, autoscaler and documentation is there', async () => {

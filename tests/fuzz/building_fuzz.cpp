@@ -9,6 +9,7 @@
 
 #include "core/generators/building/building.h"
 #include "generated/params/building.h"
+#include "tests/support/context.h"
 
 namespace {
 
@@ -41,7 +42,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (text.starts_with('{')) {
     const Result<Json> json = parse_json(text);
     if (!json) return 0;
-    Faults faults;
+    IssueList faults;
     params = read_building(*json, "", faults);
     // Requests inside and images are the business of other targets.
     if (!faults.empty() || !params.assets.empty() || !params.materials.empty()) return 0;
@@ -57,15 +58,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Demand demand;
   demand.lods = size % 4 == 0 ? 3 : 1;
   demand.collision = size % 3 == 0 ? CollisionNames::plain : CollisionNames::none;
-  job.set_demand(demand);
   const bool sound = building::check(params, job.limits()).empty();
   try {
-    const Result<Model> model = building::generate(params, job);
+    const Result<Model> model = building::generate(params, context_of(job, demand));
     if (model && (!sound || !finite(*model))) std::abort();
     if (!model && sound) std::abort();
-    if (sound && size % 2 == 0 && !building::appraise(params, job)) std::abort();
+    if (sound && size % 2 == 0 && !building::appraise(params, context_of(job, demand))) std::abort();
   } catch (const Stop&) {
-    // A limit, or a fault that only the run shows; whoever runs a request tells the caller.
+    // A limit, or an error that is found only while the grammar runs. The pipeline reports it to the client.
   }
   return 0;
 }

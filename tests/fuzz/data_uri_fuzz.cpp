@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!image && image.error().issues.front().message.empty()) std::abort();
     if (image && ((*image)->bytes.empty() || !texture::fault_of_image_uri(text).empty())) std::abort();
   } catch (const Stop&) {
-    // The purse; whoever runs a request tells the caller.
+    // The memory budget is exceeded, which the pipeline reports to the client.
   }
   return 0;
 }

@@ -35,8 +35,8 @@ lang::Names some_names() {
   return names;
 }
 
-void check_faults(const std::vector<lang::Fault>& faults, std::size_t before, std::size_t size) {
-  require(faults.size() - before <= lang::max_faults);
+void check_faults(const std::vector<lang::TextError>& faults, std::size_t before, std::size_t size) {
+  require(faults.size() - before <= lang::max_errors);
   for (std::size_t i = before; i < faults.size(); ++i) {
     require(faults[i].offset <= size && !faults[i].message.empty());
     require(i == before || faults[i - 1].offset <= faults[i].offset);
@@ -60,7 +60,7 @@ void check_value(const lang::Program& program, const lang::Expression& expressio
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   static const lang::Names names = some_names();
-  std::vector<lang::Fault> faults;
+  std::vector<lang::TextError> faults;
   const std::vector<lang::Token> tokens = lang::tokenize(text, 0, size, faults);
   check_faults(faults, 0, size);
   require(!tokens.empty() && tokens.back().kind == lang::TokenKind::end && tokens.back().offset == size);

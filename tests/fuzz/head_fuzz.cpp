@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "server/http/head.h"
+#include "server/http/request_head.h"
 
 namespace {
 
@@ -27,21 +27,21 @@ void expect(bool holds) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   const HeadLimits limits;
-  const Refusal early = too_long(text, limits);
-  expect(early.status == 0 || early.status == 414 || early.status == 431);
-  const auto read = read_head(text, limits);
+  const std::optional<Refusal> early = check_partial_head(text, limits);
+  expect(!early || early->status == 414 || early->status == 431);
+  const auto read = parse_head(text, limits);
   if (const auto* refusal = std::get_if<Refusal>(&read)) {
     expect(refusal->status >= 400 && refusal->status < 600 && !refusal->detail.empty());
     return 0;
   }
-  const Head& head = std::get<Head>(read);
+  const RequestHead& head = std::get<RequestHead>(read);
   const Request& request = head.request;
   expect(request.target.size() <= limits.target && request.headers.size() <= limits.fields);
   expect(head.length <= limits.body && !request.has_header("Transfer-Encoding"));
   expect(request.target == "*" || request.target.front() == '/');
   expect(request.path.find("/../") == std::string::npos);
-  const auto again = read_head(written(request), limits);
-  const Head* same = std::get_if<Head>(&again);
+  const auto again = parse_head(written(request), limits);
+  const RequestHead* same = std::get_if<RequestHead>(&again);
   expect(same && same->request.method == request.method && same->request.target == request.target &&
          same->request.path == request.path && same->request.query == request.query &&
          same->request.headers == request.headers && same->length == head.length &&

@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace seedmesh;
   if (size == 0) return 0;
   TerrainImage image;
-  image.encoding = static_cast<TerrainEncoding>(data[0] % 5);
+  image.encoding = static_cast<TerrainEncoding>(data[0] % 11);
   image.flip = data[0] >= 128;
   image.data.assign(reinterpret_cast<const char*>(data + 1), size - 1);
   Job::Options options;
@@ -29,7 +29,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (!std::isfinite(height)) std::abort();
     }
   } catch (const Stop&) {
-    // The purse; whoever runs a request tells the caller.
+    // The memory budget is exceeded, which the pipeline reports to the client.
   }
   return 0;
 }

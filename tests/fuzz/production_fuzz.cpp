@@ -10,6 +10,7 @@
 
 #include "core/generators/lsystem/lsystem.h"
 #include "generated/params/lsystem.h"
+#include "tests/support/context.h"
 
 namespace {
 
@@ -75,11 +76,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Job job(size, small());
   const bool sound = lsystem::check(params, job.limits()).empty();
   try {
-    const Result<Model> model = lsystem::generate(params, job);
+    const Result<Model> model = lsystem::generate(params, context_of(job));
     if (model && (!sound || !finite(*model))) std::abort();
     if (!model && sound) std::abort();
   } catch (const Stop&) {
-    // A limit; whoever runs a request tells the caller.
+    // A limit is exceeded, which the pipeline reports to the client.
   }
   return 0;
 }

@@ -29,7 +29,7 @@ async function with_server(flags, body, env) {
 
 const closed_flags = ['--api-keys', `alice:${digest('alices')}, bob:${digest('bobs')}:0:1`, '--signing-keys', `a:${secrets.a},b:${secrets.b}`];
 
-test('with API keys, models are for those who show one; the rest stays open', () =>
+test('with API keys, models need a key, and other routes do not', () =>
   with_server(closed_flags, async (server) => {
     for (const target of ['/', '/docs', '/openapi.json', '/v1/presets', '/v1/vocabulary', '/healthz', '/readyz', '/metrics', '/version'])
       assert.equal((await server.get(target)).status, 200, target);
@@ -55,7 +55,7 @@ test('with API keys, models are for those who show one; the rest stays open', ()
     assert.ok(!server.stderr.includes('alices'));
   }));
 
-test('a signed permalink is answered to everybody, by any replica, until it expires', async () => {
+test('every replica answers a signed permalink without a key until it expires', async () => {
   const replicas = [await serve(rehearsal, [...closed_flags, '--link-lifetime', '600']), await serve(rehearsal, closed_flags)];
   try {
     const made = await replicas[0].generate(request({ bytes: 3000 }, 8), bearer('alices'));
@@ -81,11 +81,11 @@ test('a signed permalink is answered to everybody, by any replica, until it expi
     assert.match(late.json.detail, /expired/);
     for (const wrong of [sign(bare, 'a', { secret: secrets.b }), sign(bare, 'c', { secret: secrets.a }), sign(bare.replace('.glb', '.zip'), 'a').replace('.zip', '.glb'), `${sign(bare, 'a')}A`, link.replace(/expires=\d/, 'expires=9')])
       assert.equal((await server.get(wrong)).status, 403, wrong);
-    assert.equal((await ask(server, 'POST', sign('/v1/generate', 'a'), { body: request() })).status, 401, 'a signature lets nobody make what they like');
+    assert.equal((await ask(server, 'POST', sign('/v1/generate', 'a'), { body: request() })).status, 401, 'a signature does not allow a POST');
   } finally { for (const server of replicas) await server.stop(); }
 });
 
-test('a signed preset holds with its query and no other', () =>
+test('the signature of a preset is valid only with its query', () =>
   with_server(closed_flags, async (server) => {
     const link = sign('/v1/presets/small.glb?seed=3', 'a');
     assert.equal((await server.get(link)).status, 200);
@@ -94,7 +94,7 @@ test('a signed preset holds with its query and no other', () =>
     assert.equal((await server.get(sign('/v1/presets/small.glb?colour=red', 'a'))).status, 422);
   }));
 
-test('the program signs what the service takes, and draws keys that the settings take', async () => {
+test('the program makes signatures and keys that the service accepts', async () => {
   const { status, out } = await run(rehearsal, ['key', 'carol']);
   assert.equal(status, 0);
   const [, key, api, signing] = /^API key {6}(\S+)\napi-keys {5}(\S+)\nsigning-keys (\S+)\n$/.exec(out.toString());
@@ -108,7 +108,7 @@ test('the program signs what the service takes, and draws keys that the settings
   }, env);
 });
 
-test('a token of another engine leads to our own with a signature for the same time', () =>
+test('a token of another engine redirects to a URL with a signature for the same time', () =>
   with_server(closed_flags, async (server) => {
     const zlib = await import('node:zlib');
     const token = zlib.deflateRawSync(JSON.stringify({ engine: 'old', ...request() })).toString('base64url');
@@ -125,7 +125,7 @@ test('an event stream of a signing service ends with a signed permalink', () =>
     assert.equal((await server.get(events_of(answer.text).at(-1).data.permalink)).status, 200);
   }));
 
-test('a key has its own requests at once and a second', () =>
+test('each key has its own limits of rate and concurrency', () =>
   with_server([...closed_flags, '--key-rate', '3', '--threads', '2'], async (server) => {
     const slow = server.generate(request({ milliseconds: 600 }, 1), bearer('bobs'));
     await until(async () => (await server.metric('seedmesh_workers_busy')) === 1);
@@ -141,7 +141,7 @@ test('a key has its own requests at once and a second', () =>
     assert.equal(await server.metric('seedmesh_rejected_total{reason="key_rate"}'), 3);
   }));
 
-test('a stream holds its place until it has ended', () =>
+test('a stream counts against the concurrency until it ends', () =>
   with_server(closed_flags, async (server) => {
     const stream = server.generate(request({ milliseconds: 700, progress: 7 }, 1), { ...bearer('bobs'), accept: 'text/event-stream' });
     await until(async () => (await server.metric('seedmesh_workers_busy')) === 1);
@@ -150,7 +150,7 @@ test('a stream holds its place until it has ended', () =>
     await until(async () => (await server.generate(request({}, 2), bearer('bobs'))).status === 200);
   }));
 
-test('where only presets are made, their permalinks work and nothing else does', () =>
+test('with only-presets, only permalinks of presets work', () =>
   with_server(['--only-presets'], async (server) => {
     const preset = await server.get('/v1/presets/small.glb?seed=7');
     assert.equal(preset.status, 200);
@@ -161,7 +161,7 @@ test('where only presets are made, their permalinks work and nothing else does',
     assert.equal(await server.metric('seedmesh_denied_total{reason="only_presets"}'), 5);
   }));
 
-test('pages of named origins may read answers and send what they need', () =>
+test('pages of allowed origins can read responses and send the fields that they need', () =>
   with_server(['--cors-origins', 'https://a.example'], async (server) => {
     const origin = 'https://a.example';
     const answer = await server.generate(request(), { origin });
@@ -180,7 +180,7 @@ test('pages of named origins may read answers and send what they need', () =>
     assert.match(preflight.headers['access-control-allow-headers'], /Content-Type/);
   }));
 
-test('without origins no answer speaks of them', () =>
+test('without origins, responses have no CORS fields', () =>
   with_server([], async (server) => {
     const answer = await server.generate(request(), { origin: 'https://a.example' });
     assert.ok(!Object.keys(answer.headers).some((name) => name.startsWith('access-control')));
@@ -194,7 +194,7 @@ test('a preflight needs no key', () =>
     assert.equal(preflight.headers['access-control-allow-origin'], '*');
   }));
 
-test('settings come from a file, secrets from files that it names, and every fault of all of them is told', async () => {
+test('settings come from a file, secrets from files that it names, and all errors are reported together', async () => {
   const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'seedmesh-'));
   try {
     const keys = path.join(folder, 'keys'), config = path.join(folder, 'config.json');
@@ -213,7 +213,7 @@ test('settings come from a file, secrets from files that it names, and every fau
   } finally { fs.rmSync(folder, { recursive: true }); }
 });
 
-test('a trace goes through log and answer; a malformed one is overlooked', () =>
+test('log and response contain the trace; a malformed one is ignored', () =>
   with_server([], async (server) => {
     const trace = '4bf92f3577b34da6a3ce929d0e0e4736';
     const answer = await server.generate(request(), { traceparent: `00-${trace}-00f067aa0ba902b7-01` });

@@ -1,7 +1,6 @@
 #!/usr/bin/env node
-// Every attack that servers of this kind have fallen to, one after the other, against the program. While each runs, a good client asks
-// for a model that is in memory and for /healthz; afterwards the process must have given its memory back.
-//   attack.mjs [seconds of each] [only those whose name has this]
+// Runs known attacks on HTTP servers against the program, one after another. During each, a well-behaved
+// client requests a cached model and /healthz. Afterwards the process must have released the memory.
 import { execFileSync, spawn, spawnSync } from 'node:child_process';
 import crypto from 'node:crypto';
 import path from 'node:path';
@@ -42,10 +41,13 @@ async function settled(server, enough = 0) {
   return least;
 }
 
-// Guesses are made at a service that asks for signatures; its good client has a key.
+/** The formula of docs/operating.md: bytes beside the program itself. */
+const mebibyte = 2 ** 20, most_memory = (2 * 256 + 128 + 16 + 8 + 256) * mebibyte;
+
+// Guessing is tested against a service that requires signatures; its well-behaved client has a key.
 const key = 'the key of the good client', guessing = 'guesses at signatures';
 const closed = ['--api-keys', `good:${crypto.createHash('sha256').update(key).digest('hex')}`, '--signing-keys', `a:${crypto.randomBytes(32).toString('hex')}`];
-const server = await serve(program, ['--threads', '2', '--connections', '512', '--head-timeout', '2', '--body-timeout', '2', '--idle-timeout', '3', '--write-timeout', '2', '--cache-bytes', '16MiB', '--texture-bytes', '8MiB', '--time-limit', '5', '--max-memory', '256MiB', '--log-level', 'error', ...(only === guessing ? closed : [])]);
+const server = await serve(program, ['--threads', '2', '--connections', '512', '--head-timeout', '2', '--body-timeout', '2', '--idle-timeout', '3', '--write-timeout', '2', '--min-rate-grace', '2', '--memory-in-flight', '128MiB', '--max-output', '128MiB', '--cache-bytes', '16MiB', '--texture-bytes', '8MiB', '--time-limit', '5', '--max-memory', '256MiB', '--log-level', 'error', ...(only === guessing ? closed : [])]);
 const own = { 'x-api-key': key };
 const presets = (await server.get('/v1/presets')).json.presets;
 for (const each of presets.slice(0, 40)) await server.get(`/v1/presets/${each.name}.glb`, own);
@@ -59,8 +61,8 @@ const verdicts = [];
 const names = JSON.parse(execFileSync(process.execPath, [attackers, '--list'])).filter((name) => (only ? name.includes(only) : name !== guessing));
 for (const name of names) {
   const { times: calm } = await good_client(server, sleep(1000));
-  // On a machine that is so busy with other things that it cannot answer without an attack either, the median counts, and may be
-  // three times what it has just been.
+  // On a machine too busy to answer quickly even without an attack, the median counts. It may be three times
+  // the value measured just before.
   const busy = quantile(calm, 0.95) > most_milliseconds / 2;
   const allowed = busy ? Math.max(most_milliseconds, 3 * quantile(calm, 0.5)) : most_milliseconds;
   const child = spawn(process.execPath, [attackers, name, String(server.port), String(seconds), preset, permalink], { stdio: ['ignore', 'pipe', 'inherit'] });
@@ -75,7 +77,7 @@ for (const name of names) {
   const after = await settled(server, most_growth * start);
   const late = quantile(times, busy ? 0.5 : 0.95), bad = [...statuses].filter(([status]) => status !== 200);
   const growth = after / start, got = out ? JSON.parse(out) : { connections: 0, sent: 0, statuses: {} };
-  const sound = out && late <= allowed && bad.length === 0 && growth <= most_growth;
+  const sound = out && late <= allowed && bad.length === 0 && growth <= most_growth && peak <= start + most_memory;
   verdicts.push(sound);
   console.log(`${sound ? 'ok    ' : 'BROKEN'} ${name}: good client median ${quantile(times, 0.5).toFixed(1)} ms, 95 % ${quantile(times, 0.95).toFixed(1)} ms, worst ${Math.max(...times).toFixed(0)} ms, ${times.length} asked ${busy ? ` (busy machine: median judged, ${allowed.toFixed(0)} ms allowed; calm median ${quantile(calm, 0.5).toFixed(1)}, 95 % ${quantile(calm, 0.95).toFixed(1)})` : ''}` +
     `${bad.length ? `, ${bad.map(([status, count]) => `${count} x ${status}`).join(', ')}` : ''}; memory at most ${(peak / 1e6).toFixed(0)} MB, then ${growth.toFixed(2)} of the start;` +
@@ -85,7 +87,7 @@ const alive = (await server.get('/healthz')).status === 200;
 const { status } = await server.stop();
 verdicts.push(alive && status === 0);
 if (!alive || status !== 0) console.log(`BROKEN the service lives on and ends with 0: it ended with ${status}\n${server.stderr.slice(-2000)}`);
-if (!only) {  // in a run of its own, with keys
+if (!only) {  // runs separately, because it needs keys
   const { status: guessed, stdout } = spawnSync(process.execPath, [process.argv[1], String(seconds), guessing], { encoding: 'utf8' });
   verdicts.push(guessed === 0);
   console.log(stdout.split('\n').filter((line) => line.includes(guessing)).join('\n'));

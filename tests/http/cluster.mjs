@@ -16,7 +16,7 @@ const deploy = path.resolve('deploy');
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'seedmesh-cluster-'));
 fs.chmodSync(folder, 0o777);
 const verdicts = [];
-const judge = (sound, sentence) => { verdicts.push(sound); console.log(`${sound ? 'ok    ' : 'BROKEN'} ${sentence}`); };
+const check = (sound, sentence) => { verdicts.push(sound); console.log(`${sound ? 'ok    ' : 'BROKEN'} ${sentence}`); };
 const children = new Set();
 
 function start(command, args) {
@@ -127,32 +127,32 @@ async function with_balancer(name) {
 
   const first = await map_of_urls();
   const shares = ports.map((_, i) => first.filter((each) => each === [...new Set(first)].sort()[i]).length);
-  judge(new Set(first).size === 3 && Math.min(...shares) > 30, `${name}: 300 URLs are shared by three replicas (${shares.join('/')})`);
-  judge((await map_of_urls()).every((each, i) => each === first[i]), `${name}: equal URLs go to the same replica`);
+  check(new Set(first).size === 3 && Math.min(...shares) > 30, `${name}: 300 URLs are shared by three replicas (${shares.join('/')})`);
+  check((await map_of_urls()).every((each, i) => each === first[i]), `${name}: equal URLs go to the same replica`);
 
   const before_death = await under_load(async () => {
     await sleep(seconds * 500);
     replicas[0].child.kill('SIGKILL');
     await sleep(seconds * 500 + 1500);
   });
-  judge(before_death.failed.length === 0, `${name}: kill -9 of one of three under load: ${before_death.failed.length} of ${before_death.count} requests failed for clients that try twice (${before_death.tried_again} tried again)`);
+  check(before_death.failed.length === 0, `${name}: kill -9 of one of three under load: ${before_death.failed.length} of ${before_death.count} requests failed for clients that try twice (${before_death.tried_again} tried again)`);
   const second = await map_of_urls();
   const dead = first.filter((each, i) => second[i] !== each), gone = new Set(dead);
-  judge(gone.size === 1 && !second.includes([...gone][0]) && dead.length === first.filter((each) => each === dead[0]).length, `${name}: exactly the ${dead.length} URLs of the dead one have moved`);
+  check(gone.size === 1 && !second.includes([...gone][0]) && dead.length === first.filter((each) => each === dead[0]).length, `${name}: exactly the ${dead.length} URLs of the dead one have moved`);
   replicas[0] = await replica_of(rehearsal, flags(ports[0]));
   await sleep(3000);  // until it is asked again
-  judge((await map_of_urls()).every((each, i) => each === first[i]), `${name}: back again, it has its own URLs`);
+  check((await map_of_urls()).every((each, i) => each === first[i]), `${name}: back again, it has its own URLs`);
 
   const rolling = await under_load(async () => {
     for (let i = 0; i < 3; ++i) {
       const { status } = await replicas[i].stop();
-      if (status !== 0) judge(false, `${name}: a replica ends with ${status}`);
+      if (status !== 0) check(false, `${name}: a replica ends with ${status}`);
       replicas[i] = await replica_of(rehearsal, flags(ports[i]));
       await sleep(2500);
     }
     await sleep(seconds * 200);
   });
-  judge(rolling.tried_again === 0 && rolling.failed.length === 0, `${name}: rolling restart with drain under load: ${rolling.tried_again} of ${rolling.count} requests failed, without a second try`);
+  check(rolling.tried_again === 0 && rolling.failed.length === 0, `${name}: rolling restart with drain under load: ${rolling.tried_again} of ${rolling.count} requests failed, without a second try`);
 
   if (name === 'nginx') {
     const models = async () => (await Promise.all(replicas.map((each) => each.metric('seedmesh_models_total')))).reduce((a, b) => a + b, 0);
@@ -162,10 +162,10 @@ async function with_balancer(name) {
     const link = `/v1/models/${token}.glb`;
     const same = await Promise.all(Array.from({ length: 50 }, () => ask(through, 'GET', link)));
     const made = (await models()) - before;
-    judge(same.every((answer) => answer.status === 200) && made === 1, `nginx: 50 equal requests at once are made ${made} time(s) (${[...new Set(same.map((answer) => `${answer.status} ${answer.headers['x-cache']}`))]})`);
-    judge((await ask(through, 'GET', link)).headers['x-cache'] === 'HIT', 'nginx: what it has it does not ask for again');
+    check(same.every((answer) => answer.status === 200) && made === 1, `nginx: 50 equal requests at once are made ${made} time(s) (${[...new Set(same.map((answer) => `${answer.status} ${answer.headers['x-cache']}`))]})`);
+    check((await ask(through, 'GET', link)).headers['x-cache'] === 'HIT', 'nginx: what it has it does not ask for again');
     const again = await ask(through, 'GET', link, { headers: { 'if-none-match': same[0].headers.etag } });
-    judge(again.status === 304, `nginx: a client that has the model is told so (${again.status})`);
+    check(again.status === 304, `nginx: a client that has the model receives 304 (${again.status})`);
   }
   child.kill('SIGTERM');
   await child.gone;
@@ -185,16 +185,16 @@ async function with_varnish() {
   const link = `/v1/models/${zlib.deflateRawSync(JSON.stringify({ engine, generator: 'rehearsal', parameters: { bytes: 2000, milliseconds: 300 }, seed: 888_888 })).toString('base64url')}.glb`;
   const same = await Promise.all(Array.from({ length: 50 }, () => ask(through, 'GET', link)));
   const made = (await models()) - before;
-  judge(same.every((answer) => answer.status === 200) && made === 1, `varnish: 50 equal requests at once are made ${made} time(s)`);
+  check(same.every((answer) => answer.status === 200) && made === 1, `varnish: 50 equal requests at once are made ${made} time(s)`);
   const again = await ask(through, 'GET', link, { headers: { 'if-none-match': same[0].headers.etag } });
-  judge(again.status === 304 && (await ask(through, 'GET', link)).headers['x-cache'] === 'HIT', 'varnish: what it has it does not ask for again, and who has it is told so');
+  check(again.status === 304 && (await ask(through, 'GET', link)).headers['x-cache'] === 'HIT', 'varnish: a cached model is not requested again, and a client that has it receives 304');
   const posted = await ask(through, 'POST', '/v1/generate', { body: { generator: 'rehearsal', seed: 5 } });
-  judge(posted.status === 200 && (await ask(through, 'GET', '/metrics')).status === 404, 'varnish: what is posted passes, metrics do not');
+  check(posted.status === 200 && (await ask(through, 'GET', '/metrics')).status === 404, 'varnish: what is posted passes, metrics do not');
   replicas[0].child.kill('SIGKILL');
   await sleep(2500);  // three probes
   let failed = 0;
   for (let seed = 0; seed < 60; ++seed) if ((await ask(through, 'GET', target(seed, 0))).status !== 200) ++failed;
-  judge(failed === 0, `varnish: with one of three dead ${failed} of 60 requests fail`);
+  check(failed === 0, `varnish: with one of three dead ${failed} of 60 requests fail`);
   child.kill('SIGTERM');
   await child.gone;
   for (const replica of replicas.slice(1)) await replica.stop();
@@ -215,7 +215,7 @@ async function same_bytes_everywhere() {
     }
   }
   for (const replica of replicas) await replica.stop();
-  judge(links > 3 && unequal === 0, `permalinks of one replica are answered by all with the same bytes (${links} links, ${unequal} differences)`);
+  check(links > 3 && unequal === 0, `permalinks of one replica are answered by all with the same bytes (${links} links, ${unequal} differences)`);
 }
 
 async function shared_cache() {
@@ -233,7 +233,7 @@ async function shared_cache() {
   for (let seed = 0; seed < 200; ++seed) await replicas[1].get(target(seed, 0));
   const each = (performance.now() - begun) / 200;
   const found = await replicas[1].get(target(3, 0));
-  judge((await replicas[1].metric('seedmesh_models_total')) === 0 && found.bytes.equals(made.bytes), `redis: 200 models of one replica are found by another, ${each.toFixed(2)} ms each`);
+  check((await replicas[1].metric('seedmesh_models_total')) === 0 && found.bytes.equals(made.bytes), `redis: 200 models of one replica are found by another, ${each.toFixed(2)} ms each`);
   let failed = 0, count = 0, longest = 0;
   const end = Date.now() + 3000;
   setTimeout(() => redis.kill('SIGKILL'), 1000);
@@ -242,7 +242,7 @@ async function shared_cache() {
     if ((await replicas[count % 2].get(target(10_000 + count++, 0))).status !== 200) ++failed;
     longest = Math.max(longest, performance.now() - asked);
   }
-  judge(failed === 0 && longest < 500, `redis: kill -9 under load: ${failed} of ${count} requests failed, the longest took ${longest.toFixed(0)} ms`);
+  check(failed === 0 && longest < 500, `redis: kill -9 under load: ${failed} of ${count} requests failed, the longest took ${longest.toFixed(0)} ms`);
   for (const replica of replicas) await replica.stop();
 }
 
@@ -252,7 +252,7 @@ try {
   if (!only || only === 'varnish') await with_varnish();
   await shared_cache();
 } catch (error) {
-  judge(false, `nothing unforeseen: ${error.stack}`);
+  check(false, `nothing unforeseen: ${error.stack}`);
 } finally {
   for (const child of children) child.kill('SIGKILL');
   if (verdicts.every(Boolean)) fs.rmSync(folder, { recursive: true, force: true }); else console.log(`logs are in ${folder}`);

@@ -1,4 +1,4 @@
-// What tests of the contract ask for and look for, file by file the same.
+// Requests and checks that the contract tests share.
 import assert from 'node:assert/strict';
 import zlib from 'node:zlib';
 

@@ -30,7 +30,7 @@ test('generate answers a GLB with every header of a model', async () => {
   assert.equal(Number(answer.headers['seedmesh-vertices']), vertices);
 });
 
-test('the same request gives the same bytes and tag however it is written', async () => {
+test('the same request in any notation gives the same bytes and ETag', async () => {
   const first = await server.generate(plant);
   const second = await server.generate('{"parameters":{"angle":2e1,"iterations":4.0,"productions":["X -> F[+X]F[-X]+X","F -> FF"],"axiom":"X"},"output":{"format":"glb"},"seed":"3","generator":"lsystem"}');
   assert.equal(second.status, 200, second.text.slice(0, 300));
@@ -45,7 +45,7 @@ test('another seed is another model', async () => {
   assert.notDeepEqual(a.bytes, b.bytes);
 });
 
-test('formats have their types', async () => {
+test('each format has its media type', async () => {
   const gltf = await server.generate({ ...plant, output: { format: 'gltf' } });
   assert.equal(gltf.type, 'model/gltf+json');
   assert.equal(gltf.json.asset.version, '2.0');
@@ -79,7 +79,7 @@ test('a seed beyond 2^53 is exact as string and as number', async () => {
   assert.equal(opened(text.headers['content-location']).seed, '18446744073709551615');
 });
 
-test('bodies that are no JSON are 400, bodies that say nonsense 422, with every fault', async () => {
+test('invalid JSON is answered 400, an invalid request 422 with every error', async () => {
   for (const body of ['', '{', 'nonsense', '{"generator":"lsystem","generator":"lsystem"}', Buffer.from([0x22, 0xff, 0x22]), '['.repeat(100000), '{"a":'.repeat(70) + '1' + '}'.repeat(70)]) {
     is_problem(await server.generate(body), 400, 'malformed-request');
   }
@@ -87,6 +87,11 @@ test('bodies that are no JSON are 400, bodies that say nonsense 422, with every 
   is_problem(bad, 422, 'invalid-request');
   const pointers = bad.json.errors.map((each) => each.pointer);
   for (const pointer of ['/seed', '/sed', '/parameters/iterations', '/parameters/productions/0', '/parameters/productions/1']) assert.ok(pointers.includes(pointer), `${pointer} in ${pointers}`);
+  const code = (pointer) => bad.json.errors.find((each) => each.pointer === pointer)?.code;
+  assert.equal(code('/seed'), 'out_of_range');
+  assert.equal(code('/sed'), 'unknown_key');
+  assert.equal(code('/parameters/iterations'), 'out_of_range');
+  assert.equal(code('/parameters/productions/0'), 'syntax');
   for (const each of bad.json.errors) {
     assert.ok(each.message);
     if (each.pointer.includes('productions')) assert.ok(each.line === 1 && each.column >= 1);
@@ -94,10 +99,12 @@ test('bodies that are no JSON are 400, bodies that say nonsense 422, with every 
   assert.equal((await server.generate({})).json.errors[0].pointer, '');
 });
 
-test('what would pass a limit is 422 and says which', async () => {
+test('a request above a limit is 422 and names the limit', async () => {
   const answer = await server.generate({ ...plant, parameters: { axiom: 'F', productions: ['F -> FFFFFFFFFF'], iterations: 30 } });
   is_problem(answer, 422, 'limit-exceeded');
   assert.match(answer.json.detail, /64000000|64,000,000|64 million|modules/i);
+  const [error] = answer.json.errors;
+  assert.deepEqual([error.code, error.resource, error.limit, error.needed > error.limit], ['limit', 'modules', 64_000_000, true]);
 });
 
 test('a wrong Content-Type is 415, an absent one is JSON', async () => {
@@ -119,7 +126,7 @@ test('If-None-Match does not make a POST conditional', async () => {
 
 // --- validate, derive ----------------------------------------------------------------------------------------------
 
-test('validate estimates without making anything, and lists every fault', async () => {
+test('validate estimates without generating, and lists every error', async () => {
   const models = await server.metric('seedmesh_models_total');
   const answer = await server.post('/v1/validate', plant);
   assert.equal(answer.status, 200, answer.text.slice(0, 300));
@@ -133,7 +140,7 @@ test('validate estimates without making anything, and lists every fault', async 
   is_problem(await server.post('/v1/validate', plant, { 'content-type': 'text/plain' }), 415);
 });
 
-test('derive answers what OpenAPI says of each generator', async () => {
+test('derive responds as OpenAPI describes for each generator', async () => {
   const { components } = (await server.get('/openapi.json')).json;
   const asked = {
     lsystem: plant.parameters, tree: { model: 'proctree' }, building: { blueprint: 'house' }, terrain: { iterations: 3 }, fractal: {},

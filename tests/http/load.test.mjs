@@ -1,4 +1,4 @@
-// Admission, single flight, deadlines, clients that leave, event streams, draining.
+// Admission, request coalescing, deadlines, disconnected clients, event streams, graceful shutdown.
 import assert from 'node:assert/strict';
 import net from 'node:net';
 import { test } from 'node:test';
@@ -11,7 +11,7 @@ async function with_server(flags, body) {
   try { await body(server); } finally { await server.stop(); }
 }
 
-test('as many generations run as there are workers, the queue waits, the rest is answered 429 at once', () =>
+test('workers run one generation each, the queue waits, and further requests get 429 at once', () =>
   with_server(['--threads', '2', '--queue', '3'], async (server) => {
     const all = [];
     for (let seed = 0; seed < 5; ++seed) all.push(server.generate(request({ milliseconds: 600 }, seed)));
@@ -31,7 +31,7 @@ test('as many generations run as there are workers, the queue waits, the rest is
     assert.equal(metric(text, 'seedmesh_in_flight'), 0);
   }));
 
-test('health, readiness, metrics and what is in memory never wait for a worker', () =>
+test('health, readiness, metrics and cached models never wait for a worker', () =>
   with_server(['--threads', '1', '--queue', '0'], async (server) => {
     const known = await server.generate(request({ bytes: 50 }));
     const slow = server.generate(request({ milliseconds: 800 }, 1));
@@ -46,7 +46,7 @@ test('health, readiness, metrics and what is in memory never wait for a worker',
     assert.equal((await slow).status, 200);
   }));
 
-test('a deadline that passes while waiting is answered 503', () =>
+test('a deadline that expires in the queue returns 503', () =>
   with_server(['--threads', '1', '--time-limit', '0.5'], async (server) => {
     const answers = await Promise.all([1, 2, 3, 4, 5, 6].map((seed) => server.generate(request({ milliseconds: 5000 }, seed))));
     const waited = answers.filter((answer) => answer.status === 503);
@@ -56,7 +56,7 @@ test('a deadline that passes while waiting is answered 503', () =>
     assert.equal(await server.metric('seedmesh_rejected_total{reason="deadline"}'), waited.length);
   }));
 
-test('work over the time limit is stopped and answered 504', () =>
+test('a generation over the time limit is stopped and returns 504', () =>
   with_server(['--time-limit', '0.3'], async (server) => {
     const begun = Date.now();
     const answer = await server.generate(request({ milliseconds: 10000 }));
@@ -66,14 +66,14 @@ test('work over the time limit is stopped and answered 504', () =>
     await until(async () => (await server.metric('seedmesh_workers_busy')) === 0);
   }));
 
-test('equal requests at once are made once', () =>
+test('identical concurrent requests are generated once', () =>
   with_server(['--threads', '1', '--queue', '0'], async (server) => {
     const answers = await Promise.all(Array.from({ length: 12 }, () => server.generate(request({ milliseconds: 300 }))));
     for (const answer of answers) assert.equal(answer.status, 200);
     assert.equal(await server.metric('seedmesh_models_total'), 1);
   }));
 
-test('work stops when the client has gone', () =>
+test('generation stops when the client disconnects', () =>
   with_server(['--threads', '1'], async (server) => {
     const leaving = new AbortController();
     const left = ask(server, 'POST', '/v1/generate', { body: request({ milliseconds: 20000 }), signal: leaving.signal }).catch((error) => error);
@@ -86,7 +86,7 @@ test('work stops when the client has gone', () =>
     await until(() => server.log_lines().some((line) => line.status === 499));
   }));
 
-test('work goes on while one of two equal clients stays', () =>
+test('generation continues while one of two identical clients is connected', () =>
   with_server(['--threads', '1'], async (server) => {
     const leaving = new AbortController();
     const left = ask(server, 'POST', '/v1/generate', { body: request({ milliseconds: 700 }), signal: leaving.signal }).catch((error) => error);
@@ -98,28 +98,28 @@ test('work goes on while one of two equal clients stays', () =>
     assert.equal((await staying).status, 200);
   }));
 
-test('the cache stays within its bytes', () =>
+test('the cache does not exceed its size in bytes', () =>
   with_server(['--cache-bytes', '100KiB'], async (server) => {
     for (let seed = 0; seed < 20; ++seed) assert.equal((await server.generate(request({ bytes: 30000 }, seed))).status, 200);
     assert.ok((await server.metric('seedmesh_cache_bytes')) <= 100 * 1024);
     assert.ok((await server.metric('seedmesh_cache_entries')) >= 2);
   }));
 
-test('without a cache every answer is made anew, with the same bytes', () =>
+test('without a cache every response is generated again with the same bytes', () =>
   with_server(['--cache-bytes', '0'], async (server) => {
     const a = await server.generate(request({})), b = await server.generate(request({}));
     assert.deepEqual(a.bytes, b.bytes);
     assert.equal(await server.metric('seedmesh_models_total'), 2);
   }));
 
-test('a large answer arrives whole', () =>
+test('a large response arrives complete', () =>
   with_server([], async (server) => {
     const answer = await server.generate(request({ bytes: 50_000_000 }));
     assert.equal(answer.bytes.length, 50_000_000);
     assert.equal(Number(answer.headers['content-length']), 50_000_000);
   }));
 
-test('what fails inside is answered 500 with nothing but the request id, and logged', () =>
+test('an internal error is logged and returns 500 with only the request id', () =>
   with_server([], async (server) => {
     for (const end of ['internal', 'throw']) {
       const answer = await server.generate(request({ end }), { 'x-request-id': `fail-${end}` });
@@ -133,7 +133,7 @@ test('what fails inside is answered 500 with nothing but the request id, and log
 
 const stream = (server, body, headers) => server.generate(body, { accept: 'text/event-stream', ...headers });
 
-test('an event stream tells progress and ends with the permalink, which is then in memory', () =>
+test('an event stream reports progress and ends with a permalink to the cached model', () =>
   with_server([], async (server) => {
     const answer = await stream(server, request({ milliseconds: 400, progress: 4 }));
     assert.equal(answer.status, 200);
@@ -154,7 +154,7 @@ test('an event stream tells progress and ends with the permalink, which is then 
     assert.deepEqual(again.map((event) => event.name), ['done']);
   }));
 
-test('a refusal before the first event is an ordinary answer', () =>
+test('a refusal before the first event is a normal response', () =>
   with_server(['--threads', '1', '--queue', '0'], async (server) => {
     assert.equal((await stream(server, { generator: 'nothing' })).status, 422);
     assert.equal((await stream(server, request({ end: 'limit' }))).status, 422);
@@ -174,14 +174,14 @@ test('a refusal after the first event is an error event', () =>
     assert.equal(last.data.errors[0].pointer, '/parameters/bytes');
   }));
 
-test('a stream without news sends a comment every ten seconds', () =>
+test('an idle event stream sends a comment every ten seconds', () =>
   with_server([], async (server) => {
     const events = events_of((await stream(server, request({ milliseconds: 10700 }))).text);
     assert.ok(events[0].comment);
     assert.equal(events.at(-1).name, 'done');
   }));
 
-test('a stream whose client leaves stops its work', () =>
+test('generation stops when the client of an event stream disconnects', () =>
   with_server(['--threads', '1'], async (server) => {
     const leaving = new AbortController();
     const left = ask(server, 'POST', '/v1/generate', { body: request({ milliseconds: 20000, progress: 200 }), headers: { accept: 'text/event-stream' }, signal: leaving.signal }).catch((error) => error);
@@ -193,7 +193,7 @@ test('a stream whose client leaves stops its work', () =>
   }));
 
 for (const signal of ['SIGTERM', 'SIGINT']) {
-  test(`${signal} ends cleanly: readiness goes first, what is in flight is finished, status 0`, async () => {
+  test(`${signal} shuts down gracefully: not ready, requests in progress are finished, status 0`, async () => {
     const server = await serve(rehearsal, ['--threads', '1', '--drain-delay', '0.5', '--idle-timeout', '60']);
     const idle = net.connect(server.port, '127.0.0.1');
     const running = server.generate(request({ milliseconds: 1200, bytes: 3_000_000 }, 1));

@@ -21,7 +21,7 @@ const fetched = (request, name, env = {}) => {
   return run('python3', [path.join(docs, 'examples/seedmesh.py'), file_of('request.json'), file_of(name)], { env: { SEEDMESH_URL: server.url, ...env } });
 };
 
-test('the line of a build script saves the model, asks for it again in vain, and ends the build on a fault', async () => {
+test('the command of a build script saves the model, revalidates it, and ends the build on an error', async () => {
   const [, line] = /```sh\n(curl [\s\S]*?)```/.exec(fs.readFileSync(path.join(docs, 'pipelines.md'), 'utf8'));
   const shell = (change) => run('sh', ['-c', `cd ${folder}; ${change(line.replace('http://127.0.0.1:8080', server.url).replace('curl ', "curl -s -w '%{http_code}' "))}`]);
   const first = await shell((text) => text);
@@ -36,7 +36,7 @@ test('the line of a build script saves the model, asks for it again in vain, and
   assert.match(refused.out.toString(), /"pointer":"\/output.lods"/);
 });
 
-test('the client of Python keeps a model and is not sent it again until the request changes', async () => {
+test('the Python client stores a model and receives it again only after a change of the request', async () => {
   const request = { preset: 'proctree_0', seed: 7 };
   const times = () => fs.statSync(file_of('tree.glb')).mtimeMs;
   assert.equal((await fetched(request, 'tree.glb')).status, 0);
@@ -49,7 +49,7 @@ test('the client of Python keeps a model and is not sent it again until the requ
   assert.deepEqual(fs.readFileSync(file_of('tree.glb')), (await server.post('/v1/generate', { ...request, seed: 8 })).bytes);
 });
 
-test('the client of Python tells every fault by its place', async () => {
+test('the Python client reports every error with its pointer', async () => {
   const { status, err } = await fetched({ generator: 'lsystem', parameters: { axiom: 'F[', iterations: -1 } }, 'none.glb');
   assert.equal(status, 1);
   assert.match(err, /^\/parameters\/iterations: found -1/m);
@@ -57,7 +57,7 @@ test('the client of Python tells every fault by its place', async () => {
   assert.ok(!fs.existsSync(file_of('none.glb')));
 });
 
-test('the client of Python waits for a busy server as long as this one says', async () => {
+test('the Python client waits for a busy server as long as Retry-After requires', async () => {
   const busy = await serve(rehearsal, ['--threads', '1', '--queue', '1']);
   const slow = (seed, milliseconds) => ({ generator: 'rehearsal', seed, parameters: { bytes: 500, milliseconds } });
   try {

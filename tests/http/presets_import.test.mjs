@@ -10,7 +10,7 @@ after(async () => { await server.stop(); });
 
 // --- presets -------------------------------------------------------------------------------------------------------
 
-test('presets are listed, and each is one whole request', async () => {
+test('presets are listed, and each is one complete request', async () => {
   const { presets, generators } = (await server.get('/v1/presets')).json;
   assert.ok(presets.length > 0);
   assert.deepEqual(new Set(generators.map(({ name }) => name)), new Set(presets.map(({ generator }) => generator)));
@@ -42,7 +42,7 @@ test('a preset is a model, changed by its query', async () => {
   assert.equal((await server.get(`/v1/presets/${name}?seed=99`)).json.seed, 99);
 });
 
-test('a query that is no setting of the preset is 422 at its place', async () => {
+test('an unknown key of the query is 422 with its pointer', async () => {
   const { name } = (await server.get('/v1/presets')).json.presets[0];
   for (const [query, pointer] of [['sed=1', '/sed'], ['seed=-1', '/seed'], ['iterations=many', '/iterations'], ['output.colour=red', '/output.colour']]) {
     const answer = await server.get(`/v1/presets/${name}.glb?${query}`);
@@ -62,7 +62,7 @@ test('a query that is no setting of the preset is 422 at its place', async () =>
 
 const import_file = (format, text, type = 'text/plain') => server.post(`/v1/import?format=${format}`, text, { 'content-type': type });
 
-test('import answers a request that generates as it is', async () => {
+test('import returns a request that generates without changes', async () => {
   const answer = await import_file('fractint', koch);
   assert.equal(answer.status, 200, answer.text.slice(0, 300));
   assert.equal(answer.json.request.generator, 'lsystem');
@@ -74,7 +74,20 @@ test('import answers a request that generates as it is', async () => {
   assert.deepEqual(unnamed.json.request, answer.json.request);
 });
 
-test('import tells line and column of what it does not understand', async () => {
+test('import takes maps under the media types of their formats', async () => {
+  const corner = (id, east, north) => `<node id="${id}" lat="${48.1 + north / 111203}" lon="${11.5 + east / 74510}"/>`;
+  const osm = `<osm version="0.6">${corner(1, 0, 0)}${corner(2, 12, 0)}${corner(3, 12, 8)}${corner(4, 0, 8)}<way id="5">${[1, 2, 3, 4, 1].map((id) => `<nd ref="${id}"/>`).join('')}<tag k="building" v="house"/><tag k="height" v="7"/></way></osm>`;
+  const xml = await import_file('osm', osm, 'application/xml');
+  assert.equal(xml.status, 200, xml.text.slice(0, 300));
+  assert.equal(xml.json.request.parameters.buildings[0].name, 'way/5');
+  is_glb((await server.generate(xml.json.request)).bytes);
+  const map = { type: 'Polygon', coordinates: [[[11.5, 48.1], [11.5002, 48.1], [11.5002, 48.1001], [11.5, 48.1]]] };
+  const geojson = await server.post('/v1/import', JSON.stringify(map), { 'content-type': 'application/geo+json' });
+  assert.equal(geojson.json.format, 'geojson');
+  assert.equal(geojson.json.request.parameters.georeference.latitude, 48.10005);
+});
+
+test('import reports line and column of unsupported content', async () => {
   const answer = await import_file('fractint', koch.replace('F=F+F', 'F=F@F'));
   is_problem(answer, 422, 'invalid-request');
   assert.deepEqual({ pointer: answer.json.errors[0].pointer, line: answer.json.errors[0].line, column: answer.json.errors[0].column }, { pointer: '', line: 4, column: 6 });
@@ -88,7 +101,7 @@ test('import tells line and column of what it does not understand', async () => 
   is_problem(await import_file('fractint', Buffer.from([0xff, 0xfe])), 400, 'malformed-request');
 });
 
-test('the extension of a preset goes with what its query asks of the output', async () => {
+test('the extension of a preset is compatible with the output in its query', async () => {
   const zip = await server.get('/v1/presets/house.zip?output.lods=2');
   assert.equal(zip.status, 200, zip.text?.slice(0, 300));
   assert.equal(zip.type, 'application/zip');
@@ -100,7 +113,7 @@ test('the extension of a preset goes with what its query asks of the output', as
   assert.equal(budget.json.errors[0].pointer, '/output.max_triangles');
 });
 
-test('a query that nobody reads is refused, where a route has one and where it has none', async () => {
+test('an unknown query is refused, on routes with and without a query', async () => {
   for (const route of ['/v1/generate?foo=3', '/v1/validate?foo=3', '/v1/derive?foo=3']) {
     const answer = await server.post(route, plant);
     is_problem(answer, 422, 'invalid-request');

@@ -1,4 +1,4 @@
-// What a reader of the contract expects of descriptions, status and pages, asked of the real program.
+// The contract of descriptions, status routes and pages, tested with the real program.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { koch, plant, random, is_problem } from './contract.mjs';
@@ -26,13 +26,14 @@ test('schemas, vocabulary and OpenAPI describe the service', async () => {
   }
 });
 
-test('every path of the OpenAPI document is served, and nothing answers with a status that it does not name', async () => {
+test('every path of the OpenAPI document is served, and no response has an undocumented status', async () => {
   const api = (await server.get('/openapi.json')).json;
   const preset = (await server.get('/v1/presets')).json.presets[0].name;
   const token = /models\/([^.]+)/.exec((await server.generate(plant)).headers['content-location'])[1];
+  const texture = `${(await server.get('/version')).json.engine}.oak_bark.17.64.color.png`;
   const values = { token, extension: 'glb', ext: 'glb' };
   for (const [pattern, item] of Object.entries(api.paths)) {
-    const name = pattern.includes('schemas') ? 'lsystem' : preset;
+    const name = pattern.includes('schemas') ? 'lsystem' : pattern.includes('textures') ? texture : preset;
     const target = pattern.replace(/\{(\w+)\}/g, (_, key) => values[key] ?? name);
     const method = item.post ? 'POST' : 'GET';
     const answer = pattern === '/v1/import' ? await server.post('/v1/import?format=fractint', koch, { 'content-type': 'text/plain' }) : method === 'POST' ? await server.post(target, plant) : await server.get(target);
@@ -42,7 +43,7 @@ test('every path of the OpenAPI document is served, and nothing answers with a s
   }
 });
 
-test('the docs page stands alone and names every route and problem', async () => {
+test('the docs page is self-contained and lists every route and problem type', async () => {
   const page = await server.get('/docs');
   assert.match(page.type, /^text\/html/);
   assert.doesNotMatch(page.text, /<script|https?:\/\/[^"]*\.(js|css)|src=/);
@@ -50,7 +51,7 @@ test('the docs page stands alone and names every route and problem', async () =>
   assert.ok(page.headers['content-security-policy']);
 });
 
-test('the start page is served with a policy that allows no foreign script', async () => {
+test('the start page is served with a policy that forbids foreign scripts', async () => {
   const page = await server.get('/');
   assert.match(page.type, /^text\/html/);
   assert.match(page.headers['content-security-policy'], /default-src 'none'/);
@@ -63,7 +64,7 @@ test('the start page is served with a policy that allows no foreign script', asy
   }
 });
 
-test('health, readiness, version and metrics answer', async () => {
+test('health, readiness, version and metrics respond', async () => {
   assert.equal((await server.get('/healthz')).status, 200);
   assert.equal((await server.get('/readyz')).status, 200);
   const version = (await server.get('/version')).json;
@@ -78,7 +79,7 @@ test('health, readiness, version and metrics answer', async () => {
   assert.ok(Math.abs((await server.metric('process_start_time_seconds')) - Date.now() / 1000) < 3600);
 });
 
-test('unknown paths are 404, known ones with another method 405 with Allow', async () => {
+test('unknown paths return 404, and known ones with another method return 405 with Allow', async () => {
   for (const target of ['/nothing', '/v1', '/v1/', '/v1/nowhere', '/v1/generate/', '/v1/models', '/v1/models/', '/v1/models/a/b.glb', '/v1/presets/', '/v1/import/x', '/healthz/x', '/index.htm', '//']) {
     is_problem(await server.get(target), 404, 'not-found');
   }
@@ -90,7 +91,7 @@ test('unknown paths are 404, known ones with another method 405 with Allow', asy
   }
 });
 
-test('an event stream ends with a permalink that answers from memory', async () => {
+test('an event stream ends with a permalink to the cached model', async () => {
   const answer = await server.generate(random(4242), { accept: 'text/event-stream' });
   assert.equal(answer.status, 200);
   assert.match(answer.type, /^text\/event-stream/);
@@ -104,7 +105,7 @@ test('an event stream ends with a permalink that answers from memory', async () 
   is_problem(await server.generate({ ...plant, seed: -1 }, { accept: 'text/event-stream' }), 422, 'invalid-request');
 });
 
-test('any number of threads gives the same bytes', async () => {
+test('the number of threads does not change the bytes', async () => {
   const wanted = await server.generate(random(5));
   for (const threads of ['1', '8']) {
     const other = await serve(program, ['--threads', threads]);

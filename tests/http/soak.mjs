@@ -12,7 +12,7 @@ const below = (n) => Math.floor(draw() * n);
 const one_of = (list) => list[below(list.length)];
 const quantile = (list, share) => list.sort((a, b) => a - b)[Math.min(list.length - 1, Math.floor(list.length * share))];
 const verdicts = [];
-const judge = (sound, sentence) => { verdicts.push(sound); console.log(`${sound ? 'ok    ' : 'BROKEN'} ${sentence}`); };
+const check = (sound, sentence) => { verdicts.push(sound); console.log(`${sound ? 'ok    ' : 'BROKEN'} ${sentence}`); };
 
 // --- Overload: ten times as many requests as the workers can do ----------------------------------------------------------------------
 
@@ -51,12 +51,12 @@ async function overload() {
   // A request that was accepted waits for at most the whole queue before it.
   const bound = 3 * ((queue / threads + 1) * quantile(calm, 0.9)) + 50;
   console.log(`overload: ${answers.length} requests in ${overload_seconds} s at ${(10 * capacity).toFixed(0)}/s to a capacity of ${capacity.toFixed(0)}/s: ${accepted.length} accepted, 99 % within ${late.toFixed(0)} ms (alone ${quantile(calm, 0.5).toFixed(0)} ms); ${refused.length} refused, 95 % within ${quick.toFixed(0)} ms; health 95 % ${quantile(health, 0.95).toFixed(0)} ms; memory ${(before / 1e6).toFixed(0)} -> at most ${(most_memory / 1e6).toFixed(0)} MB`);
-  judge(accepted.length + refused.length === answers.length, `every request is answered 200 or 429 (${[...new Set(answers.map((answer) => answer.status))]})`);
-  judge(accepted.length > 0.6 * capacity * overload_seconds, 'the workers go on at no less than six tenths of their capacity');
-  judge(late < bound, `accepted requests keep their latency (below ${bound.toFixed(0)} ms)`);
-  judge(refused.every((answer) => answer.retry >= 1) && quick < at_once, `the rest is told at once, with Retry-After (below ${at_once.toFixed(0)} ms)`);
-  judge(quantile(health, 0.95) < soon, `health answers at once (below ${soon.toFixed(0)} ms)`);
-  judge(most_memory < before * 1.5 + 20e6, 'memory is bounded');
+  check(accepted.length + refused.length === answers.length, `every request is answered 200 or 429 (${[...new Set(answers.map((answer) => answer.status))]})`);
+  check(accepted.length > 0.6 * capacity * overload_seconds, 'the workers go on at no less than six tenths of their capacity');
+  check(late < bound, `accepted requests keep their latency (below ${bound.toFixed(0)} ms)`);
+  check(refused.every((answer) => answer.retry >= 1) && quick < at_once, `the rest is refused at once, with Retry-After (below ${at_once.toFixed(0)} ms)`);
+  check(quantile(health, 0.95) < soon, `health answers at once (below ${soon.toFixed(0)} ms)`);
+  check(most_memory < before * 1.5 + 20e6, 'memory is bounded');
 }
 
 // --- Random requests ----------------------------------------------------------------------------------------------------------------
@@ -132,13 +132,13 @@ async function random_requests() {
   const settled = memory.filter((_, i) => ages[i] < seconds / 3 || i < 4), later = memory.filter((_, i) => ages[i] > (2 * seconds) / 3);
   const ratio = quantile(later, 0.5) / quantile(settled, 0.9);
   console.log(`soak: ${count} requests in ${seconds} s; ${[...statuses].sort().map(([key, n]) => `${key}: ${n}`).join(', ')}; the longest took ${(longest / 1000).toFixed(1)} s; memory first third 90 % ${(quantile(settled, 0.9) / 1e6).toFixed(0)} MB, last third median ${(quantile(later, 0.5) / 1e6).toFixed(0)} MB, at most ${(Math.max(...memory) / 1e6).toFixed(0)} MB, at the end ${(final / 1e6).toFixed(0)} MB; ${files} descriptors`);
-  judge(final > 0 && status === 0, `the service lives on, and ends with 0 (${status})`);
-  judge(!statuses.has(500), 'no request is answered 500');
-  judge(![...statuses.keys()].some((key) => ['ECONNREFUSED', 'ECONNRESET', 'EPIPE'].includes(key)), 'no accepted request is lost');
-  judge(open === 0 && longest < 30_000 && busy === 0, 'nothing hangs, which would be six times the time limit');
+  check(final > 0 && status === 0, `the service lives on, and ends with 0 (${status})`);
+  check(!statuses.has(500), 'no request is answered 500');
+  check(![...statuses.keys()].some((key) => ['ECONNREFUSED', 'ECONNRESET', 'EPIPE'].includes(key)), 'no accepted request is lost');
+  check(open === 0 && longest < 30_000 && busy === 0, 'nothing hangs, which would be six times the time limit');
   // In less than a minute caches are still being filled.
-  judge(ratio < (seconds >= 60 ? 1.25 : 2), `memory does not grow (${ratio.toFixed(2)})`);
-  judge(files < 40, 'no descriptor is left open');
+  check(ratio < (seconds >= 60 ? 1.25 : 2), `memory does not grow (${ratio.toFixed(2)})`);
+  check(files < 40, 'no descriptor is left open');
   if (server.stderr) console.log(server.stderr.slice(-3000));
 }
 

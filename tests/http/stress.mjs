@@ -1,7 +1,7 @@
 #!/usr/bin/env node
-// A minute of valid, invalid and half-sent requests at random, at least a thousand, against both programs of the build: they
-// must answer what they can answer, stay up, and end with status 0 (a sanitizer's finding ends them with another).
-//   stress.mjs [seconds] [seed]        SEEDMESH_BUILD, SEEDMESH_PROGRAM as for the tests
+// At least a thousand valid, invalid and truncated random requests in a minute against both programs of the
+// build. The programs must answer, keep running, and exit with status 0; a sanitizer report changes the
+// status. Usage: stress.mjs [seconds] [seed]. SEEDMESH_BUILD and SEEDMESH_PROGRAM work as in the tests.
 import fs from 'node:fs';
 import net from 'node:net';
 import { ask, program, rehearsal, serve, sleep } from './support.mjs';
@@ -9,7 +9,7 @@ import { ask, program, rehearsal, serve, sleep } from './support.mjs';
 const seconds = Number(process.argv[2] ?? 60), first_seed = Number(process.argv[3] ?? 1);
 const least = 1000, clients = 12;
 
-// Numbers that repeat for a seed (xorshift).
+// A reproducible random number generator (xorshift).
 let state = first_seed | 1;
 const draw = () => { state ^= state << 13; state ^= state >>> 17; state ^= state << 5; return (state >>> 0) / 2 ** 32; };
 const below = (n) => Math.floor(draw() * n);
@@ -78,7 +78,8 @@ async function stress(file, make) {
   const client = async () => {
     while (Date.now() < end || (count < least / 2 && Date.now() < end + 60000)) {
       ++count;
-      // A server that turns a connection away may reset it before the refusal is read; that is no loss of an accepted request.
+      // A server that refuses a connection may reset it before the client reads the refusal. No accepted
+      // request is lost.
       const status = await once(server, make).catch((error) => { if (error.code !== 'ECONNRESET' && error.code !== 'EPIPE') ++lost; return -1; });
       statuses.set(status, (statuses.get(status) ?? 0) + 1);
     }

@@ -1,4 +1,4 @@
-// Starts the program and talks to it as a client that adds nothing of its own.
+// Starts the program and sends requests without any headers of a client library.
 import { spawn } from 'node:child_process';
 import http from 'node:http';
 import net from 'node:net';

@@ -38,9 +38,9 @@ const ask = (method, target, { body, agent, headers = {} } = {}) => new Promise(
   request.end(body);
 });
 
-test('the address that is told begins with https', () => assert.match(server.url, /^https:/));
+test('the reported address begins with https', () => assert.match(server.url, /^https:/));
 
-test('a model comes whole, and the same as by plain HTTP', async () => {
+test('a model is complete and the same as over plain HTTP', async () => {
   const plain = await serve(program, ['--threads', '2']);
   const request = { preset: 'abop_2_8b' };
   const open = await plain.generate(request);
@@ -52,7 +52,7 @@ test('a model comes whole, and the same as by plain HTTP', async () => {
   assert.ok(closed.body.equals(open.bytes));
 });
 
-test('a connection serves many requests, and bodies of megabytes', async () => {
+test('one connection serves many requests and bodies of megabytes', async () => {
   const agent = new https.Agent({ keepAlive: true, maxSockets: 1 });
   const ports = new Set();
   agent.on('free', (socket) => ports.add(socket.localPort));
@@ -72,7 +72,7 @@ test('versions before 1.2 are refused', async () => {
   assert.ok(error);
 });
 
-test('who says nothing, speaks plain HTTP or sends noise is let go, and others are served meanwhile', async () => {
+test('clients that send nothing, plain HTTP or noise are disconnected, and others are served meanwhile', async () => {
   const ends = ['', 'GET / HTTP/1.1\r\nHost: here\r\n\r\n', '\x16\x03\x01\xff\xff' + 'x'.repeat(40_000)].map((text) => new Promise((resolve) => {
     const begun = Date.now();
     const socket = net.connect(server.port, '127.0.0.1', () => socket.write(text, 'latin1'));
@@ -84,7 +84,7 @@ test('who says nothing, speaks plain HTTP or sends noise is let go, and others a
   for (const milliseconds of await Promise.all(ends)) assert.ok(milliseconds < 4000, `${milliseconds} ms`);
 });
 
-test('more connections than there may be are closed, and places come free again', async () => {
+test('connections above the limit are closed, and later ones are accepted again', async () => {
   const sockets = Array.from({ length: 12 }, () => net.connect(server.port, '127.0.0.1').on('error', () => {}));
   await sleep(300);
   await assert.rejects(ask('GET', '/healthz'));
@@ -93,12 +93,12 @@ test('more connections than there may be are closed, and places come free again'
   assert.equal((await ask('GET', '/healthz')).status, 200);
 });
 
-test('the health check of the program shakes hands, too', async () => {
+test('the health check of the program also uses TLS', async () => {
   assert.equal((await run(program, ['healthcheck', ...flags, '--port', String(server.port)])).status, 0);
   assert.equal((await run(program, ['healthcheck', '--port', String(server.port)])).status, 1);
 });
 
-test('a certificate without key, a strange key and a file that is none are told at the start', async () => {
+test('a certificate without a key, a key that does not fit and an invalid file are reported at the start', async () => {
   for (const [given, expected] of [
     [['--tls-certificate', certificate], /needed together/],
     [['--tls-certificate', certificate, '--tls-key', stranger], /fits the certificate/],

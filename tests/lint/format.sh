@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # clang-format over all C++ of the tree:  format.sh [--write]
-# Other versions than 14 break lines elsewhere, so that the check is made where 14 is to be had (Debian 12).
+# Other versions than 14 break lines at other positions, so the check is skipped where 14 is not installed (it is in Debian 12).
 set -euo pipefail
-formatter=$(command -v clang-format-14 || command -v clang-format)
-if ! "$formatter" --version | grep -q 'version 14'; then
-  echo "$("$formatter" --version): not version 14, so formatting is left to a machine that has it"
+formatter=$(command -v clang-format-14 || command -v clang-format || true)
+if [ -z "$formatter" ] || ! "$formatter" --version | grep -q 'version 14'; then
+  echo "clang-format 14 is not installed"
+  echo "0 passed, 0 failed, 1 skipped"
   exit 0
 fi
 list() { git ls-files -co --exclude-standard '*.h' '*.cpp' | while read -r file; do [ -f "$file" ] && echo "$file"; done; }

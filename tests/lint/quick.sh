@@ -4,5 +4,11 @@ set -uo pipefail
 here=$(dirname "${BASH_SOURCE[0]}")
 status=0
 "$here/layers.mjs" . || status=1
+"$here/messages.mjs" . || status=1
+"$here/web_cycles.mjs" . || status=1
+"$here/functions.mjs" . || status=1
+"$here/glossary.mjs" . || status=1
+"$here/sentences.mjs" . || status=1
+"$here/generator_page.mjs" . || status=1
 "$here/symbols.sh" "$1" || status=1
 exit $status

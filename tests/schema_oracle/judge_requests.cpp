@@ -18,12 +18,12 @@ namespace {
 
 template <auto read, auto write>
 Json verdict(const Json& document) {
-  Faults faults;
+  IssueList faults;
   const auto params = read(document, "", faults);
   Json pointers = Json::array();
   for (const Issue& issue : faults.issues()) pointers.push_back(issue.pointer);
   const std::string canonical = canonical_text(write(params));
-  Faults none;
+  IssueList none;
   const auto again = read(*parse_json(canonical), "", none);
   const bool stable =
       !faults.empty() || (none.empty() && again == params && canonical_text(write(again)) == canonical);

@@ -11,7 +11,7 @@ import { Dice, draw, spoil } from './draw.mjs';
 const root = path.resolve(import.meta.dirname, '../..');
 const build = process.env.SEEDMESH_BUILD ?? path.join(root, 'build/release');
 const openapi = JSON.parse(fs.readFileSync(path.join(build, 'generated/openapi.json'), 'utf8'));
-const annotations = ['x-unit', 'x-group', 'x-step', 'x-order', 'x-advanced', 'x-grammar', 'x-cpp-name', 'x-widget', 'x-steps', 'x-full', 'x-short', 'x-formats', 'x-formats-where', 'x-motions'];
+const annotations = ['x-unit', 'x-group', 'x-step', 'x-order', 'x-advanced', 'x-grammar', 'x-cpp-name', 'x-widget', 'x-steps', 'x-full', 'x-short', 'x-formats', 'x-formats-where', 'x-motions', 'x-applies-when'];
 
 const document_count = 2000;
 const schemas = ['lsystem', 'tree', 'fractal', 'terrain', 'scene', 'output', 'request'];
@@ -82,9 +82,9 @@ for (const name of schemas) {
         assert.equal(verdicts[i].pointers.length === 0, expected, `${text}\nours ${JSON.stringify(verdicts[i].pointers)}\najv ${ajv.errorsText(validate.errors)}`);
         for (const pointer of verdicts[i].pointers) assert.ok(exists(document, pointer), `${text}: ${pointer} is nowhere`);
         if (expected) return;
-        // Each place that ajv names is ours, or inside or around one of ours: alternatives are told apart earlier here.
+        // Each pointer of ajv is one of ours, or above or below one of ours: our reader selects an alternative earlier.
         const near = (a, b) => a === b || a.startsWith(`${b}/`) || b.startsWith(`${a}/`);
-        for (const place of pointers(validate.errors)) assert.ok(verdicts[i].pointers.some((ours) => near(ours, place)), `${text}: ajv points at "${place}", we at ${verdicts[i].pointers}`);
+        for (const pointer of pointers(validate.errors)) assert.ok(verdicts[i].pointers.some((ours) => near(ours, pointer)), `${text}: ajv points at "${pointer}", we at ${verdicts[i].pointers}`);
       });
       assert.ok(taken >= document_count / 2 && taken < document_count, `${taken} documents were in order`);
     });

@@ -1,4 +1,5 @@
 #include "server/access.h"
+#include "server/http/text.h"
 
 #include <gmock/gmock.h>
 
@@ -13,12 +14,12 @@ using namespace std::chrono_literals;
 
 Config with(std::vector<std::pair<std::string, std::string>> flags) {
   const ConfigResult loaded = load_config({}, flags);
-  EXPECT_THAT(loaded.faults, testing::IsEmpty());
+  EXPECT_THAT(loaded.errors, testing::IsEmpty());
   return loaded.config;
 }
 
 const std::string alice_key = "alices-own-key";
-std::string alice(const std::string& limits = "") { return "alice:" + hex(sha256(alice_key)) + limits; }
+std::string alice(const std::string& limits = "") { return "alice:" + http::hex(sha256(alice_key)) + limits; }
 constexpr const char* signing = "k1:00112233445566778899aabbccddeeff";
 
 http::Request asking(std::string method, std::string target, http::Headers headers = {}) {
@@ -107,7 +108,7 @@ TEST(Access, CountsRequestsAtOnceOfAKey) {
 }
 
 TEST(Access, CountsRequestsASecondOfEachKeyByItself) {
-  const std::string bob = ",bob:" + hex(sha256("bobs"));
+  const std::string bob = ",bob:" + http::hex(sha256("bobs"));
   Access access(with({{"api-keys", alice() + bob}, {"key-rate", "0.01"}}));
   EXPECT_EQ(status_of(access.admit(asking("POST", "/", {{"X-Api-Key", alice_key}}))), 200);
   const auto second = access.admit(asking("POST", "/", {{"X-Api-Key", alice_key}}));
@@ -117,9 +118,9 @@ TEST(Access, CountsRequestsASecondOfEachKeyByItself) {
   EXPECT_EQ(status_of(access.admit(asking("POST", "/", {{"X-Api-Key", "bobs"}}))), 200);
 }
 
-TEST(Bucket, FillsWithTime) {
-  Bucket bucket(2);
-  const auto start = Bucket::Clock::now();
+TEST(TokenBucket, FillsWithTime) {
+  TokenBucket bucket(2);
+  const auto start = TokenBucket::Clock::now();
   EXPECT_EQ(bucket.take(start), 0);
   EXPECT_EQ(bucket.take(start), 0);
   EXPECT_NEAR(bucket.take(start), 0.5, 1e-6);
@@ -130,9 +131,9 @@ TEST(Bucket, FillsWithTime) {
   EXPECT_GT(bucket.take(start + 10h), 0) << "it holds no more than a second's worth";
 }
 
-TEST(Bucket, WithoutARateIsNeverEmpty) {
-  Bucket bucket(0);
-  for (int i = 0; i < 1'000; ++i) EXPECT_EQ(bucket.take(Bucket::Clock::now()), 0);
+TEST(TokenBucket, WithoutARateIsNeverEmpty) {
+  TokenBucket bucket(0);
+  for (int i = 0; i < 1'000; ++i) EXPECT_EQ(bucket.take(TokenBucket::Clock::now()), 0);
 }
 
 Request reading(const std::string& text) { return *read_request(text, Limits{}); }

@@ -12,18 +12,24 @@ namespace {
 using namespace std::chrono_literals;
 
 Cache::Entry entry_of(std::size_t bytes) {
-  auto made = std::make_shared<Made>();
+  auto made = std::make_shared<CachedModel>();
   auto payload = std::make_shared<Payload>();
   payload->add(std::string(bytes, 'x'));
   made->payload = std::move(payload);
   return made;
 }
 
-std::stop_token nobody_leaves() { return {}; }
+std::stop_token no_client_leaves() { return {}; }
 
 Cache::Answer get(Cache& cache, const std::string& key, std::size_t bytes) {
-  return cache.get(key, nobody_leaves,
+  return cache.get(key, no_client_leaves,
                    [&](const std::stop_token&) -> Cache::Outcome { return entry_of(bytes); });
+}
+
+/// Whether a model is in memory.
+bool has(Cache& cache, const std::string& key) {
+  const auto make = [](const std::stop_token&) -> Cache::Outcome { return problem(404, "not in memory"); };
+  return std::holds_alternative<Cache::Entry>(cache.get(key, no_client_leaves, make).outcome);
 }
 
 TEST(Cache, MakesOnceAndKeeps) {
@@ -43,9 +49,9 @@ TEST(Cache, DropsTheLeastRecentlyUsedWhenItIsFull) {
   get(cache, "b", 20'000);
   get(cache, "a", 20'000);
   get(cache, "c", 20'000);
-  EXPECT_TRUE(cache.find("a"));
-  EXPECT_FALSE(cache.find("b"));
-  EXPECT_TRUE(cache.find("c"));
+  EXPECT_TRUE(has(cache, "a"));
+  EXPECT_FALSE(has(cache, "b"));
+  EXPECT_TRUE(has(cache, "c"));
   EXPECT_LE(cache.figures().bytes, 50'000U);
   EXPECT_EQ(cache.figures().evictions, 1U);
 }
@@ -54,14 +60,14 @@ TEST(Cache, DoesNotKeepWhatIsLargerThanItself) {
   Cache cache(10'000);
   get(cache, "small", 1'000);
   EXPECT_TRUE(std::holds_alternative<Cache::Entry>(get(cache, "large", 20'000).outcome));
-  EXPECT_FALSE(cache.find("large"));
-  EXPECT_TRUE(cache.find("small"));
+  EXPECT_FALSE(has(cache, "large"));
+  EXPECT_TRUE(has(cache, "small"));
 }
 
 TEST(Cache, DoesNotKeepRefusals) {
   Cache cache(10'000);
   const auto refused = cache.get(
-      "a", nobody_leaves, [](const std::stop_token&) -> Cache::Outcome { return problem(429, "Full."); });
+      "a", no_client_leaves, [](const std::stop_token&) -> Cache::Outcome { return problem(429, "Full."); });
   EXPECT_EQ(std::get<Problem>(refused.outcome).status, 429);
   EXPECT_TRUE(std::holds_alternative<Cache::Entry>(get(cache, "a", 10).outcome));
 }
@@ -72,7 +78,7 @@ TEST(Cache, MakesOneForManyWhoAskAtOnce) {
   std::vector<std::thread> threads;
   for (int i = 0; i < 16; ++i) {
     threads.emplace_back([&] {
-      const auto answer = cache.get("a", nobody_leaves, [&](const std::stop_token&) -> Cache::Outcome {
+      const auto answer = cache.get("a", no_client_leaves, [&](const std::stop_token&) -> Cache::Outcome {
         ++made;
         std::this_thread::sleep_for(50ms);
         return entry_of(10);
@@ -100,7 +106,7 @@ TEST(Cache, GoesOnWorkingForThoseWhoStay) {
   });
   while (!started) std::this_thread::sleep_for(1ms);
   std::thread second([&] {
-    const auto answer = cache.get("a", nobody_leaves, slow);
+    const auto answer = cache.get("a", no_client_leaves, slow);
     EXPECT_TRUE(std::holds_alternative<Cache::Entry>(answer.outcome));
     EXPECT_TRUE(answer.hit);
   });
@@ -134,9 +140,9 @@ TEST(Cache, StopsWorkWhenAllHaveGone) {
 
 TEST(Cache, LetsOthersKnowWhenTheMakerThrows) {
   Cache cache(1U << 20U);
-  EXPECT_THROW(
-      cache.get("a", nobody_leaves, [](const std::stop_token&) -> Cache::Outcome { throw std::bad_alloc(); }),
-      std::bad_alloc);
+  EXPECT_THROW(cache.get("a", no_client_leaves,
+                         [](const std::stop_token&) -> Cache::Outcome { throw std::bad_alloc(); }),
+               std::bad_alloc);
   EXPECT_TRUE(std::holds_alternative<Cache::Entry>(get(cache, "a", 10).outcome));
 }
 

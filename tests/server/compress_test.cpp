@@ -63,7 +63,7 @@ class Encoding : public testing::TestWithParam<Coding> {};
 TEST_P(Encoding, ComesBackForEveryEffort) {
   for (const std::size_t size : {0U, 1U, 1'000U, 300'000U}) {
     const std::string text = text_of(size);
-    for (const Effort effort : {Effort::model, Effort::text, Effort::once})
+    for (const Effort effort : {Effort::fast, Effort::once})
       EXPECT_EQ(decoded(GetParam(), encode(GetParam(), text, effort), size), text) << size;
   }
 }
@@ -73,18 +73,71 @@ TEST_P(Encoding, JoinsPieces) {
   const auto all = std::as_bytes(std::span(text));
   const std::vector<std::span<const std::byte>> pieces = {all.first(10), all.subspan(10, 2'000'000),
                                                           all.subspan(2'000'010)};
-  EXPECT_EQ(decoded(GetParam(), encode(GetParam(), pieces, Effort::model), text.size()), text);
+  EXPECT_EQ(decoded(GetParam(), encode(GetParam(), pieces, Effort::fast), text.size()), text);
 }
 
 TEST_P(Encoding, MakesTextSmaller) {
   const std::string text(100'000, 'x');
-  EXPECT_LT(encode(GetParam(), text, Effort::model).size(), 2'000U);
+  EXPECT_LT(encode(GetParam(), text, Effort::fast).size(), 2'000U);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Encoding, testing::Values(Coding::gzip, Coding::br, Coding::zstd));
 
 TEST(Encode, HasNothingToDoForIdentity) {
-  EXPECT_THROW(encode(Coding::identity, "x", Effort::text), std::invalid_argument);
+  EXPECT_THROW(encode(Coding::identity, "x", Effort::fast), std::invalid_argument);
+}
+
+TEST_P(Encoding, AddsWhatIsReadyBeforeTheEnd) {
+  const std::string text = text_of(4'000'000);
+  const auto all = std::as_bytes(std::span(text));
+  const std::unique_ptr<Encoder> encoder = encoder_of(GetParam(), Effort::fast, text.size());
+  std::string out;
+  for (std::size_t from = 0; from < text.size(); from += 250'000)
+    encoder->add(all.subspan(from, 250'000), out);
+  EXPECT_GT(out.size(), 0U);
+  encoder->end(out);
+  EXPECT_EQ(decoded(GetParam(), out, text.size()), text);
+}
+
+/// Bytes that no coding makes smaller: a xorshift sequence (Marsaglia 2003).
+std::string noise(std::size_t size) {
+  std::uint64_t state = 88'172'645'463'325'252U;
+  std::string bytes(size, '\0');
+  for (char& byte : bytes) {
+    state ^= state << 13U, state ^= state >> 7U, state ^= state << 17U;
+    byte = static_cast<char>(state);
+  }
+  return bytes;
+}
+
+std::span<const std::byte> piece(const std::string& text) { return std::as_bytes(std::span(text)); }
+
+TEST(LikelySaving, IsNearTheRealSaving) {
+  const std::string text = text_of(3'000'000), random = noise(3'000'000);
+  const auto real = [](const std::string& bytes) {
+    const auto size = static_cast<double>(encode(Coding::zstd, bytes, Effort::fast).size());
+    return 1 - size / static_cast<double>(bytes.size());
+  };
+  EXPECT_NEAR(likely_saving({piece(text)}), real(text), 0.1);
+  EXPECT_LT(likely_saving({piece(random)}), 0.01);
+  EXPECT_NEAR(likely_saving({piece(text), piece(random)}), real(text) / 2, 0.1);
+  std::vector<std::span<const std::byte>> small;  // pieces that are shorter than a sample
+  for (std::size_t from = 0; from < text.size(); from += 1'000)
+    small.push_back(piece(text).subspan(from, 1'000));
+  EXPECT_NEAR(likely_saving(small), real(text), 0.15);
+}
+
+TEST(LikelySaving, CountsImagesAsNotCompressible) {
+  const std::string text(100'000, 'a');
+  for (const std::string& start :
+       {std::string("\x89PNG\r\n\x1a\n"), std::string("\xABKTX 20"), std::string("RIFF\0\0\0\0WEBPVP8L", 16),
+        std::string("\xFF\xD8\xFF\xE0")}) {
+    const std::string image = start + text;
+    EXPECT_EQ(likely_saving({piece(image)}), 0) << start;
+    EXPECT_NEAR(likely_saving({piece(image), piece(text)}), 0.5, 0.01) << start;
+  }
+  EXPECT_GT(likely_saving({piece(text)}), 0.99);
+  EXPECT_EQ(likely_saving({}), 0);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ TEST(Config, HasTheLimitsOfTheContract) {
 TEST(Config, LetsFlagsWinOverTheEnvironment) {
   const auto loaded =
       load_config({"SEEDMESH_PORT=9000", "SEEDMESH_TIME_LIMIT=5", "HOME=/root"}, {{"port", "9001"}});
-  EXPECT_TRUE(loaded.faults.empty());
+  EXPECT_TRUE(loaded.errors.empty());
   EXPECT_EQ(loaded.config.port, 9001);
   EXPECT_EQ(loaded.config.time_limit, 5);
 }
@@ -38,11 +38,11 @@ TEST(Config, ReadsBytesWithUnits) {
   EXPECT_EQ(loaded.config.limits.memory_bytes, std::uint64_t{3} << 30U);
 }
 
-TEST(Config, ListsEveryFault) {
+TEST(Config, ListsEveryError) {
   const auto loaded =
       load_config({"SEEDMESH_QUEUE=-1", "SEEDMESH_CACHE_BYTES=99999GiB"},
                   {{"port", "70000"}, {"log-level", "loud"}, {"time-limit", "nan"}, {"colour", "red"}});
-  EXPECT_THAT(loaded.faults,
+  EXPECT_THAT(loaded.errors,
               ElementsAre(HasSubstr("SEEDMESH_QUEUE"), HasSubstr("SEEDMESH_CACHE_BYTES"),
                           AllOf(HasSubstr("--port"), HasSubstr("65535")), HasSubstr("--log-level"),
                           HasSubstr("--time-limit"), HasSubstr("--colour")));
@@ -50,19 +50,19 @@ TEST(Config, ListsEveryFault) {
 
 TEST(Config, RefusesLimitsThatContradictEachOther) {
   const auto loaded = load_config({}, {{"body-limit", "1GiB"}, {"body-memory", "1MiB"}});
-  EXPECT_THAT(loaded.faults, ElementsAre(HasSubstr("body-memory")));
+  EXPECT_THAT(loaded.errors, ElementsAre(HasSubstr("body-memory")));
 }
 
 TEST(Config, WarnsOfVariablesThatAreNoSetting) {
   const auto loaded = load_config({"SEEDMESH_PROT=1"}, {});
-  EXPECT_TRUE(loaded.faults.empty());
+  EXPECT_TRUE(loaded.errors.empty());
   EXPECT_THAT(loaded.warnings, ElementsAre(HasSubstr("SEEDMESH_PROT")));
 }
 
-TEST(Config, OverlooksTheVariablesThatKubernetesSets) {
+TEST(Config, IgnoresTheVariablesThatKubernetesSets) {
   const auto loaded =
       load_config({"SEEDMESH_PORT=tcp://10.0.0.1:8080", "SEEDMESH_PORT_8080_TCP=tcp://10.0.0.1:8080"}, {});
-  EXPECT_TRUE(loaded.faults.empty());
+  EXPECT_TRUE(loaded.errors.empty());
   EXPECT_TRUE(loaded.warnings.empty());
   EXPECT_EQ(loaded.config.port, 8080);
 }
@@ -81,7 +81,7 @@ TEST(Config, LetsTheEnvironmentWinOverTheFile) {
       R"({"queue": 7, "port": 9000, "cache-bytes": "1MiB", // a comment
           "only-presets": true, "generators": ["rehearsal"], "cors-origins": "*"})");
   const auto loaded = load_config({"SEEDMESH_CONFIG=" + file.name, "SEEDMESH_PORT=9001"}, {{"queue", "8"}});
-  EXPECT_THAT(loaded.faults, testing::IsEmpty());
+  EXPECT_THAT(loaded.errors, testing::IsEmpty());
   EXPECT_THAT(loaded.warnings, testing::IsEmpty());
   EXPECT_EQ(loaded.config.queue, 8);
   EXPECT_EQ(loaded.config.port, 9001);
@@ -90,39 +90,40 @@ TEST(Config, LetsTheEnvironmentWinOverTheFile) {
   EXPECT_THAT(loaded.config.generators, ElementsAre("rehearsal"));
 }
 
-TEST(Config, ListsEveryFaultOfTheFileToo) {
+TEST(Config, ListsEveryErrorOfTheFileToo) {
   const SettingsFile file(R"({"queue": "many", "prot": 1, "port": null, "generators": ["oak"]})");
   const auto loaded = load_config({}, {{"config", file.name}, {"threads", "0"}});
-  EXPECT_THAT(loaded.faults, ElementsAre(HasSubstr("queue is"), HasSubstr("prot is no setting"),
+  EXPECT_THAT(loaded.errors, ElementsAre(HasSubstr("queue is"), HasSubstr("prot is not a setting"),
                                          HasSubstr("port"), HasSubstr("oak"), HasSubstr("--threads")));
 }
 
 TEST(Config, RefusesAFileThatIsNone) {
-  EXPECT_THAT(load_config({}, {{"config", "/no/such/file"}}).faults,
+  EXPECT_THAT(load_config({}, {{"config", "/no/such/file"}}).errors,
               ElementsAre(HasSubstr("cannot be read")));
-  EXPECT_THAT(load_config({}, {{"config", SettingsFile("{").name}}).faults.size(), 1);
+  EXPECT_THAT(load_config({}, {{"config", SettingsFile("{").name}}).errors.size(), 1);
   const SettingsFile list("[]");
-  EXPECT_THAT(load_config({}, {{"config", list.name}}).faults, ElementsAre(HasSubstr("no object")));
+  EXPECT_THAT(load_config({}, {{"config", list.name}}).errors,
+              ElementsAre(HasSubstr("does not contain an object")));
 }
 
-TEST(Config, NeverTellsSecrets) {
+TEST(Config, NeverRevealsSecrets) {
   const std::string digest(64, 'c'), secret(32, 'd');
   const auto loaded = load_config({}, {{"api-keys", "a:" + digest},
                                        {"signing-keys", "k:" + secret},
                                        {"redis-url", "redis://u:hunter2@cache"}});
-  EXPECT_THAT(loaded.faults, testing::IsEmpty());
+  EXPECT_THAT(loaded.errors, testing::IsEmpty());
   const std::string text = config_json(loaded.config);
   EXPECT_THAT(text,
               AllOf(HasSubstr("a:(hidden)"), HasSubstr("k:(hidden)"), HasSubstr("redis://cache:6379/0")));
   EXPECT_THAT(text, testing::Not(testing::AnyOf(HasSubstr(digest), HasSubstr(secret), HasSubstr("hunter2"))));
   const auto wrong =
       load_config({}, {{"api-keys", "a:hunter2"}, {"signing-keys", "hunter2"}, {"redis-url", "hunter2"}});
-  EXPECT_EQ(wrong.faults.size(), 3U);
-  for (const std::string& fault : wrong.faults) EXPECT_THAT(fault, testing::Not(HasSubstr("hunter2")));
+  EXPECT_EQ(wrong.errors.size(), 3U);
+  for (const std::string& error : wrong.errors) EXPECT_THAT(error, testing::Not(HasSubstr("hunter2")));
 }
 
 TEST(Config, RefusesALifetimeOfLinksThatAreNotSigned) {
-  EXPECT_THAT(load_config({}, {{"link-lifetime", "60"}}).faults, ElementsAre(HasSubstr("signing-keys")));
+  EXPECT_THAT(load_config({}, {{"link-lifetime", "60"}}).errors, ElementsAre(HasSubstr("signing-keys")));
 }
 
 TEST(Config, PrintsWhatItWouldRead) {

@@ -19,7 +19,7 @@ http::Response answered(const std::vector<std::string>& origins, const http::Hea
 }
 
 std::string field(const http::Response& response, std::string_view name) {
-  return http::joined(response.headers, name);
+  return http::field_value(response.headers, name);
 }
 
 TEST(Cors, AddsNothingWhereNoOriginIsNamed) {
@@ -34,13 +34,13 @@ TEST(Cors, LetsTheNamedOriginsReadAndVaries) {
   EXPECT_EQ(field(allowed, "Vary"), "Accept-Encoding, Origin");
   for (const http::Headers& headers : {http::Headers{{"Origin", "https://c.example"}}, http::Headers{}}) {
     const http::Response other = answered(origins, headers);
-    EXPECT_FALSE(http::has(other.headers, "Access-Control-Allow-Origin"));
+    EXPECT_EQ(http::field_count(other.headers, "Access-Control-Allow-Origin"), 0U);
     EXPECT_EQ(field(other, "Vary"), "Accept-Encoding, Origin")
         << "a cache must not give it to the named ones";
   }
 }
 
-TEST(Cors, LetsEverybodyReadWhereAsteriskStands) {
+TEST(Cors, AllowsEveryOriginByAnAsterisk) {
   const http::Response response = answered({"*"}, {{"Origin", "null"}});
   EXPECT_EQ(field(response, "Access-Control-Allow-Origin"), "*");
   EXPECT_EQ(field(response, "Vary"), "Accept-Encoding");

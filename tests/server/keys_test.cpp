@@ -32,7 +32,7 @@ TEST(ApiKeys, HaveNameDigestAndLimits) {
   EXPECT_EQ(keys[1].concurrency, 3);
 }
 
-TEST(ApiKeys, TellWhatIsWrongWithoutTellingTheKey) {
+TEST(ApiKeys, ReportErrorsWithoutRevealingTheKey) {
   std::vector<ApiKey> keys;
   for (const std::string& text :
        {"a:" + digest + "a", std::string("a:secret"), std::string("a"), std::string("secret"), ":" + digest,

@@ -27,7 +27,7 @@ TEST(Manifest, KeepsLargeSeedsExact) {
   EXPECT_EQ((*jobs)[0].request, "{\"seed\":18446744073709551615}");
 }
 
-TEST(Manifest, ListsEveryFaultWithItsLine) {
+TEST(Manifest, ListsEveryErrorWithItsLine) {
   const auto jobs = read_manifest(
       "[]\n{\"request\":{},\"nmae\":\"x\"}\n{\"request\":3}\nnot JSON\n{\"name\":\"a\",\"request\":{}}\n"
       "{\"name\":\"a\",\"request\":{}}\n");

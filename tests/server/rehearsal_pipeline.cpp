@@ -3,7 +3,8 @@
 /// "rehearsal":
 ///   {"generator": "rehearsal", "seed": 1, "parameters": {"milliseconds": 50, "bytes": 1000, "end":
 ///   "product"}}
-/// `end` is product, limit, internal or throw; `progress` steps are told on the way.
+/// `end` is product, limit, internal or throw; it reports `progress` steps in between. With `bits`, each byte has
+/// this number of random bits, so that compression saves (8 - bits) / 8 of the answer.
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -16,7 +17,7 @@ namespace seedmesh {
 struct Request::Body {
   std::string canonical, format;
   std::uint64_t seed = 0;
-  int milliseconds = 0, progress = 0;
+  int milliseconds = 0, progress = 0, bits = 0;
   std::size_t bytes = 1'000;
   std::string end = "product";
 };
@@ -36,12 +37,13 @@ Request request_of(const Json& json) {
   body->milliseconds = parameters.value("milliseconds", 0);
   body->progress = parameters.value("progress", 0);
   body->bytes = parameters.value("bytes", std::size_t{1'000});
+  body->bits = parameters.value("bits", 0);
   body->end = parameters.value("end", "product");
   return Request(std::move(body));
 }
 
 Error invalid(std::string pointer, std::string message) {
-  return {Code::invalid, {{std::move(pointer), std::move(message)}}};
+  return {Code::invalid, {{IssueKind::invalid_value, std::move(pointer), std::move(message)}}};
 }
 
 /// Sleeps in small steps, looking at stop and deadline as real work does.
@@ -55,8 +57,21 @@ void work(const Request::Body& body, const Job& job) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   }
-  if (body.end == "limit") Job::refuse("It would pass a limit.", "/parameters/bytes");
+  if (body.end == "limit")
+    job.refuse(limit_issue({Resource::output_bytes, 1, 2}, "It would pass a limit.", "/parameters/bytes"));
   if (body.end == "throw") throw std::runtime_error("a secret of the inside");
+}
+
+/// A pattern of 23 letters, or random bits (xorshift64, Marsaglia 2003).
+std::string bytes_of(const Request::Body& body) {
+  std::string bytes(body.bytes, '\0');
+  std::uint64_t state = body.seed + 88'172'645'463'325'252U;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    state ^= state << 13U, state ^= state >> 7U, state ^= state << 17U;
+    bytes[i] = static_cast<char>(body.bits > 0 ? state >> 20U & ((1U << body.bits) - 1U)
+                                               : 'a' + (i * i + body.seed) % 23);
+  }
+  return bytes;
 }
 
 }  // namespace
@@ -68,7 +83,8 @@ std::uint64_t Request::seed() const { return body_->seed; }
 
 Result<Request> read_request(std::string_view json, const Limits&) {
   const Json object = Json::parse(json, nullptr, false);
-  if (object.is_discarded()) return Error{Code::malformed, {{"", "The body is not JSON."}}};
+  if (object.is_discarded())
+    return Error{Code::malformed, {{IssueKind::syntax, "", "The body is not JSON."}}};
   if (!object.is_object() || !object.contains("generator")) return invalid("", "generator is missing.");
   if (object["generator"] != "rehearsal") return invalid("/generator", "There is no such generator.");
   if (object.contains("engine")) return invalid("/engine", "There is no such field.");
@@ -101,17 +117,17 @@ Result<Request> with_format(const Request& request, std::string_view format) {
   return request_of(object);
 }
 
-Result<Product> produce(const Request& request, Job& job, TextureStore*) {
+Result<Product> produce(const Request& request, const Job::Options& options, TextureStore*) {
   const Request::Body& body = request.body();
   try {
-    work(body, job);
+    work(body, Job(body.seed, options));
   } catch (const Stop& stop) {
     return Error{stop.code(), {stop.issue()}};
   }
-  if (body.end == "internal") return Error{Code::internal, {{"", "a secret of the inside"}}};
+  if (body.end == "internal")
+    return Error{Code::internal, {{IssueKind::internal, "", "a secret of the inside"}}};
   Product product;
-  std::string bytes(body.bytes, '\0');
-  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>('a' + (i * i + body.seed) % 23);
+  const std::string bytes = bytes_of(body);
   const std::size_t half = bytes.size() / 2;
   product.payload.add(bytes.substr(0, half));
   product.payload.add(bytes.substr(half));
@@ -124,23 +140,30 @@ Result<Product> produce(const Request& request, Job& job, TextureStore*) {
   return product;
 }
 
-Result<std::string> derive(const Request& request, Job& job) {
+Result<std::string> derive(const Request& request, const Job::Options& options) {
   try {
-    work(request.body(), job);
+    work(request.body(), Job(request.seed(), options));
   } catch (const Stop& stop) {
     return Error{stop.code(), {stop.issue()}};
   }
   return std::string(R"({"warnings":[]})");
 }
 
-Result<std::string> validate(const Request&, Job&) {
+Result<std::string> validate(const Request&, const Job::Options&) {
   return std::string(R"({"valid":true,"warnings":[],"estimate":{"triangles":12,"bytes":1000,"exact":true}})");
 }
 
-Result<ImportedRequest> import_request(const ImportQuestion&, const Limits&) {
+Result<std::shared_ptr<const Image>> make_texture(std::string_view, const Job::Options&, TextureStore*) {
+  return Error{Code::invalid, {{IssueKind::not_available, "", "this pipeline has no textures"}}};
+}
+Result<ImportedRequest> import_request(const ImportQuestion&, const Job::Options&) {
   return invalid("/format", "There is no such format.");
 }
 std::vector<ImportFormatInfo> import_format_list() { return {}; }
+std::string_view likely_import_format(std::string_view) { return {}; }
+Result<ExportedFile> export_request(const Request&, std::string_view, const Job::Options&) {
+  return invalid("/parameters/model", "Letters are no trees.");
+}
 
 const std::vector<PresetInfo>& presets() {
   static const std::vector<PresetInfo> all = {

@@ -5,8 +5,8 @@
 namespace seedmesh {
 namespace {
 
-Made model() {
-  Made made;
+CachedModel model() {
+  CachedModel made;
   made.product.media_type = "model/gltf-binary";
   made.product.extension = "glb";
   made.product.statistics = {12, 24, 1};
@@ -23,7 +23,7 @@ Cache::Entry opened(const std::string& bytes) {
 }
 
 TEST(PackedModel, ComesBack) {
-  const Made made = model();
+  const CachedModel made = model();
   const Cache::Entry back = opened(pack(made));
   ASSERT_TRUE(back);
   EXPECT_EQ(back->payload->text(), made.payload->text());
@@ -58,12 +58,12 @@ TEST(SharedCache, WithoutAnAddressKnowsAndKeepsNothing) {
   const Log log("off");
   SharedCache cache(Config{}, log);
   EXPECT_FALSE(cache.get("{}", ""));
-  cache.put("{}", std::make_shared<Made>(model()));
+  cache.put("{}", std::make_shared<CachedModel>(model()));
   const auto figures = cache.figures();
   EXPECT_EQ(figures.hits + figures.misses + figures.writes + figures.errors + figures.skips, 0U);
 }
 
-TEST(SharedCache, ThatNobodyAnswersIsSkipped) {
+TEST(SharedCache, ThatDoesNotAnswerIsSkipped) {
   const Log log("off");
   Config config;
   config.threads = 1;

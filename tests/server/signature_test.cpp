@@ -1,4 +1,5 @@
 #include "server/signature.h"
+#include "server/http/text.h"
 
 #include <gmock/gmock.h>
 
@@ -16,9 +17,9 @@ SignatureState state_of(const std::string& text, const std::vector<SigningKey>& 
 }
 
 TEST(Hmac, IsThatOfRfc4231) {
-  EXPECT_EQ(hex(hmac_sha256("Jefe", "what do ya want for nothing?")),
+  EXPECT_EQ(http::hex(hmac_sha256("Jefe", "what do ya want for nothing?")),
             "5bdcc146bf60754e6a042426089575c75a003f089d2739839dec58b964ec3843");
-  EXPECT_EQ(hex(sha256("abc")), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(http::hex(sha256("abc")), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
 TEST(Signature, HoldsForWhatWasSigned) {
@@ -40,7 +41,7 @@ TEST(Signature, IsMadeOfTheTextBeforeIt) {
   EXPECT_EQ(link, covered + "&signature=" + base64url(hmac_sha256(keys[0].secret, covered)));
 }
 
-TEST(Signature, IsAbsentWhereNoneStands) {
+TEST(Signature, IsAbsentWithoutAParameter) {
   for (const char* text : {"/", "/v1/presets/a.glb?seed=3", "/signature=x", "/v1/a.glb?xsignature=b"}) {
     const SignatureCheck check = check_signature(text, keys, now);
     EXPECT_EQ(check.state, SignatureState::absent) << text;
@@ -64,7 +65,7 @@ TEST(Signature, DoesNotHoldForAnythingElse) {
             SignatureState::wrong);
 }
 
-TEST(Signature, CannotBeCarriedToAnotherPlaceInTheQuery) {
+TEST(Signature, CannotBeMovedToAnotherPositionInTheQuery) {
   const std::string link = sign_target("/v1/presets/a.glb?seed=3", keys[0], std::nullopt);
   EXPECT_EQ(state_of(link + "&seed=4"), SignatureState::absent) << "which a closed service refuses";
 }
@@ -75,13 +76,13 @@ TEST(Signature, ExpiresAtItsSecond) {
   EXPECT_EQ(check_signature(link, keys, now).state, SignatureState::expired);
 }
 
-TEST(Signature, OfAKeyThatWasTakenAwayHoldsNoMore) {
+TEST(Signature, OfARemovedKeyIsInvalid) {
   const std::string link = sign_target(target, keys[1], std::nullopt);
   EXPECT_EQ(state_of(link, {keys[0]}), SignatureState::wrong);
   EXPECT_EQ(state_of(link, {{"old", "another secret of that name"}}), SignatureState::wrong);
 }
 
-TEST(Comparison, TellsEqualFromUnequal) {
+TEST(Comparison, DistinguishesEqualFromUnequal) {
   EXPECT_TRUE(same_in_constant_time("", ""));
   EXPECT_TRUE(same_in_constant_time("abc", "abc"));
   EXPECT_FALSE(same_in_constant_time("abc", "abd"));
@@ -90,7 +91,7 @@ TEST(Comparison, TellsEqualFromUnequal) {
 
 TEST(Hex, ComesBack) {
   const std::string bytes("\x00\x7f\xff", 3);
-  EXPECT_EQ(hex(bytes), "007fff");
+  EXPECT_EQ(http::hex(bytes), "007fff");
   EXPECT_EQ(from_hex("007FfF"), bytes);
   for (const char* text : {"0", "0g", "-1", " 1", "0x"}) EXPECT_FALSE(from_hex(text)) << text;
 }

@@ -27,7 +27,7 @@ TEST(Traceparent, OfALaterVersionIsReadByItsBeginning) {
   EXPECT_TRUE(read_traceparent("01" + sound.substr(2) + "-more"));
 }
 
-TEST(Traceparent, ThatIsMalformedIsOverlooked) {
+TEST(Traceparent, ThatIsMalformedIsIgnored) {
   for (const std::string& text :
        {std::string(), sound + "0", sound.substr(1), sound + "-more", "ff" + sound.substr(2),
         std::string("00-4BF92F3577B34DA6A3CE929D0E0E4736-00f067aa0ba902b7-01"),

@@ -35,7 +35,7 @@ void hash_bytes(std::uint64_t& hash, const Array<T>& values, std::size_t i) {
   }
 }
 
-/// By hashes of 64 bits: two different vertices have the same once in some 10^19 pairs.
+/// Compares 64-bit hashes. Two different vertices collide with a probability of about 5e-20 per pair.
 std::uint64_t duplicates_of(const Mesh& mesh) {
   std::vector<std::uint64_t> rows(mesh.position.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -113,7 +113,7 @@ void measure_one(const Mesh& mesh, MeshMeasures& m, std::uint64_t& misses, std::
   measure_triangles(mesh, m);
 }
 
-/// Gives points nearer than `reach` to an earlier one that one's number.
+/// Assigns the same number to points within `reach` of an earlier point.
 class Welder {
  public:
   explicit Welder(double reach) : reach_(reach) {}
@@ -161,7 +161,7 @@ void measure_topology(const std::vector<const Mesh*>& primitives, MeshMeasures& 
   }
   if (box.min.x > box.max.x) return;
   Welder weld(std::max(1e-6 * diagonal(box), 1e-30));
-  std::vector<std::uint64_t> edges;  // the lower place, the higher, and in the last bit the direction
+  std::vector<std::uint64_t> edges;  // the lower index, the higher index, and the direction in the last bit
   std::vector<Face> faces;
   for (const Mesh* mesh : primitives) {
     if (mesh->topology != Topology::triangles) continue;
@@ -256,7 +256,7 @@ std::vector<std::string> faults(const Model& model) {
   check_nodes(model, out);
   for (const MeshGroup& group : model.meshes) {
     std::vector<const Mesh*> primitives;
-    std::vector<const Mesh*> double_sided;  ///< which have no inside that a corner could be turned to
+    std::vector<const Mesh*> double_sided;  ///< flipped corners are not defined for these
     std::uint64_t wide = 0;
     for (const Primitive& primitive : group.primitives) {
       primitives.push_back(&primitive.mesh);

@@ -1,5 +1,5 @@
 #pragma once
-/// Indices of 16 bits, as finish() makes them of a model.
+/// Converts indices to 16 bits, as finish() does for a model.
 #include <algorithm>
 
 #include "core/model/mesh.h"

@@ -1,4 +1,4 @@
-/** What leaves the page: files, the link, programs that fetch the model. */
+/** Exports from the page: downloaded files, the shared link, and code that requests the model. */
 import { Busy, Gone, generate, in_format, type Request } from './api';
 import { curl_of, endings, javascript_of, own_format, python_of } from './commands';
 import { el, part, sentence } from './dom';
@@ -6,41 +6,41 @@ import { link_to, longest_link } from './link';
 
 export interface Context {
   request(): Request | null;
-  /** Where the request came from. */
+  /** The preset that the request came from. */
   preset(): string | null;
-  /** The file's name without its ending. */
+  /** The file name without its extension. */
   name(): string;
-  /** What is seen now. */
+  /** The current view as an image. */
   picture(): Promise<Blob | null>;
   say(text: string): void;
-  /** An empty text takes back what was said before. */
+  /** An empty text clears the previous message. */
   fail(text: string): void;
-  /** A word that stays until what it tells of is done, and the word for that. */
+  /** Shows a message until the task ends, then shows the message passed to the returned function. */
   begin(text: string): (text: string) => void;
 }
 
 const written: Record<string, string> = { gltf: 'glTF', placements: 'Placements' };
 
-/** Links beyond this are cut by chats and mail. */
+/** Chat and mail programs truncate links longer than this. */
 const long_link = 2000;
 
 const called = (format: string): string => written[format] ?? format.toUpperCase();
 const ending_of = (format: string): string => endings[format] ?? format;
-const told = (format: string): string => `Download as ${format in endings ? `${called(format)}, a .${ending_of(format)}` : `.${format}`}`;
-/** Files of different formats with one ending are told apart by their names. */
+const hint_for = (format: string): string => `Download as ${format in endings ? `${called(format)}, a .${ending_of(format)}` : `.${format}`}`;
+/** Two formats can share one file extension, so their menu entries show the format name. */
 const file_name = (name: string, format: string): string => `${name}${format in endings ? `-${format}` : ''}.${ending_of(format)}`;
 
-/** One button for each format; what the request itself asks for has the button outside the menu. */
+/** Adds one button per format. The format that the request itself names has a button outside the menu. */
 export function wire_downloads(formats: string[], context: Context): void {
   const request = context.request();
   const wanted = request ? own_format(request) : 'glb';
   const first = formats.includes(wanted) ? wanted : formats[0] ?? 'glb';
   const main = part('download');
   main.dataset['format'] = first;
-  main.title = told(first);
+  main.title = hint_for(first);
   main.textContent = called(first);
   part('downloads').replaceChildren(...formats.filter((format) => format !== first).map((format) =>
-    el('button', { type: 'button', 'data-format': format, 'data-close': true, title: told(format) }, called(format))));
+    el('button', { type: 'button', 'data-format': format, 'data-close': true, title: hint_for(format) }, called(format))));
   for (const button of document.querySelectorAll<HTMLButtonElement>('[data-format]'))
     button.onclick = () => void download(button.dataset['format'] ?? '', context);
 }
@@ -51,7 +51,7 @@ export function wire_copies(context: Context): void {
   on('copy-link', async (request) => {
     const link = await link_to(request, context.preset());
     if (link.length > longest_link) {
-      context.fail(`This request is too long for a link: ${link.length} characters. Save it as JSON instead, which opens here by drop.`);
+      context.fail(`This request is too long for a link: ${link.length} characters. Save it as JSON instead. Drop the file here to open it.`);
       return;
     }
     const warning = link.length > long_link ? `. It has ${link.length} characters: some programs cut it. The request as JSON is safer` : '';
@@ -74,17 +74,17 @@ export async function save_picture(context: Context): Promise<void> {
   const picture = await context.picture();
   if (!picture) return;
   save(picture, `${name}-view.png`);
-  context.say('The picture is saved');
+  context.say('The image is saved');
 }
 
 function save(file: Blob, name: string): void {
   const address = URL.createObjectURL(file);
   el('a', { href: address, download: name }).click();
-  // The browser reads the address after this task; a minute is long enough for it.
+  // The browser reads the object URL after this task has ended. One minute is long enough for that.
   setTimeout(() => URL.revokeObjectURL(address), 60_000);
 }
 
-/** Files that are on their way: the same is not fetched twice at once. */
+/** Downloads in progress, so that one file is not fetched twice at the same time. */
 const coming = new Map<Request, Set<string>>();
 
 async function download(format: string, context: Context): Promise<void> {
@@ -93,7 +93,7 @@ async function download(format: string, context: Context): Promise<void> {
   const formats = coming.get(request) ?? new Set();
   if (formats.has(format)) return;
   coming.set(request, formats.add(format));
-  // Another model may be shown when it comes.
+  // Another model may be shown by the time the file arrives.
   const name = file_name(context.name(), format);
   const mark = (): void => {
     for (const button of document.querySelectorAll<HTMLElement>('[data-format]'))
@@ -107,9 +107,9 @@ async function download(format: string, context: Context): Promise<void> {
     save(new Blob([bytes]), name);
     done(`${name} is downloaded`);
   } catch (error) {
-    const why = error instanceof Busy ? 'The server is full.' : error instanceof Gone ? 'The server cannot be reached.' : (error as Error).message;
+    const why = error instanceof Busy ? 'The server is busy.' : error instanceof Gone ? 'The server cannot be reached.' : (error as Error).message;
     done('');
-    context.fail(`No file ${name}: ${sentence(why)}`);
+    context.fail(`Cannot save ${name}: ${sentence(why)}`);
   } finally {
     formats.delete(format);
     if (formats.size === 0) coming.delete(request);

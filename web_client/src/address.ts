@@ -1,4 +1,7 @@
-/** The address tells what is shown: `#…` carries a request, and so does each entry of the browser's history. */
+/**
+ * Keeps the page address in step with the shown request. Every history entry of the browser holds a request in its
+ * fragment.
+ */
 import type { Generator, Preset, Request } from './api';
 import { fragment_of, longest_link, preset_in, unpack } from './link';
 import type { State, Store } from './state';
@@ -8,14 +11,14 @@ interface Context {
   presets(): Preset[];
   generators(): Generator[];
   get_preset(name: string, signal: AbortSignal): Promise<Request>;
-  /** Begins to open something else; what is still being opened is given up. */
+  /** Starts to open another request and cancels an opening that is still in progress. */
   begin(): AbortSignal;
   persist<T>(task: () => Promise<T>, signal: AbortSignal): Promise<T>;
-  /** The fragment is no request. */
+  /** The fragment does not hold a request. */
   damaged(): void;
 }
 
-/** What a visitor sees first, where the server has it. */
+/** The preset that a first visitor sees, if the server offers it. */
 export const first_shown = 'kogovsek_grm';
 
 export class Address {
@@ -27,26 +30,26 @@ export class Address {
     this.context = context;
   }
 
-  /** The address follows the state a moment later: browsers refuse to change it as fast as a slider moves. */
+  /** The address is updated after a short delay, because browsers limit how often a page may change it. */
   follow(state: State): void {
     clearTimeout(this.timer);
     this.timer = window.setTimeout(() => void this.write(state, 'replace'), 300);
   }
 
-  /** Whether the browser shows another address than the page has written. */
+  /** True if the browser shows an address that this page did not write. */
   get is_foreign(): boolean { return location.hash !== this.drawn_for; }
 
   open(): Promise<void> {
     return location.hash.length > 1 ? this.open_link(location.hash) : this.open_first();
   }
 
-  /** A card leaves an entry in the browser's history, so that Back returns to what was shown before. */
+  /** Choosing a card adds a history entry, so that Back returns to the previous model. */
   async choose(preset: Preset): Promise<void> {
     await this.open_preset(preset);
     await this.push(preset.name);
   }
 
-  /** Makes an entry of what is shown now. */
+  /** Adds a history entry for the current request. */
   async push(preset: string | null): Promise<void> {
     clearTimeout(this.timer);
     const { current } = this.context.store;
@@ -80,14 +83,14 @@ export class Address {
     }
   }
 
-  /** Where a request that was written by hand comes from, and what it is called; null where its generator is none. */
+  /** The preset and title of a request typed as JSON; null if its generator does not exist. */
   origin_of(request: Request, preset: string | null): { preset: string | null; title: string; description: string } | null {
     if (!this.context.generators().some(({ name }) => name === request.generator)) return null;
     const from = this.context.presets().find((each) => each.name === preset && each.generator === request.generator);
     return { preset: from?.name ?? null, title: from?.title ?? this.title_of(request, 'from JSON'), description: from?.description ?? '' };
   }
 
-  /** What came from no preset is called by its generator, and by the first of its parameters that is a plain word. */
+  /** A request without a preset is named after its generator and its first parameter that is a plain word. */
   private title_of({ generator, parameters }: Request, whence = 'from a link'): string {
     const title = this.context.generators().find(({ name }) => name === generator)?.title;
     if (title === undefined) return 'Unknown generator';
@@ -98,7 +101,8 @@ export class Address {
   private async write(state: State, how: 'push' | 'replace'): Promise<void> {
     const packed = `#${await fragment_of(state.request, state.preset)}`;
     if (this.context.store.current !== state) return;
-    // What no address holds is not half in it: the page says so where the link is copied.
+    // A request that is too long for an address is left out of it. The page reports this when the user copies the
+    // link.
     this.drawn_for = packed.length <= longest_link ? packed : '';
     const address = this.drawn_for || location.pathname + location.search;
     if (how === 'push') history.pushState(null, '', address);

@@ -1,4 +1,7 @@
-/** What the server offers, as api_schema/openapi.json describes it. Addresses are relative, so any path prefix works. */
+/**
+ * Client of the HTTP interface that api_schema/openapi.json describes. All addresses are relative, so that any path
+ * prefix works.
+ */
 import { parse_json } from './exact';
 import type { Schema } from './form/schema';
 import { has_key, key_fields, unlock } from './key';
@@ -12,53 +15,61 @@ export interface Request {
 
 export interface Preset { name: string; generator: string; title: string; description: string; tags: string[] }
 
-/** A kind of model and what it is called. */
+/** A generator and its title. */
 export interface Generator { name: string; title: string }
 
 export interface Offer { presets: Preset[]; generators: Generator[] }
 
-/** One fault of a request: a JSON Pointer into it; line and column, from 1, point into a grammar's text. */
-export interface Fault {
+/**
+ * One error or warning of a request. `pointer` is a JSON Pointer into it; line and column count from 1 in a grammar's
+ * text.
+ */
+export interface Issue {
   pointer: string;
+  /** The kind of error, for example `unknown_key`. Warnings have none. */
+  code?: string;
   message: string;
   line?: number;
   column?: number;
-  /** A warning: the request is taken nevertheless. */
+  /** True for a warning: the server accepts the request nevertheless. */
   mild?: boolean;
 }
 
 /** A symbol, an operation or a function of a notation. */
 export interface Word { symbol?: string; name?: string; parameters?: string; text?: string; example?: string }
 
-/** Lists of words, or of names alone. */
+/** Lists of words with descriptions, or of names alone. */
 export type Vocabulary = Record<string, (Word | string)[]>;
 
-export interface Check { warnings: Fault[]; estimate: { triangles: number; bytes: number; exact: boolean } | null }
+export interface Check { warnings: Issue[]; estimate: { triangles: number; bytes: number; exact: boolean } | null }
 
-/** `is_kept`: the server had the model, and `milliseconds` is what the answer took. */
+/** `is_kept` means that the model came from the server's cache; `milliseconds` is then the time of the answer. */
 export interface Statistics { triangles: number; bytes: number; milliseconds: number; is_kept: boolean; warnings: number }
 
 export interface Made { bytes: ArrayBuffer; statistics: Statistics }
 
-interface Problem { title?: string; detail?: string; errors?: Fault[] }
+interface Problem { title?: string; detail?: string; format?: string; errors?: Issue[] }
 
-/** The server understood and says no: trying again would not help. */
-/** A list of more names than can be overlooked is cut: the reference has them all. */
+/** Long lists of names are shortened in messages. The reference documentation contains them all. */
 const brief = (text: string): string =>
   text.replace(/((?:[\w.-]+, ){8})((?:[\w.-]+, ){4,}[\w.-]+)/, (_, first: string, rest: string) => `${first}and ${rest.split(', ').length} more`);
 
+/** The server rejects the request itself, so that a retry would not help. */
 export class Refusal extends Error {
-  readonly faults: Fault[];
+  readonly issues: Issue[];
+  /** For an import: the format that the server recognised. */
+  readonly format: string;
   constructor(problem: Problem) {
     super(brief(problem.detail ?? problem.title ?? 'The server refused the request.'));
-    this.faults = (problem.errors ?? []).map((fault) => ({ ...fault, message: brief(fault.message) }));
+    this.issues = (problem.errors ?? []).map((issue) => ({ ...issue, message: brief(issue.message) }));
+    this.format = problem.format ?? '';
   }
 }
 
-/** The service is closed to whoever shows no key, or the wrong one. */
+/** The service requires a key, and the request had none or a wrong one. */
 export class Locked extends Refusal {}
 
-/** The server is full or about to end: to be asked again, after `seconds` where it said so. */
+/** The server is at capacity or is shutting down. Retry after `seconds`, if the server sent that number. */
 export class Busy extends Error {
   readonly seconds: number | null;
   constructor(detail: string, seconds: number | null) {
@@ -67,7 +78,7 @@ export class Busy extends Error {
   }
 }
 
-/** The model has more triangles than were wanted without a question. */
+/** The model has more triangles than the caller accepts without asking the user. */
 export class Heavy extends Error {
   readonly triangles: number;
   constructor(triangles: number) {
@@ -76,7 +87,7 @@ export class Heavy extends Error {
   }
 }
 
-/** No answer at all, or one from something that is not the server. */
+/** No answer, or an answer that does not come from the Seedmesh server. */
 export class Gone extends Error {}
 
 async function problem_of(response: Response): Promise<Problem> {
@@ -94,7 +105,7 @@ async function call(address: string, init: RequestInit = {}): Promise<Response> 
     response = await fetch(address, { ...init, headers: { ...init.headers, ...key_fields() } });
   } catch (error) {
     if (init.signal?.aborted) throw error;
-    throw new Gone('The server does not answer.');
+    throw new Gone('The server does not respond.');
   }
   if (response.ok) return response;
   if (response.status === 429 || response.status === 503) {
@@ -108,14 +119,14 @@ async function call(address: string, init: RequestInit = {}): Promise<Response> 
     if (opened) return call(address, init);
     throw response.status === 401 ? new Locked(problem) : new Refusal(problem);
   }
-  if (response.status === 502) throw new Gone('The server does not answer.');
+  if (response.status === 502) throw new Gone('The server does not respond.');
   throw new Refusal(await problem_of(response));
 }
 
 const read = async <T>(address: string, signal?: AbortSignal): Promise<T> =>
   (await (await call(address, { signal: signal ?? null })).json()) as T;
 
-/** In the order in which they are to be shown. */
+/** The names in display order. */
 export const get_offer = (signal?: AbortSignal): Promise<Offer> => read<Offer>('v1/presets', signal);
 
 export const get_presets = async (signal?: AbortSignal): Promise<Preset[]> => (await get_offer(signal)).presets;
@@ -128,7 +139,7 @@ export async function get_preset(name: string, signal?: AbortSignal): Promise<Re
 export const get_schema = (name: string, signal?: AbortSignal): Promise<Schema> =>
   read<Schema>(`v1/schemas/${encodeURIComponent(name)}`, signal);
 
-/** RFC 7396: members of the patch over those there are; null takes a member away. */
+/** JSON Merge Patch (RFC 7396): the members of the patch replace those of the target; null removes a member. */
 function merged(base: unknown, patch: unknown): unknown {
   if (typeof patch !== 'object' || patch === null || Array.isArray(patch)) return patch;
   const result: Record<string, unknown> = typeof base === 'object' && base !== null && !Array.isArray(base) ? { ...base } : {};
@@ -139,10 +150,10 @@ function merged(base: unknown, patch: unknown): unknown {
   return result;
 }
 
-/** A request, and the preset that it came from. */
+/** A complete request and the preset that it is based on. */
 export interface Written { request: Request; preset: string | null }
 
-/** A request as it was written, which may name a preset: then what it says over that preset. */
+/** Resolves a request that may name a preset: its other members are merged over that preset. */
 export async function whole(written: unknown): Promise<Written> {
   if (typeof written !== 'object' || written === null || Array.isArray(written)) throw new Error('A request is an object.');
   const { preset, ...rest } = written as Partial<Request> & { preset?: unknown };
@@ -151,7 +162,7 @@ export async function whole(written: unknown): Promise<Written> {
   return { request: complete(rest), preset: null };
 }
 
-/** With the members that the page relies on. */
+/** Adds the members that the page relies on. */
 export const complete = (request: Partial<Request>): Request =>
   ({ ...request, generator: request.generator ?? '', seed: request.seed ?? 0, parameters: request.parameters ?? {} });
 
@@ -168,44 +179,44 @@ const post = (request: Request, accept: string, signal?: AbortSignal): Promise<R
 
 export const get_vocabulary = (): Promise<Vocabulary> => read<Vocabulary>('v1/vocabulary');
 
-/** Every fault (a Refusal) or every warning, without the model. */
+/** Returns every error (as a Refusal) or every warning, without generating the model. */
 export async function check(request: Request, signal?: AbortSignal): Promise<Check> {
   const answer = (await (await post_json('v1/validate', request, 'application/json', signal)).json()) as Check;
   return { estimate: answer.estimate, warnings: answer.warnings.map((warning) => ({ ...warning, mild: true })) };
 }
 
-/** What the generator makes before there is geometry; its members are the generator's own. */
+/** Returns the generator's result before geometry exists. Its members depend on the generator. */
 export const derive = async (request: Request, signal?: AbortSignal): Promise<Record<string, unknown>> =>
   (await (await post_json('v1/derive', request, 'application/json', signal)).json()) as Record<string, unknown>;
 
-/** The formats that the server can import, from its own description. */
+/** The import formats that the server's OpenAPI document lists. */
 export async function import_formats(): Promise<string[]> {
   const { components } = await read<{ components: { parameters: { ImportFormat?: { schema?: { enum?: string[] } } } } }>('openapi.json');
   return components.parameters.ImportFormat?.schema?.enum ?? [];
 }
 
-/** A file of another program as a request of ours; without a format, of the one that it looks like. */
-export async function import_file(text: string, format: string, entry: string): Promise<{ format: string; request: Request; warnings: Fault[] }> {
+/** Converts a file of another program to a request. Without a format, the server detects it from the content. */
+export async function import_file(text: string, format: string, entry: string): Promise<{ format: string; request: Request; warnings: Issue[] }> {
   const query = new URLSearchParams({ ...(format && { format }), ...(entry && { entry }) });
   const response = await call(`v1/import?${query}`, { method: 'POST', headers: { 'Content-Type': 'text/plain' }, body: text });
-  const answer = parse_json(await response.text()) as { format: string; request: Partial<Request>; warnings: Fault[] };
+  const answer = parse_json(await response.text()) as { format: string; request: Partial<Request>; warnings: Issue[] };
   return { format: answer.format, request: complete(answer.request), warnings: answer.warnings };
 }
 
 export const in_format = (request: Request, format: string): Request =>
   ({ ...request, output: { ...request.output, format } });
 
-/** A body that breaks off counts as no answer. */
+/** A response body that ends early counts as no answer. */
 async function whole_body(response: Response, signal?: AbortSignal): Promise<ArrayBuffer> {
   try {
     return await response.arrayBuffer();
   } catch (error) {
     if (signal?.aborted) throw error;
-    throw new Gone('The answer broke off.');
+    throw new Gone('The response ended too early.');
   }
 }
 
-/** Throws Heavy, before it is fetched, where the model has `most` triangles or more. */
+/** Throws Heavy before the download if the model has `most` triangles or more. */
 export async function generate(request: Request, signal?: AbortSignal, most = Infinity): Promise<Made> {
   const response = await post(request, '*/*', signal);
   const number = (name: string): number => Number(response.headers.get(name) ?? 0);
@@ -220,7 +231,7 @@ export async function generate(request: Request, signal?: AbortSignal, most = In
     statistics: {
       triangles: number('Seedmesh-Triangles'),
       warnings: number('Seedmesh-Warnings'),
-      // Content-Length counts what travelled, which may be compressed; the file is what counts here.
+      // Content-Length counts the transferred bytes, which may be compressed. The page shows the size of the file.
       bytes: bytes.byteLength,
       milliseconds: total_duration(timing),
       is_kept: /\bcache;\s*desc="?(hit|shared)/.test(timing),
@@ -232,14 +243,13 @@ const sum_of = (timing: Record<string, number> | undefined): number | null =>
   (timing ? Object.values(timing).reduce((sum, each) => sum + each, 0) : null);
 
 export function total_duration(server_timing: string): number {
-  let sum = 0;
-  for (const [, duration] of server_timing.matchAll(/;\s*dur=([\d.]+)/g)) sum += Number(duration);
-  return sum;
+  return Number(/\btotal;\s*dur=([\d.]+)/.exec(server_timing)?.[1] ?? 0);
 }
 
 /**
- * Lets the server make the model and tell how far it is; the model itself is asked for afterwards, from the server's
- * cache. `tell` gets a share from 0 to 1. Returns the milliseconds of the making; null where the server does not say.
+ * Generates the model on the server and reports the progress, from 0 to 1, through `tell`. The caller then fetches
+ * the model from the server's cache. Returns the generation time in milliseconds, or null if the server does not
+ * report it.
  */
 export async function follow(request: Request, tell: (share: number) => void, signal: AbortSignal): Promise<number | null> {
   const response = await post(request, 'text/event-stream', signal);
@@ -250,7 +260,7 @@ export async function follow(request: Request, tell: (share: number) => void, si
   for (;;) {
     const chunk = await reader.read().catch(() => {
       signal.throwIfAborted();
-      throw new Gone('The answer broke off.');
+      throw new Gone('The response ended too early.');
     });
     if (chunk.done) return took;
     text += chunk.value;
@@ -264,7 +274,7 @@ export async function follow(request: Request, tell: (share: number) => void, si
       if (name !== 'progress') continue;
       const progress = JSON.parse(data) as { stage: string; share: number };
       if (!stages.includes(progress.stage)) stages.push(progress.stage);
-      // Nobody knows beforehand how many stages there are: each takes half of what is left.
+      // The number of stages is not known in advance, so each stage takes half of the remaining range.
       const before = 1 - 0.5 ** (stages.length - 1);
       tell(before + (1 - before) * 0.5 * progress.share);
     }

@@ -1,14 +1,14 @@
-/** A request as a program that saves its model: written out, never run. */
+/** Code examples that request the model and save it. The page only shows them and never runs them. */
 import { in_format, type Request } from './api';
 import { has_key } from './key';
 
-/** The key itself stays out of what is copied: it is read from here when the program runs. */
+/** The copied code reads the key from this variable at run time, so that the key is not copied. */
 const key_variable = 'SEEDMESH_KEY';
 
-/** How files of a format end, where that is not its name. */
+/** File extensions that differ from the name of the format. */
 export const endings: Record<string, string> = { png16: 'png', png8: 'png', rgb24: 'png', rgba32: 'png', placements: 'zip' };
 
-/** What the request asks for, which is glb where it says nothing. */
+/** The requested format; the default is glb. */
 export const own_format = (request: Request): string => String(request.output?.['format'] ?? 'glb');
 
 const file_of = (request: Request): string => `model.${endings[own_format(request)] ?? own_format(request)}`;
@@ -16,13 +16,13 @@ const own = (request: Request): Request => in_format(request, own_format(request
 
 const address = (): string => new URL('v1/generate', location.href.split(/[?#]/)[0]).href;
 
-/** For a POSIX shell. */
+/** A command for a POSIX shell. */
 export function curl_of(request: Request): string {
   const quote = (text: string): string => `'${text.replaceAll("'", `'\\''`)}'`;
   return `curl --fail-with-body -o ${file_of(request)} -H 'Content-Type: application/json'${has_key() ? ` -H "Authorization: Bearer $${key_variable}"` : ''} -d ${quote(JSON.stringify(own(request)))} ${quote(address())}`;
 }
 
-/** JSON as a Python literal: what differs are three words. Strings keep their escapes, which both read alike. */
+/** Writes JSON as a Python literal. Only three words differ; the string escapes are the same in both languages. */
 function python_literal(value: unknown, indent: string): string {
   if (value === null) return 'None';
   if (typeof value === 'boolean') return value ? 'True' : 'False';
@@ -37,7 +37,7 @@ function python_literal(value: unknown, indent: string): string {
   return flat.length + indent.length < 90 && !flat.includes('\n') ? `${open}${flat}${close}` : `${open}\n${items.map((item) => `${inner}${item},\n`).join('')}${indent}${close}`;
 }
 
-/** Nothing but the standard library. */
+/** Uses only the Python standard library. */
 export function python_of(request: Request): string {
   return `import json
 ${has_key() ? 'import os\n' : ''}import urllib.error
@@ -58,7 +58,7 @@ except urllib.error.HTTPError as problem:
 `;
 }
 
-/** For Node as a module; the fetch is the same in a browser. */
+/** An ES module for Node. The same fetch call works in a browser. */
 export function javascript_of(request: Request): string {
   return `import { writeFile } from 'node:fs/promises';
 

@@ -1,9 +1,14 @@
-/** Making elements. Nothing here writes a style attribute: the page's policy forbids it. */
+/**
+ * Helpers that create elements. They never write a style attribute, because the content security policy forbids it.
+ */
 
 type Attribute = string | number | boolean | undefined | ((event: Event) => void);
 type Child = Node | string | null | undefined | false;
 
-/** `el('button', { type: 'button', onclick: roll }, 'Roll')`; false and undefined leave an attribute out. */
+/**
+ * Example: `el('button', { type: 'button', onclick: roll }, 'Roll')`. An attribute that is false or undefined is
+ * omitted.
+ */
 export function el<K extends keyof HTMLElementTagNameMap>(
   tag: K,
   attributes: Record<string, Attribute> = {},
@@ -18,7 +23,7 @@ export function el<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** The element that index.html promises. */
+/** An element that index.html must contain. */
 export function part<T extends HTMLElement = HTMLElement>(id: string): T {
   const element = document.getElementById(id);
   if (!element) throw new Error(`index.html has no #${id}`);
@@ -28,7 +33,7 @@ export function part<T extends HTMLElement = HTMLElement>(id: string): T {
 let last_id = 0;
 export const fresh_id = (word: string): string => `${word}-${(last_id += 1)}`;
 
-/** Strokes of 24 x 24 icons. */
+/** Path data of icons on a 24 x 24 grid. */
 const strokes = {
   reset: 'M4 12a8 8 0 1 0 2.5-5.8M4 4v4.5h4.5',
   help: 'M9.2 9a2.8 2.8 0 1 1 4.2 2.4c-.9.5-1.4 1.1-1.4 2.1M12 17.2v.1',
@@ -55,12 +60,15 @@ export function icon(name: keyof typeof strokes): SVGSVGElement {
 /** 12345 -> "12,345" */
 export const grouped = (count: number): string => count.toLocaleString('en');
 
-/** Whole numbers within a sentence, those of five digits and more: 258097152 -> 258,097,152. Words in quotes stay. */
+/**
+ * Groups the digits of whole numbers with at least five digits in a sentence: 258097152 -> 258,097,152. Quoted text
+ * is unchanged.
+ */
 export const with_groups = (text: string): string =>
   text.replaceAll(/(?<![\w.,"'`#])\d{5,}(?![\w"'`]|\.\d)/g, (digits) => digits.replaceAll(/\B(?=(?:\d{3})+$)/g, ','));
 
-/** With a large letter at its beginning. */
+/** Capitalises the first letter. */
 export const sentence = (text: string): string => text.replace(/^[a-z]/, (first) => first.toUpperCase());
 
-/** 3 significant digits, without the zeros at the end. */
+/** Rounds to 3 significant digits and omits trailing zeros. */
 export const rounded = (value: number): string => String(Number(value.toPrecision(3)));

@@ -1,6 +1,6 @@
-/** JSON whose whole numbers stay exact: beyond 2^53 a JavaScript number is rounded, and the service takes the digits as text too. */
+/** Parses JSON without rounding whole numbers beyond 2^53. The service also accepts their digits as a string. */
 
-/** Strings, which are passed over, and whole numbers of as many digits as a seed of 64 bits can have. */
+/** Matches strings, which are skipped, and whole numbers with up to as many digits as a 64-bit seed. */
 const words = /"(?:[^"\\]|\\.)*"|(?<![\w.+-])\d{16,20}(?![\w.])/g;
 
 /** Throws SyntaxError, as JSON.parse does. */

@@ -1,11 +1,17 @@
-/** The request as the page draws it: one level without the bodies that an engine collides with, for the web or in core glTF, since other profiles mean other programs; moved as the view wants it. */
-import type { Fault, Request } from './api';
+/**
+ * The request that the page draws: one level of detail, without collision bodies, as web or core glTF because other
+ * profiles need other readers, with the motion chosen in the view.
+ */
+import type { Issue, Request } from './api';
 import type { Schema } from './form/schema';
 
-/** A member of the output that lets the model move, its value, and how a menu calls it: a clip, or weights by which the page lets it sway. */
+/**
+ * An output member that adds motion, its value and its menu label. The motion is an animation clip or wind weights
+ * that the page evaluates.
+ */
 export interface Motion { member: string; value: string; label: string }
 
-/** What the schema of the output marks as motions. */
+/** Reads the motions from the schema of the output. */
 export const motions_in = (output: Schema): Motion[] => Object.entries(output.properties ?? {})
   .filter(([, schema]) => schema['x-widget'] === 'motion' || schema['x-widget'] === 'wind-weights')
   .flatMap(([member, schema]) => (schema.enum ?? []).map(String).filter((value) => value !== schema.default)
@@ -13,13 +19,13 @@ export const motions_in = (output: Schema): Motion[] => Object.entries(output.pr
 
 export const moved = (output: Request['output'], motion: Motion): Request['output'] => ({ ...output, [motion.member]: motion.value });
 
-export const is_output = (fault: Fault): boolean => /^\/output(\/|$)/.test(fault.pointer);
+export const is_output = (issue: Issue): boolean => /^\/output(\/|$)/.test(issue.pointer);
 
-/** The formats that a generator has besides, as far as its parameters allow. */
+/** The additional formats that a generator has with these parameters. */
 export const own_formats = (schema: Schema, { parameters }: Request): string[] => (schema['x-formats'] ?? []).filter((format) =>
   Object.entries(schema['x-formats-where']?.[format] ?? {}).every(([name, value]) => (parameters[name] ?? schema.properties?.[name]?.default) === value));
 
-/** The schema of the output with the formats alone that the generator has, and what the request asks for. */
+/** The schema of the output, limited to the formats of the generator and the requested format. */
 export function with_formats(output: Schema, formats: string[], request: Request): Schema {
   const { format, ...others } = output.properties ?? {};
   const can = (format?.enum ?? []).filter((each) => formats.includes(String(each)) || each === request.output?.['format']);

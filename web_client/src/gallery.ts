@@ -1,13 +1,13 @@
-/** The presets as cards with pictures, by generator, narrowed by words, generator and tags. */
+/** The presets as cards with thumbnails, grouped by generator and filtered by words, generator and tags. */
 import type { Generator, Preset } from './api';
 import { el } from './dom';
 import { neighbour, roving } from './roving';
 import { matcher } from './words';
 
 export interface Gallery {
-  /** Marks the card of the preset that is open; null for none. */
+  /** Marks the card of the open preset; null marks none. */
   mark(name: string | null): void;
-  /** Puts the cursor into the search box. */
+  /** Moves the focus to the search box. */
   search(): void;
 }
 
@@ -16,7 +16,7 @@ const chip = (text: string, attributes: Record<string, string> = {}): HTMLElemen
 const is_pressed = (button: HTMLElement): boolean => button.getAttribute('aria-pressed') === 'true';
 const press = (button: HTMLElement, on: boolean): void => button.setAttribute('aria-pressed', String(on));
 
-/** In the order of the generators; what none of them is told for comes last. */
+/** In the order of the generators. Presets of an unlisted generator come last. */
 function families(presets: Preset[], generators: Generator[]): { title: string; of_it: Preset[] }[] {
   const by_name = Map.groupBy(presets, (preset) => preset.generator);
   const known = generators.filter(({ name }) => by_name.has(name));
@@ -24,14 +24,14 @@ function families(presets: Preset[], generators: Generator[]): { title: string; 
   return [...known, ...others].map(({ name, title }) => ({ title, of_it: by_name.get(name) ?? [] }));
 }
 
-/** Tags of more than one preset, the most frequent first. */
+/** Tags that more than one preset has, the most frequent first. */
 function tags_of(presets: Preset[]): string[] {
   const counts = new Map<string, number>();
   for (const tag of presets.flatMap((preset) => preset.tags)) counts.set(tag, (counts.get(tag) ?? 0) + 1);
   return [...counts].filter(([, count]) => count > 1).sort((a, b) => b[1] - a[1] || (a[0] < b[0] ? -1 : 1)).map(([tag]) => tag);
 }
 
-export function draw_gallery(place: HTMLElement, presets: Preset[], generators: Generator[], choose: (preset: Preset) => void): Gallery {
+export function draw_gallery(container: HTMLElement, presets: Preset[], generators: Generator[], choose: (preset: Preset) => void): Gallery {
   const search = el('input', { type: 'search', placeholder: 'Search', 'aria-label': 'Search the gallery', 'aria-keyshortcuts': '/', autocomplete: 'off' });
   const chips = tags_of(presets).map((tag) => ({ tag, button: chip(tag) }));
   const more_head = el('summary', {}, 'More tags');
@@ -51,7 +51,7 @@ export function draw_gallery(place: HTMLElement, presets: Preset[], generators: 
   });
   const cards = groups.flatMap((group) => group.cards);
   const visible = (): HTMLElement[] => cards.map((each) => each.element).filter((each) => !each.hidden);
-  const one_card = roving(place, visible, neighbour, () => search.focus());
+  const one_card = roving(container, visible, neighbour, () => search.focus());
 
   const narrow = (): void => {
     const wanted = chips.filter(({ button }) => is_pressed(button)).map(({ tag }) => tag);
@@ -69,7 +69,7 @@ export function draw_gallery(place: HTMLElement, presets: Preset[], generators: 
     }
     none.hidden = left > 0;
     const chosen = [...groups.filter(({ button }) => is_pressed(button)).map(({ button }) => button.textContent), ...wanted];
-    none_text.textContent = `Nothing here has ${[search.value.trim() && `the words “${search.value.trim()}”`, chosen.length > 0 && `the marks ${chosen.join(', ')}`].filter(Boolean).join(' and ')}.`;
+    none_text.textContent = `No preset has ${[search.value.trim() && `the words “${search.value.trim()}”`, chosen.length > 0 && `the marks ${chosen.join(', ')}`].filter(Boolean).join(' and ')}.`;
     count.textContent = `${left} of ${cards.length} presets`;
     more_head.textContent = wanted.length > 0 ? `More tags: ${wanted.join(', ')}` : 'More tags';
     one_card.settle();
@@ -82,7 +82,7 @@ export function draw_gallery(place: HTMLElement, presets: Preset[], generators: 
   }
 
   search.addEventListener('input', () => {
-    // Whoever searches wants to see what is found.
+    // A search opens all groups, so that its results are visible.
     if (search.value.trim()) more.open = false;
     narrow();
   });
@@ -104,7 +104,7 @@ export function draw_gallery(place: HTMLElement, presets: Preset[], generators: 
   roving(kinds, () => groups.map(({ button }) => button)).settle();
   roving(more, () => chips.map(({ button }) => button)).settle();
   narrow();
-  place.replaceChildren(el('div', { class: 'gallery-head' }, search, kinds, more, count), ...groups.map((group) => group.element), none);
+  container.replaceChildren(el('div', { class: 'gallery-head' }, search, kinds, more, count), ...groups.map((group) => group.element), none);
   return {
     mark(name) {
       for (const { preset, element } of cards) {
@@ -118,7 +118,7 @@ export function draw_gallery(place: HTMLElement, presets: Preset[], generators: 
 
 function card(preset: Preset, choose: () => void): HTMLElement {
   const picture = el('img', { src: `./thumbnails/${preset.name}.webp`, alt: '', width: 192, height: 144, loading: 'lazy', decoding: 'async' });
-  // A server that is gone comes back.
+  // The server may be unreachable only for a short time, so the thumbnails are requested again.
   let wait = 5000;
   picture.addEventListener('load', () => picture.classList.remove('missing'));
   picture.addEventListener('error', () => {

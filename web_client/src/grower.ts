@@ -1,4 +1,4 @@
-/** Live update: keeps the picture in step with the request, whatever the server does meanwhile. */
+/** Live update: keeps the view consistent with the request, whatever the server's state. */
 import { Busy, Gone, Heavy, Refusal, follow, generate, in_format, type Made, type Request } from './api';
 
 export type Phase =
@@ -9,25 +9,37 @@ export type Phase =
   | { kind: 'locked' }
   | { kind: 'stopped' };
 
-/** The first change after a rest is asked for at once; while a hand moves on, the server is asked when it rests this long. */
+/**
+ * The first change after a pause is sent at once. During continuous changes, the request is sent after a pause this
+ * long.
+ */
 const debounce = 150;
-/** The parts of the way from a change to its model, in the browser's own list of times: the last of each. */
+/**
+ * Records a step from the change to its model in the browser's performance timeline. Only the last entry of each name
+ * is kept.
+ */
 export function measured(name: string, start: number, end = performance.now()): void {
   performance.clearMeasures(`seedmesh-${name}`);
   performance.measure(`seedmesh-${name}`, { start, end });
 }
 
-/** A model that took longer is made under the event stream, which tells the progress at the cost of a second request. */
+/**
+ * If the last model took longer, the next is generated with an event stream. This shows the progress but costs a
+ * second request.
+ */
 const slow = 400;
 const longest_wait = 30_000;
-/** A model of as many triangles is fetched only when asked for: it can cost a browser its picture. */
+/**
+ * A model with at least this many triangles is fetched only after confirmation, because it can make the browser lose
+ * its WebGL context.
+ */
 export const heavy = 3_000_000;
 
 /**
- * Runs `task` until it gives something other than "full" or "gone", waiting longer each time. A nudge ends a wait.
- * Refusals and the signal's reason are thrown.
+ * Retries `task` while the server is at capacity or unreachable, with growing pauses. `nudge` ends a pause. Refusals
+ * and the reason of an aborted signal are thrown.
  */
-export class Patience {
+export class Retrier {
   private readonly wakes = new Set<() => void>();
 
   async persist<T>(task: () => Promise<T>, wait: (reason: 'full' | 'gone', until: number) => void, signal: AbortSignal): Promise<T> {
@@ -72,28 +84,28 @@ export class Grower {
   private timer = 0;
   private last: Request | null = null;
   private last_took = 0;
-  /** When the last change was made, on the clock of the page. */
+  /** The time of the last change (performance.now). */
   private asked = -Infinity;
-  /** Counts what was begun or given up, so that a late answer to a question is known as such. */
+  /** Incremented with every start and cancellation, so that an outdated answer is recognised. */
   private turn = 0;
-  /** The request whose model may be as large as it is. */
+  /** The request whose large model the user has confirmed. */
   private permitted: Request | null = null;
-  /** What was asked about the last model that is so large. */
+  /** The last request that needed confirmation, and its number of triangles. */
   private asked_about: { request: Request; triangles: number } | null = null;
   private is_fetching = false;
-  private readonly patience = new Patience();
+  private readonly retrier = new Retrier();
   private readonly tell: (phase: Phase) => void;
   private readonly show: (made: Made, request: Request) => Promise<void>;
   private readonly permit: (triangles: number) => Promise<boolean>;
 
-  /** `permit` asks whether a model of so many triangles is wanted. */
+  /** `permit` asks the user whether to fetch a model with this number of triangles. */
   constructor(tell: (phase: Phase) => void, show: (made: Made, request: Request) => Promise<void>, permit: (triangles: number) => Promise<boolean>) {
     this.tell = tell;
     this.show = show;
     this.permit = permit;
   }
 
-  /** The last request wins: what runs for an earlier one is broken off, in the server too. */
+  /** A newer request replaces an older one, whose generation is also cancelled on the server. */
   ask(request: Request, when: 'now' | 'soon'): void {
     const now = performance.now();
     const rested = now - this.asked > debounce;
@@ -106,7 +118,10 @@ export class Grower {
 
   get is_running(): boolean { return this.running !== null; }
 
-  /** What is being made is known to have so many triangles: where these are many, it is asked for before it is fetched. */
+  /**
+   * Reports the expected number of triangles of the running request. Above the limit, the user is asked before the
+   * download.
+   */
   expect(triangles: number): void {
     if (triangles >= heavy && this.is_fetching && this.permitted !== this.last) void this.question(triangles);
   }
@@ -116,9 +131,9 @@ export class Grower {
     this.tell({ kind: 'stopped' });
   }
 
-  /** Ends a wait, or starts over after a cancel. */
+  /** Ends a pause, or restarts after a cancellation. */
   again(): void {
-    if (this.running) this.patience.nudge();
+    if (this.running) this.retrier.nudge();
     else if (this.last && this.last === this.asked_about?.request && this.last !== this.permitted) void this.question(this.asked_about.triangles);
     else if (this.last) this.ask(this.last, 'now');
   }
@@ -154,7 +169,7 @@ export class Grower {
     const { asked } = this;
     const sent = performance.now();
     try {
-      const made = await this.patience.persist(
+      const made = await this.retrier.persist(
         () => this.fetch(in_format(request, 'glb'), signal),
         (reason, until) => this.tell({ kind: 'waiting', reason, until }),
         signal,
@@ -184,7 +199,7 @@ export class Grower {
     const took = this.last_took > slow ? await follow(request, (share) => this.tell({ kind: 'growing', share }), signal) : null;
     const made = await generate(request, signal, this.permitted === this.last ? Infinity : heavy);
     this.last_took = performance.now() - begin;
-    // What was followed lies in the server's cache because it was made for this page just now.
+    // The model is in the cache only because this page has just generated it, so it is not reported as cached.
     return took === null ? made : { ...made, statistics: { ...made.statistics, milliseconds: took, is_kept: false } };
   }
 }

@@ -1,35 +1,35 @@
 /**
- * Growing by a number of the request (x-widget: growth), such as the age of one plant or of all: the model at one value
- * after the other. The request stays as it is; only what is looked at changes.
+ * Plays the growth of a model over one number of the request (x-widget: growth), such as the age of a plant. The
+ * stored request is unchanged; only the view changes.
  */
 import type { Request } from './api';
 import { el, icon, part, rounded } from './dom';
 import { is_members } from './form/schema';
 
-/** What a field asks for: which number, up to where, what it is called and counted in. */
+/** The event detail of a growth field: the number to vary, its upper bound, its label and its unit. */
 export interface GrowthAsk { pointer: string; until: number; label: string; unit: string }
 
-/** So many values are shown from nothing to all, each at least so long, in milliseconds. */
+/** The number of steps from zero to the full value, and the minimum time of each step in milliseconds. */
 const stages = 24, beat = 80;
 
 interface Context {
   request(): Request | null;
-  /** Shows a request in place of the page's own, until that changes or is shown again. */
+  /** Shows another request in place of the page's own until the own request changes or is shown again. */
   preview(request: Request): void;
   back(): void;
-  /** Ends when what was asked for last is drawn; false where it was refused. */
+  /** Resolves when the last requested model is drawn; false if it was refused. */
   drawn(): Promise<boolean>;
-  /** Whether the camera stays where it is. */
+  /** Keeps the camera in place while true. */
   hold(on: boolean): void;
 }
 
 export interface Growth {
   start(ask: GrowthAsk): void;
-  /** The request has changed: what grew is gone. */
+  /** Stops the playback because the request has changed. */
   leave(): void;
 }
 
-/** The value with one number in it exchanged; all on the way to it is copied. */
+/** Returns a copy of the value with one number replaced. */
 export function with_number(value: unknown, pointer: string, number: number): unknown {
   if (pointer === '') return number;
   const [, key = '', rest = ''] = /^\/([^/]*)(.*)$/.exec(pointer) ?? [];
@@ -44,7 +44,7 @@ export function wire_growth(context: Context): Growth {
   const play = el('button', { type: 'button', id: 'growth-play' });
   const slider = el('input', { type: 'range', id: 'growth-value', min: 0, max: stages });
   const now = el('output', { id: 'growth-now' });
-  const away = el('button', { type: 'button', id: 'growth-away', class: 'quiet', 'aria-label': 'Leave the growth', title: 'Back to the request as it is' }, icon('remove'));
+  const away = el('button', { type: 'button', id: 'growth-away', class: 'quiet', 'aria-label': 'Close the growth', title: 'Back to the unchanged request' }, icon('remove'));
   bar.append(play, slider, now, away);
   let ask: GrowthAsk = { pointer: '', until: 1, label: '', unit: '' };
   let turn = 0;
@@ -60,7 +60,7 @@ export function wire_growth(context: Context): Growth {
   const tell = (playing: boolean): void => {
     is_playing = playing;
     play.textContent = playing ? 'Stop' : 'Play';
-    play.setAttribute('aria-label', playing ? 'Stop the growth' : 'Play the growth');
+    play.setAttribute('aria-label', playing ? 'Pause the growth' : 'Play the growth');
   };
   const stop = (): void => { turn += 1; tell(false); };
 

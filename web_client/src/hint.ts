@@ -1,4 +1,4 @@
-/** One line that tells a first visitor what can be done here. */
+/** A one-line hint for first visitors. */
 import { part } from './dom';
 
 const known = 'seedmesh-hint-seen';
@@ -12,12 +12,12 @@ export function wire_hint(): void {
   });
 }
 
-/** Whoever has done something needs no hint any more. */
+/** After the first action the hint is no longer needed. */
 export function forget_hint(): void {
   part('hint').hidden = true;
   try {
     localStorage.setItem(known, '1');
-  } catch { /* A browser that keeps nothing shows it again. */ }
+  } catch { /* Without storage, the hint is shown again on the next visit. */ }
 }
 
 function remembered(): boolean {

@@ -1,6 +1,6 @@
 /**
- * The key that a closed service asks for. It is kept in memory, in the tab's own storage where a hand says so, and goes
- * nowhere but into the field of the request that the service documents.
+ * The key of a service with access control. It is kept in memory, and in session storage only if the user chooses so.
+ * It is sent only in the header that the API documents.
  */
 
 const kept = 'seedmesh-key';
@@ -15,7 +15,7 @@ function remembered(): string | null {
 
 let key = remembered();
 let asking: Promise<string | null> | null = null;
-/** Whoever has closed the question is not asked again by every request. */
+/** After the user has closed the dialog, later requests do not open it again. */
 let is_closed = false;
 
 export const has_key = (): boolean => key !== null;
@@ -24,7 +24,7 @@ export function key_fields(): Record<string, string> {
   return key === null ? {} : { Authorization: `Bearer ${key}` };
 }
 
-/** Lets the next request ask again. */
+/** Allows the next request to open the dialog again. */
 export const reopen = (): void => { is_closed = false; };
 
 function keep(next: string | null, in_tab: boolean): void {
@@ -32,23 +32,23 @@ function keep(next: string | null, in_tab: boolean): void {
   try {
     if (next !== null && in_tab) sessionStorage.setItem(kept, next);
     else sessionStorage.removeItem(kept);
-  } catch { /* Then it is kept in memory alone. */ }
+  } catch { /* Without storage, the key is kept in memory only. */ }
 }
 
-/** Whether the service knows the key: it looks at that before it reads the request. */
+/** Asks the service whether it accepts the key. The service checks the key before it reads the request body. */
 async function holds(candidate: string): Promise<boolean> {
   const answer = await fetch('v1/validate', { method: 'POST', headers: { 'Content-Type': 'application/json', Authorization: `Bearer ${candidate}` }, body: 'null' });
   return answer.status !== 401 && answer.status !== 403;
 }
 
 /**
- * Called where the service has refused for want of a key (401), or perhaps because of the one that was shown (403).
- * true where the request is worth another try. All requests that wait share one question.
+ * Called when the service requires a key (401) or refuses the sent key (403). Returns true if the request should be
+ * repeated. All waiting requests share one dialog.
  */
 export async function unlock(status: number, shown: boolean): Promise<boolean> {
   if (shown && key !== null && status === 403 && (await holds(key))) return false;
   if (is_closed) return false;
-  const why = shown ? 'The service does not know the key that it was shown.' : 'The service makes models for those who have a key.';
+  const why = shown ? 'The service does not accept the key.' : 'The service generates models only with a key.';
   asking ??= (async () => {
     try {
       const { ask } = await import('./key_dialog');

@@ -1,23 +1,26 @@
-/** Levels of detail: fetched on demand, counted, chosen by number or by distance; the choice outlives another seed. */
+/**
+ * The choice of a level of detail: fetched on demand, selected by number or by distance, and kept when the seed
+ * changes.
+ */
 import { grouped, part } from './dom';
 import type { Viewer } from './viewer/viewer';
 
 interface Context {
-  /** The menu, and what it offers. */
+  /** The select element and its options. */
   select: HTMLSelectElement;
   offer(options: [string, string][]): void;
-  /** The zip with levels of detail of the model that is shown; fewer than asked for where it has no more. */
+  /** Fetches the zip with the levels of the shown model. It may contain fewer levels than requested. */
   levels(): Promise<ArrayBuffer>;
   fail(text: string): void;
-  /** Levels have come for the first time. */
+  /** Called when levels are available for the first time. */
   came(): void;
 }
 
 export interface LevelChoice {
   choose(value: string): void;
-  /** Another model is shown. */
+  /** Called when another model is shown. */
   shown(triangles: number): void;
-  /** Another request was opened: its model is shown as it is made. */
+  /** Called when another request is opened, whose model is shown without levels. */
   forget(): void;
 }
 
@@ -26,10 +29,10 @@ export function wire_levels(viewer: Viewer, { select, offer, levels, fail, came 
   let counts: number[] | null = null;
 
   const label = (value: string): void => {
-    const whole: [string, string] = ['', `As made · ${grouped(made)}`];
+    const whole: [string, string] = ['', `As generated · ${grouped(made)}`];
     offer(counts
       ? [whole, ['auto', 'By distance'], ...counts.map((count, index): [string, string] => [String(index), `${index} · ${grouped(count)} triangles`])]
-      : [whole, ['ask', 'Fetch coarser levels']]);
+      : [whole, ['ask', 'Load coarser levels']]);
     select.value = value;
   };
   const show = (value: string): void => viewer.choose_level(value === '' ? null : value === 'auto' ? 'auto' : Number(value));
@@ -38,7 +41,7 @@ export function wire_levels(viewer: Viewer, { select, offer, levels, fail, came 
     select.disabled = true;
     try {
       const found = await viewer.take_levels(await levels());
-      // Another model has come: it asks for its own.
+      // The model has changed during the download and loads its own levels.
       if (!found) return;
       const is_first = counts === null;
       counts = found;
@@ -73,12 +76,12 @@ export function wire_levels(viewer: Viewer, { select, offer, levels, fail, came 
   };
 }
 
-/** The statistic of triangles: those that are drawn, of those that were made. */
-export function tell_triangles(viewer: Viewer): void {
-  const told = part('triangles');
-  const made = told.dataset['made'];
+/** Shows the number of drawn triangles out of those generated. */
+export function show_triangles(viewer: Viewer): void {
+  const output = part('triangles');
+  const made = output.dataset['made'];
   if (made === undefined) return;
   const drawn = viewer.level_triangles;
   const text = drawn === null || drawn === Number(made) ? grouped(Number(made)) : `${grouped(drawn)} of ${grouped(Number(made))}`;
-  if (told.textContent !== text) told.textContent = text;
+  if (output.textContent !== text) output.textContent = text;
 }

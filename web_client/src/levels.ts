@@ -1,11 +1,11 @@
-/** What the viewer asks the server for besides the model itself: levels of detail, and which motions there are. */
+/** Additional requests of the view: levels of detail, and the motions that a model supports. */
 import { Refusal, check, generate, type Request } from './api';
 import { moved, type Motion } from './for_view';
 
-/** The most that the service makes. */
+/** The largest number of levels that the server generates. */
 const most_levels = 5;
 
-/** A zip with as many levels as the model has. */
+/** Fetches a zip with all levels of the model. The server refuses more levels than a model has, so fewer are tried. */
 export async function levels_of(request: Request): Promise<ArrayBuffer> {
   for (let lods = most_levels; ; lods -= 1) {
     try {
@@ -16,14 +16,14 @@ export async function levels_of(request: Request): Promise<ArrayBuffer> {
   }
 }
 
-/** Which of the motions the generator can make, as far as its word about a request goes. */
+/** Returns the motions that the generator supports for a request, as far as validation shows. */
 export async function motions_of(request: Request, motions: Motion[]): Promise<Motion[]> {
   const can = await Promise.all(motions.map(async (motion) => {
     try {
       await check({ ...request, output: moved(request.output, motion) ?? {} });
       return true;
     } catch (error) {
-      return error instanceof Refusal && !error.faults.some((fault) => fault.pointer.startsWith('/output'));
+      return error instanceof Refusal && !error.issues.some((issue) => issue.pointer.startsWith('/output'));
     }
   }));
   return motions.filter((_, index) => can[index]);

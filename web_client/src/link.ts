@@ -1,15 +1,18 @@
-/** A request as text in the page's own address. The link carries all; no server keeps it. */
+/** Encodes a request in the fragment of the page's address. The link is self-contained; no server stores it. */
 import { complete, type Request } from './api';
 import { parse_json } from './exact';
 
-/** Browsers and what is between them and the reader cut longer addresses; a request with a picture is longer. */
+/** Browsers and intermediaries truncate longer addresses. Requests with embedded images exceed this. */
 export const longest_link = 32_000;
 
 async function through(bytes: Uint8Array<ArrayBuffer>, stream: CompressionStream | DecompressionStream): Promise<ArrayBuffer> {
   return new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer();
 }
 
-/** Deflated JSON in base64url, as in the server's permalinks; 250 to 1,000 characters for most requests. */
+/**
+ * Deflated JSON in base64url, the same encoding as the server's permalinks; 250 to 1,000 characters for most
+ * requests.
+ */
 async function pack(request: Request): Promise<string> {
   const json = new TextEncoder().encode(JSON.stringify(request));
   const packed = new Uint8Array(await through(json, new CompressionStream('deflate-raw')));
@@ -18,13 +21,13 @@ async function pack(request: Request): Promise<string> {
   return btoa(binary).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
 }
 
-/** What stands behind `#`: the request, and behind a point the preset that it came from, which gives it its name. */
+/** The fragment: the encoded request, then a dot and the preset, which provides the title. */
 export const fragment_of = async (request: Request, preset: string | null): Promise<string> =>
   `${await pack(request)}${preset ? `.${preset}` : ''}`;
 
 export const preset_in = (fragment: string): string | null => /\.([a-z0-9_-]+)$/.exec(fragment)?.[1] ?? null;
 
-/** Throws where the text is no request. */
+/** Throws if the text does not encode a request. */
 export async function unpack(fragment: string): Promise<Request> {
   const [text = ''] = fragment.split('.');
   const binary = atob(text.replaceAll('-', '+').replaceAll('_', '/'));

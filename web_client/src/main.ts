@@ -1,8 +1,8 @@
 /**
- * Brings the parts together. The address tells what is shown: `#…` carries a request; in the query `quality=low` or
- * `quality=high` chooses how it is drawn, and `stage` leaves only the picture, for making pictures.
+ * Connects the parts of the page. The fragment of the address holds the request. The query `quality=low` or
+ * `quality=high` sets the rendering quality, and `stage` hides everything but the view, for screenshots.
  */
-import { Locked, Refusal, get_preset, get_offer, get_schema, type Fault, type Generator, type Made, type Preset, type Request } from './api';
+import { Locked, Refusal, get_preset, get_offer, get_schema, type Issue, type Generator, type Made, type Preset, type Request } from './api';
 import { Address, first_shown } from './address';
 import { Checker, joined } from './checker';
 import { el, grouped, part, sentence } from './dom';
@@ -10,7 +10,7 @@ import type { Form } from './form/form';
 import type { OutputForm } from './form/output_form';
 import { same, type Schema } from './form/schema';
 import { draw_gallery, type Gallery } from './gallery';
-import { Grower, Patience } from './grower';
+import { Grower, Retrier } from './grower';
 import { forget_hint, wire_hint } from './hint';
 import { reopen } from './key';
 import { for_view, is_output, motions_in, own_formats, with_formats, type Motion } from './for_view';
@@ -29,10 +29,10 @@ import './style/gallery.css';
 import './style/form.css';
 import './style/view.css';
 
-/** Begun now, and taken by whoever asks first: the server answers while the picture is set up. */
+/** Requested early, so that the server answers while the view is set up. The first caller takes the result. */
 function begun<T>(task: () => Promise<T>): (again: () => Promise<T>) => Promise<T> {
   let early: Promise<T> | null = task();
-  early.catch(() => { /* Whoever takes it is told. */ });
+  early.catch(() => { /* The caller that takes the result handles the error. */ });
   return (again) => {
     const taken = early ?? again();
     early = null;
@@ -44,22 +44,23 @@ const early_first = location.hash.length > 1 ? null : begun(() => get_preset(fir
 
 const store = new Store();
 const status = wire_status();
-const patience = new Patience();
+const retrier = new Retrier();
 const high = is_high();
 const viewer = make_viewer(status, high);
 const seed = wire_seed((value) => store.edit({ seed: value }));
 const grower = new Grower((phase) => {
-  // A question for a key stands until it is answered, whatever else begins.
+  // The state `locked` is kept until the key dialog is answered, even if a model is being generated.
   if (!is_locked || phase.kind !== 'growing') status.phase(phase);
   if (phase.kind === 'refused' && phase.refusal instanceof Locked) locked(phase.refusal, () => grower.again());
   else if (phase.kind === 'refused') refuse(phase.refusal);
   if (phase.kind === 'ready' || phase.kind === 'refused') settle(phase.kind === 'ready');
-  if (phase.kind === 'refused' || phase.kind === 'stopped') tell_apart();
+  if (phase.kind === 'refused' || phase.kind === 'stopped') mark_previous_model();
 }, show, async (triangles) => document.body.classList.contains('stage') || status.ask(`This model has ${grouped(triangles)} triangles.`, 'Draw it'));
-const checker = new Checker((faults, check, request) => {
-  checked = faults;
-  show_faults();
-  // An estimate may be several times too high; the answer itself tells before it is fetched whole.
+const checker = new Checker((issues, check, request) => {
+  checked = issues;
+  show_issues();
+  // An inexact estimate can be several times too high. In that case the response itself reports the number before the
+  // download.
   if (check?.estimate?.exact && looked_at === request) grower.expect(check.estimate.triangles);
 });
 const tabs = wire_tabs((page) => tools?.page(page));
@@ -70,34 +71,34 @@ let gallery: Gallery | null = null;
 let form: Form | null = null;
 let output_form: OutputForm | null = null;
 let tools: Tools | null = null;
-/** Ends with the opening of something else, and with Cancel. */
+/** Aborted when another request is opened or the user cancels. */
 let opening = new AbortController();
-/** Ends when the form of another request is to be drawn. */
+/** Aborted when the form of another request is to be drawn. */
 let drawing = new AbortController();
 let keep_camera = false;
 let last: { bytes: ArrayBuffer; model: Model | null; triangles: number; base: Request | null; title: string; seed: Request['seed'] } | null = null;
-/** What is asked for as a picture: the page's request, or another in its place. */
+/** The request that the view shows: the page's own, or one in its place. */
 let looked_at: Request | null = null;
-/** What the making of the model, what the checking of the request, and what the model itself had to say. */
+/** Results of the generation, the validation and the model file itself. */
 let refusal: Refusal | null = null;
-let checked: Fault[] = [];
-let said: Fault[] = [];
-/** What was said of the model when it was opened, and has to stay readable when it is drawn. */
+let checked: Issue[] = [];
+let said: Issue[] = [];
+/** The message shown when the request was opened. It must stay visible after the model is drawn. */
 let standing = '';
 let is_locked = false;
 let waiting: ((drawn: boolean) => void)[] = [];
-/** The schema of the form, and of which generator it is. */
+/** The schema of the current form, and its generator. */
 let schema: Schema | null = null;
 let schema_of = '';
-/** What can be asked of every model, and what of it are formats and motions. */
+/** The schema of the output, which all models share, with its formats and motions. */
 let output_schema: Promise<Schema> | null = null;
 let formats = ['glb'];
 let motions: Motion[] = [];
 
 const persist = <T>(task: () => Promise<T>, signal: AbortSignal): Promise<T> =>
-  patience.persist(task, (reason, until) => status.phase({ kind: 'waiting', reason, until }), signal);
+  retrier.persist(task, (reason, until) => status.phase({ kind: 'waiting', reason, until }), signal);
 
-/** Asked for once; where that is refused, whoever comes next asks again. */
+/** Fetched once. After a failure the next caller tries again. */
 const get_output = (): Promise<Schema> => output_schema ??= persist(() => get_schema('output'), new AbortController().signal)
   .catch((error: unknown) => { output_schema = null; throw error; });
 
@@ -108,13 +109,13 @@ const quietly = (task: Promise<void>, again = (): void => {}): void => {
   });
 };
 
-/** What opens something can be tried once more, when there is a key. */
+/** An action that opens a request is repeated after a key was entered. */
 const opening_of = (open: () => Promise<void>): void => quietly(open(), () => opening_of(open));
 
-/** Without a key there is nothing to show; the way to it stays. */
+/** Without a key no model can be shown. The alert offers to enter one. */
 function locked(why: Locked, again: () => void): void {
   status.phase({ kind: 'refused', refusal: why });
-  status.faults(why.message, [], 0, () => { reopen(); status.faults('', [], 0, () => {}); again(); }, 'Enter a key');
+  status.issues(why.message, [], 0, () => { reopen(); status.issues('', [], 0, () => {}); again(); }, 'Enter a key');
 }
 
 const begin_opening = (): AbortSignal => {
@@ -126,7 +127,7 @@ const begin_opening = (): AbortSignal => {
 
 function stand(words: string): void {
   standing = words;
-  status.faults(words, [], 0, () => {});
+  status.issues(words, [], 0, () => {});
 }
 
 const address = new Address({
@@ -135,7 +136,7 @@ const address = new Address({
   generators: () => generators,
   get_preset: (name, signal) => (name === first_shown && early_first ? early_first(() => get_preset(name, signal)) : get_preset(name, signal)),
   begin: begin_opening,
-  damaged: () => stand('This link is damaged: it holds no whole request. Ask for it once more, or choose from the gallery.'),
+  damaged: () => stand('This link is damaged: its request is not complete. Get the link again, or select a preset from the gallery.'),
 });
 
 const core: Core = {
@@ -175,7 +176,10 @@ function grow(request: Request, when: 'now' | 'soon'): void {
   grower.ask(for_view(request, tools?.motion() ?? null), when);
 }
 
-/** Whether a request that was written at once has nothing left of the one that it was written over; of one or two parameters nothing can be told. */
+/**
+ * True if a JSON request shares no parameter value with the request that it replaces. One or two parameters are too
+ * few to decide.
+ */
 function is_another(request: Request, preset: string | null): boolean {
   const { current } = store;
   if (!current || request.generator !== current.request.generator) return true;
@@ -184,8 +188,8 @@ function is_another(request: Request, preset: string | null): boolean {
   return before.length > 2 && before.every(([name, value]) => !same(request.parameters[name], value));
 }
 
-/** A model that stays although another request is open is told to be the other's. */
-function tell_apart(): void {
+/** Marks the measures as those of the previous model while it stays on screen. */
+function mark_previous_model(): void {
   if (last && store.current && last.base !== store.current.base) still_shown(last.title, viewer);
 }
 
@@ -193,10 +197,11 @@ async function show(made: Made, request: Request): Promise<void> {
   const { triangles, warnings } = made.statistics;
   refusal = null;
   said = warnings > 0 ? warnings_in(made.bytes) : [];
-  // What was made has no errors: the check of an earlier text may say so later than the model does. Of the output it shows a part.
-  checked = checked.filter((fault) => fault.mild || is_output(fault));
-  show_faults();
-  if (viewer && !standing) status.faults('', [], 0, () => {});
+  // A generated model has no errors, even if the check of an earlier text reports some later. Errors of the output
+  // stay, because the view uses only a part of it.
+  checked = checked.filter((issue) => issue.mild || is_output(issue));
+  show_issues();
+  if (viewer && !standing) status.issues('', [], 0, () => {});
   last = { bytes: made.bytes, model: null, triangles, base: store.current?.base ?? null, title: store.current?.title ?? '', seed: request.seed };
   still_shown('', null);
   if (viewer) {
@@ -211,21 +216,21 @@ async function show(made: Made, request: Request): Promise<void> {
   const size = viewer?.measures.size;
   const [wide, high, deep] = size ? sides_of(size) : [];
   const measure = size ? `, ${wide} m wide, ${high} m high, ${deep} m deep` : '';
-  const told = `${store.current?.title ?? 'Model'}, seed ${request.seed}: ${grouped(pieces.count)} ${pieces.name.toLowerCase()}`;
-  part('picture').setAttribute('aria-label', told + measure);
-  status.arrived(told);
+  const summary = `${store.current?.title ?? 'Model'}, seed ${request.seed}: ${grouped(pieces.count)} ${pieces.name.toLowerCase()}`;
+  part('picture').setAttribute('aria-label', summary + measure);
+  status.arrived(summary);
   document.body.dataset['shown'] = String(Number(document.body.dataset['shown']) + 1);
 }
 
-/** At the fields and in the JSON. */
-function show_faults(): void {
-  const faults = joined(refusal?.faults ?? [], checked, said);
-  tools?.show_faults(faults);
-  form?.show_faults(faults);
-  output_form?.show_faults(faults);
+/** Shows errors at the fields and in the JSON. */
+function show_issues(): void {
+  const issues = joined(refusal?.issues ?? [], checked, said);
+  tools?.show_issues(issues);
+  form?.show_issues(issues);
+  output_form?.show_issues(issues);
 }
 
-/** What the field is called that stands nearest above a value. */
+/** The label of the nearest field that contains a value. */
 function label_at(pointer: string): string | undefined {
   for (let nearest = pointer; nearest; nearest = nearest.slice(0, nearest.lastIndexOf('/'))) {
     const label = part('parameters').querySelector(`[data-pointer="${CSS.escape(nearest)}"] > .field-head > .label`);
@@ -236,17 +241,17 @@ function label_at(pointer: string): string | undefined {
 
 function refuse(next: Refusal): void {
   refusal = next;
-  show_faults();
-  const { faults } = next;
-  const homeless = faults.filter((fault) => !form?.holds(fault) && !output_form?.holds(fault));
-  const one = faults.length === 1 ? faults[0] : undefined;
+  show_issues();
+  const { issues } = next;
+  const homeless = issues.filter((issue) => !form?.holds(issue) && !output_form?.holds(issue));
+  const one = issues.length === 1 ? issues[0] : undefined;
   const label = one && label_at(one.pointer);
-  const detail = faults.length > 1 ? `This request has ${faults.length} faults.` : label ? `${label}: ${next.message}` : sentence(next.message);
-  // One fault is its own summary.
-  const rest = homeless.filter((fault: Fault) => fault.message !== next.message);
-  status.faults(detail, rest, faults.length - homeless.length, () => {
+  const detail = issues.length > 1 ? `This request has ${issues.length} errors.` : label ? `${label}: ${next.message}` : sentence(next.message);
+  // A single error is already the summary.
+  const rest = homeless.filter((issue: Issue) => issue.message !== next.message);
+  status.issues(detail, rest, issues.length - homeless.length, () => {
     tabs.open('parameters');
-    go_to(part('parameters').querySelector('.field.faulty :is(.spot, input, textarea, select)'));
+    go_to(part('parameters').querySelector('.field.invalid :is(.spot, input, textarea, select)'));
   });
 }
 
@@ -255,32 +260,32 @@ function go_to(field: HTMLElement | null): void {
   field?.scrollIntoView({ block: 'center' });
 }
 
-/** To the first field with a warning; those that belong to no field stand under the JSON. */
+/** Leads to the first field with a warning. Warnings without a field are listed under the JSON. */
 function lead_to_warning(): void {
-  const mild = part('parameters').querySelector(':is(.fault.mild:not([hidden]), .spot.mild)');
+  const mild = part('parameters').querySelector(':is(.issue.mild:not([hidden]), .spot.mild)');
   tabs.open(mild ? 'parameters' : 'request');
   for (let up = mild?.closest('details'); up; up = up.parentElement?.closest('details')) up.open = true;
   go_to(mild ? mild.closest('.field')?.querySelector<HTMLElement>(':is(.spot.mild, input, textarea, select)') ?? null : part('request').querySelector('.spot.mild'));
 }
 
-/** The form of the request's generator; drawn once for each request that is opened, and when another hand wrote it. */
+/** Draws the form of the request's generator, once per opened request and after changes outside the form. */
 async function draw_parameters(state: State, is_new: boolean, signal: AbortSignal): Promise<void> {
   const { generator } = state.request;
   if (!generators.some(({ name }) => name === generator)) {
     form = schema = null;
     schema_of = '';
     tools?.explain({});
-    part('parameters').replaceChildren(el('h2', { class: 'unseen' }, 'Parameters'), el('p', { class: 'soft' }, `There is no generator “${generator}”, so there are no parameters to show. The JSON can be mended by hand.`));
+    part('parameters').replaceChildren(el('h2', { class: 'unseen' }, 'Parameters'), el('p', { class: 'soft' }, `There is no generator “${generator}”, so there are no parameters to show. Edit the JSON instead.`));
     return;
   }
-  const [known, output, { draw_form, keep_place, about, output_form: make_output }] = await Promise.all([
+  const [known, output, { draw_form, keep_view, about, output_form: make_output }] = await Promise.all([
     schema && schema_of === generator ? schema : persist(() => get_schema(generator, signal), signal), get_output(), persist(() => import('./form/form'), signal)]);
   const { request, base } = store.current ?? state;
   if (signal.aborted || request.generator !== generator) return;
   schema = known;
   schema_of = generator;
-  const restore = keep_place(part('parameters'));
-  // A form that is about to give way to another writes nothing.
+  const restore = keep_view(part('parameters'));
+  // A form that is being replaced must not write to the request.
   const mine: Form = draw_form(schema, request.parameters, base.parameters, '/parameters', (parameters) => { if (form === mine) store.edit({ parameters }); });
   form = mine;
   output_form ??= make_output((asked) => store.edit({ output: asked }));
@@ -289,9 +294,9 @@ async function draw_parameters(state: State, is_new: boolean, signal: AbortSigna
   restore();
   if (is_new) part('parameters').scrollTop = 0;
   explain();
-  // The answer may have come before the form.
+  // The response may have arrived before the form.
   if (refusal) refuse(refusal);
-  else show_faults();
+  else show_issues();
 }
 
 const formats_of = (of: Schema, request: Request): string[] => [...formats, ...own_formats(of, request)];
@@ -318,7 +323,7 @@ store.subscribe((state, cause) => {
     checked = said = [];
     drawing.abort();
     drawing = new AbortController();
-    if (schema_of !== state.request.generator) part('parameters').replaceChildren(el('p', { class: 'soft' }, 'The parameters are on their way.'));
+    if (schema_of !== state.request.generator) part('parameters').replaceChildren(el('p', { class: 'soft' }, 'The parameters are loading.'));
   }
   if (cause !== 'open') {
     standing = '';
@@ -338,7 +343,7 @@ async function load_tools(signal: AbortSignal): Promise<void> {
   if (store.current) tools.follow(store.current, true);
   if (last?.model) tools.shown(last.model, last.triangles);
   explain();
-  show_faults();
+  show_issues();
   document.body.dataset['tools'] = 'ready';
 }
 
@@ -346,21 +351,21 @@ async function start(): Promise<void> {
   wire_hint();
   part('cancel').addEventListener('click', () => {
     begin_opening();
-    // Nothing is made: what is waited for is the form.
+    // If no model is being generated, the user cancels the loading of the form.
     if (!grower.is_running) drawing.abort();
     gallery?.mark(store.current?.preset ?? null);
     grower.cancel();
   });
-  // The address is the request's: a jump within the page must not be written there.
+  // The fragment holds the request, so following the link must not change it.
   part('skip').addEventListener('click', (event) => { event.preventDefault(); part('picture').focus(); });
   addEventListener('locked', (event) => {
     is_locked = (event as CustomEvent<boolean>).detail;
     status.phase(is_locked ? { kind: 'locked' } : grower.is_running ? { kind: 'growing', share: null } : { kind: 'ready' });
   });
-  // What happens while a model is made would wipe the word away.
+  // Messages during the generation would replace this one, so it is shown after the model is drawn.
   addEventListener('tell', (event) => void core.drawn().then((drawn) => { if (drawn) status.say((event as CustomEvent<string>).detail); }));
   const again = (): void => {
-    patience.nudge();
+    retrier.nudge();
     grower.again();
     if (form || !store.current || !drawing.signal.aborted) return;
     drawing = new AbortController();

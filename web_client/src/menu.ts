@@ -1,7 +1,7 @@
-/** Small menus made of <details>: they close on Escape, on a click elsewhere, and after a choice. */
+/** Menus made of <details>, which close on Escape, on a click elsewhere, and after a choice. */
 import { keep_focus } from './focus';
 
-/** A menu ends above the lower rim of the window: what it has more is scrolled to. */
+/** Limits the height of a menu to the window; the rest is reached by scrolling. */
 function give_room(menu: HTMLDetailsElement): void {
   const body = menu.querySelector<HTMLElement>('.menu-body');
   if (body) body.style.setProperty('--room', `${Math.max(120, innerHeight - body.getBoundingClientRect().top - 8)}px`);

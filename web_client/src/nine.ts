@@ -1,8 +1,10 @@
-/** Nine seeds of one request as pictures in three rows: this one and eight that chance chose. One is taken, or none. */
+/**
+ * Shows nine seeds of one request in a 3 x 3 grid: the current one and eight random ones. The user may choose one.
+ */
 import { Refusal, generate, type Request } from './api';
 import { el, part } from './dom';
 import { for_view } from './for_view';
-import { Patience } from './grower';
+import { Retrier } from './grower';
 import { seed_after, type Seed } from './seed';
 
 interface Context {
@@ -15,10 +17,10 @@ const width = 264, height = 198;
 
 export function wire_nine(context: Context): void {
   const dialog = part<HTMLDialogElement>('nine-dialog');
-  const patience = new Patience();
+  const retrier = new Retrier();
   let running = new AbortController();
   dialog.addEventListener('close', () => running.abort());
-  // The pictures belong to the request that they were made for.
+  // The thumbnails belong to one request and are outdated when it changes.
   part('nine').addEventListener('click', () => { dialog.showModal(); void fill(); });
 
   async function fill(first?: Seed): Promise<void> {
@@ -40,19 +42,20 @@ export function wire_nine(context: Context): void {
       el('h2', { id: 'nine-title' }, 'Nine seeds'), el('div', { class: 'nine' }, ...cells),
       el('div', { class: 'row end' }, more, el('button', { type: 'button', onclick: () => dialog.close() }, 'Close')));
     dialog.dataset['filled'] = '0';
-    // One after the other: the server has other guests, and the first picture comes sooner.
+    // The models are requested one by one, so that the server stays available to others and the first thumbnail
+    // appears earlier.
     for (const [index, seed] of seeds.entries()) {
-      const place = cells[index]?.firstElementChild;
+      const slot = cells[index]?.firstElementChild;
       try {
-        const { bytes } = await patience.persist(
+        const { bytes } = await retrier.persist(
           () => generate(for_view({ ...request, seed }, null), signal),
-          (reason) => place?.replaceChildren(reason === 'full' ? 'The server is full. Trying again' : 'No answer. Trying again'), signal);
+          (reason) => slot?.replaceChildren(reason === 'full' ? 'The server is busy. Next attempt soon' : 'No response. Next attempt soon'), signal);
         const picture = await context.portrait(bytes, width, height);
         if (signal.aborted) return;
-        place?.replaceWith(picture);
+        slot?.replaceWith(picture);
       } catch (error) {
         if (signal.aborted) return;
-        place?.replaceChildren(error instanceof Refusal ? 'Refused' : 'Nothing to show');
+        slot?.replaceChildren(error instanceof Refusal ? 'Refused' : 'Nothing to show');
       }
       dialog.dataset['filled'] = String(index + 1);
     }

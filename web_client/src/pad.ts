@@ -1,4 +1,4 @@
-/** Buttons to walk and fly by, for whoever has a finger and no keys. They go on while they are held. */
+/** Touch buttons for walking and flying. They act while they are held. */
 import { el, part } from './dom';
 import type { Gait, Walker } from './viewer/walker';
 
@@ -6,10 +6,10 @@ const ways: [string, string, string, Gait[]][] = [
   ['w', '↑', 'Go ahead', ['walk', 'fly']], ['s', '↓', 'Go back', ['walk', 'fly']], ['a', '←', 'Go to the left', ['walk', 'fly']], ['d', '→', 'Go to the right', ['walk', 'fly']],
   ['q', 'Up', 'Rise', ['fly']], ['z', 'Down', 'Sink', ['fly']],
 ];
-/** Whoever clicks without holding, as a screen reader does, goes so long, in milliseconds. */
+/** The duration, in milliseconds, of a click without a hold, as a screen reader sends it. */
 const click_goes = 400;
 
-/** Shows what a gait needs; nothing where there is no finger. */
+/** The returned function shows the buttons of a movement mode, on touch screens only. */
 export function wire_pad(walker: Walker): (gait: Gait) => void {
   const pad = part('pad');
   const has_finger = matchMedia('(any-pointer: coarse)');
@@ -19,7 +19,7 @@ export function wire_pad(walker: Walker): (gait: Gait) => void {
       const button = el('button', { type: 'button', 'data-key': key, 'aria-label': label }, sign);
       button.addEventListener('pointerdown', (event) => { button.setPointerCapture(event.pointerId); walker.press(key); });
       for (const end of ['pointerup', 'pointercancel', 'lostpointercapture']) button.addEventListener(end, () => walker.release(key));
-      // The picture keeps the focus: it lets go of all keys when it loses it.
+      // The view keeps the focus, because it releases all keys when it loses it.
       for (const other of ['mousedown', 'contextmenu']) button.addEventListener(other, (event) => event.preventDefault());
       button.addEventListener('click', (event) => {
         if (event.detail > 0) return;

@@ -1,20 +1,21 @@
-/** The whole request as JSON in the code editor: one more hand on the same state as the form's. */
-import { whole, type Fault, type Request, type Written } from './api';
+/** The whole request as JSON in the code editor, which edits the same state as the form. */
+import { whole, type Issue, type Request, type Written } from './api';
 import { el, part } from './dom';
-import { load_editor, type CodeEditor, type Mark } from './editor/load';
+import { load_editor } from './editor/load';
+import type { CodeEditor, Mark } from './editor/types';
 import { parse_json } from './exact';
 import { same } from './form/schema';
-import { NotJson, place_of, places_in } from './json_places';
+import { NotJson, range_of, ranges_in } from './json_ranges';
 import type { State } from './state';
 
 export interface RequestText {
-  /** The page has come into sight: the editor is loaded at the first time. */
+  /** Called when the panel page becomes visible. The first call loads the editor. */
   open(): void;
   follow(state: State): void;
-  show_faults(faults: Fault[]): void;
+  show_issues(issues: Issue[]): void;
 }
 
-/** JSON on one line, with air. */
+/** JSON on one line with spaces between its elements. */
 function flat_of(value: unknown): string {
   if (typeof value !== 'object' || value === null) return JSON.stringify(value) ?? 'null';
   if (Array.isArray(value)) return `[${value.map(flat_of).join(', ')}]`;
@@ -22,7 +23,7 @@ function flat_of(value: unknown): string {
   return members.length === 0 ? '{}' : `{ ${members.map(([name, member]) => `${JSON.stringify(name)}: ${flat_of(member)}`).join(', ')} }`;
 }
 
-/** What is short stays on one line: a production or a vector is read in one look. */
+/** Short values stay on one line, so that productions and vectors remain readable. */
 export function written(value: unknown, indent = ''): string {
   const flat = flat_of(value);
   if (typeof value !== 'object' || value === null || (flat.length + indent.length < 60 && indent !== '')) return flat;
@@ -32,25 +33,25 @@ export function written(value: unknown, indent = ''): string {
   return members.length === 0 ? '{}' : `{\n${members.map(([name, member]) => `${inner}${JSON.stringify(name)}: ${written(member, inner)}`).join(',\n')}\n${indent}}`;
 }
 
-/** `write` gets the request and the preset that it names. */
+/** `write` receives the request and the name of its preset. */
 export function wire_request_text(write: (request: Request, preset: string | null) => void): RequestText {
   const page = part('request');
-  const note = el('p', { class: 'fault', id: 'request-fault', role: 'status' });
-  const place = el('div', { class: 'json' }, el('p', { class: 'soft' }, 'The editor is on its way.'));
+  const note = el('p', { class: 'issue', id: 'request-error', role: 'status' });
+  const container = el('div', { class: 'json' }, el('p', { class: 'soft' }, 'The editor is loading.'));
   page.replaceChildren(el('h2', { class: 'unseen' }, 'Request as JSON'),
-    el('p', { class: 'soft about' }, 'What is sent to the server. Changes here appear in the form and in the picture at once.'), place, note);
+    el('p', { class: 'soft about' }, 'The text that is sent to the server. Changes appear in the form and in the view at once.'), container, note);
   let editor: CodeEditor | null = null;
   let current: Request | null = null;
-  let faults: Fault[] = [];
+  let issues: Issue[] = [];
   let asked = 0;
 
   const mark = (): void => {
     if (!editor) return;
     const text = editor.text();
     try {
-      const places = places_in(text);
-      editor.mark(faults.map((fault): Mark => ({ ...place_of(places, fault.pointer), message: told(fault), ...(fault.mild ? { mild: true } : {}) })));
-      note.replaceChildren(...faults.map((fault) => spot(editor, place_of(places, fault.pointer), fault)));
+      const ranges = ranges_in(text);
+      editor.mark(issues.map((issue): Mark => ({ ...range_of(ranges, issue.pointer), message: text_of(issue), ...(issue.mild ? { mild: true } : {}) })));
+      note.replaceChildren(...issues.map((issue) => spot(editor, range_of(ranges, issue.pointer), issue)));
     } catch (error) {
       if (!(error instanceof NotJson)) throw error;
       editor.mark([{ from: error.at, to: error.at + 1, message: error.message }]);
@@ -61,14 +62,14 @@ export function wire_request_text(write: (request: Request, preset: string | nul
 
   async function changed(text: string): Promise<void> {
     const turn = (asked += 1);
-    faults = [];
+    issues = [];
     mark();
     let given: Written;
     try {
       given = await whole(parse_json(text));
     } catch (error) {
       if (error instanceof SyntaxError || turn !== asked) return;
-      faults = [{ pointer: '', message: (error as Error).message }];
+      issues = [{ pointer: '', message: (error as Error).message }];
       mark();
       return;
     }
@@ -81,7 +82,7 @@ export function wire_request_text(write: (request: Request, preset: string | nul
     if (!editor || !current) return;
     try {
       if (same(parse_json(editor.text()), JSON.parse(JSON.stringify(current)))) return;
-    } catch { /* What is no JSON gives way to what counts. */ }
+    } catch { /* Text that is not JSON is replaced by the current request. */ }
     editor.set_text(written(current));
     mark();
   };
@@ -92,9 +93,9 @@ export function wire_request_text(write: (request: Request, preset: string | nul
       load_editor().then((make) => {
         if (editor) return;
         editor = make({ notation: 'json', label: 'Request as JSON', text: written(current ?? {}), change: (text) => void changed(text) });
-        place.replaceChildren(editor.host);
+        container.replaceChildren(editor.host);
         mark();
-      }, () => place.replaceChildren(el('p', { class: 'soft' }, 'The editor cannot be fetched: the server does not answer. Open this page of the panel again to try once more.')));
+      }, () => container.replaceChildren(el('p', { class: 'soft' }, 'The editor cannot be loaded, because the server does not respond. Open this tab again for another attempt.')));
     },
     follow(state) {
       if (state.request === current) return;
@@ -102,18 +103,18 @@ export function wire_request_text(write: (request: Request, preset: string | nul
       asked += 1;
       set();
     },
-    show_faults(next) {
-      faults = next;
+    show_issues(next) {
+      issues = next;
       mark();
     },
   };
 }
 
-const told = (fault: Fault): string =>
-  fault.line === undefined ? `${fault.pointer ? `${fault.pointer}: ` : ''}${fault.message}` : `${fault.pointer ? `${fault.pointer}, ` : ''}line ${fault.line}, column ${fault.column ?? 1}: ${fault.message}`;
+const text_of = (issue: Issue): string =>
+  issue.line === undefined ? `${issue.pointer ? `${issue.pointer}: ` : ''}${issue.message}` : `${issue.pointer ? `${issue.pointer}, ` : ''}line ${issue.line}, column ${issue.column ?? 1}: ${issue.message}`;
 
-function spot(editor: CodeEditor | null, at: { from: number; to: number }, fault: Fault): HTMLElement {
-  return el('button', { type: 'button', class: fault.mild ? 'spot mild' : 'spot', onclick: () => editor?.go(at.from, at.to) }, told(fault));
+function spot(editor: CodeEditor | null, at: { from: number; to: number }, issue: Issue): HTMLElement {
+  return el('button', { type: 'button', class: issue.mild ? 'spot mild' : 'spot', onclick: () => editor?.go(at.from, at.to) }, text_of(issue));
 }
 
 function line_of(text: string, at: number): { line: number; column: number } {

@@ -1,33 +1,27 @@
-/** What the generator makes before there is geometry (POST /v1/derive): figures, texts, a map of heights, shapes. */
+/** The intermediate result of the generator (POST /v1/derive): figures, texts, height maps and shapes. */
 import { Refusal, derive, type Request } from './api';
 import { el, grouped, part, rounded } from './dom';
 import { is_members, type Members } from './form/schema';
 import type { State } from './state';
 import { draw_map, is_heights } from './derived/height_map';
 import { ShapeList, is_shapes } from './derived/shape_list';
-import type { ScopeBox } from './viewer/boxes';
-
-export interface Overlay {
-  set_boxes(scopes: ScopeBox[] | null, color_of?: (index: number) => number): void;
-  /** Marks one of them; -1 marks none. */
-  mark_box(index: number): void;
-}
+import type { Overlay } from './derived/overlay';
 
 export interface Result {
-  /** Whether it is in sight: only then is the server asked. */
+  /** Whether the panel is visible. The server is asked only then. */
   open(in_sight: boolean): void;
   follow(state: State, is_new: boolean): void;
-  /** Another model is drawn: what lay over the one before is gone. */
+  /** Another model is drawn, so the overlay of the previous one is removed. */
   drawn(): void;
   picked(index: number): void;
 }
 
-/** Texts are cut here; the whole can be copied out of the answer of the server. */
+/** Longer texts are shortened on the page. The full text is in the server's response. */
 const longest = 4000;
-/** A hand that moves a slider rests this long before the server is asked. */
+/** The server is asked after changes have paused for this long, in milliseconds. */
 const debounce = 200;
 
-/** `lead` opens a line of the rules; `has_rules`: the request that is shown brings them along. */
+/** `lead` moves the cursor to a line of the rules; `has_rules` tells whether the shown request contains rules. */
 export function wire_result(overlay: Overlay | null, lead: (line: number) => void, has_rules: () => boolean): Result {
   const page = part('result');
   let request: Request | null = null;
@@ -54,7 +48,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
       if (signal.aborted) return;
       shapes = null;
       is_unanswered = !(error instanceof Refusal);
-      page.replaceChildren(head(), el('p', { class: 'soft' }, error instanceof Refusal ? `Nothing to show: ${error.message}` : 'The server does not answer.'));
+      page.replaceChildren(head(), el('p', { class: 'soft' }, error instanceof Refusal ? `Nothing to show: ${error.message}` : 'The server does not respond.'));
     }
     page.dataset['for'] = String(asked.seed);
   }
@@ -91,7 +85,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
     drawn() {
       if (shapes) shapes.lay_over();
       else overlay?.set_boxes(null);
-      // A server that makes models answers.
+      // A drawn model shows that the server is reachable, so an unanswered request is repeated.
       if (is_unanswered) void ask();
     },
     picked(index) { shapes?.pick(index); },
@@ -100,14 +94,14 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
 
 const head = (): DocumentFragment => {
   const both = document.createDocumentFragment();
-  both.append(el('h2', { class: 'unseen' }, 'Result'), el('p', { class: 'soft about' }, 'What the generator makes of the request before there is geometry.'));
+  both.append(el('h2', { class: 'unseen' }, 'Result'), el('p', { class: 'soft about' }, 'The result of the generator before it makes geometry.'));
   return both;
 };
 const readable = (name: string): string => name.replaceAll('_', ' ').replace(/^./, (first) => first.toUpperCase());
 const is_vector = (value: unknown): value is number[] => Array.isArray(value) && value.length > 0 && value.length <= 4 && value.every((each) => typeof each === 'number');
 const figure = (value: number): string => (Number.isInteger(value) ? grouped(value) : rounded(value));
 
-/** Numbers, words, vectors, one line each; those of nested objects under both names. */
+/** Numbers, words and vectors, one per line. Members of nested objects show both names. */
 function figures_of(members: Members, before = ''): [string, string][] {
   return Object.entries(members).flatMap(([name, value]): [string, string][] => {
     const label = before ? `${before}, ${name.replaceAll('_', ' ')}` : readable(name);
@@ -120,7 +114,7 @@ function figures_of(members: Members, before = ''): [string, string][] {
   });
 }
 
-/** Long texts, tables of objects, and long maps. */
+/** Long texts, tables of objects, and large maps. */
 function long_part(name: string, value: unknown): HTMLElement[] {
   const title = el('h3', {}, readable(name));
   if (typeof value === 'string' && value.length > 60) {

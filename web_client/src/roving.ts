@@ -1,14 +1,14 @@
-/** Many buttons as one stop of the Tab key: the arrow keys, Home and End go from one to the other. */
+/** A roving tabindex: many buttons are one stop of the Tab key, and arrow keys, Home and End move between them. */
 
-/** The button that a key leads to, by its place in the list; -1 is out at the top; undefined where the key means nothing. */
+/** The index of the next button for a key; -1 leaves the group upwards; undefined if the key has no meaning here. */
 export type Leads = (buttons: HTMLElement[], at: number, key: string) => number | undefined;
 
 export interface Roving {
-  /** The buttons that are there have changed, or `chosen` is to be the one stop. */
+  /** Updates the tab stop after the buttons have changed, or makes `chosen` the tab stop. */
   settle(chosen?: HTMLElement): void;
 }
 
-/** In reading order. */
+/** Moves in document order. */
 export const in_a_row: Leads = ({ length }, at, key) => {
   if (key === 'Home') return 0;
   if (key === 'End') return length - 1;
@@ -17,7 +17,7 @@ export const in_a_row: Leads = ({ length }, at, key) => {
   return undefined;
 };
 
-/** By where they stand: rows are what stands at one height. */
+/** Moves by screen position. Buttons at the same height form a row. */
 export const neighbour: Leads = (cards, at, key) => {
   if (key !== 'ArrowDown' && key !== 'ArrowUp') return in_a_row(cards, at, key);
   const here = cards[at]!.getBoundingClientRect();
@@ -33,8 +33,8 @@ export const neighbour: Leads = (cards, at, key) => {
   return found ?? (down ? at : -1);
 };
 
-/** `buttons` are those in sight; `out` is where the way up from the first row leads. */
-export function roving(place: HTMLElement, buttons: () => HTMLElement[], leads: Leads = in_a_row, out = (): void => {}): Roving {
+/** `buttons` returns the visible buttons; `out` receives the focus above the first row. */
+export function roving(container: HTMLElement, buttons: () => HTMLElement[], leads: Leads = in_a_row, out = (): void => {}): Roving {
   let stop: HTMLElement | undefined;
   const settle = (chosen = stop): void => {
     const all = buttons();
@@ -42,11 +42,11 @@ export function roving(place: HTMLElement, buttons: () => HTMLElement[], leads: 
     stop = chosen && all.includes(chosen) ? chosen : all[0];
     for (const button of all) button.tabIndex = button === stop ? 0 : -1;
   };
-  place.addEventListener('focusin', (event) => {
+  container.addEventListener('focusin', (event) => {
     const button = event.target as HTMLElement;
     if (button !== stop && buttons().includes(button)) settle(button);
   });
-  place.addEventListener('keydown', (event) => {
+  container.addEventListener('keydown', (event) => {
     const all = buttons();
     const at = all.indexOf(event.target as HTMLElement);
     const next = at < 0 ? undefined : leads(all, at, event.key);

@@ -1,4 +1,7 @@
-/** The seed: typed, rolled, or taken from those before. Beyond 2^53 a JavaScript number is no longer exact, so it is text there. */
+/**
+ * The seed: typed, random, or chosen from earlier ones. Above 2^53 it is a string, because a JavaScript number is not
+ * exact there.
+ */
 import { el, part } from './dom';
 
 const largest = 2n ** 64n - 1n;
@@ -6,7 +9,7 @@ const most_kept = 12;
 
 export type Seed = number | string;
 
-/** null where the text is no seed. */
+/** Returns null if the text is not a valid seed. */
 export function seed_of(text: string): Seed | null {
   if (!/^\d{1,20}$/.test(text.trim())) return null;
   const seed = BigInt(text.trim());
@@ -14,33 +17,33 @@ export function seed_of(text: string): Seed | null {
   return seed <= BigInt(Number.MAX_SAFE_INTEGER) ? Number(seed) : String(seed);
 }
 
-/** The seed `step` further; past the largest it begins again at 0. */
+/** The seed plus `step`, wrapping to 0 above the largest seed. */
 export const seed_after = (seed: Seed, step: number): Seed => seed_of(String((BigInt(seed_of(String(seed)) ?? 0) + BigInt(step)) % (largest + 1n))) ?? 0;
 
 export interface SeedBox {
   show(seed: Seed): void;
   roll(): void;
-  /** A model of this seed was drawn: it goes to the front of the list. */
+  /** Puts the seed of a drawn model at the front of the history. */
   drawn(seed: Seed): void;
 }
 
 export function wire_seed(change: (seed: Seed) => void): SeedBox {
   const box = part<HTMLInputElement>('seed');
   const list = part('seed-list');
-  const fault = part('seed-fault');
+  const issue = part('seed-error');
   let before: Seed[] = [];
   let shown: Seed = 0;
-  const judge = (is_seed: boolean): void => {
+  const mark_validity = (is_seed: boolean): void => {
     box.setAttribute('aria-invalid', String(!is_seed));
-    fault.textContent = is_seed ? '' : `A seed is a whole number from 0 to ${largest.toLocaleString('en')}.`;
+    issue.textContent = is_seed ? '' : `A seed is a whole number from 0 to ${largest.toLocaleString('en')}.`;
   };
   const show = (seed: Seed): void => {
     shown = seed;
-    // A request of another hand may have one that is none, and what is wrong with it is told with its other faults.
+    // A request from outside the form may have an invalid seed, which is reported with its other errors.
     box.setAttribute('aria-invalid', String(seed_of(String(seed)) === null));
-    fault.textContent = '';
+    issue.textContent = '';
     box.title = String(seed);
-    // What is being typed stays as it is: 007 is 7.
+    // Text that is being typed is not reformatted: 007 means 7.
     if (String(seed_of(box.value)) !== String(seed)) box.value = String(seed);
   };
   const roll = (): void => {
@@ -50,10 +53,10 @@ export function wire_seed(change: (seed: Seed) => void): SeedBox {
   };
   box.addEventListener('input', () => {
     const seed = seed_of(box.value);
-    judge(seed !== null);
+    mark_validity(seed !== null);
     if (seed !== null) change(seed);
   });
-  // What is no seed does not stay: the page shows and shares the one before.
+  // Invalid text is replaced by the last valid seed when the input loses the focus.
   box.addEventListener('change', () => {
     if (seed_of(box.value) !== null) return;
     show(shown);

@@ -1,4 +1,4 @@
-/** How this visit is drawn: what the address asks for, and what the machine can. */
+/** Rendering settings from the address and the capabilities of the machine. */
 import { part } from './dom';
 import type { Status } from './status';
 import { Viewer } from './viewer/viewer';
@@ -7,7 +7,7 @@ export const query = new URLSearchParams(location.search);
 const dark = matchMedia('(prefers-color-scheme: dark)');
 const still = matchMedia('(prefers-reduced-motion: reduce)');
 
-/** A machine without a graphics card says so in the name of its renderer. */
+/** The renderer name reveals software rendering. */
 function renderer_name(): string {
   const context = document.createElement('canvas').getContext('webgl2');
   const detail = context?.getExtension('WEBGL_debug_renderer_info');
@@ -22,33 +22,34 @@ export function is_high(): boolean {
 }
 
 /**
- * What lies at the lower rim grows and shrinks with what the model has, steps, motion, and with what is said of it; at the
- * upper with the width of the page.
+ * Tracks the size of the overlays at the top and bottom of the view. The bottom one changes with steps, motion and
+ * messages; the top one with the width.
  */
 function watch_rims(viewer: Viewer): void {
   const upper = part('upper'), lower = part('lower'), hint = part('hint'), notice = part('notice');
   const below = lower.parentElement!, view = below.parentElement!;
   let had_hint = false, is_measured = false;
   const rims = new ResizeObserver(() => {
-    // A word of the moment takes the place of the figures, and moves nothing.
+    // A temporary message replaces the statistics without moving the model.
     const state = document.body.dataset['state'] ?? '';
     const is_passing = !notice.hidden && ['starting', 'growing', 'ready'].includes(state);
     if (upper.offsetHeight === 0 || (is_passing && is_measured)) return;
     is_measured = true;
     const has_hint = hint.offsetHeight > 0;
-    // Who sends the hint away gets its room; where it goes because of a change, both models are seen at one scale.
+    // If the user closes the hint, the model is fitted to the free space. If a change closes it, the scale stays so
+    // that both models can be compared.
     const is_sent_away = had_hint && !has_hint && hint.dataset['sent'] === 'away';
     viewer.set_covered({ top: upper.offsetTop + upper.offsetHeight + 8, bottom: Math.max(72, view.clientHeight - below.offsetTop + 10) }, is_sent_away);
     had_hint = has_hint;
   });
-  // The word itself too: what was not looked at while it stood there is looked at when it goes.
+  // The notice is observed too, because changes during a message are skipped and have to be measured when it ends.
   for (const rim of [upper, below, notice]) rims.observe(rim);
-  // What is cut off is told to who points at it.
+  // Truncated text is shown in full as a tooltip.
   for (const words of [part('title'), part('measures')])
     words.addEventListener('pointerenter', () => { words.title = words.scrollWidth > words.clientWidth ? words.textContent : ''; });
 }
 
-/** null where the browser has no WebGL 2. */
+/** Returns null if the browser does not support WebGL 2. */
 export function make_viewer(status: Status, high: boolean): Viewer | null {
   document.body.classList.toggle('stage', query.has('stage'));
   try {
@@ -65,7 +66,7 @@ export function make_viewer(status: Status, high: boolean): Viewer | null {
     dark.addEventListener('change', () => made.set_theme(dark.matches));
     return made;
   } catch {
-    status.faults('This browser gives no picture: WebGL 2 is missing or switched off. Downloads work all the same.', [], 0, () => {});
+    status.issues('This browser cannot show models, because WebGL 2 is missing or switched off. Downloads still work.', [], 0, () => {});
     return null;
   }
 }

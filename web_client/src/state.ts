@@ -1,17 +1,17 @@
-/** The one document of the page: a request, and what its fields go back to. All parts read and write it here. */
+/** The single state of the page: the request and the values that reset restores. All parts read and write it here. */
 import type { Request } from './api';
 
 /**
- * edit: a field or the seed; write: the whole request by another hand than the form's (its JSON, undo), so that the form
- * is drawn anew; open: another request altogether; return: another one that was shown before, by undo or redo.
+ * edit: a field or the seed changed. write: the whole request changed outside the form (JSON, undo), so that the form
+ * is redrawn. open: another request was opened. return: undo or redo went back to another request.
  */
 export type Cause = 'open' | 'edit' | 'write' | 'return';
 
 export interface State {
   readonly request: Request;
-  /** What "reset" returns to: the request as it was opened. */
+  /** The request as it was opened, which reset restores. */
   readonly base: Request;
-  /** The preset it was opened from; null for a link. */
+  /** The preset that the request was opened from; null for a link. */
   readonly preset: string | null;
   readonly title: string;
   readonly description: string;
@@ -19,9 +19,9 @@ export interface State {
 
 type Listener = (state: State, cause: Cause) => void;
 
-/** So many steps can be undone. */
+/** The number of undo steps. */
 const most_steps = 50;
-/** Edits that follow each other this fast are one step: a slider in motion, a word being typed. */
+/** Edits within this time, in milliseconds, form one undo step, for example while a slider moves. */
 const one_step = 700;
 
 export class Store {
@@ -49,7 +49,7 @@ export class Store {
     this.change((request) => ({ ...request, ...change }), 'edit');
   }
 
-  /** The whole request; the preset and what fields go back to stay. */
+  /** Replaces the whole request. The preset and the reset values are unchanged. */
   write(request: Request): void {
     this.change(() => request, 'write');
   }

@@ -1,31 +1,36 @@
-/** What is going on, in words, for eyes, for assistive tools (status, alert) and for tests (data-state on the body). */
-import type { Fault, Statistics } from './api';
+/**
+ * Shows the state of the page as text, as ARIA live regions (status, alert), and as data-state on the body for tests.
+ */
+import type { Issue, Statistics } from './api';
 import { el, grouped, part, rounded, sentence, with_groups } from './dom';
 import type { Phase } from './grower';
 
-/** What a model is made of: triangles, or where it has none, lines or points. */
+/** The primitives of a model: triangles, or lines or points if it has no triangles. */
 export interface Pieces { name: string; count: number }
 
-/** A wait that is shorter is not worth a word. */
+/** Shorter waits show no progress bar; in milliseconds. */
 const bar_after = 300;
 const slow_after = 4000;
-/** A slider in motion makes many models: the one at which it rests is told. */
+/** A moving slider generates many models. Only the last one is announced. */
 const rest = 900;
 
 export interface Status {
   phase(phase: Phase): void;
-  /** The statistics of a model, and what its canvas is called. */
+  /** Shows the statistics and the label of the canvas. */
   shown(statistics: Statistics, pieces: Pieces): void;
-  /** Tells assistive tools of a model that has come, once no other follows. */
+  /** Announces a finished model to assistive technology, unless another follows shortly. */
   arrived(model: string): void;
-  /** A word that goes away by itself. */
+  /** Shows a temporary message. */
   say(text: string): void;
-  /** A word that stays until what is returned is called with the word that follows it, or with none. */
+  /** Shows a message until the returned function is called, optionally with a final message. */
   begin(text: string): (text: string) => void;
-  /** Faults that no field shows, and how many the fields show; none takes the alert away. `way` names another way out than the fields. */
-  faults(detail: string, homeless: Fault[], in_fields: number, lead: () => void, way?: string): void;
+  /**
+   * Shows errors without a field and the number of those with one. An empty detail clears the alert. `way` is the
+   * label of another action.
+   */
+  issues(detail: string, homeless: Issue[], in_fields: number, lead: () => void, way?: string): void;
   lost(lost: boolean): void;
-  /** A question with one way on; what happens next in the page answers it with no. */
+  /** Asks a question with one confirming action. The next change of state answers it with no. */
   ask(question: string, yes: string): Promise<boolean>;
 }
 
@@ -33,12 +38,12 @@ export function wire_status(): Status {
   const notice = part('notice'), text = part('status'), countdown = part('countdown');
   const cancel = part('cancel'), again = part('again'), alert = part('alert');
   const progress = part<HTMLProgressElement>('progress');
-  const told = part('told');
+  const announcement = part('announcement');
   let timers: number[] = [];
   let arriving = 0;
   let is_growing = false;
   let was_waiting = false;
-  /** What goes on beside the model. */
+  /** The message of a task that runs besides the generation. */
   let task = '';
   let answer_no = (): void => {};
 
@@ -55,7 +60,7 @@ export function wire_status(): Status {
     if (message === '' && task !== '') show(task);
   };
   const say = (message: string): void => {
-    // What waits for an answer comes back after the word.
+    // A message with buttons is shown again after the temporary one.
     const buttons = [cancel, again].filter((button) => !button.hidden);
     const before = buttons.length > 0 ? text.textContent : '';
     show(message);
@@ -70,16 +75,16 @@ export function wire_status(): Status {
     is_growing = true;
     const begin = Date.now();
     timers = [
-      window.setTimeout(() => { progress.hidden = false; show('Growing the model', [cancel]); }, bar_after),
-      // Whether the server is slow or the way to it is not known here, unless it tells how far it is.
-      window.setTimeout(() => show(progress.hasAttribute('value') ? 'Still growing the model' : 'Still waiting for the model', [cancel]), slow_after),
+      window.setTimeout(() => { progress.hidden = false; show('Generating the model', [cancel]); }, bar_after),
+      // Without progress reports, a slow server and a slow network cannot be distinguished.
+      window.setTimeout(() => show(progress.hasAttribute('value') ? 'Still generating the model' : 'Still waiting for the model', [cancel]), slow_after),
       window.setInterval(() => { if (Date.now() - begin > slow_after) countdown.textContent = `${Math.round((Date.now() - begin) / 1000)} s`; }, 1000),
     ];
   }
 
   function waiting(reason: 'full' | 'gone', until: number): void {
     was_waiting = true;
-    show(reason === 'full' ? 'The server is full. Trying again soon' : 'The server cannot be reached. Trying again soon', [again, cancel]);
+    show(reason === 'full' ? 'The server is busy. Next attempt soon' : 'The server cannot be reached. Next attempt soon', [again, cancel]);
     again.textContent = 'Try now';
     const tick = (): void => { countdown.textContent = `in ${Math.max(0, Math.ceil((until - Date.now()) / 1000))} s`; };
     tick();
@@ -110,13 +115,13 @@ export function wire_status(): Status {
       progress.hidden = true;
       switch (phase.kind) {
         case 'waiting': waiting(phase.reason, phase.until); break;
-        case 'locked': show('The service asks for a key'); break;
+        case 'locked': show('The service requires a key'); break;
         case 'stopped':
-          again.textContent = 'Grow again';
-          show('Stopped. The last model stays', [again]);
+          again.textContent = 'Generate again';
+          show('Stopped. The view shows the last model', [again]);
           break;
         case 'ready':
-          if (was_waiting) say('The server is back');
+          if (was_waiting) say('The server is available again');
           else show('');
           was_waiting = false;
           break;
@@ -128,9 +133,9 @@ export function wire_status(): Status {
     shown: show_statistics,
     arrived(model) {
       clearTimeout(arriving);
-      arriving = window.setTimeout(() => { told.textContent = model; }, rest);
+      arriving = window.setTimeout(() => { announcement.textContent = model; }, rest);
     },
-    faults(detail, homeless, in_fields, lead, way) {
+    issues(detail, homeless, in_fields, lead, way) {
       if (detail === '') {
         alert.replaceChildren();
         return;
@@ -138,7 +143,7 @@ export function wire_status(): Status {
       const go = el('button', { type: 'button', onclick: lead }, way ?? 'Show');
       alert.replaceChildren(
         el('p', {}, with_groups(detail)),
-        ...homeless.map((fault) => el('p', {}, with_groups(fault.pointer ? `${fault.pointer}: ${fault.message}` : sentence(fault.message)))),
+        ...homeless.map((issue) => el('p', {}, with_groups(issue.pointer ? `${issue.pointer}: ${issue.message}` : sentence(issue.message)))),
         ...(in_fields > 0 || way !== undefined ? [go] : []),
       );
     },
@@ -155,8 +160,8 @@ export function wire_status(): Status {
       });
     },
     lost(lost) {
-      if (lost) show('The browser has lost the picture. It comes back when the graphics card answers');
-      else say('The picture is back');
+      if (lost) show('The browser has lost the view. It returns when the graphics card is available');
+      else say('The view is available again');
     },
   };
 }
@@ -175,7 +180,7 @@ function show_statistics(statistics: Statistics, pieces: Pieces): void {
   const time = `${statistics.milliseconds < 10 ? statistics.milliseconds.toFixed(1) : grouped(Math.round(statistics.milliseconds))} ms`;
   part('made').textContent = statistics.is_kept ? 'Taken' : 'Made in';
   part('milliseconds').textContent = statistics.is_kept ? 'from memory' : time;
-  part('milliseconds').title = statistics.is_kept ? `The server had made it before, and answered in ${time}` : '';
+  part('milliseconds').title = statistics.is_kept ? `The server took it from its cache and responded in ${time}` : '';
 }
 
 export function size_of(bytes: number): string {

@@ -1,22 +1,22 @@
 /**
- * The bar of steps, where the schema marks an integer with x-steps: from nothing, back, on, all of them one after the
- * other, and to where the request had been.
+ * The step bar for an integer with x-steps in the schema: first, back, forward, play, and return to the requested
+ * value.
  */
 import type { Schema } from './form/schema';
 import type { State } from './state';
 import { el, icon, part } from './dom';
 
-/** A step is looked at at least so long, in milliseconds. */
+/** The minimum time of each step during playback, in milliseconds. */
 const beat = 450;
 
 interface Context {
   edit(name: string, value: number | undefined): void;
-  /** Ends when the model of the last change is drawn; false where it was refused. */
+  /** Resolves when the model of the last change is drawn; false if it was refused. */
   drawn(): Promise<boolean>;
 }
 
 export interface Steps {
-  /** Which member of the parameters counts steps; called for each generator. */
+  /** Sets which parameter counts steps. Called for each generator. */
   take(schema: Schema | null): void;
   follow(state: State): void;
   by(step: number): void;
@@ -34,12 +34,12 @@ export function wire_steps(context: Context): Steps {
     el('button', { type: 'button', id: `step-${id}`, 'aria-label': label, title: label, onclick: act }, sign);
   const go = (value: number | undefined): void => { if (name !== null) context.edit(name, value); };
   const stop = (): void => { playing += 1; draw(); };
-  const fresh = button('fresh', 'From the start', icon('first'), () => { stop(); go(least); });
-  const back = button('back', 'A step back', icon('back'), () => { stop(); by(-1); });
+  const fresh = button('fresh', 'First step', icon('first'), () => { stop(); go(least); });
+  const back = button('back', 'Previous step', icon('back'), () => { stop(); by(-1); });
   const count = el('output', { id: 'step-now' });
-  const next = button('next', 'A step on', icon('next'), () => { stop(); by(1); });
+  const next = button('next', 'Next step', icon('next'), () => { stop(); by(1); });
   const play = button('play', 'Play the steps', 'Play', () => { if (is_playing) stop(); else void run(); });
-  const finish = button('finish', 'To the last step', icon('last'), () => { stop(); go(last); });
+  const finish = button('finish', 'Last step', icon('last'), () => { stop(); go(last); });
   box.append(fresh, back, count, next, play, finish);
   let is_playing = false;
 
@@ -71,13 +71,13 @@ export function wire_steps(context: Context): Steps {
     next.disabled = now === undefined;
     finish.disabled = now === last;
     play.textContent = is_playing ? 'Stop' : 'Play';
-    play.setAttribute('aria-label', is_playing ? 'Stop the steps' : 'Play the steps');
+    play.setAttribute('aria-label', is_playing ? 'Pause the steps' : 'Play the steps');
   }
 
   return {
     by,
     take(schema) {
-      // A form that is drawn anew for the same generator does not end the play.
+      // Redrawing the form for the same generator does not stop the playback.
       const of_another = schema?.title !== title;
       title = schema?.title;
       const found = Object.entries(schema?.properties ?? {}).find(([, member]) => member['x-steps'] && member.type === 'integer');

@@ -1,4 +1,4 @@
-/** The pages of the panel, and on a narrow screen the panel as a sheet that folds. */
+/** The tabs of the panel. On narrow screens the panel is a sheet that can be collapsed. */
 import { part } from './dom';
 
 const names = ['gallery', 'parameters', 'request', 'result'] as const;
@@ -9,7 +9,7 @@ export interface Tabs {
   is_open(page: Page): boolean;
 }
 
-/** `opened` hears of each page that comes into sight. */
+/** `opened` is called for each tab that becomes visible. */
 export function wire_tabs(opened: (page: Page) => void): Tabs {
   const tabs = names.map((name) => part(`tab-${name}`));
   const fold = part('fold'), panel = part('panel');
@@ -17,7 +17,7 @@ export function wire_tabs(opened: (page: Page) => void): Tabs {
   const fold_to = (open: boolean): void => {
     panel.classList.toggle('folded', !open);
     fold.setAttribute('aria-expanded', String(open));
-    fold.setAttribute('aria-label', open ? 'Fold the panel' : 'Unfold the panel');
+    fold.setAttribute('aria-label', open ? 'Collapse the panel' : 'Expand the panel');
   };
   const open = (page: Page): void => {
     now = page;

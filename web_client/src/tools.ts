@@ -1,8 +1,8 @@
 /**
- * Everything that is not needed for the first model: what leaves and enters the page, the texts beside the form, steps,
- * views, comparisons, help. A file of its own, fetched while the server makes that model.
+ * Everything that the first model does not need: import, export, the JSON editor, steps, view tools, comparisons and
+ * help. It is a separate chunk, loaded while the server generates that model.
  */
-import type { Fault, Request } from './api';
+import type { Issue, Request } from './api';
 import { save_picture, save_request, wire_copies, wire_downloads } from './actions';
 import { own_format } from './commands';
 import { part } from './dom';
@@ -33,18 +33,18 @@ export interface Core {
   status: Status;
   seed: SeedBox;
   tabs: Tabs;
-  /** The GLB that is shown, and whose it is. */
+  /** The shown GLB and the request that it belongs to. */
   shown(): { bytes: ArrayBuffer; title: string; seed: Request['seed'] } | null;
-  /** What is asked for as a picture: the page's request, or another in its place. */
+  /** The request that the view shows: the page's own, or one in its place. */
   looked_at(): Request | null;
   grow_again(): void;
-  /** Shows another request than the page's own, which stays. */
+  /** Shows another request in the view without changing the page's own. */
   preview(request: Request): void;
-  /** Ends when the model of the last change is drawn; false where it was refused. */
+  /** Resolves when the model of the last change is drawn; false if it was refused. */
   drawn(): Promise<boolean>;
-  /** `words` stay over the model when it is drawn. */
+  /** `words` is a message that stays visible after the model is drawn. */
   open(request: Request, title: string, words?: string): void;
-  /** The whole request by another hand; what has nothing of the one before is another. */
+  /** Replaces the whole request. A request without common parameters is treated as a newly opened one. */
   write(request: Request, preset: string | null): void;
   search(): void;
 }
@@ -54,10 +54,10 @@ export interface Tools {
   /** The schema of the request's generator. */
   explain(schema: Schema): void;
   shown(model: Model, triangles: number): void;
-  show_faults(faults: Fault[]): void;
+  show_issues(issues: Issue[]): void;
   page(page: Page): void;
   offer(formats: string[], motions: Motion[]): void;
-  /** The motion that the view asks for. */
+  /** The motion that is selected in the view. */
   motion(): Motion | null;
 }
 
@@ -71,9 +71,9 @@ export function wire_tools(core: Core): Tools {
     picture: (): Promise<Blob | null> => viewer?.screenshot() ?? Promise.resolve(null),
     say: status.say,
     fail(text: string): void {
-      // What another part of the page has to say stays.
+      // Messages of other parts are kept.
       if (text === '' && (failed === '' || part('alert').textContent !== failed)) return;
-      status.faults(text, [], 0, () => {});
+      status.issues(text, [], 0, () => {});
       failed = part('alert').textContent;
     },
     begin: status.begin,
@@ -103,10 +103,10 @@ export function wire_tools(core: Core): Tools {
   let formats: string[] = [];
   let own = 'glb';
   let rules_schema: Schema | null = null;
-  /** The parameter that a shape's line counts in. */
+  /** The parameter that the line number of a shape refers to. */
   const rules_name = (): string | undefined => Object.entries(rules_schema?.properties ?? {}).find(([, member]) => member['x-grammar'] === 'cga')?.[0];
 
-  // Which motions there are is asked when somebody looks for them, once for each request that is opened.
+  // The available motions are queried when the menu is opened, once for each opened request.
   let asked_for: Request | null = null;
   const ask_motions = (): void => {
     const state = store.current;
@@ -157,7 +157,7 @@ export function wire_tools(core: Core): Tools {
       motion?.shown(model);
       result.drawn();
     },
-    show_faults: (faults) => request_text.show_faults(faults),
+    show_issues: (issues) => request_text.show_issues(issues),
     page(page) {
       if (page === 'request') request_text.open();
       result.open(page === 'result');
@@ -172,7 +172,7 @@ export function wire_tools(core: Core): Tools {
   };
 }
 
-/** The keys that count everywhere, except where words are typed. */
+/** Shortcuts that are active everywhere except in text inputs. */
 function wire_keys({ store, tabs, search }: Core, acts: { open_file(): void; help(): void; save(): void }): void {
   part('undo').addEventListener('click', () => store.undo());
   part('redo').addEventListener('click', () => store.redo());

@@ -1,4 +1,4 @@
-/** What the picture can show besides: shading, materials, levels of detail, motion, light, sky, camera. */
+/** View options: shading, materials, levels of detail, motion, light, sky and camera. */
 import { el, fresh_id, part } from './dom';
 import type { Motion } from './for_view';
 import { wire_levels } from './level_choice';
@@ -9,20 +9,20 @@ import type { Viewer } from './viewer/viewer';
 import type { Gait } from './viewer/walker';
 
 interface Context {
-  /** The zip with levels of detail of the model that is shown; fewer than asked for where it has no more. */
+  /** Fetches the zip with the levels of the shown model. It may contain fewer levels than requested. */
   levels(): Promise<ArrayBuffer>;
-  /** Shows the model with the motion that was chosen. */
+  /** Shows the model with the selected motion. */
   animate(): void;
   fail(text: string): void;
   high: boolean;
 }
 
 export interface ViewMenu {
-  /** Another model is shown. */
+  /** Called when another model is shown. */
   shown(model: Model, triangles: number): void;
-  /** The motions that the model can have. */
+  /** Sets the motions that the model supports. */
   offer_motions(motions: Motion[]): void;
-  /** Another request is opened, whose motions nobody has asked for yet. */
+  /** Called when another request is opened, whose motions are not known yet. */
   forget(): void;
   motion(): Motion | null;
   next_mode(): void;
@@ -65,7 +65,7 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
   let is_without_uvs = false;
   const show_mode = (mode: Mode): void => {
     viewer.set_mode(mode);
-    if (mode === 'uv' && is_without_uvs) part('picture').dispatchEvent(new CustomEvent('tell', { bubbles: true, detail: 'This model has no UVs: it is drawn plain' }));
+    if (mode === 'uv' && is_without_uvs) part('picture').dispatchEvent(new CustomEvent('tell', { bubbles: true, detail: 'This model has no UVs, so it is drawn without squares' }));
   };
   const material = choice('Materials', 'material-set', (value) => void viewer.set_variant(value || null));
   const motion = choice('Motion', 'motion-kind', (value) => { viewer.motion.begins = value !== '' && !viewer.is_still; context.animate(); });
@@ -80,7 +80,7 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
   const show_pad = wire_pad(viewer.walker);
   let motions: Motion[] = [];
 
-  const times = tick('Time to draw', 'show-drawn', false, (on) => { part('drawn-box').hidden = !on; viewer.set_timed(on); });
+  const times = tick('Frame time', 'show-drawn', false, (on) => { part('drawn-box').hidden = !on; viewer.set_timed(on); });
 
   part('view-options').append(
     shading.row, material.row, motion.row, level.row, gait.row,
@@ -91,8 +91,8 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
     range('Light from', 0, 360, sun.turn, (value) => { sun.turn = value; viewer.set_sun(sun); }),
     range('Height of light', 1, 90, sun.height, (value) => { sun.height = value; viewer.set_sun(sun); }),
     times);
-  viewer.walker.on_move = (place, heading) => {
-    part('whereabouts').textContent = `x ${place.x.toFixed(1)}, y ${place.y.toFixed(1)}, z ${place.z.toFixed(1)} m · ${Math.round(heading)}°`;
+  viewer.walker.on_move = (position, heading) => {
+    part('whereabouts').textContent = `x ${position.x.toFixed(1)}, y ${position.y.toFixed(1)}, z ${position.z.toFixed(1)} m · ${Math.round(heading)}°`;
   };
 
   let is_for_levels = false;
@@ -100,7 +100,7 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
   times.addEventListener('change', () => { is_for_levels = false; });
   const levels = wire_levels(viewer, {
     select: level.select, offer: level.offer, levels: context.levels, fail: context.fail,
-    // What a level is good for shows in the time of a picture.
+    // The frame time shows the benefit of a level of detail.
     came() { if (part('drawn-box').hidden) time_for_levels(true); },
   });
   const offer_motions = (next: Motion[]): void => {
@@ -115,13 +115,13 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
       is_without_uvs = !has_uvs(model);
       shading.offer(modes.map(([mode, text]) => [mode, mode === 'uv' && is_without_uvs ? `${text}: none here` : text]));
       material.row.hidden = model.variants.length === 0;
-      material.offer([['', 'As asked for'], ...model.variants.map((name): [string, string] => [name, name])]);
+      material.offer([['', 'As requested'], ...model.variants.map((name): [string, string] => [name, name])]);
     },
     offer_motions,
     forget() {
       offer_motions([]);
       levels.forget();
-      // Switched on by itself, it goes by itself.
+      // The statistic is hidden again only if it was switched on automatically.
       if (is_for_levels) time_for_levels(false);
     },
     motion: () => motions.find((each) => each.value === motion.select.value) ?? null,
@@ -137,7 +137,7 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
   };
 }
 
-/** The bar under a model that moves: play, and any moment of it. */
+/** The bar under an animated model: play, and a slider for the time. */
 export function wire_motion(viewer: Viewer): { shown(model: Model): void; play(): void } {
   const bar = part('motion'), play = part('motion-play'), now = part('motion-now');
   const time = part<HTMLInputElement>('motion-time');
@@ -146,7 +146,7 @@ export function wire_motion(viewer: Viewer): { shown(model: Model): void; play()
     now.textContent = `${(share * viewer.motion.seconds).toFixed(1)} s`;
     const runs = viewer.motion.is_running;
     play.textContent = runs ? 'Stop' : 'Play';
-    play.setAttribute('aria-label', runs ? 'Stop the motion' : 'Play the motion');
+    play.setAttribute('aria-label', runs ? 'Pause the motion' : 'Play the motion');
   };
   viewer.motion.on_time = tell;
   const flip = (): void => {
@@ -169,11 +169,11 @@ export function wire_motion(viewer: Viewer): { shown(model: Model): void; play()
   };
 }
 
-/** A | B: the model that is shown when it is switched on stays to the left; what follows is to the right. */
+/** A/B comparison: the model shown at the start stays on the left; later models appear on the right. */
 export function wire_compare(viewer: Viewer, shown: () => { bytes: ArrayBuffer; title: string; seed: number | string } | null): (() => void) {
   const button = part('compare'), box = part('divider-box');
   const divider = part<HTMLInputElement>('divider'), line = part('divider-line');
-  const place = (): void => {
+  const set_divider = (): void => {
     viewer.set_divider(divider.valueAsNumber / 100);
     line.style.setProperty('left', `${divider.value}%`);
   };
@@ -184,9 +184,9 @@ export function wire_compare(viewer: Viewer, shown: () => { bytes: ArrayBuffer; 
     button.setAttribute('aria-pressed', String(on));
     box.hidden = line.hidden = !on;
     if (on) box.querySelector('label')!.replaceChildren(el('b', {}, `Left: seed ${kept?.seed}`), el('span', { class: 'soft' }, kept?.title));
-    void viewer.compare(on && kept ? kept.bytes : null).then(place);
+    void viewer.compare(on && kept ? kept.bytes : null).then(set_divider);
   };
   button.addEventListener('click', flip);
-  divider.addEventListener('input', place);
+  divider.addEventListener('input', set_divider);
   return flip;
 }

@@ -1,6 +1,6 @@
-/** The buttons and keys of the picture. Single letters count only while the picture has the focus. */
+/** The buttons and shortcuts of the view. Single letters are active only while the view has the focus. */
 import { part } from './dom';
-import { tell_triangles } from './level_choice';
+import { show_triangles } from './level_choice';
 import { show_measures } from './measures';
 import type { Viewer } from './viewer/viewer';
 
@@ -14,7 +14,7 @@ interface Acts {
   leave_gait(): void;
 }
 
-/** A button that is pressed or not; the answer flips it. */
+/** A toggle button. The callback applies the new state; the returned function flips it. */
 export function toggle(id: string, set: (on: boolean) => void): () => void {
   const button = part(id);
   const flip = (): void => {
@@ -27,7 +27,7 @@ export function toggle(id: string, set: (on: boolean) => void): () => void {
 }
 
 export function wire_view(viewer: Viewer, acts: Acts): void {
-  // On foot and in flight there is a way back by it.
+  // The walking and flying modes offer a button that returns to orbit.
   const fit = (): void => { acts.leave_gait(); viewer.fit(); };
   part('fit').addEventListener('click', fit);
   const turn = 0.12;
@@ -64,7 +64,7 @@ export function wire_view(viewer: Viewer, acts: Acts): void {
   const tell_figure = (): void => { figure.setAttribute('aria-pressed', String(viewer.has_figure)); };
   tell_figure();
   viewer.on_drawn = (milliseconds, frame) => {
-    tell_triangles(viewer);
+    show_triangles(viewer);
     tell_figure();
     const level = viewer.level === null ? '' : `, level ${viewer.level}`;
     drawn.textContent = `${time(milliseconds)}${frame === null ? '' : `, frame ${time(frame)}`}${level}`;

@@ -1,10 +1,10 @@
-/** What the server had to say of a model while it made it: warnings that stand in the file alone. */
-import type { Fault } from './api';
+/** Reads the warnings that the server stores in the model file. */
+import type { Issue } from './api';
 
-interface Json { asset?: { extras?: { warnings?: Fault[] } } }
+interface Json { asset?: { extras?: { warnings?: Issue[] } } }
 
-/** Of a GLB: its first chunk is the JSON. */
-export function warnings_in(glb: ArrayBuffer): Fault[] {
+/** Reads the JSON chunk, which is the first chunk of a GLB. */
+export function warnings_in(glb: ArrayBuffer): Issue[] {
   const length = new DataView(glb).getUint32(12, true);
   const { asset } = JSON.parse(new TextDecoder().decode(new Uint8Array(glb, 20, length))) as Json;
   return (asset?.extras?.warnings ?? []).map((warning) => ({ ...warning, mild: true }));

@@ -1,10 +1,10 @@
-/** Searching by words: each word of the question begins a word of the text; "oaks" finds an oak. */
+/** Word search: each word of the query must be a prefix of a word in the text; "oaks" finds "oak". */
 
-/** In small letters and without accents, taken apart where neither letter nor digit stands. */
+/** Converts to lower case without accents and splits at all characters that are neither letters nor digits. */
 const words_in = (text: string): string[] =>
   text.normalize('NFD').replaceAll(/\p{M}/gu, '').toLowerCase().split(/[^\p{L}\p{N}.]+/u).filter(Boolean);
 
-/** The word, and what it may be the plural of. */
+/** The word and its possible singular forms. */
 function singulars(word: string): string[] {
   if (word.length < 4 || !word.endsWith('s') || word.endsWith('ss')) return [word];
   const forms = [word, word.slice(0, -1)];
@@ -14,7 +14,7 @@ function singulars(word: string): string[] {
   return forms;
 }
 
-/** Asks whether all words of a question are in the text. */
+/** Returns a predicate: whether a text contains all words of the query. */
 export function matcher(text: string): (question: string) => boolean {
   const words = words_in(text);
   return (question) => words_in(question).every((asked) => singulars(asked).some((form) => words.some((word) => word.startsWith(form))));

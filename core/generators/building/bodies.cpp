@@ -6,9 +6,9 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/generators/building/body_source.h"
-#include "core/generators/building/merge.h"
+#include "core/generators/building/merge_bodies.h"
 #include "core/generators/building/mesh_writer.h"
-#include "core/geom/weld.h"
+#include "core/geom/mesh/weld.h"
 
 namespace seedmesh::building {
 namespace {
@@ -17,8 +17,12 @@ constexpr double least_area = 4e-12;  ///< of a triangle, by the square of the m
 
 class Assembly {
  public:
-  Assembly(Model& model, const Shapes& shapes, Looks& looks, std::span<Asset> assets, Job& job)
-      : model_(model), shapes_(shapes), looks_(looks), source_(shapes, looks, assets, job), job_(job) {}
+  Assembly(Model& model, const Shapes& shapes, MaterialTable& materials, std::span<Asset> assets, Job& job)
+      : model_(model),
+        shapes_(shapes),
+        materials_(materials),
+        source_(shapes, materials, assets, job),
+        job_(job) {}
 
   void run(Sharing sharing) {
     gather();
@@ -28,14 +32,14 @@ class Assembly {
     std::vector<DrawnBody> merged, single;
     for (const DrawnBody& body : bodies_) {
       const Shape& shape = shapes_.shapes[body.shape];
-      const bool is_textured = body.material >= 0 && looks_.tile_of(body.material) != nullptr;
+      const bool is_textured = body.material >= 0 && materials_.tile_of(body.material) != nullptr;
       const bool is_single = source_.is_own(shape) || (!is_textured && (all || is_paying(body)));
       (is_single ? single : merged).push_back(body);
     }
     share(single);
     if (merged.empty()) return;
     for (MeshGroup& group :
-         merged_bodies(model_, {shapes_, looks_, source_, low_, diagonal_}, merged, 0, job_)) {
+         merged_bodies(model_, {shapes_, materials_, source_, low_, diagonal_}, merged, 0, job_)) {
       Node node;
       node.name = "layer";
       node.parent = root_;
@@ -45,7 +49,7 @@ class Assembly {
     }
   }
 
-  /// A mesh a layer.
+  /// Adds a mesh for each layer.
   std::vector<int> level(Sharing sharing, std::size_t least) {
     gather();
     std::vector<DrawnBody> merged, single;
@@ -57,7 +61,7 @@ class Assembly {
     }
     std::vector<int> layers;
     for (MeshGroup& group :
-         merged_bodies(model_, {shapes_, looks_, source_, low_, diagonal_}, merged, least, job_)) {
+         merged_bodies(model_, {shapes_, materials_, source_, low_, diagonal_}, merged, least, job_)) {
       layers.push_back(static_cast<int>(model_.meshes.size()));
       model_.meshes.push_back(std::move(group));
     }
@@ -83,12 +87,12 @@ class Assembly {
   Key key_of(const DrawnBody& body) {
     const Shape& shape = source_.shape_of(body);
     const bool is_part = source_.is_part(shape);
-    // A turned box is the same box; a model of the request's own is scaled by its node.
+    // The node of a body rotates it; the node of an asset of the request scales it as well.
     return {shape.geometry, source_.is_own(shape) ? std::array<std::int64_t, 3>{} : rounded(shape.size),
             body.material, is_part ? shapes_.styles[shape.style].options : 0U};
   }
 
-  /// How often each body stands that is costly enough to share a mesh.
+  /// Counts the copies of bodies that are large enough to share a mesh.
   void count_costly() {
     for (const DrawnBody& body : bodies_) {
       if (is_costly(body)) ++costly_[key_of(body)];
@@ -103,7 +107,7 @@ class Assembly {
            source_.cost_of(source_.shape_of(body)).pays(costly_[key_of(body)]);
   }
 
-  /// What is drawn, its material, and the extent of all.
+  /// Collects the drawn bodies with their materials, and the box around them.
   void gather() {
     glm::dvec3 low(1e300), high(-1e300);
     for (std::uint32_t i = 0; i < shapes_.shapes.size(); ++i) {
@@ -139,11 +143,13 @@ class Assembly {
     if (thin > 0)
       model_.warnings.push_back(
           {"/rules",
-           std::to_string(thin) + " shapes are too thin beside the whole to be drawn and are left out", 0,
-           0});
+           std::to_string(thin) +
+               " shapes are too thin to be drawn, compared with the whole, and are left out",
+           0, 0});
     for (DrawnBody& body : bodies_)
-      body.material =
-          source_.is_asset(shapes_.shapes[body.shape]) ? -1 : looks_.material_of(shapes_.shapes[body.shape]);
+      body.material = source_.is_asset(shapes_.shapes[body.shape])
+                          ? -1
+                          : materials_.material_of(shapes_.shapes[body.shape]);
   }
 
   // Shared meshes
@@ -165,8 +171,8 @@ class Assembly {
       const int mesh = source_.is_asset(shape) ? add_asset_mesh(shape) : add_shared_mesh(shape);
       if (mesh < 0) continue;
       Node node;
-      node.name =
-          source_.is_asset(shape) ? shapes_.asset_names[shape.geometry & ~asset_bit] : looks_.symbol(shape);
+      node.name = source_.is_asset(shape) ? shapes_.asset_names[shape.geometry & ~asset_bit]
+                                          : materials_.symbol(shape);
       node.parent = root_;
       node.mesh = mesh;
       if (transforms.size() == 1)
@@ -200,7 +206,7 @@ class Assembly {
     return scale;
   }
 
-  /// Each asset is shown by one mesh, each part by one for each size: what was made moves there.
+  /// Adds one mesh for an asset, or for a part of one size. Its primitives move to the model.
   int add_asset_mesh(const Shape& shape) {
     MeshGroup group;
     group.name = shapes_.asset_names[shape.geometry & ~asset_bit];
@@ -208,7 +214,7 @@ class Assembly {
     group.primitives = std::move(asset.primitives);
     if (source_.is_part(shape)) {
       for (Primitive& primitive : group.primitives) {
-        const glm::dvec2* const tile = looks_.tile_of(primitive.material);
+        const glm::dvec2* const tile = materials_.tile_of(primitive.material);
         if (tile == nullptr) {
           primitive.mesh.uv[0] = {};
           weld(primitive.mesh, job_);  // where only the texture had differed
@@ -221,15 +227,15 @@ class Assembly {
   }
 
   int add_shared_mesh(const Shape& shape) {
-    source_.fill(shape, patch_);
-    if (patch_.index.empty()) return -1;
+    source_.fill(shape, surface_);
+    if (surface_.index.empty()) return -1;
     Primitive primitive;
-    primitive.material = looks_.material_of(shape);
+    primitive.material = materials_.material_of(shape);
     primitive.mesh = empty_mesh(false, job_);
-    append(patch_, primitive.mesh, glm::dmat3(1), glm::dvec3(0), {});
+    append(surface_, primitive.mesh, glm::dmat3(1), glm::dvec3(0), {});
     if (shape.geometry != box_geometry) weld(primitive.mesh, job_);
     MeshGroup group;
-    group.name = looks_.symbol(shape);
+    group.name = materials_.symbol(shape);
     group.primitives.push_back(std::move(primitive));
     model_.meshes.push_back(std::move(group));
     return static_cast<int>(model_.meshes.size()) - 1;
@@ -237,27 +243,27 @@ class Assembly {
 
   Model& model_;
   const Shapes& shapes_;
-  Looks& looks_;
+  MaterialTable& materials_;
   BodySource source_;
   Job& job_;
   int root_ = -1;
   std::vector<DrawnBody> bodies_;
   double diagonal_ = 1, least_ = 0;
   glm::dvec3 low_{0};
-  Patch patch_;
+  BodySurface surface_;
   std::map<Key, std::uint64_t> costly_;
 };
 
 }  // namespace
 
-void add_bodies(Model& model, const Shapes& shapes, Looks& looks, std::span<Asset> assets, Sharing sharing,
-                Job& job) {
-  Assembly(model, shapes, looks, assets, job).run(sharing);
+void add_bodies(Model& model, const Shapes& shapes, MaterialTable& materials, std::span<Asset> assets,
+                Sharing sharing, Job& job) {
+  Assembly(model, shapes, materials, assets, job).run(sharing);
 }
 
-std::vector<int> add_level(Model& model, const Shapes& shapes, Looks& looks, std::span<Asset> assets,
-                           Sharing sharing, std::size_t least, Job& job) {
-  return Assembly(model, shapes, looks, assets, job).level(sharing, least);
+std::vector<int> add_level(Model& model, const Shapes& shapes, MaterialTable& materials,
+                           std::span<Asset> assets, Sharing sharing, std::size_t least, Job& job) {
+  return Assembly(model, shapes, materials, assets, job).level(sharing, least);
 }
 
 }  // namespace seedmesh::building

@@ -19,16 +19,16 @@ Asset& BodySource::asset_of(const Shape& shape) {
   Asset& made = found->second;
   made.size = shape.size;
   for (PartPiece& piece : make_part(*asset.row, shape.size, shapes_.part_options[style.options], job_))
-    made.primitives.push_back({std::move(piece.mesh), looks_.material_of_part(piece.role, style), {}});
+    made.primitives.push_back({std::move(piece.mesh), materials_.material_of_part(piece.role, style), {}});
   return made;
 }
 
-void BodySource::fill(const Shape& shape, Patch& patch) {
-  patch.clear();
+void BodySource::fill(const Shape& shape, BodySurface& surface) {
+  surface.clear();
   if (shape.geometry == box_geometry)
-    patches_.box(shape.size, patch);
+    surfaces_.box(shape.size, surface);
   else
-    patches_.solid(shapes_.solid_of(shape.geometry), shape.size, patch);
+    surfaces_.solid(shapes_.solid_of(shape.geometry), shape.size, surface);
 }
 
 BodyCost BodySource::cost_of(const Shape& shape) {

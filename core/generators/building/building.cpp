@@ -12,14 +12,15 @@
 #include "core/generators/building/collision.h"
 #include "core/generators/building/derive.h"
 #include "core/generators/building/estimate.h"
-#include "core/generators/building/ground.h"
-#include "core/generators/building/halve.h"
-#include "core/generators/building/listing.h"
+#include "core/generators/building/footprint.h"
 #include "core/generators/building/picture_shapes.h"
+#include "core/generators/building/shapes_json.h"
+#include "core/generators/building/split_mesh.h"
 #include "core/generators/child.h"
-#include "core/geom/flatten.h"
-#include "core/gltf/read.h"
+#include "core/geom/mesh/flatten.h"
+#include "core/gltf/read/read.h"
 #include "core/model/levels.h"
+#include "core/schema/warning_list.h"
 #include "generated/params/building.h"
 
 namespace seedmesh::building {
@@ -28,7 +29,7 @@ namespace {
 constexpr std::size_t most_listed = 100'000;  ///< shapes in the answer of derive
 constexpr std::string_view lod_attribute = "lod";
 
-/// Everything between the parameters and the shapes.
+/// The intermediate results between parameters and shapes.
 struct Work {
   Grammar grammar;
   PictureGrammar pictures;  ///< where there is a shape grammar
@@ -42,7 +43,7 @@ void add_asset(Work& work, const std::string& name, Model own, Job& job) {
   asset.primitives = flatten(own, job);
   if (std::erase_if(asset.primitives,
                     [](const Primitive& p) { return p.mesh.topology != Topology::triangles; }) > 0)
-    own.warnings.push_back({"/assets/" + name, "lines and points of the asset are left out", 0, 0});
+    own.warnings.push_back({"/assets/" + name, "the asset has lines or points, which are left out", 0, 0});
   const auto materials = static_cast<int>(work.model.materials.size()),
              textures = static_cast<int>(work.model.textures.size());
   for (Material& material : own.materials) {
@@ -74,10 +75,11 @@ void add_asset(Work& work, const std::string& name, Model own, Job& job) {
   work.assets.push_back(std::move(asset));
 }
 
-std::optional<Error> add_assets(Work& work, const BuildingParams& params, Job& job) {
+std::optional<Error> add_assets(Work& work, const BuildingParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   for (const auto& [name, given] : params.assets) {
     Result<Model> own = given.model ? generate_child(*given.model, "/assets/" + name + "/model",
-                                                     job.rng().at("asset").at(name), job)
+                                                     job.rng().at("asset").at(name), context)
                                     : read_glb(*given.glb, "/assets/" + name + "/glb", job);
     if (!own) return std::move(own).error();
     add_asset(work, name, std::move(*own), job);
@@ -92,14 +94,25 @@ std::optional<Error> add_assets(Work& work, const BuildingParams& params, Job& j
   return std::nullopt;
 }
 
-/// What one derivation is asked for besides the request: the attribute `lod`, and an end to it.
-struct Wish {
+/// Options of one derivation besides the request.
+struct DerivationOptions {
   std::optional<double> lod;
   bool is_listed = false;
   std::uint64_t most_shapes = ~std::uint64_t{0};
 };
 
-Shapes shapes_of(Work& work, const BuildingParams& params, Job& job, const Wish& wish = {}) {
+/// What fileSearch and fileRandom find.
+std::vector<std::string> file_names(const BuildingParams& params) {
+  std::set<std::string> names;
+  for (const auto& entry : params.assets) names.insert(entry.first);
+  for (const auto& entry : params.materials) names.insert(entry.first);
+  for (const auto& entry : params.tables) names.insert(entry.first);
+  return {names.begin(), names.end()};
+}
+
+Shapes shapes_of(Work& work, const BuildingParams& params, const GenerateContext& context,
+                 const DerivationOptions& options = {}) {
+  Job& job = context.job;
   if (params.shape_grammar) {
     const bool is_parallel = params.derivation.mode == BuildingMode::parallel;
     const DerivedPicture derived = derive_picture(work.pictures, params.iterations, is_parallel, job);
@@ -107,8 +120,12 @@ Shapes shapes_of(Work& work, const BuildingParams& params, Job& job, const Wish&
     return shapes_of_picture(work.pictures, derived, *params.shape_grammar, job);
   }
   Task plan;
+  std::vector<Issue> ignored;  // the check has reported them
+  const RuleText rules = rule_text_of(params, ignored);
   plan.grammar = &work.grammar;
-  plan.text = rules_of(params);
+  plan.text = &rules;
+  plan.tables = &params.tables;
+  plan.files = file_names(params);
   plan.is_blueprint = !params.rules;
   Solid footprint;
   if (!params.footprint.empty()) {
@@ -119,11 +136,11 @@ Shapes shapes_of(Work& work, const BuildingParams& params, Job& job, const Wish&
     plan.origin = {-0.5 * plan.size.x, 0, -0.5 * plan.size.z};
   }
   for (const auto& [name, given] : params.attributes)
-    plan.attributes.emplace(name, number_of(work.grammar.texts, given));
-  if (wish.lod) plan.attributes[std::string(lod_attribute)] = *wish.lod;
-  plan.most_shapes = wish.most_shapes;
-  plan.keeps_choices = wish.is_listed;
-  plan.keeps_masses = job.demand().collision != CollisionNames::none;
+    plan.attributes.emplace(name, value_of(work.grammar.texts, given));
+  if (options.lod) plan.attributes[std::string(lod_attribute)] = {*options.lod, 0};
+  plan.most_shapes = options.most_shapes;
+  plan.keeps_choices = options.is_listed;
+  plan.keeps_masses = context.demand.collision != CollisionNames::none;
   if (params.iterations) plan.iterations = *params.iterations;
   plan.is_sequential = params.derivation.mode == BuildingMode::sequential;
   plan.is_depth_first = params.derivation.order == BuildingOrder::depth;
@@ -140,12 +157,12 @@ std::vector<std::string> symbol_names(const Grammar& grammar) {
   return names;
 }
 
-/// Values of the grammar's own attribute `lod` for the levels behind the finest; none where there is no such
-/// attribute or one level alone is wanted. They end with its range.
+/// The values of the attribute `lod` of the grammar for the levels after the finest. Empty if the grammar has
+/// no such attribute or the output has one level. They end with the range of the attribute.
 std::vector<double> lods_of(const Grammar& grammar, const BuildingParams& params, int levels) {
   const auto found = std::ranges::find(grammar.attributes, lod_attribute, &Attribute::name);
   if (levels < 2 || found == grammar.attributes.end() || found->is_constant ||
-      !found->value.expression.is_constant)
+      !found->value.expression.is_constant || found->value.expression.text != 0)
     return {};
   const auto given = params.attributes.find(std::string(lod_attribute));
   double value = found->value.expression.value;
@@ -158,7 +175,9 @@ std::vector<double> lods_of(const Grammar& grammar, const BuildingParams& params
   while (static_cast<int>(lods.size()) + 1 < levels) {
     value += 1;
     if (found->has_range && value > found->high) break;
-    if (!found->choices.empty() && std::ranges::find(found->choices, value) == found->choices.end()) break;
+    if (!found->choices.empty() &&
+        std::ranges::find(found->choices, lang::TaggedValue{value, 0}) == found->choices.end())
+      break;
     lods.push_back(value);
   }
   return lods;
@@ -176,28 +195,30 @@ std::uint64_t triangles_of(const Model& model, std::span<const int> meshes) {
   return triangles;
 }
 
-/// Nodes whose meshes are the levels, each of fewer triangles than the one before: the derivation runs again
-/// for each, with its value of `lod`.
+/// Adds nodes with levels of detail. The derivation runs again for each value of `lod`; a level without fewer
+/// triangles than the level before is left out.
 void add_levels(Model& model, Work& work, const BuildingParams& params, const Shapes& finest,
-                std::span<const double> lods, Looks& looks, Job& job) {
+                std::span<const double> lods, MaterialTable& materials, const GenerateContext& context) {
+  Job& job = context.job;
   std::vector<std::vector<int>> levels;
-  levels.push_back(add_level(model, finest, looks, work.assets, Sharing::paying, 0, job));
+  levels.push_back(add_level(model, finest, materials, work.assets, Sharing::paying, 0, job));
   for (const double lod : lods) {
-    const Shapes shapes = shapes_of(work, params, job, {.lod = lod});
-    looks.show(shapes);
+    const Shapes shapes = shapes_of(work, params, context, {.lod = lod});
+    materials.use(shapes);
     const std::size_t meshes = model.meshes.size();
-    levels.push_back(add_level(model, shapes, looks, work.assets, Sharing::merged, levels[0].size(), job));
+    levels.push_back(
+        add_level(model, shapes, materials, work.assets, Sharing::merged, levels[0].size(), job));
     if (triangles_of(model, levels.back()) < triangles_of(model, *(levels.end() - 2))) continue;
-    model.meshes.resize(meshes);  // the rules make nothing of this value that would be coarser
+    model.meshes.resize(meshes);  // the rules make no coarser model for this value
     levels.pop_back();
   }
-  looks.show(finest);
-  // A level of fewer layers than another is shown by halves of meshes.
+  materials.use(finest);
+  // All levels need as many meshes, so that meshes of levels with fewer layers are split.
   std::size_t layers = 0;
   for (const std::vector<int>& level : levels) layers = std::max(layers, level.size());
   for (std::vector<int>& level : levels) {
     for (std::size_t i = 0; i < level.size() && level.size() < layers;) {
-      std::optional<MeshGroup> half = halve(model.meshes[static_cast<std::size_t>(level[i])], job);
+      std::optional<MeshGroup> half = split_in_half(model.meshes[static_cast<std::size_t>(level[i])], job);
       if (!half) {
         ++i;
         continue;
@@ -209,7 +230,7 @@ void add_levels(Model& model, Work& work, const BuildingParams& params, const Sh
   for (const std::vector<int>& level : levels) layers = std::min(layers, level.size());
   if (layers == 0) return;
   for (const std::vector<int>& level : levels) {
-    // And where it is too small for that, the others have no more meshes than it.
+    // If that is not possible, the other levels join their last meshes.
     auto& last = model.meshes[static_cast<std::size_t>(level[layers - 1])].primitives;
     for (std::size_t i = layers; i < level.size(); ++i) {
       std::vector<Primitive> more =
@@ -227,19 +248,19 @@ void add_levels(Model& model, Work& work, const BuildingParams& params, const Sh
   }
 }
 
-/// Made pictures, and the coordinates and tangents of the faces that wear them.
-std::uint64_t picture_bytes(const BuildingParams& params, const Grammar& grammar, const Shapes& shapes,
-                            const Job& job) {
-  // PNG files of a set by texel and the part of them that is colour, as measured in the mean of all kinds.
+/// The bytes of textures made by seed, and of texture coordinates and tangents of their faces.
+std::uint64_t texture_bytes(const BuildingParams& params, const Grammar& grammar, const Shapes& shapes,
+                            const GenerateContext& context) {
+  // Bytes a texel of the PNG files of a material, and of its colour image, as means over all kinds.
   constexpr double set_bytes = 0.5, color_bytes = 0.15;
   constexpr std::uint64_t vertex_bytes = 24;
   Model model;
-  Looks looks(model, params, shapes, job);
-  looks.set_symbols(symbol_names(grammar));
+  MaterialTable materials(model, params, shapes, context);
+  materials.set_symbols(symbol_names(grammar));
   std::uint64_t vertices = 0;
   for (const Shape& shape : shapes.shapes) {
     if (!shape.is_active || dimension(shape.size) < 2 || (shape.geometry & asset_bit) != 0) continue;
-    if (looks.tile_of(looks.material_of(shape)) == nullptr) continue;
+    if (materials.tile_of(materials.material_of(shape)) == nullptr) continue;
     vertices += shape.geometry != box_geometry ? shapes.solid_of(shape.geometry).corners.size()
                 : dimension(shape.size) == 3   ? 24U
                                                : 4U;
@@ -253,7 +274,7 @@ std::uint64_t picture_bytes(const BuildingParams& params, const Grammar& grammar
     colors.emplace(material.recipe.kind,
                    std::uint32_t{color[0]} << 16U | std::uint32_t{color[1]} << 8U | std::uint32_t{color[2]});
   }
-  const double texels = static_cast<double>(job.demand().textures) * job.demand().textures;
+  const double texels = static_cast<double>(context.demand.textures) * context.demand.textures;
   const double pictures = texels * (set_bytes * static_cast<double>(kinds.size()) +
                                     color_bytes * static_cast<double>(colors.size() - kinds.size()));
   return vertices * vertex_bytes + static_cast<std::uint64_t>(math::to_int64(pictures));
@@ -263,7 +284,7 @@ void append(std::vector<Warning>& to, const std::vector<Warning>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-/// Of rules that came with the program the request has no text to point into.
+/// Moves warnings of built-in rules, whose text the request does not have, to /blueprint.
 void point_at_blueprint(const BuildingParams& params, std::vector<Warning>& warnings) {
   for (Warning& warning : warnings) {
     if (params.blueprint && warning.pointer == "/rules") warning = {"/blueprint", warning.message, 0, 0};
@@ -278,13 +299,14 @@ std::vector<Issue> check(const BuildingParams& params, const Limits& limits) {
   return check_all(params, limits, grammar, pictures);
 }
 
-Result<Model> generate(const BuildingParams& params, Job& job) {
+Result<Model> generate(const BuildingParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   Work work;
   std::vector<Issue> issues = check_all(params, job.limits(), work.grammar, work.pictures);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   job.progress("derive", 0);
-  if (auto refused = add_assets(work, params, job)) return std::move(*refused);
-  const Shapes shapes = shapes_of(work, params, job);
+  if (auto refused = add_assets(work, params, context)) return std::move(*refused);
+  const Shapes shapes = shapes_of(work, params, context);
   job.progress("mesh", 0);
   Model model = std::move(work.model);
   model.name = "building";
@@ -292,65 +314,63 @@ Result<Model> generate(const BuildingParams& params, Job& job) {
   append(model.warnings, shapes.warnings);
   if (auto warning = nothing_drawn(shapes); warning && !params.shape_grammar)
     model.warnings.push_back(*std::move(warning));
-  Looks looks(model, params, shapes, job);
-  looks.set_symbols(symbol_names(work.grammar));
-  const std::vector<double> lods = lods_of(work.grammar, params, job.demand().lods);
+  MaterialTable materials(model, params, shapes, context);
+  materials.set_symbols(symbol_names(work.grammar));
+  const std::vector<double> lods = lods_of(work.grammar, params, context.demand.lods);
   if (lods.empty())
-    add_bodies(model, shapes, looks, work.assets, sharing_of(job.demand()), job);
+    add_bodies(model, shapes, materials, work.assets, sharing_of(context.demand), job);
   else
-    add_levels(model, work, params, shapes, lods, looks, job);
-  add_collision(model, shapes, job);
+    add_levels(model, work, params, shapes, lods, materials, context);
+  add_collision(model, shapes, context);
   point_at_blueprint(params, model.warnings);
-  if (!shapes.reports.empty()) model.extras.push_back({"reports", listed(shapes.reports).dump()});
+  if (!shapes.reports.empty()) model.extras.push_back({"reports", json_of(shapes.reports).dump()});
   return model;
 }
 
-Result<Json> derive(const BuildingParams& params, Job& job) {
+Result<Json> derive(const BuildingParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   Work work;
   std::vector<Issue> issues = check_all(params, job.limits(), work.grammar, work.pictures);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
-  if (auto refused = add_assets(work, params, job)) return std::move(*refused);
-  const Shapes shapes = shapes_of(work, params, job, {.lod = std::nullopt, .is_listed = true});
-  Json list = listed(shapes, work.grammar, rules_of(params), most_listed, job);
+  if (auto refused = add_assets(work, params, context)) return std::move(*refused);
+  const Shapes shapes = shapes_of(work, params, context, {.lod = std::nullopt, .is_listed = true});
+  Json list = json_of(shapes, work.grammar, rule_text_of(params, issues), most_listed, job);
   std::vector<Warning> warnings = work.model.warnings;
   append(warnings, work.grammar.warnings);
   append(warnings, shapes.warnings);
   return Json{{"shapes", std::move(list)},
               {"count", shapes.shapes.size()},
               {"truncated", shapes.shapes.size() > most_listed},
-              {"reports", listed(shapes.reports)},
-              {"warnings", listed(warnings)}};
+              {"reports", json_of(shapes.reports)},
+              {"warnings", warning_list(warnings)}};
 }
 
-Result<Appraisal> appraise(const BuildingParams& params, const Job& job) {
+Result<Appraisal> appraise(const BuildingParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   Appraisal appraisal;
   Work work;
   std::vector<Issue> issues = check_all(params, job.limits(), work.grammar, work.pictures);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   appraisal.warnings = work.grammar.warnings;
-  // A request that brings models of its own, or has more shapes than are made in an instant, is not
-  // estimated.
+  // Requests with assets or with very many shapes have no estimate.
   if (!params.assets.empty()) return appraisal;
-  // A job of its own: what is looked at here is not spent. It ends by its limits.
-  job.check();
-  Job::Options options;
-  options.limits = job.limits();
-  Job own(job.seed(), options);
-  if (auto refused = add_assets(work, params, own)) return std::move(*refused);
-  const Shapes shapes = shapes_of(work, params, own, {.lod = {}, .most_shapes = most_appraised});
+  Job own = job.for_estimate();
+  const GenerateContext sketch{own, {}, context.generators};
+  if (auto refused = add_assets(work, params, sketch)) return std::move(*refused);
+  const Shapes shapes = shapes_of(work, params, sketch, {.lod = {}, .most_shapes = most_appraised});
   append(appraisal.warnings, shapes.warnings);
   if (auto warning = nothing_drawn(shapes); warning && !params.shape_grammar)
     appraisal.warnings.push_back(*std::move(warning));
   point_at_blueprint(params, appraisal.warnings);
   if (shapes.shapes.size() > most_appraised) return appraisal;
-  const Demand& demand = job.demand();
+  const Demand& demand = context.demand;
   const std::vector<double> lods = lods_of(work.grammar, params, demand.lods);
-  // Levels are merged meshes, all of them in the file.
+  // The file contains the merged meshes of all levels.
   const CopyForm copies = lods.empty() ? demand.copies : CopyForm::merge;
   appraisal.estimate = estimate_of(shapes, copies, demand.share_organs, own);
-  if (appraisal.estimate) appraisal.estimate->bytes += picture_bytes(params, work.grammar, shapes, job);
+  if (appraisal.estimate) appraisal.estimate->bytes += texture_bytes(params, work.grammar, shapes, context);
   for (const double lod : lods) {
-    const Shapes level = shapes_of(work, params, own, {.lod = lod, .most_shapes = most_appraised});
+    const Shapes level = shapes_of(work, params, sketch, {.lod = lod, .most_shapes = most_appraised});
     const std::optional<Estimate> more = estimate_of(level, CopyForm::merge, false, own);
     if (!more || !appraisal.estimate || level.shapes.size() > most_appraised) {
       appraisal.estimate.reset();

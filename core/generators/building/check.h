@@ -1,5 +1,5 @@
 #pragma once
-/// What the schema of a building cannot say, and the rules read on the way.
+/// The checks of a request that the schema cannot express. They read the rules as well.
 #include <optional>
 #include <string_view>
 #include <variant>
@@ -16,16 +16,17 @@ struct BuildingParams;
 
 namespace seedmesh::building {
 
-/// The rules of the request or of its blueprint; empty where there is a shape grammar.
-std::string_view rules_of(const BuildingParams& params);
+/// The rules of the request or of its blueprint; empty if it has a shape grammar. Adds an issue if the main file is not
+/// clear.
+RuleText rule_text_of(const BuildingParams& params, std::vector<Issue>& issues);
 
-/// The value of an attribute as expressions see it.
-double number_of(Texts& texts, const std::variant<double, std::string, bool>& given);
+/// The value of an attribute as expressions see it; true is 1, false is 0.
+lang::TaggedValue value_of(Texts& texts, const std::variant<double, std::string, bool>& given);
 
-/// None, or that nothing is drawn though nothing was taken away by NIL.
+/// A warning if nothing is drawn and no NIL removed shapes.
 std::optional<Warning> nothing_drawn(const Shapes& shapes);
 
-/// All faults. Fills the grammar, or the pictures where there is a shape grammar.
+/// All errors. Fills the grammar, or the pictures if the request has a shape grammar.
 std::vector<Issue> check_all(const BuildingParams& params, const Limits& limits, Grammar& grammar,
                              PictureGrammar& pictures);
 

@@ -1,6 +1,6 @@
-/// A solid cut by a plane across an axis. Each loop falls into chains on the kept side; along the line where
-/// the plane meets the face the ends of chains alternate between leaving and entering, so that sorting them
-/// joins each end with the next start (the rule of Weiler and Atherton for a straight clip edge).
+/// Cuts a solid by a plane across an axis. Each loop leaves chains of corners on the kept side. Along the
+/// line where the plane meets a face, chains leave and enter alternately, so that sorting their ends joins
+/// each end with the next start (the rule of Weiler and Atherton for a straight clip edge).
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -74,7 +74,7 @@ class Clipper {
     for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l)
       walk(in_.loops[l], whole, chains);
     if (chains.empty()) {
-      // A hole alone is left where the plane passes between it and the outer loop: then nothing is.
+      // If the plane passes between a hole and the outer loop, only the hole remains, and so no face.
       if (whole.empty() || !is_kept(in_.corners[in_.loops[face.first_loop].first])) return;
       add(whole, face.is_round);
       return;
@@ -89,7 +89,7 @@ class Clipper {
       ends.push_back({glm::dot(along, out_.points[chains[c].corners.back()]), c, true});
     }
     std::ranges::stable_sort(ends, [](const End& x, const End& y) { return x.along < y.along; });
-    // The chain that goes on where this one leaves.
+    // The chain that continues where this one leaves.
     std::vector<std::size_t> next(chains.size(), chains.size());
     for (std::size_t i = 0; i + 1 < ends.size(); i += 2) {
       const End& leave = ends[i].leaves ? ends[i] : ends[i + 1];
@@ -111,7 +111,7 @@ class Clipper {
       }
       outers.push_back(std::move(loop));
     }
-    share_out(std::move(outers), std::move(whole), normal, face);
+    make_faces(std::move(outers), std::move(whole), normal, face);
   }
 
   void walk(const Loop& loop, std::vector<std::vector<std::uint32_t>>& whole, std::vector<Chain>& chains) {
@@ -143,7 +143,7 @@ class Clipper {
     return in_.corners[loop.first + i % loop.count];
   }
 
-  /// Equal neighbours become one; false where no area is left.
+  /// Joins equal neighbours; false if no area remains.
   static bool tidy(std::vector<std::uint32_t>& loop) {
     loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
     while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
@@ -158,25 +158,18 @@ class Clipper {
     return glm::dot(sum, normal) / std::max(glm::length(normal), 1e-300);
   }
 
-  /// Is the point inside the loop, seen along the normal? By crossings of a ray.
-  bool contains(const std::vector<std::uint32_t>& loop, const glm::dvec3& p, const glm::dvec3& normal) const {
-    int drop = 0;
-    for (int k = 1; k < 3; ++k) {
-      if (std::abs(normal[k]) > std::abs(normal[drop])) drop = k;
-    }
-    const int u = (drop + 1) % 3, v = (drop + 2) % 3;
-    bool inside = false;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const glm::dvec3 a = out_.points[loop[i]], b = out_.points[loop[(i + 1) % loop.size()]];
-      if ((a[v] > p[v]) == (b[v] > p[v])) continue;
-      if (p[u] < a[u] + (b[u] - a[u]) * (p[v] - a[v]) / (b[v] - a[v])) inside = !inside;
-    }
+  bool is_inside_loop(const std::vector<std::uint32_t>& loop, const glm::dvec3& p, const glm::dvec3& normal) {
+    const auto first = static_cast<std::uint32_t>(out_.corners.size());
+    out_.corners.insert(out_.corners.end(), loop.begin(), loop.end());
+    const Loop probe{first, static_cast<std::uint32_t>(loop.size())};
+    const bool inside = is_inside(out_, std::span(&probe, 1), normal, p);
+    out_.corners.resize(first);
     return inside;
   }
 
-  /// Loops of either direction into faces: each hole goes to the outer loop around it.
-  void share_out(std::vector<std::vector<std::uint32_t>> loops, std::vector<std::vector<std::uint32_t>> more,
-                 const glm::dvec3& normal, const Face& face) {
+  /// Makes faces of loops of either direction: each hole goes to the outer loop around it.
+  void make_faces(std::vector<std::vector<std::uint32_t>> loops, std::vector<std::vector<std::uint32_t>> more,
+                  const glm::dvec3& normal, const Face& face) {
     loops.insert(loops.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
     std::vector<std::vector<std::vector<std::uint32_t>>> groups;
     std::vector<std::vector<std::uint32_t>> holes;
@@ -191,7 +184,7 @@ class Clipper {
     }
     for (auto& hole : holes) {
       for (auto& group : groups) {
-        if (groups.size() > 1 && !contains(group.front(), out_.points[hole.front()], normal)) continue;
+        if (groups.size() > 1 && !is_inside_loop(group.front(), out_.points[hole.front()], normal)) continue;
         group.push_back(std::move(hole));
         break;
       }
@@ -202,21 +195,17 @@ class Clipper {
   void add(const std::vector<std::vector<std::uint32_t>>& loops, bool is_round) {
     Face face{static_cast<std::uint32_t>(out_.loops.size()), static_cast<std::uint32_t>(loops.size()),
               is_round};
-    for (const auto& loop : loops) {
-      out_.loops.push_back(
-          {static_cast<std::uint32_t>(out_.corners.size()), static_cast<std::uint32_t>(loop.size())});
-      out_.corners.insert(out_.corners.end(), loop.begin(), loop.end());
-    }
+    for (const auto& loop : loops) add_loop(out_, loop);
     out_.faces.push_back(face);
   }
 
-  /// The cut segments, the other way round, are the border of the caps.
+  /// Adds caps, whose borders are the reversed cut segments.
   void cap() {
     std::multimap<std::uint32_t, std::uint32_t> next;
     for (const std::pair<std::uint32_t, std::uint32_t>& cut : cuts_) {
       const std::uint32_t from = cut.first, to = cut.second;
       if (from == to) continue;
-      // A face that lies along the plane has run this edge the other way: both together are nothing.
+      // A face in the plane has the same edge in the other direction; the two cancel.
       const auto range = next.equal_range(from);
       const auto back =
           std::find_if(range.first, range.second, [&](const auto& each) { return each.second == to; });
@@ -240,7 +229,7 @@ class Clipper {
     }
     glm::dvec3 normal(0);
     normal[axis_] = sign_;
-    share_out(std::move(loops), {}, normal, Face{});
+    make_faces(std::move(loops), {}, normal, Face{});
   }
 
   const Solid& in_;

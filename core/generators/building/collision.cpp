@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/generators/building/body_surface.h"
 #include "core/generators/building/hull.h"
-#include "core/generators/building/patch.h"
 #include "core/model/collision_name.h"
 
 namespace seedmesh::building {
@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t most_bodies = 32, most_masses = 2'000, most_cuts = 6;
 constexpr double least_share = 1e-3, carried_share = 0.05, good_share = 0.92, least_gain = 0.04;
 
-/// A convex body, and the solid in it, in metres of the world.
+/// A solid and its convex hull, in metres of the world.
 struct Mass {
   Solid solid, hull;
   double volume = 0, hull_volume = 0;
@@ -32,12 +32,12 @@ Mass mass_of(Solid solid) {
 
 double box_volume(const glm::dvec3& size) { return size.x * size.y * size.z; }
 
-/// What was taken apart into faces, and what is drawn whole. What faces carry, windows or a roof, counts
-/// where it is large beside the rest.
-std::vector<TakenApart> masses_of(const Shapes& shapes) {
-  std::vector<TakenApart> out = shapes.masses;
+/// The bodies that are taken apart into faces or drawn as a whole. Bodies on faces of others, such as windows
+/// and roofs, count if they are large.
+std::vector<DecomposedBody> masses_of(const Shapes& shapes) {
+  std::vector<DecomposedBody> out = shapes.masses;
   double largest = 0;
-  for (const TakenApart& each : out) largest = std::max(largest, box_volume(each.size));
+  for (const DecomposedBody& each : out) largest = std::max(largest, box_volume(each.size));
   for (const bool is_carried : {false, true}) {
     const double least = is_carried ? carried_share * largest : 0;
     for (const Shape& shape : shapes.shapes) {
@@ -52,7 +52,7 @@ std::vector<TakenApart> masses_of(const Shapes& shapes) {
   return out;
 }
 
-/// Does the hull hold all points of the other, to a hundredth of its size?
+/// Whether the hull contains the other hull, to within a hundredth of its size.
 bool holds(const Mass& mass, const Mass& other) {
   const double near = 0.01 * math::cbrt(mass.hull_volume);
   return std::ranges::all_of(mass.hull.faces, [&](const Face& face) {
@@ -63,7 +63,7 @@ bool holds(const Mass& mass, const Mass& other) {
   });
 }
 
-/// Two parts of a mass, by the cut that leaves the smallest hulls; false where none gains enough.
+/// Cuts a mass in two so that the hulls are as small as possible. False: no cut makes them much smaller.
 bool cut_in_two(Mass& mass, Mass& other, Job& job) {
   double best = mass.hull_volume * (1 - least_gain);
   Mass low_part, high_part;
@@ -108,23 +108,24 @@ Mesh mesh_of(const Solid& hull, Job& job) {
   mesh.position = Array<glm::vec3>(job);
   mesh.normal = Array<glm::vec3>(job);
   mesh.index.wide = Array<std::uint32_t>(job);
-  Patch patch;
-  PatchMaker().solid(hull, glm::dvec3(1), patch);
-  job.spend(Resource::triangles, patch.index.size() / 3);
-  for (std::size_t i = 0; i < patch.position.size(); ++i) {
-    mesh.position.push_back(glm::vec3(patch.position[i]));
-    mesh.normal.push_back(glm::vec3(patch.normal[i]) + 0.0F);
+  BodySurface surface;
+  SurfaceBuilder().solid(hull, glm::dvec3(1), surface);
+  job.spend(Resource::triangles, surface.index.size() / 3);
+  for (std::size_t i = 0; i < surface.position.size(); ++i) {
+    mesh.position.push_back(glm::vec3(surface.position[i]));
+    mesh.normal.push_back(glm::vec3(surface.normal[i]) + 0.0F);
   }
-  for (const std::uint32_t i : patch.index) mesh.index.wide.push_back(i);
+  for (const std::uint32_t i : surface.index) mesh.index.wide.push_back(i);
   return mesh;
 }
 
 }  // namespace
 
-void add_collision(Model& model, const Shapes& shapes, Job& job) {
-  if (job.demand().collision == CollisionNames::none) return;
+void add_collision(Model& model, const Shapes& shapes, const GenerateContext& context) {
+  Job& job = context.job;
+  if (context.demand.collision == CollisionNames::none) return;
   std::vector<Mass> masses;
-  for (const TakenApart& each : masses_of(shapes)) {
+  for (const DecomposedBody& each : masses_of(shapes)) {
     const bool is_box = each.geometry == box_geometry || (each.geometry & asset_bit) != 0;
     Solid solid = is_box ? unit_box() : shapes.solid_of(each.geometry);
     for (glm::dvec3& p : solid.points) p = each.origin + shapes.axes[each.axes] * (p * each.size);
@@ -141,7 +142,7 @@ void add_collision(Model& model, const Shapes& shapes, Job& job) {
       outer.push_back(std::move(mass));
   }
   masses = std::move(outer);
-  // The worst is cut first, while there are bodies to spare.
+  // The mass whose hull has most empty volume is cut first, up to the limit of bodies.
   while (masses.size() < most_bodies) {
     Mass* worst = nullptr;
     for (Mass& mass : masses) {
@@ -165,7 +166,7 @@ void add_collision(Model& model, const Shapes& shapes, Job& job) {
   model.materials.emplace_back().name = "collision";
   for (std::size_t i = 0; i < masses.size(); ++i) {
     Node node;
-    node.name = collision_name(job.demand().collision, "building", i + 1);
+    node.name = collision_name(context.demand.collision, "building", i + 1);
     node.parent = 0;
     node.collision = CollisionShape::convex;
     node.mesh = static_cast<int>(model.meshes.size());

@@ -6,10 +6,10 @@
 namespace seedmesh::building {
 namespace {
 
-/// Relative to the length: what rounding of sums may lose, far below anything that is built.
+/// A share of the length that is rounding error, far below any size of a building.
 constexpr double slack = 1e-9;
 
-/// What one pass over a list of cells asks for.
+/// The sums of sizes of a list of cells.
 struct Sums {
   double fixed = 0, floating = 0;
   std::uint32_t groups = 0;
@@ -25,7 +25,7 @@ class Cutter {
         most_(most),
         out_(out) {}
 
-  /// Cells of one level fill `room` from `at` on.
+  /// Fills the length `room` from `at` on with the cells of one level.
   void level(std::uint32_t first, std::uint32_t count, double at, double room) {
     const double end = std::min(at + room, length_);
     const Sums sums = sums_of(first, count);
@@ -43,7 +43,7 @@ class Cutter {
       wanted_ += n * cell.count;
       if (wanted_ > most_) return;
       wanted_ -= n * cell.count;
-      // A group inside a group takes what a floating cell of its size would.
+      // A group inside a group counts as a floating cell of its size.
       const double span = cycle.fixed + (cycle.floating + nested(cell)) * plan.stretch;
       for (double k = 0; k < n && !is_full_ && wanted_ <= most_; ++k) {
         if (cycle.groups > 0) {
@@ -90,7 +90,7 @@ class Cutter {
     return sums;
   }
 
-  /// What the groups inside a group ask for, once each.
+  /// The sum of the sizes of the groups inside a group, each counted once.
   double nested(const Cell& group) const {
     double sum = 0;
     for (std::uint32_t i = group.first; i < group.first + group.count; ++i) {
@@ -130,7 +130,7 @@ class Cutter {
     return plan;
   }
 
-  /// `end` is where the cells of this level stop; what reaches beyond is cut off there.
+  /// Adds a piece; it is cut off at `end`, where the cells of this level end.
   void place(const Cell& cell, double at, double size, double end) {
     if (!(size > eps_) || is_full_ || at >= end - eps_) {
       is_full_ |= at >= length_ - eps_;

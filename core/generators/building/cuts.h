@@ -1,11 +1,14 @@
 #pragma once
-/// Where a split cuts: the sizes of its cells worked out against the length of the scope.
+/// The positions where a split cuts a scope, from the sizes of its cells.
 ///
-///   fixed = sum of max(0, absolute) + sum of max(0, relative * S);  floating_i = r_i * max(0, S - fixed) /
-///   sum r repeats, with Fo and fo the fixed and floating sums outside the cycle, Fi and fi inside:
-///     x = (S - Fo - fo) / (Fi + fi);  nothing floats: n = ceil(x), the last one cut off at the end;
-///     else n = nearest(x), at most floor((S - Fo) / Fi); each floating size times (S - Fo - n Fi) / (fo + n
-///     fi)
+///   fixed      = sum of max(0, absolute) + sum of max(0, relative * S)
+///   floating_i = r_i * max(0, S - fixed) / sum of all r
+///
+/// A repeated group has n copies. Fo and fo are the fixed and floating sums outside of it, Fi and fi inside:
+///   x = (S - Fo - fo) / (Fi + fi)
+///   nothing floats: n = ceil(x), and the last copy is cut off at the end
+///   else:           n = nearest(x), at most floor((S - Fo) / Fi)
+///   each floating size is multiplied by (S - Fo - n Fi) / (fo + n fi)
 ///
 /// After Müller et al. 2006 (Subdiv, formula 4.7 of Kogovšek) and the CGA reference of Esri (split).
 #include <cstdint>
@@ -16,7 +19,7 @@
 
 namespace seedmesh::building {
 
-/// A cell as asked for, its number worked out. Cells of a group stand together somewhere behind the group.
+/// A cell with its evaluated size. The cells of a group are adjacent, somewhere behind the group.
 struct Cell {
   double size = 0;
   Measure measure = Measure::absolute;
@@ -33,13 +36,13 @@ struct Cut {
 
 enum class Rounding : std::uint8_t { nearest, ceil };
 
-/// Cells [first, first + count) cut `length`. Pieces come from the low end; such of no size are left out, one
-/// that reaches beyond the end is cut off, later ones do not come to be. False: there would be more than
-/// `most` pieces, and `wanted` says how many; nothing is allocated for them. Cost: linear in the pieces.
+/// Cuts `length` into the cells [first, first + count). Pieces come in order from the low end. Pieces without
+/// a size are left out, and the piece that reaches beyond the end is cut off there. False: there would be
+/// more than `most` pieces; `wanted` says how many. Cost: linear in the pieces.
 bool cut(std::span<const Cell> cells, std::uint32_t first, std::uint32_t count, double length,
          Rounding rounding, double most, std::vector<Cut>& out, double& wanted);
 
-/// Repeat("X", size): ceil or nearest of length / size equal pieces, at least one.
+/// The number of equal pieces of Repeat("X", size): length / size rounded up or to the nearest, at least 1.
 double copies_of(double length, double size, Rounding rounding);
 
 }  // namespace seedmesh::building

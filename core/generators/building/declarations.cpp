@@ -1,7 +1,9 @@
-/// Attributes, constants, functions and their annotations, which may stand behind where they are used.
-#include <algorithm>
+#include "core/generators/building/declarations.h"
 
-#include "core/generators/building/parser.h"
+#include <algorithm>
+#include <optional>
+
+#include "core/generators/building/compile_values.h"
 
 namespace seedmesh::building {
 namespace {
@@ -10,90 +12,204 @@ using lang::Token;
 using lang::TokenKind;
 
 constexpr std::size_t most_attributes = 1'000;
-constexpr std::size_t most_parameters = 32;
 
-bool is_declaring(std::string_view word) { return word == "attr" || word == "const"; }
-
-}  // namespace
-
-/// name = value, name(a, b) = value, attr name = value: returns the token behind.
-std::size_t Parser::survey_definition(std::size_t i, bool is_constant, bool is_attribute) {
-  const Token& name = tokens_.at(i);
+/// Collects `name = value`, `name(a, b) = value` or `attr name = value`. Returns the token behind it.
+std::size_t collect_definition(Parser& p, std::size_t i, bool is_constant, bool is_attribute) {
+  const Token& name = p.tokens.at(i);
   std::size_t body = i + 1;
-  Function function;
-  if (tokens_.is(body, "(")) {
-    const std::size_t close = tokens_.partner(body);
+  RuleFunction function;
+  if (p.tokens.is(body, "(")) {
+    const std::size_t close = p.tokens.partner(body);
     for (std::size_t k = body + 1; k < close; ++k) {
-      if (tokens_.at(k).kind != TokenKind::name) continue;
+      if (p.tokens.at(k).kind != TokenKind::name) continue;
       if (function.parameters.size() == most_parameters) {
-        fault(tokens_.at(k), "more than 32 parameters");
+        add_error(p, p.tokens.at(k), "found more than 32 parameters in one function");
         break;
       }
-      function.parameters.push_back(tokens_.at(k).text);
+      function.parameters.push_back(p.tokens.at(k).text);
     }
     body = close + 1;
     is_constant = is_attribute = false;
   }
-  if (!tokens_.is(body, "=")) {
-    fault(tokens_.at(body),
-          "found " + in_quotes(tokens_.at(body)) + ", expected `=` and a value for " + in_quotes(name));
+  if (!p.tokens.is(body, "=")) {
+    add_error(p, p.tokens.at(body),
+              "found " + in_quotes(p.tokens.at(body)) + ", expected `=` and a value for " + in_quotes(name));
     return body;
   }
   function.from = body + 1;
-  function.to = behind_value(body + 1);
+  function.to = end_of_value(p, body + 1);
   if (function.to == function.from) {
-    fault(tokens_.at(body + 1), "found " + in_quotes(tokens_.at(body + 1)) + ", expected a value");
+    add_error(p, p.tokens.at(body + 1), "found " + in_quotes(p.tokens.at(body + 1)) + ", expected a value");
     return body + 1;
   }
   const std::string key(name.text);
-  if (declared_.contains(key) || functions_.contains(key)) {
-    fault(name, in_quotes(name) + " is declared twice");
+  if (p.declared.contains(key) || p.functions.contains(key)) {
+    add_error(p, name, in_quotes(name) + " is declared twice", IssueKind::duplicate_key);
   } else if (is_attribute || is_constant) {
-    declared_.emplace(key, declarations_.size());
-    declarations_.push_back(
-        {key, function.from, function.to, static_cast<std::uint32_t>(declarations_.size()), 0});
+    p.declared.emplace(key, p.declarations.size());
+    p.declarations.push_back({key, function.from, function.to, Declaration::State::untouched, {}});
     Attribute attribute;
     attribute.name = key;
     attribute.is_constant = is_constant;
     attribute.offset = static_cast<std::uint32_t>(name.offset);
-    grammar_.attributes.push_back(std::move(attribute));
-    notes_.emplace_back();
+    p.grammar.attributes.push_back(std::move(attribute));
   } else {
-    functions_.emplace(key, function);
+    p.functions.emplace(key, function);
   }
   return function.to;
 }
 
-void Parser::survey() {
+/// One argument of an annotation: name = value, or a value.
+struct NoteArgument {
+  std::string name;
+  std::size_t token = 0;
+  lang::TaggedValue value;
+};
+
+std::vector<NoteArgument> arguments_of(Parser& p, std::size_t note) {
+  std::vector<NoteArgument> out;
+  if (!p.tokens.is(note + 1, "(")) return out;
+  const std::size_t close = p.tokens.partner(note + 1);
+  for (std::size_t i = note + 2; i < close; ++i) {
+    if (p.tokens.is(i, ",")) continue;
+    NoteArgument& argument = out.emplace_back();
+    if (p.tokens.is(i + 1, "=")) {
+      argument.name = p.tokens.at(i).text;
+      i += 2;
+    }
+    argument.token = i;
+    double sign = 1;
+    for (; i < close && !p.tokens.is(i, ","); ++i) {
+      const Token& token = p.tokens.at(i);
+      if (token.kind == TokenKind::number) argument.value = {sign * token.number, 0};
+      if (token.kind == TokenKind::string)
+        argument.value = {0, p.grammar.texts.id_of(lang::string_value(token))};
+      if (token.kind == TokenKind::name) argument.value = {token.text == "true" ? 1.0 : 0.0, 0};
+      sign = p.tokens.is(i, "-") ? -1 : 1;
+    }
+  }
+  return out;
+}
+
+void read_range(Attribute& attribute, const std::vector<NoteArgument>& given) {
+  std::vector<double> ends;
+  std::optional<double> low, high;
+  for (const NoteArgument& each : given) {
+    if (each.name == "min") low = each.value.number;
+    if (each.name == "max") high = each.value.number;
+    if (each.name == "stepsize") attribute.step = each.value.number;
+    if (each.name == "restricted") attribute.is_restricted = each.value.number != 0;
+    if (each.name.empty()) ends.push_back(each.value.number);
+  }
+  if (ends.size() >= 2) {
+    low = ends[0];
+    high = ends[1];
+  }
+  if (ends.size() >= 3) attribute.step = ends[2];
+  attribute.has_range = low && high;
+  attribute.low = low.value_or(0);
+  attribute.high = high.value_or(0);
+}
+
+/// @Range(1, 10) or @Range(min=1, max=10, stepsize=1, restricted=false), @Enum("a", "b", restricted=true), and what forms
+/// show: @Group, @Order, @Hidden, @Description, @Color, @Angle and other units.
+void read_annotations(Parser& p, Attribute& attribute, const std::vector<std::size_t>& notes) {
+  constexpr std::string_view widgets[] = {"Color",     "Angle",  "Distance", "Percent", "File",
+                                          "Directory", "Length", "Area",     "Volume"};
+  constexpr std::string_view others[] = {"StartRule", "Handle", "Out",     "InPath",
+                                         "OutPath",   "Hidden", "Private", "Error"};
+  for (const std::size_t note : notes) {
+    const Token& name = p.tokens.at(note);
+    const std::vector<NoteArgument> given = arguments_of(p, note);
+    if (name.text == "Enum") {
+      for (const NoteArgument& each : given) {
+        if (each.name == "restricted")
+          attribute.is_restricted = each.value.number != 0;
+        else if (each.name.empty())
+          attribute.choices.push_back(each.value);
+      }
+    } else if (name.text == "Range") {
+      read_range(attribute, given);
+    } else if (name.text == "Group" || name.text == "Description") {
+      std::string text;
+      for (const NoteArgument& each : given) {
+        if (const std::string* found = p.grammar.texts.find(each.value.text))
+          text += (text.empty() ? "" : " / ") + *found;
+      }
+      (name.text == "Group" ? attribute.group : attribute.description) = text;
+    } else if (name.text == "Order") {
+      attribute.order = given.empty() ? 0 : given[0].value.number;
+    } else if (std::ranges::find(widgets, name.text) != std::end(widgets)) {
+      attribute.widget = name.text;
+    } else if (std::ranges::find(others, name.text) == std::end(others)) {
+      add_warning(p, static_cast<std::uint32_t>(name.offset),
+                  "the annotation " + in_quotes(name) + " is unknown and has no effect");
+    }
+    attribute.is_hidden |= name.text == "Hidden" || name.text == "Private";
+  }
+}
+
+void compile_attribute(Parser& p, std::size_t index) {
+  Declaration& declaration = p.declarations[index];
+  if (declaration.state == Declaration::State::done) return;
+  if (p.depth > 200) {
+    add_error(p, p.tokens.at(declaration.from),
+              "found a chain of more than 200 attributes that need each other");
+    return;
+  }
+  if (declaration.state == Declaration::State::in_progress) {
+    add_error(p, p.tokens.at(declaration.from), "the value of `" + declaration.name + "` depends on itself",
+              IssueKind::evaluation);
+    return;
+  }
+  declaration.state = Declaration::State::in_progress;
+  ++p.depth;
+  for (std::size_t i = declaration.from; i < declaration.to; ++i) {
+    if (p.tokens.at(i).kind != TokenKind::name || p.tokens.is(i - 1, ".")) continue;
+    const auto found = p.declared.find(p.tokens.at(i).text);
+    if (found != p.declared.end()) compile_attribute(p, found->second);
+  }
+  --p.depth;
+  declaration.state = Declaration::State::done;
+  Attribute& attribute = p.grammar.attributes[index];
+  attribute.value = compile_value(p, declaration.from, declaration.to);
+  read_annotations(p, attribute, declaration.annotations);
+  p.attribute_order.push_back(declaration.name);
+}
+
+}  // namespace
+
+void collect_declarations(Parser& p) {
   std::vector<std::size_t> notes;
-  for (std::size_t i = 0; !tokens_.is_end(i);) {
-    const Token& token = tokens_.at(i);
-    if (tokens_.is(i, "@") && tokens_.at(i + 1).kind == TokenKind::name) {
+  for (std::size_t i = 0; !p.tokens.is_end(i);) {
+    const Token& token = p.tokens.at(i);
+    if (p.tokens.is(i, "@") && p.tokens.at(i + 1).kind == TokenKind::name) {
       notes.push_back(i + 1);
       i += 2;
-      if (tokens_.is(i, "(")) i = tokens_.partner(i) + 1;
+      if (p.tokens.is(i, "(")) i = p.tokens.partner(i) + 1;
       continue;
     }
-    const bool declares = token.kind == TokenKind::name && is_declaring(token.text) &&
-                          tokens_.at(i + 1).kind == TokenKind::name;
+    const bool declares = token.kind == TokenKind::name && (token.text == "attr" || token.text == "const") &&
+                          p.tokens.at(i + 1).kind == TokenKind::name;
     if (declares) {
-      const std::size_t before = declarations_.size();
-      i = survey_definition(i + 1, token.text == "const", token.text == "attr");
-      if (declarations_.size() > before) notes_.back() = notes;
-    } else if (token.kind == TokenKind::name && begins_statement(i) && !begins_rule(i) &&
-               (tokens_.is(i + 1, "=") || tokens_.is(i + 1, "("))) {
-      i = survey_definition(i, false, false);
+      const std::size_t before = p.declarations.size();
+      i = collect_definition(p, i + 1, token.text == "const", token.text == "attr");
+      if (p.declarations.size() > before) p.declarations.back().annotations = notes;
+    } else if (token.kind == TokenKind::name && begins_statement(p, i) && !begins_rule(p, i) &&
+               (p.tokens.is(i + 1, "=") || p.tokens.is(i + 1, "("))) {
+      i = collect_definition(p, i, false, false);
     } else {
-      if (begins_rule(i)) {
-        const std::uint32_t symbol = symbol_of(token.text, static_cast<std::uint32_t>(token.offset));
-        symbols_with_rules_.emplace(token.text);
+      if (begins_rule(p, i)) {
+        const std::uint32_t symbol = symbol_index(p, token.text, static_cast<std::uint32_t>(token.offset));
+        p.symbols_with_rules.emplace(token.text);
+        if (!p.tokens.start().empty() && token.text == p.tokens.start()) p.start = symbol;
         for (const std::size_t note : notes) {
-          if (tokens_.at(note).text == "StartRule") start_ = symbol;
+          if (p.tokens.at(note).text == "StartRule" && p.tokens.is_main(note)) p.start = symbol;
         }
       }
-      if (tokens_.is(i, "{") || tokens_.is(i, "(") || tokens_.is(i, "[")) {
+      if (p.tokens.is(i, "{") || p.tokens.is(i, "(") || p.tokens.is(i, "[")) {
         // Nothing is declared inside brackets.
-        i = std::max(tokens_.partner(i), i);
+        i = std::max(p.tokens.partner(i), i);
       }
       ++i;
     }
@@ -101,87 +217,28 @@ void Parser::survey() {
   }
 }
 
-/// In the order in which they need each other.
-void Parser::settle_attributes() {
-  if (declarations_.size() > most_attributes)
-    fault(tokens_.at(declarations_[most_attributes].from), "more than 1000 attributes");
-  grammar_.first_attribute_slot = first_free_slot + most_queries;
-  const std::vector<Attribute> declared = std::move(grammar_.attributes);
-  grammar_.attributes.clear();
+void compile_attributes(Parser& p) {
+  if (p.declarations.size() > most_attributes)
+    add_error(p, p.tokens.at(p.declarations[most_attributes].from), "found more than 1,000 attributes");
+  p.grammar.first_attribute_slot = first_free_slot + most_queries;
+  const std::vector<Attribute> declared = std::move(p.grammar.attributes);
+  p.grammar.attributes.clear();
   for (std::size_t i = 0; i < declared.size(); ++i) {
-    names_.bind_slot(declared[i].name, grammar_.first_attribute_slot + static_cast<std::uint32_t>(i));
+    p.names.bind_slot(declared[i].name, p.grammar.first_attribute_slot + static_cast<std::uint32_t>(i));
   }
-  // Values are worked out in the order of grammar_.attributes; slots stay those of the declaration.
+  // Values are evaluated in the order of p.grammar.attributes; slots stay in the order of declaration.
   std::vector<Attribute> kept = declared;
   for (std::size_t i = 0; i < kept.size(); ++i)
-    kept[i].slot = grammar_.first_attribute_slot + static_cast<std::uint32_t>(i);
-  grammar_.attributes = std::move(kept);
-  std::vector<std::uint32_t> order;
-  for (std::size_t i = 0; i < declarations_.size(); ++i) settle_attribute(i);
+    kept[i].slot = p.grammar.first_attribute_slot + static_cast<std::uint32_t>(i);
+  p.grammar.attributes = std::move(kept);
+  for (std::size_t i = 0; i < p.declarations.size(); ++i) compile_attribute(p, i);
   std::vector<Attribute> sorted;
-  for (const std::string& name : attribute_order_) {
-    sorted.push_back(std::move(grammar_.attributes[declared_.find(name)->second]));
+  for (const std::string& name : p.attribute_order) {
+    sorted.push_back(std::move(p.grammar.attributes[p.declared.find(name)->second]));
   }
-  grammar_.attributes = std::move(sorted);
-  grammar_.first_parameter_slot =
-      grammar_.first_attribute_slot + static_cast<std::uint32_t>(grammar_.attributes.size());
-}
-
-void Parser::settle_attribute(std::size_t index) {
-  Declaration& declaration = declarations_[index];
-  if (declaration.state == 2) return;
-  if (depth_ > 200) {
-    fault(tokens_.at(declaration.from), "more than 200 attributes need each other in a row");
-    return;
-  }
-  if (declaration.state == 1) {
-    fault(tokens_.at(declaration.from), "the value of `" + declaration.name + "` depends on itself");
-    return;
-  }
-  declaration.state = 1;
-  ++depth_;
-  for (std::size_t i = declaration.from; i < declaration.to; ++i) {
-    if (tokens_.at(i).kind != TokenKind::name || tokens_.is(i - 1, ".")) continue;
-    const auto found = declared_.find(tokens_.at(i).text);
-    if (found != declared_.end()) settle_attribute(found->second);
-  }
-  --depth_;
-  declaration.state = 2;
-  Attribute& attribute = grammar_.attributes[index];
-  attribute.value = value_of(declaration.from, declaration.to);
-  check_range(attribute, notes_[index]);
-  attribute_order_.push_back(declaration.name);
-}
-
-/// @Range(1, 10) or @Range(min=1, max=10), @Enum("a", "b"); the others are for forms alone.
-void Parser::check_range(Attribute& attribute, const std::vector<std::size_t>& notes) {
-  constexpr std::string_view known[] = {"Range",   "Enum",        "Color",     "Group", "Order",
-                                        "Hidden",  "Description", "StartRule", "Angle", "Distance",
-                                        "Percent", "File",        "Handle"};
-  for (const std::size_t note : notes) {
-    const Token& name = tokens_.at(note);
-    if (std::ranges::find(known, name.text) == std::end(known)) {
-      fault(name, "unknown annotation " + in_quotes(name));
-      continue;
-    }
-    if (!tokens_.is(note + 1, "(")) continue;
-    std::vector<double> numbers;
-    double sign = 1;
-    for (std::size_t i = note + 2; i < tokens_.partner(note + 1); ++i) {
-      const Token& token = tokens_.at(i);
-      if (token.kind == TokenKind::number) numbers.push_back(sign * token.number);
-      if (token.kind == TokenKind::string)
-        numbers.push_back(grammar_.texts.number_of(lang::string_value(token)));
-      sign = tokens_.is(i, "-") ? -1 : 1;
-    }
-    if (name.text == "Enum")
-      attribute.choices = std::move(numbers);
-    else if (name.text == "Range" && numbers.size() >= 2) {
-      attribute.has_range = true;
-      attribute.low = numbers[0];
-      attribute.high = numbers[1];
-    }
-  }
+  p.grammar.attributes = std::move(sorted);
+  p.grammar.first_parameter_slot =
+      p.grammar.first_attribute_slot + static_cast<std::uint32_t>(p.grammar.attributes.size());
 }
 
 }  // namespace seedmesh::building

@@ -5,23 +5,23 @@
 
 #include "core/base/math.h"
 #include "core/generators/building/bodies.h"
-#include "core/generators/building/seams.h"
+#include "core/generators/building/coplanar_rectangles.h"
 
 namespace seedmesh::building {
 namespace {
 
 constexpr std::size_t most_part_sizes = 500;
-// Of a GLB: JSON of a node and of a mesh, and the rest.
+// Bytes of a GLB: the JSON of a node, the JSON of a mesh, and the rest.
 constexpr std::uint64_t node_bytes = 110, mesh_bytes = 330, file_bytes = 900;
 
-/// A body that may stand often.
-struct Stand {
+/// A body and the number of its copies.
+struct BodyCount {
   BodyCost cost;
   std::uint64_t count = 0;
   bool is_part = false;
 };
 
-/// Triangles that rectangles get by their neighbours.
+/// The additional triangles of rectangles with corners of neighbours on their edges.
 std::uint64_t more_by_neighbours(const Shapes& shapes, Job& job) {
   std::vector<std::uint32_t> drawn;
   glm::dvec3 low(1e300), high(-1e300);
@@ -33,9 +33,9 @@ std::uint64_t more_by_neighbours(const Shapes& shapes, Job& job) {
     high = glm::max(high, shape.origin);
   }
   if (drawn.empty()) return 0;
-  const Seams seams(shapes, drawn, glm::length(high - low), job);
+  const CoplanarRectangles rectangles(shapes, drawn, glm::length(high - low), job);
   std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < drawn.size(); ++i) sum += seams.more_on(i);
+  for (std::size_t i = 0; i < drawn.size(); ++i) sum += rectangles.more_on(i);
   return sum;
 }
 
@@ -43,7 +43,7 @@ std::uint64_t more_by_neighbours(const Shapes& shapes, Job& job) {
 
 std::optional<Estimate> estimate_of(const Shapes& shapes, CopyForm copies, bool shares_all, Job& job) {
   using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::array<std::int64_t, 3>>;
-  std::map<Key, Stand> stands;
+  std::map<Key, BodyCount> bodies;
   std::size_t parts = 0;
   std::uint64_t seen = 0;
   for (const Shape& shape : shapes.shapes) {
@@ -55,7 +55,7 @@ std::optional<Estimate> estimate_of(const Shapes& shapes, CopyForm copies, bool 
                   is_part ? 0U : shape.style,
                   {math::to_int64(shape.size.x * 1e6 + 0.5), math::to_int64(shape.size.y * 1e6 + 0.5),
                    math::to_int64(shape.size.z * 1e6 + 0.5)}};
-    const auto [found, is_new] = stands.try_emplace(key);
+    const auto [found, is_new] = bodies.try_emplace(key);
     BodyCost& cost = found->second.cost;
     if (is_new && is_part) {
       const PartRow* const row = part_named(shapes.asset_names[shape.geometry & ~asset_bit]);
@@ -90,7 +90,7 @@ std::optional<Estimate> estimate_of(const Shapes& shapes, CopyForm copies, bool 
     estimate.triangles = more.triangles;
     estimate.bytes += more.bytes();
   }
-  for (const auto& each : stands) {
+  for (const auto& each : bodies) {
     const auto& [cost, count, is_own_part] = each.second;
     estimate.triangles += cost.triangles * count;
     const bool is_shared = shares_all || (copies != CopyForm::merge && is_own_part && cost.pays(count));

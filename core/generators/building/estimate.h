@@ -1,6 +1,6 @@
 #pragma once
-/// What a building will cost, told by its shapes before any of them is made.
-#include "core/generators/appraisal.h"
+/// The size of the output of a building, estimated from its shapes before meshes are made.
+#include "core/generators/api.h"
 #include "core/generators/building/shapes.h"
 
 namespace seedmesh::building {
@@ -8,10 +8,10 @@ namespace seedmesh::building {
 /// More shapes than this are not derived for an estimate.
 constexpr std::uint64_t most_appraised = 100'000;
 
-/// Triangles of boxes and rectangles exactly, of solids by their corners, of built-in parts by making each
-/// size once (where there are at most 500 sizes; else none). Bytes as shared meshes with their nodes, or
-/// merged, as add_bodies will choose, with the corners that rectangles get from neighbours where they are
-/// merged. Never exact: what is too thin to be drawn counts too.
+/// Triangles and bytes of the shapes. Triangles of boxes and rectangles are exact, those of solids follow
+/// from their corners, and built-in parts are made once for each size; none if there are more than 500 sizes.
+/// Bytes count shared meshes with their nodes, or merged meshes, as add_bodies chooses. Shapes that are too
+/// thin to be drawn count as well, so that the estimate may be too high.
 std::optional<Estimate> estimate_of(const Shapes& shapes, CopyForm copies, bool shares_all, Job& job);
 
 }  // namespace seedmesh::building

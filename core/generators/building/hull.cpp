@@ -9,7 +9,7 @@
 namespace seedmesh::building {
 namespace {
 
-/// The farthest points in directions spread evenly over the sphere (a Fibonacci lattice), each once.
+/// The farthest points in evenly spread directions (a Fibonacci lattice), without duplicates.
 std::vector<glm::dvec3> farthest_of(std::span<const glm::dvec3> points) {
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < most_hull_points; ++i) {
@@ -101,7 +101,7 @@ Solid hull_of(std::span<const glm::dvec3> given) {
         for (std::uint32_t p = 0; p < count; ++p) {
           if (std::abs(glm::dot(normal, points[p] - points[i])) <= near) on.push_back(p);
         }
-        // A plane is met again with each three of its points; the first three are the lowest numbers.
+        // The same plane occurs for every three of its points; its three lowest points identify it.
         const std::array<std::uint32_t, 3> name{on[0], on[1], on[2]};
         if (std::ranges::find(seen, name) != seen.end()) continue;
         seen.push_back(name);

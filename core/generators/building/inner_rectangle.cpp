@@ -38,7 +38,7 @@ class Search {
     sweep(xs);
     double reach = (high - low) / first_steps;
     for (int round = 0; round < rounds && best_.area() > 0; ++round) {
-      // The corners beside the sides found stay; steps between them become finer.
+      // Finer steps around the best sides, and the corners near to them.
       xs.clear();
       for (const double side : {best_.low.x, best_.high.x}) {
         for (int i = -later_steps; i <= later_steps; ++i)
@@ -83,7 +83,7 @@ class Search {
     return out;
   }
 
-  /// The intervals of y that are inside for all x from `from` to `to`: between what edges cover there.
+  /// The intervals of y that are inside for all x from `from` to `to`: the gaps between edges there.
   Intervals free_in(double from, double to) const {
     Intervals covered;
     std::vector<double> crossings;  // of the middle line

@@ -18,12 +18,13 @@ struct LayerMask {
   std::uint64_t key = 0, layers = 0;
 };
 
-/// Which layers have a corner, an edge or a face already. Open addressing; keys are never 0.
-class LayerBook {
+/// The layers that have a corner, an edge or a face, by its key: a hash table with open addressing. Keys are
+/// never 0.
+class LayerTable {
  public:
-  explicit LayerBook(const Job& job) : job_(job), slots_(job, 1024, LayerMask{}) {}
+  explicit LayerTable(const Job& job) : job_(job), slots_(job, 1024, LayerMask{}) {}
 
-  /// Makes room, so that references stay.
+  /// Reserves space for more keys, so that references stay valid.
   void expect(std::size_t keys) {
     if ((used_ + keys) * 2 <= slots_.size()) return;
     Array<LayerMask> old = std::move(slots_);
@@ -51,7 +52,7 @@ class LayerBook {
   std::size_t used_ = 0;
 };
 
-/// The keys of one shape after the other.
+/// Computes the keys of shapes.
 class KeyMaker {
  public:
   KeyMaker(const Shapes& shapes, const glm::dvec3& low, double diagonal, bool has_edges)
@@ -67,7 +68,7 @@ class KeyMaker {
     return keys_;
   }
 
-  /// Of a flat face by its ring, or of a flat solid by all its rings.
+  /// The keys of a flat face by its ring, or of a flat solid by all its rings.
   std::vector<std::uint64_t>& of_face(const Shape& shape, const std::vector<glm::dvec3>& ring) {
     keys_.clear();
     corners_.clear();
@@ -146,10 +147,11 @@ class KeyMaker {
 }  // namespace
 
 std::vector<std::uint8_t> layers_of(const Shapes& shapes, std::span<const std::uint32_t> drawn,
-                                    const Seams& seams, const glm::dvec3& low, double diagonal, Job& job) {
+                                    const CoplanarRectangles& rectangles, const glm::dvec3& low,
+                                    double diagonal, Job& job) {
   const bool has_flat =
       std::ranges::any_of(drawn, [&](std::uint32_t index) { return is_flat(shapes.shapes[index]); });
-  LayerBook book(job);
+  LayerTable table(job);
   KeyMaker maker(shapes, low, diagonal, has_flat);
   std::vector<std::uint8_t> layers;
   layers.reserve(drawn.size());
@@ -157,14 +159,14 @@ std::vector<std::uint8_t> layers_of(const Shapes& shapes, std::span<const std::u
   std::vector<std::uint64_t*> masks;
   for (const std::uint32_t index : drawn) {
     const Shape& shape = shapes.shapes[index];
-    if (is_flat(shape)) seams.outline(layers.size(), ring);
+    if (is_flat(shape)) rectangles.outline(layers.size(), ring);
     const std::vector<std::uint64_t>& keys =
         is_flat(shape) ? maker.of_face(shape, ring) : maker.of_body(shape);
-    book.expect(keys.size());
+    table.expect(keys.size());
     std::uint64_t taken = 0;
     masks.clear();
     for (const std::uint64_t key : keys) {
-      masks.push_back(&book.layers(key));
+      masks.push_back(&table.layers(key));
       taken |= *masks.back();
     }
     const auto layer =

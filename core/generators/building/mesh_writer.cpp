@@ -8,11 +8,12 @@
 namespace seedmesh::building {
 namespace {
 
-/// A face that turns farther than this from the plane of a projection has no coordinates by it: they would
-/// all lie on a line.
+/// Faces at a steeper angle to the plane of a projection (as a cosine) do not use it: their coordinates would
+/// almost lie on a line.
 constexpr double least_facing = 0.05;
 
-/// Texture coordinates in tiles: level distance along the wall and height, so that neighbours go on.
+/// Texture coordinates in tiles: the horizontal distance along the wall and the height, continuous over
+/// neighbours.
 glm::vec2 texture_at(const glm::dvec3& p, const glm::dvec3& n, const glm::dvec2& tile) {
   glm::dvec3 x = glm::cross(glm::dvec3(0, 1, 0), n);
   if (glm::dot(x, x) < 1e-9) x = glm::dvec3(1, 0, 0);
@@ -26,23 +27,23 @@ bool is_facing(const Projection& projection, const glm::dvec3& normal) {
   return std::abs(glm::dot(out, normal)) > least_facing;
 }
 
-/// What the triangle at a corner looks at, where smooth normals look elsewhere: by those the picture of a
-/// round wall would be stretched and squeezed.
-glm::dvec3 facing_at(const Patch& patch, std::size_t first) {
-  const glm::dvec3& a = patch.position[patch.index[first]];
-  const glm::dvec3 across =
-      glm::cross(patch.position[patch.index[first + 1]] - a, patch.position[patch.index[first + 2]] - a);
-  const glm::dvec3& normal = patch.normal[patch.index[first]];
+/// The normal of the triangle that begins at an index. Smooth vertex normals would distort the texture of a
+/// round wall.
+glm::dvec3 facing_at(const BodySurface& surface, std::size_t first) {
+  const glm::dvec3& a = surface.position[surface.index[first]];
+  const glm::dvec3 across = glm::cross(surface.position[surface.index[first + 1]] - a,
+                                       surface.position[surface.index[first + 2]] - a);
+  const glm::dvec3& normal = surface.normal[surface.index[first]];
   const glm::dvec3 facing = math::unit(across, normal);
   return glm::dot(facing, normal) > 1 - 1e-9 ? normal : facing;
 }
 
-/// Facings of all vertices of a patch: each belongs to one face.
-std::vector<glm::dvec3> facings_of(const Patch& patch) {
-  std::vector<glm::dvec3> facings = patch.normal;
-  for (std::size_t t = 0; t < patch.index.size(); t += 3) {
-    const glm::dvec3 facing = facing_at(patch, t);
-    for (std::size_t k = 0; k < 3; ++k) facings[patch.index[t + k]] = facing;
+/// The face normals of all vertices of a surface; each vertex belongs to one face.
+std::vector<glm::dvec3> facings_of(const BodySurface& surface) {
+  std::vector<glm::dvec3> facings = surface.normal;
+  for (std::size_t t = 0; t < surface.index.size(); t += 3) {
+    const glm::dvec3 facing = facing_at(surface, t);
+    for (std::size_t k = 0; k < 3; ++k) facings[surface.index[t + k]] = facing;
   }
   return facings;
 }
@@ -58,17 +59,17 @@ Mesh empty_mesh(bool has_uv, const Job& job) {
   return mesh;
 }
 
-void append(const Patch& patch, Mesh& mesh, const glm::dmat3& axes, const glm::dvec3& origin,
+void append(const BodySurface& surface, Mesh& mesh, const glm::dmat3& axes, const glm::dvec3& origin,
             const Texturing& texturing) {
   const auto base = static_cast<std::uint32_t>(mesh.position.size());
-  const std::size_t count = patch.position.size();
+  const std::size_t count = surface.position.size();
   glm::vec3* position = mesh.position.extend(count);
   glm::vec3* normal = mesh.normal.extend(count);
   const Projection* const projection = texturing.projection;
   const std::vector<glm::dvec3> facings =
-      texturing.tile == nullptr ? std::vector<glm::dvec3>{} : facings_of(patch);
+      texturing.tile == nullptr ? std::vector<glm::dvec3>{} : facings_of(surface);
   for (std::size_t i = 0; i < count; ++i) {
-    const glm::dvec3 at = origin + axes * patch.position[i], n = axes * patch.normal[i];
+    const glm::dvec3 at = origin + axes * surface.position[i], n = axes * surface.normal[i];
     position[i] = glm::vec3(at);
     normal[i] = glm::vec3(n);
     if (texturing.tile == nullptr) continue;
@@ -80,8 +81,8 @@ void append(const Patch& patch, Mesh& mesh, const glm::dmat3& axes, const glm::d
       mesh.uv[0].push_back(texture_at(at, axes * facings[i], *texturing.tile));
     }
   }
-  std::uint32_t* index = mesh.index.wide.extend(patch.index.size());
-  for (std::size_t i = 0; i < patch.index.size(); ++i) index[i] = base + patch.index[i];
+  std::uint32_t* index = mesh.index.wide.extend(surface.index.size());
+  for (std::size_t i = 0; i < surface.index.size(); ++i) index[i] = base + surface.index[i];
 }
 
 void append_part(const Mesh& from, Mesh& to, const glm::dmat3& axes, const glm::dvec3& at,

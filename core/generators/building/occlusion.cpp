@@ -14,8 +14,8 @@ constexpr double skin = 1e-5;  ///< metres: shapes that share a face do not over
 
 glm::dvec3 center_of(const Scope& scope) { return scope.origin + scope.axes * (0.5 * scope.size); }
 
-/// How far two boxes are apart (positive) or go into each other (negative), over the 15 axes that can part
-/// them (Gottschalk, Lin, Manocha, "OBBTree", 1996).
+/// The distance between two boxes, or the depth of their overlap as a negative number, over the 15 possible
+/// separating axes (Gottschalk, Lin, Manocha, "OBBTree", 1996).
 double gap(const Scope& a, const Scope& b) {
   const glm::dvec3 between = center_of(b) - center_of(a);
   double widest = -1e300;
@@ -72,7 +72,7 @@ std::uint32_t Context::cell_of(const glm::ivec3& at) const {
 Context::Context(Shapes shapes, std::vector<SnapPlane> snaps, const Grammar& grammar)
     : shapes_(std::move(shapes)), snaps_(std::move(snaps)), grammar_(&grammar) {
   const auto count = static_cast<std::uint32_t>(shapes_.shapes.size());
-  // A walk from the root gives each shape a rank, and its descendants the ranks right behind it.
+  // A depth-first walk gives each shape a rank, and its descendants the ranks behind it.
   std::vector<std::uint32_t> weight(count, 1);
   for (std::uint32_t i = count; i-- > 1;) weight[shapes_.shapes[i].parent] += weight[i];
   rank_.assign(count, 0);
@@ -103,7 +103,7 @@ Context::Context(Shapes shapes, std::vector<SnapPlane> snaps, const Grammar& gra
     candidates_.push_back(candidate);
   }
   if (candidates_.empty()) return;
-  // About two candidates a cell, in at most 64 cells a side.
+  // About two candidates in each cell, and at most 64 cells along an axis.
   const double side = std::clamp(math::cbrt(static_cast<double>(candidates_.size()) / 2), 1.0, 64.0);
   cells_ = glm::ivec3(math::to_int32(side));
   cell_ = glm::max((high - low_) / side, glm::dvec3(1e-6)) * 1.0001;
@@ -131,8 +131,8 @@ bool Context::counts(const Query& query, std::uint32_t index) const {
   if (query.kind != Query::Kind::occlusion && !shape.is_active && query.target == "all") return false;
   if (query.target == "all" || query.target == "noparent" || query.target.empty()) return true;
   if (query.target == "active") return shape.is_active;
-  const double label = shapes_.styles[shape.style].label;
-  if (const std::string* name = shapes_.texts.of(label); name != nullptr && *name == query.target)
+  const std::uint32_t label = shapes_.styles[shape.style].label;
+  if (const std::string* name = shapes_.texts.find(label); name != nullptr && *name == query.target)
     return true;
   return grammar_->symbols[shape.symbol].name == query.target;
 }
@@ -174,7 +174,7 @@ void Context::near(const glm::dvec3& low, const glm::dvec3& high, Job& job, Body
   }
 }
 
-/// The sight line in pieces of a cell's length, so that only what lies along it is looked at.
+/// Tests the line of sight in pieces as long as a cell, so that only candidates near to it are tested.
 bool Context::is_visible(const Query& query, const Scope& scope, std::uint32_t self, Job& job) const {
   const glm::dvec3 from = center_of(scope);
   double least = 1e300;
@@ -199,16 +199,31 @@ bool Context::is_visible(const Query& query, const Scope& scope, std::uint32_t s
     const glm::dvec3 a = from + (to - from) * (k / pieces), b = from + (to - from) * ((k + 1) / pieces);
     near(glm::min(a, b), glm::max(a, b), job, [&](std::uint32_t other) {
       if (is_family(self, other) || is_family(target, other)) return true;
-      is_free = !is_met(from, to, solid_of(other), scope_of(other), skin);
+      is_free = !is_line_blocked(from, to, solid_of(other), scope_of(other), skin);
       return is_free;
     });
   }
   return is_free;
 }
 
+double Context::measure(const Query& query, const Scope& scope, std::uint32_t self, Job& job) const {
+  double count = 0, least = 1e6;
+  for (std::uint32_t i = 0; i < shapes_.shapes.size(); ++i) {
+    if ((i & 1023U) == 1023U) job.check();
+    const std::string* const label = shapes_.texts.find(shapes_.styles[shapes_.shapes[i].style].label);
+    // Shapes inherit their label; those that were replaced count through their successors.
+    if (i == self || !shapes_.shapes[i].is_active || label == nullptr || *label != query.target ||
+        is_family(self, i))
+      continue;
+    ++count;
+    if (query.kind == Query::Kind::distance) least = std::min(least, std::max(0.0, gap(scope, scope_of(i))));
+  }
+  return query.kind == Query::Kind::count ? count : least;
+}
+
 double Context::answer(const Query& query, const Scope& scope, std::span<const std::uint64_t> lineage,
                        Job& job) const {
-  // Who asks, in the first pass: itself, or the nearest ancestor that was there too.
+  // The querying shape in the first pass: itself, or its nearest ancestor that existed there.
   std::uint32_t self = none;
   for (const std::uint64_t key : lineage) {
     const auto found = of_key_.find(key);
@@ -217,6 +232,8 @@ double Context::answer(const Query& query, const Scope& scope, std::span<const s
     break;
   }
   if (query.kind == Query::Kind::visible) return is_visible(query, scope, self, job) ? 1 : 0;
+  if (query.kind == Query::Kind::count || query.kind == Query::Kind::distance)
+    return measure(query, scope, self, job);
   if (candidates_.empty()) return 0;
   glm::dvec3 low, high;
   box_around(scope, low, high);

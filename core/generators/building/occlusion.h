@@ -1,21 +1,23 @@
 #pragma once
-/// What shapes ask of other shapes: is something in the way, is a snap line near. Answers come from the first
-/// pass of the derivation (derive.h), so that they do not depend on any order.
+/// Queries of a shape to other shapes: occlusion, containment, contact, visibility, and snap lines. Answers
+/// come from the shapes of the first pass of the derivation (derive.h), so that they do not depend on any
+/// order.
 ///
-/// Only closed shapes with a volume are in the way: leaves, and (for "all", "noparent" and names) the shapes
-/// they were made of. Ancestors and descendants of who asks never count. Boxes are tested as boxes; what else
-/// is closed (roofs, cut solids, cylinders) is cut to the box of who asks. touches() knows boxes alone.
-/// visible("street"): is the shortest straight line free from the middle of who asks to the nearest shape of
-/// that name, flat ones too? No such shape: no.
+/// Only closed shapes with a volume can occlude: leaves, and for "all", "noparent" and names also the shapes
+/// that they were made of. Ancestors and descendants of the querying shape never count. Boxes are tested as
+/// boxes; other closed solids (roofs, cut solids, cylinders) are cut to the box of the querying shape.
+/// touches() tests boxes only. visible("street") is true if the shortest line from the middle of the querying
+/// shape to the nearest shape of that name is free; flat shapes count as targets. Without such a shape it is
+/// false.
 #include <map>
 #include <unordered_map>
 
-#include "core/generators/building/cover.h"
 #include "core/generators/building/shapes.h"
+#include "core/generators/building/spatial_queries.h"
 
 namespace seedmesh::building {
 
-/// A plane that splits keep to: points p with dot(normal, p) = distance.
+/// A plane of snap lines: the points p with dot(normal, p) = distance.
 struct SnapPlane {
   glm::dvec3 normal{0};
   double distance = 0;
@@ -27,7 +29,8 @@ class Context {
  public:
   Context(Shapes shapes, std::vector<SnapPlane> snaps, const Grammar& grammar);
 
-  /// The answer for a shape of the second pass, by the keys of it and its ancestors, its own first.
+  /// The answer for a shape of the second pass: 0 or 1, or a Cover. `lineage` has the keys of the shape and
+  /// its ancestors, its own first.
   double answer(const Query& query, const Scope& scope, std::span<const std::uint64_t> lineage,
                 Job& job) const;
   std::span<const SnapPlane> snaps() const { return snaps_; }
@@ -42,16 +45,19 @@ class Context {
   Scope scope_of(std::uint32_t shape) const;
   /// Null: a box.
   const Solid* solid_of(std::uint32_t shape) const;
+  /// The number of other shapes of the query, or the distance to the nearest of their scopes.
+  double measure(const Query& query, const Scope& scope, std::uint32_t self, Job& job) const;
   bool is_visible(const Query& query, const Scope& scope, std::uint32_t self, Job& job) const;
-  /// Each candidate that has a cell between low and high, perhaps more than once; until `body` says false.
+  /// Calls `body` for each candidate in a cell between low and high, perhaps more than once, until it returns
+  /// false.
   template <class Body>
   void near(const glm::dvec3& low, const glm::dvec3& high, Job& job, Body&& body) const;
 
   Shapes shapes_;
   std::vector<SnapPlane> snaps_;
   const Grammar* grammar_;
-  std::vector<std::uint32_t> last_;  ///< of each shape: the end of its descendants in order_
-  std::vector<std::uint32_t> rank_;  ///< its place in a walk from the root
+  std::vector<std::uint32_t> last_;  ///< of each shape: the end of its descendants by rank
+  std::vector<std::uint32_t> rank_;  ///< of each shape: its position in a depth-first walk
   std::vector<Candidate> candidates_;
   std::unordered_map<std::uint64_t, std::uint32_t> of_key_;
   glm::dvec3 low_{0}, cell_{1};

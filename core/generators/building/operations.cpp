@@ -10,182 +10,362 @@ constexpr OperationRow rows[] = {
      "Moves the scope along its own axes; 'v is a share of its size.", "A ~> T(1, 0, 0) B."},
     {"t", Op::translate, "nnn", Braces::absent, "x, y, z", "As T.", "A --> t(0, '0.5, 0) B."},
     {"S", Op::size, "nnn", Braces::absent, "x, y, z",
-     "Sets the size of the scope; 'v or 1r is a share of what it is. A negative size mirrors, 0 flattens.",
+     "Sets the size of the scope; 'v or 1r is a share of its present size. A negative size mirrors, 0 "
+     "flattens.",
      "A ~> S(1r, 2, 1r) B."},
     {"s", Op::size, "nnn", Braces::absent, "x, y, z", "As S.", "A --> s('1, 2, '1) B."},
-    {"R", Op::rotate, "nnn|w", Braces::absent, "x, y, z, centre",
-     "Turns the scope by degrees about x, then y, then z; about its origin, or about its centre with "
-     "scopeCenter.",
-     "A ~> R(0, 30, 0) B."},
-    {"r", Op::rotate, "nnn|w", Braces::absent, "x, y, z, centre", "As R.", "A --> r(0, 30, 0) B."},
+    {"R", Op::rotate, "xxx|x", Braces::absent, "centre, x, y, z",
+     "Rotates the scope in degrees about x, then y, then z: about its origin, or with scopeCenter about its "
+     "centre.",
+     "A ~> R(0, 30, 0) R(scopeCenter, 0, 30, 0) B."},
+    {"r", Op::rotate, "xxx|x", Braces::absent, "centre, x, y, z", "As R.", "A --> r(0, 30, 0) B."},
     {"center", Op::center, "w", Braces::absent, "axes",
-     "Moves the scope to the middle of the one it had when the rule or bracket began, on the axes named.",
+     "Centres the scope, on the given axes, in the scope at the beginning of the rule or bracket.",
      "A --> s('0.5, '1, '0.5) center(xz) B."},
     {"mirrorScope", Op::mirror_scope, "", Braces::absent, "",
-     "Turns the scope by a half turn about its y axis, so that x and z run the other way.",
+     "Rotates the scope by 180 degrees about its y axis, so that x and z are reversed.",
      "A --> mirrorScope() B."},
     {"alignScopeToAxes", Op::align_to_axes, "|w", Braces::absent, "axis",
-     "Turns the scope, but not its geometry, to the world's axes; or so that the axis named is upright.",
+     "Aligns the scope, but not its geometry, to the axes of the world, or makes the given axis vertical.",
      "A --> r(0, 30, 0) s('1, 0, '1) alignScopeToAxes() B."},
     {"alignScopeToGeometry", Op::align_to_geometry, "w|ii", Braces::absent, "up, face, edge",
-     "Turns the scope to a face (a number or largest): the axis named as xUp, yUp or zUp looks out of it, "
-     "and "
-     "another lies along an edge of it (a number or longest).",
+     "Aligns the scope to a face (a number, or largest): the axis given as xUp, yUp or zUp is its normal, "
+     "and another axis lies along an edge of it (a number, or longest).",
      "A --> s('1, 0, '1) alignScopeToGeometry(zUp, 0, longest) B."},
     {"alignScopeToGeometryBBox", Op::align_to_box, "w", Braces::absent, "up",
-     "The same, so that the rectangle around the largest face is as small as can be.",
+     "The same, so that the rectangle around the largest face is as small as possible.",
      "A --> s('1, 0, '1) alignScopeToGeometryBBox(yUp) B."},
     {"split", Op::split, "w|wn", Braces::cells, "axis, adjust or space, set",
-     "Cuts the shape across an axis into cells { size: successor | ... }; sizes are absolute, '0.5 of the "
-     "scope or ~3 of what is left; { }* repeats. Along u and v it follows the texture space, in tiles "
-     "(uvSpace) or metres (unitSpace).",
+     "Cuts the shape along an axis into cells { size: successor | ... }. Sizes are absolute, '0.5 (of the "
+     "scope) or ~3 (a share of what is left); { }* repeats. The axes u and v are those of the texture space, "
+     "in tiles (uvSpace) or metres (unitSpace).",
      "A --> split(x){ ~1: B. | { 0.5: C. | ~2: D. }* | ~1: B. }"},
     {"splitArea", Op::split_area, "w|w", Braces::cells, "axis, noAdjust",
-     "Cuts a face like split, where the sizes are areas.",
-     "A --> s('1, 0, '1) splitArea(x){ 20: B. | ~1: C. }"},
+     "Cuts a face like split; the sizes are areas.", "A --> s('1, 0, '1) splitArea(x){ 20: B. | ~1: C. }"},
     {"Subdiv", Op::split, "w", Braces::names, "axis, sizes",
-     "The split of 2006: sizes in the call, 3r for a share of what is left.",
+     "The split of 2006: the sizes are arguments, and 3r is a share of what is left.",
      "A ~> Subdiv(\"X\", 2, 1r, 2){ B. | C. | B. }"},
     {"Repeat", Op::repeat, "wn", Braces::one, "axis, size",
      "Cuts the shape into equal pieces of about this size.", "A ~> Repeat(\"X\", 2){ B. }"},
-    {"comp", Op::comp, "w", Braces::selectors, "f",
-     "Takes the faces (f), edges (e) or corners (v) as shapes: front, back, left, right, top, bottom, side, "
-     "all, "
-     "horizontal, aslant, vertical, nutant, a number.",
+    {"comp", Op::comp, "w|w", Braces::selectors, "f | e | v | fe | fv | g | m | h, alignment",
+     "Makes shapes of the faces (f), edges (e), vertices (v), edges or vertices of each face (fe, fv), "
+     "groups (g), "
+     "materials (m) or holes (h). Selectors are words, numbers or conditions; = makes one shape of all, =: "
+     "one of each "
+     "connected set.",
      "A --> comp(f){ side: B. | top: C. }"},
     {"Comp", Op::comp, "w|n", Braces::one, "type, index",
-     "The component split of 2006: faces, sidefaces, topfaces, bottomfaces, edges, vertices; with an index, "
-     "one of them.",
+     "The component split of 2006: faces, sidefaces, topfaces, bottomfaces, edges or vertices; with an "
+     "index, one of them.",
      "A ~> Comp(\"sidefaces\"){ B. }"},
     {"Snap", Op::snap, "w|w", Braces::absent, "axes, id",
-     "Makes the planes of this shape across the axes named snap lines; splits along \"XS\" keep to them.",
+     "Makes snap lines of the planes of this shape across the given axes; splits along \"XS\" move their "
+     "borders to them.",
      "A ~> Snap(\"X\") Subdiv(\"XS\", 1r, 1r){ B. | C. }"},
-    {"extrude", Op::extrude, "n", Braces::absent, "height", "Makes a solid of a face, along its normal.",
-     "A --> s('1, 0, '1) extrude(9) B."},
+    {"extrude", Op::extrude, "x|x", Braces::absent, "direction, height",
+     "Extrudes faces along their normals, or in a direction: world.up, world.up.flatTop, vertex.normal, "
+     "face.normal, "
+     "x, y or z.",
+     "A --> s('1, 0, '1) extrude(9) comp(f){ top: extrude(world.up, 2) B. }"},
     {"taper", Op::taper, "n", Braces::absent, "height",
-     "Makes a pyramid of a face, its tip above the middle.", "A --> s('1, 0, '1) taper(3) B."},
+     "Makes a pyramid over a face, with the tip above its centroid.", "A --> s('1, 0, '1) taper(3) B."},
     {"offset", Op::offset, "n|w", Braces::absent, "distance, all | inside | border",
-     "Moves the border of a face, inwards where the distance is negative; comp(f) then tells inside from "
+     "Moves the border of a face, inwards if the distance is negative. comp(f) can then select inside and "
      "border.",
      "A --> s('1, 0, '1) offset(-1) comp(f){ inside: B. | border: C. }"},
-    {"setback", Op::setback, "n", Braces::selectors, "distance",
-     "Moves the edges of a face that selectors take inwards; each strip is a shape, and so is the remainder.",
+    {"setback", Op::setback, "n|n", Braces::selectors, "distance or distances, set",
+     "Moves the selected edges of a face inwards. Each strip is a shape, and so is the remainder.",
      "A --> s('1, 0, '1) setback(1){ front: B. | remainder: C. }"},
     {"shapeL", Op::shape_l, "nn", Braces::selectors, "front, left",
-     "A plan in the shape of an L with these widths.",
+     "Makes an L-shaped plan with these widths.",
      "A --> s('1, 0, '1) shapeL(1, 1){ shape: B. | remainder: C. }"},
-    {"shapeU", Op::shape_u, "nnn", Braces::selectors, "front, right, left", "A plan in the shape of a U.",
+    {"shapeU", Op::shape_u, "nnn", Braces::selectors, "front, right, left", "Makes a U-shaped plan.",
      "A --> s('1, 0, '1) shapeU(1, 1, 1){ shape: B. | remainder: C. }"},
-    {"shapeO", Op::shape_o, "nnnn", Braces::selectors, "front, right, back, left", "A ring around a court.",
+    {"shapeO", Op::shape_o, "nnnn", Braces::selectors, "front, right, back, left",
+     "Makes a ring around a courtyard.",
      "A --> s('1, 0, '1) shapeO(1, 1, 1, 1){ shape: B. | remainder: C. }"},
     {"innerRectangle", Op::inner_rectangle, "|w", Braces::selectors, "scope | edge",
-     "The largest rectangle inside a face, along the axes of its scope or along one of its long edges; and "
-     "the "
-     "remainder, piece by piece.",
+     "Makes the largest rectangle inside a face, along the axes of its scope or along one of its long edges, "
+     "and shapes of the remainder.",
      "A --> s('1, 0, '1) innerRectangle(scope){ shape: B. | remainder: C. }"},
-    {"roofHip", Op::roof_hip, "h|n", Braces::absent, "angle, overhang",
-     "A roof with a slope from every edge of a face, courtyards too. In place of the angle of any roof "
-     "byHeight(h) gives its height.",
+    {"roofHip", Op::roof_hip, "h|nx", Braces::absent, "angle, overhang, even",
+     "Makes a hip roof: a slope from every edge of a face, including courtyards. byHeight(h) instead of the "
+     "angle of any roof sets its height.",
      "A --> s('1, 0, '1) roofHip(30, 0.4) B."},
-    {"roofGable", Op::roof_gable, "h|nn", Braces::absent, "angle, overhang, verge",
-     "A roof with upright ends.", "A --> s('1, 0, '1) roofGable(40, 0.4, 0.2) B."},
+    {"roofGable", Op::roof_gable, "h|nnxn", Braces::absent, "angle, overhang, verge, even, ridge",
+     "Makes a gable roof: its ends are vertical.", "A --> s('1, 0, '1) roofGable(40, 0.4, 0.2) B."},
     {"roofPyramid", Op::roof_pyramid, "h|n", Braces::absent, "angle, overhang",
-     "A roof with one tip over the middle.", "A --> s('1, 0, '1) roofPyramid(50) B."},
+     "Makes a pyramid roof with one tip over the centroid.", "A --> s('1, 0, '1) roofPyramid(50) B."},
     {"roofShed", Op::roof_shed, "h|nn", Braces::absent, "angle, edge, overhang",
-     "One slope that rises from an edge.", "A --> s('1, 0, '1) roofShed(byHeight(2), 0) B."},
+     "Makes one slope that rises from an edge.", "A --> s('1, 0, '1) roofShed(byHeight(2), 0) B."},
     {"roofMansard", Op::roof_mansard, "h|nnn", Braces::absent, "angle, upper angle, break height, overhang",
-     "A steep slope and a flatter one above it, from every edge; byHeight(h) scales both to the height of "
-     "the "
-     "whole.",
+     "Makes a steep slope and a flatter slope above it, from every edge; byHeight(h) scales both.",
      "A --> s('1, 0, '1) roofMansard(70, 20, 1) B."},
     {"roofGambrel", Op::roof_gambrel, "h|nnnn", Braces::absent,
-     "angle, upper angle, break height, overhang, verge", "The same with upright ends.",
+     "angle, upper angle, break height, overhang, verge", "Makes a mansard with vertical ends.",
      "A --> s('1, 0, '1) roofGambrel(60, 25) B."},
     {"Roof", Op::roof, "wh|n", Braces::one, "kind, angle, overhang",
-     "The roof of 2006 as a shape of its own: hip, gable, pyramid, shed, mansard, gambrel. Of a volume it "
-     "takes "
-     "the place, on its underside, so that it may follow S(1r,h,1r) walls T(0,h,0).",
+     "The roof of 2006, as a shape of its own: hip, gable, pyramid, shed, mansard or gambrel. On a volume it "
+     "stands on the underside, so that it can follow S(1r,h,1r) walls T(0,h,0).",
      "A ~> S(1r, 0, 1r) B. Roof(\"hipped\", 30){ C. }"},
     {"I", Op::place, "t|nnn", Braces::absent, "name, count, frame, angle",
-     "Puts a body, a part or an asset into the scope, as a leaf of its own; the shape goes on as it was.",
+     "Places a solid, a part or an asset in the scope, as a leaf of its own. The shape does not change.",
      "A ~> [ I(\"cube\") ] T(0, 3, 0) I(\"pyramid\")"},
-    {"i", Op::insert, "t|nnn", Braces::absent, "name, count, frame, angle",
-     "Makes a body, a part or an asset of the shape, fitted to its scope: where a size is 0 it follows from "
-     "the others. Of a part, 0 is by its size: how many panes, steps, sides or teeth, how wide the frame, "
-     "how "
-     "steep the roof.",
+    {"i", Op::insert, "t|xxx", Braces::absent, "name, count or up axis, frame or mode, angle",
+     "Replaces the geometry of the shape by a solid, a part or an asset that fills the scope. Sizes of 0 "
+     "follow from the others. For parts: the number of panes, steps, sides or teeth, the width of the frame, "
+     "and the angle of the roof; 0 means by size.",
      "A --> i(\"cylinder\")"},
     {"primitive", Op::insert, "t", Braces::absent, "name", "As i.", "A --> primitive(\"prism\")"},
     {"color", Op::color, "t|nnn", Braces::absent, "color",
-     "The colour, as \"#rrggbb\" or red, green, blue from 0 to 1.", "A --> color(\"#aa8866\") B."},
+     "Sets the colour, as \"#rrggbb\" or as red, green and blue from 0 to 1.", "A --> color(\"#aa8866\") B."},
     {"material", Op::material, "t", Braces::absent, "name",
-     "The material by name: one of the request's, a built-in one, or a new one with the colour in force.",
+     "Sets the material by name: one of the request, a built-in one, or a new one with the present colour.",
      "A --> material(\"brick\") B."},
-    {"setupProjection", Op::setup_projection, "nwnn|nn", Braces::absent, "set, axes, width, height, u, v",
-     "Says how images will lie: axes as scope.xy or world.xz, the size of a tile (~2 for whole tiles, '0.5 "
-     "of "
-     "the scope), and how far they are moved. The set is 0.",
+    {"setupProjection", Op::setup_projection, "nwnn|nnn", Braces::absent,
+     "set, axes, width, height, u, v, uw",
+     "Sets up texture coordinates of a set from 0 to 9: axes such as scope.xy or world.xz, the size of a "
+     "tile (~2 for "
+     "whole tiles, '0.5 of the scope), an offset, and how much of the third axis is added to u.",
      "A --> comp(f){ front: setupProjection(0, scope.xy, ~2, 1) projectUV(0) B. }"},
-    {"projectUV", Op::project_uv, "n", Braces::absent, "set",
-     "Lays the images of the material as set up, from here on.",
+    {"projectUV", Op::project_uv, "|n", Braces::absent, "set",
+     "Applies the texture coordinates that setupProjection set up, from here on.",
      "A --> comp(f){ front: setupProjection(0, scope.xy, 1, 1) split(x){ ~1: projectUV(0) B. | ~1: C. } }"},
-    {"set", Op::set, "wn", Braces::absent, "attribute, value",
-     "Gives an attribute another value in what follows from here; material.name and material.color are "
-     "attributes too.",
+    {"set", Op::set, "wx", Braces::absent, "attribute, value",
+     "Sets the value of an attribute from here on. material.name and material.color are attributes too.",
      "attr w = 1  A --> set(w, 2) B  B --> s(w, '1, '1) C."},
-    {"report", Op::report, "t|n", Braces::absent, "key, value",
-     "Adds a value to the report of that name, which derive answers: count, sum, mean, least and greatest.",
+    {"report", Op::report, "t|x", Braces::absent, "key, value",
+     "Adds a value to the report with this key. derive returns its count, sum, mean, minimum and maximum.",
      "A --> report(\"area\", geometry.area) B."},
     {"label", Op::label, "t", Braces::absent, "name", "Names the shapes from here on, for queries.",
      "A --> label(\"mass\") B."},
+    {"translate", Op::translate_in, "xxnnn", Braces::absent,
+     "rel | abs, scope | pivot | object | world, x, y, z",
+     "Moves the scope by, or to, a position in a frame.", "A --> translate(rel, world, 1, 2, 3) B."},
+    {"rotate", Op::rotate_in, "xxnnn", Braces::absent, "rel | abs, scope | pivot | object | world, x, y, z",
+     "Rotates the scope about its origin by, or to, angles about the axes of a frame.",
+     "A --> rotate(rel, world, 0, 45, 0) B."},
+    {"rotateScope", Op::rotate_scope, "nnn|x", Braces::absent, "x, y, z",
+     "Rotates the scope and leaves the geometry, which the new scope surrounds.",
+     "A --> rotateScope(0, 45, 0) B."},
+    {"setPivot", Op::set_pivot, "x|n", Braces::absent, "axes, corner",
+     "Names the axes of the scope anew: xzy makes z the new y. The corner has no effect, because shapes have "
+     "no pivot.",
+     "A --> setPivot(xzy, 0) B."},
+    {"mirror", Op::mirror, "x|xx", Braces::absent, "x, y, z",
+     "Mirrors the geometry inside the scope along each axis given as true.",
+     "A --> i(\"prism\") mirror(false, true, false) B."},
+    {"reverseNormals", Op::reverse_normals, "", Braces::absent, "", "Turns all faces over.",
+     "A --> comp(f){ top: reverseNormals() B. }"},
+    {"cleanupGeometry", Op::cleanup, "|xx", Braces::absent, "all | faces | edges | vertices, distance",
+     "Joins corners within a distance, joins neighbouring faces of one plane (faces, edges) and removes "
+     "corners on straight "
+     "edges (vertices).",
+     "A --> i(\"cylinder\") cleanupGeometry(all, 0.01) B."},
+    {"convexify", Op::convexify, "|n", Braces::absent, "angle",
+     "Divides faces with inward corners or holes into convex ones.", "A --> s('1, 0, '1) convexify() B."},
+    {"deleteHoles", Op::delete_holes, "", Braces::absent, "", "Fills the holes of faces.",
+     "A --> s('1, 0, '1) deleteHoles() B."},
+    {"rectify", Op::rectify, "|n", Braces::absent, "angle",
+     "Makes edges of a face that are within an angle (default 15 degrees) of a right angle to its longest "
+     "edge exactly so.",
+     "A --> s('1, 0, '1) rectify(15) B."},
+    {"reduceGeometry", Op::reduce, "n", Braces::absent, "share",
+     "Removes a share of the corners of faces, those that change them least first.",
+     "A --> primitiveDisk(32, 5) reduceGeometry(0.5) B."},
+    {"setNormals", Op::set_normals, "x|n", Braces::absent, "soft | hard | auto | conform, angle",
+     "Shades all edges smoothly, or none.", "A --> i(\"cylinder\") setNormals(hard) B."},
+    {"softenNormals", Op::set_normals, "|n", Braces::absent, "angle",
+     "Shades edges smoothly between faces that differ by no more than an angle (default 20 degrees).",
+     "A --> primitiveCylinder(24) softenNormals(20) B."},
+    {"trim", Op::trim, "", Braces::absent, "",
+     "Cuts the geometry at the planes between neighbouring faces of a component split.", "A --> trim() B.",
+     Status::ignored},
+    {"resetGeometry", Op::reset_geometry, "", Braces::absent, "",
+     "Gives the shape the geometry and scope of the first shape.", "A --> s(1, 1, 1) resetGeometry() B."},
+    {"resetMaterial", Op::reset_material, "|x", Braces::absent, "", "Removes colour and material.",
+     "A --> color(\"#ff0000\") resetMaterial() B."},
+    {"setMaterial", Op::set_material, "x", Braces::absent, "name", "Sets the material by name.",
+     "A --> setMaterial(\"brick\") B."},
+    {"footprint", Op::footprint, "|x", Braces::absent, "mode",
+     "Makes the outline on the ground, seen from above.", "A --> i(\"pyramid\") footprint() B."},
+    {"envelope", Op::envelope, "xnnn|nnnnnn", Braces::absent,
+     "normal | world.up, height, front base, front angle, back base, back angle, side or right base, angle, "
+     "left base, angle",
+     "Makes the volume that walls of a base height and slopes above them leave, cut at a height.",
+     "A --> s('1, 0, '1) envelope(normal, 30, 10, 60) B."},
+    {"primitiveQuad", Op::primitive_quad, "|nn", Braces::absent, "width, length", "Makes a level rectangle.",
+     "A --> primitiveQuad(2, 3) B."},
+    {"primitiveDisk", Op::primitive_disk, "|nn", Braces::absent, "sides, radius",
+     "Makes a level polygon of equal sides (default 32).", "A --> primitiveDisk(6, 1) B."},
+    {"primitiveCube", Op::primitive_cube, "|nnn", Braces::absent, "width, height, depth", "Makes a box.",
+     "A --> primitiveCube(1, 2, 3) B."},
+    {"primitiveSphere", Op::primitive_sphere, "|nnn", Braces::absent, "sides, rows, radius",
+     "Makes a sphere (default 32 sides, 16 rows).", "A --> primitiveSphere(16, 8, 1) B."},
+    {"primitiveCylinder", Op::primitive_cylinder, "|nnn", Braces::absent, "sides, radius, height",
+     "Makes a cylinder (default 32 sides).", "A --> primitiveCylinder(12, 1, 4) B."},
+    {"primitiveCone", Op::primitive_cone, "|nnn", Braces::absent, "sides, radius, height",
+     "Makes a cone (default 32 sides).", "A --> primitiveCone(12, 1, 4) B."},
+    {"insertAlongUV", Op::insert_along_uv, "ntn|xx", Braces::absent,
+     "set, name, height, direction, alignment",
+     "Places copies of a part or asset on a flat shape, one for each tile of its texture coordinates: x "
+     "along u, z against v.",
+     "A --> s('1, 0, '1) normalizeUV(0, uv, separatePerFace) scaleUV(0, 3, 2) insertAlongUV(0, \"cube\", 1)"},
+    {"roofRidge", Op::roof_ridge, "h|nnx", Braces::absent, "angle, overhang, verge, even",
+     "Makes a roof with one ridge along x of the scope over any outline.",
+     "A --> s('1, 0, '1) roofRidge(30) B."},
+    {"setbackPerEdge", Op::setback_per_edge, "x|n", Braces::selectors, "distance, set",
+     "As setback, with the distance computed for each edge as a shape of its own.",
+     "A --> s('1, 0, '1) setbackPerEdge(scope.sx / 10){ all: B. | remainder: C. }"},
+    {"setbackToArea", Op::setback_to_area, "n|n", Braces::selectors, "area, set",
+     "As setback, by the distance that leaves a remainder of this area; '0.5 is a share of the present area.",
+     "A --> s('1, 0, '1) setbackToArea('0.5){ all: B. | remainder: C. }"},
+    {"splitAndSetbackPerimeter", Op::split_perimeter, "n|nx", Braces::perimeter, "offset, first edge, edges",
+     "Divides the border of a face into sections of a length, and moves each inwards by its depth.",
+     "A --> s('1, 0, '1) splitAndSetbackPerimeter(0){ ~4 : 2 : B. | ~2 : 1 : C. }* { remainder: D. }"},
+    {"scatter", Op::scatter, "xn|xxn", Braces::one,
+     "surface | volume | scope, count, uniform | gaussian, centre, deviation",
+     "Makes points at random on faces, in the solid or in the scope.",
+     "A --> scatter(surface, 5, uniform){ i(\"cube\") s(1, 1, 1) B. }"},
+    {"inline", Op::inline_shapes, "|x", Braces::next, "append | unify | recompose",
+     "Runs the next operation to its end, and makes one shape of all shapes that it makes.",
+     "A --> s('1, 0, '1) inline split(x){ ~1: B. | ~1: NIL | ~1: B. } extrude(1) C."},
+    {"modify", Op::modify, "w|w", Braces::selectors, "f | e | v, alignment",
+     "Changes components and leaves the rest of the geometry, which follows them.",
+     "A --> modify(f){ top: s('0.5, '0.5, '1) center(xyz) B. } C."},
+    {"union", Op::unite, "", Braces::operands, "", "The union of two closed solids.",
+     "A --> union { B | t(2, 2, 2) B } C.  B --> primitiveCube(4, 4, 4)"},
+    {"subtract", Op::subtract, "", Braces::operands, "", "The first solid without the second.",
+     "A --> subtract { B | t(2, 2, 2) B } C.  B --> primitiveCube(4, 4, 4)"},
+    {"intersect", Op::intersect, "", Braces::operands, "", "What two solids have in common.",
+     "A --> intersect { B | t(2, 2, 2) B } C.  B --> primitiveCube(4, 4, 4)"},
+    {"tag", Op::tag, "t|t", Braces::absent, "name",
+     "Gives all components of the shape a tag, which isTagged selects.",
+     "A --> tag(\"wall\") comp(f){ isTagged(\"wall\"): B. }"},
+    {"deleteTags", Op::delete_tags, "|t", Braces::absent, "name",
+     "Removes a tag, or those of a pattern as a*, or all tags.", "A --> tag(\"wall\") deleteTags(\"w*\") B."},
+    {"setTagsFromEdgeAttrs", Op::edge_tags, "|xx", Braces::absent, "prefix",
+     "Tags from attributes of edges, which footprints of a request do not have.",
+     "A --> setTagsFromEdgeAttrs(\"e\") B.", Status::ignored},
+    {"texture", Op::texture, "t|x", Braces::absent, "image",
+     "Sets the material with the name of the image (facades/brick.jpg: brick), whose image `materials` of "
+     "the request gives.",
+     "A --> texture(\"facades/brick.jpg\") B."},
+    {"normalizeUV", Op::normalize_uv, "n|xx", Braces::absent,
+     "set, u | v | uv, separatePerFace | collectiveAllFaces",
+     "Stretches the texture coordinates so that they reach from 0 to 1.",
+     "A --> comp(f){ front: normalizeUV(0, uv, separatePerFace) B. }"},
+    {"scaleUV", Op::scale_uv, "nnn", Braces::absent, "set, u, v", "Multiplies the texture coordinates.",
+     "A --> comp(f){ front: scaleUV(0, 2, 1) B. }"},
+    {"rotateUV", Op::rotate_uv, "nn", Braces::absent, "set, angle",
+     "Rotates the texture coordinates about their origin, in degrees.",
+     "A --> comp(f){ front: rotateUV(0, 90) B. }"},
+    {"translateUV", Op::translate_uv, "nnn", Braces::absent, "set, u, v", "Moves the texture coordinates.",
+     "A --> comp(f){ front: translateUV(0, 0.5, 0) B. }"},
+    {"tileUV", Op::tile_uv, "nnn", Braces::absent, "set, width, height",
+     "Repeats the image in tiles of a size in metres from the lowest corner; ~2 makes whole tiles, 0 keeps "
+     "the coordinate.",
+     "A --> comp(f){ front: tileUV(0, ~2, ~2) B. }"},
+    {"copyUV", Op::copy_uv, "nn", Braces::absent, "from, to",
+     "Copies the texture coordinates of a set to another.",
+     "A --> comp(f){ front: tileUV(0, 1, 1) copyUV(0, 2) B. }"},
+    {"deleteUV", Op::delete_uv, "n", Braces::absent, "set", "Removes the texture coordinates of a set.",
+     "A --> comp(f){ front: tileUV(0, 1, 1) deleteUV(0) B. }"},
+    {"print", Op::print, "x", Braces::absent, "value", "Adds a warning with the value to the answer.",
+     "A --> print(scope.sx) B."},
+    {"innerRect", Op::ignored, "", Braces::absent, "", "An old form of innerRectangle.", "", Status::error},
+};
+
+struct OpKind {
+  Op op;
+  std::string_view kind;
+};
+constexpr OpKind kinds[] = {
+    {Op::split, "cut"},
+    {Op::split_area, "cut"},
+    {Op::repeat, "cut"},
+    {Op::comp, "cut"},
+    {Op::snap, "cut"},
+    {Op::scatter, "cut"},
+    {Op::split_perimeter, "cut"},
+    {Op::modify, "cut"},
+    {Op::extrude, "mass"},
+    {Op::taper, "mass"},
+    {Op::offset, "mass"},
+    {Op::setback, "mass"},
+    {Op::shape_l, "mass"},
+    {Op::shape_u, "mass"},
+    {Op::shape_o, "mass"},
+    {Op::inner_rectangle, "mass"},
+    {Op::setback_per_edge, "mass"},
+    {Op::setback_to_area, "mass"},
+    {Op::envelope, "mass"},
+    {Op::footprint, "mass"},
+    {Op::unite, "mass"},
+    {Op::subtract, "mass"},
+    {Op::intersect, "mass"},
+    {Op::inline_shapes, "mass"},
+    {Op::mirror, "geometry"},
+    {Op::reverse_normals, "geometry"},
+    {Op::cleanup, "geometry"},
+    {Op::convexify, "geometry"},
+    {Op::delete_holes, "geometry"},
+    {Op::rectify, "geometry"},
+    {Op::reduce, "geometry"},
+    {Op::set_normals, "geometry"},
+    {Op::trim, "geometry"},
+    {Op::reset_geometry, "geometry"},
+    {Op::roof_ridge, "roof"},
+    {Op::roof_hip, "roof"},
+    {Op::roof_gable, "roof"},
+    {Op::roof_pyramid, "roof"},
+    {Op::roof_shed, "roof"},
+    {Op::roof_mansard, "roof"},
+    {Op::roof_gambrel, "roof"},
+    {Op::roof, "roof"},
+    {Op::insert, "part"},
+    {Op::place, "part"},
+    {Op::primitive_quad, "part"},
+    {Op::primitive_disk, "part"},
+    {Op::primitive_cube, "part"},
+    {Op::primitive_sphere, "part"},
+    {Op::primitive_cylinder, "part"},
+    {Op::primitive_cone, "part"},
+    {Op::insert_along_uv, "part"},
+    {Op::color, "material"},
+    {Op::material, "material"},
+    {Op::set_material, "material"},
+    {Op::reset_material, "material"},
+    {Op::setup_projection, "texture"},
+    {Op::project_uv, "texture"},
+    {Op::texture, "texture"},
+    {Op::normalize_uv, "texture"},
+    {Op::scale_uv, "texture"},
+    {Op::rotate_uv, "texture"},
+    {Op::translate_uv, "texture"},
+    {Op::tile_uv, "texture"},
+    {Op::copy_uv, "texture"},
+    {Op::delete_uv, "texture"},
+    {Op::set, "attribute"},
+    {Op::report, "report"},
+    {Op::label, "report"},
+    {Op::tag, "report"},
+    {Op::delete_tags, "report"},
+    {Op::edge_tags, "report"},
+    {Op::print, "report"},
 };
 
 }  // namespace
 
 std::span<const OperationRow> operations() { return rows; }
 
+std::string_view text_of(Status status) {
+  return status == Status::done ? "done" : status == Status::ignored ? "ignored" : "error";
+}
+
 std::string_view kind_of(Op op) {
-  switch (op) {
-    case Op::split:
-    case Op::split_area:
-    case Op::repeat:
-    case Op::comp:
-    case Op::snap:
-      return "cut";
-    case Op::extrude:
-    case Op::taper:
-    case Op::offset:
-    case Op::setback:
-    case Op::shape_l:
-    case Op::shape_u:
-    case Op::shape_o:
-    case Op::inner_rectangle:
-      return "mass";
-    case Op::roof_hip:
-    case Op::roof_gable:
-    case Op::roof_pyramid:
-    case Op::roof_shed:
-    case Op::roof_mansard:
-    case Op::roof_gambrel:
-    case Op::roof:
-      return "roof";
-    case Op::insert:
-    case Op::place:
-      return "part";
-    case Op::color:
-    case Op::material:
-      return "look";
-    case Op::setup_projection:
-    case Op::project_uv:
-      return "texture";
-    case Op::set:
-      return "attribute";
-    case Op::report:
-    case Op::label:
-      return "report";
-    default:
-      return "scope";
-  }
+  const auto* const found = std::ranges::find(kinds, op, &OpKind::op);
+  return found == std::end(kinds) ? "scope" : found->kind;
 }
 
 const OperationRow* find_operation(std::string_view name) {

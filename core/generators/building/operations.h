@@ -1,5 +1,5 @@
 #pragma once
-/// The table of operations: one row serves the parser, the faults, the docs and GET /v1/vocabulary.
+/// The table of operations, for the parser, its messages, the docs and GET /v1/vocabulary.
 #include <span>
 #include <string_view>
 
@@ -7,27 +7,45 @@
 
 namespace seedmesh::building {
 
-/// What stands in braces behind an operation.
-enum class Braces : std::uint8_t { absent, cells, one, names, selectors };
+/// What follows an operation in braces.
+enum class Braces : std::uint8_t {
+  absent,
+  cells,
+  one,
+  names,
+  selectors,
+  perimeter,  ///< { length : depth : successor | ... } { remainder : successor }
+  operands,   ///< { successor | successor }
+  next,       ///< no braces: the step behind it
+};
+
+/// What the service does with a name of the CGA reference.
+enum class Status : std::uint8_t {
+  done,
+  ignored,  ///< a warning, and no shape: it serves textures or editing alone
+  error,
+};
+std::string_view text_of(Status status);
 
 struct OperationRow {
   std::string_view name;
   Op op;
-  /// A letter an argument: n length or number, w word or text, t text (an expression that gives one), h an
-  /// angle or byHeight(...), i a word or a whole number. What stands behind | may be left out.
+  /// One letter for each argument: n length or number, w word or text, t text (an expression), h angle or
+  /// byHeight(...), i word or whole number, x word or expression. Arguments behind | are optional.
   std::string_view arguments;
   Braces braces;
-  std::string_view parameters;  ///< their names, as the docs print them
+  std::string_view parameters;  ///< their names, for the docs
   std::string_view text;        ///< one sentence for the reader
-  std::string_view example;     ///< rules that the tests derive
+  std::string_view example;     ///< rules that the tests run
+  Status status = Status::done;
 };
 
 std::span<const OperationRow> operations();
 
-/// scope, cut, mass, roof, part, look, texture, attribute or report: a group for the reader.
+/// scope, cut, mass, roof, part, material, texture, attribute or report: a group for the reader.
 std::string_view kind_of(Op op);
 
-/// Null: there is no operation of this name.
+/// Null if no operation has this name.
 const OperationRow* find_operation(std::string_view name);
 
 }  // namespace seedmesh::building

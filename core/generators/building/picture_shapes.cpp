@@ -32,7 +32,7 @@ class PictureWriter {
   void line(const PictureLine& line) {
     const glm::dvec3 along = math::unit(line.to - line.from, glm::dvec3(1, 0, 0));
     const double half = 0.5 * given_.width;
-    // Upright where it can be: y of the bar as near to the world's as the line lets it.
+    // y of the bar is as near to the vertical as the direction of the line allows.
     glm::dvec3 z = glm::cross(along, glm::dvec3(0, 1, 0));
     z = math::unit(z, glm::dvec3(0, 0, 1));
     const glm::dvec3 y = glm::cross(z, along);
@@ -44,7 +44,7 @@ class PictureWriter {
 
   void solid(const PictureSolid& solid) {
     glm::dmat3 axes = solid.axes;
-    // All kinds look the same in a mirror across their own x.
+    // All kinds are symmetrical along their x axis.
     if (glm::determinant(axes) < 0) axes[0] = -axes[0];
     Shape& shape = add(symbol_kind + static_cast<std::uint32_t>(solid.kind), axes);
     shape.size = solid.size;
@@ -80,7 +80,7 @@ class PictureWriter {
   std::uint32_t style_of(const std::string& material) {
     if (material.empty()) return 0;
     Style style;
-    style.material = out_.texts.number_of(material);
+    style.material = out_.texts.id_of(material);
     out_.styles.push_back(style);
     return static_cast<std::uint32_t>(out_.styles.size()) - 1;
   }
@@ -130,7 +130,7 @@ Shapes shapes_of_picture(const PictureGrammar& pictures, const DerivedPicture& d
     shapes.reports[name] = {count, uses, 1, 1};
   }
   if (derived.fits_nowhere)
-    shapes.warnings.push_back({"/shape_grammar/rules", "no rule fits the initial shape", 0, 0});
+    shapes.warnings.push_back({"/shape_grammar/rules", "no rule matches the initial shape", 0, 0});
   return shapes;
 }
 

@@ -1,16 +1,16 @@
 #pragma once
-/// A derived picture as shapes, so that it is drawn, listed and merged as those of rules are.
+/// A derived picture of a shape grammar as shapes, so that it is drawn and listed as the shapes of rules are.
 #include "core/generators/building/shape_grammar/shape_grammar.h"
 #include "core/generators/building/shapes.h"
 
 namespace seedmesh::building {
 
-/// The symbols of these shapes: picture, line, the kinds of solids, and the labels of markers.
+/// The symbols of these shapes: picture, line, the kinds of solids and the labels of markers.
 Grammar grammar_of_names(const PictureGrammar& pictures);
 
-/// Below one inactive shape "picture": a bar for each line, each solid, and a ball for each marker where
-/// marker_size says so. Bars are as much longer than their lines as they are wide, so that corners are
-/// filled.
+/// One inactive shape "picture" with a child for each element: a bar for a line, the solid itself, and a
+/// sphere for a marker if marker_size is above 0. A bar is longer than its line by its width, so that corners
+/// are filled.
 Shapes shapes_of_picture(const PictureGrammar& pictures, const DerivedPicture& derived,
                          const BuildingShapeGrammar& given, Job& job);
 

@@ -2,23 +2,27 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/base/math.h"
 
 namespace seedmesh::building {
 
-void add_face(Solid& solid, std::span<const std::uint32_t> corners, bool is_round) {
-  solid.faces.push_back({static_cast<std::uint32_t>(solid.loops.size()), 1, is_round});
+void add_loop(Solid& solid, std::span<const std::uint32_t> corners) {
   solid.loops.push_back(
       {static_cast<std::uint32_t>(solid.corners.size()), static_cast<std::uint32_t>(corners.size())});
   solid.corners.insert(solid.corners.end(), corners.begin(), corners.end());
 }
 
+void add_face(Solid& solid, std::span<const std::uint32_t> corners, bool is_round) {
+  solid.faces.push_back({static_cast<std::uint32_t>(solid.loops.size()), 1, is_round});
+  add_loop(solid, corners);
+}
+
 glm::dvec3 area_vector(const Solid& solid, const Face& face, const glm::dvec3& size) {
   glm::dvec3 sum(0);
   const glm::dvec3 base = solid.points[solid.corners[solid.loops[face.first_loop].first]];
-  for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
-    const Loop& loop = solid.loops[l];
+  for (const Loop& loop : loops_of(solid, face)) {
     for (std::uint32_t i = 0; i < loop.count; ++i) {
       const glm::dvec3 a = (solid.points[solid.corners[loop.first + i]] - base) * size;
       const glm::dvec3 b = (solid.points[solid.corners[loop.first + (i + 1) % loop.count]] - base) * size;
@@ -26,6 +30,25 @@ glm::dvec3 area_vector(const Solid& solid, const Face& face, const glm::dvec3& s
     }
   }
   return sum;
+}
+
+bool is_inside(const Solid& solid, std::span<const Loop> loops, const glm::dvec3& normal,
+               const glm::dvec3& p) {
+  int drop = 0;  // the axis nearest to the normal
+  for (int k = 1; k < 3; ++k) {
+    if (std::abs(normal[k]) > std::abs(normal[drop])) drop = k;
+  }
+  const int u = (drop + 1) % 3, v = (drop + 2) % 3;
+  bool inside = false;
+  for (const Loop& loop : loops) {
+    for (std::uint32_t i = 0; i < loop.count; ++i) {
+      const glm::dvec3 &a = solid.points[solid.corners[loop.first + i]],
+                       &b = solid.points[solid.corners[loop.first + (i + 1) % loop.count]];
+      if ((a[v] > p[v]) == (b[v] > p[v])) continue;
+      if (p[u] < a[u] + (b[u] - a[u]) * (p[v] - a[v]) / (b[v] - a[v])) inside = !inside;
+    }
+  }
+  return inside;
 }
 
 double area_of(const Solid& solid, const glm::dvec3& size) {
@@ -62,6 +85,21 @@ void fit(Solid& solid, glm::dvec3& low, glm::dvec3& extent) {
   }
 }
 
+namespace {
+
+/// Copies a face of `from`, whose points begin at `base` in the solid; `is_reversed` turns it over.
+void add_end(Solid& solid, const Solid& from, const Face& face, std::uint32_t base, bool is_reversed) {
+  solid.faces.push_back({static_cast<std::uint32_t>(solid.loops.size()), face.loop_count, false});
+  for (const Loop& loop : loops_of(from, face)) {
+    std::vector<std::uint32_t> corners;
+    for (const std::uint32_t point : points_of(from, loop)) corners.push_back(point + base);
+    if (is_reversed) std::ranges::reverse(corners);
+    add_loop(solid, corners);
+  }
+}
+
+}  // namespace
+
 Solid extruded(const Solid& face, int axis) {
   Solid solid;
   solid.is_closed = true;
@@ -73,18 +111,7 @@ Solid extruded(const Solid& face, int axis) {
     }
   }
   for (const Face& each : face.faces) {
-    for (const bool top : {false, true}) {
-      Face end{static_cast<std::uint32_t>(solid.loops.size()), each.loop_count, false};
-      for (std::uint32_t l = each.first_loop; l < each.first_loop + each.loop_count; ++l) {
-        const Loop loop = face.loops[l];
-        solid.loops.push_back({static_cast<std::uint32_t>(solid.corners.size()), loop.count});
-        for (std::uint32_t i = 0; i < loop.count; ++i) {
-          const std::uint32_t k = top ? i : loop.count - 1 - i;
-          solid.corners.push_back(face.corners[loop.first + k] + (top ? count : 0));
-        }
-      }
-      solid.faces.push_back(end);
-    }
+    for (const bool is_top : {false, true}) add_end(solid, face, each, is_top ? count : 0, !is_top);
   }
   for (const Loop& loop : face.loops) {
     for (std::uint32_t i = 0; i < loop.count; ++i) {
@@ -121,16 +148,7 @@ Solid tapered(const Solid& face, int axis) {
   middle[axis] = 1;
   const auto tip = static_cast<std::uint32_t>(solid.points.size());
   solid.points.push_back(middle);
-  for (const Face& each : face.faces) {
-    Face end{static_cast<std::uint32_t>(solid.loops.size()), each.loop_count, false};
-    for (std::uint32_t l = each.first_loop; l < each.first_loop + each.loop_count; ++l) {
-      const Loop loop = face.loops[l];
-      solid.loops.push_back({static_cast<std::uint32_t>(solid.corners.size()), loop.count});
-      for (std::uint32_t i = 0; i < loop.count; ++i)
-        solid.corners.push_back(face.corners[loop.first + loop.count - 1 - i]);
-    }
-    solid.faces.push_back(end);
-  }
+  for (const Face& each : face.faces) add_end(solid, face, each, 0, true);
   for (const Loop& loop : face.loops) {
     for (std::uint32_t i = 0; i < loop.count; ++i)
       add_face(solid, std::array{face.corners[loop.first + i],

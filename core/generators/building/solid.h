@@ -1,9 +1,10 @@
 #pragma once
-/// Geometry that is no box: polygons with holes, and solids of them, in the unit cube of their scope, so that
-/// moving, turning and scaling a shape leaves them as they are and equal ones are shared.
+/// Geometry other than boxes: polygons with holes, and solids made of them. Coordinates are in the unit cube
+/// of the scope, so that they stay the same if a shape is moved, turned or scaled, and equal solids are
+/// shared.
 ///
-/// A flat shape has coordinate 0 on the axis of its normal and faces along that axis. Outer loops run
-/// counter-clockwise seen from outside, holes clockwise.
+/// A flat shape has coordinate 0 on the axis of its normal and faces in the positive direction. Outer loops
+/// run counter-clockwise seen from outside, holes clockwise.
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -17,8 +18,9 @@ struct Loop {
 
 struct Face {
   std::uint32_t first_loop = 0, loop_count = 0;  ///< the outer loop first
-  bool is_round = false;                         ///< part of a curved surface: normals are smoothed
-  std::uint8_t tag = 0;                          ///< what an offset made it: face_is_inside, face_is_border
+  bool is_round = false;                         ///< part of a curved surface with smooth normals
+  std::uint8_t tag = 0;                          ///< set by an offset: face_is_inside or face_is_border
+  std::uint32_t tags = 0;                        ///< into Shapes::tag_sets
 };
 
 constexpr std::uint8_t face_is_inside = 1, face_is_border = 2;
@@ -31,6 +33,16 @@ struct Solid {
   bool is_closed = false;
 };
 
+inline std::span<const Loop> loops_of(const Solid& solid, const Face& face) {
+  return std::span(solid.loops).subspan(face.first_loop, face.loop_count);
+}
+/// The corners of a loop, as positions in Solid::points.
+inline std::span<const std::uint32_t> points_of(const Solid& solid, const Loop& loop) {
+  return std::span(solid.corners).subspan(loop.first, loop.count);
+}
+
+/// Adds a loop of these corners; the caller adds the face.
+void add_loop(Solid& solid, std::span<const std::uint32_t> corners);
 /// Adds a face of one loop by its points.
 void add_face(Solid& solid, std::span<const std::uint32_t> corners, bool is_round = false);
 
@@ -38,18 +50,23 @@ void add_face(Solid& solid, std::span<const std::uint32_t> corners, bool is_roun
 glm::dvec3 area_vector(const Solid& solid, const Face& face, const glm::dvec3& size);
 
 double area_of(const Solid& solid, const glm::dvec3& size);
-double volume_of(const Solid& solid, const glm::dvec3& size);  ///< of a closed one
+double volume_of(const Solid& solid, const glm::dvec3& size);  ///< 0 unless the solid is closed
 
-/// Moves and scales the points so that they fill the unit cube; `low` and `extent` say what part of the old
-/// cube that was. An axis without extent becomes 0.
+/// Whether a point lies inside loops, seen along a normal (by the crossings of a ray). The loops may be a
+/// face or any set of closed loops of the solid.
+bool is_inside(const Solid& solid, std::span<const Loop> loops, const glm::dvec3& normal,
+               const glm::dvec3& p);
+
+/// Moves and scales the points so that they fill the unit cube. `low` and `extent` say which part of the old
+/// cube they filled. Coordinates along an axis without extent become 0.
 void fit(Solid& solid, glm::dvec3& low, glm::dvec3& extent);
 
-/// What lies below `at` across the axis (`sign` 1) or above it (-1). Cut faces of a closed solid are capped.
-/// Faces may be concave and have holes. Cost: n log n of the corners.
+/// The part of a solid below `at` on the axis (`sign` 1) or above it (`sign` -1). The cut through a closed
+/// solid gets caps. Faces may be concave and have holes. Cost: n log n for n corners.
 Solid clipped(const Solid& solid, int axis, double at, double sign);
 
-/// A flat face (its normal along `axis`) as a solid of height 1 along that axis, or a pyramid over its
-/// middle.
+/// A solid of height 1 over a flat face whose normal is `axis`: a prism, or a pyramid whose tip lies over the
+/// centroid.
 Solid extruded(const Solid& face, int axis);
 Solid tapered(const Solid& face, int axis);
 
@@ -63,12 +80,7 @@ Solid triangular_prism();  ///< a gable: the ridge runs along z
 Solid sphere();
 Solid cone();
 
-/// The same solid seen in a mirror across the axes whose bit is set.
+/// The solid mirrored along each axis whose bit is set.
 Solid mirrored(const Solid& solid, unsigned axes);
-
-/// Triangles of a face, three corners of Solid::corners each (as places in `points`). `size` is that of the
-/// scope. Holes are joined to the outer loop by the shortest bridge that crosses nothing.
-void triangulate(const Solid& solid, const Face& face, const glm::dvec3& size,
-                 std::vector<std::uint32_t>& out);
 
 }  // namespace seedmesh::building

@@ -1,38 +1,48 @@
 #pragma once
-/// The rules of a building as data: what both notations are read into, and what the derivation runs. Flat
-/// arrays that name each other by index.
+/// The rules of a building as data, for both notations: flat arrays that refer to each other by index.
 ///
-///   grammar = rules; rule = symbol, parameters, body
-///   body = branches, each with a condition; branch = choices, each with a weight
-///   choice = steps; step = operation with arguments and, where it cuts, parts; part = size or selector, body
+///   grammar = rules
+///   rule    = symbol, parameters, body
+///   body    = branches, each with a condition
+///   branch  = choices, each with a weight
+///   choice  = steps
+///   step    = operation, arguments, parts (cells of a split, selectors of a component split)
+///   part    = size or selector, body
 #include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/generators/building/rule_text.h"
 #include "core/lang/expression.h"
 #include "core/model/model.h"
 
 namespace seedmesh::building {
 
 constexpr std::uint32_t none = 0xFFFFFFFFU;
+/// Set in the text of a lang::TaggedValue that is an array; the other bits are its number in ValueArrays.
+constexpr std::uint32_t array_bit = 0x80000000U;
 
-/// Texts in expressions are numbers, so that one small code works out both: text_base + place in the table.
+inline bool is_array(const lang::TaggedValue& value) { return (value.text & array_bit) != 0; }
+
+/// The texts of one derivation, numbered from 1 as in lang::TaggedValue.
 class Texts {
  public:
-  static constexpr double text_base =
-      1125899906842624.0;  // 2^50: no length or count of a building is so large
-  double number_of(std::string_view text);
-  /// Null: the number stands for no text.
-  const std::string* of(double number) const;
+  /// Adds the text unless it is known.
+  std::uint32_t id_of(std::string_view text);
+  std::size_t size() const { return texts_.size(); }
+  /// Null for 0, which stands for no text.
+  const std::string* find(std::uint32_t id) const {
+    return id == 0 || (id & array_bit) != 0 ? nullptr : &texts_[id - 1];
+  }
 
  private:
-  std::map<std::string, std::uint32_t, std::less<>> places_;
+  std::map<std::string, std::uint32_t, std::less<>> ids_;
   std::vector<std::string> texts_;
 };
 
-/// What an expression can read of the shape that it is worked out for; the names are in names.cpp.
+/// What an expression can read of its shape; the names are in parser.cpp.
 enum Slot : std::uint32_t {
   slot_sx,
   slot_sy,
@@ -50,28 +60,68 @@ enum Slot : std::uint32_t {
   first_free_slot
 };
 
-/// A question to the other shapes: Scope.occ("noparent"), overlaps(), ...
+/// A query to other shapes: Scope.occ("noparent"), overlaps(), ...
 struct Query {
-  enum class Kind : std::uint8_t { occlusion, inside, overlaps, touches, visible };
+  enum class Kind : std::uint8_t { occlusion, inside, overlaps, touches, visible, count, distance };
   Kind kind = Kind::occlusion;
   std::string target;  ///< "all", "active", "noparent", or a symbol or label
   std::uint32_t slot = 0;
 };
 
+/// A node of an expression that lang::Program cannot hold: texts that are joined, arrays, functions that call
+/// themselves, properties of the geometry. Its operands are in Grammar::value_operands.
+struct ValueNode {
+  enum class Kind : std::uint8_t {
+    constant,  ///< `constant`
+    slot,      ///< `id`: the slot
+    local,     ///< `id`: the parameter of the function around it
+    negate,
+    invert,
+    binary,      ///< `operation`
+    both,        ///< &&, which stops at the first that does not hold
+    either,      ///< ||
+    choose,      ///< condition, value, condition, value, ..., value otherwise
+    weigh,       ///< percentage, value, percentage, value, ..., value otherwise
+    call,        ///< `id`: into lang::functions()
+    function,    ///< `id`: into Grammar::functions
+    special,     ///< `id`: into value_functions()
+    query,       ///< `id`: into Grammar::queries
+    index,       ///< array, row, and perhaps column
+    array,       ///< values; `id` is the number of columns, or 0
+    range,       ///< first, step, last
+    components,  ///< `id`: into Grammar::component_values
+    selector,    ///< whether the component belongs to the classes `id`
+  };
+  Kind kind = Kind::constant;
+  lang::Operation operation = lang::Operation::add;
+  std::uint8_t frame = 0;  ///< of a selector: a SelectorFrame
+  std::uint32_t first = 0, count = 0, id = 0, offset = 0;
+  lang::TaggedValue constant;
+};
+
+/// A function of the rules that is not written out where it is called.
+struct FunctionTree {
+  std::uint32_t root = none, parameter_count = 0;
+};
+
 struct Value {
   lang::Expression expression;
+  std::uint32_t tree = none;  ///< a ValueNode; none: `expression` holds it
+  /// The tree is used only if `expression` gives no number, because a parameter turns out to be a text or an array.
+  bool is_fallback = false;
   std::uint32_t offset = 0;  ///< byte of the rules where it begins
   std::uint32_t first_query = 0, query_count = 0;
   bool is_given = false;
 };
 
-/// How a number is meant: 3, '0.5 (of the scope), ~3 or 3r (a share of what is left); of a roof, byHeight(3).
+/// The unit of a number: 3 is absolute, '0.5 a share of the scope, ~3 or 3r a share of what is left. For
+/// roofs, byHeight(3) is a height.
 enum class Measure : std::uint8_t { absolute, relative, floating, height };
 
 struct Argument {
   Value value;
   Measure measure = Measure::absolute;
-  std::uint32_t word = none;  ///< where a word was asked for: its place in Grammar::words
+  std::uint32_t word = none;  ///< of an argument that is a word: into Grammar::words
 };
 
 enum class Op : std::uint8_t {
@@ -79,6 +129,8 @@ enum class Op : std::uint8_t {
   nil,
   push,
   pop,
+  body,
+  ignored,
   translate,
   size,
   rotate,
@@ -116,6 +168,53 @@ enum class Op : std::uint8_t {
   project_uv,
   report,
   label,
+  translate_in,
+  rotate_in,
+  rotate_scope,
+  set_pivot,
+  mirror,
+  reverse_normals,
+  cleanup,
+  convexify,
+  delete_holes,
+  rectify,
+  reduce,
+  set_normals,
+  trim,
+  reset_geometry,
+  reset_material,
+  set_material,
+  footprint,
+  envelope,
+  primitive_quad,
+  primitive_disk,
+  primitive_cube,
+  primitive_sphere,
+  primitive_cylinder,
+  primitive_cone,
+  insert_along_uv,
+  roof_ridge,
+  setback_per_edge,
+  setback_to_area,
+  split_perimeter,
+  scatter,
+  inline_shapes,
+  modify,
+  unite,
+  subtract,
+  intersect,
+  tag,
+  delete_tags,
+  edge_tags,
+  texture,
+  normalize_uv,
+  scale_uv,
+  rotate_uv,
+  translate_uv,
+  tile_uv,
+  copy_uv,
+  delete_uv,
+  print,
 };
 
 struct Step {
@@ -124,19 +223,35 @@ struct Step {
   std::uint32_t first_part = 0, part_count = 0;
   std::uint32_t symbol = none;
   std::uint32_t offset = 0;
-  bool is_leaf = false;      ///< of a symbol: written with a point
-  bool stays_whole = false;  ///< of a symbol: only a leaf can end what it would begin; see Reading
-  bool keeps_slab = false;   ///< of a split: noAdjust
-  bool listens = false;      ///< of a split: to snap lines
-  bool is_2006 = false;      ///< of a repeat: written as Repeat(...)
-  bool in_metres = false;    ///< of a split along u or v: unitSpace
-  std::uint8_t axis = 0;     ///< x, y, z, or of a split axis_u, axis_v
+  bool is_leaf = false;         ///< of a symbol: written with a point
+  bool stays_whole = false;     ///< of a symbol: it cuts itself out without an end, and becomes a leaf
+  bool keeps_slab = false;      ///< of a split: noAdjust
+  bool keeps_to_snaps = false;  ///< of a split: its borders keep to snap lines
+  bool is_2006 = false;         ///< of a repeat: written as Repeat(...)
+  bool is_repeated = false;     ///< of a split of the perimeter: { ... }*
+  bool in_metres = false;       ///< of a split along u or v: unitSpace
+  std::uint8_t axis = 0;        ///< x, y, z, or of a split axis_u, axis_v; of comp a ComponentKind
 };
+
+/// What a component split takes a shape apart into.
+enum ComponentKind : std::uint8_t {
+  component_faces,
+  component_edges,
+  component_vertices,
+  component_face_edges,
+  component_face_vertices,
+  component_groups,
+  component_materials,
+  component_holes,
+};
+
+/// The frame in which a selector classifies a component. The first shape has the axes of the world.
+enum SelectorFrame : std::uint8_t { frame_scope, frame_world };
 
 /// The axes of texture space, as axes of a split.
 constexpr std::uint8_t axis_u = 3, axis_v = 4;
 
-/// What a selector of a component split takes; bits of Selector::classes.
+/// The classes of faces that a selector of a component split can take; bits of Part::classes.
 enum FaceClass : std::uint32_t {
   face_front = 1,
   face_back = 2,
@@ -151,7 +266,12 @@ enum FaceClass : std::uint32_t {
   face_side = 1024,
   face_all = 2048,
   face_inside = 4096,
-  face_border = 8192
+  face_border = 8192,
+  edge_eave = 1U << 14U,
+  edge_hip = 1U << 15U,
+  edge_valley = 1U << 16U,
+  edge_ridge = 1U << 17U,
+  never = 1U << 18U  ///< a property that no shape has, such as that of a street
 };
 
 /// A cell of a split, or a selector of a component split.
@@ -160,15 +280,21 @@ struct Part {
   std::uint32_t body = none;
   std::uint32_t first_part = 0, part_count = 0;  ///< of a group that is repeated
   bool is_group = false;
-  std::uint32_t classes = 0;  ///< of a selector
-  std::int32_t index = -1;    ///< of a selector: the one component of this number
-  bool is_merged = false;     ///< of a selector: `=`, one shape of all
-  bool is_remainder = false;  ///< of a selector: `remainder`
+  std::uint32_t classes = 0;         ///< of a selector
+  std::int32_t index = -1;           ///< of a selector: the number of its only component, or -1
+  bool is_merged = false;            ///< of a selector: `=` makes one shape of all faces
+  bool is_by_set = false;            ///< of a selector: `=:` makes one shape of faces that touch
+  std::uint8_t frame = frame_scope;  ///< of a selector
+  Value condition;                   ///< of a selector that is an expression
+  std::uint32_t word = none;         ///< of a selector: how it is written, into Grammar::words
+  Argument depth;                    ///< of a split of the perimeter
+  bool is_remainder = false;         ///< of a selector: `remainder`
   std::uint32_t offset = 0;
 };
 
 struct Choice {
-  Value weight;  ///< not given: what the others leave
+  Value weight;                ///< not given: what the others leave of 1
+  bool is_percentage = false;  ///< the weight is an expression in percent
   std::uint32_t first_step = 0, step_count = 0;
 };
 
@@ -183,6 +309,7 @@ struct Body {
 
 struct Rule {
   std::uint32_t symbol = 0, body = 0, parameter_count = 0;
+  std::vector<Value> locals;  ///< values of with(...), in the slots behind those of the parameters
   std::int32_t priority = 0;
   std::uint32_t offset = 0;
 };
@@ -201,7 +328,18 @@ struct Attribute {
   bool is_constant = false;
   bool has_range = false;
   double low = 0, high = 0;
-  std::vector<double> choices;  ///< of @Enum
+  double step = 0;                         ///< of @Range; 0: any
+  std::vector<lang::TaggedValue> choices;  ///< of @Enum
+  bool is_restricted = true;               ///< values outside of the range or the choices are errors
+  std::string group, description, widget;  ///< of other annotations; the widget is color, angle, percent, ...
+  bool is_hidden = false;
+  double order = 0;
+};
+
+/// A component split inside an expression: comp(fe){ front = 3 | all : 1 }, an array.
+struct ComponentValue {
+  std::uint8_t kind = 0;
+  std::vector<Part> parts;  ///< `size` holds the value
 };
 
 struct Grammar {
@@ -216,23 +354,29 @@ struct Grammar {
   std::vector<Choice> choices;
   std::vector<Rule> rules;
   std::vector<Symbol> symbols;
-  std::vector<Attribute> attributes;      ///< those that others need stand before them
-  std::vector<Query> queries;             ///< each once
-  std::vector<std::uint32_t> query_uses;  ///< of values, into `queries`
+  std::vector<Attribute> attributes;      ///< those that others need come first
+  std::vector<Query> queries;             ///< without duplicates
+  std::vector<std::uint32_t> query_uses;  ///< of values: into `queries`
   std::uint32_t start = none;
   std::uint32_t first_attribute_slot = first_free_slot, first_parameter_slot = first_free_slot;
   std::uint32_t most_parameters = 0;
-  bool listens_to_snaps = false;
+  bool has_snap_splits = false;
+  std::vector<ValueNode> value_nodes;
+  std::vector<std::uint32_t> value_operands;  ///< into value_nodes
+  std::vector<FunctionTree> functions;
+  std::vector<ComponentValue> component_values;
+  bool uses_selectors = false;  ///< comp.sel is read somewhere
   std::vector<Warning> warnings;
 
-  std::uint32_t symbol_named(std::string_view name) const;  ///< none: there is no such symbol
+  std::uint32_t symbol_named(std::string_view name) const;  ///< none if there is no such symbol
 };
 
-/// The fewest parameters that a rule of the symbol has; 0 where it has no rule.
+/// The least number of parameters of the rules of a symbol; 0 if it has no rule.
 std::uint32_t least_parameters(const Grammar& grammar, std::uint32_t symbol);
 
-/// Reads rules in both notations. Adds every fault that the text has, at its byte. `start` empty: the first
-/// rule, or the one after @StartRule. Cost: linear; expressions and brackets go at most 200 deep.
-Grammar read_rules(std::string_view text, std::string_view start, std::vector<lang::Fault>& faults);
+/// Reads rules in both notations. Adds every error at its byte of the joined text. `start` is the name of a symbol,
+/// perhaps with a style before it (Modern$Lot). If it is empty, the start symbol is that of the rule after @StartRule
+/// or `start`, or of the first rule. Cost: linear. Brackets may be nested 100 deep.
+Grammar read_rules(const RuleText& text, std::string_view start, std::vector<lang::TextError>& faults);
 
 }  // namespace seedmesh::building

@@ -1,39 +1,14 @@
+#include "core/generators/building/tokens.h"
+
 #include <algorithm>
 #include <utility>
 
-#include "core/generators/building/parser.h"
+#include "core/generators/building/syntax.h"
 
 namespace seedmesh::building {
 namespace {
 
 using lang::TokenKind;
-
-/// Signs of three bytes as print has them, and what the language writes with as many.
-constexpr std::pair<std::string_view, std::string_view> signs_of_print[] = {
-    {"\u2265", ">= "}, {"\u2264", "<= "}, {"\u2260", "!= "}};
-
-/// Comments become spaces and signs of print those of the language, so that every byte stays where it is.
-std::string plain(std::string_view text) {
-  std::string out(text);
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    if (out[i] == '"') {
-      for (++i; i < out.size() && out[i] != '"' && out[i] != '\n'; ++i) i += out[i] == '\\' ? 1 : 0;
-    } else if (out[i] == '/' && i + 1 < out.size() && out[i + 1] == '/') {
-      for (; i < out.size() && out[i] != '\n'; ++i) out[i] = ' ';
-    } else if (out[i] == '/' && i + 1 < out.size() && out[i + 1] == '*') {
-      const std::size_t end = std::min(out.find("*/", i + 2), out.size() - 1);
-      for (const std::size_t last = std::min(end + 2, out.size()); i < last; ++i) {
-        if (out[i] != '\n') out[i] = ' ';
-      }
-      --i;
-    } else if (out[i] == '\xE2') {
-      for (const auto& [sign, meant] : signs_of_print) {
-        if (text.substr(i).starts_with(sign)) out.replace(i, sign.size(), meant);
-      }
-    }
-  }
-  return out;
-}
 
 bool opens(const lang::Token& token) {
   return is_symbol(token, "(") || is_symbol(token, "[") || is_symbol(token, "{");
@@ -58,19 +33,13 @@ bool is_infix(const lang::Token& token) {
 
 }  // namespace
 
-double Texts::number_of(std::string_view text) {
-  const auto found = places_.find(text);
-  if (found != places_.end()) return text_base + found->second;
-  const auto place = static_cast<std::uint32_t>(texts_.size());
-  places_.emplace(std::string(text), place);
+std::uint32_t Texts::id_of(std::string_view text) {
+  const auto found = ids_.find(text);
+  if (found != ids_.end()) return found->second;
   texts_.emplace_back(text);
-  return text_base + place;
-}
-
-const std::string* Texts::of(double number) const {
-  const double place = number - text_base;
-  if (!(place >= 0) || !(place < static_cast<double>(texts_.size()))) return nullptr;
-  return &texts_[static_cast<std::size_t>(place)];
+  const auto id = static_cast<std::uint32_t>(texts_.size());
+  ids_.emplace(std::string(text), id);
+  return id;
 }
 
 std::uint32_t Grammar::symbol_named(std::string_view name) const {
@@ -80,8 +49,13 @@ std::uint32_t Grammar::symbol_named(std::string_view name) const {
   return none;
 }
 
-Tokens::Tokens(std::string_view text, std::vector<lang::Fault>& faults) : text_(plain(text)) {
-  tokens_ = lang::tokenize(text_, 0, text_.size(), faults);
+Tokens::Tokens(const RuleText& text, std::string_view style, std::vector<lang::TextError>& faults)
+    : files_(text), main_size_(text.parts.front().count) {
+  for (const RuleText::Part& part : text.parts) {  // a comment without an end ends with its file
+    text_.resize(part.first, '\n');
+    text_ += without_comments(text.text_of(part));
+  }
+  loaded_ = load_files(text, text_, style, faults);
   partner_.assign(tokens_.size(), tokens_.size() - 1);
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < tokens_.size(); ++i) {
@@ -89,34 +63,48 @@ Tokens::Tokens(std::string_view text, std::vector<lang::Fault>& faults) : text_(
       open.push_back(i);
     } else if (closes(tokens_[i])) {
       if (open.empty()) {
-        if (faults.size() < lang::max_faults)
-          faults.push_back({tokens_[i].offset, "found " + in_quotes(tokens_[i]) + " that closes nothing"});
-      } else {
-        if (!fit(tokens_[open.back()].text, tokens_[i].text) && faults.size() < lang::max_faults)
+        if (faults.size() < lang::max_errors)
           faults.push_back({tokens_[i].offset,
-                            "found " + in_quotes(tokens_[i]) + " for " + in_quotes(tokens_[open.back()])});
+                            "found " + in_quotes(tokens_[i]) + ", expected an opening bracket before it"});
+      } else {
+        if (!fit(tokens_[open.back()].text, tokens_[i].text) && faults.size() < lang::max_errors)
+          faults.push_back({tokens_[i].offset, "found " + in_quotes(tokens_[i]) +
+                                                   ", expected the partner of " +
+                                                   in_quotes(tokens_[open.back()])});
         partner_[open.back()] = i;
         open.pop_back();
       }
     }
   }
   for (const std::size_t i : open) {
-    if (faults.size() < lang::max_faults)
+    if (faults.size() < lang::max_errors)
       faults.push_back({tokens_[i].offset, in_quotes(tokens_[i]) + " is not closed"});
   }
+}
+
+int Tokens::line_of(std::size_t offset) const {
+  const RuleText::Part& part = files_.part_at(offset);
+  return text_position(files_.text_of(part), offset - part.first).line;
+}
+
+bool Tokens::is_missing(std::string_view name) const {
+  return std::ranges::any_of(loaded_.missing,
+                             [&](const std::string& prefix) { return name.starts_with(prefix); });
 }
 
 std::size_t Tokens::behind_operand(std::size_t i) const {
   const lang::Token& token = at(i);
   if (token.kind == TokenKind::number || token.kind == TokenKind::string) return i + 1;
-  if (is(i, "(")) return std::min(partner(i) + 1, end());
+  if (is(i, "(") || is(i, "[")) return std::min(partner(i) + 1, end());
   if (token.kind != TokenKind::name || token.text == "case" || token.text == "else") return i;
   ++i;
   while (is(i, ".") && at(i + 1).kind == TokenKind::name &&
          at(i).offset == at(i - 1).offset + at(i - 1).length && at(i + 1).offset == at(i).offset + 1) {
     i += 2;
   }
+  const bool is_comp = token.text == "comp";
   if (is(i, "(")) i = std::min(partner(i) + 1, end());
+  if (is_comp && is(i, "{")) i = std::min(partner(i) + 1, end());
   return i;
 }
 
@@ -124,8 +112,10 @@ std::size_t Tokens::behind_expression(std::size_t i) const {
   while (true) {
     std::size_t operand = i;
     while (is_sign(at(operand))) ++operand;
-    const std::size_t behind = behind_operand(operand);
+    std::size_t behind = behind_operand(operand);
     if (behind == operand) return i;
+    while (is(behind, "[") && at(behind - 1).kind != TokenKind::number)
+      behind = std::min(partner(behind) + 1, end());
     i = behind;
     if (!is_infix(at(i))) return i;
     std::size_t next = i + 1;
@@ -133,7 +123,7 @@ std::size_t Tokens::behind_expression(std::size_t i) const {
     std::size_t probe = next;
     while (is_sign(at(probe))) ++probe;
     if (behind_operand(probe) == probe) return i;
-    // The percent of a weight: `30% : A`; and a bar or a sign between cells is none of an expression.
+    // The percent sign of a weight, as in `30% : A`, does not get here: no operand follows it.
     i = next;
   }
 }

@@ -6,9 +6,9 @@
 namespace seedmesh::fractal {
 namespace {
 
-constexpr double tolerance = 1e-9;  ///< relative; above what composing decimal thirds leaves
+constexpr double tolerance = 1e-9;  ///< relative; above the rounding errors of composed maps
 
-/// One rotation that clears element (p, q) of a symmetric matrix.
+/// Makes element (p, q) of a symmetric matrix 0 by a rotation.
 void rotate(glm::dmat3& m, int p, int q) {
   if (m[p][q] == 0) return;
   const double theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);

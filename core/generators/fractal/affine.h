@@ -1,5 +1,5 @@
 #pragma once
-/// Affine maps of space: what a copy machine does to its element.
+/// Affine maps of space.
 #include <glm/glm.hpp>
 #include <optional>
 
@@ -15,19 +15,19 @@ struct Affine {
   glm::dvec3 operator()(const glm::dvec3& p) const { return linear * p + offset; }
 };
 
-/// First `inner`, then `outer`.
+/// Applies `inner` first, then `outer`.
 inline Affine compose(const Affine& outer, const Affine& inner) {
   return {outer.linear * inner.linear, outer(inner.offset)};
 }
 
-/// The greatest factor by which the map stretches any direction: the root of the greatest eigenvalue of
-/// AᵀA, by Jacobi's rotations (Golub and Van Loan, "Matrix Computations", 8.5).
+/// The largest factor by which the map stretches a direction: the root of the largest eigenvalue of AᵀA, by
+/// Jacobi rotations (Golub and Van Loan, "Matrix Computations", 8.5).
 double norm(const Affine& map);
 
-/// The factor of a similarity (it scales all directions alike; mirrors allowed), else nullopt.
+/// The factor of a similarity, which may mirror; nullopt for other maps.
 std::optional<double> similarity(const Affine& map);
 
-/// The map as scale, turn and move, where it is a similarity.
+/// The map as scale, rotation and translation. It must be a similarity with the factor `scale`.
 Transform transform_of(const Affine& map, double scale);
 
 }  // namespace seedmesh::fractal

@@ -1,5 +1,5 @@
-/// Maps are drawn by the alias method (Vose, "A linear algorithm for generating random numbers with a given
-/// distribution", 1991): one look-up and one comparison, whatever the number of maps.
+/// Maps are chosen by the alias method (M. Vose, "A linear algorithm for generating random numbers with a
+/// given distribution", 1991): one look-up and one comparison for any number of maps.
 #include "core/generators/fractal/chaos.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t chunk = 65'536;
 constexpr std::size_t lanes = 4;
 
-/// A column of the alias table beside the map that it stands for: one cache line for what a step needs.
+/// A map, padded to whole cache lines.
 struct alignas(64) Row {
   double m[12];  ///< rows of the linear part, each followed by its offset
 };
@@ -35,8 +35,8 @@ class Wheel {
     fill(instructions.weights);
   }
 
-  /// From 32 random bits: the upper part of their product with the number of maps chooses the column, the
-  /// lower part decides in it.
+  /// Chooses a map by 32 random bits. The upper half of their product with the number of maps is the column
+  /// of the alias table, and the lower half decides between its two maps.
   std::uint32_t spin(std::uint32_t bits) const {
     const std::uint64_t product = std::uint64_t{bits} * columns_.size();
     const auto column = static_cast<std::uint32_t>(product >> 32U);
@@ -86,7 +86,7 @@ glm::dvec3 drawn_start(Rng rng) {
   return {x, y, z};
 }
 
-/// Four chains that take turns; two words of random bits serve a round of all four.
+/// Plays four alternating chains. Two random words are enough for one step of all four.
 void play_chunk(const Wheel& wheel, Rng rng, std::uint32_t drop, std::span<glm::vec3> position,
                 std::span<std::uint8_t> map) {
   std::array<glm::dvec3, lanes> point;
@@ -113,7 +113,7 @@ void play_chunk(const Wheel& wheel, Rng rng, std::uint32_t drop, std::span<glm::
   }
 }
 
-/// One chain, as the algorithm is told.
+/// Plays one chain.
 void play_alone(const Wheel& wheel, Rng rng, std::uint32_t drop, Cloud& cloud) {
   glm::dvec3 point = drawn_start(rng.at("start"));
   Rng bits = rng.at("spin");

@@ -7,8 +7,8 @@
 #include "core/base/math.h"
 #include "core/generators/child.h"
 #include "core/generators/fractal/faces.h"
-#include "core/geom/flatten.h"
-#include "core/gltf/read.h"
+#include "core/geom/mesh/flatten.h"
+#include "core/gltf/read/read.h"
 #include "generated/params/fractal.h"
 
 namespace seedmesh::fractal {
@@ -25,7 +25,7 @@ Mesh empty_mesh(const Job& job) {
   return mesh;
 }
 
-/// A flat convex face with corners of its own, counter-clockwise from outside.
+/// Adds a flat convex face with its own vertices, counter-clockwise from outside.
 void add_face(Mesh& mesh, std::initializer_list<glm::dvec3> corners) {
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   const glm::dvec3* c = corners.begin();
@@ -81,7 +81,7 @@ Mesh pyramid(const Job& job) {
   return mesh;
 }
 
-/// Every second corner of the unit cube.
+/// Has every second corner of the unit cube.
 Mesh tetrahedron(const Job& job) {
   Mesh mesh = empty_mesh(job);
   const glm::dvec3 a{0.5, 0.5, 0.5}, b{0.5, -0.5, -0.5}, c{-0.5, 0.5, -0.5}, d{-0.5, -0.5, 0.5};
@@ -92,7 +92,7 @@ Mesh tetrahedron(const Job& job) {
   return mesh;
 }
 
-/// A sphere of diameter 1 from the sides of an octahedron, each divided into `steps` squared triangles.
+/// A sphere of diameter 1. Each side of an octahedron is divided into 16 triangles.
 Mesh sphere(const Job& job) {
   constexpr int steps = 4;
   Mesh mesh = empty_mesh(job);
@@ -110,7 +110,7 @@ Mesh sphere(const Job& job) {
     const glm::ivec3 sign{(octant & 1) ? -1 : 1, (octant & 2) ? -1 : 1, (octant & 4) ? -1 : 1};
     const bool turned = sign.x * sign.y * sign.z < 0;
     const auto at = [&](int i, int j) { return corner(sign * glm::ivec3(steps - i - j, i, j)); };
-    // Braces have an order, arguments of a call have none.
+    // A list in braces, because arguments of a call are evaluated in any order.
     const auto add = [&](const std::array<std::uint32_t, 3>& corners) {
       const std::size_t second = turned ? 2 : 1;
       for (const std::size_t k : {std::size_t{0}, second, 3 - second}) mesh.index.wide.push_back(corners[k]);
@@ -125,7 +125,7 @@ Mesh sphere(const Job& job) {
   return mesh;
 }
 
-/// A square frame with the letter L in it, of 9 by 9 dots and one dot thick.
+/// A square frame around the letter L, made of 9 by 9 dots, one dot thick.
 Mesh letter_plate(Job& job) {
   constexpr int dots = 9;
   BitGrid by_x(job, glm::ivec3(0), {dots, dots, 1}), by_z(job, glm::ivec3(0), {1, dots, dots});
@@ -138,7 +138,7 @@ Mesh letter_plate(Job& job) {
       by_z.row(y, x)[0] |= 1;
     }
   }
-  constexpr double cell = 0.96 / dots;  // neighbours do not touch
+  constexpr double cell = 0.96 / dots;  // so that neighbours do not touch
   const Solid solid{std::move(by_x), std::move(by_z), {-0.48, -0.48, -0.5 * cell}, glm::dvec3(cell)};
   Mesh mesh = exposed_faces(solid, nullptr, job);
   mesh.cache_ordered = false;
@@ -170,14 +170,15 @@ Mesh named_mesh(Name name, Job& job) {
     case Name::letter_plate:
       return letter_plate(job);
     case Name::segment:
-    case Name::plate:  // made of the curve by koch_plate
+    case Name::plate:  // koch_plate() makes it
       return segment(job);
   }
   return cube(job);
 }
 
-Result<Model> model_of(const FractalElementObject& given, Job& job) {
-  if (given.model) return generate_child(*given.model, "/element/model", job.rng().at("element"), job);
+Result<Model> model_of(const FractalElementObject& given, const GenerateContext& context) {
+  Job& job = context.job;
+  if (given.model) return generate_child(*given.model, "/element/model", job.rng().at("element"), context);
   return read_glb(*given.glb, "/element/glb", job);
 }
 
@@ -195,6 +196,14 @@ glm::u8vec4 linear_color(std::uint8_t red, std::uint8_t green, std::uint8_t blue
   return {byte(red), byte(green), byte(blue), 255};
 }
 
+bool is_named(const FractalParams& params, FractalElement name) {
+  return params.element.index() == 0 && std::get<0>(params.element) == name;
+}
+
+bool is_cube(const FractalParams& params) {
+  return is_named(params, Name::cube) || is_named(params, Name::rainbow_cube);
+}
+
 std::array<glm::u8vec4, 6> rainbow() {
   return {linear_color(216, 44, 38), linear_color(244, 134, 30), linear_color(246, 218, 48),
           linear_color(60, 170, 70), linear_color(40, 98, 200),  linear_color(140, 60, 180)};
@@ -204,8 +213,7 @@ Material plain_material(const FractalParams& params) {
   Material material;
   material.name = "fractal";
   const Color& color = params.color;
-  const bool painted = params.method == FractalMethod::escape ||
-                       (params.element.index() == 0 && std::get<0>(params.element) == Name::rainbow_cube) ||
+  const bool painted = params.method == FractalMethod::escape || is_named(params, Name::rainbow_cube) ||
                        (params.method == FractalMethod::frcm && params.cloud == FractalCloud::points);
   if (!painted) {
     material.base_color = {linear_of_srgb(color.red), linear_of_srgb(color.green), linear_of_srgb(color.blue),
@@ -215,14 +223,15 @@ Material plain_material(const FractalParams& params) {
   return material;
 }
 
-Result<Element> element_of(const FractalParams& params, Job& job) {
+Result<Element> element_of(const FractalParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   Element element;
   if (params.element.index() == 0) {
     element.primitives.push_back({named_mesh(std::get<0>(params.element), job), 0, {}});
     element.materials.push_back(plain_material(params));
   } else {
     const FractalElementObject& given = std::get<1>(params.element);
-    Result<Model> model = model_of(given, job);
+    Result<Model> model = model_of(given, context);
     if (!model) return std::move(model).error();
     element.primitives = flatten(*model, job);
     element.materials = std::move(model->materials);
@@ -232,10 +241,10 @@ Result<Element> element_of(const FractalParams& params, Job& job) {
         material.base_color_texture = material.normal_texture = material.metallic_roughness_texture = {};
         material.occlusion_texture = material.emissive_texture = {};
       }
-      element.warnings.push_back({"/element/model", "textures of the element are left out", 0, 0});
+      element.warnings.push_back({"/element/model", "The textures of the element are not used.", 0, 0});
     }
     if (!fit_unit_box(element.primitives))
-      return Error{Code::invalid, {{"/element", "the element has no extent"}}};
+      return Error{Code::invalid, {{IssueKind::invalid_value, "/element", "the element has no extent"}}};
   }
   for (const Primitive& primitive : element.primitives) {
     element.bytes += bytes_of(primitive.mesh);
@@ -245,18 +254,10 @@ Result<Element> element_of(const FractalParams& params, Job& job) {
 }
 
 std::optional<Measures> measures_of(const FractalParams& params) {
-  if (params.element.index() != 0) return std::nullopt;
-  switch (std::get<0>(params.element)) {
-    case Name::cube:
-    case Name::rainbow_cube:
-      return Measures{6, 1};
-    case Name::pyramid:
-      return Measures{1 + std::sqrt(5.0), 1.0 / 3};
-    case Name::tetrahedron:
-      return Measures{2 * std::sqrt(3.0), 1.0 / 3};
-    default:
-      return std::nullopt;
-  }
+  if (is_cube(params)) return Measures{6, 1};
+  if (is_named(params, Name::pyramid)) return Measures{1 + std::sqrt(5.0), 1.0 / 3};
+  if (is_named(params, Name::tetrahedron)) return Measures{2 * std::sqrt(3.0), 1.0 / 3};
+  return std::nullopt;
 }
 
 }  // namespace seedmesh::fractal

@@ -1,14 +1,15 @@
 #pragma once
-/// What a copy machine copies, in its frame: the unit cube round the origin.
+/// The element that is copied. Its frame is the unit cube around the origin.
 #include <string>
 #include <vector>
 
-#include "core/generators/appraisal.h"
+#include "core/generators/api.h"
 #include "core/model/model.h"
 
 namespace seedmesh {
 struct FractalParams;
-}
+enum class FractalElement;
+}  // namespace seedmesh
 
 namespace seedmesh::fractal {
 
@@ -20,19 +21,23 @@ struct Element {
   std::uint64_t elements = 0;  ///< triangles, or lines
 };
 
-/// Solids are closed, counter-clockwise from outside, with flat normals but for the sphere. Spends its
-/// triangles. Errors: of the model inside, of the GLB, or that there is nothing to see of it.
-Result<Element> element_of(const FractalParams& params, Job& job);
+/// Solids are closed, counter-clockwise from outside, with flat normals except for the sphere. Spends the
+/// triangles. Errors: those of the model or the GLB, or that it has no extent.
+Result<Element> element_of(const FractalParams& params, const GenerateContext& context);
+
+/// Is the element this named one? Is it a cube?
+bool is_named(const FractalParams& params, FractalElement name);
+bool is_cube(const FractalParams& params);
 
 /// The sides of the rainbow cube: -X, +X, -Y, +Y, -Z, +Z.
 std::array<glm::u8vec4, 6> rainbow();
 
 glm::u8vec4 linear_color(std::uint8_t red, std::uint8_t green, std::uint8_t blue);
 
-/// The material of everything that brings none of its own.
+/// The material of everything that has no material of its own.
 Material plain_material(const FractalParams& params);
 
-/// Area and volume of a named solid, nullopt where they are not of that kind.
+/// Area and volume of a named solid; nullopt for other elements.
 struct Measures {
   double area, volume;
 };

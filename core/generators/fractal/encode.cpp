@@ -50,7 +50,7 @@ Array<std::uint8_t> grey_of(const EscapeField& field, const Job& job) {
   for (std::size_t i = 0; i < pixels.size(); ++i)
     pixels[i] = static_cast<std::uint16_t>(field.value[i] * 65535.0F + 0.5F);
   const texture::PictureView picture{field.side, field.side, 1, 16, std::as_bytes(pixels.span())};
-  return texture::encode_png(picture, texture::PngEffort::fast, job);
+  return texture::encode_png(picture, texture::PngEffort::streamed, job);
 }
 
 Array<std::uint8_t> colored(const FractalParams& params, const EscapeField& field, const Job& job) {
@@ -63,28 +63,31 @@ Array<std::uint8_t> colored(const FractalParams& params, const EscapeField& fiel
     pixels[3 * i + 2] = color.blue;
   }
   const texture::PictureView picture{field.side, field.side, 3, 8, std::as_bytes(pixels.span())};
-  return texture::encode_png(picture, texture::PngEffort::fast, job);
+  return texture::encode_png(picture, texture::PngEffort::streamed, job);
 }
 
 }  // namespace
 
-Result<Array<std::uint8_t>> encode(const FractalParams& params, std::string_view format, Job& job) {
-  if (format == "ply") return ply_of(params, job);
+Result<Array<std::uint8_t>> encode(const FractalParams& params, const WantedFormat& format,
+                                   const GenerateContext& context) {
+  Job& job = context.job;
+  if (format.format == "ply") return ply_of(params, job);
   const EscapeField field = escape_field(params, job);
-  return format == "png16" ? grey_of(field, job) : colored(params, field, job);
+  return format.format == "png16" ? grey_of(field, job) : colored(params, field, job);
 }
 
-std::vector<Issue> check_form(const FractalParams& params, const WantedForm& form) {
+std::vector<Issue> check_format(const FractalParams& params, const WantedFormat& form) {
   const std::string found = "found \"" + std::string(text_of(params.method)) + "\"";
   std::vector<Issue> issues;
   if (form.format != "ply") {
     if (params.method != FractalMethod::escape)
-      issues.push_back({"/method", found + ", but a picture is made of \"escape\""});
+      issues.push_back({IssueKind::conflict, "/method", found + ", but an image is made of \"escape\""});
     return issues;
   }
   if (params.method != FractalMethod::frcm)
-    issues.push_back({"/method", found + ", but a ply holds the points of \"frcm\""});
-  if (!params.stages.empty()) issues.push_back({"/stages", "a ply holds one cloud, expected no stages"});
+    issues.push_back({IssueKind::conflict, "/method", found + ", but a ply holds the points of \"frcm\""});
+  if (!params.stages.empty())
+    issues.push_back({IssueKind::conflict, "/stages", "a ply holds one cloud, expected no stages"});
   return issues;
 }
 

@@ -1,9 +1,8 @@
 #pragma once
-/// Fractals as files that are no models.
+/// Fractals in formats other than models.
 #include "core/base/array.h"
-#include "core/base/job.h"
 #include "core/base/result.h"
-#include "core/generators/form.h"
+#include "core/generators/api.h"
 
 namespace seedmesh {
 struct FractalParams;
@@ -11,12 +10,13 @@ struct FractalParams;
 
 namespace seedmesh::fractal {
 
-/// ply: the points of frcm, binary little-endian, 12 bytes of position and 3 of colour (sRGB) each. png16:
-/// how late points leave (escape), grey, 65535 where they never do. png8: the same in the colours of the
-/// palette. The parameters suit the form (checked before).
-Result<Array<std::uint8_t>> encode(const FractalParams& params, std::string_view format, Job& job);
+/// ply: the points of frcm, binary little-endian, each with 12 bytes of position and 3 bytes of colour
+/// (sRGB). png16: escape times in grey, 65535 for points that never leave. png8: the same in the colours of
+/// the palette. The parameters must have passed check_format().
+Result<Array<std::uint8_t>> encode(const FractalParams& params, const WantedFormat& format,
+                                   const GenerateContext& context);
 
-/// A form that the method has not is refused at /method; ply is one cloud, so stages are refused.
-std::vector<Issue> check_form(const FractalParams& params, const WantedForm& form);
+/// Errors: /method for a format that the method does not have; /stages for ply, which contains one cloud.
+std::vector<Issue> check_format(const FractalParams& params, const WantedFormat& form);
 
 }  // namespace seedmesh::fractal

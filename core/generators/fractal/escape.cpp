@@ -11,9 +11,10 @@
 namespace seedmesh::fractal {
 namespace {
 
-constexpr double far = 1e6;  ///< squared distance at which a point has left; far enough for a smooth count
+constexpr double far =
+    1e6;  ///< squared distance at which a point has left; large, so that fractions are smooth
 
-/// Steps until z leaves, with a fraction; negative: it did not within the limit.
+/// Steps until z leaves, with a fraction; negative if it does not leave within the limit.
 double steps_to_leave(double zr, double zi, double cr, double ci, int limit) {
   double rr = zr * zr, ii = zi * zi;
   for (int step = 0; step < limit; ++step) {
@@ -26,7 +27,7 @@ double steps_to_leave(double zr, double zi, double cr, double ci, int limit) {
   return -1;
 }
 
-/// Adds quads of a wall or a cap with normals of their own.
+/// Builds the plate: the relief, four walls and the underside, each with its own vertices.
 class Plate {
  public:
   Plate(const FractalParams& params, const EscapeField& field, Job& job)
@@ -74,8 +75,8 @@ class Plate {
     for (const std::uint32_t each : {a, b, c}) mesh_.index.wide.push_back(each);
   }
 
-  /// The mean of the faces round a sample by their areas; straight up where that would look through one of
-  /// them, as on a needle.
+  /// The mean normal of the faces around a sample, weighted by area; +Y if that would face away from one of
+  /// them.
   glm::vec3 normal(std::uint32_t i, std::uint32_t j) const {
     glm::dvec3 faces[6];
     int count = 0;
@@ -123,7 +124,7 @@ class Plate {
     }
   }
 
-  /// The rim, counter-clockwise from above: corner (i, j) after `step` of 4 * (n - 1).
+  /// The sample (i, j) at `step` of the 4 * (n - 1) steps around the boundary, counter-clockwise from above.
   glm::uvec2 rim(std::uint32_t step) const {
     const std::uint32_t last = n_ - 1, along = step % last;
     switch (step / last % 4) {

@@ -10,20 +10,21 @@ struct FractalParams;
 
 namespace seedmesh::fractal {
 
-/// How soon points leave, 0 at once to 1 never, row by row from the upper left corner of the window.
+/// Relative escape times: 0 for at once, 1 for never. Row by row from the upper left corner of the window.
 struct EscapeField {
   std::uint32_t side = 0;
   Array<float> value;
 };
 
-/// Steps are counted smoothly (with the logarithm of how far the point went). Rows are made in parallel.
+/// Steps have a fraction that follows from the distance reached. Rows are computed in parallel.
 EscapeField escape_field(const FractalParams& params, Job& job);
 
-/// The colour of a value of the field: the palette from soon to late, nearly black where points never leave.
+/// The colour of a value of the field: the palette from early to late, nearly black for points that never
+/// leave.
 Color escape_color(const FractalParams& params, float value);
 
-/// A plate of edge `size` in the XZ plane, the imaginary axis towards -Z, relief along +Y; the underside at
-/// -plate. Colours follow the palette from soon to late; points that never leave are black. Closed.
+/// A closed plate with edges of `size` in the XZ plane, with the imaginary axis along -Z and the relief along
+/// +Y. Its underside is at y = -size * plate. Colours are those of escape_color().
 Mesh escape_plate(const FractalParams& params, const EscapeField& field, Job& job);
 
 }  // namespace seedmesh::fractal

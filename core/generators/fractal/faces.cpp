@@ -9,10 +9,10 @@
 namespace seedmesh::fractal {
 namespace {
 
-constexpr int band_bits =
-    8;  ///< with 16 entries of cache: nine corners of a row wait until the next one uses them
+// With 16 entries in the vertex cache, the nine corners of a row are still there for the next row.
+constexpr int band_bits = 8;
 
-/// The squares of one slice and the corners that they need, both as rows of bits.
+/// The squares of one slice and their corners, both as rows of bits.
 class Slice {
  public:
   explicit Slice(const Side& side)
@@ -21,7 +21,7 @@ class Slice {
         squares_(words_ * static_cast<std::size_t>(side.rows())),
         corners_(side) {}
 
-  void look(int slice) {
+  void read(int slice) {
     corners_.clear();
     squares_count = 0;
     for (int r = 0; r < side_.rows(); ++r) {
@@ -56,49 +56,29 @@ class Slice {
   CornerRows corners_;
 };
 
-/// Where the corners and squares of a slice begin in the mesh.
-struct Place {
+/// The first corner and square of a slice in the mesh.
+struct Start {
   std::size_t corner = 0, square = 0;
 };
 
-/// Writes one slice at its place.
-class SliceWriter {
- public:
-  SliceWriter(const Side& side, const Solid& solid, const SideColors* colors, Mesh& mesh)
-      : side_(side), solid_(solid), colors_(colors), mesh_(mesh), slice_(side) {}
-
-  void write(int slice, const Place& place) {
-    slice_.look(slice);
-    if (slice_.squares_count == 0) return;
-    slice_.corners().write(solid_, slice, colors_, mesh_, place.corner);
-    write_squares(mesh_.index.wide.data() + 6 * place.square);
-  }
-
- private:
-  void write_squares(std::uint32_t* out) const {
-    const bool right = side_.turns_right();
-    const CornerRows& corners = slice_.corners();
-    for (std::size_t band = 0; band < slice_.words() * (64 / band_bits); ++band) {
-      const std::size_t w = band / (64 / band_bits), low = band % (64 / band_bits) * band_bits;
-      for (int r = 0; r < side_.rows(); ++r) {
-        for (std::uint64_t left = slice_.squares(r)[w] >> low & 0xFFU; left != 0; left &= left - 1) {
-          const std::size_t bit = low + static_cast<std::size_t>(std::countr_zero(left));
-          // The two corners of a square in one row are neighbours in that row's numbering.
-          const std::uint32_t a = corners.number(r, w, bit), b = corners.number(r + 1, w, bit);
-          const std::uint32_t quad[2][6] = {{a, b + 1, a + 1, a, b, b + 1}, {a, a + 1, b + 1, a, b + 1, b}};
-          std::copy_n(quad[right ? 1 : 0], 6, out);
-          out += 6;
-        }
+/// Writes two triangles for each square.
+void write_squares(const Side& side, const Slice& slice, std::uint32_t* out) {
+  const bool right = side.turns_right();
+  const CornerRows& corners = slice.corners();
+  for (std::size_t band = 0; band < slice.words() * (64 / band_bits); ++band) {
+    const std::size_t w = band / (64 / band_bits), low = band % (64 / band_bits) * band_bits;
+    for (int r = 0; r < side.rows(); ++r) {
+      for (std::uint64_t left = slice.squares(r)[w] >> low & 0xFFU; left != 0; left &= left - 1) {
+        const std::size_t bit = low + static_cast<std::size_t>(std::countr_zero(left));
+        // The two corners of a square in one row have consecutive numbers.
+        const std::uint32_t a = corners.number(r, w, bit), b = corners.number(r + 1, w, bit);
+        const std::uint32_t quad[2][6] = {{a, b + 1, a + 1, a, b, b + 1}, {a, a + 1, b + 1, a, b + 1, b}};
+        std::copy_n(quad[right ? 1 : 0], 6, out);
+        out += 6;
       }
     }
   }
-
-  const Side& side_;
-  const Solid& solid_;
-  const SideColors* colors_;
-  Mesh& mesh_;
-  Slice slice_;
-};
+}
 
 }  // namespace
 
@@ -128,22 +108,22 @@ std::uint64_t count_exposed(const Solid& solid, const Job& job) {
 
 Mesh exposed_faces(const Solid& solid, const SideColors* colors, Job& job) {
   const std::array<Side, 6> sides = sides_of(solid);
-  std::array<std::vector<Place>, 6> places;
-  Place end;
+  std::array<std::vector<Start>, 6> starts;
+  Start end;
   for (std::size_t s = 0; s < 6; ++s) {
     const Side& side = sides[s];
-    places[s].resize(static_cast<std::size_t>(side.slices()));
-    parallel_for(job, places[s].size(), 4, [&](std::size_t begin, std::size_t stop, std::size_t) {
+    starts[s].resize(static_cast<std::size_t>(side.slices()));
+    parallel_for(job, starts[s].size(), 4, [&](std::size_t begin, std::size_t stop, std::size_t) {
       Slice slice(side);
       for (std::size_t i = begin; i < stop; ++i) {
         job.check();
-        slice.look(static_cast<int>(i));
-        places[s][i] = {slice.corners().count(), slice.squares_count};
+        slice.read(static_cast<int>(i));
+        starts[s][i] = {slice.corners().count(), slice.squares_count};
       }
     });
-    for (Place& place : places[s]) {
-      const Place size = place;
-      place = end;
+    for (Start& start : starts[s]) {
+      const Start size = start;
+      start = end;
       end.corner += size.corner;
       end.square += size.square;
     }
@@ -157,11 +137,14 @@ Mesh exposed_faces(const Solid& solid, const SideColors* colors, Job& job) {
   mesh.index.wide = Array<std::uint32_t>(job, 6 * end.square);
   mesh.cache_ordered = true;
   for (std::size_t s = 0; s < 6; ++s) {
-    parallel_for(job, places[s].size(), 4, [&](std::size_t begin, std::size_t stop, std::size_t) {
-      SliceWriter writer(sides[s], solid, colors, mesh);
+    parallel_for(job, starts[s].size(), 4, [&](std::size_t begin, std::size_t stop, std::size_t) {
+      Slice slice(sides[s]);
       for (std::size_t i = begin; i < stop; ++i) {
         job.check();
-        writer.write(static_cast<int>(i), places[s][i]);
+        slice.read(static_cast<int>(i));
+        if (slice.squares_count == 0) continue;
+        slice.corners().write(solid, static_cast<int>(i), colors, mesh, starts[s][i].corner);
+        write_squares(sides[s], slice, mesh.index.wide.data() + 6 * starts[s][i].square);
       }
     });
   }

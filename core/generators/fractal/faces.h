@@ -1,5 +1,5 @@
 #pragma once
-/// BitGrid -> Mesh: the squares between a full cell and an empty one.
+/// Solid -> Mesh: a square between each full cell and each empty neighbour.
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -10,11 +10,11 @@
 
 namespace seedmesh::fractal {
 
-/// A grid in two orientations, since rows of bits give four of the six sides: bits along X (x, y, z), and
-/// bits along Z (z, y, x).
+/// A grid in two orientations, because rows of bits give only four of the six sides: bits along X with the
+/// axes (x, y, z), and bits along Z with the axes (z, y, x).
 struct Solid {
   BitGrid by_x, by_z;
-  glm::dvec3 origin;  ///< the lower corner of the cell that both grids hold first
+  glm::dvec3 origin;  ///< the lower corner of the first cell of both grids
   glm::dvec3 cell;
 };
 
@@ -23,12 +23,12 @@ Solid solid_of(const Lattice& lattice, int rounds, const Job& job);
 /// Colours of the sides -X, +X, -Y, +Y, -Z, +Z.
 using SideColors = std::array<glm::u8vec4, 6>;
 
-/// How many squares can be seen. One look at each word of the grid.
+/// The number of exposed squares. Reads each word of the grid once.
 std::uint64_t count_exposed(const Solid& solid, const Job& job);
 
-/// Every exposed square as two triangles; squares of one plane that face alike share their corners. Closed;
-/// where cells touch only along an edge four triangles meet there. In cache order (bands of eight squares).
-/// Spends triangles first; slices are made in parallel, each at a place that was counted before.
+/// Every exposed square as two triangles. Squares of one plane that face the same way share vertices. The
+/// mesh is closed; where cells touch only along an edge, four squares meet. Triangles are in an order for the
+/// vertex cache: bands of eight squares. Spends the triangles first. Slices are made in parallel.
 Mesh exposed_faces(const Solid& solid, const SideColors* colors, Job& job);
 
 }  // namespace seedmesh::fractal

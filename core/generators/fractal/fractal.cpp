@@ -6,37 +6,32 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/base/math.h"
 #include "core/generators/fractal/chaos.h"
 #include "core/generators/fractal/element.h"
 #include "core/generators/fractal/escape.h"
 #include "core/generators/fractal/faces.h"
-#include "core/generators/fractal/idle.h"
 #include "core/generators/fractal/measure.h"
 #include "core/generators/fractal/merged.h"
 #include "core/generators/fractal/pieces.h"
 #include "core/generators/fractal/scenes.h"
-#include "core/generators/fractal/survey.h"
-#include "core/gltf/read.h"
+#include "core/generators/fractal/topology.h"
+#include "core/generators/unused.h"
+#include "core/gltf/read/read.h"
+#include "core/schema/warning_list.h"
 #include "generated/params/fractal.h"
+#include "generated/params/fractal_unused.h"
 
 namespace seedmesh::fractal {
 namespace {
 
-bool is_named(const FractalParams& params, FractalElement name) {
-  return params.element.index() == 0 && std::get<0>(params.element) == name;
-}
-
-bool is_cube(const FractalParams& params) {
-  return is_named(params, FractalElement::cube) || is_named(params, FractalElement::rainbow_cube);
-}
-
-/// The lattice, where the surface is made of its cells.
+/// The lattice, if the surface is made of its cells.
 std::optional<Lattice> visible_lattice(const FractalParams& params, const Instructions& instructions) {
   if (!is_cube(params) || params.surface == FractalSurface::pieces) return std::nullopt;
   return lattice_of(instructions);
 }
 
-/// Of many only the first digits say something.
+/// Large numbers are rounded.
 std::string number_of_triangles(double wanted) {
   constexpr double exact = 1e15;
   if (!std::isfinite(wanted)) return "more than 1e+300";
@@ -47,19 +42,21 @@ std::string number_of_triangles(double wanted) {
   return "about " + std::string(text.data(), end.ptr);
 }
 
-/// Refuses before the grid is made, where the number of squares is known in closed form.
+/// Throws Stop before the grid is made, if the number of squares is known in closed form.
 void refuse_too_many_squares(const Lattice& lattice, int rounds, const Job& job) {
   const auto limit = static_cast<double>(job.limits().triangles);
   const auto triangles = [&](int after) { return 2 * exposed_quads(lattice, after).value_or(0); };
-  const auto keep = [&](int after) { return triangles(after) <= limit; };  // not beyond what a number holds
+  const auto keep = [&](int after) { return triangles(after) <= limit; };  // false for NaN
   if (keep(rounds)) return;
   int fewer = rounds;
   while (fewer > 0 && !keep(fewer)) --fewer;
   const double wanted = triangles(rounds);
-  Job::refuse("needs " + number_of_triangles(wanted) + " triangles after " + std::to_string(rounds) +
-                  " rounds; the limit is " + std::to_string(job.limits().triangles) + ", which " +
-                  std::to_string(fewer) + " rounds keep",
-              "/iterations");
+  job.refuse(limit_issue(
+      {Resource::triangles, job.limits().triangles, static_cast<std::uint64_t>(math::to_int64(wanted))},
+      "needs " + number_of_triangles(wanted) + " triangles after " + std::to_string(rounds) +
+          " rounds; the limit is " + std::to_string(job.limits().triangles) + ", which " +
+          std::to_string(fewer) + " rounds keep",
+      "/iterations"));
 }
 
 void scale_mesh(Solid& solid, double size) {
@@ -67,7 +64,7 @@ void scale_mesh(Solid& solid, double size) {
   solid.cell *= size;
 }
 
-/// One stage of a copy machine. Gives the edges in four faces.
+/// Adds one stage of a copy machine. Returns the number of edges at which four faces meet.
 std::uint64_t add_stage(Model& model, int parent, const FractalParams& params,
                         const Instructions& instructions, const Element& element, int rounds, Job& job) {
   const std::optional<Lattice> lattice = visible_lattice(params, instructions);
@@ -81,15 +78,16 @@ std::uint64_t add_stage(Model& model, int parent, const FractalParams& params,
   scale_mesh(solid, params.size);
   const SideColors sides = rainbow();
   const SideColors* colors = is_named(params, FractalElement::rainbow_cube) ? &sides : nullptr;
-  const std::uint64_t edges = skeleton_of(solid.by_x, job).four_face_edges;
+  const std::uint64_t edges = count_elements(solid.by_x, job).four_face_edges;
   add_mesh(model, parent, "cells",
            merges ? merged_faces(solid, colors, job) : exposed_faces(solid, colors, job));
   return edges;
 }
 
-Result<Model> generate_copies(const FractalParams& params, Job& job) {
+Result<Model> generate_copies(const FractalParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   const Instructions instructions = instructions_of(params);
-  Result<Element> element = element_of(params, job);
+  Result<Element> element = element_of(params, context);
   if (!element) return std::move(element).error();
   job.progress("mesh", 0);
   Model model;
@@ -110,13 +108,14 @@ Result<Model> generate_copies(const FractalParams& params, Job& job) {
   return model;
 }
 
-Result<Model> generate_cloud(const FractalParams& params, Job& job) {
+Result<Model> generate_cloud(const FractalParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   const Instructions instructions = instructions_of(params);
   Model model;
   model.name = "fractal";
   std::vector<Primitive> element;
   if (params.cloud == FractalCloud::elements) {
-    Result<Element> made = element_of(params, job);
+    Result<Element> made = element_of(params, context);
     if (!made) return std::move(made).error();
     model.materials = std::move(made->materials);
     model.warnings = std::move(made->warnings);
@@ -148,19 +147,20 @@ Result<Model> generate_escape(const FractalParams& params, Job& job) {
   return model;
 }
 
-/// Null also where no number is large enough.
+/// Null if there is no number, or if it is infinite.
 Json number_or_null(const std::optional<double>& number) {
   return number && std::isfinite(*number) ? Json(*number) : Json(nullptr);
 }
 
-Result<Model> generate_by_method(const FractalParams& params, Job& job) {
+Result<Model> generate_by_method(const FractalParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   switch (params.method) {
     case FractalMethod::frcm:
-      return generate_cloud(params, job);
+      return generate_cloud(params, context);
     case FractalMethod::escape:
       return generate_escape(params, job);
     default:
-      return generate_copies(params, job);
+      return generate_copies(params, context);
   }
 }
 
@@ -175,12 +175,12 @@ void check_stages(const FractalParams& params, std::vector<Issue>& issues) {
   for (std::size_t i = 0; i < params.stages.size(); ++i) {
     const std::string pointer = "/stages/" + std::to_string(i);
     if (params.method == FractalMethod::mrcm && params.stages[i] > 1000)
-      issues.push_back(
-          {pointer, "found " + std::to_string(params.stages[i]) + " rounds, expected at most 1000"});
+      issues.push_back({IssueKind::out_of_range, pointer,
+                        "found " + std::to_string(params.stages[i]) + " rounds, expected at most 1000"});
     if (params.method == FractalMethod::frcm && params.stages[i] < 1)
-      issues.push_back({pointer, "found 0 points, expected at least 1"});
+      issues.push_back({IssueKind::out_of_range, pointer, "found 0 points, expected at least 1"});
     if (params.method == FractalMethod::escape)
-      issues.push_back({pointer, "found a stage, but method \"escape\" has none"});
+      issues.push_back({IssueKind::conflict, pointer, "found a stage, but method \"escape\" has none"});
   }
 }
 
@@ -189,19 +189,22 @@ void check_element(const FractalParams& params, std::vector<Issue>& issues) {
     const bool snowflake = params.instructions.index() == 0 &&
                            std::get<0>(params.instructions) == FractalInstructions::koch_snowflake;
     if (!snowflake || params.method != FractalMethod::mrcm)
-      issues.push_back({"/element", "found \"plate\", which is the area inside the koch_snowflake of mrcm"});
+      issues.push_back({IssueKind::conflict, "/element",
+                        "found \"plate\", which is the area inside the koch_snowflake of mrcm"});
   }
   if (params.element.index() == 0) return;
   const FractalElementObject& given = std::get<1>(params.element);
   if (given.model.has_value() == given.glb.has_value()) {
-    issues.push_back({"/element", std::string("found ") + (given.model ? "both" : "neither") +
-                                      " of \"model\" and \"glb\", expected one of them"});
+    issues.push_back({IssueKind::conflict, "/element",
+                      std::string("found ") + (given.model ? "both" : "neither") +
+                          " of \"model\" and \"glb\", expected one of them"});
   } else if (given.glb && !is_glb_uri(*given.glb)) {
-    issues.push_back({"/element/glb", "expected a GLB as \"data:model/gltf-binary;base64,…\""});
+    issues.push_back(
+        {IssueKind::invalid_value, "/element/glb", "expected a GLB as \"data:model/gltf-binary;base64,…\""});
   }
 }
 
-/// A copy that a map presses flat has fewer triangles than the element, or none.
+/// Does every map have a volume? Flat copies have fewer triangles than the element.
 bool presses_nothing_flat(const Instructions& instructions) {
   return std::ranges::none_of(instructions.maps,
                               [](const Affine& map) { return glm::determinant(map.linear) == 0; });
@@ -224,10 +227,11 @@ Estimate estimate_stage(const FractalParams& params, const Instructions& instruc
   return {has_triangles ? elements : 0, plan.bytes + 1000, presses_nothing_flat(instructions)};
 }
 
-Result<Appraisal> appraise_copies(const FractalParams& params, Job& job) {
+Result<Appraisal> appraise_copies(const FractalParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   Appraisal appraisal;
   const Instructions instructions = instructions_of(params);
-  Result<Element> element = element_of(params, job);
+  Result<Element> element = element_of(params, context);
   if (!element) return std::move(element).error();
   appraisal.warnings = std::move(element->warnings);
   if (is_named(params, FractalElement::plate)) return appraisal;
@@ -241,7 +245,7 @@ Result<Appraisal> appraise_copies(const FractalParams& params, Job& job) {
   return appraisal;
 }
 
-/// Clouds of points and reliefs; of other clouds nothing is known before they are made.
+/// For clouds of points and reliefs. The size of other clouds is not known before they are made.
 Appraisal appraise_others(const FractalParams& params, const Job& job) {
   Appraisal appraisal;
   if (params.method == FractalMethod::escape) {
@@ -252,9 +256,10 @@ Appraisal appraise_others(const FractalParams& params, const Job& job) {
     for (const std::int64_t count : stages_of(params, params.points))
       points += static_cast<std::uint64_t>(count);
     if (points > job.limits().triangles)
-      Job::refuse("needs " + std::to_string(points) + " points; the limit is " +
-                      std::to_string(job.limits().triangles),
-                  "/points");
+      job.refuse(limit_issue({Resource::points, job.limits().triangles, points},
+                             "needs " + std::to_string(points) + " points; the limit is " +
+                                 std::to_string(job.limits().triangles),
+                             "/points"));
     appraisal.estimate = Estimate{0, 16 * points + 1000, true};
   }
   return appraisal;
@@ -267,22 +272,33 @@ std::vector<Issue> check(const FractalParams& params, const Limits& limits) {
   check_element(params, issues);
   check_stages(params, issues);
   if (static_cast<std::uint32_t>(params.iterations) > limits.iterations) {
-    issues.push_back({"/iterations", "found " + std::to_string(params.iterations) + ", expected at most " +
-                                         std::to_string(limits.iterations)});
+    issues.push_back(iterations_issue(static_cast<std::uint64_t>(params.iterations), limits));
   }
   return issues;
 }
 
-Result<Model> generate(const FractalParams& params, Job& job) {
+std::vector<Warning> warnings_of(const FractalParams& params) {
+  std::vector<Warning> warnings = warnings_of(unused_parameters(params));
+  // Whether maps fill a lattice is more than x-applies-when can say.
+  const bool is_merged = params.method == FractalMethod::mrcm && params.surface == FractalSurface::merged;
+  if (is_merged && !visible_lattice(params, instructions_of(params)))
+    warnings.push_back(
+        {"/surface", "`surface` has no effect unless the maps fill cells of a lattice with cubes.", 0, 0});
+  return warnings;
+}
+
+Result<Model> generate(const FractalParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   job.progress("derive", 0);
-  Result<Model> model = generate_by_method(params, job);
+  Result<Model> model = generate_by_method(params, context);
   if (!model) return model;
-  const std::vector<Warning> idle = idle_parameters(params);
-  model->warnings.insert(model->warnings.begin(), idle.begin(), idle.end());
+  const std::vector<Warning> unused = warnings_of(params);
+  model->warnings.insert(model->warnings.begin(), unused.begin(), unused.end());
   return model;
 }
 
-Result<Json> derive(const FractalParams& params, Job& job) {
+Result<Json> derive(const FractalParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   Measure result;
   if (params.method == FractalMethod::escape) {
     const auto side = static_cast<double>(params.escape.resolution);
@@ -302,9 +318,6 @@ Result<Json> derive(const FractalParams& params, Job& job) {
   }
   Json bounds = nullptr;
   if (result.bounds) bounds = {{"min", vector(result.bounds->min)}, {"max", vector(result.bounds->max)}};
-  Json warnings = Json::array();
-  for (const Warning& each : idle_parameters(params))
-    warnings.push_back({{"pointer", "/parameters" + each.pointer}, {"message", each.message}});
   return Json{{"pieces", number_or_null(result.pieces)},
               {"dimension", number_or_null(result.dimension)},
               {"exposed_quads", number_or_null(result.exposed_quads)},
@@ -313,16 +326,18 @@ Result<Json> derive(const FractalParams& params, Job& job) {
               {"genus", number_or_null(result.genus)},
               {"non_manifold_edges", number_or_null(result.non_manifold_edges)},
               {"bounds", std::move(bounds)},
-              {"warnings", std::move(warnings)}};
+              {"warnings", warning_list(warnings_of(params))}};
 }
 
-Result<Appraisal> appraise(const FractalParams& params, const Job& job) {
+Result<Appraisal> appraise(const FractalParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   Job own = job.for_child(job.seed());
-  Result<Appraisal> appraisal =
-      params.method == FractalMethod::mrcm ? appraise_copies(params, own) : appraise_others(params, job);
+  Result<Appraisal> appraisal = params.method == FractalMethod::mrcm
+                                    ? appraise_copies(params, {own, {}, context.generators})
+                                    : appraise_others(params, job);
   if (!appraisal) return appraisal;
-  const std::vector<Warning> idle = idle_parameters(params);
-  appraisal->warnings.insert(appraisal->warnings.begin(), idle.begin(), idle.end());
+  const std::vector<Warning> unused = warnings_of(params);
+  appraisal->warnings.insert(appraisal->warnings.begin(), unused.begin(), unused.end());
   return appraisal;
 }
 

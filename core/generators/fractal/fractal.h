@@ -1,24 +1,27 @@
 #pragma once
-/// Fractals by reduction copy machines: deterministic (MRCM), by chance (FRCM, the chaos game), and by escape
-/// time.
+/// Iterated function systems, as reduction copy machines, and escape-time fractals:
+///
+///   method mrcm    all maps in every round, deterministic
+///   method frcm    the chaos game: randomly chosen maps
+///   method escape  the Mandelbrot set and Julia sets
 ///
 ///   params -> instructions (maps) -> lattice of bits -> faces
-///                                 -> copies of the element, one mesh and many nodes
+///                                 -> copies of the element: one mesh, many nodes
 ///                                 -> chaos game -> points, elements or voxels
 ///          -> escape times -> plate
 ///
-/// Out:    the unit element's centre at the origin, +Y up, `size` metres an edge; a node for each stage. What
-/// is
-///         not a manifold is told in asset.extras: `non_manifold_edges`.
-/// Issues: /instructions/… for maps that grow (mrcm), do not contract (frcm) or leave nothing; /text;
-/// /element;
-///         /iterations for what would pass a limit, before any of it is made.
-/// Cost:   faces: about 60 bytes and 10 ns a square. points: 7 ns. See docs/fractals.md.
+/// Result: the centre of the unit element is at the origin, +Y is up, an edge has `size` metres. There is a
+/// node for
+///         each stage. asset.extras has `non_manifold_edges`, the number of edges at which four faces meet.
+///
+/// Errors: /instructions/... for maps that enlarge (mrcm), do not contract (frcm) or leave nothing;
+///         /text; /element; /iterations for what would exceed a limit, before any of it is made.
+///
+/// Cost:   about 60 bytes and 10 ns for each square, 7 ns for each point. See docs/fractals.md.
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
-#include "core/base/job.h"
-#include "core/generators/appraisal.h"
+#include "core/generators/api.h"
 #include "core/model/model.h"
 #include "core/schema/json.h"
 
@@ -29,14 +32,17 @@ struct FractalParams;
 namespace seedmesh::fractal {
 
 std::vector<Issue> check(const FractalParams& params, const Limits& limits);
-Result<Model> generate(const FractalParams& params, Job& job);
+/// One warning for each parameter that is given and has no effect. Pointers are relative to the parameters.
+std::vector<Warning> warnings_of(const FractalParams& params);
+
+Result<Model> generate(const FractalParams& params, const GenerateContext& context);
 
 /// {pieces, dimension, exposed_quads, surface_area, volume, genus, bounds, non_manifold_edges, warnings}, in
-/// the frame of the unit element; null where it does not apply or is not known.
-Result<Json> derive(const FractalParams& params, Job& job);
-Result<Appraisal> appraise(const FractalParams& params, const Job& job);
+/// the frame of the unit element. Null for what does not apply or is not known.
+Result<Json> derive(const FractalParams& params, const GenerateContext& context);
+Result<Appraisal> appraise(const FractalParams& params, const GenerateContext& context);
 
-/// The named instructions.
+/// {instructions: [{name, maps, lattice}]}: the named instructions.
 Json vocabulary();
 
 }  // namespace seedmesh::fractal

@@ -16,13 +16,14 @@ namespace {
 
 using Name = FractalInstructions;
 
-constexpr double least_share = 0.01;     ///< of a map without volume: it would never be drawn
-constexpr double norm_tolerance = 1e-9;  ///< a turn of length 1 is not a stretch
+constexpr double least_share = 0.01;     ///< of a map without volume, which would otherwise never be chosen
+constexpr double norm_tolerance = 1e-9;  ///< so that rounding errors of rotations do not count as stretching
 constexpr double grow_tolerance = 1e-9;
 
 Affine scaled(double scale, const glm::dvec3& offset) { return {glm::dmat3(scale), offset}; }
 
-/// Cells of a division of the unit cube into `parts` cubed, chosen by their indices from the middle.
+/// The cells of the unit cube divided into parts^3 for which keep(|x|, |y|, |z|) is true. Indices count from
+/// the middle.
 template <class Keep>
 std::vector<Affine> cells(int parts, int depth, const Keep& keep) {
   std::vector<Affine> maps;
@@ -42,7 +43,7 @@ std::vector<Affine> thirds(bool (*keep)(int distance)) {
   return cells(3, 3, [keep](int x, int y, int z) { return keep(x + y + z); });
 }
 
-/// Three copies at each corner of the block, a third as large, each on one of the three faces that meet
+/// At each corner of the block three copies of a third of its size, one on each of the three faces that meet
 /// there.
 std::vector<Affine> corners_outside() {
   std::vector<Affine> maps;
@@ -66,7 +67,7 @@ std::vector<Affine> corners(double scale) {
   return maps;
 }
 
-/// Eric Baird's cube: eight corners of scale r and twelve edges of scale r², with r² + 2r = 1.
+/// The cube of Eric Baird: eight corners of scale r and twelve edges of scale r², with r² + 2r = 1.
 std::vector<Affine> jerusalem() {
   const double r = std::sqrt(2.0) - 1;
   std::vector<Affine> maps = corners(r);
@@ -81,7 +82,7 @@ std::vector<Affine> jerusalem() {
   return maps;
 }
 
-/// A map of the plane, with a thickness that shrinks by `depth`.
+/// A map of the XY plane with the scale `depth` along Z.
 Affine plane(double degrees, double scale, const glm::dvec2& offset, double depth) {
   const math::SinCos turn = math::sincos_degrees(degrees);
   return {
@@ -93,7 +94,7 @@ Affine plane(double degrees, double scale, const glm::dvec2& offset, double dept
 /// Heighway's dragon between (-1/3, 0) and (2/3, 0).
 std::vector<Affine> dragon() {
   const double r = std::sqrt(0.5);
-  // The maps of the segment from 0 to 1, conjugated by the move of the frame.
+  // Maps of the segment from 0 to 1, conjugated by the translation of the frame.
   const auto moved = [](Affine map) {
     const glm::dvec3 origin{-1.0 / 3, 0, 0};
     map.offset += origin - map.linear * origin;
@@ -102,10 +103,9 @@ std::vector<Affine> dragon() {
   return {moved(plane(45, r, {0, 0}, r)), moved(plane(135, r, {1, 0}, r))};
 }
 
-/// A trunk that stays, and four smaller trees on it.
-void fill_tree(Instructions& out, bool by_chance) {
-  out.stem = {glm::dmat3{{0.07, 0, 0}, {0, 0.4, 0}, {0, 0, 0.07}}, {0, -0.3, 0}};
-  // The foot of a copy stands on the trunk of the whole.
+/// Four smaller trees on a trunk.
+std::vector<Affine> tree_branches() {
+  // The foot of a copy is on the trunk.
   const auto branch = [](double scale, double lean, double about, double height) {
     const math::SinCos l = math::sincos_degrees(lean), a = math::sincos_degrees(about);
     const glm::dmat3 leaning{{l.cos, l.sin, 0}, {-l.sin, l.cos, 0}, {0, 0, 1}};
@@ -114,16 +114,11 @@ void fill_tree(Instructions& out, bool by_chance) {
     map.offset = glm::dvec3(0, height, 0) - map.linear * glm::dvec3(0, -0.5, 0);
     return map;
   };
-  out.maps = {branch(0.62, -28, 0, -0.14), branch(0.6, -32, 120, -0.2), branch(0.58, -36, 240, -0.24),
-              branch(0.5, 6, 60, -0.12)};
-  if (by_chance) {
-    out.maps.push_back(out.stem);
-  } else {
-    out.keeps = true;
-  }
+  return {branch(0.62, -28, 0, -0.14), branch(0.6, -32, 120, -0.2), branch(0.58, -36, 240, -0.24),
+          branch(0.5, 6, 60, -0.12)};
 }
 
-/// Barnsley's fern in the unit frame: its box is [-2.182, 2.656] x [0, 9.998], ten units high here.
+/// Barnsley's fern, scaled by a tenth into the unit frame. Its box is [-2.182, 2.656] x [0, 9.998].
 std::vector<Affine> fern() {
   constexpr double unit = 10;
   const glm::dvec3 middle{0.24, 5, 0};
@@ -142,7 +137,7 @@ std::vector<Affine> koch() {
           plane(-60, third, {third / 4, height}, third), scaled(third, {third, 0, 0})};
 }
 
-/// The sides of a triangle with edges of 3/4, so that the snowflake fits the unit frame.
+/// The sides of a triangle with edges of 3/4, so that the snowflake fits into the unit frame.
 std::vector<Affine> triangle_sides() {
   constexpr double edge = 0.75;
   const double inner = edge * std::sqrt(3.0) / 6;
@@ -173,77 +168,64 @@ std::vector<Affine> pascal() {
   return {scaled(0.5, {-0.25, 0.25, 0}), scaled(0.5, {-0.25, -0.25, 0}), scaled(0.5, {0.25, -0.25, 0})};
 }
 
-void fill_named(Instructions& out, Name name, std::string_view text, bool by_chance) {
+std::vector<Affine> maps_of(Name name, std::string_view text) {
   switch (name) {
     case Name::menger_sponge:
-      out.maps = thirds([](int d) { return d >= 2; });
-      break;
+      return thirds([](int d) { return d >= 2; });
     case Name::koch_cube:
-      out.maps = thirds([](int d) { return d == 2; });
-      break;
+      return thirds([](int d) { return d == 2; });
     case Name::corner_cube:
-      out.maps = thirds([](int d) { return d == 3; });
-      break;
+      return thirds([](int d) { return d == 3; });
     case Name::corner_cube_centre:
-      out.maps = thirds([](int d) { return d == 3 || d == 0; });
-      break;
+      return thirds([](int d) { return d == 3 || d == 0; });
     case Name::corner_cube_outside:
-      out.maps = corners_outside();
-      out.keeps = true;
-      break;
+      return corners_outside();
     case Name::corner_cube_two_thirds:
-      out.maps = corners(2.0 / 3);
-      break;
+      return corners(2.0 / 3);
     case Name::sierpinski_pyramid:
-      out.maps = pyramid();
-      out.apart = "pyramid";
-      break;
+      return pyramid();
     case Name::sierpinski_triangle:
-      out.maps = gasket();
-      break;
+      return gasket();
     case Name::word_test:
-      out.maps = word_maps(text);
-      break;
+      return word_maps(text);
     case Name::sierpinski_tetrahedron:
-      out.maps = tetrahedron();
-      out.apart = "tetrahedron";
-      break;
+      return tetrahedron();
     case Name::sierpinski_carpet:
-      out.maps = cells(3, 1, [](int x, int y, int) { return x + y > 0; });
-      break;
+      return cells(3, 1, [](int x, int y, int) { return x + y > 0; });
     case Name::cantor_dust:
-      out.maps = corners(1.0 / 3);
-      break;
+      return corners(1.0 / 3);
     case Name::vicsek:
-      out.maps = thirds([](int d) { return d <= 1; });
-      break;
+      return thirds([](int d) { return d <= 1; });
     case Name::mosely_snowflake:
-      out.maps = thirds([](int d) { return d == 1 || d == 2; });
-      break;
+      return thirds([](int d) { return d == 1 || d == 2; });
     case Name::jerusalem_cube:
-      out.maps = jerusalem();
-      break;
+      return jerusalem();
     case Name::pascal_parity:
-      out.maps = pascal();
-      break;
+      return pascal();
     case Name::dragon:
-      out.maps = dragon();
-      break;
+      return dragon();
     case Name::tree:
-      fill_tree(out, by_chance);
-      break;
+      return tree_branches();
     case Name::fern:
-      out.maps = fern();
-      out.weights = {0.01, 0.85, 0.07, 0.07};
-      break;
+      return fern();
     case Name::koch_curve:
-      out.maps = koch();
-      break;
     case Name::koch_snowflake:
-      out.maps = koch();
-      out.arrangement = triangle_sides();
-      break;
+      return koch();
   }
+  return {};
+}
+
+void fill_named(Instructions& out, Name name, std::string_view text, bool by_chance) {
+  out.name = text_of(name);
+  out.maps = maps_of(name, text);
+  out.keeps = name == Name::corner_cube_outside || (name == Name::tree && !by_chance);
+  if (name == Name::sierpinski_pyramid) out.separate = "pyramid";
+  if (name == Name::sierpinski_tetrahedron) out.separate = "tetrahedron";
+  if (name == Name::fern) out.weights = {0.01, 0.85, 0.07, 0.07};
+  if (name == Name::koch_snowflake) out.arrangement = triangle_sides();
+  if (name != Name::tree) return;
+  out.stem = {glm::dmat3{{0.07, 0, 0}, {0, 0.4, 0}, {0, 0, 0.07}}, {0, -0.3, 0}};
+  if (by_chance) out.maps.push_back(out.stem);
 }
 
 glm::dmat3 turn_about(int axis, double degrees) {
@@ -274,8 +256,7 @@ Affine map_of(const FractalMap& given) {
 
 bool is_identity(const Affine& map) { return map.linear == glm::dmat3(1) && map.offset == glm::dvec3(0); }
 
-/// By volume; by area in XY where all are flat, which is known by maps that leave thickness alone or crush
-/// it.
+/// The volume of a copy, or its area in XY if the map is flat.
 double share_of(const Affine& map) {
   const double area = std::abs(map.linear[0][0] * map.linear[1][1] - map.linear[1][0] * map.linear[0][1]);
   const double volume = std::abs(glm::determinant(map.linear));
@@ -310,7 +291,8 @@ void check_map(const FractalMap& given, const std::string& pointer, bool by_chan
   static const FractalMap plain;
   if (given.matrix &&
       !(given.scale == plain.scale && given.rotate == plain.rotate && given.translate == plain.translate)) {
-    issues.push_back({pointer, "found \"matrix\" beside scale, rotate or translate, expected either"});
+    issues.push_back({IssueKind::conflict, pointer,
+                      "found \"matrix\" beside scale, rotate or translate, expected either"});
     return;
   }
   const Affine map = map_of(given);
@@ -319,16 +301,19 @@ void check_map(const FractalMap& given, const std::string& pointer, bool by_chan
   const bool flat = given.scale.index() == 0 ? std::get<0>(given.scale) == 0
                                              : std::ranges::count(std::get<1>(given.scale), 0.0) > 0;
   if (!given.matrix && flat) {
-    issues.push_back(
-        {member, "found a scale of 0, which leaves nothing of the element; a matrix may flatten it"});
+    issues.push_back({IssueKind::invalid_value, member,
+                      "found a scale of 0, which leaves nothing of the element; a matrix may flatten it"});
   } else if (stretch == 0) {
-    issues.push_back({member, "found a matrix of zeros, which leaves nothing of the element"});
+    issues.push_back(
+        {IssueKind::invalid_value, member, "found a matrix of zeros, which leaves nothing of the element"});
   } else if (by_chance && stretch >= 1 - norm_tolerance) {
-    issues.push_back({member, "found a map that does not contract: its norm is " + number_text(stretch) +
-                                  ", expected below 1"});
+    issues.push_back(
+        {IssueKind::invalid_value, member,
+         "found a map that does not contract: its norm is " + number_text(stretch) + ", expected below 1"});
   } else if (!by_chance && stretch > 1 + grow_tolerance) {
-    issues.push_back({member, "found a map that lets its copy grow: its norm is " + number_text(stretch) +
-                                  ", expected at most 1"});
+    issues.push_back({IssueKind::invalid_value, member,
+                      "found a map that lets its copy grow: its norm is " + number_text(stretch) +
+                          ", expected at most 1"});
   }
 }
 
@@ -338,7 +323,6 @@ Instructions instructions_of(const FractalParams& params) {
   Instructions out;
   const bool by_chance = params.method == FractalMethod::frcm;
   if (params.instructions.index() == 0) {
-    out.name = text_of(std::get<0>(params.instructions));
     fill_named(out, std::get<0>(params.instructions), params.text, by_chance);
   } else {
     fill_list(out, std::get<1>(params.instructions), by_chance);
@@ -353,10 +337,11 @@ std::vector<Issue> check_instructions(const FractalParams& params) {
     if (std::get<0>(params.instructions) != Name::word_test) return issues;
     const auto odd = std::ranges::find_if(params.text, [](char c) { return !has_letter(c); });
     if (odd != params.text.end()) {
-      issues.push_back(issue_at("/text", params.text, static_cast<std::size_t>(odd - params.text.begin()),
+      issues.push_back(issue_at(IssueKind::invalid_value, "/text", params.text,
+                                static_cast<std::size_t>(odd - params.text.begin()),
                                 "found a character that has no letter, expected A to Z, 0 to 9 or a space"));
     } else if (word_maps(params.text).empty()) {
-      issues.push_back({"/text", "found a word of spaces, expected letters"});
+      issues.push_back({IssueKind::invalid_value, "/text", "found a word of spaces, expected letters"});
     }
     return issues;
   }
@@ -370,9 +355,10 @@ std::vector<Issue> check_instructions(const FractalParams& params) {
     copies += is_identity(map_of(list[i])) ? 0 : 1;
   }
   if (issues.empty() && !by_chance && copies == 0)
-    issues.push_back({"/instructions", "found only the identity, expected a map that makes a smaller copy"});
+    issues.push_back({IssueKind::invalid_value, "/instructions",
+                      "found only the identity, expected a map that makes a smaller copy"});
   if (issues.empty() && by_chance && !(sum > 0))
-    issues.push_back({"/instructions", "found probabilities that are all 0"});
+    issues.push_back({IssueKind::invalid_value, "/instructions", "found probabilities that are all 0"});
   return issues;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The maps of a copy machine, from their name or from the list in the request.
+/// The maps of an iterated function system, by name or from the list in the request.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,27 +16,27 @@ namespace seedmesh::fractal {
 struct Instructions {
   std::string name;  ///< "" for a list
   std::vector<Affine> maps;
-  std::vector<double> weights;  ///< of frcm, one a map; not normalised
+  std::vector<double> weights;  ///< one for each map, for frcm; not normalised
 
-  /// Each round leaves the element itself in place and copies only what the round before added: the identity
-  /// stood among the maps.
+  /// Each round keeps the element and copies only what the round before has added, because the identity is
+  /// one of the maps.
   bool keeps = false;
 
   /// Applied to the element before anything else.
   Affine stem;
 
-  /// Applied once around all rounds: the three sides of the snowflake. Empty: none.
+  /// Applied once after all rounds: the three sides of the snowflake. May be empty.
   std::vector<Affine> arrangement;
 
-  /// Copies of this element touch at most along edges and points, so areas and volumes add up. "" for none,
-  /// "*" for every element inside its frame.
-  std::string_view apart;
+  /// The element whose copies touch at most along edges and in points, so that areas and volumes add up; ""
+  /// for none.
+  std::string_view separate;
 };
 
-/// Known to be in order by check().
+/// The parameters must have passed check_instructions().
 Instructions instructions_of(const FractalParams& params);
 
-/// What is wrong with a list of maps, or with the word.
+/// Errors in a list of maps or in the text of word_test.
 std::vector<Issue> check_instructions(const FractalParams& params);
 
 }  // namespace seedmesh::fractal

@@ -16,7 +16,7 @@ constexpr int most_parts = 64;
 constexpr std::int64_t longest_side = std::int64_t{1} << 20U;
 constexpr std::int32_t farthest_cell = 4096;
 
-/// The whole number that all maps divide by, 0 where there is none.
+/// The whole number by which all maps divide, or 0.
 int parts_of(const std::vector<Affine>& maps) {
   const double scale = maps.front().linear[0][0];
   if (!(scale > 0) || scale > 0.5 + tolerance) return 0;
@@ -35,10 +35,10 @@ int parts_of(const std::vector<Affine>& maps) {
 bool is_whole(double number) { return std::abs(number - std::round(number)) <= 1e-6; }
 
 struct Extent {
-  glm::i64vec3 low, high;  ///< both cells belong to it
+  glm::i64vec3 low, high;  ///< both inclusive
 };
 
-Extent extent_of(const Lattice& lattice, int rounds) {
+Extent extent_of(const Lattice& lattice, int rounds, const Job& job) {
   glm::ivec3 least = lattice.cells.front(), most = least;
   for (const glm::ivec3& cell : lattice.cells) {
     least = glm::min(least, cell);
@@ -55,9 +55,11 @@ Extent extent_of(const Lattice& lattice, int rounds) {
     }
     const glm::i64vec3 size = extent.high - extent.low;
     if (std::max({side, size.x, size.y, size.z}) > longest_side) {
-      Job::refuse("a lattice of more than " + std::to_string(longest_side) + " cells a side after " +
-                      std::to_string(round + 1) + " rounds; fewer rounds, or derive, which needs no cells",
-                  "/iterations");
+      job.refuse(limit_issue({Resource::steps, longest_side, longest_side + 1},
+                             "a lattice of more than " + std::to_string(longest_side) +
+                                 " cells a side after " + std::to_string(round + 1) +
+                                 " rounds; fewer rounds, or derive, which needs no cells",
+                             "/iterations"));
     }
   }
   return extent;
@@ -66,7 +68,7 @@ Extent extent_of(const Lattice& lattice, int rounds) {
 glm::ivec3 along(const glm::ivec3& v, const Axes& axes) { return {v[axes[0]], v[axes[1]], v[axes[2]]}; }
 
 BitGrid empty_grid(const Lattice& lattice, int rounds, const Axes& axes, const Job& job) {
-  const Extent extent = extent_of(lattice, rounds);
+  const Extent extent = extent_of(lattice, rounds, job);
   return {job, along(glm::ivec3(extent.low), axes), along(glm::ivec3(extent.high - extent.low) + 1, axes)};
 }
 
@@ -74,7 +76,7 @@ void set_bits(std::uint64_t* row, std::size_t from, std::size_t count) {
   for (std::size_t i = from; i < from + count; ++i) row[i / 64] |= std::uint64_t{1} << (i % 64);
 }
 
-/// row |= source moved up by `shift` bits, which is known to fit.
+/// row |= source << shift. The result must fit into the row.
 void or_shifted(std::uint64_t* row, const std::uint64_t* source, std::size_t words, std::size_t row_words,
                 std::size_t shift) {
   const std::size_t skip = shift / 64, up = shift % 64;
@@ -112,13 +114,13 @@ std::optional<Lattice> lattice_of(const Instructions& instructions) {
   if (instructions.maps.empty() || !instructions.arrangement.empty()) return std::nullopt;
   lattice.parts = parts_of(instructions.maps);
   if (lattice.parts == 0) return std::nullopt;
-  const auto place_of = [&](const Affine& map) {
+  const auto cell_of = [&](const Affine& map) {
     return static_cast<double>(lattice.parts) * (map.offset + 0.5) - 0.5;
   };
-  const glm::dvec3 first = place_of(instructions.maps.front());
+  const glm::dvec3 first = cell_of(instructions.maps.front());
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> steps;  // from the first copy, in copies
-    for (const Affine& map : instructions.maps) steps.push_back(place_of(map)[axis] - first[axis]);
+    for (const Affine& map : instructions.maps) steps.push_back(cell_of(map)[axis] - first[axis]);
     lattice.block[axis] = std::ranges::all_of(steps, is_whole) ? 1 : 2;
     const double cells = first[axis] * lattice.block[axis];
     const double fraction = cells - std::round(cells);
@@ -127,7 +129,7 @@ std::optional<Lattice> lattice_of(const Instructions& instructions) {
   if (lattice.keeps && (lattice.fraction != glm::dvec3(0) || lattice.block != glm::ivec3(1)))
     return std::nullopt;
   for (const Affine& map : instructions.maps) {
-    const glm::dvec3 cell = place_of(map) * glm::dvec3(lattice.block) - lattice.fraction;
+    const glm::dvec3 cell = cell_of(map) * glm::dvec3(lattice.block) - lattice.fraction;
     glm::ivec3 whole;
     for (int axis = 0; axis < 3; ++axis) {
       if (!is_whole(cell[axis]) || std::abs(cell[axis]) > farthest_cell) return std::nullopt;
@@ -141,7 +143,9 @@ std::optional<Lattice> lattice_of(const Instructions& instructions) {
 BitGrid::BitGrid(const Job& job, glm::ivec3 low, glm::ivec3 size)
     : low_(low), size_(size), words_((static_cast<std::size_t>(size.x) + 63) / 64) {
   const double words = static_cast<double>(words_) * size.y * size.z;
-  if (words > 0x1p40) Job::refuse("a lattice with more than a tera of cells", "/iterations");
+  if (words > 0x1p40)
+    job.refuse(limit_issue({Resource::memory_bytes, job.limits().memory_bytes, std::uint64_t{1} << 43U},
+                           "a lattice of more than 2^46 cells", "/iterations"));
   bits_ = Array<std::uint64_t>(
       job, words_ * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z), 0);
 }
@@ -172,7 +176,7 @@ void BitGrid::fill_block(glm::ivec3 from, glm::ivec3 sides) {
 }
 
 BitGrid grid_of(const Lattice& lattice, int rounds, const Axes& axes, const Job& job) {
-  extent_of(lattice, rounds);  // refuses before anything is made
+  extent_of(lattice, rounds, job);  // throws Stop before anything is made
   BitGrid grid = empty_grid(lattice, 0, axes, job);
   grid.fill_block(glm::ivec3(0), along(lattice.block, axes));
   int side = 1;

@@ -1,6 +1,6 @@
 #pragma once
-/// Copy machines whose maps all shrink by the same whole number and only move, by whole cells: with cubes
-/// they fill cells of a lattice, which a grid of bits holds at one bit a cell.
+/// Maps that all divide by the same whole number and translate by whole cells. With cubes they fill cells of
+/// a lattice, which a grid stores with one bit for each cell.
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -12,21 +12,21 @@
 namespace seedmesh::fractal {
 
 struct Lattice {
-  int parts = 3;  ///< a block is divided into parts * parts * parts smaller ones
+  int parts = 3;  ///< a block is divided into parts^3 smaller ones
   std::vector<glm::ivec3>
-      cells;               ///< first cells of the copies; with blocks of one cell, 0 .. parts-1 lie inside
-  glm::ivec3 block{1};     ///< cells of the element along X, Y, Z: 2 where copies stand between others
-  glm::dvec3 fraction{0};  ///< all cells are moved by so much of a cell
-  bool keeps = false;
+      cells;               ///< first cells of the copies; with blocks of one cell, 0 .. parts-1 are inside
+  glm::ivec3 block{1};     ///< cells of the element along X, Y, Z: 2 if copies have offsets of half a copy
+  glm::dvec3 fraction{0};  ///< translation of all cells by a part of a cell
+  bool keeps = false;      ///< Instructions::keeps
 
-  bool inside() const;            ///< every copy lies in the block, in a cell of its own
+  bool inside() const;            ///< is every copy in the block, in a cell of its own?
   double side(int rounds) const;  ///< cells along the edge of the unit element: parts^rounds
 };
 
-/// Nullopt where the maps are no such machine.
+/// Nullopt if the maps do not fill a lattice.
 std::optional<Lattice> lattice_of(const Instructions& instructions);
 
-/// A box of cells, one bit each. Axes are numbered from the one along which bits lie.
+/// A box of cells with one bit each. Axis 0 is the one along which bits are stored.
 class BitGrid {
  public:
   BitGrid(const Job& job, glm::ivec3 low, glm::ivec3 size);
@@ -39,7 +39,7 @@ class BitGrid {
   bool at(int x, int y, int z) const { return (row(y, z)[x / 64] >> (x % 64) & 1) != 0; }
   std::uint64_t count() const;
 
-  /// Sets every bit that is set in `other`, moved so that both grids mean the same cells.
+  /// Sets every cell that is set in `other` translated by `move`.
   void add(const BitGrid& other, glm::ivec3 move, const Job& job);
   void fill_block(glm::ivec3 from, glm::ivec3 sides);
 
@@ -54,14 +54,15 @@ class BitGrid {
   Array<std::uint64_t> bits_;
 };
 
-/// The axes of the world along the axes of a grid.
+/// The world axis of each axis of a grid.
 using Axes = std::array<int, 3>;
 
-/// The cells after so many rounds. Each round joins moved copies of the round before, so the cost is about
-/// that of writing the grid once. Refuses (Stop) a grid beyond 2^20 cells a side; memory is charged.
+/// The cells after `rounds` rounds. Each round joins translated copies of the one before, so the cost is
+/// about that of writing the grid once. Throws Stop for a grid of more than 2^20 cells along a side. Charges
+/// the memory.
 BitGrid grid_of(const Lattice& lattice, int rounds, const Axes& axes, const Job& job);
 
-/// Where the lower corner of the grid's cell 0 lies in the frame of the unit element, and a cell's edge.
+/// The lower corner of cell 0, and the edges of a cell, in the frame of the unit element.
 struct Placement {
   glm::dvec3 origin;
   glm::dvec3 cell;

@@ -6,7 +6,7 @@
 #include "core/base/math.h"
 #include "core/generators/fractal/element.h"
 #include "core/generators/fractal/pieces.h"
-#include "core/generators/fractal/survey.h"
+#include "core/generators/fractal/topology.h"
 #include "generated/params/fractal.h"
 
 namespace seedmesh::fractal {
@@ -31,7 +31,7 @@ std::optional<double> dimension_of(const Instructions& instructions) {
   if (scales.size() == 1) return 0.0;
   if (most - least <= 1e-12 * most)
     return math::log(static_cast<double>(scales.size())) / -math::log(scales.front());
-  // The sum falls with D, from the number of maps at 0.
+  // The sum falls with D. At 0 it is the number of maps.
   double low = 0, high = 64;
   for (int step = 0; step < 200 && low < high; ++step) {
     const double middle = (low + high) / 2;
@@ -40,12 +40,6 @@ std::optional<double> dimension_of(const Instructions& instructions) {
     (sum > 1 ? low : high) = middle;
   }
   return (low + high) / 2;
-}
-
-bool is_cube(const FractalParams& params) {
-  if (params.element.index() != 0) return false;
-  const FractalElement name = std::get<0>(params.element);
-  return name == FractalElement::cube || name == FractalElement::rainbow_cube;
 }
 
 double cells_of_box(const Lattice& lattice, int rounds) {
@@ -66,20 +60,21 @@ void measure_lattice(const Lattice& lattice, int rounds, const Job& job, Measure
   if (lattice.inside())
     out.volume = power(static_cast<double>(lattice.cells.size()) / power(lattice.parts, 3), rounds);
   if (cells_of_box(lattice, rounds) <= most_counted_cells) {
-    const Survey survey = survey_of(grid_of(lattice, rounds, {0, 1, 2}, job), job);
+    const SolidTopology topology = topology_of(grid_of(lattice, rounds, {0, 1, 2}, job), job);
     const bool whole = lattice.block == glm::ivec3(1);
-    if (whole) out.exposed_quads = static_cast<double>(survey.squares);
+    if (whole) out.exposed_quads = static_cast<double>(topology.squares);
     const int in_block = lattice.block.x * lattice.block.y * lattice.block.z;
-    if (!lattice.inside()) out.volume = static_cast<double>(survey.cells) / (power(side, 3) * in_block);
-    out.non_manifold_edges = static_cast<double>(survey.four_face_edges);
-    if (const auto genus = survey.genus()) out.genus = static_cast<double>(*genus);
+    if (!lattice.inside()) out.volume = static_cast<double>(topology.cells) / (power(side, 3) * in_block);
+    out.non_manifold_edges = static_cast<double>(topology.four_face_edges);
+    if (const auto genus = topology.genus()) out.genus = static_cast<double>(*genus);
   }
   if (out.exposed_quads) out.surface_area = *out.exposed_quads / (side * side);
 }
 
-/// Copies of one scale that touch along edges at most: areas and volumes add up.
-void measure_apart(const FractalParams& params, const Instructions& instructions, int rounds, Measure& out) {
-  if (params.element.index() != 0 || text_of(std::get<0>(params.element)) != instructions.apart) return;
+/// For copies of one scale that touch at most along edges: areas and volumes add up.
+void measure_separate(const FractalParams& params, const Instructions& instructions, int rounds,
+                      Measure& out) {
+  if (params.element.index() != 0 || text_of(std::get<0>(params.element)) != instructions.separate) return;
   const std::optional<Measures> element = measures_of(params);
   if (!element) return;
   const double scale = similarity(instructions.maps.front()).value_or(1);
@@ -89,7 +84,7 @@ void measure_apart(const FractalParams& params, const Instructions& instructions
       element->volume * power(static_cast<double>(instructions.maps.size()) * scale * scale * scale, rounds);
 }
 
-/// Maps that turn nothing move the two ends of each axis alone.
+/// Bounds for maps without rotation, which map each axis by itself.
 std::optional<Box> straight_bounds(const Instructions& instructions, int rounds) {
   for (const Affine& map : instructions.maps) {
     for (int i = 0; i < 3; ++i) {
@@ -118,7 +113,7 @@ std::optional<Box> straight_bounds(const Instructions& instructions, int rounds)
   return Box{glm::vec3(low), glm::vec3(high)};
 }
 
-/// The box of an element that fills its frame.
+/// Does the element fill its frame?
 bool fills_frame(const FractalParams& params) {
   if (params.element.index() != 0) return false;
   const FractalElement name = std::get<0>(params.element);
@@ -132,7 +127,7 @@ std::optional<double> exposed_quads(const Lattice& lattice, int rounds) {
   const auto copies = static_cast<double>(lattice.cells.size());
   double touching = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    double neighbours = 0, across = 0;  // pairs in one block; pairs over the border of two equal blocks
+    double neighbours = 0, across = 0;  // pairs in one block, and across the border of two equal blocks
     for (const glm::ivec3& a : lattice.cells) {
       for (const glm::ivec3& b : lattice.cells) {
         glm::ivec3 step = b - a;
@@ -143,7 +138,7 @@ std::optional<double> exposed_quads(const Lattice& lattice, int rounds) {
         across += along == 1 - lattice.parts ? 1 : 0;
       }
     }
-    double pairs = 0, wall = 1;  // touching cells; cells of two equal blocks that touch over their border
+    double pairs = 0, wall = 1;  // touching cells, and those across the border of two equal blocks
     for (int round = 0; round < rounds; ++round) {
       pairs = copies * pairs + neighbours * wall;
       wall *= across;
@@ -159,7 +154,7 @@ Measure measure(const FractalParams& params, const Instructions& instructions, i
   out.dimension = dimension_of(instructions);
   const std::optional<Lattice> lattice = lattice_of(instructions);
   if (is_cube(params) && lattice) measure_lattice(*lattice, rounds, job, out);
-  if (!instructions.apart.empty()) measure_apart(params, instructions, rounds, out);
+  if (!instructions.separate.empty()) measure_separate(params, instructions, rounds, out);
   if (fills_frame(params)) out.bounds = straight_bounds(instructions, rounds);
   return out;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// What can be told of a fractal without its mesh.
+/// Figures of a fractal without its mesh.
 #include <cstdint>
 #include <optional>
 
@@ -12,20 +12,21 @@ struct FractalParams;
 
 namespace seedmesh::fractal {
 
-/// Numbers beyond 2^53 are the nearest doubles. In the frame of the unit element.
+/// In the frame of the unit element. Numbers above 2^53 are the nearest doubles.
 struct Measure {
   double pieces = 0;
-  std::optional<double> dimension;  ///< of self-similarity: the root of Moran's equation, sum of scale^D = 1
+  std::optional<double>
+      dimension;  ///< similarity dimension: the solution of Moran's equation, sum of scale^D = 1
   std::optional<double> exposed_quads, surface_area, volume, genus, non_manifold_edges;
   std::optional<Box> bounds;
 };
 
-/// In closed form where there is one: maps of a lattice that stay inside their block, and named instructions
-/// whose copies touch along edges at most. Otherwise lattices are counted cell by cell, as far as 2^27 cells;
-/// genus and edges always are. Throws Stop for nothing but time and memory.
+/// Uses closed forms for maps of a lattice that stay inside their block, and for named instructions whose
+/// copies touch at most along edges. Cells of other lattices are counted, up to 2^27 cells; so are genus and
+/// edges of all lattices. Throws Stop only for the deadline, a cancellation and the limit of memory.
 Measure measure(const FractalParams& params, const Instructions& instructions, int rounds, const Job& job);
 
-/// Exposed squares of a lattice whose copies stay inside their block, in closed form; nullopt for others.
+/// The number of exposed squares in closed form; nullopt if copies leave their block.
 std::optional<double> exposed_quads(const Lattice& lattice, int rounds);
 
 }  // namespace seedmesh::fractal

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t slices_a_chunk = 4;
 
-/// Squares bit..bit_end of rows row..row_end of a slice; the ends are not part of it.
+/// The squares [bit, bit_end) of the rows [row, row_end) of a slice.
 struct Rectangle {
   int bit, bit_end, row, row_end;
 };
@@ -33,7 +33,8 @@ void each_run(const std::uint64_t* words, int size, Use use) {
   }
 }
 
-/// Cuts the squares of a slice into rectangles, each a run of bits over as many rows as have the same run.
+/// Divides the squares of a slice into rectangles, each a run of bits over all consecutive rows with the same
+/// run.
 class Cutter {
  public:
   explicit Cutter(const Side& side) : side_(side), squares_(side.grid->row_words()) {}
@@ -66,17 +67,17 @@ class Cutter {
 
   const Side& side_;
   std::vector<std::uint64_t> squares_;
-  std::vector<Rectangle> open_, still_open_;  ///< by their first bit
+  std::vector<Rectangle> open_, still_open_;  ///< in the order of their first bit
 };
 
-/// The rectangles of a few slices of one side.
+/// The rectangles of a chunk of slices of one side.
 struct Cuts {
   explicit Cuts(const Job& job) : rectangles(job) {}
   Array<Rectangle> rectangles;
-  std::vector<std::size_t> ends;  ///< of each slice, into `rectangles`
+  std::vector<std::size_t> ends;  ///< for each slice, an index into `rectangles`
 };
 
-/// The points of the lattice that are corners of rectangles, a bit each.
+/// A bit for each point of the lattice: is it a corner of a rectangle?
 class Corners {
  public:
   Corners(const Job& job, glm::ivec3 cells) {
@@ -97,7 +98,7 @@ class Corners {
   Array<std::uint64_t> bits_;
 };
 
-/// Numbers of points by bit and row of one slice of a side.
+/// Indices of points by bit and row of one slice of a side.
 struct Plane {
   Plane(const Side& side, const Corners& corners, int slice)
       : bit_step(corners.step(side.world_bits())),
@@ -124,8 +125,8 @@ void mark_corners(const Side& side, int first_slice, const Cuts& cuts, Corners& 
   }
 }
 
-/// The corners on the rim of a rectangle, as bits along its two rows and as rows along its two sides. The
-/// ends of the rows are in all four lists.
+/// The corners on the boundary of a rectangle: bits along its two rows, and rows along its two other sides.
+/// The corners of the rectangle itself are in two lists each.
 struct Rim {
   std::vector<int> low, high, left, right;
 
@@ -143,8 +144,8 @@ struct Rim {
   std::size_t triangles() const { return low.size() + high.size() + left.size() + right.size() - 4 - 2; }
 };
 
-/// Where a slice begins in the mesh.
-struct Place {
+/// The first vertex and triangle of a slice in the mesh.
+struct Start {
   std::size_t vertex = 0, triangle = 0;
 };
 
@@ -153,17 +154,17 @@ class SliceMaker {
  public:
   SliceMaker(const Side& side, const Corners& corners) : side_(side), corners_(corners), vertices_(side) {}
 
-  Place count(int slice, std::span<const Rectangle> rectangles) {
+  Start count(int slice, std::span<const Rectangle> rectangles) {
     mark(slice, rectangles);
     return {vertices_.count(), triangles_};
   }
 
-  void write(int slice, std::span<const Rectangle> rectangles, const Place& place, const Solid& solid,
+  void write(int slice, std::span<const Rectangle> rectangles, const Start& start, const Solid& solid,
              const SideColors* colors, Mesh& mesh) {
     if (rectangles.empty()) return;
     mark(slice, rectangles);
-    vertices_.write(solid, slice, colors, mesh, place.vertex);
-    out_ = mesh.index.wide.data() + 3 * place.triangle;
+    vertices_.write(solid, slice, colors, mesh, start.vertex);
+    out_ = mesh.index.wide.data() + 3 * start.triangle;
     const Plane plane(side_, corners_, slice);
     for (const Rectangle& rectangle : rectangles) {
       rim_.find(rectangle, plane, corners_);
@@ -197,8 +198,8 @@ class SliceMaker {
     *out_++ = right ? c : b;
   }
 
-  /// Triangles between the two rows, from left to right. The first has the whole left side as an edge and the
-  /// last the right one; where corners lie on a side, that triangle becomes a fan.
+  /// Writes triangles between the two rows, from left to right. The first has the left side as an edge and
+  /// the last the right side. If there are corners on such a side, that triangle becomes a fan.
   void fill(const Rectangle& r) {
     std::size_t i = 0, j = 0;
     const std::size_t low_end = rim_.low.size() - 1, high_end = rim_.high.size() - 1;
@@ -278,16 +279,16 @@ Mesh merged_faces(const Solid& solid, const SideColors* colors, Job& job) {
     }
   }
 
-  std::array<std::vector<Place>, 6> places;
-  Place end;
+  std::array<std::vector<Start>, 6> starts;
+  Start end;
   for (std::size_t s = 0; s < 6; ++s) {
-    places[s].resize(static_cast<std::size_t>(sides[s].slices()));
+    starts[s].resize(static_cast<std::size_t>(sides[s].slices()));
     each_slice(sides[s], cuts[s], corners, job, [&](SliceMaker& maker, std::size_t slice, auto list) {
-      places[s][slice] = maker.count(static_cast<int>(slice), list);
+      starts[s][slice] = maker.count(static_cast<int>(slice), list);
     });
-    for (Place& place : places[s]) {
-      const Place size = place;
-      place = end;
+    for (Start& start : starts[s]) {
+      const Start size = start;
+      start = end;
       end.vertex += size.vertex;
       end.triangle += size.triangle;
     }
@@ -301,7 +302,7 @@ Mesh merged_faces(const Solid& solid, const SideColors* colors, Job& job) {
   mesh.index.wide = Array<std::uint32_t>(job, 3 * end.triangle);
   for (std::size_t s = 0; s < 6; ++s) {
     each_slice(sides[s], cuts[s], corners, job, [&](SliceMaker& maker, std::size_t slice, auto list) {
-      maker.write(static_cast<int>(slice), list, places[s][slice], solid, colors, mesh);
+      maker.write(static_cast<int>(slice), list, starts[s][slice], solid, colors, mesh);
     });
   }
   return mesh;

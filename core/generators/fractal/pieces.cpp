@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
-#include "core/geom/weld.h"
+#include "core/geom/mesh/weld.h"
 
 namespace seedmesh::fractal {
 namespace {
@@ -13,7 +13,7 @@ constexpr std::uint64_t most_nodes = 400;
 constexpr std::uint64_t node_bytes = 150;  ///< of JSON
 constexpr double largest_count = 0x1p62;
 
-/// All copies after `rounds`, one after the other, without a list of them: a stack of one map a round.
+/// Calls visit(map) for all copies after `rounds`. Needs only a stack with one map for each round.
 template <class Visit>
 void each_copy(const Instructions& instructions, int rounds, const Visit& visit) {
   std::vector<Affine> stack{Affine{}};
@@ -41,10 +41,10 @@ bool can_be_nodes(const Instructions& instructions) {
 
 std::uint64_t whole(double count) { return static_cast<std::uint64_t>(std::min(count, largest_count)); }
 
-/// A copy of a mesh under each map, joined.
-class Baker {
+/// Joins copies of a mesh under several maps.
+class CopyJoiner {
  public:
-  Baker(const Mesh& element, std::uint64_t copies, double size, Job& job)
+  CopyJoiner(const Mesh& element, std::uint64_t copies, double size, Job& job)
       : element_(element), size_(size), job_(job) {
     const std::size_t count = static_cast<std::size_t>(copies);
     mesh_.topology = element.topology;
@@ -63,8 +63,7 @@ class Baker {
   void add(const Affine& map) {
     if (++copies_ % 256 == 0) job_.check();
     const double determinant = glm::determinant(map.linear);
-    if (determinant == 0 && element_.topology == Topology::triangles)
-      return;  // flat: nothing to see of a solid
+    if (determinant == 0 && element_.topology == Topology::triangles) return;  // a flat solid is invisible
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     glm::vec3* position = mesh_.position.extend(element_.position.size());
     for (const glm::vec3& p : element_.position) *position++ = glm::vec3(size_ * map(glm::dvec3(p)));
@@ -84,7 +83,7 @@ class Baker {
 
  private:
   void add_normals(const Affine& map, double determinant) {
-    // The cofactors: the inverse transposed, times a determinant that may be very small.
+    // The cofactors are the transposed inverse times the determinant, which may be very small.
     const glm::dmat3& m = map.linear;
     glm::dmat3 turn(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     const double largest = std::max({glm::length(turn[0]), glm::length(turn[1]), glm::length(turn[2])});
@@ -102,17 +101,18 @@ class Baker {
 };
 
 void refuse_too_many(double elements, std::uint64_t limit, int rounds, const Instructions& instructions,
-                     const Element& element) {
+                     const Element& element, const Job& job) {
   int fewer = rounds;
   while (fewer > 0 && pieces_after(instructions, fewer) * static_cast<double>(element.elements) >
                           static_cast<double>(limit)) {
     --fewer;
   }
   const std::string least = elements < largest_count ? "" : "more than ";
-  Job::refuse("needs " + least + std::to_string(whole(elements)) + " triangles or lines after " +
-                  std::to_string(rounds) + " rounds; the limit is " + std::to_string(limit) + ", which " +
-                  std::to_string(fewer) + " rounds keep",
-              "/iterations");
+  job.refuse(limit_issue({Resource::triangles, limit, whole(elements)},
+                         "needs " + least + std::to_string(whole(elements)) + " triangles or lines after " +
+                             std::to_string(rounds) + " rounds; the limit is " + std::to_string(limit) +
+                             ", which " + std::to_string(fewer) + " rounds keep",
+                         "/iterations"));
 }
 
 }  // namespace
@@ -142,10 +142,10 @@ Plan plan_of(const Instructions& instructions, const Element& element, int round
     best = {meshed, pieces, whole(elements), whole(nodes), whole(bytes)};
     found = true;
   }
-  // What is drawn counts as much as what is stored: a viewer pays for both.
+  // The limit also applies to what is drawn.
   const double drawn = pieces * static_cast<double>(element.elements);
   if (!found || drawn > static_cast<double>(job.limits().triangles))
-    refuse_too_many(drawn, job.limits().triangles, rounds, instructions, element);
+    refuse_too_many(drawn, job.limits().triangles, rounds, instructions, element, job);
   return best;
 }
 
@@ -159,10 +159,10 @@ void add_pieces(Model& model, int parent, const Instructions& instructions, cons
   const std::vector<Affine>& around = instructions.arrangement.empty() ? once : instructions.arrangement;
   const std::uint64_t copies = whole(plan.pieces) / std::max<std::uint64_t>(plan.nodes, 1);
   for (const Primitive& primitive : element.primitives) {
-    Baker baker(primitive.mesh, copies, size, job);
+    CopyJoiner joiner(primitive.mesh, copies, size, job);
     for (const Affine& outer : around)
-      each_copy(instructions, plan.meshed, [&](const Affine& map) { baker.add(compose(outer, map)); });
-    group.primitives.push_back({baker.take(), primitive.material, {}});
+      each_copy(instructions, plan.meshed, [&](const Affine& map) { joiner.add(compose(outer, map)); });
+    group.primitives.push_back({joiner.take(), primitive.material, {}});
   }
   model.meshes.push_back(std::move(group));
   Node& node = model.nodes.emplace_back();
@@ -177,11 +177,11 @@ void add_pieces(Model& model, int parent, const Instructions& instructions, cons
   });
 }
 
-Mesh scattered(const Mesh& element, std::span<const glm::vec3> places, double edge, Job& job) {
-  job.spend(Resource::triangles, places.size() * element.elements());
-  Baker baker(element, places.size(), 1, job);
-  for (const glm::vec3& place : places) baker.add({glm::dmat3(edge), glm::dvec3(place)});
-  return baker.take();
+Mesh scattered(const Mesh& element, std::span<const glm::vec3> positions, double edge, Job& job) {
+  job.spend(Resource::triangles, positions.size() * element.elements());
+  CopyJoiner joiner(element, positions.size(), 1, job);
+  for (const glm::vec3& position : positions) joiner.add({glm::dmat3(edge), glm::dvec3(position)});
+  return joiner.take();
 }
 
 }  // namespace seedmesh::fractal

@@ -1,5 +1,5 @@
 #pragma once
-/// Every copy whole: one mesh of some rounds, shown by as many nodes as the other rounds make of it.
+/// Complete copies: a mesh contains the copies of some rounds, and nodes repeat it for the other rounds.
 #include <span>
 
 #include "core/generators/fractal/element.h"
@@ -7,27 +7,28 @@
 
 namespace seedmesh::fractal {
 
-/// How the rounds are shared between one mesh and its nodes, so that the file is smallest. Nodes are at most
-/// 400, because each of them is drawn on its own.
+/// How the rounds are divided between the mesh and its nodes so that the file is smallest. There are at most
+/// 400 nodes, because each is a draw call.
 struct Plan {
-  int meshed = 0;              ///< rounds that are made into the mesh; the rest are nodes
-  double pieces = 0;           ///< copies in all; beyond 2^53 the nearest double
+  int meshed = 0;              ///< rounds in the mesh; the other rounds are nodes
+  double pieces = 0;           ///< number of all copies; above 2^53 the nearest double
   std::uint64_t elements = 0;  ///< triangles or lines stored
   std::uint64_t nodes = 0;
-  std::uint64_t bytes = 0;  ///< of the GLB, about
+  std::uint64_t bytes = 0;  ///< of the GLB, approximately
 };
 
 double pieces_after(const Instructions& instructions, int rounds);
 
-/// Refuses (Stop) what would pass the limit of triangles or bytes, and says what would not.
+/// Throws Stop if the limit of triangles would be exceeded. The message says which number of rounds is
+/// possible.
 Plan plan_of(const Instructions& instructions, const Element& element, int rounds, const Job& job);
 
-/// Adds the meshes and nodes of the fractal to `model`, below node `parent`, scaled by `size`. Materials of
-/// the element stand at the front of the model's. Spends what is stored.
+/// Adds the meshes and nodes of the fractal below node `parent`, scaled by `size`. The first materials of the
+/// model must be those of the element. Spends the triangles.
 void add_pieces(Model& model, int parent, const Instructions& instructions, const Element& element,
                 int rounds, double size, Job& job);
 
-/// A copy of the mesh at each place, `edge` long. Spends what it makes.
-Mesh scattered(const Mesh& element, std::span<const glm::vec3> places, double edge, Job& job);
+/// A copy of the mesh, scaled by `edge`, at each position. Spends the triangles.
+Mesh scattered(const Mesh& element, std::span<const glm::vec3> positions, double edge, Job& job);
 
 }  // namespace seedmesh::fractal

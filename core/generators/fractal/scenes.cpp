@@ -6,18 +6,18 @@
 #include "core/base/math.h"
 #include "core/generators/fractal/faces.h"
 #include "core/generators/fractal/measure.h"
-#include "core/geom/triangulate.h"
+#include "core/geom/polygon/triangulate.h"
 #include "generated/params/fractal.h"
 
 namespace seedmesh::fractal {
 namespace {
 
-constexpr double gap = 0.25;  ///< between stages, of the space that one takes
+constexpr double gap = 0.25;  ///< between stages, as a share of the width of one
 
 double space_of(const FractalParams& params) {
   if (params.method != FractalMethod::mrcm) return params.size;
   FractalParams cubes = params;
-  cubes.element = FractalElement::sphere;  // fills its frame and needs no cells counted
+  cubes.element = FractalElement::sphere;  // fills its frame, and no cells have to be counted
   int most = 0;
   for (const std::int32_t rounds : params.stages) most = std::max(most, rounds);
   Job job(0, Job::Options{});
@@ -143,16 +143,17 @@ Mesh koch_plate(int rounds, double size, Job& job) {
   constexpr double half = 0.05;
   constexpr int most_rounds = 9;
   if (rounds > most_rounds) {
-    Job::refuse("found " + std::to_string(rounds) + " rounds of a snowflake's plate; the limit is " +
-                    std::to_string(most_rounds),
-                "/iterations");
+    job.refuse(limit_issue({Resource::iterations, most_rounds, static_cast<std::uint64_t>(rounds)},
+                           "found " + std::to_string(rounds) +
+                               " rounds of a snowflake's plate; the limit is " + std::to_string(most_rounds),
+                           "/iterations"));
   }
   std::size_t corners = 3;
   for (int round = 0; round < rounds; ++round) corners *= 4;
   job.spend(Resource::triangles, 4 * corners - 4);
   const std::vector<glm::dvec2> outline = snowflake(rounds);
   Triangulator triangulator;
-  // The curve has many corners on one line; what is far smaller than its smallest bump is no triangle.
+  // Many corners are collinear. Triangles far smaller than the smallest bump of the curve are left out.
   const double least_area = 0.05 / static_cast<double>(corners) / static_cast<double>(corners);
   const std::span<const std::uint32_t> inside = triangulator.run(outline, least_area);
   Mesh mesh;

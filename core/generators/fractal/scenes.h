@@ -1,5 +1,5 @@
 #pragma once
-/// How parts of a fractal become nodes of a model.
+/// Nodes of a model for the parts of a fractal.
 #include <functional>
 #include <string>
 
@@ -8,19 +8,19 @@
 
 namespace seedmesh::fractal {
 
-/// Adds a mesh with material 0, shown by a node of its own below `parent`.
+/// Adds a mesh with material 0 and a node for it below `parent`.
 void add_mesh(Model& model, int parent, const std::string& name, Mesh mesh);
 
-/// Calls `make(node, amount)` for the one amount, or for each stage of the request with a node of its own,
-/// beside each other in rows from left to right and from top to bottom.
+/// Calls make(node, amount) once, or for each stage of the request with a node of its own. Stages are in rows
+/// from left to right and from top to bottom.
 void each_stage(Model& model, const FractalParams& params, std::int64_t amount,
                 const std::function<void(int node, std::int64_t amount)>& make);
 
-/// A cloud as points, copies of `element`, or the surface of the cells that hold points.
+/// Adds a cloud as points, as copies of `element`, or as the surface of the cells that contain points.
 void add_cloud(Model& model, int parent, const FractalParams& params, Cloud cloud,
                const std::vector<Primitive>& element, Job& job);
 
-/// The area inside the Koch snowflake as a plate, a tenth as thick as the unit element. Closed.
+/// The area inside the Koch snowflake as a closed plate with a tenth of the thickness of the unit element.
 Mesh koch_plate(int rounds, double size, Job& job);
 
 }  // namespace seedmesh::fractal

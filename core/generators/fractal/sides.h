@@ -1,5 +1,6 @@
 #pragma once
-/// The six sides of a solid of cells, each as slices of rows of bits that tell which squares can be seen.
+/// The six sides of a solid of cells. Each side is a list of slices with rows of bits for its exposed
+/// squares.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -11,8 +12,8 @@ namespace seedmesh::fractal {
 
 constexpr Axes axes_by_x{0, 1, 2}, axes_by_z{2, 1, 0};
 
-/// One of the six sides: the grid that shows it, which of the grid's axes it looks along, and how the grid's
-/// axes lie in the world.
+/// One of the six sides: the grid from which it is read, the axis of the grid along which it faces, and the
+/// world axes of the grid.
 struct Side {
   const BitGrid* grid;
   Axes axes;       ///< of the world
@@ -25,7 +26,7 @@ struct Side {
   int world_rows() const { return axes[static_cast<std::size_t>(3 - slice_axis)]; }
   int world_bits() const { return axes[0]; }
   std::size_t number() const { return static_cast<std::size_t>(2 * world_normal() + (step > 0 ? 1 : 0)); }
-  /// Do bits, rows, normal make a right-handed frame?
+  /// Are bits, rows and normal a right-handed frame?
   bool turns_right() const {
     const int bits = world_bits(), rows_axis = world_rows();
     return ((bits + 1) % 3 == rows_axis) == (step > 0);
@@ -48,7 +49,7 @@ struct Side {
   }
 };
 
-/// Corners of the squares of one slice as rows of bits, and once written the numbers of their vertices.
+/// The corners of the squares of one slice as rows of bits and, after write(), the numbers of their vertices.
 class CornerRows {
  public:
   explicit CornerRows(const Side& side)
@@ -67,7 +68,7 @@ class CornerRows {
     return count;
   }
 
-  /// Writes position, normal and colour of every corner, from vertex `at` on.
+  /// Writes position, normal and colour of all corners, beginning with vertex `at`.
   void write(const Solid& solid, int slice, const SideColors* colors, Mesh& mesh, std::size_t at);
 
   /// The vertex of the corner at bit 64 * w + `bit` of row `r`.
@@ -81,7 +82,7 @@ class CornerRows {
   const Side& side_;
   std::size_t words_, rows_;
   std::vector<std::uint64_t> bits_;
-  std::vector<std::uint32_t> numbers_;  ///< of the first corner of each word
+  std::vector<std::uint32_t> numbers_;  ///< for the first corner of each word
 };
 
 inline std::array<Side, 6> sides_of(const Solid& solid) {

@@ -45,8 +45,7 @@ const Letter* find_letter(char character) {
   return nullptr;
 }
 
-/// Blocks turn round the upright axis with their column and round X with their row, so that no two
-/// neighbours look alike.
+/// Blocks are rotated about Y by their column and about X by their row, so that neighbours look different.
 glm::dmat3 turned(int column, int row) {
   const math::SinCos y = math::sincos_degrees(15.0 * column), x = math::sincos_degrees(10.0 * row);
   const glm::dmat3 about_y{{y.cos, 0, -y.sin}, {0, 1, 0}, {y.sin, 0, y.cos}};
@@ -62,13 +61,13 @@ std::vector<Affine> word_maps(std::string_view text) {
   std::vector<Affine> maps;
   const int columns = static_cast<int>(text.size()) * (letter_width + 1) - 1;
   const double dot = 1.0 / columns;
-  for (std::size_t place = 0; place < text.size(); ++place) {
-    const Letter* letter = find_letter(text[place]);
+  for (std::size_t index = 0; index < text.size(); ++index) {
+    const Letter* letter = find_letter(text[index]);
     if (!letter) return {};
     for (int row = 0; row < letter_height; ++row) {
       for (int i = 0; i < letter_width; ++i) {
         if ((letter->rows[static_cast<std::size_t>(row)] >> (letter_width - 1 - i) & 1) == 0) continue;
-        const int column = static_cast<int>(place) * (letter_width + 1) + i;
+        const int column = static_cast<int>(index) * (letter_width + 1) + i;
         const glm::dvec3 centre{(column + 0.5) * dot - 0.5, ((letter_height - 1) / 2.0 - row) * dot, 0};
         maps.push_back({turned(column, row) * (0.95 * dot), centre});
       }

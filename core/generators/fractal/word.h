@@ -1,6 +1,6 @@
 #pragma once
-/// Words out of blocks, after Kogovšek's Word_Test: the thesis gives the word TEST and says that its blocks
-/// turn by where they stand, and nothing more; letters and turns are ours.
+/// Words made of blocks, after Word_Test of Kogovšek (2014). The thesis gives the word TEST and says that its
+/// blocks are rotated according to their position. The shapes of the letters and the angles are our own.
 #include <string_view>
 #include <vector>
 
@@ -8,12 +8,12 @@
 
 namespace seedmesh::fractal {
 
-/// The block of every lit dot of the word, which fills the width of the unit frame: letters of 5 by 7 dots,
-/// one dot apart, round the middle. Small letters count as capital ones. Empty: a character has no letter, or
-/// nothing is lit.
+/// A map for each dot of the word, which is centred and fills the width of the unit frame. Letters have 5 by
+/// 7 dots with a gap of one dot. Small letters equal capital ones. Empty if a character has no letter or
+/// there are no dots.
 std::vector<Affine> word_maps(std::string_view text);
 
-/// Has the character dots?
+/// Is there a letter for the character?
 bool has_letter(char character);
 
 }  // namespace seedmesh::fractal

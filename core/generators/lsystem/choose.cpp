@@ -16,10 +16,10 @@ struct Axes {
 
 double length_of(const double* v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-/// 0 where an axis has no length, and so no direction to give.
+/// Returns 0 where an axis has no length and therefore no direction.
 double quotient(double a, double b) { return b > 0 ? a / b : 0; }
 
-/// A rotation turns the axes and leaves each as long as it was, so that they stay at right angles.
+/// A rotation keeps the length of every axis and the right angles between them.
 void move(const Axes& axes, FrameExpression::Move how, const double* by) {
   using Move = FrameExpression::Move;
   if (how == Move::translate) {
@@ -60,7 +60,7 @@ void fill_frame(const Grammar& grammar, const FrameExpression& frame, const doub
 }  // namespace
 
 void fill_framed_arguments(const Grammar& grammar, const Template& made, const double* slots, Rng& rng,
-                           double* out) {
+                           double* out, const Job& job) {
   const Kind& kind = grammar.kinds[made.kind];
   for (std::uint32_t i = 0; i < kind.written(); ++i) {
     const lang::Expression& argument = grammar.arguments[made.first_argument + i];
@@ -68,10 +68,10 @@ void fill_framed_arguments(const Grammar& grammar, const Template& made, const d
     if (count == 1) {
       *out = grammar.program.evaluate(argument, slots, rng);
     } else {
-      fill_frame(grammar, grammar.frames[frame_place(argument)], slots, rng, out);
+      fill_frame(grammar, grammar.frames[frame_index(argument)], slots, rng, out);
     }
     for (std::uint32_t k = 0; k < count; ++k, ++out) {
-      if (!std::isfinite(*out)) refuse_argument(grammar, made, i, *out);
+      if (!std::isfinite(*out)) refuse_argument(grammar, made, i, *out, job);
       *out += 0.0;  // -0 becomes 0
     }
   }
@@ -79,20 +79,20 @@ void fill_framed_arguments(const Grammar& grammar, const Template& made, const d
 
 namespace {
 
-/// The text whose templates `holds` is true of.
+/// Returns the text for whose templates `holds` is true.
 template <class Holds>
 std::string text_with(const Grammar& grammar, Holds&& holds) {
   if (holds(grammar.axiom)) return "/axiom";
-  const auto look = [&](const Rules& rules) -> const Production* {
+  const auto find = [&](const Rules& rules) -> const Production* {
     const auto found = std::find_if(rules.productions.begin(), rules.productions.end(),
                                     [&](const Production& each) { return holds(each.successor); });
     return found == rules.productions.end() ? nullptr : &*found;
   };
-  const Production* found = look(grammar.productions);
-  if (!found) found = look(grammar.interpretation);
-  if (!found) found = look(grammar.decomposition);
+  const Production* found = find(grammar.productions);
+  if (!found) found = find(grammar.interpretation);
+  if (!found) found = find(grammar.decomposition);
   for (const Rules& table : grammar.tables) {
-    if (!found) found = look(table);
+    if (!found) found = find(table);
   }
   return found ? found->pointer : "";
 }
@@ -107,13 +107,15 @@ std::string writer_of(const Grammar& grammar, KindId kind) {
   });
 }
 
-void refuse_argument(const Grammar& grammar, const Template& made, std::uint32_t index, double value) {
+void refuse_argument(const Grammar& grammar, const Template& made, std::uint32_t index, double value,
+                     const Job& job) {
   const auto number = static_cast<std::uint32_t>(&made - grammar.templates.data());
   const std::string pointer = text_with(
       grammar, [&](Range range) { return number >= range.first && number < range.first + range.count; });
-  Job::reject({pointer, "parameter " + std::to_string(index + 1) + " of `" + grammar.kinds[made.kind].symbol +
-                            "` became " + (value != value ? "undefined (0/0 or the like)" : "infinite") +
-                            "; expected a finite number"});
+  job.refuse({IssueKind::evaluation, pointer,
+              "parameter " + std::to_string(index + 1) + " of `" + grammar.kinds[made.kind].symbol +
+                  "` became " + (value != value ? "undefined (for example 0/0)" : "infinite") +
+                  "; expected a finite number"});
 }
 
 }  // namespace seedmesh::lsystem

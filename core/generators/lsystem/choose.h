@@ -1,24 +1,24 @@
 #pragma once
-/// Which production rewrites a module, and the keys of what it writes.
+/// Chooses the production that rewrites a module, and derives the random keys of the modules that it writes.
 #include <cmath>
 
 #include "core/generators/lsystem/grammar.h"
 
 namespace seedmesh::lsystem {
 
-/// The key of a module written by a module of key `parent`: a choice in one branch never moves one in
-/// another.
+/// Returns the key of a module that the module with key `parent` writes. Keys depend on the parent alone, so
+/// a random choice in one branch never changes another branch.
 constexpr std::uint64_t child_key(std::uint64_t parent, const Template& child) {
-  return mix(parent ^ child.place);
+  return mix(parent ^ child.occurrence);
 }
 
-/// Streams of one rewriting: the condition, the choice and the arguments draw apart.
+/// Random streams of one rewriting step. The condition, the choice and the code draw from separate streams.
 struct Draws {
-  Rng place;
-  Draws(std::uint64_t key, std::uint32_t step) : place(key_at(key, step)) {}
-  Rng condition() const { return place.at(1); }
-  Rng choice() const { return place.at(2); }
-  Rng code() const { return place.at(4); }
+  Rng stream;
+  Draws(std::uint64_t key, std::uint32_t step) : stream(key_at(key, step)) {}
+  Rng condition() const { return stream.at(1); }
+  Rng choice() const { return stream.at(2); }
+  Rng code() const { return stream.at(4); }
 };
 
 inline bool holds(const Grammar& grammar, const Production& production, const double* slots,
@@ -29,7 +29,7 @@ inline bool holds(const Grammar& grammar, const Production& production, const do
   return grammar.program.evaluate(production.condition, slots, rng) != 0;
 }
 
-/// A weight at the moment of choice: what is negative or not a number counts as none.
+/// Evaluates the weight of a production. A negative or non-finite weight counts as 0.
 inline double weight_of(const Grammar& grammar, const Production& production, const double* slots) {
   if (production.weight.is_constant) return production.weight.value;
   Rng none(0);
@@ -37,9 +37,10 @@ inline double weight_of(const Grammar& grammar, const Production& production, co
   return weight > 0 && std::isfinite(weight) ? weight : 0;
 }
 
-/// Walks the productions `range` of `rules` in order. `match(production)` tells whether its contexts fit and
-/// returns its slots, or null. The first that matches wins if it has no weight, else one draw decides among
-/// all weighted ones that match.
+/// Returns the production of `rules` in `range` that rewrites a module, or null. `match(production)` returns
+/// the slots of the production, or null where its contexts do not match. The first matching production
+/// without a weight wins. Otherwise one random number chooses among all matching productions with weights.
+/// Cost: linear in `range`.
 template <class Match>
 const Production* choose(const Grammar& grammar, const Rules& rules, Range range, const Draws& draws,
                          Match&& match) {
@@ -68,34 +69,36 @@ const Production* choose(const Grammar& grammar, const Rules& rules, Range range
     if (weight > 0) last = &each;
     if ((dart -= weight) < 0) break;
   }
-  return last;  // rounding can let the dart fly past the last edge
+  return last;  // rounding can leave `dart` at or above 0 after the last weight
 }
 
-/// The text that writes modules of this kind: the axiom, or the first production that does; "" where none.
+/// Returns the pointer of the text that writes modules of this kind: the axiom, or the first production that
+/// does. Returns "" where no text does.
 std::string writer_of(const Grammar& grammar, KindId kind);
 
-/// Throws Stop (Code::invalid) with the place of the argument.
+/// Throws Stop (Code::invalid) for an argument that is not finite. The pointer is that of the text that
+/// contains the argument.
 [[noreturn]] void refuse_argument(const Grammar& grammar, const Template& made, std::uint32_t index,
-                                  double value);
+                                  double value, const Job& job);
 
-/// The arguments of a kind that carries frames.
+/// Evaluates the arguments of a template whose kind has frames as parameters. `out` has Kind::arity elements.
 void fill_framed_arguments(const Grammar& grammar, const Template& made, const double* slots, Rng& rng,
-                           double* out);
+                           double* out, const Job& job);
 
-/// Evaluates the arguments of a template into `out`; a value that is not finite refuses the request at the
-/// production.
+/// Evaluates the arguments of a template into `out`, which has Kind::arity elements. A value that is not
+/// finite refuses the request and points to the production.
 inline void fill_arguments(const Grammar& grammar, const Template& made, const double* slots,
-                           std::uint64_t key, double* out) {
+                           std::uint64_t key, double* out, const Job& job) {
   const std::uint32_t arity = grammar.kinds[made.kind].arity;
   if (arity == 0) return;
   Rng rng = Rng(key).at(3);
   if (!grammar.frames.empty() && !grammar.kinds[made.kind].frames.empty())
-    return fill_framed_arguments(grammar, made, slots, rng, out);
+    return fill_framed_arguments(grammar, made, slots, rng, out, job);
   for (std::uint32_t i = 0; i < arity; ++i) {
     const lang::Expression& argument = grammar.arguments[made.first_argument + i];
     const double value =
         argument.is_constant ? argument.value : grammar.program.evaluate(argument, slots, rng);
-    if (!std::isfinite(value)) refuse_argument(grammar, made, i, value);
+    if (!std::isfinite(value)) refuse_argument(grammar, made, i, value, job);
     out[i] = value + 0.0;  // -0 becomes 0
   }
 }

@@ -1,22 +1,24 @@
 #pragma once
-/// Runs what successors with statements consist of: steps over the slots of one production.
+/// Runs the compiled statements of a successor: steps over the slots of one production.
 #include <array>
 #include <vector>
 
 #include "core/generators/lsystem/choose.h"
+#include "core/schema/json.h"
 
 namespace seedmesh::lsystem {
 
-/// One for all successors of a request: it bounds the turns of all their loops together, by limits.modules,
-/// whether they write modules or not.
+/// Runs the statements of all successors of one request. limits.modules bounds the sum of all loop
+/// iterations, whether they write modules or not.
 class CodeRunner {
  public:
   CodeRunner(const Grammar& grammar, Job& job) : grammar_(grammar), job_(job) {}
 
-  /// `slots` has room for Grammar::most_slots. Calls write(template, turn) for every module; `turn` is 0
-  /// outside loops and else different in every turn, for the module's key. Draws at `place` by step and turn.
+  /// Runs `steps`. `slots` has Grammar::most_slots elements and is changed. `write(template, turn)` is called
+  /// for every module; `turn` is 0 outside loops and unique for each iteration of a loop, and becomes part of
+  /// the module's key. Random functions draw from `stream` by step and iteration.
   template <class Write>
-  void run(Range steps, double* slots, const Rng& place, Write&& write) {
+  void run(Range steps, double* slots, const Rng& stream, Write&& write) {
     std::array<Loop, deepest> loops;
     std::size_t depth = 0;
     std::uint64_t turn = 0;
@@ -27,13 +29,16 @@ class CodeRunner {
           for (const Template& each : grammar_.successor(step.templates)) write(each, turn);
           break;
         case Step::Does::set:
-          slots[step.slot] = value(step, slots, place, at, turn);
+          slots[step.slot] = value(step, slots, stream, at, turn);
+          break;
+        case Step::Does::set_element:
+          slots[element(step, slots, stream, at)] = value(step, slots, stream, at, turn);
           break;
         case Step::Does::jump:
           at = step.target;
           continue;
         case Step::Does::jump_unless:
-          if (value(step, slots, place, at, turn) == 0) {
+          if (value(step, slots, stream, at, turn) == 0) {
             at = step.target;
             continue;
           }
@@ -55,22 +60,34 @@ class CodeRunner {
   }
 
  private:
-  static constexpr std::size_t deepest = 64;  // as the compiler has it
+  static constexpr std::size_t deepest = 64;  // the limit of the compiler (compile_code.cpp)
   struct Loop {
     std::uint64_t outer = 0, turns = 0;
   };
 
-  double value(const Step& step, const double* slots, const Rng& place, std::uint32_t at,
+  double value(const Step& step, const double* slots, const Rng& stream, std::uint32_t at,
                std::uint64_t turn) const {
-    Rng rng = place.at(at).at(turn);
+    Rng rng = stream.at(at).at(turn);
     return grammar_.program.evaluate(step.value, slots, rng);
+  }
+
+  /// The slot of an element of an array.
+  std::uint32_t element(const Step& step, const double* slots, const Rng& stream, std::uint32_t at) const {
+    Rng rng = stream.at(at).at(~std::uint64_t{0});
+    const double index = grammar_.program.evaluate(step.index, slots, rng);
+    if (index >= 0 && index < step.target) return step.slot + static_cast<std::uint32_t>(index);
+    job_.refuse({IssueKind::evaluation, "/arrays",
+                 "found the index " + number_text(index) + " of an array of " + std::to_string(step.target) +
+                     " elements, which are counted from 0"});
   }
 
   void count_turn() {
     if ((++turns_ & 4095U) == 0) job_.check();
     if (turns_ > job_.limits().modules) {
-      Job::refuse("the loops of the productions take more than " + std::to_string(job_.limits().modules) +
-                  " turns, which is the limit of modules");
+      job_.refuse(limit_issue({Resource::modules, job_.limits().modules, turns_},
+                              "the loops of the productions take more than " +
+                                  std::to_string(job_.limits().modules) +
+                                  " turns, which is the limit of modules"));
     }
   }
 
@@ -79,7 +96,7 @@ class CodeRunner {
   std::uint64_t turns_ = 0;
 };
 
-/// The key of a module that code writes.
+/// Returns the key of a module that statements write.
 inline std::uint64_t code_key(std::uint64_t parent, const Template& made, std::uint64_t turn) {
   const std::uint64_t key = child_key(parent, made);
   return turn == 0 ? key : key_at(key, turn);

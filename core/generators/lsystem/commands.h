@@ -1,8 +1,8 @@
 #pragma once
-/// The turtle symbols, one row each: the interpreter, the docs, GET /v1/vocabulary and the editor's
-/// completion read the same table. Signs of the rotations are those measured in cpfg (Prusinkiewicz and
-/// Lindenmayer, "The Algorithmic Beauty of Plants", 1990, names them): + left, - right, & down, ^ up, \ roll
-/// left, / roll right.
+/// The table of turtle symbols, one row for each. The interpreter, the documentation, GET /v1/vocabulary and
+/// the completion of the editor read it. The signs of rotations follow cpfg, with the names of Prusinkiewicz
+/// and Lindenmayer, "The Algorithmic Beauty of Plants", 1990: + left, - right, & down, ^ up, \ roll left, /
+/// roll right.
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -60,25 +60,25 @@ enum class Command : std::uint8_t {
   draw_frame,
 };
 
-/// True for modules that ask and are answered between two steps.
-constexpr bool asks(Command command) {
+/// Returns true for query modules, whose parameters are filled in between two steps.
+constexpr bool is_query(Command command) {
   return command >= Command::ask_position && command <= Command::ask_surroundings;
 }
 
 struct CommandRow {
   std::string_view symbol;
   Command command;
-  std::string_view parameters;  ///< "(frame)", which is twelve numbers; or as a reader would write them: "",
-                                ///< "(length)", ...; square brackets: optional
-  std::uint32_t least, most;    ///< number of parameters understood
+  /// as written: "" or "(length)"; [] encloses optional ones; a frame has 12 numbers
+  std::string_view parameters;
+  std::uint32_t least, most;  ///< smallest and largest number of parameters
   std::string_view text;
   std::string_view example;  ///< an axiom that the tests draw
 };
 
 std::span<const CommandRow> commands();
 
-/// The command of a symbol with so many parameters; Command::none where the turtle has no such symbol.
-/// Parameters beyond those it understands are left to the grammar.
+/// Returns the command of a symbol with `arity` parameters, or Command::none where the turtle has no such
+/// symbol. Surplus parameters are allowed and ignored.
 Command command_of(std::string_view symbol, std::uint32_t arity);
 
 }  // namespace seedmesh::lsystem

@@ -1,5 +1,5 @@
-/// Successors with statements, after the FL-systems of Marvie, Perret and Bouatouch ("The FL-system: a
-/// functional L-system for procedural geometric modeling", 2005):
+/// Compiles successors with statements, after the FL-systems of Marvie, Perret and Bouatouch ("The FL-system:
+/// a functional L-system for procedural geometric modeling", 2005):
 ///
 ///   item  = "let" name "=" expression ";" | name change ";"          name: a local
 ///         | "for" "(" [ name "=" expression ] ";" expression ";" [ name change ] ")" body
@@ -7,8 +7,8 @@
 ///   body  = "{" { item } "}" | one statement | one module ;
 ///   change = "=" expression | ("+=" | "-=" | "*=" | "/=") expression | "++" | "--" ;
 ///
-/// Words that are modules by the older notation stay modules: `for` needs the semicolons, and an `if` without
-/// braces a comparison, since no turtle takes one as a length.
+/// Text that is a module in plain L-system notation stays a module. Therefore `for` needs its semicolons, and
+/// `if` without braces needs a comparison, because no turtle symbol takes a comparison as a length.
 #include <algorithm>
 
 #include "core/generators/lsystem/compiler.h"
@@ -17,8 +17,8 @@
 namespace seedmesh::lsystem {
 namespace {
 
-constexpr int deepest = 64;                 // statements inside each other
-constexpr std::size_t most_locals = 1'000;  // of one production, with those of blocks that are over
+constexpr int deepest = 64;                 // nesting depth of statements
+constexpr std::size_t most_locals = 1'000;  // of one production, including those of closed blocks
 
 }  // namespace
 
@@ -35,7 +35,7 @@ class Compiler::CodeReader {
         slots_(slots),
         allowed_(allowed) {}
 
-  /// The items of a block; brackets pair inside it.
+  /// Compiles the items of a block. Brackets must pair inside it.
   void items(Slice slice) {
     const std::size_t names = compiler_.names_.size();
     const std::size_t outer = locals_.size();
@@ -47,12 +47,12 @@ class Compiler::CodeReader {
       if (at == before) at = modules(at, slice.to, open);
       at = skip_spaces(text_, at, slice.to);
     }
-    if (!open.empty()) fault(open.back(), "found `[` without its `]` in the same block");
+    if (!open.empty()) add_error(open.back(), "found `[` without its `]` in the same block");
     compiler_.names_.forget_after(names);
     forget_locals_after(outer);
   }
 
-  /// Where a statement at `at` ends; `at` where there is none.
+  /// Compiles the statement at `at` and returns its end, or `at` where there is none.
   std::size_t statement(std::size_t at, std::size_t to) {
     if (const std::size_t open = statements_.loop_at(at, to); open < to) return for_loop(open, to);
     if (const std::size_t open = open_after(text_, "while", at, to); open < to) return while_loop(open, to);
@@ -63,6 +63,7 @@ class Compiler::CodeReader {
     }
     const std::size_t end = end_of_name(text_, at, to);
     const bool binds = allowed_ == Allowed::statements_alone;
+    if (binds && end > at && array(text_.substr(at, end - at))) return element_change(at, end, to);
     const bool known = end > at && (binds || local(text_.substr(at, end - at)) != nullptr);
     if (known && statements_.changes(skip_spaces(text_, end, to), to)) {
       return change(at, to, Ends::semicolon, binds ? Binds::yes : Binds::no);
@@ -74,13 +75,43 @@ class Compiler::CodeReader {
   enum class Ends { semicolon, here };
   enum class Binds { yes, no };
 
-  bool sound() const { return source_.faults.size() < lang::max_faults && !stopped_; }
-  void fault(std::size_t at, std::string message) { source_.faults.push_back({at, std::move(message)}); }
+  bool sound() const { return source_.errors.size() < lang::max_errors && !stopped_; }
+  void add_error(std::size_t at, std::string message) { source_.errors.push_back({at, std::move(message)}); }
 
-  /// The slot of a local; null: there is none of this name.
+  /// Returns the slot of a local, or null.
   const std::uint32_t* local(std::string_view name) const {
     const auto at = slots_of_.find(name);
     return at == slots_of_.end() ? nullptr : &at->second.back();
+  }
+
+  /// Returns the array of this name, or null.
+  const lang::Names::Binding* array(std::string_view name) const {
+    const lang::Names::Binding* bound = compiler_.names_.find(name);
+    return bound && bound->count > 0 ? bound : nullptr;
+  }
+
+  /// Compiles `array[index] change;` and returns its end.
+  std::size_t element_change(std::size_t at, std::size_t name_end, std::size_t to) {
+    const lang::Names::Binding binding = *array(text_.substr(at, name_end - at));
+    const std::size_t open = skip_spaces(text_, name_end, to);
+    const bool has_index = open < to && text_[open] == '[';
+    const std::size_t close = has_index ? marks_.closing(open, to) : to;
+    const std::size_t sign = close < to ? skip_spaces(text_, close + 1, to) : to;
+    const std::size_t end = sign < to ? statements_.find_semicolon(sign, to) : to;
+    if (end == to || !statements_.changes(sign, to)) {
+      add_error(at, "expected a new value of an element, as in `list[0] = 1;`");
+      stopped_ = true;
+      return to;
+    }
+    Step step;
+    step.does = Step::Does::set_element;
+    step.slot = binding.slot;
+    step.target = binding.count;
+    step.index = compiler_.expression(source_, {open + 1, close});
+    step.value = text_[sign] == '=' ? compiler_.expression(source_, {sign + 1, end})
+                                    : changed({at, close + 1}, sign, end);
+    steps_.push_back(step);
+    return end + 1;
   }
 
   void bind_local(const std::string& name, std::uint32_t slot) {
@@ -97,50 +128,50 @@ class Compiler::CodeReader {
     }
   }
 
-  /// name change [";"]; gives the end.
+  /// Compiles `name change [";"]` and returns its end.
   std::size_t change(std::size_t at, std::size_t to, Ends ends, Binds binds) {
     const std::size_t name_end = end_of_whole_name(text_, at, to);
     const std::string name(text_.substr(at, name_end - at));
     const std::size_t sign = skip_spaces(text_, name_end, to);
     if (name.empty() || !statements_.changes(sign, to)) {
-      fault(at, "expected a name and its new value, as in `i = 0` or `i++`");
+      add_error(at, "expected a name and its new value, as in `i = 0` or `i++`");
       stopped_ = true;
       return to;
     }
     std::size_t end = to;
     if (ends == Ends::semicolon) {
       end = statements_.find_semicolon(sign, to);
-      if (end == to) fault(at, "found a statement without its `;`");
+      if (end == to) add_error(at, "found a statement without its `;`");
     }
     const bool assigns = text_[sign] == '=';
     lang::Expression value;
     if (assigns) {
       value = compiler_.expression(source_, {sign + 1, end});
     } else {
-      value = changed(name, at, sign, end);
+      value = changed({at, name_end}, sign, end);
     }
     set(name, value, binds == Binds::yes && assigns, at);
     return std::min(end + (ends == Ends::semicolon ? 1U : 0U), to);
   }
 
-  /// The value of `name op= expression`, `name++` and `name--`, as the expression that it stands for.
-  lang::Expression changed(const std::string& name, std::size_t at, std::size_t sign, std::size_t end) {
+  /// Returns the new value of `old op= expression`, `old++` or `old--` as an expression.
+  lang::Expression changed(Slice old, std::size_t sign, std::size_t end) {
     const bool by_one = text_[sign] == text_[sign + 1];
     if (by_one && skip_spaces(text_, sign + 2, end) < end) {
-      fault(sign + 2, "found more after `" + std::string(text_.substr(sign, 2)) + "`");
+      add_error(sign + 2, "found more after `" + std::string(text_.substr(sign, 2)) + "`");
     }
-    const std::size_t before = source_.faults.size();
-    std::vector<lang::Token> tokens;
+    const std::size_t before = source_.errors.size();
+    std::vector<lang::Token> tokens = lang::tokenize(text_, old.from, old.to, source_.errors);
+    tokens.pop_back();  // the end
     const auto symbol = [&](std::string_view text) {
       tokens.push_back({lang::TokenKind::symbol, text, sign, 1, 0});
     };
-    tokens.push_back({lang::TokenKind::name, text_.substr(at, name.size()), at, name.size(), 0});
     symbol(text_.substr(sign, 1));
     symbol("(");
     if (by_one) {
       tokens.push_back({lang::TokenKind::number, "1", sign, 1, 1});
     } else {
-      for (const lang::Token& each : lang::tokenize(text_, sign + 2, end, source_.faults)) {
+      for (const lang::Token& each : lang::tokenize(text_, sign + 2, end, source_.errors)) {
         if (each.kind != lang::TokenKind::end) tokens.push_back(each);
       }
     }
@@ -148,28 +179,28 @@ class Compiler::CodeReader {
     tokens.push_back({lang::TokenKind::end, "", end, 0, 0});
     std::size_t read = 0;
     const lang::Expression value = compiler_.grammar_.program.parse(
-        tokens, read, compiler_.names_, source_.faults, compiler_.limits_.expression_depth);
-    if (source_.faults.size() == before && tokens[read].kind != lang::TokenKind::end) {
-      fault(tokens[read].offset,
-            "found `" + std::string(tokens[read].text) + "` after the end of the expression");
+        tokens, read, compiler_.names_, source_.errors, compiler_.limits_.expression_depth);
+    if (source_.errors.size() == before && tokens[read].kind != lang::TokenKind::end) {
+      add_error(tokens[read].offset,
+                "found `" + std::string(tokens[read].text) + "` after the end of the expression");
     }
     return value;
   }
 
-  /// Writes the step that gives `name` a value; a name that is no local yet becomes one where it may.
+  /// Adds the step that sets `name`. Where `binds` allows it, an unknown name becomes a local.
   void set(const std::string& name, const lang::Expression& value, bool binds, std::size_t at) {
     const std::uint32_t* known = local(name);
     const lang::Names::Binding* bound = compiler_.names_.find(name);
     const bool alone = allowed_ == Allowed::statements_alone;
     std::uint32_t slot = known ? *known : 0;
     if (!known && alone && bound && !bound->is_constant) {
-      slot = bound->slot;  // a parameter: its copy is changed
+      slot = bound->slot;  // changes the copy of a parameter
     } else if (!known && !binds) {
-      fault(at, "`" + name + "` has no value yet");
+      add_error(at, "`" + name + "` has no value yet");
     } else if (binds && (!known || !alone)) {
       if (name.size() > longest_name || bound_ == most_locals) {
-        fault(at, name.size() > longest_name ? "found a local of more than 64 characters"
-                                             : "found more than 1,000 locals in one production");
+        add_error(at, name.size() > longest_name ? "found a local of more than 64 characters"
+                                                 : "found more than 1,000 locals in one production");
         stopped_ = true;
         return;
       }
@@ -191,7 +222,7 @@ class Compiler::CodeReader {
     const std::size_t first = statements_.find_semicolon(open + 1, close);
     const std::size_t second = first < close ? statements_.find_semicolon(first + 1, close) : close;
     if (close == to || second == close || statements_.find_semicolon(second + 1, close) < close) {
-      fault(open, "expected `(start; condition; change)`");
+      add_error(open, "expected `(start; condition; change)`");
       stopped_ = true;
       return to;
     }
@@ -246,18 +277,18 @@ class Compiler::CodeReader {
   }
 
   lang::Expression condition(std::size_t open, std::size_t close, std::size_t to) {
-    if (close == to) fault(open, "found `(` without its `)`");
+    if (close == to) add_error(open, "found `(` without its `)`");
     return compiler_.expression(source_, {open + 1, close});
   }
 
-  /// A block, one statement or one module.
+  /// Compiles a block, one statement or one module.
   std::size_t body(std::size_t at, std::size_t to) {
     at = skip_spaces(text_, at, to);
     if (++depth_ > deepest) {
-      fault(at, "statements nest deeper than 64");
+      add_error(at, "statements nest deeper than 64");
       stopped_ = true;
     }
-    if (at >= to) fault(at, "expected a module or `{` after the condition");
+    if (at >= to) add_error(at, "expected a module or `{` after the condition");
     std::size_t end = to;
     if (at < to && !stopped_) end = text_[at] == '{' ? block(at, to) : single(at, to);
     --depth_;
@@ -266,7 +297,7 @@ class Compiler::CodeReader {
 
   std::size_t block(std::size_t open, std::size_t to) {
     const std::size_t close = marks_.closing(open, to);
-    if (close == to) fault(open, "found `{` without its `}`; inside a block braces pair");
+    if (close == to) add_error(open, "found `{` without its `}`; braces inside a block must pair");
     items({open + 1, close});
     return std::min(close + 1, to);
   }
@@ -275,14 +306,14 @@ class Compiler::CodeReader {
     const std::size_t end = statement(at, to);
     if (end != at) return end;
     std::size_t module_end = module_at(at, to);
-    if (text_[at] == '[') {  // a branch counts as one
+    if (text_[at] == '[') {  // a branch counts as one module
       module_end = std::min(marks_.closing(at, to) + 1, to);
     }
     items({at, module_end});
     return module_end;
   }
 
-  /// Where the module at `at` ends, its parameters included.
+  /// Returns the end of the module at `at`, including its parameters.
   std::size_t module_at(std::size_t at, std::size_t to) const {
     const std::size_t length = std::max<std::size_t>(compiler_.symbols_.length_at(text_, at, to), 1);
     const std::size_t end = at + length;
@@ -290,18 +321,18 @@ class Compiler::CodeReader {
     return std::min(marks_.closing(end, to) + 1, to);
   }
 
-  /// Modules up to the next statement, as one step; gives their end.
+  /// Compiles the modules up to the next statement as one step, and returns their end.
   std::size_t modules(std::size_t at, std::size_t to, std::vector<std::size_t>& open) {
     const std::size_t from = at;
     while (at < to && (at == from || !begins_statement(at, to))) {
       if (text_[at] == '[') open.push_back(at);
       if (text_[at] == ']' && open.empty() && sound())
-        fault(at, "found `]` without a `[` before it in the same block");
+        add_error(at, "found `]` without a `[` before it in the same block");
       if (text_[at] == ']' && !open.empty()) open.pop_back();
       at = skip_spaces(text_, module_at(at, to), to);
     }
     if (allowed_ == Allowed::statements_alone) {
-      fault(from, "found modules; expected statements such as `x = 2;`");
+      add_error(from, "found modules; expected statements such as `x = 2;`");
       stopped_ = true;
       return to;
     }
@@ -325,8 +356,9 @@ class Compiler::CodeReader {
   std::vector<Step>& steps_;
   std::uint32_t& slots_;
   Allowed allowed_;
-  std::vector<std::string> locals_;  ///< in the order in which they came
-  std::map<std::string, std::vector<std::uint32_t>, std::less<>> slots_of_;  ///< of each, the innermost last
+  std::vector<std::string> locals_;  ///< in the order of declaration
+  /// slots by name, innermost last
+  std::map<std::string, std::vector<std::uint32_t>, std::less<>> slots_of_;
   std::size_t bound_ = 0;
   int depth_ = 0;
   bool stopped_ = false;
@@ -338,16 +370,16 @@ Range Compiler::code(Source& source, Slice slice, std::uint32_t& slots) {
   return {first, static_cast<std::uint32_t>(grammar_.steps.size()) - first};
 }
 
-/// The names stay known to what follows in the production.
+/// The locals stay visible in the rest of the production.
 Range Compiler::assignments(Source& source, Slice slice, std::uint32_t& slots) {
   const auto first = static_cast<std::uint32_t>(grammar_.steps.size());
   if (slice.empty()) return {first, 0};
   CodeReader reader(*this, source, slots, CodeReader::Allowed::statements_alone);
   std::size_t at = skip_spaces(source.text, slice.from, slice.to);
-  while (at < slice.to && source.faults.size() < lang::max_faults) {
+  while (at < slice.to && source.errors.size() < lang::max_errors) {
     const std::size_t end = reader.statement(at, slice.to);
     if (end == at) {
-      source.faults.push_back({at, "expected a statement such as `x = 2;`"});
+      source.errors.push_back({at, "expected a statement such as `x = 2;`"});
       break;
     }
     at = skip_spaces(source.text, end, slice.to);

@@ -1,6 +1,8 @@
-/// frame = name | "frame" "(" ")" | "copy" "(" frame ")" | "translate" "(" frame "," x "," y "," z ")"
-///       | "rotate_x" "(" frame "," degrees ")" | "rotate_y" ... | "rotate_z" ...
-///       | "scale" "(" frame "," factor [ "," factor "," factor ] ")" ;
+/// Compiles frames:
+///
+///   frame = name | "frame" "(" ")" | "copy" "(" frame ")" | "translate" "(" frame "," x "," y "," z ")"
+///         | "rotate_x" "(" frame "," degrees ")" | "rotate_y" ... | "rotate_z" ...
+///         | "scale" "(" frame "," factor [ "," factor "," factor ] ")" ;
 #include <algorithm>
 #include <array>
 
@@ -14,7 +16,7 @@ using Move = FrameExpression::Move;
 struct MoveRow {
   std::string_view name;
   Move move;
-  std::size_t least, most;  ///< numbers behind the frame
+  std::size_t least, most;  ///< numbers after the frame
 };
 constexpr std::array<MoveRow, 5> moves = {{{"translate", Move::translate, 3, 3},
                                            {"rotate_x", Move::rotate_x, 1, 1},
@@ -22,9 +24,9 @@ constexpr std::array<MoveRow, 5> moves = {{{"translate", Move::translate, 3, 3},
                                            {"rotate_z", Move::rotate_z, 1, 1},
                                            {"scale", Move::scale, 1, 3}}};
 constexpr std::size_t most_parts = 100;
-constexpr std::size_t longest_frame = 10'000;  // bytes; every level of it is looked through
+constexpr std::size_t longest_frame = 10'000;  // bytes; every nesting level scans the rest
 
-/// The slices between the commas of text[open + 1, close).
+/// Returns the slices between the commas of text[open + 1, close).
 std::vector<Slice> parts_between(std::string_view text, std::size_t open, std::size_t close) {
   std::vector<Slice> parts;
   std::size_t from = open + 1;
@@ -41,16 +43,16 @@ std::vector<Slice> parts_between(std::string_view text, std::size_t open, std::s
 
 }  // namespace
 
-/// Walks from the outermost move inwards; the moves are done from the inside out.
+/// Walks from the outermost move inwards; the moves are executed from the innermost outwards.
 lang::Expression Compiler::frame(Source& source, Slice slice) {
   const std::string_view text = source.text;
   FrameExpression made;
-  const auto fault = [&](std::size_t at, std::string message) {
-    source.faults.push_back({at, std::move(message)});
+  const auto add_error = [&](std::size_t at, std::string message) {
+    source.errors.push_back({at, std::move(message)});
   };
   for (std::size_t level = 0;; ++level) {
     if (level > 2 * most_parts || slice.to - slice.from > longest_frame) {
-      fault(slice.from, "found a frame of more than 200 moves inside each other, or of 10,000 characters");
+      add_error(slice.from, "found a frame of more than 200 nested moves or 10,000 characters");
       break;
     }
     const std::size_t at = skip_spaces(text, slice.from, slice.to);
@@ -61,8 +63,7 @@ lang::Expression Compiler::frame(Source& source, Slice slice) {
     if (open == slice.to) {
       const auto known = frame_slots_.find(name);
       if (known == frame_slots_.end()) {
-        fault(at,
-              "found " + lang::in_quotes(name) + "; expected a frame: a parameter that is one, or frame()");
+        add_error(at, "found " + lang::in_quotes(name) + "; expected a frame parameter or frame()");
       } else {
         made.slot = known->second;
       }
@@ -70,13 +71,13 @@ lang::Expression Compiler::frame(Source& source, Slice slice) {
     }
     const std::size_t close = text[open] == '(' ? source.marks_of_text().closing(open, slice.to) : slice.to;
     if (close == slice.to || skip_spaces(text, close + 1, slice.to) < slice.to) {
-      fault(open, "expected a frame, as in translate(f, 0, 1, 0)");
+      add_error(open, "expected a frame, as in translate(f, 0, 1, 0)");
       break;
     }
     const std::vector<Slice> parts = parts_between(text, open, close);
     const bool nothing = parts.size() == 1 && skip_spaces(text, parts[0].from, parts[0].to) == parts[0].to;
     if (name == "frame") {
-      if (!nothing) fault(open, "found parameters; frame() takes none");
+      if (!nothing) add_error(open, "found parameters; frame() takes none");
       break;
     }
     const auto* const row =
@@ -84,13 +85,13 @@ lang::Expression Compiler::frame(Source& source, Slice slice) {
     const std::size_t numbers = parts.size() - 1;
     const bool counts = row != moves.end() && (numbers == row->least || numbers == row->most);
     if (name != "copy" && row == moves.end()) {
-      fault(at, "found " + lang::in_quotes(name) +
-                    "; expected frame, copy, translate, rotate_x, rotate_y, rotate_z or scale");
+      add_error(at, "found " + lang::in_quotes(name) +
+                        "; expected frame, copy, translate, rotate_x, rotate_y, rotate_z or scale");
       break;
     }
     if ((name == "copy" && numbers != 0) || (name != "copy" && !counts) || made.parts.size() == most_parts) {
-      fault(at,
-            "found " + std::to_string(numbers) + " numbers behind the frame of `" + std::string(name) + "`");
+      add_error(
+          at, "found " + std::to_string(numbers) + " numbers after the frame of `" + std::string(name) + "`");
       break;
     }
     if (row != moves.end()) {
@@ -102,11 +103,11 @@ lang::Expression Compiler::frame(Source& source, Slice slice) {
     slice = parts[0];
   }
   std::reverse(made.parts.begin(), made.parts.end());
-  lang::Expression place;
-  place.is_constant = true;
-  place.value = static_cast<double>(grammar_.frames.size());
+  lang::Expression index;
+  index.is_constant = true;
+  index.value = static_cast<double>(grammar_.frames.size());
   grammar_.frames.push_back(std::move(made));
-  return place;
+  return index;
 }
 
 }  // namespace seedmesh::lsystem

@@ -1,5 +1,5 @@
-/// What a grammar declares before its rules: modules, functions, the alphabet, and symbols that contexts pass
-/// over.
+/// Compiles what a grammar declares before its rules: modules, functions, the alphabet, and symbols that
+/// contexts skip.
 #include "core/generators/lsystem/compiler.h"
 
 namespace seedmesh::lsystem {
@@ -7,32 +7,32 @@ namespace {
 
 constexpr std::size_t longest_module_name = 64;
 
-/// Words that begin a statement cannot name a module.
+/// Keywords of statements cannot name a module.
 bool is_keyword(std::string_view name) {
   return name == "for" || name == "while" || name == "if" || name == "else" || name == "let";
 }
 
 }  // namespace
 
-/// name, or name(parameter, ...) where a parameter is a name, "frame", or both.
+/// Reads `name` or `name(parameter, ...)`, where a parameter is a name, "frame", or both.
 void Compiler::declare_modules() {
   for (const CommandRow& row : commands()) {
     if (row.parameters == "(frame)") signatures_.emplace(row.symbol, std::vector<std::uint8_t>{1});
   }
   for (std::size_t i = 0; i < params_.modules.size(); ++i) {
     Source source(params_.modules[i], "/modules/" + std::to_string(i));
-    const std::vector<lang::Token> tokens = lang::tokenize(source.text, 0, source.text.size(), source.faults);
-    const auto fault = [&](std::size_t at, const char* expected) {
-      source.faults.push_back({tokens[at].offset, "expected " + std::string(expected) + ", found " +
+    const std::vector<lang::Token> tokens = lang::tokenize(source.text, 0, source.text.size(), source.errors);
+    const auto add_error = [&](std::size_t at, const char* expected) {
+      source.errors.push_back({tokens[at].offset, "expected " + std::string(expected) + ", found " +
                                                       lang::in_quotes(tokens[at])});
     };
     std::size_t at = 0;
     if (tokens[0].kind != lang::TokenKind::name) {
-      fault(0, "the name of a module");
+      add_error(0, "the name of a module");
     } else if (tokens[0].text.size() > longest_module_name) {
-      source.faults.push_back({tokens[0].offset, "found a name of more than 64 characters"});
+      source.errors.push_back({tokens[0].offset, "found a name of more than 64 characters"});
     } else if (is_keyword(tokens[0].text)) {
-      source.faults.push_back({tokens[0].offset, lang::in_quotes(tokens[0]) + " begins a statement"});
+      source.errors.push_back({tokens[0].offset, lang::in_quotes(tokens[0]) + " begins a statement"});
     } else {
       std::vector<std::uint8_t> signature;
       const bool parameters = lang::is_symbol(tokens[++at], "(");
@@ -46,15 +46,15 @@ void Compiler::declare_modules() {
         sound = at > before && (lang::is_symbol(tokens[at], ",") || lang::is_symbol(tokens[at], ")"));
       }
       if (!sound) {
-        fault(at, "a parameter, `,` or `)`");
+        add_error(at, "a parameter, `,` or `)`");
       } else if (tokens[at + (parameters ? 1 : 0)].kind != lang::TokenKind::end) {
-        fault(at + (parameters ? 1 : 0), "the end of the declaration");
+        add_error(at + (parameters ? 1 : 0), "the end of the declaration");
       } else {
         symbols_.declare(tokens[0].text);
         if (parameters) signatures_.insert_or_assign(std::string(tokens[0].text), std::move(signature));
       }
     }
-    take_faults(source);
+    take_errors(source);
   }
 }
 
@@ -64,30 +64,32 @@ void Compiler::define_functions() {
   for (std::size_t i = 0; i < params_.functions.size(); ++i) {
     sources.emplace_back(params_.functions[i], "/functions/" + std::to_string(i));
     lang::Names::Defined function;
-    names.push_back(lang::read_definition(sources[i].text, function, sources[i].faults));
-    function.is_sound = sources[i].faults.empty();
+    names.push_back(lang::read_definition(sources[i].text, function, sources[i].errors));
+    function.is_valid = sources[i].errors.empty();
     if (!names[i].empty() && names_.find_function(names[i]) != nullptr) {
-      sources[i].faults.push_back({0, "the function " + lang::in_quotes(names[i]) + " is defined twice"});
+      sources[i].errors.push_back(
+          {0, "the function " + lang::in_quotes(names[i]) + " is defined twice", IssueKind::duplicate_key});
     } else {
       names_.define(names[i], std::move(function));
     }
   }
-  lang::Program tried;  // one for all, so that what they write out is counted together
-  for (std::size_t i = 0; i < sources.size(); ++i) {  // all are known now, so that each can be tried
+  lang::Program tried;  // shared, so that all inlined functions count towards one limit
+  // all functions are declared now, so that each body can be checked
+  for (std::size_t i = 0; i < sources.size(); ++i) {
     const lang::Names::Defined* function = names_.find_function(names[i]);
-    if (sources[i].faults.empty() && function != nullptr) {
+    if (sources[i].errors.empty() && function != nullptr) {
       std::uint32_t slot = 0;
       for (const std::string& parameter : function->parameters) names_.bind_slot(parameter, slot++);
       std::size_t at = 0;
-      tried.parse(function->body, at, names_, sources[i].faults, limits_.expression_depth);
-      if (sources[i].faults.empty() && function->body[at].kind != lang::TokenKind::end) {
-        sources[i].faults.push_back(
+      tried.parse(function->body, at, names_, sources[i].errors, limits_.expression_depth);
+      if (sources[i].errors.empty() && function->body[at].kind != lang::TokenKind::end) {
+        sources[i].errors.push_back(
             {function->body[at].offset, "found more after the end of the expression"});
       }
       names_.forget_after(constant_count_);
-      if (!sources[i].faults.empty()) names_.spoil(names[i]);
+      if (!sources[i].errors.empty()) names_.mark_invalid(names[i]);
     }
-    take_faults(sources[i]);
+    take_errors(sources[i]);
   }
 }
 
@@ -95,10 +97,10 @@ std::set<std::string, std::less<>> Compiler::symbols_of(const std::string& text,
   std::set<std::string, std::less<>> symbols;
   Source source(text, pointer);
   for (const WrittenModule& module :
-       read_modules(source.text, {0, source.text.size()}, symbols_, source.faults)) {
+       read_modules(source.text, {0, source.text.size()}, symbols_, source.errors)) {
     symbols.insert(std::string(module.symbol));
   }
-  take_faults(source);
+  take_errors(source);
   return symbols;
 }
 
@@ -106,7 +108,8 @@ void Compiler::mark_ignored() {
   ignored_ = symbols_of(params_.ignore, "/ignore");
   considered_ = symbols_of(params_.consider, "/consider");
   if (!ignored_.empty() && !considered_.empty()) {
-    issues_.push_back({"/consider", "found beside `ignore`; expected one of the two"});
+    issues_.push_back(
+        {IssueKind::conflict, "/consider", "found both `consider` and `ignore`; expected one of them"});
   }
 }
 
@@ -117,10 +120,10 @@ void Compiler::read_alphabet() {
 }
 
 void Compiler::check_symbol(const WrittenModule& module, Source& source) const {
-  if (!lang::has_room(source.faults)) return;
+  if (!lang::has_room(source.errors)) return;
   if (!params_.alphabet || variables_.count(module.symbol) || alphabet_constants_.count(module.symbol))
     return;
-  source.faults.push_back(
+  source.errors.push_back(
       {module.offset, "found `" + std::string(module.symbol) + "`, which is not in the alphabet"});
 }
 

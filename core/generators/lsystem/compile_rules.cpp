@@ -1,4 +1,4 @@
-/// Productions and words, from their written parts to kinds, slots and templates.
+/// Compiles productions and words from their slices to kinds, slots and templates.
 #include <algorithm>
 #include <cmath>
 
@@ -17,36 +17,36 @@ bool is_star(std::string_view text, Slice slice) {
 }  // namespace
 
 lang::Expression Compiler::expression(Source& source, Slice slice) {
-  const std::size_t before = source.faults.size();
-  const std::vector<lang::Token> tokens = lang::tokenize(source.text, slice.from, slice.to, source.faults);
-  if (source.faults.size() != before) return {};
+  const std::size_t before = source.errors.size();
+  const std::vector<lang::Token> tokens = lang::tokenize(source.text, slice.from, slice.to, source.errors);
+  if (source.errors.size() != before) return {};
   std::size_t at = 0;
   const lang::Expression parsed =
-      grammar_.program.parse(tokens, at, names_, source.faults, limits_.expression_depth);
-  if (source.faults.size() == before && tokens[at].kind != lang::TokenKind::end) {
-    source.faults.push_back(
+      grammar_.program.parse(tokens, at, names_, source.errors, limits_.expression_depth);
+  if (source.errors.size() == before && tokens[at].kind != lang::TokenKind::end) {
+    source.errors.push_back(
         {tokens[at].offset, "found `" + std::string(tokens[at].text) + "` after the end of the expression"});
   }
   return parsed;
 }
 
-/// The modules of an axiom, a successor or a part of one, as templates.
+/// Compiles the modules of an axiom, a successor or a part of one to templates.
 Range Compiler::word(Source& source, Slice slice) {
   Range range{static_cast<std::uint32_t>(grammar_.templates.size()), 0};
   if (erases(source.text, slice)) return range;
   check_word(source, slice);
   std::size_t count = 0;
-  for (const WrittenModule& module : read_modules(source.text, slice, symbols_, source.faults)) {
-    if (!lang::has_room(source.faults)) break;
+  for (const WrittenModule& module : read_modules(source.text, slice, symbols_, source.errors)) {
+    if (!lang::has_room(source.errors)) break;
     if (job_ && (++count & 4095U) == 0) job_->check();
     check_symbol(module, source);
     check_surface(module, source);
     if (grammar_.templates.size() == most_modules) {
-      source.faults.push_back({module.offset, "found more than 1,000,000 modules in one grammar"});
+      source.errors.push_back({module.offset, "found more than 1,000,000 modules in one grammar"});
       break;
     }
     if (module.arguments.size() > most_parameters) {
-      source.faults.push_back({module.offset, "found too many parameters; expected at most 64"});
+      source.errors.push_back({module.offset, "found too many parameters; expected at most 64"});
       continue;
     }
     add_template(source, module);
@@ -68,17 +68,17 @@ void Compiler::add_template(Source& source, const WrittenModule& module) {
   }
   if (made.kind == grammar_.cut) grammar_.cuts = true;
   std::uint64_t& count = occurrences_.try_emplace(std::string(module.symbol), 0).first->second;
-  made.place = key_at(hash_of(module.symbol), count++);
+  made.occurrence = key_at(hash_of(module.symbol), count++);
   grammar_.templates.push_back(made);
   doubt_module(source, module, made);
 }
 
-/// [ and ] must pair inside every word; { and } need not (leaves of the book open them in one branch and
-/// close in another).
+/// [ and ] must pair inside every word. { and } need not, because leaves of the book open them in one branch
+/// and close them in another.
 void Compiler::check_brackets(Source& source, Slice slice) {
   std::vector<std::size_t> open;
   int depth = 0;
-  for (std::size_t i = slice.from; i < slice.to && lang::has_room(source.faults); ++i) {
+  for (std::size_t i = slice.from; i < slice.to && lang::has_room(source.errors); ++i) {
     const char c = source.text[i];
     if (c == '(') ++depth;
     if (c == ')') --depth;
@@ -89,15 +89,15 @@ void Compiler::check_brackets(Source& source, Slice slice) {
       open.push_back(i);
     } else if (c == ']') {
       if (open.empty()) {
-        source.faults.push_back({i, "found `]` without a `[` before it"});
+        source.errors.push_back({i, "found `]` without a `[` before it"});
       } else {
         open.pop_back();
       }
     }
   }
-  if (!open.empty()) source.faults.push_back({open.back(), "found `[` without its `]`"});
+  if (!open.empty()) source.errors.push_back({open.back(), "found `[` without its `]`"});
   if (open.size() > limits_.bracket_depth) {
-    source.faults.push_back(
+    source.errors.push_back(
         {open.back(), "brackets nest deeper than " + std::to_string(limits_.bracket_depth)});
   }
 }
@@ -108,7 +108,7 @@ Production Compiler::production(Source& source, const WrittenProduction& written
   occurrences_.clear();
   Production made;
   made.pointer = source.pointer;
-  std::uint32_t slots = 0;
+  auto slots = static_cast<std::uint32_t>(grammar_.variables.size());
   read_predecessor(source, written.predecessor, made, slots);
   read_contexts(source, written, made, slots);
   made.bound = slots;
@@ -138,27 +138,35 @@ Production Compiler::production(Source& source, const WrittenProduction& written
 }
 
 void Compiler::read_predecessor(Source& source, Slice slice, Production& made, std::uint32_t& slots) {
-  const std::vector<WrittenModule> heads = read_modules(source.text, slice, symbols_, source.faults);
-  if (heads.size() != 1) {
-    if (source.faults.empty()) {
-      source.faults.push_back(
+  const std::vector<WrittenModule> heads = read_modules(source.text, slice, symbols_, source.errors);
+  const bool is_strict = params_.strict_predecessors && heads.size() > 1;
+  if (heads.size() != 1 && !is_strict) {
+    if (source.errors.empty()) {
+      source.errors.push_back(
           {heads.empty() ? slice.from : heads[1].offset,
            "found " + std::to_string(heads.size()) + " modules; expected one predecessor" +
-               (heads.size() > 1
-                    ? ", whose name is declared in `modules` where it is longer than one character"
-                    : "")});
+               (heads.size() > 1 ? "; a name of several characters is declared in `modules`, and "
+                                   "`strict_predecessors` allows several modules"
+                                 : "")});
     }
     return;
   }
   check_symbol(heads[0], source);
   if (alphabet_constants_.count(heads[0].symbol)) {
-    source.faults.push_back({heads[0].offset, "found `" + std::string(heads[0].symbol) +
+    source.errors.push_back({heads[0].offset, "found `" + std::string(heads[0].symbol) +
                                                   "`, which the alphabet lists as a constant"});
   }
   made.predecessor = formal(source, heads[0], slots);
-  if (made.predecessor == grammar_.open || made.predecessor == grammar_.close) {
-    source.faults.push_back(
+  const bool is_branch = is_strict && made.predecessor == grammar_.open;
+  if (!is_branch && (made.predecessor == grammar_.open || made.predecessor == grammar_.close)) {
+    source.errors.push_back(
         {heads[0].offset, "found a bracket as predecessor; brackets cannot be rewritten"});
+  }
+  if (!is_strict) return;
+  check_brackets(source, slice);
+  for (std::size_t i = 1; i < heads.size() && lang::has_room(source.errors); ++i) {
+    check_symbol(heads[i], source);
+    made.rest.push_back(formal(source, heads[i], slots));
   }
 }
 
@@ -169,7 +177,7 @@ void Compiler::read_contexts(Source& source, const WrittenProduction& written, P
     std::reverse(path.begin(), path.end());
     for (KindId id : path) {
       if (id == grammar_.open || id == grammar_.close) {
-        source.faults.push_back(
+        source.errors.push_back(
             {slice.from, "found a bracket in a left context, which is a path without branches"});
         break;
       }
@@ -190,24 +198,25 @@ void Compiler::read_weight(Source& source, const WrittenProduction& written, Pro
   made.weighted = true;
   made.weight = expression(source, written.weight);
   if (made.weight.is_constant && !(made.weight.value >= 0 && std::isfinite(made.weight.value))) {
-    source.faults.push_back({written.weight.from, "found a probability that is negative or not finite"});
+    source.errors.push_back({written.weight.from, "found a probability that is negative or not finite"});
   }
 }
 
 std::vector<KindId> Compiler::context(Source& source, Slice slice, std::uint32_t& slots) {
   std::vector<KindId> kinds;
-  for (const WrittenModule& module : read_modules(source.text, slice, symbols_, source.faults)) {
-    if (!lang::has_room(source.faults)) break;
+  for (const WrittenModule& module : read_modules(source.text, slice, symbols_, source.errors)) {
+    if (!lang::has_room(source.errors)) break;
     check_symbol(module, source);
     kinds.push_back(formal(source, module, slots));
   }
   return kinds;
 }
 
-/// A module with formal parameters: binds each name to the next slot, or slots where it is a frame.
+/// Reads a module with formal parameters and binds each name to the next slot, or to twelve slots for a
+/// frame.
 KindId Compiler::formal(Source& source, const WrittenModule& module, std::uint32_t& slots) {
   if (module.arguments.size() > most_parameters) {
-    source.faults.push_back({module.offset, "found too many parameters; expected at most 64"});
+    source.errors.push_back({module.offset, "found too many parameters; expected at most 64"});
     return grammar_.open;
   }
   const KindId id =
@@ -217,11 +226,11 @@ KindId Compiler::formal(Source& source, const WrittenModule& module, std::uint32
     const Slice argument = module.arguments[i];
     const bool is_frame = !frames.empty() && frames[i] != 0;
     const std::vector<lang::Token> tokens =
-        lang::tokenize(source.text, argument.from, argument.to, source.faults);
+        lang::tokenize(source.text, argument.from, argument.to, source.errors);
     if (tokens.size() == 2 && tokens[0].kind == lang::TokenKind::name) {
       bind(source, tokens[0], is_frame, slots);
     } else {
-      source.faults.push_back({argument.from, "found an expression; expected the name of a parameter"});
+      source.errors.push_back({argument.from, "found an expression; expected the name of a parameter"});
       slots += is_frame ? frame_numbers : 1;
     }
   }
@@ -230,8 +239,10 @@ KindId Compiler::formal(Source& source, const WrittenModule& module, std::uint32
 
 void Compiler::bind(Source& source, const lang::Token& name, bool is_frame, std::uint32_t& slots) {
   const lang::Names::Binding* before = names_.find(name.text);
-  if ((before && !before->is_constant) || frame_slots_.count(name.text)) {
-    source.faults.push_back({name.offset, "the parameter `" + std::string(name.text) + "` is named twice"});
+  const bool is_parameter = before && !before->is_constant && before->slot >= grammar_.variables.size();
+  if (is_parameter || frame_slots_.count(name.text)) {
+    source.errors.push_back({name.offset, "the parameter `" + std::string(name.text) + "` is named twice",
+                             IssueKind::duplicate_key});
   }
   if (!is_frame) {
     names_.bind_slot(std::string(name.text), slots++);

@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "core/lang/text_places.h"
+#include "core/lang/text_positions.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -41,7 +41,7 @@ class Resolver {
     return at == by_name_.end() ? nullptr : &entries_[at->second];
   }
 
-  /// Gives `entry` its value, after those that it needs. The depth of the calls is the length of a chain of
+  /// Evaluates `entry` after the constants that it needs. The recursion depth is the length of a chain of
   /// constants.
   void settle(Entry& entry) {
     if (entry.state != State::unknown) return;
@@ -53,7 +53,7 @@ class Resolver {
       entry.value = evaluate(entry, std::get<std::string>(entry.written->value));
     }
     if (!std::isfinite(entry.value)) {
-      issues_.push_back({pointer(entry), "the value is not a finite number"});
+      issues_.push_back({IssueKind::evaluation, pointer(entry), "the value is not a finite number"});
       entry.value = 0;
     }
     path_.pop_back();
@@ -61,15 +61,15 @@ class Resolver {
   }
 
   double evaluate(const Entry& entry, const std::string& text) {
-    std::vector<lang::Fault> faults;
-    const std::vector<lang::Token> tokens = lang::tokenize(text, 0, text.size(), faults);
+    std::vector<lang::TextError> errors;
+    const std::vector<lang::Token> tokens = lang::tokenize(text, 0, text.size(), errors);
     lang::Names known;
     for (const lang::Token& token : tokens) {
       if (token.kind != lang::TokenKind::name) continue;
       Entry* other = find(token.text);
       if (!other) continue;
       if (other->state == State::in_progress || path_.size() >= longest_chain) {
-        issues_.push_back(issue_at(pointer(entry), text, token.offset, cycle(*other)));
+        issues_.push_back(issue_at(IssueKind::evaluation, pointer(entry), text, token.offset, cycle(*other)));
         return 0;
       }
       settle(*other);
@@ -78,12 +78,12 @@ class Resolver {
     }
     lang::Program program;
     std::size_t at = 0;
-    const lang::Expression expression = program.parse(tokens, at, known, faults);
-    if (faults.empty() && tokens[at].kind != lang::TokenKind::end) {
-      faults.push_back({tokens[at].offset, "found more after the end of the expression"});
+    const lang::Expression expression = program.parse(tokens, at, known, errors);
+    if (errors.empty() && tokens[at].kind != lang::TokenKind::end) {
+      errors.push_back({tokens[at].offset, "found more after the end of the expression"});
     }
-    if (!faults.empty()) {
-      lang::add_issues(pointer(entry), text, faults, issues_);
+    if (!errors.empty()) {
+      lang::add_issues(pointer(entry), text, errors, issues_);
       return 0;
     }
     Rng draws = rng_.at(entry.written->name);
@@ -92,7 +92,7 @@ class Resolver {
 
   std::string cycle(const Entry& again) const {
     if (again.state != State::in_progress) return "the chain of constants is longer than 200";
-    std::string text = "the constants depend on each other in a circle: ";
+    std::string text = "the constants form a cycle:  ";
     auto from = std::find(path_.begin(), path_.end(), &again);
     for (; from != path_.end(); ++from) text += (*from)->written->name + " -> ";
     return text + again.written->name;

@@ -1,5 +1,5 @@
 #pragma once
-/// Named constants of a grammar: numbers, or expressions over other constants, in any order.
+/// Resolves the named constants of a grammar: numbers, or expressions over other constants, in any order.
 #include <string>
 #include <variant>
 #include <vector>
@@ -15,9 +15,9 @@ struct WrittenConstant {
   std::variant<double, std::string> value;
 };
 
-/// Values by dependency, bound as constants of the names that come back. Faults, each at "/constants/<name>":
-/// what the parser says, a cycle (named in full), a value that is no finite number. Random functions draw
-/// from `rng` at the constant's name.
+/// Evaluates the constants in order of dependency and returns them as bound names. Issues at
+/// "/constants/<name>": syntax errors, a cycle with all its names, a value that is not finite. Random
+/// functions draw from `rng` at the name of the constant.
 lang::Names resolve_constants(const std::vector<WrittenConstant>& constants, const Rng& rng,
                               std::vector<Issue>& issues);
 

@@ -6,8 +6,7 @@ namespace seedmesh::lsystem {
 
 void pair_brackets(const Grammar& grammar, const Word& word, Array<std::uint32_t>& partner) {
   partner.resize(word.size());
-  std::uint32_t open =
-      0xFFFFFFFFU;  // innermost open bracket; the ones around it are chained through `partner`
+  std::uint32_t open = 0xFFFFFFFFU;  // innermost open bracket; outer ones are linked through `partner`
   for (std::uint32_t i = 0; i < word.size(); ++i) {
     if (word.kind[i] == grammar.open) {
       partner[i] = open;
@@ -21,16 +20,20 @@ void pair_brackets(const Grammar& grammar, const Word& word, Array<std::uint32_t
   }
 }
 
-double* ContextMatcher::match(const Production& production, std::size_t place) {
-  place_ = place;
+double* ContextMatcher::match(const Production& production, std::size_t position) {
+  position_ = position;
   round_ = false;
   right_.clear();
-  if (!match_left(production, place) || !match_right(production.right, place + 1)) return nullptr;
+  const std::size_t behind = position + 1 + production.rest.size();
+  if (!match_rest(production, position) || !match_left(production, position) ||
+      !match_right(production.right, behind))
+    return nullptr;
   new_right_.clear();
   if (!match_new_left(production)) return nullptr;
   if (!production.new_right.empty() && !match_new_right(production.new_right, pieces_.size(), 0))
     return nullptr;
-  double* to = take_parameters(word_, place, slots_.data());
+  double* to = slots_.data() + grammar_.variables.size();
+  for (std::size_t i = position; i < behind; ++i) to = take_parameters(word_, i, to);
   for (auto each = left_.rbegin(); each != left_.rend(); ++each) to = take_parameters(word_, *each, to);
   for (const std::size_t each : right_) to = take_parameters(word_, each, to);
   for (auto each = new_left_.rbegin(); each != new_left_.rend(); ++each)
@@ -39,10 +42,20 @@ double* ContextMatcher::match(const Production& production, std::size_t place) {
   return slots_.data();
 }
 
-bool ContextMatcher::match_left(const Production& production, std::size_t place) {
+/// The modules of a strict predecessor follow each other without others in between.
+bool ContextMatcher::match_rest(const Production& production, std::size_t position) const {
+  const std::vector<KindId>& rest = production.rest;
+  if (rest.size() >= word_.size() - position) return rest.empty();
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    if (word_.kind[position + 1 + i] != rest[i]) return false;
+  }
+  return true;
+}
+
+bool ContextMatcher::match_left(const Production& production, std::size_t position) {
   left_.clear();
-  std::size_t at = place;
-  bool round = false;  // a ring has been left at its beginning and entered at its end
+  std::size_t at = position;
+  bool round = false;  // true after a ring was left at its start and entered at its end
   for (const KindId wanted : production.left) {
     for (;;) {
       if (at == 0) {
@@ -52,12 +65,12 @@ bool ContextMatcher::match_left(const Production& production, std::size_t place)
       }
       walk();
       --at;
-      if (round && at <= place) return false;
+      if (round && at <= position) return false;
       const KindId kind = word_.kind[at];
       if (kind == grammar_.close) {
-        at = partner_[at];  // a sibling branch: past it
+        at = partner_[at];  // skip a sibling branch
       } else if (kind != grammar_.open && !passed_over(at)) {
-        break;  // an open bracket leads up to the parent branch
+        break;  // an open bracket leads to the parent branch
       }
     }
     if (word_.kind[at] != wanted) return false;
@@ -85,7 +98,7 @@ bool ContextMatcher::match_right(std::span<const KindId> pattern, std::size_t at
       at = word_.kind[at] == grammar_.open ? partner_[at] + 1 : at + 1;
       close_ring(at);
     }
-    if (round_ && at >= place_) return false;
+    if (round_ && at >= position_) return false;
     if (at >= word_.size() || word_.kind[at] != pattern[0]) return false;  // a ] is no kind of a pattern here
     right_.push_back(at++);
     pattern = pattern.subspan(1);
@@ -93,7 +106,7 @@ bool ContextMatcher::match_right(std::span<const KindId> pattern, std::size_t at
   return true;
 }
 
-/// The first of the branches that start at `at` whose beginning matches; `at` moves behind it.
+/// Matches the first branch at `at` whose start fits the pattern, and moves `at` after it.
 bool ContextMatcher::match_branch(std::span<const KindId> pattern, std::size_t& at) {
   while (at < word_.size() && (word_.kind[at] == grammar_.open || passed_over(at))) {
     walk();
@@ -113,7 +126,7 @@ bool ContextMatcher::match_branch(std::span<const KindId> pattern, std::size_t& 
   return false;
 }
 
-/// Going left in the word that is being written: like the old one, but its brackets are counted.
+/// Walks left in the word of the next step as in the present one, but counts brackets.
 bool ContextMatcher::match_new_left(const Production& production) {
   new_left_.clear();
   std::size_t at = written_.size();
@@ -136,7 +149,8 @@ bool ContextMatcher::match_new_left(const Production& production) {
   return true;
 }
 
-/// Moves to a module of the word that is written from its end; false behind its last.
+/// Moves to the next module to the right of a word that is written from its end. Returns false after its last
+/// module.
 bool ContextMatcher::step_right(std::size_t& piece, std::size_t& at) const {
   while (piece == pieces_.size() ||
          at == (piece + 1 < pieces_.size() ? pieces_[piece + 1] : written_.size())) {
@@ -146,7 +160,7 @@ bool ContextMatcher::step_right(std::size_t& piece, std::size_t& at) const {
   return true;
 }
 
-/// From an opening bracket to behind its partner.
+/// Moves from an opening bracket to the module after its partner.
 bool ContextMatcher::skip_branch(std::size_t& piece, std::size_t& at) {
   int depth = 0;
   do {
@@ -159,7 +173,7 @@ bool ContextMatcher::skip_branch(std::size_t& piece, std::size_t& at) {
   return true;
 }
 
-/// As match_right; a branch that the pattern names is the first that begins like it.
+/// Same as match_right(). A branch of the pattern matches the first branch that starts with it.
 bool ContextMatcher::match_new_right(std::span<const KindId> pattern, std::size_t piece, std::size_t at) {
   while (!pattern.empty()) {
     if (!step_right(piece, at)) return false;
@@ -193,10 +207,10 @@ bool ContextMatcher::match_new_right(std::span<const KindId> pattern, std::size_
   return true;
 }
 
-double* ContextMatcher::take_parameters(const Word& word, std::size_t place, double* to) const {
-  const std::uint32_t arity = grammar_.kinds[word.kind[place]].arity;
+double* ContextMatcher::take_parameters(const Word& word, std::size_t position, double* to) const {
+  const std::uint32_t arity = grammar_.kinds[word.kind[position]].arity;
   if (arity == 0) return to;
-  const double* first = word.parameter.data() + word.at[place];
+  const double* first = word.parameter.data() + word.at[position];
   return std::copy(first, first + arity, to);
 }
 

@@ -13,8 +13,8 @@ std::vector<glm::dvec2> outline_of(const LsystemParams& params, std::size_t numb
 
 void check_contours(const LsystemParams& params, std::vector<Issue>& issues) {
   for (std::size_t i = 0; i < params.contours.size(); ++i) {
-    const auto fault = contour_fault(outline_of(params, i));
-    if (fault) issues.push_back({"/contours/" + std::to_string(i), *fault});
+    const auto error = contour_error(outline_of(params, i));
+    if (error) issues.push_back({IssueKind::invalid_value, "/contours/" + std::to_string(i), *error});
   }
 }
 

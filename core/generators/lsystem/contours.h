@@ -1,17 +1,18 @@
 #pragma once
-/// The request's cross-sections of generalized cylinders.
+/// Cross-sections of generalized cylinders, from the request.
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/geom/contour.h"
+#include "core/geom/plant/contour.h"
 #include "generated/params/lsystem.h"
 
 namespace seedmesh::lsystem {
 
-/// What the schema cannot say of the contours: closed about the middle, with room between their points.
+/// Checks what the schema cannot express: each contour is closed around the origin and its points keep a
+/// minimum distance.
 void check_contours(const LsystemParams& params, std::vector<Issue>& issues);
 
-/// Those of `params`, in order. Checked before.
+/// Returns the contours of `params`, in order. Requires that check_contours() reported no issue.
 std::vector<Contour> contours_of(const LsystemParams& params);
 
 }  // namespace seedmesh::lsystem

@@ -10,14 +10,17 @@ double Drawing::spread(std::uint64_t key, Spread of, double amount) {
   return rng.uniform(-amount, amount);
 }
 
-Drawing::Drawing(const Grammar& grammar, const LsystemParams& params, Skeleton* skeleton, Job& job)
+Drawing::Drawing(const Grammar& grammar, const LsystemParams& params, Skeleton* skeleton,
+                 const GenerateContext& context)
     : grammar_(grammar),
       params_(params),
-      job_(job),
-      code_(grammar, job),
+      job_(context.job),
+      code_(grammar, context.job),
+      variables_(grammar.variables),
       turtle_(skeleton,
-              params.width.value + spread(job.rng().at("width").key(), Spread::width, params.width.spread),
-              job),
+              params.width.value +
+                  spread(context.job.rng().at("width").key(), Spread::width, params.width.spread),
+              context.job),
       yaw_{params.angle.yaw, math::sincos_degrees(params.angle.yaw)},
       pitch_{params.angle.pitch, math::sincos_degrees(params.angle.pitch)},
       roll_{params.angle.roll, math::sincos_degrees(params.angle.roll)} {
@@ -28,19 +31,19 @@ Drawing::Drawing(const Grammar& grammar, const LsystemParams& params, Skeleton* 
     tropisms.push_back({{to[0], to[1], to[2]}, each.elasticity, each.step});
   }
   if (!tropisms.empty()) turtle_.set_tropisms(std::move(tropisms));
-  const bool moves = params.weather || params.environment || job.demand().growth;
+  const bool moves = params.weather || params.environment || context.demand.growth;
   if (moves) turtle_.track_anchors();
   if (!params.contours.empty()) turtle_.draw_contours();
   const bool has_own_widths = params.width_rule == LsystemParams::WidthRule::symbols ||
                               params.width_rule == LsystemParams::WidthRule::decrement;
-  // Who asks runs into bark, which wires have none of.
+  // Queries test collisions with bark, which lines do not have.
   const bool asked = std::any_of(grammar.kinds.begin(), grammar.kinds.end(),
-                                 [](const Kind& kind) { return asks(kind.command); });
+                                 [](const Kind& kind) { return is_query(kind.command); });
   if (params.style == LsystemParams::Style::lines && has_own_widths && !moves && !asked) turtle_.draw_wires();
 }
 
 bool Drawing::needs_keys(const Grammar& grammar, const LsystemParams& params) {
-  return grammar.productions.chance || grammar.interpretation.chance || params.angle.spread > 0 ||
+  return grammar.productions.random || grammar.interpretation.random || params.angle.spread > 0 ||
          params.step.spread > 0;
 }
 
@@ -72,51 +75,55 @@ void Drawing::fade(const Module& module, double step, double share) {
   turtle_.set_contour(contour);
 }
 
-/// Draws a module, or what the interpretation rules make of it; that never enters the word.
+/// Draws a module or its interpretation, which never enters the word.
 void Drawing::interpret(KindId kind, const double* parameters, Keys keys, std::uint32_t depth) {
   const Rules& rules = grammar_.interpretation;
   if (depth >= static_cast<std::uint32_t>(params_.interpretation_depth) || !rules.rewrites(kind)) {
-    return obey(grammar_.kinds[kind], parameters, keys);
+    return execute(grammar_.kinds[kind], parameters, keys);
   }
   if ((++interpreted_ & 4095U) == 0) job_.check();
   const auto stream = [depth](std::uint64_t key) { return key == 0 ? 0 : key_at(key, 20 + depth); };
-  const Keys own{stream(keys.own), stream(keys.before)};  // without keys: none here either
+  const Keys own{stream(keys.own), stream(keys.before)};  // 0 stays 0: no keys
   const Draws draws(own.own, depth);
-  std::vector<double> changed;  // by what comes before a condition
+  std::vector<double> changed;  // slots after the statements before a condition
   const auto slots_of = [&](const Production& each) {
-    if (each.before.count == 0) return parameters;
-    changed.assign(parameters, parameters + grammar_.kinds[kind].arity);
-    changed.resize(grammar_.most_slots);
-    code_.run(each.before, changed.data(), draws.place.at(5), [](const Template&, std::uint64_t) {});
+    if (each.before.count == 0 && variables_.empty()) return parameters;
+    changed = variables_;
+    changed.insert(changed.end(), parameters, parameters + grammar_.kinds[kind].arity);
+    changed.resize(std::max<std::size_t>(grammar_.most_slots, changed.size()));
+    code_.run(each.before, changed.data(), draws.stream.at(5), [](const Template&, std::uint64_t) {});
     return static_cast<const double*>(changed.data());
   };
   const Production* production = choose(grammar_, rules, rules.of_kind[kind], draws, slots_of);
-  if (!production) return obey(grammar_.kinds[kind], parameters, keys);
+  if (!production) return execute(grammar_.kinds[kind], parameters, keys);
   const double* slots = slots_of(*production);
+  if (!variables_.empty()) keep_variables(changed);
   if (production->code.count > 0) return write_interpreted(*production, slots, own, depth);
   for (const Template& each : grammar_.successor(production->successor)) {
     std::array<double, 64> arguments;
     const auto key_of = [&each](std::uint64_t key) { return key == 0 ? 0 : child_key(key, each); };
     const Keys child{key_of(own.own), key_of(own.before)};
-    fill_arguments(grammar_, each, slots, child.own, arguments.data());
+    fill_arguments(grammar_, each, slots, child.own, arguments.data(), job_);
     interpret(each.kind, arguments.data(), child, depth + 1);
   }
 }
 
-/// A successor with statements.
+/// Draws a successor with statements.
 void Drawing::write_interpreted(const Production& production, const double* parameters, Keys own,
                                 std::uint32_t depth) {
   std::vector<double> slots(grammar_.most_slots);
-  const std::uint32_t known = production.before.count > 0 ? grammar_.most_slots : production.bound;
+  const bool is_whole = production.before.count > 0 || !variables_.empty();
+  const std::uint32_t known = is_whole ? grammar_.most_slots : production.bound;
   std::copy(parameters, parameters + known, slots.data());
   code_.run(production.code, slots.data(), Draws(own.own, depth).code(),
             [&](const Template& each, std::uint64_t turn) {
               std::array<double, 64> arguments;
               const auto key_of = [&](std::uint64_t key) { return key == 0 ? 0 : code_key(key, each, turn); };
               const Keys child{key_of(own.own), key_of(own.before)};
-              fill_arguments(grammar_, each, slots.data(), child.own, arguments.data());
+              fill_arguments(grammar_, each, slots.data(), child.own, arguments.data(), job_);
               interpret(each.kind, arguments.data(), child, depth + 1);
             });
+  if (!variables_.empty()) keep_variables(slots);
 }
 
 }  // namespace seedmesh::lsystem

@@ -1,56 +1,64 @@
 #pragma once
-/// Words -> turtle: every module moves the turtle, through the interpretation rules where it has some.
+/// Draws words: every module moves the turtle, or is first rewritten by the interpretation rules.
+#include <algorithm>
 #include <vector>
 
+#include "core/generators/api.h"
 #include "core/generators/lsystem/code.h"
-#include "core/geom/turtle.h"
+#include "core/geom/plant/turtle.h"
 #include "generated/params/lsystem.h"
 
 namespace seedmesh::lsystem {
 
-/// The sink of a derivation that draws. Spreads draw at the module's own place.
+/// Sink of a derivation that draws its modules. Random spreads use the key of the module.
 class Drawing {
  public:
-  /// `skeleton` null: measures only.
-  Drawing(const Grammar& grammar, const LsystemParams& params, Skeleton* skeleton, Job& job);
+  /// `skeleton` may be null; then the drawing is only measured.
+  Drawing(const Grammar& grammar, const LsystemParams& params, Skeleton* skeleton,
+          const GenerateContext& context);
 
-  /// True when somebody draws at random by the modules' keys, so that the derivation must make them.
+  /// Returns true where drawing uses random numbers, so that the derivation has to compute module keys.
   static bool needs_keys(const Grammar& grammar, const LsystemParams& params);
 
   void module(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t step);
 
-  /// Where a module draws at random.
+  /// Keys of the random streams of a module.
   struct Keys {
     std::uint64_t own = 0;
-    std::uint64_t before = 0;  ///< of the module that it takes over from; 0: of none
+    std::uint64_t before = 0;  ///< key of the module that it replaces; 0: none
   };
   struct Module {
     KindId kind;
     const double* parameters;
     Keys keys;
   };
-  /// How much of a module there is yet: lengths, organs and turns have this share of themselves, turns only
-  /// outside brackets that grow too; what a symbol sets leaves by it from the turtle's own.
+  /// State of a module that is only partly grown. `share` scales lengths, organs and turns, and interpolates
+  /// what a symbol sets from the present state of the turtle. Turns are scaled only outside brackets that
+  /// grow too.
   struct Grown {
     double share = 1;
-    int brackets = 0;  ///< growing ones around the module
-    double heir = 1;   ///< of what it draws at random; the rest is drawn where Keys::before says
+    int brackets = 0;  ///< number of growing brackets around the module
+    double heir = 1;   ///< share of the random values of the own key; the rest uses Keys::before
   };
-  /// A module that is not whole. `step` counts for the width rule decrement.
+  /// Draws a module that is partly grown. `step` is the depth for the width rule "decrement".
   void grow(const Module& module, double step, Grown grown);
-  /// One that goes: what cannot change by degrees is afterwards as it was before.
+  /// Draws a module that disappears. State that cannot change gradually is restored afterwards.
   void fade(const Module& module, double step, double share);
 
-  /// Where it starts, before anything is drawn.
+  /// Sets the variables of the grammar, which interpretation rules read. Call it before drawing.
+  void set_variables(const std::vector<double>& variables) { variables_ = variables; }
+  /// Sets the start position of the turtle. Call it before drawing.
   void start_at(const glm::dvec3& position) { turtle_.move_to(position); }
   const Turtle& turtle() const { return turtle_; }
-  /// Braces that have no partner in what was drawn: { that are open still, and } that closed nothing.
+  /// Number of unmatched braces in the drawing: { that are still open, and } without an open polygon.
   std::uint64_t open_polygons() const { return open_polygons_; }
   std::uint64_t stray_closings() const { return stray_closings_; }
-  /// Stamps (core/geom/turtle.h) of what is drawn here; `begin_stamp` of a drawing of the stamp's own.
+  /// Stamps (core/geom/plant/turtle.h) of this drawing. `begin_stamp` is called on the separate drawing that
+  /// records the stamp.
   bool can_stamp() const { return turtle_.can_stamp(); }
   bool matches(const Turtle::Stamp& stamp) const { return turtle_.matches(stamp); }
   void press(const Turtle::Stamp& stamp) { turtle_.press(stamp); }
+  const Job& job() const { return job_; }
   void begin_stamp(const Drawing& like, Turtle::Stamp& stamp) { turtle_.begin_stamp(like.turtle_, stamp); }
   void end_stamp(Turtle::Stamp& stamp) { turtle_.end_stamp(stamp); }
   void set_most_segments(std::uint64_t most) { turtle_.set_most_segments(most); }
@@ -58,43 +66,51 @@ class Drawing {
  private:
   struct Angle {
     double degrees;
-    math::SinCos bare;  ///< of `degrees`
+    math::SinCos bare;  ///< sine and cosine of `degrees`
   };
-  /// Streams of a module's own place; apart, so that a spread added to one does not move another.
+  /// Random streams of a module. They are separate, so that adding one spread does not change another.
   enum class Spread : std::uint64_t { angle = 11, step = 12, width = 13 };
   static double spread(std::uint64_t key, Spread of, double amount);
   static double spread(const Keys& keys, Spread of, double amount, double heir);
   void interpret(KindId kind, const double* parameters, Keys keys, std::uint32_t depth);
   void write_interpreted(const Production& production, const double* parameters, Keys own,
                          std::uint32_t depth);
+  void keep_variables(const std::vector<double>& slots) {
+    std::copy_n(slots.begin(), variables_.size(), variables_.begin());
+  }
 
-  // obey.cpp
+  // interpret_modules.cpp
   void enter_frame(const double* parameters);
-  void obey(const Kind& kind, const double* parameters, Keys keys);
+  void execute(const Kind& kind, const double* parameters, Keys keys);
+  [[noreturn]] void refuse(const Kind& kind, const double* parameters, const std::string& message) const;
+  double finite(double value, const Kind& kind, const double* parameters) const;
   void follow(const Kind& kind, const double* parameters, Keys keys);
   void close_polygon(std::uint64_t key);
   void begin_shape();
   void end_shape();
-  void obey_wholly(const Kind& kind, const double* parameters, Keys keys);
+  void execute_whole(const Kind& kind, const double* parameters, Keys keys);
+  /// The commands that set widths, colours, scales and positions, sweeps, organs and frames.
+  void execute_state(const Kind& kind, const double* parameters, std::uint64_t key);
   math::SinCos turn(const Kind& kind, const double* parameters, const Angle& angle, Keys keys);
   math::SinCos turn(const Kind& kind, const double* parameters, const Angle& angle, Keys keys, double share);
   math::SinCos leftward(const Kind& kind, const double* parameters, const Angle& angle, Keys keys);
   double length(const Kind& kind, const double* parameters, Keys keys) const;
   double turned_share() const { return grown_.brackets == 0 ? grown_.share : 1; }
-  void place(const Kind& kind, const double* parameters, std::uint64_t key);
-  void set_contour(double number);
+  void add_organ(const Kind& kind, const double* parameters, std::uint64_t key);
+  void set_contour(const Kind& kind, const double* parameters);
   void set_width(const Kind& kind, const double* parameters, double change);
 
   const Grammar& grammar_;
   const LsystemParams& params_;
   Job& job_;
   CodeRunner code_;
+  std::vector<double> variables_;
   Turtle turtle_;
   Grown grown_;
-  std::vector<Turtle::Pose> shapes_;             ///< where the open polygons of a growing module began
+  std::vector<Turtle::Pose> shapes_;  ///< poses at which the open polygons of a growing module started
   std::vector<const LsystemSurface*> surfaces_;  ///< in the order of their names
   Angle yaw_, pitch_, roll_;
-  double last_degrees_ = 0;  ///< angles given as arguments mostly repeat
+  double last_degrees_ = 0;  ///< cache: most angles given as arguments repeat
   math::SinCos last_{0, 1};
   std::uint64_t interpreted_ = 0;
   std::uint64_t open_polygons_ = 0, stray_closings_ = 0;

@@ -7,15 +7,16 @@
 #include <utility>
 
 #include "core/base/math.h"
+#include "core/generators/limb_bodies/limb_bodies.h"
 #include "core/generators/lsystem/contours.h"
 #include "core/generators/lsystem/surfaces.h"
 #include "core/generators/lsystem/welded.h"
-#include "core/geom/coarse_limbs.h"
-#include "core/geom/detail.h"
-#include "core/geom/foliage_levels.h"
-#include "core/geom/grow.h"
-#include "core/geom/polygons.h"
-#include "core/geom/skin.h"
+#include "core/geom/lod/coarse_limbs.h"
+#include "core/geom/lod/detail.h"
+#include "core/geom/lod/foliage_levels.h"
+#include "core/geom/plant/grow.h"
+#include "core/geom/plant/polygons.h"
+#include "core/geom/plant/skin.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -23,18 +24,19 @@ namespace {
 constexpr std::uint64_t bytes_a_vertex = 32;  // position, normal, uv
 constexpr std::uint64_t bytes_a_triangle = 12;
 constexpr std::uint64_t document = 1500;    // the JSON part of a small model
-constexpr double welded_vertices = 0.71;    // a triangle, as measured
-constexpr std::uint64_t worth_a_word = 10;  // fewer than one in so many is no loss
-constexpr int attempts = 6;                 ///< at a level of as many triangles as it may have
+constexpr double welded_vertices = 0.71;    // vertices for each triangle, measured
+constexpr std::uint64_t worth_a_word = 10;  // warn where at least one of 10 internodes is missing
+constexpr int attempts = 6;                 ///< to find a level with its number of triangles
 
-/// What looks alike becomes one primitive.
-void choose_looks(Skeleton& skeleton, const Wardrobe& wardrobe) {
-  for (std::int16_t& color : skeleton.limbs.color) color = wardrobe.look_of(color);
-  for (Outline& outline : skeleton.outlines.outline) outline.color = wardrobe.look_of(outline.color);
+/// Replaces colours by material indices, so that equal materials become one primitive.
+void choose_materials(Skeleton& skeleton, const MaterialSet& material_set) {
+  for (std::int16_t& color : skeleton.limbs.color) color = material_set.index_of(color);
+  for (Outline& outline : skeleton.outlines.outline) outline.color = material_set.index_of(outline.color);
 }
 
-/// One node and mesh for each layer, one primitive for each look.
-void add_meshes(Model& model, const char* name, std::vector<Bark> parts, Sides sides, Wardrobe& wardrobe) {
+/// Adds one node and mesh for each layer, with one primitive for each material.
+void add_meshes(Model& model, const char* name, std::vector<Bark> parts, Sides sides,
+                MaterialSet& material_set) {
   int layer = -1;
   for (Bark& part : parts) {
     if (part.layer != layer) {
@@ -47,7 +49,7 @@ void add_meshes(Model& model, const char* name, std::vector<Bark> parts, Sides s
       model.nodes.push_back(std::move(node));
     }
     model.meshes.back().primitives.push_back(
-        {std::move(part.mesh), wardrobe.material(part.color, sides), {}});
+        {std::move(part.mesh), material_set.material(part.color, sides), {}});
   }
 }
 
@@ -57,23 +59,26 @@ SkinOptions skin_options(const LsystemParams& params, std::span<const Contour> c
   options.contours = contours;
   options.sides = std::max(params.sides, least_sides_of(options));
   options.stacks = detail.stacks(params.stacks);
-  options.wrap = wraps_pictures(params);
+  options.wrap = wraps_images(params);
   options.adapt = params.adapt;
   return options;
 }
 
-/// Lines have no bark that bones could move, and a mesh that nodes share cannot have bones of its own.
-std::optional<GrowthPlan> growth_of(const Skeleton& skeleton, const LsystemParams& params, Job& job) {
-  if (!job.demand().growth) return std::nullopt;
+/// Bones can move neither lines, nor a mesh that several nodes share.
+std::optional<GrowthPlan> growth_of(const Skeleton& skeleton, const LsystemParams& params,
+                                    const GenerateContext& context) {
+  Job& job = context.job;
+  if (!context.demand.growth) return std::nullopt;
   if (params.style == LsystemParams::Style::lines) {
-    Job::reject({"/style", "found lines, which do not grow; the growth animation needs tubes"});
+    job.refuse({IssueKind::conflict, "/style",
+                "found lines, which bones cannot move; the growth animation needs tubes"});
   }
-  if (!skeleton.organs.organ.empty() && job.demand().share_organs) {
-    Job::reject(
-        {"/output/instancing",
-         "found organs that share a mesh, which no bone moves; the growth animation needs auto or merge"});
+  if (!skeleton.organs.organ.empty() && context.demand.share_organs) {
+    job.refuse({IssueKind::conflict, "/output/instancing",
+                "found organs that share a mesh, which bones cannot move; the growth animation needs auto or "
+                "merge"});
   }
-  return plan_growth(skeleton.limbs, {.most_bones = job.demand().most_bones}, job);
+  return plan_growth(skeleton.limbs, {.most_bones = context.demand.most_bones}, job);
 }
 
 std::uint64_t triangles_of(const std::vector<Primitive>& primitives) {
@@ -82,24 +87,25 @@ std::uint64_t triangles_of(const std::vector<Primitive>& primitives) {
   return triangles;
 }
 
-/// The most triangles that a level may have, and how they are counted.
-struct Most {
+/// The largest number of triangles of a level, and how repeated internodes count.
+struct TriangleLimit {
   std::uint64_t triangles = 0;
   Redrawn repeats = Redrawn::counted;
 };
 
-/// Fewer limbs and joints, with about as many triangles as they may have and never more than `most`; where
-/// that cannot be, all with fewer sides.
-CoarseLimbs coarse_limbs(const Limbs& limbs, const CoarseOptions& wanted, const Most& most,
+/// Returns fewer limbs and joints, with about `wanted.triangles` triangles and at most `most`. Where that
+/// fails, all limbs with fewer sides.
+CoarseLimbs coarse_limbs(const Limbs& limbs, const CoarseOptions& wanted, const TriangleLimit& most,
                          SkinOptions options, Job& job) {
   CoarseOptions coarse = wanted;
   CoarseLimbs kept;
-  std::uint64_t kept_made = 0, low = 0, high = 0;  // what was asked for and gave too few, too many
+  // `low` and `high`: requested numbers that gave too few and too many
+  std::uint64_t kept_made = 0, low = 0, high = 0;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     CoarseLimbs next = coarsen(limbs, coarse, job);
-    // Stacks have more triangles than the tubes that were counted.
+    // Stacks add triangles to the tubes that coarsen() counts.
     options.corners = next.corners;
-    const std::uint64_t made = skin_triangles(next.limbs, options, most.repeats);
+    const std::uint64_t made = skin_triangles(next.limbs, options, job, most.repeats);
     const bool is_good =
         made >= wanted.triangles - wanted.triangles / 10 && made <= wanted.triangles + wanted.triangles / 100;
     if (is_good || (made > kept_made && made <= most.triangles)) {
@@ -121,14 +127,14 @@ CoarseLimbs coarse_limbs(const Limbs& limbs, const CoarseOptions& wanted, const 
   return coarsen(limbs, coarse, job);
 }
 
-/// Of each joint, how much of it is seen between the others.
+/// Returns for each joint the share that is visible between the others.
 Array<float> shown_of(const Limbs& limbs, Job& job) {
   const Organs none(job);
   return FoliageLevels({none, {}, limbs, 1}, job).shown(limbs, job);
 }
 
-/// Faces that look against a normal.
-bool looks_inward(const Mesh& mesh) {
+/// Returns true where a face points away from one of its vertex normals.
+bool faces_inward(const Mesh& mesh) {
   for (std::size_t i = 0; i + 2 < mesh.index.size(); i += 3) {
     const std::uint32_t corner[3] = {mesh.index.at(i), mesh.index.at(i + 1), mesh.index.at(i + 2)};
     const glm::vec3& a = mesh.position[corner[0]];
@@ -140,8 +146,8 @@ bool looks_inward(const Mesh& mesh) {
   return false;
 }
 
-/// The bark of a level.
-std::vector<Bark> coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, const Most& most,
+/// Returns the bark of a level.
+std::vector<Bark> coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, const TriangleLimit& most,
                                SkinOptions options, Job& job) {
   CoarseLimbs kept = coarse_limbs(limbs, wanted, most, options, job);
   Array<std::uint16_t> bones(job);
@@ -151,62 +157,63 @@ std::vector<Bark> coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, 
   options.bones = bones.span();
   options.corners = kept.corners;
   std::vector<Bark> barks = skin(kept.limbs, options, job);
-  if (std::none_of(barks.begin(), barks.end(), [](const Bark& bark) { return looks_inward(bark.mesh); }))
+  if (std::none_of(barks.begin(), barks.end(), [](const Bark& bark) { return faces_inward(bark.mesh); }))
     return barks;
-  // Rings that do not turn against each other.
+  // Rings whose corners are not rotated against each other.
   for (LimbCorners& corners : kept.corners) corners.finest = corners.now;
   return skin(kept.limbs, options, job);
 }
 
-/// Has the plant internodes that lie on others? `made` of all its limbs, so many triangles.
-Redrawn repeats_of(const Limbs& limbs, const SkinOptions& options, std::uint64_t made) {
-  return skin_triangles(limbs, options) == made ? Redrawn::counted : Redrawn::found;
+/// Reports whether internodes coincide. `made` is the number of triangles with all limbs counted.
+Redrawn repeats_of(const Limbs& limbs, const SkinOptions& options, std::uint64_t made, const Job& job) {
+  return skin_triangles(limbs, options, job) == made ? Redrawn::counted : Redrawn::found;
 }
 
-/// One more level of the last node.
-void add_level(Model& model, int level, std::vector<Bark> parts, Wardrobe& wardrobe) {
+/// Adds a level to the last node.
+void add_level(Model& model, int level, std::vector<Bark> parts, MaterialSet& material_set) {
   MeshGroup group{"bark_LOD" + std::to_string(level), {}};
   for (Bark& part : parts)
-    group.primitives.push_back({std::move(part.mesh), wardrobe.material(part.color, Sides::one), {}});
+    group.primitives.push_back({std::move(part.mesh), material_set.material(part.color, Sides::one), {}});
   model.nodes.back().lods.push_back(static_cast<int>(model.meshes.size()));
   model.meshes.push_back(std::move(group));
 }
 
 struct BarkUse {
-  std::span<const std::uint16_t> bones;  ///< of each joint, where the plant grows
+  std::span<const std::uint16_t> bones;  ///< bone of each joint; empty without growth animation
   bool carries_organs = false;
 };
 
-/// Where it is wanted and can be made.
+/// Returns welded bark where it is requested and possible.
 std::optional<WeldedBark> add_welded_bark(Model& model, const Limbs& limbs, const BarkUse& use,
-                                          const LsystemParams& params, Wardrobe& wardrobe, Job& job) {
+                                          const LsystemParams& params, MaterialSet& material_set, Job& job) {
   if (!params.weld) return std::nullopt;
   std::optional<WeldedBark> welded = welded_bark(limbs, use.bones, params, job);
   if (welded) {
-    add_meshes(model, "bark", std::move(welded->barks), Sides::one, wardrobe);
+    add_meshes(model, "bark", std::move(welded->barks), Sides::one, material_set);
   } else {
     model.warnings.push_back(
-        {"/weld", "has no effect: the limbs lie so densely that their joints leave no closed surface", 0, 0});
+        {"/weld", "has no effect: the limbs overlap so much that their joints form no closed surface", 0, 0});
   }
   return welded;
 }
 
-/// The bark with its coarser levels. Takes the limbs: their memory goes back before polygons and writer need
-/// theirs.
-void add_bark(Model& model, Limbs limbs, const BarkUse& use, const LsystemParams& params, Wardrobe& wardrobe,
-              Job& job) {
+/// Adds the bark with its coarser levels. Consumes the limbs, so that their memory is free before polygons
+/// and the writer need it.
+void add_bark(Model& model, Limbs limbs, const BarkUse& use, const LsystemParams& params,
+              MaterialSet& material_set, const GenerateContext& context) {
+  Job& job = context.job;
   std::span<const std::uint16_t> bones = use.bones;
   const int finest = static_cast<int>(model.nodes.size());
   const std::vector<Contour> contours = contours_of(params);
   SkinOptions options = skin_options(params, contours, Detail(0));
-  std::optional<WeldedBark> welded = add_welded_bark(model, limbs, use, params, wardrobe, job);
-  if (welded) {  // of which coarser levels are closed tubes: nobody sees joints from afar
+  std::optional<WeldedBark> welded = add_welded_bark(model, limbs, use, params, material_set, job);
+  if (welded) {  // coarser levels are closed tubes, because joints are invisible from a distance
     limbs = std::move(welded->limbs);
     bones = welded->bones.span();
     options.stacks = 1;
   } else {
     options.bones = bones;
-    add_meshes(model, "bark", skin(limbs, options, job), Sides::one, wardrobe);
+    add_meshes(model, "bark", skin(limbs, options, job), Sides::one, material_set);
   }
   if (static_cast<int>(model.nodes.size()) == finest) return;
   const std::uint64_t triangles = triangles_of(model.meshes.back().primitives);
@@ -214,7 +221,7 @@ void add_bark(Model& model, Limbs limbs, const BarkUse& use, const LsystemParams
   Array<std::uint16_t> own_bones(job);
   Array<float> shown(job);
   Redrawn repeats = Redrawn::counted;
-  if (job.demand().lods > 1 && !welded) {
+  if (context.demand.lods > 1 && !welded) {
     KeptLimbs once = without_repeats(limbs, options.sides, job);
     if (once.limbs.size() < limbs.size()) {
       for (std::size_t i = 0; i < bones.size(); ++i) {
@@ -223,15 +230,15 @@ void add_bark(Model& model, Limbs limbs, const BarkUse& use, const LsystemParams
       bones = own_bones.span();
       limbs = std::move(once.limbs);
     }
-    repeats = repeats_of(limbs, options, triangles);
+    repeats = repeats_of(limbs, options, triangles, job);
   }
-  if (job.demand().lods > 1) shown = shown_of(limbs, job);
-  for (int level = 1; level < job.demand().lods; ++level) {
+  if (context.demand.lods > 1) shown = shown_of(limbs, job);
+  for (int level = 1; level < context.demand.lods; ++level) {
     const Detail detail(level);
     SkinOptions coarser = skin_options(params, contours, detail);
     coarser.stacks = std::min(coarser.stacks, options.stacks);
     CoarseOptions coarse;
-    // What organs hide is missed less than they would be.
+    // Removed limbs that organs hide are less visible than removed organs.
     const std::uint64_t wanted = use.carries_organs ? detail.bark(triangles, 1) : detail.tubes(triangles);
     coarse.triangles = std::min(wanted, Detail::fewer_than(before));
     coarse.skin = &options;
@@ -244,11 +251,11 @@ void add_bark(Model& model, Limbs limbs, const BarkUse& use, const LsystemParams
     for (const Bark& part : parts) made += part.mesh.elements();
     if (made == 0 || made >= before) return;
     before = made;
-    add_level(model, level, std::move(parts), wardrobe);
+    add_level(model, level, std::move(parts), material_set);
   }
 }
 
-/// The diagonal of everything.
+/// Returns the diagonal of the bounds of limbs, polygons and organs.
 float size_of(const Skeleton& skeleton) {
   constexpr float far = std::numeric_limits<float>::max();
   Box box{glm::vec3(far), glm::vec3(-far)};
@@ -263,50 +270,63 @@ float size_of(const Skeleton& skeleton) {
   return box.min.x > box.max.x ? 0 : std::sqrt(glm::dot(extent, extent));
 }
 
-/// What of the limbs no tube shows.
+/// Warns of limbs that are too thin for a tube.
 void warn_of_thin(Model& model, const Limbs& limbs, const LsystemParams& params) {
   const std::uint64_t count = too_thin(limbs, params.sides);
   if (count == 0 || count * worth_a_word < limbs.size()) return;
   model.warnings.push_back(
       {"/width",
        std::to_string(count) + (count == 1 ? " internode is" : " internodes are") +
-           " too thin beside the whole for a tube and left out; a greater `width`, or lines "
-           "by `style`, would show more",
+           " too thin for a tube compared with the whole plant and left out; use a larger `width` "
+           "or the style lines",
        0, 0});
+}
+
+/// Adds convex bodies, if the output asks for them.
+void add_collision(Model& model, const std::vector<LimbBody>& bodies, const GenerateContext& context) {
+  if (context.demand.collision == CollisionNames::none) return;
+  if (!bodies.empty()) return add_limb_bodies(model, bodies, context);
+  model.warnings.push_back({"/output/collision", "has no effect: there is no limb with a thickness", 0, 0});
 }
 
 }  // namespace
 
-Model dress(Skeleton skeleton, const LsystemParams& params, Job& job) {
+Model dress(Skeleton skeleton, const LsystemParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   Model model;
   model.name = "lsystem";
   Node root;
   root.name = "lsystem";
   model.nodes.push_back(std::move(root));
-  Wardrobe wardrobe(model, params, job);
-  choose_looks(skeleton, wardrobe);
+  MaterialSet material_set(model, params, job);
+  choose_materials(skeleton, material_set);
   const bool tubes = params.style == LsystemParams::Style::tubes;
   const bool empty =
       skeleton.limbs.size() == 0 && skeleton.outlines.outline.empty() && skeleton.organs.organ.empty();
   const float size = skeleton.organs.organ.empty() ? 0 : size_of(skeleton);
-  const std::optional<GrowthPlan> growth = growth_of(skeleton, params, job);
+  const std::optional<GrowthPlan> growth = growth_of(skeleton, params, context);
   const auto bones = growth ? growth->bone.span() : std::span<const std::uint16_t>{};
+  std::vector<LimbBody> bodies;
   if (tubes) {
     warn_of_thin(model, skeleton.limbs, params);
+    if (context.demand.collision != CollisionNames::none)
+      bodies = limb_bodies(skeleton.limbs, BelowGround::counted, job);
     const BarkUse use{bones, !skeleton.organs.organ.empty()};
-    add_bark(model, std::exchange(skeleton.limbs, Limbs(job)), use, params, wardrobe, job);
+    add_bark(model, std::exchange(skeleton.limbs, Limbs(job)), use, params, material_set, context);
   } else {
-    add_meshes(model, "lines", wires(std::exchange(skeleton.limbs, Limbs(job)), job), Sides::one, wardrobe);
+    add_meshes(model, "lines", wires(std::exchange(skeleton.limbs, Limbs(job)), job), Sides::one,
+               material_set);
   }
-  add_meshes(model, "surfaces", polygons(skeleton.outlines, job, bones), Sides::both, wardrobe);
-  add_organs(model, {skeleton.organs, size, bones}, params, wardrobe, job);
+  add_meshes(model, "surfaces", polygons(skeleton.outlines, job, bones), Sides::both, material_set);
+  add_organs(model, {skeleton.organs, size, bones}, params, material_set, context);
   if (growth) add_growth(model, *growth);
+  add_collision(model, bodies, context);
   if (empty) {
     model.warnings.push_back(
         {"/axiom", "nothing was drawn: the last word has no F or G, no polygon and no organ", 0, 0});
   } else if (model.meshes.empty() && model.warnings.empty()) {
     model.warnings.push_back(
-        {"/axiom", "nothing was drawn: all that the last word draws has no length", 0, 0});
+        {"/axiom", "nothing was drawn: everything that the last word draws has length 0", 0, 0});
   }
   return model;
 }
@@ -329,7 +349,7 @@ Estimate estimate_of(std::uint64_t segments, std::uint64_t limbs, const LsystemP
   if (params.style == LsystemParams::Style::lines) return {0, document + segments * 20, false};
   const auto sides = static_cast<std::uint64_t>(params.sides);
   const std::uint64_t rings = segments * static_cast<std::uint64_t>(params.stacks);
-  // A limb begins and ends in a cone.
+  // Both ends of a limb are cones.
   const std::uint64_t triangles = 2 * sides * (rings + limbs);
   const std::uint64_t vertices = (rings + 3 * limbs) * (sides + 1);
   return {triangles, document + triangles * bytes_a_triangle + vertices * bytes_a_vertex, false};

@@ -1,20 +1,21 @@
 #pragma once
-/// Skeleton -> Model: bark or lines, surfaces, materials.
-#include "core/generators/appraisal.h"
-#include "core/geom/limbs.h"
+/// Converts a skeleton to a model: bark or lines, organ surfaces, materials.
+#include "core/generators/api.h"
+#include "core/geom/plant/limbs.h"
 #include "generated/params/lsystem.h"
 
 namespace seedmesh::lsystem {
 
-Model dress(Skeleton skeleton, const LsystemParams& params, Job& job);
+Model dress(Skeleton skeleton, const LsystemParams& params, const GenerateContext& context);
 
-/// How many segments may be drawn within limits.triangles; a segment drawn on top of another counts too.
+/// Returns the largest number of segments that can be drawn within limits.triangles. Coincident segments
+/// count each.
 std::uint64_t most_segments(const LsystemParams& params, const Limits& limits);
 
-/// Size of a model with welded bark, whose skeleton has its widths.
+/// Estimates the size of a model with welded bark. The skeleton already has its widths.
 Estimate estimate_of(const Skeleton& skeleton, const LsystemParams& params, Job& job);
 
-/// Size of a model of so many drawn segments, each limb of which is a tube.
+/// Estimates the size of a model of `segments` drawn segments in `limbs` limbs, each of which becomes a tube.
 Estimate estimate_of(std::uint64_t segments, std::uint64_t limbs, const LsystemParams& params);
 
 }  // namespace seedmesh::lsystem

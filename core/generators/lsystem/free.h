@@ -1,7 +1,7 @@
 #pragma once
-/// Derivation without the word: a context-free system is rewritten depth first, module by module, straight
-/// into whoever reads the result. Memory grows with the number of steps, not with the length of the word.
-/// Keys by place make the result equal to that of rewriting the whole word step by step.
+/// Derivation without storing the word: rewrites a context-free system depth first and passes each final
+/// module to a sink. Memory grows with the number of steps, not with the length of the word. Random keys
+/// depend on the path of derivation, so the result equals that of parallel rewriting.
 #include <concepts>
 #include <vector>
 
@@ -9,19 +9,19 @@
 
 namespace seedmesh::lsystem {
 
-/// A sink may take all that a module becomes off the derivation's hands: takes(kind, step), for a module that
-/// was written at `step` and will be rewritten, tells whether it did.
+/// A sink may handle everything that a module derives to. takes(kind, step) is called for a module that was
+/// written at `step` and is due to be rewritten; it returns true where the sink handles it.
 template <class Sink>
 concept TakesWholes = requires(Sink& sink, KindId kind, std::uint32_t step) {
   { sink.takes(kind, step) } -> std::same_as<bool>;
 };
 
-/// Sink: void module(KindId, const double* parameters, std::uint64_t key, std::uint32_t step): called in the
-/// order of the word; `step` is the derivation step that wrote the module (0: it stood in the axiom).
+/// Sink has void module(KindId, const double* parameters, std::uint64_t key, std::uint32_t step), called in
+/// the order of the word. `step` is the derivation step that wrote the module, 0 for the axiom.
 template <class Sink>
 class FreeDerivation {
  public:
-  /// `keyed` false leaves all keys 0 and saves their cost.
+  /// With `keyed` false, all keys are 0 and cost nothing.
   FreeDerivation(const Grammar& grammar, std::uint32_t steps, bool keyed, Job& job, Sink& sink)
       : grammar_(grammar),
         rules_(grammar.productions),
@@ -35,18 +35,18 @@ class FreeDerivation {
 
   void run() { write(grammar_.axiom, nullptr, job_.rng().key(), 0); }
 
-  /// What becomes of one module without parameters that was written at `step`.
+  /// Derives one module without parameters that was written at `step`.
   void run(KindId kind, std::uint32_t step) { rewrite(kind, parameters_.data(), 0, step); }
 
  private:
-  /// Writes a successor (or the axiom) that appears at `step`, rewriting each module up to the last step.
+  /// Writes the axiom or a successor that appears at `step`, and rewrites each module up to the last step.
   void write(Range successor, const double* slots, std::uint64_t parent, std::uint32_t step) {
     double* own = parameters_.data() + std::size_t{step} * width_;
     const Template* each = grammar_.templates.data() + successor.first;
     for (const Template* end = each + successor.count; each != end; ++each) {
       if (grammar_.cuts && skips(each->kind, step)) continue;
       const std::uint64_t key = keyed_ ? child_key(parent, *each) : 0;
-      fill_arguments(grammar_, *each, slots, key, own);
+      fill_arguments(grammar_, *each, slots, key, own, job_);
       if (step < steps_ && rules_.rewrites(each->kind)) {
         if constexpr (TakesWholes<Sink>) {
           if (sink_.takes(each->kind, step)) continue;
@@ -63,20 +63,23 @@ class FreeDerivation {
     if ((++rewritten_ & 4095U) == 0) {
       job_.check();
       if (rewritten_ > 4 * job_.limits().modules)
-        Job::refuse("rewrites more modules than " + std::to_string(rewritten_ - 1));
+        job_.refuse(limit_issue({Resource::modules, 4 * job_.limits().modules, rewritten_},
+                                "rewrites more modules than " + std::to_string(rewritten_ - 1)));
     }
     const Range range = rules_.of_kind[kind];
     for (std::uint32_t now = step; now < steps_; ++now) {
       const Production* production =
           choose(grammar_, rules_, range, Draws(key, now), [&](const Production&) { return parameters; });
       if (production) return write(production->successor, parameters, key, now + 1);
-      if (!rules_.redraws[kind]) break;  // what did not match now never will
+      // without random conditions, a failed match fails in every later step
+      if (!rules_.redraws[kind]) break;
     }
     meter_.spend();
     sink_.module(kind, parameters, key, step);
   }
 
-  /// The cut %: written at one step, it takes what follows in its branch away in the next.
+  /// Handles the cut symbol %. A % that was written in one step removes the rest of its branch in the next
+  /// step.
   bool skips(KindId kind, std::uint32_t step) {
     if (kind == grammar_.open) ++depth_;
     if (kind == grammar_.close && --depth_ < cut_depth_) cut_depth_ = no_cut;
@@ -95,7 +98,7 @@ class FreeDerivation {
   Meter meter_;
   Sink& sink_;
   std::size_t width_;
-  std::vector<double> parameters_;  ///< one row a step
+  std::vector<double> parameters_;  ///< one row for each step
   std::uint64_t rewritten_ = 0;
   int depth_ = 0;
   int cut_depth_ = no_cut;

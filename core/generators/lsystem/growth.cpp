@@ -9,7 +9,7 @@ std::uint64_t add(std::uint64_t a, std::uint64_t b) {
   return std::min(saturated, a + std::min(saturated, b));
 }
 
-/// True when one of the productions surely applies, so that the module cannot stay as it is.
+/// Returns true where one of the productions always applies, so that the module cannot stay unchanged.
 bool always_rewritten(const Rules& rules, Range range) {
   for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
     const Production& each = rules.productions[i];
@@ -20,9 +20,10 @@ bool always_rewritten(const Rules& rules, Range range) {
   return false;
 }
 
-/// Decomposition, tables and statements have a say in how long a word becomes.
+/// Returns false where decomposition, tables, statements or strict predecessors affect the length of a word.
 bool is_written_by_productions(const Grammar& grammar) {
-  return grammar.decomposition.productions.empty() && grammar.tables.empty() && !grammar.statements;
+  return grammar.decomposition.productions.empty() && grammar.tables.empty() && !grammar.statements &&
+         !grammar.strict;
 }
 
 }  // namespace
@@ -37,7 +38,7 @@ std::uint64_t least_modules(const Grammar& grammar, std::uint32_t steps) {
     return total;
   };
   for (std::uint32_t step = 0; step < steps; ++step) {
-    std::vector<std::uint64_t> before = least;  // of words one step shorter
+    std::vector<std::uint64_t> before = least;  // values for one step fewer
     for (std::size_t kind = 0; kind < least.size(); ++kind) {
       const Range range = rules.of_kind[kind];
       if (range.count == 0) continue;

@@ -1,6 +1,6 @@
 #pragma once
-/// How long words become, without deriving them: from the growth matrix of the system (Rozenberg and Salomaa,
-/// "The Mathematical Theory of L Systems", 1980).
+/// Predicts the length of words without deriving them, from the growth matrix of the system (Rozenberg and
+/// Salomaa, "The Mathematical Theory of L Systems", 1980).
 #include <cstdint>
 #include <vector>
 
@@ -8,15 +8,14 @@
 
 namespace seedmesh::lsystem {
 
-constexpr std::uint64_t saturated = std::uint64_t{1}
-                                    << 62U;  ///< counts from here on are only known to be this large
+constexpr std::uint64_t saturated = std::uint64_t{1} << 62U;  ///< larger counts are reported as this one
 
-/// The least number of modules that the word after `steps` steps can have, whatever chance, conditions and
-/// contexts decide. Saturates. Cost: steps times the length of all successors.
+/// Returns a lower bound of the length of the word after `steps` steps, for every outcome of random choices,
+/// conditions and contexts. Saturates. Cost: steps times the length of all successors.
 std::uint64_t least_modules(const Grammar& grammar, std::uint32_t steps);
 
-/// Number of modules by kind after `steps` steps; empty when chance, conditions, contexts or cuts have a say.
-/// Saturates.
+/// Returns the number of modules by kind after `steps` steps. Returns an empty vector where random choices,
+/// conditions, contexts or cuts decide. Saturates.
 std::vector<std::uint64_t> exact_counts(const Grammar& grammar, std::uint32_t steps);
 
 }  // namespace seedmesh::lsystem

@@ -10,23 +10,25 @@
 #include "core/generators/lsystem/contours.h"
 #include "core/generators/lsystem/draw.h"
 #include "core/generators/lsystem/dress.h"
+#include "core/generators/lsystem/fractional_iterations.h"
 #include "core/generators/lsystem/free.h"
-#include "core/generators/lsystem/garden.h"
 #include "core/generators/lsystem/growth.h"
-#include "core/generators/lsystem/looks.h"
+#include "core/generators/lsystem/materials.h"
+#include "core/generators/lsystem/open_systems.h"
 #include "core/generators/lsystem/shape.h"
-#include "core/generators/lsystem/sprout.h"
 #include "core/generators/lsystem/stamping.h"
 #include "core/generators/lsystem/surfaces.h"
 #include "core/generators/lsystem/text.h"
 #include "core/generators/lsystem/welded.h"
 #include "core/generators/lsystem/word.h"
+#include "core/schema/warning_list.h"
 
 namespace seedmesh::lsystem {
 namespace {
 
-constexpr std::size_t longest_text = std::size_t{16} << 20U;  // of a word in the answer of derive
-constexpr std::uint64_t most_appraised = 50'000;              // segments, drawn in an instant
+// largest word in the response of derive, in bytes
+constexpr std::size_t longest_text = std::size_t{16} << 20U;
+constexpr std::uint64_t most_appraised = 50'000;  // segments; drawing them takes milliseconds
 
 Result<Grammar> compiled(const LsystemParams& params, const Job& job) {
   std::vector<Issue> issues;
@@ -35,42 +37,36 @@ Result<Grammar> compiled(const LsystemParams& params, const Job& job) {
   return grammar;
 }
 
-/// Steps of the derivation: all of them, or up to the age of the plant.
+/// Returns the number of derivation steps: all iterations, or up to the age of the plant.
 std::uint32_t steps_of(const LsystemParams& params) {
   if (!params.age || params.timed) return static_cast<std::uint32_t>(params.iterations);
   return math::to_uint32(std::ceil(*params.age));
 }
 
-/// How much of the last step has happened.
+/// Returns the share of the last step that has happened.
 double share_of(const LsystemParams& params) {
   if (!params.age || params.timed) return 1;
   return 1 - (std::ceil(*params.age) - *params.age);
 }
 
-/// Does `work`, the derivation and what the turtle makes of it: a limit that it passes with no place of its
-/// own is due to the number of steps, or to the axiom where there is none.
-template <class Work>
-void tell_place(const LsystemParams& params, Work&& work) {
-  try {
-    work();
-  } catch (const Stop& stop) {
-    const bool is_of_memory = stop.issue().message.find("bytes of memory") != std::string::npos;
-    if (stop.code() != Code::limit || !stop.issue().pointer.empty() || is_of_memory) throw;
-    Job::refuse(stop.issue().message, steps_of(params) > 0 ? "/iterations" : "/axiom");
-  }
+/// Returns the parameter that is responsible for an exceeded limit: the number of steps, or the axiom without
+/// steps.
+const char* pointer_of_size(const LsystemParams& params) {
+  return steps_of(params) > 0 ? "/iterations" : "/axiom";
 }
 
-/// Refuses early what is sure to be too long, before any memory is touched.
+/// Refuses a request that is certain to exceed the limit, before memory is used.
 void refuse_explosion(const Grammar& grammar, std::uint32_t steps, const Job& job) {
   const std::uint64_t least = least_modules(grammar, steps);
   if (least <= job.limits().modules) return;
   const std::string amount = least >= saturated ? "more than 4 * 10^18" : std::to_string(least);
-  Job::refuse("the word has " + amount + " modules after " + std::to_string(steps) + " steps; the limit is " +
-                  std::to_string(job.limits().modules),
-              "/iterations");
+  job.refuse(limit_issue({Resource::modules, job.limits().modules, least},
+                         "the word has " + amount + " modules after " + std::to_string(steps) +
+                             " steps; the limit is " + std::to_string(job.limits().modules),
+                         "/iterations"));
 }
 
-/// Derives so many steps and hands every module of the last word to the sink, in order.
+/// Derives `steps` steps and passes every module of the last word to the sink, in order.
 template <class Sink>
 void run(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps, Sink& sink, Job& job) {
   const bool keyed = Drawing::needs_keys(grammar, params);
@@ -79,6 +75,7 @@ void run(const Grammar& grammar, const LsystemParams& params, std::uint32_t step
     return;
   }
   const Word word = derive_word(grammar, steps, keyed, job);
+  if constexpr (requires { sink.set_variables(word.variables); }) sink.set_variables(word.variables);
   const double nothing = 0;
   for (std::size_t i = 0; i < word.size(); ++i) {
     if (i % 4096 == 0) job.check();
@@ -93,17 +90,19 @@ void run(const Grammar& grammar, const LsystemParams& params, Sink& sink, Job& j
 }
 
 /// Draws the plant at its age.
-void draw(const Grammar& grammar, const LsystemParams& params, Drawing& drawing, Job& job) {
+void draw(const Grammar& grammar, const LsystemParams& params, Drawing& drawing,
+          const GenerateContext& context) {
+  Job& job = context.job;
   const double share = share_of(params);
   if (share == 1 && drawing.can_stamp() && Stamping::fits(grammar, params, steps_of(params))) {
-    Stamping stamping(grammar, params, steps_of(params), drawing, job);
+    Stamping stamping(grammar, params, steps_of(params), drawing, context);
     return run(grammar, params, stamping, job);
   }
   if (share == 1) return run(grammar, params, drawing, job);
   const std::uint32_t whole = steps_of(params) - 1;
-  Sprouting sprouting(grammar, drawing, whole, share);
-  if (!grammar.productions.context) return run(grammar, params, whole, sprouting, job);
-  sprouting.word(derive_word(grammar, whole, Drawing::needs_keys(grammar, params), job), job);
+  FractionalStep fractional(grammar, drawing, whole, share);
+  if (!grammar.productions.context) return run(grammar, params, whole, fractional, job);
+  fractional.word(derive_word(grammar, whole, Drawing::needs_keys(grammar, params), job), job);
 }
 
 void write(const Word& word, TextWriter& writer) {
@@ -119,10 +118,11 @@ struct TextOnly {
   }
 };
 
-/// Writes the text and draws, in one walk.
+/// Writes the text and draws, in one pass.
 struct TextAndDrawing {
   TextWriter& text;
   Drawing& drawing;
+  void set_variables(const std::vector<double>& variables) { drawing.set_variables(variables); }
   void module(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t step) {
     text.module(kind, parameters);
     drawing.module(kind, parameters, key, step);
@@ -147,7 +147,7 @@ std::uint64_t branches(const Grammar& grammar, const std::vector<std::uint64_t>&
   return sum;
 }
 
-/// Refuses what is sure to draw too much before it is drawn; what only shows on the way is refused there.
+/// Refuses a drawing that is certain to exceed the limit. Other drawings are refused when they reach it.
 void refuse_too_many_segments(const Grammar& grammar, const LsystemParams& params, Drawing& drawing,
                               const Job& job) {
   const std::uint64_t most = most_segments(params, job.limits());
@@ -155,13 +155,14 @@ void refuse_too_many_segments(const Grammar& grammar, const LsystemParams& param
   const bool polygons = std::any_of(grammar.kinds.begin(), grammar.kinds.end(),
                                     [](const Kind& kind) { return kind.command == Command::polygon_open; });
   if (polygons || !grammar.interpretation.productions.empty())
-    return;  // F may be a vertex or not drawn at all
+    return;  // F can be a polygon vertex or invisible
   const std::uint64_t segments = drawn(grammar, exact_counts(grammar, steps_of(params)));
   if (segments > most) {
-    Job::refuse("draws " + std::to_string(segments) + " segments, which pass the limit of " +
-                    std::to_string(job.limits().triangles) +
-                    " triangles; fewer sides or style lines allow more",
-                "/iterations");
+    job.refuse(limit_issue({Resource::segments, most, segments},
+                           "draws " + std::to_string(segments) + " segments, which exceed the limit of " +
+                               std::to_string(job.limits().triangles) +
+                               " triangles; use fewer sides or the style lines",
+                           "/iterations"));
   }
 }
 
@@ -175,7 +176,7 @@ std::uint64_t count_of(const Grammar& grammar, const std::vector<std::uint64_t>&
   return sum;
 }
 
-/// Braces without a partner draw nothing.
+/// Warns of unmatched braces, which draw nothing.
 void warn_of_braces(std::uint64_t open, std::uint64_t stray, std::vector<Warning>& warnings) {
   const auto amount = [](std::uint64_t count, const char* what) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
@@ -196,7 +197,7 @@ void warn_of_braces(const Drawing& drawing, std::vector<Warning>& warnings) {
   warn_of_braces(drawing.open_polygons(), drawing.stray_closings(), warnings);
 }
 
-/// What the counts of the last word tell before it is drawn.
+/// Adds the warnings that follow from the counts of the last word.
 void warn_of_word(const Grammar& grammar, const std::vector<std::uint64_t>& counts,
                   std::vector<Warning>& warnings) {
   const std::uint64_t open = count_of(grammar, counts, Command::polygon_open);
@@ -225,31 +226,19 @@ Json described(const Turtle& turtle, const TurtleReport& report) {
           {"bounds", {{"min", vector(report.min)}, {"max", vector(report.max)}}}};
 }
 
-Json described(const std::vector<Warning>& warnings) {
-  Json list = Json::array();
-  for (const Warning& each : warnings) {
-    Json row = {{"pointer", each.pointer.empty() ? "" : "/parameters" + each.pointer},
-                {"message", each.message}};
-    if (each.line > 0) {
-      row["line"] = each.line;
-      row["column"] = each.column;
-    }
-    list.push_back(std::move(row));
-  }
-  return list;
-}
-
-/// Grows the plant for its word, and once more a step less where it is drawn between two steps.
+/// Derives the plant for its word. For a fractional age, the drawing uses a second derivation of one step
+/// fewer.
 void grow_and_tell(Grammar& grammar, const LsystemParams& params, TextWriter& writer, Json& turtle,
-                   Job& job) {
-  Garden garden(params, job);
-  garden.grow(grammar, steps_of(params));
-  write(garden.word(), writer);
-  std::optional<Garden> younger;
-  if (share_of(params) != 1) younger.emplace(params, job).grow(grammar, steps_of(params) - 1);
-  const Garden& drawn_in = younger ? *younger : garden;
+                   const GenerateContext& context) {
+  Job& job = context.job;
+  OpenSystems systems(params, context);
+  systems.grow(grammar, steps_of(params));
+  write(systems.word(), writer);
+  std::optional<OpenSystems> younger;
+  if (share_of(params) != 1) younger.emplace(params, context).grow(grammar, steps_of(params) - 1);
+  const OpenSystems& drawn_in = younger ? *younger : systems;
   Skeleton skeleton(job);
-  Drawing drawing(grammar, params, drawn_in.cuts() ? &skeleton : nullptr, job);
+  Drawing drawing(grammar, params, drawn_in.cuts() ? &skeleton : nullptr, context);
   drawn_in.draw(grammar, drawing, share_of(params));
   warn_of_braces(drawing, grammar.warnings);
   turtle = described(drawing.turtle(), drawn_in.report(drawing.turtle(), skeleton));
@@ -261,71 +250,75 @@ std::vector<Issue> check(const LsystemParams& params, const Limits& limits) {
   std::vector<Issue> issues;
   compile(params, 0, limits, issues);
   check_environment(params, issues);
-  check_looks(params, issues);
+  check_materials(params, issues);
   check_surfaces(params, issues);
   check_contours(params, issues);
   return issues;
 }
 
-Result<Model> generate(const LsystemParams& params, Job& job) {
+Result<Model> generate(const LsystemParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   Result<Grammar> grammar = compiled(params, job);
   if (!grammar) return std::move(grammar).error();
   refuse_explosion(*grammar, steps_of(params), job);
   job.progress("derive", 0);
   Skeleton skeleton(job);
-  std::unique_ptr<Garden> garden;
-  tell_place(params, [&] {
-    Drawing drawing(*grammar, params, &skeleton, job);
-    if (Garden::needed(*grammar, params)) {
-      garden = std::make_unique<Garden>(params, job);
+  std::unique_ptr<OpenSystems> systems;
+  {
+    const Job::PointerScope scope(job, pointer_of_size(params));
+    Drawing drawing(*grammar, params, &skeleton, context);
+    if (OpenSystems::needed(*grammar, params)) {
+      systems = std::make_unique<OpenSystems>(params, context);
       const double share = share_of(params);
-      garden->grow(*grammar, share == 1 ? steps_of(params) : steps_of(params) - 1);
+      systems->grow(*grammar, share == 1 ? steps_of(params) : steps_of(params) - 1);
       drawing.set_most_segments(most_segments(params, job.limits()));
-      garden->draw(*grammar, drawing, share);
-      garden->cut(skeleton);
+      systems->draw(*grammar, drawing, share);
+      systems->cut(skeleton);
     } else {
       refuse_too_many_segments(*grammar, params, drawing, job);
-      draw(*grammar, params, drawing, job);
+      draw(*grammar, params, drawing, context);
     }
     warn_of_braces(drawing, grammar->warnings);
-  });
+  }
   shape(skeleton, params, job);
   job.progress("mesh", 0);
-  Model model = dress(std::move(skeleton), params, job);
-  if (garden) garden->add_others(model);
+  Model model = dress(std::move(skeleton), params, context);
+  if (systems) systems->add_others(model);
   warn_of_welded(params, model.warnings);
   for (Warning& warning : grammar->warnings) model.warnings.push_back(std::move(warning));
   return model;
 }
 
-Result<Json> derive(const LsystemParams& params, Job& job) {
+Result<Json> derive(const LsystemParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   Result<Grammar> grammar = compiled(params, job);
   if (!grammar) return std::move(grammar).error();
   refuse_explosion(*grammar, steps_of(params), job);
-  Drawing drawing(*grammar, params, nullptr, job);
+  Drawing drawing(*grammar, params, nullptr, context);
   TextWriter writer(*grammar, longest_text);
   std::vector<std::uint64_t> counts;
   Json turtle;
-  tell_place(params, [&] {
-    if (Garden::needed(*grammar, params)) {
-      grow_and_tell(*grammar, params, writer, turtle, job);
+  {
+    const Job::PointerScope scope(job, pointer_of_size(params));
+    if (OpenSystems::needed(*grammar, params)) {
+      grow_and_tell(*grammar, params, writer, turtle, context);
       counts = writer.counts();
     } else if (is_plain(*grammar)) {
-      draw(*grammar, params, drawing, job);
+      draw(*grammar, params, drawing, context);
       const Array<char> text = plain_text(*grammar, steps_of(params), longest_text, job);
       writer.text.assign(text.begin(), text.end());
       counts = exact_counts(*grammar, steps_of(params));
     } else if (share_of(params) != 1) {
       TextOnly text{writer};
       run(*grammar, params, text, job);
-      draw(*grammar, params, drawing, job);
+      draw(*grammar, params, drawing, context);
       counts = writer.counts();
     } else {
       TextAndDrawing both{writer, drawing};
       run(*grammar, params, both, job);
       counts = writer.counts();
     }
-  });
+  }
   if (turtle.is_null()) {
     turtle = described(drawing.turtle(), drawing.turtle().report());
     warn_of_braces(drawing, grammar->warnings);
@@ -344,27 +337,28 @@ Result<Json> derive(const LsystemParams& params, Job& job) {
               {"truncated", writer.truncated || (is_plain(*grammar) && bytes > writer.text.size())},
               {"string", std::move(writer.text)},
               {"turtle", std::move(turtle)},
-              {"warnings", described(grammar->warnings)}};
+              {"warnings", warning_list(grammar->warnings)}};
 }
 
-/// Corners of welded limbs depend on widths, so that the limbs are drawn.
+/// Estimates welded bark. Its vertices depend on widths, so the limbs are drawn.
 static Estimate estimate_of_welded(const Grammar& grammar, const LsystemParams& params, const Job& job) {
-  job.check();
-  Job own(job.seed(), {.limits = job.limits()});  // what is looked at here is not spent
+  Job own = job.for_estimate();
   Skeleton skeleton(own);
-  Drawing drawing(grammar, params, &skeleton, own);
-  draw(grammar, params, drawing, own);
+  const GenerateContext sketch{own};
+  Drawing drawing(grammar, params, &skeleton, sketch);
+  draw(grammar, params, drawing, sketch);
   shape(skeleton, params, own);
   return estimate_of(skeleton, params, own);
 }
 
-Result<Appraisal> appraise(const LsystemParams& params, const Job& job) {
+Result<Appraisal> appraise(const LsystemParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   Result<Grammar> grammar = compiled(params, job);
   if (!grammar) return std::move(grammar).error();
   Appraisal appraisal;
   appraisal.warnings = grammar->warnings;
   refuse_explosion(*grammar, steps_of(params), job);
-  if (Garden::needed(*grammar, params)) return appraisal;
+  if (OpenSystems::needed(*grammar, params)) return appraisal;
   const std::vector<std::uint64_t> counts = exact_counts(*grammar, steps_of(params));
   if (!counts.empty() && grammar->interpretation.productions.empty()) {
     if (share_of(params) == 1) warn_of_word(*grammar, counts, appraisal.warnings);
@@ -379,7 +373,7 @@ Result<Appraisal> appraise(const LsystemParams& params, const Job& job) {
   return appraisal;
 }
 
-/// A frame is one parameter to who writes it.
+/// In written form, a frame is one parameter.
 static Json arity_of(const CommandRow& row) {
   if (row.parameters == "(frame)") return Json::array({1, 1});
   return Json::array({row.least, row.most});

@@ -1,15 +1,13 @@
 #pragma once
 /// L-systems: parallel rewriting of modules, drawn by a turtle.
 ///
-///   params -> compile() -> Grammar -> derive -> Drawing (turtle) -> Skeleton -> skin() or wires() -> bark,
-///   one primitive a colour
-///                                                                          \-> polygons()       -> surfaces
+///   params -> compile() -> Grammar -> derive -> Drawing (turtle) -> Skeleton -> skin(), wires() -> bark
+///                                                                           \-> polygons()      -> surfaces
 ///
-/// Out: one root node, foot where the turtle starts, +Y up, metres; materials by the turtle's colour index.
-/// Based on Prusinkiewicz and Lindenmayer, "The Algorithmic Beauty of Plants", 1990; docs/lsystem.md tells
-/// every choice.
-#include "core/base/job.h"
-#include "core/generators/appraisal.h"
+/// The model has one root node at the start of the turtle, +Y up, in metres. The turtle's colour index
+/// selects the material; bark has one primitive for each colour. Source: Prusinkiewicz and Lindenmayer, "The
+/// Algorithmic Beauty of Plants", 1990. docs/lsystem.md describes all choices.
+#include "core/generators/api.h"
 #include "core/model/model.h"
 #include "core/schema/json.h"
 
@@ -19,20 +17,21 @@ struct LsystemParams;
 
 namespace seedmesh::lsystem {
 
-/// Every fault of the grammar's texts, with pointers relative to the parameters. Makes nothing.
+/// Returns all errors of the grammar's texts, with pointers relative to the parameters. Generates nothing.
 std::vector<Issue> check(const LsystemParams& params, const Limits& limits);
 
-/// The model. Issues: those of check().
-Result<Model> generate(const LsystemParams& params, Job& job);
+/// Generates the model. Errors: those of check(), and limits.
+Result<Model> generate(const LsystemParams& params, const GenerateContext& context);
 
-/// {iterations, length, counts, string, truncated, turtle, warnings}: the word and what the turtle did,
-/// without geometry.
-Result<Json> derive(const LsystemParams& params, Job& job);
+/// Returns {iterations, length, counts, string, truncated, turtle, warnings}: the word and the measures of
+/// its drawing, without geometry.
+Result<Json> derive(const LsystemParams& params, const GenerateContext& context);
 
-/// Size and warnings, without making anything. The estimate is empty where chance or conditions decide.
-Result<Appraisal> appraise(const LsystemParams& params, const Job& job);
+/// Returns the estimated size and the warnings without generating. The estimate is empty where random choices
+/// or conditions decide the size.
+Result<Appraisal> appraise(const LsystemParams& params, const GenerateContext& context);
 
-/// {"turtle": [...]}: the rows of the table that the interpreter itself reads.
+/// Returns {"turtle": [...]}: the rows of the command table (commands.h).
 Json vocabulary();
 
 }  // namespace seedmesh::lsystem

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/generators/lsystem/commands.h"
-#include "core/lang/text_places.h"
+#include "core/lang/text_positions.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -30,10 +30,10 @@ std::size_t closing(std::string_view text, std::size_t open, std::size_t to) {
 
 namespace {
 
-using lang::Fault;
+using lang::TextError;
 
-/// Bytes of the UTF-8 code point at `at`. One that is cut short ends where the next begins, so that a bracket
-/// is never part of it.
+/// Returns the number of bytes of the UTF-8 code point at `at`. A truncated code point ends before the next
+/// one starts, so that it never includes a bracket.
 std::size_t code_point_length(std::string_view text, std::size_t at) {
   const auto byte_at = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte_at(at);
@@ -43,9 +43,9 @@ std::size_t code_point_length(std::string_view text, std::size_t at) {
   return length;
 }
 
-/// Splits text(open, close) at the commas that stand in no inner parentheses.
+/// Splits text(open, close) at the commas outside inner parentheses.
 std::vector<Slice> arguments_between(std::string_view text, std::size_t open, std::size_t close,
-                                     std::vector<Fault>& faults) {
+                                     std::vector<TextError>& errors) {
   std::vector<Slice> found;
   int depth = 0;
   std::size_t from = open + 1;
@@ -53,8 +53,8 @@ std::vector<Slice> arguments_between(std::string_view text, std::size_t open, st
     if (text[i] == '(') ++depth;
     if (text[i] == ')' && i != close) --depth;
     if (i == close || (text[i] == ',' && depth == 0)) {
-      if (skip_spaces(text, from, i) == i && lang::has_room(faults))
-        faults.push_back({from, "found nothing; expected an argument here"});
+      if (skip_spaces(text, from, i) == i && lang::has_room(errors))
+        errors.push_back({from, "found nothing; expected an argument here"});
       found.push_back({from, i});
       from = i + 1;
     }
@@ -66,7 +66,7 @@ struct Arrow {
   std::size_t from = 0, to = 0;
 };
 
-/// The first arrow outside parentheses. "-->" is one arrow, except where its first "-" is all that stands
+/// Returns the first arrow outside parentheses. "-->" is one arrow, unless its first "-" is the whole text
 /// before "->".
 std::optional<Arrow> find_arrow(std::string_view text, Slice slice) {
   int depth = 0;
@@ -84,7 +84,7 @@ std::optional<Arrow> find_arrow(std::string_view text, Slice slice) {
   return std::nullopt;
 }
 
-/// Place of `mark` outside parentheses in text[slice], from `from` on; slice.to where it does not occur.
+/// Returns the position of `mark` outside parentheses in text[slice], from `from` on, or slice.to.
 std::size_t find_outside(std::string_view text, Slice slice, std::string_view mark) {
   int depth = 0;
   for (std::size_t i = slice.from; i < slice.to; ++i) {
@@ -95,65 +95,65 @@ std::size_t find_outside(std::string_view text, Slice slice, std::string_view ma
   return slice.to;
 }
 
-/// Takes `part` and the mark behind it off the front of `rest`, where the mark is there. A part that is empty
-/// is a fault.
+/// Removes `part` and the following mark from the front of `rest`, if the mark exists. An empty part is an
+/// error.
 bool take_front(std::string_view text, std::string_view mark, Slice& rest, Slice& part,
-                std::vector<Fault>& faults) {
+                std::vector<TextError>& errors) {
   const std::size_t at = find_outside(text, rest, mark);
   if (at == rest.to) return false;
   part = {rest.from, at};
   rest.from = at + mark.size();
   if (skip_spaces(text, part.from, part.to) == part.to) {
-    faults.push_back({part.to, "found no left context before `" + std::string(mark) + "`"});
+    errors.push_back({part.to, "found no left context before `" + std::string(mark) + "`"});
   }
   return true;
 }
 
-/// The same at the back.
+/// Same at the end of `rest`.
 bool take_back(std::string_view text, std::string_view mark, Slice& rest, Slice& part,
-               std::vector<Fault>& faults) {
+               std::vector<TextError>& errors) {
   const std::size_t at = find_outside(text, rest, mark);
   if (at == rest.to) return false;
   part = {at + mark.size(), rest.to};
   rest.to = at;
   if (skip_spaces(text, part.from, part.to) == part.to) {
-    faults.push_back({part.from, "found no right context after `" + std::string(mark) + "`"});
+    errors.push_back({part.from, "found no right context after `" + std::string(mark) + "`"});
   }
   return true;
 }
 
-/// [ new left "<<" ] [ left "<" ] predecessor [ ">" right ] [ ">>" new right ]
-void read_head(std::string_view text, Slice head, WrittenProduction& out, std::vector<Fault>& faults) {
-  take_front(text, "<<", head, out.new_left, faults);
-  take_back(text, ">>", head, out.new_right, faults);
-  out.has_left = take_front(text, "<", head, out.left, faults);
+/// Reads [ new left "<<" ] [ left "<" ] predecessor [ ">" right ] [ ">>" new right ].
+void read_head(std::string_view text, Slice head, WrittenProduction& out, std::vector<TextError>& errors) {
+  take_front(text, "<<", head, out.new_left, errors);
+  take_back(text, ">>", head, out.new_right, errors);
+  out.has_left = take_front(text, "<", head, out.left, errors);
   const std::size_t second = find_outside(text, head, "<");
   if (second < head.to) {
-    faults.push_back(
+    errors.push_back(
         {second, "found a second `<`; the right context is written after `>`, as in `a < b > c -> d`"});
     head.to = second;
   }
-  out.has_right = take_back(text, ">", head, out.right, faults);
+  out.has_right = take_back(text, ">", head, out.right, errors);
   const std::size_t third = find_outside(text, out.right, ">");
-  if (third < out.right.to) faults.push_back({third, "found a second `>`; expected one right context"});
+  if (third < out.right.to) errors.push_back({third, "found a second `>`; expected one right context"});
   out.predecessor = head;
 }
 
-/// [ "{" statements "}" ] condition [ "{" statements "}" ]
-void read_condition(std::string_view text, WrittenProduction& out, std::vector<Fault>& faults) {
+/// Reads [ "{" statements "}" ] condition [ "{" statements "}" ].
+void read_condition(std::string_view text, WrittenProduction& out, std::vector<TextError>& errors) {
   Slice& condition = out.condition;
   condition.from = skip_spaces(text, condition.from, condition.to);
   const auto take = [&](Slice& part) {
     const std::size_t open = find_outside(text, condition, "{");
     if (open == condition.to) return;
     const std::size_t close = closing(text, open, condition.to);
-    if (close == condition.to) faults.push_back({open, "found `{` without its `}`"});
+    if (close == condition.to) errors.push_back({open, "found `{` without its `}`"});
     part = {open + 1, close};
     if (open == condition.from) {
       condition.from = skip_spaces(text, std::min(close + 1, condition.to), condition.to);
     } else {
       const std::size_t rest = skip_spaces(text, std::min(close + 1, condition.to), condition.to);
-      if (rest < condition.to) faults.push_back({rest, "found more after the statements; expected an arrow"});
+      if (rest < condition.to) errors.push_back({rest, "found more after the statements; expected an arrow"});
       condition.to = open;
     }
   };
@@ -168,7 +168,7 @@ Symbols::Symbols() {
   for (const CommandRow& row : commands()) {
     if (row.symbol.size() > 1) declare(row.symbol);
   }
-  for (const char* query : {"?E", "?P", "?H", "?U", "?L"}) declare(query);  // one symbol each, as in cpfg
+  for (const char* query : {"?E", "?P", "?H", "?U", "?L"}) declare(query);  // each is one symbol, as in cpfg
 }
 
 std::uint32_t Symbols::Node::behind(char c) const {
@@ -213,28 +213,27 @@ std::size_t Symbols::length_at(std::string_view text, std::size_t at, std::size_
 }
 
 std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, const Symbols& symbols,
-                                        std::vector<Fault>& faults) {
+                                        std::vector<TextError>& errors) {
   std::vector<WrittenModule> modules;
-  for (std::size_t at = skip_spaces(text, slice.from, slice.to); at < slice.to && lang::has_room(faults);
+  for (std::size_t at = skip_spaces(text, slice.from, slice.to); at < slice.to && lang::has_room(errors);
        at = skip_spaces(text, at, slice.to)) {
     if (modules.size() == most_modules) {
-      faults.push_back({at, "found more than 1,000,000 modules in one grammar"});
+      errors.push_back({at, "found more than 1,000,000 modules in one grammar"});
       break;
     }
     WrittenModule module{{}, at, {}};
     const std::size_t length = symbols.length_at(text, at, slice.to);
     if (length == 0) {
-      faults.push_back({at, "found `@` alone; expected a character after it, as in `@v`"});
+      errors.push_back({at, "found `@` alone; expected a character after it, as in `@v`"});
       ++at;
       continue;
     } else if (text[at] == '(' || text[at] == ')') {
-      faults.push_back(
+      errors.push_back(
           {at, std::string("found `") + text[at] + "`; expected a symbol before its parameters"});
       ++at;
       continue;
     } else if (text[at] == '*') {
-      faults.push_back(
-          {at, "found `*` beside other modules; it stands for the empty word and must stand alone"});
+      errors.push_back({at, "found `*` next to other modules; it means the empty word and must be alone"});
       ++at;
       continue;
     }
@@ -243,11 +242,11 @@ std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, cons
     if (at < slice.to && text[at] == '(') {
       const std::size_t close = closing(text, at, slice.to);
       if (close == slice.to) {
-        faults.push_back({at, "found `(` without its `)`"});
+        errors.push_back({at, "found `(` without its `)`"});
         modules.push_back(std::move(module));
         break;
       }
-      module.arguments = arguments_between(text, at, close, faults);
+      module.arguments = arguments_between(text, at, close, errors);
       at = close + 1;
     }
     modules.push_back(std::move(module));
@@ -271,11 +270,11 @@ std::size_t find_second_arrow(std::string_view text, Slice slice) {
   return arrow ? arrow->from : slice.to;
 }
 
-WrittenProduction read_production(std::string_view text, std::vector<Fault>& faults, std::size_t from) {
+WrittenProduction read_production(std::string_view text, std::vector<TextError>& errors, std::size_t from) {
   WrittenProduction out;
   const std::optional<Arrow> arrow = find_arrow(text, {from, text.size()});
   if (!arrow) {
-    faults.push_back(
+    errors.push_back(
         {skip_spaces(text, from, text.size()), "found no arrow; expected `predecessor -> successor`"});
     return out;
   }
@@ -285,11 +284,11 @@ WrittenProduction read_production(std::string_view text, std::vector<Fault>& fau
     out.has_condition = true;
     out.condition = {colon + 1, head.to};
     head.to = colon;
-    read_condition(text, out, faults);
+    read_condition(text, out, errors);
   }
-  read_head(text, head, out, faults);
+  read_head(text, head, out, errors);
   if (skip_spaces(text, out.predecessor.from, out.predecessor.to) == out.predecessor.to) {
-    faults.push_back({out.predecessor.from, "found no predecessor; expected one module before the arrow"});
+    errors.push_back({out.predecessor.from, "found no predecessor; expected one module before the arrow"});
   }
   out.successor = {arrow->to, text.size()};
   const std::size_t weight = find_outside(text, out.successor, ":");
@@ -302,18 +301,18 @@ WrittenProduction read_production(std::string_view text, std::vector<Fault>& fau
 }
 
 Marks::Marks(std::string_view text) : partner_(text.size(), static_cast<std::uint32_t>(text.size())) {
-  std::vector<std::uint32_t> open[3];  // of each sort by itself, as closing() counts
+  std::vector<std::uint32_t> open[3];  // one stack for each kind of bracket, as in closing()
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
-    const auto place = static_cast<std::uint32_t>(i);
+    const auto position = static_cast<std::uint32_t>(i);
     const std::size_t opens = std::string_view("([{").find(c), closes = std::string_view(")]}").find(c);
-    if (opens < 3) open[opens].push_back(place);
+    if (opens < 3) open[opens].push_back(position);
     if (closes < 3 && !open[closes].empty()) {
-      partner_[open[closes].back()] = place;
+      partner_[open[closes].back()] = position;
       open[closes].pop_back();
     }
-    if (c == ';') semicolons_.push_back(place);
-    if (std::string_view("<>=!&|").find(c) != std::string_view::npos) comparisons_.push_back(place);
+    if (c == ';') semicolons_.push_back(position);
+    if (std::string_view("<>=!&|").find(c) != std::string_view::npos) comparisons_.push_back(position);
   }
 }
 
@@ -321,9 +320,9 @@ std::size_t Marks::closing(std::size_t open, std::size_t to) const {
   return std::min<std::size_t>(partner_[open], to);
 }
 
-bool Marks::has(const std::vector<std::uint32_t>& places, Slice slice) {
-  const auto first = std::lower_bound(places.begin(), places.end(), slice.from);
-  return first != places.end() && *first < slice.to;
+bool Marks::has(const std::vector<std::uint32_t>& positions, Slice slice) {
+  const auto first = std::lower_bound(positions.begin(), positions.end(), slice.from);
+  return first != positions.end() && *first < slice.to;
 }
 
 bool erases(std::string_view text, Slice slice) {

@@ -1,16 +1,16 @@
 #pragma once
-/// The written form of modules and productions, taken apart but not yet understood:
+/// Splits the text of modules and productions into slices, without interpreting them:
 ///
 ///   production = [ new left "<<" ] [ left "<" ] predecessor [ ">" right ] [ ">>" new right ]
 ///                [ ":" [ before ] condition [ after ] ] arrow successor [ ":" weight ] ;
 ///   before     = "{" statements "}" ;               after = "{" statements "}" ;
 ///   arrow      = "->" | "-->" | "~>" | "→" ;      word = { module } ;
 ///   module     = symbol [ "(" expression { "," expression } ")" ] ;
-///   symbol     = one character | "@" character | a longer name that is declared or the turtle's own ;
-///   label      = "p" digit { digit } ":" before a production, as the book prints it ;
-///   white space separates and means nothing else.
+///   symbol     = one character | "@" character | a longer name that is declared or belongs to the turtle ;
+///   label      = "p" digit { digit } ":" before a production, as in the book ;
 ///
-/// An empty successor, or one of "*" or "ε" alone, erases; so does an empty right side.
+/// White space only separates. An empty successor, or "*" or "ε" alone, erases the module; an empty right
+/// side does the same.
 #include <array>
 #include <cstdint>
 #include <string>
@@ -28,86 +28,86 @@ struct Slice {
   bool empty() const { return from >= to; }
 };
 
-/// A module as written.
+/// A module in the text.
 struct WrittenModule {
   std::string_view symbol;
   std::size_t offset = 0;
   std::vector<Slice> arguments;
 };
 
-/// A production cut into its parts; parts that are not there are empty slices.
+/// The parts of a production; absent parts are empty slices.
 struct WrittenProduction {
   Slice new_left, left, predecessor, right, new_right, condition, successor, weight;
-  Slice before, after;  ///< statements round the condition, without their braces
+  Slice before, after;  ///< statements around the condition, without braces
   bool has_left = false, has_right = false, has_condition = false, has_weight = false;
 };
 
-/// A text longer than this is refused: what is written by hand or by a program for people is far shorter, and
-/// a grammar costs about a hundred bytes a module while it is read.
+/// A text with more modules is refused. Real grammars are far shorter, and compilation needs about 100 bytes
+/// for each module.
 constexpr std::size_t most_modules = 1'000'000;
 
-/// The symbols of more than one character. The longest that stands at a place is read there.
+/// The symbols of more than one character. At each position the longest match is read.
 class Symbols {
  public:
-  Symbols();  ///< those of the turtle, such as @Di
+  Symbols();  ///< starts with the turtle's symbols, such as @Di
   void declare(std::string_view name);
   bool knows(std::string_view name) const;
-  /// Bytes of the symbol at text[at, to), which is not empty; 0 for an "@" alone. Cost: what of the text
-  /// begins a name.
+  /// Returns the number of bytes of the symbol at `at` in text[at, to), which is not empty. Returns 0 for a
+  /// single "@". Cost: linear in the symbol.
   std::size_t length_at(std::string_view text, std::size_t at, std::size_t to) const;
 
  private:
-  /// What a name may go on with; node 0 is where all begin.
+  /// Node of a prefix tree; node 0 is the root.
   struct Node {
     std::vector<std::pair<char, std::uint32_t>> next;
-    bool ends = false;                   ///< a name
-    std::uint32_t behind(char c) const;  ///< 0: none
+    bool ends = false;                   ///< true where a symbol ends here
+    std::uint32_t behind(char c) const;  ///< child for `c`; 0: there is none
   };
   std::uint32_t first(char c) const { return first_[static_cast<unsigned char>(c)]; }
 
   std::vector<Node> nodes_{1};
-  std::array<std::uint32_t, 256> first_{};  ///< of node 0, by byte; 0: none
+  std::array<std::uint32_t, 256> first_{};  ///< children of the root by byte; 0: there is none
 };
 
-/// The modules of text[slice]. Faults: an argument list that is not closed, an empty argument, characters
-/// that are no symbol; no more of them than one text may have (lang::has_room).
+/// Returns the modules of text[slice]. Errors: an argument list that is not closed, an empty argument,
+/// characters that are not symbols. At most lang::max_errors errors are added.
 std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, const Symbols& symbols,
-                                        std::vector<lang::Fault>& faults);
+                                        std::vector<lang::TextError>& errors);
 
-/// The brace, bracket or parenthesis that closes the one at `open`, before `to`; `to` where none does.
+/// Returns the position of the brace, bracket or parenthesis that closes the one at `open`, or `to`.
 std::size_t closing(std::string_view text, std::size_t open, std::size_t to);
 
 std::size_t skip_spaces(std::string_view text, std::size_t at, std::size_t to);
 
-/// Bytes of the label with its colon before a production; 0 where there is none, or where `symbols` has a
-/// module of that name.
+/// Returns the number of bytes of the label and its colon before a production. Returns 0 without a label, or
+/// where `symbols` has a module of that name.
 std::size_t label_length(std::string_view text, const Symbols& symbols);
 
-/// Cuts the production in text[from, ...) at its arrow, context marks and colons. Faults: no arrow, no
+/// Splits the production in text[from, ...) at its arrow, context marks and colons. Errors: no arrow, no
 /// predecessor, two contexts of one side.
-WrittenProduction read_production(std::string_view text, std::vector<lang::Fault>& faults,
+WrittenProduction read_production(std::string_view text, std::vector<lang::TextError>& errors,
                                   std::size_t from = 0);
 
-/// Where an arrow stands outside parentheses in text[slice]; slice.to where none does.
+/// Returns the position of an arrow outside parentheses in text[slice], or slice.to.
 std::size_t find_second_arrow(std::string_view text, Slice slice);
 
-/// What a reader of statements asks of a text again and again, worked out in one walk.
+/// Index of brackets, semicolons and comparisons of a text. Built in one pass; a query costs O(log n).
 class Marks {
  public:
   Marks() = default;
   explicit Marks(std::string_view text);
-  /// As closing(), at once.
+  /// Same result as closing(), in constant time.
   std::size_t closing(std::size_t open, std::size_t to) const;
   bool has_semicolon(Slice slice) const { return has(semicolons_, slice); }
   bool has_comparison(Slice slice) const { return has(comparisons_, slice); }  ///< one of < > = ! & |
 
  private:
-  static bool has(const std::vector<std::uint32_t>& places, Slice slice);
-  std::vector<std::uint32_t> partner_;  ///< by byte: of an opening bracket what closes it
+  static bool has(const std::vector<std::uint32_t>& positions, Slice slice);
+  std::vector<std::uint32_t> partner_;  ///< by byte: the closing partner of an opening bracket
   std::vector<std::uint32_t> semicolons_, comparisons_;
 };
 
-/// True when the slice holds nothing, or "*" or "ε" alone.
+/// Returns true where the slice is empty, or "*" or "ε" alone.
 bool erases(std::string_view text, Slice slice);
 
 }  // namespace seedmesh::lsystem

@@ -1,8 +1,8 @@
 #include "core/generators/lsystem/shape.h"
 
 #include "core/base/math.h"
-#include "core/geom/weather.h"
-#include "core/geom/widths.h"
+#include "core/geom/plant/weather.h"
+#include "core/geom/plant/widths.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -11,7 +11,7 @@ void set_widths(Limbs& limbs, const LsystemParams& params, Job& job) {
   switch (params.width_rule) {
     case LsystemParams::WidthRule::symbols:
     case LsystemParams::WidthRule::decrement:
-      return;  // the turtle's own
+      return;  // the turtle has set the widths
     case LsystemParams::WidthRule::branch_factor:
       return narrow_by_order(limbs, params.width_factor, job);
     case LsystemParams::WidthRule::longest_chain:

@@ -1,6 +1,6 @@
 #pragma once
-/// What happens to a drawn skeleton before it is dressed: width laws over the whole, weather.
-#include "core/geom/limbs.h"
+/// Changes a drawn skeleton before meshing: width rules over the whole plant, and weather.
+#include "core/geom/plant/limbs.h"
 #include "generated/params/lsystem.h"
 
 namespace seedmesh::lsystem {

@@ -7,13 +7,14 @@
 namespace seedmesh::lsystem {
 namespace {
 
-constexpr std::uint64_t worth_it = std::uint64_t{1} << 20U;  // modules of the word
-// A stamp is to stay in the processor's own memory, and drawing all of them to cost little.
+constexpr std::uint64_t worth_it = std::uint64_t{1} << 20U;  // smallest number of modules
+// A stamp has to fit into the processor cache, and drawing all of them has to be cheap.
 constexpr std::uint64_t least_of_stamp = 64, most_of_stamp = 8192;
 constexpr std::size_t most_stamps = 64;
-constexpr std::size_t most_pieces = std::size_t{1} << 16U;  // kinds times steps
+constexpr std::size_t most_pieces = std::size_t{1} << 16U;  // number of kinds times number of steps
 
-/// Does the symbol mean the same to a turtle that is turned and moved, and nothing to any but the turtle?
+/// Returns true where the symbol has the same effect after a rigid motion of the turtle, and affects only the
+/// turtle.
 bool moves_along(const Grammar& grammar, Command command) {
   if (command == Command::cut) return !grammar.cuts;
   if (command <= Command::turn_around) return true;
@@ -22,7 +23,7 @@ bool moves_along(const Grammar& grammar, Command command) {
   return command == Command::push || command == Command::pop;
 }
 
-/// Brackets pair in every successor, but braces need not, and statements could write anything.
+/// Brackets pair in every successor. Braces need not pair, and statements can write anything.
 bool is_written_plainly(const Rules& rules) {
   return std::all_of(rules.productions.begin(), rules.productions.end(),
                      [](const Production& each) { return each.code.count == 0; });
@@ -50,18 +51,19 @@ bool Stamping::fits(const Grammar& grammar, const LsystemParams& params, std::ui
 }
 
 Stamping::Stamping(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps, Drawing& drawing,
-                   Job& job)
+                   const GenerateContext& context)
     : grammar_(grammar),
       params_(params),
       steps_(steps),
       drawing_(drawing),
-      job_(job),
-      meter_(job, Resource::modules),
+      context_(context),
+      job_(context.job),
+      meter_(context.job, Resource::modules),
       pieces_((std::size_t{steps} + 1) * grammar.kinds.size()) {
   count();
 }
 
-/// How many modules each symbol becomes in each number of steps.
+/// Counts the modules of each symbol after each number of steps.
 void Stamping::count() {
   const Rules& rules = grammar_.productions;
   for (std::uint32_t steps = 1; steps <= steps_; ++steps) {
@@ -96,7 +98,7 @@ bool Stamping::takes(KindId kind, std::uint32_t step) {
 const Turtle::Stamp& Stamping::draw(KindId kind, std::uint32_t step, Piece& piece) {
   ++stamps_;
   Turtle::Stamp& stamp = *piece.stamps.emplace_back(std::make_unique<Turtle::Stamp>(job_));
-  Drawing own(grammar_, params_, &stamp.skeleton, job_);
+  Drawing own(grammar_, params_, &stamp.skeleton, context_);
   own.begin_stamp(drawing_, stamp);
   FreeDerivation<Drawing>(grammar_, steps_, false, job_, own).run(kind, step);
   own.end_stamp(stamp);

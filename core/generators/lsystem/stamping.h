@@ -1,7 +1,7 @@
 #pragma once
-/// Big drawings of plain systems: what a symbol becomes in so many steps is the same wherever it stands, so
-/// the turtle draws it once and then sets it down turned and moved (Turtle::press). The joints lie where the
-/// turtle would have gone but for rounding far below what is stored.
+/// Fast drawing of plain systems. A symbol derives to the same modules everywhere, so the turtle draws them
+/// once and then copies them by a rigid motion (Turtle::press). Joints differ from direct drawing only by
+/// rounding far below the stored precision.
 #include <memory>
 #include <vector>
 
@@ -13,13 +13,12 @@ namespace seedmesh::lsystem {
 /// A sink of FreeDerivation.
 class Stamping {
  public:
-  /// True for systems whose rewritten symbols have no parameters, conditions or chance, that never look at
-  /// where the turtle is, and whose words are so long that it is worth it. Small words are drawn module by
-  /// module.
+  /// Returns true for long words of systems whose rewritten symbols have no parameters, conditions or random
+  /// choices and do not depend on the turtle's position. Short words are drawn module by module.
   static bool fits(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps);
 
   Stamping(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps, Drawing& drawing,
-           Job& job);
+           const GenerateContext& context);
 
   void module(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t step) {
     drawing_.module(kind, parameters, key, step);
@@ -29,7 +28,7 @@ class Stamping {
  private:
   struct Piece {
     std::uint64_t modules = 1;
-    std::vector<std::unique_ptr<Turtle::Stamp>> stamps;  ///< one for each state that the turtle came with
+    std::vector<std::unique_ptr<Turtle::Stamp>> stamps;  ///< one for each entry state of the turtle
   };
   Piece& piece(KindId kind, std::uint32_t steps) {
     return pieces_[std::size_t{steps} * grammar_.kinds.size() + kind];
@@ -41,9 +40,10 @@ class Stamping {
   const LsystemParams& params_;
   std::uint32_t steps_;
   Drawing& drawing_;
+  const GenerateContext context_;
   Job& job_;
   Meter meter_;
-  std::vector<Piece> pieces_;  ///< by steps and kind
+  std::vector<Piece> pieces_;  ///< by number of steps, then kind
   std::size_t stamps_ = 0;
 };
 

@@ -1,20 +1,21 @@
 #pragma once
-/// Where statements stand in a successor, told by its text alone; compile_code.cpp has what they mean.
+/// Recognizes statements in the text of a successor; compile_code.cpp compiles them.
 #include "core/generators/lsystem/compiler.h"
 
 namespace seedmesh::lsystem {
 
-constexpr std::size_t longest_name = 64;  ///< of a local
+constexpr std::size_t longest_name = 64;  ///< longest name of a local variable, in bytes
 
-/// Where the name at `at` ends; of one that is too long for a local the end of what is too long. `at` where
-/// no name begins.
+/// Returns the end of the name at `at`, or `at` where no name starts. Of a name longer than `longest_name`,
+/// only longest_name + 1 bytes are read.
 std::size_t end_of_name(std::string_view text, std::size_t at, std::size_t to);
-/// The same however long it is.
+/// Same, without the limit of length.
 std::size_t end_of_whole_name(std::string_view text, std::size_t at, std::size_t to);
-/// `word` and the parenthesis behind it stand at `at`: the place of the parenthesis, or `to`.
+/// Returns the position of the parenthesis that follows `word` at `at`, or `to`.
 std::size_t open_after(std::string_view text, std::string_view word, std::size_t at, std::size_t to);
 
-/// Both views must outlive it. Cost of a question: the bytes up to its answer.
+/// Queries over one text. Both arguments must outlive it. Cost of a query: linear in the distance to its
+/// answer.
 class Statements {
  public:
   Statements(std::string_view text, const Marks& marks) : text_(text), marks_(marks) {}
@@ -24,7 +25,7 @@ class Statements {
   std::size_t condition_at(std::size_t at, std::size_t to) const;
   /// A `let`, a name and its `=`.
   bool is_let(std::size_t at, std::size_t to) const;
-  /// One of = += -= *= /= ++ -- stands at `at`, and no ==.
+  /// True where one of = += -= *= /= ++ -- is at `at`, and not ==.
   bool changes(std::size_t at, std::size_t to) const;
   /// The next semicolon outside parentheses; `to`: there is none.
   std::size_t find_semicolon(std::size_t at, std::size_t to) const;

@@ -6,24 +6,21 @@
 
 #include "core/base/math.h"
 #include "core/generators/child.h"
-#include "core/geom/detail.h"
-#include "core/geom/flatten.h"
-#include "core/geom/foliage_levels.h"
-#include "core/geom/leaf_mesh.h"
-#include "core/geom/organs.h"
-#include "core/gltf/read.h"
+#include "core/geom/lod/detail.h"
+#include "core/geom/lod/foliage_levels.h"
+#include "core/geom/mesh/flatten.h"
+#include "core/geom/plant/leaf_mesh.h"
+#include "core/geom/plant/organs.h"
+#include "core/gltf/read/read.h"
 #include "core/texture/leaf.h"
 
 namespace seedmesh::lsystem {
 namespace {
 
 using Shape = LsystemShape;
+bool is_leaf(const LsystemSurface& surface) { return static_cast<int>(surface.shape) < leaf_shape_count; }
 
-bool is_leaf(const LsystemSurface& surface) {
-  return surface.shape != Shape::fruit && surface.shape != Shape::patches && surface.shape != Shape::model;
-}
-
-// The shapes that are leaves stand in the schema in the order of LeafShape.
+// The leaf shapes come first in the schema, in the order of LeafShape.
 static_assert(static_cast<int>(Shape::fruit) == leaf_shape_count);
 
 LeafShape leaf_shape(const LsystemSurface& surface) { return static_cast<LeafShape>(surface.shape); }
@@ -54,6 +51,8 @@ Mesh mesh_of(const LsystemSurface& surface, const Detail& detail, const Job& job
   if (surface.shape == Shape::fruit) {
     return fruit_mesh({.pointed = surface.pointed, .sides = detail.sides(10)}, job);
   }
+  if (surface.shape == Shape::sphere) return ball_mesh(detail.sides(12), job);
+  if (surface.shape == Shape::disc) return disc_mesh(detail.sides(16), job);
   if (surface.shape == Shape::patches) {
     std::vector<glm::vec3> points;
     for (const auto& patch : surface.patches) {
@@ -77,7 +76,7 @@ Mesh mesh_of(const LsystemSurface& surface, const Detail& detail, const Job& job
   return leaf_mesh(form, job);
 }
 
-/// The picture of the leaf's own kind where it is wanted.
+/// Returns the texture of the leaf kind where it is requested.
 TextureRecipe recipe_of(const LsystemSurface& surface) {
   const bool wanted = surface.picture == LsystemPicture::own ||
                       (surface.picture == LsystemPicture::auto_ && surface.build != LsystemBuild::mesh);
@@ -99,29 +98,31 @@ Mesh copy_of(const Mesh& mesh, const Job& job) {
   return copy;
 }
 
-/// A model that is a surface: a primitive for each of its materials, which are in the plant's list by now.
-using Guests = std::map<std::string, std::vector<Primitive>>;
+/// Models used as surfaces: by name, one primitive for each material, with material indices of the plant.
+using SurfaceModels = std::map<std::string, std::vector<Primitive>>;
 
-Model guest_of(const LsystemSurface& surface, const std::string& name, Job& job) {
+Model guest_of(const LsystemSurface& surface, const std::string& name, const GenerateContext& context) {
+  Job& job = context.job;
   const std::string at = "/surfaces/" + name;
-  const Rng place = job.rng().at("surface").at(name);
-  Result<Model> model = surface.model ? generate_child(*surface.model, at + "/model", place, job)
+  const Rng stream = job.rng().at("surface").at(name);
+  Result<Model> model = surface.model ? generate_child(*surface.model, at + "/model", stream, context)
                                       : read_glb(*surface.glb, at + "/glb", job);
-  if (!model) Job::reject(model.error().issues.front());
+  if (!model) job.refuse(model.error().issues.front());
   return std::move(*model);
 }
 
-/// Moves materials, textures and warnings of a guest into the plant.
-std::vector<Primitive> settled(Model guest, Model& model, const std::string& pointer, Job& job) {
-  std::vector<Primitive> parts = flatten(guest, job);
+/// Moves materials, textures and warnings of a surface model into the plant.
+std::vector<Primitive> imported(Model surface_model, Model& model, const std::string& pointer, Job& job) {
+  std::vector<Primitive> parts = flatten(surface_model, job);
   std::erase_if(parts, [](const Primitive& part) {
     return part.mesh.topology != Topology::triangles || part.mesh.elements() == 0;
   });
   if (parts.empty())
-    Job::reject({pointer, "found a model without triangles, which no surface can be made of"});
+    job.refuse(
+        {IssueKind::invalid_value, pointer, "found a model without triangles; a surface needs triangles"});
   const auto materials = static_cast<int>(model.materials.size()),
              textures = static_cast<int>(model.textures.size());
-  for (Material& material : guest.materials) {
+  for (Material& material : surface_model.materials) {
     for (TextureUse* use :
          {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
           &material.occlusion_texture, &material.emissive_texture}) {
@@ -129,28 +130,31 @@ std::vector<Primitive> settled(Model guest, Model& model, const std::string& poi
     }
     model.materials.push_back(std::move(material));
   }
-  model.textures.insert(model.textures.end(), guest.textures.begin(), guest.textures.end());
-  model.warnings.insert(model.warnings.end(), guest.warnings.begin(), guest.warnings.end());
+  model.textures.insert(model.textures.end(), surface_model.textures.begin(), surface_model.textures.end());
+  model.warnings.insert(model.warnings.end(), surface_model.warnings.begin(), surface_model.warnings.end());
   for (Primitive& part : parts) {
     if (part.material >= 0) part.material += materials;
-    if (part.mesh.normal.empty()) Job::reject({pointer, "found a model without normals"});
+    if (part.mesh.normal.empty())
+      job.refuse({IssueKind::invalid_value, pointer, "found a model without normals"});
   }
   return parts;
 }
 
-/// The guests that organs stand for, each made once.
-Guests guests_of(Model& model, const Organs& organs, const LsystemParams& params, Job& job) {
+/// Creates each surface model that organs use once.
+SurfaceModels surface_models_of(Model& model, const Organs& organs, const LsystemParams& params,
+                                const GenerateContext& context) {
+  Job& job = context.job;
   std::vector<bool> used(params.surfaces.size(), false);
   for (const Organ& organ : organs.organ) used[organ.surface] = true;
-  Guests guests;
+  SurfaceModels surface_models;
   std::size_t number = 0;
   for (const auto& [name, surface] : params.surfaces) {
     if (surface.shape == Shape::model && used[number]) {
-      guests[name] = settled(guest_of(surface, name, job), model, "/surfaces/" + name, job);
+      surface_models[name] = imported(guest_of(surface, name, context), model, "/surfaces/" + name, job);
     }
     ++number;
   }
-  return guests;
+  return surface_models;
 }
 
 /// Meshes of organs, one or more for each surface of the request.
@@ -159,22 +163,25 @@ struct Sheets {
   std::vector<TextureRecipe> recipes;
   std::vector<Sides> sides;
   std::vector<std::string> names;
-  std::vector<int> materials;        ///< -1: by the look of the organ
-  std::vector<std::uint32_t> first;  ///< of each surface; one more at the end
+  std::vector<int> materials;        ///< -1: material of the organ
+  std::vector<std::uint32_t> first;  ///< first mesh of each surface, and the end
 
   void add(Mesh mesh, const LsystemSurface& surface, const std::string& name, int material) {
     meshes.push_back(std::move(mesh));
     recipes.push_back(recipe_of(surface));
-    sides.push_back(surface.shape == Shape::fruit ? Sides::one : Sides::both);
+    const bool closed = surface.shape == Shape::fruit || surface.shape == Shape::sphere;
+    sides.push_back(closed ? Sides::one : Sides::both);
     names.push_back(name);
     materials.push_back(material);
   }
-  int material(std::uint32_t sheet, std::int16_t color, Wardrobe& wardrobe) const {
-    return materials[sheet] >= 0 ? materials[sheet] : wardrobe.material(color, sides[sheet], recipes[sheet]);
+  int material(std::uint32_t sheet, std::int16_t color, MaterialSet& material_set) const {
+    return materials[sheet] >= 0 ? materials[sheet]
+                                 : material_set.material(color, sides[sheet], recipes[sheet]);
   }
 };
 
-Sheets sheets_of(const LsystemParams& params, const Guests& guests, const Detail& detail, const Job& job) {
+Sheets sheets_of(const LsystemParams& params, const SurfaceModels& surface_models, const Detail& detail,
+                 const Job& job) {
   Sheets sheets;
   for (const auto& [name, surface] : params.surfaces) {
     sheets.first.push_back(static_cast<std::uint32_t>(sheets.meshes.size()));
@@ -182,16 +189,16 @@ Sheets sheets_of(const LsystemParams& params, const Guests& guests, const Detail
       sheets.add(mesh_of(surface, detail, job), surface, name, -1);
       continue;
     }
-    const auto guest = guests.find(name);
-    if (guest == guests.end()) continue;
-    for (const Primitive& part : guest->second)
+    const auto surface_model = surface_models.find(name);
+    if (surface_model == surface_models.end()) continue;
+    for (const Primitive& part : surface_model->second)
       sheets.add(copy_of(part.mesh, job), surface, name, part.material);
   }
   sheets.first.push_back(static_cast<std::uint32_t>(sheets.meshes.size()));
   return sheets;
 }
 
-/// Organs of surfaces as organs of sheets: one for each.
+/// Expands organs of surfaces to one organ for each mesh of the surface.
 Organs on_sheets(const Organs& organs, const Sheets& sheets, const Job& job) {
   Organs all(job);
   for (Organ organ : organs.organ) {
@@ -223,10 +230,10 @@ FoliageOptions options_of(const Sheets& sheets, const Foliated& foliated, const 
   return options;
 }
 
-Organs looking(const Organs& organs, const Wardrobe& wardrobe, const Job& job) {
+Organs with_material_index(const Organs& organs, const MaterialSet& material_set, const Job& job) {
   Organs own(job);
   own.organ.append(organs.organ.span());
-  for (Organ& organ : own.organ) organ.color = wardrobe.look_of(organ.color);
+  for (Organ& organ : own.organ) organ.color = material_set.index_of(organ.color);
   return own;
 }
 
@@ -234,9 +241,10 @@ std::string level_name(const std::string& name, int level) {
   return level == 0 ? name : name + "_LOD" + std::to_string(level);
 }
 
-/// What each surface covers: its coarsest mesh.
-std::vector<Mesh> footprints_of(const LsystemParams& params, const Guests& guests, const Job& job) {
-  Sheets sheets = sheets_of(params, guests, Detail(most_levels - 1), job);
+/// Returns the coarsest mesh of each surface, as its footprint.
+std::vector<Mesh> footprints_of(const LsystemParams& params, const SurfaceModels& surface_models,
+                                const Job& job) {
+  Sheets sheets = sheets_of(params, surface_models, Detail(most_levels - 1), job);
   std::vector<Mesh> footprints(params.surfaces.size());
   for (std::size_t i = 0; i < footprints.size(); ++i) {
     if (sheets.first[i] < sheets.first[i + 1]) footprints[i] = std::move(sheets.meshes[sheets.first[i]]);
@@ -253,7 +261,7 @@ std::uint64_t triangles_of(const Organs& organs, const Sheets& sheets) {
   return triangles;
 }
 
-/// What the model shows at a level, so far.
+/// Returns the number of triangles of the model at a level so far.
 std::uint64_t shown_at(const Model& model, int level) {
   std::uint64_t triangles = 0;
   for (const Node& node : model.nodes) {
@@ -266,28 +274,30 @@ std::uint64_t shown_at(const Model& model, int level) {
   return triangles;
 }
 
-/// The share of the organs that stays: so many that the outline holds, as far as there are so many triangles
-/// left for them; all of them would have `whole`.
+/// Returns the share of organs that a level keeps: enough to hold the outline, within the `left` triangles of
+/// the budget. `whole` is the number for all organs.
 double organs_at(const Detail& detail, const FoliageLevels& levels, std::uint64_t whole, std::uint64_t left) {
-  const double room = static_cast<double>(left) / static_cast<double>(std::max<std::uint64_t>(whole, 1));
-  return std::max(detail.organs(), std::min(levels.share_for(detail.loss()), room));
+  const double share = static_cast<double>(left) / static_cast<double>(std::max<std::uint64_t>(whole, 1));
+  return std::max(detail.organs(), std::min(levels.share_for(detail.loss()), share));
 }
 
-void add_merged(Model& model, const Foliated& foliated, const LsystemParams& params, const Guests& guests,
-                Wardrobe& wardrobe, Job& job) {
+void add_merged(Model& model, const Foliated& foliated, const LsystemParams& params,
+                const SurfaceModels& surface_models, MaterialSet& material_set,
+                const GenerateContext& context) {
+  Job& job = context.job;
   Node node;
   node.name = "organs";
   node.parent = 0;
-  const Organs all = looking(foliated.organs, wardrobe, job);
+  const Organs all = with_material_index(foliated.organs, material_set, job);
   std::optional<FoliageLevels> levels;
-  if (job.demand().lods > 1) {
-    const std::vector<Mesh> footprints = footprints_of(params, guests, job);
+  if (context.demand.lods > 1) {
+    const std::vector<Mesh> footprints = footprints_of(params, surface_models, job);
     levels.emplace(FoliageLevels::Plant{all, footprints, Limbs(job), 1}, job);
   }
-  std::uint64_t before = 0;  // triangles of the whole plant at the level before
-  for (int level = 0; level < job.demand().lods; ++level) {
+  std::uint64_t before = 0;  // triangles of the whole plant at the previous level
+  for (int level = 0; level < context.demand.lods; ++level) {
     const Detail detail(level);
-    const Sheets sheets = sheets_of(params, guests, detail, job);
+    const Sheets sheets = sheets_of(params, surface_models, detail, job);
     const std::uint64_t whole = triangles_of(all, sheets);
     Organs fewer(job);
     const std::uint64_t others = shown_at(model, level), most = Detail::fewer_than(before);
@@ -297,7 +307,7 @@ void add_merged(Model& model, const Foliated& foliated, const LsystemParams& par
     MeshGroup group{level_name(node.name, level), {}};
     const FoliageOptions options = options_of(sheets, {own, foliated.size, foliated.bones}, params);
     for (Foliage& part : place_organs(on_sheets(own, sheets, job), options, job)) {
-      const int material = sheets.material(part.surface, part.color, wardrobe);
+      const int material = sheets.material(part.surface, part.color, material_set);
       group.primitives.push_back({std::move(part.mesh), material, {}});
     }
     before = others;
@@ -314,13 +324,15 @@ void add_merged(Model& model, const Foliated& foliated, const LsystemParams& par
   if (node.mesh >= 0) model.nodes.push_back(std::move(node));
 }
 
-/// One node for each surface and look, which the writer turns to as many as there are places.
-void add_shared(Model& model, const Foliated& foliated, const LsystemParams& params, const Guests& guests,
-                Wardrobe& wardrobe, Job& job) {
+/// Adds one node for each surface and material. The writer instantiates it at each transform.
+void add_shared(Model& model, const Foliated& foliated, const LsystemParams& params,
+                const SurfaceModels& surface_models, MaterialSet& material_set,
+                const GenerateContext& context) {
+  Job& job = context.job;
   std::vector<Sheets> levels;
-  for (int level = 0; level < job.demand().lods; ++level)
-    levels.push_back(sheets_of(params, guests, Detail(level), job));
-  const Organs own = looking(foliated.organs, wardrobe, job);
+  for (int level = 0; level < context.demand.lods; ++level)
+    levels.push_back(sheets_of(params, surface_models, Detail(level), job));
+  const Organs own = with_material_index(foliated.organs, material_set, job);
   const Sheets& finest = levels.front();
   const FoliageOptions options = options_of(finest, {own, foliated.size, {}}, params);
   for (FoliagePlaces& places : organ_places(on_sheets(own, finest, job), options, job)) {
@@ -328,7 +340,7 @@ void add_shared(Model& model, const Foliated& foliated, const LsystemParams& par
     node.name = finest.names[places.surface];
     node.parent = 0;
     node.instances.transforms = std::move(places.places);
-    const int material = finest.material(places.surface, places.color, wardrobe);
+    const int material = finest.material(places.surface, places.color, material_set);
     for (std::size_t level = 0; level < levels.size(); ++level) {
       const int mesh = static_cast<int>(model.meshes.size());
       model.meshes.push_back({level_name(node.name, static_cast<int>(level)), {}});
@@ -350,36 +362,38 @@ void check_surfaces(const LsystemParams& params, std::vector<Issue>& issues) {
   for (const auto& [name, surface] : params.surfaces) {
     const std::string at = "/surfaces/" + name + "/patches";
     if (surface.shape == Shape::patches && surface.patches.empty()) {
-      issues.push_back({at, "found no patches; the shape \"patches\" needs at least one"});
+      issues.push_back(
+          {IssueKind::missing, at, "found no patches; the shape \"patches\" needs at least one"});
     }
     if (surface.shape != Shape::patches && !surface.patches.empty()) {
-      issues.push_back({at, "found patches beside the shape \"" + std::string(text_of(surface.shape)) +
-                                "\"; expected the shape \"patches\""});
+      issues.push_back({IssueKind::conflict, at,
+                        "found patches with the shape \"" + std::string(text_of(surface.shape)) +
+                            "\"; expected the shape \"patches\""});
     }
     const int models = (surface.model ? 1 : 0) + (surface.glb ? 1 : 0);
     const bool is_model = surface.shape == Shape::model;
     if (models != (is_model ? 1 : 0)) {
-      issues.push_back({"/surfaces/" + name,
+      issues.push_back({IssueKind::conflict, "/surfaces/" + name,
                         is_model ? "found " + std::to_string(models) +
                                        " models; the shape \"model\" needs either model or glb"
-                                 : "found a model beside the shape \"" + std::string(text_of(surface.shape)) +
+                                 : "found a model with the shape \"" + std::string(text_of(surface.shape)) +
                                        "\"; expected the shape \"model\""});
     }
     if (surface.glb && !is_glb_uri(*surface.glb)) {
-      issues.push_back(
-          {"/surfaces/" + name + "/glb", "expected a GLB as \"data:model/gltf-binary;base64,…\""});
+      issues.push_back({IssueKind::invalid_value, "/surfaces/" + name + "/glb",
+                        "expected a GLB as \"data:model/gltf-binary;base64,…\""});
     }
   }
 }
 
-void add_organs(Model& model, const Foliated& foliated, const LsystemParams& params, Wardrobe& wardrobe,
-                Job& job) {
+void add_organs(Model& model, const Foliated& foliated, const LsystemParams& params,
+                MaterialSet& material_set, const GenerateContext& context) {
   if (foliated.organs.organ.empty()) return;
-  const Guests guests = guests_of(model, foliated.organs, params, job);
-  if (job.demand().share_organs) {
-    add_shared(model, foliated, params, guests, wardrobe, job);
+  const SurfaceModels surface_models = surface_models_of(model, foliated.organs, params, context);
+  if (context.demand.share_organs) {
+    add_shared(model, foliated, params, surface_models, material_set, context);
   } else {
-    add_merged(model, foliated, params, guests, wardrobe, job);
+    add_merged(model, foliated, params, surface_models, material_set, context);
   }
 }
 

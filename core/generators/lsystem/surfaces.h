@@ -1,25 +1,26 @@
 #pragma once
-/// The request's surfaces as meshes, and organs as a part of the model.
-#include "core/generators/lsystem/looks.h"
-#include "core/geom/limbs.h"
+/// Meshes of the surfaces of a request, and the organs as a node of the model.
+#include "core/generators/api.h"
+#include "core/generators/lsystem/materials.h"
+#include "core/geom/plant/limbs.h"
 
 namespace seedmesh::lsystem {
 
-/// What the schema cannot say of the surfaces.
+/// Checks what the schema cannot express.
 void check_surfaces(const LsystemParams& params, std::vector<Issue>& issues);
 
-/// Organs and what they stand on.
+/// Organs with the size and bones of their plant.
 struct Foliated {
   const Organs& organs;
-  float size = 0;                             ///< the diagonal of the model
-  std::span<const std::uint16_t> bones = {};  ///< of each joint, where the plant grows
+  float size = 0;                             ///< diagonal of the model's bounds, in metres
+  std::span<const std::uint16_t> bones = {};  ///< bone of each joint; empty without growth animation
 };
 
-/// Adds the node "organs" with all of them: merged into one primitive for each surface and look, or, where
-/// the output asks for it, as nodes that share one mesh for each. A surface that is a model of its own has a
-/// primitive for each of its materials, which come along. Throws Stop (Code::invalid) where such a model
-/// cannot be made or has no triangles.
-void add_organs(Model& model, const Foliated& foliated, const LsystemParams& params, Wardrobe& wardrobe,
-                Job& job);
+/// Adds the node "organs". Organs are merged into one primitive for each surface and material; with shared
+/// output they become nodes that share one mesh. A surface that is a model has a primitive for each of its
+/// materials, which are added to `model`. Throws Stop (Code::invalid) where such a model cannot be made or
+/// has no triangles.
+void add_organs(Model& model, const Foliated& foliated, const LsystemParams& params,
+                MaterialSet& material_set, const GenerateContext& context);
 
 }  // namespace seedmesh::lsystem

@@ -7,13 +7,13 @@
 namespace seedmesh::lsystem {
 namespace {
 
-constexpr std::size_t most_kinds = 96;  // the table has about the cube of this many entries: 7 MB
-constexpr std::size_t copied = 8;       // bytes moved at once; longer successors take more than one move
+constexpr std::size_t most_kinds = 96;  // the table has about the cube of this number of entries: 7 MB
+constexpr std::size_t copied = 8;       // bytes of one copy; longer successors need several
 constexpr std::size_t chunk = 4096;
 
 bool plain(const Grammar& grammar, const Production& production) {
   const auto is_bracket = [&](KindId kind) { return kind == grammar.open || kind == grammar.close; };
-  return !production.conditional && !production.weighted && !production.looks_at_new() &&
+  return !production.conditional && !production.weighted && !production.has_new_context() &&
          production.left.size() <= 1 && production.right.size() <= 1 &&
          std::none_of(production.right.begin(), production.right.end(), is_bracket);
 }
@@ -23,8 +23,9 @@ bool plain(const Grammar& grammar, const Production& production) {
 bool TableRewriter::fits(const Grammar& grammar) {
   const Rules& rules = grammar.productions;
   const bool by_productions_alone = grammar.decomposition.productions.empty() && grammar.tables.empty() &&
-                                    !grammar.statements && !grammar.ring;
-  return by_productions_alone && grammar.widest == 0 && !grammar.cuts && !rules.chance &&
+                                    !grammar.statements && !grammar.ring && !grammar.strict &&
+                                    grammar.variables.empty();
+  return by_productions_alone && grammar.widest == 0 && !grammar.cuts && !rules.random &&
          grammar.kinds.size() <= most_kinds &&
          std::all_of(rules.productions.begin(), rules.productions.end(),
                      [&](const Production& each) { return plain(grammar, each); });
@@ -42,11 +43,11 @@ TableRewriter::TableRewriter(const Grammar& grammar, Job& job)
   role_[grammar.close] = Role::close;
   for (const Template& each : grammar.templates) row_ = row_ && role_[each.kind] == Role::neighbour;
   for (std::size_t kind = 0; kind < kinds_; ++kind) {
-    // Identity first; then the productions from the last to the first, so that the first that matches stands.
+    // Starts with the identity, then enters the productions from last to first, so that the first match wins.
     const Entry self{static_cast<std::uint32_t>(successors_.size()), 1};
     successors_.push_back(static_cast<std::uint8_t>(kind));
     for (std::size_t left = 0; left <= kinds_; ++left) {
-      for (std::size_t right = 0; right <= kinds_; ++right) table_[place(left, kind, right)] = self;
+      for (std::size_t right = 0; right <= kinds_; ++right) table_[entry_index(left, kind, right)] = self;
     }
     const Range range = grammar.productions.of_kind[kind];
     for (std::uint32_t i = range.count; i-- > 0;) {
@@ -65,13 +66,14 @@ void TableRewriter::fill(const Production& production, KindId kind) {
   for (std::size_t left = 0; left <= kinds_; ++left) {
     if (!production.left.empty() && production.left[0] != left) continue;
     for (std::size_t right = 0; right <= kinds_; ++right) {
-      if (production.right.empty() || production.right[0] == right) table_[place(left, kind, right)] = made;
+      if (production.right.empty() || production.right[0] == right)
+        table_[entry_index(left, kind, right)] = made;
     }
   }
 }
 
-/// From the back: inside a branch there is nothing to the right of its last symbol; before a branch the
-/// neighbour stands behind it.
+/// Scans from the end. The last symbol of a branch has no right neighbour. The right neighbour of a symbol
+/// before a branch follows the branch.
 void TableRewriter::find_right_neighbours(const Array<std::uint8_t>& in) {
   right_.resize(in.size());
   stack_.clear();
@@ -116,12 +118,12 @@ void TableRewriter::rewrite(const Array<std::uint8_t>& in, Array<std::uint8_t>& 
   for (std::size_t from = 0; from < in.size(); from += chunk) {
     job_.check();
     const std::size_t to = std::min(in.size(), from + chunk);
-    const std::size_t room = length + (to - from) * longest_ + copied;
-    if (room > out.capacity()) out.reserve(std::max(room, 2 * out.capacity()));
+    const std::size_t needed = length + (to - from) * longest_ + copied;
+    if (needed > out.capacity()) out.reserve(std::max(needed, 2 * out.capacity()));
     std::uint8_t* write = out.data() + length;
     for (std::size_t i = from; i < to; ++i) {
       const std::uint8_t kind = in[i];
-      const Entry found = table_[place(left, kind, right_of(i))];
+      const Entry found = table_[entry_index(left, kind, right_of(i))];
       const std::uint8_t* successor = successors_.data() + found.first;
       std::memcpy(write, successor, copied);
       if (found.length > copied) std::memcpy(write + copied, successor + copied, found.length - copied);
@@ -137,8 +139,9 @@ void TableRewriter::rewrite(const Array<std::uint8_t>& in, Array<std::uint8_t>& 
     }
     length = static_cast<std::size_t>(write - out.data());
     if (length > job_.limits().modules) {
-      Job::refuse("needs more than " + std::to_string(job_.limits().modules) +
-                  " modules, which is the limit");
+      job_.refuse(limit_issue(
+          {Resource::modules, job_.limits().modules, length},
+          "needs more than " + std::to_string(job_.limits().modules) + " modules, which is the limit"));
     }
   }
   out.resize(length);

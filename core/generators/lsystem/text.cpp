@@ -26,7 +26,7 @@ class PlainText {
   };
   static constexpr std::size_t none = ~std::size_t{0};
 
-  /// Appends what `kind` becomes in `steps` steps. Recursion is as deep as there are steps.
+  /// Appends the derivation of `kind` over `steps` steps. The recursion depth is `steps`.
   void write(KindId kind, std::uint32_t steps) {
     if (full_) return;
     if (steps == 0 || !grammar_.productions.rewrites(kind)) return symbol(kind);
@@ -70,7 +70,7 @@ void TextWriter::module(KindId kind, const double* parameters) {
   const Kind& written = grammar_.kinds[kind];
   const std::size_t before = text.size();
   text += written.symbol;
-  for (std::uint32_t i = 0; i < written.arity; ++i) {  // of a frame all twelve numbers
+  for (std::uint32_t i = 0; i < written.arity; ++i) {  // all twelve numbers of a frame
     char digits[32];
     const auto end =
         std::to_chars(digits, digits + sizeof digits, parameters[i], std::chars_format::general, 6);
@@ -86,7 +86,7 @@ void TextWriter::module(KindId kind, const double* parameters) {
 
 bool is_plain(const Grammar& grammar) {
   const Rules& rules = grammar.productions;
-  return grammar.is_free() && grammar.widest == 0 && !grammar.cuts && !rules.chance &&
+  return grammar.is_free() && grammar.widest == 0 && !grammar.cuts && !rules.random &&
          std::none_of(rules.productions.begin(), rules.productions.end(), [](const Production& each) {
            return each.conditional || each.weighted || each.has_context();
          });

@@ -1,12 +1,12 @@
 #pragma once
-/// Words as text: symbols without spaces, parameters with six significant digits: A(1,2.5)[+F].
+/// Formats words as text: symbols without spaces, parameters with six significant digits: A(1,2.5)[+F].
 #include <string>
 
 #include "core/generators/lsystem/grammar.h"
 
 namespace seedmesh::lsystem {
 
-/// Appends modules to a text until it has `most` bytes, and counts them all.
+/// Appends modules to a text until it has `most` bytes, and counts all modules.
 class TextWriter {
  public:
   TextWriter(const Grammar& grammar, std::size_t most)
@@ -23,11 +23,11 @@ class TextWriter {
   std::vector<std::uint64_t> counts_;
 };
 
-/// True for systems without parameters, chance, conditions, contexts and cuts: D0L systems.
+/// Returns true for systems without parameters, random choices, conditions, contexts and cuts: D0L systems.
 bool is_plain(const Grammar& grammar);
 
-/// The word of a D0L system as text, cut at `most` bytes between modules. What a symbol becomes in n steps is
-/// written once and copied wherever the symbol stands again, so that the cost is that of copying the text.
+/// Returns the word of a D0L system as text, truncated between modules at `most` bytes. The derivation of a
+/// symbol over n steps is written once and then copied. Cost: linear in the text.
 Array<char> plain_text(const Grammar& grammar, std::uint32_t steps, std::size_t most, const Job& job);
 
 }  // namespace seedmesh::lsystem

@@ -1,10 +1,10 @@
 #pragma once
-/// Bark with grown joints (the parameter `weld`): limbs of brackets grown together by graft().
+/// Bark with continuous joints (the parameter `weld`): graft() joins the limbs of brackets into one surface.
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "core/geom/skin.h"
+#include "core/geom/plant/skin.h"
 #include "core/model/model.h"
 #include "generated/params/lsystem.h"
 
@@ -12,20 +12,21 @@ namespace seedmesh::lsystem {
 
 struct WeldedBark {
   std::vector<Bark> barks;
-  /// What it was made of: limbs in which nothing is drawn twice and each goes on as far as it can.
+  /// The limbs of the bark: coincident internodes are removed, and limbs are extended as far as possible.
   Limbs limbs;
-  Array<std::uint16_t> bones;  ///< of their joints, where the plant grows
+  Array<std::uint16_t> bones;  ///< bone of each joint; empty without growth animation
 };
 
-/// The bark of the finest level; `bones` of each joint, or empty. Nullopt: the limbs lie in heaps, of which
-/// graft() makes no surface.
+/// Returns the bark of the finest level. `bones` has one entry for each joint or is empty. Returns nullopt
+/// where limbs overlap so much that graft() cannot make a surface.
 std::optional<WeldedBark> welded_bark(const Limbs& limbs, std::span<const std::uint16_t> bones,
                                       const LsystemParams& params, Job& job);
 
-/// About how many triangles it has; within a quarter for plants of six sides and more that are no heap.
+/// Estimates the number of triangles, within 25 % for plants with at least six sides and without overlapping
+/// clusters.
 std::uint64_t welded_triangles(const Limbs& limbs, const LsystemParams& params, Job& job);
 
-/// What of the parameters welded bark does not look at.
+/// Adds a warning for each parameter that welded bark ignores.
 void warn_of_welded(const LsystemParams& params, std::vector<Warning>& warnings);
 
 }  // namespace seedmesh::lsystem

@@ -1,6 +1,6 @@
 #pragma once
-/// Derivation of whole words, for systems whose productions look at their neighbours. Flat arrays: one row of
-/// kinds, one of parameters, and keys and birth steps where somebody needs them.
+/// Derives whole words, for systems with contexts. A word is a set of flat arrays: kinds, parameters, and
+/// optional keys and birth steps.
 #include "core/base/array.h"
 #include "core/generators/lsystem/code.h"
 #include "core/generators/lsystem/grammar.h"
@@ -9,15 +9,18 @@ namespace seedmesh::lsystem {
 
 struct Word {
   Array<KindId> kind;
-  Array<std::uint32_t> at;  ///< by module: where its parameters start; empty when no kind has parameters
+  Array<std::uint32_t> at;  ///< first parameter of each module; empty where no kind has parameters
   Array<double> parameter;
-  Array<std::uint64_t> key;   ///< empty unless keyed
-  Array<std::uint16_t> born;  ///< step that wrote the module
+  Array<std::uint64_t> key;       ///< empty without keys
+  Array<std::uint16_t> born;      ///< derivation step that wrote the module
+  std::vector<double> variables;  ///< Grammar::variables after the step that wrote the word
   explicit Word(const Job& job) : kind(job), at(job), parameter(job), key(job), born(job) {}
   std::size_t size() const { return kind.size(); }
 };
 
-/// A derivation that is looked at, or written into, between its steps.
+/// A derivation whose word can be read and changed between steps. Each step runs Grammar::start_each, rewrites the
+/// word from left to right, and runs Grammar::end_each. Variables are shared by all productions: what a production
+/// sets, the modules to its right read in the same step.
 class Derivation {
  public:
   Derivation(const Grammar& grammar, bool keyed, Job& job);
@@ -29,17 +32,19 @@ class Derivation {
   const Grammar& grammar_;
   bool keyed_;
   Job& job_;
+  void run(Range statements, std::uint64_t stream);
+
   CodeRunner code_;
+  std::vector<double> slots_;  ///< of statements between steps; the variables are the first
   std::uint32_t step_ = 0;
 };
 
-/// The word after `steps` steps from the axiom. Refuses a word longer than limits.modules before it is
-/// stored. After each step, and after the axiom, decomposition rules are used on what was written, and on
-/// what they write, as deep as Grammar::decomposition_depth; what they write belongs to the same step.
-/// Contexts follow the book: a left context leads up through [ past sibling branches; a right context passes
-/// branches it does not name and never leaves through ]; a [ ] group in it matches the beginning of a branch.
-/// Cost: linear in the sum of the words' lengths; systems of plain symbols with contexts of one symbol run
-/// from a table.
+/// Returns the word after `steps` steps from the axiom. Refuses a word longer than limits.modules before it
+/// is stored. After the axiom and each step, decomposition rules are applied to what was written, at most
+/// Grammar::decomposition_depth times; their output belongs to the same step. Contexts follow the book. A
+/// left context leads up through [ past sibling branches. A right context skips branches that it does not
+/// name and never leaves through ]; a [ ] group in it matches the start of a branch. Cost: linear in the sum
+/// of the lengths of all words. Plain symbols with contexts of one symbol use table.h.
 Word derive_word(const Grammar& grammar, std::uint32_t steps, bool keyed, Job& job);
 
 }  // namespace seedmesh::lsystem

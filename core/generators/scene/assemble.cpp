@@ -6,10 +6,10 @@
 #include <tuple>
 
 #include "core/base/math.h"
-#include "core/generators/registry.h"
+#include "core/generators/api.h"
 #include "core/generators/scene/grow.h"
 #include "core/generators/scene/levels.h"
-#include "core/generators/scene/looks.h"
+#include "core/generators/scene/model_levels.h"
 #include "core/model/append.h"
 #include "core/model/levels.h"
 #include "core/schema/json.h"
@@ -19,16 +19,22 @@
 namespace seedmesh::scene {
 namespace {
 
-/// What a stand shows, and in which square of the ground.
+/// The variant and level of a placement, and its square of the ground.
 struct Copy {
-  std::uint32_t cast;
+  std::uint32_t variant;
   std::uint16_t level, chunk;
-  std::uint32_t stand;
+  std::uint32_t placement;
 
   bool goes_with(const Copy& other) const {
-    return cast == other.cast && level == other.level && chunk == other.chunk;
+    return variant == other.variant && level == other.level && chunk == other.chunk;
   }
 };
+
+std::string georeference_text(const SceneGeoreference& georeference) {
+  Json text = {{"latitude", georeference.latitude}, {"longitude", georeference.longitude}};
+  if (georeference.projection) text["projection"] = *georeference.projection;
+  return canonical_text(text);
+}
 
 Box box_of(const MeshGroup& group) {
   std::optional<Box> all;
@@ -39,16 +45,15 @@ Box box_of(const MeshGroup& group) {
   return all.value_or(Box{});
 }
 
-/// Plants can; a house looks flat.
-bool can_be_picture(const Child& request) {
-  const Generator* generator = find_generator(request.generator);
-  return generator && generator->has_impostor;
-}
-
 class Assembly {
  public:
-  Assembly(const SceneParams& params, const Plan& plan, Job& job)
-      : params_(params), ground_(plan.ground), planting_(plan.planting), casting_(plan.casting), job_(job) {
+  Assembly(const SceneParams& params, const Plan& plan, const GenerateContext& context)
+      : params_(params),
+        ground_(plan.ground),
+        planting_(plan.planting),
+        variant_table_(plan.variant_table),
+        context_(context),
+        job_(context.job) {
     model_.name = "scene";
     Node root;
     root.name = "scene";
@@ -62,45 +67,50 @@ class Assembly {
     groups_.resize(pieces.models.size());
     std::size_t layer = 0;
     for (std::size_t i = 0; i < pieces.models.size(); ++i) {
-      while (layer + 1 < casting_.layers.size() && casting_.layers[layer + 1].first <= i) ++layer;
+      while (layer + 1 < variant_table_.layers.size() && variant_table_.layers[layer + 1].first <= i) ++layer;
       add_cast(i, layer, pieces.models[i]);
       pieces.models[i] = Model{};
     }
-    if (chooses_levels(params_, job_.demand())) {
-      std::vector<Stature> statures;
-      for (const Group& group : groups_) statures.push_back(group.stature);
-      levels_ = levels_of(params_, {ground_, planting_, casting_}, statures, others, job_);
+    if (chooses_levels(params_, context_.demand)) {
+      std::vector<LodInfo> lod_infos;
+      for (const Group& group : groups_) lod_infos.push_back(group.lod_info);
+      levels_ = levels_of(params_, {ground_, planting_, variant_table_}, lod_infos, others, context_);
     }
-    Json told = Json::array();
-    for (std::size_t i = 0; i < params_.layers.size(); ++i) told.push_back(add_layer(i));
-    model_.extras.push_back({"layers", canonical_text(told)});
+    Json summary = Json::array();
+    for (std::size_t i = 0; i < params_.layers.size(); ++i) summary.push_back(add_layer(i));
+    model_.extras.push_back({"layers", canonical_text(summary)});
+    if (params_.georeference)
+      model_.extras.push_back({"georeference", georeference_text(*params_.georeference)});
     for (const Warning& each : planting_.warnings) model_.warnings.push_back(each);
     tell_what_is_missing();
     return std::move(model_);
   }
 
  private:
-  struct Group {
-    std::vector<int> meshes;  ///< finest first, last of all the picture where there is one
-    Stature stature;
-    Grower grower;  ///< without joints: it stands still
-  };
-
-  /// What was asked for and no model could give.
-  void tell_what_is_missing() {
-    const Demand& demand = job_.demand();
-    const auto has_picture = [](const Group& group) { return group.stature.has_picture; };
-    if (demand.impostor && std::none_of(groups_.begin(), groups_.end(), has_picture))
-      model_.warnings.push_back(
-          {"/output/impostor", "no model has so many triangles that a picture has fewer"});
-    if (demand.growth && model_.animations.empty())
-      model_.warnings.push_back({"/output/animation", "nothing that stands here grows"});
+  const Generator* generator_of(const ModelVariant& variant) const {
+    return find_generator(context_.generators, variant.request.generator);
   }
 
-  /// Variants of a model warn alike.
+  struct Group {
+    std::vector<int> meshes;  ///< finest first, then the impostor if there is one
+    LodInfo lod_info;
+    GrowingPlant growing_plant;  ///< without joints there is no growth
+  };
+
+  /// Warns of requested features that no model could provide.
+  void tell_what_is_missing() {
+    const Demand& demand = context_.demand;
+    const auto has_impostor = [](const Group& group) { return group.lod_info.has_impostor; };
+    if (demand.impostor && std::none_of(groups_.begin(), groups_.end(), has_impostor))
+      model_.warnings.push_back({"/output/impostor", "every model has fewer triangles than an impostor"});
+    if (demand.growth && model_.animations.empty())
+      model_.warnings.push_back({"/output/animation", "no placed model grows"});
+  }
+
+  /// Removes duplicates, because variants of a model have the same warnings.
   void cast_warnings(Model& made) {
     for (Warning& each : made.warnings) {
-      if (!is_used_elsewhere(casting_, each) &&
+      if (!is_used_elsewhere(variant_table_, each) &&
           seen_.insert({each.pointer, each.message, each.line, each.column}).second)
         model_.warnings.push_back(std::move(each));
     }
@@ -112,26 +122,24 @@ class Assembly {
     for (Material& material : made.materials)
       materials.push_back(add_material(std::move(material), made, layer));
     Group& own = groups_[number];
-    const std::string& name = casting_.casts[number].name;
-    if (Taken growing = taken_to_grow(made); !growing.grower.joints.empty()) {
-      own.grower = std::move(growing.grower);
-      own.grower.mesh = add_mesh(name + "_growing", std::move(growing.primitives), materials);
+    const std::string& name = variant_table_.variants[number].name;
+    if (ExtractedPlant growing = extract_growing_plant(made); !growing.growing_plant.joints.empty()) {
+      own.growing_plant = std::move(growing.growing_plant);
+      own.growing_plant.mesh = add_mesh(name + "_growing", std::move(growing.primitives), materials);
     }
-    if (const Generator* generator = find_generator(casting_.casts[number].request.generator);
-        generator != nullptr && generator->parts)
-      set_apart(made);
-    std::vector<std::vector<Primitive>> levels = levels_made(made, job_);
+    if (generator_of(variant_table_.variants[number])->parts) separate_bodies(made);
+    std::vector<std::vector<Primitive>> levels = extract_levels(made, job_);
     for (std::size_t level = 0; level < levels.size(); ++level) {
       const int mesh = add_mesh(name + (level > 0 ? "_LOD" + std::to_string(level) : ""),
                                 std::move(levels[level]), materials);
       if (mesh < 0) continue;
       own.meshes.push_back(mesh);
-      own.stature.triangles.push_back(triangles_of(model_.meshes[static_cast<std::size_t>(mesh)]));
+      own.lod_info.triangles.push_back(triangles_of(model_.meshes[static_cast<std::size_t>(mesh)]));
     }
-    if (!own.meshes.empty()) measure(own, casting_.casts[number]);
+    if (!own.meshes.empty()) measure(own, variant_table_.variants[number]);
   }
 
-  /// The primitives with the scene's materials; -1 where there is nothing.
+  /// Adds the primitives with the materials of the scene. Returns -1 where there are none.
   int add_mesh(std::string name, std::vector<Primitive> primitives, const std::vector<int>& materials) {
     MeshGroup group{std::move(name), {}};
     for (Primitive& each : primitives) {
@@ -145,22 +153,23 @@ class Assembly {
     return static_cast<int>(model_.meshes.size()) - 1;
   }
 
-  /// Its size, and a picture of it where that is wanted and less than its coarsest mesh.
-  void measure(Group& own, const Cast& cast) {
-    const Demand& demand = job_.demand();
-    const bool has_picture = wants_pictures(params_, demand) && can_be_picture(cast.request) &&
-                             own.stature.triangles.back() > texture::triangles_of_impostor;
-    if (!has_picture && !chooses_levels(params_, demand)) return;
+  /// Measures a variant and adds an impostor where it is requested and has fewer triangles than the coarsest
+  /// mesh.
+  void measure(Group& own, const ModelVariant& variant) {
+    const Demand& demand = context_.demand;
+    const bool has_impostor = wants_impostors(params_, demand) && generator_of(variant)->has_impostor &&
+                              own.lod_info.triangles.back() > texture::triangles_of_impostor;
+    if (!has_impostor && !chooses_levels(params_, demand)) return;
     const Box box = box_of(model_.meshes[static_cast<std::size_t>(own.meshes.front())]);
     const glm::dvec3 size(box.max - box.min);
-    own.stature.radius = glm::length(size) / 2;
-    own.stature.middle = static_cast<double>(box.min.y + box.max.y) / 2;
-    if (!has_picture) return;
-    const int picture = texture::add_impostor(model_, {{.mesh = own.meshes.front(), .at = glm::mat4(1)}},
-                                              cast.name + "_impostor", job_);
-    if (picture < 0) return;
-    own.meshes.push_back(picture);
-    own.stature.has_picture = true;
+    own.lod_info.radius = glm::length(size) / 2;
+    own.lod_info.middle = static_cast<double>(box.min.y + box.max.y) / 2;
+    if (!has_impostor) return;
+    const int impostor = texture::add_impostor(model_, {{.mesh = own.meshes.front(), .at = glm::mat4(1)}},
+                                               variant.name + "_impostor", job_);
+    if (impostor < 0) return;
+    own.meshes.push_back(impostor);
+    own.lod_info.has_impostor = true;
   }
 
   int add_material(Material material, const Model& made, std::size_t layer) {
@@ -190,10 +199,10 @@ class Assembly {
     return static_cast<int>(model_.textures.size()) - 1;
   }
 
-  /// The nodes of a layer; what is told of it.
+  /// Adds the nodes of a layer and returns its summary.
   Json add_layer(std::size_t number) {
     const SceneLayer& layer = params_.layers[number];
-    const Array<Stand>& stands = planting_.layers[number];
+    const Array<Placement>& placements = planting_.layers[number];
     const std::string name = layer.name.value_or("layer_" + std::to_string(number));
     const auto parent = static_cast<int>(model_.nodes.size());
     Node node;
@@ -201,19 +210,20 @@ class Assembly {
     node.parent = 0;
     model_.nodes.push_back(std::move(node));
     Array<Copy> copies(job_);
-    copies.reserve(stands.size());
+    copies.reserve(placements.size());
     std::uint64_t triangles = 0;
-    for (std::size_t i = 0; i < stands.size(); ++i) {
+    for (std::size_t i = 0; i < placements.size(); ++i) {
       if (i % 4096 == 0) job_.check();
-      const std::uint32_t cast = casting_.cast_of(number, stands[i]);
+      const std::uint32_t variant = variant_table_.variant_at(number, placements[i]);
       const std::uint16_t level = levels_.empty() ? std::uint16_t{0} : levels_[number][i];
-      triangles += add_growing(cast, number, i, parent);
-      if (groups_[cast].meshes.empty()) continue;
-      triangles += groups_[cast].stature.triangles_at(level);
-      copies.push_back({cast, level, chunk_of(stands[i].at), static_cast<std::uint32_t>(i)});
+      triangles += add_growing(variant, number, i, parent);
+      if (groups_[variant].meshes.empty()) continue;
+      triangles += groups_[variant].lod_info.triangles_at(level);
+      copies.push_back({variant, level, chunk_of(placements[i].at), static_cast<std::uint32_t>(i)});
     }
     std::sort(copies.begin(), copies.end(), [](const Copy& a, const Copy& b) {
-      return std::tie(a.cast, a.level, a.chunk, a.stand) < std::tie(b.cast, b.level, b.chunk, b.stand);
+      return std::tie(a.variant, a.level, a.chunk, a.placement) <
+             std::tie(b.variant, b.level, b.chunk, b.placement);
     });
     for (std::size_t begin = 0; begin < copies.size();) {
       std::size_t end = begin;
@@ -221,48 +231,52 @@ class Assembly {
       add_copies(copies.span().subspan(begin, end - begin), number, parent);
       begin = end;
     }
-    Json told = {
-        {"name", name}, {"placed", stands.size()}, {"models", models_of(number)}, {"triangles", triangles}};
-    if (!levels_.empty()) told["levels"] = levels_told(copies);
-    planting_.layers[number] = Array<Stand>();  // its nodes know all of it
-    return told;
+    Json summary = {{"name", name},
+                    {"placed", placements.size()},
+                    {"models", models_of(number)},
+                    {"triangles", triangles}};
+    if (!levels_.empty()) summary["levels"] = levels_json(copies);
+    planting_.layers[number] = Array<Placement>();  // the nodes hold all data now
+    return summary;
   }
 
-  /// How many models of a layer stand somewhere.
+  /// Returns the number of variants of a layer with placements.
   std::size_t models_of(std::size_t layer) const {
     std::set<std::uint32_t> seen;
-    for (const Stand& stand : planting_.layers[layer]) seen.insert(casting_.cast_of(layer, stand));
+    for (const Placement& placement : planting_.layers[layer])
+      seen.insert(variant_table_.variant_at(layer, placement));
     return seen.size();
   }
 
-  /// How many stand there at each level, and as pictures.
-  Json levels_told(const Array<Copy>& copies) const {
+  /// Returns the number of placements at each level, and of impostors.
+  Json levels_json(const Array<Copy>& copies) const {
     std::vector<std::size_t> meshes;
-    std::size_t pictures = 0;
+    std::size_t impostors = 0;
     for (const Copy& each : copies) {
-      const Stature& stature = groups_[each.cast].stature;
-      if (each.level >= stature.triangles.size()) {
-        ++pictures;
+      const LodInfo& lod_info = groups_[each.variant].lod_info;
+      if (each.level >= lod_info.triangles.size()) {
+        ++impostors;
         continue;
       }
       if (each.level >= meshes.size()) meshes.resize(std::size_t{each.level} + 1, 0);
       ++meshes[each.level];
     }
-    return {{"meshes", meshes}, {"impostors", pictures}};
+    return {{"meshes", meshes}, {"impostors", impostors}};
   }
 
-  /// Its triangles; 0 where the model does not grow.
-  std::uint64_t add_growing(std::uint32_t cast, std::size_t layer, std::size_t stand, int parent) {
-    Grower& grower = groups_[cast].grower;
-    if (grower.mesh < 0) return 0;
-    add_grower(model_, grower,
-               {casting_.casts[cast].name + "_" + std::to_string(stand), place_of(layer, stand), parent,
-                start_of(params_.layers[layer], planting_.layers[layer][stand])});
-    return triangles_of(model_.meshes[static_cast<std::size_t>(grower.mesh)]);
+  /// Adds a growing plant and returns its triangles, or 0 where the model does not grow.
+  std::uint64_t add_growing(std::uint32_t variant, std::size_t layer, std::size_t placement, int parent) {
+    GrowingPlant& growing_plant = groups_[variant].growing_plant;
+    if (growing_plant.mesh < 0) return 0;
+    add_growing_plant(
+        model_, growing_plant,
+        {variant_table_.variants[variant].name + "_" + std::to_string(placement), pose_of(layer, placement),
+         parent, start_of(params_.layers[layer], planting_.layers[layer][placement])});
+    return triangles_of(model_.meshes[static_cast<std::size_t>(growing_plant.mesh)]);
   }
 
-  Transform place_of(std::size_t layer, std::size_t stand) const {
-    return transform_of(planting_.layers[layer][stand], params_.layers[layer], ground_);
+  Transform pose_of(std::size_t layer, std::size_t placement) const {
+    return transform_of(planting_.layers[layer][placement], params_.layers[layer], ground_);
   }
 
   std::uint16_t chunk_of(const glm::dvec2& p) const {
@@ -275,31 +289,31 @@ class Assembly {
   }
 
   void add_copies(std::span<const Copy> copies, std::size_t layer, int parent) {
-    const Group& group = groups_[copies.front().cast];
+    const Group& group = groups_[copies.front().variant];
     if (group.meshes.empty()) return;
     const auto across = static_cast<std::uint32_t>(params_.chunks);
     Node node;
-    node.name = casting_.casts[copies.front().cast].name;
+    node.name = variant_table_.variants[copies.front().variant].name;
     if (across > 1) {
       node.name += "_" + std::to_string(copies.front().chunk % across) + "_" +
                    std::to_string(copies.front().chunk / across);
     }
-    const std::size_t level = copies.front().level, meshes = group.stature.triangles.size();
+    const std::size_t level = copies.front().level, meshes = group.lod_info.triangles.size();
     if (level > 0) node.name += level < meshes ? "_LOD" + std::to_string(level) : "_impostor";
     node.parent = parent;
     node.mesh = group.meshes[level];
-    const auto wanted = static_cast<std::size_t>(job_.demand().lods);
+    const auto wanted = static_cast<std::size_t>(context_.demand.lods);
     for (std::size_t i = level + 1; i < std::min(level + wanted, meshes); ++i)
       node.lods.push_back(group.meshes[i]);
-    if (job_.demand().impostor && group.stature.has_picture && level < meshes) {
+    if (context_.demand.impostor && group.lod_info.has_impostor && level < meshes) {
       node.lods.push_back(group.meshes.back());
       node.has_impostor = true;
     }
     if (copies.size() == 1) {
-      node.transform = place_of(layer, copies.front().stand);
+      node.transform = pose_of(layer, copies.front().placement);
     } else {
       node.instances.transforms.reserve(copies.size());
-      for (const Copy& each : copies) node.instances.transforms.push_back(place_of(layer, each.stand));
+      for (const Copy& each : copies) node.instances.transforms.push_back(pose_of(layer, each.placement));
     }
     model_.nodes.push_back(std::move(node));
   }
@@ -307,19 +321,20 @@ class Assembly {
   const SceneParams& params_;
   const Ground& ground_;
   Planting& planting_;
-  const Casting& casting_;
+  const VariantTable& variant_table_;
+  const GenerateContext& context_;
   Job& job_;
   Model model_;
   std::vector<Group> groups_;
-  Levels levels_;                                   ///< empty: all stand at the finest
-  std::vector<std::pair<int, std::size_t>> owned_;  ///< materials and the layer that brought them
+  Levels levels_;                                   ///< empty: all placements use the finest level
+  std::vector<std::pair<int, std::size_t>> owned_;  ///< materials, and the layer that added them
   std::set<std::tuple<std::string, std::string, int, int>> seen_;
 };
 
 }  // namespace
 
-Model assembled(const SceneParams& params, const Plan& plan, Pieces pieces, Job& job) {
-  return Assembly(params, plan, job).assemble(std::move(pieces));
+Model assembled(const SceneParams& params, const Plan& plan, Pieces pieces, const GenerateContext& context) {
+  return Assembly(params, plan, context).assemble(std::move(pieces));
 }
 
 }  // namespace seedmesh::scene

@@ -1,25 +1,25 @@
 #pragma once
-/// Ground, models and stands -> one model: a mesh for each model, and nodes with its copies.
-#include "core/generators/scene/casts.h"
+/// Assembles the model of a scene: one mesh for each model variant, and nodes with its copies.
+#include "core/generators/scene/model_variants.h"
 #include "core/generators/scene/plant.h"
 
 namespace seedmesh::scene {
 
-/// Everything that was found out before models were made. Does not own it.
+/// Inputs of assembled() that exist before the models. Does not own them.
 struct Plan {
   const Ground& ground;
-  Planting& planting;  ///< used up by assembled()
-  const Casting& casting;
+  Planting& planting;  ///< consumed by assembled()
+  const VariantTable& variant_table;
 };
 
 struct Pieces {
   Model ground;
-  std::vector<Model> models;  ///< by Casting::casts
+  std::vector<Model> models;  ///< by VariantTable::variants
 };
 
-/// Nodes: "scene" - ground; "scene" - layer - model, with its copies in groups by area. Materials that differ
-/// in nothing but the seed of their texture are one within a layer, and equal ones everywhere. Extras tell of
-/// each layer how many stand and of how many models.
-Model assembled(const SceneParams& params, const Plan& plan, Pieces pieces, Job& job);
+/// Returns the scene as one model. Nodes: "scene" > ground; "scene" > layer > variant, whose copies are
+/// grouped by area. Equal materials are shared; within a layer, materials that differ only in the seed of
+/// their texture are shared too. Extras list the number of placements and models of each layer.
+Model assembled(const SceneParams& params, const Plan& plan, Pieces pieces, const GenerateContext& context);
 
 }  // namespace seedmesh::scene

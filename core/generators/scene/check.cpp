@@ -1,10 +1,11 @@
-/// What no schema can tell of a scene.
+/// Checks of a scene that the schema cannot express.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/generators/child.h"
-#include "core/generators/scene/casts.h"
+#include "core/generators/scene/buildings.h"
+#include "core/generators/scene/model_variants.h"
 #include "core/generators/scene/scene.h"
 #include "core/schema/nearest.h"
 #include "generated/params/scene.h"
@@ -15,57 +16,62 @@ namespace {
 constexpr std::string_view own_name = "scene", ground_name = "terrain";
 constexpr std::string_view png_head = "data:image/png;base64,";
 
-/// Collects the faults below a pointer.
+/// Collects the errors below a pointer.
 class Checker {
  public:
-  Checker(const SceneParams& params, const Limits& limits) : params_(params), limits_(limits) {}
+  Checker(const SceneParams& params, const CheckContext& context) : params_(params), context_(context) {}
 
   std::vector<Issue> check() {
     check_ground();
     for (std::size_t i = 0; i < params_.paths.size(); ++i)
       check_line(params_.paths[i].points, "/paths/" + std::to_string(i) + "/points");
     for (std::size_t i = 0; i < params_.layers.size(); ++i) check_layer(i);
-    const std::size_t casts = count_casts(params_);
-    if (casts > most_casts) {
-      add("/layers", "found " + std::to_string(casts) +
-                         " models, variants and those of positions together; " + "expected at most " +
-                         std::to_string(most_casts));
+    check_outlines(params_, issues_);
+    const std::size_t variants = count_variants(params_);
+    if (variants > most_variants) {
+      add(IssueKind::out_of_range, "/layers",
+          "found " + std::to_string(variants) + " models, including variants and models of positions; " +
+              "expected at most " + std::to_string(most_variants));
     }
     return std::move(issues_);
   }
 
  private:
-  void add(std::string pointer, std::string message) {
-    issues_.push_back({std::move(pointer), std::move(message)});
+  void add(IssueKind kind, std::string pointer, std::string message) {
+    issues_.push_back({kind, std::move(pointer), std::move(message)});
   }
 
   void check_ground() {
     if (!params_.terrain) return;
-    if (params_.ground) add("/ground", "found both `terrain` and `ground`; the ground is one of them");
+    if (params_.ground)
+      add(IssueKind::conflict, "/ground", "found both `terrain` and `ground`; expected one of them");
     const Child& terrain = *params_.terrain;
     if (terrain.generator.empty()) return;
     if (terrain.generator != ground_name) {
-      add("/terrain/generator", "found " + terrain.generator + "; the ground is made by terrain");
+      add(IssueKind::invalid_value, "/terrain/generator",
+          "found " + terrain.generator + "; expected terrain");
       return;
     }
     const Json parameters = Json::parse(terrain.parameters);
     if (parameters.value("shape", "plane") != "plane")
-      add("/terrain/parameters/shape", "found a sphere; the ground of a scene is a plane");
+      add(IssueKind::not_available, "/terrain/parameters/shape",
+          "found a sphere; the ground of a scene is a plane");
     if (parameters.contains("onto"))
-      add("/terrain/parameters/onto", "the ground of a scene is laid on no model");
+      add(IssueKind::not_available, "/terrain/parameters/onto",
+          "the ground of a scene cannot follow a model");
   }
 
-  /// A scene nowhere inside of the request, however deep.
+  /// Refuses a scene inside the request, at any depth.
   void check_child(const Child& child, const std::string& pointer) {
     if (child.generator == own_name) {
-      add(pointer + "/generator", "found a scene; a scene has no scene inside");
+      add(IssueKind::not_available, pointer + "/generator", "found a scene; scenes cannot be nested");
       return;
     }
-    const Generator* generator = find_generator(child.generator);
+    const Generator* generator = find_generator(context_.generators, child.generator);
     if (!generator) return;
-    Faults faults;
-    generator->read(Json::parse(child.parameters), "", faults, [&](const ChildPlace& place) {
-      check_child(*place.child, pointer + "/parameters" + place.pointer);
+    IssueList errors;
+    generator->read(Json::parse(child.parameters), "", errors, [&](const ChildLocation& location) {
+      check_child(*location.child, pointer + "/parameters" + location.pointer);
     });
   }
 
@@ -73,7 +79,7 @@ class Checker {
   void check_line(const Points& points, const std::string& pointer) {
     const bool is_long =
         std::adjacent_find(points.begin(), points.end(), std::not_equal_to<>()) != points.end();
-    if (!is_long) add(pointer, "all points are one; expected a line");
+    if (!is_long) add(IssueKind::invalid_value, pointer, "all points are equal; expected a line");
   }
 
   void check_layer(std::size_t number) {
@@ -82,7 +88,8 @@ class Checker {
     if (layer.name) {
       for (std::size_t i = 0; i < number; ++i) {
         if (params_.layers[i].name != layer.name) continue;
-        add(pointer + "/name", "found " + *layer.name + ", which is the name of layer " + std::to_string(i));
+        add(IssueKind::duplicate_key, pointer + "/name",
+            "found " + *layer.name + ", which is the name of layer " + std::to_string(i));
         break;
       }
     }
@@ -90,15 +97,17 @@ class Checker {
     check_span(layer.scale, pointer + "/scale");
     check_span(layer.turn, pointer + "/turn");
     if (layer.age) check_span(*layer.age, pointer + "/age");
-    if (layer.age && !layer.model.generator.empty() && find_generator(layer.model.generator) &&
+    if (layer.age && !layer.model.generator.empty() &&
+        find_generator(context_.generators, layer.model.generator) &&
         !has_parameter(layer.model.generator, "age"))
-      add(pointer + "/age", layer.model.generator + " has no parameter age");
+      add(IssueKind::not_available, pointer + "/age", layer.model.generator + " has no parameter age");
     if (layer.start) check_span(*layer.start, pointer + "/start");
-    const Generator* generator = find_generator(layer.model.generator);
+    const Generator* generator = find_generator(context_.generators, layer.model.generator);
     if (layer.start && generator && !generator->grows)
-      add(pointer + "/start", layer.model.generator + " does not grow");
+      add(IssueKind::not_available, pointer + "/start", layer.model.generator + " does not grow");
     if (layer.foundation && !layer.footprint)
-      add(pointer + "/foundation", "a foundation lies under a footprint, and the layer has none");
+      add(IssueKind::conflict, pointer + "/foundation",
+          "a foundation needs a footprint, and the layer has none");
     for (std::size_t i = 0; i < layer.vary.size(); ++i)
       check_variation(layer.model, layer.vary[i], pointer + "/vary/" + std::to_string(i));
     check_place(layer, number, pointer + "/place");
@@ -106,25 +115,26 @@ class Checker {
 
   void check_span(const std::variant<double, std::array<double, 2>>& given, const std::string& pointer) {
     const auto* both = std::get_if<1>(&given);
-    if (both && (*both)[0] > (*both)[1]) add(pointer, "the first is above the second; expected from and to");
+    if (both && (*both)[0] > (*both)[1])
+      add(IssueKind::out_of_range, pointer, "the first value is above the second; expected [from, to]");
   }
 
-  /// Tries both ends of a range, or every value, on the model.
+  /// Checks both ends of a range, or every value, with the model.
   void check_variation(const Child& model, const SceneVariation& variation, const std::string& pointer) {
     const bool has_range = variation.from.has_value() || variation.to.has_value();
     if (has_range == variation.among.has_value() ||
         (has_range && !(variation.from.has_value() && variation.to.has_value()))) {
-      add(pointer, "expected either `from` and `to`, or `among`");
+      add(IssueKind::conflict, pointer, "expected either `from` and `to`, or `among`");
       return;
     }
     if (has_range && *variation.from > *variation.to) {
-      add(pointer + "/from", "from is above to");
+      add(IssueKind::out_of_range, pointer + "/from", "from is above to");
       return;
     }
-    const Generator* generator = find_generator(model.generator);
+    const Generator* generator = find_generator(context_.generators, model.generator);
     if (!generator) return;
     if (!has_parameter(model.generator, variation.parameter)) {
-      add(pointer + "/parameter",
+      add(IssueKind::unknown_name, pointer + "/parameter",
           model.generator + " has no parameter \"" + shortened(variation.parameter, 40) + "\"");
       return;
     }
@@ -141,12 +151,13 @@ class Checker {
 
   void try_value(const Generator& generator, const Child& model, const std::string& path, const Json& value,
                  const std::string& pointer) {
-    Faults faults;
+    IssueList errors;
     const Json parameters = Json::parse(with_parameter(model.parameters, path, value.dump()));
-    const Generator::Params params = generator.read(parameters, "", faults, {});
-    std::vector<Issue> issues = faults.take();
-    if (issues.empty()) issues = generator.check(params, limits_);
-    if (!issues.empty()) add(pointer, "the model refuses it: " + issues.front().message);
+    const Generator::Params params = generator.read(parameters, "", errors, {});
+    std::vector<Issue> issues = errors.take();
+    if (issues.empty()) issues = generator.check(params, context_);
+    if (!issues.empty())
+      add(IssueKind::invalid_value, pointer, "the model refuses it: " + issues.front().message);
   }
 
   void check_place(const SceneLayer& layer, std::size_t number, const std::string& pointer) {
@@ -156,8 +167,10 @@ class Checker {
     const auto member = [&](const char* name, bool is_given, bool is_needed,
                             std::initializer_list<Method> of) {
       const bool belongs = std::find(of.begin(), of.end(), place.method) != of.end();
-      if (is_given && !belongs) add(pointer + "/" + name, "has no effect with the method " + method);
-      if (!is_given && is_needed && belongs) add(pointer, "the method " + method + " needs `" + name + "`");
+      if (is_given && !belongs)
+        add(IssueKind::conflict, pointer + "/" + name, "has no effect with the method " + method);
+      if (!is_given && is_needed && belongs)
+        add(IssueKind::missing, pointer, "the method " + method + " needs `" + name + "`");
     };
     member("positions", !place.positions.empty(), true, {Method::positions});
     member("distance", place.distance.has_value(), true, {Method::poisson, Method::path});
@@ -171,11 +184,15 @@ class Checker {
     member("clusters", place.clusters.has_value(), true, {Method::clusters});
     member("count", place.count.has_value(), false,
            {Method::poisson, Method::scatter, Method::clusters, Method::rows, Method::path});
-    const bool has_as_many = place.method == Method::scatter || place.method == Method::clusters;
-    if (has_as_many && !place.count) add(pointer, "the method " + method + " needs `count`");
-    if (has_as_many && place.count && static_cast<std::uint64_t>(*place.count) > limits_.shapes)
-      add(pointer + "/count", "found " + std::to_string(*place.count) + "; the limit on shapes is " +
-                                  std::to_string(limits_.shapes));
+    const bool needs_count = place.method == Method::scatter || place.method == Method::clusters;
+    if (needs_count && !place.count)
+      add(IssueKind::missing, pointer, "the method " + method + " needs `count`");
+    const std::uint64_t most = context_.limits.shapes;
+    if (needs_count && place.count && static_cast<std::uint64_t>(*place.count) > most)
+      issues_.push_back(limit_issue(
+          {Resource::shapes, most, static_cast<std::uint64_t>(*place.count)},
+          "found " + std::to_string(*place.count) + "; the limit on shapes is " + std::to_string(most),
+          pointer + "/count"));
     if (place.method == Method::positions) {
       check_positions(layer, pointer);
       refuse_rules(place, pointer);
@@ -184,10 +201,11 @@ class Checker {
     if (place.points) check_line(*place.points, pointer + "/points");
     if (place.area) check_area(*place.area, pointer + "/area");
     if (place.density_image && !place.density_image->starts_with(png_head))
-      add(pointer + "/density_image", "expected a PNG as a data URI: data:image/png;base64,…");
+      add(IssueKind::invalid_value, pointer + "/density_image",
+          "expected a PNG as a data URI: data:image/png;base64,…");
     const auto limits = [&](const auto& given, const char* name) {
       if (given && given->from && given->to && *given->from > *given->to)
-        add(pointer + "/" + name, "from is above to");
+        add(IssueKind::out_of_range, pointer + "/" + name, "from is above to");
     };
     limits(place.slope, "slope");
     limits(place.altitude, "altitude");
@@ -196,7 +214,7 @@ class Checker {
     for (std::size_t i = 0; i < place.near.size(); ++i)
       check_near(place.near[i], number, pointer + "/near/" + std::to_string(i));
     if (place.above_water && !params_.terrain)
-      add(pointer + "/above_water", "there is no water; it comes with the terrain");
+      add(IssueKind::conflict, pointer + "/above_water", "there is no water; only a terrain has water");
   }
 
   void check_positions(const SceneLayer& layer, const std::string& pointer) {
@@ -205,15 +223,15 @@ class Checker {
       const std::string at = pointer + "/positions/" + std::to_string(i);
       if (position.model) check_child(*position.model, at + "/model");
       const std::string& generator = position.model ? position.model->generator : layer.model.generator;
-      if (position.age && find_generator(generator) && !has_parameter(generator, "age"))
-        add(at + "/age", generator + " has no parameter age");
+      if (position.age && find_generator(context_.generators, generator) && !has_parameter(generator, "age"))
+        add(IssueKind::not_available, at + "/age", generator + " has no parameter age");
     }
   }
 
-  /// Explicit positions are taken as they are.
+  /// Explicit positions ignore all rules.
   void refuse_rules(const ScenePlace& place, const std::string& pointer) {
     const auto refuse = [&](bool is_given, const char* name) {
-      if (is_given) add(pointer + "/" + name, "has no effect with the method positions");
+      if (is_given) add(IssueKind::conflict, pointer + "/" + name, "has no effect with the method positions");
     };
     refuse(place.area.has_value(), "area");
     refuse(place.edge != 0, "edge");
@@ -231,7 +249,7 @@ class Checker {
     double twice = 0;
     for (std::size_t i = 0, j = area.size() - 1; i < area.size(); j = i++)
       twice += area[j][0] * area[i][1] - area[i][0] * area[j][1];
-    if (twice == 0) add(pointer, "the polygon has no area");
+    if (twice == 0) add(IssueKind::invalid_value, pointer, "the polygon has no area");
   }
 
   void check_near(const SceneNeighbour& near, std::size_t number, const std::string& pointer) {
@@ -240,20 +258,22 @@ class Checker {
       if (params_.layers[i].name) names.push_back(*params_.layers[i].name);
     }
     if (std::find(names.begin(), names.end(), near.layer) == names.end())
-      add(pointer + "/layer", schema::unknown_word("layer before this one called", near.layer, names));
-    if (!near.from && !near.to) add(pointer, "expected `from`, `to` or both");
-    if (near.from && near.to && *near.from > *near.to) add(pointer + "/from", "from is above to");
+      add(IssueKind::unknown_name, pointer + "/layer",
+          schema::unknown_word("layer before this one called", near.layer, names));
+    if (!near.from && !near.to) add(IssueKind::missing, pointer, "expected `from`, `to` or both");
+    if (near.from && near.to && *near.from > *near.to)
+      add(IssueKind::out_of_range, pointer + "/from", "from is above to");
   }
 
   const SceneParams& params_;
-  const Limits& limits_;
+  const CheckContext& context_;
   std::vector<Issue> issues_;
 };
 
 }  // namespace
 
-std::vector<Issue> check(const SceneParams& params, const Limits& limits) {
-  return Checker(params, limits).check();
+std::vector<Issue> check(const SceneParams& params, const CheckContext& context) {
+  return Checker(params, context).check();
 }
 
 }  // namespace seedmesh::scene

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/base/math.h"
 #include "core/generators/child.h"
+#include "core/generators/scene/buildings.h"
+#include "core/generators/scene/plant.h"
+#include "core/generators/scene/sampled_share.h"
 #include "core/generators/scene/shapes.h"
 #include "core/generators/terrain/plan.h"
 #include "generated/params/scene.h"
@@ -14,10 +18,11 @@
 namespace seedmesh::scene {
 namespace {
 
-constexpr double poisson_density = 0.65;        ///< places in a square of their distance
-constexpr std::uint64_t bytes_a_node = 230;     ///< of a copy in core glTF, its line of JSON
-constexpr std::uint64_t grid_to_reduced = 8;    ///< triangles of a grid for one of a reduced mesh, about
-constexpr std::uint64_t bytes_a_triangle = 24;  ///< of a reduced mesh
+constexpr double poisson_density = 0.65;        ///< positions in a square with the distance as side
+constexpr std::uint64_t bytes_a_node = 230;     ///< size of a copy in core glTF: one line of JSON
+constexpr std::uint64_t grid_to_reduced = 8;    ///< approximate triangles of a grid for one of a reduced mesh
+constexpr std::uint64_t bytes_a_triangle = 24;  ///< size of a triangle of a reduced mesh
+constexpr std::uint64_t bytes_an_outline_triangle = 66;  ///< of a building with a node of its own
 constexpr Estimate square{2, 800, true}, disc{94, 3200, true}, none{0, 100, true};
 
 double area_of(const ScenePlace& place, const Extent& extent) {
@@ -38,8 +43,8 @@ double length_of(const std::vector<std::array<double, 2>>& points) {
   return length;
 }
 
-/// That the pattern has room for.
-double room_of(const ScenePlace& place, const Extent& extent) {
+/// Returns the capacity of the pattern.
+double capacity_of(const ScenePlace& place, const Extent& extent) {
   switch (place.method) {
     case SceneMethod::poisson:
       return poisson_density * area_of(place, extent) / (*place.distance * *place.distance);
@@ -59,20 +64,20 @@ double room_of(const ScenePlace& place, const Extent& extent) {
 Extent square_of(double size) { return {glm::dvec2(-size / 2), glm::dvec2(size / 2)}; }
 
 TerrainParams terrain_of(const SceneParams& params) {
-  Faults faults;
-  return read_terrain(Json::parse(params.terrain->parameters), "", faults);
+  IssueList errors;
+  return read_terrain(Json::parse(params.terrain->parameters), "", errors);
 }
 
-double width_told(const SceneParams& params) {
+double known_width(const SceneParams& params) {
   return params.terrain ? terrain_of(params).size : params.ground.value_or(SceneGround{}).size;
 }
 
-std::optional<Estimate> ground_of(const SceneParams& params, const Job& job) {
+std::optional<Estimate> ground_of(const SceneParams& params, const GenerateContext& context) {
   if (!params.terrain) {
     const SceneOutline outline = params.ground.value_or(SceneGround{}).outline;
     return outline == SceneOutline::none ? none : outline == SceneOutline::disc ? disc : square;
   }
-  const Result<Appraisal> own = appraise_child(*params.terrain, "/terrain", Rng(0), job);
+  const Result<Appraisal> own = appraise_child(*params.terrain, "/terrain", Rng(0), context);
   if (!own || own->estimate) return own ? own->estimate : std::nullopt;
   const int side = terrain::finished_side(terrain_of(params));
   const auto squares = static_cast<std::uint64_t>(std::max(side - 1, 0));
@@ -80,13 +85,13 @@ std::optional<Estimate> ground_of(const SceneParams& params, const Job& job) {
   return Estimate{triangles, triangles * bytes_a_triangle, false};
 }
 
-/// What the models of a layer have; those that cannot tell count as the mean of the others. Nothing where
-/// none can tell.
-std::optional<std::vector<Estimate>> models_told(const Casting::Layer& casts,
-                                                 const std::vector<std::optional<Estimate>>& estimates) {
+/// Returns the estimates of a layer's variants. A variant without estimate counts as the mean of the others.
+/// Returns nullopt where none has one.
+std::optional<std::vector<Estimate>> layer_estimates(const VariantTable::Layer& variants,
+                                                     const std::vector<std::optional<Estimate>>& estimates) {
   std::vector<std::size_t> numbers;
-  for (std::uint32_t i = casts.first; i < casts.first + casts.count; ++i) numbers.push_back(i);
-  for (const std::uint32_t i : casts.by_position) {
+  for (std::uint32_t i = variants.first; i < variants.first + variants.count; ++i) numbers.push_back(i);
+  for (const std::uint32_t i : variants.by_position) {
     if (i < estimates.size()) numbers.push_back(i);
   }
   double triangles = 0, bytes = 0, known = 0;
@@ -108,48 +113,89 @@ struct Sum {
   double triangles = 0, bytes = 0;
 };
 
+/// Expected placements under the rules that depend on the ground, whose field is computed at most once.
+class Sampler {
+ public:
+  Sampler(const SceneParams& params, const Job& job) : params_(params), job_(job) {}
+
+  double placements(std::size_t number, const Extent& extent) {
+    const SceneLayer& layer = params_.layers[number];
+    const ScenePlace& place = layer.place;
+    const double all = expected_placements(layer, extent);
+    const bool has_water = params_.terrain && terrain_of(params_).water_level;
+    if (place.method == SceneMethod::positions || !(depends_on_ground(place) || has_water)) return all;
+    const Ground* ground = field();
+    if (!ground) return all;
+    const double share = sampled_share(layer, number, *ground, job_);
+    if (place.method == SceneMethod::scatter || place.method == SceneMethod::clusters)
+      return std::min(all, share * place.density * static_cast<double>(tries_of_series(layer)));
+    const double kept = capacity_of(place, extent) * place.density * share;
+    return place.count ? std::min(kept, static_cast<double>(*place.count)) : kept;
+  }
+
+ private:
+  /// Null where the field would cost too much, or cannot be made.
+  const Ground* field() {
+    constexpr std::int64_t longest_side = 2'049;
+    if (std::exchange(is_tried_, true)) return ground_ ? &*ground_ : nullptr;
+    if (params_.terrain && terrain::finished_side(terrain_of(params_)) > longest_side) return nullptr;
+    Result<Ground> made = Ground::make(params_, job_);
+    if (made) ground_.emplace(std::move(*made));
+    return ground_ ? &*ground_ : nullptr;
+  }
+
+  const SceneParams& params_;
+  const Job& job_;
+  bool is_tried_ = false;
+  std::optional<Ground> ground_;
+};
+
 }  // namespace
 
-std::optional<Extent> extent_told(const SceneParams& params) {
+std::optional<Extent> known_extent(const SceneParams& params) {
   if (params.terrain && terrain_of(params).algorithm == TerrainAlgorithm::image) return std::nullopt;
-  return square_of(width_told(params));
+  return square_of(known_width(params));
 }
 
-double expected_stands(const SceneLayer& layer, const Extent& extent) {
+double expected_placements(const SceneLayer& layer, const Extent& extent) {
   const ScenePlace& place = layer.place;
-  const double room = room_of(place, extent);
-  if (place.method == SceneMethod::scatter || place.method == SceneMethod::clusters) return room;
-  const double kept = room * place.density;
+  const double capacity = capacity_of(place, extent);
+  if (place.method == SceneMethod::scatter || place.method == SceneMethod::clusters) return capacity;
+  const double kept = capacity * place.density;
   return place.count ? std::min(kept, static_cast<double>(*place.count)) : kept;
 }
 
-std::optional<Estimate> estimate_of(const SceneParams& params, const Casting& casting,
-                                    const std::vector<std::optional<Estimate>>& estimates, const Job& job) {
-  const std::optional<Estimate> ground = ground_of(params, job);
+std::optional<Estimate> estimate_of(const SceneParams& params, const VariantTable& variant_table,
+                                    const std::vector<std::optional<Estimate>>& estimates,
+                                    const GenerateContext& context) {
+  std::optional<Estimate> ground = ground_of(params, context);
   if (!ground) return std::nullopt;
+  if (const std::uint64_t outlines = expected_triangles(params); outlines > 0)
+    *ground = {ground->triangles + outlines, ground->bytes + outlines * bytes_an_outline_triangle, false};
   bool exact = ground->exact && params.paths.empty() && !params.camera;
-  const Extent extent = square_of(width_told(params));
+  const Extent extent = square_of(known_width(params));
   Sum sum{static_cast<double>(ground->triangles), static_cast<double>(ground->bytes)};
+  Sampler sampler(params, context.job);
   for (std::size_t i = 0; i < params.layers.size(); ++i) {
-    const Casting::Layer& casts = casting.layers[i];
-    const auto models = models_told(casts, estimates);
+    const VariantTable::Layer& variants = variant_table.layers[i];
+    const auto models = layer_estimates(variants, estimates);
     if (!models) return std::nullopt;
-    double own = 0, variants = 0;  // triangles of positions with a model of their own; mean of the variants
+    double own = 0, mean = 0;  // triangles of positions with their own model; mean of the variants
     for (std::size_t k = 0; k < models->size(); ++k) {
       const Estimate& each = (*models)[k];
       sum.bytes += static_cast<double>(each.bytes);
       exact = exact && each.exact;
-      if (k >= casts.count) {
+      if (k >= variants.count) {
         own += static_cast<double>(each.triangles);
         continue;
       }
-      variants += static_cast<double>(each.triangles) / casts.count;
+      mean += static_cast<double>(each.triangles) / variants.count;
       exact = exact && each.triangles == models->front().triangles;
     }
-    const double stands = expected_stands(params.layers[i], extent);
+    const double placements = sampler.placements(i, extent);
     exact = exact && params.layers[i].place.method == SceneMethod::positions;
-    sum.triangles += own + variants * (stands - static_cast<double>(models->size() - casts.count));
-    sum.bytes += stands * static_cast<double>(bytes_a_node);
+    sum.triangles += own + mean * (placements - static_cast<double>(models->size() - variants.count));
+    sum.bytes += placements * static_cast<double>(bytes_a_node);
   }
   const auto whole = [](double value) { return static_cast<std::uint64_t>(math::to_int64(value)); };
   return Estimate{whole(sum.triangles), whole(sum.bytes), exact};

@@ -1,25 +1,27 @@
 #pragma once
-/// What a scene will have, before anything is placed or made.
+/// Estimates the size of a scene before anything is placed or generated.
 #include <optional>
 
-#include "core/base/job.h"
-#include "core/generators/appraisal.h"
-#include "core/generators/scene/casts.h"
+#include "core/generators/api.h"
+#include "core/generators/scene/model_variants.h"
 
 namespace seedmesh::scene {
 
-/// The ground, before it is made: a square. Nothing for a terrain from a picture, whose depth is not known.
-std::optional<Extent> extent_told(const SceneParams& params);
+/// Returns the extent of the ground, a square, before it is generated. Returns nullopt for a terrain from an
+/// image, whose depth is unknown.
+std::optional<Extent> known_extent(const SceneParams& params);
 
-/// How many of a layer stand, at most, where all of `extent` suits it: the number that is asked for, or that
-/// its pattern has room for.
-double expected_stands(const SceneLayer& layer, const Extent& extent);
+/// Returns the largest number of placements of a layer if all of `extent` is suitable: the requested number,
+/// or the capacity of its pattern.
+double expected_placements(const SceneLayer& layer, const Extent& extent);
 
-/// Every model by itself (`estimates`, by Casting::casts) as often as it stands, and the ground; nothing
-/// where no model of a layer can tell. One that cannot tell counts as the mean of its layer, a reduced ground
-/// as an eighth of its grid. Exact where each place is given and each model is exact. Bytes: each model once,
-/// and a node for each place.
-std::optional<Estimate> estimate_of(const SceneParams& params, const Casting& casting,
-                                    const std::vector<std::optional<Estimate>>& estimates, const Job& job);
+/// Estimates the ground and all placements. Rules that depend on the ground are sampled (sampled_share.h), which
+/// computes the heights of a terrain of up to 2049 x 2049 samples. `estimates` holds one entry for each of VariantTable::variants.
+/// Returns nullopt where no variant of a layer has an estimate. A variant without estimate counts as the mean
+/// of its layer; a reduced ground counts as an eighth of its grid. The result is exact where all positions
+/// are given and all estimates are exact. Bytes count each variant once and one node for each placement.
+std::optional<Estimate> estimate_of(const SceneParams& params, const VariantTable& variant_table,
+                                    const std::vector<std::optional<Estimate>>& estimates,
+                                    const GenerateContext& context);
 
 }  // namespace seedmesh::scene

@@ -5,7 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/math.h"
-#include "core/generators/scene/ways.h"
+#include "core/generators/scene/buildings.h"
+#include "core/generators/scene/path_bands.h"
 #include "core/generators/terrain/plan.h"
 #include "core/generators/terrain/terrain.h"
 #include "core/model/append.h"
@@ -18,25 +19,18 @@ namespace {
 constexpr char terrain_pointer[] = "/terrain/parameters";
 constexpr int sides_of_a_disc = 96;
 
-/// What `work` gives, faults pointing to the terrain.
-template <class T, class Work>
-Result<T> of_terrain(const Work& work) {
-  try {
-    Result<T> result = work();
-    if (result) return result;
-    Error error = std::move(result).error();
-    for (Issue& issue : error.issues) issue.pointer.insert(0, terrain_pointer);
-    return error;
-  } catch (const Stop& stop) {  // the same stop, told of where it belongs
-    Issue issue = stop.issue();
-    if (!issue.pointer.empty()) issue.pointer.insert(0, terrain_pointer);
-    throw Stop(stop.code(), std::move(issue));
-  }
+/// Moves the pointers of errors from the terrain's parameters to the scene's.
+template <class T>
+Result<T> of_terrain(Result<T> result) {
+  if (result) return result;
+  Error error = std::move(result).error();
+  for (Issue& issue : error.issues) issue.pointer.insert(0, terrain_pointer);
+  return error;
 }
 
 Extent around_middle(const glm::dvec2& size) { return {-size / 2.0, size / 2.0}; }
 
-/// Two triangles, or those of a disc.
+/// Returns level ground: two triangles, or a disc.
 Mesh flat_mesh(const Extent& extent, bool round, const Job& job) {
   Mesh mesh;
   mesh.position = Array<glm::vec3>(job);
@@ -99,13 +93,12 @@ Result<Ground> Ground::make(const SceneParams& params, const Job& job) {
     ground.round_ = level.outline == SceneOutline::disc;
     return ground;
   }
-  Faults faults;
+  IssueList errors;
   ground.terrain_ = std::make_shared<const TerrainParams>(
-      read_terrain(Json::parse(params.terrain->parameters), "", faults));
+      read_terrain(Json::parse(params.terrain->parameters), "", errors));
   ground.seed_ = params.terrain->seed.value_or(job.rng().at("scene").at("terrain").key());
-  Job own = job.for_child(ground.seed_);
-  Result<terrain::Field> field =
-      of_terrain<terrain::Field>([&] { return terrain::field_of(*ground.terrain_, own); });
+  Job own = job.for_child(ground.seed_, terrain_pointer);
+  Result<terrain::Field> field = of_terrain(terrain::field_of(*ground.terrain_, own));
   if (!field) return std::move(field).error();
   ground.field_ = std::move(*field);
   const terrain::Field& made = ground.field_;
@@ -122,7 +115,7 @@ bool Ground::holds(const glm::dvec2& p, double edge) const {
          p.y <= extent_.max.y - edge;
 }
 
-/// Squares are cut as grid meshes are: along the diagonal that is closer to level.
+/// Squares are split like grid meshes: along the diagonal with the smaller height difference.
 Ground::Sample Ground::sample(const glm::dvec2& p) const {
   if (!terrain_) return {};
   const double x = std::clamp((p.x - extent_.min.x) / field_.cell, 0.0, field_.width - 1.0);
@@ -183,21 +176,22 @@ void Ground::level(const Foundation& foundation, const Job& job) {
   }
 }
 
-Result<Model> Ground::model(const SceneParams& params, Job& job) const {
+Result<Model> Ground::model(const SceneParams& params, const GenerateContext& context) const {
+  Job& job = context.job;
   Model model;
   if (terrain_) {
-    Job own = job.for_child(seed_);
+    Job own = job.for_child(seed_, terrain_pointer);
     Demand demand;
-    demand.lods = params.camera ? 1 : job.demand().lods;
-    own.set_demand(demand);
-    Result<Model> made = of_terrain<Model>([&] { return terrain::dressed(*terrain_, field_, own); });
+    demand.lods = params.camera ? 1 : context.demand.lods;
+    Result<Model> made = of_terrain(terrain::dressed(*terrain_, field_, {own, demand, context.generators}));
     if (!made) return made;
     model = std::move(*made);
     for (Warning& warning : model.warnings) warning.pointer.insert(0, terrain_pointer);
   } else {
     model = flat_model(params.ground.value_or(SceneGround{}), extent_, round_, job);
   }
-  add_ways(model, params.paths, *this, terrain_ ? field_.cell : 0, job);
+  add_path_bands(model, params.paths, *this, terrain_ ? field_.cell : 0, job);
+  add_outlines(model, params, *this, job);
   return model;
 }
 

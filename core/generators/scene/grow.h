@@ -1,6 +1,6 @@
 #pragma once
-/// Plants of a scene that grow: each place has bones of its own, which move one shared mesh, with the key
-/// times of one shared animation.
+/// Growing plants of a scene. Each placement has its own bones, which move a shared mesh by the key times of
+/// a shared animation.
 #include <array>
 #include <vector>
 
@@ -9,52 +9,53 @@
 
 namespace seedmesh::scene {
 
-/// Bones of all plants together.
+/// Largest number of bones of all plants.
 constexpr std::size_t most_joints = 24'000;
 
-/// Different starts within the span of a layer, so that plants share key times.
+/// Number of distinct start times of a layer, so that plants share key times.
 constexpr std::size_t starts_of_a_layer = 16;
 
-/// When a plant begins.
+/// The start of a plant's growth.
 struct Start {
   std::size_t number = 0;  ///< below starts_of_a_layer
   float seconds = 0;
 };
 
-/// By the place of the stand.
-Start start_of(const SceneLayer& layer, const Stand& stand);
+/// Returns the start for a placement, from its key.
+Start start_of(const SceneLayer& layer, const Placement& placement);
 
-/// What a plant needs to grow, and its mesh with the bones in it. Empty joints: it stands still.
-struct Grower {
+/// Data for the growth of a plant variant, and its skinned mesh. Without joints the plant does not grow.
+struct GrowingPlant {
   int mesh = -1;             ///< into the meshes of the scene
-  std::vector<Node> joints;  ///< parents by their number here, -1: the place
+  std::vector<Node> joints;  ///< parents are indices into this list; -1: the placement
   std::vector<glm::mat4> inverse_bind;
-  Animation animation;                       ///< channels by the numbers of joints
-  std::array<int, starts_of_a_layer> times;  ///< by start: where its key times begin in the scene's animation
+  Animation animation;  ///< channel targets are indices into `joints`
+  /// by start: first key time in the animation of the scene; -1: none
+  std::array<int, starts_of_a_layer> times;
 
-  Grower() { times.fill(-1); }
+  GrowingPlant() { times.fill(-1); }
 };
 
-/// Takes skin, animation and the primitives that they move out of the model, materials as they are numbered
-/// there. No joints where the model does not grow.
-struct Taken {
-  Grower grower;
+/// The skin, animation and skinned primitives of a model. Materials keep their indices. Without growth there
+/// are no joints.
+struct ExtractedPlant {
+  GrowingPlant growing_plant;
   std::vector<Primitive> primitives;
 };
-Taken taken_to_grow(Model& model);
+ExtractedPlant extract_growing_plant(Model& model);
 
-/// Where a plant stands, and from when on it grows.
-struct Plot {
+/// The transform and start of one growing plant.
+struct PlantInstance {
   std::string name;
   Transform at;
   int parent = -1;
   Start start;
 };
 
-/// Adds a plant to the scene.
-void add_grower(Model& scene, Grower& grower, const Plot& plot);
+/// Adds a growing plant to the scene.
+void add_growing_plant(Model& scene, GrowingPlant& growing_plant, const PlantInstance& plot);
 
-/// How many bones each plant may have. Issue: there are more plants than bones.
-Result<std::uint32_t> bones_for(const Plan& plan);
+/// Returns the number of bones of each plant. Issue: there are more plants than bones.
+Result<std::uint32_t> bones_for(const Plan& plan, GeneratorList generators);
 
 }  // namespace seedmesh::scene

@@ -1,5 +1,6 @@
 #pragma once
-/// Where everything stands as a list: what engines feed to their own instancing.
+/// The list of placements, for the instancing of game engines.
+#include "core/generators/api.h"
 #include "core/generators/scene/forecast.h"
 #include "core/generators/scene/plant.h"
 #include "core/gltf/payload.h"
@@ -7,14 +8,14 @@
 
 namespace seedmesh::scene {
 
-/// The answer of derive(): see scene.h.
-Json told(const SceneParams& params, const Ground& ground, const Planting& planting, const Casting& casting,
-          const Job& job);
+/// Returns the result of derive(), described in scene.h.
+Json placements_json(const SceneParams& params, const Ground& ground, const Planting& planting,
+                     const VariantTable& variant_table, const Job& job);
 
-/// A zip of placements.json, which has all stands, and models/<name>.glb. Numbers have as many digits as a
-/// 32-bit float needs. `forecast`: of all models, each once. Spends output bytes. Below 1 microsecond a stand
-/// on one thread.
+/// Returns a zip with placements.json, which lists all placements, and models/<name>.glb. Numbers have enough
+/// digits for a 32-bit float. `forecast` covers each variant once. Spends output bytes. Cost: below 1
+/// microsecond for each placement on one thread.
 Result<Payload> placement_list(const SceneParams& params, const Ground& ground, const Planting& planting,
-                               Forecast& forecast, Job& job);
+                               Forecast& forecast, const GenerateContext& context);
 
 }  // namespace seedmesh::scene

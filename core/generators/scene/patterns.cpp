@@ -4,7 +4,6 @@
 #include <string>
 
 #include "core/base/math.h"
-#include "core/generators/scene/blame.h"
 #include "core/generators/scene/estimate.h"
 #include "core/generators/scene/shapes.h"
 #include "generated/params/scene.h"
@@ -23,7 +22,7 @@ RowPlan row_plan(const ScenePlace& place) {
       {(*place.spacing)[0], (*place.spacing)[1]}, math::radians(place.angle), place.stagger, place.jitter};
 }
 
-WayPlan way_plan(const ScenePlace& place) {
+PathPlan way_plan(const ScenePlace& place) {
   return {*place.distance, place.offset, place.side != SceneSide::right, place.side != SceneSide::left,
           place.jitter};
 }
@@ -65,7 +64,7 @@ Extent part_of(const ScenePlace& place, const Extent& ground) {
   return {glm::clamp(area.min, ground.min, ground.max), glm::clamp(area.max, ground.min, ground.max)};
 }
 
-Array<Stand> pattern_of(const ScenePlace& place, const Extent& ground, Rng rng, const Job& job) {
+Array<Placement> pattern_of(const ScenePlace& place, const Extent& ground, Rng rng, const Job& job) {
   switch (place.method) {
     case SceneMethod::rows:
       return in_rows(part_of(place, ground), row_plan(place), rng, job);
@@ -76,12 +75,12 @@ Array<Stand> pattern_of(const ScenePlace& place, const Extent& ground, Rng rng, 
   }
 }
 
-void refuse_patterns(const SceneParams& params, const Job& job) {
-  const std::optional<Extent> ground = extent_told(params);
+void refuse_patterns(const SceneParams& params, Job job) {
+  const std::optional<Extent> ground = known_extent(params);
   for (std::size_t i = 0; i < params.layers.size(); ++i) {
     const ScenePlace& place = params.layers[i].place;
-    blaming("/layers/" + std::to_string(i) + "/place" + amount_of(place.method),
-            [&] { refuse_pattern(place, ground, job); });
+    const Job::PointerScope scope(job, "/layers/" + std::to_string(i) + "/place" + amount_of(place.method));
+    refuse_pattern(place, ground, job);
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Patterns of a layer by its parameters: which places there are before any rule is asked.
-#include "core/generators/scene/stands.h"
+/// Computes the candidate positions of a layer from its parameters, before any rule applies.
+#include "core/generators/scene/candidate_positions.h"
 
 namespace seedmesh {
 struct ScenePlace;
@@ -10,18 +10,18 @@ enum class SceneMethod;
 
 namespace seedmesh::scene {
 
-/// The member of a place that says how many places a pattern has.
+/// Returns the JSON pointer of the member that sets the number of positions of a pattern.
 const char* amount_of(SceneMethod method);
 
-/// The part of the ground in which a layer may have places.
+/// Returns the part of the ground in which a layer can have positions.
 Extent part_of(const ScenePlace& place, const Extent& ground);
 
-/// The places of a pattern that has as many as fit: at distances, in rows, along a path.
-Array<Stand> pattern_of(const ScenePlace& place, const Extent& ground, Rng rng, const Job& job);
+/// Returns the positions of a pattern that fills the ground: by distance, in rows, or along a path.
+Array<Placement> pattern_of(const ScenePlace& place, const Extent& ground, Rng rng, const Job& job);
 
-/// Throws Stop, pointing to the member of amount_of(), where a pattern of a layer would have more places than
-/// the limit on shapes, as pattern_of() does. Makes nothing. The ground is that of the parameters; of a
-/// terrain from a picture nothing is known before it is read, and only paths are looked at.
-void refuse_patterns(const SceneParams& params, const Job& job);
+/// Throws Stop where a pattern would exceed the limit on shapes, as pattern_of() does. The pointer is that of
+/// amount_of(). Computes no positions. For a terrain from an image, whose size is unknown, only paths are
+/// checked.
+void refuse_patterns(const SceneParams& params, Job job);
 
 }  // namespace seedmesh::scene

@@ -5,23 +5,24 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
-#include "core/generators/scene/stands.h"
+#include "core/generators/scene/candidate_positions.h"
 
 namespace seedmesh::scene {
 namespace {
 
-// After so many darts a cell that is still open takes none any more, but for one in some thousand.
+// After this number of darts a cell gets no more. Of cells that are still open, only one in several thousand
+// would accept another.
 constexpr int rounds = 24;
 constexpr std::size_t cells_a_chunk = 8192;
-// Cells are at most three apart from those that a dart may bear on.
+// A dart affects cells at a distance of at most three.
 constexpr std::uint32_t apart = 3;
 constexpr std::uint32_t rim = 2;
-// A saturated pattern has at least this many places on a square of the distance.
+// Lower bound of positions of a saturated pattern in a square of the distance.
 constexpr double thinnest = 0.5;
-// What rounding two places to 32 bit may take from their distance, as a share of the largest coordinate.
+// Loss of distance between two positions by rounding to 32 bits, as a share of the largest coordinate.
 constexpr double rounding = 2.5e-7;
 
-// Where the point of a cell lies that has none: so far off that no distance to it counts.
+// Position for an empty cell: so far away that it is never near.
 constexpr float open_cell = 1e18F;
 constexpr float closed_cell = 2e18F;
 constexpr float nowhere = 1e17F;
@@ -29,18 +30,18 @@ constexpr float nowhere = 1e17F;
 struct Offset {
   int x, z;
 };
-/// Cells that a point of the middle one may be too near to, nearest first.
+/// Cells whose points can be too near to a point of the centre cell, nearest first.
 constexpr std::array<Offset, 20> around{{{-1, 0}, {1, 0},  {0, -1},  {0, 1},  {-1, -1}, {1, -1},  {-1, 1},
                                          {1, 1},  {-2, 0}, {2, 0},   {0, -2}, {0, 2},   {-2, -1}, {-2, 1},
                                          {2, -1}, {2, 1},  {-1, -2}, {1, -2}, {-1, 2},  {1, 2}}};
 
-/// The distance that places keep so that rounded ones keep `distance`.
+/// Returns the distance before rounding that guarantees `distance` after rounding.
 double reach_of(const Extent& whole, double distance) {
   const glm::dvec2 corner = glm::max(glm::abs(whole.min), glm::abs(whole.max));
   return distance + rounding * std::max(corner.x, corner.y);
 }
 
-/// The grid over `part`, counted from the corner of `whole`, with a rim of cells that stay empty.
+/// The grid over `part`, with indices from the corner of `whole` and a border of empty cells.
 class Darts {
  public:
   Darts(const Extent& whole, const Extent& part, double distance, Rng rng, const Job& job)
@@ -59,7 +60,7 @@ class Darts {
     for (std::uint32_t phase = 0; phase < 9; ++phase) list_phase(phase);
   }
 
-  Array<Stand> throw_all() {
+  Array<Placement> throw_all() {
     for (int round = 0; round < rounds; ++round) {
       Rng order = rng_.at("order").at(static_cast<std::uint64_t>(round));
       constexpr std::array<std::uint32_t, 6> steps{1, 2, 4, 5, 7, 8};
@@ -70,7 +71,7 @@ class Darts {
   }
 
  private:
-  /// A cell by its column and row: divisions would cost a third of the whole.
+  /// Index of a cell by column and row. Divisions would take a third of the time.
   struct Spot {
     std::uint32_t x, z;
   };
@@ -123,7 +124,7 @@ class Darts {
       const double dx = static_cast<double>(near.x) - static_cast<double>(dart.x);
       const double dz = static_cast<double>(near.y) - static_cast<double>(dart.y);
       if (dx * dx + dz * dz >= least) continue;
-      // A cell that lies wholly too near to one point never takes any.
+      // A cell completely inside the exclusion disc of a point accepts no dart.
       const double far_x = std::max(std::abs(static_cast<double>(near.x) - west),
                                     std::abs(static_cast<double>(near.x) - west - cell_));
       const double far_z = std::max(std::abs(static_cast<double>(near.y) - north),
@@ -134,22 +135,22 @@ class Darts {
     point_[cell] = dart;
   }
 
-  Array<Stand> gathered() const {
+  Array<Placement> gathered() const {
     std::size_t count = 0;
     for (const glm::vec2& point : point_) count += point.x < nowhere ? 1U : 0U;
-    Array<Stand> stands(job_);
-    stands.reserve(count);
+    Array<Placement> placements(job_);
+    placements.reserve(count);
     for (std::uint32_t z = 0; z < deep_; ++z) {
       for (std::uint32_t x = 0; x < wide_; ++x) {
         const glm::vec2& point = point_[cell_of({x, z})];
         if (!(point.x < nowhere)) continue;
-        Stand stand;
-        stand.at = whole_.min + glm::dvec2(point);
-        stand.key = key_of({x, z});
-        stands.push_back(stand);
+        Placement placement;
+        placement.at = whole_.min + glm::dvec2(point);
+        placement.key = key_of({x, z});
+        placements.push_back(placement);
       }
     }
-    return stands;
+    return placements;
   }
 
   const Extent& whole_;
@@ -159,7 +160,7 @@ class Darts {
   double reach_ = 0, cell_ = 0;
   std::int64_t first_x_ = 0, first_z_ = 0;
   std::uint32_t wide_ = 0, deep_ = 0, stride_ = 0;
-  Array<glm::vec2> point_;  ///< from the corner of `whole`; one a cell
+  Array<glm::vec2> point_;  ///< relative to the corner of `whole`, one for each cell
   std::array<Array<Spot>, 9> open_;
 };
 
@@ -169,11 +170,12 @@ void refuse_poisson_disk(const Extent& whole, const Extent& part, double distanc
   const glm::dvec2 size = part.size();
   const double reach = reach_of(whole, distance);
   if (thinnest * size.x * size.y / (reach * reach) <= static_cast<double>(job.limits().shapes)) return;
-  Job::refuse("a distance of " + std::to_string(distance) + " m on this ground gives more places than " +
-              std::to_string(job.limits().shapes) + ", the limit on shapes");
+  job.refuse(shapes_issue("a distance of " + std::to_string(distance) + " m on this ground gives",
+                          thinnest * size.x * size.y / (reach * reach), job));
 }
 
-Array<Stand> poisson_disk(const Extent& whole, const Extent& part, double distance, Rng rng, const Job& job) {
+Array<Placement> poisson_disk(const Extent& whole, const Extent& part, double distance, Rng rng,
+                              const Job& job) {
   return Darts(whole, part, distance, rng, job).throw_all();
 }
 

@@ -12,11 +12,11 @@ namespace seedmesh::scene {
 namespace {
 
 constexpr int octaves = 3;
-// Of the three octaves, so that the shares of ground that patches cover come out about right.
+// Standard deviation of the three octaves, so that patches cover about the requested share of the ground.
 constexpr double noise_deviation = 0.27;
 
-/// 1 well inside of the limits, falling to 0 at them where they are soft; 0 outside. With limits of any type
-/// made from the schema.
+/// Returns 1 well inside the limits, falling to 0 at soft limits, and 0 outside. The template accepts any
+/// limits type of the schema.
 template <class Limits>
 double share_of_limits(const Limits& limits, double value) {
   double share = 1;
@@ -59,8 +59,8 @@ double gradient_noise(const glm::dvec2& p, std::uint64_t key) {
   return north + (south - north) * t;
 }
 
-/// The value below which a share of a normal distribution lies, in deviations; by the logistic curve, which
-/// is near enough for patches.
+/// Returns the quantile of a normal distribution in standard deviations, by the logistic approximation, which
+/// is accurate enough for patches.
 double deviations_of(double share) {
   if (share <= 0) return -6;
   if (share >= 1) return 6;
@@ -75,20 +75,22 @@ double share_of_noise(const SceneNoise& noise, const glm::dvec2& p, std::uint64_
 }
 
 DensityImage read_image(const std::string& text, const std::string& pointer, const Job& job) {
-  const auto refuse = [&](const Error& error) { Job::reject({pointer, error.issues.front().message}); };
+  const auto refuse = [&](const Error& error) {
+    job.refuse({IssueKind::invalid_value, pointer, error.issues.front().message});
+  };
   const Result<Array<std::uint8_t>> bytes = terrain::bytes_of_base64(text, job);
   if (!bytes) refuse(bytes.error());
-  const Result<texture::Picture> picture = texture::decode_png(std::as_bytes(bytes->span()), {}, job);
-  if (!picture) refuse(picture.error());
-  DensityImage image{picture->width, picture->height, {}};
-  const double greatest = picture->bits == 8 ? 255.0 : 65535.0;
-  const auto channels = static_cast<std::size_t>(picture->channels);
+  const Result<texture::Picture> decoded = texture::decode_png(std::as_bytes(bytes->span()), {}, job);
+  if (!decoded) refuse(decoded.error());
+  DensityImage image{decoded->width, decoded->height, {}};
+  const double greatest = decoded->bits == 8 ? 255.0 : 65535.0;
+  const auto channels = static_cast<std::size_t>(decoded->channels);
   const std::size_t colors = channels >= 3 ? 3 : 1;
-  image.share.resize(std::size_t{picture->width} * picture->height);
+  image.share.resize(std::size_t{decoded->width} * decoded->height);
   for (std::size_t i = 0; i < image.share.size(); ++i) {
     if (i % 4096 == 0) job.check();
     double sum = 0;
-    for (std::size_t k = 0; k < colors; ++k) sum += picture->channel(i * channels + k);
+    for (std::size_t k = 0; k < colors; ++k) sum += decoded->channel(i * channels + k);
     image.share[i] = static_cast<float>(sum / (greatest * static_cast<double>(colors)));
   }
   return image;
@@ -100,18 +102,18 @@ void Obstacles::add_footprints(Array<Footprint> footprints) {
   if (footprints.empty()) return;
   double widest = 0;
   for (const Footprint& each : footprints) widest = std::max(widest, each.reach());
-  Neighbours by_place(extent_, 2 * widest, job_);
+  Neighbours by_position(extent_, 2 * widest, job_);
   for (std::size_t i = 0; i < footprints.size(); ++i)
-    by_place.add(footprints[i].at, static_cast<std::uint32_t>(i));
-  groups_.push_back({std::move(footprints), widest, std::move(by_place)});
+    by_position.add(footprints[i].at, static_cast<std::uint32_t>(i));
+  groups_.push_back({std::move(footprints), widest, std::move(by_position)});
 }
 
 bool Obstacles::meet(const glm::dvec2& p, double reach) const {
-  for (const Way& way : ways_) {
-    if (way.covers(p, reach)) return true;
+  for (const PathBand& band : paths_) {
+    if (band.covers(p, reach)) return true;
   }
   for (const Group& group : groups_) {
-    const bool met = group.by_place.any(p, group.widest + reach, [&](std::uint32_t id, double) {
+    const bool met = group.by_position.any(p, group.widest + reach, [&](std::uint32_t id, double) {
       return group.footprints[id].outside(p) < reach;
     });
     if (met) return true;
@@ -119,9 +121,9 @@ bool Obstacles::meet(const glm::dvec2& p, double reach) const {
   return false;
 }
 
-double DensityImage::at(const glm::dvec2& place) const {
-  const double x = std::clamp(place.x * width - 0.5, 0.0, width - 1.0);
-  const double z = std::clamp(place.y * depth - 0.5, 0.0, depth - 1.0);
+double DensityImage::at(const glm::dvec2& position) const {
+  const double x = std::clamp(position.x * width - 0.5, 0.0, width - 1.0);
+  const double z = std::clamp(position.y * depth - 0.5, 0.0, depth - 1.0);
   const std::size_t i = math::to_uint32(x), j = math::to_uint32(z);
   const std::size_t right = std::min<std::size_t>(i + 1, width - 1),
                     below = std::min<std::size_t>(j + 1, depth - 1);
@@ -136,11 +138,11 @@ double DensityImage::at(const glm::dvec2& place) const {
 
 double patch_noise(const glm::dvec2& p, std::uint64_t key) {
   double sum = 0, amplitude = 1;
-  glm::dvec2 place = p;
+  glm::dvec2 position = p;
   for (int octave = 0; octave < octaves; ++octave) {
-    sum += amplitude * gradient_noise(place, key_at(key, static_cast<std::uint64_t>(octave)));
+    sum += amplitude * gradient_noise(position, key_at(key, static_cast<std::uint64_t>(octave)));
     amplitude /= 2;
-    place *= 2.0;
+    position *= 2.0;
   }
   return sum;
 }
@@ -149,11 +151,11 @@ double shade_at(const glm::dvec2& p, const std::vector<Planted>& planted, std::s
   double light = 1;
   for (std::size_t layer = 0; layer < before; ++layer) {
     const Planted& each = planted[layer];
-    if (!each.by_place || each.widest_crown <= 0) continue;
-    // The product does not depend on the order of its factors but for rounding: the order is that of the
+    if (!each.by_position || each.widest_crown <= 0) continue;
+    // Apart from rounding, the product does not depend on the order of its factors. The order is that of the
     // grid.
-    each.by_place->any(p, each.widest_crown, [&](std::uint32_t id, double squared) {
-      const double crown = each.crown * static_cast<double>((*each.stands)[id].scale);
+    each.by_position->any(p, each.widest_crown, [&](std::uint32_t id, double squared) {
+      const double crown = each.crown * static_cast<double>((*each.placements)[id].scale);
       if (squared < crown * crown) light *= squared / (crown * crown);
       return false;
     });
@@ -195,7 +197,7 @@ double Rules::share_of_ground(const glm::dvec2& p) const {
   const double height = given_.ground.height(p);
   if (place.altitude) share *= share_of_limits(*place.altitude, height);
   if (place.above_water) {
-    // Where there is no water all ground is far above it.
+    // Without water, all ground counts as far above it.
     share *= water ? share_of_limits(*place.above_water, height - *water) : (place.above_water->to ? 0 : 1);
   } else if (water && height < *water) {
     return 0;
@@ -209,7 +211,8 @@ double Rules::share_of_neighbours(const glm::dvec2& p) const {
     const SceneNeighbour& near = place.near[i];
     const Planted& other = given_.planted[given_.near[i]];
     const auto within = [&](double radius) {
-      return other.by_place && other.by_place->any(p, radius, [](std::uint32_t, double) { return true; });
+      return other.by_position &&
+             other.by_position->any(p, radius, [](std::uint32_t, double) { return true; });
     };
     if (near.from && *near.from > 0 && within(*near.from)) return 0;
     if (near.to && !within(*near.to)) return 0;
@@ -217,6 +220,8 @@ double Rules::share_of_neighbours(const glm::dvec2& p) const {
   return place.shade ? share_of_limits(*place.shade, shade_at(p, given_.planted, given_.planted.size())) : 1;
 }
 
-bool Rules::look_at_others(const ScenePlace& place) { return !place.near.empty() || place.shade.has_value(); }
+bool Rules::reads_neighbours(const ScenePlace& place) {
+  return !place.near.empty() || place.shade.has_value();
+}
 
 }  // namespace seedmesh::scene

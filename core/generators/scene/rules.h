@@ -1,5 +1,6 @@
 #pragma once
-/// Which places suit a layer: its rules, each a share from 0 to 1, and one chance for their product.
+/// Rules of a layer. Each rule gives a share from 0 to 1; their product is the probability that a position is
+/// kept.
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -13,69 +14,71 @@ struct ScenePlace;
 
 namespace seedmesh::scene {
 
-/// What stands already, of one layer: by place.
+/// The placements of an earlier layer, searchable by position.
 struct Planted {
-  const Array<Stand>* stands = nullptr;
-  std::optional<Neighbours> by_place;
-  double crown = 0;         ///< radius at scale 1
-  double widest_crown = 0;  ///< of all
+  const Array<Placement>* placements = nullptr;
+  std::optional<Neighbours> by_position;
+  double crown = 0;         ///< radius at scale 1, in metres
+  double widest_crown = 0;  ///< largest crown radius of the layer, in metres
 };
 
-/// What lies on the ground that nothing may stand on.
+/// Areas of the ground that must stay free: paths and footprints.
 class Obstacles {
  public:
   Obstacles(const Extent& extent, const Job& job) : extent_(extent), job_(job) {}
-  void add_way(Way way) { ways_.push_back(std::move(way)); }
+  void add_path(PathBand band) { paths_.push_back(std::move(band)); }
   void add_footprints(Array<Footprint> footprints);
 
-  /// Does anything that reaches so far around the place meet one of them?
+  /// Returns true where a disc of radius `reach` around `p` meets an obstacle.
   bool meet(const glm::dvec2& p, double reach) const;
 
  private:
   struct Group {
     Array<Footprint> footprints;
     double widest = 0;
-    Neighbours by_place;
+    Neighbours by_position;
   };
   const Extent& extent_;
   const Job& job_;
-  std::vector<Way> ways_;
+  std::vector<PathBand> paths_;
   std::vector<Group> groups_;
 };
 
-/// A grey picture that lies over the ground.
+/// A greyscale image stretched over the ground.
 struct DensityImage {
   std::uint32_t width = 0, depth = 0;
   std::vector<float> share;  ///< row by row, from the north
-  /// Between the middles of pixels as a plane each way, beyond the outermost as these.
-  double at(const glm::dvec2& place) const;  ///< 0..1 from the north-western corner
+  /// Returns the bilinear interpolation between pixel centres, clamped at the border.
+  double at(const glm::dvec2& position) const;  ///< 0..1 from the north-west corner
 };
 
-/// The smooth noise of patches, about -1 to 1 (Perlin, "Improving noise", 2002, on a plane), three octaves.
+/// Returns smooth noise of three octaves, about -1 to 1 (Perlin, "Improving noise", 2002, in 2D).
 double patch_noise(const glm::dvec2& p, std::uint64_t key);
 
-/// How much light crowns take away at a place: each its share, fading to its edge, one after the other.
+/// Returns the share of light that crowns absorb at a position. Each crown fades to its edge; transmissions
+/// multiply.
 double shade_at(const glm::dvec2& p, const std::vector<Planted>& planted, std::size_t before);
 
-/// The rules of one layer, ready to be asked. Does not own what it was made of.
+/// The compiled rules of one layer. Does not own its inputs.
 class Rules {
  public:
   struct Given {
     const ScenePlace& place;
     const Ground& ground;
     const Obstacles& obstacles;
-    const std::vector<Planted>& planted;  ///< of the layers before this one
-    std::vector<std::size_t> near;        ///< by place.near: which layer is meant
+    const std::vector<Planted>& planted;  ///< earlier layers
+    std::vector<std::size_t> near;        ///< by place.near: index of the layer
     std::uint64_t noise_key = 0;
   };
-  /// Throws Stop (Code::invalid) at `pointer` where the picture cannot be read.
+  /// Throws Stop (Code::invalid) at `pointer` for an unreadable image.
   Rules(Given given, const std::string& pointer, const Job& job);
 
-  /// 0 where nothing may stand. `reach`: how far the model covers the ground around.
+  /// Returns the probability of a placement at `p`, 0 where it is forbidden. `reach`: radius of ground that
+  /// the model covers, in metres.
   double share(const glm::dvec2& p, double reach) const;
 
-  /// Do the rules ask what stands there already?
-  static bool look_at_others(const ScenePlace& place);
+  /// Returns true where the rules depend on other placements.
+  static bool reads_neighbours(const ScenePlace& place);
 
   const std::vector<glm::dvec2>& area() const { return area_; }
 

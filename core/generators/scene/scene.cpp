@@ -5,25 +5,25 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/generators/api.h"
 #include "core/generators/child.h"
-#include "core/generators/registry.h"
 #include "core/generators/scene/assemble.h"
-#include "core/generators/scene/casts.h"
 #include "core/generators/scene/estimate.h"
 #include "core/generators/scene/forecast.h"
 #include "core/generators/scene/grow.h"
 #include "core/generators/scene/levels.h"
 #include "core/generators/scene/list.h"
+#include "core/generators/scene/model_variants.h"
 #include "core/generators/scene/patterns.h"
-#include "core/geom/finish.h"
-#include "core/gltf/pack.h"
+#include "core/geom/mesh/finish.h"
+#include "core/gltf/compress/pack.h"
 #include "generated/params/scene.h"
 
 namespace seedmesh::scene {
 namespace {
 
-std::optional<Error> refusal(const SceneParams& params, const Limits& limits) {
-  std::vector<Issue> issues = check(params, limits);
+std::optional<Error> refusal(const SceneParams& params, const GenerateContext& context) {
+  std::vector<Issue> issues = check(params, {context.job.limits(), context.generators});
   if (issues.empty()) return std::nullopt;
   return Error{Code::invalid, std::move(issues)};
 }
@@ -39,59 +39,70 @@ bool any_model(const SceneParams& params, const Holds& holds) {
   });
 }
 
-template <bool Generator::*trait>
-bool has_trait(const std::string& name) {
-  const Generator* generator = find_generator(name);
-  return generator && generator->*trait;
-}
+/// Returns whether the generator with this name has a trait.
+struct HasTrait {
+  GeneratorList generators;
+  bool Generator::*trait;
+  bool operator()(const std::string& name) const {
+    const Generator* generator = find_generator(generators, name);
+    return generator && generator->*trait;
+  }
+};
 
-/// What is said of all plants and none of the models has.
+/// Warns of settings for all plants that no model uses.
 std::vector<Warning> without_effect(const SceneParams& params) {
   std::vector<Warning> warnings;
   const auto warn = [&](bool is_given, const char* name) {
     const auto has_it = [name](const std::string& generator) { return has_parameter(generator, name); };
     if (is_given && !any_model(params, has_it))
-      warnings.push_back(
-          {"/" + std::string(name), "none of the models has a parameter " + std::string(name)});
+      warnings.push_back({"/" + std::string(name), "no model has the parameter " + std::string(name)});
   };
   warn(params.age.has_value(), "age");
   warn(params.season.has_value(), "season");
   return warnings;
 }
 
-/// What of the wanted answer and the parameters does not go together.
-std::vector<Issue> conflicts(const SceneParams& params, const Demand& demand) {
+/// Finds conflicts between the requested output and the parameters.
+std::vector<Issue> conflicts(const SceneParams& params, const GenerateContext& context) {
+  const Demand& demand = context.demand;
   std::vector<Issue> issues;
   const auto add = [&issues](const char* pointer, std::string message) {
-    issues.push_back({pointer, std::move(message), 0, 0});
+    issues.push_back({IssueKind::conflict, pointer, std::move(message)});
   };
   const std::string levels = "found " + std::to_string(demand.lods) + " levels of detail";
   if (params.camera && demand.lods > 1)
-    add("/output/lods", levels + " and a camera, which chooses one for each place");
+    add("/output/lods", levels + " and a camera, which chooses one for each placement");
   if (params.camera && demand.impostor)
-    add("/output/impostor", "found a level of detail and a camera, which chooses one for each place");
-  if (demand.copies == CopyForm::merge && wants_pictures(params, demand))
-    add("/output/instancing", "found merge; a mesh of all copies has no pictures of each");
-  if (demand.impostor && !any_model(params, has_trait<&Generator::has_impostor>))
-    add("/output/impostor",
-        "found an impostor; none of the models is a plant that a picture could stand for");
+    add("/output/impostor", "found a level of detail and a camera, which chooses one for each placement");
+  if (demand.copies == CopyForm::merge && wants_impostors(params, demand))
+    add("/output/instancing", "found merge; a merged mesh cannot use impostors");
+  if (demand.impostor && !any_model(params, HasTrait{context.generators, &Generator::has_impostor}))
+    add("/output/impostor", "found an impostor; no model supports impostors");
   if (!demand.growth) return issues;
-  if (!any_model(params, has_trait<&Generator::grows>))
-    add("/output/animation", "found growth; none of the models grows");
-  if (demand.lods > 1) add("/output/lods", levels + "; plants of a scene that grow have one");
-  if (params.camera) add("/camera", "a camera chooses levels of detail; plants that grow have one");
+  if (!any_model(params, HasTrait{context.generators, &Generator::grows}))
+    add("/output/animation", "found growth, but no model grows");
+  if (demand.lods > 1) add("/output/lods", levels + "; growing plants of a scene have one level");
+  if (params.camera) add("/camera", "a camera chooses levels of detail; growing plants have one level");
   if (demand.copies == CopyForm::gpu)
-    add("/output/instancing", "found gpu; copies that are arrays have no bones, and cannot grow");
+    add("/output/instancing", "found gpu; instanced copies have no bones and cannot grow");
   return issues;
 }
 
-/// How many stand of each model.
-std::vector<std::uint64_t> stands_of(const Planting& planting, const Casting& casting) {
-  std::vector<std::uint64_t> stands(casting.casts.size());
+/// Returns the number of placements of each variant.
+std::vector<std::uint64_t> placements_of(const Planting& planting, const VariantTable& variant_table) {
+  std::vector<std::uint64_t> placements(variant_table.variants.size());
   for (std::size_t layer = 0; layer < planting.layers.size(); ++layer) {
-    for (const Stand& stand : planting.layers[layer]) ++stands[casting.cast_of(layer, stand)];
+    for (const Placement& placement : planting.layers[layer])
+      ++placements[variant_table.variant_at(layer, placement)];
   }
-  return stands;
+  return placements;
+}
+
+/// A list of placements has neither the ground nor what belongs to it.
+void warn_of_outlines(const SceneParams& params, Planting& planting) {
+  if (!params.buildings.empty())
+    planting.warnings.push_back(
+        {"/buildings", "buildings belong to the ground, which a list of placements leaves out"});
 }
 
 bool has_foundations(const SceneParams& params) {
@@ -99,10 +110,11 @@ bool has_foundations(const SceneParams& params) {
                      [](const SceneLayer& layer) { return layer.foundation.has_value(); });
 }
 
-/// For a compressed file. Nothing else is made meanwhile: a great ground takes more memory on its way than
-/// all that comes after it.
-Result<Model> packed_ground(const SceneParams& params, const Ground& ground, Job& job) {
-  Result<Model> made = ground.model(params, job);
+/// Generates the ground for a compressed file. It runs alone, because a large ground needs more memory than
+/// everything after it.
+Result<Model> packed_ground(const SceneParams& params, const Ground& ground, const GenerateContext& context) {
+  Job& job = context.job;
+  Result<Model> made = ground.model(params, context);
   if (!made) return made;
   finish_meshes(*made, job);
   gltf::pack(*made, job);
@@ -111,100 +123,108 @@ Result<Model> packed_ground(const SceneParams& params, const Ground& ground, Job
 
 }  // namespace
 
-Result<Model> generate(const SceneParams& params, Job& job) {
-  if (auto refused = refusal(params, job.limits())) return std::move(*refused);
-  std::vector<Issue> issues = conflicts(params, job.demand());
+Result<Model> generate(const SceneParams& params, const GenerateContext& context) {
+  Job& job = context.job;
+  if (auto refused = refusal(params, context)) return std::move(*refused);
+  std::vector<Issue> issues = conflicts(params, context);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   refuse_patterns(params, job);
   job.progress("derive", 0);
-  const Casting casting = casting_of(params, job);
-  Forecast forecast(params, casting, job);
+  const VariantTable variant_table = variant_table_of(params, job);
+  Forecast forecast(params, variant_table, context);
   forecast.refuse(job);
-  if (job.demand().packs) job.purse()->be_thrifty();
+  if (context.demand.packs) job.budget()->prefer_low_memory();
   Result<Ground> ground = Ground::make(params, job);
   if (!ground) return std::move(ground).error();
-  // Only foundations bear on the ground: without any it is done before its plants take memory.
+  // Placements change the ground only through foundations. Without these the ground is generated first,
+  // before plants take memory.
   std::optional<Result<Model>> made;
-  if (job.demand().packs && !has_foundations(params)) made.emplace(packed_ground(params, *ground, job));
+  if (context.demand.packs && !has_foundations(params)) made.emplace(packed_ground(params, *ground, context));
   if (made && !*made) return std::move(*made);
   Planting planting = plant(params, *ground, job);
   for (Warning& each : without_effect(params)) planting.warnings.push_back(std::move(each));
   job.progress("mesh", 0);
   Pieces pieces;
   Demand demand;
-  demand.lods = levels_made_of(params, job.demand());
-  demand.growth = job.demand().growth;
+  demand.lods = level_count_of(params, context.demand);
+  demand.growth = context.demand.growth;
   if (demand.growth) {
-    const Result<std::uint32_t> bones = bones_for({*ground, planting, casting});
+    const Result<std::uint32_t> bones = bones_for({*ground, planting, variant_table}, context.generators);
     if (!bones) return bones.error();
     demand.most_bones = *bones;
   }
-  const bool merges = job.demand().copies == CopyForm::merge && !chooses_levels(params, job.demand());
-  forecast.want(stands_of(planting, casting), merges);
-  if (job.demand().packs && !made) made.emplace(packed_ground(params, *ground, job));
+  const bool merges = context.demand.copies == CopyForm::merge && !chooses_levels(params, context.demand);
+  forecast.set_counts(placements_of(planting, variant_table), merges);
+  if (context.demand.packs && !made) made.emplace(packed_ground(params, *ground, context));
   if (made && !*made) return std::move(*made);
-  if (made) forecast.know_ground();
-  // Else models are made beside it: a reduced mesh is long work that cannot be cut.
-  std::function<void()> beside;
-  if (!made) beside = [&] { made.emplace(ground->model(params, job)); };
-  Result<std::vector<Model>> models = models_of(forecast, demand, job, beside);
+  if (made) forecast.spend_ground();
+  // Otherwise models are generated in parallel with it, because a reduced mesh is long work that cannot be
+  // split.
+  std::function<void()> background;
+  if (!made) background = [&] { made.emplace(ground->model(params, context)); };
+  Result<std::vector<Model>> models = models_of(forecast, demand, context, background);
   if (!models) return std::move(models).error();
   if (!*made) return std::move(*made);
   pieces.models = std::move(*models);
   pieces.ground = std::move(**made);
-  return assembled(params, {*ground, planting, casting}, std::move(pieces), job);
+  return assembled(params, {*ground, planting, variant_table}, std::move(pieces), context);
 }
 
-Result<Json> derive(const SceneParams& params, Job& job) {
-  if (auto refused = refusal(params, job.limits())) return std::move(*refused);
+Result<Json> derive(const SceneParams& params, const GenerateContext& context) {
+  Job& job = context.job;
+  if (auto refused = refusal(params, context)) return std::move(*refused);
   refuse_patterns(params, job);
   Result<Ground> ground = Ground::make(params, job);
   if (!ground) return std::move(ground).error();
-  const Planting planting = plant(params, *ground, job);
-  return told(params, *ground, planting, casting_of(params, job), job);
+  Planting planting = plant(params, *ground, job);
+  warn_of_outlines(params, planting);
+  return placements_json(params, *ground, planting, variant_table_of(params, job), job);
 }
 
-Result<Appraisal> appraise(const SceneParams& params, const Job& job) {
-  if (auto refused = refusal(params, job.limits())) return std::move(*refused);
-  std::vector<Issue> issues = conflicts(params, job.demand());
+Result<Appraisal> appraise(const SceneParams& params, const GenerateContext& context) {
+  Job& job = context.job;
+  if (auto refused = refusal(params, context)) return std::move(*refused);
+  std::vector<Issue> issues = conflicts(params, context);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   refuse_patterns(params, job);
   Appraisal appraisal;
   appraisal.warnings = without_effect(params);
-  const Casting casting = casting_of(params, job);
-  const Forecast forecast(params, casting, job);
+  const VariantTable variant_table = variant_table_of(params, job);
+  const Forecast forecast(params, variant_table, context);
   forecast.refuse(job);
   std::set<std::pair<std::string, std::string>> seen;
   std::vector<std::optional<Estimate>> estimates;
-  for (const Cast& cast : casting.casts) {
-    Result<Appraisal> own = appraise_child(cast.request, cast.pointer, Rng(0), job);
+  for (const ModelVariant& variant : variant_table.variants) {
+    Result<Appraisal> own = appraise_child(variant.request, variant.pointer, Rng(0), context);
     if (!own) return own;
     estimates.push_back(own->estimate);
     for (Warning& each : own->warnings) {
-      if (!is_used_elsewhere(casting, each) && seen.insert({each.pointer, each.message}).second)
+      if (!is_used_elsewhere(variant_table, each) && seen.insert({each.pointer, each.message}).second)
         appraisal.warnings.push_back(std::move(each));
     }
   }
-  appraisal.estimate = estimate_of(params, casting, estimates, job);
+  appraisal.estimate = estimate_of(params, variant_table, estimates, context);
   return appraisal;
 }
 
 Json vocabulary() { return Json::object(); }
 
-Result<Payload> encode(const SceneParams& params, std::string_view, Job& job) {
-  if (auto refused = refusal(params, job.limits())) return std::move(*refused);
+Result<Payload> encode(const SceneParams& params, const WantedFormat&, const GenerateContext& context) {
+  Job& job = context.job;
+  if (auto refused = refusal(params, context)) return std::move(*refused);
   if (params.camera)
-    return Error{Code::invalid, {{"/camera", "has no effect on a list of placements", 0, 0}}};
+    return Error{Code::invalid, {{IssueKind::conflict, "/camera", "has no effect on a list of placements"}}};
   refuse_patterns(params, job);
   job.progress("derive", 0);
-  const Casting casting = casting_of(params, job);
-  Forecast forecast(params, casting, job);
+  const VariantTable variant_table = variant_table_of(params, job);
+  Forecast forecast(params, variant_table, context);
   forecast.refuse(job);
   Result<Ground> ground = Ground::make(params, job);
   if (!ground) return std::move(ground).error();
-  const Planting planting = plant(params, *ground, job);
+  Planting planting = plant(params, *ground, job);
+  warn_of_outlines(params, planting);
   job.progress("encode", 0);
-  return placement_list(params, *ground, planting, forecast, job);
+  return placement_list(params, *ground, planting, forecast, context);
 }
 
 }  // namespace seedmesh::scene

@@ -1,19 +1,18 @@
 #pragma once
 /// Scenes: many models on one ground.
 ///
-///   params -> Ground (a terrain's height field, or level)
-///          -> plant(): Stands of each layer, and foundations into the ground
-///          -> casting_of(): the requests of all models -> models_of(), in parallel
-///          -> assembled(): one mesh a model, nodes with copies
+///   params -> Ground (the height field of a terrain, or level ground)
+///          -> plant(): the placements of each layer, and foundations into the ground
+///          -> variant_table_of(): the requests of all models -> models_of(), in parallel
+///          -> assembled(): one mesh for each model, nodes with copies
 ///
-/// Out: root "scene"; below it the ground, and a node for each layer with a node for each of its models,
-/// whose copies are Node::instances. The middle of the ground is at the origin of X and Z, north is -Z.
-/// docs/scenes.md tells every rule.
+/// The model has the root "scene" with the ground, and a node for each layer with a node for each of its
+/// models. Copies are Node::instances. The centre of the ground is at the origin of X and Z; north is -Z.
+/// docs/scenes.md describes all rules.
 #include <span>
 #include <string_view>
 
-#include "core/base/job.h"
-#include "core/generators/appraisal.h"
+#include "core/generators/api.h"
 #include "core/gltf/payload.h"
 #include "core/model/model.h"
 #include "core/schema/json.h"
@@ -24,28 +23,28 @@ struct SceneParams;
 
 namespace seedmesh::scene {
 
-/// Stands up to this many are told one by one by derive().
-constexpr std::size_t most_told = 100'000;
+/// derive() lists at most this number of placements.
+constexpr std::size_t most_listed = 100'000;
 
-/// Every fault between parameters, with pointers relative to them: scenes inside, rules that lack what their
-/// method needs, names that no layer has, variations that a model refuses. Makes nothing.
-std::vector<Issue> check(const SceneParams& params, const Limits& limits);
+/// Returns all errors that the schema cannot express, with pointers relative to the parameters: nested
+/// scenes, missing members of a method, unknown layer names, invalid variations. Generates nothing.
+std::vector<Issue> check(const SceneParams& params, const CheckContext& context);
 
-/// The model. Issues: those of check(), and of the models and the terrain at their pointers.
-Result<Model> generate(const SceneParams& params, Job& job);
+/// Generates the scene. Errors: those of check(), and those of the models and the terrain at their pointers.
+Result<Model> generate(const SceneParams& params, const GenerateContext& context);
 
-/// {placements: [{model, translation, rotation, scale}], models: {name: request}, layers, warnings}: every
-/// model as a request that can be made alone; placements null where there are more than most_told.
-Result<Json> derive(const SceneParams& params, Job& job);
+/// Returns {placements: [{model, translation, rotation, scale}], models: {name: request}, layers, warnings}.
+/// Each model is a complete request. `placements` is null above most_listed.
+Result<Json> derive(const SceneParams& params, const GenerateContext& context);
 
-/// Warnings of the models, and an estimate where all of them and the ground can tell theirs (estimate.h).
-/// Refuses what is too large together.
-Result<Appraisal> appraise(const SceneParams& params, const Job& job);
+/// Returns the warnings of the models, and an estimate where the models and the ground have one (estimate.h).
+/// Refuses a scene whose sum exceeds a limit.
+Result<Appraisal> appraise(const SceneParams& params, const GenerateContext& context);
 
-/// No notation, hence no words.
+/// Returns an empty vocabulary, because scenes have no notation.
 Json vocabulary();
 
-/// The form "placements": a zip with placements.json (of all stands) and each model as a file of its own.
-Result<Payload> encode(const SceneParams& params, std::string_view format, Job& job);
+/// Encodes the format "placements": a zip with placements.json and a file for each model.
+Result<Payload> encode(const SceneParams& params, const WantedFormat& format, const GenerateContext& context);
 
 }  // namespace seedmesh::scene

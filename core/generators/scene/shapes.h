@@ -1,59 +1,59 @@
 #pragma once
-/// Shapes on the ground that things stand in or keep off, and how to find what is near. Places are (x, z).
+/// Shapes on the ground, and neighbour search. Positions are (x, z) in metres.
 #include <cmath>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
-#include "core/generators/scene/stands.h"
+#include "core/generators/scene/candidate_positions.h"
 
 namespace seedmesh::scene {
 
-/// What a model covers of the ground: a disc, or a rectangle that is turned.
+/// The area that a model covers: a disc, or a rotated rectangle.
 struct Footprint {
   glm::dvec2 at{0};
-  glm::dvec2 half{0};  ///< of width and depth before it is turned; a disc has its radius in both
+  glm::dvec2 half{0};  ///< half of width and depth before rotation; both are the radius of a disc
   double cos = 1, sin = 0;
   bool round = true;
 
-  /// Of a place with that size at scale 1 and that turn.
-  static Footprint of(const Stand& stand, const glm::dvec2& half, bool round);
-  /// Distance from the edge, below 0 inside.
+  /// Returns the footprint of a placement. `half` is the half size at scale 1.
+  static Footprint of(const Placement& placement, const glm::dvec2& half, bool round);
+  /// Returns the distance from the edge in metres, negative inside.
   double outside(const glm::dvec2& p) const;
   double reach() const { return round ? half.x : glm::length(half); }
 };
 
-/// Do two of one kind, discs or rectangles, cover ground together? Not where they only touch.
+/// Returns true where two footprints of the same kind overlap. Touching does not count.
 bool overlap(const Footprint& a, const Footprint& b);
 
-/// Is the place inside of the polygon? Edges count by the rule of crossings.
+/// Returns true inside the polygon, by the even-odd rule.
 bool is_inside(std::span<const glm::dvec2> polygon, const glm::dvec2& p);
 Extent extent_of(std::span<const glm::dvec2> points);
 
-/// A broken line with a width.
-struct Way {
+/// A polyline with a width.
+struct PathBand {
   std::vector<glm::dvec2> points;
   double half_width = 0;
-  Extent box;                 ///< of all that it covers
-  std::vector<Extent> boxes;  ///< of runs of pieces, half the width around them included
+  Extent box;                 ///< bounds of the covered area
+  std::vector<Extent> boxes;  ///< bounds of runs of segments, including half the width
 
-  /// Does it come nearer to the place than the margin? Looks at the boxes, and at the pieces of those that
-  /// are near.
+  /// Returns true where the distance to `p` is below `margin`. Checks the boxes first, then the segments of
+  /// near boxes.
   bool covers(const glm::dvec2& p, double margin) const;
 };
-Way way_of(std::vector<glm::dvec2> points, double width);
+PathBand path_band_of(std::vector<glm::dvec2> points, double width);
 
-/// Places by the square of a grid in which they lie. Grows; queries do not depend on the order of additions
-/// where what is asked does not.
+/// Positions in a uniform grid. Grows by add(). The result of a query does not depend on the order of
+/// additions.
 class Neighbours {
  public:
-  /// `cell`: about the distance that will be asked for. Squares are made larger where there would be too
-  /// many.
+  /// `cell`: approximate query distance in metres. It grows where there would be too many cells.
   Neighbours(const Extent& extent, double cell, const Job& job);
 
   void add(const glm::dvec2& at, std::uint32_t id);
 
-  /// visit(id, squared distance) for all within `radius` until it says true; whether it did.
+  /// Calls visit(id, squared distance) for all positions within `radius` until it returns true. Returns
+  /// whether it did.
   template <class Visit>
   bool any(const glm::dvec2& at, double radius, const Visit& visit) const {
     const auto [x0, z0] = square_of(at - radius);
@@ -63,8 +63,8 @@ class Neighbours {
       for (std::int32_t x = x0; x <= x1; ++x) {
         for (std::uint32_t i = head_[static_cast<std::size_t>(z) * wide_ + static_cast<std::size_t>(x)];
              i != none; i = next_[i]) {
-          const glm::dvec2 way = place_[i] - at;
-          const double squared = glm::dot(way, way);
+          const glm::dvec2 delta = position_[i] - at;
+          const double squared = glm::dot(delta, delta);
           if (squared <= most && visit(id_[i], squared)) return true;
         }
       }
@@ -72,10 +72,11 @@ class Neighbours {
     return false;
   }
 
-  /// The square of the distance to the nearest within `radius`; above radius * radius: none.
+  /// Returns the squared distance to the nearest position within `radius`, or a larger value where there is
+  /// none.
   double nearest(const glm::dvec2& at, double radius) const;
 
-  std::size_t size() const { return place_.size(); }
+  std::size_t size() const { return position_.size(); }
 
  private:
   static constexpr std::uint32_t none = 0xFFFFFFFFU;
@@ -88,19 +89,20 @@ class Neighbours {
   double per_cell_ = 1;
   std::size_t wide_ = 1, deep_ = 1;
   Array<std::uint32_t> head_, next_, id_;
-  Array<glm::dvec2> place_;
+  Array<glm::dvec2> position_;
 };
 
-/// Footprints of one kind that lie beside each other. `cell`: about twice the reach of the largest.
-class Plots {
+/// A set of footprints of one kind that do not overlap. `cell`: about twice the reach of the largest.
+class FootprintSet {
  public:
-  Plots(const Extent& extent, double cell, const Job& job) : by_place_(extent, cell, job), all_(job) {}
+  FootprintSet(const Extent& extent, double cell, const Job& job)
+      : by_position_(extent, cell, job), all_(job) {}
 
-  /// Whether there is room for it; then it is taken.
+  /// Adds a footprint if it overlaps no other, and returns whether it was added.
   bool take(const Footprint& footprint);
 
  private:
-  Neighbours by_place_;
+  Neighbours by_position_;
   Array<Footprint> all_;
   double widest_ = 0;
 };

@@ -11,19 +11,18 @@
 namespace seedmesh::terrain {
 namespace {
 
-// Triangles that are put in order together: beyond, what the order is found with takes more room than they.
+// Number of triangles that are ordered together. It bounds the memory of the ordering.
 constexpr std::size_t triangles_ordered = std::size_t{1} << 17U;
 
-/// Sorts triangles by squares of the field, those of each in the order in which they come; where each square
-/// ends.
+/// Sorts triangles by squares of the field, stable within each square. Returns the end of each square.
 std::vector<std::size_t> sort_by_squares(Triangulation& plan, const Field& field, const Job& job) {
   const std::size_t triangles = plan.index.size() / 3;
   std::size_t across = 1;
   while (across * across * triangles_ordered < triangles) ++across;
   const auto square_of = [&](std::size_t corner) {
-    const Place at = place_of(plan.samples[plan.index[corner]], field.width);
-    const auto part = [across](std::int32_t place, std::int32_t side) {
-      return static_cast<std::size_t>(place) * across / static_cast<std::size_t>(side);
+    const GridPoint at = grid_point_of(plan.samples[plan.index[corner]], field.width);
+    const auto part = [across](std::int32_t position, std::int32_t side) {
+      return static_cast<std::size_t>(position) * across / static_cast<std::size_t>(side);
     };
     return part(at.z, field.depth) * across + part(at.x, field.width);
   };
@@ -51,11 +50,11 @@ void order_for_cache(Triangulation& plan, const Field& field, const Job& job) {
     begin = end;
     job.check();
   }
-  Array<std::uint32_t> place(job, plan.samples.size(), 0xFFFFFFFFU);
+  Array<std::uint32_t> position(job, plan.samples.size(), 0xFFFFFFFFU);
   Array<std::uint32_t> samples(job);
   samples.reserve(plan.samples.size());
   for (std::uint32_t& corner : plan.index) {
-    std::uint32_t& at = place[corner];
+    std::uint32_t& at = position[corner];
     if (at == 0xFFFFFFFFU) {
       at = static_cast<std::uint32_t>(samples.size());
       samples.push_back(plan.samples[corner]);

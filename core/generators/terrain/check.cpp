@@ -1,4 +1,4 @@
-/// Faults between parameters; see plan.h.
+/// Checks of rules between parameters; see plan.h.
 #include <array>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
@@ -14,7 +14,8 @@ namespace {
 
 using Algorithm = TerrainAlgorithm;
 
-// Rounds that give the longest side, and octaves beyond which a float holds no more detail.
+// The number of rounds that gives the longest side, and the greatest number of octaves with visible detail in
+// a float.
 constexpr int most_rounds = 14, most_octaves = 16;
 constexpr int longest_sphere = 1025;
 constexpr int least_texture = 16;
@@ -36,8 +37,8 @@ class Check {
   }
 
  private:
-  void fault(std::string pointer, std::string message) {
-    issues_.push_back({std::move(pointer), std::move(message)});
+  void fault(IssueKind kind, std::string pointer, std::string message) {
+    issues_.push_back({kind, std::move(pointer), std::move(message)});
   }
 
   bool is(std::initializer_list<Algorithm> algorithms) const {
@@ -47,14 +48,15 @@ class Check {
     return false;
   }
 
-  /// A parameter that means nothing to the algorithm is refused, not overlooked.
+  /// Refuses a parameter that the algorithm does not have.
   template <class Value>
   void belongs(const char* name, const std::optional<Value>& value, std::initializer_list<Algorithm> to) {
     if (!value || is(to)) return;
     std::string owners;
     for (const Algorithm each : to) owners += (owners.empty() ? "" : ", ") + std::string(text_of(each));
-    fault(std::string("/") + name,
-          std::string(text_of(params_.algorithm)) + " has no " + name + "; it belongs to " + owners);
+    fault(IssueKind::conflict, std::string("/") + name,
+          std::string(text_of(params_.algorithm)) + " has no " + name +
+              "; only these algorithms have it: " + owners);
   }
 
   void belongings() {
@@ -76,14 +78,15 @@ class Check {
     belongs("warp", params_.warp, {fbm});
     belongs("image", params_.image, {image});
     if (is({image}) && !params_.image)
-      fault("", "\"image\" is missing: the algorithm image takes its heights from it");
+      fault(IssueKind::missing, "", "\"image\" is missing; the algorithm image reads its heights from it");
     if (is({triangular_edge}) && params_.hurst &&
         params_.mode.value_or(TerrainMode::random) == TerrainMode::random)
-      fault("/hurst", "the random mode has deviations of one size; hurst belongs to the mode midpoint");
+      fault(IssueKind::conflict, "/hurst", "the mode random does not use hurst; only the mode midpoint does");
     if (params_.fault_width &&
         params_.fault_step.value_or(TerrainFaultStep::hard) == TerrainFaultStep::hard &&
         is({fault_formation, poisson_faulting}))
-      fault("/fault_width", "a hard step has no width; choose fault_step line or cosine");
+      fault(IssueKind::conflict, "/fault_width",
+            "a hard step has no width; expected fault_step line or cosine");
   }
 
   void iterations() {
@@ -93,55 +96,86 @@ class Check {
         (params_.extra_iterations > 0 ? " and " + std::to_string(params_.extra_iterations) + " extra" : "");
     using enum TerrainAlgorithm;
     if (is({image})) {
-      if (params_.iterations) fault("/iterations", "an image has no iterations");
-      if (params_.extra_iterations > 0) fault("/extra_iterations", "an image has no iterations");
+      if (params_.iterations) fault(IssueKind::conflict, "/iterations", "an image has no iterations");
+      if (params_.extra_iterations > 0)
+        fault(IssueKind::conflict, "/extra_iterations", "an image has no iterations");
     } else if (is({triangular_edge, diamond_square, square_square}) && all > most_rounds) {
-      fault("/iterations", found + "; a subdivision has at most " + std::to_string(most_rounds) +
-                               " rounds, which give " + std::to_string(longest_side) + " samples a side");
+      fault(IssueKind::out_of_range, "/iterations",
+            found + "; expected at most " + std::to_string(most_rounds) +
+                " rounds of subdivision, which give " + std::to_string(longest_side) +
+                " samples along a side");
     } else if (is({fbm}) && (all < 1 || all > most_octaves)) {
-      fault("/iterations", found + "; noise has 1 to " + std::to_string(most_octaves) + " octaves");
+      fault(IssueKind::out_of_range, "/iterations",
+            found + "; expected 1 to " + std::to_string(most_octaves) + " octaves of noise");
     } else if (static_cast<std::uint32_t>(all) > limits_.iterations) {
-      fault("/iterations", found + "; the limit is " + std::to_string(limits_.iterations));
+      issues_.push_back(
+          limit_issue({Resource::iterations, limits_.iterations, static_cast<std::uint64_t>(all)},
+                      found + "; the limit is " + std::to_string(limits_.iterations), "/iterations"));
     }
+  }
+
+  void check_image(const TerrainImage& image) {
+    const TerrainEncoding encoding = image.encoding;
+    const bool is_raw = encoding == TerrainEncoding::r16 || encoding == TerrainEncoding::r16_big ||
+                        encoding == TerrainEncoding::s16 || encoding == TerrainEncoding::s16_big;
+    if (image.width && !is_raw)
+      fault(IssueKind::conflict, "/image/width",
+            "the file states its own width; this belongs to raw data (r16, r16_big, s16, s16_big)");
+    const bool has_range = encoding == TerrainEncoding::grey || encoding == TerrainEncoding::rgb24 ||
+                           encoding == TerrainEncoding::rgba32 || encoding == TerrainEncoding::r16 ||
+                           encoding == TerrainEncoding::r16_big;
+    const TerrainImage usual;
+    if (!has_range && image.low != usual.low)
+      fault(IssueKind::conflict, "/image/low",
+            "has no effect, because the values of this encoding are metres");
+    if (!has_range && image.high != usual.high)
+      fault(IssueKind::conflict, "/image/high",
+            "has no effect, because the values of this encoding are metres");
+    if (has_range && image.low == image.high)
+      fault(IssueKind::invalid_value, "/image/high", "low and high are the same height");
   }
 
   void heights() {
     if (is({Algorithm::fault_formation, Algorithm::poisson_faulting})) {
       const FaultPlan plan = fault_plan(params_);
       if (plan.least > plan.greatest)
-        fault("/fault_min", "the least fault is above the greatest, " + std::to_string(plan.greatest) + " m");
+        fault(IssueKind::out_of_range, "/fault_min",
+              "the smallest fault is above the greatest, " + std::to_string(plan.greatest) + " m");
     }
     if (params_.normalise && params_.normalise->low > params_.normalise->high)
-      fault("/normalise/low", "the lowest height is above the highest");
+      fault(IssueKind::out_of_range, "/normalise/low", "the lowest height is above the highest");
     if (params_.normalise) rising("/normalise/from", params_.normalise->from);
     if (params_.terraces) rising("/terraces/from", params_.terraces->from);
     if (params_.island && params_.island->floor && params_.island->depth)
-      fault("/island/depth", "the floor says already how deep the rim lies");
-    if (params_.image && params_.image->width && params_.image->encoding != TerrainEncoding::r16 &&
-        params_.image->encoding != TerrainEncoding::r16_big)
-      fault("/image/width", "a PNG tells its own width; this belongs to raw data (r16, r16_big)");
-    if (params_.image && params_.image->low == params_.image->high)
-      fault("/image/high", "low and high are the same height");
+      fault(IssueKind::conflict, "/island/depth",
+            "found both floor and depth; expected one of them, because each sets the height of the rim");
+    if (params_.image) check_image(*params_.image);
     const TerrainHeightmap& map = params_.heightmap;
-    if (map.low && map.high && *map.low >= *map.high) fault("/heightmap/low", "low is not below high");
+    if (map.low && map.high && *map.low >= *map.high)
+      fault(IssueKind::out_of_range, "/heightmap/low", "low is not below high; expected a smaller value");
   }
 
   void rising(const char* pointer, const std::optional<std::array<double, 2>>& pair) {
-    if (pair && (*pair)[0] >= (*pair)[1]) fault(pointer, "the first height is not below the second");
+    if (pair && (*pair)[0] >= (*pair)[1])
+      fault(IssueKind::out_of_range, pointer, "the first height is not below the second");
   }
 
   void sphere() {
     using enum TerrainAlgorithm;
     if (!is({poisson_faulting, fbm}))
-      return fault("/shape", std::string(text_of(params_.algorithm)) +
-                                 " makes planes; spheres are made by poisson_faulting and fbm");
+      return fault(IssueKind::not_available, "/shape",
+                   std::string(text_of(params_.algorithm)) +
+                       " cannot make a sphere; expected poisson_faulting or fbm");
     if (params_.resolution && *params_.resolution > longest_sphere)
-      fault("/resolution", "found " + std::to_string(*params_.resolution) + "; a sphere has at most " +
-                               std::to_string(longest_sphere) + " samples along an edge of its cube");
+      fault(IssueKind::out_of_range, "/resolution",
+            "found " + std::to_string(*params_.resolution) + "; expected at most " +
+                std::to_string(longest_sphere) + " samples along an edge of the cube of a sphere");
     if (params_.fault_step.value_or(TerrainFaultStep::hard) != TerrainFaultStep::hard)
-      fault("/fault_step", "faults of a sphere are hard");
+      fault(IssueKind::not_available, "/fault_step", "a sphere has only hard steps");
     const auto refuse = [&](bool given, const char* pointer) {
-      if (given) fault(pointer, "a sphere has none; this belongs to the plane");
+      if (given)
+        fault(IssueKind::not_available, pointer,
+              "a sphere does not have this parameter; expected the shape plane");
     };
     refuse(params_.tile.has_value(), "/tile");
     refuse(params_.smooth > 0, "/smooth");
@@ -159,58 +193,67 @@ class Check {
 
   void tile() {
     using enum TerrainAlgorithm;
-    if (is({image})) return fault("/tile", "an image is one piece");
+    if (is({image})) return fault(IssueKind::not_available, "/tile", "an image cannot be divided into tiles");
     const bool faults = is({fault_formation, poisson_faulting});
-    if (!faults && params_.tile->across && !params_.island)
-      fault(
-          "/tile/across",
-          "this world has no end; across belongs to fault_formation and poisson_faulting, and to an island");
+    if (!faults && params_.tile->across && !params_.island && !params_.hydraulic)
+      fault(IssueKind::conflict, "/tile/across",
+            "this world is infinite; across needs fault_formation, poisson_faulting, an island or hydraulic");
     const int across = params_.tile->across.value_or(1);
-    if (faults && (params_.tile->x < 0 || params_.tile->x >= across))
-      fault("/tile/x",
-            "found " + std::to_string(params_.tile->x) + " in a world of 0 to " + std::to_string(across - 1));
-    if (faults && (params_.tile->z < 0 || params_.tile->z >= across))
-      fault("/tile/z",
-            "found " + std::to_string(params_.tile->z) + " in a world of 0 to " + std::to_string(across - 1));
+    const bool finite = faults || params_.hydraulic;
+    if (finite && (params_.tile->x < 0 || params_.tile->x >= across))
+      fault(IssueKind::out_of_range, "/tile/x",
+            "found " + std::to_string(params_.tile->x) + "; expected 0 to " + std::to_string(across - 1));
+    if (finite && (params_.tile->z < 0 || params_.tile->z >= across))
+      fault(IssueKind::out_of_range, "/tile/z",
+            "found " + std::to_string(params_.tile->z) + "; expected 0 to " + std::to_string(across - 1));
     if (params_.edge.value_or(TerrainEdge::two_neighbours) != TerrainEdge::two_neighbours)
-      fault(
-          "/edge",
-          "tiles meet under the rule two_neighbours alone: the others carry a tile's inside into its border");
+      fault(IssueKind::conflict, "/edge",
+            "tiles only fit together under the rule two_neighbours; with others, the border depends on the "
+            "inside");
     if (params_.corners)
-      fault("/corners", "corners of a tile belong to its neighbours too and are drawn from the seed");
+      fault(IssueKind::conflict, "/corners",
+            "tiles share their corners with their neighbours, so the seed determines them");
     if (params_.grid)
-      fault("/grid", "start heights of a tile belong to its neighbours too and are drawn from the seed");
+      fault(IssueKind::conflict, "/grid",
+            "tiles share their start heights with their neighbours, so the seed determines them");
     tile_filters(faults);
   }
 
-  /// Filters of tiles look no farther than a tile can see, or know the whole world beforehand.
+  /// A filter of a tile must not read samples beyond the margin, unless it knows the values of the whole world.
   void tile_filters(bool faults) {
     constexpr int farthest_smooth = 256;
     if (smooth_reach(params_.smooth) > farthest_smooth)
-      fault("/smooth", "found " + Json(params_.smooth).dump() + " %, which carries a height farther than " +
-                           std::to_string(farthest_smooth) +
-                           " samples, deep into the next tile; tiles take at most 93.7 %");
+      fault(IssueKind::out_of_range, "/smooth",
+            "found " + Json(params_.smooth).dump() + " %, which reads samples farther than " +
+                std::to_string(farthest_smooth) + " samples away; expected at most 93.7 % for a tile");
     if (params_.normalise && !params_.normalise->from)
-      fault("/normalise",
-            "\"from\" is missing: a tile does not know the lowest and the highest height of its neighbours");
+      fault(IssueKind::missing, "/normalise",
+            "\"from\" is missing; a tile needs it, because it does not know the heights of its neighbours");
     if (params_.terraces && !params_.terraces->from)
-      fault("/terraces",
-            "\"from\" is missing: a tile does not know the lowest and the highest height of its neighbours");
+      fault(IssueKind::missing, "/terraces",
+            "\"from\" is missing; a tile needs it, because it does not know the heights of its neighbours");
     if (params_.island && !params_.island->floor)
-      fault("/island", "\"floor\" is missing: a tile does not know the lowest height of its neighbours");
+      fault(IssueKind::missing, "/island",
+            "\"floor\" is missing; a tile needs it, because it does not know the heights of its neighbours");
     if (params_.island && !faults && !params_.tile->across)
-      fault("/tile", "\"across\" is missing: it says how many tiles the island fills");
-    if (params_.hydraulic && params_.hydraulic->method == TerrainMethod::droplets)
-      fault(
-          "/hydraulic",
-          "drops change the ground for those that fall after them, batch by batch, so that what one does is "
-          "felt many tiles away; erode one field and cut that, or use thermal");
-    if (params_.hydraulic && params_.hydraulic->method == TerrainMethod::stream_power)
-      fault("/hydraulic",
-            "a river depends on all the ground that it drains, which no tile sees; erode one field and cut "
-            "that, or use thermal");
+      fault(IssueKind::missing, "/tile",
+            "\"across\" is missing; an island needs the number of its tiles along a side");
+    if (params_.hydraulic) hydraulic_tile();
     if (params_.resample)
-      fault("/resample", "samples of tiles lie where the world has them; choose resolution or iterations");
+      fault(IssueKind::conflict, "/resample",
+            "the samples of a tile are those of the world; expected resolution or iterations instead");
+  }
+
+  /// Water runs over the whole world, so each tile needs all of it.
+  void hydraulic_tile() {
+    constexpr std::int64_t longest_side = 4'097;
+    if (!params_.tile->across)
+      return fault(IssueKind::missing, "/tile",
+                   "\"across\" is missing; water needs the number of tiles of its world along a side");
+    if (const std::int64_t side = samples_across(params_); side > longest_side)
+      fault(IssueKind::out_of_range, "/tile/across",
+            "found a world of " + std::to_string(side) + " samples along a side; the limit with water is " +
+                std::to_string(longest_side));
   }
 
   void hydraulic() {
@@ -218,9 +261,9 @@ class Check {
     const bool drops = given.method == TerrainMethod::droplets;
     const auto belongs_to = [&](bool has, bool to_drops, const char* name) {
       if (has && drops != to_drops)
-        fault(std::string("/hydraulic/") + name, std::string(text_of(given.method)) +
-                                                     " has none; it belongs to " +
-                                                     (to_drops ? "droplets" : "stream_power"));
+        fault(IssueKind::conflict, std::string("/hydraulic/") + name,
+              std::string(text_of(given.method)) + " does not have this parameter; expected the method " +
+                  (to_drops ? "droplets" : "stream_power"));
     };
     belongs_to(given.droplets.has_value(), true, "droplets");
     belongs_to(given.lifetime.has_value(), true, "lifetime");
@@ -237,7 +280,9 @@ class Check {
 
   void onto() {
     const auto refuse = [&](bool given, const char* pointer) {
-      if (given) fault(pointer, "heights that lie on a model have none; this belongs to a ground");
+      if (given)
+        fault(IssueKind::conflict, pointer,
+              "heights on a model do not have this parameter; expected a request without onto");
     };
     refuse(params_.shape == TerrainShape::sphere, "/shape");
     refuse(params_.tile.has_value(), "/tile");
@@ -246,24 +291,31 @@ class Check {
     refuse(params_.base.has_value(), "/base");
     refuse(params_.water_level.has_value(), "/water_level");
     const bool moves = params_.onto->mapping == TerrainMapping::displacement;
-    if (moves && params_.texture > 0) fault("/texture", "a displacement has no picture; normal_map has");
+    if (moves && params_.texture > 0)
+      fault(IssueKind::conflict, "/texture",
+            "a displacement has no texture; expected the mapping normal_map");
     if (!moves && params_.onto->subdivide > 0)
-      fault("/onto/subdivide", "a normal map moves nothing; displacement does");
+      fault(IssueKind::conflict, "/onto/subdivide",
+            "a normal map does not subdivide; expected the mapping displacement");
   }
 
   void mesh() {
     if (params_.max_error && params_.mesh == TerrainMesh::grid)
-      fault("/max_error", "a grid has every sample; greatest errors belong to rtin and greedy");
-    if (params_.base && params_.skirt > 0) fault("/skirt", "a closed solid has no skirt");
+      fault(IssueKind::conflict, "/max_error",
+            "a grid has every sample and no error; expected the mesh rtin or greedy");
+    if (params_.base && params_.skirt > 0)
+      fault(IssueKind::conflict, "/skirt", "a closed solid has no skirt");
     if (params_.texture > 0 && params_.texture < least_texture)
-      fault("/texture", "found " + std::to_string(params_.texture) + "; expected 0, or " +
-                            std::to_string(least_texture) + " to 4096");
+      fault(IssueKind::out_of_range, "/texture",
+            "found " + std::to_string(params_.texture) + "; expected 0, or " + std::to_string(least_texture) +
+                " to 4096");
     if (!issues_.empty() || params_.mesh != TerrainMesh::rtin || params_.algorithm == Algorithm::image)
       return;
     const int side = finished_side(params_);
     if (!fits_rtin(side, side))
-      fault("/mesh", "rtin wants 2^n + 1 samples a side and this field has " + std::to_string(side) +
-                         "; resample it, or use greedy");
+      fault(IssueKind::conflict, "/mesh",
+            "this field has " + std::to_string(side) +
+                " samples along a side; rtin needs 2^n + 1; resample the field, or use greedy");
   }
 
   const TerrainParams& params_;
@@ -273,7 +325,7 @@ class Check {
 
 }  // namespace
 
-std::vector<Issue> faults_between(const TerrainParams& params, const Limits& limits) {
+std::vector<Issue> errors_between(const TerrainParams& params, const Limits& limits) {
   return Check(params, limits).run();
 }
 

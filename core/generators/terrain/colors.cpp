@@ -18,11 +18,11 @@ struct Srgb {
   std::uint8_t r, g, b;
 };
 
-/// Colours and the heights (shares of the range above water) and slopes at which they begin.
+/// Colours, and the heights and slopes at which they begin. Heights are shares of the range above water.
 struct Ramp {
   Srgb bed, shore, low, high, cliff, peak;
-  float high_line, peak_line;  ///< above 1: never
-  float cliff_from, cliff_to;  ///< rise in a run of one
+  float high_line, peak_line;  ///< above 1: none
+  float cliff_from, cliff_to;  ///< rise over run
 };
 
 // In the order of PaletteName; `grey` and `none` have no ramp.
@@ -102,20 +102,20 @@ glm::vec3 blend(const glm::vec3& a, const glm::vec3& b, float share) { return a 
 
 }  // namespace
 
-Looks::Looks(PaletteName palette, const Range& range, float level)
+GroundColors::GroundColors(PaletteName palette, const Range& range, float level)
     : palette_(palette), range_(range), level_(level) {
   water_ = level > range.low;
   const float ground = water_ ? std::min(level, range.high) : range.low;
   span_ = std::max(range.high - ground, 1e-6F);
 }
 
-Looks::Shares Looks::shares(const Site& site) const {
+GroundColors::Shares GroundColors::shares(const Site& site) const {
   const Ramp& ramp = ramps[std::min(static_cast<std::size_t>(palette_), ramps.size() - 1)];
   const float share = (site.height - (range_.high - span_)) / span_ + site.patch * 0.045F;
   Shares all{};
   all.high = ease(ramp.high_line - 0.22F, ramp.high_line + 0.22F, share);
   all.cliff = ease(ramp.cliff_from, ramp.cliff_to, site.slope + site.patch * 0.08F);
-  // Snow stays in hollows and not on cliffs.
+  // There is snow in hollows and none on cliffs.
   all.peak = ease(ramp.peak_line - 0.08F, ramp.peak_line + 0.08F, share + site.hollow * 0.15F) *
              (1 - 0.85F * all.cliff);
   if (water_) {
@@ -126,7 +126,7 @@ Looks::Shares Looks::shares(const Site& site) const {
   return all;
 }
 
-Cover Looks::cover(const Site& site) const {
+Cover GroundColors::cover(const Site& site) const {
   const Shares all = shares(site);
   Cover cover{.rock = 0, .grass = 1, .sand = 0, .snow = 0};
   const auto lay = [&cover](float share, float Cover::*kind) {
@@ -141,7 +141,7 @@ Cover Looks::cover(const Site& site) const {
   return cover;
 }
 
-glm::vec3 Looks::color(const Site& site) const {
+glm::vec3 GroundColors::color(const Site& site) const {
   if (palette_ == PaletteName::none) return glm::vec3(1);
   if (palette_ == PaletteName::grey) {
     const float share = (site.height - range_.low) / std::max(range_.high - range_.low, 1e-6F);
@@ -154,7 +154,7 @@ glm::vec3 Looks::color(const Site& site) const {
   color = blend(color, linear(ramp.peak), all.peak);
   color = blend(color, linear(ramp.shore), all.shore);
   color = blend(color, linear(ramp.bed), all.bed);
-  // Hollows get less of the sky, ridges more; patches are uneven.
+  // Hollows are darker, ridges brighter, and patches vary.
   const float light = std::clamp(1 - site.hollow * 0.9F, 0.55F, 1.25F) * (1 + site.patch * 0.08F);
   return glm::clamp(color * light, glm::vec3(0), glm::vec3(1));
 }
@@ -192,13 +192,15 @@ Site Sites::at(std::int32_t x, std::int32_t z) const {
   return site;
 }
 
-glm::u8vec4 vertex_color(const Sites& sites, const Looks& looks, std::int32_t x, std::int32_t z) {
-  const glm::vec3 color = looks.color(sites.at(x, z)) * 255.0F + 0.5F;
+glm::u8vec4 vertex_color(const Sites& sites, const GroundColors& ground_colors, std::int32_t x,
+                         std::int32_t z) {
+  const glm::vec3 color = ground_colors.color(sites.at(x, z)) * 255.0F + 0.5F;
   return {math::to_int32(static_cast<double>(color.x)), math::to_int32(static_cast<double>(color.y)),
           math::to_int32(static_cast<double>(color.z)), 255};
 }
 
-Array<glm::u8vec4> vertex_colors(const Field& field, const Sites& sites, const Looks& looks, const Job& job) {
+Array<glm::u8vec4> vertex_colors(const Field& field, const Sites& sites, const GroundColors& ground_colors,
+                                 const Job& job) {
   Array<glm::u8vec4> colors(job,
                             static_cast<std::size_t>(field.width) * static_cast<std::size_t>(field.depth));
   parallel_for(job, static_cast<std::size_t>(field.depth), rows_a_chunk,
@@ -207,7 +209,7 @@ Array<glm::u8vec4> vertex_colors(const Field& field, const Sites& sites, const L
                  for (std::size_t z = begin; z < end; ++z) {
                    glm::u8vec4* row = colors.data() + z * static_cast<std::size_t>(field.width);
                    for (std::int32_t x = 0; x < field.width; ++x)
-                     row[x] = vertex_color(sites, looks, x, static_cast<std::int32_t>(z));
+                     row[x] = vertex_color(sites, ground_colors, x, static_cast<std::int32_t>(z));
                  }
                });
   return colors;

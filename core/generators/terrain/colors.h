@@ -1,5 +1,5 @@
 #pragma once
-/// What a field looks like: which ground lies where, and its colour.
+/// Ground types and colours of a field.
 #include <glm/glm.hpp>
 
 #include "core/generators/terrain/field.h"
@@ -8,30 +8,30 @@ namespace seedmesh::terrain {
 
 enum class PaletteName { alpine, desert, tropical, arctic, volcanic, moon, grey, none };
 
-/// Shares of four kinds of ground, which sum to 1: what a splat map holds.
+/// Shares of four ground types, which sum to 1: the weights of a splat map.
 struct Cover {
   float rock = 0, grass = 0, sand = 0, snow = 0;
 };
 
-/// The measures of a place that its look depends on.
+/// Properties of a position that determine its colour.
 struct Site {
   float height = 0;  ///< metres
-  float slope = 0;   ///< rise in a run of one
-  float hollow = 0;  ///< how much lower than its surroundings, in a run of one; ridges are below 0
+  float slope = 0;   ///< rise over run
+  float hollow = 0;  ///< depth below the surroundings, as rise over run; negative on ridges
   float patch = 0;   ///< slow noise, about -1 to 1, that breaks up straight borders
 };
 
-/// Colours of one palette over one range of heights.
-class Looks {
+/// Colours of one palette for one range of heights.
+class GroundColors {
  public:
-  /// `level`: of water; at or below range.low there is none.
-  Looks(PaletteName palette, const Range& range, float level);
+  /// `level`: height of the water; there is none at or below range.low.
+  GroundColors(PaletteName palette, const Range& range, float level);
   Cover cover(const Site& site) const;
   glm::vec3 color(const Site& site) const;  ///< linear
 
  private:
   struct Shares {
-    float bed, shore, cliff, peak, high;  ///< each laid over those before it, `high` on the plain ground
+    float bed, shore, cliff, peak, high;  ///< each covers the ones before it; `high` covers the plain ground
   };
   Shares shares(const Site& site) const;
 
@@ -41,12 +41,12 @@ class Looks {
   bool water_;
 };
 
-/// Sites of a field, row by row, margin used: what sites() fills for one row.
+/// Sites of a field, row by row, including the margin; sites() fills one row.
 class Sites {
  public:
   Sites(const Field& field, const Window& world, Rng rng, const Job& job);
   Site at(std::int32_t x, std::int32_t z) const;
-  /// Slopes eastwards and southwards at a sample: from both neighbours, or the one that there is.
+  /// Slopes to the east and south at a sample, from both neighbours or the only one.
   glm::vec2 gradient(std::int32_t x, std::int32_t z) const;
 
  private:
@@ -56,13 +56,16 @@ class Sites {
   float per_cell_;
 };
 
-/// The linear colour of a sample. About 40 ns.
-glm::u8vec4 vertex_color(const Sites& sites, const Looks& looks, std::int32_t x, std::int32_t z);
+/// Returns the linear colour of a sample. Cost: about 40 ns.
+glm::u8vec4 vertex_color(const Sites& sites, const GroundColors& ground_colors, std::int32_t x,
+                         std::int32_t z);
 
-/// Linear colours of all samples, row by row; empty for the palette `none`. About 40 ns a sample.
-Array<glm::u8vec4> vertex_colors(const Field& field, const Sites& sites, const Looks& looks, const Job& job);
+/// Returns the linear colours of all samples, row by row; empty for the palette `none`. Cost: about 40 ns for
+/// each sample.
+Array<glm::u8vec4> vertex_colors(const Field& field, const Sites& sites, const GroundColors& ground_colors,
+                                 const Job& job);
 
-/// A linear colour as 8-bit sRGB (IEC 61966-2-1).
+/// Converts a linear colour to 8-bit sRGB (IEC 61966-2-1).
 glm::u8vec3 srgb_of(const glm::vec3& linear);
 
 }  // namespace seedmesh::terrain

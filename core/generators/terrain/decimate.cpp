@@ -11,10 +11,10 @@ namespace seedmesh::terrain {
 namespace {
 
 constexpr std::uint32_t unnamed = 0xFFFFFFFFU;
-constexpr std::size_t band = 6;  // squares: both rows of samples around them fit into a cache of 16 vertices
+constexpr std::size_t band = 6;  // squares; two rows of their samples fit into a cache of 16 vertices
 using Lines = std::vector<std::int32_t>;
 
-/// Which samples of a line of `squares` + 1 stay, its ends among them.
+/// Returns the samples that are kept of a line of `squares` + 1, including its ends.
 Lines lines_of(std::int32_t squares, std::int32_t step) {
   const std::int32_t count = std::max(1, (squares + step / 2) / step);
   Lines lines;
@@ -23,25 +23,25 @@ Lines lines_of(std::int32_t squares, std::int32_t step) {
   return lines;
 }
 
-/// The same without the ends, at least one; there are two squares or more.
+/// Returns the same without the ends, but at least one. There are at least two squares.
 Lines inner_lines_of(std::int32_t squares, std::int32_t step) {
   const Lines lines = lines_of(squares, step);
   if (lines.size() < 3) return {squares / 2};
   return {lines.begin() + 1, lines.end() - 1};
 }
 
-std::vector<Place> along_x(const Lines& columns, std::int32_t z) {
-  std::vector<Place> line;
+std::vector<GridPoint> along_x(const Lines& columns, std::int32_t z) {
+  std::vector<GridPoint> line;
   for (const std::int32_t x : columns) line.push_back({x, z});
   return line;
 }
-std::vector<Place> along_z(std::int32_t x, const Lines& rows) {
-  std::vector<Place> line;
+std::vector<GridPoint> along_z(std::int32_t x, const Lines& rows) {
+  std::vector<GridPoint> line;
   for (const std::int32_t z : rows) line.push_back({x, z});
   return line;
 }
 
-/// Triangles of a part, and names of its samples by their first use.
+/// Collects triangles of a part and numbers its samples by their first use.
 class Weave {
  public:
   Weave(const Field& field, const Window& part, Job& job)
@@ -56,7 +56,7 @@ class Weave {
     mesh_.index.reserve(3 * triangles);
   }
 
-  /// Two triangles for each square between these columns and rows, in bands that a vertex cache likes.
+  /// Adds two triangles for each square between these columns and rows, in bands that fit the vertex cache.
   void squares(const Lines& columns, const Lines& rows) {
     for (std::size_t first = 0; first + 1 < columns.size(); first += band) {
       const std::size_t last = std::min(first + band, columns.size() - 1);
@@ -68,24 +68,24 @@ class Weave {
     }
   }
 
-  /// The strip between all samples of the border and the outermost of these columns and rows.
+  /// Adds the strip between all samples of the border and the outermost of these columns and rows.
   void rim(const Lines& columns, const Lines& rows) {
     const std::int32_t east = part_.width - 1, south = part_.depth - 1;
     const Lines all_columns = lines_of(east, 1), all_rows = lines_of(south, 1);
-    stitch(along_x(all_columns, 0), along_x(columns, rows.front()), &Place::x);
-    stitch(along_x(all_columns, south), along_x(columns, rows.back()), &Place::x);
-    stitch(along_z(0, all_rows), along_z(columns.front(), rows), &Place::z);
-    stitch(along_z(east, all_rows), along_z(columns.back(), rows), &Place::z);
+    stitch(along_x(all_columns, 0), along_x(columns, rows.front()), &GridPoint::x);
+    stitch(along_x(all_columns, south), along_x(columns, rows.back()), &GridPoint::x);
+    stitch(along_z(0, all_rows), along_z(columns.front(), rows), &GridPoint::z);
+    stitch(along_z(east, all_rows), along_z(columns.back(), rows), &GridPoint::z);
   }
 
   Triangulation take() { return std::move(mesh_); }
 
  private:
-  float height(Place at) const { return field_.at(left() + at.x, top() + at.z); }
+  float height(GridPoint at) const { return field_.at(left() + at.x, top() + at.z); }
   std::int32_t left() const { return static_cast<std::int32_t>(part_.x); }
   std::int32_t top() const { return static_cast<std::int32_t>(part_.z); }
 
-  std::uint32_t name(Place at) {
+  std::uint32_t name(GridPoint at) {
     std::uint32_t& name = names_[static_cast<std::size_t>(at.z) * static_cast<std::size_t>(part_.width) +
                                  static_cast<std::size_t>(at.x)];
     if (name == unnamed) {
@@ -95,8 +95,8 @@ class Weave {
     return name;
   }
 
-  void square(Place nw, Place se) {
-    const Place ne{se.x, nw.z}, sw{nw.x, se.z};
+  void square(GridPoint nw, GridPoint se) {
+    const GridPoint ne{se.x, nw.z}, sw{nw.x, se.z};
     if (std::abs(height(nw) - height(se)) <= std::abs(height(ne) - height(sw))) {
       triangle(nw, sw, se);
       triangle(nw, se, ne);
@@ -106,14 +106,15 @@ class Weave {
     }
   }
 
-  void triangle(Place a, Place b, Place c) {
+  void triangle(GridPoint a, GridPoint b, GridPoint c) {
     if (turn(a, b, c) < 0) std::swap(b, c);
-    for (const Place at : {a, b, c}) mesh_.index.push_back(name(at));
+    for (const GridPoint at : {a, b, c}) mesh_.index.push_back(name(at));
   }
 
-  /// Two lines that run the same way along `axis`: each sample of the outer one goes with that of the inner
-  /// one which is nearest along the line.
-  void stitch(const std::vector<Place>& outer, const std::vector<Place>& inner, std::int32_t Place::*axis) {
+  /// Joins two lines with the same direction along `axis`: each outer sample is joined to the nearest inner
+  /// sample along the line.
+  void stitch(const std::vector<GridPoint>& outer, const std::vector<GridPoint>& inner,
+              std::int32_t GridPoint::*axis) {
     std::size_t i = 0, j = 0;
     while (i + 1 < outer.size() || j + 1 < inner.size()) {
       const bool inner_next =
@@ -146,7 +147,7 @@ Triangulation decimated(const Field& field, const Window& part, std::int32_t ste
   const std::int32_t east = part.width - 1, south = part.depth - 1;
   Weave weave(field, part, job);
   if (border == Border::by_error || east < 2 || south < 2) {
-    // Where a part is one square wide, its whole border is all of it.
+    // A part that is one square wide consists of its border.
     const std::int32_t kept = border == Border::by_error ? step : 1;
     const Lines columns = lines_of(east, kept), rows = lines_of(south, kept);
     weave.reserve(2 * squares_between(columns, rows));

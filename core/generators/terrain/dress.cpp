@@ -17,16 +17,16 @@
 namespace seedmesh::terrain {
 namespace {
 
-// Squares a side of a piece of a large grid at most, whose vertices indices of 16 bit can name.
+// Most squares along a side of a piece of a large grid. Its vertices then fit 16-bit indices.
 constexpr std::int32_t piece = 254;
 constexpr std::size_t most_narrow = 65'535;
 
-/// Where so many squares are cut into pieces of about one size: both ends too.
+/// Cuts `squares` into pieces of about equal size. Returns the borders, including both ends.
 std::vector<std::int32_t> cuts(std::int32_t squares) {
   const std::int32_t count = (squares + piece - 1) / piece;
-  std::vector<std::int32_t> places;
-  for (std::int32_t i = 0; i <= count; ++i) places.push_back(squares * i / count);
-  return places;
+  std::vector<std::int32_t> positions;
+  for (std::int32_t i = 0; i <= count; ++i) positions.push_back(squares * i / count);
+  return positions;
 }
 
 Material wall_material() {
@@ -46,16 +46,17 @@ int add_texture(Model& model, std::string name, const texture::Picture& picture,
   return static_cast<int>(model.textures.size()) - 1;
 }
 
-/// Heights, looks and meshes of one request on their way into a model.
+/// Builds the model of one request from its heights, colours and meshes.
 class Dressing {
  public:
-  Dressing(const TerrainParams& params, const Field& field, Job& job)
+  Dressing(const TerrainParams& params, const Field& field, const GenerateContext& context)
       : params_(params),
         field_(field),
-        job_(job),
-        range_(range_of(field, job)),
+        job_(context.job),
+        demand_(context.demand),
+        range_(range_of(field, job_)),
         level_(static_cast<float>(params.water_level.value_or(static_cast<double>(range_.low)))),
-        looks_(palette_of(params), params.tile ? nominal_range(params) : range_, level_),
+        ground_colors_(palette_of(params), params.tile ? nominal_range(params) : range_, level_),
         shading_(params.texture > 0 ? Shading::upright : Shading::smooth) {}
 
   Model dress() {
@@ -68,8 +69,8 @@ class Dressing {
     if (params_.texture > 0) {
       add_pictures(model, ground);
     } else if (params_.palette != TerrainPalette::none &&
-               (params_.mesh == TerrainMesh::grid || job_.demand().lods > 1)) {
-      colors_ = vertex_colors(field_, sites(), looks_, job_);
+               (params_.mesh == TerrainMesh::grid || demand_.lods > 1)) {
+      colors_ = vertex_colors(field_, sites(), ground_colors_, job_);
     }
     add_ground(model, ground);
     add_water(model);
@@ -77,24 +78,24 @@ class Dressing {
   }
 
  private:
-  Sites sites() const { return {field_, place_of(params_), job_.rng().at("terrain"), job_}; }
+  Sites sites() const { return {field_, window_of(params_), job_.rng().at("terrain"), job_}; }
 
-  /// The colour of a sample of a coarse mesh. Those of a reduced mesh are found one by one, with sites that
-  /// are made when the first is asked for: they need as much memory as the field.
+  /// Returns the function that gives the colour of a sample of a coarse mesh; empty without colours. The sites
+  /// need as much memory as the field, so they are made with the first colour.
   ColorOf color_of() const {
     if (!colors_.empty()) return [this](std::uint32_t sample) { return colors_[sample]; };
     if (params_.texture > 0 || params_.palette == TerrainPalette::none) return {};
     return [this, own = std::shared_ptr<const Sites>()](std::uint32_t sample) mutable {
       if (!own) own = std::make_shared<const Sites>(sites());
-      const Place at = place_of(sample, field_.width);
-      return vertex_color(*own, looks_, at.x, at.z);
+      const GridPoint at = grid_point_of(sample, field_.width);
+      return vertex_color(*own, ground_colors_, at.x, at.z);
     };
   }
 
   void add_pictures(Model& model, int ground) {
     const Sites all = sites();
     if (params_.palette != TerrainPalette::none) {
-      const texture::Picture colors = color_picture(field_, all, looks_, params_.texture, job_);
+      const texture::Picture colors = color_picture(field_, all, ground_colors_, params_.texture, job_);
       model.materials[static_cast<std::size_t>(ground)].base_color_texture = {
           add_texture(model, "ground_color", colors, job_), 0, false};
     }
@@ -112,11 +113,11 @@ class Dressing {
         add_child(model, "skirt",
                   add_mesh(model, "skirt", wall_mesh(border_samples(field_, job_)),
                            add_material(model, wall_material())));
-      return tell_levels(model);
+      return write_levels(model);
     }
     const bool walled = params_.skirt > 0 || params_.base;
     int earth = -1;
-    for (int level = 0; level < job_.demand().lods; ++level) {
+    for (int level = 0; level < demand_.lods; ++level) {
       Ground made = whole_ground(level, model);
       if (level > 0 && made.mesh.elements() >= coarsest_) break;
       coarsest_ = made.mesh.elements();
@@ -128,10 +129,10 @@ class Dressing {
       }
       show(model.nodes[0], mesh);
     }
-    tell_levels(model);
+    write_levels(model);
   }
 
-  /// A ground of one piece and the samples of its border.
+  /// A ground that is one mesh, and the samples of its border.
   struct Ground {
     Mesh mesh;
     Array<std::uint32_t> border;
@@ -147,7 +148,7 @@ class Dressing {
     if (params_.mesh == TerrainMesh::grid) note(level, note_of(plan));
     Array<std::uint32_t> rim(job_);
     for (const std::uint32_t sample : plan.samples) {
-      const Place at = place_of(sample, field_.width);
+      const GridPoint at = grid_point_of(sample, field_.width);
       if (at.x == 0 || at.z == 0 || at.x == field_.width - 1 || at.z == field_.depth - 1)
         rim.push_back(sample);
     }
@@ -180,7 +181,7 @@ class Dressing {
     }
   }
 
-  /// What a level is off and how many triangles it has.
+  /// The error of a level in metres, and its number of triangles.
   struct Note {
     double error = 0;
     std::size_t triangles = 0;
@@ -188,15 +189,15 @@ class Dressing {
 
   struct Piece {
     std::vector<Mesh> meshes;  ///< finest first
-    std::vector<Note> notes;   ///< by level; that of the finest stays empty
+    std::vector<Note> notes;   ///< by level; empty for the finest
   };
 
-  /// Borders keep all their samples: neighbours fit together whatever level each of them shows.
+  /// Borders keep all their samples, so that adjacent pieces fit together at any levels.
   Piece made_piece(const Window& part) {
     Piece made;
     made.meshes.push_back(grid_mesh(field_, part, colors_, shading_, job_));
     made.notes.resize(1);
-    for (int level = 1; level < job_.demand().lods; ++level) {
+    for (int level = 1; level < demand_.lods; ++level) {
       Triangulation plan = decimated(field_, part, 1 << level, Border::whole, job_);
       made.notes.push_back(note_of(plan));
       if (plan.index.size() / 3 >= made.meshes.back().elements()) continue;
@@ -218,7 +219,7 @@ class Dressing {
     return {measured_error(field_, plan, job_), plan.index.size() / 3};
   }
 
-  /// Adds what one of the pieces of a level, or the only one, is off and has.
+  /// Adds error and triangles of one piece to those of its level.
   void note(int level, const Note& own) {
     const auto number = static_cast<std::size_t>(level);
     if (notes_.size() <= number) notes_.resize(number + 1);
@@ -226,7 +227,7 @@ class Dressing {
     notes_[number].triangles += own.triangles;
   }
 
-  void tell_levels(Model& model) const {
+  void write_levels(Model& model) const {
     Json levels = Json::array();
     for (std::size_t i = 1; i < notes_.size(); ++i)
       levels.push_back({{"max_error", notes_[i].error}, {"triangles", notes_[i].triangles}});
@@ -262,7 +263,7 @@ class Dressing {
     if (!params_.water_level) return;
     if (level_ <= range_.low) {
       model.warnings.push_back(
-          {"/water_level", "all ground lies above the water, so that there is none; the lowest height is " +
+          {"/water_level", "there is no water, because all ground is above it; the lowest height is " +
                                std::to_string(range_.low) + " m"});
       return;
     }
@@ -273,19 +274,20 @@ class Dressing {
   const TerrainParams& params_;
   const Field& field_;
   Job& job_;
+  const Demand& demand_;
   Range range_;
   float level_;
-  Looks looks_;
+  GroundColors ground_colors_;
   Shading shading_;
   Array<glm::u8vec4> colors_;
   std::size_t coarsest_ = 0;  ///< triangles of the coarsest level so far
-  std::vector<Note> notes_;   ///< by level; that of the finest stays empty
+  std::vector<Note> notes_;   ///< by level; empty for the finest
 };
 
 }  // namespace
 
-Model dressed_field(const TerrainParams& params, const Field& field, Job& job) {
-  return Dressing(params, field, job).dress();
+Model dressed_field(const TerrainParams& params, const Field& field, const GenerateContext& context) {
+  return Dressing(params, field, context).dress();
 }
 
 }  // namespace seedmesh::terrain

@@ -1,5 +1,6 @@
 #pragma once
-/// Fields and planetoids in their looks: meshes, levels of detail, pictures, walls and water of one request.
+/// Builds models of fields and planetoids: meshes, levels of detail, textures, walls and water.
+#include "core/generators/api.h"
 #include "core/generators/terrain/field.h"
 #include "core/model/model.h"
 
@@ -9,12 +10,12 @@ struct TerrainParams;
 
 namespace seedmesh::terrain {
 
-/// The model of a field, with as many levels of detail as the job's demand asks for, as far as each has fewer
-/// triangles than the one before. Level k of a grid has about every 2^k-th sample, of the reduced meshes 2^k
-/// times the error. Where pieces or tiles lie side by side all levels have the same border.
-Model dressed_field(const TerrainParams& params, const Field& field, Job& job);
+/// Returns the model of a field with the requested levels of detail. A level is dropped where it does not
+/// have fewer triangles than the one before. Level k of a grid has about every 2^k-th sample; level k of a
+/// reduced mesh has 2^k times the error. Where pieces or tiles are adjacent, all levels have the same border.
+Model dressed_field(const TerrainParams& params, const Field& field, const GenerateContext& context);
 
-/// A planetoid; level k has 2^k times fewer points along an edge of its cube.
-Model dressed_planet(const TerrainParams& params, Job& job);
+/// Returns the model of a planetoid. Level k has 2^k times fewer points along an edge of its cube.
+Model dressed_planet(const TerrainParams& params, const GenerateContext& context);
 
 }  // namespace seedmesh::terrain

@@ -12,41 +12,42 @@ namespace {
 
 class PlanetDressing {
  public:
-  PlanetDressing(const TerrainParams& params, Job& job) : params_(params), job_(job) {}
+  PlanetDressing(const TerrainParams& params, const GenerateContext& context)
+      : params_(params), job_(context.job), demand_(context.demand) {}
 
   Model dress() {
     Planet planet = planet_of(params_, 0, job_);
     job_.progress("mesh", 0);
     const Range range = range_of(planet);
     const auto level = static_cast<float>(params_.water_level.value_or(static_cast<double>(range.low)));
-    const Looks looks(palette_of(params_), range, level);
+    const GroundColors ground_colors(palette_of(params_), range, level);
     Model model;
     model.name = "terrain";
     Node root;
     root.name = "terrain";
     model.nodes.push_back(std::move(root));
-    add_ground(model, std::move(planet), looks);
+    add_ground(model, std::move(planet), ground_colors);
     if (params_.water_level && level > range.low) {
       add_sea(model, level);
     } else if (params_.water_level) {
       model.warnings.push_back(
-          {"/water_level", "all ground lies above the water, so that there is none; the lowest height is " +
+          {"/water_level", "there is no water, because all ground is above it; the lowest height is " +
                                std::to_string(range.low) + " m"});
     }
     return model;
   }
 
  private:
-  void add_ground(Model& model, Planet planet, const Looks& looks) {
+  void add_ground(Model& model, Planet planet, const GroundColors& ground_colors) {
     const int ground = add_material(model, ground_material());
-    const Looks* colors = params_.palette == TerrainPalette::none ? nullptr : &looks;
-    for (int level = 0; level < job_.demand().lods; ++level) {
+    const GroundColors* colors = params_.palette == TerrainPalette::none ? nullptr : &ground_colors;
+    for (int level = 0; level < demand_.lods; ++level) {
       if (level > 0) {
         if (planet_side(params_, level) == planet.side) break;
         planet = planet_of(params_, level, job_);
       }
       Mesh mesh = planet_mesh(planet, colors, job_.rng().at("terrain"), job_);
-      mesh.cache_ordered = level == 0;  // its order suits large faces
+      mesh.cache_ordered = level == 0;  // the order of the faces fits the vertex cache
       const int number = add_mesh(model, level_name("planet", level), std::move(mesh), ground);
       if (level == 0) {
         model.nodes[0].mesh = number;
@@ -61,7 +62,7 @@ class PlanetDressing {
     const int water = add_material(model, water_material());
     std::int32_t before = 0;
     int node = -1;
-    for (int level = 0; level < job_.demand().lods; ++level) {
+    for (int level = 0; level < demand_.lods; ++level) {
       const std::int32_t own = std::min(planet_side(params_, level), ((most - 1) >> level) + 1);
       if (own == before) break;
       before = own;
@@ -80,10 +81,13 @@ class PlanetDressing {
 
   const TerrainParams& params_;
   Job& job_;
+  const Demand& demand_;
 };
 
 }  // namespace
 
-Model dressed_planet(const TerrainParams& params, Job& job) { return PlanetDressing(params, job).dress(); }
+Model dressed_planet(const TerrainParams& params, const GenerateContext& context) {
+  return PlanetDressing(params, context).dress();
+}
 
 }  // namespace seedmesh::terrain

@@ -11,24 +11,25 @@
 namespace seedmesh::terrain {
 namespace {
 
-// Drops of one chunk share a list of what they did.
+// Number of drops that share a list of changes.
 constexpr std::size_t drops_a_chunk = 64;
-// A batch has one drop for so many samples, so that drops of a batch seldom meet.
+// A batch has one drop for this number of samples, so that drops of a batch seldom meet.
 constexpr std::size_t samples_a_drop = 256;
 constexpr std::size_t least_batch = 64, most_batch = 8192;
-// Bands of rows that take up what drops did, side by side.
+// Number of bands of rows to which changes are applied in parallel.
 constexpr std::int32_t bands = 4;
 
-// Gravity in samples a step squared, a slope that even flat water carries on, and the speed at which water on
-// rough ground gets no faster: without it the fall down a cliff would carry off whatever lies below.
+// Gravity in samples per squared step; the least slope for the capacity of flat water; and the greatest speed.
+// Without the last, a drop that falls down a cliff would erode all ground below it.
 constexpr float gravity = 1;
 constexpr float least_slope = 0.005F;
 constexpr float greatest_speed = 2.5F;
 
-// A drop that has gone so many times along both sides of the field goes round in a hollow.
+// A drop ends when its path is this number of times as long as both sides of the field: it circles in a
+// hollow.
 constexpr double most_rounds = 4;
 
-/// Ground taken (negative) or laid down at a place, in units of a sample's width.
+/// Ground that is eroded (negative) or deposited at a position, in units of a sample's width.
 struct Change {
   float x, z, amount;
 };
@@ -38,7 +39,7 @@ struct BrushCell {
   float weight;
 };
 
-/// Weights that fall from the middle to `radius` and sum to 1.
+/// Returns weights that decrease from the centre to `radius` and sum to 1.
 std::vector<BrushCell> brush_of(double radius) {
   const std::int32_t reach = math::to_int32(std::ceil(radius));
   std::vector<BrushCell> cells;
@@ -55,7 +56,7 @@ std::vector<BrushCell> brush_of(double radius) {
   return cells;
 }
 
-/// Height and slope at a place between samples.
+/// Height and slope at a position between samples.
 struct Ground {
   float height, east, south;
 };
@@ -128,11 +129,11 @@ class Drops {
   int steps_;
 };
 
-/// Adds changes, in their order, to the rows [begin, end).
+/// Adds changes to the rows [begin, end), in their order.
 class Spread {
  public:
-  /// Nothing is dug below the lowest nor piled above the highest height that there was: where many drops of a
-  /// batch meet on little ground, what they do adds up to more than any of them saw.
+  /// Heights stay within the range before the batch: where many drops of a batch meet, the sum of their changes
+  /// can be larger than each of them assumed.
   Spread(Field& field, const Range& range, const std::vector<BrushCell>& brush, std::int32_t reach)
       : field_(field), range_(range), brush_(brush), reach_(reach), scale_(static_cast<float>(field.cell)) {}
 

@@ -8,13 +8,13 @@ namespace seedmesh::terrain {
 namespace {
 
 constexpr std::array<int, 6> quads_of_a_section{7, 15, 31, 63, 127, 255};
-constexpr int most_sections = 2, most_components = 32;  // a side
+constexpr int most_sections = 2, most_components = 32;  // along a side
 constexpr int least_of_unity = 33, most_of_unity = 4097;
 
-// Unreal's value 0 is as far below its height 0 as 32768 steps of 1/128 m, at a Z scale of 100.
+// Unreal's value 0 is 32768 steps of 1/128 m below height 0, at a Z scale of 100.
 constexpr double below = 256, whole = 65'535.0 / 128, plain_scale = 100, centimetres = 100;
 
-/// Every side that an engine takes, rising.
+/// Returns every side that an engine supports, in rising order.
 std::vector<int> sides_of(Engine engine) {
   std::vector<int> sides;
   if (engine == Engine::unity) {
@@ -62,10 +62,10 @@ std::string misfit(Engine engine, int width, int depth) {
   if (square && takes_side(engine, width) && takes_side(engine, depth)) return "";
   std::string text = "found " + std::to_string(width);
   if (width != depth) text += " x " + std::to_string(depth);
-  text += " samples; " + std::string(name_of(engine)) + " takes ";
-  text += engine == Engine::unreal
-              ? "127, 253, 505, 1009, 2017, 4033 or 8129 a side, or other multiples of its sections and one"
-              : "squares of 33, 65, 129, 257, 513, 1025, 2049 or 4097 a side";
+  text += " samples; " + std::string(name_of(engine)) + " needs ";
+  text += engine == Engine::unreal ? "127, 253, 505, 1009, 2017, 4033 or 8129 along a side, or another "
+                                     "multiple of its sections plus one"
+                                   : "squares of 33, 65, 129, 257, 513, 1025, 2049 or 4097 samples";
   text += "; resample to ";
   const std::vector<int> nearest = nearest_sides(engine, width);
   for (std::size_t i = 0; i < nearest.size(); ++i) text += (i > 0 ? " or " : "") + std::to_string(nearest[i]);

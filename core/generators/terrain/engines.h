@@ -1,10 +1,10 @@
 #pragma once
-/// How engines take height maps: the sizes that they know and the numbers that are typed in beside the file.
+/// Height map conventions of game engines: supported sizes, and the import settings that belong to a file.
 ///
-/// Sources: Unreal's Landscape Technical Guide (sizes are quads of a section times sections of a component
-/// times components, and one more; the value 32768 is height 0, and 128 steps are a metre at a Z scale of
-/// 100, X and Y scales being centimetres a quad); Unity's terrain settings (resolutions 2^n + 1 from 33 to
-/// 4097; a raw file starts with the southern row).
+/// Sources: Unreal's Landscape Technical Guide. A size is quads per section, times sections per component,
+/// times components, plus one. The value 32768 is height 0; 128 steps are a metre at Z scale 100; X and Y
+/// scales are centimetres per quad. Unity's terrain settings: resolutions 2^n + 1 from 33 to 4097; a raw file
+/// starts with the southern row.
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,27 +16,27 @@ namespace seedmesh::terrain {
 
 enum class Engine { unreal, unity };
 
-/// Of the values of output.profile; none: another, or core.
+/// Returns the engine of a value of output.profile, or nullopt for core and other profiles.
 std::optional<Engine> engine_of(std::string_view profile);
 
 bool takes_side(Engine engine, int side);
 
-/// The greatest side that the engine takes and that is at most `side`, and the least that is at least so
-/// long, as far as there are such.
+/// Returns the nearest supported sides: the largest that is at most `side` and the smallest that is at least
+/// `side`, as far as they exist.
 std::vector<int> nearest_sides(Engine engine, int side);
 
-/// What is wrong with a field of `width` by `depth` samples, in words that name sides that fit; empty:
-/// nothing.
+/// Returns why the engine cannot import a field of `width` by `depth` samples, with sides that fit. Returns
+/// "" for a supported size.
 std::string misfit(Engine engine, int width, int depth);
 
-/// What the file of a field means: metres between samples, heights of the least and the greatest value.
+/// The scale of a height map file: metres between samples, and the heights of its smallest and largest value.
 struct Relief {
   int width = 0, depth = 0;
   double cell = 1, low = 0, high = 0;
 };
 
-/// {unreal: {fits, nearest, scale: [x, y, z], location_z}, unity: {fits, nearest, size: [x, y, z],
-/// position_y}}: Unreal's numbers in its units (scale; centimetres), Unity's in metres.
+/// Returns {unreal: {fits, nearest, scale: [x, y, z], location_z}, unity: {fits, nearest, size: [x, y, z],
+/// position_y}}. Unreal's numbers use its units (scale; centimetres), Unity's use metres.
 Json engine_settings(const Relief& relief);
 
 }  // namespace seedmesh::terrain

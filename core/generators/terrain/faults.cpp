@@ -13,13 +13,13 @@ namespace {
 constexpr std::size_t rows_a_chunk = 32;
 // Heights are whole multiples of this, in metres: about a micrometre.
 constexpr double grain = 0x1p-20;
-// Entries of the table of the cosine step; between them it is straight, off by less than 1e-6.
+// Entries of the table of the cosine step. Linear interpolation between them has an error below 1e-6.
 constexpr std::size_t table_size = 1024;
 
-/// One line: samples with x * nx + z * nz > offset (in samples) are lifted.
+/// One line. Samples with x * nx + z * nz > offset (in samples) are raised.
 struct Fault {
   double nx = 1, nz = 0, offset = 0;
-  std::int64_t below = 0, above = 0;  ///< grains added on either side
+  std::int64_t below = 0, above = 0;  ///< grains added on each side
 };
 
 std::vector<Fault> drawn_faults(const FaultPlan& plan, const Window& world, Rng rng) {
@@ -66,8 +66,8 @@ class Row {
   }
 
  private:
-  /// The first sample of the row at which x * nx exceeds `limit`, for nx > 0: a place in the world, then kept
-  /// inside the row.
+  /// Returns the first sample of the row at which x * nx exceeds `limit`, for nx > 0. The position is computed
+  /// in the world and clamped to the row.
   std::size_t crossing(double nx, double limit, std::int64_t left) const {
     const double first = std::floor(limit / nx) + 1 - static_cast<double>(left);
     return static_cast<std::size_t>(std::clamp(first, 0.0, static_cast<double>(jumps_.size() - 1)));
@@ -77,14 +77,14 @@ class Row {
   void add(const Fault& fault, std::int64_t left, std::int64_t z) {
     const double rest = fault.offset - fault.nz * static_cast<double>(z);
     const double half = plan_.step == FaultStep::hard ? 0 : slope_ / 2;
-    if (std::abs(fault.nx) < 1e-9) {  // the line runs along the row
+    if (std::abs(fault.nx) < 1e-9) {  // the line is parallel to the row
       jump(0, height_at(fault, -rest, half));
       return;
     }
-    // Seen from the end where the distance is smallest, a row is below the fault, in its slope, above it.
+    // From the end with the smallest distance, a row is below the fault, then in its slope, then above it.
     const bool rising = fault.nx > 0;
     const double nx = std::abs(fault.nx);
-    // For a falling distance count with mirrored columns: x' = -x.
+    // For a decreasing distance, use mirrored columns: x' = -x.
     std::size_t enters = 0, leaves = 0;
     if (rising) {
       enters = crossing(nx, rest - half, left);
@@ -106,7 +106,7 @@ class Row {
     jump(leaves, after - last);
   }
 
-  /// The first sample at which -x * nx is no longer above `limit`.
+  /// Returns the first sample at which -x * nx is at most `limit`.
   std::size_t mirrored(double nx, double limit, std::int64_t left) const {
     const double first = std::ceil(-limit / nx) - static_cast<double>(left);
     return static_cast<std::size_t>(std::clamp(first, 0.0, static_cast<double>(jumps_.size() - 1)));
@@ -117,10 +117,10 @@ class Row {
     if (half <= 0 || distance <= -half) return fault.below;
     double t = (distance + half) / (2 * half);
     if (plan_.step == FaultStep::cosine) {
-      const double place = t * table_size;
-      const auto index = std::min(static_cast<std::size_t>(std::max(place, 0.0)), table_size - 1);
+      const double position = t * table_size;
+      const auto index = std::min(static_cast<std::size_t>(std::max(position, 0.0)), table_size - 1);
       t = table_[index] +
-          (place - static_cast<double>(index)) * (static_cast<double>(table_[index + 1]) - table_[index]);
+          (position - static_cast<double>(index)) * (static_cast<double>(table_[index + 1]) - table_[index]);
     }
     return fault.below + math::to_int64(std::floor(static_cast<double>(fault.above - fault.below) * t));
   }

@@ -1,9 +1,9 @@
 #pragma once
-/// Fields by faults: random lines, one side of each lifted (Kogovšek 2014, section 5.2.1, formula 5.1;
-/// Polack, "Focus on 3D Terrain Programming", 2002).
+/// Fields by fault formation: random lines, each raising one side (Kogovšek 2014, section 5.2.1,
+/// formula 5.1; Polack, "Focus on 3D Terrain Programming", 2002).
 ///
-/// Heights are summed as whole micrometres, so that the sum does not depend on the order of faults nor on the
-/// window: tiles of one world agree to the bit.
+/// Heights are sums of whole micrometres. So the sum depends neither on the order of faults nor on the
+/// window, and tiles of one world agree exactly.
 #include <cstdint>
 #include <vector>
 
@@ -11,32 +11,33 @@
 
 namespace seedmesh::terrain {
 
-/// The bound of fault i of n by formula 5.1, i from 0: the first is `greatest`, the sum of all
-/// n * greatest - (greatest - least) * (n - 1) / 2.
+/// Returns the bound of fault i of n by formula 5.1, with i from 0. The first bound is `greatest`; the sum of
+/// all is n * greatest - (greatest - least) * (n - 1) / 2.
 double fault_bound(double greatest, double least, int i, int n);
 
 enum class FaultKind {
   one_sided,  ///< one side rises by a uniform share of the bound: "fault formation"
-  normal,     ///< one side rises, the other sinks by a normal deviate with the bound as deviation: "Poisson
-              ///< faulting"
+  normal,     ///< one side rises and the other sinks by a normal deviate: "Poisson faulting"
 };
 enum class FaultStep { hard, line, cosine };
 
 struct FaultPlan {
   FaultKind kind = FaultKind::one_sided;
-  int planned = 0;  ///< faults under the falling bound
-  int extra = 0;    ///< faults after these, bounded by `greatest`
+  int planned = 0;  ///< number of faults with a falling bound
+  int extra = 0;    ///< number of faults after these, with the bound `greatest`
   double greatest = 0, least = 0;
   FaultStep step = FaultStep::hard;
-  double width = 0;  ///< of a step that is not hard, in metres
+  double width = 0;  ///< width of a soft step, in metres
 };
 
-/// `world` is the ground that the lines cross: a square of world.width samples. Cost: for hard steps samples
-/// + rows * faults, about 2 ns each; for others also the samples inside the slopes.
+/// Returns the field of `window`. `world` is the ground that the lines cross, a square of world.width
+/// samples. Cost: about 2 ns for each of samples + rows * faults with hard steps; soft steps add the samples
+/// inside the slopes.
 Field faulted(const FaultPlan& plan, const Window& world, const Window& window, double cell, Rng rng,
               const Job& job);
 
-/// Displacement of fault i: of the lifted side for one_sided, of both, up and down, for normal.
+/// Returns the displacement of fault i: of the raised side for one_sided, of both sides, up and down, for
+/// normal.
 double fault_height(const FaultPlan& plan, int i, Rng rng);
 
 }  // namespace seedmesh::terrain

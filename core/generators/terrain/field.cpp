@@ -12,20 +12,20 @@ namespace {
 
 constexpr std::size_t rows_a_chunk = 64;
 
-/// Weights of the four samples around a place t of the way from the second to the third.
+/// Weights of four samples for a position at the share t between the second and the third.
 struct Spline {
   std::int32_t first = 0;  ///< the second sample
   float weights[4] = {};
 };
 
-/// One for each new sample of a line of `count` that spans a line of `old` samples.
+/// Returns the weights for each new sample of a line of `count` that covers a line of `old` samples.
 std::vector<Spline> splines(std::int32_t old, std::int32_t count) {
   std::vector<Spline> all(static_cast<std::size_t>(count));
   for (std::int32_t i = 0; i < count; ++i) {
-    // Exact where places fall together: the division comes last.
-    const double place = static_cast<double>(i) * (old - 1) / (count - 1);
-    const double whole = std::min(std::floor(place), static_cast<double>(old - 2));
-    const double t = place - whole;
+    // The division comes last, so that the result is exact at old positions.
+    const double position = static_cast<double>(i) * (old - 1) / (count - 1);
+    const double whole = std::min(std::floor(position), static_cast<double>(old - 2));
+    const double t = position - whole;
     Spline& spline = all[static_cast<std::size_t>(i)];
     spline.first = math::to_int32(whole);
     spline.weights[0] = static_cast<float>(0.5 * t * (-1 + t * (2 - t)));
@@ -36,7 +36,7 @@ std::vector<Spline> splines(std::int32_t old, std::int32_t count) {
   return all;
 }
 
-/// The height at `index` along a line of `count`, continued straight beyond both ends.
+/// Returns the height at `index` of a line of `count`, extrapolated linearly beyond both ends.
 float beyond(const float* line, std::size_t step, std::int32_t index, std::int32_t count) {
   const auto at = [&](std::int32_t i) { return line[static_cast<std::size_t>(i) * step]; };
   if (index < 0) return 2 * at(0) - at(1);

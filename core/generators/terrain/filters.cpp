@@ -13,12 +13,12 @@ namespace seedmesh::terrain {
 namespace {
 
 constexpr std::size_t rows_a_chunk = 32;
-// Columns that are smoothed side by side, so that a line of the cache is used whole.
+// Number of columns that are smoothed together, so that whole cache lines are used.
 constexpr std::size_t columns_a_chunk = 256;
-// Rows that are smoothed side by side: each step of a row waits for the one before.
+// Number of rows that are smoothed together, because each step of a row waits for the previous one.
 constexpr std::size_t rows_at_once = 8;
 
-/// body(row of heights, z) for every row, in parallel; those of the margin too, with what they have of it.
+/// Calls body(row of heights, z) for every row, in parallel, including rows and columns of the margin.
 template <class Body>
 void each_row(Field& field, const Job& job, const Body& body) {
   parallel_for(job, static_cast<std::size_t>(field.rows()), rows_a_chunk,
@@ -63,18 +63,18 @@ void smooth_columns(Field& field, float k, std::size_t begin, std::size_t end) {
   for (std::int32_t z = field.depth - 1; z-- > 0;) blend(z + 1, z);
 }
 
-/// What of a difference exceeds the talus, with its sign.
+/// Returns the part of a difference beyond the talus, with its sign.
 float excess(float difference, float talus) {
   const float over = std::abs(difference) - talus;
   return over > 0 ? (difference > 0 ? over : -over) : 0.0F;
 }
 
-/// One row of one round of slip(): `rows` are those before, at and after it.
+/// Computes one row of one round of slip(). `rows` are the rows before, at and after it.
 void slip_row(const float* const rows[3], float* out, std::int32_t width, const ThermalPlan& plan,
               float cell) {
   const auto straight = static_cast<float>(plan.talus) * cell;
   const float diagonal = straight * 1.41421356F;
-  // Eight neighbours together may take at most half of what is too much.
+  // Eight neighbours together receive at most half of the excess.
   const float share = static_cast<float>(plan.rate) * 0.125F;
   const auto total = [&](std::int32_t x, std::int32_t west, std::int32_t east) {
     const float h = rows[1][x];
@@ -96,8 +96,8 @@ double rim_height(const Field& field, const IslandPlan& plan, const Job& job) {
   return range.low - plan.depth.value_or((static_cast<double>(range.high) - range.low) / 4);
 }
 
-/// The recursion h[i] = k h[i-1] + (1 - k) h[i], started `reach` samples before: weights that fall by k from
-/// sample to sample, what is left on the last.
+/// The recursion h[i] = k h[i-1] + (1 - k) h[i], started `reach` samples before i. Its weights decrease by k
+/// from sample to sample; the last one has the rest.
 class Tail {
  public:
   explicit Tail(double percent) {
@@ -108,7 +108,8 @@ class Tail {
     weights_.push_back(static_cast<float>(weight / (1 - k)));
   }
 
-  /// A line, from the samples behind each (way -1) or before it (way 1); the ends go on beyond them.
+  /// Smooths a line, from the samples before each (way -1) or after it (way 1). Beyond the ends, heights are
+  /// constant.
   void gather_line(const float* from, std::size_t count, int way, float* padded, float* out) const {
     const std::size_t reach = weights_.size() - 1;
     std::fill(padded, padded + reach, from[0]);
@@ -122,7 +123,7 @@ class Tail {
     }
   }
 
-  /// Row z of the whole array, from the rows behind or before it.
+  /// Smooths row z of the whole array, from the rows before or after it.
   void gather_row(const Field& field, std::size_t z, int way, float* out) const {
     const auto wide = static_cast<std::size_t>(field.stride()), deep = static_cast<std::size_t>(field.rows());
     std::fill(out, out + wide, 0.0F);
@@ -163,7 +164,7 @@ std::int32_t smooth_reach(double percent) {
   return math::to_int32(std::ceil(24 * math::log(2) / -math::log(percent / 100)));
 }
 
-void smooth_by_place(Field& field, double percent, const Job& job) {
+void smooth_by_position(Field& field, double percent, const Job& job) {
   if (percent <= 0) return;
   const Tail tail(percent);
   const auto wide = static_cast<std::size_t>(field.stride()), deep = static_cast<std::size_t>(field.rows());
@@ -211,17 +212,17 @@ void terrace(Field& field, const TerracePlan& plan, const Job& job) {
                           : range_of(field, job);
   const float step = (range.high - range.low) / static_cast<float>(plan.count);
   if (!(step > 0)) return;
-  // Within a step the height rises as t^p: p = 1 leaves it, a large p keeps it low until the cliff.
+  // Within a step the height rises as t^p: p = 1 changes nothing, and a large p is flat up to the cliff.
   const double power = 1 / std::max(1e-3, 1 - plan.sharpness);
   const bool cliffs = plan.sharpness >= 1;
-  // The highest point of a whole field is the end of its last step, not the start of another.
+  // The highest point of a whole field is at the end of the last step and does not start another.
   const float last = plan.from ? std::numeric_limits<float>::max() : static_cast<float>(plan.count - 1);
   const std::int32_t count = field.stride();
   each_row(field, job, [&](float* row, std::int32_t) {
     for (std::int32_t x = 0; x < count; ++x) {
-      const float place = (row[x] - range.low) / step;
-      const float whole = std::min(std::floor(place), last);
-      const double t = static_cast<double>(place - whole);
+      const float position = (row[x] - range.low) / step;
+      const float whole = std::min(std::floor(position), last);
+      const double t = static_cast<double>(position - whole);
       const double raised = cliffs ? (t >= 1 ? 1 : 0) : math::pow(std::clamp(t, 0.0, 1.0), power);
       row[x] = range.low + step * (whole + static_cast<float>(raised));
     }
@@ -245,7 +246,7 @@ void sink_rim(Field& field, const IslandPlan& plan, Rng rng, const Job& job) {
     for (std::int32_t i = 0; i < count; ++i) {
       const double dx = (static_cast<double>(plan.x + i - m) - middle_x) / half,
                    dz = (static_cast<double>(plan.z + z) - middle_z) / half;
-      // The coast is where the share is one half; a third of the reach lies on either side of it.
+      // At the coast the share is one half. The slope extends a third of the reach to each side.
       const double away =
           std::sqrt(dx * dx + dz * dz) / plan.reach + static_cast<double>(ragged.at(i, z + m));
       const double t = std::clamp((1.35 - away) / 0.7, 0.0, 1.0);

@@ -24,14 +24,14 @@ constexpr std::array<Neighbour, 8> neighbours{{{-1, -1, root2},
                                                {-1, 1, root2},
                                                {0, 1, 1},
                                                {1, 1, root2}}};
-constexpr std::uint32_t nobody = 0xFFFFFFFFU;
-// How many samples pass between two looks at the clock.
+constexpr std::uint32_t none = 0xFFFFFFFFU;
+// Number of samples between two checks of the clock.
 constexpr std::size_t look = 4096;
 
 struct Front {
   float height;
   std::uint32_t sample;
-  /// The lowest first; of equal ones that with the smaller number, so that the order is one.
+  /// Orders by height, then by sample number, so that the order is unique.
   bool operator<(const Front& other) const {
     return height != other.height ? height > other.height : sample > other.sample;
   }
@@ -52,10 +52,10 @@ void each_neighbour(const Field& field, std::uint32_t sample, const Body& body) 
 
 Drainage drainage_of(const Field& field, const Job& job) {
   const std::size_t count = field.heights.size();
-  Drainage drainage{Array<std::uint32_t>(job), Array<std::uint32_t>(job, count, nobody),
+  Drainage drainage{Array<std::uint32_t>(job), Array<std::uint32_t>(job, count, none),
                     Array<float>(job, count)};
   drainage.order.reserve(count);
-  // The queue holds at most every sample once; it is charged as an array of that size would be.
+  // The queue contains each sample at most once. An array of that size is charged for it.
   const Array<Front> charge(job, count / 4);
   std::priority_queue<Front> front;
   const auto enter = [&](std::uint32_t sample, float height, std::uint32_t from) {
@@ -77,11 +77,11 @@ Drainage drainage_of(const Field& field, const Job& job) {
     front.pop();
     drainage.order.push_back(lowest.sample);
     each_neighbour(field, lowest.sample, [&](std::uint32_t next, float) {
-      if (drainage.receiver[next] == nobody)
+      if (drainage.receiver[next] == none)
         enter(next, std::max(field.heights[next], lowest.height), lowest.sample);
     });
   }
-  // Outside hollows water takes the steepest way, which always leads to a sample that came earlier.
+  // Outside depressions, water follows the steepest slope, which always leads to an earlier sample.
   for (const std::uint32_t sample : drainage.order) {
     if (drainage.receiver[sample] == sample || drainage.filled[sample] > field.heights[sample]) continue;
     float steepest = 0;

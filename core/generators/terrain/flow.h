@@ -1,22 +1,23 @@
 #pragma once
-/// Where water runs on a field.
+/// Drainage of a field.
 #include "core/generators/terrain/field.h"
 
 namespace seedmesh::terrain {
 
-/// Margin 0. `order` names every sample once, receivers before those that drain to them; a sample at the
-/// border drains to itself.
+/// Requires margin 0. `order` lists every sample once, receivers before the samples that drain to them. A
+/// border sample drains to itself.
 struct Drainage {
   Array<std::uint32_t> order, receiver;
-  Array<float> filled;  ///< heights with every hollow filled to its rim
+  Array<float> filled;  ///< heights with every depression filled to its rim
 };
 
-/// By flooding from the border (Barnes, Lehman and Mulla, "Priority-flood", 2014): hollows drain over their
-/// lowest rim, everything else to its steepest neighbour of eight. About 150 ns a sample.
+/// Computes the flow by flooding from the border (Barnes, Lehman and Mulla, "Priority-flood", 2014).
+/// Depressions drain over their lowest rim, other samples to their steepest of eight neighbours. Cost: about
+/// 150 ns for each sample.
 Drainage drainage_of(const Field& field, const Job& job);
 
-/// Samples that drain through each, itself included, in fractions: water spreads over all lower neighbours by
-/// their slope (Freeman 1991), and leaves hollows by their rim.
+/// Returns for each sample the number of samples that drain through it, including itself, in fractions. Water
+/// spreads over all lower neighbours by slope (Freeman 1991), and leaves depressions over their rim.
 Array<float> gathered(const Field& field, const Drainage& drainage, const Job& job);
 
 }  // namespace seedmesh::terrain

@@ -1,11 +1,11 @@
 #pragma once
-/// Where the samples of a field lie in a model.
+/// Positions of the samples of a field in a model.
 #include "core/generators/terrain/field.h"
 
 namespace seedmesh::terrain {
 
-/// The middle of the field at the origin; texture coordinates 0..1 from the north-west. Does not own the
-/// field.
+/// The centre of the field is at the origin; texture coordinates 0..1 start in the north-west. Does not own
+/// the field.
 struct Ground {
   explicit Ground(const Field& given)
       : field(given),

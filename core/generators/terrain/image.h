@@ -1,5 +1,5 @@
 #pragma once
-/// Fields from pictures that come inside a request, and base64 to carry them.
+/// Fields from images inside a request, and base64 decoding.
 #include <string_view>
 
 #include "core/base/result.h"
@@ -11,11 +11,11 @@ struct TerrainImage;
 
 namespace seedmesh::terrain {
 
-/// The bytes of base64 (RFC 4648 section 4, with or without the padding at its end), after the head of a data
-/// URL where there is one. An Issue with an empty pointer names the first character that is none of it.
+/// Decodes base64 (RFC 4648 section 4, padding optional), after the head of a data URL if there is one. An
+/// issue with an empty pointer names the first invalid character.
 Result<Array<std::uint8_t>> bytes_of_base64(std::string_view text, const Job& job);
 
-/// The heights of a picture. Issues point below "/image". `cell` is left at 1.
+/// Returns the heights of an image, with its voids filled and counted. Issues point below "/image". `cell` stays 1.
 Result<Field> field_of_image(const TerrainImage& image, const Job& job);
 
 }  // namespace seedmesh::terrain

@@ -33,7 +33,7 @@ Array<std::uint8_t> as_png(std::int32_t width, std::int32_t depth, int channels,
                            const Array<std::uint8_t>& bytes, const Job& job) {
   return texture::encode_png({static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(depth), channels,
                               bits, std::as_bytes(bytes.span())},
-                             texture::PngEffort::fast, job);
+                             texture::PngEffort::streamed, job);
 }
 
 /// Calls pixel(x, z) of a field for every pixel of a picture, in samples, and stores what it gives.
@@ -111,7 +111,7 @@ const std::array<GroundLook, ground_kinds>& ground_looks() {
 Array<float> mask_of(const TerrainParams& params, const Field& field, const Job& job) {
   const auto wide = static_cast<std::size_t>(field.width), deep = static_cast<std::size_t>(field.depth);
   Array<float> mask(job, wide * deep);
-  const Sites sites(field, place_of(params), job.rng().at("terrain"), job);
+  const Sites sites(field, window_of(params), job.rng().at("terrain"), job);
   Array<float> area;
   if (params.heightmap.map == TerrainMap::flow) {
     Field bare(job, field.width, field.depth, 0);
@@ -139,7 +139,7 @@ Array<float> mask_of(const TerrainParams& params, const Field& field, const Job&
 }
 
 Error refused(std::string pointer, std::string message) {
-  return Error{Code::invalid, {{std::move(pointer), std::move(message)}}};
+  return Error{Code::invalid, {{IssueKind::invalid_value, std::move(pointer), std::move(message)}}};
 }
 
 bool is_picture(TerrainMap map) { return map >= TerrainMap::normal; }
@@ -153,13 +153,15 @@ Array<std::uint8_t> file_of(const texture::Picture& picture, const Job& job) {
 Array<std::uint8_t> picture_file(const TerrainParams& params, const Field& field, const Range& range,
                                  const Job& job) {
   const TerrainHeightmap& given = params.heightmap;
-  const Sites sites(field, place_of(params), job.rng().at("terrain"), job);
-  const Looks looks(palette_of(params), params.tile ? nominal_range(params) : range,
-                    static_cast<float>(params.water_level.value_or(static_cast<double>(range.low))));
+  const Sites sites(field, window_of(params), job.rng().at("terrain"), job);
+  const GroundColors ground_colors(
+      palette_of(params), params.tile ? nominal_range(params) : range,
+      static_cast<float>(params.water_level.value_or(static_cast<double>(range.low))));
   const std::int32_t side = params.texture > 0 ? params.texture : std::min(field.width, 4096);
   if (given.map == TerrainMap::normal) return file_of(normal_picture(field, sites, side, job), job);
-  if (given.map == TerrainMap::color) return file_of(color_picture(field, sites, looks, side, job), job);
-  return file_of(splat_picture(field, sites, looks, side, job), job);
+  if (given.map == TerrainMap::color)
+    return file_of(color_picture(field, sites, ground_colors, side, job), job);
+  return file_of(splat_picture(field, sites, ground_colors, side, job), job);
 }
 
 Encoding encoding_of(std::string_view format, const TerrainHeightmap& given) {
@@ -176,29 +178,32 @@ const char* size_pointer(const TerrainParams& params) {
 }
 
 /// What the engine of the profile does not take.
-void engine_faults(const TerrainParams& params, const WantedForm& form, std::vector<Issue>& faults) {
-  const auto fault = [&](const char* pointer, std::string message) {
-    faults.push_back({pointer, std::move(message)});
+void engine_faults(const TerrainParams& params, const WantedFormat& form, std::vector<Issue>& faults) {
+  const auto fault = [&](IssueKind kind, const char* pointer, std::string message) {
+    faults.push_back({kind, pointer, std::move(message)});
   };
   const std::string profile(form.profile);
   const std::optional<Engine> engine = engine_of(form.profile);
   if (!engine)
-    return fault("/output/profile",
+    return fault(IssueKind::not_available, "/output/profile",
                  "found " + profile + "; height maps have the conventions of core, unity and unreal");
   const TerrainHeightmap& given = params.heightmap;
   if (engine == Engine::unity && form.format != "r16")
-    fault("/output/format", "found " + std::string(form.format) + "; Unity reads raw heights: r16");
+    fault(IssueKind::conflict, "/output/format",
+          "found " + std::string(form.format) + "; Unity reads raw heights: r16");
   if (given.map != TerrainMap::height)
-    fault("/heightmap/map", "found " + std::string(text_of(given.map)) + "; the profile " + profile +
-                                " is about heights, other maps have the profile core");
+    fault(IssueKind::conflict, "/heightmap/map",
+          "found " + std::string(text_of(given.map)) + "; the profile " + profile +
+              " is about heights, other maps have the profile core");
   if (given.byte_order != TerrainByteOrder::little)
-    fault("/heightmap/byte_order", "found big; the profile " + profile + " has the low byte first");
+    fault(IssueKind::conflict, "/heightmap/byte_order",
+          "found big; the profile " + profile + " has the low byte first");
   if (engine == Engine::unity && given.flip)
-    fault("/heightmap/flip", "the profile unity has the southern row first as it is");
+    fault(IssueKind::conflict, "/heightmap/flip", "the profile unity has the southern row first as it is");
   if (params.algorithm == TerrainAlgorithm::image) return;  // whose size is known when it is read
   const int side = finished_side(params);
   if (std::string wrong = misfit(*engine, side, side); !wrong.empty())
-    fault(size_pointer(params), std::move(wrong));
+    fault(IssueKind::invalid_value, size_pointer(params), std::move(wrong));
 }
 
 }  // namespace
@@ -217,8 +222,8 @@ Array<std::uint8_t> encoded(const Numbers& numbers, Encoding encoding, const Job
         const std::uint64_t value =
             quantised(span > 0 ? (static_cast<double>(from[i]) - numbers.low) / span : 0, bytes);
         for (std::size_t k = 0; k < bytes; ++k) {
-          const std::size_t place = encoding == Encoding::raw_little ? k : bytes - 1 - k;
-          to[place] = static_cast<std::uint8_t>(value >> (8 * k));
+          const std::size_t position = encoding == Encoding::raw_little ? k : bytes - 1 - k;
+          to[position] = static_cast<std::uint8_t>(value >> (8 * k));
         }
         // PNG's writer takes 16 bits in the order of the machine.
         if (encoding == Encoding::grey16) {
@@ -242,10 +247,10 @@ Array<std::uint8_t> encoded(const Numbers& numbers, Encoding encoding, const Job
   }
 }
 
-texture::Picture color_picture(const Field& field, const Sites& sites, const Looks& looks, std::int32_t side,
-                               const Job& job) {
+texture::Picture color_picture(const Field& field, const Sites& sites, const GroundColors& ground_colors,
+                               std::int32_t side, const Job& job) {
   return drawn(field, side, 3, job, [&](double x, double z, std::uint8_t* out) {
-    const glm::u8vec3 color = srgb_of(looks.color(site_between(field, sites, x, z)));
+    const glm::u8vec3 color = srgb_of(ground_colors.color(site_between(field, sites, x, z)));
     out[0] = color.r;
     out[1] = color.g;
     out[2] = color.b;
@@ -264,10 +269,10 @@ texture::Picture normal_picture(const Field& field, const Sites& sites, std::int
   });
 }
 
-texture::Picture splat_picture(const Field& field, const Sites& sites, const Looks& looks, std::int32_t side,
-                               const Job& job) {
+texture::Picture splat_picture(const Field& field, const Sites& sites, const GroundColors& ground_colors,
+                               std::int32_t side, const Job& job) {
   return drawn(field, side, 4, job, [&](double x, double z, std::uint8_t* out) {
-    const Cover cover = looks.cover(site_between(field, sites, x, z));
+    const Cover cover = ground_colors.cover(site_between(field, sites, x, z));
     out[0] = byte_of(cover.rock);
     out[2] = byte_of(cover.sand);
     out[3] = byte_of(cover.snow);
@@ -299,32 +304,33 @@ texture::Picture ground_texture(GroundKind kind, std::int32_t side, Rng rng, con
   });
 }
 
-std::vector<Issue> form_faults(const TerrainParams& params, const WantedForm& form) {
+std::vector<Issue> format_errors(const TerrainParams& params, const WantedFormat& form) {
   std::vector<Issue> faults;
-  const auto fault = [&](const char* pointer, std::string message) {
-    faults.push_back({pointer, std::move(message)});
+  const auto fault = [&](IssueKind kind, const char* pointer, std::string message) {
+    faults.push_back({kind, pointer, std::move(message)});
   };
   const TerrainHeightmap& given = params.heightmap;
   if (params.shape == TerrainShape::sphere)
-    fault("/shape", "a sphere has no height map; its forms are glb, gltf and zip");
+    fault(IssueKind::not_available, "/shape", "a sphere has no height map; its forms are glb, gltf and zip");
   if (is_picture(given.map) && form.format != "png8")
-    fault("/heightmap/map", std::string(text_of(given.map)) +
-                                " is a picture in colours, which the format png8 holds; found " +
-                                std::string(form.format));
+    fault(IssueKind::conflict, "/heightmap/map",
+          std::string(text_of(given.map)) + " is a picture in colours, which the format png8 holds; found " +
+              std::string(form.format));
   if (is_picture(given.map) && given.flip)
-    fault("/heightmap/flip", "found true with the map " + std::string(text_of(given.map)) +
-                                 ", a picture for texture coordinates, which begin in the north-west");
+    fault(IssueKind::conflict, "/heightmap/flip",
+          "found true with the map " + std::string(text_of(given.map)) +
+              ", a picture for texture coordinates, which begin in the north-west");
   if (given.map == TerrainMap::water && !params.water_level)
-    fault("/heightmap/map", "there is no water; give a water_level");
+    fault(IssueKind::conflict, "/heightmap/map", "there is no water; give a water_level");
   if (params.tile && given.map == TerrainMap::height && (!given.low || !given.high))
-    fault("/heightmap",
+    fault(IssueKind::missing, "/heightmap",
           "low and high are missing: tiles of one world need the same, or their heights would not meet");
   if (form.profile != "core") engine_faults(params, form, faults);
   return faults;
 }
 
-Result<Array<std::uint8_t>> map_file(const TerrainParams& params, const WantedForm& form, Job& job) {
-  if (std::vector<Issue> faults = form_faults(params, form); !faults.empty())
+Result<Array<std::uint8_t>> map_file(const TerrainParams& params, const WantedFormat& form, Job& job) {
+  if (std::vector<Issue> faults = format_errors(params, form); !faults.empty())
     return Error{Code::invalid, std::move(faults)};
   const TerrainHeightmap& given = params.heightmap;
   const Rng rng = job.rng().at("terrain");

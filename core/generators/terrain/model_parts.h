@@ -1,5 +1,5 @@
 #pragma once
-/// What models of fields and of planetoids are put together from.
+/// Shared helpers for models of fields and planetoids.
 #include <string>
 
 #include "core/model/model.h"
@@ -9,13 +9,13 @@ namespace seedmesh::terrain {
 Material ground_material();
 Material water_material();
 
-/// The places of what was added.
+/// Indices of the added parts.
 int add_material(Model& model, Material material);
 int add_mesh(Model& model, std::string name, Mesh mesh, int material);
-/// A node below the root, which is the first.
+/// Adds a node below the root, which is node 0.
 int add_child(Model& model, std::string name, int mesh);
 
-/// "ground", "ground_LOD1", ...
+/// Returns the name of a level: "ground", "ground_LOD1", ...
 std::string level_name(const std::string& name, int level);
 
 }  // namespace seedmesh::terrain

@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::size_t rows_a_chunk = 32;
 constexpr std::size_t directions = 64;
-// Octaves of the two fields that warp the ground.
+// Octaves of the two fields of the domain warp.
 constexpr int warp_octaves = 3;
-// Plane gradient noise with unit gradients lies within this of 0; its inverse brings it to -1 .. 1.
+// The greatest value of plane gradient noise with unit gradients, which scales it to -1 .. 1.
 constexpr float plane_scale = 1.41421356F;
 constexpr double space_scale = 1.1547;
 // Musgrave's constants of the ridged multifractal.
@@ -45,10 +45,10 @@ std::int64_t folded(std::int64_t i, std::int64_t period) {
   return rest < 0 ? rest + period : rest;
 }
 
-/// One octave on its lattice.
+/// One octave of noise.
 struct Octave {
   std::uint64_t key = 0;
-  double frequency = 1;  ///< lattice cells a metre
+  double frequency = 1;  ///< lattice cells per metre
   std::int64_t period = 0;
 
   std::uint64_t row_key(std::int64_t z) const {
@@ -85,8 +85,8 @@ std::vector<Octave> octaves_of(const NoisePlan& plan, int count, Rng rng) {
   return octaves;
 }
 
-/// Evaluates one octave along rows. In a row, the fade and gradients of the rows of the lattice above and
-/// below are blended once for each lattice column; samples of a column then are a straight sum.
+/// Evaluates one octave along rows. Fade and gradients of the lattice rows above and below a row are blended
+/// once for each lattice column. The samples of a column are then a linear sum.
 class OctaveRow {
  public:
   OctaveRow(const Octave& octave, const Window& window, double cell)
@@ -96,12 +96,12 @@ class OctaveRow {
     faded_.resize(width);
     starts_.reserve(64);
     for (std::size_t i = 0; i < width; ++i) {
-      const double place = static_cast<double>(window.x + static_cast<std::int64_t>(i)) * step_;
-      const double whole = std::floor(place);
+      const double position = static_cast<double>(window.x + static_cast<std::int64_t>(i)) * step_;
+      const double whole = std::floor(position);
       const std::int64_t column = math::to_int64(whole);
       if (i == 0) first_ = column;
       while (starts_.size() <= static_cast<std::size_t>(column - first_)) starts_.push_back(i);
-      inside_[i] = static_cast<float>(place - whole);
+      inside_[i] = static_cast<float>(position - whole);
       faded_[i] = fade(inside_[i]);
     }
     starts_.push_back(width);
@@ -111,15 +111,15 @@ class OctaveRow {
     level_.resize(starts_.size());
   }
 
-  /// Lattices much finer than the samples have no columns worth sharing.
+  /// False for lattices much finer than the samples, whose columns have too few samples.
   static bool fits(const Octave& octave, double cell) { return cell * octave.frequency <= 2; }
 
   void evaluate(std::int64_t row, float* out) {
-    const double place = static_cast<double>(row) * step_;
-    const double whole = std::floor(place);
+    const double position = static_cast<double>(row) * step_;
+    const double whole = std::floor(position);
     const std::int64_t line = math::to_int64(whole);
     if (!any_ || line != line_) take_lattice_rows(line);
-    const auto fz = static_cast<float>(place - whole);
+    const auto fz = static_cast<float>(position - whole);
     const float v = fade(fz);
     for (std::size_t i = 0; i < slope_.size(); ++i) {
       const float n = north_[i].z * fz, s = south_[i].z * (fz - 1);
@@ -159,7 +159,7 @@ class OctaveRow {
   std::vector<float> level_, slope_;
 };
 
-/// Adds octaves up, of one kind; `weight` is what ridged carries from octave to octave.
+/// Adds octaves of one kind. `weight` is the factor that ridged noise passes from octave to octave.
 struct Sum {
   NoiseKind kind;
   float amplitude;
@@ -182,7 +182,7 @@ struct Sum {
   }
 };
 
-/// Heights where every place is looked up by itself, since the ground is moved.
+/// Computes heights one by one, because the domain warp moves each position differently.
 void warped_rows(const NoisePlan& plan, const Window& window, double cell, Rng rng, Field& field,
                  std::size_t begin, std::size_t end) {
   const std::vector<Octave> octaves = octaves_of(plan, plan.octaves, rng);
@@ -245,7 +245,7 @@ void plain_rows(const NoisePlan& plan, const Window& window, double cell, Rng rn
   }
 }
 
-/// A direction of a lattice point in space, evenly spread over the sphere.
+/// Returns the gradient of a lattice point in space, uniform on the sphere.
 glm::dvec3 direction(std::uint64_t bits) {
   const double z = static_cast<double>(bits >> 40U) * 0x1p-23 - 1;
   const double flat = std::sqrt(std::max(0.0, 1 - z * z));
@@ -253,9 +253,9 @@ glm::dvec3 direction(std::uint64_t bits) {
   return {flat * static_cast<double>(turn.x), flat * static_cast<double>(turn.z), z};
 }
 
-double value_in_space(std::uint64_t key, const glm::dvec3& place) {
-  const glm::dvec3 whole(std::floor(place.x), std::floor(place.y), std::floor(place.z));
-  const glm::dvec3 in = place - whole;
+double value_in_space(std::uint64_t key, const glm::dvec3& position) {
+  const glm::dvec3 whole(std::floor(position.x), std::floor(position.y), std::floor(position.z));
+  const glm::dvec3 in = position - whole;
   const auto ease = [](double t) { return t * t * t * (t * (t * 6 - 15) + 10); };
   const glm::dvec3 u(ease(in.x), ease(in.y), ease(in.z));
   double corners[8];
@@ -290,8 +290,8 @@ Field noisy(const NoisePlan& plan, const Window& window, double cell, Rng rng, c
   return field;
 }
 
-double noise_in_space(const NoisePlan& plan, const glm::dvec3& place, Rng rng) {
-  glm::dvec3 at = place;
+double noise_in_space(const NoisePlan& plan, const glm::dvec3& position, Rng rng) {
+  glm::dvec3 at = position;
   if (plan.warp > 0) {
     NoisePlan mild = plan;
     mild.kind = NoiseKind::rolling;
@@ -299,8 +299,9 @@ double noise_in_space(const NoisePlan& plan, const glm::dvec3& place, Rng rng) {
     mild.amplitude = plan.warp;
     mild.gain = 0.5;
     mild.warp = 0;
-    at += glm::dvec3(noise_in_space(mild, place, rng.at("east")), noise_in_space(mild, place, rng.at("up")),
-                     noise_in_space(mild, place, rng.at("south")));
+    at += glm::dvec3(noise_in_space(mild, position, rng.at("east")),
+                     noise_in_space(mild, position, rng.at("up")),
+                     noise_in_space(mild, position, rng.at("south")));
   }
   double frequency = 1 / plan.wavelength;
   auto amplitude = static_cast<float>(plan.amplitude);

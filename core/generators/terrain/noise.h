@@ -1,8 +1,7 @@
 #pragma once
 /// Fields as sums of octaves of gradient noise (Perlin, "Improving noise", 2002): fractal Brownian motion,
 /// ridged multifractal (Musgrave, in Ebert et al., "Texturing and Modeling", 2003) and billow, with domain
-/// warping (Quilez). A height is a function of the place in the world, so that any window agrees with any
-/// other.
+/// warping (Quilez). A height depends only on the position in the world, so all windows agree.
 #include <glm/vec3.hpp>
 
 #include "core/generators/terrain/field.h"
@@ -14,18 +13,19 @@ enum class NoiseKind { rolling, ridged, billow };
 struct NoisePlan {
   NoiseKind kind = NoiseKind::rolling;
   int octaves = 8;
-  double amplitude = 0;   ///< of the first octave, in metres
-  double gain = 0.5;      ///< from octave to octave
-  double wavelength = 1;  ///< of the first octave, in metres
+  double amplitude = 0;   ///< amplitude of the first octave, in metres
+  double gain = 0.5;      ///< factor from octave to octave
+  double wavelength = 1;  ///< wavelength of the first octave, in metres
   double lacunarity = 2;
-  double warp = 0;          ///< how far places are moved, in metres
-  std::int64_t repeat = 0;  ///< lattice cells of the first octave after which everything repeats; 0: never
+  double warp = 0;          ///< largest displacement by domain warping, in metres
+  std::int64_t repeat = 0;  ///< period in lattice cells of the first octave; 0: no period
 };
 
-/// Cost: about 2 ns an octave and sample; 12 ns where the ground is warped.
+/// Returns the field of a window. Cost: about 2 ns for each octave and sample, 12 ns with warping.
 Field noisy(const NoisePlan& plan, const Window& window, double cell, Rng rng, const Job& job);
 
-/// The same in space, for spheres: the height at a place in metres. About 20 ns an octave.
-double noise_in_space(const NoisePlan& plan, const glm::dvec3& place, Rng rng);
+/// Returns the height of the same noise at a point in space, in metres, for spheres. Cost: about 20 ns for
+/// each octave.
+double noise_in_space(const NoisePlan& plan, const glm::dvec3& position, Rng rng);
 
 }  // namespace seedmesh::terrain

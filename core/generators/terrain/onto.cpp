@@ -5,9 +5,9 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
-#include "core/geom/outward.h"
-#include "core/geom/places.h"
-#include "core/model/widen.h"
+#include "core/geom/mesh/flipped_normals.h"
+#include "core/geom/mesh/point_grid.h"
+#include "core/model/index_width.h"
 #include "core/texture/png.h"
 
 namespace seedmesh::terrain {
@@ -15,28 +15,28 @@ namespace {
 
 constexpr std::size_t vertices_a_chunk = 4096;
 constexpr std::uint32_t none = 0xFFFFFFFFU;
-// Vertices nearer than this share of the model's diagonal are one place.
-constexpr float place_share = 1e-6F;
+// Vertices nearer than this share of the model's diagonal are welded.
+constexpr float weld_share = 1e-6F;
 
-/// How far the field reaches, in metres.
+/// Returns the size of the field in metres.
 glm::dvec2 reach_of(const Field& field) {
   return {(field.width - 1) * field.cell, (field.depth - 1) * field.cell};
 }
 
-/// Where on the field a place lies, seen along an axis: the field's middle is at the origin.
-glm::dvec2 seen_along(int axis, const glm::dvec3& p, const glm::dvec2& reach) {
+/// Projects a point along an axis to the field, whose centre is at the origin.
+glm::dvec2 projected_along(int axis, const glm::dvec3& p, const glm::dvec2& reach) {
   const glm::dvec2 at = axis == 0   ? glm::dvec2(p.z, -p.y)
                         : axis == 1 ? glm::dvec2(p.x, p.z)
                                     : glm::dvec2(p.x, -p.y);
   return at + 0.5 * reach;
 }
 
-double height_at(const Field& field, const glm::dvec3& place, const glm::dvec3& normal) {
+double height_at(const Field& field, const glm::dvec3& position, const glm::dvec3& normal) {
   double height = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double weight = normal[axis] * normal[axis];
     if (weight == 0) continue;
-    const glm::dvec2 at = seen_along(axis, place, reach_of(field));
+    const glm::dvec2 at = projected_along(axis, position, reach_of(field));
     height += weight * mirrored_height(field, at.x, at.y);
   }
   return height;
@@ -44,7 +44,7 @@ double height_at(const Field& field, const glm::dvec3& place, const glm::dvec3& 
 
 bool is_surface(const Mesh& mesh) { return mesh.topology == Topology::triangles && !mesh.normal.empty(); }
 
-/// The vertices of a mesh with those that halve its edges.
+/// Subdivides a mesh. A table holds the vertex in the middle of each edge.
 class Cutting {
  public:
   Cutting(Mesh& mesh, Job& job) : mesh_(mesh), job_(job), halves_(job, mesh.index.size() / 2) {}
@@ -94,10 +94,10 @@ class Cutting {
 
   Mesh& mesh_;
   Job& job_;
-  NumberTable halves_;  ///< by edge
+  NumberTable halves_;  ///< for each edge
 };
 
-/// Calls use(a, b, c, normal as long as twice the area) for every triangle.
+/// Calls use(a, b, c, normal) for every triangle. The length of the normal is twice the area.
 template <class Use>
 void each_triangle(const Mesh& mesh, const Job& job, Use use) {
   for (std::size_t t = 0; t < mesh.index.size(); t += 3) {
@@ -108,61 +108,61 @@ void each_triangle(const Mesh& mesh, const Job& job, Use use) {
   }
 }
 
-/// Numbers for the places where the vertices of some meshes stand, and a normal for each: the sum of its
-/// triangles', by area, so that a corner of a block moves along its diagonal however it is cut.
-class Places {
+/// Numbers the welded vertices of several meshes and gives each a normal: the sum of those of its triangles,
+/// weighted by area. So a corner of a block moves along its diagonal for any triangulation.
+class WeldedPoints {
  public:
-  Places(const std::vector<Mesh*>& meshes, const Job& job) : point_(job), place_(job), normal_(job) {
+  WeldedPoints(const std::vector<Mesh*>& meshes, const Job& job) : point_(job), weld_of_(job), normal_(job) {
     for (const Mesh* mesh : meshes) {
       first_.push_back(point_.size());
       point_.append(mesh->position.span());
     }
     const Box box = bounds_of(point_.span());
     const glm::vec3 extent = box.max - box.min;
-    Weld weld(job, box, place_share * std::sqrt(glm::dot(extent, extent)), point_.span());
-    place_.resize(point_.size());
+    Weld weld(job, box, weld_share * std::sqrt(glm::dot(extent, extent)), point_.span());
+    weld_of_.resize(point_.size());
     for (std::uint32_t i = 0; i < point_.size(); ++i) {
       if (i % 4096 == 0) job.check();
-      place_[i] = weld.number(i);
+      weld_of_[i] = weld.number(i);
     }
     normal_ = Array<glm::dvec3>(job, weld.size(), glm::dvec3(0));
     for (std::size_t m = 0; m < meshes.size(); ++m) {
-      const std::uint32_t* place = of(m);
+      const std::uint32_t* weld_of = of(m);
       each_triangle(*meshes[m], job,
                     [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, const glm::dvec3& face) {
-                      for (const std::uint32_t corner : {a, b, c}) normal_[place[corner]] += face;
+                      for (const std::uint32_t corner : {a, b, c}) normal_[weld_of[corner]] += face;
                     });
     }
   }
 
   std::size_t size() const { return normal_.size(); }
-  /// Of the vertices of mesh `m`.
-  const std::uint32_t* of(std::size_t m) const { return place_.data() + first_[m]; }
-  glm::dvec3 normal(std::uint32_t place) const { return math::unit(normal_[place], glm::dvec3(0)); }
+  /// Returns the numbers of the vertices of mesh `m`.
+  const std::uint32_t* of(std::size_t m) const { return weld_of_.data() + first_[m]; }
+  glm::dvec3 normal(std::uint32_t weld_of) const { return math::unit(normal_[weld_of], glm::dvec3(0)); }
 
  private:
   std::vector<std::size_t> first_;
   Array<glm::vec3> point_;
-  Array<std::uint32_t> place_;
+  Array<std::uint32_t> weld_of_;
   Array<glm::dvec3> normal_;
 };
 
-/// Normals of the moved surface: vertices at one place that had one normal get that of their triangles.
-void shade(Mesh& mesh, const std::uint32_t* place, std::size_t places, const Job& job) {
+/// Sets the normals of the displaced surface. Welded vertices that had one normal get that of their triangles.
+void shade(Mesh& mesh, const std::uint32_t* weld_of, std::size_t welds, const Job& job) {
   struct Group {
-    std::uint32_t next;  ///< of the same place
+    std::uint32_t next;  ///< next group of the same weld
     glm::vec3 before;
     glm::dvec3 sum;
   };
   Array<Group> groups(job);
-  Array<std::uint32_t> first(job, places, none), group_of(job, mesh.position.size());
+  Array<std::uint32_t> first(job, welds, none), group_of(job, mesh.position.size());
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
-    std::uint32_t group = first[place[i]];
+    std::uint32_t group = first[weld_of[i]];
     while (group != none && groups[group].before != mesh.normal[i]) group = groups[group].next;
     if (group == none) {
       group = static_cast<std::uint32_t>(groups.size());
-      groups.push_back({first[place[i]], mesh.normal[i], glm::dvec3(0)});
-      first[place[i]] = group;
+      groups.push_back({first[weld_of[i]], mesh.normal[i], glm::dvec3(0)});
+      first[weld_of[i]] = group;
     }
     group_of[i] = group;
   }
@@ -180,26 +180,26 @@ void displace_group(MeshGroup& group, const Field& field, int rounds, Job& job) 
     for (int round = 0; round < rounds; ++round) Cutting(each.mesh, job).cut();
     meshes.push_back(&each.mesh);
   }
-  const Places places(meshes, job);
+  const WeldedPoints welds(meshes, job);
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     Mesh& mesh = *meshes[m];
-    const std::uint32_t* place = places.of(m);
+    const std::uint32_t* weld_of = welds.of(m);
     parallel_for(job, mesh.position.size(), vertices_a_chunk,
                  [&](std::size_t begin, std::size_t end, std::size_t) {
                    job.check();
                    for (std::size_t i = begin; i < end; ++i) {
-                     const glm::dvec3 normal = places.normal(place[i]), at(mesh.position[i]);
+                     const glm::dvec3 normal = welds.normal(weld_of[i]), at(mesh.position[i]);
                      mesh.position[i] = glm::vec3(at + normal * height_at(field, at, normal));
                    }
                  });
-    shade(mesh, place, places.size(), job);
+    shade(mesh, weld_of, welds.size(), job);
     mesh.tangent = Array<glm::vec4>();
-    // Where the field throws the surface over, faces of one corner may look to opposite sides.
+    // Where a displacement folds the surface, faces of one corner can face opposite sides.
     turn_outward(mesh, job);
   }
 }
 
-/// The axis that a triangle faces most; the first of equals.
+/// Returns the axis nearest to the normal of a triangle; the first of equal ones.
 int axis_of(const Mesh& mesh, std::size_t t) {
   const glm::vec3 a = mesh.position[mesh.index.at(t)];
   const glm::vec3 face =
@@ -208,7 +208,7 @@ int axis_of(const Mesh& mesh, std::size_t t) {
   return face.x >= face.z ? 0 : 2;
 }
 
-/// Doubles the vertices between triangles that are seen along different axes, and writes uv set 1.
+/// Duplicates vertices between triangles that are projected along different axes, and writes uv set 1.
 void unfold(Mesh& mesh, const glm::dvec2& reach, const Job& job) {
   const auto old_count = static_cast<std::uint32_t>(mesh.position.size());
   Array<std::uint32_t> copies(job, 3 * std::size_t{old_count}, none);  // by vertex and axis
@@ -238,7 +238,7 @@ void unfold(Mesh& mesh, const glm::dvec2& reach, const Job& job) {
   }
   mesh.uv[1] = Array<glm::vec2>(job, mesh.position.size());
   for (std::size_t i = 0; i < mesh.position.size(); ++i)
-    mesh.uv[1][i] = glm::vec2(seen_along(axis[i], glm::dvec3(mesh.position[i]), reach) / (2.0 * reach));
+    mesh.uv[1][i] = glm::vec2(projected_along(axis[i], glm::dvec3(mesh.position[i]), reach) / (2.0 * reach));
   mesh.index.small = Array<std::uint16_t>();
   mesh.index.wide = std::move(index);
   mesh.tangent = Array<glm::vec4>();
@@ -248,7 +248,7 @@ std::uint8_t byte_of(double value) {
   return static_cast<std::uint8_t>(std::clamp(value * 127.5 + 128.0, 0.0, 255.0));
 }
 
-/// Slopes of the mirrored field over both its periods, green towards the top of the picture.
+/// Returns the slopes of the mirrored field over both its periods as an image; green is towards its top.
 texture::Picture slopes_picture(const Field& field, const glm::dvec2& period, std::int32_t side,
                                 const Job& job) {
   texture::Picture picture;

@@ -1,28 +1,28 @@
 #pragma once
-/// A field laid on the surface of a model: displacement mapping (Cook, "Shade trees", 1984), or a normal map
-/// of it (Blinn's bumps, "Simulation of wrinkled surfaces", 1978, as pictures).
+/// Applies a field to the surface of a model: by displacement mapping (Cook, "Shade trees", 1984), or as a
+/// normal map (Blinn, "Simulation of wrinkled surfaces", 1978).
 ///
-/// The middle of the field lies at the origin of each mesh; beyond its edges it goes on mirrored, so that it
-/// has none. A place of the surface takes heights from the planes across X, Y and Z, weighted by the squares
-/// of its normal. Lengths are those of the meshes' own frames, before the scale of nodes.
+/// The centre of the field is at the origin of each mesh. The field continues mirrored beyond its edges.
+/// Heights are projected along X, Y and Z and blended by the squares of the normal's components. Lengths are
+/// in the frame of the mesh, before the scale of nodes.
 #include "core/generators/terrain/field.h"
 #include "core/model/model.h"
 
 namespace seedmesh::terrain {
 
-/// The height of the endless mirrored field at `x` metres east and `z` metres south of its north-western
-/// corner, by bilinear interpolation; margin 0 or more.
+/// Returns the height of the infinite mirrored field at `x` metres east and `z` metres south of its
+/// north-west corner, by bilinear interpolation; margin 0 or more.
 double mirrored_height(const Field& field, double x, double z);
 
-/// Cuts every triangle into four, `rounds` times, and moves every vertex along the mean normal of its place
-/// by the height there. Vertices at one place move alike, so that a closed surface stays closed. Normals that
-/// were shared stay shared. Spends triangles. About 150 ns a vertex. Meshes without normals are left as they
-/// are.
+/// Splits every triangle into four, `rounds` times, and moves every vertex by the height along the mean
+/// normal at its position. Vertices at one position move alike, so a closed surface stays closed, and shared
+/// normals stay shared. Meshes without normals are unchanged. Spends triangles. Cost: about 150 ns for each
+/// vertex.
 void displace(Model& model, const Field& field, int rounds, Job& job);
 
-/// Gives every triangle mesh with normals a second set of texture coordinates, seen along the axis that its
-/// triangle faces most, and every material in use a normal map of the field of `side` pixels that repeats.
-/// Replaces normal maps and recipes of textures that there were.
+/// Adds a second set of texture coordinates to every triangle mesh with normals, projected along the dominant
+/// axis of each triangle. Every material in use gets a repeating normal map of the field of `side` pixels,
+/// which replaces existing normal maps and texture recipes.
 void add_normal_map(Model& model, const Field& field, std::int32_t side, Job& job);
 
 }  // namespace seedmesh::terrain

@@ -22,7 +22,7 @@ bool is_sphere(const TerrainParams& params) { return params.shape == TerrainShap
 
 double falloff_of(const TerrainParams& params) { return math::pow(2, -params.hurst.value_or(default_hurst)); }
 
-/// Samples from the corner of one tile to that of the next.
+/// Returns the number of samples from the corner of one tile to that of the next.
 std::int64_t tile_step(const TerrainParams& params) {
   switch (params.algorithm) {
     case Algorithm::triangular_edge:
@@ -34,7 +34,7 @@ std::int64_t tile_step(const TerrainParams& params) {
   }
 }
 
-/// The samples asked for and `margin` around them.
+/// Returns the requested samples and a margin around them.
 Window window_of(const TerrainParams& params, std::int32_t margin) {
   Window window;
   const std::int32_t side =
@@ -49,9 +49,7 @@ Window window_of(const TerrainParams& params, std::int32_t margin) {
   return window;
 }
 
-Field raw_field(const TerrainParams& params, std::int32_t margin, Rng rng, const Job& job) {
-  const Window window = window_of(params, margin);
-  const double cell = params.size / static_cast<double>(window.width - 2 * margin - 1);
+Field raw_field(const TerrainParams& params, const Window& window, double cell, Rng rng, const Job& job) {
   switch (params.algorithm) {
     case Algorithm::triangular_edge:
     case Algorithm::diamond_square:
@@ -110,7 +108,7 @@ TerracePlan terrace_plan(const TerrainParams& params) {
 
 void filter(const TerrainParams& params, Field& field, Rng rng, const Job& job) {
   if (params.tile) {
-    smooth_by_place(field, params.smooth, job);
+    smooth_by_position(field, params.smooth, job);
   } else {
     smooth(field, params.smooth, job);
   }
@@ -125,6 +123,10 @@ void filter(const TerrainParams& params, Field& field, Rng rng, const Job& job) 
     slip(field,
          {params.thermal->iterations, math::tan(math::radians(params.thermal->talus)), params.thermal->rate},
          job);
+}
+
+/// Erosion by water, which acts from one end of the field to the other. The field has no margin.
+void run_water(const TerrainParams& params, Field& field, Rng rng, const Job& job) {
   if (params.hydraulic && params.hydraulic->method == TerrainMethod::droplets)
     erode(field, droplet_plan(params, field), rng.at("droplets"), job);
   if (params.hydraulic && params.hydraulic->method == TerrainMethod::stream_power) {
@@ -137,7 +139,7 @@ void filter(const TerrainParams& params, Field& field, Rng rng, const Job& job) 
   }
 }
 
-/// Heights before any filter.
+/// Generates heights without filters.
 Range raw_range(const TerrainParams& params) {
   const auto amplitude = static_cast<float>(amplitude_of(params));
   if (is_fault(params)) {
@@ -216,7 +218,7 @@ NoisePlan noise_plan(const TerrainParams& params) {
   return plan;
 }
 
-Window place_of(const TerrainParams& params) { return window_of(params, 0); }
+Window window_of(const TerrainParams& params) { return window_of(params, 0); }
 
 int made_side(const TerrainParams& params) {
   switch (params.algorithm) {
@@ -224,13 +226,17 @@ int made_side(const TerrainParams& params) {
     case Algorithm::diamond_square:
       return (1 << all_iterations(params)) + 1;
     case Algorithm::square_square:
-      // One sample more than the others, but for the grid it starts from; a tile leaves its neighbour's out.
+      // There is one more sample than for the other algorithms, except for the start grid. Tiles omit it.
       return (1 << all_iterations(params)) + 2;
     case Algorithm::image:
       return 0;
     default:
       return params.resolution.value_or(is_sphere(params) ? sphere_side : plane_side);
   }
+}
+
+std::int64_t samples_across(const TerrainParams& params) {
+  return params.tile->across.value_or(1) * tile_step(params) + 1;
 }
 
 int finished_side(const TerrainParams& params) {
@@ -252,6 +258,49 @@ PaletteName palette_of(const TerrainParams& params) { return static_cast<Palette
 static_assert(static_cast<int>(PaletteName::none) == static_cast<int>(TerrainPalette::none) &&
               static_cast<int>(PaletteName::moon) == static_cast<int>(TerrainPalette::moon));
 
+/// Samples around what filters read of the neighbours of a tile.
+static std::int32_t filter_reach(const TerrainParams& params) {
+  return smooth_reach(params.smooth) + (params.thermal ? params.thermal->iterations : 0);
+}
+
+/// The samples of one tile of a world without margin, with one sample around them for normals. Beyond the border
+/// of the world, heights continue the last slope.
+static Field cut_tile(const Field& world, const TerrainTile& tile, std::int32_t step, const Job& job) {
+  Field field(job, step + 1, step + 1, 1);
+  field.cell = world.cell;
+  const auto along = [&](std::int32_t at, std::int32_t side, const auto& height) {
+    if (at < 0) return 2 * height(0) - height(1);
+    return at < side ? height(at) : 2 * height(side - 1) - height(side - 2);
+  };
+  for (std::int32_t z = -1; z <= step + 1; ++z) {
+    job.check();
+    for (std::int32_t x = -1; x <= step + 1; ++x) {
+      field.at(x, z) = along(tile.z * step + z, world.depth, [&](std::int32_t row) {
+        return along(tile.x * step + x, world.width,
+                     [&](std::int32_t column) { return world.at(column, row); });
+      });
+    }
+  }
+  return field;
+}
+
+/// A tile of a world over which water runs: the whole world is made, and the tile is cut out of it.
+static Field eroded_tile(const TerrainParams& params, Rng rng, const Job& job) {
+  TerrainParams whole = params;
+  whole.tile->x = whole.tile->z = 0;
+  const auto side = static_cast<std::int32_t>(samples_across(params));
+  const std::int32_t margin = filter_reach(params);
+  const double cell = params.size / static_cast<double>(tile_step(params));
+  Field world = raw_field(whole, {-margin, -margin, side + 2 * margin, side + 2 * margin}, cell, rng, job);
+  world.margin = margin;
+  world.width = world.depth = side;
+  world.cell = cell;
+  filter(whole, world, rng, job);
+  world = cropped(std::move(world), 0, job);
+  run_water(whole, world, rng, job);
+  return cut_tile(world, *params.tile, static_cast<std::int32_t>(tile_step(params)), job);
+}
+
 Result<Field> field_of(const TerrainParams& params, Job& job) {
   const Rng rng = job.rng().at("terrain");
   if (params.algorithm == Algorithm::image) {
@@ -259,17 +308,24 @@ Result<Field> field_of(const TerrainParams& params, Job& job) {
     if (!field) return field;
     field->cell = params.size / (field->width - 1);
     filter(params, *field, rng, job);
-    return params.resample ? resampled(*field, *params.resample, job) : std::move(*field);
+    run_water(params, *field, rng, job);
+    if (!params.resample) return field;
+    Field finer = resampled(*field, *params.resample, job);
+    finer.voids = field->voids;
+    return finer;
   }
-  // A tile sees as far into its neighbours as its filters do, and one sample more for normals.
-  const std::int32_t margin =
-      params.tile ? 1 + smooth_reach(params.smooth) + (params.thermal ? params.thermal->iterations : 0) : 0;
-  Field field = raw_field(params, margin, rng, job);
+  if (params.tile && params.hydraulic) return eroded_tile(params, rng, job);
+  // The margin of a tile is the reach of its filters and one more sample for normals.
+  const std::int32_t margin = params.tile ? 1 + filter_reach(params) : 0;
+  const Window window = window_of(params, margin);
+  const double cell = params.size / static_cast<double>(window.width - 2 * margin - 1);
+  Field field = raw_field(params, window, cell, rng, job);
   field.margin = margin;
   field.width -= 2 * margin;
   field.depth -= 2 * margin;
   field.cell = params.size / (field.width - 1);
   filter(params, field, rng, job);
+  run_water(params, field, rng, job);
   if (params.tile) return cropped(std::move(field), 1, job);
   return params.resample ? resampled(field, *params.resample, job) : std::move(field);
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// What the parameters of a request mean together: defaults that depend on others, and faults that no schema
-/// can tell.
+/// Interprets the parameters of a request together: dependent defaults, and errors that the schema cannot
+/// express.
 #include <vector>
 
 #include "core/base/job.h"
@@ -18,10 +18,10 @@ struct TerrainHydraulic;
 
 namespace seedmesh::terrain {
 
-// Samples a side of the largest field.
+// Largest number of samples along a side of a field.
 constexpr int longest_side = 16'385;
 
-/// Rounds, faults or octaves that are planned, and with those that are extra.
+/// Number of planned rounds, faults or octaves, without and with extra ones.
 int planned_iterations(const TerrainParams& params);
 int all_iterations(const TerrainParams& params);
 
@@ -31,29 +31,32 @@ NestedSubdivision nested_plan(const TerrainParams& params);
 FaultPlan fault_plan(const TerrainParams& params);
 NoisePlan noise_plan(const TerrainParams& params);
 
-/// Where the samples lie that were asked for: of a tile, in its world.
-Window place_of(const TerrainParams& params);
+/// Returns the window of the requested samples; for a tile, in its world.
+Window window_of(const TerrainParams& params);
 
-/// Samples a side that the algorithm makes; of a sphere along an edge of the cube. 0 for an image.
+/// Returns the samples along a side that the algorithm generates; for a sphere, along an edge of its cube; 0
+/// for an image.
 int made_side(const TerrainParams& params);
-/// The same of the finished field, after `resample`.
+/// Returns the same for the finished field, after `resample`.
 int finished_side(const TerrainParams& params);
+/// Returns the samples along one side of the world that the tile is a part of. Requires a tile.
+std::int64_t samples_across(const TerrainParams& params);
 
-/// The heights that colours of a tile are spread over, the same for all tiles of a world.
+/// Returns the range of heights for the colours of a tile, the same for all tiles of a world.
 Range nominal_range(const TerrainParams& params);
 
 PaletteName palette_of(const TerrainParams& params);
 
-/// Every fault between parameters, pointers relative to them.
-std::vector<Issue> faults_between(const TerrainParams& params, const Limits& limits);
+/// Returns all errors that the schema cannot express, with pointers relative to the parameters.
+std::vector<Issue> errors_between(const TerrainParams& params, const Limits& limits);
 
-/// The field with all its filters; margin 1 where it is a tile, else 0. Issues: an image that cannot be read.
+/// Generates the field with all filters; margin 1 for a tile, else 0. Issues: an unreadable image.
 Result<Field> field_of(const TerrainParams& params, Job& job);
 
-/// Points along an edge of the cube of a planetoid's coarser level; level 0 has those of the request.
+/// Returns the points along an edge of the cube of a planetoid at a level; level 0 has those of the request.
 std::int32_t planet_side(const TerrainParams& params, int level);
 
-/// The planetoid at a level of detail: the same heights at fewer points.
+/// Generates the planetoid at a level of detail: the same heights at fewer points.
 Planet planet_of(const TerrainParams& params, int level, Job& job);
 
 }  // namespace seedmesh::terrain

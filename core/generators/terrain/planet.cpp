@@ -12,11 +12,11 @@ namespace seedmesh::terrain {
 namespace {
 
 constexpr std::size_t points_a_chunk = 4096;
-// Squares of a band of a face: as in surface.cpp, for a vertex cache of 16.
+// Squares of a band of a face, for a vertex cache of 16 as in surface.cpp.
 constexpr std::int32_t band = 6;
 
-/// Numbers the points of the surface of a cube of `side` points an edge: the whole layer y = 0, the rims of
-/// the layers between, the whole layer y = side - 1.
+/// Numbers the points of the surface of a cube with `side` points along an edge: first the layer y = 0, then
+/// the rims of the layers between, then the layer y = side - 1.
 class CubeNumbers {
  public:
   explicit CubeNumbers(std::int32_t side) : side_(side), last_(side - 1) {}
@@ -46,10 +46,10 @@ class CubeNumbers {
   std::int32_t side_, last_;
 };
 
-/// A face of the cube: where its corner lies and the two ways along it; the
-/// cross product of `across` and `down` points out of the cube.
+/// A face of the cube: its corner and its two directions. The cross product of `across` and `down` points out
+/// of the cube.
 struct Face {
-  glm::ivec3 corner, across, down;  ///< corner in 0 or 1 of the last point
+  glm::ivec3 corner, across, down;  ///< corner: 0 or 1 times the last point
 };
 constexpr std::size_t faces = 6;
 const std::array<Face, faces>& cube() {
@@ -64,7 +64,7 @@ const std::array<Face, faces>& cube() {
   return all;
 }
 
-/// visit(x, y, z) for every point of the surface, in the order of its number within each layer.
+/// Calls visit(x, y, z) for every point of the surface, in the order of numbers within each layer.
 template <class Visit>
 void each_point(std::int32_t side, const Visit& visit) {
   const std::int32_t last = side - 1;
@@ -100,7 +100,7 @@ void add_normals(Mesh& mesh, const Planet& planet, const Job& job) {
   }
   for (std::size_t i = 0; i < mesh.normal.size(); ++i)
     mesh.normal[i] = math::unit(mesh.normal[i], planet.direction[i]);
-  // At a cliff the mean may look behind one of its faces; the way up never does.
+  // At a cliff, the mean can face away from one of the faces; the radial direction never does.
   for (std::size_t i = 0; i < index.size(); i += 3) {
     const glm::vec3 normal = face(i);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -110,7 +110,8 @@ void add_normals(Mesh& mesh, const Planet& planet, const Job& job) {
   }
 }
 
-void add_colors(Mesh& mesh, const Planet& planet, const Looks& looks, Rng rng, const Job& job) {
+void add_colors(Mesh& mesh, const Planet& planet, const GroundColors& ground_colors, Rng rng,
+                const Job& job) {
   NoisePlan patches;
   patches.octaves = 4;
   patches.amplitude = 0.7;
@@ -125,7 +126,7 @@ void add_colors(Mesh& mesh, const Planet& planet, const Looks& looks, Rng rng, c
       site.slope = std::sqrt(1 - up * up) / up;
       site.patch =
           static_cast<float>(noise_in_space(patches, glm::dvec3(planet.direction[i]) * planet.radius, rng));
-      const glm::dvec3 color = glm::dvec3(looks.color(site)) * 255.0 + 0.5;
+      const glm::dvec3 color = glm::dvec3(ground_colors.color(site)) * 255.0 + 0.5;
       mesh.color[i] = {math::to_int32(color.x), math::to_int32(color.y), math::to_int32(color.z), 255};
     }
   });
@@ -140,7 +141,7 @@ Planet sphere_of(std::int32_t side, double radius, const Job& job) {
   planet.radius = radius;
   planet.direction = Array<glm::vec3>(job, numbers.count());
   planet.height = Array<float>(job, numbers.count(), 0.0F);
-  // Equal angles between points of a row: tangents, exact at the edges, where faces meet.
+  // Points of a row have equal angles, by tangents that are exact at the edges, where faces meet.
   std::vector<double> along(static_cast<std::size_t>(side));
   for (std::int32_t i = 0; i < side; ++i)
     along[static_cast<std::size_t>(i)] = i == 0 ? -1
@@ -149,8 +150,8 @@ Planet sphere_of(std::int32_t side, double radius, const Job& job) {
                                              : math::tan(math::pi / 4 * (2.0 * i / (side - 1) - 1));
   const auto at = [&](std::int32_t i) { return along[static_cast<std::size_t>(i)]; };
   each_point(side, [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-    const glm::dvec3 place(at(x), at(y), at(z));
-    planet.direction[numbers.at(x, y, z)] = glm::vec3(math::unit(place, glm::dvec3(0, 1, 0)));
+    const glm::dvec3 position(at(x), at(y), at(z));
+    planet.direction[numbers.at(x, y, z)] = glm::vec3(math::unit(position, glm::dvec3(0, 1, 0)));
   });
   return planet;
 }
@@ -194,14 +195,14 @@ Range range_of(const Planet& planet) {
   return {*low, *high};
 }
 
-Mesh planet_mesh(const Planet& planet, const Looks* looks, Rng rng, Job& job) {
+Mesh planet_mesh(const Planet& planet, const GroundColors* ground_colors, Rng rng, Job& job) {
   const std::int32_t last = planet.side - 1;
   const CubeNumbers numbers(planet.side);
   job.spend(Resource::triangles, 12 * static_cast<std::size_t>(last) * static_cast<std::size_t>(last));
   Mesh mesh;
   mesh.position = Array<glm::vec3>(job, planet.direction.size());
   for (std::size_t i = 0; i < planet.direction.size(); ++i) {
-    // Never through the centre: what sinks further stays a hundredth of the radius.
+    // The distance from the centre stays at least a hundredth of the radius.
     const double radius =
         std::max(planet.radius + static_cast<double>(planet.height[i]), planet.radius / 100);
     mesh.position[i] = glm::vec3(glm::dvec3(planet.direction[i]) * radius);
@@ -226,7 +227,7 @@ Mesh planet_mesh(const Planet& planet, const Looks* looks, Rng rng, Job& job) {
   }
   mesh.cache_ordered = true;
   add_normals(mesh, planet, job);
-  if (looks) add_colors(mesh, planet, *looks, rng.at("patches"), job);
+  if (ground_colors) add_colors(mesh, planet, *ground_colors, rng.at("patches"), job);
   return mesh;
 }
 

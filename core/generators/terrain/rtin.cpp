@@ -16,10 +16,10 @@ namespace seedmesh::terrain {
 namespace {
 
 constexpr std::size_t triangles_a_chunk = 4096;
-constexpr int depth_of_parts = 7;  // of the hierarchy; its subtrees there are shared out
-/// How far a sample that comes with a halving of this level inside a triangle can be off the triangle, in
-/// errors of its middle. It is off the line between two earlier samples by one error at most: the apex of
-/// the level before last, and an end of a long side that is older still.
+constexpr int depth_of_parts = 7;  // level of the hierarchy whose subtrees are distributed over threads
+/// For each level, the greatest error of a sample inside a triangle, in multiples of the error of its midpoint.
+/// The sample differs from the line between two earlier samples by at most one error: the apex of the level
+/// before last, and an end of an older long side.
 constexpr std::size_t most_levels = 32;
 constexpr std::array<float, most_levels> farthest_by_level() {
   std::array<float, most_levels> all{};
@@ -30,11 +30,11 @@ constexpr std::array<float, most_levels> farthest_by_level() {
 constexpr std::array<float, most_levels> farthest = farthest_by_level();
 static_assert(farthest[1] == farthest[2]);
 
-/// Which triangles are left whole, so that no sample is off by more than the bound: what is off is put into
-/// the mesh, and the triangles that come of it are looked at anew.
-class Settling {
+/// Decides which triangles stay whole, so that no sample exceeds the bound. Samples that exceed it are added to
+/// the mesh, and the new triangles are tested again.
+class Refinement {
  public:
-  Settling(const Field& field, RtinErrors& errors, double max_error, Job& job)
+  Refinement(const Field& field, RtinErrors& errors, double max_error, Job& job)
       : field_(field),
         errors_(errors),
         max_error_(max_error),
@@ -47,34 +47,34 @@ class Settling {
   }
 
   void run(std::span<const Half> parts) {
-    look_at_all(parts);
+    test_all(parts);
     for (;;) {
       fresh_.clear();
-      for (const std::vector<Place>& places : off_) {
-        for (const Place at : places)
-          errors_.need(at, threshold_, fresh_);  // a corner: off by rounding alone
+      for (const std::vector<GridPoint>& positions : off_) {
+        for (const GridPoint at : positions)
+          errors_.need(at, threshold_, fresh_);  // a corner has only rounding errors
       }
       if (fresh_.empty()) return;
-      look_at_fresh();
+      test_fresh();
     }
   }
 
  private:
   static constexpr std::size_t rows_a_chunk = 16, fresh_a_chunk = 1024;
 
-  /// How far the rounding of heights and errors may carry an error, generously.
+  /// Returns an upper bound of the rounding errors of heights and errors.
   static float rounding_of(const Range& range, float threshold) {
     return (std::max(std::abs(range.low), std::abs(range.high)) * 2 + threshold) * 0x1p-21F;
   }
 
-  /// Where the bound on what lies inside a triangle is small enough nobody has to look.
+  /// A triangle need not be searched where the bound on the errors inside it is small enough.
   bool doubtful(int level, float error) const {
     return level > 0 && farthest[static_cast<std::size_t>(level)] * (error + rounding_) >= threshold_;
   }
 
-  /// Looks where a middle that is not in the mesh is doubtful: the triangles that it would halve are there if
-  /// their apexes are. Walking down to them would take longer than a look at all samples.
-  void look_at_all(std::span<const Half> parts) {
+  /// Tests the triangles around each doubtful midpoint that is not in the mesh. These triangles exist where
+  /// their apexes are in the mesh. A pass over all samples is faster than a walk down the hierarchy.
+  void test_all(std::span<const Half> parts) {
     const auto side = static_cast<std::size_t>(field_.width);
     std::vector<std::size_t> counts(parts.size());
     off_.assign(chunk_count(side, rows_a_chunk), {});
@@ -85,74 +85,74 @@ class Settling {
         return;
       }
       const std::size_t end = std::min(side, (i + 1) * rows_a_chunk);
-      for (std::size_t z = i * rows_a_chunk; z < end; ++z) look_at_row(static_cast<std::int32_t>(z), off_[i]);
+      for (std::size_t z = i * rows_a_chunk; z < end; ++z) test_row(static_cast<std::int32_t>(z), off_[i]);
     });
     meter_.spend(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
   }
 
-  void look_at_row(std::int32_t z, std::vector<Place>& off) const {
+  void test_row(std::int32_t z, std::vector<GridPoint>& off) const {
     const float* row = errors_.row(z);
     const auto is_close = [&](float error, int level) {
       return (error >= least_[static_cast<std::size_t>(level)]) & (error <= threshold_);
     };
     for (std::int32_t x = 0; z % 2 == 0 && x < field_.width; x += 2) {
       const int level = errors_.level({x, z});
-      if (is_close(row[x], level)) look_around({x, z}, level, off);
+      if (is_close(row[x], level)) test_around({x, z}, level, off);
     }
-    // Of the lowest levels hardly any is close. Their bound is the same.
+    // Samples of the lowest levels are rarely close to the bound. Their bounds are equal.
     std::int32_t any = 0;
     for (std::int32_t x = 0; x < field_.width; ++x) any |= is_close(row[x], 1) ? 1 : 0;
     for (std::int32_t x = z % 2 == 0 ? 1 : 0; any != 0 && x < field_.width; x += z % 2 == 0 ? 2 : 1) {
-      if (is_close(row[x], 1)) look_around({x, z}, errors_.level({x, z}), off);
+      if (is_close(row[x], 1)) test_around({x, z}, errors_.level({x, z}), off);
     }
   }
 
-  /// The triangles that a sample would halve.
-  void look_around(Place middle, int level, std::vector<Place>& off) const {
+  /// Tests the triangles that a sample would split.
+  void test_around(GridPoint middle, int level, std::vector<GridPoint>& off) const {
     if (!doubtful(level, errors_.at(middle))) return;
-    errors_.each_apex(middle, [&](Place apex) {
-      if (errors_.at(apex) > threshold_ || errors_.is_corner(apex)) look(halved(middle, apex, level), off);
+    errors_.each_apex(middle, [&](GridPoint apex) {
+      if (errors_.at(apex) > threshold_ || errors_.is_corner(apex)) test(halved(middle, apex, level), off);
     });
   }
 
-  /// The triangles that samples new in the mesh have halved.
-  void look_at_fresh() {
+  /// Tests the triangles that the new samples have split.
+  void test_fresh() {
     off_.assign(chunk_count(fresh_.size(), fresh_a_chunk), {});
     std::vector<std::size_t> counts(off_.size());
     parallel_for(job_, fresh_.size(), fresh_a_chunk,
                  [&](std::size_t begin, std::size_t end, std::size_t chunk) {
                    job_.check();
                    for (std::size_t i = begin; i < end; ++i) {
-                     errors_.each_apex(fresh_[i], [&](Place apex) {
+                     errors_.each_apex(fresh_[i], [&](GridPoint apex) {
                        ++counts[chunk];
-                       look_at_halves(fresh_[i], apex, off_[chunk]);
+                       test_halves(fresh_[i], apex, off_[chunk]);
                      });
                    }
                  });
     meter_.spend(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
   }
 
-  /// The triangle with this apex that `middle` halves.
-  static HalfPlaces halved(Place middle, Place apex, int level) {
+  /// Returns the triangle with this apex that `middle` splits.
+  static HalfCorners halved(GridPoint middle, GridPoint apex, int level) {
     const std::int32_t x = apex.x - middle.x, z = apex.z - middle.z;
     return {{middle.x + z, middle.z - x}, {middle.x - z, middle.z + x}, apex, level};
   }
 
-  void look_at_halves(Place middle, Place apex, std::vector<Place>& off) const {
-    const HalfPlaces whole = halved(middle, apex, errors_.level(middle));
-    for (const HalfPlaces& half : {HalfPlaces{apex, whole.a, middle, whole.level - 1},
-                                   HalfPlaces{whole.b, apex, middle, whole.level - 1}}) {
+  void test_halves(GridPoint middle, GridPoint apex, std::vector<GridPoint>& off) const {
+    const HalfCorners whole = halved(middle, apex, errors_.level(middle));
+    for (const HalfCorners& half : {HalfCorners{apex, whole.a, middle, whole.level - 1},
+                                    HalfCorners{whole.b, apex, middle, whole.level - 1}}) {
       if (half.level == 0) continue;
       const float error = errors_.at({(half.a.x + half.b.x) / 2, (half.a.z + half.b.z) / 2});
-      if (!(error > threshold_) && doubtful(half.level, error)) look(half, off);
+      if (!(error > threshold_) && doubtful(half.level, error)) test(half, off);
     }
   }
 
-  void look(const HalfPlaces& half, std::vector<Place>& off) const {
-    const auto height = [&](Place at) { return static_cast<double>(field_.at(at.x, at.z)); };
+  void test(const HalfCorners& half, std::vector<GridPoint>& off) const {
+    const auto height = [&](GridPoint at) { return static_cast<double>(field_.at(at.x, at.z)); };
     const double ha = height(half.a), hb = height(half.b);
-    if (half.level == 1) {  // one sample that is no corner
-      const Place middle{(half.a.x + half.b.x) / 2, (half.a.z + half.b.z) / 2};
+    if (half.level == 1) {  // one sample that is not a corner
+      const GridPoint middle{(half.a.x + half.b.x) / 2, (half.a.z + half.b.z) / 2};
       if (std::abs((ha + hb) / 2 - height(middle)) > max_error_) off.push_back(middle);
       return;
     }
@@ -172,11 +172,11 @@ class Settling {
   RtinErrors& errors_;
   double max_error_;
   float threshold_, rounding_;
-  std::array<float, most_levels> least_;  ///< errors that may be doubtful, by level; rounded downward
+  std::array<float, most_levels> least_;  ///< least doubtful error of each level; rounded downward
   Job& job_;
   Meter meter_;
-  std::vector<std::vector<Place>> off_;  ///< by part or chunk
-  std::vector<Place> fresh_;             ///< new in the mesh since the last look
+  std::vector<std::vector<GridPoint>> off_;  ///< of each part or chunk
+  std::vector<GridPoint> fresh_;             ///< added to the mesh since the last test
 };
 
 }  // namespace
@@ -190,14 +190,14 @@ Triangulation rtin(const Field& field, double max_error, Border border, Job& job
   const auto threshold = static_cast<float>(max_error);
   if (border == Border::whole) {
     const std::int32_t last = field.width - 1;
-    std::vector<Place> all;
+    std::vector<GridPoint> all;
     for (std::int32_t i = 0; i <= last; ++i) {
-      for (const Place at : {Place{i, 0}, Place{i, last}, Place{0, i}, Place{last, i}})
+      for (const GridPoint at : {GridPoint{i, 0}, GridPoint{i, last}, GridPoint{0, i}, GridPoint{last, i}})
         errors.need(at, threshold, all);
     }
   }
   const std::vector<Half> parts = parts_of(errors, threshold, depth_of_parts);
-  Settling(field, errors, max_error, job).run(parts);
+  Refinement(field, errors, max_error, job).run(parts);
   return named(parts, errors, threshold, job);
 }
 
@@ -208,11 +208,13 @@ double measured_error(const Field& field, const Triangulation& mesh, const Job& 
                  job.check();
                  for (std::size_t t = begin; t < end; ++t) {
                    const auto corner = [&](std::size_t k) {
-                     return place_of(mesh.samples[mesh.index[3 * t + k]], field.width);
+                     return grid_point_of(mesh.samples[mesh.index[3 * t + k]], field.width);
                    };
-                   const auto height = [&](Place at) { return static_cast<double>(field.at(at.x, at.z)); };
-                   const Place a = corner(0), b = corner(1), c = corner(2);
-                   if (turn(a, b, c) <= 1) continue;  // corners alone
+                   const auto height = [&](GridPoint at) {
+                     return static_cast<double>(field.at(at.x, at.z));
+                   };
+                   const GridPoint a = corner(0), b = corner(1), c = corner(2);
+                   if (turn(a, b, c) <= 1) continue;  // no samples except the corners
                    const Plane plane = Plane::through(a, b, c, height(a), height(b), height(c));
                    each_row_inside(a, b, c, [&](std::int32_t z, std::int32_t first, std::int32_t last) {
                      const double off =

@@ -1,5 +1,5 @@
 #pragma once
-/// The errors that decide which triangles of a right-triangulated network are halved; for rtin.cpp.
+/// Errors that decide which triangles of a right-triangulated network are split; internal to rtin.cpp.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -12,19 +12,20 @@
 
 namespace seedmesh::terrain {
 
-/// Distance of rows in arrays by sample. Whole lines of the cache, and an odd number of them: rows that
-/// follow each other, as all do in small triangles, then have places of their own in it.
+/// Row stride of arrays of samples: whole cache lines, and an odd number of them, so that consecutive rows do
+/// not share cache sets.
 constexpr std::int32_t stride_of(std::int32_t side) {
   constexpr std::int32_t line = 16;
   return (side + line - 1) / line * line;
 }
 static_assert(stride_of(1025) / 16 % 2 == 1);
 
-/// For every sample how far off the mesh may be where the triangles that it halves are left whole: of the
-/// sample itself and of all below it.
+/// For every sample, the largest error of the mesh if the triangles at this sample stay whole: of the sample
+/// and all below it.
 class RtinErrors {
  public:
-  static constexpr float needed = std::numeric_limits<float>::infinity();  ///< of what every mesh has
+  /// error of samples that are in every mesh
+  static constexpr float needed = std::numeric_limits<float>::infinity();
 
   RtinErrors(const Field& field, const Job& job)
       : field_(field),
@@ -41,45 +42,47 @@ class RtinErrors {
   std::int32_t side() const { return side_; }
   std::int32_t stride() const { return stride_; }
   const float* data() const { return errors_.data(); }
-  const float* row(std::int32_t z) const { return errors_.data() + place(0, z); }
-  float at(Place sample) const { return errors_[place(sample.x, sample.z)]; }
+  const float* row(std::int32_t z) const { return errors_.data() + index_of(0, z); }
+  float at(GridPoint sample) const { return errors_[index_of(sample.x, sample.z)]; }
 
-  /// Puts a sample into every mesh, and with it all whose triangles must be halved before. What a mesh of the
-  /// bound `threshold` had is left alone: it had all that comes before, too. The others are added to `fresh`.
-  void need(Place sample, float threshold, std::vector<Place>& fresh) {
+  /// Adds a sample to the mesh, and with it all samples whose triangles must be split before. Samples that a
+  /// mesh of the bound `threshold` contains are skipped, because all their ancestors are in it too. New
+  /// samples are appended to `fresh`.
+  void need(GridPoint sample, float threshold, std::vector<GridPoint>& fresh) {
     left_.assign(1, sample);
     while (!left_.empty()) {
-      const Place at = left_.back();
+      const GridPoint at = left_.back();
       left_.pop_back();
-      float& error = errors_[place(at.x, at.z)];
+      float& error = errors_[index_of(at.x, at.z)];
       if (error > threshold) continue;
       error = needed;
       fresh.push_back(at);
-      each_apex(at, [&](Place apex) { left_.push_back(apex); });
+      each_apex(at, [&](GridPoint apex) { left_.push_back(apex); });
     }
   }
 
-  bool is_corner(Place at) const { return step_of(at) == side_ - 1; }
+  bool is_corner(GridPoint at) const { return step_of(at) == side_ - 1; }
 
-  /// How often the triangles that a sample halves can be halved; 0 of a corner of the field.
-  int level(Place at) const {
+  /// Returns how often the triangles that a sample splits can be split; 0 for a corner of the field.
+  int level(GridPoint at) const {
     const std::int32_t step = step_of(at);
     if (step == side_ - 1) return 0;
     return 2 * std::countr_zero(static_cast<std::uint32_t>(step)) + ((at.x & at.z & step) != 0 ? 2 : 1);
   }
 
-  /// The apexes of the triangles that a sample halves: they must be in the mesh before it can be. A corner of
-  /// the field, which every mesh has, halves none.
+  /// Returns the apexes of the triangles that a sample splits; they must be in the mesh before it. A corner
+  /// of the field splits none.
   template <class Visit>
-  void each_apex(Place at, const Visit& visit) const {
+  void each_apex(GridPoint at, const Visit& visit) const {
     const std::int32_t step = step_of(at);
     if (step == side_ - 1) return;
     const auto tell = [&](std::int32_t x, std::int32_t z) {
-      if (x >= 0 && z >= 0 && x < side_ && z < side_) visit(Place{x, z});
+      if (x >= 0 && z >= 0 && x < side_ && z < side_) visit(GridPoint{x, z});
     };
     const bool odd_x = (at.x & step) != 0, odd_z = (at.z & step) != 0;
     if (odd_x && odd_z) {
-      // A centre: the corners off its long side, themselves midpoints of sides of squares twice as large.
+      // For a centre: the corners that are not on the long side, which are midpoints of sides of squares of
+      // twice the size.
       const std::int32_t south = runs_south_east(at.x, at.z, step) ? -step : step;
       tell(at.x + step, at.z + south);
       tell(at.x - step, at.z - south);
@@ -93,20 +96,20 @@ class RtinErrors {
   }
 
  private:
-  /// Half the side of the squares that a sample was the middle or the middle of a side of.
-  std::int32_t step_of(Place at) const {
+  /// Returns half the side of the squares of which a sample is the centre or the midpoint of a side.
+  std::int32_t step_of(GridPoint at) const {
     const std::int32_t bits = at.x | at.z | (side_ - 1);
     return bits & -bits;
   }
 
-  std::size_t place(std::int32_t x, std::int32_t z) const {
+  std::size_t index_of(std::int32_t x, std::int32_t z) const {
     return static_cast<std::size_t>(z) * static_cast<std::size_t>(stride_) + static_cast<std::size_t>(x);
   }
 
   static constexpr std::size_t rows_a_chunk = 64, shared_out = 512;
 
-  /// Rows of a pass over the samples (first + i * step), in parallel where there are many: each level has a
-  /// quarter of the work of that below, and waiting for each other takes time too.
+  /// Runs over the rows of samples (first + i * step), in parallel for long passes only: each level has a
+  /// quarter of the work of the level below, and synchronisation costs time.
   template <class Body>
   void each_step(const Job& job, std::int32_t first, std::int32_t last, std::int32_t step, const Body& body) {
     if (last < first) return;
@@ -119,22 +122,23 @@ class RtinErrors {
                  });
   }
 
-  /// Midpoints of the sides of squares of 2 * step: below them are the centres of squares of `step`.
+  /// Processes the midpoints of the sides of squares of 2 * step. Below them are the centres of squares of
+  /// `step`.
   void sides(std::int32_t step) {
     each_step(job_, 0, side_ - 1, step, [&](std::int32_t z) {
       const bool along = z / step % 2 == 0;  // a side from west to east
       const std::int32_t half = step / 2;
-      float* row = errors_.data() + place(0, z);
+      float* row = errors_.data() + index_of(0, z);
       const float* here = field_.row(z);
       const auto worst = [&](std::int32_t x, float own) {
         if (half == 0) return own;
         if (z > 0) {
-          const float* above = errors_.data() + place(0, z - half);
+          const float* above = errors_.data() + index_of(0, z - half);
           if (x > 0) own = std::max(own, above[x - half]);
           if (x < side_ - 1) own = std::max(own, above[x + half]);
         }
         if (z < side_ - 1) {
-          const float* below = errors_.data() + place(0, z + half);
+          const float* below = errors_.data() + index_of(0, z + half);
           if (x > 0) own = std::max(own, below[x - half]);
           if (x < side_ - 1) own = std::max(own, below[x + half]);
         }
@@ -152,16 +156,16 @@ class RtinErrors {
     });
   }
 
-  /// Is the long side of the square around (x, z) that from north-west to south-east?
+  /// Returns true where the long side of the square around (x, z) runs from north-west to south-east.
   static bool runs_south_east(std::int32_t x, std::int32_t z, std::int32_t step) {
     return (x / step / 2 + z / step / 2) % 2 == 0;
   }
 
   void centres(std::int32_t step) {
     each_step(job_, step, side_ - 1, 2 * step, [&](std::int32_t z) {
-      float* row = errors_.data() + place(0, z);
-      const float* above = errors_.data() + place(0, z - step);
-      const float* below = errors_.data() + place(0, z + step);
+      float* row = errors_.data() + index_of(0, z);
+      const float* above = errors_.data() + index_of(0, z - step);
+      const float* below = errors_.data() + index_of(0, z + step);
       const float* north = field_.row(z - step);
       const float* here = field_.row(z);
       const float* south = field_.row(z + step);
@@ -179,7 +183,7 @@ class RtinErrors {
   const Job& job_;
   std::int32_t side_, stride_;
   Array<float> errors_;
-  std::vector<Place> left_;  ///< of need(), kept for the next
+  std::vector<GridPoint> left_;  ///< buffer of need()
 };
 
 }  // namespace seedmesh::terrain

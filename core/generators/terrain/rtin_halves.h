@@ -1,6 +1,6 @@
 #pragma once
-/// The hierarchy of right triangles of a square field: two of them, and each halved from its right angle to
-/// the middle of its long side, again and again.
+/// The hierarchy of right triangles of a square field: two triangles, each split recursively from its right
+/// angle to the midpoint of its long side.
 #include <algorithm>
 #include <cstdint>
 #include <vector>
@@ -9,19 +9,19 @@
 
 namespace seedmesh::terrain {
 
-/// A triangle by the numbers x + z * stride of its samples (stride_of in rtin_errors.h): its long side is a-b
-/// and its right angle at c, clockwise seen from above, as both its halves then are.
+/// A triangle by the sample numbers x + z * stride (stride_of in rtin_errors.h). Its long side is a-b and its
+/// right angle is at c. It runs clockwise as seen from above, and so do both its halves.
 struct Half {
   std::uint32_t a = 0, b = 0, c = 0;
-  int level = 0;  ///< how often it can be halved; the area is half a cell twice as often
+  int level = 0;  ///< how often it can be split; each level doubles the area, from half a cell
 
-  /// Both coordinates of two ends have an even sum, so that the half is that of the place between.
+  /// The coordinates of the two ends have even sums, so the mean number is that of the midpoint.
   std::uint32_t middle() const { return (a + b) / 2; }
   Half first() const { return {c, a, middle(), level - 1}; }
   Half second() const { return {b, c, middle(), level - 1}; }
 };
 
-/// The triangles `depth` halvings below the two of the field, or those above that are left whole.
+/// Returns the triangles `depth` splits below the two of the field, or their ancestors that stay whole.
 inline std::vector<Half> parts_of(const RtinErrors& all, float threshold, int depth) {
   const float* errors = all.data();
   int level = 0;
@@ -44,29 +44,30 @@ inline std::vector<Half> parts_of(const RtinErrors& all, float threshold, int de
   return parts;
 }
 
-/// The corners of such a triangle as places of the field.
-struct HalfPlaces {
-  Place a, b, c;
+/// Returns the corners of such a triangle as positions of the field.
+struct HalfCorners {
+  GridPoint a, b, c;
   int level = 0;
 };
 
-inline HalfPlaces places_of(const Half& half, std::int32_t stride) {
-  return {place_of(half.a, stride), place_of(half.b, stride), place_of(half.c, stride), half.level};
+inline HalfCorners places_of(const Half& half, std::int32_t stride) {
+  return {grid_point_of(half.a, stride), grid_point_of(half.b, stride), grid_point_of(half.c, stride),
+          half.level};
 }
 
-/// visit(z, first x, last x) for each row of the triangle, its edges included.
+/// Calls visit(z, first x, last x) for each row of the triangle, including its edges.
 template <class Visit>
-void each_row_inside(const HalfPlaces& half, const Visit& visit) {
-  const Place a = half.a, b = half.b, c = half.c;
+void each_row_inside(const HalfCorners& half, const Visit& visit) {
+  const GridPoint a = half.a, b = half.b, c = half.c;
   const auto row = [&](std::int32_t z, std::int32_t x, std::int32_t other) {
     visit(z, std::min(x, other), std::max(x, other));
   };
-  if (half.level % 2 == 0) {  // the right angle between a row and a column
-    const Place beside = a.z == c.z ? a : b, off = a.z == c.z ? b : a;
+  if (half.level % 2 == 0) {  // the legs lie along a row and a column
+    const GridPoint beside = a.z == c.z ? a : b, off = a.z == c.z ? b : a;
     const std::int32_t count = std::abs(off.z - c.z), down = off.z > c.z ? 1 : -1,
                        inward = beside.x > c.x ? -1 : 1;
     for (std::int32_t i = 0; i <= count; ++i) row(c.z + down * i, c.x, beside.x + inward * i);
-  } else if (a.z == b.z) {  // the long side in a row
+  } else if (a.z == b.z) {  // the long side lies along a row
     const std::int32_t count = std::abs(c.z - a.z), down = c.z > a.z ? 1 : -1;
     for (std::int32_t i = 0; i <= count; ++i) row(a.z + down * i, c.x - (count - i), c.x + (count - i));
   } else {
@@ -75,14 +76,14 @@ void each_row_inside(const HalfPlaces& half, const Visit& visit) {
   }
 }
 
-/// How many triangles of the bound `threshold` are left whole within `root`, without a walk down to them:
-/// each sample of the mesh inside has halved two, one on an edge one.
+/// Returns the number of triangles within `root` in the mesh of the bound `threshold`, without a recursion:
+/// each sample of the mesh inside splits two triangles, a sample on an edge one.
 std::size_t count_whole(const RtinErrors& errors, float threshold, const Half& root);
 
-/// The plane through its corners. The doubled area is a power of two: what is multiplied here is exact.
-inline Plane plane_of(const HalfPlaces& half, double ha, double hb, double hc) {
+/// Returns the plane through the corners. Twice the area is a power of two, so the products here are exact.
+inline Plane plane_of(const HalfCorners& half, double ha, double hb, double hc) {
   const double share = 1.0 / static_cast<double>(std::int64_t{1} << half.level);
-  const Place a = half.a, b = half.b, c = half.c;
+  const GridPoint a = half.a, b = half.b, c = half.c;
   const double bx = b.x - a.x, bz = b.z - a.z, cx = c.x - a.x, cz = c.z - a.z;
   Plane plane;
   plane.east = ((hc - ha) * bz - (hb - ha) * cz) * share;

@@ -9,24 +9,24 @@ namespace {
 
 constexpr std::uint32_t unnamed = 0xFFFFFFFFU;
 
-/// visit(sample) from one end of an edge up to the other, which is left out.
+/// Calls visit(sample) from one end of an edge to the other end, which is not visited.
 template <class Visit>
 void each_sample(std::uint32_t from, std::uint32_t to, std::int32_t stride, const Visit& visit) {
-  const Place start = place_of(from, stride), end = place_of(to, stride);
+  const GridPoint start = grid_point_of(from, stride), end = grid_point_of(to, stride);
   const std::int32_t count = std::max(std::abs(end.x - start.x), std::abs(end.z - start.z));
   const std::int64_t step = (std::int64_t{to} - from) / count;
   std::int64_t sample = from;
   for (std::int32_t i = 0; i < count; ++i, sample += step) visit(static_cast<std::uint32_t>(sample));
 }
 
-constexpr std::uint32_t is_shared = 0x80000000U;  // of a name: the rest is a place among the shared
+constexpr std::uint32_t is_shared = 0x80000000U;  // bit of a name: the rest is an index of the shared samples
 
-/// A sample on the border of parts: the part that names it, and its name there.
+/// A sample on the border of parts: the part that numbers it, and its number there.
 struct Shared {
   std::uint32_t part, name;
 };
 
-/// A sample on the way down the hierarchy, which triangles around remember the name of.
+/// A sample on the path down the hierarchy. The triangles around it share its number.
 struct Corner {
   std::uint32_t sample, name = unnamed;
 };
@@ -37,8 +37,8 @@ struct PartWriter {
   const float* errors;
   float threshold;
   std::uint32_t part;
-  std::uint32_t* out;   ///< the next triangle
-  std::uint32_t* used;  ///< the samples named here
+  std::uint32_t* out;   ///< end of the triangles written so far
+  std::uint32_t* used;  ///< the samples that this part numbers
   std::uint32_t count = 0;
 
   void write(Corner& a, Corner& b, Corner& c, int level) {
@@ -67,10 +67,10 @@ struct PartWriter {
     std::uint32_t& known = names[sample];
     if ((known & is_shared) == 0) return known;
     if (known == unnamed) return known = add(sample);
-    Shared& place = shared[known & ~is_shared];
-    if (place.part != part) return known;
-    if (place.name == unnamed) place.name = add(sample);
-    return place.name;
+    Shared& position = shared[known & ~is_shared];
+    if (position.part != part) return known;
+    if (position.name == unnamed) position.name = add(sample);
+    return position.name;
   }
 
   std::uint32_t add(std::uint32_t sample) {
@@ -79,8 +79,8 @@ struct PartWriter {
   }
 };
 
-/// Every part names its samples from 0 on; what other parts named before is added when all are done. A sample
-/// on the border of parts belongs to the first of them, which uses it if any does.
+/// Every part numbers its samples from 0. The counts of the parts before are added at the end. A sample on the
+/// border of parts belongs to the first of them, which uses it if any of them does.
 class Naming {
  public:
   Naming(std::span<const Half> parts, const RtinErrors& errors, float threshold, const Job& job)
@@ -143,10 +143,10 @@ class Naming {
     });
   }
 
-  /// A polygon of n triangles has n + 2 corners at most.
+  /// Returns the samples of a part. A polygon of n triangles has at most n + 2 corners.
   std::uint32_t* used(std::size_t part) { return used_.data() + first_[part] + 2 * part; }
 
-  /// Writes the part's own names, and of samples of others where their names will be found.
+  /// Writes the part's own numbers, and the indices of shared samples.
   void write(std::size_t part, std::uint32_t* out) {
     PartWriter writer{
         names_.data(), shared_.data(), errors_.data(), threshold_, static_cast<std::uint32_t>(part),
@@ -180,11 +180,11 @@ class Naming {
   const RtinErrors& errors_;
   float threshold_;
   const Job& job_;
-  Array<std::uint32_t> names_;  ///< by sample
+  Array<std::uint32_t> names_;  ///< of each sample
   Array<Shared> shared_;
   std::vector<std::size_t> first_;  ///< triangle of each part
   std::vector<Own> own_;            ///< samples of each part
-  Array<std::uint32_t> used_;       ///< samples of all parts, each with room for as many as it may have
+  Array<std::uint32_t> used_;       ///< samples of all parts, with capacity for the maximum of each
 };
 
 }  // namespace
@@ -203,7 +203,7 @@ std::size_t count_whole(const RtinErrors& errors, float threshold, const Half& r
   each_sample(root.a, root.b, stride, count_edge);
   each_sample(root.b, root.c, stride, count_edge);
   each_sample(root.c, root.a, stride, count_edge);
-  // A corner was counted both inside and on an edge; what it halved lies outside.
+  // A corner was counted both inside and on an edge. The triangles that it split are outside.
   return 1 + 2 * all - edges - in_mesh(root.a) - in_mesh(root.b) - in_mesh(root.c);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The mesh of the right triangles that are left whole; for rtin.cpp.
+/// Builds the mesh of the triangles that stay whole; internal to rtin.cpp.
 #include <span>
 
 #include "core/generators/terrain/rtin_halves.h"
@@ -7,9 +7,9 @@
 
 namespace seedmesh::terrain {
 
-/// Names the samples by their first use, in the order of the hierarchy. `parts` are all of the field, in
-/// order; `errors` are those that a mesh of the bound `threshold` was settled with, so that no
-/// sample is a corner on one side of an edge alone. Runs on job.threads().
+/// Numbers the samples by their first use, in the order of the hierarchy. `parts` are all parts of the field,
+/// in order. `errors` belong to a conforming mesh of the bound `threshold`: no sample is a corner on one side
+/// of an edge only. Runs on job.threads().
 Triangulation named(std::span<const Half> parts, const RtinErrors& errors, float threshold, const Job& job);
 
 }  // namespace seedmesh::terrain

@@ -1,5 +1,6 @@
 #pragma once
-/// The samples inside a triangle, edges included, row by row, by whole numbers only: no sample is missed.
+/// Scans the samples inside a triangle, including edges, row by row with integers only, so that no sample is
+/// missed.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -8,25 +9,26 @@
 
 namespace seedmesh::terrain {
 
-struct Place {
+struct GridPoint {
   std::int32_t x = 0, z = 0;
-  friend bool operator==(const Place&, const Place&) = default;
+  friend bool operator==(const GridPoint&, const GridPoint&) = default;
 };
 
-inline Place place_of(std::uint32_t sample, std::int32_t width) {
+inline GridPoint grid_point_of(std::uint32_t sample, std::int32_t width) {
   const auto wide = static_cast<std::uint32_t>(width);
   return {static_cast<std::int32_t>(sample % wide), static_cast<std::int32_t>(sample / wide)};
 }
 
-/// Twice the area of a triangle; positive where it runs counter-clockwise seen from above (x east, z south).
-inline std::int64_t turn(Place a, Place b, Place c) {
+/// Returns twice the area of a triangle, positive for counter-clockwise order as seen from above (x east, z
+/// south).
+inline std::int64_t turn(GridPoint a, GridPoint b, GridPoint c) {
   return std::int64_t{b.z - a.z} * (c.x - a.x) - std::int64_t{b.x - a.x} * (c.z - a.z);
 }
 
-/// A height for every place, from three: that of the plane through them.
+/// The plane through three heights.
 struct Plane {
   double base = 0, east = 0, south = 0;
-  static Plane through(Place a, Place b, Place c, double ha, double hb, double hc) {
+  static Plane through(GridPoint a, GridPoint b, GridPoint c, double ha, double hb, double hc) {
     const double area = static_cast<double>(turn(a, b, c));
     const double bx = b.x - a.x, bz = b.z - a.z, cx = c.x - a.x, cz = c.z - a.z;
     Plane plane;
@@ -37,19 +39,19 @@ struct Plane {
   }
 };
 
-/// The greatest distance of samples first .. last of a row from the line start + east * x. Four side by side,
-/// as a vector unit wants them.
+/// Returns the largest vertical distance of samples first .. last of a row from the line start + east * x.
+/// Processes four samples at once for vector units.
 inline double worst_of_row(const float* row, double start, double east, std::int32_t first,
                            std::int32_t last) {
   constexpr int lanes = 4;
-  double most[lanes] = {}, place[lanes];
-  for (int k = 0; k < lanes; ++k) place[k] = first + k;
+  double most[lanes] = {}, position[lanes];
+  for (int k = 0; k < lanes; ++k) position[k] = first + k;
   std::int32_t x = first;
   for (; x + lanes - 1 <= last; x += lanes) {
     for (int k = 0; k < lanes; ++k) {
-      const double off = std::abs(static_cast<double>(row[x + k]) - (start + east * place[k]));
+      const double off = std::abs(static_cast<double>(row[x + k]) - (start + east * position[k]));
       most[k] = off > most[k] ? off : most[k];
-      place[k] += lanes;
+      position[k] += lanes;
     }
   }
   for (; x <= last; ++x)
@@ -57,14 +59,15 @@ inline double worst_of_row(const float* row, double start, double east, std::int
   return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
 }
 
-/// Walks down an edge: the sample right of it (rounded up) and left of it (rounded down) in each row.
+/// Walks down an edge and returns, for each row, the sample to the right of it (rounded up) or to the left
+/// (rounded down).
 class EdgeWalk {
  public:
-  EdgeWalk(Place top, Place bottom) : x_(top.x), height_(bottom.z - top.z) {
+  EdgeWalk(GridPoint top, GridPoint bottom) : x_(top.x), height_(bottom.z - top.z) {
     if (height_ == 0) return;
     const std::int32_t dx = bottom.x - top.x;
     if (dx == 0) return;
-    if (dx == height_ || dx == -height_) {  // those of right triangles, without a division
+    if (dx == height_ || dx == -height_) {  // diagonals of right triangles need no division
       whole_ = dx > 0 ? 1 : -1;
       return;
     }
@@ -90,15 +93,15 @@ class EdgeWalk {
   std::int32_t x_, height_, whole_ = 0, rest_ = 0, carried_ = 0;
 };
 
-/// visit(z, first x, last x) for each row of the triangle, whose corners come in any order.
+/// Calls visit(z, first x, last x) for each row of the triangle, whose corners come in any order.
 template <class Visit>
-void each_row_inside(Place a, Place b, Place c, const Visit& visit) {
+void each_row_inside(GridPoint a, GridPoint b, GridPoint c, const Visit& visit) {
   if (b.z < a.z) std::swap(a, b);
   if (c.z < a.z) std::swap(a, c);
   if (c.z < b.z) std::swap(b, c);
   if (a.z == c.z) return;  // no area
   EdgeWalk longest(a, c);
-  // Where the middle corner lies decides which edge is on which side.
+  // The side of the middle corner decides which edge bounds which side.
   const bool middle_is_east = std::int64_t{b.x - a.x} * (c.z - a.z) > std::int64_t{c.x - a.x} * (b.z - a.z);
   std::int32_t z = a.z;
   const auto half = [&](EdgeWalk side, std::int32_t end) {

@@ -8,7 +8,7 @@
 namespace seedmesh::terrain {
 namespace {
 
-// Old rows that one chunk refines.
+// Number of old rows that one chunk refines.
 constexpr std::size_t rows_a_chunk = 32;
 
 constexpr std::int64_t floor_div(std::int64_t a, std::int64_t b) {
@@ -16,7 +16,7 @@ constexpr std::int64_t floor_div(std::int64_t a, std::int64_t b) {
 }
 constexpr std::int64_t floor_mod(std::int64_t a, std::int64_t b) { return a - b * floor_div(a, b); }
 
-/// Heights of one level, with the place of the first in the world of that level.
+/// Heights of one level, and the position of the first one in the world of that level.
 struct Level {
   std::int64_t x = 0, z = 0;
   std::int64_t width = 0, depth = 0;
@@ -28,7 +28,7 @@ struct Level {
   const float* row(std::int64_t index) const { return heights.data() + index * width; }
 };
 
-/// Three deviations for each square of a level: its centre, its northern and its western side.
+/// Three deviations for each square of a level: of its centre, its northern side and its western side.
 class Deviations {
  public:
   Deviations(Rng rng, int level, double amplitude)
@@ -51,7 +51,7 @@ class Deviations {
   float scale_;
 };
 
-/// One round: every square of `old` becomes four of `next`.
+/// One round, in which every square of `old` becomes four squares of `next`.
 class Round {
  public:
   Round(const SquareSubdivision& plan, World world, int level, const Level& old, Level& next, Rng rng)
@@ -62,12 +62,13 @@ class Round {
         bounded_(world == World::bounded),
         deviations_(rng, level, deviation(plan, level)) {}
 
-  /// Rows [begin, end) of old samples, and the rows of centres below them.
+  /// Refines rows [begin, end) of old samples and the rows of centres below them.
   void run(std::size_t begin, std::size_t end) const {
     std::vector<float> above(static_cast<std::size_t>(old_.width)),
         below(static_cast<std::size_t>(old_.width));
     const auto first = static_cast<std::int64_t>(begin), last = static_cast<std::int64_t>(end);
-    centres(first > 0 ? first - 1 : old_.depth - 2, above);  // of the row before; around a world that wraps
+    centres(first > 0 ? first - 1 : old_.depth - 2,
+            above);  // centres of the row before; a world that wraps continues at its other end
     for (std::int64_t z = first; z < last; ++z) {
       centres(z < old_.depth - 1 ? z : 0, below);
       even_row(z, above, below);
@@ -85,10 +86,10 @@ class Round {
     return size;
   }
 
-  bool is_border(std::int64_t place) const { return floor_mod(place, side_) == 0; }
-  /// The square that a side belongs to; a world that repeats has the same chance on both of its borders.
-  std::int64_t owner(std::int64_t place) const {
-    return bounded_ && plan_.border == BorderRule::wrap && place == side_ ? 0 : place;
+  bool is_border(std::int64_t position) const { return floor_mod(position, side_) == 0; }
+  /// Returns the square that a side belongs to. Both borders of a world that wraps have the same random number.
+  std::int64_t owner(std::int64_t position) const {
+    return bounded_ && plan_.border == BorderRule::wrap && position == side_ ? 0 : position;
   }
 
   void centres(std::int64_t z, std::vector<float>& out) const {
@@ -106,13 +107,12 @@ class Round {
     }
   }
 
-  /// A side from its ends and the centres on both sides of it.
+  /// Returns the height of a side from its ends and the centres on both sides of it.
   float side(float a, float b, float before, float after) const {
     if (plan_.rule == SquareRule::diamond_square) return ((a + b) + (before + after)) * 0.25F;
     return plan_.rule == SquareRule::triangle_random ? 0.0F : (a + b) * 0.5F;
   }
-  /// The same on a border, where `inner` is the one centre that there is and `far` that of the opposite
-  /// border.
+  /// Returns the same on a border. `inner` is the only centre, and `far` is that of the opposite border.
   float border_side(float a, float b, float inner, float far) const {
     if (plan_.rule != SquareRule::diamond_square) return side(a, b, inner, far);
     switch (plan_.border) {
@@ -128,7 +128,7 @@ class Round {
     return (a + b) * 0.5F;
   }
 
-  /// Old samples and the sides between them. `above` and `below` are the centres of the squares there.
+  /// Writes old samples and the sides between them. `above` and `below` are centres of the squares there.
   void even_row(std::int64_t z, const std::vector<float>& above, const std::vector<float>& below) const {
     const float* old = old_.row(z);
     float* out = next_.row(2 * z);
@@ -147,7 +147,7 @@ class Round {
     out[2 * (old_.width - 1)] = old[old_.width - 1];
   }
 
-  /// Centres and the sides between them.
+  /// Writes centres and the sides between them.
   void odd_row(std::int64_t z, const std::vector<float>& centre) const {
     const float* north = old_.row(z);
     const float* south = old_.row(z + 1);
@@ -181,10 +181,10 @@ class Round {
   Deviations deviations_;
 };
 
-/// A height within the amplitude, at a place of the coarsest grid.
+/// Returns a height within the amplitude, at a position of the coarsest grid.
 float drawn(Rng rng, std::int64_t x, std::int64_t z, double amplitude) {
-  Rng place = rng.at("start").at(static_cast<std::uint64_t>(z)).at(static_cast<std::uint64_t>(x));
-  return static_cast<float>(place.uniform(-amplitude, amplitude));
+  Rng stream = rng.at("start").at(static_cast<std::uint64_t>(z)).at(static_cast<std::uint64_t>(x));
+  return static_cast<float>(stream.uniform(-amplitude, amplitude));
 }
 
 Level cut(const Level& level, std::int64_t x0, std::int64_t z0, std::int64_t x1, std::int64_t z1,
@@ -209,13 +209,13 @@ Field as_field(Level level) {
 
 Field subdivide(const SquareSubdivision& plan, World world, const Window& window, Rng rng, const Job& job) {
   const bool bounded = world == World::bounded;
-  // Coarser samples that lie around the window at a level: outermost sides lack a neighbour and are cut off.
+  // Number of coarser samples around the window at a level. The outermost sides lack a neighbour and are cut.
   const std::int64_t around = bounded ? 0 : 2;
-  const auto first = [&](std::int64_t place, int level) {
-    return floor_div(place, std::int64_t{1} << (plan.rounds - level)) - around;
+  const auto first = [&](std::int64_t position, int level) {
+    return floor_div(position, std::int64_t{1} << (plan.rounds - level)) - around;
   };
-  const auto last = [&](std::int64_t place, int level) {
-    return -floor_div(-place, std::int64_t{1} << (plan.rounds - level)) + around;
+  const auto last = [&](std::int64_t position, int level) {
+    return -floor_div(-position, std::int64_t{1} << (plan.rounds - level)) + around;
   };
   const std::int64_t x1 = window.x + window.width - 1, z1 = window.z + window.depth - 1;
   const std::int64_t left = first(window.x, 0), top = first(window.z, 0);
@@ -276,7 +276,7 @@ Field subdivide_nested(const NestedSubdivision& plan, const Window& window, Rng 
                    job.check();
                    for (auto j = static_cast<std::int64_t>(begin); j < static_cast<std::int64_t>(end); ++j) {
                      const std::int64_t z = next.z + j, square = floor_div(z, 2);
-                     // Nearer and farther row of old corners, and the chances of a row of squares.
+                     // Nearer and farther row of old corners, and the random numbers of a row of squares.
                      const float* near = level.row(square + (z & 1) - level.z);
                      const float* far = level.row(square + 1 - (z & 1) - level.z);
                      const std::uint64_t row = key_at(key, static_cast<std::uint64_t>(z));
@@ -284,7 +284,7 @@ Field subdivide_nested(const NestedSubdivision& plan, const Window& window, Rng 
                      for (std::int64_t i = 0; i < next.width; ++i) {
                        const std::int64_t x = next.x + i, at = (x >> 1) - level.x;
                        const std::int64_t close = at + (x & 1), away = at + 1 - (x & 1);
-                       // One draw serves a square's two samples of this row.
+                       // Both samples of a square in this row use one draw.
                        const std::uint64_t bits = Deviations::draw(row, x >> 1) >> ((x & 1) * 32);
                        const float chance = static_cast<float>(static_cast<std::int32_t>(bits)) * scale;
                        out[i] =

@@ -3,8 +3,8 @@
 /// (Fournier, Fussell and Carpenter 1982; Miller, "The definition and rendering of terrain maps", 1986;
 /// Kogovšek 2014, section 5.2.2).
 ///
-/// Every random deviation is a function of (seed, level, place in the world), so that one more round refines
-/// the same field, any window can be made by itself, and two windows agree wherever they overlap.
+/// Every random deviation is a function of (seed, level, position in the world). So one more round refines
+/// the same field, each window can be generated separately, and overlapping windows agree.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -15,26 +15,27 @@ namespace seedmesh::terrain {
 
 /// How the new heights of a square follow from its corners.
 enum class SquareRule {
-  diamond_square,     ///< centre: mean of 4; sides: mean of their ends and the two centres beside
-  triangle_midpoint,  ///< centre: mean of the north-western and south-eastern corner; sides: of their ends
-  triangle_random,    ///< nothing but chance, of the same size in every round
+  diamond_square,     ///< centre: mean of 4; sides: mean of their ends and the two adjacent centres
+  triangle_midpoint,  ///< centre: mean of the north-west and south-east corner; sides: of their ends
+  triangle_random,    ///< random heights of the same range in every round
 };
 
-/// What diamond_square does on the border of the whole, or of a tile.
+/// How diamond_square treats the border of the world or of a tile.
 enum class BorderRule { two_neighbours, three, interpolate, wrap };
 
 struct SquareSubdivision {
   SquareRule rule = SquareRule::diamond_square;
   BorderRule border = BorderRule::two_neighbours;
   int rounds = 0;
-  double amplitude = 0;                               ///< greatest deviation of the first round
-  double falloff = 1;                                 ///< of the deviation, from round to round
-  std::optional<std::array<double, 4>> corners = {};  ///< nw, ne, sw, se; none: drawn, within the amplitude
+  double amplitude = 0;  ///< largest deviation of the first round, in metres
+  double falloff = 1;    ///< factor of the deviation from round to round
+  /// nw, ne, sw, se; absent: random, within the amplitude
+  std::optional<std::array<double, 4>> corners = {};
 };
 
-/// Tile (0, 0) of the world is samples 0 .. 2^rounds in both directions. A bounded world is that tile alone,
-/// and `window` must be all of it; an unbounded one goes on in all directions under the two_neighbours rule,
-/// its corners drawn. Cost: about 3 ns a sample.
+/// Returns the field of `window`. Tile (0, 0) of the world has samples 0 .. 2^rounds in both directions. A
+/// bounded world is this tile alone, and `window` must cover it. An unbounded world continues in all
+/// directions with the rule two_neighbours and random corners. Cost: about 3 ns for each sample.
 enum class World { bounded, unbounded };
 Field subdivide(const SquareSubdivision& plan, World world, const Window& window, Rng rng, const Job& job);
 
@@ -42,11 +43,12 @@ struct NestedSubdivision {
   int rounds = 0;
   double amplitude = 0;
   double falloff = 1;
-  std::optional<std::array<double, 9>> grid = {};  ///< row by row; none: drawn, within the amplitude
+  std::optional<std::array<double, 9>> grid = {};  ///< row by row; absent: random, within the amplitude
 };
 
-/// Square-square. Samples of the world are counted so that tile (0, 0) has 0 .. 2^rounds + 1. Of a start grid
-/// of three by three; an unbounded world has start heights everywhere. Cost: about 1 ns a sample.
+/// Returns the field of `window` by square-square subdivision of a start grid of three by three heights. Tile
+/// (0, 0) has samples 0 .. 2^rounds + 1. An unbounded world has start heights everywhere. Cost: about 1 ns
+/// for each sample.
 Field subdivide_nested(const NestedSubdivision& plan, const Window& window, Rng rng, const Job& job);
 
 }  // namespace seedmesh::terrain

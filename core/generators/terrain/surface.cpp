@@ -13,20 +13,20 @@ namespace seedmesh::terrain {
 namespace {
 
 constexpr std::size_t rows_a_chunk = 32;
-// Squares of a band: both rows of samples around a row of them fit into a cache of 16 vertices.
+// Squares of a band. Two rows of their samples fit into a cache of 16 vertices.
 constexpr std::int32_t band = 6;
-// Where no step between neighbours is steeper, no smooth normal looks behind a triangle: 2 s s < 1.
+// If no step s between neighbours is steeper, no smooth normal faces away from a triangle: 2 s s < 1.
 constexpr float gentle = 0.7F;
-// How far from behind a triangle a normal keeps.
+// The greatest slope product of a normal and a triangle, negated; at 1 they would be at right angles.
 constexpr float clear = 0.95F;
-// Vertices that indices of 16 bits can name; the last value restarts a strip.
+// Most vertices for 16-bit indices; the last value restarts a strip.
 constexpr std::size_t most_narrow = 65'535;
 
-/// Slopes along a row of the part, from both neighbours where they are.
+/// Slopes along a row of the part, from both neighbours where both exist.
 struct Slopes {
   const float *here, *north, *south;
   float per_rows, per_cell;
-  std::int32_t first, last;  ///< columns that there are, margin included
+  std::int32_t first, last;  ///< existing columns, margin included
   glm::vec2 at(std::int32_t x) const {
     const std::int32_t west = std::max(x - 1, first), east = std::min(x + 1, last);
     return {(here[east] - here[west]) * per_cell / static_cast<float>(east - west),
@@ -53,14 +53,14 @@ glm::vec2 slope_of(const glm::vec3& normal) { return {-normal.x / normal.y, -nor
 
 float dot(const glm::vec2& a, const glm::vec2& b) { return a.x * b.x + a.y * b.y; }
 
-/// The normal of a slope, turned towards straight up as far as is needed to look behind no triangle around:
-/// in slopes, triangle t and vertex v are on one side where 1 + t.v > 0. `least` is the smallest t.v.
+/// Returns the normal of a slope v, turned upward until it faces away from no triangle around it: slopes t of
+/// triangles satisfy 1 + t.v > 0. `least` is the smallest t.v.
 glm::vec3 leaning_back(const glm::vec2& slope, float least) {
   return normal_of(least <= -clear ? slope * (clear / -least) : slope);
 }
 
-/// The smallest product with `own` of the slopes that triangles around a sample can have, however its squares
-/// are cut: of neighbours too, so that both sides of a border between tiles agree.
+/// Returns the smallest product of `own` and the slope of a triangle around a sample, for any diagonals of its
+/// squares. Squares of the margin count, so that both sides of a border between tiles agree.
 float least_around(const Field& field, std::int32_t x, std::int32_t z, const glm::vec2& own) {
   const std::int32_t m = field.margin;
   const auto per_cell = static_cast<float>(1 / field.cell);
@@ -78,13 +78,13 @@ float least_around(const Field& field, std::int32_t x, std::int32_t z, const glm
   return least;
 }
 
-bool on_border(const Window& part, Place at) {
+bool on_border(const Window& part, GridPoint at) {
   return at.x == part.x || at.z == part.z || at.x == part.x + part.width - 1 ||
          at.z == part.z + part.depth - 1;
 }
 
-/// The slope between samples so far to either side, as far as there are any.
-glm::vec2 wide_slope(const Field& field, Place at, std::int32_t reach) {
+/// Returns the slope between samples at the distance `reach` to each side, as far as they exist.
+glm::vec2 wide_slope(const Field& field, GridPoint at, std::int32_t reach) {
   const std::int32_t m = field.margin;
   const std::int32_t west = std::max(at.x - reach, -m), east = std::min(at.x + reach, field.width - 1 + m);
   const std::int32_t north = std::max(at.z - reach, -m), south = std::min(at.z + reach, field.depth - 1 + m);
@@ -93,7 +93,7 @@ glm::vec2 wide_slope(const Field& field, Place at, std::int32_t reach) {
           (field.at(at.x, south) - field.at(at.x, north)) * per_cell / static_cast<float>(south - north)};
 }
 
-/// leaning_back() for the normals of a reduced mesh, over the triangles that it has.
+/// Applies leaning_back() to the normals of a reduced mesh, for its own triangles.
 void lean_back(Mesh& mesh, const Job& job) {
   Array<float> least(job, mesh.position.size(), 0.0F);
   const Array<std::uint32_t>& index = mesh.index.wide;
@@ -116,8 +116,8 @@ void make_upright(Mesh& mesh, const Job& job) {
   mesh.tangent = Array<glm::vec4>(job, mesh.position.size(), glm::vec4(1, 0, 0, 1));
 }
 
-/// Positions, normals, texture coordinates and colours of one row of a part; gives the steepest step to a
-/// neighbour eastwards or southwards.
+/// Writes positions, normals, texture coordinates and colours of one row of a part. Returns the steepest step
+/// to a neighbour in the east or south.
 float fill_row(const Ground& ground, const Window& part, std::int32_t j, const Array<glm::u8vec4>& colors,
                Mesh& mesh) {
   const Field& field = ground.field;
@@ -140,7 +140,7 @@ float fill_row(const Ground& ground, const Window& part, std::int32_t j, const A
   }
   if (!mesh.normal.empty()) {
     glm::vec3* normal = mesh.normal.data() + first;
-    // Ends by themselves, so that the loop between them has no choice to make.
+    // The ends are handled separately, so that the loop between them has no branches.
     const auto plain = [&](std::int32_t i) { normal[i] = normal_of(slopes.at(left + i)); };
     plain(0);
     plain(part.width - 1);
@@ -164,7 +164,7 @@ float fill_row(const Ground& ground, const Window& part, std::int32_t j, const A
   return steepest * slopes.per_cell;
 }
 
-/// Triangles of all rows of squares of one band of columns.
+/// Writes the triangles of all rows of squares of one band of columns.
 template <class Index>
 void fill_band(const Field& field, const Window& part, std::int32_t first, std::int32_t last, Index* out) {
   const auto wide = static_cast<std::uint32_t>(part.width);
@@ -200,9 +200,9 @@ void fill_triangles(const Field& field, const Window& part, Array<Index>& out, c
                });
 }
 
-/// leaning_back() for normals[i] at columns x + i of row z, with all that least_around() looks at, but four
-/// columns side by side: slopes east and south of a square are chosen apart, so that the smallest product of
-/// both is the sum of the smallest of each.
+/// Applies leaning_back() to normals[i] at columns x + i of row z, with the result of least_around(), but for
+/// several columns at once. Slopes of a square in both directions are independent, so the smallest product is
+/// the sum of the smallest ones of each direction.
 void lean_back_run(const Field& field, std::int32_t x, std::int32_t z, std::size_t count,
                    glm::vec3* normals) {
   constexpr std::size_t run = 64;
@@ -329,7 +329,7 @@ Mesh reduced_mesh(const Field& field, Triangulation plan, ColorOf color_of, cons
   mesh.uv[0] = Array<glm::vec2>(job, count);
   for (std::size_t i = 0; i < count; ++i) {
     if (i % 4096 == 0) job.check();
-    const Place at = place_of(plan.samples[i], field.width);
+    const GridPoint at = grid_point_of(plan.samples[i], field.width);
     mesh.position[i] = {ground.x(at.x), field.at(at.x, at.z), ground.z(at.z)};
     mesh.normal[i] =
         normal_of(coarse.reach > 1 && !on_border(coarse.part, at) ? wide_slope(field, at, coarse.reach)

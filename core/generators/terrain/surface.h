@@ -1,6 +1,6 @@
 #pragma once
-/// Fields as meshes. All have +Y up, the middle of the field at the origin of X and Z, heights as they are,
-/// and texture coordinates 0..1 with the north-western corner at (0, 0).
+/// Meshes of fields. All have +Y up, the centre of the field at the origin of X and Z, unchanged heights, and
+/// texture coordinates 0..1 with the north-west corner at (0, 0).
 #include <functional>
 
 #include "core/generators/terrain/field.h"
@@ -9,34 +9,35 @@
 
 namespace seedmesh::terrain {
 
-/// Which normals a mesh has.
+/// The normals of a mesh.
 enum class Shading {
-  smooth,  ///< of the field, leaning back where one would look behind a triangle
-  upright  ///< all straight up, with tangents to the east: a normal map says the rest
+  smooth,  ///< normals of the field, adjusted to face the front of all adjacent triangles
+  upright  ///< all up, with tangents to the east; a normal map adds the slopes
 };
 
-/// The samples of `part` as two triangles a square, cut along the diagonal that is closer to level; in an
-/// order that a vertex cache of 16 likes; its indices have 16 bits where they can. `colors`: empty, or of all
-/// samples. Spends triangles. About 10 ns a sample.
+/// Triangulates the samples of `part`: two triangles for each square, split along the diagonal with the
+/// smaller height difference, in the order of a vertex cache of 16. Indices have 16 bits where possible.
+/// `colors` is empty or has all samples. Spends triangles. Cost: about 10 ns for each sample.
 Mesh grid_mesh(const Field& field, const Window& part, const Array<glm::u8vec4>& colors, Shading shading,
                Job& job);
 
-/// How far apart the samples are that a coarse mesh has its slopes from.
+/// Distance of the samples from which a coarse mesh takes its slopes.
 struct Coarse {
   Shading shading = Shading::smooth;
   std::int32_t reach = 1;  ///< samples to either side
-  Window part = {};        ///< on whose border it is 1 nevertheless, so that neighbours look alike there
-  bool ordered = false;    ///< the triangles are in an order that a vertex cache likes, samples by first use
+  Window part = {};        ///< window on whose border the reach is 1, so that neighbours agree
+  bool ordered = false;    ///< triangles and samples are already in vertex cache order
 };
 
-/// The colour of a sample, by its number in the field; empty: there are none.
+/// Returns the colour of a sample by its index in the field; empty without colours.
 using ColorOf = std::function<glm::u8vec4(std::uint32_t sample)>;
 
-/// A reduced mesh. Lets go of `color_of` as soon as all colours are there. About 50 ns a triangle.
+/// Returns a reduced mesh. Releases `color_of` after the last colour. Cost: about 50 ns for each triangle.
 Mesh reduced_mesh(const Field& field, Triangulation plan, ColorOf color_of, const Coarse& coarse, Job& job);
 
-/// Walls down from the border, looking outwards. `samples` are those of the border that the mesh has, in any
-/// order. `depth` below each sample, or down to the level `floor` with a floor below, which closes the mesh.
+/// Returns walls below the border that face outwards. `samples` are the border samples of the mesh, in any
+/// order. Walls reach `depth` below each sample, or down to the level `floor` with a floor that closes the
+/// mesh.
 struct WallPlan {
   double depth = 0;
   bool closed = false;
@@ -44,10 +45,10 @@ struct WallPlan {
 };
 Mesh walls(const Field& field, const Array<std::uint32_t>& samples, const WallPlan& plan, Job& job);
 
-/// All samples of the border.
+/// Returns all samples of the border.
 Array<std::uint32_t> border_samples(const Field& field, const Job& job);
 
-/// A flat sheet over the whole field.
+/// Returns a flat sheet over the whole field.
 Mesh sheet(const Field& field, float level, Job& job);
 
 }  // namespace seedmesh::terrain

@@ -11,19 +11,28 @@
 #include "core/generators/terrain/onto.h"
 #include "core/generators/terrain/plan.h"
 #include "core/generators/terrain/triangulation.h"
+#include "core/generators/terrain/voids.h"
 #include "generated/params/terrain.h"
 
 namespace seedmesh::terrain {
 namespace {
 
-// Heights are told one by one up to this many samples a side.
-constexpr int longest_told = 257;
+// derive() lists heights of fields with at most this number of samples along a side.
+constexpr int longest_listed = 257;
 constexpr std::uint64_t bytes_a_vertex = 36;  // position, normal, texture coordinates, colour
 
-/// The model that the field is laid on; at a coarser level with fewer rounds of cutting.
-Result<Model> laid_on_model(const TerrainParams& params, const Field& field, int level, Job& job) {
+/// Adds the warning of filled voids to a model.
+Result<Model> with_voids(Result<Model> model, const Field& field) {
+  if (model && field.voids > 0) model->warnings.push_back(void_warning(field));
+  return model;
+}
+
+/// Returns the model with the field applied to it. Coarser levels have fewer rounds of subdivision.
+Result<Model> model_with_field(const TerrainParams& params, const Field& field, int level,
+                               const GenerateContext& context) {
+  Job& job = context.job;
   constexpr std::int32_t usual_picture = 512;
-  Result<Model> model = generate_child(params.onto->model, "/onto/model", job.rng().at("onto"), job);
+  Result<Model> model = generate_child(params.onto->model, "/onto/model", job.rng().at("onto"), context);
   if (!model) return model;
   if (params.onto->mapping == TerrainMapping::displacement) {
     displace(*model, field, static_cast<int>(params.onto->subdivide) - level, job);
@@ -34,28 +43,28 @@ Result<Model> laid_on_model(const TerrainParams& params, const Field& field, int
   return model;
 }
 
-/// The meshes of `coarser`, which has the same nodes, become the next level of those of `model`.
+/// Adds the meshes of `coarser`, which has the same nodes, as the next level of those of `model`.
 void add_level(Model& model, Model coarser, int level) {
-  std::vector<int> places(coarser.meshes.size(), -1);
+  std::vector<int> positions(coarser.meshes.size(), -1);
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const int mesh = coarser.nodes[i].mesh;
     if (mesh < 0) continue;
-    int& place = places[static_cast<std::size_t>(mesh)];
-    if (place < 0) {
-      place = static_cast<int>(model.meshes.size());
+    int& position = positions[static_cast<std::size_t>(mesh)];
+    if (position < 0) {
+      position = static_cast<int>(model.meshes.size());
       model.meshes.push_back(std::move(coarser.meshes[static_cast<std::size_t>(mesh)]));
       model.meshes.back().name += "_LOD" + std::to_string(level);
     }
-    model.nodes[i].lods.push_back(place);
+    model.nodes[i].lods.push_back(position);
   }
 }
 
-Result<Model> clad_model(const TerrainParams& params, const Field& field, Job& job) {
-  Result<Model> model = laid_on_model(params, field, 0, job);
+Result<Model> covered_model(const TerrainParams& params, const Field& field, const GenerateContext& context) {
+  Result<Model> model = model_with_field(params, field, 0, context);
   const bool moves = params.onto->mapping == TerrainMapping::displacement;
-  const int levels = moves ? std::min(job.demand().lods, static_cast<int>(params.onto->subdivide) + 1) : 1;
+  const int levels = moves ? std::min(context.demand.lods, static_cast<int>(params.onto->subdivide) + 1) : 1;
   for (int level = 1; model && level < levels; ++level) {
-    Result<Model> coarser = laid_on_model(params, field, level, job);
+    Result<Model> coarser = model_with_field(params, field, level, context);
     if (!coarser) return coarser;
     add_level(*model, std::move(*coarser), level);
   }
@@ -68,7 +77,7 @@ std::optional<Error> refusal(const TerrainParams& params, const Limits& limits) 
   return Error{Code::invalid, std::move(issues)};
 }
 
-/// Of the whole grid, where the parameters tell it.
+/// Returns the number of triangles of the whole grid, as far as it follows from the parameters.
 std::uint64_t grid_triangles(const TerrainParams& params) {
   const auto squares = static_cast<std::uint64_t>(finished_side(params) - 1);
   if (params.shape == TerrainShape::sphere) return 12 * squares * squares;
@@ -78,29 +87,30 @@ std::uint64_t grid_triangles(const TerrainParams& params) {
   return triangles;
 }
 
-/// Rounds, and not samples, say how fine it is.
+/// True where the number of rounds determines the resolution.
 bool is_subdivided(const TerrainParams& params) {
   return params.algorithm == TerrainAlgorithm::triangular_edge ||
          params.algorithm == TerrainAlgorithm::diamond_square ||
          params.algorithm == TerrainAlgorithm::square_square;
 }
 
-/// Before the field is made, which may take seconds.
-void refuse_too_many(const TerrainParams& params, const Job& job) {
+/// Called before the field is made, which may take seconds.
+void refuse_large_grid(const TerrainParams& params, const Job& job) {
   if (params.algorithm == TerrainAlgorithm::image || params.onto || params.mesh != TerrainMesh::grid) return;
   const std::uint64_t triangles = grid_triangles(params), most = job.limits().triangles;
   if (triangles <= most) return;
-  Job::refuse("needs " + std::to_string(triangles) + " triangles for the whole grid; the limit is " +
-                  std::to_string(most) +
-                  "; a reduced mesh (`mesh`) or a height map (`output.format`) needs fewer",
-              is_subdivided(params) ? "/iterations" : "/resolution");
+  job.refuse(limit_issue({Resource::triangles, most, triangles},
+                         "needs " + std::to_string(triangles) +
+                             " triangles for the whole grid; the limit is " + std::to_string(most) +
+                             "; use a reduced mesh (`mesh`) or a height map (`output.format`)",
+                         is_subdivided(params) ? "/iterations" : "/resolution"));
 }
 
 Error no_rtin_of(const Field& field) {
   return Error{Code::invalid,
-               {{"/mesh", "rtin wants a square of 2^n + 1 samples a side and this image has " +
-                              std::to_string(field.width) + " x " + std::to_string(field.depth) +
-                              "; resample it, or use greedy"}}};
+               {{IssueKind::conflict, "/mesh",
+                 "this image has " + std::to_string(field.width) + " x " + std::to_string(field.depth) +
+                     " samples; rtin needs a square of 2^n + 1 along a side; resample it, or use greedy"}}};
 }
 
 double mean_of(const Array<float>& heights) {
@@ -112,30 +122,32 @@ double mean_of(const Array<float>& heights) {
 }  // namespace
 
 std::vector<Issue> check(const TerrainParams& params, const Limits& limits) {
-  return faults_between(params, limits);
+  return errors_between(params, limits);
 }
 
-Result<Model> generate(const TerrainParams& params, Job& job) {
+Result<Model> generate(const TerrainParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
-  refuse_too_many(params, job);
+  refuse_large_grid(params, job);
   job.progress("derive", 0);
-  if (params.shape == TerrainShape::sphere) return dressed_planet(params, job);
+  if (params.shape == TerrainShape::sphere) return dressed_planet(params, context);
   const Result<Field> field = field_of(params, job);
   if (!field) return field.error();
-  if (params.onto) return clad_model(params, *field, job);
+  if (params.onto) return with_voids(covered_model(params, *field, context), *field);
   if (params.mesh == TerrainMesh::rtin && !fits_rtin(field->width, field->depth)) {
     return no_rtin_of(*field);
   }
   job.progress("mesh", 0);
-  return dressed_field(params, *field, job);
+  return with_voids(dressed_field(params, *field, context), *field);
 }
 
-Result<Model> dressed(const TerrainParams& params, const Field& field, Job& job) {
+Result<Model> dressed(const TerrainParams& params, const Field& field, const GenerateContext& context) {
   if (params.mesh == TerrainMesh::rtin && !fits_rtin(field.width, field.depth)) return no_rtin_of(field);
-  return dressed_field(params, field, job);
+  return with_voids(dressed_field(params, field, context), field);
 }
 
-Result<Json> derive(const TerrainParams& params, Job& job) {
+Result<Json> derive(const TerrainParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
   Json answer{{"width", nullptr},
               {"height", nullptr},
@@ -153,6 +165,11 @@ Result<Json> derive(const TerrainParams& params, Job& job) {
   }
   Result<Field> made = field_of(params, job);
   if (!made) return made.error();
+  if (made->voids > 0) {
+    answer["voids"] = made->voids;
+    const Warning warning = void_warning(*made);
+    answer["warnings"].push_back({{"pointer", warning.pointer}, {"message", warning.message}});
+  }
   const Field field = cropped(std::move(*made), 0, job);
   const Range range = range_of(field, job);
   answer.update({{"width", field.width},
@@ -167,7 +184,7 @@ Result<Json> derive(const TerrainParams& params, Job& job) {
                                          map.low.value_or(static_cast<double>(range.low)),
                                          map.high.value_or(static_cast<double>(range.high))});
   }
-  if (field.width <= longest_told && field.depth <= longest_told) {
+  if (field.width <= longest_listed && field.depth <= longest_listed) {
     Json heights = Json::array();
     for (const float height : field.heights) heights.push_back(height + 0.0F);
     answer["heights"] = std::move(heights);
@@ -175,11 +192,13 @@ Result<Json> derive(const TerrainParams& params, Job& job) {
   return answer;
 }
 
-Result<Appraisal> appraise(const TerrainParams& params, const Job& job) {
+Result<Appraisal> appraise(const TerrainParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
   Appraisal appraisal;
   if (params.onto) {
-    Result<Appraisal> child = appraise_child(params.onto->model, "/onto/model", job.rng().at("onto"), job);
+    Result<Appraisal> child =
+        appraise_child(params.onto->model, "/onto/model", job.rng().at("onto"), context);
     if (child) child->estimate.reset();
     return child;
   }
@@ -189,7 +208,7 @@ Result<Appraisal> appraise(const TerrainParams& params, const Job& job) {
   const auto squares = static_cast<std::uint64_t>(finished_side(params) - 1);
   Estimate estimate;
   estimate.triangles = grid_triangles(params);
-  refuse_too_many(params, job);
+  refuse_large_grid(params, job);
   estimate.exact = !params.water_level;
   constexpr std::uint64_t document = 1200;
   estimate.bytes =
@@ -200,13 +219,15 @@ Result<Appraisal> appraise(const TerrainParams& params, const Job& job) {
 
 Json vocabulary() { return Json::object(); }
 
-Result<Array<std::uint8_t>> encode(const TerrainParams& params, const WantedForm& form, Job& job) {
+Result<Array<std::uint8_t>> encode(const TerrainParams& params, const WantedFormat& form,
+                                   const GenerateContext& context) {
+  Job& job = context.job;
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
   return map_file(params, form, job);
 }
 
-std::vector<Issue> check_form(const TerrainParams& params, const WantedForm& form) {
-  return form_faults(params, form);
+std::vector<Issue> check_format(const TerrainParams& params, const WantedFormat& form) {
+  return format_errors(params, form);
 }
 
 }  // namespace seedmesh::terrain

@@ -5,13 +5,11 @@
 ///                                 \-> map_file() -> PNG or raw samples
 ///          -> planet_of() -> Planet -> one closed mesh
 ///
-/// Out: one root node "terrain", the middle of the field at the origin, heights as they are, north towards
-/// -Z. docs/terrain.md tells every choice.
+/// The model has one root node "terrain" with the centre of the field at the origin, unchanged heights, and
+/// north towards -Z. docs/terrain.md describes all choices.
 #include <vector>
 
-#include "core/base/job.h"
-#include "core/generators/appraisal.h"
-#include "core/generators/form.h"
+#include "core/generators/api.h"
 #include "core/model/model.h"
 #include "core/schema/json.h"
 
@@ -23,32 +21,35 @@ namespace seedmesh::terrain {
 
 struct Field;
 
-/// Every fault between parameters, with pointers relative to them. Makes nothing.
+/// Returns all errors that the schema cannot express, with pointers relative to the parameters. Generates
+/// nothing.
 std::vector<Issue> check(const TerrainParams& params, const Limits& limits);
 
-/// The model. Issues: those of check(), and of an image that cannot be read.
-Result<Model> generate(const TerrainParams& params, Job& job);
+/// Generates the model. Errors: those of check(), and an unreadable image.
+Result<Model> generate(const TerrainParams& params, const GenerateContext& context);
 
-/// The model of a field that is at hand: what field_of() gave, and what was done to it since. Planes alone.
-/// Issues: a mesh that does not fit the field.
-Result<Model> dressed(const TerrainParams& params, const Field& field, Job& job);
+/// Returns the model of a given field, for example a modified result of field_of(). Planes only. Issues: a
+/// mesh type that does not fit the field.
+Result<Model> dressed(const TerrainParams& params, const Field& field, const GenerateContext& context);
 
-/// {width, height, min, max, mean, heights, engines, warnings}: heights in metres, row by row from
-/// north-west, for fields of at most 257 x 257; null beyond, and for spheres. `engines`: what is typed in
-/// beside the height map of the request (engines.h); null for spheres, and for tiles without low and high.
-Result<Json> derive(const TerrainParams& params, Job& job);
+/// Returns {width, height, min, max, mean, heights, engines, warnings}. Heights are in metres, row by row
+/// from the north-west, for fields of at most 257 x 257; otherwise, and for spheres, they are null. `engines`
+/// has the import settings of the height map (engines.h); it is null for spheres, and for tiles without low
+/// and high.
+Result<Json> derive(const TerrainParams& params, const GenerateContext& context);
 
-/// Triangles of a grid or sphere, without making anything; reduced meshes cannot be told beforehand.
-Result<Appraisal> appraise(const TerrainParams& params, const Job& job);
+/// Returns the triangles of a grid or sphere without generating; the size of reduced meshes is unknown.
+Result<Appraisal> appraise(const TerrainParams& params, const GenerateContext& context);
 
-/// No notation, hence no words.
+/// Returns an empty vocabulary, because terrain has no notation.
 Json vocabulary();
 
-/// The request as a file of another kind than a model: "png16", "png8", "rgb24", "rgba32" or "r16"; by the
+/// Returns the request as a file of another format: "png16", "png8", "rgb24", "rgba32" or "r16", with the
 /// conventions of the profiles core, unity or unreal.
-Result<Array<std::uint8_t>> encode(const TerrainParams& params, const WantedForm& form, Job& job);
+Result<Array<std::uint8_t>> encode(const TerrainParams& params, const WantedFormat& form,
+                                   const GenerateContext& context);
 
-/// What keeps such a form from holding what the parameters ask for.
-std::vector<Issue> check_form(const TerrainParams& params, const WantedForm& form);
+/// Returns why such a format cannot represent the parameters.
+std::vector<Issue> check_format(const TerrainParams& params, const WantedFormat& form);
 
 }  // namespace seedmesh::terrain

@@ -1,46 +1,49 @@
 #pragma once
-/// Which samples of a field a mesh has, and its triangles.
+/// Selects the samples of a reduced mesh and triangulates them.
 ///
 /// Both reduced meshes keep a stated bound: no sample of the field lies further above or below the mesh than
-/// `max_error`. It is a bound on all samples, not on those at hand when a triangle was split;
-/// measured_error() tells what was reached.
+/// `max_error`. The bound holds for all samples, not only for those tested when a triangle was split;
+/// measured_error() returns the error reached.
 #include "core/generators/terrain/field.h"
 
 namespace seedmesh::terrain {
 
-/// A vertex is sample x + z * width; three vertices a triangle, counter-clockwise seen from above.
+/// A vertex is the sample number x + z * width. Three vertices form a triangle, counter-clockwise as seen
+/// from above.
 struct Triangulation {
   Array<std::uint32_t> samples;
   Array<std::uint32_t> index;
 };
 
-/// What stays of the border. `whole` keeps every sample of it, so that neighbours fit together whatever error
-/// they were made with; `by_error` treats it like the inside.
+/// Treatment of the border. `whole` keeps every sample of it, so that neighbours with any error fit together;
+/// `by_error` treats it like the interior.
 enum class Border { by_error, whole };
 
-/// How far off a mesh may be, in metres; apart for the border where that is to fit meshes of other levels.
+/// The largest error of a mesh, in metres, with a separate bound for a border that has to fit meshes of other
+/// levels.
 struct Tolerance {
   double inside = 0, border = 0;
 };
 
-/// Is the field a square of 2^n + 1 samples, as rtin() wants it?
+/// Returns true for a square of 2^n + 1 samples, which rtin() needs.
 bool fits_rtin(std::int32_t width, std::int32_t depth);
 
-/// Right-triangulated irregular network (Evans, Kirkpatrick and Townsend, "Right-triangulated irregular
-/// networks", 2001): right triangles halved where they are off. Where the bound is still passed after the
-/// usual test of midpoints, the samples concerned are put in, until it holds. Cost: 10 to
-/// 20 ns a sample. Spends triangles.
+/// Returns a right-triangulated irregular network (Evans, Kirkpatrick and Townsend, "Right-triangulated
+/// irregular networks", 2001): right triangles are split where their error exceeds the bound. Where the usual
+/// midpoint test leaves larger errors, these samples are added until the bound holds. Spends triangles. Cost:
+/// 10 to 20 ns for each sample.
 Triangulation rtin(const Field& field, double max_error, Border border, Job& job);
 
-/// Greedy insertion into a Delaunay triangulation (Garland and Heckbert, "Fast polygonal approximation of
-/// terrains and height fields", 1995): the sample that is off most, anywhere, comes next. About half the
-/// triangles of rtin() at the same error, at about 1 microsecond each. A `whole` border keeps those samples
-/// of it that a greedy line along it would need by the border's bound, which depend on the border alone.
-/// Spends triangles.
+/// Returns a Delaunay triangulation by greedy insertion (Garland and Heckbert, "Fast polygonal approximation
+/// of terrains and height fields", 1995): the sample with the largest error comes next. It has about half the
+/// triangles of rtin() at the same error. A `whole` border keeps those samples that a greedy polyline along
+/// it needs for the border's bound; they depend on the border alone. Spends triangles. Cost: about 1
+/// microsecond for each triangle.
 Triangulation greedy(const Field& field, const Tolerance& tolerance, Border border, Job& job);
 Triangulation greedy(const Field& field, double max_error, Border border, Job& job);
 
-/// The greatest vertical distance between a sample and the mesh, in metres; about 2 ns a sample.
+/// Returns the largest vertical distance between a sample and the mesh, in metres. Cost: about 2 ns for each
+/// sample.
 double measured_error(const Field& field, const Triangulation& mesh, const Job& job);
 
 }  // namespace seedmesh::terrain

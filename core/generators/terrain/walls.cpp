@@ -1,4 +1,4 @@
-/// Walls, floors and water around and over a field; see surface.h.
+/// Walls, floors and water of a field; see surface.h.
 #include <algorithm>
 #include <array>
 
@@ -23,10 +23,10 @@ Mesh walls(const Field& field, const Array<std::uint32_t>& samples, const WallPl
   const std::int32_t east = field.width - 1, south = field.depth - 1;
   struct Side {
     glm::vec3 outward;
-    bool along_x, forward;  ///< how the border runs with the ground on its left, seen from above
+    bool along_x, forward;  ///< direction of the border with the ground on its left, seen from above
     std::int32_t line;
   };
-  // Counter-clockwise from above: south-west to south-east, up the east, back along the north, down the west.
+  // Counter-clockwise from above: along the south to the east, then north, then west, then south.
   const std::array<Side, 4> sides{{{{0, 0, 1}, true, true, south},
                                    {{1, 0, 0}, false, false, east},
                                    {{0, 0, -1}, true, false, 0},
@@ -41,18 +41,18 @@ Mesh walls(const Field& field, const Array<std::uint32_t>& samples, const WallPl
   };
   std::vector<glm::vec3> foot;
   for (const Side& side : sides) {
-    std::vector<Place> line;
+    std::vector<GridPoint> line;
     for (const std::uint32_t sample : samples) {
-      const Place at = place_of(sample, field.width);
+      const GridPoint at = grid_point_of(sample, field.width);
       if ((side.along_x ? at.z : at.x) == side.line) line.push_back(at);
     }
-    std::sort(line.begin(), line.end(), [&](Place a, Place b) {
+    std::sort(line.begin(), line.end(), [&](GridPoint a, GridPoint b) {
       const std::int32_t difference = side.along_x ? a.x - b.x : a.z - b.z;
       return side.forward ? difference < 0 : difference > 0;
     });
     job.spend(Resource::triangles, 2 * (line.size() - 1) + (plan.closed ? line.size() - 1 : 0));
     const auto first = static_cast<std::uint32_t>(mesh.position.size());
-    for (const Place at : line) {
+    for (const GridPoint at : line) {
       const glm::vec3 top(ground.x(at.x), field.at(at.x, at.z), ground.z(at.z));
       const float down = plan.closed ? plan.floor : top.y - static_cast<float>(plan.depth);
       mesh.position.push_back(top);
@@ -86,7 +86,8 @@ Mesh sheet(const Field& field, float level, Job& job) {
   mesh.position = Array<glm::vec3>(job);
   mesh.normal = Array<glm::vec3>(job, 4, glm::vec3(0, 1, 0));
   mesh.index.wide = Array<std::uint32_t>(job);
-  for (const Place at : {Place{0, 0}, Place{0, south}, Place{east, south}, Place{east, 0}})
+  for (const GridPoint at :
+       {GridPoint{0, 0}, GridPoint{0, south}, GridPoint{east, south}, GridPoint{east, 0}})
     mesh.position.push_back({ground.x(at.x), level, ground.z(at.z)});
   for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.index.wide.push_back(i);
   return mesh;

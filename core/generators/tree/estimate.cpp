@@ -1,21 +1,21 @@
 #include "core/generators/tree/estimate.h"
 
 #include "core/base/math.h"
-#include "core/generators/tree/dress.h"
+#include "core/generators/tree/build_model.h"
 #include "core/generators/tree/leaves.h"
-#include "core/generators/tree/looks.h"
-#include "core/geom/graft_count.h"
+#include "core/generators/tree/materials.h"
+#include "core/geom/plant/graft/triangle_estimate.h"
 
 namespace seedmesh::tree {
 namespace {
 
-// Of a GLB: position, normal, texture coordinate of a vertex; its tangent where it wears a picture; the
-// colour of a leaf's; JSON.
+// Bytes in a GLB: a vertex with position, normal and texture coordinates; the tangent of a vertex with a
+// texture; the colour of a vertex of a leaf; JSON.
 constexpr std::uint64_t vertex_bytes = 32, tangent_bytes = 16, color_bytes = 4, file_bytes = 4600;
-// Of bark, vertices by triangles, as measured.
+// Vertices of bark per triangle, measured.
 constexpr double vertices_a_triangle = 0.71;
-// PNG files of bark and leaves (colour, normal, surface), bytes by texel, in the mean of all kinds.
-constexpr double bark_picture = 3.8, leaf_picture = 2.3;
+// Bytes of PNG files per texel (colour, normal and surface), averaged over all kinds.
+constexpr double bark_texture = 3.8, leaf_texture = 2.3;
 
 std::uint64_t index_bytes(std::uint64_t vertices, std::uint64_t triangles) {
   return 3 * triangles * (vertices > 65'535 ? 4 : 2);
@@ -23,15 +23,16 @@ std::uint64_t index_bytes(std::uint64_t vertices, std::uint64_t triangles) {
 
 }  // namespace
 
-Estimate estimate_of(Skeleton skeleton, const TreeParams& params, Job& job) {
+Estimate estimate_of(Skeleton skeleton, const TreeParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   Estimate estimate;
   const std::uint64_t bark = graft_triangles(skeleton.limbs, bark_options(params), job);
   const auto vertices =
       static_cast<std::uint64_t>(math::to_int64(vertices_a_triangle * static_cast<double>(bark)));
-  const double texels = static_cast<double>(job.demand().textures) * job.demand().textures;
+  const double texels = static_cast<double>(context.demand.textures) * context.demand.textures;
   const std::uint64_t tangent = texels > 0 ? tangent_bytes : 0;
   const bool is_plain = params.bark == TreeBark::none;
-  double pictures = is_plain ? 0 : bark_picture * texels;
+  double texture_bytes = is_plain ? 0 : bark_texture * texels;
   estimate.triangles = bark;
   estimate.bytes =
       file_bytes + vertices * (vertex_bytes + (is_plain ? 0 : tangent)) + index_bytes(vertices, bark);
@@ -41,12 +42,12 @@ Estimate estimate_of(Skeleton skeleton, const TreeParams& params, Job& job) {
     const std::uint64_t count = skeleton.organs.organ.size(), leaves = count * leaf.elements(),
                         corners = count * leaf.position.size();
     estimate.triangles += leaves;
-    const bool has_picture = wears_picture(params);
+    const bool has_texture = has_leaf_texture(params);
     estimate.bytes +=
-        corners * (vertex_bytes + color_bytes + (has_picture ? tangent : 0)) + index_bytes(corners, leaves);
-    if (has_picture) pictures += leaf_picture * texels;
+        corners * (vertex_bytes + color_bytes + (has_texture ? tangent : 0)) + index_bytes(corners, leaves);
+    if (has_texture) texture_bytes += leaf_texture * texels;
   }
-  estimate.bytes += static_cast<std::uint64_t>(math::to_int64(pictures));
+  estimate.bytes += static_cast<std::uint64_t>(math::to_int64(texture_bytes));
   return estimate;
 }
 

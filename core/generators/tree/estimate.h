@@ -1,16 +1,16 @@
 #pragma once
-/// What a tree will cost, told by its skeleton before it is skinned.
-#include "core/generators/appraisal.h"
-#include "core/generators/tree/growth_context.h"
+/// The size of a tree, estimated from its skeleton.
+#include "core/generators/api.h"
+#include "core/generators/tree/skeleton_writer.h"
 
 namespace seedmesh::tree {
 
-/// A tree of more joints than this, or of so many times more leaves (drawn or not), is not grown for an
-/// estimate: about a tenth of a second.
+/// Trees with more joints, or with `leaves_a_joint` times as many leaves, have no estimate. Growth up to
+/// there takes about 0.1 s.
 constexpr std::size_t most_appraised = 300'000, leaves_a_joint = 5;
 
-/// Of the finest level; leaves are counted, bark is reckoned. `skeleton`: what generate() would dress.
-/// Pictures count with what the usual ones take.
-Estimate estimate_of(Skeleton skeleton, const TreeParams& params, Job& job);
+/// The finest level: leaves are counted, bark is estimated, textures have their average size. `skeleton` is
+/// the one that generate() would pass to build_model().
+Estimate estimate_of(Skeleton skeleton, const TreeParams& params, const GenerateContext& context);
 
 }  // namespace seedmesh::tree

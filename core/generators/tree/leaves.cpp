@@ -3,34 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/generators/tree/looks.h"
+#include "core/generators/tree/materials.h"
 #include "core/generators/tree/range.h"
-#include "core/geom/detail.h"
-#include "core/geom/finish.h"
-#include "core/geom/leaf_mesh.h"
+#include "core/geom/lod/detail.h"
+#include "core/geom/mesh/finish.h"
+#include "core/geom/plant/leaf_mesh.h"
 #include "core/texture/leaf.h"
 
 namespace seedmesh::tree {
 namespace {
 
+// The schema lists the builds in the order of LeafBuild, after `usual` and `none`.
+constexpr int first_build = static_cast<int>(TreeBuild::card);
+static_assert(static_cast<int>(TreeBuild::bunch) - first_build == static_cast<int>(LeafBuild::bunch));
+
 LeafBuild leaf_build(TreeBuild build) {
-  switch (build) {
-    case TreeBuild::cross:
-      return LeafBuild::cross;
-    case TreeBuild::curved:
-      return LeafBuild::curved;
-    case TreeBuild::mesh:
-      return LeafBuild::mesh;
-    case TreeBuild::twig:
-      return LeafBuild::twig;
-    case TreeBuild::bunch:
-      return LeafBuild::bunch;
-    default:
-      return LeafBuild::card;
-  }
+  return static_cast<LeafBuild>(std::max(static_cast<int>(build) - first_build, 0));
 }
 
-FoliageOptions options_of(const Leaves& leaves, const Job& job) {
+FoliageOptions options_of(const Leaves& leaves, const GenerateContext& context) {
   const Organs& organs = leaves.organs;
   const TreeParams& params = leaves.params;
   FoliageOptions options;
@@ -38,7 +29,7 @@ FoliageOptions options_of(const Leaves& leaves, const Job& job) {
   options.tint = static_cast<float>(params.leaf.tint);
   options.bones = leaves.motion.bones;
   options.wind = leaves.motion.wind;
-  const Demand& demand = job.demand();
+  const Demand& demand = context.demand;
   options.tangents = demand.tangents && demand.textures > 0 && has_leaf_relief(params);
   if (params.leaf.crown_normals > 0 && !organs.organ.empty()) {
     Box box{organs.organ[0].position, organs.organ[0].position};
@@ -46,7 +37,7 @@ FoliageOptions options_of(const Leaves& leaves, const Job& job) {
       box.min = glm::min(box.min, organ.position);
       box.max = glm::max(box.max, organ.position);
     }
-    // A little below the middle, so that the lowest leaves do not look straight down.
+    // A little below the middle, so that the normals of the lowest leaves do not point straight down.
     const glm::vec3 middle = 0.5F * (box.min + box.max);
     options.crown = glm::vec3(middle.x, middle.y - 0.2F * (box.max.y - box.min.y), middle.z);
     options.crown_share = static_cast<float>(params.leaf.crown_normals);
@@ -58,7 +49,7 @@ std::string level_name(const char* name, int level) {
   return level == 0 ? name : name + ("_LOD" + std::to_string(level));
 }
 
-void put_on(Model& model, Node& node, MeshGroup group) {
+void attach(Model& model, Node& node, MeshGroup group) {
   const int mesh = static_cast<int>(model.meshes.size());
   model.meshes.push_back(std::move(group));
   if (node.mesh < 0) {
@@ -73,49 +64,51 @@ std::vector<Foliage> place(const Organs& organs, const Mesh& leaf, FoliageOption
   return place_organs(organs, options, job);
 }
 
-void add_merged(Model& model, const Leaves& leaves, TreeLevels& levels,
-                std::optional<std::vector<Foliage>> finest, const LeafLook& look, Job& job) {
+void add_merged(Model& model, const Leaves& leaves, TreeLevels& levels, const LeafMaterials& materials,
+                const GenerateContext& context) {
+  Job& job = context.job;
   Node node;
   node.name = "leaves";
   node.parent = 0;
   std::uint64_t before = 0;  // triangles of the whole tree at the level before
-  for (int level = 0; level < job.demand().lods; ++level) {
+  for (int level = 0; level < context.demand.lods; ++level) {
     MeshGroup group{level_name("leaves", level), {}};
     std::vector<Foliage> parts;
     if (level == 0) {
-      parts = finest ? *std::move(finest) : place(leaves.organs, leaves.leaf, options_of(leaves, job), job);
+      parts = place(leaves.organs, leaves.leaf, options_of(leaves, context), job);
     } else {
       const Mesh leaf = leaf_of(leaves.params, level, job);
       const double share =
           levels.leaves_at(Detail(level), leaves.organs.organ.size(), leaf.elements(), before);
       const Organs fewer = levels.foliage->keep(leaves.organs, share, job);
-      parts = place(fewer, leaf, options_of(leaves, job), job);
+      parts = place(fewer, leaf, options_of(leaves, context), job);
     }
     before = levels.bark.empty() ? 0 : levels.bark[static_cast<std::size_t>(level)];
     for (Foliage& part : parts) {
       before += part.mesh.elements();
-      group.primitives.push_back({std::move(part.mesh), look.material, look.variants});
+      group.primitives.push_back({std::move(part.mesh), materials.material, materials.variants});
     }
-    if (!group.primitives.empty()) put_on(model, node, std::move(group));
+    if (!group.primitives.empty()) attach(model, node, std::move(group));
   }
   if (node.mesh >= 0) model.nodes.push_back(std::move(node));
 }
 
-/// One node that the writer turns to as many as there are leaves.
+/// Adds one node with an instance for each leaf.
 void add_shared(Model& model, const Organs& organs, const TreeParams& params, FoliageOptions options,
-                const LeafLook& look, Job& job) {
+                const LeafMaterials& materials, const GenerateContext& context) {
+  Job& job = context.job;
   Node node;
   node.name = "leaf";
   node.parent = 0;
-  for (int level = 0; level < job.demand().lods; ++level) {
+  for (int level = 0; level < context.demand.lods; ++level) {
     MeshGroup group{level_name("leaf", level), {}};
-    group.primitives.push_back({leaf_of(params, level, job), look.material, look.variants});
+    group.primitives.push_back({leaf_of(params, level, job), materials.material, materials.variants});
     if (level == 0) {
       options.surfaces = std::span(&group.primitives.front().mesh, 1);
       for (FoliagePlaces& places : organ_places(organs, options, job))
         node.instances.transforms = std::move(places.places);
     }
-    put_on(model, node, std::move(group));
+    attach(model, node, std::move(group));
   }
   if (!node.instances.transforms.empty()) model.nodes.push_back(std::move(node));
 }
@@ -138,7 +131,6 @@ Mesh leaf_of(const TreeParams& params, int level, const Job& job) {
   return mesh;
 }
 
-/// Organs come with the width and length of a leaf; a leaf's mesh is 1 long and has a width of its own.
 void fit_leaves(Organs& organs, const TreeParams& params, const Mesh& leaf, const Job& job) {
   const Box box = bounds_of(leaf.position.span());
   const float across = std::max(1e-3F, box.max.x - box.min.x);
@@ -153,26 +145,20 @@ void fit_leaves(Organs& organs, const TreeParams& params, const Mesh& leaf, cons
   }
 }
 
-OrganPlacing finest_leaves(const Leaves& leaves, Job& job) {
-  FoliageOptions options = options_of(leaves, job);
-  options.surfaces = std::span(&leaves.leaf, 1);
-  return OrganPlacing(leaves.organs, options, job);
-}
-
-void add_leaves(Model& model, const Leaves& leaves, TreeLevels& levels,
-                std::optional<std::vector<Foliage>> finest, Job& job) {
+void add_leaves(Model& model, const Leaves& leaves, TreeLevels& levels, const GenerateContext& context) {
+  Job& job = context.job;
   if (leaves.organs.organ.empty()) return;
-  const LeafLook look = add_leaf_look(model, leaves.params, job);
-  if (job.demand().share_organs) {
-    add_shared(model, leaves.organs, leaves.params, options_of(leaves, job), look, job);
+  const LeafMaterials materials = add_leaf_materials(model, leaves.params, job);
+  if (context.demand.share_organs) {
+    add_shared(model, leaves.organs, leaves.params, options_of(leaves, context), materials, context);
   } else {
-    add_merged(model, leaves, levels, std::move(finest), look, job);
+    add_merged(model, leaves, levels, materials, context);
   }
-  // Bark looks the same in every season.
+  // Bark has the same material in every season.
   for (MeshGroup& group : model.meshes) {
     for (Primitive& primitive : group.primitives) {
       if (primitive.variant_materials.empty())
-        primitive.variant_materials.assign(look.variants.size(), primitive.material);
+        primitive.variant_materials.assign(materials.variants.size(), primitive.material);
     }
   }
 }

@@ -1,42 +1,35 @@
 #pragma once
-/// The leaves of a tree as meshes or places.
-#include <optional>
-
-#include "core/generators/tree/growth_context.h"
+/// The leaves of a tree as merged meshes or as instances of one mesh.
+#include "core/generators/api.h"
 #include "core/generators/tree/levels.h"
-#include "core/generators/tree/looks.h"
-#include "core/geom/organs.h"
+#include "core/generators/tree/materials.h"
+#include "core/generators/tree/skeleton_writer.h"
+#include "core/geom/plant/organs.h"
 
 namespace seedmesh::tree {
 
-/// What moves leaves: bones of the joints, wind; both may be empty.
+/// What moves leaves: bones of the joints, and wind. Both may be empty.
 struct LeafMotion {
   std::span<const std::uint16_t> bones;
   const WindField* wind = nullptr;
 };
 
-/// The mesh of one leaf, 1 long.
+/// The mesh of a leaf of length 1.
 Mesh leaf_of(const TreeParams& params, int level, const Job& job);
 
-/// Gives leaves, as they were grown, the size of the mesh of one, `leaf`.
+/// Converts the scales of leaves from length and width to factors for the mesh `leaf`.
 void fit_leaves(Organs& organs, const TreeParams& params, const Mesh& leaf, const Job& job);
 
-/// Leaves that were fitted; `model_size` is the diagonal of the tree, `leaf` one of the finest level.
-/// Borrowed.
+/// Leaves after fit_leaves(), borrowed. `leaf` is the mesh of the finest level.
 struct Leaves {
   const Organs& organs;
   const Mesh& leaf;
   const TreeParams& params;
   const LeafMotion& motion;
-  float model_size;
+  float model_size;  ///< diagonal of the bounding box of the tree
 };
 
-/// The finest level of leaves that are not places of one mesh, yet to be made. `leaves` is borrowed.
-OrganPlacing finest_leaves(const Leaves& leaves, Job& job);
-
-/// Adds the node "leaves" with all levels of detail, or, where the output asks for it, as places of one mesh.
-/// `finest`: what finest_leaves() has made, where it was asked before.
-void add_leaves(Model& model, const Leaves& leaves, TreeLevels& levels,
-                std::optional<std::vector<Foliage>> finest, Job& job);
+/// Adds the node "leaves" with all levels of detail, or instances of one mesh if context.demand.share_organs.
+void add_leaves(Model& model, const Leaves& leaves, TreeLevels& levels, const GenerateContext& context);
 
 }  // namespace seedmesh::tree

@@ -8,13 +8,14 @@
 namespace seedmesh::tree {
 namespace {
 
-// Of the width of a card, what its picture fills.
+// Share of the width of a card that its texture fills.
 constexpr float filled_card = 0.7F;
 
 }  // namespace
 
-TreeLevels::TreeLevels(const Skeleton& skeleton, const TreeParams& params, Job& job) {
-  if (job.demand().lods < 2 || skeleton.organs.organ.empty() || !has_leaves(params)) return;
+TreeLevels::TreeLevels(const Skeleton& skeleton, const TreeParams& params, const GenerateContext& context) {
+  Job& job = context.job;
+  if (context.demand.lods < 2 || skeleton.organs.organ.empty() || !has_leaves(params)) return;
   const Mesh coarsest = leaf_of(params, most_levels - 1, job);
   const float filled = build_of(params) == TreeBuild::mesh ? 1.0F : filled_card;
   const Limbs& limbs = skeleton.limbs;
@@ -38,10 +39,10 @@ double TreeLevels::leaves_at(const Detail& detail, std::uint64_t leaves, std::ui
   const double least = detail.organs(), wanted = std::max(least, foliage->share_for(detail.loss()));
   const auto level = static_cast<std::size_t>(detail.level());
   const std::uint64_t other = level < bark.size() ? bark[level] : 0, most = Detail::fewer_than(before);
-  const double room = most > other ? static_cast<double>(most - other) /
-                                         static_cast<double>(std::max<std::uint64_t>(each * leaves, 1))
-                                   : 0;
-  return std::min(wanted, std::max(least, room));
+  const double allowed = most > other ? static_cast<double>(most - other) /
+                                            static_cast<double>(std::max<std::uint64_t>(each * leaves, 1))
+                                      : 0;
+  return std::min(wanted, std::max(least, allowed));
 }
 
 }  // namespace seedmesh::tree

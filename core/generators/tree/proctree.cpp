@@ -7,10 +7,12 @@
 namespace seedmesh::tree {
 namespace {
 
-// Radius of a twig's end as a share of where it begins: closed, but not a needle.
+// Radius at the end of a twig as a share of that at its beginning.
 constexpr double twig_end = 0.3;
-// Lengths stay finite where the falloff raises a small length to a negative power.
+// Bound of lengths, because the falloff may raise a small length to a negative power.
 constexpr double longest = 100;
+// Limbs are at least this thick, even where they are shorter.
+constexpr double least_radius = 1e-3;
 
 struct Node {
   glm::dvec3 tail{0}, head{0};
@@ -20,27 +22,28 @@ struct Node {
   std::uint32_t parent_joint = Limbs::none;
   std::int32_t levels = 0, steps = 0;  ///< left
   int order = 0;
+  int first = 1, second = 1;  ///< forks on the way from the foot that chose either branch, from 1
   Rng rng{0};
 };
 
-class Forker {
+class ProctreeGrower {
  public:
-  Forker(const TreeParams& params, const Chances& chances, SkeletonWriter& writer)
-      : p_(params), chances_(chances), writer_(writer) {}
+  ProctreeGrower(const TreeParams& params, const RandomStreams& random, SkeletonWriter& writer)
+      : p_(params), random_(random), writer_(writer) {}
 
   void run() {
     SkeletonWriter::Joint foot;
     foot.radius = foot.base_radius = p_.mMaxRadius * (1 + p_.trunk_flare);
-    foot.key = chances_.trunk.at("foot").key();
+    foot.key = random_.trunk.at("foot").key();
     Node root;
     root.head = {0, p_.mTrunkLength, 0};
     root.length = p_.mInitialBranchLength;
-    root.radius = std::min(p_.mMaxRadius, std::max(root.length, p_.mTrunkLength));
+    root.radius = std::min(p_.mMaxRadius, root.length);
     root.on_trunk = true;
     root.levels = p_.mLevels;
     root.steps = p_.mTreeSteps;
     root.parent_joint = writer_.add(foot);
-    root.rng = chances_.trunk;
+    root.rng = random_.trunk;
     waiting_.push_back(root);
     is_first_ = true;
     while (!waiting_.empty()) {
@@ -53,7 +56,7 @@ class Forker {
  private:
   struct Directions {
     glm::dvec3 first, second;
-    double chance;
+    double random;
   };
 
   Directions directions(const Node& node) const;
@@ -61,10 +64,11 @@ class Forker {
   void fork(const Node& node);
   void twig(const Node& node, const Node& child, std::uint32_t joint);
 
+  double random_of(const Node& node) const;
   double falloff(bool on_trunk) const { return on_trunk ? p_.mTaperRate : p_.mRadiusFalloffRate; }
 
   const TreeParams& p_;
-  const Chances& chances_;
+  const RandomStreams& random_;
   SkeletonWriter& writer_;
   std::vector<Node> waiting_;
   bool is_first_ = false;
@@ -72,11 +76,18 @@ class Forker {
 
 glm::dvec3 unit(const glm::dvec3& v) { return math::unit(v, glm::dvec3{0, 1, 0}); }
 
-/// The two directions of a fork: the first keeps to its parent, the second is nearly its mirror image.
-Forker::Directions Forker::directions(const Node& node) const {
+/// The random number of a fork, 0 .. 1. That of proctree.js is |cos(x + x^2)| of a number that repeats.
+double ProctreeGrower::random_of(const Node& node) const {
+  if (p_.sequence == TreeSequence::keyed) return Rng(node.rng.at("fork")).unit();
+  const double x = 10.0 * (p_.mLevels - node.levels) + 5.0 * node.first + node.second + p_.mSeed;
+  return std::abs(math::cos(x + x * x));
+}
+
+/// The two directions of a fork: the first is close to that of the parent, the second is nearly its mirror
+/// image.
+ProctreeGrower::Directions ProctreeGrower::directions(const Node& node) const {
   const std::int32_t depth = p_.mLevels - node.levels;
-  Rng chance = node.rng.at("fork");
-  const double r = chance.unit();
+  const double r = random_of(node);
   const glm::dvec3 ahead = unit(node.head - node.tail);
   const glm::dvec3 normal = glm::cross(ahead, glm::dvec3{ahead.z, ahead.x, ahead.y});
   const glm::dvec3 tangent = glm::cross(ahead, normal);
@@ -97,8 +108,8 @@ Forker::Directions Forker::directions(const Node& node) const {
   return {unit(first + bias), unit(second + bias), r};
 }
 
-/// The branch of a node: from where it begins to its own fork. The trunk takes its flare along.
-std::uint32_t Forker::draw(const Node& node) {
+/// Writes the branch of a node, from its beginning to its fork; the first branch with the flare of the trunk.
+std::uint32_t ProctreeGrower::draw(const Node& node) {
   SkeletonWriter::Joint joint;
   joint.parent = node.parent_joint;
   joint.starts_limb = node.starts_limb;
@@ -123,7 +134,7 @@ std::uint32_t Forker::draw(const Node& node) {
   return writer_.add(joint);
 }
 
-void Forker::fork(const Node& node) {
+void ProctreeGrower::fork(const Node& node) {
   const std::uint32_t joint = draw(node);
   if (node.levels < 0) return;
   const auto [first, second, r] = directions(node);
@@ -136,9 +147,13 @@ void Forker::fork(const Node& node) {
   main.head = node.head + first * node.length;
   side.head = node.head + second * node.length;
   main.rng = node.rng.at(0);
-  side.rng = (node.on_trunk ? chances_.branches.at(static_cast<std::uint64_t>(node.steps)) : node.rng).at(1);
-  main.radius = side.radius = std::min(node.radius * p_.mRadiusFalloffRate, std::max(node.length, 1e-3));
+  side.rng = (node.on_trunk ? random_.branches.at(static_cast<std::uint64_t>(node.steps)) : node.rng).at(1);
+  main.radius = side.radius = std::min(node.radius * p_.mRadiusFalloffRate, std::max(length, least_radius));
   main.levels = side.levels = node.levels - 1;
+  main.first = node.first + 1;
+  side.first = node.first;
+  main.second = node.second;
+  side.second = node.second + 1;
   main.order = node.order;
   side.order = node.order + 1;
   side.starts_limb = true;
@@ -146,8 +161,8 @@ void Forker::fork(const Node& node) {
     const double kink = (2 * r - 1) * p_.mTrunkKink;
     main.head = node.head + glm::dvec3{kink, p_.mClimbRate, kink};
     main.on_trunk = true;
-    main.length = length * p_.mTaperRate;
-    main.radius = std::min(node.radius * p_.mTaperRate, std::max(node.length, 1e-3));
+    main.length = std::min(longest, node.length * p_.mTaperRate);
+    main.radius = std::min(node.radius * p_.mTaperRate, std::max(main.length, least_radius));
     main.levels = node.levels;
     main.steps = node.steps - 1;
   }
@@ -157,9 +172,10 @@ void Forker::fork(const Node& node) {
   }
 }
 
-/// A square of twice mTwigScale that begins a little before the branch does.
-void Forker::twig(const Node& node, const Node& child, std::uint32_t joint) {
-  const std::uint64_t key = chances_.leaves.at(child.rng.key()).key();
+/// Writes a square with sides of twice mTwigScale. It begins before the tip of a branch by the length that branches
+/// from there would have.
+void ProctreeGrower::twig(const Node& node, const Node& child, std::uint32_t joint) {
+  const std::uint64_t key = random_.leaves.at(child.rng.key()).key();
   if (!writer_.wants_leaf(key)) return;
   const glm::dvec3 ahead = unit(child.head - node.head);
   const glm::dvec3 behind = unit(node.head - node.tail);
@@ -169,7 +185,7 @@ void Forker::twig(const Node& node, const Node& child, std::uint32_t joint) {
   SkeletonWriter::Leaf leaf;
   leaf.frame = headed(frame, ahead);
   if (leaf.frame.up.y < 0) leaf.frame = {leaf.frame.heading, -leaf.frame.left, -leaf.frame.up};
-  leaf.position = node.head;
+  leaf.position = child.head - ahead * child.length;
   leaf.length = 2 * p_.mTwigScale;
   leaf.width = 2 * p_.mTwigScale;
   leaf.joint = joint;
@@ -179,8 +195,8 @@ void Forker::twig(const Node& node, const Node& child, std::uint32_t joint) {
 
 }  // namespace
 
-void grow_proctree(const TreeParams& params, const Chances& chances, SkeletonWriter& writer) {
-  Forker(params, chances, writer).run();
+void grow_proctree(const TreeParams& params, const RandomStreams& random, SkeletonWriter& writer) {
+  ProctreeGrower(params, random, writer).run();
 }
 
 }  // namespace seedmesh::tree

@@ -2,16 +2,17 @@
 
 #include <algorithm>
 
-#include "core/generators/tree/looks.h"
-#include "core/geom/detail.h"
+#include "core/generators/tree/materials.h"
+#include "core/geom/lod/detail.h"
 
 namespace seedmesh::tree {
 namespace {
 
-// Metres: where twigs begin to go and are gone; where stems begin to, by so much a metre; the end of leaves.
+// Metres: the distance to which all twigs are made; the distance over which stems disappear; that at which
+// leaves do.
 constexpr double twigs_whole = 50, stems_by = 600;
 constexpr double leaves_gone = 200, spring_leaves_gone = 100;
-// The paper draws 13,312 leaves of its aspen near and 1,664 points far away.
+// The paper draws 13,312 leaves of a near aspen, and 1,664 points for a distant one.
 constexpr double least_leaves = 1.0 / 8;
 constexpr double least_sides = 1.0 / 6;
 
@@ -19,14 +20,19 @@ bool is_drawn_limb(std::uint64_t key, double share) { return is_drawn(mix(key ^ 
 
 }  // namespace
 
+bool has_linear_faces(const TreeParams& params) {
+  return params.model == TreeModel::sculpt && params.sculpt.faces == TreeFaces::linear;
+}
+
 RangeShares shares_at(const TreeParams& params) {
   const double range = params.range;
-  const double stems = std::clamp(1.5 - range / stems_by, 0.0, 1.0);
+  const bool is_linear = has_linear_faces(params);
+  const double stems = std::clamp((is_linear ? 1 : 1.5) - range / stems_by, 0.0, 1.0);
   const double gone = params.season == TreeSeason::spring ? spring_leaves_gone : leaves_gone;
   RangeShares shares;
   shares.sides = std::max(least_sides, stems);
-  shares.branches = stems;
-  shares.twigs = std::clamp(2 - range / twigs_whole, 0.0, 1.0);
+  shares.branches = is_linear ? 1 : stems;
+  shares.twigs = is_linear ? 1 : std::clamp(2 - range / twigs_whole, 0.0, 1.0);
   shares.leaves = std::clamp(4.0 / 3 - range / (0.75 * gone), least_leaves, 1.0);
   return shares;
 }
@@ -40,7 +46,7 @@ void degrade(Skeleton& skeleton, const TreeParams& params, Job& job) {
   if (shares.branches >= 1 && shares.twigs >= 1) return;
   const Limbs& limbs = skeleton.limbs;
   Array<std::uint8_t> stays(job, limbs.size(), std::uint8_t{1});
-  // Of each joint, the nearest one toward the root that stays.
+  // For each joint, the nearest one toward the root that stays.
   Array<std::uint32_t> stands_for(job, limbs.size());
   for (std::size_t i = 0; i < limbs.size(); ++i) {
     if (i % 4096 == 0) job.check();

@@ -1,25 +1,30 @@
 #pragma once
-/// What is left of a tree that is seen from afar: Weber and Penn, "Creation and Rendering of Realistic
-/// Trees", SIGGRAPH 1995, section 4.9 (degradation at range), for an image 1,000 pixels high of 60 degrees.
-#include "core/generators/tree/growth_context.h"
+/// The parts of a distant tree that are made: Weber and Penn, "Creation and Rendering of Realistic Trees",
+/// SIGGRAPH 1995, section 4.9 (degradation at range), for an image 1,000 pixels high with a field of view of
+/// 60 degrees.
+#include "core/generators/tree/skeleton_writer.h"
 
 namespace seedmesh::tree {
 
-/// The share of what is drawn at `range` metres. The paper draws the first of every mass of 16 stems and of 4
-/// leaves; here each is drawn or not by its place, so that what is drawn from afar is part of what is drawn
-/// from nearer.
+/// Whether the number of corners falls linearly with radius and distance, so that no limb is left out at a distance
+/// (Kruszewski, 1999).
+bool has_linear_faces(const TreeParams& params);
+
+/// The shares of parts that are made at a distance. The paper draws the first of 16 stems and of 4 leaves.
+/// Here a random number of each part decides, so that what is made for a distance is a subset of what is made
+/// for a shorter one.
 struct RangeShares {
-  double sides = 1;     ///< of the corners of cross-sections: whole to 300 m, a sixth from 800 m on
-  double branches = 1;  ///< main branches: whole to 300 m, none from 900 m on
-  double twigs = 1;     ///< limbs of branches: whole to 50 m, none from 100 m on
-  double leaves = 1;    ///< whole to 50 m (25 m in spring), then fewer, an eighth at least; larger
+  double sides = 1;     ///< corners of cross-sections: all to 300 m, a sixth from 800 m
+  double branches = 1;  ///< main branches: all to 300 m, none from 900 m
+  double twigs = 1;     ///< limbs of branches: all to 50 m, none from 100 m
+  double leaves = 1;    ///< all to 50 m (25 m in spring), at least an eighth; larger ones
 };
 RangeShares shares_at(const TreeParams& params);
 
-/// The share of the leaves that is drawn: of `leaf.density` and `range`; 0: there are none.
+/// The share of the leaves that is made, from `leaf.density` and `range`; 0 if there are no leaves.
 double drawn_leaves(const TreeParams& params);
 
-/// Takes out the limbs that are not drawn, with all that they carry; their leaves stay. n time.
+/// Removes the limbs that are not made, with their limbs. Leaves stay. Linear in the size of the skeleton.
 void degrade(Skeleton& skeleton, const TreeParams& params, Job& job);
 
 }  // namespace seedmesh::tree

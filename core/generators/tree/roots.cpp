@@ -7,34 +7,36 @@
 namespace seedmesh::tree {
 namespace {
 
-// A root leaves the trunk where the joint is nearest to so many of its radii above the ground, if one is
-// within reach of these (by its own radius, and by the trunk's).
+// A root leaves the trunk at the joint whose height is nearest to `wanted_height` times the radius of the
+// root, if it is above `least_height` times that radius and below `most_height` times the radius of the
+// trunk.
 constexpr double least_height = 1.25, wanted_height = 1.6, most_height = 2.2;
-// Pieces from the flank to the ground, and along it.
+// Number of pieces from the trunk to the ground and along the ground.
 constexpr int pieces_down = 4, pieces_out = 8;
-// A root's axis lies so much of its radius above the flare and the ground, and goes up and down by so much.
+// Height of the axis above the flare and the ground, and its random change, as shares of the radius.
 constexpr double over_ground = 0.25, undulation = 0.3;
-// It leaves the trunk as steeply as to fall so much of its radius until it is out of the bark by so much,
-// also where the flare is widest that its collar reaches, so much of its radius below the joint.
+// A root falls by `first_fall` until it is `first_step` outside the bark, measured where the flare is widest
+// that its collar reaches: `collar_depth` below the joint. All are shares of its radius.
 constexpr double first_fall = 0.7, first_step = 0.7, collar_depth = 1.7;
-// A radius at the tip, as a share of that at the trunk.
+// Radius at the tip as a share of the radius where the root reaches the ground.
 constexpr double tip_share = 0.03;
-// A root that forks has a second arm so thick and so long as the rest of the first.
+// Radius and length of the second arm of a fork as shares of those of the rest of the root.
 constexpr double arm_thickness = 0.75, arm_length = 0.95;
-// Turns of a root from piece to piece, and how much of what it has turned so far it takes back.
+// Largest random turn from piece to piece, in degrees, and the share of the turn so far that a piece takes
+// back.
 constexpr double winding = 36, taken_back = 0.25;
 
-// Joints of the trunk that its profile is taken from.
+// Most joints of the profile of the trunk.
 constexpr std::size_t most_stations = 64;
 
 /// A stretch of a root along the ground.
 struct Run {
   Rng rng{0};
-  std::uint32_t joint = Limbs::none;  ///< that it leaves
+  std::uint32_t joint = Limbs::none;  ///< from which it continues
   glm::dvec3 at{0};
   double heading = 0;             ///< degrees
-  double radius = 0, length = 0;  ///< where it begins, and of all of it
-  double share = 0;               ///< of the root's way that lies behind it
+  double radius = 0, length = 0;  ///< the radius where it begins
+  double share = 0;               ///< of the whole root that lies before it
   int pieces = pieces_out, order = 1;
   int forks = 0;  ///< the first after a piece, the second after three
   bool starts_limb = false;
@@ -42,8 +44,8 @@ struct Run {
 
 class RootGrower {
  public:
-  RootGrower(const TreeRoots& roots, double trunk, const Chances& chances, SkeletonWriter& writer)
-      : roots_(roots), trunk_(trunk), chances_(chances), writer_(writer) {}
+  RootGrower(const TreeRoots& roots, double trunk, const RandomStreams& random, SkeletonWriter& writer)
+      : roots_(roots), trunk_(trunk), random_(random), writer_(writer) {}
 
   void run() {
     const std::uint32_t from = collar();
@@ -67,12 +69,12 @@ class RootGrower {
 
   const TreeRoots& roots_;
   double trunk_;
-  const Chances& chances_;
+  const RandomStreams& random_;
   SkeletonWriter& writer_;
   std::vector<glm::dvec2> profile_;  ///< of the trunk: radius and height
 };
 
-/// How high the flare is at a distance from the axis of the trunk.
+/// Height of the surface of the trunk at a distance from its axis.
 double RootGrower::surface(double aside) const {
   glm::dvec2 before{writer_.radius(0), 0};
   if (aside >= before.x) return 0;
@@ -84,7 +86,7 @@ double RootGrower::surface(double aside) const {
   return before.y;
 }
 
-/// How wide the flare is at a height.
+/// Radius of the trunk at a height.
 double RootGrower::width(double height) const {
   glm::dvec2 before{writer_.radius(0), 0};
   for (const glm::dvec2& station : profile_) {
@@ -95,7 +97,7 @@ double RootGrower::width(double height) const {
   return before.x;
 }
 
-/// The joint of the trunk that roots leave: the foot where no other is near the ground.
+/// The joint of the trunk from which roots grow; the foot if no other is near the ground.
 std::uint32_t RootGrower::collar() const {
   const double least = least_height * thickest(), most = std::max(least, most_height * trunk_);
   std::uint32_t best = 0;
@@ -126,16 +128,15 @@ std::uint32_t RootGrower::add(std::uint32_t parent, const glm::dvec3& at, glm::d
   return writer_.add(joint);
 }
 
-/// From the flank of the trunk down to the ground at the edge of the flare.
+/// Writes a root from the trunk down to the ground at the edge of the flare, and then along the ground.
 void RootGrower::grow(int number, std::uint32_t from) {
-  const Rng rng = chances_.trunk.at("root").at(static_cast<std::uint64_t>(number));
+  const Rng rng = random_.trunk.at("root").at(static_cast<std::uint64_t>(number));
   const double around = 360.0 * (number + Rng(rng.at("around")).uniform(-0.22, 0.22)) / roots_.count;
   const math::SinCos way = math::quick_sincos_degrees(around);
   const glm::dvec3 out{way.cos, 0, way.sin};
   const glm::dvec3 start(writer_.position(from));
   const double radius = thickest() * Rng(rng.at("thickness")).uniform(0.8, 1.0);
   const double flank = writer_.radius(from), foot = writer_.radius(0);
-  // Down along the flare, half out of it, to the ground at its edge.
   const double near = std::max(flank, width(start.y - collar_depth * radius)) + first_step * radius,
                far = std::max(foot + trunk_, near + 1.5 * trunk_);
   const double high = std::max(start.y - first_fall * radius, surface(near) + over_ground * radius);
@@ -197,8 +198,8 @@ void RootGrower::run_out(const Run& run) {
 
 }  // namespace
 
-void grow_roots(const TreeRoots& roots, double trunk, const Chances& chances, SkeletonWriter& writer) {
-  if (roots.count > 0) RootGrower(roots, trunk, chances, writer).run();
+void grow_roots(const TreeRoots& roots, double trunk, const RandomStreams& random, SkeletonWriter& writer) {
+  if (roots.count > 0) RootGrower(roots, trunk, random, writer).run();
 }
 
 }  // namespace seedmesh::tree

@@ -1,13 +1,12 @@
 #pragma once
-/// Roots: limbs that leave the flank of a trunk thick, come down to the ground beside it and run out along
-/// it, winding and forking, to tips below. They have a stream of chance of their own and are written last, so
-/// that they change nothing of the tree.
-#include "core/generators/tree/growth_context.h"
+/// Roots: limbs that leave the trunk near the ground, come down beside it, and run along the ground with
+/// bends and forks to tips below it. They have random numbers of their own and are written last, so that they
+/// do not change the tree.
+#include "core/generators/tree/skeleton_writer.h"
 
 namespace seedmesh::tree {
 
-/// Joint 0 is the foot at the origin, as wide as the flare makes it; `trunk` is the trunk's radius without
-/// it.
-void grow_roots(const TreeRoots& roots, double trunk, const Chances& chances, SkeletonWriter& writer);
+/// Joint 0 is the foot at the origin with its flare. `trunk` is the radius of the trunk without flare.
+void grow_roots(const TreeRoots& roots, double trunk, const RandomStreams& random, SkeletonWriter& writer);
 
 }  // namespace seedmesh::tree

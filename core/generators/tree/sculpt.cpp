@@ -7,11 +7,11 @@
 namespace seedmesh::tree {
 namespace {
 
-// Whorls of one limb: gaps of a fiftieth that halve would go on for ever.
+// Most whorls of a limb; gaps that become shorter could otherwise go on for ever.
 constexpr int most_whorls = 2000;
-// Steps in which a ray looks for the border of a lathed shape, and halvings of the last step.
+// Steps in which a ray searches for the border of a shape, and bisections of the last step.
 constexpr int ray_steps = 64, halvings = 20;
-// A child is never thicker than this share of its parent where it leaves it.
+// Largest radius of a limb as a share of that of its parent where it begins.
 constexpr double thickest_child = 0.8;
 
 double half_width(const TreeLevel& level, double share) {
@@ -41,18 +41,18 @@ struct Limb {
   Rng rng{0};
 };
 
-class Sculptor {
+class SculptGrower {
  public:
-  Sculptor(const TreeParams& params, const Chances& chances, SkeletonWriter& writer)
-      : p_(params), s_(params.sculpt), chances_(chances), writer_(writer) {}
+  SculptGrower(const TreeParams& params, const RandomStreams& random, SkeletonWriter& writer)
+      : p_(params), s_(params.sculpt), random_(random), writer_(writer) {}
 
   void run() {
     Limb trunk;
-    trunk.rng = chances_.trunk;
+    trunk.rng = random_.trunk;
     trunk.length = s_.height * (1 + spread(trunk.rng.at("height"), s_.height_spread));
     trunk.frame = pitch(roll(Frame{}, math::quick_sincos_degrees(trunk.rng.at("roll").uniform(0, 360))),
                         math::quick_sincos_degrees(s_.lean));
-    trunk.radius = radius_of(trunk, 1e9);
+    trunk.radius = s_.trunk_radius > 0 ? s_.trunk_radius : radius_of(trunk, 1e9);
     SkeletonWriter::Joint foot;
     foot.radius = foot.base_radius = radius_at(trunk, 0);
     foot.key = trunk.rng.key();
@@ -61,7 +61,7 @@ class Sculptor {
     while (!waiting_.empty()) {
       const Limb limb = waiting_.back();
       waiting_.pop_back();
-      carve(limb);
+      grow(limb);
     }
   }
 
@@ -76,7 +76,7 @@ class Sculptor {
   }
   bool branches(const Limb& limb) const { return limb.level + 1 < s_.levels && limb.length > s_.shortest; }
 
-  /// The radius at the foot, from the taper angle.
+  /// The radius at the foot of a limb, from the taper angle.
   double radius_of(const Limb& limb, double most) const {
     const double wanted = s_.tip_radius + limb.length * math::tan(math::radians(level(limb.level).taper));
     return std::min(wanted, most);
@@ -88,7 +88,7 @@ class Sculptor {
     return limb.level == 0 ? radius * (1 + p_.trunk_flare * low * low * low) : radius;
   }
 
-  void carve(const Limb& limb);
+  void grow(const Limb& limb);
   std::vector<double> whorls(const Limb& limb) const;
   Frame turned(const Limb& limb, const Frame& frame, int segment, double share) const;
   void whorl(const Limb& limb, const Limb& here, int number, double share);
@@ -96,13 +96,13 @@ class Sculptor {
 
   const TreeParams& p_;
   const TreeSculpt& s_;
-  const Chances& chances_;
+  const RandomStreams& random_;
   SkeletonWriter& writer_;
   std::vector<Limb> waiting_;
 };
 
-/// Shares of the limb at which it is cut: whorls, and its tip.
-std::vector<double> Sculptor::whorls(const Limb& limb) const {
+/// The ends of the segments of a limb as shares of its length: its whorls and its tip.
+std::vector<double> SculptGrower::whorls(const Limb& limb) const {
   const TreeLevel& l = level(limb.level);
   std::vector<double> shares;
   double at = 0, gap = l.gap;
@@ -116,7 +116,7 @@ std::vector<double> Sculptor::whorls(const Limb& limb) const {
   return shares;
 }
 
-Frame Sculptor::turned(const Limb& limb, const Frame& frame, int segment, double share) const {
+Frame SculptGrower::turned(const Limb& limb, const Frame& frame, int segment, double share) const {
   const TreeLevel& l = level(limb.level);
   const Rng rng = limb.rng.at("segment").at(static_cast<std::uint64_t>(segment));
   const double bend = l.bend + spread(rng.at("bend"), l.bend_spread);
@@ -130,7 +130,7 @@ Frame Sculptor::turned(const Limb& limb, const Frame& frame, int segment, double
   return rotated(next, axis / size, math::quick_sincos_degrees(rise));
 }
 
-void Sculptor::carve(const Limb& limb) {
+void SculptGrower::grow(const Limb& limb) {
   const TreeLevel& l = level(limb.level);
   const std::vector<double> shares = whorls(limb);
   Limb here = limb;
@@ -156,16 +156,16 @@ void Sculptor::carve(const Limb& limb) {
   if (bears_leaves(limb)) leaves(limb, stations, shares);
 }
 
-void Sculptor::whorl(const Limb& limb, const Limb& here, int number, double share) {
+void SculptGrower::whorl(const Limb& limb, const Limb& here, int number, double share) {
   const TreeLevel& l = level(limb.level);
-  const Rng own = limb.level == 0 ? chances_.branches : limb.rng;
+  const Rng own = limb.level == 0 ? random_.branches : limb.rng;
   const Rng rng = own.at("whorl").at(static_cast<std::uint64_t>(number));
   for (int i = 0; i < l.whorl; ++i) {
-    const Rng chance = rng.at(static_cast<std::uint64_t>(i));
-    if (l.chance < 1 && Rng(chance.at("there")).unit() >= l.chance) continue;
-    const double around = l.phase * number + 360.0 * i / l.whorl + spread(chance.at("phase"), l.phase_spread);
+    const Rng random = rng.at(static_cast<std::uint64_t>(i));
+    if (l.chance < 1 && Rng(random.at("there")).unit() >= l.chance) continue;
+    const double around = l.phase * number + 360.0 * i / l.whorl + spread(random.at("phase"), l.phase_spread);
     const double angle =
-        l.angle + (l.angle_tip - l.angle) * share + spread(chance.at("angle"), l.angle_spread);
+        l.angle + (l.angle_tip - l.angle) * share + spread(random.at("angle"), l.angle_spread);
     Limb child;
     child.frame =
         pitch(roll(here.frame, math::quick_sincos_degrees(around)), math::quick_sincos_degrees(angle));
@@ -173,19 +173,19 @@ void Sculptor::whorl(const Limb& limb, const Limb& here, int number, double shar
     child.joint = here.joint;
     child.level = limb.level + 1;
     const math::SinCos lean = math::quick_sincos_degrees(angle), about = math::quick_sincos_degrees(around);
-    const double room = room_in_shape(l, limb.length, share * limb.length,
-                                      {lean.sin * about.sin, lean.cos, lean.sin * about.cos});
-    child.length = room * l.fill * (1 - l.fill_spread * Rng(chance.at("fill")).unit());
+    const double reach = distance_in_shape(l, limb.length, share * limb.length,
+                                           {lean.sin * about.sin, lean.cos, lean.sin * about.cos});
+    child.length = reach * l.fill * (1 - l.fill_spread * Rng(random.at("fill")).unit());
     if (child.length < s_.shortest) continue;
-    child.rng = chance.at("limb");
+    child.rng = random.at("limb");
     child.radius = radius_of(child, thickest_child * radius_at(limb, share));
     waiting_.push_back(child);
   }
 }
 
-void Sculptor::leaves(const Limb& limb, const std::vector<Limb>& stations,
-                      const std::vector<double>& shares) {
-  const Rng rng = chances_.leaves.at(limb.rng.key());
+void SculptGrower::leaves(const Limb& limb, const std::vector<Limb>& stations,
+                          const std::vector<double>& shares) {
+  const Rng rng = random_.leaves.at(limb.rng.key());
   for (int i = 0; i < s_.leaves; ++i) {
     const double share = 0.15 + 0.85 * (i + 1.0) / s_.leaves;
     std::size_t at = 0;
@@ -208,7 +208,7 @@ void Sculptor::leaves(const Limb& limb, const std::vector<Limb>& stations,
 
 }  // namespace
 
-double room_in_shape(const TreeLevel& level, double length, double from, const glm::dvec3& direction) {
+double distance_in_shape(const TreeLevel& level, double length, double from, const glm::dvec3& direction) {
   const double width = level.width * length;
   const double aside = level.shape == TreeShape::box
                            ? std::max(std::abs(direction.x), std::abs(direction.z))
@@ -235,8 +235,8 @@ double room_in_shape(const TreeLevel& level, double length, double from, const g
   return inside;
 }
 
-void grow_sculpt(const TreeParams& params, const Chances& chances, SkeletonWriter& writer) {
-  Sculptor(params, chances, writer).run();
+void grow_sculpt(const TreeParams& params, const RandomStreams& random, SkeletonWriter& writer) {
+  SculptGrower(params, random, writer).run();
 }
 
 }  // namespace seedmesh::tree

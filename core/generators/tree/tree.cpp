@@ -4,43 +4,47 @@
 #include <nlohmann/json.hpp>
 
 #include "core/generators/tree/age.h"
-#include "core/generators/tree/dress.h"
+#include "core/generators/tree/build_model.h"
 #include "core/generators/tree/estimate.h"
-#include "core/generators/tree/idle.h"
-#include "core/generators/tree/looks.h"
+#include "core/generators/tree/ez_tree.h"
+#include "core/generators/tree/materials.h"
 #include "core/generators/tree/proctree.h"
 #include "core/generators/tree/range.h"
 #include "core/generators/tree/roots.h"
 #include "core/generators/tree/sculpt.h"
 #include "core/generators/tree/weber_penn.h"
 #include "core/generators/tree/weber_penn_shape.h"
+#include "core/generators/unused.h"
+#include "core/schema/warning_list.h"
+#include "generated/params/tree_unused.h"
 
 namespace seedmesh::tree {
 namespace {
 
-/// The request's seed; where it is 0, that of a saved proctree file.
+/// The seed of the request, or of a saved proctree file if the former is 0 or the sequence is that of proctree.
 std::uint64_t seed_of(const TreeParams& params, std::uint64_t seed) {
-  if (params.model != TreeModel::proctree || seed != 0) return seed;
+  if (params.model != TreeModel::proctree || (seed != 0 && params.sequence == TreeSequence::keyed))
+    return seed;
   return static_cast<std::uint64_t>(params.mSeed);
 }
 
-/// How much wider than its own radius the trunk is at the ground.
+/// Factor for the radius of the trunk at the ground.
 double foot_flare(const TreeParams& params) {
   if (params.model != TreeModel::weber_penn) return 1 + params.trunk_flare;
   return flared_trunk(params, 0);
 }
 
-/// What of a tree is looked at.
+/// The parts of a skeleton that are needed.
 struct Wanted {
   double density = 1;       ///< share of the leaves
-  double least_radius = 0;  ///< limbs that begin thinner need not be there, as far as that is known early
-  bool every_foot = false;  ///< a joint wherever a limb stands, also where the bark needs none
-  std::size_t most = 0;     ///< throws SkeletonWriter::Enough beyond so many joints; 0: none are too many
+  double least_radius = 0;  ///< limbs that begin thinner may be left out
+  bool every_foot = false;  ///< a joint wherever a limb begins, even where the bark needs none
+  std::size_t most = 0;     ///< joints beyond which the attempt is abandoned; 0: no limit
 };
 
-/// For a model: limbs that are left out of the bark are of use only to what moves, ages or thins out a tree.
-Wanted wanted_for_model(const TreeParams& params, const Job& job) {
-  const Demand& demand = job.demand();
+/// For a model. Limbs without bark are needed only for levels of detail, wind, growth, age and collision.
+Wanted wanted_for_model(const TreeParams& params, const GenerateContext& context) {
+  const Demand& demand = context.demand;
   const RangeShares shares = shares_at(params);
   const bool is_plain = demand.lods < 2 && !demand.wind && !demand.growth && !params.age &&
                         demand.collision == CollisionNames::none && shares.branches >= 1 && shares.twigs >= 1;
@@ -50,30 +54,34 @@ Wanted wanted_for_model(const TreeParams& params, const Job& job) {
   return wanted;
 }
 
-Skeleton grow(const TreeParams& params, const Wanted& wanted, Job& job) {
+Skeleton grow(const TreeParams& params, const Wanted& wanted, const GenerateContext& context) {
+  Job& job = context.job;
   job.progress("derive", 0);
   Skeleton skeleton(job);
   SkeletonWriter writer(skeleton, job, wanted.density);
   if (wanted.most > 0) writer.end_after(wanted.most, leaves_a_joint * wanted.most);
   writer.leave_out_below(wanted.least_radius);
   if (wanted.every_foot) writer.mark_every_foot();
-  const Chances chances(params.seeds, seed_of(params, job.seed()));
+  const RandomStreams random(params.seeds, seed_of(params, job.seed()));
   switch (params.model) {
     case TreeModel::weber_penn:
-      grow_weber_penn(params, chances, writer);
+      grow_weber_penn(params, random, writer);
       break;
     case TreeModel::proctree:
-      grow_proctree(params, chances, writer);
+      grow_proctree(params, random, writer);
       break;
     case TreeModel::sculpt:
-      grow_sculpt(params, chances, writer);
+      grow_sculpt(params, random, writer);
+      break;
+    case TreeModel::ez_tree:
+      grow_ez_tree(params, random, job.seed(), writer);
       break;
   }
   if (params.age) make_young(skeleton, *params.age / params.mature_age, job);
-  // As large as the trunk of this age wants them.
-  grow_roots(params.roots, writer.radius(0) / foot_flare(params), chances, writer);
+  // Roots have the size that fits the trunk at this age.
+  grow_roots(params.roots, writer.radius(0) / foot_flare(params), random, writer);
   writer.finish();
-  if (job.demand().growth) skeleton.limbs.birth = births_of(skeleton.limbs, job);
+  if (context.demand.growth) skeleton.limbs.birth = births_of(skeleton.limbs, job);
   return skeleton;
 }
 
@@ -91,7 +99,9 @@ std::vector<LevelFigures> figures_of(const Limbs& limbs) {
     if (order >= levels.size()) levels.resize(order + 1);
     LevelFigures& level = levels[order];
     level.length += static_cast<double>(glm::distance(limbs.position[i], limbs.position[parent]));
-    if (limbs.starts_limb[i] || limbs.parent[parent] == Limbs::none) {
+    // In the model ez_tree, a limb of the next level may continue its parent.
+    if (limbs.starts_limb[i] || limbs.parent[parent] == Limbs::none ||
+        limbs.order[i] != limbs.order[parent]) {
       ++level.count;
       level.radius += static_cast<double>(limbs.base_radius[i]);
     }
@@ -106,31 +116,43 @@ Json vector(const glm::vec3& v) { return Json::array({v.x + 0.0F, v.y + 0.0F, v.
 std::vector<Issue> check(const TreeParams& params, const Limits&) {
   std::vector<Issue> issues;
   if (params.mSegments % 2 != 0) {
-    issues.push_back({"/mSegments",
-                      "found " + std::to_string(params.mSegments) + ", expected an even number of corners", 0,
-                      0});
+    issues.push_back({IssueKind::invalid_value, "/mSegments",
+                      "found " + std::to_string(params.mSegments) + ", expected an even number of corners"});
   }
   check_images(params, issues);
   return issues;
 }
 
-Result<Model> generate(const TreeParams& params, Job& job) {
-  Skeleton skeleton = grow(params, wanted_for_model(params, job), job);
+std::vector<Warning> warnings_of(const TreeParams& params) {
+  std::vector<Warning> warnings = warnings_of(unused_parameters(params));
+  // How many entries of the list are used is more than x-applies-when can say.
+  if (params.model != TreeModel::sculpt) return warnings;
+  const auto used = static_cast<std::size_t>(params.sculpt.levels);
+  for (std::size_t i = used; i < params.sculpt.level.size(); ++i) {
+    warnings.push_back(
+        {"/sculpt/level/" + std::to_string(i),
+         "This level has no effect unless `sculpt.levels` is greater than " + std::to_string(i) + ".", 0, 0});
+  }
+  return warnings;
+}
+
+Result<Model> generate(const TreeParams& params, const GenerateContext& context) {
+  Job& job = context.job;
+  Skeleton skeleton = grow(params, wanted_for_model(params, context), context);
   degrade(skeleton, params, job);
   job.progress("mesh", 0);
-  Model model = dress(std::move(skeleton), params, job);
-  model.warnings = idle_parameters(params);
-  // Leaves that share one mesh have no place for weights of their own.
-  if (job.demand().wind && job.demand().share_organs && has_leaves(params))
+  Model model = build_model(std::move(skeleton), params, context);
+  model.warnings = warnings_of(params);
+  if (context.demand.wind && context.demand.share_organs && has_leaves(params))
     model.warnings.push_back(
-        {"/output/wind", "leaves that share a mesh have no weights; only bark moves", 0, 0});
+        {"/output/wind", "Leaves that share a mesh have no weights, so only bark moves.", 0, 0});
   return model;
 }
 
-Result<Json> derive(const TreeParams& params, Job& job) {
+Result<Json> derive(const TreeParams& params, const GenerateContext& context) {
   Wanted wanted;
   wanted.every_foot = true;
-  const Skeleton skeleton = grow(params, wanted, job);
+  const Skeleton skeleton = grow(params, wanted, context);
   const Limbs& limbs = skeleton.limbs;
   Json levels = Json::array();
   std::uint64_t count = 0;
@@ -141,35 +163,28 @@ Result<Json> derive(const TreeParams& params, Job& job) {
     count += level.count;
   }
   const Box box = bounds_of(limbs.position.span());
-  Json warnings = Json::array();
-  for (const Warning& each : idle_parameters(params))
-    warnings.push_back({{"pointer", "/parameters" + each.pointer}, {"message", each.message}});
   return Json{{"limbs", count},
               {"levels", std::move(levels)},
               {"leaves", skeleton.organs.organ.size()},
               {"height", box.max.y + 0.0F},
               {"bounds", {{"min", vector(box.min)}, {"max", vector(box.max)}}},
-              {"warnings", std::move(warnings)}};
+              {"warnings", warning_list(warnings_of(params))}};
 }
 
-Result<Appraisal> appraise(const TreeParams& params, const Job& job) {
+Result<Appraisal> appraise(const TreeParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   Appraisal appraisal;
-  appraisal.warnings = idle_parameters(params);
-  // A job of its own: what is looked at here is not spent.
-  job.check();
-  Job::Options options;
-  options.limits = job.limits();
-  Job own(job.seed(), options);
-  own.set_demand({.textures = job.demand().textures});
-  try {
-    Wanted wanted = wanted_for_model(params, own);
+  appraisal.warnings = warnings_of(params);
+  Job own = job.for_estimate();
+  const GenerateContext sketch{own, {.textures = context.demand.textures}, context.generators};
+  const bool is_small = attempt([&] {
+    Wanted wanted = wanted_for_model(params, sketch);
     wanted.most = most_appraised;
-    Skeleton skeleton = grow(params, wanted, own);
+    Skeleton skeleton = grow(params, wanted, sketch);
     degrade(skeleton, params, own);
-    appraisal.estimate = estimate_of(std::move(skeleton), params, own);
-  } catch (const SkeletonWriter::Enough&) {
-    appraisal.estimate = std::nullopt;  // more than is grown in an instant
-  }
+    appraisal.estimate = estimate_of(std::move(skeleton), params, sketch);
+  });
+  if (!is_small) appraisal.estimate = std::nullopt;  // it takes longer than an estimate may
   return appraisal;
 }
 

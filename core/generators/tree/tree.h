@@ -1,11 +1,10 @@
 #pragma once
-/// Trees by parametric models: weber_penn, proctree, sculpt.
+/// Trees by three parametric models: weber_penn, proctree and sculpt.
 ///
-///   params -> model -> Skeleton (limbs, leaves) -> dress() -> bark, one closed mesh; leaves, one mesh
+///   params -> Skeleton (limbs and leaves) -> build_model() -> bark: one closed mesh, and leaves: one mesh
 ///
-/// Out: one root node, the foot of the trunk at the origin, +Y up, metres; two materials.
-#include "core/base/job.h"
-#include "core/generators/appraisal.h"
+/// The model has one root node. The foot of the trunk is at the origin, +Y is up, lengths are in metres.
+#include "core/generators/api.h"
 #include "core/model/model.h"
 #include "core/schema/json.h"
 
@@ -15,20 +14,23 @@ struct TreeParams;
 
 namespace seedmesh::tree {
 
-/// Rules between parameters: mSegments is even.
+/// Checks what the schema cannot express: mSegments is even, and images can be read.
 std::vector<Issue> check(const TreeParams& params, const Limits& limits);
 
-Result<Model> generate(const TreeParams& params, Job& job);
+/// One warning for each parameter that is given and has no effect. Pointers are relative to the parameters.
+std::vector<Warning> warnings_of(const TreeParams& params);
 
-/// {limbs, levels: [{count, length, radius}], leaves, height, bounds, warnings}: the skeleton in figures.
-/// `length` and `radius` are means over the limbs of the level, the radius where they begin.
-Result<Json> derive(const TreeParams& params, Job& job);
+Result<Model> generate(const TreeParams& params, const GenerateContext& context);
 
-/// Warnings, and an estimate by the skeleton, which is grown where it has at most 300,000 joints and
-/// 1,500,000 leaves; bark within a half of what will be made.
-Result<Appraisal> appraise(const TreeParams& params, const Job& job);
+/// {limbs, levels: [{count, length, radius}], leaves, height, bounds, warnings}: figures of the skeleton.
+/// `length` is the mean over the limbs of a level, and `radius` the mean of their radii where they begin.
+Result<Json> derive(const TreeParams& params, const GenerateContext& context);
 
-/// Nothing: a tree has no notation.
+/// Gives warnings, and an estimate if the skeleton has at most 300,000 joints and 1,500,000 leaves, which
+/// takes about 0.1 s. The triangles of the bark are estimated within 50 %.
+Result<Appraisal> appraise(const TreeParams& params, const GenerateContext& context);
+
+/// An empty object, because trees have no notation.
 Json vocabulary();
 
 }  // namespace seedmesh::tree

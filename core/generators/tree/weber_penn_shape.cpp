@@ -10,13 +10,14 @@
 namespace seedmesh::tree {
 namespace {
 
-// Flares up to here have the paper's profile; wider ones fall less steeply, down to this base of the power.
+// Flares up to this have the profile of the paper. Wider ones use a smaller base of the power, down to the
+// second.
 constexpr double widest_steep_flare = 1.25, least_flare_base = 9;
 
 constexpr double root_half = 0.70710678118654752440, log2_e = 1.44269504088896340736,
                  log_2 = 0.69314718055994530942;
 
-/// By the series of the logarithm about 1 and of the exponential function about 0.
+/// Uses series of the logarithm about 1 and of the exponential function about 0.
 double series_power(double base, double exponent) {
   const auto bits = std::bit_cast<std::uint64_t>(base);
   const double mantissa = std::bit_cast<double>((bits & 0x000FFFFFFFFFFFFFU) | 0x3FE0000000000000U);
@@ -42,26 +43,28 @@ double series_power(double base, double exponent) {
 }  // namespace
 
 std::array<WeberPennLevel, 4> weber_penn_levels(const TreeParams& p) {
-  return {{
-      {0, 0, 0, 0, 0, p.length_0, p.length_v_0, p.taper_0, p.seg_splits_0, p.split_angle_0, p.split_angle_v_0,
-       p.curve_res_0, p.curve_0, p.curve_back_0, p.curve_v_0},
-      {p.down_angle_1, p.down_angle_v_1, p.rotate_1, p.rotate_v_1, p.branches_1, p.length_1, p.length_v_1,
-       p.taper_1, p.seg_splits_1, p.split_angle_1, p.split_angle_v_1, p.curve_res_1, p.curve_1,
-       p.curve_back_1, p.curve_v_1},
-      {p.down_angle_2, p.down_angle_v_2, p.rotate_2, p.rotate_v_2, p.branches_2, p.length_2, p.length_v_2,
-       p.taper_2, p.seg_splits_2, p.split_angle_2, p.split_angle_v_2, p.curve_res_2, p.curve_2,
-       p.curve_back_2, p.curve_v_2},
-      {p.down_angle_3, p.down_angle_v_3, p.rotate_3, p.rotate_v_3, p.branches_3, p.length_3, p.length_v_3,
-       p.taper_3, p.seg_splits_3, p.split_angle_3, p.split_angle_v_3, p.curve_res_3, p.curve_3,
-       p.curve_back_3, p.curve_v_3},
+  std::array<WeberPennLevel, 4> levels{{
+      {0, 0, 0, 0, 0, 1, 1, 0, p.length_0, p.length_v_0, p.taper_0, p.seg_splits_0, p.split_angle_0,
+       p.split_angle_v_0, p.curve_res_0, p.curve_0, p.curve_back_0, p.curve_v_0},
+      {p.down_angle_1, p.down_angle_v_1, p.rotate_1, p.rotate_v_1, p.branches_1, p.branch_dist_1, p.whorl_1,
+       p.base_size_1, p.length_1, p.length_v_1, p.taper_1, p.seg_splits_1, p.split_angle_1, p.split_angle_v_1,
+       p.curve_res_1, p.curve_1, p.curve_back_1, p.curve_v_1},
+      {p.down_angle_2, p.down_angle_v_2, p.rotate_2, p.rotate_v_2, p.branches_2, p.branch_dist_2, p.whorl_2,
+       p.base_size_2, p.length_2, p.length_v_2, p.taper_2, p.seg_splits_2, p.split_angle_2, p.split_angle_v_2,
+       p.curve_res_2, p.curve_2, p.curve_back_2, p.curve_v_2},
+      {p.down_angle_3, p.down_angle_v_3, p.rotate_3, p.rotate_v_3, p.branches_3, p.branch_dist_3, p.whorl_3,
+       p.base_size_3, p.length_3, p.length_v_3, p.taper_3, p.seg_splits_3, p.split_angle_3, p.split_angle_v_3,
+       p.curve_res_3, p.curve_3, p.curve_back_3, p.curve_v_3},
   }};
+  for (WeberPennLevel& level : levels) level.curve_res = std::max(1, level.curve_res);
+  return levels;
 }
 
 double power(double base, double exponent) {
   if (exponent == 2) return base * base;
   if (exponent == 0.5) return std::sqrt(base);
   if (exponent == 1) return base;
-  // Not for what may leave the range of doubles.
+  // The series is not valid near the limits of doubles.
   const bool is_usual = base > 1e-30 && base < 1e30 && std::abs(exponent) < 8;
   return is_usual ? series_power(base, exponent) : math::pow(base, exponent);
 }
@@ -88,8 +91,7 @@ double shape_ratio(const TreeParams& params, int shape, double ratio) {
     default:
       break;
   }
-  // The paper divides both halves by 1 - peak, which leaves a step at the peak unless it is in the middle;
-  // the lower half is as long as the peak is high.
+  // The paper divides both parts by 1 - peak, which gives a step unless the peak is in the middle.
   if (ratio < 0 || ratio > 1) return 0;
   const double peak = 1 - params.PruneWidthPeak;
   if (r < peak) return power(r / peak, params.PrunePowerHigh);
@@ -113,7 +115,7 @@ double flared(double flare, double z) {
   const double y = std::max(0.0, 1 - 8 * z), excess = flare - widest_steep_flare;
   if (flare == 0 || y == 0) return 1;
   if (!(excess > 0)) return 1 + flare * (math::pow(100, y) - 1) / 100;
-  // The paper's power of 100 makes a disc of a flare that is several times as wide as the trunk.
+  // With the base 100 of the paper, a wide flare would be a flat disc.
   const double base = std::max(least_flare_base, 100 / ((1 + 4 * excess) * (1 + 4 * excess)));
   return 1 + 0.99 * flare * (math::pow(base, y) - 1) / (base - 1);
 }
@@ -126,15 +128,15 @@ double flared_trunk(const TreeParams& params, double z) {
 
 namespace {
 
-/// Bernoulli's bounds of base^power for a base in 0 .. 1, a little wider than they are: most points are seen
-/// to be inside or outside the envelope without the power itself.
+/// Bernoulli's bounds of base^power for a base in 0 .. 1, widened by 1e-9. They decide for most points
+/// whether they are within the envelope, without the cost of a power.
 struct PowerBounds {
   double low = 0, high = 1 + 1e-9;
 };
 PowerBounds bounds_of_power(double base, double power) {
   PowerBounds bounds;
   if (power > 1 || base <= 0) return bounds;
-  bounds.low = least_power(base, power);
+  bounds.low = (1 - 1e-9) / (1 + power * (1 / base - 1));
   bounds.high = (1 + 1e-9) * (1 - power * (1 - base));
   return bounds;
 }

@@ -1,10 +1,9 @@
 #pragma once
 /// The closed formulas of Weber and Penn, "Creation and Rendering of Realistic Trees", SIGGRAPH 1995: crown
-/// outlines, the pruning envelope, the taper of a stem, and what is left of a tree at a distance. Lengths in
-/// metres, angles in degrees as in the paper.
+/// outlines, the pruning envelope, and the taper of a stem. Lengths are in metres, angles in degrees.
 #include <array>
 
-#include "core/generators/tree/growth_context.h"
+#include "core/generators/tree/skeleton_writer.h"
 
 namespace seedmesh::tree {
 
@@ -12,39 +11,53 @@ namespace seedmesh::tree {
 struct WeberPennLevel {
   double down_angle, down_angle_v, rotate, rotate_v;
   int branches;
+  double spread = 1;  ///< part of each segment of the parent that bears them
+  int whorl = 1;      ///< how many begin at the same height
+  double bare = 0;    ///< share of their length without children and leaves
   double length, length_v, taper, seg_splits, split_angle, split_angle_v;
   int curve_res;
   double curve, curve_back, curve_v;
 };
 
-/// Levels beyond 3 are like 3. The trunk's has no angles and no number: 0.
+/// Levels beyond 3 equal level 3. Level 0, the trunk, has angles and a number of branches of 0.
 std::array<WeberPennLevel, 4> weber_penn_levels(const TreeParams& params);
 
-/// math::pow within a share of 1e-11, quicker: exact where the exponent is 1, 2 or a half.
+/// math::pow with a relative error below 1e-11, but faster. Exact for the exponents 1, 2 and 0.5.
 double power(double base, double exponent);
 
-/// The outline of a crown at `ratio` 1 (its base) to 0 (its top), a share of the greatest length. Shape 8 is
-/// the envelope.
+/// The length of branches as a share of the greatest length, for `ratio` from 1 at the base of the crown to 0
+/// at its top. Shape 8 is the envelope.
 double shape_ratio(const TreeParams& params, int shape, double ratio);
 
-/// The radius at share `z` of a stem of `length` whose base has `radius`; flare and lobes apart.
+/// The radius at share `z` of a stem of `length` with `radius` at its base, without flare and lobes.
 double tapered(double taper, double radius, double length, double z);
 
-/// Factor of the trunk's radius by its flare at share `z` of the length: the paper's for flares up to 1.25,
-/// less steep for wider ones.
+/// The factor for the radius of the trunk at share `z` of its length: that of the paper for flares up to
+/// 1.25, and a flatter one for wider flares.
 double flared(double flare, double z);
 
-/// By Flare and trunk_flare: at the ground the product of both factors, as one flare.
+/// The factor of Flare and trunk_flare together: at the ground the product of both.
 double flared_trunk(const TreeParams& params, double z);
 
-/// Bernoulli's bound: base^power is more, for a base in 0 .. 1 and a power up to 1. A little less than it is.
-inline double least_power(double base, double power) { return (1 - 1e-9) / (1 + power * (1 / base - 1)); }
-
-/// True where a point lies within the envelope; `aside` from the axis and `height` above the ground of a tree
-/// that is `scale` high.
+/// Is the point at the distance `aside` from the axis, and at `height` above the ground, within the envelope
+/// of a tree of height `scale`?
 bool is_in_envelope(const TreeParams& params, double scale, double aside, double height);
 
-/// Degrees between a frame's heading and the sky.
+/// The inverse cosine within 1e-7, for -1 .. 1. After M. Abramowitz and I. Stegun, Handbook of Mathematical
+/// Functions, 1964, 4.4.46.
+inline double approximate_acos(double x) {
+  const double a = std::abs(x);
+  const double angle =
+      std::sqrt(1 - a) *
+      (1.5707963050 +
+       a * (-0.2145988016 +
+            a * (0.0889789874 +
+                 a * (-0.0501743046 +
+                      a * (0.0308918810 + a * (-0.0170881256 + a * (0.0066700901 + a * -0.0012624911)))))));
+  return x < 0 ? math::pi - angle : angle;
+}
+
+/// Degrees between the heading of a frame and +Y.
 double declination_of(const Frame& frame);
 
 }  // namespace seedmesh::tree

@@ -25,13 +25,13 @@ TEST(Array, KeepsItsElementsWhileItGrowsFromTheHeapIntoMappedPages) {
 }
 
 TEST(Array, KeepsWhatFitsWhereverASizeTakesIt) {
-  for (const bool is_thrifty : {false, true}) {
+  for (const bool saves_memory : {false, true}) {
     const Job job = job_with_memory(std::uint64_t{1} << 30U);
-    if (is_thrifty) {
-      job.purse()->be_thrifty();
+    if (saves_memory) {
+      job.budget()->prefer_low_memory();
       const Array<char> passing(job, 9 << 20U);
     }
-    EXPECT_EQ(job.purse()->is_thrifty(), is_thrifty);
+    EXPECT_EQ(job.budget()->saves_memory(), saves_memory);
     Array<std::uint32_t> array(job);
     std::size_t kept = 0;
     // From the heap into small pages, huge ones with an odd end, and all the way back.
@@ -42,19 +42,19 @@ TEST(Array, KeepsWhatFitsWhereverASizeTakesIt) {
       for (std::size_t i = 0; i < std::min(kept, size); ++i) ASSERT_EQ(array[i], i);
       for (std::size_t i = 0; i < size; ++i) array[i] = static_cast<std::uint32_t>(i);
       kept = size;
-      ASSERT_EQ(job.purse()->used(), size * sizeof(std::uint32_t));
+      ASSERT_EQ(job.budget()->used(), size * sizeof(std::uint32_t));
     }
   }
 }
 
 #if defined(__linux__)
-TEST(Array, OfAThriftyRequestLeavesNoMemoryBehind) {
+TEST(Array, OfARequestThatPrefersLowMemoryKeepsNoPages) {
   const auto is_there = [](char* page) {
     unsigned char resident = 0;
     return mincore(page, 1, &resident) == 0;  // else no memory lies there
   };
   const Job job = job_with_memory(std::uint64_t{1} << 30U);
-  job.purse()->be_thrifty();
+  job.budget()->prefer_low_memory();
   const Array<char> passing(job, 9 << 20U);
   Array<char> first(job, 700'000, 'x');
   const Array<char> second(job, 700'000, 'x');
@@ -65,26 +65,26 @@ TEST(Array, OfAThriftyRequestLeavesNoMemoryBehind) {
 }
 #endif
 
-TEST(Array, ChargesThePurseForItsCapacityAndPaysBack) {
+TEST(Array, ChargesItsCapacityToTheBudgetAndReturnsIt) {
   const Job job = job_with_memory(1 << 20U);
   {
     Array<double> array(job, 1000);
-    EXPECT_EQ(job.purse()->used(), 8000U);
+    EXPECT_EQ(job.budget()->used(), 8000U);
     const Array<double> other = std::move(array);
-    EXPECT_EQ(job.purse()->used(), 8000U);
+    EXPECT_EQ(job.budget()->used(), 8000U);
     EXPECT_TRUE(array.empty());  // NOLINT: a moved-from array is promised to be empty
   }
-  EXPECT_EQ(job.purse()->used(), 0U);
+  EXPECT_EQ(job.budget()->used(), 0U);
 }
 
 TEST(Array, RefusesBeforeItAllocatesBeyondTheLimit) {
   const Job job = job_with_memory(1000);
   Array<char> array(job);
   EXPECT_THROW(array.reserve(1001), Stop);
-  EXPECT_EQ(job.purse()->used(), 0U);
+  EXPECT_EQ(job.budget()->used(), 0U);
 }
 
-TEST(Array, OutlivesTheJobThatPaid) {
+TEST(Array, OutlivesItsJob) {
   Array<int> array;
   {
     const Job job = job_with_memory(1 << 20U);

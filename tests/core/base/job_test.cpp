@@ -4,6 +4,7 @@
 
 #include <atomic>
 
+#include "core/base/array.h"
 #include "core/base/parallel.h"
 
 namespace seedmesh {
@@ -30,7 +31,7 @@ TEST(Job, RefusesAmountsThatWouldOverflowItsCounters) {
   EXPECT_THROW(job.spend(Resource::modules, ~std::uint64_t{0}), Stop);
 }
 
-TEST(Job, StopsWhenTheCallerHasGone) {
+TEST(Job, StopsWhenTheClientHasGone) {
   std::stop_source caller;
   Job::Options options;
   options.stop = caller.get_token();
@@ -42,6 +43,7 @@ TEST(Job, StopsWhenTheCallerHasGone) {
     FAIL() << "went on";
   } catch (const Stop& stop) {
     EXPECT_EQ(stop.code(), Code::cancelled);
+    EXPECT_EQ(stop.issue().kind, IssueKind::cancelled);
   }
 }
 
@@ -53,15 +55,97 @@ TEST(Job, StopsAtItsDeadline) {
     FAIL() << "went on";
   } catch (const Stop& stop) {
     EXPECT_EQ(stop.code(), Code::deadline);
+    EXPECT_EQ(stop.issue().kind, IssueKind::deadline);
   }
 }
 
-TEST(Job, SharesItsPurseWithTheJobsOfChildren) {
+TEST(Job, SharesItsBudgetWithTheJobsOfChildren) {
   Job job = job_with_modules(100);
   Job child = job.for_child(9);
   child.spend(Resource::modules, 60);
   EXPECT_THROW(job.spend(Resource::modules, 60), Stop);
   EXPECT_NE(child.rng().key(), job.rng().key());
+}
+
+/// The Stop that `work` throws.
+template <class Work>
+Stop stop_of(const Work& work) {
+  try {
+    work();
+  } catch (const Stop& stop) {
+    return stop;
+  }
+  ADD_FAILURE() << "went on";
+  return Stop(Code::internal, {});
+}
+
+TEST(Job, HasEstimatesWithItsStopDeadlineAndMemoryButCountersOfTheirOwn) {
+  std::stop_source caller;
+  Job::Options options;
+  options.limits.modules = 100;
+  options.limits.memory_bytes = 4 << 20;
+  options.stop = caller.get_token();
+  Job job(7, options);
+  job.spend(Resource::modules, 60);
+  const Array<std::uint8_t> held(job, 3 << 20);
+  Job estimate = job.for_estimate();
+  EXPECT_EQ(estimate.seed(), 7U);
+  estimate.spend(Resource::modules, 100);
+  EXPECT_THROW(estimate.spend(Resource::modules, 1), Stop);
+  EXPECT_EQ(job.spent(Resource::modules), 60U);
+  EXPECT_THROW(Array<std::uint8_t>(estimate, 2 << 20), Stop);
+  caller.request_stop();
+  EXPECT_THROW(estimate.check(), Stop);
+  options.stop = {};
+  options.deadline = Job::Clock::now() - std::chrono::seconds(1);
+  EXPECT_THROW(Job(0, options).for_estimate().check(), Stop);
+}
+
+TEST(Job, NamesTheResourceTheBoundAndTheNeedOfALimit) {
+  Job job = job_with_modules(100);
+  job.spend(Resource::modules, 60);
+  const Stop stop = stop_of([&] { job.spend(Resource::modules, 50); });
+  EXPECT_EQ(stop.code(), Code::limit);
+  EXPECT_EQ(stop.issue().kind, IssueKind::limit);
+  EXPECT_EQ(stop.issue().limit, (Limit{Resource::modules, 100, 110}));
+}
+
+TEST(MemoryBudget, NamesTheResourceTheBoundAndTheNeedOfALimit) {
+  MemoryBudget budget(1000);
+  budget.take(600);
+  const Stop stop = stop_of([&] { budget.take(401); });
+  EXPECT_EQ(stop.code(), Code::limit);
+  EXPECT_EQ(stop.issue().limit, (Limit{Resource::memory_bytes, 1000, 1001}));
+}
+
+TEST(Job, PointsIntoTheParametersOfTheOutermostRequest) {
+  const Job job = job_with_modules(1);
+  const Job child = job.for_child(2, "/model/parameters").for_child(3, "/element/parameters");
+  const auto refused = [](const Job& by, const char* pointer) {
+    return stop_of([&] { by.refuse({IssueKind::evaluation, pointer, "no"}); }).issue().pointer;
+  };
+  EXPECT_EQ(refused(job, "/angle"), "/angle");
+  EXPECT_EQ(refused(child, "/angle"), "/model/parameters/element/parameters/angle");
+  EXPECT_EQ(refused(child, ""), "/model/parameters/element/parameters");
+}
+
+TEST(PointerScope, IsWhereALimitWithoutAPointerIsReported) {
+  Job job = job_with_modules(1);
+  Job child = job.for_child(2, "/model/parameters");
+  const auto pointer = [](Job& by) {
+    return stop_of([&] { by.spend(Resource::modules, 2); }).issue().pointer;
+  };
+  EXPECT_EQ(pointer(child), "");
+  {
+    const Job::PointerScope scope(job, "/layers/0");
+    Job inner = job.for_child(3, "/model/parameters");
+    EXPECT_EQ(pointer(job), "/layers/0");
+    EXPECT_EQ(pointer(inner), "/layers/0");
+    const Job::PointerScope nearer(inner, "/iterations");
+    EXPECT_EQ(pointer(inner), "/model/parameters/iterations");
+    EXPECT_EQ(stop_of([&] { job.refuse({IssueKind::evaluation, "", "no"}); }).issue().pointer, "");
+  }
+  EXPECT_EQ(pointer(job), "");
 }
 
 TEST(ParallelFor, CutsTheSameChunksForAnyNumberOfThreads) {
@@ -79,8 +163,8 @@ TEST(ParallelFor, CutsTheSameChunksForAnyNumberOfThreads) {
 TEST(ParallelFor, ThrowsOnWhatAChunkThrew) {
   const Job job = job_with_modules(1, 4);
   EXPECT_THROW(parallel_for(job, 1000, 1,
-                            [](std::size_t begin, std::size_t, std::size_t) {
-                              if (begin == 500) Job::refuse("enough");
+                            [&job](std::size_t begin, std::size_t, std::size_t) {
+                              if (begin == 500) job.refuse({IssueKind::evaluation, "", "enough"});
                             }),
                Stop);
 }

@@ -83,7 +83,7 @@ TEST(Reserve, DoesNotMakeAGreatRequestGreater) {
   EXPECT_EQ(reserve->kept(), 4 * mebibyte) << "as much as there was before";
   Array<char> more(great, 14 * mebibyte, 'x');
   used.resize(20 * mebibyte);
-  EXPECT_EQ(great.purse()->peak(), 34 * mebibyte);
+  EXPECT_EQ(great.budget()->peak(), 34 * mebibyte);
   EXPECT_EQ(reserve->kept(), 4 * mebibyte);
   { const Array<char> last(great, 12 * mebibyte, 'x'); }
   EXPECT_EQ(reserve->kept(), 4 * mebibyte) << "with 46 MiB used, as many as ever";
@@ -133,10 +133,10 @@ TEST(Reserve, GivesAllBackWhenItIsCleared) {
 }
 #endif
 
-TEST(Reserve, IsNotForThriftyRequests) {
+TEST(Reserve, IsNotUsedByRequestsThatPreferLowMemory) {
   const auto reserve = std::make_shared<Reserve>(32 * mebibyte);
   const Job job = job_with(reserve);
-  job.purse()->be_thrifty();
+  job.budget()->prefer_low_memory();
   { const Array<char> array(job, 9 * mebibyte, 'x'); }
   EXPECT_EQ(reserve->kept(), 0U);
 }

@@ -5,7 +5,7 @@
 namespace seedmesh {
 namespace {
 
-TEST(Rng, GivesEachPlaceItsOwnStream) {
+TEST(Rng, GivesEachKeyItsOwnStream) {
   const Rng root = Rng::of_seed(7);
   Rng left = root.at("limb").at(0), right = root.at("limb").at(1), again = root.at("limb").at(0);
   EXPECT_NE(left.next(), right.next());

@@ -8,9 +8,10 @@
 #include <set>
 
 #include "core/generators/building/operations.h"
-#include "core/geom/finish.h"
+#include "core/geom/mesh/finish.h"
 #include "generated/params/building.h"
 #include "tests/core/building/rules.h"
+#include "tests/support/context.h"
 #include "tests/support/mesh_faults.h"
 
 namespace seedmesh::building {
@@ -24,7 +25,7 @@ TEST(BuildingRules, ReadBothNotationsIntoTheSame) {
   EXPECT_EQ(leaves("A --> split(x){ 2: B. | ~1: C. | '0.5: D. }"), "B C D");
 }
 
-TEST(BuildingRules, MayShareALine) {
+TEST(BuildingRules, CanShareALine) {
   EXPECT_EQ(leaves("1: A ~> B C 2: B ~> D. D. 3: C : Scope.sx > 1 ~> E. C ~> F."), "D D E");
 }
 
@@ -73,7 +74,7 @@ TEST(BuildingRules, KnowAttributesConstantsAndFunctions) {
   EXPECT_THAT(check(params, Limits{}).front().message, HasSubstr("; did you mean \"width\"?"));
 }
 
-TEST(BuildingRules, HoldAttributesToTheirAnnotations) {
+TEST(BuildingRules, CheckAttributesByTheirAnnotations) {
   BuildingParams params = with("@Range(1, 5) attr w = 2 @Enum(\"a\", \"b\") attr s = \"a\" A --> B.");
   params.attributes = {{"w", 9.0}, {"s", std::string("c")}};
   std::vector<std::string> pointers;
@@ -86,7 +87,7 @@ TEST(BuildingRules, CompareTexts) {
   EXPECT_EQ(leaves("attr style = \"old\" A --> case style == \"old\": B. else: C."), "B");
 }
 
-TEST(BuildingRules, TellFaultsWithLineAndColumn) {
+TEST(BuildingRules, ReportErrorsWithLineAndColumn) {
   EXPECT_THAT(fault("A --> split(q){ 1: B. }"), HasSubstr("1:14 found the axis `q`"));
   EXPECT_THAT(fault("A -->\n  split(x){ hight: B. }"), HasSubstr("2:13 unknown name `hight`"));
   EXPECT_THAT(fault("A --> extrud(3) B."), HasSubstr("did you mean `extrude`?"));
@@ -96,25 +97,25 @@ TEST(BuildingRules, TellFaultsWithLineAndColumn) {
   EXPECT_EQ(check(with("A --> split(q){ 1: B. }\nB --> Roof(\"x\") C\nD --> size("), Limits{}).size(), 4U);
 }
 
-TEST(BuildingRules, WarnOfSymbolsWithoutARuleUnlessAPointSaysSo) {
+TEST(BuildingRules, WarnOfSymbolsWithoutARuleOrAPoint) {
   EXPECT_EQ(derived(with("A --> B C."))["warnings"].size(), 1U);
   EXPECT_EQ(derived(with("A --> B. C."))["warnings"].size(), 0U);
 }
 
-TEST(BuildingRules, RefuseWhatHasNoEnd) {
+TEST(BuildingRules, RejectEndlessRules) {
   EXPECT_THAT(refusal(with("A --> B\nB --> A")), HasSubstr("without an end"));
-  EXPECT_THAT(refusal(with("A --> A A")), HasSubstr("1:1 `A` stands 1,000 shapes deep"));
+  EXPECT_THAT(refusal(with("A --> A A")), HasSubstr("1:1 `A` is nested 1,000 shapes deep"));
   EXPECT_THAT(refusal(with("A --> split(x){ 0.000000001: B. }*")), HasSubstr("1:7 this split makes"));
   EXPECT_THAT(refusal(with("A --> s(1 / (scope.sx - 10), 1, 1) B.")), HasSubstr("divided by 0"));
 }
 
-TEST(BuildingRules, LeaveAShapeWholeThatAlwaysCutsItself) {
+TEST(BuildingRules, MakeALeafOfAShapeThatAlwaysCutsItself) {
   const Json answer = derived(with("A --> split(x){ '0.1:A | '0.1:B. }*", {1, 1, 1}));
   EXPECT_EQ(active(answer), "A B A B A B A B A B");
-  EXPECT_THAT(answer["warnings"][0]["message"].get<std::string>(), HasSubstr("left whole"));
+  EXPECT_THAT(answer["warnings"][0]["message"].get<std::string>(), HasSubstr("becomes a leaf"));
 }
 
-TEST(BuildingList, TellsTheRuleTheLineAndTheChoiceThatReplacedAShape) {
+TEST(BuildingList, NamesTheRuleLineAndChoiceThatReplacedAShape) {
   const Json shapes =
       derived(with("A ~> B C\n1: B : Scope.sx > 1 ~> D. : 0.9 ~> E. : 0.1 2: C ~>\n  F."))["shapes"];
   EXPECT_EQ(shapes[0]["rule"], "A ~> B C");
@@ -163,7 +164,7 @@ TEST(BuildingComponents, TakeFacesOnceInTheOrderOfSelectors) {
   EXPECT_EQ(answer["shapes"][1]["scope"]["axes"][2], Json::array({1, 0, 0}));
 }
 
-TEST(BuildingReports, SumUp) {
+TEST(BuildingReports, AreSums) {
   const Json report =
       derived(with("A --> split(x){ 2: report(\"length\", scope.sx) B. }*"))["reports"]["length"];
   EXPECT_EQ(report["count"], 5);
@@ -171,7 +172,7 @@ TEST(BuildingReports, SumUp) {
   EXPECT_EQ(report["min"], 2);
 }
 
-TEST(BuildingQueries, SeeWhatTheFirstPassMade) {
+TEST(BuildingQueries, SeeTheShapesOfTheFirstPass) {
   const std::string rules =
       "A ~> [ S(4, 4, 4) mass ] T(2, 0, 1) S(4, 4, 2) mass  mass ~> Comp(\"sidefaces\"){ face }\n"
       "face : Shape.occ(\"noparent\") != \"none\" ~> wall.  face ~> window.";
@@ -197,7 +198,7 @@ TEST(BuildingOrder, ShowsInTheStepsAlone) {
   EXPECT_EQ(active(derived(params)), "D D E E E");
 }
 
-TEST(BuildingRestrictions, HoldRulesToTheirKind) {
+TEST(BuildingRestrictions, RejectRulesOfOtherKinds) {
   BuildingParams params = with("A --> B. A");
   params.iterations = 3;
   params.restrict = BuildingRestrict::unimarker;
@@ -223,7 +224,7 @@ TEST(BuildingRestrictions, EmbedSquares) {
   EXPECT_NEAR(sides[4], 0.25, 1e-12);
 }
 
-TEST(BuildingRandomness, HangsOnThePlace) {
+TEST(BuildingRandomness, DependsOnThePositionInTheTree) {
   const std::string before = "A --> split(x){ 1: B }* B --> 50%: C. else: D.";
   const std::string after = "A --> split(x){ 1: B }* B --> 50%: C. else: E(rand()) E(x) --> F.";
   std::string expected = leaves(before);
@@ -231,7 +232,7 @@ TEST(BuildingRandomness, HangsOnThePlace) {
   EXPECT_EQ(leaves(after), expected);
 }
 
-TEST(BuildingBodies, KeepTheirVolumeHoweverTheyAreCut) {
+TEST(BuildingBodies, KeepTheirVolumeUnderAnyCuts) {
   for (const char* body : {"cube", "cylinder", "pyramid", "prism", "triangular_prism", "cone", "sphere"}) {
     const std::string insert = std::string("A --> i(\"") + body + "\")";
     const double whole = volume(with(insert + " B.", {4, 6, 5}));
@@ -262,7 +263,7 @@ TEST(BuildingBodies, StandOnFootprintsOrAreRefused) {
   EXPECT_EQ(check(params, Limits{}).front().pointer, "/footprint/1");
 }
 
-TEST(BuildingBodies, ShareAMeshWhereThatPaysAndAreMergedElsewhere) {
+TEST(BuildingBodies, ShareAMeshWhereThatIsSmallerAndAreMergedElsewhere) {
   const Model boxes = model_of(with("A --> split(x){ 1: B. }*"));
   EXPECT_EQ(boxes.meshes.size(), 2U);  // neighbours that touch are in different layers
   for (const Node& node : boxes.nodes) EXPECT_TRUE(node.instances.transforms.empty());
@@ -297,7 +298,7 @@ TEST(BuildingRoofs, CloseOverEveryPlan) {
   }
 }
 
-TEST(BuildingPlans, AddUpToTheWhole) {
+TEST(BuildingPlans, FillTheWholePlan) {
   for (const char* operation :
        {"setback(1){ front: B | left: B | remainder: B }", "shapeL(2, 1){ shape: B | remainder: B }",
         "shapeU(2, 1, 1){ shape: B | remainder: B }", "shapeO(2, 1, 2, 1){ shape: B | remainder: B }",
@@ -310,9 +311,12 @@ TEST(BuildingPlans, AddUpToTheWhole) {
 
 TEST(BuildingOperations, RunTheExamplesOfTheirRows) {
   for (const OperationRow& row : operations()) {
+    if (row.status == Status::error) continue;
     const Json answer = derived(with(std::string(row.example), {6, 6, 6}));
     EXPECT_FALSE(active(answer).empty()) << row.name;
-    EXPECT_TRUE(answer["warnings"].empty()) << row.name << ": " << answer["warnings"].dump();
+    // Operations without a counterpart, and those whose purpose is a message, warn.
+    const bool warns = row.status == Status::ignored || row.op == Op::print || row.op == Op::texture;
+    EXPECT_EQ(answer["warnings"].empty(), !warns) << row.name << ": " << answer["warnings"].dump();
   }
 }
 
@@ -349,7 +353,7 @@ TEST(BuildingRules, SurviveDamage) {
     const bool sound = check(params, Limits{}).empty();
     Job job(1, options);
     try {
-      const Result<Model> model = generate(params, job);
+      const Result<Model> model = generate(params, context_of(job));
       EXPECT_EQ(static_cast<bool>(model), sound) << text;
     } catch (const Stop&) {
       EXPECT_TRUE(sound) << text;

@@ -44,12 +44,12 @@ using List = std::vector<double>;
 
 TEST(Cuts, LeaveAGapWhereAbsoluteSizesFallShort) { EXPECT_EQ(sizes({absolute(3)}, 5), List({3})); }
 
-TEST(Cuts, CutOffWhatReachesBeyondTheEndAndMakeNothingAfterIt) {
+TEST(Cuts, ClipThePieceAtTheEndAndOmitLaterOnes) {
   EXPECT_EQ(sizes({absolute(2), absolute(1), absolute(1), absolute(2), absolute(1)}, 5), List({2, 1, 1, 1}));
   EXPECT_EQ(sizes({relative(0.5), relative(0.6), absolute(3)}, 10), List({5, 5}));
 }
 
-TEST(Cuts, ShareWhatIsLeftAmongFloatingSizes) {
+TEST(Cuts, ShareTheRestAmongFloatingSizes) {
   EXPECT_EQ(sizes({absolute(2), floating(1), floating(3)}, 10), List({2, 2, 6}));
   EXPECT_EQ(sizes({absolute(3), floating(1), absolute(2)}, 5), List({3, 2}));
 }
@@ -64,7 +64,7 @@ TEST(Cuts, CutTheLastCycleOffWhereNothingFloats) {
   EXPECT_EQ(repeat({absolute(2), absolute(1)}, 10), List({2, 1, 2, 1, 2, 1, 1}));
 }
 
-TEST(Cuts, RefuseMorePiecesThanTheyMayMakeWithoutMakingThem) {
+TEST(Cuts, RejectTooManyPiecesWithoutMakingThem) {
   const std::vector<Cell> cells = repeated({absolute(1e-9)});
   std::vector<Cut> cuts;
   double wanted = 0;
@@ -73,7 +73,7 @@ TEST(Cuts, RefuseMorePiecesThanTheyMayMakeWithoutMakingThem) {
   EXPECT_TRUE(cuts.empty());
 }
 
-TEST(Cuts, CountCopiesOfARepeatWithoutFallingForRounding) {
+TEST(Cuts, CountCopiesOfARepeatDespiteRounding) {
   EXPECT_EQ(copies_of(0.9, 0.3, Rounding::ceil), 3);
   EXPECT_EQ(copies_of(7, 3, Rounding::ceil), 3);
   EXPECT_EQ(copies_of(7, 3, Rounding::nearest), 2);

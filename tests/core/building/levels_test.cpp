@@ -6,6 +6,7 @@
 #include "core/generators/building/collision.h"
 #include "core/generators/building/hull.h"
 #include "tests/core/building/rules.h"
+#include "tests/support/context.h"
 #include "tests/support/mesh_faults.h"
 
 namespace seedmesh::building {
@@ -15,8 +16,7 @@ using testing::IsEmpty;
 
 Model demanded(const BuildingParams& params, const Demand& demand) {
   Job job(1, Job::Options{});
-  job.set_demand(demand);
-  Result<Model> model = generate(params, job);
+  Result<Model> model = generate(params, context_of(job, demand));
   if (!model) {
     ADD_FAILURE() << model.error().issues.front().message;
     return {};
@@ -59,7 +59,7 @@ TEST(Levels, AreMadeByTheGrammarsOwnAttribute) {
     EXPECT_TRUE(node.lods.empty());
 }
 
-TEST(Sharing, GivesEveryBodyANodeOrMergesAllWhereThatIsWanted) {
+TEST(Sharing, GivesEveryBodyANodeOrMergesThemOnRequest) {
   const BuildingParams params = with("A --> split(x){ 1: B. }*");
   EXPECT_EQ(demanded(params, {.share_organs = true}).meshes.size(), 1U);  // one box, ten copies
   const Model merged = demanded(params, {.copies = CopyForm::merge});
@@ -143,7 +143,7 @@ TEST(Collision, IsConvexBodiesAroundMasses) {
   EXPECT_EQ(volume_of_collision(demanded(house, {})), 0);
 }
 
-TEST(Collision, TakesARoofThatAFaceCarriesButNoWindow) {
+TEST(Collision, IncludesARoofOnAFaceButNoWindow) {
   const BuildingParams params = with(
       "Lot --> extrude(6) comp(f){ top: roofGable(45) Roof. | side: split(x){ ~2: [ s('1, '1, 0.3) "
       "i(\"window\") ] "
@@ -154,7 +154,7 @@ TEST(Collision, TakesARoofThatAFaceCarriesButNoWindow) {
   EXPECT_EQ(names.size(), 2U);
 }
 
-TEST(Collision, CutsWhatIsFarFromConvex) {
+TEST(Collision, CutsBodiesThatAreFarFromConvex) {
   BuildingParams params = with("Lot --> extrude(3) comp(f){ all: Wall. }");
   params.footprint = {{{0, 0}, {10, 0}, {10, 2}, {2, 2}, {2, 10}, {0, 10}}};
   std::vector<std::string> names;
@@ -193,8 +193,7 @@ TEST(Appraisals, EstimateTheBytesOfMergedBodiesAndOfLevels) {
   for (const Demand demand : {Demand{.copies = CopyForm::any}, Demand{.copies = CopyForm::merge},
                               Demand{.lods = 3}, Demand{.share_organs = true}}) {
     Job job(1, Job::Options{});
-    job.set_demand(demand);
-    const Result<Appraisal> appraisal = appraise(params, job);
+    const Result<Appraisal> appraisal = appraise(params, context_of(job, demand));
     ASSERT_TRUE(appraisal);
     ASSERT_TRUE(appraisal->estimate);
     const auto bytes = static_cast<double>(count(demanded(params, demand)).bytes),
@@ -206,14 +205,13 @@ TEST(Appraisals, EstimateTheBytesOfMergedBodiesAndOfLevels) {
   }
 }
 
-TEST(Appraisals, CountMadePictures) {
+TEST(Appraisals, CountGeneratedTextures) {
   const auto estimate = [](BuildingTextures textures, int size) {
     BuildingParams params;
     params.blueprint = BuildingBlueprint::house;
     params.textures = textures;
     Job job(1, Job::Options{});
-    job.set_demand({.textures = size});
-    return static_cast<double>(appraise(params, job)->estimate->bytes);
+    return static_cast<double>(appraise(params, context_of(job, {.textures = size}))->estimate->bytes);
   };
   const double none = estimate(BuildingTextures::none, 512);
   EXPECT_EQ(estimate(BuildingTextures::auto_, 0), none);
@@ -222,11 +220,11 @@ TEST(Appraisals, CountMadePictures) {
   EXPECT_LT(estimate(BuildingTextures::auto_, 512), none + 650'000);
 }
 
-TEST(Appraisals, EstimateWhatWillBeMade) {
+TEST(Appraisals, EstimateTheModel) {
   const auto compare = [](BuildingParams params) {
     params.textures = BuildingTextures::none;
     Job job(1, Job::Options{});
-    const Result<Appraisal> appraisal = appraise(params, job);
+    const Result<Appraisal> appraisal = appraise(params, context_of(job));
     ASSERT_TRUE(appraisal);
     ASSERT_TRUE(appraisal->estimate);
     const Model model = demanded(params, {});
@@ -245,10 +243,10 @@ TEST(Appraisals, EstimateWhatWillBeMade) {
     compare(params);
   }
   Job job(1, Job::Options{});
-  EXPECT_TRUE(appraise(with("A --> split(x){ 0.5: B. }*"), job)->estimate);
+  EXPECT_TRUE(appraise(with("A --> split(x){ 0.5: B. }*"), context_of(job))->estimate);
   EXPECT_EQ(job.spent(Resource::shapes), 0U);  // nothing of it is spent
   EXPECT_EQ(job.spent(Resource::triangles), 0U);
-  EXPECT_FALSE(appraise(with("A --> split(x){ 0.01: split(y){ 0.01: B. }* }*"), job)->estimate);
+  EXPECT_FALSE(appraise(with("A --> split(x){ 0.01: split(y){ 0.01: B. }* }*"), context_of(job))->estimate);
 }
 
 }  // namespace

@@ -52,12 +52,12 @@ TEST(Notation, MakesALeafOfANameWithParametersAndNoRule) {
   EXPECT_THAT(warnings("A --> Floor(3)"), HasSubstr("1:7 there is no rule for `Floor`"));
 }
 
-TEST(Notation, RefusesANameThatIsAnOperationWrittenWrong) {
+TEST(Notation, RejectsAMisspeltOperation) {
   EXPECT_EQ(fault("A --> extrud(3) B."),
             "1:7 there is no operation and no rule `extrud`; did you mean `extrude`?");
   EXPECT_EQ(fault("A --> Taper(3) B."),
             "1:7 there is no operation and no rule `Taper`; did you mean `taper`?");
-  EXPECT_EQ(fault("A --> scatter(3){ B. }"), "1:7 there is no operation and no rule `scatter`");
+  EXPECT_EQ(fault("A --> strew(3){ B. }"), "1:7 there is no operation and no rule `strew`");
   // A name of one letter is near to every operation of one.
   EXPECT_EQ(fault("A --> B(3)"), "none");
 }
@@ -66,12 +66,12 @@ TEST(Notation, TakesTheSignsOfPrintForComparisons) {
   EXPECT_EQ(leaves("lot ~> f(9) f(h) : h ≥ 9 ~> floor(h/3)"), "floor");
   EXPECT_EQ(leaves("lot ~> f(9) f(h) : h ≤ 8 ~> floor(h/3)"), "f");
   EXPECT_EQ(leaves("lot ~> f(9) f(h) : h ≠ 8 ~> floor(h/3)"), "floor");
-  // A text stays as it is, and places are told in characters of what was written.
+  // Texts are unchanged. Columns count the characters of the notation as it was written.
   EXPECT_EQ(leaves("A --> case \"≥\" == \"≥\": B. else: C."), "B");
   EXPECT_THAT(fault("f(h) : h ≥ 9 ~> extrud(3)"), HasSubstr("1:17 there is no operation"));
 }
 
-TEST(Notation, PutsRoofsOfEveryKindAtTheHeightAskedFor) {
+TEST(Notation, GivesRoofsOfEveryKindTheRequestedHeight) {
   for (const std::string roof :
        {"roofHip(byHeight(3))", "roofHip(byHeight, 3)", "roofGable(byHeight(3))", "roofPyramid(byHeight(3))",
         "roofShed(byHeight(3), 0)", "roofMansard(byHeight(3), 20)", "roofMansard(byHeight(3), 20, 2)",
@@ -96,7 +96,7 @@ TEST(Notation, PutsTheRoofOfTheChainOf2006OnTopOfTheWalls) {
   EXPECT_NEAR(top_of(chain), 6 + 4, 1e-5);
 }
 
-TEST(Notation, DoesSoOverAPolygonToo) {
+TEST(Notation, PutsTheRoofOfTheChainOf2006OnAPolygonToo) {
   BuildingParams params = with(chain);
   params.footprint = {{{0, 0}, {12, 0}, {12, 8}, {6, 8}, {6, 4}, {0, 4}}};
   const Json answer = derived(params);

@@ -5,8 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/generators/building/building.h"
-#include "core/geom/finish.h"
+#include "core/geom/mesh/finish.h"
 #include "generated/params/building.h"
+#include "tests/support/context.h"
 
 namespace seedmesh::building {
 
@@ -19,7 +20,7 @@ inline BuildingParams with(std::string rules, std::array<double, 3> size = {10, 
 
 inline Json derived(const BuildingParams& params, std::uint64_t seed = 0) {
   Job job(seed, Job::Options{});
-  const Result<Json> answer = derive(params, job);
+  const Result<Json> answer = derive(params, context_of(job));
   if (answer) return *answer;
   ADD_FAILURE() << answer.error().issues.front().message;
   return {{"shapes", Json::array()}, {"warnings", Json::array()}, {"reports", Json::object()}};
@@ -59,7 +60,7 @@ inline std::string refusal(const BuildingParams& params, const Limits& limits = 
   options.limits = limits;
   Job job(0, options);
   try {
-    const Result<Json> answer = derive(params, job);
+    const Result<Json> answer = derive(params, context_of(job));
     return answer ? "none" : answer.error().issues.front().message;
   } catch (const Stop& stop) {
     return std::to_string(stop.issue().line) + ":" + std::to_string(stop.issue().column) + " " +
@@ -69,7 +70,7 @@ inline std::string refusal(const BuildingParams& params, const Limits& limits = 
 
 inline Model model_of(const BuildingParams& params, std::uint64_t seed = 0) {
   Job job(seed, Job::Options{});
-  Result<Model> model = generate(params, job);
+  Result<Model> model = generate(params, context_of(job));
   if (!model) {
     ADD_FAILURE() << model.error().issues.front().message;
     return {};

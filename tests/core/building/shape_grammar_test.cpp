@@ -7,16 +7,17 @@
 #include <nlohmann/json.hpp>
 
 #include "core/generators/building/building.h"
-#include "core/geom/finish.h"
-#include "core/schema/faults.h"
+#include "core/geom/mesh/finish.h"
+#include "core/schema/issue_list.h"
 #include "generated/params/building.h"
+#include "tests/support/context.h"
 #include "tests/support/mesh_faults.h"
 
 namespace seedmesh::building {
 namespace {
 
 BuildingParams read(const std::string& text) {
-  Faults faults;
+  IssueList faults;
   BuildingParams params = read_building(Json::parse(text), "", faults);
   EXPECT_TRUE(faults.empty());
   return params;
@@ -31,7 +32,7 @@ std::string flat(const std::string& rules, const std::string& initial, const std
 
 Json derived(const std::string& text, std::uint64_t seed = 0) {
   Job job(seed, Job::Options{});
-  const Result<Json> answer = derive(read(text), job);
+  const Result<Json> answer = derive(read(text), context_of(job));
   if (answer) return *answer;
   ADD_FAILURE() << answer.error().issues.front().pointer << " " << answer.error().issues.front().message;
   return {{"shapes", Json::array()}};
@@ -64,7 +65,7 @@ TEST(ShapeGrammar, FindsTheSquareThatTwoSquaresMakeWhereTheyOverlap) {
   EXPECT_EQ(count(answer, "line"), 8U);
 }
 
-TEST(ShapeGrammar, FindsLeftShapesTurnedScaledAndMirrored) {
+TEST(ShapeGrammar, MatchesLeftShapesRotatedScaledAndMirrored) {
   const std::string flag =
       R"({"lines":[[[0,0],[0,2]],[[0,2],[1,2]]],"markers":[{"name":"a","points":[[0,0]]}]})";
   const std::string rule = R"({"pair":[)" + flag + R"(,{"lines":[[[0,0],[0,2]]]}]})";
@@ -78,10 +79,10 @@ TEST(ShapeGrammar, FindsLeftShapesTurnedScaledAndMirrored) {
   }
   const Json plain = derived(placed(R"("mirror":true)") + R"(,"mirror":false}})");
   EXPECT_TRUE(plain["reports"].empty());
-  EXPECT_THAT(plain["warnings"][0]["message"].get<std::string>(), HasSubstr("no rule fits"));
+  EXPECT_THAT(plain["warnings"][0]["message"].get<std::string>(), HasSubstr("no rule matches"));
 }
 
-TEST(ShapeGrammar, FindsSolidsWhicheverWayTheyLie) {
+TEST(ShapeGrammar, MatchesSolidsInAnyOrientation) {
   const std::string grammar = R"({"shape_grammar":{"dimensions":3,
     "rules":[{"pair":[{"solids":[{"size":[1,2,3]}]},{"solids":[{"size":[1,2,3]},{"solid":"cone","at":[0,2,0]}]}]}],
     "initial":[{"solids":[{"size":[2,6,4],"turn":[20,30,40],"at":[1,2,3]}]}]},"iterations":1})";
@@ -122,7 +123,7 @@ TEST(ShapeGrammar, MakesMembersOfFamiliesWithValuesOfTheirOwn) {
   EXPECT_EQ(count(answer, "found"), 0U);  // a rectangle is no square
 }
 
-TEST(ShapeGrammar, RefusesWhatARestrictionForbidsByPointer) {
+TEST(ShapeGrammar, RejectsWhatARestrictionForbidsByPointer) {
   const std::string erases =
       R"({"pair":[{"shapes":[{"shape":"square"}],"markers":[{"name":"m","points":[[0,0]]}]},
                                         {"lines":[[[0,0],[1,0]]]}]})";
@@ -133,20 +134,20 @@ TEST(ShapeGrammar, RefusesWhatARestrictionForbidsByPointer) {
   EXPECT_EQ(
       found[0],
       "/shape_grammar/rules/0/pair/1 the line from (1, 0) to (1, 1) of the left shape is not in the right "
-      "one, which a non-erasing grammar does not allow");
+      "shape, which a non-erasing grammar does not allow");
   const std::string doubles =
       R"({"pair":[{"markers":[{"name":"m","points":[[0,0],[1,0]]}]},
         {"markers":[{"name":"m","points":[[0,0],[0,1]]},{"name":"m","points":[[1,0],[1,1]]}]}]})";
   EXPECT_THAT(faults_of(flat(doubles, initial, R"(,"restrict":"non_erasing")")), IsEmpty());
-  EXPECT_THAT(
-      faults_of(flat(doubles, initial, R"(,"restrict":"unimarker")")),
-      ElementsAre("/shape_grammar/rules/0/pair/1 found 2 markers, expected at most one on the right in a "
-                  "unimarker grammar"));
+  EXPECT_THAT(faults_of(flat(doubles, initial, R"(,"restrict":"unimarker")")),
+              ElementsAre("/shape_grammar/rules/0/pair/1 found 2 markers, expected at most one in the right "
+                          "shape of a unimarker grammar"));
 }
 
-TEST(ShapeGrammar, TellsFaultsByPointer) {
-  EXPECT_THAT(faults_of(flat(R"({"pair":[{"markers":[{"name":"m","points":[[0,0]]}]},{}]})", "{}")),
-              ElementsAre(HasSubstr("/shape_grammar/rules/0/pair/0 the place of this shape cannot be told")));
+TEST(ShapeGrammar, ReportsErrorsByPointer) {
+  EXPECT_THAT(
+      faults_of(flat(R"({"pair":[{"markers":[{"name":"m","points":[[0,0]]}]},{}]})", "{}")),
+      ElementsAre(HasSubstr("/shape_grammar/rules/0/pair/0 this shape does not determine a position")));
   EXPECT_THAT(faults_of(flat(mark_square, R"({"shapes":[{"shape":"circle"}]})")),
               ElementsAre(HasSubstr("/shape_grammar/initial/0/shapes/0/shape there is no family")));
   EXPECT_THAT(faults_of(flat(mark_square, R"({"lines":[[[0,0],["2 *",1]]]})")),
@@ -165,14 +166,14 @@ std::string refusal(const std::string& text, std::uint64_t shapes) {
   options.limits.shapes = shapes;
   Job job(0, options);
   try {
-    const Result<Model> model = generate(read(text), job);
+    const Result<Model> model = generate(read(text), context_of(job));
     return model ? "none" : model.error().issues.front().message;
   } catch (const Stop& stop) {
     return stop.issue().message;
   }
 }
 
-TEST(ShapeGrammar, RefusesFamiliesThatUnfoldIntoTooMuch) {
+TEST(ShapeGrammar, RefusesFamiliesThatExpandBeyondTheLimit) {
   std::string shapes = R"("a":{"lines":[[[0,0],[1,0]]]})";
   for (char name = 'b'; name < 'p'; ++name) {
     const std::string use = R"({"shape":")" + std::string(1, static_cast<char>(name - 1)) + R"("})";
@@ -185,7 +186,7 @@ TEST(ShapeGrammar, RefusesFamiliesThatUnfoldIntoTooMuch) {
       testing::Contains(HasSubstr("more than 2000 elements")));
 }
 
-TEST(ShapeGrammar, StopsWhereItsRulesHaveNoEnd) {
+TEST(ShapeGrammar, StopsEndlessRules) {
   const std::string turns = R"({"pair":[{"markers":[{"name":"m","points":[[0,0],[1,0]]}]},
                                        {"markers":[{"name":"m","points":[[0,0],[0,1]]}]}]})";
   const std::string doubles = R"({"pair":[{"markers":[{"name":"m","points":[[0,0],[1,0]]}]},
@@ -195,7 +196,7 @@ TEST(ShapeGrammar, StopsWhereItsRulesHaveNoEnd) {
   const std::string initial = R"({"markers":[{"name":"m","points":[[0,0],[1,0]]}]})";
   EXPECT_THAT(refusal(flat(turns, initial), 4'000'000), HasSubstr("100,000 times"));
   EXPECT_THAT(refusal(flat(doubles, initial), 5'000), HasSubstr("shapes"));
-  EXPECT_THAT(refusal(flat(grows, initial), 5'000), HasSubstr("beyond 1,000 km"));
+  EXPECT_THAT(refusal(flat(grows, initial), 5'000), HasSubstr("larger than 1,000 km"));
 }
 
 TEST(ShapeGrammar, KeepsLinesMaximal) {
@@ -236,7 +237,7 @@ TEST(ShapeGrammar, MakesSoundModels) {
     Result<Model> model =
         generate(read(flat(rule, R"({"markers":[{"name":"m","points":[[0,0],[4,0]]}]})",
                            std::string(R"(,"iterations":5,"derivation":{"mode":")") + mode + "\"}")),
-                 job);
+                 context_of(job));
     ASSERT_TRUE(model);
     finish(*model, job);
     EXPECT_THAT(faults(*model), IsEmpty());

@@ -1,4 +1,4 @@
-/// Seams between walls, and the pictures that walls wear.
+/// CoplanarRectangles between walls, and the pictures that walls wear.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -8,6 +8,7 @@
 #include "core/base/math.h"
 #include "core/texture/wall.h"
 #include "tests/core/building/rules.h"
+#include "tests/support/context.h"
 #include "tests/support/mesh_faults.h"
 
 namespace seedmesh::building {
@@ -50,7 +51,7 @@ std::size_t corners_on_edges(const Model& model) {
   return count;
 }
 
-TEST(Seams, GiveAnEdgeTheCornersOfItsNeighbours) {
+TEST(CoplanarRectangles, GiveAnEdgeTheCornersOfItsNeighbours) {
   const BuildingParams params = with(
       "Lot --> comp(f){ front: split(y){ 3: Low. | ~1: split(x){ ~2: Wall. | 1: split(y){ ~1: Wall. | 2: "
       "Hole. | ~1: Wall. } }* } }",
@@ -64,7 +65,7 @@ TEST(Seams, GiveAnEdgeTheCornersOfItsNeighbours) {
   EXPECT_NEAR(area, 99, 1e-3);
 }
 
-TEST(Seams, PutAStripBehindASideWithManyCorners) {
+TEST(CoplanarRectangles, PutAStripBehindASideWithManyCorners) {
   const auto made = [](const char* tile) {
     return model_of(with(
         std::string("Lot --> comp(f){ front: split(y){ 1: Low. | ~1: split(x){ ") + tile + ": Wall. }* } }",
@@ -89,7 +90,7 @@ TEST(Seams, PutAStripBehindASideWithManyCorners) {
   EXPECT_NEAR(1 - low, 0.002, 0.0002);
 }
 
-TEST(Seams, WallsRoundACornerAreOneMesh) {
+TEST(CoplanarRectangles, MakeOneMeshOfWallsAroundACorner) {
   const Model model = model_of(with("Lot --> comp(f){ side: split(x){ ~2: split(y){ ~2: Wall. }* }* }"));
   EXPECT_EQ(model.meshes.size(), 1U);
   EXPECT_EQ(measure({&model.meshes[0].primitives[0].mesh}).open_edges, 40U);  // above and below
@@ -116,7 +117,7 @@ std::set<std::string> kinds_of(const Model& model) {
   return kinds;
 }
 
-TEST(Surfaces, OfBlueprintsArePicturesWithCoordinatesInMetres) {
+TEST(Surfaces, OfBlueprintsAreTexturesWithCoordinatesInMetres) {
   BuildingParams params = blueprint(BuildingBlueprint::house);
   params.attributes["style"] = std::string("brick");
   const Model model = model_of(params);
@@ -160,14 +161,13 @@ TEST(Surfaces, OfRoundWallsAreNotStretched) {
   }
 }
 
-TEST(Surfaces, AreLeftOutWhereNoneAreWanted) {
+TEST(Surfaces, AreLeftOutOnRequest) {
   BuildingParams params = blueprint(BuildingBlueprint::house);
   params.textures = BuildingTextures::none;
   const Model by_request = model_of(params);
   Job job(0, Job::Options{});
-  job.set_demand({.textures = 0});
   params.textures = BuildingTextures::auto_;
-  Result<Model> by_output = generate(params, job);
+  Result<Model> by_output = generate(params, context_of(job, {.textures = 0}));
   ASSERT_TRUE(by_output);
   for (const Model* model : {&by_request, std::as_const(by_output).operator->()}) {
     EXPECT_THAT(kinds_of(*model), IsEmpty());
@@ -181,7 +181,7 @@ TEST(Surfaces, AreLeftOutWhereNoneAreWanted) {
     EXPECT_EQ(textured.materials[i].base_color, by_request.materials[i].base_color);
 }
 
-TEST(Surfaces, OfOwnRulesAreAskedFor) {
+TEST(Surfaces, OfOwnRulesNeedARequest) {
   BuildingParams params =
       with("Lot --> comp(f){ front: color(\"#203040\") material(\"brick\") B. | side: W. }");
   EXPECT_THAT(kinds_of(model_of(params)), IsEmpty());
@@ -200,7 +200,7 @@ TEST(Surfaces, OfOwnRulesAreAskedFor) {
   EXPECT_EQ(kinds_of(model_of(params)), std::set<std::string>{"plaster"});
 }
 
-TEST(Looks, StoneOfAPartTakesTheColourInForce) {
+TEST(Materials, StoneOfAPartTakesTheColourInForce) {
   const auto materials = [](const char* rules, std::map<std::string, BuildingMaterial> given = {}) {
     BuildingParams params = with(rules, {1, 3, 1});
     params.materials = std::move(given);

@@ -1,13 +1,13 @@
-/// The generator as a whole: what derive tells, what is refused, what the elements and methods give.
+/// The whole generator: results of derive, refused requests, elements and methods.
 #include <cmath>
 #include <cstring>
 #include <set>
 
 #include "core/generators/fractal/chaos.h"
 #include "core/generators/fractal/encode.h"
-#include "core/generators/fractal/idle.h"
 #include "core/generators/fractal/pieces.h"
 #include "tests/core/fractal/support.h"
+#include "tests/support/context.h"
 
 namespace seedmesh::fractal {
 namespace {
@@ -59,7 +59,7 @@ TEST(Fractal, RefusesMapsThatGrowOrLeaveNothing) {
   EXPECT_THAT(refusal(R"({"instructions": "word_test", "text": "A?"})"), StartsWith("/text"));
 }
 
-TEST(Fractal, RefusesWhatWouldPassALimitBeforeItIsMade) {
+TEST(Fractal, RefusesAModelAboveALimitBeforeItIsMade) {
   for (const char* name : {"menger_sponge", "corner_cube_outside", "sierpinski_triangle", "word_test",
                            "dragon", "tree", "jerusalem_cube", "koch_snowflake", "pascal_parity"}) {
     Job::Options options;
@@ -72,7 +72,7 @@ TEST(Fractal, RefusesWhatWouldPassALimitBeforeItIsMade) {
               testing::AllOf(StartsWith("/iterations"), HasSubstr("5 rounds keep")));
 }
 
-TEST(Fractal, SaysSoWhereNoNumberIsLargeEnough) {
+TEST(Fractal, ReportsCountsThatAreTooLargeForANumber) {
   for (const char* json :
        {R"({"iterations": 240})", R"({"iterations": 1000})",
         R"({"iterations": 1000, "instructions": "corner_cube_outside"})",
@@ -87,7 +87,7 @@ TEST(Fractal, SaysSoWhereNoNumberIsLargeEnough) {
               testing::AllOf(HasSubstr("more than 46116"), HasSubstr("4 rounds keep")));
 }
 
-TEST(Fractal, TakesEveryElementWithEveryInstructionOfTheThesis) {
+TEST(Fractal, SupportsEveryElementWithEveryInstructionOfTheThesis) {
   for (const char* element : {"cube", "pyramid", "rainbow_cube"}) {
     for (const char* name : {"corner_cube", "koch_cube", "menger_sponge", "sierpinski_pyramid",
                              "sierpinski_triangle", "word_test"}) {
@@ -110,7 +110,7 @@ TEST(Fractal, DrawsTheSameCopiesAsNodesAndAsOneMesh) {
   Instructions whole = instructions_of(params);
   whole.arrangement = {Affine{}};  // an arrangement is always made into one mesh
   Model baked;
-  const Result<Element> element = element_of(params, job);
+  const Result<Element> element = element_of(params, context_of(job));
   ASSERT_TRUE(element);
   baked.nodes.emplace_back();
   add_pieces(baked, 0, whole, *element, 10, 1, job);
@@ -137,7 +137,7 @@ TEST(Fractal, CopiesAModelThatIsARequest) {
   EXPECT_EQ(count(*model).triangles, 20U * 144U);
 }
 
-TEST(Fractal, PointsIntoTheRequestInside) {
+TEST(Fractal, PointsIntoTheNestedRequest) {
   EXPECT_THAT(refusal(R"({"element": {"model": {"generator": "fractl"}}})"),
               testing::AllOf(StartsWith("/element/model/generator"), HasSubstr("did you mean \"fractal\"")));
   EXPECT_THAT(
@@ -148,19 +148,19 @@ TEST(Fractal, PointsIntoTheRequestInside) {
   EXPECT_THAT(refusal(R"({"element": {}})"), HasSubstr("neither"));
 }
 
-TEST(Fractal, LimitsHowDeepRequestsStandInEachOther) {
+TEST(Fractal, LimitsTheDepthOfNestedRequests) {
   std::string json = R"({"iterations": 0})";
   for (int depth = 0; depth < 5; ++depth)
     json = R"({"iterations": 0, "element": {"model": {"generator": "fractal", "parameters": )" + json + "}}}";
   EXPECT_THAT(refusal(json), HasSubstr("expected at most 4"));
 }
 
-TEST(Fractal, WritesRequestsInsideInOneForm) {
+TEST(Fractal, WritesNestedRequestsInCanonicalForm) {
   const auto canonical = [](const char* json) {
-    Faults faults;
+    IssueList faults;
     const Generator* generator = find_generator("fractal");
-    return canonical_text(
-        generator->write(read_parameters(*generator, Json::parse(json), "/parameters", Limits{}, faults)));
+    return canonical_text(generator->write(
+        read_parameters(*generator, Json::parse(json), "/parameters", {Limits{}, generators()}, faults)));
   };
   EXPECT_EQ(
       canonical(
@@ -194,7 +194,7 @@ TEST(ChaosGame, ComesNearerToTheAttractorWithEachStep) {
   }
 }
 
-TEST(ChaosGame, TakesMapsAsOftenAsTheirProbabilities) {
+TEST(ChaosGame, ChoosesMapsByTheirProbabilities) {
   const Instructions fern = instructions_of(fractal_params(R"({"method": "frcm", "instructions": "fern"})"));
   Job job(1, Job::Options{});
   const Cloud cloud = play(fern, 1'000'000, 0, job);
@@ -205,7 +205,7 @@ TEST(ChaosGame, TakesMapsAsOftenAsTheirProbabilities) {
   EXPECT_NEAR(taken[3], 0.07, 0.002);
 }
 
-TEST(ChaosGame, IsTheSameWithAnyNumberOfThreadsAndBeginsAlike) {
+TEST(ChaosGame, IsTheSameOnAnyNumberOfThreadsAndForAnyLength) {
   const Instructions sponge = instructions_of(fractal_params(R"({"method": "frcm"})"));
   Job one(7, {.threads = 1}), eight(7, {.threads = 8});
   const Cloud a = play(sponge, 300'001, 10, one), b = play(sponge, 300'001, 10, eight);
@@ -242,7 +242,7 @@ TEST(Escape, MakesAClosedPlateThatIsAsHighAsTheSet) {
 TEST(Forms, HoldThePointsOrTheEscapeTimes) {
   Job job(0, Job::Options{});
   const auto file = [&](const char* json, const char* format) {
-    return encode(fractal_params(json), format, job);
+    return encode(fractal_params(json), {format}, context_of(job));
   };
   const auto ply = file(R"({"method": "frcm", "points": 10})", "ply");
   ASSERT_TRUE(ply);
@@ -257,9 +257,9 @@ TEST(Forms, HoldThePointsOrTheEscapeTimes) {
   }
 }
 
-TEST(Forms, AreRefusedBeforeAnythingIsMadeWhereTheMethodHasThemNot) {
+TEST(Forms, AreRefusedFirstWhereTheMethodDoesNotHaveThem) {
   const auto refused = [](const char* json, const char* format) {
-    const std::vector<Issue> issues = check_form(fractal_params(json), {format});
+    const std::vector<Issue> issues = check_format(fractal_params(json), {format});
     return issues.empty() ? std::string() : issues.front().pointer;
   };
   EXPECT_EQ(refused("{}", "ply"), "/method");
@@ -271,49 +271,50 @@ TEST(Forms, AreRefusedBeforeAnythingIsMadeWhereTheMethodHasThemNot) {
 }
 
 /// The pointers of the parameters that do nothing.
-std::vector<std::string> idle(std::string_view json) {
+std::vector<std::string> unused(std::string_view json) {
   std::vector<std::string> pointers;
-  for (const Warning& warning : idle_parameters(fractal_params(json))) pointers.push_back(warning.pointer);
+  for (const Warning& warning : warnings_of(fractal_params(json))) pointers.push_back(warning.pointer);
   return pointers;
 }
 
-TEST(Idle, TellsOfParametersThatTheMethodDoesNotRead) {
-  EXPECT_THAT(idle("{}"), IsEmpty());
-  EXPECT_THAT(idle(R"({"points": 5, "voxels": 8, "palette": ["#000000"], "escape": {"span": 2}})"),
+TEST(UnusedParameters, AreThoseOfOtherMethods) {
+  EXPECT_THAT(unused("{}"), IsEmpty());
+  EXPECT_THAT(unused(R"({"points": 5, "voxels": 8, "palette": ["#000000"], "escape": {"span": 2}})"),
               testing::UnorderedElementsAre("/points", "/voxels", "/palette", "/escape"));
-  EXPECT_THAT(idle(R"({"method": "frcm", "iterations": 5, "surface": "pieces", "points": 9})"),
+  EXPECT_THAT(unused(R"({"method": "frcm", "iterations": 5, "surface": "pieces", "points": 9})"),
               testing::UnorderedElementsAre("/iterations", "/surface"));
   EXPECT_THAT(
-      idle(R"({"method": "escape", "instructions": "vicsek", "element": "sphere", "color": "#000000"})"),
+      unused(R"({"method": "escape", "instructions": "vicsek", "element": "sphere", "color": "#000000"})"),
       testing::UnorderedElementsAre("/instructions", "/element", "/color"));
-  EXPECT_THAT(idle_parameters(fractal_params(R"({"palette": ["#000000"]})")).front().message,
-              HasSubstr("belongs to frcm and escape, and the method is mrcm"));
+  EXPECT_EQ(warnings_of(fractal_params(R"({"palette": ["#000000"]})")).front().message,
+            "`palette` has no effect unless `method` is frcm or escape.");
 }
 
-TEST(Idle, TellsOfParametersThatAnotherOneKeepsIdle) {
-  EXPECT_THAT(idle(R"({"columns": 2})"), testing::ElementsAre("/columns"));
-  EXPECT_THAT(idle(R"({"columns": 2, "stages": [1, 2]})"), IsEmpty());
-  EXPECT_THAT(idle(R"({"text": "NO"})"), testing::ElementsAre("/text"));
-  EXPECT_THAT(idle(R"({"text": "NO", "instructions": "word_test"})"), IsEmpty());
-  EXPECT_THAT(idle(R"({"surface": "merged", "element": "sphere"})"), testing::ElementsAre("/surface"));
-  EXPECT_THAT(idle(R"({"surface": "merged"})"), IsEmpty());
-  EXPECT_THAT(idle(R"({"instructions": [{"scale": 0.5}, {"scale": 0.5, "probability": 2}]})"),
+TEST(UnusedParameters, MayDependOnOtherParameters) {
+  EXPECT_THAT(unused(R"({"columns": 2})"), testing::ElementsAre("/columns"));
+  EXPECT_THAT(unused(R"({"columns": 2, "stages": [1, 2]})"), IsEmpty());
+  EXPECT_THAT(unused(R"({"text": "NO"})"), testing::ElementsAre("/text"));
+  EXPECT_THAT(unused(R"({"text": "NO", "instructions": "word_test"})"), IsEmpty());
+  EXPECT_THAT(unused(R"({"surface": "merged", "element": "sphere"})"), testing::ElementsAre("/surface"));
+  EXPECT_THAT(unused(R"({"surface": "merged"})"), IsEmpty());
+  EXPECT_THAT(unused(R"({"instructions": [{"scale": 0.5}, {"scale": 0.5, "probability": 2}]})"),
               testing::ElementsAre("/instructions/1/probability"));
-  EXPECT_THAT(idle(R"({"method": "frcm", "voxels": 9, "color": "#000000", "element": "sphere"})"),
+  EXPECT_THAT(unused(R"({"method": "frcm", "voxels": 9, "color": "#000000", "element": "sphere"})"),
               testing::UnorderedElementsAre("/voxels", "/color", "/element"));
-  EXPECT_THAT(idle(R"({"method": "frcm", "voxels": 9, "color": "#000000", "cloud": "elements"})"), IsEmpty());
-  EXPECT_THAT(idle(R"({"method": "escape", "escape": {"constant": [0, 1]}})"),
+  EXPECT_THAT(unused(R"({"method": "frcm", "voxels": 9, "color": "#000000", "cloud": "elements"})"),
+              IsEmpty());
+  EXPECT_THAT(unused(R"({"method": "escape", "escape": {"constant": [0, 1]}})"),
               testing::ElementsAre("/escape/constant"));
-  EXPECT_THAT(idle(R"({"method": "escape", "escape": {"set": "julia", "constant": [0, 1]}})"), IsEmpty());
+  EXPECT_THAT(unused(R"({"method": "escape", "escape": {"set": "julia", "constant": [0, 1]}})"), IsEmpty());
 }
 
-TEST(Idle, IsToldByEveryRoute) {
+TEST(UnusedParameters, AreReportedByEveryRoute) {
   const char* const json = R"({"points": 5})";
   EXPECT_EQ(fractal_of(json)->warnings.front().pointer, "/points");
-  EXPECT_EQ(derived(json)["warnings"][0]["pointer"], "/parameters/points");
+  EXPECT_EQ(derived(json)["warnings"][0]["pointer"], "/points");
   Job job(0, Job::Options{});
   for (const char* each : {json, R"({"method": "escape", "points": 5})"})
-    EXPECT_EQ(appraise(fractal_params(each), job)->warnings.front().pointer, "/points") << each;
+    EXPECT_EQ(appraise(fractal_params(each), context_of(job))->warnings.front().pointer, "/points") << each;
 }
 
 TEST(Plate, FillsTheSnowflake) {

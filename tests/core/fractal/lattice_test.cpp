@@ -10,7 +10,7 @@
 #include "core/generators/fractal/faces.h"
 #include "core/generators/fractal/measure.h"
 #include "core/generators/fractal/merged.h"
-#include "core/generators/fractal/survey.h"
+#include "core/generators/fractal/topology.h"
 #include "tests/core/fractal/support.h"
 
 namespace seedmesh::fractal {
@@ -24,7 +24,7 @@ Lattice named(const std::string& name) {
 
 Job plain_job() { return Job(0, Job::Options{}); }
 
-TEST(Lattice, ExposesAsManySquaresOfTheSpongeAsItsClosedFormSays) {
+TEST(Lattice, ExposesTheSquaresOfTheClosedFormOfTheSponge) {
   const Job job = plain_job();
   double twenties = 1, eights = 1;
   for (int rounds = 0; rounds <= 4; ++rounds) {
@@ -37,52 +37,52 @@ TEST(Lattice, ExposesAsManySquaresOfTheSpongeAsItsClosedFormSays) {
   }
 }
 
-TEST(Lattice, CountsEveryNamedLatticeAlikeByCellAndByForm) {
+TEST(Lattice, CountsEveryNamedLatticeEquallyByCellsAndByFormula) {
   const Job job = plain_job();
   for (const char* name : {"menger_sponge", "koch_cube", "corner_cube", "corner_cube_centre", "vicsek",
                            "mosely_snowflake", "cantor_dust"}) {
     for (int rounds = 0; rounds <= 3; ++rounds) {
       const Solid solid = solid_of(named(name), rounds, job);
-      const Survey survey = survey_of(solid.by_x, job);
-      EXPECT_EQ(exposed_quads(named(name), rounds), static_cast<double>(survey.squares)) << name << rounds;
-      EXPECT_EQ(count_exposed(solid, job), survey.squares) << name << rounds;
-      EXPECT_EQ(survey.cells, solid.by_z.count()) << name << rounds;
+      const SolidTopology topology = topology_of(solid.by_x, job);
+      EXPECT_EQ(exposed_quads(named(name), rounds), static_cast<double>(topology.squares)) << name << rounds;
+      EXPECT_EQ(count_exposed(solid, job), topology.squares) << name << rounds;
+      EXPECT_EQ(topology.cells, solid.by_z.count()) << name << rounds;
     }
   }
 }
 
-TEST(Survey, KnowsTheGenusOfTheSponge) {
+TEST(Topology, ComputesTheGenusOfTheSponge) {
   const Job job = plain_job();
   const std::uint64_t genus[] = {0, 5, 81, 1409};
   for (int rounds = 0; rounds < 4; ++rounds) {
-    const Survey survey = survey_of(grid_of(named("menger_sponge"), rounds, {0, 1, 2}, job), job);
-    EXPECT_EQ(survey.genus(), genus[rounds]) << rounds;
-    EXPECT_EQ(survey.surfaces, 1U);
+    const SolidTopology topology = topology_of(grid_of(named("menger_sponge"), rounds, {0, 1, 2}, job), job);
+    EXPECT_EQ(topology.genus(), genus[rounds]) << rounds;
+    EXPECT_EQ(topology.surfaces, 1U);
   }
 }
 
-TEST(Survey, FindsWhereTheKochCubeIsNoManifold) {
+TEST(Topology, FindsWhereTheKochCubeIsNotManifold) {
   const Job job = plain_job();
   const std::uint64_t edges[] = {0, 24, 312, 3768};
   for (int rounds = 0; rounds < 4; ++rounds) {
-    const Survey survey = survey_of(grid_of(named("koch_cube"), rounds, {0, 1, 2}, job), job);
-    EXPECT_EQ(survey.four_face_edges, edges[rounds]) << rounds;
-    EXPECT_EQ(survey.genus().has_value(), rounds == 0);
+    const SolidTopology topology = topology_of(grid_of(named("koch_cube"), rounds, {0, 1, 2}, job), job);
+    EXPECT_EQ(topology.four_face_edges, edges[rounds]) << rounds;
+    EXPECT_EQ(topology.genus().has_value(), rounds == 0);
   }
 }
 
-TEST(Survey, CountsHollowsAsSurfaces) {
+TEST(Topology, CountsCavitiesAsSurfaces) {
   const Job job = plain_job();
   BitGrid grid(job, glm::ivec3(0), {3, 3, 3});
   grid.fill_block(glm::ivec3(0), glm::ivec3(3));
   grid.row(1, 1)[0] &= ~std::uint64_t{2};
-  const Survey survey = survey_of(grid, job);
-  EXPECT_EQ(survey.surfaces, 2U);
-  EXPECT_EQ(survey.genus(), 0U);
-  EXPECT_EQ(survey.squares, 60U);
+  const SolidTopology topology = topology_of(grid, job);
+  EXPECT_EQ(topology.surfaces, 2U);
+  EXPECT_EQ(topology.genus(), 0U);
+  EXPECT_EQ(topology.squares, 60U);
 }
 
-TEST(Lattice, IsSeenInMapsOfTheUserAndNotWhereMapsTurnOrDiffer) {
+TEST(Lattice, IsRecognisedInMapsUnlessTheyTurnOrDiffer) {
   const auto lattice = [](const char* maps) {
     return lattice_of(instructions_of(fractal_params(std::string(R"({"instructions": )") + maps + "}")));
   };
@@ -95,7 +95,7 @@ TEST(Lattice, IsSeenInMapsOfTheUserAndNotWhereMapsTurnOrDiffer) {
   EXPECT_EQ(named("sierpinski_triangle").block, glm::ivec3(2, 1, 1));
 }
 
-TEST(Lattice, HoldsCopiesThatStandBetweenOthers) {
+TEST(Lattice, IncludesCopiesBetweenOthers) {
   const Job job = plain_job();
   const BitGrid grid = grid_of(named("sierpinski_triangle"), 5, {0, 1, 2}, job);
   EXPECT_EQ(grid.count(), 2U * 243U);
@@ -104,7 +104,7 @@ TEST(Lattice, HoldsCopiesThatStandBetweenOthers) {
   EXPECT_NEAR(seedmesh::measure({&only_mesh(*model)}).volume, std::pow(3.0 / 8, 5), 1e-6);
 }
 
-TEST(Lattice, PutsCellsWhereTheirMapsWouldPutThem) {
+TEST(Lattice, PutsCellsAtThePositionsOfTheirMaps) {
   const Job job = plain_job();
   const FractalParams params = fractal_params(
       R"({"instructions": [{"scale": 0.5, "translate": [1.1, 0, 0]}, {"scale": 0.5, "translate": [-0.4, 0.5, 0]}]})");
@@ -134,7 +134,7 @@ TEST(Faces, MakeAClosedSoundSponge) {
   EXPECT_NEAR(measures.area, 24.7572016, 1e-4);
 }
 
-TEST(Faces, KeepTheBlockThatCopiesStandOutsideOf) {
+TEST(Faces, KeepABlockThatIsOutsideOfAllCopies) {
   const Result<Model> model =
       fractal_of(R"({"instructions": "corner_cube_outside", "iterations": 1, "size": 3})");
   ASSERT_TRUE(model);
@@ -188,7 +188,7 @@ TEST(Merged, IsTheSameSurfaceWithFewerTriangles) {
   EXPECT_LT(sponge.rectangles.triangles, sponge.squares.triangles * 3 / 4);
 }
 
-TEST(Merged, LeavesNoGapAndNoCornerInTheMiddleOfAnEdge) {
+TEST(Merged, LeavesNoGapAndNoCornerWithinAnEdge) {
   for (const char* name : {"menger_sponge", "koch_cube", "mosely_snowflake", "corner_cube_outside"}) {
     const MeshMeasures mesh = joined(name, 3).rectangles, squares = joined(name, 3).squares;
     EXPECT_EQ(mesh.open_edges, 0U) << name;
@@ -215,7 +215,7 @@ TEST(Merged, IsTheSameOnAnyNumberOfThreads) {
   EXPECT_THAT(faults(*one), testing::IsEmpty());
 }
 
-TEST(Merged, MayBeAskedForWhereTheSquaresWouldPassTheLimit) {
+TEST(Merged, WorksWhereTheSquaresWouldExceedTheLimit) {
   Job::Options options;
   options.limits.triangles = 26'000;
   EXPECT_THAT(refusal(R"({"iterations": 3})", options), testing::StartsWith("/iterations: needs 36096"));

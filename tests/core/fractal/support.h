@@ -7,14 +7,16 @@
 #include "core/generators/child.h"
 #include "core/generators/fractal/fractal.h"
 #include "core/generators/fractal/instructions.h"
-#include "core/geom/finish.h"
+#include "core/geom/mesh/finish.h"
+#include "core/registry/registry.h"
 #include "generated/params/fractal.h"
+#include "tests/support/context.h"
 #include "tests/support/mesh_faults.h"
 
 namespace seedmesh {
 
 inline FractalParams fractal_params(std::string_view json) {
-  Faults faults;
+  IssueList faults;
   FractalParams params = read_fractal(Json::parse(json), "", faults);
   EXPECT_TRUE(faults.empty()) << faults.issues().front().pointer << " " << faults.issues().front().message;
   return params;
@@ -22,13 +24,14 @@ inline FractalParams fractal_params(std::string_view json) {
 
 /// As the pipeline does it, with everything read and checked.
 inline Result<Model> fractal_of(std::string_view json, std::uint64_t seed = 0, Job::Options options = {}) {
-  Faults faults;
+  IssueList faults;
   const Generator* generator = find_generator("fractal");
-  const Generator::Params params = read_parameters(*generator, Json::parse(json), "", options.limits, faults);
+  const Generator::Params params =
+      read_parameters(*generator, Json::parse(json), "", {options.limits, generators()}, faults);
   if (!faults.empty()) return Error{Code::invalid, faults.take()};
   Job job(seed, options);
   try {
-    Result<Model> model = generator->generate(params, job);
+    Result<Model> model = generator->generate(params, context_of(job));
     if (model) finish(*model, job);
     return model;
   } catch (const Stop& stop) {
@@ -38,7 +41,7 @@ inline Result<Model> fractal_of(std::string_view json, std::uint64_t seed = 0, J
 
 inline Json derived(std::string_view json, std::uint64_t seed = 0) {
   Job job(seed, Job::Options{});
-  const Result<Json> answer = fractal::derive(fractal_params(json), job);
+  const Result<Json> answer = fractal::derive(fractal_params(json), context_of(job));
   EXPECT_TRUE(answer);
   return *answer;
 }

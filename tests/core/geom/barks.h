@@ -2,7 +2,7 @@
 /// What tests of the skin ask of several barks at once.
 #include <vector>
 
-#include "core/geom/skin.h"
+#include "core/geom/plant/skin.h"
 #include "tests/support/mesh_faults.h"
 
 namespace seedmesh {

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/math.h"
-#include "core/geom/plan.h"
+#include "core/geom/polygon/plan.h"
 
 namespace seedmesh {
 
@@ -105,6 +105,135 @@ inline Plan random_blocks(Rng rng, int side) {
     }
   }
   return read_plan(rings);
+}
+
+inline double rounded_to_millimetres(double value) { return std::round(value * 1000) / 1000; }
+
+inline void round_to_millimetres(Plan& plan) {
+  for (PlanRing& ring : plan.rings) {
+    for (glm::dvec2& p : ring) p = {rounded_to_millimetres(p.x), rounded_to_millimetres(p.y)};
+  }
+}
+
+/// A rectangle with corners of up to 40 points, anywhere and turned, to the millimetre or exactly.
+inline Plan random_rounded(Rng rng) {
+  const double width = rng.uniform(5, 60), depth = rng.uniform(5, 60);
+  const double radius = rng.uniform(0.1, 0.5) * std::min(width, depth);
+  const std::uint32_t steps = 1 + rng.below(40);
+  const glm::dvec2 middles[] = {
+      {width - radius, depth - radius}, {radius, depth - radius}, {radius, radius}, {width - radius, radius}};
+  PlanRing ring;
+  for (std::uint32_t corner = 0; corner < 4; ++corner) {
+    for (std::uint32_t i = 0; i <= steps; ++i) {
+      const math::SinCos at = math::sincos(math::pi / 2 * (corner + static_cast<double>(i) / steps));
+      const glm::dvec2 p = middles[corner] + radius * glm::dvec2(at.cos, at.sin);
+      if (ring.empty() || glm::length(p - ring.back()) > 1e-3) ring.push_back(p);
+    }
+  }
+  while (glm::length(ring.back() - ring.front()) < 1e-3) ring.pop_back();
+  const math::SinCos turn = math::sincos(rng.uniform(0, 7));
+  const glm::dvec2 shift{rng.uniform(-100, 100), rng.uniform(-100, 100)};
+  for (glm::dvec2& p : ring)
+    p = glm::dvec2(p.x * turn.cos - p.y * turn.sin, p.x * turn.sin + p.y * turn.cos) + shift;
+  Plan plan = read_plan({ring});
+  if (rng.below(2) == 0) round_to_millimetres(plan);
+  return plan;
+}
+
+/// Right angles that are off by a ten-millionth to a tenth of a metre, as in footprints that were measured.
+inline Plan random_near_parallel(Rng rng) {
+  Plan plan = random_blocks(rng.at(1), 2 + static_cast<int>(rng.below(6)));
+  const double size = rng.uniform(3, 20);
+  double noise = 1;
+  for (std::uint32_t i = 1 + rng.below(7); i > 0; --i) noise /= 10;
+  for (PlanRing& ring : plan.rings) {
+    for (glm::dvec2& p : ring) {
+      const double x = rng.uniform(-noise, noise);
+      p = p * size + glm::dvec2(x, rng.uniform(-noise, noise));
+    }
+  }
+  if (rng.below(2) == 0) round_to_millimetres(plan);
+  return plan;
+}
+
+/// A few points at uneven angles, some of them almost on the edge between their neighbours.
+inline Plan random_uneven(Rng rng) {
+  std::vector<double> angles;
+  const std::uint32_t count = 3 + rng.below(12);
+  for (std::uint32_t i = 0; i < count; ++i) angles.push_back(rng.uniform(0, 2 * math::pi));
+  std::sort(angles.begin(), angles.end());
+  PlanRing corners, ring;
+  for (const double angle : angles) {
+    const math::SinCos at = math::sincos(angle);
+    corners.push_back(rng.uniform(1, 80) * glm::dvec2(at.cos, at.sin));
+  }
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    ring.push_back(corners[i]);
+    if (rng.below(4) > 0) continue;
+    const glm::dvec2 along = corners[(i + 1) % corners.size()] - corners[i];
+    const double share = rng.uniform(0.1, 0.9), x = rng.uniform(-0.01, 0.01);
+    ring.push_back(corners[i] + along * share + glm::dvec2(x, rng.uniform(-0.01, 0.01)));
+  }
+  Plan plan = read_plan({ring});
+  round_to_millimetres(plan);
+  return plan;
+}
+
+/// Another plan with thin spikes outwards and slits inwards.
+inline Plan random_spiked(Rng rng) {
+  Plan plan = rng.below(2) == 0 ? random_rounded(rng.at(1))
+                                : random_blocks(rng.at(1), 3 + static_cast<int>(rng.below(4)));
+  PlanRing& ring = plan.rings[0];
+  for (std::uint32_t i = 1 + rng.below(3); i > 0; --i) {
+    const std::uint32_t at = rng.below(static_cast<std::uint32_t>(ring.size()));
+    const glm::dvec2 from = ring[at], along = ring[(at + 1) % ring.size()] - from, out{along.y, -along.x};
+    const double width = rng.uniform(0.001, 0.2), begin = rng.uniform(0.2, 0.8 - width);
+    const double height = rng.uniform(0.1, 2) * (rng.below(4) == 0 ? -0.1 : 1);
+    ring.insert(ring.begin() + at + 1,
+                {from + along * begin, from + along * (begin + width / 2) + out * height,
+                 from + along * (begin + width)});
+  }
+  return plan;
+}
+
+/// A rounded rectangle with up to three courtyards of many corners.
+inline Plan random_courtyards(Rng rng) {
+  Plan plan = random_rounded(rng.at(1));
+  const glm::dvec2 middle = centroid_of(plan.rings[0]);
+  const double size = diagonal_of(plan);
+  const std::uint32_t holes = 1 + rng.below(3);
+  for (std::uint32_t hole = 0; hole < holes; ++hole) {
+    const glm::dvec2 center = middle + glm::dvec2((hole - 1.0) * 0.08 * size, 0);
+    const double radius = rng.uniform(0.005, 0.035) * size, turn = rng.uniform(0, 7);
+    const std::uint32_t corners = 3 + rng.below(12);
+    PlanRing ring;
+    for (std::uint32_t i = 0; i < corners; ++i) {
+      const math::SinCos at = math::sincos(turn + 2 * math::pi * i / corners);
+      ring.push_back(center + radius * glm::dvec2(at.cos, at.sin));
+    }
+    plan.rings.push_back(std::move(ring));
+  }
+  return read_plan(std::move(plan.rings));
+}
+
+/// Of each kind in turn.
+inline Plan real_like_plan(Rng rng, std::uint64_t number) {
+  switch (number % 7) {
+    case 0:
+      return random_rounded(rng);
+    case 1:
+      return random_near_parallel(rng);
+    case 2:
+      return random_uneven(rng);
+    case 3:
+      return random_spiked(rng);
+    case 4:
+      return random_courtyards(rng);
+    case 5:
+      return random_blocks(rng, 2 + static_cast<int>(number / 7 % 7));
+    default:
+      return random_star(rng, 3 + static_cast<std::uint32_t>(number / 7 % 20), number / 7 % 2 == 0);
+  }
 }
 
 }  // namespace seedmesh

@@ -2,8 +2,8 @@
 /// Skeletons for tests, joint by joint or at random.
 #include "core/base/math.h"
 #include "core/base/rng.h"
-#include "core/geom/frame.h"
-#include "core/geom/limbs.h"
+#include "core/geom/plant/frame.h"
+#include "core/geom/plant/limbs.h"
 
 namespace seedmesh {
 

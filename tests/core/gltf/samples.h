@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/gltf/write.h"
+#include "core/gltf/write/write.h"
 
 namespace seedmesh::samples {
 
@@ -104,7 +104,7 @@ inline Model bending_band(const Job& job) {
 /// Every texture slot, images shared between slots and wrapped in two ways.
 inline Model textured(const Job& job) {
   Model model = model_of(square(job));
-  model.textures = {pixel("bark"), pixel("nobody's"), pixel("leaf")};
+  model.textures = {pixel("bark"), pixel("unused"), pixel("leaf")};
   Material& material = model.materials[0];
   material.base_color_texture = {0, 0, true};
   material.occlusion_texture = {0, 0, true};
@@ -116,7 +116,7 @@ inline Model textured(const Job& job) {
   return model;
 }
 
-/// A square that is green in summer and red in autumn; nobody uses the last material.
+/// A square that is green in summer and red in autumn; the last material is unused.
 inline Model seasonal(const Job& job) {
   Model model = model_of(square(job));
   model.materials = {paint("green"), paint("red"), paint("unused")};

@@ -39,15 +39,15 @@ endlsystem
 everything behind it is not read
 )";
 
-TEST(Cpfg, TellsWhereACommentBeginsThatDoesNotEnd) {
+TEST(Cpfg, ReportsTheBeginningOfACommentWithoutAnEnd) {
   EXPECT_THAT(
-      told(imported("cpfg", "Lsystem: 1\nderivation length: 1\nAxiom: F\n  /* F --> FF\nendlsystem\n")),
+      reports(imported("cpfg", "Lsystem: 1\nderivation length: 1\nAxiom: F\n  /* F --> FF\nendlsystem\n")),
       ElementsAre("4:3 found a comment without its end; expected `*/`"));
 }
 
 TEST(Cpfg, ReadsMacrosProductionsDecompositionAndHomomorphism) {
   const auto result = imported("cpfg", monopodial);
-  ASSERT_TRUE(result) << told(result)[0];
+  ASSERT_TRUE(result) << reports(result)[0];
   const json parameters = parameters_of(result);
   EXPECT_EQ(parameters["axiom"], "#(0.1)A(1)");
   EXPECT_EQ(parameters["iterations"], 4);
@@ -60,7 +60,7 @@ TEST(Cpfg, ReadsMacrosProductionsDecompositionAndHomomorphism) {
   EXPECT_EQ(parameters["decomposition_depth"], 2);
   EXPECT_EQ(parameters["interpretation"], json({"A(t) --> ;F(t)"}));
   EXPECT_EQ(result->request.seed(), 17U);
-  EXPECT_THAT(told(result), ElementsAre(HasSubstr("view file")));
+  EXPECT_THAT(reports(result), ElementsAre(HasSubstr("view file")));
   EXPECT_THAT(derived(result), StartsWith("#(0.1)F(1)"));
 }
 
@@ -95,37 +95,38 @@ consider: AB
 Axiom: A(1)FB
 B < A(x) --> A(x*b)
 )");
-  ASSERT_TRUE(result) << told(result)[0];
+  ASSERT_TRUE(result) << reports(result)[0];
   EXPECT_EQ(parameters_of(result)["ring"], true);
   EXPECT_EQ(derived(result), "A(0.75)FB");
 }
 
-TEST(Cpfg, WarnsOfWhatHasNoCounterpart) {
+TEST(Cpfg, WarnsOfSymbolsWithoutACounterpart) {
   const auto result = imported("cpfg", "Lsystem: 1\nderivation length: 0\nAxiom: F@L(2)@L(3)\n");
-  ASSERT_TRUE(result) << told(result)[0];
-  EXPECT_THAT(told(result), ElementsAre(HasSubstr("view file"), StartsWith("3:9 `@L` prints a label")));
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_THAT(reports(result), ElementsAre(HasSubstr("view file"), StartsWith("3:9 `@L` prints a label")));
 }
 
-TEST(Cpfg, RefusesWhatItDoesNotUnderstandAtItsPlace) {
+TEST(Cpfg, RefusesUnknownTextAtItsLineAndColumn) {
   const auto fault = [](std::string_view lines) {
     const auto result = imported("cpfg", "Lsystem: 1\nderivation length: 1\nAxiom: A\n" + std::string(lines));
-    return result ? "" : told(result)[0];
+    return result ? "" : reports(result)[0];
   };
   EXPECT_EQ(fault("A --> B\n"), "");
   EXPECT_THAT(fault("A B C\n"), StartsWith("4:1 found no keyword and no production"));
   EXPECT_THAT(fault("A --> B(func(1,2))\n"), HasSubstr("4:9 unknown function `func`"));
   EXPECT_THAT(fault("#include \"x.h\"\n"), StartsWith("4:1 found `#include`"));
-  EXPECT_THAT(fault("EndEach: {n=n+1;}\n"), StartsWith("4:1 found statements that run between steps"));
+  EXPECT_THAT(fault("Start: {fscanf(fp, \"%f\", &x);}\n"), StartsWith("4:9 found `fscanf`"));
+  EXPECT_THAT(fault("#if 1\nA --> B\n"), StartsWith("4:1 found a choice without its `#endif`"));
   EXPECT_THAT(fault("A --> ?(1,2)B$\n"), StartsWith("4:7 found a sub-L-system"));
   EXPECT_THAT(fault("#define X [X]\nA --> X\n"), StartsWith("5:7 found macros that contain themselves"));
   EXPECT_THAT(fault("Lsystem: 2\n"), StartsWith("4:1 found a second L-system"));
   EXPECT_THAT(fault("A --> [B\n"), StartsWith("4:7 found `[`"));
-  EXPECT_THAT(told(imported("cpfg", "A --> B\n")), Contains(HasSubstr("found no axiom")));
+  EXPECT_THAT(reports(imported("cpfg", "A --> B\n")), Contains(HasSubstr("found no axiom")));
 }
 
-TEST(Cpfg, TellsTheLineOfAFaultInALongProduction) {
+TEST(Cpfg, ReportsTheLineOfAnErrorInALongProduction) {
   const auto result = imported("cpfg", "Lsystem: 1\nderivation length: 1\nAxiom: A\nA -->\n\tF(1)\n\tF(y)\n");
-  EXPECT_THAT(told(result), ElementsAre(StartsWith("6:4 unknown name `y`")));
+  EXPECT_THAT(reports(result), ElementsAre(StartsWith("6:4 unknown name `y`")));
 }
 
 TEST(Cpfg, ExpandsNoBombs) {
@@ -134,7 +135,118 @@ TEST(Cpfg, ExpandsNoBombs) {
     const std::string before = "X" + std::to_string(i - 1);
     text += "#define X" + std::to_string(i) + " " + before + " " + before + "\n";
   }
-  EXPECT_THAT(told(imported("cpfg", text + "A --> X39\n")), Contains(HasSubstr("longer than")));
+  EXPECT_THAT(reports(imported("cpfg", text + "A --> X39\n")), Contains(HasSubstr("longer than")));
+}
+
+/// A system of these lines, derived.
+std::string word_of(const std::string& lines, int steps = 1) {
+  const auto result =
+      imported("cpfg", "Lsystem: 1\nderivation length: " + std::to_string(steps) + "\n" + lines);
+  return result ? derived(result) : reports(result)[0];
+}
+
+TEST(Cpfg, RunsStatementsBetweenSteps) {
+  EXPECT_EQ(
+      word_of("Start: {n=1; m=0.5;}\nStartEach: {p=n*m; printf(\"Step %3f\\n\",n);}\nEndEach: {n=n+2;}\n"
+              "Axiom: A(n)\nA(x) --> B(p)A(n)\n",
+              3),
+      "B(0.5)B(1.5)B(2.5)A(5)");
+  EXPECT_EQ(word_of("Start: {c=0;}\nAxiom: AAB\nA : 1 {c=c+1;} --> C(c)\nB --> D(c)\n"), "C(1)C(2)D(2)")
+      << "what a rule sets, the rules to its right read";
+}
+
+TEST(Cpfg, RunsTheStatementsOfTheStart) {
+  EXPECT_EQ(
+      word_of("#define N 4\nDefine: {array a[N] = {1,2}, b[N];}\n"
+              "Start: {i=0; while(i<N) { b[i]=a[i]*10+i; i=i+1; }\n if (i > 3) {k = b[1];} else k = 7;}\n"
+              "Axiom: A(0)\nA(j) : j < N --> B(b[j])A(j+1)\nA(j) --> C(k)\n",
+              5),
+      "B(10)B(21)B(2)B(3)C(21)");
+  EXPECT_EQ(word_of("Start: {srand(3); n=2;}\nAxiom: A(n)\n", 0), "A(2)");
+  EXPECT_EQ(
+      imported("cpfg", "Lsystem: 1\nderivation length: 0\nStart: {srand(17);}\nAxiom: F\n")->request.seed(),
+      17U);
+  EXPECT_THAT(word_of("Start: {n=0; while (1) n=n+1;}\nAxiom: A\n"),
+              HasSubstr("the statements of `Start` do not end"));
+}
+
+TEST(Cpfg, ReplacesStrictPredecessorsAsAWhole) {
+  EXPECT_EQ(word_of("Axiom: fE(1)fE(0)G\nfE(x) : x==1 --> ;FA\nfE(x) : x==0 --> fE(0.5)\n"), ";FAfE(0.5)G");
+  EXPECT_EQ(
+      word_of("Axiom: L(0);(1,2)!(3,4)L(1);(1,2)!(3,4)\nL(g);(c,b)!(r,a) : g == 0 --> ;(4,4)!(2,r+b)D(5)\n"),
+      ";(4,4)!(2,5)D(5)L(1);(1,2)!(3,4)");
+  EXPECT_EQ(word_of("Axiom: [f(1)P(2)][f(3)P(4)]\n[f(y)P(r)] : r > 2 --> *\n"), "[f(1)P(2)]");
+}
+
+TEST(Cpfg, TriesRulesInTheOrderOfTheFile) {
+  EXPECT_EQ(word_of("Axiom: BA\nA --> C\nB < A --> D\n"), "BC");
+  EXPECT_EQ(word_of("Axiom: BA\nB < A --> D\nA --> C\n"), "BD");
+}
+
+TEST(Cpfg, ChoosesByQuestionMarks) {
+  EXPECT_EQ(
+      word_of("#define MAX(a,b) (((a)>(b))?(a):(b))\nAxiom: A(2,3)\nA(x,y) --> B(MAX(x,y+1),x<y ? 1 : 2)\n"),
+      "B(4,1)");
+  EXPECT_EQ(word_of("Axiom: A(7)\nA(x) : 1 {c = (x > 5) ? 5 : ((x < 1) ? 1 : x);} --> B(c)\n"), "B(5)");
+}
+
+TEST(Cpfg, ReadsChoicesOfThePreprocessor) {
+  const std::string lines =
+      "#define LEAVES 1\n#undef ODD\n#define ODD 0\n#if LEAVES==1 && !defined(NONE)\nA --> B\n#else\nA --> "
+      "C\n#endif\n"
+      "#ifdef NONE\n#if 1\nA --> D\n#endif\n#elif ODD\nA --> E\n#else\nB --> F(1)\n#endif\nAxiom: A\n";
+  EXPECT_EQ(word_of(lines, 2), "F(1)");
+}
+
+TEST(Cpfg, GoesOnBehindBackslashes) {
+  EXPECT_EQ(word_of("#define half(x) \\\\\n  (x*0.5)\n#define BOX [+F] \\\n [-F]\nAxiom: A(4)BOX\nA(x) --> "
+                    "\\\\(half(x))F\\ (90)\n"),
+            "\\\\(2)F\\(90)[+F][-F]");
+}
+
+TEST(Cpfg, DrawsCirclesAndSpheres) {
+  const auto result =
+      imported("cpfg", "Lsystem: 1\nderivation length: 1\nAxiom: A\nA --> F(1)@O(2)@c(3)[@o(1)]\n");
+  ASSERT_TRUE(result) << reports(result)[0];
+  const json parameters = parameters_of(result);
+  EXPECT_EQ(parameters["surfaces"]["_O"]["shape"], "sphere");
+  EXPECT_EQ(parameters["surfaces"]["_c"]["shape"], "disc");
+  EXPECT_EQ(derived(result), "F(1)~_O(2)~_c(3)[~_o(1)]");
+  EXPECT_EQ(word_of("Axiom: ,@o(2);F\n,@o(s); --> *\n"), "F") << "also in a predecessor";
+}
+
+TEST(Cpfg, HonoursDeepDecompositions) {
+  EXPECT_EQ(
+      word_of("Axiom: A(3000)\ndecomposition\nmaximum depth: 5000\nA(n) : n>0 --> A(n-1)\nA(n) --> B\n"),
+      "B");
+  const auto result =
+      imported("cpfg",
+               "Lsystem: 1\nderivation length: 0\nAxiom: A(250)\nhomomorphism\nmaximum depth: 300\n"
+               "A(n) : n>0 --> F(1)A(n-1)\n");
+  EXPECT_EQ(parameters_of(result)["interpretation_depth"], 300);
+}
+
+TEST(Cpfg, ReadsAViewFileAndFunctionsBesideIt) {
+  // Two samples of a straight line are as far up as to the side, whatever its B-spline.
+  const json files = {
+      {"plant.l", "Lsystem: 1\nderivation length: 1\nAxiom: A\nA --> B(func(1,0.25),func(2,1),func(1,2))\n"},
+      {"plant.v",
+       "angle factor: 8\ninitial line width: 0.3\nline width increment: 0.01\ncontour sides: 12\n"
+       "tropism: T: 0 -1 0 E: 0.2 S: 0.01\nfunction set: f.fset\nviewpoint: 0,0,1\nodd thing: 3\n"},
+      {"f.fset",
+       "funcgalleryver 1 1\nitems: 2\nfver 1 1\nname: a\nsamples: 100\nflip: off\npoints: 4\n"
+       "0 2\n0.3333333 4\n0.6666667 6\n1 8\nfver 1 1\nname: b\nsamples: 100\nflip: off\npoints: 4\n"
+       "0 5\n0.3 5\n0.6 5\n1 7\n"}};
+  const auto result = imported("", json({{"files", files}}).dump());
+  ASSERT_TRUE(result) << reports(result)[0];
+  const json parameters = parameters_of(result);
+  EXPECT_EQ(parameters.value("angle", json(45)), 45) << "360 / 8 is the default";
+  EXPECT_EQ(parameters["width"], 0.3);
+  EXPECT_EQ(parameters["sides"], 12);
+  EXPECT_EQ(parameters["tropism"][0]["elasticity"], 0.2);
+  EXPECT_EQ(derived(result), "B(3.5,7,8)");
+  EXPECT_THAT(reports(result),
+              ElementsAre(HasSubstr("`odd thing` has no counterpart"), HasSubstr("nothing will be drawn")));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ TEST(Fractint, ReadsAnEntryInEitherCase) {
   EXPECT_EQ(parameters_of(result), nlohmann::json::parse(R"({
     "axiom": "-(90)F--F--F", "productions": ["F -> F+F--F+F"], "angle": 60, "iterations": 4, "style": "lines"
   })"));
-  EXPECT_THAT(told(result), ElementsAre(StartsWith("1:1 an entry does not say how many steps")));
+  EXPECT_THAT(reports(result), ElementsAre(StartsWith("1:1 an entry has no number of steps")));
 }
 
 TEST(Fractint, JoinsTheRulesOfOneSymbol) {
@@ -47,14 +47,13 @@ TEST(Fractint, TurnsAsFarAsTheAngleAllows) {
 TEST(Fractint, CountsColours) {
   const auto result = imported("fractint", "E{\nAngle 4\nAxiom C3F>1F<2F\n}");
   EXPECT_EQ(parameters_of(result)["axiom"], "-(90);(3)F,F;;F");
-  EXPECT_THAT(told(result), testing::Contains(HasSubstr("palette")));
+  EXPECT_THAT(reports(result), testing::Contains(HasSubstr("palette")));
 }
 
 TEST(Fractint, DrawsWhatFractintDraws) {
   // The third order of the Koch curve is as wide as its axiom is long after scaling: 3^4 steps.
   const auto result = imported("fractint", koch);
-  Job job(0, Job::Options{});
-  const auto answer = nlohmann::json::parse(*derive(result->request, job));
+  const auto answer = nlohmann::json::parse(*derive(result->request, {}));
   EXPECT_EQ(answer["turtle"]["segments"], 3 * 256);
   EXPECT_NEAR(answer["turtle"]["bounds"]["max"][0].get<double>(), 81, 1e-9);
 }
@@ -62,50 +61,51 @@ TEST(Fractint, DrawsWhatFractintDraws) {
 TEST(Fractint, ReadsEqualsSignsAndCommentsWhereFractintDoes) {
   const auto result =
       imported("fractint", "Shrub {\n angle=12;\n axiom=+++FX ; a trunk\n X=@.6[-FX]+FX\n}\n");
-  ASSERT_TRUE(result) << told(result)[0];
+  ASSERT_TRUE(result) << reports(result)[0];
   EXPECT_EQ(parameters_of(result)["angle"], 30);
   EXPECT_EQ(parameters_of(result)["axiom"], "-(90)+++FX");
 }
 
-TEST(Fractint, TakesAwayWhatAnEmptyRuleTakesAway) {
+TEST(Fractint, RemovesSymbolsOfEmptyRules) {
   const auto result =
       imported("fractint", "E {\n angle 4\n axiom F\n F=F<1C2F>1+@2\n <=\n >=\n C=\n @=\n +=-\n}\n");
-  ASSERT_TRUE(result) << told(result)[0];
+  ASSERT_TRUE(result) << reports(result)[0];
   EXPECT_EQ(parameters_of(result)["productions"],
             nlohmann::json({"F -> F;;(2)F,+@Di(2)", "; -> ", ", -> ", ";(n) -> ", "@Di(n) -> ", "+ -> -"}));
   EXPECT_THAT(derived(result), StartsWith("-(90)F;;(2)F,+@Di(2)F;;(2)F,+@Di(2)-"));
   EXPECT_THAT(
-      told(imported("fractint", "E {\n angle 4\n axiom F\n @=F\n [=F\n}\n")),
+      reports(imported("fractint", "E {\n angle 4\n axiom F\n @=F\n [=F\n}\n")),
       ElementsAre(StartsWith("4:2 found a rule that gives `@`"), StartsWith("5:2 found a rule for `[`")));
 }
 
 TEST(Fractint, PassesOverWhatFractintPassesOver) {
   const auto result = imported("fractint", "E {\n angle 4\n axiom F\n F=F(4)\",F\n}\n");
   EXPECT_EQ(parameters_of(result)["productions"], nlohmann::json({"F -> F4F"}));
-  EXPECT_THAT(told(result), ElementsAre(HasSubstr("how many steps"), StartsWith("4:5 `(` is no command"),
-                                        StartsWith("4:7 `)`"), StartsWith("4:8"), StartsWith("4:9 `,`")));
+  EXPECT_THAT(reports(result),
+              ElementsAre(HasSubstr("no number of steps"), StartsWith("4:5 `(` is not a command"),
+                          StartsWith("4:7 `)`"), StartsWith("4:8"), StartsWith("4:9 `,`")));
 }
 
 TEST(Fractint, PassesOverEntriesThatAreComments) {
   const auto result = imported(
       "fractint", "{ tilings of\nthe plane (1994) }\nComment { by me }\nE {\n angle 4\n axiom F\n}\n");
-  ASSERT_TRUE(result) << told(result)[0];
+  ASSERT_TRUE(result) << reports(result)[0];
   EXPECT_EQ(parameters_of(result)["axiom"], "-(90)F");
 }
 
 TEST(Fractint, KeepsItsTwoHeadingsApart) {
-  EXPECT_THAT(told(imported("fractint", "E {\n angle 4\n axiom F+F\n F=D\\30F\n}\n")),
+  EXPECT_THAT(reports(imported("fractint", "E {\n angle 4\n axiom F+F\n F=D\\30F\n}\n")),
               ElementsAre(StartsWith("4:4 found F or G beside D or M")));
   const auto degrees = imported("fractint", "E {\n angle 4\n axiom D+D\\30D|D\n}\n");
   EXPECT_EQ(parameters_of(degrees)["axiom"], "-(90)DD+(30)DD") << "+ and | turn F and G alone";
-  EXPECT_THAT(told(degrees), testing::Contains(StartsWith("3:9 `+` turns F and G alone")));
+  EXPECT_THAT(reports(degrees), testing::Contains(StartsWith("3:9 `+` turns only F and G")));
   const auto steps = imported("fractint", "E {\n angle 4\n axiom F/30F\n}\n");
   EXPECT_EQ(parameters_of(steps)["axiom"], "-(90)FF");
 }
 
-TEST(Fractint, TellsEveryFaultAtItsColumn) {
+TEST(Fractint, ReportsEveryErrorAtItsColumn) {
   EXPECT_THAT(
-      told(imported("fractint", "E {\n angle 4\n axiom F@F\n F=F[+F\n X=F]F\n}\n")),
+      reports(imported("fractint", "E {\n angle 4\n axiom F@F\n F=F[+F\n X=F]F\n}\n")),
       ElementsAre(StartsWith("3:9 found `@`"), StartsWith("4:5 found `[`"), StartsWith("5:5 found `]`")));
 }
 
@@ -119,13 +119,14 @@ TEST(Fractint, TakesTheEntryThatIsNamed) {
   EXPECT_FALSE(imported("fractint", two, "C"));
 }
 
-TEST(Fractint, RefusesWhatItDoesNotUnderstandAtItsPlace) {
-  EXPECT_THAT(told(imported("fractint", "E {\n  Angle 4\n  Axiom F@F\n  Blah\n}")),
+TEST(Fractint, RefusesUnknownTextAtItsLineAndColumn) {
+  EXPECT_THAT(reports(imported("fractint", "E {\n  Angle 4\n  Axiom F@F\n  Blah\n}")),
               ElementsAre(StartsWith("3:10 found `@`"), StartsWith("4:3 found no command")));
-  EXPECT_THAT(told(imported("fractint", "E {\n Angle 4.5\n Axiom F@\n")),
+  EXPECT_THAT(reports(imported("fractint", "E {\n Angle 4.5\n Axiom F@\n")),
               ElementsAre(StartsWith("1:1 found an entry without"), StartsWith("2:8 found no angle"),
                           StartsWith("3:9 found `@` without its number")));
-  EXPECT_THAT(told(imported("fractint", "nothing here")), testing::Contains(HasSubstr("outside an entry")));
+  EXPECT_THAT(reports(imported("fractint", "nothing here")),
+              testing::Contains(HasSubstr("outside an entry")));
   EXPECT_FALSE(imported("fractint", ""));
 }
 

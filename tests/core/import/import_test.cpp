@@ -14,7 +14,7 @@ std::string read_as(std::string_view text) {
   return nlohmann::json::parse(result->answer).at("format").get<std::string>();
 }
 
-TEST(Import, FindsTheFormatByWhatStandsInTheFile) {
+TEST(Import, FindsTheFormatByTheContentOfTheFile) {
   EXPECT_EQ(read_as("Lsystem: 1\nderivation length: 2\nAxiom: F\nF --> FF\nendlsystem\n"), "cpfg");
   EXPECT_EQ(read_as("; curves\nKoch {\n angle=6;\n axiom F\n F=F+F\n}\n"), "fractint");
   EXPECT_EQ(read_as("Premise: A\nRule 1: A=FA\nAngle: 30\n"), "houdini");
@@ -24,16 +24,16 @@ TEST(Import, FindsTheFormatByWhatStandsInTheFile) {
   EXPECT_EQ(read_as(R"({"seed": 1, "type": "deciduous", "branch": {"levels": 2}})"), "ez_tree");
 }
 
-TEST(Import, TellsTheFaultOfTheLikeliestFormat) {
+TEST(Import, ReportsTheErrorOfTheLikeliestFormat) {
   EXPECT_THAT(read_as("Lsystem: 1\nderivation length: 2\nAxiom: F\nF --> F(\n"),
               StartsWith("read as cpfg: found `(`"));
   EXPECT_THAT(read_as("A {\n angle 6\n axiom F\n}\nB {\n angle 6\n axiom F\n}\n"),
-              StartsWith("read as fractint: the file holds several"));
+              StartsWith("read as fractint: the file contains several"));
   EXPECT_THAT(read_as("Premise: A\nA=F(\n"), StartsWith("read as houdini: found `(`"));
   EXPECT_THAT(read_as(R"({"seed": 1, "levels": 40})"), StartsWith("read as proctree: "));
   EXPECT_THAT(read_as(R"({"branch": {"levels": 40}})"), StartsWith("read as ez_tree: "));
-  EXPECT_THAT(read_as("dear all"), StartsWith("found no marks of a format"));
-  EXPECT_THAT(read_as("{"), StartsWith("found no marks of a format"));
+  EXPECT_THAT(read_as("dear all"), StartsWith("found no keywords of a known format"));
+  EXPECT_THAT(read_as("{"), StartsWith("found no keywords of a known format"));
 }
 
 TEST(Import, MindsTheEncodingOfCommentsNot) {
@@ -45,10 +45,10 @@ TEST(Import, MindsTheEncodingOfCommentsNot) {
   EXPECT_FALSE(imported("proctree", "{\"mLevels\": 4, \"\xE9\": 1}"));
 }
 
-TEST(Import, TellsWhatIsSaidOfTheRequestBeforeItIsMade) {
+TEST(Import, ReportsWarningsOfTheRequestBeforeItIsMade) {
   const auto result = imported("cpfg", "Lsystem: 1\nderivation length: 500\nAxiom: F\nF --> FFF\n");
   ASSERT_TRUE(result);
-  EXPECT_THAT(told(result), testing::Contains(testing::HasSubstr("the model is refused as it stands: ")));
+  EXPECT_THAT(reports(result), testing::Contains(testing::HasSubstr("the model is refused as it stands: ")));
 }
 
 }  // namespace

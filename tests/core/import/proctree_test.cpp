@@ -9,12 +9,36 @@ TEST(ProctreeFile, BecomesATreeOfTheSameParameters) {
   const auto result = imported("proctree", R"({"mSeed": 262, "mLevels": 4, "mTwistRate": 3.019})");
   EXPECT_EQ(parameters_of(result),
             nlohmann::json::parse(
-                R"({"model": "proctree", "mLevels": 4, "mTwistRate": 3.019, "leaf": {"size": 0.6}})"))
-      << "leaves as large as those of the presets";
-  EXPECT_EQ(result->warnings.size(), 1U);
+                R"({"model": "proctree", "sequence": "original", "mLevels": 4, "mTwistRate": 3.019,
+                    "leaf": {"build": "twig"}})"));
+  EXPECT_EQ(result->warnings.size(), 0U);
 }
 
-TEST(ProctreeFile, IsRefusedWithEveryFaultAtItsPlace) {
+// Listing 2.1 of Hutsko's thesis (2022).
+constexpr const char* listing = R"({
+  "mBranchFactor": 2.45, "mClimbRate": 0.37, "mClumpMax": 0.45, "mClumpMin": 0.40, "mDropAmount": -0.10,
+  "mGrowAmount": 0.23, "mInitialBranchLength": 0.49, "mLengthFalloffFactor": 0.85, "mLengthFalloffPower": 0.99,
+  "mLevels": 5, "mMaxRadius": 0.13, "mRadiusFalloffRate": 0.73, "mSeed": 262, "mSegments": 6, "mSweepAmount": 0.00,
+  "mTaperRate": 0.94, "mTreeSteps": 5, "mTrunkKink": 0.09, "mTrunkLength": 2.40, "mTwigScale": 0.38,
+  "mTwistRate": 3.019, "mVMultiplier": 0.36})";
+
+TEST(ProctreeFile, HasTheSkeletonOfProctreeJs) {
+  const auto result = imported("proctree", listing);
+  ASSERT_TRUE(result) << reports(result)[0];
+  const Result<std::string> answer = derive(result->request, {});
+  ASSERT_TRUE(answer);
+  const nlohmann::json tree = nlohmann::json::parse(*answer);
+  // From proctree.js in node: bounds of the heads of all branches.
+  const double min[] = {-1.308954, 0, -1.459524}, max[] = {1.340206, 5.511295, 1.870176};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(tree["bounds"]["min"][axis].get<double>(), min[axis], 2e-6);
+    EXPECT_NEAR(tree["bounds"]["max"][axis].get<double>(), max[axis], 2e-6);
+  }
+  EXPECT_EQ(tree["leaves"], 224);
+  EXPECT_EQ(parameters_of(result)["mTwigScale"], 0.38);
+}
+
+TEST(ProctreeFile, ReportsEveryErrorAtItsPointer) {
   const auto result = imported("proctree", R"({"mSegments": 7, "mLevels": 99, "leaves": 3})");
   ASSERT_FALSE(result);
   std::vector<std::string> pointers;
@@ -26,26 +50,26 @@ TEST(ProctreeFile, MayHaveTheNamesOfProctreeJs) {
   const auto result =
       imported("proctree", R"({"seed": 152, "segments": 8, "levels": 4, "initalBranchLength": 0.6,
     "vMultiplier": 1.16, "maxRadius": 0.105, "trunkMaterial": "TrunkType1", "twigMaterial": "BranchType2"})");
-  ASSERT_TRUE(result) << told(result)[0];
+  ASSERT_TRUE(result) << reports(result)[0];
   EXPECT_EQ(parameters_of(result),
             nlohmann::json::parse(R"({"model": "proctree", "mSeed": 152, "mSegments": 8,
     "mLevels": 4, "mInitialBranchLength": 0.6, "mVMultiplier": 1.16, "mMaxRadius": 0.105,
-    "leaf": {"size": 0.6}})"));
-  EXPECT_EQ(result->warnings.size(), 3U) << "two pictures, and chance";
+    "sequence": "original", "leaf": {"build": "twig"}})"));
+  EXPECT_EQ(result->warnings.size(), 2U) << "two images";
 }
 
-TEST(ProctreeFile, TellsTheFaultsOfProctreeJsOnceAndByItsNames) {
+TEST(ProctreeFile, ReportsTheErrorsOfProctreeJsOnceAndByItsNames) {
   const auto result =
       imported("proctree", R"({"maxRadius": 9, "clumpmax": 1, "levels": 3, "mLevels": 4, "twistRat": 1})");
   ASSERT_FALSE(result);
-  std::vector<std::string> told_of;
-  for (const Issue& issue : result.error().issues) told_of.push_back(issue.pointer + " " + issue.message);
-  EXPECT_THAT(told_of,
+  std::vector<std::string> reports_of;
+  for (const Issue& issue : result.error().issues) reports_of.push_back(issue.pointer + " " + issue.message);
+  EXPECT_THAT(reports_of,
               testing::UnorderedElementsAre(
                   testing::StartsWith("/maxRadius found 9"),
-                  "/clumpmax \"clumpmax\" is no parameter of proctree; did you mean \"clumpMax\"?",
+                  "/clumpmax \"clumpmax\" is not a parameter of proctree; did you mean \"clumpMax\"?",
                   testing::StartsWith("/mLevels found a second value"),
-                  "/twistRat \"twistRat\" is no parameter of proctree; did you mean \"twistRate\"?"));
+                  "/twistRat \"twistRat\" is not a parameter of proctree; did you mean \"twistRate\"?"));
 }
 
 TEST(ProctreeFile, IsNoListAndNotEmpty) {

@@ -22,14 +22,13 @@ inline nlohmann::json parameters_of(const Result<ImportedRequest>& result) {
 /// The word that the request derives.
 inline std::string derived(const Result<ImportedRequest>& result) {
   if (!result) return "refused: " + result.error().issues[0].message;
-  Job job(0, Job::Options{});
-  const Result<std::string> answer = derive(result->request, job);
+  const Result<std::string> answer = derive(result->request, {});
   if (!answer) return "refused: " + answer.error().issues[0].message;
   return nlohmann::json::parse(*answer).at("string").get<std::string>();
 }
 
 /// "line:column message" of every fault, or of every warning where there is none.
-inline std::vector<std::string> told(const Result<ImportedRequest>& result) {
+inline std::vector<std::string> reports(const Result<ImportedRequest>& result) {
   std::vector<std::string> texts;
   const auto tell = [&](const auto& each) {
     texts.push_back(std::to_string(each.line) + ":" + std::to_string(each.column) + " " + each.message);

@@ -31,10 +31,10 @@ struct Text {
   std::vector<std::string> definitions;
   Names names;
   Program program;
-  std::vector<Fault> faults;
+  std::vector<TextError> faults;
 };
 
-TEST(Defined, WritesAFunctionOutWithItsArguments) {
+TEST(Defined, ExpandsAFunctionWithItsArguments) {
   Text text({"twice(a) = a + a", "far(a, b) = max(a, twice(b)) * k"});
   EXPECT_EQ(text.value("twice(x)", 3), 6);
   EXPECT_EQ(text.value("1 + twice(x * x) / 2", 3), 10);
@@ -66,7 +66,7 @@ TEST(Defined, RefusesAFunctionThatCallsItself) {
   EXPECT_THAT(text.faults[0].message, HasSubstr("calls itself"));
 }
 
-TEST(Defined, BoundsWhatCallsOfCallsWriteOut) {
+TEST(Defined, BoundsTheExpansionOfNestedCalls) {
   std::vector<std::string> doubling = {"f0(a) = a * a + a"};
   for (int i = 1; i < 40; ++i) {
     const std::string before = "f" + std::to_string(i - 1);
@@ -89,17 +89,17 @@ TEST(Defined, CountsArguments) {
   EXPECT_EQ(text.faults[0].message, "`f` takes 2 arguments (a, b), found 1");
 }
 
-TEST(Defined, TellsWhatIsWrongWithADefinition) {
+TEST(Defined, ReportsErrorsInADefinition) {
   const auto fault_of = [](const std::string& text) {
     Names::Defined function;
-    std::vector<Fault> faults;
+    std::vector<TextError> faults;
     read_definition(text, function, faults);
     return faults.empty() ? "" : std::to_string(faults[0].offset) + " " + faults[0].message;
   };
   EXPECT_EQ(fault_of("f(a, b) = a + b"), "");
   EXPECT_THAT(fault_of("f(a, a) = a"), HasSubstr("5 the parameter `a` is named twice"));
   EXPECT_THAT(fault_of("f a = 2"), HasSubstr("2 expected `(`"));
-  EXPECT_THAT(fault_of("sin(a) = 2"), HasSubstr("0 `sin` is a function that there is already"));
+  EXPECT_THAT(fault_of("sin(a) = 2"), HasSubstr("0 `sin` is the name of a built-in function"));
   EXPECT_THAT(fault_of("f(a) 2"), HasSubstr("5 expected `=`"));
   EXPECT_THAT(fault_of("f(a,b,c,d,e,f,g,h,i) = 1"), HasSubstr("more than 8"));
   EXPECT_THAT(fault_of(""), HasSubstr("expected the name"));

@@ -185,7 +185,7 @@ TEST(Property, DamagedTextIsRefusedAndNeverReadPastItsEnd) {
     }
     const Parsed parsed = parse(text, names);
     ASSERT_LE(parsed.end, text.size());
-    for (const Fault& fault : parsed.faults) ASSERT_LE(fault.offset, text.size());
+    for (const TextError& fault : parsed.faults) ASSERT_LE(fault.offset, text.size());
     refused += parsed.faults.empty() ? 0 : 1;
     parsed.at(3, 4, 0);
   }

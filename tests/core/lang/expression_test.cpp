@@ -11,91 +11,93 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
+/// Values by the rules of the book and of C, computed by hand.
+constexpr std::pair<const char*, double> known_values[] = {
+    {"1+2*3", 7},
+    {"(1+2)*3", 9},
+    {"7-2-1", 4},
+    {"24/4/2", 3},
+    {"2*3%4", 2},
+    {"2^3^2", 512},
+    {"-2^2", -4},
+    {"2^-1", 0.5},
+    {"2^-3^2", 1.0 / 512},
+    {"2**3", 8},
+    {"2*-3", -6},
+    {"2--3", 5},
+    {"-x", -3},
+    {"--x", 3},
+    {"-+-x", 3},
+    {"1-x", -2},
+    {"12/x", 4},
+    {"x^2", 9},
+    {"2^x", 8},
+    {"-x^2", -9},
+    {"1<2", 1},
+    {"2<1", 0},
+    {"2<=2", 1},
+    {"3>=4", 0},
+    {"3!=4", 1},
+    {"x=3", 1},
+    {"x==4", 0},
+    {"1+1==2", 1},
+    {"1<2 && 2<1", 0},
+    {"1<2 || 2<1", 1},
+    {"1 || 0 && 0", 1},
+    {"(1 || 0) && 0", 0},
+    {"x>1 & y>1", 1},
+    {"x>9 | y>9", 0},
+    {"!0", 1},
+    {"!x", 0},
+    {"!z", 1},
+    {"!!x", 1},
+    {"!x < y", 1},
+    {"!(x < y)", 0},
+    {"!z + 1", 2},
+    {"-!z", -1},
+    {"x+y*z", 3},
+    {"(x+y)*2", 14},
+    {"x*y-x/y", 11.25},
+    {"10 % y", 2},
+    {"y % 3 * 2", 2},
+    {"3<x", 0},
+    {"5>x", 1},
+    {"3<=x", 1},
+    {"5>=x", 1},
+    {"3==x", 1},
+    {"5!=x", 1},
+    {"x<y && y<5", 1},
+    {"x && y", 1},
+    {"z || y", 1},
+    {"z || z", 0},
+    {"x && 2", 1},
+    {"x && 0", 0},
+    {"z || 0", 0},
+    {"(x && y) + (z || x)", 2},
+    {"x+y+z>6", 1},
+    {"(x+y)/2", 3.5},
+    {"two*half", 1},
+    {"x*half", 1.5},
+    {"max(x, y) - min(x, y)", 1},
+    {"max(x*2, min(y, 9))", 6},
+    {"clamp(x*y, 0, x+y)", 7},
+    {"lerp(x, y, half)", 3.5},
+    {"sqrt(x*x + y*y)", 5},
+    {"abs(x-y)", 1},
+    {"((((x))))", 3},
+    {"+x", 3},
+    {"2 - (3 - (4 - x))", 0},
+    {"x - (y - (x - (y - x)))", 1},
+    {"x*x < y*y && !(x*x > y*y)", 1},
+    {"1 && 5", 1},
+    {"0 || 7", 1},
+    {"max(1, x) ^ max(1, 2)", 9},
+    {"sin(x*10)", 0.5},
+    {"sin(90) + cos(0)", 2},
+};
+
 TEST(Precedence, FollowsTheBookAndC) {
-  const std::pair<const char*, double> table[] = {
-      {"1+2*3", 7},
-      {"(1+2)*3", 9},
-      {"7-2-1", 4},
-      {"24/4/2", 3},
-      {"2*3%4", 2},
-      {"2^3^2", 512},
-      {"-2^2", -4},
-      {"2^-1", 0.5},
-      {"2^-3^2", 1.0 / 512},
-      {"2**3", 8},
-      {"2*-3", -6},
-      {"2--3", 5},
-      {"-x", -3},
-      {"--x", 3},
-      {"-+-x", 3},
-      {"1-x", -2},
-      {"12/x", 4},
-      {"x^2", 9},
-      {"2^x", 8},
-      {"-x^2", -9},
-      {"1<2", 1},
-      {"2<1", 0},
-      {"2<=2", 1},
-      {"3>=4", 0},
-      {"3!=4", 1},
-      {"x=3", 1},
-      {"x==4", 0},
-      {"1+1==2", 1},
-      {"1<2 && 2<1", 0},
-      {"1<2 || 2<1", 1},
-      {"1 || 0 && 0", 1},
-      {"(1 || 0) && 0", 0},
-      {"x>1 & y>1", 1},
-      {"x>9 | y>9", 0},
-      {"!0", 1},
-      {"!x", 0},
-      {"!z", 1},
-      {"!!x", 1},
-      {"!x < y", 1},
-      {"!(x < y)", 0},
-      {"!z + 1", 2},
-      {"-!z", -1},
-      {"x+y*z", 3},
-      {"(x+y)*2", 14},
-      {"x*y-x/y", 11.25},
-      {"10 % y", 2},
-      {"y % 3 * 2", 2},
-      {"3<x", 0},
-      {"5>x", 1},
-      {"3<=x", 1},
-      {"5>=x", 1},
-      {"3==x", 1},
-      {"5!=x", 1},
-      {"x<y && y<5", 1},
-      {"x && y", 1},
-      {"z || y", 1},
-      {"z || z", 0},
-      {"x && 2", 1},
-      {"x && 0", 0},
-      {"z || 0", 0},
-      {"(x && y) + (z || x)", 2},
-      {"x+y+z>6", 1},
-      {"(x+y)/2", 3.5},
-      {"two*half", 1},
-      {"x*half", 1.5},
-      {"max(x, y) - min(x, y)", 1},
-      {"max(x*2, min(y, 9))", 6},
-      {"clamp(x*y, 0, x+y)", 7},
-      {"lerp(x, y, half)", 3.5},
-      {"sqrt(x*x + y*y)", 5},
-      {"abs(x-y)", 1},
-      {"((((x))))", 3},
-      {"+x", 3},
-      {"2 - (3 - (4 - x))", 0},
-      {"x - (y - (x - (y - x)))", 1},
-      {"x*x < y*y && !(x*x > y*y)", 1},
-      {"1 && 5", 1},
-      {"0 || 7", 1},
-      {"max(1, x) ^ max(1, 2)", 9},
-      {"sin(x*10)", 0.5},
-      {"sin(90) + cos(0)", 2},
-  };
-  for (const auto& [text, result] : table) EXPECT_DOUBLE_EQ(value(text), result) << text;
+  for (const auto& [text, result] : known_values) EXPECT_DOUBLE_EQ(value(text), result) << text;
 }
 
 TEST(Folding, LeavesNoCodeForConstants) {
@@ -175,7 +177,7 @@ TEST(Expression, EndsAtTheFirstTokenThatCannotContinue) {
 
 TEST(Expression, ReadsFromTheMiddleOfATokenList) {
   const std::string text = "A(x*2, y+1)";
-  std::vector<Fault> faults;
+  std::vector<TextError> faults;
   const std::vector<Token> tokens = tokenize(text, 2, text.size(), faults);
   Program program;
   std::size_t at = 0;
@@ -190,7 +192,7 @@ TEST(Expression, ReadsFromTheMiddleOfATokenList) {
   EXPECT_EQ(program.evaluate(second, slots, rng), 5);
 }
 
-TEST(Expression, TellsWhichSlotsItNeeds) {
+TEST(Expression, ReportsTheSlotsThatItNeeds) {
   const std::pair<const char*, std::uint32_t> table[] = {
       {"1", 0},   {"x", 1},   {"z", 3},     {"y*2", 2},       {"2-z", 3},
       {"x*z", 3}, {"z*x", 3}, {"x+y+1", 2}, {"max(1, z)", 3}, {"0 && z", 0},
@@ -204,7 +206,7 @@ TEST(Expression, TellsWhichSlotsItNeeds) {
 TEST(Expression, KeepsManyInOneProgram) {
   Program program;
   std::vector<Expression> expressions;
-  std::vector<Fault> faults;
+  std::vector<TextError> faults;
   for (int i = 0; i < 100; ++i) {
     const std::string text = "x*" + std::to_string(i) + " + y*x" + (i % 7 == 3 ? " + q" : "");
     std::size_t at = 0;
@@ -264,7 +266,7 @@ TEST(NameDistance, CountsLettersAndForgivesCase) {
   EXPECT_GT(name_distance(std::string(100, 'a'), "a"), hint_distance(std::string(100, 'a')));
 }
 
-TEST(Faults, PointAtTheTokenAndSayWhatWasExpected) {
+TEST(IssueList, PointAtTheTokenAndSayWhatWasExpected) {
   const std::pair<const char*, const char*> table[] = {
       {"", "0: expected an expression, found the end"},
       {"x + ", "4: expected a value after `+`, found the end"},
@@ -284,17 +286,17 @@ TEST(Faults, PointAtTheTokenAndSayWhatWasExpected) {
       {"HALF", "0: unknown name `HALF`; did you mean `half`?"},
       {"sin", "0: `sin` is a function: write `sin(angle)`"},
       {"sine(3)", "0: unknown function `sine`; did you mean `sin`?"},
-      {"x(3)", "0: `x` is a value and no function: write `*` between it and the bracket"},
+      {"x(3)", "0: `x` is a value, not a function: write `*` between it and the bracket"},
       {"x + sin(1, 2)", "4: `sin` takes 1 argument (angle), found 2"},
       {"sin()", "0: `sin` takes 1 argument (angle), found 0"},
       {"pow(2)", "0: `pow` takes 2 arguments (base, exponent), found 1"},
       {"ran(1, 2, 3)", "0: `ran` takes 1 or 2 arguments (low, high), found 3"},
-      {"1e999", "0: the number `1e999` is too great: the greatest is about 1.8e308"},
+      {"1e999", "0: the number `1e999` is too large: the largest is about 1.8e308"},
   };
   for (const auto& [text, message] : table) EXPECT_EQ(faults(text), message) << text;
 }
 
-TEST(Faults, ComeAllAtOnceInTheOrderOfTheText) {
+TEST(IssueList, ComeAllAtOnceInTheOrderOfTheText) {
   EXPECT_EQ(faults("a1 + max(b1, c1) * d1"),
             "0: unknown name `a1`\n9: unknown name `b1`\n"
             "13: unknown name `c1`\n19: unknown name `d1`");
@@ -306,7 +308,7 @@ TEST(Faults, ComeAllAtOnceInTheOrderOfTheText) {
             "19: expected an operator or `)`, found the end");
 }
 
-TEST(Faults, LeaveTheParserWhereAnotherCanGoOn) {
+TEST(IssueList, LeaveTheParserWhereAnotherCanGoOn) {
   const std::pair<const char*, std::size_t> table[] = {
       {"x + , y", 4},        {"x + ) A", 4},      {"* 2 -> A", 4},     {"(x -> A", 3},
       {"x < y < 2 : 1", 10}, {"* (a, b) , c", 9}, {"(* 2) + y, 3", 9}, {"* [1, 2] ]", 9},
@@ -321,7 +323,7 @@ TEST(Faults, LeaveTheParserWhereAnotherCanGoOn) {
   }
 }
 
-TEST(Faults, ComeFromANestingThatIsTooDeep) {
+TEST(IssueList, ComeFromANestingThatIsTooDeep) {
   const auto nested = [](std::size_t depth, const std::string& open, const std::string& close) {
     std::string text;
     for (std::size_t i = 0; i < depth; ++i) text += open;
@@ -355,7 +357,7 @@ TEST(Expression, HoldsAllRegistersOfTheDeepestNesting) {
   EXPECT_EQ(deep.at(3, 4), 1);
 }
 
-TEST(Faults, ComeFromTooManyOperations) {
+TEST(IssueList, ComeFromTooManyOperations) {
   std::string sum = "x";
   for (std::uint32_t i = 0; i < Program::max_operations; ++i) sum += "+x";
   EXPECT_EQ(faults(sum), "");
@@ -368,10 +370,10 @@ TEST(Faults, ComeFromTooManyOperations) {
   EXPECT_EQ(parse(constant).at(0), 100'001) << "constants are folded and cost nothing";
 }
 
-TEST(Faults, StopAtAHundred) {
+TEST(IssueList, StopAtAHundred) {
   std::string text = "q";
   for (int i = 0; i < 10'000; ++i) text += "+q";
-  EXPECT_THAT(parse(text).faults, SizeIs(max_faults));
+  EXPECT_THAT(parse(text).faults, SizeIs(max_errors));
 }
 
 TEST(Conditions, HoldWhereNotZero) {

@@ -24,7 +24,7 @@ inline Names few_names() {
 struct Parsed {
   Program program;
   Expression expression;
-  std::vector<Fault> faults;
+  std::vector<TextError> faults;
   std::size_t end = 0;  ///< byte of the first token that does not belong
 
   double at(double x, double y = 0, double z = 0) const {
@@ -47,7 +47,7 @@ inline Parsed parse(const std::string& text, const Names& names = few_names(),
 /// The value of a text without faults, at x = 3, y = 4, z = 0.
 inline double value(const std::string& text) {
   const Parsed parsed = parse(text);
-  for (const Fault& fault : parsed.faults)
+  for (const TextError& fault : parsed.faults)
     ADD_FAILURE() << text << ": " << fault.offset << ": " << fault.message;
   EXPECT_EQ(parsed.end, text.size()) << text;
   return parsed.at(3, 4, 0);
@@ -56,7 +56,7 @@ inline double value(const std::string& text) {
 /// "offset: message" of every fault, a line each.
 inline std::string faults(const std::string& text, std::uint32_t max_depth = 200) {
   std::string all;
-  for (const Fault& fault : parse(text, few_names(), max_depth).faults) {
+  for (const TextError& fault : parse(text, few_names(), max_depth).faults) {
     all += (all.empty() ? "" : "\n") + std::to_string(fault.offset) + ": " + fault.message;
   }
   return all;

@@ -14,7 +14,7 @@ using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 std::vector<Token> tokens(std::string_view text) {
-  std::vector<Fault> faults;
+  std::vector<TextError> faults;
   std::vector<Token> found = tokenize(text, 0, text.size(), faults);
   EXPECT_THAT(faults, IsEmpty()) << text;
   return found;
@@ -28,10 +28,10 @@ std::vector<std::string> words(std::string_view text) {
 }
 
 std::vector<std::string> messages(std::string_view text) {
-  std::vector<Fault> faults;
+  std::vector<TextError> faults;
   tokenize(text, 0, text.size(), faults);
   std::vector<std::string> found;
-  for (const Fault& fault : faults) found.push_back(std::to_string(fault.offset) + ": " + fault.message);
+  for (const TextError& fault : faults) found.push_back(std::to_string(fault.offset) + ": " + fault.message);
   return found;
 }
 
@@ -42,7 +42,7 @@ double number(std::string_view text) {
   return found[0].number;
 }
 
-TEST(Lexer, ReadsEveryWayToWriteANumber) {
+TEST(Lexer, ReadsEveryFormOfANumber) {
   EXPECT_EQ(number("1"), 1);
   EXPECT_EQ(number("1.5"), 1.5);
   EXPECT_EQ(number(".5"), 0.5);
@@ -102,7 +102,7 @@ TEST(Lexer, TakesTypesetArrowsForArrows) {
 
 TEST(Lexer, KeepsOffsetsOfAPartOfAText) {
   const std::string text = "A(l*r1, w)";
-  std::vector<Fault> faults;
+  std::vector<TextError> faults;
   const std::vector<Token> found = tokenize(text, 2, 9, faults);
   ASSERT_THAT(found, SizeIs(6));
   EXPECT_EQ(found[0].offset, 2U);
@@ -113,7 +113,7 @@ TEST(Lexer, KeepsOffsetsOfAPartOfAText) {
 }
 
 TEST(Lexer, StopsANumberAtTheEndOfThePart) {
-  std::vector<Fault> faults;
+  std::vector<TextError> faults;
   const std::vector<Token> found = tokenize("12345", 1, 3, faults);
   ASSERT_THAT(found, SizeIs(2));
   EXPECT_EQ(found[0].number, 23);
@@ -132,7 +132,7 @@ TEST(Lexer, ReadsStringsWithEscapes) {
   EXPECT_EQ(found[2].text, "y");
 }
 
-TEST(Lexer, TellsWhatIsWrongWithAString) {
+TEST(Lexer, ReportsErrorsInStrings) {
   EXPECT_THAT(messages("\"abc\nx"), ElementsAre("0: the string that opens here is not closed on its line"));
   EXPECT_THAT(messages("\"abc\\"), ElementsAre("0: the string that opens here is not closed on its line"));
   EXPECT_THAT(messages(R"("a\qb")"), ElementsAre(HasSubstr("2: unknown escape")));
@@ -143,19 +143,19 @@ TEST(Lexer, NamesCharactersThatDoNotBelong) {
   EXPECT_THAT(messages("a \u2212 b \u00E9"),
               ElementsAre("2: unexpected character `\u2212`; write `-`", "8: unexpected character `\u00E9`"));
   EXPECT_THAT(messages(std::string_view("a\0b", 3)),
-              ElementsAre("1: unexpected byte 0: it is no character of a text"));
+              ElementsAre("1: unexpected byte 0, which is not part of a text"));
   EXPECT_THAT(messages("a\xE2\x86"),
               ElementsAre(HasSubstr("1: unexpected byte 226"), HasSubstr("2: unexpected byte 134")));
 }
 
 TEST(Lexer, LeavesOutWhatDoesNotBelong) {
-  std::vector<Fault> faults;
+  std::vector<TextError> faults;
   EXPECT_THAT(tokenize("a\u00E9b", 0, 4, faults), SizeIs(3));
 }
 
-TEST(Lexer, GivesUpOnAFloodOfFaultsOrTokens) {
-  EXPECT_THAT(messages(std::string(100'000, '\x01')), SizeIs(max_faults - 1));
-  std::vector<Fault> faults;
+TEST(Lexer, StopsAfterTooManyErrorsOrTokens) {
+  EXPECT_THAT(messages(std::string(100'000, '\x01')), SizeIs(max_errors - 1));
+  std::vector<TextError> faults;
   const std::string flood(max_tokens + 10, '+');
   EXPECT_THAT(tokenize(flood, 0, flood.size(), faults), SizeIs(max_tokens + 1));
   EXPECT_THAT(faults, SizeIs(1));

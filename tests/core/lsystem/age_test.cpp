@@ -1,10 +1,12 @@
-/// Age: the plant between two iterations. Whatever the grammar, a small step of age moves limbs by little.
+/// Age: the plant between two iterations. For every grammar, a small change of age moves limbs by a small
+/// distance.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "tests/core/lsystem/support.h"
+#include "tests/support/context.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -20,7 +22,7 @@ LsystemParams with(LsystemParams params, double angle, std::vector<std::string> 
   return params;
 }
 
-/// Systems that rewrite what is drawn, what turns, what is interpreted, what has contexts or a cut.
+/// Systems that rewrite drawn symbols, turns and interpreted symbols, and systems with contexts or a cut.
 std::vector<System> systems() {
   return {
       {"ABOP 1.24a", with(grammar_of("F", {"F -> F[+F]F[-F]F"}, 4), 25.7)},
@@ -32,7 +34,7 @@ std::vector<System> systems() {
                        {"A(l) -> F(l)[&(40)A(l*0.8)]/(137.5)[&(30)A(l*0.7)]A(l*0.9)", "F(l) -> F(l*1.2)"}, 5),
             45)},
       {"interpreted", with(grammar_of("F", {"F -> H[+G][-G]", "G -> H[&G]"}, 5), 25, {"G -> F", "H -> F"})},
-      {"chance",
+      {"random choice",
        with(grammar_of("A", {"A -> F[+(ran(10,50))A]A : 0.6", "A -> F-A : 0.4", "F -> FF"}, 5), 30)},
       {"context", with(grammar_of("BAAAA", {"B < A -> B", "B -> A", "A -> F[+A]A"}, 4), 30, {"B -> F"})},
       {"erased", with(grammar_of("LFFF", {"L -> ", "F -> F[+L]F"}, 3), 40, {"L -> [F(2)]"})},
@@ -44,7 +46,7 @@ std::vector<glm::vec3> points_at(LsystemParams params, double age) {
   params.age = age;
   params.style = LsystemParams::Style::lines;
   Job job = job_of(5);
-  const Result<Model> model = generate(params, job);
+  const Result<Model> model = generate(params, context_of(job));
   EXPECT_TRUE(model);
   std::vector<glm::vec3> points;
   for (const MeshGroup& group : model->meshes) {
@@ -54,7 +56,7 @@ std::vector<glm::vec3> points_at(LsystemParams params, double age) {
   return points;
 }
 
-/// How far the farthest point of one plant is from the other plant.
+/// Returns the largest distance of a point of one plant from the other plant.
 double moved(const std::vector<glm::vec3>& from, const std::vector<glm::vec3>& to) {
   double farthest = 0;
   for (const glm::vec3& point : from) {
@@ -96,7 +98,7 @@ TEST(Age, OfAllIterationsIsTheWholePlant) {
     whole.style = LsystemParams::Style::lines;
     Job job = job_of(5);
     const auto grown = points_at(system.params, static_cast<double>(whole.iterations));
-    const Result<Model> model = generate(whole, job);
+    const Result<Model> model = generate(whole, context_of(job));
     ASSERT_TRUE(model);
     std::size_t count = 0;
     for (const MeshGroup& group : model->meshes) {
@@ -109,7 +111,7 @@ TEST(Age, OfAllIterationsIsTheWholePlant) {
 TEST(Age, BeyondTheIterationsIsRefused) {
   LsystemParams params = grammar_of("F", {"F -> FF"}, 3);
   params.age = 3.5;
-  EXPECT_EQ(faults_of(params).at(0).substr(0, 5), "/age ");
+  EXPECT_EQ(errors_of(params).at(0).substr(0, 5), "/age ");
 }
 
 TEST(Age, IsANameWhereModulesAreTimed) {
@@ -130,7 +132,7 @@ TEST(Age, IsANameWhereModulesAreTimed) {
     last = size;
   }
   params.constants["age"] = 3.0;
-  EXPECT_EQ(faults_of(params).at(0).substr(0, 14), "/constants/age");
+  EXPECT_EQ(errors_of(params).at(0).substr(0, 14), "/constants/age");
 }
 
 TEST(Age, LeavesTheTextOfTheWordWhole) {

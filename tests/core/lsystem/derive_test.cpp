@@ -3,6 +3,7 @@
 #include "core/generators/lsystem/growth.h"
 #include "core/generators/lsystem/table.h"
 #include "tests/core/lsystem/support.h"
+#include "tests/support/context.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -37,13 +38,13 @@ TEST(Derive, CutsTheRestOfABranchInTheStepAfterTheCutWasWritten) {
 }
 
 TEST(Derive, ReachesTheSameWordWithAndWithoutTheWholeWord) {
-  LsystemParams chance =
+  LsystemParams random =
       grammar_of("A(1)",
                  {"A(x) : x<4 -> [+A(x+ran(0,1))]F(x)A(x+1) : 2", "A(x) : x<4 -> A(x*1.5)F : 1",
                   "F(l) -> F(l*1.1)", "F -> F%F : 0.3", "F -> FF : 0.7"},
                  6);
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    EXPECT_EQ(derived(chance, seed), derived_as_word(chance, seed)) << "seed " << seed;
+    EXPECT_EQ(derived(random, seed), derived_as_word(random, seed)) << "seed " << seed;
   }
 }
 
@@ -52,7 +53,7 @@ TEST(Derive, CopiesPlainWordsToTheSameText) {
   EXPECT_EQ(derived(plain), derived_as_word(plain));
 }
 
-TEST(Chance, FollowsTheWeightsOfTheMatchingSet) {
+TEST(RandomChoice, FollowsTheWeightsOfTheMatchingSet) {
   const LsystemParams params = grammar_of("AAAAAAAAAA", {"A -> B : 10", "A -> C : 30"});
   int b = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
@@ -61,13 +62,13 @@ TEST(Chance, FollowsTheWeightsOfTheMatchingSet) {
   EXPECT_NEAR(b / 4000.0, 0.25, 0.03);
 }
 
-TEST(Chance, ChoosesAnewForEachModuleAndStep) {
+TEST(RandomChoice, ChoosesAnewForEachModuleAndStep) {
   const std::string word = derived(grammar_of("AAAAAAAAAAAAAAAAAAAAAAAA", {"A -> B : 1", "A -> C : 1"}), 3);
   EXPECT_NE(word.find('B'), std::string::npos);
   EXPECT_NE(word.find('C'), std::string::npos);
 }
 
-TEST(Chance, IsNotMovedByAnEditElsewhere) {
+TEST(RandomChoice, IsNotMovedByAnEditElsewhere) {
   const auto first_branch = [](const std::string& word) { return word.substr(0, word.find(']')); };
   const std::vector<std::string> rules = {"A -> F[+A]A : 1", "A -> FA : 1", "A -> F : 1"};
   std::vector<std::string> edited = rules;
@@ -103,7 +104,7 @@ TEST(Contexts, PassOverIgnoredSymbolsButNeverBrackets) {
   EXPECT_EQ(derived(params), "B+Z");
 }
 
-TEST(Contexts, LendTheirParameters) {
+TEST(Contexts, BindTheirParameters) {
   EXPECT_EQ(derived(grammar_of("A(4)B(5)C(6)", {"A(x) < B(y) > C(z) : x+y+z>10 -> E((x+y)/2)F((y+z)/2)"})),
             "A(4)E(4.5)F(5.5)C(6)");
 }
@@ -132,38 +133,40 @@ TEST(Growth, CountsPlainSystemsExactly) {
 
 TEST(Growth, RefusesAnExplosionBeforeItStarts) {
   Job job = job_of(0);
-  EXPECT_THROW((void)derive(grammar_of("F", {"F -> FFFFFFFFFF"}, 30), job), Stop);
-  EXPECT_EQ(job.purse()->used(), 0U);
+  EXPECT_THROW((void)derive(grammar_of("F", {"F -> FFFFFFFFFF"}, 30), context_of(job)), Stop);
+  EXPECT_EQ(job.budget()->used(), 0U);
 }
 
-TEST(Growth, StopsAnExplosionThatChanceHid) {
+TEST(Growth, StopsAnExplosionThatRandomChoicesHide) {
   Limits limits;
   limits.modules = 100'000;
   Job job = job_of(0, limits);
-  EXPECT_THROW((void)derive(grammar_of("F", {"F -> FFFFFFFFFF : 1", "F -> F : 0.0001"}, 30), job), Stop);
+  EXPECT_THROW((void)derive(grammar_of("F", {"F -> FFFFFFFFFF : 1", "F -> F : 0.0001"}, 30), context_of(job)),
+               Stop);
   Job other = job_of(0, limits);
-  EXPECT_THROW((void)derive(grammar_of("AF", {"A < F -> FFFFFFFFFF", "F -> FFFFFFFF"}, 30), other), Stop);
+  EXPECT_THROW(
+      (void)derive(grammar_of("AF", {"A < F -> FFFFFFFFFF", "F -> FFFFFFFF"}, 30), context_of(other)), Stop);
 }
 
 TEST(Growth, RefusesMoreSegmentsThanTrianglesAllowBeforeItDraws) {
   Job job = job_of(0);
-  EXPECT_THROW((void)generate(grammar_of("F", {"F -> F+F-F+F"}, 12), job), Stop);
-  EXPECT_EQ(job.purse()->used(), 0U);
+  EXPECT_THROW((void)generate(grammar_of("F", {"F -> F+F-F+F"}, 12), context_of(job)), Stop);
+  EXPECT_EQ(job.budget()->used(), 0U);
   Limits limits;
   limits.triangles = 16 * 100;
-  Job chance = job_of(0, limits);
-  EXPECT_THROW((void)generate(grammar_of("F", {"F -> FF : 1", "F -> FFF : 1"}, 9), chance), Stop);
+  Job random = job_of(0, limits);
+  EXPECT_THROW((void)generate(grammar_of("F", {"F -> FF : 1", "F -> FFF : 1"}, 9), context_of(random)), Stop);
 }
 
 TEST(Growth, RefusesGrammarsOfMillionsOfModulesWhileTheyAreRead) {
-  EXPECT_EQ(faults_of(grammar_of(std::string(3'000'000, 'F'), {})).size(), 1U);
+  EXPECT_EQ(errors_of(grammar_of(std::string(3'000'000, 'F'), {})).size(), 1U);
 }
 
 TEST(Numbers, ThatAreNotFiniteAreRefusedAtTheirProduction) {
   for (const char* axiom : {"F(0/0)", "F(1/0)", "F(1e308)F(1e308)F(1e308)"}) {
     Job job = job_of(0);
     try {
-      const Result<Json> answer = derive(grammar_of(axiom, {}, 0), job);
+      const Result<Json> answer = derive(grammar_of(axiom, {}, 0), context_of(job));
       FAIL() << axiom << " derived";
     } catch (const Stop& stop) {
       EXPECT_EQ(stop.code(), Code::invalid);
@@ -175,7 +178,7 @@ TEST(Interpretation, DrawsWithoutEnteringTheWord) {
   LsystemParams params = grammar_of("L", {"L -> LL"}, 3);
   params.interpretation = {"L -> F+F"};
   Job job = job_of(0);
-  const Result<Json> answer = derive(params, job);
+  const Result<Json> answer = derive(params, context_of(job));
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->at("string"), "LLLLLLLL");
   EXPECT_EQ(answer->at("turtle").at("segments"), 16);
@@ -185,7 +188,7 @@ TEST(Interpretation, GivesParametersToWordsThatHaveNone) {
   LsystemParams params = grammar_of("J[+I]I", {"J < I -> J"});
   params.interpretation = {"I -> ;(0)F", "J -> ;(1)F"};
   Job job = job_of(0);
-  const Result<Json> answer = derive(params, job);
+  const Result<Json> answer = derive(params, context_of(job));
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->at("turtle").at("segments"), 3);
 }

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/core/lsystem/support.h"
+#include "tests/support/context.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -35,58 +36,58 @@ TEST(Notation, KeepsColonsAndContextMarksInsideParentheses) {
   EXPECT_EQ(derived(grammar_of("A(2)", {"A(x) : x<3 -> A(x>1) : 1"})), "A(1)");
 }
 
-TEST(Notation, LetsNoCharacterThatIsCutShortSwallowABracket) {
+TEST(Notation, KeepsBracketsAfterATruncatedCharacter) {
   EXPECT_EQ(derived(grammar_of("F\xE2[+F]", {"A < B -> C"})), "F\xE2[+F]");
 }
 
-TEST(Faults, RefuseABracketWithParameters) {
-  EXPECT_THAT(faults_of(grammar_of("F[(1)F]", {"A < B -> C"})),
+TEST(GrammarErrors, RefuseABracketWithParameters) {
+  EXPECT_THAT(errors_of(grammar_of("F[(1)F]", {"A < B -> C"})),
               ElementsAre("/axiom 1:2 found parameters of a bracket; it takes none"));
-  EXPECT_THAT(faults_of(grammar_of("F", {"F -> [F](2)"})),
+  EXPECT_THAT(errors_of(grammar_of("F", {"F -> [F](2)"})),
               ElementsAre(StartsWith("/productions/0 1:8 found parameters of a bracket")));
 }
 
-TEST(Faults, PointAtTheCharacter) {
-  EXPECT_THAT(faults_of(grammar_of("F", {"F -> F[+F"})),
+TEST(GrammarErrors, PointAtTheCharacter) {
+  EXPECT_THAT(errors_of(grammar_of("F", {"F -> F[+F"})),
               ElementsAre("/productions/0 1:7 found `[` without its `]`"));
-  EXPECT_THAT(faults_of(grammar_of("F", {"F -> F]"})),
+  EXPECT_THAT(errors_of(grammar_of("F", {"F -> F]"})),
               ElementsAre(StartsWith("/productions/0 1:7 found `]`")));
-  EXPECT_THAT(faults_of(grammar_of("F", {"F F"})),
+  EXPECT_THAT(errors_of(grammar_of("F", {"F F"})),
               ElementsAre(StartsWith("/productions/0 1:1 found no arrow")));
-  EXPECT_THAT(faults_of(grammar_of("A(1)", {"A(x) → A(y)"})),
+  EXPECT_THAT(errors_of(grammar_of("A(1)", {"A(x) → A(y)"})),
               ElementsAre(StartsWith("/productions/0 1:10 ")));
 }
 
-TEST(Faults, ComeAllAtOnce) {
+TEST(GrammarErrors, ComeAllAtOnce) {
   LsystemParams params = grammar_of("F)", {"F F", "F -> F(1", "G -> F : -1"});
   params.constants = {{"a", "b+"}, {"b", "b"}};
-  EXPECT_GE(faults_of(params).size(), 6U);
+  EXPECT_GE(errors_of(params).size(), 6U);
 }
 
-TEST(Faults, NameAPredecessorThatIsMissingOrDouble) {
-  EXPECT_THAT(faults_of(grammar_of("F", {"-> F"})), ElementsAre(HasSubstr("no predecessor")));
-  EXPECT_THAT(faults_of(grammar_of("F", {"AB -> F"})), ElementsAre(HasSubstr("found 2 modules")));
-  EXPECT_THAT(faults_of(grammar_of("F", {"[ -> F"})), testing::Not(IsEmpty()));
+TEST(GrammarErrors, NameAPredecessorThatIsMissingOrDouble) {
+  EXPECT_THAT(errors_of(grammar_of("F", {"-> F"})), ElementsAre(HasSubstr("no predecessor")));
+  EXPECT_THAT(errors_of(grammar_of("F", {"AB -> F"})), ElementsAre(HasSubstr("found 2 modules")));
+  EXPECT_THAT(errors_of(grammar_of("F", {"[ -> F"})), testing::Not(IsEmpty()));
 }
 
-TEST(Faults, HintThatARightContextTakesTheOtherMark) {
-  EXPECT_THAT(faults_of(grammar_of("F", {"A < B < C -> D"})),
+TEST(GrammarErrors, HintThatARightContextTakesTheOtherMark) {
+  EXPECT_THAT(errors_of(grammar_of("F", {"A < B < C -> D"})),
               ElementsAre(HasSubstr("right context is written after `>`")));
 }
 
-TEST(Faults, RefuseBracketsInALeftContext) {
-  EXPECT_THAT(faults_of(grammar_of("F", {"A[B] < C -> D"})),
+TEST(GrammarErrors, RefuseBracketsInALeftContext) {
+  EXPECT_THAT(errors_of(grammar_of("F", {"A[B] < C -> D"})),
               ElementsAre(HasSubstr("bracket in a left context")));
 }
 
-TEST(Faults, RefuseAParameterNamedTwice) {
-  EXPECT_THAT(faults_of(grammar_of("A(1,2)", {"A(x,x) -> A(x,x)"})), ElementsAre(HasSubstr("named twice")));
+TEST(GrammarErrors, RefuseAParameterNamedTwice) {
+  EXPECT_THAT(errors_of(grammar_of("A(1,2)", {"A(x,x) -> A(x,x)"})), ElementsAre(HasSubstr("named twice")));
 }
 
-TEST(Faults, RefuseSymbolsOutsideTheAlphabetAtTheirColumn) {
+TEST(GrammarErrors, RefuseSymbolsOutsideTheAlphabetAtTheirColumn) {
   LsystemParams params = grammar_of("FX", {"X -> F[+Y]"});
   params.alphabet = LsystemParams::Alphabet{"FX", "[]+"};
-  EXPECT_THAT(faults_of(params), ElementsAre("/productions/0 1:9 found `Y`, which is not in the alphabet"));
+  EXPECT_THAT(errors_of(params), ElementsAre("/productions/0 1:9 found `Y`, which is not in the alphabet"));
 }
 
 TEST(Constants, ResolveInAnyOrder) {
@@ -98,30 +99,30 @@ TEST(Constants, ResolveInAnyOrder) {
 TEST(Constants, RefuseACircleByName) {
   LsystemParams params = grammar_of("F", {}, 0);
   params.constants = {{"a", "b+1"}, {"b", "a"}};
-  EXPECT_THAT(faults_of(params), ElementsAre(HasSubstr("a -> b -> a")));
+  EXPECT_THAT(errors_of(params), ElementsAre(HasSubstr("a -> b -> a")));
 }
 
 TEST(Constants, RefuseDivisionByZero) {
   LsystemParams params = grammar_of("F", {}, 0);
   params.constants = {{"a", "1/0"}};
-  EXPECT_THAT(faults_of(params), ElementsAre(StartsWith("/constants/a")));
+  EXPECT_THAT(errors_of(params), ElementsAre(StartsWith("/constants/a")));
 }
 
-TEST(Weights, ThatDoNotSumToOneAreTold) {
+TEST(Weights, ThatDoNotSumToOneAreReported) {
   Job job = job_of(0);
-  const Result<Json> answer = derive(grammar_of("F", {"F -> F : 10", "F -> FF : 10"}), job);
+  const Result<Json> answer = derive(grammar_of("F", {"F -> F : 10", "F -> FF : 10"}), context_of(job));
   ASSERT_TRUE(answer);
   ASSERT_EQ(answer->at("warnings").size(), 1U);
-  EXPECT_EQ(answer->at("warnings")[0].at("pointer"), "/parameters/productions/0");
+  EXPECT_EQ(answer->at("warnings")[0].at("pointer"), "/productions/0");
 }
 
 TEST(Commands, AllDrawTheirExample) {
   for (const CommandRow& row : commands()) {
     LsystemParams params = grammar_of(std::string(row.example), {}, 0);
-    EXPECT_THAT(faults_of(params), IsEmpty()) << row.symbol;
+    EXPECT_THAT(errors_of(params), IsEmpty()) << row.symbol;
     EXPECT_THAT(std::string(row.example), HasSubstr(std::string(row.symbol)));
     Job job = job_of(0);
-    EXPECT_TRUE(derive(params, job)) << row.symbol;
+    EXPECT_TRUE(derive(params, context_of(job))) << row.symbol;
   }
 }
 

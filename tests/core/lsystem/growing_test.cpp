@@ -1,5 +1,5 @@
-/// Growth without jumps: every preset that can grow and random grammars, just before and just after each
-/// iteration and in between, measured by length, bounds and surface of what is drawn.
+/// Continuous growth: every preset that can grow, and random grammars, just before and after each iteration
+/// and in between. Measured by the length, bounds and surface of the drawing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "core/base/rng.h"
+#include "core/generators/lsystem/fractional_iterations.h"
 #include "core/generators/lsystem/shape.h"
-#include "core/generators/lsystem/sprout.h"
 #include "core/schema/presets.h"
 #include "tests/core/lsystem/support.h"
 
@@ -24,8 +24,8 @@ struct Measures {
   double size() const { return std::sqrt(glm::dot(high - low, high - low)); }
 };
 
-/// Of bark, of organs by their boxes, and of polygons. Not of the mesh: whether two limbs lie upon each
-/// other, or a tip is closed by a cone, changes at once.
+/// Area of bark, of the boxes of organs, and of polygons. The mesh is not used, because coincident limbs and
+/// the cones of tips change at once.
 double area_of(const Skeleton& skeleton) {
   const Limbs& limbs = skeleton.limbs;
   double area = 0;
@@ -45,7 +45,7 @@ double area_of(const Skeleton& skeleton) {
   return area;
 }
 
-/// The box of what has a length: a shoot that is a point yet may stand off by itself.
+/// Returns the bounds of everything with a length. A shoot of length 0 can lie apart from the plant.
 void bound(const Limbs& limbs, Measures& measures) {
   for (std::size_t i = 0; i < limbs.size(); ++i) {
     if (limbs.parent[i] == Limbs::none) continue;
@@ -56,7 +56,7 @@ void bound(const Limbs& limbs, Measures& measures) {
   }
 }
 
-/// Small limits: what grows beyond them is not measured.
+/// Small limits; plants that exceed them are not measured.
 Limits small() {
   Limits limits;
   limits.modules = 20'000;
@@ -67,7 +67,7 @@ void draw_at(const Grammar& grammar, double age, Drawing& drawing, Job& job) {
   const auto steps = static_cast<std::uint32_t>(std::ceil(age));
   const double share = 1 - (std::ceil(age) - age);
   const Word word = derive_word(grammar, share == 1 ? steps : steps - 1, true, job);
-  if (share != 1) return Sprouting(grammar, drawing, steps - 1, share).word(word, job);
+  if (share != 1) return FractionalStep(grammar, drawing, steps - 1, share).word(word, job);
   const double nothing = 0;
   for (std::size_t i = 0; i < word.size(); ++i) {
     drawing.module(word.kind[i], word.parameter.empty() ? &nothing : word.parameter.data() + word.at[i],
@@ -75,7 +75,7 @@ void draw_at(const Grammar& grammar, double age, Drawing& drawing, Job& job) {
   }
 }
 
-/// Nothing beyond the limits.
+/// Returns nullopt where the plant exceeds the limits.
 std::optional<Measures> measured(LsystemParams params, double age, std::uint64_t seed) {
   params.age = age;
   params.style = LsystemParams::Style::tubes;
@@ -84,7 +84,7 @@ std::optional<Measures> measured(LsystemParams params, double age, std::uint64_t
   const Grammar grammar = compile(params, seed, Limits{}, issues);
   EXPECT_TRUE(issues.empty()) << issues[0].message;
   Skeleton skeleton(job);
-  Drawing drawing(grammar, params, &skeleton, job);
+  Drawing drawing(grammar, params, &skeleton, {job});
   try {
     draw_at(grammar, age, drawing, job);
   } catch (const Stop& stop) {
@@ -97,7 +97,7 @@ std::optional<Measures> measured(LsystemParams params, double age, std::uint64_t
   return measures;
 }
 
-/// What differs by more than a thousandth, the area by more than `area_part`, or nothing.
+/// Returns the measure that differs by more than a thousandth (the area: `area_part`), or "".
 std::string jump(const Measures& a, const Measures& b, double area_part) {
   constexpr double small_part = 1e-3;
   const double size = std::max({a.size(), b.size(), 0.1});
@@ -115,7 +115,7 @@ std::string jump(const Measures& a, const Measures& b, double area_part) {
   return {};
 }
 
-/// Looks round every whole age, and in between.
+/// Compares the plant around every whole age and in between.
 void expect_no_jump(const LsystemParams& params, std::uint64_t seed, const std::string& name,
                     double area_part) {
   for (int k = 0; k < std::min<int>(static_cast<int>(params.iterations), 12); ++k) {
@@ -136,9 +136,9 @@ TEST(Growing, HasNoJumpInAnyPreset) {
   int grown = 0;
   for (const auto& [name, preset] : preset_requests()) {
     if (preset.request.at("generator") != "lsystem") continue;
-    Faults faults;
-    LsystemParams params = read_lsystem(preset.request.at("parameters"), "", faults);
-    ASSERT_TRUE(faults.empty()) << name;
+    IssueList errors;
+    LsystemParams params = read_lsystem(preset.request.at("parameters"), "", errors);
+    ASSERT_TRUE(errors.empty()) << name;
     params.age = 0.5;
     if (params.timed || params.environment || !check(params, Limits{}).empty()) continue;
     ++grown;
@@ -147,7 +147,7 @@ TEST(Growing, HasNoJumpInAnyPreset) {
   EXPECT_GT(grown, 50);
 }
 
-/// Writes grammars of everything that a turtle can do but `$`, which spins where the heading is upright.
+/// Writes random grammars of all turtle symbols except `$`, which is undefined for a vertical heading.
 class RandomGrammar {
  public:
   explicit RandomGrammar(std::uint64_t seed) : rng_(Rng::of_seed(seed)) {}
@@ -183,11 +183,11 @@ class RandomGrammar {
     std::string text;
     const std::uint32_t count = 1 + rng_.below(4);
     for (std::uint32_t i = 0; i < count; ++i) {
-      const double chance = rng_.unit();
-      if (chance < 0.25 && brackets > 0) {
+      const double draw = rng_.unit();
+      if (draw < 0.25 && brackets > 0) {
         text += "[" + word(brackets - 1) + "]";
       } else {
-        text += chance < 0.5 ? "A" : chance < 0.6 ? "B" : plain();
+        text += draw < 0.5 ? "A" : draw < 0.6 ? "B" : plain();
       }
     }
     return text;
@@ -209,7 +209,7 @@ TEST(Growing, HasNoJumpInAnyGrammar) {
   EXPECT_GT(grown, 300);
 }
 
-TEST(Growing, KeepsNothingOfWhatHasGone) {
+TEST(Growing, RestoresTheStateOfModulesThatDisappeared) {
   LsystemParams params = grammar_of("A", {"A -> F[+FA][-FA]"}, 3);
   params.interpretation = {"A -> @D(3)F"};
   const auto near = measured(params, 2 - step, 1), whole = measured(params, 2, 1);
@@ -218,7 +218,7 @@ TEST(Growing, KeepsNothingOfWhatHasGone) {
   EXPECT_DOUBLE_EQ(whole->length, 21);
 }
 
-TEST(Growing, TakesOverWhatThePredecessorDrew) {
+TEST(Growing, ContinuesWhatThePredecessorDrew) {
   LsystemParams params = grammar_of("F", {"F -> FF"}, 3);
   params.step = {1, 0.5};
   EXPECT_NEAR(measured(params, 2, 0)->length, measured(params, 2 + step, 0)->length, 1e-4);

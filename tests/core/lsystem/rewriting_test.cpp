@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/core/lsystem/support.h"
+#include "tests/support/context.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -11,7 +12,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-TEST(Decomposition, TakesModulesApartInTheStepThatWroteThem) {
+TEST(Decomposition, DecomposesModulesInTheStepThatWroteThem) {
   LsystemParams params = grammar_of("A(2.5)", {"A(t) -> A(t+1)"});
   params.decomposition = {"A(t) : t >= 1 -> F A(t-1)"};
   EXPECT_EQ(derived(params), "FFA(1.5)") << "once for the axiom, once for the step";
@@ -19,7 +20,7 @@ TEST(Decomposition, TakesModulesApartInTheStepThatWroteThem) {
   EXPECT_EQ(derived(params), "FFFA(0.5)");
 }
 
-TEST(Decomposition, LeavesWhatNoStepWrote) {
+TEST(Decomposition, KeepsModulesThatNoStepWrote) {
   LsystemParams params = grammar_of("AB", {"A -> AC"}, 2);
   params.decomposition = {"C -> D", "B -> BB"};
   EXPECT_EQ(derived(params), "ADDBB") << "B is taken apart in the axiom alone";
@@ -30,7 +31,7 @@ TEST(Decomposition, EntersTheWordAndInterpretationDoesNot) {
   params.decomposition = {"A -> B"};
   params.interpretation = {"B -> F"};
   Job job = job_of(0);
-  const Result<Json> answer = derive(params, job);
+  const Result<Json> answer = derive(params, context_of(job));
   EXPECT_EQ(answer->at("string"), "B");
   EXPECT_EQ(answer->at("turtle").at("segments"), 1);
 }
@@ -51,18 +52,18 @@ TEST(Decomposition, StopsAtTheLimit) {
   params.decomposition = {"A -> AA"};
   params.decomposition_depth = 32;
   Job job = job_of(0, limits);
-  EXPECT_THROW((void)derive(params, job), Stop);
+  EXPECT_THROW((void)derive(params, context_of(job)), Stop);
   params.decomposition = {"A -> BB", "B -> AA"};
   params.decomposition[1] = "B -> [A][A]";
   Job other = job_of(0, limits);
-  EXPECT_THROW((void)derive(params, other), Stop);
+  EXPECT_THROW((void)derive(params, context_of(other)), Stop);
 }
 
 TEST(Decomposition, TakesNoContext) {
   LsystemParams params = grammar_of("A", {});
   params.decomposition = {"B < A -> C"};
-  EXPECT_THAT(faults_of(params),
-              ElementsAre(HasSubstr("/decomposition/0 0:0 a decomposition rule takes no context")));
+  EXPECT_THAT(errors_of(params),
+              ElementsAre(HasSubstr("/decomposition/0 0:0 a decomposition rule cannot have a context")));
 }
 
 TEST(Tables, TakeTurns) {
@@ -81,7 +82,7 @@ TEST(Tables, PointAtTheirProductions) {
   LsystemParams params = grammar_of("A", {});
   params.tables.resize(2);
   params.tables[1].productions = {"A -> B", "A B"};
-  EXPECT_THAT(faults_of(params), ElementsAre(HasSubstr("/tables/1/productions/1 1:1 found no arrow")));
+  EXPECT_THAT(errors_of(params), ElementsAre(HasSubstr("/tables/1/productions/1 1:1 found no arrow")));
 }
 
 TEST(Ring, MakesNeighboursOfTheEnds) {
@@ -92,7 +93,7 @@ TEST(Ring, MakesNeighboursOfTheEnds) {
   params.productions = {"B C < A -> X", "C > A B -> Y", "A < A -> N"};
   EXPECT_EQ(derived(params), "XBY");
   params.axiom = "A";
-  EXPECT_EQ(derived(params), "A") << "nobody is one's own neighbour";
+  EXPECT_EQ(derived(params), "A") << "a module is not its own neighbour";
 }
 
 TEST(Ring, GoesRoundBranchesAndNotOutOfThem) {
@@ -107,7 +108,7 @@ TEST(Consider, PassesOverEverythingElse) {
   params.consider = "AB";
   EXPECT_EQ(derived(params), "A+F-C");
   params.ignore = "+";
-  EXPECT_THAT(faults_of(params), ElementsAre(HasSubstr("/consider")));
+  EXPECT_THAT(errors_of(params), ElementsAre(HasSubstr("/consider")));
 }
 
 TEST(NewContext, SeesWhatTheStepHasWrittenOnTheLeft) {
@@ -124,12 +125,12 @@ TEST(NewContext, SeesWhatTheStepHasWrittenOnTheRight) {
   EXPECT_EQ(derived(grammar_of("B[XA]DA", {"A -> C", "B >> [X]D -> E"})), "E[XC]DC");
   EXPECT_EQ(derived(grammar_of("B(0)B(0)A(1)", {"A(x) -> A(x+1)XY", "B(y) >> A(x)XY -> A(x*2)XY"})),
             "A(8)XYA(4)XYA(2)XY");
-  EXPECT_EQ(derived(grammar_of("[AB%C]D", {"Q >> Q -> Q"})), "[AB]D") << "a cut is made before";
+  EXPECT_EQ(derived(grammar_of("[AB%C]D", {"Q >> Q -> Q"})), "[AB]D") << "the cut happens before";
 }
 
 TEST(NewContext, StandsBesideAnOldOne) {
   EXPECT_EQ(derived(grammar_of("AXB", {"A -> C", "X -> Y", "CY << X < B -> D"})), "CYD");
-  EXPECT_THAT(faults_of(grammar_of("A", {"A << B -> C", "A >> B -> C"})),
+  EXPECT_THAT(errors_of(grammar_of("A", {"A << B -> C", "A >> B -> C"})),
               ElementsAre(HasSubstr("a word is written in one direction")));
 }
 
@@ -140,23 +141,23 @@ TEST(Modules, HaveNamesOfMoreThanOneCharacter) {
   params.iterations = 2;
   EXPECT_EQ(derived(params), "LeafLeafApex(3)") << "Le and af are no Leaf, but read together";
   Job job = job_of(0);
-  EXPECT_EQ(derive(params, job)->at("counts").at("Leaf"), 1);
+  EXPECT_EQ(derive(params, context_of(job))->at("counts").at("Leaf"), 1);
 }
 
 TEST(Modules, KeepTheirNumberOfParameters) {
   LsystemParams params = grammar_of("Apex(1)", {"Apex(a, b) -> Apex"});
   params.modules = {"Apex(n, m)", "for", "Node(", "9"};
-  EXPECT_THAT(faults_of(params),
+  EXPECT_THAT(errors_of(params),
               testing::AllOf(Contains(HasSubstr("/modules/1 1:1 `for` begins a statement")),
                              Contains(HasSubstr("/modules/2 1:6 expected a parameter")),
                              Contains(HasSubstr("/modules/3 1:1 expected the name")),
                              Contains(HasSubstr("/axiom 1:1 found 1 parameters of `Apex`; expected 2"))));
 }
 
-/// The end of what frames drew.
+/// Returns the last point drawn by frames.
 nlohmann::json turtle_of(const LsystemParams& params) {
   Job job = job_of(0);
-  const Result<Json> answer = derive(params, job);
+  const Result<Json> answer = derive(params, context_of(job));
   return answer ? answer->at("turtle") : Json(answer.error().issues[0].message);
 }
 
@@ -181,7 +182,7 @@ TEST(Frames, BranchByCopies) {
   EXPECT_EQ(turtle_of(params)["total_length"], 5);
 }
 
-TEST(Frames, TellWhereTheyAre) {
+TEST(Frames, ReportTheirPosition) {
   LsystemParams params = grammar_of("A(translate(frame(), 1, 2, 3))", {"A(f) : f.y > 1 -> B(f.x, f.y, f.z)"});
   params.modules = {"A(frame f)"};
   EXPECT_EQ(derived(params), "B(1,2,3)");
@@ -194,24 +195,24 @@ TEST(Frames, TakeTheTurtleAlong) {
   EXPECT_EQ(turtle["heading"], nlohmann::json({1, 0, 0}));
 }
 
-TEST(Frames, TellWhatIsNoFrame) {
-  const auto faults = [](const char* axiom) {
+TEST(Frames, ReportWhatIsNotAFrame) {
+  const auto errors = [](const char* axiom) {
     LsystemParams params = grammar_of(axiom, {}, 0);
     params.modules = {"A(frame)"};
-    return faults_of(params);
+    return errors_of(params);
   };
-  EXPECT_THAT(faults("A(2)"), ElementsAre(HasSubstr("1:3 found `2`; expected a frame")));
-  EXPECT_THAT(faults("A(turn(frame(), 2))"),
+  EXPECT_THAT(errors("A(2)"), ElementsAre(HasSubstr("1:3 found `2`; expected a frame")));
+  EXPECT_THAT(errors("A(turn(frame(), 2))"),
               ElementsAre(HasSubstr("1:3 found `turn`; expected frame, copy")));
-  EXPECT_THAT(faults("A(scale(frame(), 1, 2))"), ElementsAre(HasSubstr("found 2 numbers")));
-  EXPECT_THAT(faults("A(translate(frame(), 1/0, 2, 3))"), IsEmpty());
+  EXPECT_THAT(errors("A(scale(frame(), 1, 2))"), ElementsAre(HasSubstr("found 2 numbers")));
+  EXPECT_THAT(errors("A(translate(frame(), 1/0, 2, 3))"), IsEmpty());
   LsystemParams params = grammar_of("A(translate(frame(), 1/0, 2, 3))", {}, 0);
   params.modules = {"A(frame)"};
   Job job = job_of(0);
-  EXPECT_THROW((void)derive(params, job), Stop);
+  EXPECT_THROW((void)derive(params, context_of(job)), Stop);
 }
 
-TEST(Chance, AnEditedBranchLeavesTheOthersAsTheyWere) {
+TEST(RandomChoice, AnEditedBranchLeavesTheOthersAsTheyWere) {
   const auto grown = [](const char* edited, std::uint64_t seed) {
     return derived(grammar_of("L(0)R(0)",
                               {"L(n) : n < 6 -> F(ran(1))[+L(n+1)]L(n+1) : 9", "L(n) : n < 6 -> X : 1",
@@ -228,8 +229,8 @@ TEST(Chance, AnEditedBranchLeavesTheOthersAsTheyWere) {
   EXPECT_NE(left(grown("R(n) : n < 6 -> Y : 9", 6)), left(plain));
 }
 
-TEST(Chance, AnEditedBranchKeepsWhatItHadInCommon) {
-  // All first draws of the branch stay, though each of its productions draws more now.
+TEST(RandomChoice, AnEditedBranchKeepsWhatItHadInCommon) {
+  // The first random values of the branch stay, though each of its productions now uses more.
   const auto lengths = [](const char* rule) {
     const std::string word = derived(grammar_of("R(0)", {rule}, 4), 9);
     std::vector<std::string> found;

@@ -29,11 +29,11 @@ Drawn drawn(const LsystemParams& params) {
   const Grammar grammar = compiled(params);
   const auto steps = static_cast<std::uint32_t>(params.iterations);
   Drawn result{Skeleton(job), {}, {}};
-  Drawing drawing(grammar, params, &result.skeleton, job);
+  Drawing drawing(grammar, params, &result.skeleton, {job});
   if constexpr (std::is_same_v<Sink, Drawing>) {
     FreeDerivation<Drawing>(grammar, steps, false, job, drawing).run();
   } else {
-    Stamping stamping(grammar, params, steps, drawing, job);
+    Stamping stamping(grammar, params, steps, drawing, {job});
     FreeDerivation<Stamping>(grammar, steps, false, job, stamping).run();
   }
   result.report = drawing.turtle().report();
@@ -41,7 +41,7 @@ Drawn drawn(const LsystemParams& params) {
   return result;
 }
 
-/// The same joints in the same order, each where it would be but for the last bits.
+/// Expects the same joints in the same order, at the same positions except for rounding.
 void expect_same(const LsystemParams& params) {
   const Drawn plain = drawn<Drawing>(params), stamped = drawn<Stamping>(params);
   const Limbs &a = plain.skeleton.limbs, &b = stamped.skeleton.limbs;
@@ -101,29 +101,29 @@ TEST(Stamping, TakesTheDecrementOfEachStep) {
   expect_same(params);
 }
 
-TEST(Stamping, IsForBigPlainSystemsAlone) {
+TEST(Stamping, IsUsedForBigPlainSystemsOnly) {
   const auto fits = [](const LsystemParams& params) {
     return Stamping::fits(compiled(params), params, static_cast<std::uint32_t>(params.iterations));
   };
   EXPECT_TRUE(fits(grammar_of("A", {"A -> F[+A][-A]FA"}, 12)));
   EXPECT_FALSE(fits(grammar_of("A", {"A -> F[+A][-A]FA"}, 6)));
-  EXPECT_FALSE(fits(grammar_of("A", {"A -> F[+A][-A]$FA"}, 12))) << "looks at the sky";
+  EXPECT_FALSE(fits(grammar_of("A", {"A -> F[+A][-A]$FA"}, 12))) << "depends on the up direction";
   EXPECT_FALSE(fits(grammar_of("A(1)", {"A(n) -> F(n)[+A(n/2)][-A(n)]FA(n)"}, 12))) << "has parameters";
   EXPECT_FALSE(fits(grammar_of("A", {"A : 0.5 -> F[+A][-A]FA", "A : 0.5 -> F[+A][-A][-A]"}, 12)))
-      << "depends on chance";
+      << "has random choices";
   LsystemParams spread = grammar_of("A", {"A -> F[+A][-A]FA"}, 12);
   spread.angle.spread = 5;
-  EXPECT_FALSE(fits(spread)) << "draws angles";
+  EXPECT_FALSE(fits(spread)) << "has random angles";
 }
 
-TEST(Stamping, RefusesWhatTheTurtleWould) {
+TEST(Stamping, RefusesTheSameAsTheTurtle) {
   const LsystemParams params = grammar_of("A", {"A -> F[+A][-A]FA"}, 9);
   Job job = job_of(1);
   const Grammar grammar = compiled(params);
   Skeleton skeleton(job);
-  Drawing drawing(grammar, params, &skeleton, job);
+  Drawing drawing(grammar, params, &skeleton, {job});
   drawing.set_most_segments(5000);
-  Stamping stamping(grammar, params, 9, drawing, job);
+  Stamping stamping(grammar, params, 9, drawing, {job});
   EXPECT_THROW((FreeDerivation<Stamping>(grammar, 9, false, job, stamping).run()), Stop);
   EXPECT_LE(drawing.turtle().report().segments, 5000U);
 }
@@ -137,8 +137,8 @@ TEST(Stamping, SpendsTheModulesOfTheWord) {
     limits.modules = limit;
     Job job = job_of(1, limits);
     Skeleton skeleton(job);
-    Drawing drawing(grammar, params, &skeleton, job);
-    Stamping stamping(grammar, params, 9, drawing, job);
+    Drawing drawing(grammar, params, &skeleton, {job});
+    Stamping stamping(grammar, params, 9, drawing, {job});
     FreeDerivation<Stamping> derivation(grammar, 9, false, job, stamping);
     if (allowed) {
       EXPECT_NO_THROW(derivation.run());

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/core/lsystem/support.h"
+#include "tests/support/context.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -12,7 +13,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-TEST(Loop, WritesItsBodyForEveryTurn) {
+TEST(Loop, WritesItsBodyInEveryIteration) {
   EXPECT_EQ(derived(grammar_of("A(2)", {"A(n) -> for(i=0;i<=n;i++){ B(i) }"})), "B(0)B(1)B(2)");
   EXPECT_EQ(derived(grammar_of("A(3)", {"A(n) -> F for (i = n; i > 0; i--) { [+(i)F] } F"})),
             "F[+(3)F][+(2)F][+(1)F]F");
@@ -55,11 +56,11 @@ TEST(Local, KeepsItsValueAndHidesOuterNames) {
 }
 
 TEST(Local, EndsWithItsBlock) {
-  EXPECT_THAT(faults_of(grammar_of("A", {"A -> if (1 > 0) { let y = 2; F(y) } F(y)"})),
+  EXPECT_THAT(errors_of(grammar_of("A", {"A -> if (1 > 0) { let y = 2; F(y) } F(y)"})),
               ElementsAre(HasSubstr("1:39 unknown name `y`")));
 }
 
-TEST(Local, MayBeSetRoundTheConditionAsInCpfg) {
+TEST(Local, CanBeSetAroundTheConditionAsInCpfg) {
   EXPECT_EQ(derived(grammar_of("A(1.5)A(0.5)", {"A(t) : {t=t-1;} t>0 {x=2*t;} -> F(x)A(t)"})),
             "F(1)A(0.5)A(0.5)");
   EXPECT_EQ(derived(grammar_of("A(3)", {"A(t) : {if(t>2){t=2;}} -> A(t)"})), "A(2)");
@@ -72,25 +73,26 @@ TEST(Function, IsKnownInEveryExpression) {
   EXPECT_EQ(derived(params), "F(4)");
 }
 
-TEST(Function, TellsItsFaultsAtItsOwnPlace) {
+TEST(Function, ReportsItsErrorsAtItsOwnPosition) {
   LsystemParams params = grammar_of("A(f(1))", {"A(x) -> F(g(x))"});
   params.functions = {"f(a) = a + b", "g(a) = h(a)", "h(a) = g(a)", "sin(a) = a"};
-  EXPECT_THAT(faults_of(params), ElementsAre(HasSubstr("/functions/0 1:12 unknown name `b`"),
-                                             HasSubstr("/functions/1 1:8 `h`: `g`: `h` calls itself"),
-                                             StartsWith("/functions/3 1:1 `sin` is a function")));
+  EXPECT_THAT(errors_of(params),
+              ElementsAre(HasSubstr("/functions/0 1:12 unknown name `b`"),
+                          HasSubstr("/functions/1 1:8 `h`: `g`: `h` calls itself"),
+                          StartsWith("/functions/3 1:1 `sin` is the name of a built-in function")));
 }
 
-TEST(Statements, TellTheirFaultsAtTheirColumn) {
-  const auto faults = [](const char* successor) {
-    return faults_of(grammar_of("A(1)", {std::string("A(n) -> ") + successor}));
+TEST(Statements, ReportTheirErrorsAtTheirColumn) {
+  const auto errors = [](const char* successor) {
+    return errors_of(grammar_of("A(1)", {std::string("A(n) -> ") + successor}));
   };
-  EXPECT_THAT(faults("for(i=0;i<n){F}"), Contains(HasSubstr("1:12 expected `(start; condition; change)`")));
-  EXPECT_THAT(faults("for(i=0;i<m;i++){F}"), Contains(HasSubstr("unknown name `m`")));
-  EXPECT_THAT(faults("for(i=0;i<n;j++){F}"), Contains(HasSubstr("`j` has no value yet")));
-  EXPECT_THAT(faults("while(n<2){F"), Contains(HasSubstr("found `{` without its `}`")));
-  EXPECT_THAT(faults("let x = n F(x)"), Contains(HasSubstr("without its `;`")));
-  EXPECT_THAT(faults("for(i=0;i<n;i++){[F}]"), Contains(HasSubstr("in the same block")));
-  EXPECT_THAT(faults("if(n<2)"), Contains(HasSubstr("expected a module or `{`")));
+  EXPECT_THAT(errors("for(i=0;i<n){F}"), Contains(HasSubstr("1:12 expected `(start; condition; change)`")));
+  EXPECT_THAT(errors("for(i=0;i<m;i++){F}"), Contains(HasSubstr("unknown name `m`")));
+  EXPECT_THAT(errors("for(i=0;i<n;j++){F}"), Contains(HasSubstr("`j` has no value yet")));
+  EXPECT_THAT(errors("while(n<2){F"), Contains(HasSubstr("found `{` without its `}`")));
+  EXPECT_THAT(errors("let x = n F(x)"), Contains(HasSubstr("without its `;`")));
+  EXPECT_THAT(errors("for(i=0;i<n;i++){[F}]"), Contains(HasSubstr("in the same block")));
+  EXPECT_THAT(errors("if(n<2)"), Contains(HasSubstr("expected a module or `{`")));
 }
 
 TEST(Statements, StopAtTheLimitOfModules) {
@@ -98,20 +100,22 @@ TEST(Statements, StopAtTheLimitOfModules) {
   limits.modules = 1000;
   for (const char* successor : {"while(1>0){}", "while(1>0){F}", "for(i=0;i<10;i--){ if(i>5) F }"}) {
     Job job = job_of(0, limits);
-    EXPECT_THROW((void)derive(grammar_of("A", {std::string("A -> ") + successor}), job), Stop) << successor;
+    EXPECT_THROW((void)derive(grammar_of("A", {std::string("A -> ") + successor}), context_of(job)), Stop)
+        << successor;
   }
   LsystemParams params = grammar_of("A", {}, 0);
   params.interpretation = {"A -> while(1>0){}"};
   Job job = job_of(0, limits);
-  EXPECT_THROW((void)derive(params, job), Stop);
+  EXPECT_THROW((void)derive(params, context_of(job)), Stop);
 }
 
-TEST(Statements, DrawApartInEveryTurn) {
+TEST(Statements, UseSeparateRandomValuesInEveryIteration) {
   LsystemParams params = grammar_of("A", {"A -> for(i=0;i<4;i++){ F(ran(1)) }"});
   const std::string four = derived(params, 7);
   params.productions = {"A -> for(i=0;i<6;i++){ F(ran(1)) }"};
   const std::string six = derived(params, 7);
-  EXPECT_EQ(six.substr(0, four.size()), four) << "more turns move no draw of the first";
+  EXPECT_EQ(six.substr(0, four.size()), four)
+      << "more iterations do not change the random values of the first";
   EXPECT_NE(four.substr(0, four.size() / 4), four.substr(four.size() / 4, four.size() / 4));
   EXPECT_NE(derived(params, 8), six);
 }
@@ -120,12 +124,12 @@ TEST(Statements, WorkInInterpretationToo) {
   LsystemParams params = grammar_of("A(3)", {}, 0);
   params.interpretation = {"A(n) -> for(i=0;i<n;i++){ F(i+1) }"};
   Job job = job_of(0);
-  const Result<Json> answer = derive(params, job);
+  const Result<Json> answer = derive(params, context_of(job));
   EXPECT_EQ(answer->at("string"), "A(3)");
   EXPECT_EQ(answer->at("turtle").at("total_length"), 6);
 }
 
-// Kogovšek 2014, rules 3.3 to 3.10; 3.4 and 3.5 with their right contexts behind `>`.
+// Kogovšek 2014, rules 3.3 to 3.10; in 3.4 and 3.5 the right contexts are written after `>`.
 TEST(Kogovsek, ReplacesALongBranch) {
   EXPECT_EQ(derived(grammar_of("FFFF", {"FF < F -> D"})), "FFDD");
   EXPECT_EQ(derived(grammar_of("FFCD", {"F > CD -> C"})), "FCCD");

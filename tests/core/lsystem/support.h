@@ -1,5 +1,5 @@
 #pragma once
-/// Helpers that speak of grammars: words as text, faults as text.
+/// Helpers for grammars: words as text, errors as text.
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -10,6 +10,7 @@
 #include "core/generators/lsystem/text.h"
 #include "core/generators/lsystem/word.h"
 #include "generated/params/lsystem.h"
+#include "tests/support/context.h"
 
 namespace seedmesh::lsystem {
 
@@ -21,8 +22,8 @@ inline LsystemParams grammar_of(std::string axiom, std::vector<std::string> prod
   return params;
 }
 
-/// The faults of the texts, as "pointer line:column message".
-inline std::vector<std::string> faults_of(const LsystemParams& params) {
+/// Returns the errors of the texts, as "pointer line:column message".
+inline std::vector<std::string> errors_of(const LsystemParams& params) {
   std::vector<std::string> texts;
   for (const Issue& issue : check(params, Limits{})) {
     texts.push_back(issue.pointer + " " + std::to_string(issue.line) + ":" + std::to_string(issue.column) +
@@ -37,14 +38,14 @@ inline Job job_of(std::uint64_t seed, Limits limits = {}) {
   return Job(seed, options);
 }
 
-/// The last word, by the road that the engine itself would take.
+/// Returns the last word, derived by the method that the engine chooses.
 inline std::string derived(const LsystemParams& params, std::uint64_t seed = 0) {
   Job job = job_of(seed);
-  const Result<Json> answer = derive(params, job);
+  const Result<Json> answer = derive(params, context_of(job));
   return answer ? answer->at("string").get<std::string>() : "refused: " + answer.error().issues[0].message;
 }
 
-/// The same word by rewriting whole words, contexts or not.
+/// Returns the same word, derived by rewriting whole words.
 inline std::string derived_as_word(const LsystemParams& params, std::uint64_t seed = 0) {
   Job job = job_of(seed);
   std::vector<Issue> issues;

@@ -1,4 +1,4 @@
-/// Organs, generalized cylinders, looks and levels of detail of the generator.
+/// Organs, generalized cylinders, materials and levels of detail of the generator.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -8,8 +8,9 @@
 #include <string>
 
 #include "core/generators/lsystem/lsystem.h"
-#include "core/schema/faults.h"
+#include "core/schema/issue_list.h"
 #include "generated/params/lsystem.h"
+#include "tests/support/context.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -19,16 +20,15 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 LsystemParams params_of(const char* text) {
-  Faults faults;
-  LsystemParams params = read_lsystem(Json::parse(text), "", faults);
-  EXPECT_TRUE(faults.empty()) << (faults.empty() ? "" : faults.issues().front().message);
+  IssueList errors;
+  LsystemParams params = read_lsystem(Json::parse(text), "", errors);
+  EXPECT_TRUE(errors.empty()) << (errors.empty() ? "" : errors.issues().front().message);
   return params;
 }
 
 Model model_of(const char* text, const Demand& demand = {}) {
   Job job(1, Job::Options{});
-  job.set_demand(demand);
-  Result<Model> model = generate(params_of(text), job);
+  Result<Model> model = generate(params_of(text), context_of(job, demand));
   if (!model) {
     ADD_FAILURE() << model.error().issues.front().message;
     return {};
@@ -49,7 +49,7 @@ const Mesh& first_mesh(const Model& model, const Node& node) {
   return model.meshes[static_cast<std::size_t>(node.mesh)].primitives.front().mesh;
 }
 
-TEST(Tubes, WarnOfInternodesThatAreTooThinBesideTheWhole) {
+TEST(Tubes, WarnOfInternodesThatAreTooThin) {
   const Model koch = model_of(R"({"axiom":"F","productions":["F -> F+F--F+F"],"angle":60,"iterations":9})");
   ASSERT_EQ(koch.warnings.size(), 1U);
   EXPECT_EQ(koch.warnings[0].pointer, "/width");
@@ -58,14 +58,14 @@ TEST(Tubes, WarnOfInternodesThatAreTooThinBesideTheWhole) {
                   .warnings.empty());
 }
 
-TEST(Organs, AreMissedWhereAnOrganIsAskedForAndThereAreNoSurfaces) {
+TEST(Organs, AreReportedWhereThereAreNoSurfaces) {
   const Model model = model_of(R"({"axiom":"F~F"})");
   ASSERT_EQ(model.warnings.size(), 1U);
   EXPECT_EQ(model.warnings[0].pointer, "/axiom");
   EXPECT_EQ(model.warnings[0].column, 2);
 }
 
-TEST(Surfaces, StandWhereTheTurtleStandsAndPointAlongItsHeading) {
+TEST(Surfaces, HaveThePositionAndHeadingOfTheTurtle) {
   const Model model = model_of(
       R"json({"axiom":"F(2)-(90)~leaf(0.5)","surfaces":{"leaf":{"shape":"kite","fold":0,"droop":0}}})json");
   const Node* organs = node_named(model, "organs");
@@ -95,7 +95,7 @@ TEST(Surfaces, AreRefusedWhereTheirNameIsNotKnown) {
 
 TEST(Surfaces, LeaveATildeAloneWhereThereAreNone) { EXPECT_THAT(issues_of(R"({"axiom":"F~F"})"), IsEmpty()); }
 
-TEST(Surfaces, WantPatchesForPatchesAndNothingElse) {
+TEST(Surfaces, NeedPatchesForTheShapePatchesOnly) {
   EXPECT_THAT(issues_of(R"({"axiom":"F","surfaces":{"p":{"shape":"patches"}}})"), SizeIs(1));
 }
 
@@ -107,7 +107,7 @@ TEST(Surfaces, BecomeNodesOfOneMeshOnRequest) {
   EXPECT_THAT(leaves->instances.transforms, SizeIs(3));
 }
 
-TEST(Surfaces, HaveThePictureOfTheirKindWhereTheyAreSquares) {
+TEST(Surfaces, HaveTheTextureOfTheirKindOnSquares) {
   const Model model = model_of(
       R"({"axiom":"F~a~b","surfaces":{"a":{"shape":"birch","build":"card"},"b":{"shape":"birch"}},
           "materials":[{"color":"#446633"}]})");
@@ -116,21 +116,21 @@ TEST(Surfaces, HaveThePictureOfTheirKindWhereTheyAreSquares) {
   EXPECT_THAT(kinds, testing::UnorderedElementsAre("", "birch_leaf", ""));
 }
 
-TEST(Looks, NeedAColourATextureOrAnImage) {
+TEST(Materials, NeedAColourATextureOrAnImage) {
   const std::vector<Issue> issues =
       issues_of(R"({"axiom":"F","materials":[{"texture":"oak_bark"},{"roughness":0.2}]})");
   ASSERT_THAT(issues, SizeIs(1));
   EXPECT_EQ(issues[0].pointer, "/materials/1");
 }
 
-TEST(Looks, PointAtAnImageThatIsNone) {
+TEST(Materials, ReportAnInvalidImage) {
   const std::vector<Issue> issues =
       issues_of(R"({"axiom":"F","materials":[{"images":{"color":"bark.png"}}]})");
   ASSERT_THAT(issues, SizeIs(1));
   EXPECT_EQ(issues[0].pointer, "/materials/0/images/color");
 }
 
-TEST(Looks, LetOneSeeThroughThemByTheirOpacity) {
+TEST(Materials, AreTransparentByTheirOpacity) {
   const Model model = model_of(R"({"axiom":"F","materials":[{"color":"#ffffff","opacity":0.5}]})");
   EXPECT_EQ(model.materials.front().alpha_mode, AlphaMode::blend);
   EXPECT_EQ(model.materials.front().base_color.w, 0.5F);
@@ -138,7 +138,8 @@ TEST(Looks, LetOneSeeThroughThemByTheirOpacity) {
 
 TEST(Sweep, PassesThroughItsControlPointsAndChangesWidthSmoothly) {
   Job job(1, Job::Options{});
-  const Result<Json> derived = derive(params_of(R"({"axiom":"@GsF(1)+(90)!(0.02)F(1)@Ge"})"), job);
+  const Result<Json> derived =
+      derive(params_of(R"({"axiom":"@GsF(1)+(90)!(0.02)F(1)@Ge"})"), context_of(job));
   ASSERT_TRUE(derived);
   const Json& turtle = (*derived)["turtle"];
   EXPECT_EQ(turtle["segments"], 16);
@@ -149,7 +150,7 @@ TEST(Sweep, PassesThroughItsControlPointsAndChangesWidthSmoothly) {
 
 TEST(Sweep, IsStraightWhereItsHeadingsAre) {
   Job job(1, Job::Options{});
-  const Result<Json> derived = derive(params_of(R"({"axiom":"@Gsf(1)@Gc(5)f(1)@Ge"})"), job);
+  const Result<Json> derived = derive(params_of(R"({"axiom":"@Gsf(1)@Gc(5)f(1)@Ge"})"), context_of(job));
   ASSERT_TRUE(derived);
   EXPECT_EQ((*derived)["turtle"]["segments"], 13);
   EXPECT_NEAR((*derived)["turtle"]["total_length"].get<double>(), 2, 1e-9);
@@ -157,7 +158,7 @@ TEST(Sweep, IsStraightWhereItsHeadingsAre) {
 
 TEST(Sweep, LeavesBranchesAsTheyAre) {
   Job job(1, Job::Options{});
-  const Result<Json> derived = derive(params_of(R"({"axiom":"@GsF[+F]F@Ge"})"), job);
+  const Result<Json> derived = derive(params_of(R"({"axiom":"@GsF[+F]F@Ge"})"), context_of(job));
   ASSERT_TRUE(derived);
   EXPECT_EQ((*derived)["turtle"]["segments"], 8 + 1 + 8);
 }
@@ -167,20 +168,20 @@ TEST(Sweep, RefusesACrossSectionThatIsNotThere) {
       issues_of(R"json({"axiom":"@Gs@#(2)f(1)@Ge","contours":[[[1,0],[0,1],[-1,0],[0,-1]]]})json");
   ASSERT_THAT(issues, SizeIs(1));
   EXPECT_EQ(issues[0].pointer, "/axiom");
-  EXPECT_THAT(issues[0].message, testing::HasSubstr("expected 0, the circle, to 1"));
-  // What is known only when it is drawn is refused there.
+  EXPECT_THAT(issues[0].message, testing::HasSubstr("expected 0 (circle) to 1"));
+  // An index that is known only during drawing is refused there.
   Job job(1, Job::Options{});
   const auto params = params_of(R"json({"axiom":"A(2)","productions":["A(n)->@Gs@#(n)f(1)@Ge"],"iterations":1,
                                         "contours":[[[1,0],[0,1],[-1,0],[0,-1]]]})json");
   try {
-    (void)generate(params, job);
-    FAIL() << "made all the same";
+    (void)generate(params, context_of(job));
+    FAIL() << "no error was reported";
   } catch (const Stop& stop) {
-    EXPECT_THAT(stop.what(), testing::HasSubstr("found @#(2); expected 0, the circle, to 1"));
+    EXPECT_THAT(stop.what(), testing::HasSubstr("found the contour 2; expected 0 (circle) to 1"));
   }
 }
 
-TEST(Sweep, RefusesACrossSectionThatGoesRoundNothing) {
+TEST(Sweep, RefusesACrossSectionThatEnclosesNothing) {
   const auto issues = check(params_of(R"({"axiom":"F","contours":[[[1,0],[0.9,0.3],[0.8,0.1]]]})"), Limits{});
   ASSERT_THAT(issues, SizeIs(1));
   EXPECT_EQ(issues[0].pointer, "/contours/0");
@@ -210,7 +211,7 @@ constexpr const char* guest_tree =
             "surfaces":{"ball":{"shape":"model","size":0.5,
               "model":{"generator":"fractal","parameters":{"element":"cube","iterations":1}}}}})json";
 
-TEST(Guests, AreOrgansWithTheirOwnMaterials) {
+TEST(SurfaceModels, AreOrgansWithTheirOwnMaterials) {
   const Model model = model_of(guest_tree);
   const Node* organs = node_named(model, "organs");
   ASSERT_TRUE(organs);
@@ -222,7 +223,7 @@ TEST(Guests, AreOrgansWithTheirOwnMaterials) {
   }
 }
 
-TEST(Guests, AreTwiceAsLargeWhereTheyAreAskedToBe) {
+TEST(SurfaceModels, AreScaledByTheModule) {
   const auto size_at = [](const char* axiom) {
     const std::string text = std::string(R"json({"axiom":")json") + axiom +
                              R"json(","surfaces":{"ball":{"shape":"model","size":0.5,
@@ -235,7 +236,7 @@ TEST(Guests, AreTwiceAsLargeWhereTheyAreAskedToBe) {
   EXPECT_NEAR(size_at("~ball(2)").x, 1, 1e-6);
 }
 
-TEST(Guests, AreOneModelAndNothingElse) {
+TEST(SurfaceModels, AreOneModelAndNothingElse) {
   EXPECT_EQ(issues_of(R"({"axiom":"F","surfaces":{"b":{"shape":"model"}}})")[0].pointer, "/surfaces/b");
   EXPECT_EQ(
       issues_of(
@@ -246,13 +247,13 @@ TEST(Guests, AreOneModelAndNothingElse) {
             "/surfaces/b/glb");
 }
 
-TEST(Guests, AreRefusedWhereTheirBytesAreNoMesh) {
+TEST(SurfaceModels, AreRefusedWithoutAMesh) {
   Job job(1, Job::Options{});
   const LsystemParams params = params_of(
       R"json({"axiom":"F~b","surfaces":{"b":{"shape":"model","glb":"data:model/gltf-binary;base64,AAAA"}}})json");
   try {
-    const Result<Model> model = generate(params, job);
-    FAIL() << "it was taken";
+    const Result<Model> model = generate(params, context_of(job));
+    FAIL() << "no error was reported";
   } catch (const Stop& stop) {
     EXPECT_EQ(stop.issue().pointer, "/surfaces/b/glb");
   }
@@ -293,16 +294,17 @@ TEST(GrowthOfOrgans, HasTheSameBonesAtEveryLevel) {
 
 TEST(GrowthOfOrgans, IsRefusedWhereTheyShareAMesh) {
   Job job(1, Job::Options{});
-  job.set_demand({.share_organs = true, .growth = true});
   try {
-    const Result<Model> model = generate(params_of(leafy), job);
-    FAIL() << "it was taken";
+    const Result<Model> model =
+        generate(params_of(leafy), context_of(job, {.share_organs = true, .growth = true}));
+    FAIL() << "no error was reported";
   } catch (const Stop& stop) {
     EXPECT_EQ(stop.issue().pointer, "/output/instancing");
   }
 }
 
-/// Where the model is seen from a side, in cells of a grid: by its triangles' corners and middles.
+/// Returns the silhouette of the model from a side in cells of a grid, from the vertices and centres of its
+/// triangles.
 std::set<std::pair<int, int>> silhouette(const Model& model, std::size_t level, float cell) {
   std::set<std::pair<int, int>> cells;
   for (const Node& node : model.nodes) {
@@ -337,8 +339,9 @@ TEST(Levels, HaveOneSilhouette) {
     const auto coarser = silhouette(model, level, 0.1F);
     std::size_t common = 0;
     for (const auto& cell : coarser) common += finest.contains(cell) ? 1U : 0U;
-    EXPECT_GT(common, coarser.size() * 9 / 10) << level;  // hardly anything outside of the finest
-    EXPECT_GT(common, finest.size() * 7 / 10) << level;   // and most of it covered: thin twigs go
+    EXPECT_GT(common, coarser.size() * 9 / 10) << level;  // almost nothing outside the finest level
+    // most of the finest level is covered; thin twigs are removed
+    EXPECT_GT(common, finest.size() * 7 / 10) << level;
   }
 }
 

@@ -10,8 +10,9 @@
 #include <sstream>
 #include <tuple>
 
-#include "core/geom/finish.h"
+#include "core/geom/mesh/finish.h"
 #include "tests/core/lsystem/support.h"
+#include "tests/support/context.h"
 #include "tests/support/mesh_faults.h"
 
 namespace seedmesh::lsystem {
@@ -24,19 +25,19 @@ LsystemParams fork_of_three() {
   return params;
 }
 
-Model made(const LsystemParams& params, Job& job) {
-  Result<Model> model = generate(params, job);
+Model made(const LsystemParams& params, Job& job, const Demand& demand = {}) {
+  Result<Model> model = generate(params, context_of(job, demand));
   EXPECT_TRUE(model) << model.error().issues[0].message;
   finish(*model, job);
   return std::move(*model);
 }
 
-Model made(const LsystemParams& params) {
+Model made(const LsystemParams& params, const Demand& demand = {}) {
   Job job = job_of(1);
-  return made(params, job);
+  return made(params, job, demand);
 }
 
-/// The bark's meshes of a level.
+/// Returns the meshes of the bark at a level.
 std::vector<const Mesh*> bark_of(const Model& model, std::size_t level = 0) {
   std::vector<const Mesh*> meshes;
   for (const Node& node : model.nodes) {
@@ -60,7 +61,7 @@ void expect_closed(const std::vector<const Mesh*>& meshes) {
   EXPECT_EQ(all.open_edges + all.over_used_edges + all.inconsistent_edges, 0U);
 }
 
-/// How many pieces a surface has, its vertices welded by position.
+/// Returns the number of connected components of a surface after welding vertices by position.
 std::size_t pieces_of(const std::vector<const Mesh*>& meshes) {
   std::map<std::tuple<float, float, float>, std::size_t> points;
   std::vector<std::size_t> stands_for;
@@ -95,7 +96,7 @@ TEST(Welded, LimbsOfBracketsAreOneSurface) {
   EXPECT_EQ(pieces_of(bark_of(made(params))), 40U) << "each limb is a tube";
 }
 
-TEST(Welded, ColoursGoOnBeyondJoints) {
+TEST(Welded, ColoursContinueBeyondJoints) {
   LsystemParams params = fork_of_three();
   params.productions[0] = "A(w) -> !(w);(1)F(0.7);(2)F(0.8)[&(30);(3)A(w*0.7)]/(120)[&(30)A(w*0.7)]";
   const Model model = made(params);
@@ -108,9 +109,7 @@ TEST(Welded, CoarserLevelsStayClosedAndHaveFewerTriangles) {
   for (const int sides : {3, 5, 8, 20}) {
     LsystemParams params = fork_of_three();
     params.sides = sides;
-    Job job = job_of(1);
-    job.set_demand({.lods = 4});
-    const Model model = made(params, job);
+    const Model model = made(params, {.lods = 4});
     std::uint64_t before = triangles_of(bark_of(model));
     for (std::size_t level = 1; level < 3; ++level) {
       SCOPED_TRACE(std::to_string(sides) + " sides, level " + std::to_string(level));
@@ -122,9 +121,7 @@ TEST(Welded, CoarserLevelsStayClosedAndHaveFewerTriangles) {
 }
 
 TEST(Welded, BarkGrowsByItsBones) {
-  Job job = job_of(1);
-  job.set_demand({.growth = true});
-  const Model model = made(fork_of_three(), job);
+  const Model model = made(fork_of_three(), {.growth = true});
   ASSERT_EQ(model.animations.size(), 1U);
   for (const Mesh* mesh : bark_of(model)) {
     ASSERT_EQ(mesh->bone.size(), mesh->position.size());
@@ -142,7 +139,7 @@ TEST(Welded, ALimbWithAContourStaysAsItIsAndBearsClosedLimbs) {
   EXPECT_EQ(pieces_of(bark_of(model)), 3U) << "the trunk with a collar, the limb with the contour, its twig";
 }
 
-TEST(Welded, HeapsStayTubesAndSaySo) {
+TEST(Welded, OverlappingClustersStayTubesAndAreReported) {
   LsystemParams params = grammar_of("A", {"A -> F(0.3)+(85)[&(50)A]F(0.3)+(85)A"}, 6);
   params.width = {0.9, 0};
   params.weld = true;
@@ -150,22 +147,22 @@ TEST(Welded, HeapsStayTubesAndSaySo) {
   expect_closed(bark_of(model));
 }
 
-TEST(Welded, ParametersThatWeldedBarkDoesNotReadAreTold) {
+TEST(Welded, ParametersThatWeldedBarkIgnoresAreReported) {
   LsystemParams params = fork_of_three();
   params.stacks = 3;
   params.adapt = true;
-  const auto told = [&] {
+  const auto warnings_of = [&] {
     std::vector<std::string> pointers;
     Job job = job_of(1);
-    const Result<Appraisal> appraisal = appraise(params, job);
+    const Result<Appraisal> appraisal = appraise(params, context_of(job));
     for (const Warning& each : appraisal->warnings) pointers.push_back(each.pointer);
     EXPECT_EQ(made(params).warnings.size(), pointers.size());
     return pointers;
   };
-  EXPECT_EQ(told(), (std::vector<std::string>{"/stacks", "/adapt"}));
+  EXPECT_EQ(warnings_of(), (std::vector<std::string>{"/stacks", "/adapt"}));
   params = fork_of_three();
   params.style = LsystemParams::Style::lines;
-  EXPECT_EQ(told(), std::vector<std::string>{"/weld"});
+  EXPECT_EQ(warnings_of(), std::vector<std::string>{"/weld"});
 }
 
 TEST(Welded, TheSameOnOneThreadAndOnMany) {
@@ -189,7 +186,7 @@ LsystemParams preset(const std::filesystem::path& path, std::uint64_t& seed) {
   std::stringstream text;
   text << file.rdbuf();
   const Json json = Json::parse(text.str());
-  Faults none;
+  IssueList none;
   seed = json.value("seed", std::uint64_t{0});
   return read_lsystem(json.at("parameters"), "/parameters", none);
 }
@@ -207,16 +204,16 @@ TEST(Welded, EveryPresetIsClosedAndEstimatedWithinAQuarter) {
     const Model model = made(params, job);
     expect_closed(bark_of(model));
     Job other = job_of(seed);
-    const Result<Appraisal> told = appraise(params, other);
-    ASSERT_TRUE(told);
+    const Result<Appraisal> appraisal = appraise(params, context_of(other));
+    ASSERT_TRUE(appraisal);
     const auto triangles = static_cast<double>(triangles_of(bark_of(model)));
-    // Curves that lie on themselves are no plants.
+    // Curves that overlap themselves are not plants.
     const bool is_curve = entry.path().stem() == "levy_curve" || entry.path().stem() == "penrose_tiling";
-    if (!told->estimate || triangles == 0 || is_curve) continue;
-    // Narrow forks have less room among limbs of five corners.
+    if (!appraisal->estimate || triangles == 0 || is_curve) continue;
+    // In narrow forks, limbs of five sides fit less well.
     const double most = params.sides < 6 ? 1.3 : 1.25;
-    EXPECT_LT(static_cast<double>(told->estimate->triangles), most * triangles);
-    EXPECT_GT(static_cast<double>(told->estimate->triangles), triangles / 1.25);
+    EXPECT_LT(static_cast<double>(appraisal->estimate->triangles), most * triangles);
+    EXPECT_GT(static_cast<double>(appraisal->estimate->triangles), triangles / 1.25);
     ++estimated;
   }
   EXPECT_GT(estimated, 20U);

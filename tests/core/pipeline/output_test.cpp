@@ -32,8 +32,7 @@ std::vector<std::string> pointers_of(const Error& error) {
 std::vector<std::string> refused(const std::string& preset, const std::string& output) {
   const Result<Request> request = read_request(request_of(preset, output), Limits{});
   if (!request) return pointers_of(request.error());
-  Job job(request->seed(), Job::Options{});
-  const Result<Product> product = produce(*request, job);
+  const Result<Product> product = produce(*request, {});
   return product ? std::vector<std::string>{} : pointers_of(product.error());
 }
 
@@ -48,8 +47,7 @@ Made made(const std::string& preset, const std::string& output) {
     ADD_FAILURE() << request.error().issues.front().message;
     return {};
   }
-  Job job(request->seed(), Job::Options{});
-  const Result<Product> product = produce(*request, job);
+  const Result<Product> product = produce(*request, {});
   if (!product) {
     ADD_FAILURE() << product.error().issues.front().message;
     return {};
@@ -111,7 +109,7 @@ TEST(Output, RequiresNothingBeyondCoreOfWhoDoesNotReadIt) {
               UnorderedElementsAre("KHR_mesh_quantization", "EXT_meshopt_compression"));
 }
 
-TEST(Output, RefusesLevelsThatNobodyWouldRead) {
+TEST(Output, RefusesLevelsThatNoFileHolds) {
   for (const char* profile : {"core", "unreal", "godot", "blender"}) {
     const std::string output = std::string(R"({"lods":3,"profile":")") + profile + "\"";
     EXPECT_THAT(refused("hutsko_tree", output + "}"), ElementsAre("/output/lods")) << profile;
@@ -164,8 +162,7 @@ TEST(Output, MakesLevelsOfASceneWhoseGroundIsPacked) {
           "place":{"method":"scatter","count":3}}]},"output":{"lods":2,"profile":"web"}})",
       Limits{});
   ASSERT_TRUE(request);
-  Job job(0, Job::Options{});
-  const Result<Product> product = produce(*request, job);
+  const Result<Product> product = produce(*request, {});
   ASSERT_TRUE(product) << product.error().issues.front().message;
   EXPECT_EQ(product->statistics.warnings, 0U);
 }
@@ -174,7 +171,7 @@ TEST(Output, SaysWhereThereAreFewerLevelsThanWanted) {
   const Made house = made("house", R"({"lods":5,"profile":"unity","textures":"none"})");
   EXPECT_EQ(house.statistics.warnings, 1U);
   EXPECT_THAT(house.document["asset"]["extras"]["warnings"][0]["message"].get<std::string>(),
-              HasSubstr("3 levels of detail and not 5"));
+              HasSubstr("3 levels of detail instead of 5"));
   EXPECT_EQ(made("house", R"({"lods":3,"profile":"unity","textures":"none"})").statistics.warnings, 0U);
 }
 
@@ -184,14 +181,13 @@ TEST(Output, SaysHowRulesMakeLevels) {
                              R"("},"output":{"lods":2,"profile":"unity"}})";
     const Result<Request> request = read_request(body, Limits{});
     EXPECT_TRUE(request);
-    Job job(0, Job::Options{});
-    const Result<Product> product = produce(*request, job);
+    const Result<Product> product = produce(*request, {});
     return product ? "" : product.error().issues.front().message;
   };
   EXPECT_THAT(message("Lot --> extrude(5) Mass."),
-              HasSubstr("this model has one and cannot be made simpler; rules make levels of their own where "
+              HasSubstr("this model has one and cannot be simplified; rules have their own levels if "
                         "they declare `attr lod = 0`"));
-  EXPECT_THAT(message("attr lod = 0\\nLot --> extrude(5) Mass."), HasSubstr("and ask for it"));
+  EXPECT_THAT(message("attr lod = 0\\nLot --> extrude(5) Mass."), HasSubstr("and use it"));
   EXPECT_EQ(message("attr lod = 0\\nLot --> case lod < 1: split(x) { 1: Mass. }* else: extrude(5) Mass."),
             "");
 }
@@ -316,14 +312,13 @@ TEST(Output, HoldsTheBudgetOfAllVariantsTogether) {
   EXPECT_LE(made("hutsko_tree", R"({"variants":3,"max_triangles":2000})").statistics.triangles, 2'000U);
 }
 
-TEST(Output, TellsTheBytesOfATreeBeforeItIsMade) {
+TEST(Output, EstimatesTheBytesOfATreeBeforeItIsMade) {
   for (const char* preset : {"oak", "dead_tree", "proctree_0", "sculpted_sphere"}) {
     for (const char* output : {R"({"textures":64})", R"({"textures":512})", R"({"textures":"none"})"}) {
       const Result<Request> request = read_request(request_of(preset, output), Limits{});
       ASSERT_TRUE(request) << output;
-      Job looking(request->seed(), Job::Options{}), making(request->seed(), Job::Options{});
-      const json estimate = json::parse(*validate(*request, looking))["estimate"];
-      const auto made = static_cast<double>(produce(*request, making)->payload.size());
+      const json estimate = json::parse(*validate(*request, {}))["estimate"];
+      const auto made = static_cast<double>(produce(*request, {})->payload.size());
       EXPECT_LT(estimate["bytes"].get<double>(), 1.5 * made) << preset << output;
       EXPECT_GT(estimate["bytes"].get<double>(), made / 1.5) << preset << output;
       EXPECT_FALSE(estimate["exact"]);
@@ -347,8 +342,7 @@ TEST(Output, RefusesWhatAFormThatIsNoModelHasNoUseFor) {
 TEST(Output, SaysSoWhereNothingIsToBeSeen) {
   const Result<Request> seed = read_request(R"({"preset":"oak","parameters":{"age":0}})", Limits{});
   ASSERT_TRUE(seed);
-  Job job(seed->seed(), Job::Options{});
-  const Result<Product> product = produce(*seed, job);
+  const Result<Product> product = produce(*seed, {});
   ASSERT_TRUE(product);
   EXPECT_EQ(product->statistics.triangles, 0U);
   EXPECT_EQ(product->statistics.warnings, 1U);
@@ -357,8 +351,7 @@ TEST(Output, SaysSoWhereNothingIsToBeSeen) {
 TEST(Output, SpeaksOfVariantsInTheEstimate) {
   const auto triangles = [](const std::string& output) {
     const Result<Request> request = read_request(request_of("hutsko_tree", output), Limits{});
-    Job job(0, Job::Options{});
-    return json::parse(*validate(*request, job))["estimate"]["triangles"].get<std::uint64_t>();
+    return json::parse(*validate(*request, {}))["estimate"]["triangles"].get<std::uint64_t>();
   };
   EXPECT_EQ(triangles(R"({"variants":5})"), 5 * triangles("{}"));
   EXPECT_EQ(triangles(R"({"max_triangles":77})"), 77U);
@@ -367,8 +360,7 @@ TEST(Output, SpeaksOfVariantsInTheEstimate) {
 TEST(Output, SpeaksOfTrianglesAloneInTheEstimateAndOfExactOnesWhereTheyAre) {
   const auto estimate = [](const std::string& preset, const std::string& output) {
     const Result<Request> request = read_request(request_of(preset, output), Limits{});
-    Job job(0, Job::Options{});
-    return json::parse(*validate(*request, job))["estimate"];
+    return json::parse(*validate(*request, {}))["estimate"];
   };
   EXPECT_EQ(estimate("fern_cloud", "{}")["triangles"], 0);
   EXPECT_EQ(estimate("koch_curve_rounds", "{}")["triangles"], 0);

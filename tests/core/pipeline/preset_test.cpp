@@ -128,13 +128,13 @@ TEST(Overrides, AreRefusedWhereNothingHasTheirName) {
   EXPECT_THAT(pointers({{"ignore", "\xff"}}), ElementsAre(""));
 }
 
-TEST(Overrides, OfTheOutputAreToldOfAsSuch) {
+TEST(Overrides, OfTheOutputAreReported) {
   const auto message = [](const char* key) {
     return read_preset("koch_island", {{key, "1"}}, Limits{})->error().issues.front().message;
   };
-  EXPECT_EQ(message("output.foo"), "\"output.foo\" is no option of the output");
+  EXPECT_EQ(message("output.foo"), "\"output.foo\" is not an option of the output");
   EXPECT_EQ(message("output.lod"),
-            "\"output.lod\" is no option of the output; did you mean \"output.lods\"?");
+            "\"output.lod\" is not an option of the output; did you mean \"output.lods\"?");
   EXPECT_THAT(message("lods"), testing::EndsWith("; did you mean \"output.lods\"?"));
   EXPECT_THAT(message("parameters.angle"), testing::EndsWith("; did you mean \"angle\"?"));
   EXPECT_THAT(message("angel"), testing::EndsWith("; did you mean \"angle\"?"));

@@ -50,7 +50,7 @@ TEST(ReadRequest, TakesAWholeRequest) {
   EXPECT_EQ(params.productions.size(), 2U);
 }
 
-TEST(ReadRequest, TellsNumbersThatAreTooLargeWithAllElse) {
+TEST(ReadRequest, ReportsNumbersThatAreTooLargeWithAllOtherErrors) {
   EXPECT_THAT(pointers(R"({"a":1e999})"), UnorderedElementsAre("/a", "/a", ""));
   EXPECT_THAT(
       pointers(
@@ -62,18 +62,18 @@ TEST(ReadRequest, TellsNumbersThatAreTooLargeWithAllElse) {
   EXPECT_TRUE(read_request(R"({"generator":"lsystem","parameters":{"axiom":"F","angle":1e-999}})", Limits{}));
 }
 
-TEST(ReadRequest, TellsABrokenPictureWithAllElse) {
+TEST(ReadRequest, ReportsABrokenImageWithAllOtherErrors) {
   EXPECT_THAT(pointers(R"({"generator":"lsystem","seed":-1,"parameters":{"axiom":"F","materials":[{"images":)"
                        R"({"color":"data:image/png;base64,iVBORw0KGgo="}}]}})"),
               UnorderedElementsAre("/seed", "/parameters/materials/0/images/color"));
 }
 
-TEST(ReadRequest, TellsOnceThatAPresetIsOfAnotherGenerator) {
+TEST(ReadRequest, ReportsOnceThatAPresetIsOfAnotherGenerator) {
   const Error error = error_of(R"({"preset":"oak","generator":"lsystem","seed":-1})");
   ASSERT_EQ(error.issues.size(), 2U);
   EXPECT_EQ(error.issues[1].pointer, "/generator");
   EXPECT_EQ(error.issues[1].message,
-            "found \"lsystem\", but the preset is a request for tree, whose parameters are no parameters of "
+            "found \"lsystem\", but the preset is a request for tree, which has other parameters than "
             "lsystem");
   EXPECT_TRUE(read_request(R"({"preset":"oak","generator":"tree"})", Limits{}));
   EXPECT_TRUE(read_request(R"({"preset":"oak","generator":"fractal","parameters":null})", Limits{}));
@@ -83,7 +83,7 @@ TEST(ReadRequest, SaysWhichGeneratorsThereAre) {
   EXPECT_EQ(error_of(R"({"generator":"tre"})").issues.front().message,
             "there is no generator \"tre\"; did you mean \"tree\"?");
   EXPECT_THAT(error_of(R"({"generator":"galaxies"})").issues.front().message,
-              HasSubstr("there are tree, lsystem, building, terrain, scene, fractal"));
+              HasSubstr("there are tree, lsystem, building, terrain, scene, city, fractal"));
 }
 
 TEST(ReadRequest, IsCanonicalWhateverTheOrder) {
@@ -108,7 +108,7 @@ TEST(ReadRequest, LeavesDefaultsOutOfTheCanonicalForm) {
 
 TEST(ReadRequest, ReadsItsOwnCanonicalForm) { EXPECT_EQ(canonical(canonical(plant)), canonical(plant)); }
 
-TEST(ReadRequest, TellsMalformedFromInvalid) {
+TEST(ReadRequest, DistinguishesMalformedFromInvalid) {
   EXPECT_EQ(error_of("{").code, Code::malformed);
   EXPECT_EQ(error_of("").code, Code::malformed);
   EXPECT_EQ(error_of(R"({"generator":"lsystem","generator":"tree"})").code, Code::malformed);
@@ -144,21 +144,21 @@ TEST(ReadRequest, SaysWhereAMemberBelongs) {
   const Result<Request> request =
       read_request(R"({"generator":"tree","Levels":2,"lods":3,"colour":1})", Limits{});
   ASSERT_FALSE(request);
-  std::map<std::string, std::string> told;
-  for (const Issue& issue : request.error().issues) told[issue.pointer] = issue.message;
-  EXPECT_EQ(told["/Levels"], "\"Levels\" is not known here; it belongs in \"parameters\"");
-  EXPECT_EQ(told["/lods"], "\"lods\" is not known here; it belongs in \"output\"");
-  EXPECT_THAT(told["/colour"], testing::StartsWith("\"colour\" is not known here"));
+  std::map<std::string, std::string> messages;
+  for (const Issue& issue : request.error().issues) messages[issue.pointer] = issue.message;
+  EXPECT_EQ(messages["/Levels"], "\"Levels\" is not known here; it belongs in \"parameters\"");
+  EXPECT_EQ(messages["/lods"], "\"lods\" is not known here; it belongs in \"output\"");
+  EXPECT_THAT(messages["/colour"], testing::StartsWith("\"colour\" is not known here"));
 }
 
-TEST(ReadRequest, FindsSchemaAndGrammarFaultsTogether) {
+TEST(ReadRequest, ReportsSchemaAndGrammarErrorsTogether) {
   EXPECT_THAT(
       pointers(
           R"({"generator":"lsystem","seed":-1,"parameters":{"axiom":"F","productions":["F F"],"iterations":-3}})"),
       UnorderedElementsAre("/seed", "/parameters/productions/0", "/parameters/iterations"));
 }
 
-TEST(ReadRequest, PlacesAGrammarFaultInItsLine) {
+TEST(ReadRequest, ReportsTheLineOfAGrammarError) {
   const Error error = error_of(
       R"json({"generator":"lsystem","parameters":{"axiom":"A(1)","productions":["A(x) -> A(x+*2)"]}})json");
   EXPECT_EQ(error.issues.front().pointer, "/parameters/productions/0");

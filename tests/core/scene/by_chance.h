@@ -81,7 +81,7 @@ inline void rules_by_chance(Rng& rng, Json& place, int number) {
   if (number > 0 && by_chance(rng, 0.2)) place["shade"] = {{"to", rng.uniform(0.1, 0.9)}};
 }
 
-/// The first layer alone has foundations: those after it see the ground that the answer shows.
+/// Only the first layer has foundations, so later layers see the ground that the result shows.
 inline Json layer_by_chance(Rng& rng, int number) {
   Json place = Json::object();
   method_by_chance(rng, place);

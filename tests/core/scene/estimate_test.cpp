@@ -1,15 +1,16 @@
-/// What `validate` tells of a scene before anything is made.
+/// The estimate of a scene that `validate` reports, before anything is generated.
 #include "core/generators/scene/estimate.h"
 
 #include "tests/core/scene/support.h"
+#include "tests/support/context.h"
 
 namespace seedmesh {
 namespace {
 
 std::optional<Estimate> estimated(const Json& json) {
   const Generator::Params params = read_scene_params(json);
-  const Job job = job_of(1);
-  const Result<Appraisal> appraisal = scene::appraise(own(params), job);
+  Job job = job_of(1);
+  const Result<Appraisal> appraisal = scene::appraise(own(params), context_of(job));
   EXPECT_TRUE(appraisal);
   return appraisal ? appraisal->estimate : std::nullopt;
 }
@@ -24,7 +25,7 @@ Json field_of(const Json& place) {
   return {{"ground", {{"size", 40}}}, {"layers", {{{"model", cube()}, {"variants", 2}, {"place", place}}}}};
 }
 
-TEST(SceneEstimate, IsExactWhereEachPlaceIsGiven) {
+TEST(SceneEstimate, IsExactWhereEachPositionIsGiven) {
   const Json place = {
       {"method", "positions"},
       {"positions",
@@ -37,7 +38,7 @@ TEST(SceneEstimate, IsExactWhereEachPlaceIsGiven) {
   EXPECT_EQ(estimate->triangles, triangles_of(field_of(place)));
 }
 
-TEST(SceneEstimate, TakesThePlacesThatAPatternHasRoomFor) {
+TEST(SceneEstimate, CountsThePositionsThatFitIntoAPattern) {
   for (const Json& place :
        {Json{{"method", "poisson"}, {"distance", 1}}, Json{{"method", "rows"}, {"spacing", {1.5, 2}}},
         Json{{"method", "scatter"}, {"count", 300}},
@@ -50,19 +51,64 @@ TEST(SceneEstimate, TakesThePlacesThatAPatternHasRoomFor) {
   }
 }
 
+/// Plants on a terrain, with rules that keep a small part of the positions.
+Json on_hills(const Json& place, int seed) {
+  return {{"terrain",
+           {{"generator", "terrain"},
+            {"seed", seed},
+            {"parameters",
+             {{"algorithm", "fbm"},
+              {"resolution", 257},
+              {"size", 1000},
+              {"amplitude", 250},
+              {"water_level", 0}}}}},
+          {"layers", {{{"model", cube()}, {"place", place}}}}};
+}
+
+TEST(SceneEstimate, SamplesRulesOfSlopeAltitudeAndWater) {
+  const Json distance = {{"method", "poisson"}, {"distance", 4}};
+  const Json one = {{"method", "positions"}, {"positions", {{{"at", {0, 0}}}}}};
+  const auto with = [&](const Json& rules) {
+    Json place = distance;
+    place.update(rules);
+    return place;
+  };
+  for (const Json& place :
+       {with({{"slope", {{"to", 25}}}}), with({{"slope", {{"from", 30}, {"soft", 5}}}}),
+        with({{"altitude", {{"from", 20}, {"to", 50}}}}), with({{"above_water", {{"from", 2}, {"to", 20}}}}),
+        with({{"noise", {{"wavelength", 60}, {"share", 0.2}}}}),
+        with({{"slope", {{"to", 30}}}, {"density", 0.3}}),
+        Json{{"method", "path"},
+             {"points", {{-480, -400}, {480, 400}}},
+             {"distance", 0.5},
+             {"slope", {{"to", 40}}}},
+        Json{{"method", "scatter"}, {"count", 2000}, {"slope", {{"to", 20}}}}}) {
+    for (const int seed : {1, 2, 3}) {
+      const std::optional<Estimate> estimate = estimated(on_hills(place, seed));
+      const std::optional<Estimate> bare = estimated(on_hills(one, seed));
+      ASSERT_TRUE(estimate && bare) << place;
+      const double made = static_cast<double>(triangles_of(on_hills(place, seed))) -
+                          static_cast<double>(triangles_of(on_hills(one, seed)));
+      const double said = static_cast<double>(estimate->triangles) - static_cast<double>(bare->triangles);
+      EXPECT_GT(made, 0) << place;
+      EXPECT_NEAR(said / made, 1, 0.25) << place << " " << seed;
+    }
+  }
+}
+
 Json stochastic() {
   return {
       {"generator", "lsystem"},
       {"parameters", {{"axiom", "A"}, {"productions", {"A -> FA : 1", "A -> F : 2"}}, {"iterations", 4}}}};
 }
 
-TEST(SceneEstimate, IsNothingWhereNoModelOfALayerCanTell) {
+TEST(SceneEstimate, IsAbsentWhereNoModelOfALayerHasAnEstimate) {
   Json json = field_of({{"distance", 4}});
   json["layers"][0]["model"] = stochastic();
   EXPECT_FALSE(estimated(json));
 }
 
-TEST(SceneEstimate, TakesTheMeanOfALayerForAModelThatCannotTell) {
+TEST(SceneEstimate, UsesTheMeanOfALayerForAModelWithoutAnEstimate) {
   const Json positions = {{{"at", {0, 0}}}, {{"at", {4, 2}}}, {{"at", {8, 2}}, {"model", stochastic()}}};
   const std::optional<Estimate> estimate =
       estimated(field_of({{"method", "positions"}, {"positions", positions}}));
@@ -71,7 +117,7 @@ TEST(SceneEstimate, TakesTheMeanOfALayerForAModelThatCannotTell) {
   EXPECT_EQ(estimate->triangles, 2U + 3 * 12);
 }
 
-TEST(SceneEstimate, GuessesAReducedGround) {
+TEST(SceneEstimate, ApproximatesAReducedGround) {
   Json json = field_of({{"distance", 4}});
   json.erase("ground");
   json["terrain"] = {

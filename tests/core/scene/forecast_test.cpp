@@ -1,7 +1,8 @@
-/// Scenes that come to too much: when they are refused, and where that points to.
+/// Scenes that exceed a limit: when they are refused, and at which pointer.
 #include "core/generators/scene/forecast.h"
 
 #include "tests/core/scene/support.h"
+#include "tests/support/context.h"
 
 namespace seedmesh {
 namespace {
@@ -10,7 +11,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
 
-/// A stochastic L-system cannot tell what it comes to.
+/// A stochastic L-system has no estimate.
 Json bush(int iterations) {
   return {{"generator", "lsystem"},
           {"parameters",
@@ -36,23 +37,23 @@ Job::Options within(std::uint64_t triangles, int threads = 1) {
 std::uint64_t made(const Json& json) {
   const Generator::Params params = read_scene_params(json);
   Job job(1, Job::Options{});
-  EXPECT_TRUE(scene::generate(own(params), job));
+  EXPECT_TRUE(scene::generate(own(params), context_of(job)));
   return job.spent(Resource::triangles);
 }
 
-/// What the scene is refused with, for a limit that it passes.
+/// Returns the error of a scene for a limit that it exceeds.
 Issue refusal(const Json& json, Job& job) {
   const Generator::Params params = read_scene_params(json);
   try {
-    const Result<Model> model = scene::generate(own(params), job);
-    ADD_FAILURE() << "it was made";
+    const Result<Model> model = scene::generate(own(params), context_of(job));
+    ADD_FAILURE() << "no error was reported";
   } catch (const Stop& stop) {
     return stop.issue();
   }
   return {};
 }
 
-TEST(SceneForecast, RefusesWhatChildrenTellBeforeAnythingIsMade) {
+TEST(SceneForecast, RefusesByTheEstimatesOfChildrenBeforeAnythingIsMade) {
   const Json sponge = {{"preset", "menger_sponge"}, {"parameters", {{"iterations", 2}}}};
   Job job(1, within(3000));
   const Issue issue = refusal(garden(cube(), sponge, 2), job);
@@ -61,7 +62,7 @@ TEST(SceneForecast, RefusesWhatChildrenTellBeforeAnythingIsMade) {
   EXPECT_EQ(job.spent(Resource::triangles), 0U);
 }
 
-TEST(SceneForecast, RefusesAfterOneModelOfALayerWhatManyOfThemComeTo) {
+TEST(SceneForecast, RefusesALayerByTheSizeOfItsFirstModel) {
   const Json json = garden(cube(), bush(7), 32);
   const std::uint64_t whole = made(json);
   for (const int threads : {1, 8}) {
@@ -77,7 +78,7 @@ TEST(SceneForecast, CountsModulesToo) {
   const Json json = garden(cube(), bush(7), 32);
   const Generator::Params params = read_scene_params(json);
   Job free(1, Job::Options{});
-  ASSERT_TRUE(scene::generate(own(params), free));
+  ASSERT_TRUE(scene::generate(own(params), context_of(free)));
   const std::uint64_t whole = free.spent(Resource::modules);
   Job::Options options;
   options.limits.modules = whole / 3;
@@ -88,16 +89,16 @@ TEST(SceneForecast, CountsModulesToo) {
   EXPECT_LT(job.spent(Resource::modules), whole / 8);
 }
 
-TEST(SceneForecast, RefusesNothingThatFits) {
+TEST(SceneForecast, AcceptsScenesWithinTheLimits) {
   for (const int variants : {1, 3, 8}) {
     const Json json = garden(bush(4), bush(5), variants);
     const Generator::Params params = read_scene_params(json);
     Job job(1, within(made(json)));
-    EXPECT_TRUE(scene::generate(own(params), job)) << variants;
+    EXPECT_TRUE(scene::generate(own(params), context_of(job))) << variants;
   }
 }
 
-TEST(SceneForecast, PointsToTheLayerWhereALimitIsPassedOnTheWay) {
+TEST(SceneForecast, PointsToTheLayerWhereALimitIsExceeded) {
   const Json json = garden(cube(), bush(6), 2);
   const std::uint64_t whole = made(json);
   for (const int threads : {1, 8}) {
@@ -108,19 +109,20 @@ TEST(SceneForecast, PointsToTheLayerWhereALimitIsPassedOnTheWay) {
   }
 }
 
-TEST(SceneForecast, SeesFromAPartOfManyModelsWhatTheWholeComesTo) {
+TEST(SceneForecast, EstimatesManyModelsFromAPartOfThem) {
   const Json json = garden(bush(5), bush(6), 50);
   const std::uint64_t whole = made(json);
   const Generator::Params params = read_scene_params(json);
   for (const int threads : {1, 8}) {
-    Job job(1, within(whole * 2 / 3, threads));  // more than half: one model of each layer does not tell
+    // more than half: one model of each layer is not enough to decide
+    Job job(1, within(whole * 2 / 3, threads));
     const Issue issue = refusal(json, job);
     EXPECT_EQ(issue.pointer, "/layers/1/model");
     EXPECT_THAT(issue.message, HasSubstr("need about"));
     EXPECT_LT(job.spent(Resource::triangles), whole / 2);
   }
   Job enough(1, within(whole));
-  EXPECT_TRUE(scene::generate(own(params), enough));
+  EXPECT_TRUE(scene::generate(own(params), context_of(enough)));
 }
 
 TEST(SceneForecast, CountsEachCopyThatWillBeMerged) {
@@ -130,25 +132,24 @@ TEST(SceneForecast, CountsEachCopyThatWillBeMerged) {
   Job job(1, within(once * 10));
   Demand demand;
   demand.copies = CopyForm::merge;
-  job.set_demand(demand);
-  EXPECT_THROW(static_cast<void>(scene::generate(own(params), job)), Stop);
+  EXPECT_THROW(static_cast<void>(scene::generate(own(params), context_of(job, demand))), Stop);
   EXPECT_LT(job.spent(Resource::triangles), once * 2);
 }
 
-TEST(SceneForecast, TriesOneModelOfEachLayerThatCannotTell) {
+TEST(SceneForecast, TriesOneModelOfEachLayerWithoutAnEstimate) {
   Json json = garden(cube(), bush(3), 4);
   json["layers"][1]["variants"] = 13;
   const Generator::Params params = read_scene_params(json);
-  const Job job = job_of(1);
-  const scene::Casting casting = scene::casting_of(own(params), job);
-  scene::Forecast forecast(own(params), casting, job);
-  EXPECT_THAT(forecast.scouts(), ElementsAre(4U));
-  forecast.want({1, 1, 1, 1, 0, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9}, false);
-  EXPECT_THAT(forecast.scouts(), ElementsAre(5U));
-  forecast.want({1, 1, 1, 1, 0, 1, 0, 0, 9, 9, 9, 9, 9, 0, 0, 0, 0}, false);
-  EXPECT_THAT(forecast.scouts(), SizeIs(0)) << "few are made at once";
-  forecast.want({1, 1, 1, 1, 0, 1, 0, 0, 9, 9, 9, 9, 9, 0, 0, 0, 0}, true);
-  EXPECT_THAT(forecast.scouts(), ElementsAre(5U));
+  Job job = job_of(1);
+  const scene::VariantTable variant_table = scene::variant_table_of(own(params), job);
+  scene::Forecast forecast(own(params), variant_table, context_of(job));
+  EXPECT_THAT(forecast.samples(), ElementsAre(4U));
+  forecast.set_counts({1, 1, 1, 1, 0, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9}, false);
+  EXPECT_THAT(forecast.samples(), ElementsAre(5U));
+  forecast.set_counts({1, 1, 1, 1, 0, 1, 0, 0, 9, 9, 9, 9, 9, 0, 0, 0, 0}, false);
+  EXPECT_THAT(forecast.samples(), SizeIs(0)) << "a small number is generated at once";
+  forecast.set_counts({1, 1, 1, 1, 0, 1, 0, 0, 9, 9, 9, 9, 9, 0, 0, 0, 0}, true);
+  EXPECT_THAT(forecast.samples(), ElementsAre(5U));
 }
 
 }  // namespace

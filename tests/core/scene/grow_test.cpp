@@ -1,10 +1,11 @@
-/// Scenes in which everything grows.
+/// Scenes with growing plants.
 #include "core/generators/scene/grow.h"
 
 #include <map>
 #include <set>
 
 #include "tests/core/scene/support.h"
+#include "tests/support/context.h"
 
 namespace seedmesh {
 namespace {
@@ -30,9 +31,8 @@ Result<Model> growing(const Json& json, Demand demand = {}) {
   const Generator::Params params = read_scene_params(json);
   Job job(1, Job::Options{});
   demand.growth = true;
-  job.set_demand(demand);
   try {
-    Result<Model> model = scene::generate(own(params), job);
+    Result<Model> model = scene::generate(own(params), context_of(job, demand));
     if (model) finish(*model, job);
     return model;
   } catch (const Stop& stop) {
@@ -70,7 +70,7 @@ TEST(GrowingScene, GivesEveryPlantBonesOfItsOwnAndSharesItsMesh) {
   EXPECT_EQ(model->animations[0].name, "growth");
 }
 
-TEST(GrowingScene, EndsInTheStillScene) {
+TEST(GrowingScene, EndsAsTheSceneWithoutGrowth) {
   const Result<Model> model = growing(bed());
   ASSERT_TRUE(model);
   for (const Channel& channel : model->animations.at(0).channels) {
@@ -91,7 +91,7 @@ TEST(GrowingScene, SharesKeyTimesBetweenThePlantsOfAModel) {
   EXPECT_LE(model->animations.at(0).times.size(), 4U * 24U);
 }
 
-/// When each plant of the layer begins and ends, by the name of its place.
+/// Returns start and end of growth of each plant of the layer, by the name of its node.
 std::map<std::string, std::pair<float, float>> spans_of(const Model& model, const std::string& layer) {
   std::map<std::string, std::pair<float, float>> spans;
   const Animation& animation = model.animations.at(0);
@@ -113,7 +113,7 @@ std::map<std::string, std::pair<float, float>> spans_of(const Model& model, cons
   return spans;
 }
 
-TEST(GrowingScene, BeginsEachPlantAtATimeOfItsPlace) {
+TEST(GrowingScene, BeginsEachPlantAtATimeOfItsPosition) {
   Json json = bed();
   const Result<Model> together = growing(json);
   json["layers"][1]["start"] = {1, 5};
@@ -131,23 +131,23 @@ TEST(GrowingScene, BeginsEachPlantAtATimeOfItsPlace) {
     starts.insert(span.first);
   }
   EXPECT_GT(starts.size(), 2U);
-  EXPECT_EQ(spans_of(*apart, "tree"), spans_of(*together, "tree")) << "no other layer is moved";
+  EXPECT_EQ(spans_of(*apart, "tree"), spans_of(*together, "tree")) << "other layers are unchanged";
   json["layers"][1]["place"]["slope"] = {{"to", 80}};
   const Result<Model> again = growing(json);
   ASSERT_TRUE(again);
   EXPECT_EQ(spans_of(*again, "herb"), after);
 }
 
-TEST(GrowingScene, RefusesAStartOfWhatDoesNotGrow) {
+TEST(GrowingScene, RefusesAStartOfLayersThatDoNotGrow) {
   Json json = bed();
   json["layers"][1]["start"] = {5, 1};
   json["layers"][2]["start"] = 2;
-  EXPECT_THAT(scene_faults(json),
-              ElementsAre("/layers/1/start: the first is above the second; expected from and to",
+  EXPECT_THAT(scene_errors(json),
+              ElementsAre("/layers/1/start: the first value is above the second; expected [from, to]",
                           "/layers/2/start: fractal does not grow"));
 }
 
-TEST(GrowingScene, LeavesStonesStill) {
+TEST(GrowingScene, DoesNotAnimateStones) {
   const Result<Model> model = growing(bed());
   ASSERT_TRUE(model);
   bool found = false;
@@ -174,7 +174,7 @@ TEST(GrowingScene, GivesManyPlantsFewBonesEach) {
   EXPECT_THAT(pointers_of(growing(json)), ElementsAre("/output/animation"));
 }
 
-TEST(GrowingScene, IsRefusedWithWhatCannotGrow) {
+TEST(GrowingScene, IsRefusedWithModelsThatCannotGrow) {
   Demand demand;
   demand.copies = CopyForm::gpu;
   EXPECT_THAT(pointers_of(growing(bed(), demand)), ElementsAre("/output/instancing"));
@@ -195,7 +195,7 @@ TEST(GrowingScene, IsRefusedWhereNothingCanGrow) {
   EXPECT_THAT(pointers_of(growing(json)), ElementsAre("/output/animation"));
 }
 
-TEST(GrowingScene, TellsWhereNothingStandsThatGrows) {
+TEST(GrowingScene, ReportsThatNoPlantGrows) {
   Json json = bed();
   json["layers"] = Json::array({json["layers"][1]});
   json["layers"][0]["place"] = {{"method", "scatter"}, {"count", 0}};
@@ -205,7 +205,7 @@ TEST(GrowingScene, TellsWhereNothingStandsThatGrows) {
   EXPECT_EQ(model->warnings.back().pointer, "/output/animation");
 }
 
-TEST(Scene, TellsOfAnAgeAndASeasonThatNoModelHas) {
+TEST(Scene, ReportsAnAgeAndASeasonThatNoModelHas) {
   Json json = {{"age", 3}, {"season", "autumn"}, {"layers", Json::array({bed()["layers"][2]})}};
   const Result<Model> stones = scene_of(json);
   ASSERT_TRUE(stones);

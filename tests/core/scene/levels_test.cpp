@@ -3,6 +3,7 @@
 
 #include "core/pipeline.h"
 #include "tests/core/scene/support.h"
+#include "tests/support/context.h"
 
 namespace seedmesh {
 namespace {
@@ -25,13 +26,12 @@ Json seen_from(Json scene, double x, double y, double z) {
   return scene;
 }
 
-/// A model of the scene with a demand of the pipeline.
+/// Generates a scene with the demand that the pipeline would pass.
 Result<Model> demanded(const Json& json, const Demand& demand) {
   const Generator::Params params = read_scene_params(json);
   Job job(1, Job::Options{});
-  job.set_demand(demand);
   try {
-    return scene::generate(own(params), job);
+    return scene::generate(own(params), context_of(job, demand));
   } catch (const Stop& stop) {
     return Error{stop.code(), {stop.issue()}};
   }
@@ -50,7 +50,7 @@ struct Shown {
   std::size_t triangles;
 };
 
-/// Every copy: how far from the camera, and what its mesh has.
+/// For every copy: its distance from the camera and the triangles of its mesh.
 std::vector<Shown> copies_of(const Model& model, const glm::vec3& camera) {
   std::vector<Shown> shown;
   for (const Node& node : model.nodes) {
@@ -73,18 +73,18 @@ std::vector<std::string> pointers_of(const Result<Model>& model) {
   return all;
 }
 
-TEST(SceneLevels, BecomeCoarserWithDistanceAndPicturesInTheEnd) {
+TEST(SceneLevels, BecomeCoarserWithDistanceAndEndInImpostors) {
   const glm::vec3 camera(0, 2, 100);
   const Result<Model> model = demanded(seen_from(grove(), 0, 2, 100), {});
   ASSERT_TRUE(model);
-  std::map<std::size_t, std::pair<double, double>> range;  // by triangles: the nearest and the farthest
+  std::map<std::size_t, std::pair<double, double>> range;  // by triangles: nearest and farthest copy
   for (const Shown& each : copies_of(*model, camera)) {
     auto& [near, far] = range.try_emplace(each.triangles, each.distance, each.distance).first->second;
     near = std::min(near, each.distance);
     far = std::max(far, each.distance);
   }
   ASSERT_GE(range.size(), 4U);
-  EXPECT_EQ(range.begin()->first, 12U) << "the farthest are pictures";
+  EXPECT_EQ(range.begin()->first, 12U) << "the farthest are impostors";
   EXPECT_GT(range.begin()->second.first, range.rbegin()->second.second)
       << "and farther than all of the finest";
 }
@@ -113,7 +113,7 @@ Json hills(const char* mesh) {
   return json;
 }
 
-TEST(SceneLevels, AreMadeOfTheGroundToo) {
+TEST(SceneLevels, AreAlsoMadeOfTheGround) {
   for (const char* mesh : {"grid", "rtin", "greedy"}) {
     Result<Model> model = demanded(hills(mesh), demand_of(3));
     ASSERT_TRUE(model) << mesh;
@@ -127,7 +127,7 @@ TEST(SceneLevels, AreMadeOfTheGroundToo) {
     EXPECT_LT(triangles_of(*model, ground->lods[1]), triangles_of(*model, ground->lods[0])) << mesh;
     const Result<Model> plain = demanded(hills(mesh), demand_of(1));
     ASSERT_TRUE(plain) << mesh;
-    EXPECT_EQ(count(*plain).triangles, count(*model).triangles) << mesh << ": the finest stays as it is";
+    EXPECT_EQ(count(*plain).triangles, count(*model).triangles) << mesh << ": the finest level is unchanged";
   }
 }
 
@@ -145,7 +145,7 @@ TEST(SceneLevels, KeepTheBodiesOfABuildingApart) {
   }
 }
 
-TEST(SceneLevels, LiftWaysOverTheCoarserGround) {
+TEST(SceneLevels, LiftPathsOverTheCoarserGround) {
   const Result<Model> model = demanded(hills("grid"), demand_of(3));
   ASSERT_TRUE(model);
   const Node* path = named(*model, "path");
@@ -159,13 +159,13 @@ TEST(SceneLevels, LiftWaysOverTheCoarserGround) {
   EXPECT_GT(lowest(path->lods[1]), lowest(path->lods[0]));
 }
 
-TEST(SceneLevels, LeaveEveryPlantWhereItIs) {
+TEST(SceneLevels, KeepThePositionOfEveryPlant) {
   const Result<Model> model = demanded(seen_from(grove(), 0, 2, 100), {});
   ASSERT_TRUE(model);
   EXPECT_EQ(copies_of(*model, {}).size(), planted(grove()).layer(0).size());
 }
 
-TEST(SceneLevels, HaveNoPicturesWhereTheyAreNotWantedOrThereAreNoTextures) {
+TEST(SceneLevels, HaveNoImpostorsUnlessRequestedAndTextured) {
   Json json = seen_from(grove(), 0, 2, 100);
   Demand bare;
   bare.textures = 0;
@@ -200,7 +200,7 @@ TEST(SceneLevels, KeepABudgetAndUseMostOfIt) {
   }
 }
 
-TEST(SceneLevels, TellHowManyStandAtEach) {
+TEST(SceneLevels, ReportTheNumberOfPlantsAtEach) {
   const Result<Model> model = demanded(seen_from(grove(), 0, 2, 100), {});
   ASSERT_TRUE(model);
   for (const Extra& extra : model->extras) {
@@ -213,7 +213,7 @@ TEST(SceneLevels, TellHowManyStandAtEach) {
   }
 }
 
-TEST(SceneLevels, AreRefusedBesideACamera) {
+TEST(SceneLevels, AreRefusedTogetherWithACamera) {
   const Json json = seen_from(grove(), 0, 2, 100);
   EXPECT_THAT(pointers_of(demanded(json, demand_of(3))), ElementsAre("/output/lods"));
   EXPECT_THAT(pointers_of(demanded(json, demand_of(1, true))), Contains("/output/impostor"));
@@ -221,7 +221,7 @@ TEST(SceneLevels, AreRefusedBesideACamera) {
               ElementsAre("/output/instancing"));
 }
 
-TEST(SceneLevels, EndInAPictureWhereThatIsWanted) {
+TEST(SceneLevels, EndInAnImpostorOnRequest) {
   const Result<Model> model = demanded(grove(60), demand_of(2, true));
   ASSERT_TRUE(model);
   std::size_t plants = 0;
@@ -242,8 +242,7 @@ TEST(SceneLevels, GiveTheSameBytesWithAnyNumberOfThreads) {
                        {"output", {{"textures", 128}, {"max_triangles", 150'000}}}};
     const Result<Request> request = read_request(body.dump(), Limits{});
     EXPECT_TRUE(request);
-    Job job = job_of(5, threads);
-    const Result<Product> product = produce(*request, job);
+    const Result<Product> product = produce(*request, {.threads = threads});
     EXPECT_TRUE(product) << product.error().issues.front().message;
     EXPECT_LE(product->statistics.triangles, 150'000U);
     return product->payload.text();
@@ -251,7 +250,7 @@ TEST(SceneLevels, GiveTheSameBytesWithAnyNumberOfThreads) {
   EXPECT_EQ(file(1), file(8));
 }
 
-TEST(SceneLevels, RefusePicturesWhereNoModelIsAPlantAndTellWhereNoneIsLargeEnough) {
+TEST(SceneLevels, RefuseImpostorsWithoutAPlantAndReportPlantsThatAreTooSmall) {
   Json json = {
       {"layers", {{{"name", "stone"}, {"model", cube()}, {"place", {{"method", "scatter"}, {"count", 4}}}}}}};
   EXPECT_THAT(pointers_of(demanded(json, demand_of(1, true))), ElementsAre("/output/impostor"));

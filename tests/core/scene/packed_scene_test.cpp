@@ -1,16 +1,16 @@
-/// A ground that is packed before the rest of its scene is made.
-#include "core/gltf/write.h"
+/// The ground is compressed before the rest of the scene is generated.
+#include "core/gltf/write/write.h"
 #include "tests/core/scene/support.h"
+#include "tests/support/context.h"
 
 namespace seedmesh {
 namespace {
 
-/// As the pipeline writes it for the web, and how many meshes were packed ahead.
+/// Writes the scene like the pipeline for the profile web, and counts the meshes that were compressed early.
 std::string compressed_file_of(const Json& json, Demand demand, std::size_t& packed) {
   const Generator::Params params = read_scene_params(json);
   Job job = job_of(5, 2);
-  job.set_demand(demand);
-  Result<Model> model = scene::generate(own(params), job);
+  Result<Model> model = scene::generate(own(params), context_of(job, demand));
   EXPECT_TRUE(model);
   packed = 0;
   for (const MeshGroup& group : model->meshes)

@@ -1,13 +1,14 @@
-/// Rules of where things stand, over random scenes.
+/// Placement rules, checked on random scenes.
 #include <cmath>
 
 #include "core/base/math.h"
 #include "tests/core/scene/support.h"
+#include "tests/support/context.h"
 
 namespace seedmesh {
 namespace {
 
-using scene::Stand;
+using scene::Placement;
 
 Json hills(std::uint64_t seed) {
   return {{"generator", "terrain"},
@@ -22,14 +23,15 @@ Json layer(const std::string& name, const Json& place) {
 
 Json poisson(double distance) { return {{"distance", distance}}; }
 
-double steepness(const scene::Ground& ground, const Stand& stand) {
-  return math::degrees(math::atan2(glm::length(ground.gradient(stand.at)), 1));
+double steepness(const scene::Ground& ground, const Placement& placement) {
+  return math::degrees(math::atan2(glm::length(ground.gradient(placement.at)), 1));
 }
 
-double least_distance(const Array<Stand>& stands) {
+double least_distance(const Array<Placement>& placements) {
   double least = 1e30;
-  for (std::size_t i = 0; i < stands.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) least = std::min(least, glm::distance(stands[i].at, stands[k].at));
+  for (std::size_t i = 0; i < placements.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k)
+      least = std::min(least, glm::distance(placements[i].at, placements[k].at));
   }
   return least;
 }
@@ -46,20 +48,20 @@ TEST(Plant, KeepsEveryRuleOnRandomScenes) {
     const Json json = {{"terrain", hills(round)}, {"layers", {layer("a", place)}}};
     const Planted made = planted(json, round);
     EXPECT_GE(least_distance(made.layer(0)), distance);
-    for (const Stand& stand : made.layer(0)) {
-      EXPECT_LE(steepness(made.ground, stand), steepest);
-      const double height = made.ground.height(stand.at);
+    for (const Placement& placement : made.layer(0)) {
+      EXPECT_LE(steepness(made.ground, placement), steepest);
+      const double height = made.ground.height(placement.at);
       EXPECT_GE(height, low);
       EXPECT_LE(height, high);
       if (made.ground.water()) {
         EXPECT_GE(height, *made.ground.water());
       }
-      EXPECT_TRUE(made.ground.holds(stand.at, place["edge"].get<double>()));
+      EXPECT_TRUE(made.ground.holds(placement.at, place["edge"].get<double>()));
     }
   }
 }
 
-TEST(Plant, KeepsOffFootprintsAndWays) {
+TEST(Plant, KeepsOffFootprintsAndPaths) {
   Rng rng(5);
   for (std::uint64_t round = 0; round < 12; ++round) {
     Json houses = layer("house", {{"method", "scatter"}, {"count", 6}, {"edge", 10}});
@@ -75,12 +77,12 @@ TEST(Plant, KeepsOffFootprintsAndWays) {
     const Generator::Params params = read_scene_params(json);
     std::vector<glm::dvec2> points;
     for (const auto& p : own(params).paths[0].points) points.emplace_back(p[0], p[1]);
-    const scene::Way way = scene::way_of(points, 4);
+    const scene::PathBand way = scene::path_band_of(points, 4);
     const auto& size = std::get<1>(*own(params).layers[0].footprint);
     EXPECT_GT(made.layer(1).size(), 500U);
-    for (const Stand& tree : made.layer(1)) {
+    for (const Placement& tree : made.layer(1)) {
       EXPECT_FALSE(way.covers(tree.at, 0.4 * 0.999));
-      for (const Stand& house : made.layer(0)) {
+      for (const Placement& house : made.layer(0)) {
         const auto footprint = scene::Footprint::of(house, glm::dvec2(size[0], size[1]) / 2.0, false);
         EXPECT_GE(footprint.outside(tree.at), 0.4 * 0.999);
       }
@@ -88,7 +90,7 @@ TEST(Plant, KeepsOffFootprintsAndWays) {
   }
 }
 
-TEST(Plant, LeavesOtherLayersWhereTheyAreWhenOneChanges) {
+TEST(Plant, KeepsOtherLayersWhenOneChanges) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     Json json = {
         {"terrain", hills(3)},
@@ -106,7 +108,7 @@ TEST(Plant, LeavesOtherLayersWhereTheyAreWhenOneChanges) {
         EXPECT_EQ(before.layer(i)[k].turn, after.layer(i)[k].turn);
       }
     }
-    json["layers"].erase(0);  // names, not numbers, are what is drawn by
+    json["layers"].erase(0);  // names, not indices, select random streams
     const Planted fewer = planted(json, seed);
     ASSERT_EQ(fewer.layer(1).size(), after.layer(2).size());
     for (std::size_t k = 0; k < fewer.layer(1).size(); ++k)
@@ -114,19 +116,19 @@ TEST(Plant, LeavesOtherLayersWhereTheyAreWhenOneChanges) {
   }
 }
 
-TEST(Plant, KeepsThePlacesThatStillSuitWhenARuleGetsStricter) {
+TEST(Plant, KeepsThePositionsThatSatisfyAStricterRule) {
   Json json = {{"terrain", hills(3)}, {"layers", {layer("a", poisson(4))}}};
   const Planted all = planted(json);
   json["layers"][0]["place"]["slope"] = {{"to", 20}};
   const Planted some = planted(json);
   EXPECT_LT(some.layer(0).size(), all.layer(0).size());
-  for (const Stand& stand : some.layer(0)) {
+  for (const Placement& placement : some.layer(0)) {
     EXPECT_TRUE(std::any_of(all.layer(0).begin(), all.layer(0).end(),
-                            [&](const Stand& other) { return other.at == stand.at; }));
+                            [&](const Placement& other) { return other.at == placement.at; }));
   }
 }
 
-TEST(Plant, LetsTheLargerCrownsLive) {
+TEST(Plant, KeepsTheLargerCrowns) {
   Json big = layer("big", {{"method", "scatter"}, {"count", 120}});
   big["scale"] = {1, 2};
   big["crown"] = 3;
@@ -136,8 +138,8 @@ TEST(Plant, LetsTheLargerCrownsLive) {
   const Planted made = planted(json);
   std::vector<std::pair<glm::dvec2, double>> crowns;
   for (std::size_t i = 0; i < 2; ++i) {
-    for (const Stand& stand : made.layer(i))
-      crowns.emplace_back(stand.at, (i == 0 ? 0.8 : 3.0) * static_cast<double>(stand.scale));
+    for (const Placement& placement : made.layer(i))
+      crowns.emplace_back(placement.at, (i == 0 ? 0.8 : 3.0) * static_cast<double>(placement.scale));
   }
   for (std::size_t i = 0; i < crowns.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
@@ -149,14 +151,15 @@ TEST(Plant, LetsTheLargerCrownsLive) {
   const Planted all = planted(json);
   EXPECT_EQ(all.layer(1).size(), 120U);
   EXPECT_LT(made.layer(1).size(), 100U);
-  // The largest of all is never beaten.
-  const auto largest = std::max_element(all.layer(1).begin(), all.layer(1).end(),
-                                        [](const Stand& a, const Stand& b) { return a.scale < b.scale; });
+  // The largest crown always survives.
+  const auto largest =
+      std::max_element(all.layer(1).begin(), all.layer(1).end(),
+                       [](const Placement& a, const Placement& b) { return a.scale < b.scale; });
   EXPECT_TRUE(std::any_of(made.layer(1).begin(), made.layer(1).end(),
-                          [&](const Stand& stand) { return stand.at == largest->at; }));
+                          [&](const Placement& placement) { return placement.at == largest->at; }));
 }
 
-TEST(Plant, LooksForNeighboursAndShade) {
+TEST(Plant, FollowsNeighboursAndShade) {
   Json trees = layer("tree", poisson(12));
   trees["crown"] = 4;
   Json moss = layer("moss", {{"method", "scatter"}, {"count", 200}, {"shade", {{"from", 0.4}}}});
@@ -164,16 +167,16 @@ TEST(Plant, LooksForNeighboursAndShade) {
       "ring",
       {{"method", "scatter"}, {"count", 200}, {"near", {{{"layer", "tree"}, {"from", 4.5}, {"to", 6}}}}});
   const Planted made = planted({{"ground", {{"size", 100}}}, {"layers", {trees, moss, ring}}});
-  const auto nearest = [&](const Stand& stand) {
+  const auto nearest = [&](const Placement& placement) {
     double least = 1e30;
-    for (const Stand& tree : made.layer(0)) least = std::min(least, glm::distance(tree.at, stand.at));
+    for (const Placement& tree : made.layer(0)) least = std::min(least, glm::distance(tree.at, placement.at));
     return least;
   };
   EXPECT_EQ(made.layer(1).size(), 200U);
-  for (const Stand& stand : made.layer(1)) EXPECT_LE(nearest(stand), 4 * std::sqrt(0.6));
-  for (const Stand& stand : made.layer(2)) {
-    EXPECT_GE(nearest(stand), 4.5);
-    EXPECT_LE(nearest(stand), 6);
+  for (const Placement& placement : made.layer(1)) EXPECT_LE(nearest(placement), 4 * std::sqrt(0.6));
+  for (const Placement& placement : made.layer(2)) {
+    EXPECT_GE(nearest(placement), 4.5);
+    EXPECT_LE(nearest(placement), 6);
   }
 }
 
@@ -186,9 +189,9 @@ TEST(Plant, FollowsADensityImage) {
   const Planted made = planted(
       {{"ground", {{"size", 100}}}, {"layers", {layer("a", {{"distance", 2}, {"density_image", image}})}}});
   int west = 0, east = 0;
-  for (const Stand& stand : made.layer(0)) (stand.at.x < 0 ? west : east) += 1;
+  for (const Placement& placement : made.layer(0)) (placement.at.x < 0 ? west : east) += 1;
   EXPECT_GT(east, 4 * west);
-  for (const Stand& stand : made.layer(0)) EXPECT_GT(stand.at.x, -26);
+  for (const Placement& placement : made.layer(0)) EXPECT_GT(placement.at.x, -26);
 }
 
 TEST(Plant, ThinsOutToACount) {
@@ -197,9 +200,9 @@ TEST(Plant, ThinsOutToACount) {
   json["layers"][0]["place"]["count"] = 57;
   const Planted some = planted(json);
   EXPECT_EQ(some.layer(0).size(), 57U);
-  for (const Stand& stand : some.layer(0)) {
+  for (const Placement& placement : some.layer(0)) {
     EXPECT_TRUE(std::any_of(all.layer(0).begin(), all.layer(0).end(),
-                            [&](const Stand& other) { return other.at == stand.at; }));
+                            [&](const Placement& other) { return other.at == placement.at; }));
   }
 }
 
@@ -210,7 +213,7 @@ TEST(Plant, LevelsTheGroundUnderFoundations) {
   const Json json = {{"terrain", hills(4)}, {"layers", {houses}}};
   const Planted made = planted(json, 3);
   ASSERT_EQ(made.layer(0).size(), 5U);
-  const Stand& house = made.layer(0)[4];  // the last one, on whose ground no other foundation was laid
+  const Placement& house = made.layer(0)[4];  // the last one, whose ground no other foundation changed
   const double height = made.ground.height(house.at);
   const auto footprint = scene::Footprint::of(house, {5, 3}, false);
   Rng rng(3);
@@ -223,13 +226,13 @@ TEST(Plant, LevelsTheGroundUnderFoundations) {
   }
 }
 
-TEST(Plant, WarnsWhereTooFewFindAPlace) {
+TEST(Plant, WarnsWhereTooFewPositionsAreLeft) {
   const Planted made =
       planted({{"ground", {{"size", 10}}},
                {"layers", {layer("a", {{"method", "scatter"}, {"count", 5}, {"altitude", {{"from", 5}}}})}}});
   ASSERT_EQ(made.planting.warnings.size(), 2U);
   EXPECT_EQ(made.planting.warnings[0].pointer, "/layers/0/place/count");
-  EXPECT_EQ(made.planting.warnings[0].message, "only 0 of 5 found a place that suits the layer");
+  EXPECT_EQ(made.planting.warnings[0].message, "only 0 of 5 found a position that suits the layer");
 }
 
 TEST(Plant, StandsOnTheGroundAndLeansWithIt) {
@@ -239,34 +242,34 @@ TEST(Plant, StandsOnTheGroundAndLeansWithIt) {
   const Json json = {{"terrain", hills(4)}, {"layers", {tilted}}};
   const Planted made = planted(json);
   const Generator::Params params = read_scene_params(json);
-  for (const Stand& stand : made.layer(0)) {
-    const Transform t = scene::transform_of(stand, own(params).layers[0], made.ground);
-    EXPECT_NEAR(static_cast<double>(t.translation.y), made.ground.height(stand.at) - 0.5, 1e-4);
-    const glm::dvec2 rise = made.ground.gradient(stand.at);
+  for (const Placement& placement : made.layer(0)) {
+    const Transform t = scene::transform_of(placement, own(params).layers[0], made.ground);
+    EXPECT_NEAR(static_cast<double>(t.translation.y), made.ground.height(placement.at) - 0.5, 1e-4);
+    const glm::dvec2 rise = made.ground.gradient(placement.at);
     const glm::dvec3 normal = glm::normalize(glm::dvec3(-rise.x, 1, -rise.y));
     EXPECT_NEAR(glm::dot(glm::dvec3(t.rotation * glm::vec3(0, 1, 0)), normal), 1, 1e-5);
     EXPECT_NEAR(static_cast<double>(glm::length(t.rotation)), 1, 1e-6);
   }
 }
 
-TEST(Plant, PutsNoTwoFootprintsOfALayerOnOneAnother) {
+TEST(Plant, SeparatesFootprintsOfALayer) {
   Json houses = layer("house", {{"method", "scatter"}, {"count", 12}, {"edge", 9}});
   houses["footprint"] = {12, 8};
   Json json = {{"ground", {{"size", 120}}}, {"layers", {houses}}};
   const Planted made = planted(json);
-  EXPECT_EQ(made.layer(0).size(), 12U) << "others are found in the place of those that have no room";
+  EXPECT_EQ(made.layer(0).size(), 12U) << "rejected positions are replaced by others";
   for (std::size_t i = 0; i < made.layer(0).size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       EXPECT_FALSE(overlap(scene::Footprint::of(made.layer(0)[i], {6, 4}, false),
                            scene::Footprint::of(made.layer(0)[k], {6, 4}, false)));
     }
   }
-  // Explicit positions are taken as they are.
+  // Explicit positions ignore the rules.
   json["layers"][0]["place"] = {{"method", "positions"}, {"positions", {{{"at", {0, 0}}}, {{"at", {1, 0}}}}}};
   EXPECT_EQ(planted(json).layer(0).size(), 2U);
 }
 
-TEST(Plant, LetsHousesOfARowShareTheirWalls) {
+TEST(Plant, AllowsHousesOfARowToShareWalls) {
   Json houses = layer("house", {{"method", "rows"}, {"spacing", {7.3, 30}}, {"angle", 33}});
   houses["footprint"] = {7.3, 9};
   houses["turn"] = 0;
@@ -276,7 +279,7 @@ TEST(Plant, LetsHousesOfARowShareTheirWalls) {
   EXPECT_EQ(beside, planted(json).layer(0).size());
 }
 
-TEST(Plant, PointsToTheLayerThatHasTooManyPlaces) {
+TEST(Plant, PointsToTheLayerThatHasTooManyPositions) {
   const auto pointer = [](const Json& place) {
     const Json json = {{"layers", {layer("a", {{"distance", 5}}), layer("b", place)}}};
     const Generator::Params params = read_scene_params(json);
@@ -290,7 +293,7 @@ TEST(Plant, PointsToTheLayerThatHasTooManyPlaces) {
     return std::string("it was planted");
   };
   const Json json = {{"layers", {layer("a", {{"method", "scatter"}, {"count", 10'000'000}})}}};
-  EXPECT_THAT(scene_faults(json), testing::ElementsAre("/layers/0/place/count: found 10000000; the limit on "
+  EXPECT_THAT(scene_errors(json), testing::ElementsAre("/layers/0/place/count: found 10000000; the limit on "
                                                        "shapes is 4000000"));
   EXPECT_EQ(pointer({{"distance", 0.001}}), "/layers/1/place/distance");
   EXPECT_EQ(pointer({{"method", "rows"}, {"spacing", {0.001, 0.001}}}), "/layers/1/place/spacing");
@@ -298,7 +301,7 @@ TEST(Plant, PointsToTheLayerThatHasTooManyPlaces) {
             "/layers/1/place/distance");
 }
 
-TEST(Plant, TellsPatternsThatAreTooDenseBeforeAnythingIsMade) {
+TEST(Plant, RefusesPatternsThatAreTooDenseBeforeAnythingIsMade) {
   struct Case {
     Json place;
     std::string member;
@@ -326,19 +329,22 @@ TEST(Plant, TellsPatternsThatAreTooDenseBeforeAnythingIsMade) {
         }
         return std::string("nothing");
       };
-      const std::string told = issue([&] { static_cast<void>(scene::appraise(own(params), job)); });
-      EXPECT_THAT(told, testing::StartsWith("/layers/0/place/" + each.member + ": ")) << json;
-      EXPECT_THAT(told, testing::HasSubstr("more places than 10000"));
-      EXPECT_EQ(told, issue([&] { static_cast<void>(scene::generate(own(params), job)); }));
-      EXPECT_EQ(told, issue([&] { static_cast<void>(scene::derive(own(params), job)); }));
-      EXPECT_EQ(told, issue([&] { static_cast<void>(scene::encode(own(params), "placements", job)); }));
-      EXPECT_EQ(job.purse()->used(), 0U);
+      const std::string message =
+          issue([&] { static_cast<void>(scene::appraise(own(params), context_of(job))); });
+      EXPECT_THAT(message, testing::StartsWith("/layers/0/place/" + each.member + ": ")) << json;
+      EXPECT_THAT(message, testing::HasSubstr("more positions than 10000"));
+      EXPECT_EQ(message, issue([&] { static_cast<void>(scene::generate(own(params), context_of(job))); }));
+      EXPECT_EQ(message, issue([&] { static_cast<void>(scene::derive(own(params), context_of(job))); }));
+      EXPECT_EQ(message, issue([&] {
+                  static_cast<void>(scene::encode(own(params), {"placements"}, context_of(job)));
+                }));
+      EXPECT_EQ(job.budget()->used(), 0U);
     }
   }
 }
 
-TEST(Plant, EndsSoonAfterTheDeadlineWhateverIsAsked) {
-  // Each place asks thousands of pieces of ways and all trees around.
+TEST(Plant, EndsSoonAfterTheDeadlineForAnyScene) {
+  // Each position checks thousands of path segments and all trees around.
   Json points = Json::array();
   for (int i = 0; i < 4096; ++i) points.push_back({i % 2 == 0 ? -500 : 500, -400 + i * 0.2});
   Json path = {{"points", points}, {"width", 0.01}};

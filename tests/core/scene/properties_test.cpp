@@ -1,5 +1,5 @@
-/// What holds of every scene, over hundreds of random ones. All is found out anew from the request and from
-/// where things stand, by the plainest means: every stand beside every other.
+/// Properties of every scene, over hundreds of random ones. Everything is recomputed from the request and the
+/// placements by brute force: every placement against every other.
 #include <cmath>
 
 #include "core/base/math.h"
@@ -10,30 +10,30 @@
 namespace seedmesh {
 namespace {
 
-using scene::Stand;
+using scene::Placement;
 
 constexpr double tiny = 1e-6;
 
-/// What a stand covers of the ground: a polygon of its corners, or a disc.
+/// The footprint of a placement: a polygon of its corners, or a disc.
 struct Base {
   glm::dvec2 at;
-  double radius = 0;                ///< of a disc, else 0
-  std::vector<glm::dvec2> corners;  ///< of a rectangle, in turn
+  double radius = 0;                ///< radius of a disc, else 0
+  std::vector<glm::dvec2> corners;  ///< corners of a rectangle, in order
 };
 
-Base base_of(const Json& layer, const Stand& stand) {
-  Base base{stand.at, 0, {}};
-  const double scale = static_cast<double>(stand.scale);
+Base base_of(const Json& layer, const Placement& placement) {
+  Base base{placement.at, 0, {}};
+  const double scale = static_cast<double>(placement.scale);
   const Json& given = layer["footprint"];
   if (given.is_number()) {
     base.radius = given.get<double>() * scale;
     return base;
   }
-  const double angle = static_cast<double>(stand.turn), cos = std::cos(angle), sin = std::sin(angle);
+  const double angle = static_cast<double>(placement.turn), cos = std::cos(angle), sin = std::sin(angle);
   const double width = given[0].get<double>() * scale / 2, depth = given[1].get<double>() * scale / 2;
   for (const auto& [u, v] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)}) {
     const double x = u * width, z = v * depth;
-    base.corners.push_back(stand.at + glm::dvec2(x * cos + z * sin, -x * sin + z * cos));
+    base.corners.push_back(placement.at + glm::dvec2(x * cos + z * sin, -x * sin + z * cos));
   }
   return base;
 }
@@ -47,7 +47,7 @@ double distance_to_line(const glm::dvec2& a, const glm::dvec2& b, const glm::dve
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
-/// Of a place from a base; 0 inside.
+/// Returns the distance of a point from a footprint; 0 inside.
 double distance_of(const Base& base, const glm::dvec2& p) {
   if (base.corners.empty()) return std::max(0.0, glm::distance(base.at, p) - base.radius);
   double nearest = 1e30;
@@ -60,7 +60,7 @@ double distance_of(const Base& base, const glm::dvec2& p) {
   return left || right ? 0 : nearest;
 }
 
-/// Do they cover ground together? By whole edges and corners.
+/// Returns true where two footprints overlap, tested by their edges and corners.
 bool meet(const Base& a, const Base& b) {
   if (a.corners.empty()) return glm::distance(a.at, b.at) < a.radius + b.radius - 1e-4;
   const auto is_deep_inside = [](const Base& base, const glm::dvec2& p) {
@@ -93,7 +93,7 @@ void expect_within(const Json& limits, double value, const std::string& what) {
 }
 
 bool is_inside(const Json& area, const glm::dvec2& p) {
-  double turned = 0;  // the winding number in whole turns
+  double turned = 0;  // winding number
   for (std::size_t i = 0; i < area.size(); ++i) {
     const auto corner = [&](std::size_t k) {
       const Json& at = area[k % area.size()];
@@ -125,16 +125,16 @@ class Checked {
 
   void check_ground(std::size_t i) const {
     const Json& place = layer(i)["place"];
-    for (const Stand& stand : made_.layer(i)) {
-      EXPECT_TRUE(made_.ground.holds(stand.at, place.value("edge", 0.0)));
+    for (const Placement& placement : made_.layer(i)) {
+      EXPECT_TRUE(made_.ground.holds(placement.at, place.value("edge", 0.0)));
       expect_within({{"from", layer(i)["scale"][0]}, {"to", layer(i)["scale"][1]}},
-                    static_cast<double>(stand.scale), "scale");
+                    static_cast<double>(placement.scale), "scale");
       if (place.contains("area")) {
-        EXPECT_TRUE(is_inside(place["area"], stand.at));
+        EXPECT_TRUE(is_inside(place["area"], placement.at));
       }
-      if (i == 0 && layer(i).contains("foundation")) continue;  // its own ground was another before
-      const double height = made_.ground.height(stand.at);
-      const double slope = std::atan(glm::length(made_.ground.gradient(stand.at))) * 180 / math::pi;
+      if (i == 0 && layer(i).contains("foundation")) continue;  // its foundation has changed its own ground
+      const double height = made_.ground.height(placement.at);
+      const double slope = std::atan(glm::length(made_.ground.gradient(placement.at))) * 180 / math::pi;
       if (place.contains("slope")) expect_within(place["slope"], slope, "slope");
       if (place.contains("altitude")) expect_within(place["altitude"], height, "altitude");
       if (made_.ground.water()) {
@@ -145,32 +145,32 @@ class Checked {
 
   void check_neighbours(std::size_t i) const {
     const Json& place = layer(i)["place"];
-    const Array<Stand>& own = made_.layer(i);
+    const Array<Placement>& own = made_.layer(i);
     if (place.value("method", "poisson") == "poisson") {
       for (std::size_t a = 0; a < own.size(); ++a) {
         for (std::size_t b = 0; b < a; ++b)
           EXPECT_GE(glm::distance(own[a].at, own[b].at), place["distance"].get<double>());
       }
     }
-    for (const Stand& stand : own) {
+    for (const Placement& placement : own) {
       if (place.contains("near")) {
         const Json& near = place["near"][0];
         double nearest = 1e30;
         for (std::size_t k = 0; k < i; ++k) {
           if (layer(k)["name"] != near["layer"]) continue;
-          for (const Stand& other : made_.layer(k))
-            nearest = std::min(nearest, glm::distance(other.at, stand.at));
+          for (const Placement& other : made_.layer(k))
+            nearest = std::min(nearest, glm::distance(other.at, placement.at));
         }
         expect_within(near, nearest, "near");
       }
-      if (place.contains("shade")) expect_within(place["shade"], shade(i, stand.at), "shade");
+      if (place.contains("shade")) expect_within(place["shade"], shade(i, placement.at), "shade");
     }
   }
 
   double shade(std::size_t before, const glm::dvec2& p) const {
     double light = 1;
     for (std::size_t k = 0; k < before; ++k) {
-      for (const Stand& other : made_.layer(k)) {
+      for (const Placement& other : made_.layer(k)) {
         const double crown = layer(k).value("crown", 0.0) * static_cast<double>(other.scale);
         const double distance = glm::distance(other.at, p);
         if (distance < crown) light *= distance * distance / (crown * crown);
@@ -181,25 +181,25 @@ class Checked {
 
   void check_bases(std::size_t i) const {
     const bool has_base = layer(i).contains("footprint");
-    for (const Stand& stand : made_.layer(i)) {
+    for (const Placement& placement : made_.layer(i)) {
       double reach = 0;
       if (has_base) {
-        const Base own = base_of(layer(i), stand);
+        const Base own = base_of(layer(i), placement);
         reach = own.corners.empty() ? own.radius : glm::distance(own.at, own.corners[0]);
-        for (const Stand* other = made_.layer(i).begin(); other != &stand; ++other)
+        for (const Placement* other = made_.layer(i).begin(); other != &placement; ++other)
           EXPECT_FALSE(meet(base_of(layer(i), *other), own)) << "two of layer " << i;
       }
       for (std::size_t k = 0; k < i; ++k) {
         if (!layer(k).contains("footprint")) continue;
-        for (const Stand& other : made_.layer(k))
-          EXPECT_GE(distance_of(base_of(layer(k), other), stand.at), reach - 1e-4) << k << " and " << i;
+        for (const Placement& other : made_.layer(k))
+          EXPECT_GE(distance_of(base_of(layer(k), other), placement.at), reach - 1e-4) << k << " and " << i;
       }
       for (const Json& path : json_.value("paths", Json::array())) {
         const Json& points = path["points"];
         for (std::size_t k = 1; k < points.size(); ++k) {
           const glm::dvec2 a(points[k - 1][0].get<double>(), points[k - 1][1].get<double>());
           const glm::dvec2 b(points[k][0].get<double>(), points[k][1].get<double>());
-          EXPECT_GE(distance_to_line(a, b, stand.at), path["width"].get<double>() / 2 + reach - 1e-4);
+          EXPECT_GE(distance_to_line(a, b, placement.at), path["width"].get<double>() / 2 + reach - 1e-4);
         }
       }
     }
@@ -211,8 +211,8 @@ class Checked {
     for (std::size_t k = 0; k <= i; ++k) {
       const double crown = layer(k).value("crown", 0.0);
       if (crown == 0) continue;
-      for (const Stand& a : made_.layer(i)) {
-        for (const Stand& b : made_.layer(k)) {
+      for (const Placement& a : made_.layer(i)) {
+        for (const Placement& b : made_.layer(k)) {
           if (&a == &b) continue;
           const double least =
               competition * (own * static_cast<double>(a.scale) + crown * static_cast<double>(b.scale));
@@ -227,22 +227,22 @@ class Checked {
 };
 
 TEST(SceneProperties, EveryRuleHoldsInEveryRandomScene) {
-  std::size_t stands = 0;
+  std::size_t placements = 0;
   for (std::uint64_t seed = 0; seed < 300 && !testing::Test::HasFailure(); ++seed) {
     const Json json = scene_by_chance(seed);
     SCOPED_TRACE(json.dump());
     const Checked checked(json, seed);
     checked.check();
-    for (std::size_t i = 0; i < json["layers"].size(); ++i) stands += checked.made().layer(i).size();
+    for (std::size_t i = 0; i < json["layers"].size(); ++i) placements += checked.made().layer(i).size();
   }
-  EXPECT_GT(stands, 10'000U) << "the rules leave too little to look at";
+  EXPECT_GT(placements, 10'000U) << "the rules leave too few placements to check";
 }
 
 TEST(SceneProperties, AnotherRuleOfOneLayerMovesNoOther) {
   for (std::uint64_t seed = 0; seed < 100 && !testing::Test::HasFailure(); ++seed) {
     Json json = scene_by_chance(seed);
     json.erase("competition");
-    for (Json& layer : json["layers"]) {  // what layers heed of each other
+    for (Json& layer : json["layers"]) {  // dependencies between layers
       for (const char* name : {"footprint", "foundation"}) layer.erase(name);
       for (const char* name : {"near", "shade"}) layer["place"].erase(name);
     }
@@ -280,7 +280,7 @@ TEST(SceneProperties, TheNumberOfThreadsMovesNothing) {
   }
 }
 
-/// All copies that the nodes of a layer show, with the squares that their names tell.
+/// Returns all copies of the nodes of a layer, with the squares in their names.
 void expect_all_copies(const Model& model, const Json& json, const Planted& made, std::size_t i) {
   const Generator::Params params = read_scene_params(json);
   const std::string name = json["layers"][i]["name"];
@@ -291,17 +291,17 @@ void expect_all_copies(const Model& model, const Json& json, const Planted& made
     if (node.instances.transforms.empty()) shown.push_back(node.transform.translation);
     for (const Transform& each : node.instances.transforms) shown.push_back(each.translation);
   }
-  for (const Stand& stand : made.layer(i))
-    wanted.push_back(scene::transform_of(stand, own(params).layers[i], made.ground).translation);
-  const auto by_place = [](const glm::vec3& a, const glm::vec3& b) {
+  for (const Placement& placement : made.layer(i))
+    wanted.push_back(scene::transform_of(placement, own(params).layers[i], made.ground).translation);
+  const auto by_position = [](const glm::vec3& a, const glm::vec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
   };
-  std::sort(shown.begin(), shown.end(), by_place);
-  std::sort(wanted.begin(), wanted.end(), by_place);
+  std::sort(shown.begin(), shown.end(), by_position);
+  std::sort(wanted.begin(), wanted.end(), by_position);
   EXPECT_EQ(shown, wanted) << name;
 }
 
-TEST(SceneProperties, TheModelShowsEveryStandOnceWhateverTheChunks) {
+TEST(SceneProperties, TheModelShowsEveryPlacementOnceForAnyChunks) {
   for (std::uint64_t seed = 0; seed < 60 && !testing::Test::HasFailure(); ++seed) {
     const Json json = scene_by_chance(seed);
     SCOPED_TRACE(json.dump());
@@ -328,7 +328,7 @@ TEST(SceneProperties, FoundationsStayLevelBesideEachOther) {
                               {"place", {{"method", "scatter"}, {"count", 12}, {"edge", 8}}}});
     const Planted made = planted(json, seed);
     EXPECT_GT(made.layer(0).size(), 3U);
-    for (const Stand& house : made.layer(0)) {
+    for (const Placement& house : made.layer(0)) {
       const double height = made.ground.height(house.at);
       const Base base = base_of(json["layers"][0], house);
       for (int i = 0; i < 200; ++i) {
@@ -341,7 +341,7 @@ TEST(SceneProperties, FoundationsStayLevelBesideEachOther) {
   }
 }
 
-/// Copies of a layer, with the mesh that each shows.
+/// Returns the copies of a layer with their meshes.
 std::vector<std::pair<Transform, int>> copies_of(const Model& model, const std::string& layer) {
   std::vector<std::pair<Transform, int>> copies;
   for (const Node& node : model.nodes) {
@@ -353,12 +353,12 @@ std::vector<std::pair<Transform, int>> copies_of(const Model& model, const std::
   return copies;
 }
 
-/// What the walls of a house stand round, at the height of a person.
+/// Returns the area inside the walls of a house, at the height of a person.
 Box walls_of(const MeshGroup& house) {
   Box box{glm::vec3(1e9F), glm::vec3(-1e9F)};
   for (const Primitive& primitive : house.primitives) {
     for (const glm::vec3& p : primitive.mesh.position) {
-      if (p.y < 0.8F || p.y > 2.5F) continue;  // neither steps nor roofs
+      if (p.y < 0.8F || p.y > 2.5F) continue;  // skips steps and roofs
       box = {glm::min(box.min, p), glm::max(box.max, p)};
     }
   }

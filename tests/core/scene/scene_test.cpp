@@ -1,7 +1,8 @@
-/// Scenes as a whole: models that are shared, ranges, refusals, lists.
-#include "core/gltf/write.h"
+/// Whole scenes: shared models, ranges, errors, lists.
+#include "core/gltf/write/write.h"
 #include "core/pipeline.h"
 #include "tests/core/scene/support.h"
+#include "tests/support/context.h"
 
 namespace seedmesh {
 namespace {
@@ -35,8 +36,7 @@ std::string file_of(const Json& json, int threads) {
   const Result<Request> request =
       read_request(Json{{"generator", "scene"}, {"seed", 5}, {"parameters", json}}.dump(), Limits{});
   EXPECT_TRUE(request);
-  Job job = job_of(5, threads);
-  const Result<Product> product = produce(*request, job);
+  const Result<Product> product = produce(*request, {.threads = threads});
   EXPECT_TRUE(product);
   return product->payload.text();
 }
@@ -54,7 +54,7 @@ TEST(Scene, MakesEachModelOnceAndSharesIt) {
   const Planted made = planted(forest());
   EXPECT_EQ(nodes, 3U);
   EXPECT_EQ(copies, made.layer(0).size());
-  EXPECT_EQ(model->materials.size(), 2U);  // the bark is one for all variants
+  EXPECT_EQ(model->materials.size(), 2U);  // all variants share the bark
 }
 
 TEST(Scene, PutsCopiesIntoChunksByArea) {
@@ -107,13 +107,12 @@ TEST(Scene, DrawsRangesForEachVariantAndKeepsWholeNumbersWhole) {
   EXPECT_LE(*constants.rbegin(), 2);
 }
 
-TEST(Scene, TellsRequestsThatMakeItsModelsAlone) {
+TEST(Scene, ListsRequestsForItsModels) {
   const Json answer = derived_scene(forest(), 1);
   Json request = answer["models"]["bush_1"];
   const Result<Request> read = read_request(request.dump(), Limits{});
   ASSERT_TRUE(read);
-  Job job(read->seed(), Job::Options{});
-  const Result<Product> alone = produce(*read, job);
+  const Result<Product> alone = produce(*read, {});
   ASSERT_TRUE(alone);
   const Result<Model> whole = scene_of(forest());
   ASSERT_TRUE(whole);
@@ -123,7 +122,7 @@ TEST(Scene, TellsRequestsThatMakeItsModelsAlone) {
   }
 }
 
-TEST(Scene, ListsWhatTheModelHolds) {
+TEST(Scene, ListsTheContentOfTheModel) {
   const Json answer = derived_scene(forest());
   const Planted made = planted(forest());
   ASSERT_EQ(answer["placements"].size(), made.layer(0).size());
@@ -160,7 +159,7 @@ TEST(Scene, GivesPositionsTheirOwnAgeAndModel) {
   EXPECT_THAT(faults(*model), IsEmpty());
 }
 
-TEST(Scene, LetsAllPlantsGrowToItsAgeButNoneBeyondItsOwn) {
+TEST(Scene, GrowsAllPlantsToItsAgeButNoneBeyondItsOwn) {
   Json json = forest();
   json["layers"][0]["place"] = {{"method", "positions"},
                                 {"positions", {{{"at", {0, 0}}}, {{"at", {3, 0}}, {"age", 1}}}}};
@@ -194,13 +193,13 @@ TEST(Scene, RefusesScenesInsideAnywhere) {
   const auto with = [](const Json& model) {
     return Json{{"layers", {{{"model", model}, {"place", {{"distance", 3}}}}}}};
   };
-  EXPECT_THAT(scene_faults(with(scene)), ElementsAre(StartsWith("/layers/0/model/generator: found a scene")));
-  EXPECT_THAT(scene_faults(with(hidden)),
+  EXPECT_THAT(scene_errors(with(scene)), ElementsAre(StartsWith("/layers/0/model/generator: found a scene")));
+  EXPECT_THAT(scene_errors(with(hidden)),
               ElementsAre(StartsWith("/layers/0/model/parameters/element/model/generator: found a scene")));
-  EXPECT_THAT(scene_faults({{"terrain", scene}}), ElementsAre(StartsWith("/terrain/generator: found scene")));
+  EXPECT_THAT(scene_errors({{"terrain", scene}}), ElementsAre(StartsWith("/terrain/generator: found scene")));
 }
 
-TEST(Scene, NamesEveryFaultAtOnce) {
+TEST(Scene, ReportsAllErrorsAtOnce) {
   const Json json = {
       {"ground", {{"size", 10}}},
       {"terrain", {{"generator", "terrain"}, {"parameters", {{"shape", "sphere"}, {"algorithm", "fbm"}}}}},
@@ -218,14 +217,14 @@ TEST(Scene, NamesEveryFaultAtOnce) {
          {"foundation", Json::object()},
          {"place", {{"distance", 1}, {"area", {{0, 0}, {1, 1}, {2, 2}}}}}}}}};
   EXPECT_THAT(
-      scene_faults(json),
+      scene_errors(json),
       testing::UnorderedElementsAre(
           HasSubstr("/ground: found both"), HasSubstr("/terrain/parameters/shape: found a sphere"),
           HasSubstr("/layers/0/place/distance: has no effect with the method rows"),
           HasSubstr("/layers/0/place: the method rows needs `spacing`"), HasSubstr("/layers/1/name: found a"),
           AllOf(HasSubstr("/layers/1/vary/0/to: the model refuses it"), HasSubstr("5000")),
           HasSubstr("/layers/1/vary/1/parameter: lsystem has no parameter \"iteration\""),
-          HasSubstr("/layers/1/place/near/0/layer: "), HasSubstr("/layers/1/scale: the first is above"),
+          HasSubstr("/layers/1/place/near/0/layer: "), HasSubstr("/layers/1/scale: the first value is above"),
           HasSubstr("/layers/2/age: fractal has no parameter age"), HasSubstr("/layers/2/foundation: "),
           HasSubstr("/layers/2/place/area: the polygon has no area")));
 }
@@ -240,13 +239,13 @@ TEST(Scene, RefusesModelsThatAreTooLargeTogetherBeforeItMakesAny) {
   const Generator::Params params = read_scene_params(json);
   Job job(1, options);
   try {
-    (void)scene::generate(own(params), job);
+    (void)scene::generate(own(params), context_of(job));
     FAIL();
   } catch (const Stop& stop) {
     EXPECT_EQ(stop.code(), Code::limit);
     EXPECT_EQ(stop.issue().pointer, "/layers/1/model");
     EXPECT_EQ(job.spent(Resource::triangles), 0U);
-    EXPECT_EQ(job.purse()->used(), 0U);
+    EXPECT_EQ(job.budget()->used(), 0U);
   }
 }
 
@@ -258,7 +257,7 @@ TEST(Scene, PointsAtTheModelThatFails) {
   EXPECT_THAT(model.error().issues.front().pointer, StartsWith("/layers/0/model/parameters/"));
 }
 
-TEST(Scene, OfNothingIsItsGround) {
+TEST(Scene, WithoutLayersIsItsGround) {
   const Result<Model> model = scene_of(Json::object());
   ASSERT_TRUE(model);
   EXPECT_EQ(model->meshes.size(), 1U);
@@ -268,7 +267,7 @@ TEST(Scene, OfNothingIsItsGround) {
   EXPECT_THAT(faults(*disc), IsEmpty());
 }
 
-TEST(Scene, DrawsWaysOverHillsWithoutFaults) {
+TEST(Scene, DrawsPathsOverHillsWithoutDefects) {
   const Result<Model> model =
       scene_of({{"terrain", {{"generator", "terrain"}, {"parameters", {{"iterations", 5}, {"size", 60}}}}},
                 {"paths",
@@ -279,13 +278,12 @@ TEST(Scene, DrawsWaysOverHillsWithoutFaults) {
   EXPECT_EQ(model->meshes.size(), 2U);
 }
 
-TEST(Scene, GivesAListWithTheFilesOfItsModels) {
+TEST(Scene, ListsTheFilesOfItsModels) {
   const Result<Request> request = read_request(
       Json{{"generator", "scene"}, {"parameters", forest()}, {"output", {{"format", "placements"}}}}.dump(),
       Limits{});
   ASSERT_TRUE(request);
-  Job job = job_of(0);
-  const Result<Product> product = produce(*request, job);
+  const Result<Product> product = produce(*request, {});
   ASSERT_TRUE(product);
   const std::string zip = product->payload.text();
   EXPECT_EQ(product->media_type, "application/zip");
@@ -311,8 +309,7 @@ TEST(Scene, PassesLevelsOfDetailOn) {
   Job job = job_of(1);
   Demand demand;
   demand.lods = 3;
-  job.set_demand(demand);
-  Result<Model> model = scene::generate(own(params), job);
+  Result<Model> model = scene::generate(own(params), context_of(job, demand));
   ASSERT_TRUE(model);
   std::size_t with_levels = 0;
   for (const Node& node : model->nodes) with_levels += node.lods.size() == 2 ? 1U : 0U;
@@ -321,7 +318,7 @@ TEST(Scene, PassesLevelsOfDetailOn) {
   EXPECT_THAT(faults(*model), IsEmpty());
 }
 
-TEST(Scene, SaysNothingOfAMatureAgeThatAPositionMakesUseOf) {
+TEST(Scene, DoesNotWarnOfAMatureAgeThatAPositionUses) {
   const auto warnings = [](const Json& positions) {
     const Json tree = {{"generator", "tree"}, {"parameters", {{"Levels", 1}, {"mature_age", 12}}}};
     const Json place = {{"method", "positions"}, {"positions", positions}};
@@ -337,7 +334,7 @@ TEST(Scene, SaysNothingOfAMatureAgeThatAPositionMakesUseOf) {
   EXPECT_THAT(warnings(Json::array({grown, young})), IsEmpty());
 }
 
-TEST(Scene, CountsTheTrianglesOfWaysBeforeTheyAreMade) {
+TEST(Scene, CountsTheTrianglesOfPathsBeforeTheyAreMade) {
   const Json terrain = {{"generator", "terrain"}, {"parameters", {{"iterations", 8}, {"size", 100}}}};
   const Json across = {{"points", {{-50, 0}, {50, 0}}}, {"width", 100}};
   Job::Options options;
@@ -351,7 +348,7 @@ TEST(Scene, CountsTheTrianglesOfWaysBeforeTheyAreMade) {
   EXPECT_THAT(model.error().issues.front().message, HasSubstr("triangles"));
 }
 
-TEST(Scene, ListsItsModelsWithTheTexturesThatAreWanted) {
+TEST(Scene, ListsItsModelsWithTheRequestedTextures) {
   const auto list = [](const Json& textures) {
     const Json tree = {{"preset", "proctree_0"}, {"parameters", {{"mLevels", 2}, {"mSegments", 4}}}};
     const Json layer = {{"model", tree}, {"variants", 1}, {"place", {{"method", "scatter"}, {"count", 3}}}};
@@ -360,10 +357,14 @@ TEST(Scene, ListsItsModelsWithTheTexturesThatAreWanted) {
                        {"output", {{"format", "placements"}, {"textures", textures}}}};
     const Result<Request> request = read_request(body.dump(), Limits{});
     EXPECT_TRUE(request) << request.error().issues.front().message;
-    Job job = job_of(1);
-    const Result<Product> product = produce(*request, job);
+    Job::Options options;
+    const Result<Product> product = produce(*request, options);
     EXPECT_TRUE(product);
-    EXPECT_EQ(job.spent(Resource::output_bytes), product->payload.size()) << "each byte is spent once";
+    // Each byte is spent once: exactly this limit is enough, and one byte fewer is not.
+    options.limits.output_bytes = product->payload.size();
+    EXPECT_TRUE(produce(*request, options));
+    options.limits.output_bytes -= 1;
+    EXPECT_FALSE(produce(*request, options));
     return product->payload.text();
   };
   const std::string none = list("none"), small = list(64), large = list(256);

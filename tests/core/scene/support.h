@@ -7,8 +7,10 @@
 #include "core/generators/child.h"
 #include "core/generators/scene/plant.h"
 #include "core/generators/scene/scene.h"
-#include "core/geom/finish.h"
+#include "core/geom/mesh/finish.h"
+#include "core/registry/registry.h"
 #include "generated/params/scene.h"
+#include "tests/support/context.h"
 #include "tests/support/mesh_faults.h"
 
 namespace seedmesh {
@@ -19,10 +21,11 @@ inline Job job_of(std::uint64_t seed, int threads = 1) {
   return Job(seed, options);
 }
 
-/// As the pipeline reads it: children too.
+/// Reads parameters like the pipeline, including children.
 inline Generator::Params read_scene_params(const Json& json) {
-  Faults faults;
-  Generator::Params params = read_parameters(*find_generator("scene"), json, "", Limits{}, faults);
+  IssueList faults;
+  Generator::Params params =
+      read_parameters(*find_generator("scene"), json, "", {Limits{}, generators()}, faults);
   EXPECT_TRUE(faults.empty()) << faults.issues().front().pointer << " " << faults.issues().front().message;
   return params;
 }
@@ -31,20 +34,20 @@ inline const SceneParams& own(const Generator::Params& params) {
   return *static_cast<const SceneParams*>(params.get());
 }
 
-/// The faults of a request, as "pointer: message".
-inline std::vector<std::string> scene_faults(const Json& json) {
-  Faults faults;
-  read_parameters(*find_generator("scene"), json, "", Limits{}, faults);
-  std::vector<std::string> told;
-  for (const Issue& issue : faults.issues()) told.push_back(issue.pointer + ": " + issue.message);
-  return told;
+/// Returns the errors of a request, as "pointer: message".
+inline std::vector<std::string> scene_errors(const Json& json) {
+  IssueList faults;
+  read_parameters(*find_generator("scene"), json, "", {Limits{}, generators()}, faults);
+  std::vector<std::string> message;
+  for (const Issue& issue : faults.issues()) message.push_back(issue.pointer + ": " + issue.message);
+  return message;
 }
 
-/// Where everything stands, and the ground it stands on.
+/// The placements of a scene, and its ground.
 struct Planted {
   scene::Ground ground;
   scene::Planting planting;
-  const Array<scene::Stand>& layer(std::size_t i) const { return planting.layers.at(i); }
+  const Array<scene::Placement>& layer(std::size_t i) const { return planting.layers.at(i); }
 };
 
 inline Planted planted(const Json& json, std::uint64_t seed = 1, int threads = 1) {
@@ -60,7 +63,7 @@ inline Result<Model> scene_of(const Json& json, std::uint64_t seed = 1, Job::Opt
   const Generator::Params params = read_scene_params(json);
   Job job(seed, std::move(options));
   try {
-    Result<Model> model = scene::generate(own(params), job);
+    Result<Model> model = scene::generate(own(params), context_of(job));
     if (model) finish(*model, job);
     return model;
   } catch (const Stop& stop) {
@@ -71,12 +74,12 @@ inline Result<Model> scene_of(const Json& json, std::uint64_t seed = 1, Job::Opt
 inline Json derived_scene(const Json& json, std::uint64_t seed = 1) {
   const Generator::Params params = read_scene_params(json);
   Job job = job_of(seed);
-  Result<Json> answer = scene::derive(own(params), job);
+  Result<Json> answer = scene::derive(own(params), context_of(job));
   EXPECT_TRUE(answer);
   return answer ? *answer : Json();
 }
 
-/// A model that costs nothing.
+/// A model of cost 0.
 inline Json cube(double size = 1) {
   return {{"generator", "fractal"}, {"parameters", {{"iterations", 0}, {"size", size}}}};
 }

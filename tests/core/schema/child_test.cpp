@@ -12,14 +12,14 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TinyParams read(const std::string& members, Faults& faults) {
+TinyParams read(const std::string& members, IssueList& faults) {
   const Result<Json> json = parse_json(R"({"mood": "calm", )" + members + "}");
   EXPECT_TRUE(json);
   return read_tiny(*json, "/parameters", faults);
 }
 
 TEST(Child, KeepsItsParametersForItsOwnGenerator) {
-  Faults faults;
+  IssueList faults;
   TinyParams params =
       read(R"("part": {"generator": "any", "seed": "7", "parameters": {"b": 1.0, "a": []}})", faults);
   EXPECT_TRUE(faults.empty());
@@ -30,7 +30,7 @@ TEST(Child, KeepsItsParametersForItsOwnGenerator) {
 }
 
 TEST(Child, IsMergedOverItsPreset) {
-  Faults faults;
+  IssueList faults;
   const TinyParams params =
       read(R"("part": {"preset": "koch_snowflake", "parameters": {"iterations": 1}})", faults);
   EXPECT_TRUE(faults.empty());
@@ -39,28 +39,30 @@ TEST(Child, IsMergedOverItsPreset) {
   EXPECT_THAT(params.part->parameters, HasSubstr("axiom"));
 }
 
-TEST(Child, RefusesWhatNoRequestHas) {
-  Faults faults;
+TEST(Child, RefusesMembersAndPresetsThatDoNotExist) {
+  IssueList faults;
   read(R"("part": {"preset": "koch_snowflak", "output": {}}, "parts": {"x": [{}, {"generator": 3}]})",
        faults);
-  std::vector<std::string> pointers;
-  for (const Issue& issue : faults.issues()) pointers.push_back(issue.pointer);
-  EXPECT_THAT(pointers, ElementsAre("/parameters/part/output", "/parameters/part/preset",
-                                    "/parameters/parts/x/0", "/parameters/parts/x/1/generator"));
+  std::vector<std::string> found;
+  for (const Issue& issue : faults.issues())
+    found.push_back(issue.pointer + " " + std::string(word_of(issue.kind)));
+  EXPECT_THAT(found,
+              ElementsAre("/parameters/part/output unknown_key", "/parameters/part/preset unknown_name",
+                          "/parameters/parts/x/0 missing", "/parameters/parts/x/1/generator wrong_type"));
 }
 
 TEST(Child, IsFoundWithItsPointer) {
-  Faults faults;
+  IssueList faults;
   TinyParams params = read(
       R"("part": {"generator": "a"}, "parts": {"x/y": [{"generator": "b"}, {"generator": "c"}]})", faults);
   std::vector<std::string> places;
-  for (const ChildPlace& place : children_of(params))
+  for (const ChildLocation& place : children_of(params))
     places.push_back(place.pointer + " " + place.child->generator);
   EXPECT_THAT(places, ElementsAre("/part a", "/parts/x~1y/0 b", "/parts/x~1y/1 c"));
 }
 
-TEST(Child, IsWrittenWithoutWhatIsDefault) {
-  Faults faults;
+TEST(Child, IsWrittenWithoutDefaults) {
+  IssueList faults;
   const TinyParams params = read(R"("part": {"generator": "any", "parameters": {}})", faults);
   EXPECT_THAT(canonical_text(write_tiny(params)), HasSubstr(R"("part":{"generator":"any"})"));
 }

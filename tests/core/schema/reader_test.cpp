@@ -12,7 +12,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-TEST(Reader, GivesDefaultsToWhatIsLeftOut) {
+TEST(Reader, GivesMissingMembersTheirDeissues) {
   const auto read = reading<read_lsystem>(R"({"axiom":"F"})");
   EXPECT_THAT(read.issues, IsEmpty());
   EXPECT_EQ(read.params.axiom, "F");
@@ -23,7 +23,7 @@ TEST(Reader, GivesDefaultsToWhatIsLeftOut) {
   EXPECT_FALSE(read.params.alphabet.has_value());
 }
 
-TEST(Reader, FindsEveryFaultAtOnce) {
+TEST(Reader, FindsEveryErrorAtOnce) {
   const auto read = reading<read_lsystem>(
       R"({"productions":"F","iterations":-1,"angel":3,"sides":2.5,"angle":"wide","style":"tube","width":null,
           "materials":[{"color":"red"},{"colour":"#ffffff"}],"constants":{"1x":2,"y":[]},"alphabet":{}})");
@@ -49,12 +49,28 @@ TEST(Reader, SaysWhatItFoundAndWhatItExpected) {
   EXPECT_EQ(message("[]"), "found an empty list, expected an object");
 }
 
-TEST(Reader, SaysWhatElseThanAWordAValueMayBe) {
-  EXPECT_EQ(reading<read_output>(R"({"textures":"512"})").issues.front().message,
-            "found the text \"512\", expected an integer from 16 to 4096 or none");
+TEST(Reader, GivesEachErrorItsKind) {
+  const auto kind = [](const char* text) { return reading<read_lsystem>(text).issues.front().kind; };
+  EXPECT_EQ(kind(R"({"axiom":"F","iterations":-1})"), IssueKind::out_of_range);
+  EXPECT_EQ(kind(R"({"axiom":"F","iterations":2.5})"), IssueKind::wrong_type);
+  EXPECT_EQ(kind(R"({"axiom":"F","iterations":"2"})"), IssueKind::wrong_type);
+  EXPECT_EQ(kind(R"({"axiom":"F","angle":"wide"})"), IssueKind::wrong_type);
+  EXPECT_EQ(kind(R"({"axiom":"F","style":"tube"})"), IssueKind::invalid_value);
+  EXPECT_EQ(kind(R"({"axiom":"F","style":3})"), IssueKind::wrong_type);
+  EXPECT_EQ(kind(R"({"axiom":"F","materials":[{"color":"red"}]})"), IssueKind::invalid_value);
+  EXPECT_EQ(kind(R"({"axiom":"F","productions":{}})"), IssueKind::wrong_type);
+  EXPECT_EQ(kind(R"({"axiom":""})"), IssueKind::out_of_range);
+  EXPECT_EQ(kind(R"({"axiom":"F","angel":3})"), IssueKind::unknown_key);
+  EXPECT_EQ(kind("{}"), IssueKind::missing);
+  EXPECT_EQ(kind("[]"), IssueKind::wrong_type);
 }
 
-TEST(Reader, TellsOnceOfAListThatHasBeenLeftOut) {
+TEST(Reader, NamesTheOtherTypesBesideAWord) {
+  EXPECT_EQ(reading<read_output>(R"({"textures":"512"})").issues.front().message,
+            "found the text \"512\", expected an integer from 16 to 4096 or one of none, links");
+}
+
+TEST(Reader, ReportsAMissingOuterListOnce) {
   const auto flat = reading<read_lsystem>(R"({"axiom":"F","contours":[[0,0],[1,0],[0,1]]})");
   EXPECT_THAT(flat.pointers(), ElementsAre("/contours"));
   EXPECT_EQ(flat.issues.front().message,
@@ -64,14 +80,14 @@ TEST(Reader, TellsOnceOfAListThatHasBeenLeftOut) {
               testing::IsEmpty());
 }
 
-TEST(Reader, NamesTheMemberThatWasMeant) {
+TEST(Reader, SuggestsTheNearestMember) {
   EXPECT_EQ(reading<read_lsystem>(R"({"axiom":"F","angel":3})").issues.front().message,
             "\"angel\" is not known here; did you mean \"angle\"?");
   EXPECT_THAT(reading<read_output>(R"({"qqqqqqqqqqqq":3})").issues.front().message,
               HasSubstr("known are format"));
 }
 
-TEST(Reader, ListsWhatIsKnownOnceForAllStrangersOfAnObject) {
+TEST(Reader, ListsKnownMembersOnceForAllUnknownOnes) {
   const auto issues = reading<read_output>(R"({"pppppppppppp":1,"qqqqqqqqqqqq":3,"varants":2})").issues;
   ASSERT_EQ(issues.size(), 3U);
   EXPECT_THAT(issues[0].message, HasSubstr("known are format"));
@@ -123,8 +139,9 @@ TEST(Reader, KeepsAHostileBodyShort) {
   std::string text = R"({"axiom":"F","productions":[0)";
   for (int i = 1; i < 10'000; ++i) text += ",0";
   const auto read = reading<read_lsystem>(text + "]}");
-  EXPECT_EQ(read.issues.size(), Faults::most + 1);
-  EXPECT_EQ(read.issues.back().message, "and 9900 more faults");
+  EXPECT_EQ(read.issues.size(), IssueList::most + 1);
+  EXPECT_EQ(read.issues.back().kind, IssueKind::truncated_list);
+  EXPECT_EQ(read.issues.back().unlisted, 9900U);
   EXPECT_EQ(read.params.productions.size(), 10'000U);
 }
 
@@ -167,15 +184,15 @@ TEST(Reader, ChecksEveryKindOfParameter) {
               "found 2 entries, expected 3 entries");
 }
 
-TEST(Faults, CoverAValueAndAllThatIsInIt) {
-  Faults faults;
-  faults.add({"/a/b", "bad"});
-  faults.add_missing("/a", "c", "gone");
-  EXPECT_TRUE(faults.covers("/a/b"));
-  EXPECT_TRUE(faults.covers("/a/b/0"));
-  EXPECT_TRUE(faults.covers("/a/c"));
-  EXPECT_FALSE(faults.covers("/a"));
-  EXPECT_FALSE(faults.covers("/a/bc"));
+TEST(IssueList, CoversAValueAndEverythingInsideIt) {
+  IssueList issues;
+  issues.add({IssueKind::invalid_value, "/a/b", "bad"});
+  issues.add_missing("/a", "c", "gone");
+  EXPECT_TRUE(issues.covers("/a/b"));
+  EXPECT_TRUE(issues.covers("/a/b/0"));
+  EXPECT_TRUE(issues.covers("/a/c"));
+  EXPECT_FALSE(issues.covers("/a"));
+  EXPECT_FALSE(issues.covers("/a/bc"));
 }
 
 }  // namespace

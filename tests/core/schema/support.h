@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/schema/faults.h"
+#include "core/schema/issue_list.h"
 #include "core/schema/json.h"
 
 namespace seedmesh {
@@ -26,7 +26,7 @@ struct Reading {
 /// reading<read_lsystem>(R"({"axiom":"F"})")
 template <auto read>
 auto reading(std::string_view text) {
-  Faults faults;
+  IssueList faults;
   auto params = read(Json::parse(text), "", faults);
   return Reading<decltype(params)>{std::move(params), faults.take()};
 }

@@ -10,9 +10,10 @@
 
 #include "core/generators/terrain/scan.h"
 #include "core/generators/terrain/terrain.h"
-#include "core/geom/finish.h"
+#include "core/geom/mesh/finish.h"
 #include "generated/params/terrain.h"
 #include "tests/core/terrain/support.h"
+#include "tests/support/context.h"
 #include "tests/support/mesh_faults.h"
 
 namespace seedmesh::terrain {
@@ -26,11 +27,13 @@ Field waves(std::int32_t width, std::int32_t depth) {
                     [](int x, int z) { return 4 * std::sin(x * 0.21) + 3 * std::cos(z * 0.17); });
 }
 
-/// Every place of the part is covered once, and no triangle is turned over.
+/// Every position of the part is covered once, and no triangle is turned over.
 void expect_cover(const Field& field, const Window& part, const Triangulation& mesh) {
   std::int64_t area = 0;
   for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
-    const auto at = [&](std::size_t k) { return place_of(mesh.samples[mesh.index[i + k]], field.width); };
+    const auto at = [&](std::size_t k) {
+      return grid_point_of(mesh.samples[mesh.index[i + k]], field.width);
+    };
     const std::int64_t own = turn(at(0), at(1), at(2));
     ASSERT_GT(own, 0);
     area += own;
@@ -38,7 +41,7 @@ void expect_cover(const Field& field, const Window& part, const Triangulation& m
   EXPECT_EQ(area, std::int64_t{2} * (part.width - 1) * (part.depth - 1));
 }
 
-/// Places along the edges that only one triangle has.
+/// WeldedPoints along the edges that only one triangle has.
 std::set<std::pair<int, int>> rim_of(const Field& field, const Triangulation& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
   for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
@@ -47,19 +50,19 @@ std::set<std::pair<int, int>> rim_of(const Field& field, const Triangulation& me
       ++uses[{std::min(a, b), std::max(a, b)}];
     }
   }
-  std::set<std::pair<int, int>> places;
+  std::set<std::pair<int, int>> positions;
   for (const auto& [edge, count] : uses) {
     EXPECT_LE(count, 2);
     if (count > 1) continue;
     for (const std::uint32_t vertex : {edge.first, edge.second}) {
-      const Place at = place_of(mesh.samples[vertex], field.width);
-      places.insert({at.x, at.z});
+      const GridPoint at = grid_point_of(mesh.samples[vertex], field.width);
+      positions.insert({at.x, at.z});
     }
   }
-  return places;
+  return positions;
 }
 
-TEST(Decimated, CoversAnyPartOnceWithAnyStep) {
+TEST(Decimated, CoversAnyPartExactlyOnceWithAnyStep) {
   const Field field = waves(70, 41);
   for (const Window& part : {Window{0, 0, 70, 41}, Window{3, 5, 20, 30}, Window{60, 0, 3, 41},
                              Window{0, 39, 70, 2}, Window{10, 10, 2, 2}, Window{8, 8, 3, 3}}) {
@@ -80,7 +83,7 @@ TEST(Decimated, TakesEverySecondSampleOfASideOfAPowerOfTwoAndOne) {
     const std::int32_t squares = 64 >> level;
     EXPECT_EQ(mesh.index.size() / 3, static_cast<std::size_t>(2 * squares * squares));
     for (const std::uint32_t sample : mesh.samples) {
-      const Place at = place_of(sample, field.width);
+      const GridPoint at = grid_point_of(sample, field.width);
       EXPECT_EQ(at.x % (1 << level), 0);
       EXPECT_EQ(at.z % (1 << level), 0);
     }
@@ -111,15 +114,9 @@ TerrainParams small(TerrainMesh mesh) {
   return params;
 }
 
-Job demanding(int lods) {
-  Job job = any_job();
-  job.set_demand({.lods = lods});
-  return job;
-}
-
 Model with_levels(const TerrainParams& params, int lods) {
-  Job job = demanding(lods);
-  Result<Model> model = generate(params, job);
+  Job job = any_job();
+  Result<Model> model = generate(params, context_of(job, {.lods = lods}));
   EXPECT_TRUE(model);
   if (!model) return {};
   finish(*model, job);
@@ -135,7 +132,7 @@ std::vector<std::size_t> triangles_of(const Model& model, const Node& node) {
   return counts;
 }
 
-TEST(TerrainLevels, HaveFewerTrianglesEachAndNoFaults) {
+TEST(TerrainLevels, HaveFewerTrianglesEachAndNoDefects) {
   for (const TerrainMesh mesh : {TerrainMesh::grid, TerrainMesh::rtin, TerrainMesh::greedy}) {
     TerrainParams params = small(mesh);
     params.skirt = 5;
@@ -150,7 +147,7 @@ TEST(TerrainLevels, HaveFewerTrianglesEachAndNoFaults) {
   }
 }
 
-TEST(TerrainLevels, LeaveTheFinestAsItIsWithoutThem) {
+TEST(TerrainLevels, DoNotChangeTheFinestLevel) {
   const Model one = with_levels(small(TerrainMesh::greedy), 1),
               three = with_levels(small(TerrainMesh::greedy), 3);
   const Mesh& a = one.meshes[0].primitives[0].mesh;
@@ -159,7 +156,7 @@ TEST(TerrainLevels, LeaveTheFinestAsItIsWithoutThem) {
   EXPECT_EQ(one.nodes.size(), three.nodes.size());
 }
 
-TEST(TerrainLevels, TellWhatEachIsOff) {
+TEST(TerrainLevels, ReportTheErrorOfEachLevel) {
   for (const TerrainMesh mesh : {TerrainMesh::rtin, TerrainMesh::greedy}) {
     TerrainParams params = small(mesh);
     params.max_error = 0.4;
@@ -200,7 +197,7 @@ std::vector<glm::vec3> along(const Mesh& mesh, float x) {
   return line;
 }
 
-TEST(TerrainLevels, OfPiecesFitTogetherWhateverEachShows) {
+TEST(TerrainLevels, OfPiecesFitTogetherInAnyCombination) {
   TerrainParams params;
   params.iterations = 9;
   params.skirt = 3;
@@ -222,7 +219,7 @@ TEST(TerrainLevels, OfPiecesFitTogetherWhateverEachShows) {
   }
 }
 
-TEST(TerrainLevels, OfTilesFitTogetherWhateverEachShows) {
+TEST(TerrainLevels, OfTilesFitTogetherInAnyCombination) {
   for (const TerrainMesh kind : {TerrainMesh::grid, TerrainMesh::rtin, TerrainMesh::greedy}) {
     const auto tile = [&](int x) {
       TerrainParams params = small(kind);
@@ -265,7 +262,7 @@ TEST(TerrainLevels, OfAPlanetoidAreClosedAndKeepItsHeights) {
   }
 }
 
-TEST(TerrainLevels, OfADisplacedModelAreCutLessOften) {
+TEST(TerrainLevels, OfADisplacedModelAreSubdividedLess) {
   TerrainParams params;
   params.algorithm = TerrainAlgorithm::fbm;
   params.resolution = 33;
@@ -275,8 +272,8 @@ TEST(TerrainLevels, OfADisplacedModelAreCutLessOften) {
   params.onto->model.generator = "fractal";
   params.onto->model.parameters = R"({"element":"sphere","iterations":0})";
   params.onto->subdivide = 2;
-  Job job = demanding(5);
-  const Result<Model> model = generate(params, job);
+  Job job = any_job();
+  const Result<Model> model = generate(params, context_of(job, {.lods = 5}));
   ASSERT_TRUE(model) << model.error().issues.front().message;
   std::size_t shown = 0;
   for (const Node& node : model->nodes) {

@@ -64,7 +64,7 @@ TEST(FaultFormation, SlopesBetweenTheSidesWhereItsStepIsNotHard) {
   }
 }
 
-TEST(FaultFormation, AddsExtraFaultsToTheFieldThatWasPlanned) {
+TEST(FaultFormation, AddsExtraFaultsToThePlannedField) {
   FaultPlan plan{.planned = 8, .greatest = 10, .least = 1};
   const Field planned = made(plan, whole);
   plan.extra = 1;
@@ -106,7 +106,7 @@ TEST(PoissonFaulting, LiftsOneHalfOfASphereAndSinksTheOther) {
   EXPECT_NEAR(sum / (30 * 1538), 0, 0.1);
 }
 
-TEST(Planet, HasEveryPointOfTheCubeOnce) {
+TEST(Planet, HasEveryPointOfTheCubeExactlyOnce) {
   const Planet planet = sphere_of(9, 1, any_job());
   EXPECT_EQ(planet.direction.size(), 6U * 8 * 8 + 2);
   std::vector<std::array<float, 3>> points;

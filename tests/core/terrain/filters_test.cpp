@@ -48,18 +48,18 @@ TEST(Smooth, ChangesNothingAtZeroAndFlattensAtAHundred) {
   EXPECT_THAT(field.heights, Each(FloatEq(7)));
 }
 
-TEST(Smooth, LeavesAnEvenFieldAsItIs) {
+TEST(Smooth, KeepsAFlatField) {
   Field field = field_from(40, 30, [](int, int) { return 5; });
   smooth(field, 40, any_job());
   EXPECT_THAT(values(field), Each(DoubleNear(5, 1e-5)));
 }
 
-TEST(SmoothByPlace, IsTheFilterOfAnEndlessField) {
+TEST(SmoothByPosition, IsTheFilterOfAnInfiniteField) {
   const Field raw = hills(257);
   for (const double percent : {20.0, 60.0, 90.0}) {
     Field whole = hills(257), piece = hills(257);
     smooth(whole, percent, any_job());
-    smooth_by_place(piece, percent, any_job());
+    smooth_by_position(piece, percent, any_job());
     const std::int32_t reach = std::min(smooth_reach(percent), 120);
     for (std::int32_t z = reach; z < 257 - reach; ++z) {
       for (std::int32_t x = reach; x < 257 - reach; ++x)
@@ -68,21 +68,21 @@ TEST(SmoothByPlace, IsTheFilterOfAnEndlessField) {
   }
 }
 
-TEST(SmoothByPlace, DoesNotDependOnWhereThePieceBegins) {
+TEST(SmoothByPosition, DoesNotDependOnTheWindow) {
   const auto cut = [](const Field& field, std::int32_t left, std::int32_t top, std::int32_t side) {
     return field_from(side, side, [&](int x, int z) { return field.at(left + x, top + z); });
   };
   const Field all = hills(129);
   const std::int32_t reach = smooth_reach(50);
   Field one = cut(all, 0, 0, 100), other = cut(all, 20, 13, 100);
-  smooth_by_place(one, 50, any_job(1));
-  smooth_by_place(other, 50, any_job(8));
+  smooth_by_position(one, 50, any_job(1));
+  smooth_by_position(other, 50, any_job(8));
   for (std::int32_t z = 13 + reach; z < 100 - reach; ++z) {
     for (std::int32_t x = 20 + reach; x < 100 - reach; ++x) ASSERT_EQ(one.at(x, z), other.at(x - 20, z - 13));
   }
 }
 
-TEST(SmoothByPlace, ReachesFartherTheMoreItSmooths) {
+TEST(SmoothByPosition, ReachesFartherTheMoreItSmooths) {
   EXPECT_EQ(smooth_reach(0), 0);
   EXPECT_EQ(smooth_reach(50), 24);
   EXPECT_LE(smooth_reach(93.7), 256);
@@ -100,28 +100,28 @@ TEST(Normalise, StretchesToTheRange) {
   EXPECT_THAT(even.heights, Each(FloatEq(1)));
 }
 
-TEST(Terraces, AreStepsWhereTheyAreSharp) {
+TEST(Terraces, AreStepsAtFullSharpness) {
   Field field = field_from(101, 2, [](int x, int) { return x; });
   terrace(field, {4, 1}, any_job());
   for (int x = 0; x < 100; ++x) ASSERT_FLOAT_EQ(field.at(x, 0), static_cast<float>(x / 25 * 25)) << x;
   EXPECT_FLOAT_EQ(field.at(100, 0), 100);
 }
 
-TEST(Terraces, GoOnOutsideTheHeightsTheyAreCountedBetween) {
+TEST(Terraces, ContinueOutsideTheirRange) {
   Field field = field_from(61, 2, [](int x, int) { return x - 20; });
   terrace(field, {.count = 2, .sharpness = 1, .from = Heights{0, 20}}, any_job());
   for (int x = 0; x < 61; ++x)
     ASSERT_FLOAT_EQ(field.at(x, 0), 10 * std::floor(static_cast<float>(x - 20) / 10)) << x;
 }
 
-TEST(Terraces, LeaveTheFieldWhereTheyAreNot) {
+TEST(Terraces, KeepTheFieldAtZeroSharpness) {
   Field field = hills(33);
   const std::vector<double> before = values(field);
   terrace(field, {5, 0}, any_job());
   EXPECT_THAT(values(field), Pointwise(DoubleNear(1e-4), before));
 }
 
-TEST(Island, SinksTheRimBelowAllThatWas) {
+TEST(Island, SinksTheRimBelowTheLowestHeight) {
   Field field = hills(65);
   const Range before = range_of(field, any_job());
   sink_rim(field, {.reach = 0.8, .depth = 5, .roughness = 0.4}, Rng(2), any_job());
@@ -132,7 +132,7 @@ TEST(Island, SinksTheRimBelowAllThatWas) {
   EXPECT_GT(field.at(32, 32), before.low);
 }
 
-TEST(ThermalErosion, MovesGroundButLosesNone) {
+TEST(ThermalErosion, ConservesMaterial) {
   Field field = hills(65);
   const double before = sum_of(field);
   slip(field, {.iterations = 200, .talus = 0.3, .rate = 0.5}, any_job());
@@ -155,7 +155,7 @@ TEST(HydraulicErosion, IsTheSameWithAnyNumberOfThreads) {
   EXPECT_EQ(values(one), values(eight));
 }
 
-TEST(HydraulicErosion, WearsGroundDownWithinTheHeightsThereWere) {
+TEST(HydraulicErosion, StaysWithinTheOldRangeOfHeights) {
   Field field = hills(129);
   const Field before = hills(129);
   erode(field, {.droplets = 20'000}, Rng(3), any_job());
@@ -166,7 +166,7 @@ TEST(HydraulicErosion, WearsGroundDownWithinTheHeightsThereWere) {
   EXPECT_NE(values(field), values(before));
 }
 
-TEST(HydraulicErosion, EndsADropThatGoesRoundInAHollow) {
+TEST(HydraulicErosion, EndsADropThatCirclesInAHollow) {
   Field far = hills(33), farther = hills(33);
   erode(far, {.droplets = 500, .lifetime = 4 * (33 + 33), .evaporation = 0}, Rng(3), any_job());
   erode(farther, {.droplets = 500, .lifetime = 1e9, .evaporation = 0}, Rng(3), any_job());
@@ -181,8 +181,8 @@ TEST(HydraulicErosion, KeepsTheMemoryLimit) {
   EXPECT_THROW(erode(field, {.droplets = 100'000, .lifetime = 1e9, .evaporation = 0}, Rng(3), job), Stop);
 }
 
-TEST(Drainage, LeavesEveryHollowByItsRim) {
-  // A basin inside a wall that is lower in one place.
+TEST(Drainage, DrainsEveryDepressionOverItsRim) {
+  // A basin inside a wall that is lower at one position.
   const Field field = field_from(9, 9, [](int x, int z) {
     const int ring = std::max(std::abs(x - 4), std::abs(z - 4));
     if (ring == 3) return x == 7 && z == 4 ? 6.0 : 10.0;
@@ -196,7 +196,7 @@ TEST(Drainage, LeavesEveryHollowByItsRim) {
   EXPECT_GE(area[4 * 9 + 7], 25.0F);
 }
 
-TEST(Drainage, GathersEverySampleAtTheBorder) {
+TEST(Drainage, DrainsEverySampleToTheBorder) {
   const Field field = hills(65);
   const Array<float> area = gathered(field, drainage_of(field, any_job()), any_job());
   double out = 0;
@@ -207,7 +207,7 @@ TEST(Drainage, GathersEverySampleAtTheBorder) {
   EXPECT_GE(out, 65 * 65 * 0.999);
 }
 
-TEST(StreamPower, CutsTheInsideAndLeavesTheBorder) {
+TEST(StreamPower, CutsTheInteriorAndKeepsTheBorder) {
   Field field = hills(65);
   const Field before = hills(65);
   cut_rivers(field, {.iterations = 5}, any_job());
@@ -249,7 +249,7 @@ TEST(Noise, StaysWithinItsOctavesAndFollowsTheHurstExponent) {
   EXPECT_NEAR(measured_hurst(field), 0.8, 0.1);
 }
 
-TEST(Noise, RepeatsWhereItIsToldTo) {
+TEST(Noise, RepeatsWithTheGivenPeriod) {
   NoisePlan plan;
   plan.amplitude = 10;
   plan.wavelength = 16;
@@ -263,7 +263,7 @@ TEST(Noise, RepeatsWhereItIsToldTo) {
   }
 }
 
-TEST(Resampling, KeepsSamplesThatFallTogetherAndPlanes) {
+TEST(Resampling, KeepsPlanesAndSamplesAtOldPositions) {
   const Field field = hills(33);
   const Field finer = resampled(field, 65, any_job());
   for (int z = 0; z < 33; ++z) {

@@ -10,6 +10,7 @@
 #include "core/texture/png.h"
 #include "generated/params/terrain.h"
 #include "tests/core/terrain/support.h"
+#include "tests/support/context.h"
 
 namespace seedmesh::terrain {
 namespace {
@@ -18,7 +19,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-TEST(HeightMap, WrittenAndReadAgainGivesTheSameField) {
+TEST(HeightMap, IsReadBackAsTheSameField) {
   TerrainParams params = small(TerrainAlgorithm::diamond_square);
   const Field field = heights_of(params);
   const Range range = range_of(field, any_job());
@@ -35,7 +36,7 @@ TEST(HeightMap, WrittenAndReadAgainGivesTheSameField) {
     Job job = any_job();
     params.heightmap.byte_order =
         each.encoding == TerrainEncoding::r16_big ? TerrainByteOrder::big : TerrainByteOrder::little;
-    const Result<Array<std::uint8_t>> file = encode(params, {each.format}, job);
+    const Result<Array<std::uint8_t>> file = encode(params, {each.format}, context_of(job));
     ASSERT_TRUE(file);
     TerrainParams reading;
     reading.algorithm = TerrainAlgorithm::image;
@@ -54,13 +55,13 @@ TEST(HeightMap, WrittenAndReadAgainGivesTheSameField) {
     reading.heightmap = params.heightmap;
     reading.heightmap.low = reading.image->low;
     reading.heightmap.high = reading.image->high;
-    const Result<Array<std::uint8_t>> twice = encode(reading, {each.format}, job);
+    const Result<Array<std::uint8_t>> twice = encode(reading, {each.format}, context_of(job));
     ASSERT_TRUE(twice);
     EXPECT_TRUE(std::ranges::equal(*file, *twice)) << each.format;
   }
 }
 
-TEST(HeightMap, OfAnEngineReadAsTheEngineReadsItGivesTheSameField) {
+TEST(HeightMap, OfAnEngineIsTheSameFieldByTheRulesOfTheEngine) {
   for (const auto& [profile, format] :
        {std::pair{"unreal", "r16"}, {"unreal", "png16"}, {"unity", "r16"}, {"core", "r16"}}) {
     TerrainParams params = small(TerrainAlgorithm::fbm);
@@ -68,13 +69,13 @@ TEST(HeightMap, OfAnEngineReadAsTheEngineReadsItGivesTheSameField) {
     if (std::string_view(profile) == "unreal") params.resample = 61;  // 15 quads, 2 sections, 2 components
     const Field field = heights_of(params);
     Job job = any_job();
-    const Result<Array<std::uint8_t>> file = encode(params, {format, profile}, job);
+    const Result<Array<std::uint8_t>> file = encode(params, {format, profile}, context_of(job));
     ASSERT_TRUE(file) << profile;
-    const Result<Json> told = derive(params, job);
-    ASSERT_TRUE(told);
-    const Json& unreal = (*told)["engines"]["unreal"];
-    const Json& unity = (*told)["engines"]["unity"];
-    EXPECT_TRUE((*told)["engines"][std::string_view(profile) == "unreal" ? "unreal" : "unity"]["fits"]);
+    const Result<Json> derived = derive(params, context_of(job));
+    ASSERT_TRUE(derived);
+    const Json& unreal = (*derived)["engines"]["unreal"];
+    const Json& unity = (*derived)["engines"]["unity"];
+    EXPECT_TRUE((*derived)["engines"][std::string_view(profile) == "unreal" ? "unreal" : "unity"]["fits"]);
     std::vector<std::uint16_t> values;
     if (std::string_view(format) == "png16") {
       const Result<texture::Picture> picture = texture::decode_png(std::as_bytes(file->span()), {}, job);
@@ -103,10 +104,10 @@ TEST(HeightMap, OfAnEngineReadAsTheEngineReadsItGivesTheSameField) {
   }
 }
 
-TEST(HeightMap, IsRefusedInSizesAndFormsThatAnEngineDoesNotTake) {
+TEST(HeightMap, IsRefusedInSizesAndFormatsThatAnEngineDoesNotSupport) {
   const auto refusals = [](const TerrainParams& params, const char* format, const char* profile) {
     std::vector<std::string> texts;
-    for (const Issue& issue : check_form(params, {format, profile}))
+    for (const Issue& issue : check_format(params, {format, profile}))
       texts.push_back(issue.pointer + ": " + issue.message);
     return texts;
   };
@@ -114,7 +115,7 @@ TEST(HeightMap, IsRefusedInSizesAndFormsThatAnEngineDoesNotTake) {
   params.resolution = 1025;
   EXPECT_THAT(refusals(params, "r16", "unity"), IsEmpty());
   EXPECT_THAT(refusals(params, "r16", "unreal"),
-              ElementsAre(::testing::AllOf(HasSubstr("/output/profile: found 1025 samples; Unreal takes"),
+              ElementsAre(::testing::AllOf(HasSubstr("/output/profile: found 1025 samples; Unreal needs"),
                                            HasSubstr("resample to 1021 or 1055"))));
   params.resample = 1009;
   EXPECT_THAT(refusals(params, "png16", "unreal"), IsEmpty());
@@ -134,7 +135,7 @@ TEST(HeightMap, IsRefusedInSizesAndFormsThatAnEngineDoesNotTake) {
   EXPECT_THAT(refusals(params, "png8", "core"), ElementsAre(HasSubstr("/heightmap/flip")));
 }
 
-TEST(Engines, TakeTheSidesThatTheirManualsName) {
+TEST(Engines, SupportTheSizesOfTheirManuals) {
   for (const int side : {127, 253, 505, 1009, 2017, 4033, 8129})
     EXPECT_TRUE(takes_side(Engine::unreal, side));
   for (const int side : {33, 65, 129, 257, 513, 1025, 2049, 4097}) {
@@ -146,26 +147,26 @@ TEST(Engines, TakeTheSidesThatTheirManualsName) {
   EXPECT_THAT(nearest_sides(Engine::unreal, 1009), ElementsAre(1009));
 }
 
-TEST(Engines, AreToldUnrealsScaleOf600Metres) {
+TEST(Engines, GetUnrealsScaleOf600Metres) {
   const Json settings = engine_settings({1009, 1009, 2, 0, 600});
   EXPECT_NEAR(settings["unreal"]["scale"][2].get<double>(), 117.19, 0.01);
   EXPECT_EQ(settings["unreal"]["scale"][0], 200);
   EXPECT_EQ(settings["unity"]["size"][0], 2016);
 }
 
-TEST(HeightMap, TurnsItsRowsOverWhereItIsTold) {
+TEST(HeightMap, FlipsItsRowsOnRequest) {
   TerrainParams params = small(TerrainAlgorithm::diamond_square);
   Job job = any_job();
-  const Result<Array<std::uint8_t>> upright = encode(params, {"r16"}, job);
+  const Result<Array<std::uint8_t>> upright = encode(params, {"r16"}, context_of(job));
   params.heightmap.flip = true;
-  const Result<Array<std::uint8_t>> turned = encode(params, {"r16"}, job);
+  const Result<Array<std::uint8_t>> turned = encode(params, {"r16"}, context_of(job));
   ASSERT_TRUE(upright && turned);
   for (std::size_t z = 0; z < 33; ++z) {
     for (std::size_t i = 0; i < 66; ++i) ASSERT_EQ((*upright)[z * 66 + i], (*turned)[(32 - z) * 66 + i]);
   }
 }
 
-TEST(HeightMap, HoldsMasksAndPicturesToo) {
+TEST(HeightMap, IsAlsoWrittenOfMasksAndTextures) {
   TerrainParams params = small(TerrainAlgorithm::fbm);
   params.water_level = 0.5;
   for (const TerrainMap map :
@@ -173,7 +174,7 @@ TEST(HeightMap, HoldsMasksAndPicturesToo) {
         TerrainMap::color, TerrainMap::splat, TerrainMap::rock, TerrainMap::snow}) {
     params.heightmap.map = map;
     Job job = any_job();
-    const Result<Array<std::uint8_t>> file = encode(params, {"png8"}, job);
+    const Result<Array<std::uint8_t>> file = encode(params, {"png8"}, context_of(job));
     ASSERT_TRUE(file) << text_of(map);
     const Result<texture::Picture> picture = texture::decode_png(std::as_bytes(file->span()), {}, job);
     ASSERT_TRUE(picture);
@@ -185,16 +186,16 @@ TEST(HeightMap, HoldsMasksAndPicturesToo) {
   }
 }
 
-TEST(HeightMap, OfATileAsksForARangeThatAllTilesShare) {
+TEST(HeightMap, OfATileNeedsARangeThatAllTilesShare) {
   TerrainParams params = small(TerrainAlgorithm::fbm);
   params.tile.emplace();
   Job job = any_job();
-  const Result<Array<std::uint8_t>> file = encode(params, {"r16"}, job);
+  const Result<Array<std::uint8_t>> file = encode(params, {"r16"}, context_of(job));
   ASSERT_FALSE(file);
   EXPECT_EQ(file.error().issues.front().pointer, "/heightmap");
   params.heightmap.low = -50;
   params.heightmap.high = 50;
-  EXPECT_TRUE(encode(params, {"r16"}, job));
+  EXPECT_TRUE(encode(params, {"r16"}, context_of(job)));
 }
 
 }  // namespace

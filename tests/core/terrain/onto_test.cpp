@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/generators/child.h"
-#include "core/geom/finish.h"
+#include "core/geom/mesh/finish.h"
+#include "core/registry/registry.h"
 #include "tests/core/terrain/support.h"
+#include "tests/support/context.h"
 #include "tests/support/mesh_faults.h"
 
 namespace seedmesh::terrain {
@@ -19,12 +21,13 @@ using ::testing::StartsWith;
 
 /// As the pipeline does it, requests inside included.
 Result<Model> made(const std::string& parameters, int threads = 1) {
-  Faults faults;
+  IssueList faults;
   const Generator* generator = find_generator("terrain");
-  const Generator::Params params = read_parameters(*generator, Json::parse(parameters), "", Limits{}, faults);
+  const Generator::Params params =
+      read_parameters(*generator, Json::parse(parameters), "", {Limits{}, generators()}, faults);
   if (!faults.empty()) return Error{Code::invalid, faults.take()};
   Job job = any_job(threads);
-  Result<Model> model = generator->generate(params, job);
+  Result<Model> model = generator->generate(params, context_of(job));
   if (model) finish(*model, job);
   return model;
 }
@@ -42,7 +45,7 @@ MeshMeasures measured(const Model& model) {
   return measure(meshes);
 }
 
-TEST(MirroredHeight, IsTheFieldAtItsSamplesAndGoesOnBackwards) {
+TEST(MirroredHeight, IsTheFieldAtItsSamplesAndIsMirroredOutside) {
   const Field field = field_from(5, 3, [](int x, int z) { return 10 * x + z; });
   EXPECT_DOUBLE_EQ(mirrored_height(field, 3, 1), 31);
   EXPECT_DOUBLE_EQ(mirrored_height(field, 2.5, 0.5), 25.5);
@@ -51,7 +54,7 @@ TEST(MirroredHeight, IsTheFieldAtItsSamplesAndGoesOnBackwards) {
   EXPECT_DOUBLE_EQ(mirrored_height(field, 8 + 1, 4 + 1), 11);  // after both periods
 }
 
-TEST(Displacement, KeepsAClosedSurfaceClosedAndCutsEachTriangleIntoFour) {
+TEST(Displacement, KeepsASurfaceClosedAndCutsEachTriangleIntoFour) {
   for (const char* element : {"cube", "sphere", "pyramid"}) {
     const Result<Model> plain = made(onto(element, "")), fine = made(onto(element, R"(, "subdivide": 3)"));
     ASSERT_TRUE(plain && fine) << element;
@@ -71,7 +74,7 @@ TEST(Displacement, LiftsASurfaceByTheHeightOfAFlatField) {
   EXPECT_NEAR(box.min.y, -0.6, 1e-3);
 }
 
-TEST(Displacement, KeepsNormalsOnTheSideOfTheirFacesHoweverWildTheFieldIs) {
+TEST(Displacement, KeepsNormalsOnTheSideOfTheirFacesForAnyField) {
   for (const char* amplitude : {"0.3", "2"}) {
     const std::string wild = R"({"algorithm": "fbm", "resolution": 129, "size": 0.7, "amplitude": )" +
                              std::string(amplitude) +
@@ -97,7 +100,7 @@ TEST(Displacement, KeepsNormalsOnTheSideOfTheirFacesHoweverWildTheFieldIs) {
   }
 }
 
-TEST(NormalMap, LeavesTheSurfaceAndGivesItAPicture) {
+TEST(NormalMap, AddsATextureAndKeepsTheSurface) {
   const Result<Model> model = made(onto("cube", R"(, "mapping": "normal_map")", 1));
   ASSERT_TRUE(model);
   ASSERT_EQ(model->textures.size(), 1U);
@@ -111,7 +114,7 @@ TEST(NormalMap, LeavesTheSurfaceAndGivesItAPicture) {
   EXPECT_FLOAT_EQ(box.max.x, 0.5F);
 }
 
-TEST(Onto, GivesTheSameOnAnyNumberOfThreads) {
+TEST(Onto, IsTheSameOnAnyNumberOfThreads) {
   const std::string request = onto("sphere", R"(, "subdivide": 3)");
   const Result<Model> one = made(request), eight = made(request, 8);
   ASSERT_TRUE(one && eight);
@@ -120,7 +123,7 @@ TEST(Onto, GivesTheSameOnAnyNumberOfThreads) {
   EXPECT_TRUE(std::equal(a.normal.begin(), a.normal.end(), b.normal.begin(), b.normal.end()));
 }
 
-TEST(Onto, RefusesWhatBelongsToAGround) {
+TEST(Onto, RefusesOptionsOfAGround) {
   const auto refusal = [](const std::string& more) {
     const Result<Model> model = made(
         R"({"algorithm": "fbm", "onto": {"model": {"generator": "fractal"}, "mapping": "normal_map", "subdivide": 1}, )" +

@@ -24,7 +24,7 @@ SquareSubdivision still(BorderRule border, std::array<double, 4> corners, int ro
   return {.border = border, .rounds = rounds, .amplitude = 0, .corners = corners};
 }
 
-TEST(DiamondSquare, FollowsEachEdgeRuleWhereThereIsNoChance) {
+TEST(DiamondSquare, FollowsEachEdgeRuleWithoutRandomness) {
   const std::array<double, 4> corners{0, 0, 0, 48};
   const auto heights = [&](BorderRule rule) { return values(squares(still(rule, corners, 1))); };
   EXPECT_THAT(heights(BorderRule::two_neighbours), Pointwise(DoubleEq(), {0, 0, 0, 0, 12, 24, 0, 24, 48}));
@@ -57,7 +57,7 @@ TEST(DiamondSquare, RepeatsWithoutASeamWhereItWraps) {
   }
 }
 
-TEST(DiamondSquare, IsRefinedByOneMoreRoundWithoutMovingWhatThereWas) {
+TEST(DiamondSquare, KeepsOldHeightsInAnotherRound) {
   SquareSubdivision plan{.rounds = 5, .amplitude = 10, .falloff = 0.6};
   const Field coarse = squares(plan);
   plan.rounds = 6;
@@ -79,7 +79,7 @@ TEST(Subdivision, IsTheSameWithAnyNumberOfThreads) {
             values(subdivide_nested(nested, all, Rng(3), any_job(8))));
 }
 
-TEST(Subdivision, MakesAnyWindowOfAnEndlessWorldAlike) {
+TEST(Subdivision, AgreesBetweenWindowsOfAnInfiniteWorld) {
   for (const SquareRule rule :
        {SquareRule::diamond_square, SquareRule::triangle_midpoint, SquareRule::triangle_random}) {
     const SquareSubdivision plan{.rule = rule, .rounds = 5, .amplitude = 10, .falloff = 0.7};
@@ -91,7 +91,7 @@ TEST(Subdivision, MakesAnyWindowOfAnEndlessWorldAlike) {
   }
 }
 
-TEST(Subdivision, GivesATileOfTheWorldTheHeightsOfThatTileAlone) {
+TEST(Subdivision, GivesATileTheSameHeightsAsTheWorld) {
   // Under two_neighbours nothing beyond a tile's border reaches into it.
   const SquareSubdivision plan{.rounds = 5, .amplitude = 10, .falloff = 0.7};
   const Field tile = subdivide(plan, World::unbounded, {0, 0, 33, 33}, Rng(seed), any_job());
@@ -175,7 +175,7 @@ TEST(Statistics, OfSquareSquareFollowTheHurstExponent) {
     EXPECT_NEAR(mean(nested, hurst, measured_hurst), expected, 0.06) << hurst;
 }
 
-TEST(Statistics, TellTheCreasesOfDiamondSquareFromTheSmoothnessOfSquareSquare) {
+TEST(Statistics, DistinguishCreasesOfDiamondSquareFromSmoothSquareSquare) {
   for (const auto& [hurst, expected] : {std::pair{0.8, 1.43}, {1.0, 2.03}, {1.2, 3.65}}) {
     EXPECT_NEAR(mean(diamonds, hurst, crease_index), expected, 0.2 * expected) << hurst;
     EXPECT_NEAR(mean(nested, hurst, crease_index), 1.0, 0.05) << hurst;

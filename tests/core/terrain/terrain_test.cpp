@@ -7,10 +7,11 @@
 
 #include "core/generators/terrain/image.h"
 #include "core/generators/terrain/plan.h"
-#include "core/geom/finish.h"
+#include "core/geom/mesh/finish.h"
 #include "core/texture/png.h"
 #include "generated/params/terrain.h"
 #include "tests/core/terrain/support.h"
+#include "tests/support/context.h"
 #include "tests/support/mesh_faults.h"
 
 namespace seedmesh::terrain {
@@ -26,7 +27,7 @@ const TerrainAlgorithm all[] = {TerrainAlgorithm::fault_formation, TerrainAlgori
 
 Model model_of(const TerrainParams& params, int threads = 1) {
   Job job = any_job(threads);
-  Result<Model> model = generate(params, job);
+  Result<Model> model = generate(params, context_of(job));
   EXPECT_TRUE(model) << (model ? ""
                                : model.error().issues.front().pointer + model.error().issues.front().message);
   if (!model) return {};
@@ -74,9 +75,9 @@ TEST(Terrain, RefusesAGridOfTooManyTrianglesBeforeTheFieldIsMade) {
   for (const bool is_made : {true, false}) {
     try {
       if (is_made)
-        (void)generate(params, job);
+        (void)generate(params, context_of(job));
       else
-        (void)appraise(params, job);
+        (void)appraise(params, context_of(job));
       ADD_FAILURE() << "it was taken";
     } catch (const Stop& stop) {
       EXPECT_EQ(stop.issue().pointer, "/iterations");
@@ -133,6 +134,19 @@ const std::pair<const char*, Treatment> treatments[] = {
        params.thermal->talus = 5;
      }},
     {"smoothed", [](TerrainParams& params) { params.smooth = 70; }},
+    {"cut by rivers",
+     [](TerrainParams& params) {
+       params.hydraulic.emplace();
+       params.hydraulic->method = TerrainMethod::stream_power;
+       params.smooth = 20;
+       params.tile->across = 8;
+     }},
+    {"eroded by drops",
+     [](TerrainParams& params) {
+       params.hydraulic.emplace();
+       params.hydraulic->droplets = 2'000;
+       params.tile->across = 8;
+     }},
     {"all",
      [](TerrainParams& params) {
        params.smooth = 30;
@@ -181,7 +195,43 @@ TEST(Tiles, ShareHeightsAndNormalsAlongEveryBorder) {
   }
 }
 
-TEST(Tiles, OfAnIslandAreSeaBeyondIt) {
+TEST(Tiles, OfRiversHaveTheHeightsOfTheWholeField) {
+  constexpr int across = 4, step = 32;
+  TerrainParams params = small(TerrainAlgorithm::fbm);
+  params.amplitude = 40;
+  params.wavelength = 120;
+  params.hydraulic.emplace();
+  params.hydraulic->method = TerrainMethod::stream_power;
+  params.tile.emplace();
+  const auto field = [&](int tiles, int x, int z) {
+    params.tile->across = tiles;
+    params.tile->x = x;
+    params.tile->z = z;
+    params.resolution = across / tiles * step + 1;
+    params.size = 100.0 * across / tiles;
+    return heights_of(params);
+  };
+  const Field whole = field(1, 0, 0);
+  ASSERT_EQ(whole.width, across * step + 1);
+  for (int tz = 0; tz < across; ++tz) {
+    for (int tx = 0; tx < across; ++tx) {
+      const Field tile = field(across, tx, tz);
+      ASSERT_EQ(tile.width, step + 1);
+      ASSERT_EQ(tile.margin, 1);
+      for (int z = 0; z <= step; ++z) {
+        for (int x = 0; x <= step; ++x) ASSERT_EQ(tile.at(x, z), whole.at(tx * step + x, tz * step + z));
+      }
+    }
+  }
+  const Field corner = field(across, 0, 0);
+  EXPECT_EQ(corner.at(-1, 3), 2 * corner.at(0, 3) - corner.at(1, 3))
+      << "the slope continues beyond the world";
+  params.hydraulic.reset();
+  params.tile->across.reset();
+  EXPECT_NE(heights_of(params).at(16, 16), corner.at(16, 16)) << "the rivers cut";
+}
+
+TEST(Tiles, OfAnIslandAreSeaOutsideIt) {
   TerrainParams params = small(TerrainAlgorithm::fbm);
   params.tile.emplace();
   params.tile->across = 4;
@@ -194,7 +244,7 @@ TEST(Tiles, OfAnIslandAreSeaBeyondIt) {
   EXPECT_GT(range_of(middle, any_job()).high, -7);
 }
 
-TEST(Checks, RefuseWhatTheAlgorithmDoesNotHave) {
+TEST(Checks, RefuseOptionsThatTheAlgorithmDoesNotHave) {
   TerrainParams params;
   params.algorithm = TerrainAlgorithm::fault_formation;
   params.amplitude = 3;
@@ -203,7 +253,7 @@ TEST(Checks, RefuseWhatTheAlgorithmDoesNotHave) {
   params.warp = 1;
   EXPECT_THAT(pointers(params), ElementsAre("/amplitude", "/corners", "/edge", "/warp"));
   EXPECT_THAT(check(params, Limits{}).front().message,
-              HasSubstr("it belongs to triangular_edge, diamond_square"));
+              HasSubstr("only these algorithms have it: triangular_edge, diamond_square"));
 }
 
 TEST(Checks, RefuseSizesBeyondTheLimits) {
@@ -218,7 +268,7 @@ TEST(Checks, RefuseSizesBeyondTheLimits) {
   EXPECT_THAT(pointers(params), ElementsAre("/iterations"));
 }
 
-TEST(Checks, RefuseRtinOnAnySideButAPowerOfTwoAndOne) {
+TEST(Checks, RefuseRtinUnlessTheSideIsAPowerOfTwoPlusOne) {
   TerrainParams params = small(TerrainAlgorithm::square_square);
   params.mesh = TerrainMesh::rtin;
   EXPECT_THAT(pointers(params), ElementsAre("/mesh"));
@@ -235,13 +285,25 @@ TEST(Checks, RefuseFiltersThatWouldOpenTheBordersOfTiles) {
   params.edge = TerrainEdge::avg3;
   params.normalise.emplace();
   params.terraces.emplace();
-  params.hydraulic.emplace();
-  EXPECT_THAT(pointers(params), ElementsAre("/tile/across", "/edge", "/corners", "/smooth", "/normalise",
-                                            "/terraces", "/hydraulic"));
+  EXPECT_THAT(pointers(params),
+              ElementsAre("/tile/across", "/edge", "/corners", "/smooth", "/normalise", "/terraces"));
   params = small(TerrainAlgorithm::diamond_square);
   params.tile.emplace();
   params.island.emplace();
   EXPECT_THAT(pointers(params), ElementsAre("/island", "/tile"));
+}
+
+TEST(Checks, RefuseTilesOverWhichNoKnownWaterRuns) {
+  TerrainParams params = small(TerrainAlgorithm::diamond_square);
+  params.tile.emplace();
+  params.hydraulic.emplace();
+  EXPECT_THAT(pointers(params), ElementsAre("/tile"));
+  params.tile->across = 1'000;
+  EXPECT_THAT(pointers(params), ElementsAre("/tile/across"));
+  params.tile->across = 128;
+  EXPECT_THAT(pointers(params), IsEmpty());
+  params.tile->x = 128;
+  EXPECT_THAT(pointers(params), ElementsAre("/tile/x"));
 }
 
 TEST(Checks, RefuseHeightsThatDoNotRise) {
@@ -256,7 +318,7 @@ TEST(Checks, RefuseHeightsThatDoNotRise) {
   EXPECT_THAT(pointers(params), ElementsAre("/normalise/from", "/terraces/from", "/island/depth"));
 }
 
-TEST(Checks, RefuseOnASphereWhatBelongsToThePlane) {
+TEST(Checks, RefuseOptionsOfThePlaneOnASphere) {
   TerrainParams params = small(TerrainAlgorithm::fbm);
   params.shape = TerrainShape::sphere;
   params.base = 3;
@@ -267,7 +329,7 @@ TEST(Checks, RefuseOnASphereWhatBelongsToThePlane) {
   EXPECT_THAT(pointers(params), ElementsAre("/shape"));
 }
 
-TEST(Images, AreRefusedInWordsWhereTheyCannotBeRead) {
+TEST(Images, AreRefusedWithAReasonWhereTheyCannotBeRead) {
   const auto refusal = [](const std::string& data, TerrainEncoding encoding) {
     TerrainParams params;
     params.algorithm = TerrainAlgorithm::image;
@@ -275,22 +337,23 @@ TEST(Images, AreRefusedInWordsWhereTheyCannotBeRead) {
     params.image->data = data;
     params.image->encoding = encoding;
     Job job = any_job();
-    const Result<Model> model = generate(params, job);
+    const Result<Model> model = generate(params, context_of(job));
     EXPECT_FALSE(model);
     return model ? "" : model.error().issues.front().pointer + ": " + model.error().issues.front().message;
   };
-  EXPECT_THAT(refusal("AAAA!AAA", TerrainEncoding::r16), HasSubstr("/image/data: character 5 is no base64"));
+  EXPECT_THAT(refusal("AAAA!AAA", TerrainEncoding::r16), HasSubstr("/image/data: character 5 is not base64"));
   EXPECT_THAT(refusal("AAAAA", TerrainEncoding::r16), HasSubstr("one character of four"));
   EXPECT_THAT(refusal("AAAA", TerrainEncoding::r16), HasSubstr("3 bytes"));
   EXPECT_THAT(refusal("AAAAAAAAAAAAAAAA", TerrainEncoding::r16),
               HasSubstr("6 samples, which are not a square"));
-  EXPECT_THAT(refusal("AAAAAAAAAAAA", TerrainEncoding::grey), HasSubstr("do not begin as a PNG"));
+  EXPECT_THAT(refusal("AAAAAAAAAAAA", TerrainEncoding::grey), HasSubstr("without the signature of a PNG"));
   EXPECT_THAT(refusal("data:image/png,AAAA", TerrainEncoding::grey), HasSubstr("base64"));
-  const std::vector<std::uint8_t> pixels(12, 7);
+  std::vector<std::uint8_t> pixels(12, 7);
+  pixels[4] = 8;
   const Array<std::uint8_t> rgb = texture::encode_png({2, 2, 3, 8, std::as_bytes(std::span(pixels))},
-                                                      texture::PngEffort::fast, any_job());
+                                                      texture::PngEffort::streamed, any_job());
   EXPECT_THAT(refusal(base64(rgb.span()), TerrainEncoding::grey),
-              HasSubstr("found 3 channels of 8 bits; grey is one channel"));
+              HasSubstr("the pixel in column 1 of row 0 is not grey"));
   EXPECT_THAT(refusal(base64(rgb.span()), TerrainEncoding::rgba32), HasSubstr("rgba32 is 4 channels"));
 }
 
@@ -304,7 +367,7 @@ TEST(Images, HaveAWidthOnlyWhereTheyAreRaw) {
   EXPECT_THAT(pointers(params), IsEmpty());
 }
 
-TEST(Images, AreTakenWithOrWithoutPaddingAndAsDataUrls) {
+TEST(Images, AreReadWithOrWithoutPaddingAndAsDataUrls) {
   const Job job = any_job();
   for (const char* text : {"TWE=", "TWE", "data:image/png;base64,TWE="}) {
     const Result<Array<std::uint8_t>> bytes = bytes_of_base64(text, job);
@@ -313,26 +376,26 @@ TEST(Images, AreTakenWithOrWithoutPaddingAndAsDataUrls) {
   }
 }
 
-TEST(Derive, TellsHeightsOfSmallFieldsAndMeasuresOfAll) {
+TEST(Derive, ListsHeightsOfSmallFieldsAndStatisticsOfAll) {
   TerrainParams params = small(TerrainAlgorithm::diamond_square);
   Job job = any_job();
-  Result<Json> told = derive(params, job);
-  ASSERT_TRUE(told);
-  EXPECT_EQ((*told)["width"], 33);
-  EXPECT_EQ((*told)["heights"].size(), 33U * 33);
+  Result<Json> derived = derive(params, context_of(job));
+  ASSERT_TRUE(derived);
+  EXPECT_EQ((*derived)["width"], 33);
+  EXPECT_EQ((*derived)["heights"].size(), 33U * 33);
   params.iterations = 9;
-  told = derive(params, job);
-  ASSERT_TRUE(told);
-  EXPECT_TRUE((*told)["heights"].is_null());
-  EXPECT_LT((*told)["min"].get<double>(), (*told)["max"].get<double>());
+  derived = derive(params, context_of(job));
+  ASSERT_TRUE(derived);
+  EXPECT_TRUE((*derived)["heights"].is_null());
+  EXPECT_LT((*derived)["min"].get<double>(), (*derived)["max"].get<double>());
 }
 
 TEST(Appraisal, CountsTheTrianglesOfAGrid) {
   for (const TerrainAlgorithm algorithm : all) {
     TerrainParams params = small(algorithm);
     params.base = 4;
-    const Job job = any_job();
-    const Result<Appraisal> appraisal = appraise(params, job);
+    Job job = any_job();
+    const Result<Appraisal> appraisal = appraise(params, context_of(job));
     ASSERT_TRUE(appraisal && appraisal->estimate);
     EXPECT_EQ(appraisal->estimate->triangles, count(model_of(params)).triangles) << text_of(algorithm);
   }

@@ -9,7 +9,7 @@
 #include "core/generators/terrain/noise.h"
 #include "core/generators/terrain/scan.h"
 #include "core/generators/terrain/surface.h"
-#include "core/geom/finish.h"
+#include "core/geom/mesh/finish.h"
 #include "tests/core/terrain/support.h"
 #include "tests/support/mesh_faults.h"
 
@@ -38,7 +38,9 @@ Field rough(std::int32_t side) {
 void expect_cover(const Field& field, const Triangulation& mesh) {
   std::int64_t area = 0;
   for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
-    const auto at = [&](std::size_t k) { return place_of(mesh.samples[mesh.index[i + k]], field.width); };
+    const auto at = [&](std::size_t k) {
+      return grid_point_of(mesh.samples[mesh.index[i + k]], field.width);
+    };
     const std::int64_t own = turn(at(0), at(1), at(2));
     ASSERT_GT(own, 0);
     area += own;
@@ -76,7 +78,7 @@ TEST(ReducedMesh, HasNoCornerWithinASide) {
           EXPECT_TRUE(sides.insert({mesh.index[i], mesh.index[next]}).second) << name;
         }
         const auto on_border = [&](std::uint32_t vertex) {
-          const Place at = place_of(mesh.samples[vertex], side);
+          const GridPoint at = grid_point_of(mesh.samples[vertex], side);
           return at.x == 0 || at.z == 0 || at.x == side - 1 || at.z == side - 1;
         };
         for (const auto& [from, to] : sides) {
@@ -120,7 +122,7 @@ TEST(ReducedMesh, GetsSmallerWithAGreaterError) {
   }
 }
 
-TEST(ReducedMesh, OfTheGreedyKindIsSmaller) {
+TEST(ReducedMesh, IsSmallerByTheGreedyMethod) {
   const Field field = hills(257);
   Job job = any_job();
   EXPECT_LT(greedy(field, 0.3, Border::by_error, job).index.size(),
@@ -145,7 +147,7 @@ TEST(ReducedMesh, SharesItsBorderWithTheNeighbour) {
   }
 }
 
-TEST(ReducedMesh, TakesFieldsOfAnyShapeWhereItIsGreedy) {
+TEST(ReducedMesh, SupportsFieldsOfAnyShapeByTheGreedyMethod) {
   const Field field = field_from(37, 90, [](int x, int z) { return (x * z) % 17 + 0.1 * x; });
   Job job = any_job();
   const Triangulation mesh = greedy(field, 1, Border::by_error, job);
@@ -177,9 +179,9 @@ TEST(Scan, VisitsEverySampleOfATriangleOnce) {
   Rng rng(8);
   for (int i = 0; i < 2000; ++i) {
     const auto place = [&] {
-      return Place{static_cast<std::int32_t>(rng.below(40)), static_cast<std::int32_t>(rng.below(40))};
+      return GridPoint{static_cast<std::int32_t>(rng.below(40)), static_cast<std::int32_t>(rng.below(40))};
     };
-    Place a = place(), b = place(), c = place();
+    GridPoint a = place(), b = place(), c = place();
     if (turn(a, b, c) < 0) std::swap(b, c);
     if (turn(a, b, c) == 0) continue;
     std::multiset<std::pair<int, int>> seen, expected;
@@ -188,7 +190,7 @@ TEST(Scan, VisitsEverySampleOfATriangleOnce) {
     });
     for (std::int32_t z = 0; z < 40; ++z) {
       for (std::int32_t x = 0; x < 40; ++x) {
-        const Place p{x, z};
+        const GridPoint p{x, z};
         if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) expected.insert({x, z});
       }
     }
@@ -196,7 +198,7 @@ TEST(Scan, VisitsEverySampleOfATriangleOnce) {
   }
 }
 
-/// Faults of a mesh as it goes out.
+/// IssueList of a mesh as it goes out.
 std::vector<std::string> faults_of(Mesh mesh) {
   Model model;
   model.nodes.emplace_back();
@@ -233,7 +235,7 @@ TEST(Surface, IsClosedByWallsAndAFloor) {
   Triangulation coarse = greedy(field, 0.5, Border::by_error, job);
   Array<std::uint32_t> border(job);
   for (const std::uint32_t sample : coarse.samples) {
-    const Place at = place_of(sample, 33);
+    const GridPoint at = grid_point_of(sample, 33);
     if (at.x == 0 || at.z == 0 || at.x == 32 || at.z == 32) border.push_back(sample);
   }
   const std::pair<Mesh, Mesh> solids[] = {
@@ -252,7 +254,7 @@ TEST(Surface, IsClosedByWallsAndAFloor) {
   }
 }
 
-TEST(Surface, LooksAlikeFromBothSidesOfABorderBetweenTiles) {
+TEST(Surface, IsTheSameOnBothSidesOfABorderBetweenTiles) {
   // With a margin of one sample, normals at a shared border are made from the same heights.
   const auto tile = [](std::int64_t west) {
     NoisePlan plan;

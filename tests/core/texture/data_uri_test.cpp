@@ -16,7 +16,7 @@ std::string fault_of(std::string_view text) {
   return image ? "" : image.error().issues.front().message;
 }
 
-TEST(DataUri, GivesTheFileByteForByte) {
+TEST(DataUri, ReturnsTheFileByteForByte) {
   const Job job(1, Job::Options{});
   const auto image = image_of_data_uri(red, "red", job);
   ASSERT_TRUE(image) << image.error().issues.front().message;
@@ -25,38 +25,77 @@ TEST(DataUri, GivesTheFileByteForByte) {
   EXPECT_EQ((*image)->bytes[1], 'P');
 }
 
-TEST(DataUri, RefusesWhatIsNoPicture) {
+TEST(DataUri, RejectsOtherFiles) {
   EXPECT_NE(fault_of("https://example.org/a.png").find("expected \"data:image/png;base64,"),
             std::string::npos);
-  EXPECT_EQ(fault_of("data:image/png;base64,!!!!"), "found characters that are no base64");
-  EXPECT_EQ(fault_of("data:image/jpeg;base64,AAAA"), "found no JPEG file, or only a part of one");
+  EXPECT_EQ(fault_of("data:image/png;base64,!!!!"), "found characters that are not base64");
+  EXPECT_EQ(fault_of("data:image/jpeg;base64,AAAA"), "found no complete JPEG file");
   EXPECT_FALSE(fault_of("data:image/png;base64,AAAA").empty());
   EXPECT_FALSE(fault_of("data:image/png;base64,").empty());
 }
 
-TEST(DataUri, SaysWhatWasFoundInPlaceOfAPicture) {
+TEST(DataUri, ReportsWhatWasFoundInsteadOfAnImage) {
   using testing::StartsWith;
   EXPECT_THAT(fault_of_image_uri("https://example.org/bark.png"),
-              StartsWith("found \"https://example.org/bark.png\", which is no such picture; expected"));
+              StartsWith("found \"https://example.org/bark.png\", which is not such an image; expected"));
   EXPECT_THAT(fault_of_image_uri("data:image/webp;base64,UklGRg=="),
               StartsWith("found \"data:image/webp…\""));
   EXPECT_THAT(fault_of_image_uri("\xC3\xA9"), StartsWith("found no image; expected"));
 }
 
-TEST(DataUri, RefusesAPictureThatIsCutShort) {
+TEST(DataUri, RejectsATruncatedImage) {
   for (std::size_t length = 30; length + 4 < red.size(); length += 4)
     EXPECT_FALSE(fault_of(red.substr(0, length)).empty());
 }
 
-TEST(DataUri, TellsOfAPictureThatIsCutShortWithoutItsPixels) {
+TEST(DataUri, DetectsATruncatedImageWithoutDecodingIt) {
   EXPECT_EQ(fault_of_image_uri(red), "");
   for (std::size_t length = 24; length + 4 < red.size(); length += 4)
     EXPECT_FALSE(fault_of_image_uri(red.substr(0, length)).empty()) << length;
   EXPECT_EQ(fault_of_image_uri("data:image/png;base64,iVBORw0KGgo="),
-            "the PNG is truncated: it ends after 8 bytes, before its data do");
+            "the PNG is truncated: it ends after 8 bytes, before the end of its data");
 }
 
-TEST(DataUri, TellsWhetherAPictureHasAlpha) {
+// Files of 3 x 2 texels by libvips: baseline, and progressive.
+constexpr std::string_view jpegs[] = {
+    "/9j/2wBDAP//////////////////////////////////////////////////////////////////////////////////////2wBDAf//"
+    "//"
+    "//////////////////////////////////////////////////////////////////////////////////"
+    "wAARCAACAAMDASIAAhEBAxEB/"
+    "8QAFQABAQAAAAAAAAAAAAAAAAAAAAL/xAAUEAEAAAAAAAAAAAAAAAAAAAAA/8QAFQEBAQAAAAAAAAAAAAAAAAAAAQP/"
+    "xAAUEQEAAAAAAAAAAAAAAAAAAAAA/9oADAMBAAIRAxEAPwCQAo//2Q==",
+    "/9j/2wBDAP//////////////////////////////////////////////////////////////////////////////////////2wBDAf//"
+    "//"
+    "//////////////////////////////////////////////////////////////////////////////////"
+    "wgARCAACAAMDASIAAhEBAxEB/"
+    "8QAFQABAQAAAAAAAAAAAAAAAAAAAAH/xAAVAQEBAAAAAAAAAAAAAAAAAAABAv/aAAwDAQACEAMQAAABgK//"
+    "xAAUEAEAAAAAAAAAAAAAAAAAAAAA/"
+    "9oACAEBAAEFAn//xAAUEQEAAAAAAAAAAAAAAAAAAAAA/9oACAEDAQE/AX//xAAUEQEAAAAAAAAAAAAAAAAAAAAA/9oACAECAQE/AX//"
+    "xAAUEAEAAAAAAAAAAAAAAAAAAAAA/9oACAEBAAY/An//xAAUEAEAAAAAAAAAAAAAAAAAAAAA/9oACAEBAAE/IX//"
+    "2gAMAwEAAgADAAAAEAv/"
+    "xAAUEQEAAAAAAAAAAAAAAAAAAAAA/9oACAEDAQE/EH//xAAUEQEAAAAAAAAAAAAAAAAAAAAA/9oACAECAQE/EH//"
+    "xAAUEAEAAAAAAAAAAAAAAAAAAAAA/9oACAEBAAE/EH//2Q=="};
+
+TEST(DataUri, ReadsTheSizeOfAJpeg) {
+  const std::string head = "data:image/jpeg;base64,";
+  for (const std::string_view file : jpegs) {
+    EXPECT_EQ(fault_of(head + std::string(file)), "");
+    // "CAACAAMD" is 08 0002 0003 03: the precision, height, width and components of the frame header.
+    const auto with_size = [&](std::string_view size) {
+      std::string changed(file);
+      return head + changed.replace(changed.find("CAACAAMD"), 8, size);
+    };
+    EXPECT_EQ(fault_of(with_size("CCAAIAAD")), "") << "8192 x 8192";
+    EXPECT_EQ(fault_of(with_size("CCABAAMD")), "the JPEG has 3 x 8193 pixels; a side may have 8192");
+    EXPECT_EQ(fault_of(with_size("CAAC//8D")), "the JPEG has 65535 x 2 pixels; a side may have 8192");
+    EXPECT_EQ(fault_of(with_size("CAAAAAMD")), "the JPEG does not state its size");
+  }
+  EXPECT_EQ(fault_of(head + "/9j/2Q=="), "found no complete JPEG file") << "no frame at all";
+  EXPECT_EQ(fault_of(head + "/9j/4AAA/8AAEQgAAQAB/9k="), "found no complete JPEG file")
+      << "a segment of no length";
+}
+
+TEST(DataUri, DetectsAnAlphaChannel) {
   Job job(0, Job::Options{});
   const std::string head = "data:image/png;base64,";
   const std::pair<std::string, bool> pictures[] = {

@@ -1,4 +1,4 @@
-/// Pictures of models: what they show, where, and that they are the same everywhere.
+/// Impostors: their content, its position, and equal bytes everywhere.
 #include "core/texture/impostor.h"
 
 #include <gmock/gmock.h>
@@ -72,14 +72,14 @@ std::array<int, 4> texel(const Picture& picture, std::size_t x, std::size_t y) {
   return channels;
 }
 
-TEST(Impostor, ShowsWhatIsNearestAndNothingWhereNothingIs) {
+TEST(Impostor, ShowsTheNearestSurfaceOrNothing) {
   Job job = job_of();
   Model model = two_sheets(job);
   ASSERT_EQ(add_impostor_levels(model, job), 1U);
   const Picture picture = drawn(model, 128);
   ASSERT_EQ(picture.width, 128U);
   ASSERT_EQ(picture.channels, 4);
-  // The first view looks along -Z and stands in the upper left quarter: 64 texels, 2 of them free each side.
+  // The first view looks along -Z and is in the upper left quarter: 64 texels, with 2 free texels on each side.
   const auto below = texel(picture, 20, 50), above = texel(picture, 20, 15), open = texel(picture, 48, 15);
   EXPECT_GT(below[0], 150);
   EXPECT_EQ(below[1], 0);
@@ -91,7 +91,7 @@ TEST(Impostor, ShowsWhatIsNearestAndNothingWhereNothingIs) {
   EXPECT_GT(open[0] + open[1], 0) << "colours go on beyond the edge";
 }
 
-TEST(Impostor, TakesTheLastLevelOfTheFirstMeshAndNothingElseIsShownThere) {
+TEST(Impostor, ReplacesTheCoarsestLevelOfTheModel) {
   Job job = job_of();
   Model model = two_sheets(job);
   model.nodes[1].lods = {1};  // one mesh has two levels, the other one
@@ -102,7 +102,7 @@ TEST(Impostor, TakesTheLastLevelOfTheFirstMeshAndNothingElseIsShownThere) {
   EXPECT_EQ(model.meshes[2].primitives.at(0).mesh.elements(), triangles_of_impostor);
 }
 
-TEST(Impostor, StandsWhereTheModelStandsAndIsAsLarge) {
+TEST(Impostor, HasThePositionAndSizeOfTheModel) {
   Job job = job_of();
   Model model = two_sheets(job);
   add_impostor_levels(model, job);
@@ -115,7 +115,7 @@ TEST(Impostor, StandsWhereTheModelStandsAndIsAsLarge) {
   for (const glm::vec3& normal : quads.normal) EXPECT_NEAR(glm::dot(normal, normal), 1, 1e-6);
 }
 
-TEST(Impostor, KeepsAsMuchOfThePictureAsTheModelCovers) {
+TEST(Impostor, CoversAsManyTexelsAsTheModel) {
   Job job = job_of();
   std::vector<std::array<glm::vec2, 2>> boxes;
   Rng rng(5);
@@ -168,7 +168,7 @@ TEST(Impostor, HasTheNormalsOfWhatItShows) {
   const auto is_near = [](const std::array<int, 3>& found, const std::array<int, 3>& expected) {
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 2);
   };
-  // The first view looks along -Z and stands in the upper left quarter: 32 texels.
+  // The first view looks along -Z and is in the upper left quarter: 32 texels.
   is_near(normal(8, 16), {128, 204, 230});
   is_near(normal(24, 16), {51, 128, 230});
   is_near(normal(48, 48), {128, 128, 255});  // the quarter that stays free

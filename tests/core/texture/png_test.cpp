@@ -73,11 +73,11 @@ std::string refusal(const std::string& file) {
   return picture ? "" : picture.error().issues.front().message;
 }
 
-TEST(Png, GivesBackEveryPixelOfEveryKind) {
+TEST(Png, PreservesEveryPixelOfEveryKind) {
   const Job job = any_job();
   for (const int channels : {1, 2, 3, 4}) {
     for (const int bits : {8, 16}) {
-      for (const PngEffort effort : {PngEffort::fast, PngEffort::small}) {
+      for (const PngEffort effort : {PngEffort::streamed, PngEffort::quick, PngEffort::small}) {
         const auto bytes = noise(std::size_t{19} * 70 * static_cast<std::size_t>(channels * bits / 8));
         const PictureView picture{19, 70, channels, bits, std::as_bytes(std::span(bytes))};
         const Array<std::uint8_t> file = encode_png(picture, effort, job);
@@ -97,7 +97,7 @@ TEST(Png, Stores16BitsWithTheHighByteFirst) {
   const Job job = any_job();
   const std::vector<std::uint16_t> pixel = {0x1234};
   const Array<std::uint8_t> file =
-      encode_png({1, 1, 1, 16, std::as_bytes(std::span(pixel))}, PngEffort::fast, job);
+      encode_png({1, 1, 1, 16, std::as_bytes(std::span(pixel))}, PngEffort::streamed, job);
   const Result<Picture> picture = decode_png(std::as_bytes(file.span()), {}, job);
   ASSERT_TRUE(picture);
   EXPECT_EQ(picture->channel(0), 0x1234U);
@@ -106,16 +106,16 @@ TEST(Png, Stores16BitsWithTheHighByteFirst) {
   EXPECT_EQ(text_of(file).find("tIME"), std::string::npos);
 }
 
-TEST(Png, SaysOfATruncatedFileThatItIsTruncatedWhereverItEnds) {
+TEST(Png, ReportsTruncationWhereverAFileEnds) {
   const std::string file = a_file();
   for (std::size_t size = 8; size < file.size(); ++size) {
     EXPECT_THAT(refusal(file.substr(0, size)), HasSubstr("truncated")) << size;
   }
-  EXPECT_THAT(refusal(file.substr(0, 5)), HasSubstr("5 bytes that do not begin as a PNG"));
+  EXPECT_THAT(refusal(file.substr(0, 5)), HasSubstr("5 bytes without the signature of a PNG"));
   EXPECT_THAT(refusal(""), HasSubstr("0 bytes"));
 }
 
-TEST(Png, RefusesAnyBitTurnedInWhatMatters) {
+TEST(Png, RejectsAnyFlippedBit) {
   const std::string file = a_file();
   constexpr std::size_t last_sum =
       4;  // of IEND, which holds nothing; newer versions of libpng do not look at it
@@ -126,7 +126,7 @@ TEST(Png, RefusesAnyBitTurnedInWhatMatters) {
   }
 }
 
-TEST(Png, RefusesABombByItsSideBeforeItTouchesMemory) {
+TEST(Png, RejectsABombByItsSizeBeforeItAllocates) {
   const Job job = job_with_memory(1000);
   const std::string file = head(60'000, 60'000) + chunk("IDAT", std::string(100, '\0')) + chunk("IEND", "");
   const Result<Picture> picture = decode_png(bytes_of(file), {}, job);
@@ -135,7 +135,7 @@ TEST(Png, RefusesABombByItsSideBeforeItTouchesMemory) {
             "the PNG has 60000 x 60000 pixels; a side may have 16385");
 }
 
-TEST(Png, RefusesASizeThatItsBytesCannotHold) {
+TEST(Png, RejectsASizeThatItsBytesCannotHold) {
   const Job job = job_with_memory(1000);
   const std::string file = head(16'000, 16'000) + chunk("IDAT", std::string(100, '\0')) + chunk("IEND", "");
   const Result<Picture> picture = decode_png(bytes_of(file), {}, job);
@@ -147,10 +147,10 @@ TEST(Png, ChargesItsPixelsToTheRequest) {
   const Job job = job_with_memory(63);
   const std::string file = a_file();
   EXPECT_THROW((void)decode_png(bytes_of(file), {}, job), Stop);
-  EXPECT_EQ(job.purse()->used(), 0U);
+  EXPECT_EQ(job.budget()->used(), 0U);
   const auto bytes = noise(64);
-  EXPECT_THROW(encode_png({8, 8, 1, 8, std::as_bytes(std::span(bytes))}, PngEffort::fast, job), Stop);
-  EXPECT_EQ(job.purse()->used(), 0U);
+  EXPECT_THROW(encode_png({8, 8, 1, 8, std::as_bytes(std::span(bytes))}, PngEffort::streamed, job), Stop);
+  EXPECT_EQ(job.budget()->used(), 0U);
 }
 
 TEST(Png, ExpandsPalettesToColoursAndFewBitsToEight) {
@@ -177,7 +177,7 @@ TEST(Png, ExpandsPalettesToColoursAndFewBitsToEight) {
   EXPECT_EQ(std::vector<int>(grey->bytes.begin(), grey->bytes.end()), (std::vector<int>{0, 85, 170, 255}));
 }
 
-TEST(Png, RefusesPixelsWithoutAHeaderAndAHeaderWithoutPixels) {
+TEST(Png, RejectsPixelsWithoutAHeaderAndAHeaderWithoutPixels) {
   const std::string signature("\x89PNG\r\n\x1A\n", 8);
   EXPECT_THAT(refusal(signature + chunk("IDAT", "x") + chunk("IEND", "")), HasSubstr("damaged"));
   EXPECT_THAT(refusal(head(2, 2) + chunk("IEND", "")), HasSubstr("damaged"));

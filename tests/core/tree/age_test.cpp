@@ -46,7 +46,7 @@ float height_of(const Limbs& limbs) {
   return height;
 }
 
-TEST(Age, LetsNoLimbJumpBetweenNeighbouringAges) {
+TEST(Age, MovesNoLimbFarBetweenCloseAges) {
   for (const TreeParams& params : one_of_each_model()) {
     const float height = height_of(Aged(params, 1).limbs());
     constexpr int steps = 60;
@@ -73,7 +73,7 @@ TEST(Age, LetsNoLimbJumpBetweenNeighbouringAges) {
   }
 }
 
-TEST(Age, IsTheWholeTreeInTheEndAndASeedlingAtFirst) {
+TEST(Age, EndsWithTheWholeTreeAndBeginsWithASeedling) {
   for (const TreeParams& params : one_of_each_model()) {
     const Skeletons whole(params, 3);
     const Aged old(params, 1), new_born(params, 0);
@@ -83,7 +83,7 @@ TEST(Age, IsTheWholeTreeInTheEndAndASeedlingAtFirst) {
   }
 }
 
-TEST(Age, AddsLimbsAndHeightAsYearsGoBy) {
+TEST(Age, AddsLimbsAndHeightEveryYear) {
   for (const TreeParams& params : one_of_each_model()) {
     std::size_t limbs = 0;
     float height = 0;
@@ -141,7 +141,7 @@ TEST(Age, GivesASeedlingLeavesOnItsStem) {
   }
 }
 
-TEST(Age, LetsTheFirstLeavesShrinkAwayByAndBy) {
+TEST(Age, ShrinksTheFirstLeavesGradually) {
   for (const TreeParams& params : one_of_each_model()) {
     std::map<std::uint64_t, float> before;
     for (int i = 0; i <= 120; ++i) {
@@ -158,7 +158,7 @@ TEST(Age, LetsTheFirstLeavesShrinkAwayByAndBy) {
   }
 }
 
-TEST(Age, KeepsChildrenThinnerThanWhatTheyGrowFrom) {
+TEST(Age, KeepsChildrenThinnerThanTheirParents) {
   const Aged young(TreeParams{}, 0.5);
   const Limbs& limbs = young.limbs();
   for (std::size_t i = 1; i < limbs.size(); ++i) {

@@ -1,4 +1,4 @@
-/// What is told of a tree before it is made, against what is made.
+/// Estimates of trees compared with their models.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -29,26 +29,26 @@ std::uint64_t triangles_of(const Model& model) {
   return triangles;
 }
 
-TEST(Estimate, IsWithinAQuarterOfWhatIsMadeForEveryPreset) {
+TEST(Estimate, IsWithinAQuarterOfTheModelOfEveryPreset) {
   const std::filesystem::path presets = std::string(SEEDMESH_SOURCE_DIR) + "/api_schema/presets/tree";
   std::size_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(presets)) {
     const Json preset = Json::parse(text_of_file(entry.path()));
-    Faults faults;
+    IssueList faults;
     const TreeParams params = read_tree(preset.at("parameters"), "/parameters", faults);
     ASSERT_TRUE(faults.empty()) << entry.path();
     const auto seed = preset.value("seed", std::uint64_t{0});
     Job job(seed, Job::Options{});
-    const Result<Appraisal> appraisal = appraise(params, job);
+    const Result<Appraisal> appraisal = appraise(params, {job});
     ASSERT_TRUE(appraisal) << entry.path();
     ASSERT_TRUE(appraisal->estimate) << entry.path();
     EXPECT_EQ(job.spent(Resource::triangles), 0U);
-    const Result<Model> model = generate(params, job);
+    const Result<Model> model = generate(params, {job});
     ASSERT_TRUE(model) << entry.path();
-    const auto told = static_cast<double>(appraisal->estimate->triangles);
+    const auto estimated = static_cast<double>(appraisal->estimate->triangles);
     const auto made = static_cast<double>(triangles_of(*model));
-    EXPECT_LT(told, 1.25 * made) << entry.path();
-    EXPECT_GT(told, made / 1.25) << entry.path();
+    EXPECT_LT(estimated, 1.25 * made) << entry.path();
+    EXPECT_GT(estimated, made / 1.25) << entry.path();
     ++count;
   }
   EXPECT_GT(count, 20U);
@@ -56,39 +56,39 @@ TEST(Estimate, IsWithinAQuarterOfWhatIsMadeForEveryPreset) {
 
 TEST(Estimate, FollowsAgeRangeAndSeason) {
   TreeParams params;
-  const auto told = [](const TreeParams& given) {
-    const Job job(1, Job::Options{});
-    return appraise(given, job)->estimate->triangles;
+  const auto estimated = [](const TreeParams& given) {
+    Job job(1, Job::Options{});
+    return appraise(given, {job})->estimate->triangles;
   };
-  const std::uint64_t whole = told(params);
+  const std::uint64_t whole = estimated(params);
   params.range = 300;
-  EXPECT_LT(told(params), whole / 2);
+  EXPECT_LT(estimated(params), whole / 2);
   params.range = 0;
   params.age = 4;
-  EXPECT_LT(told(params), whole / 2);
+  EXPECT_LT(estimated(params), whole / 2);
   params.age.reset();
   params.season = TreeSeason::winter;
-  EXPECT_LT(told(params), whole);
+  EXPECT_LT(estimated(params), whole);
 }
 
-TEST(Estimate, IsNotMadeOfWhatWouldTakeLong) {
+TEST(Estimate, IsOmittedWhereItWouldTakeLong) {
   TreeParams params;
   params.branches_1 = 400;
   params.branches_2 = 400;
   params.branches_3 = 100;
   params.Levels = 4;
-  const Job job(1, Job::Options{});
-  const Result<Appraisal> appraisal = appraise(params, job);
+  Job job(1, Job::Options{});
+  const Result<Appraisal> appraisal = appraise(params, {job});
   ASSERT_TRUE(appraisal);
   EXPECT_FALSE(appraisal->estimate);
 }
 
-TEST(Estimate, RefusesWhatPassesTheLimits) {
+TEST(Estimate, RefusesTreesAboveTheLimits) {
   TreeParams params;
   Job::Options options;
   options.limits.triangles = 6'000;
-  const Job job(1, options);
-  EXPECT_THROW((void)appraise(params, job), Stop);
+  Job job(1, options);
+  EXPECT_THROW((void)appraise(params, {job}), Stop);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include "core/base/rng.h"
 #include "core/generators/tree/tree.h"
-#include "core/geom/finish.h"
+#include "core/geom/mesh/finish.h"
 #include "core/schema/embedded.h"
 #include "generated/params/tree.h"
 #include "tests/support/mesh_faults.h"
@@ -57,7 +57,7 @@ Json drawn(const Json& schema, Rng rng) {
 
 /// 0: refused, 1: sound.
 int outcome(const Json& json, std::uint64_t seed) {
-  Faults faults;
+  IssueList faults;
   TreeParams params = read_tree(json, "/parameters", faults);
   EXPECT_TRUE(faults.empty());
   if (params.mSegments % 2) ++params.mSegments;
@@ -66,7 +66,7 @@ int outcome(const Json& json, std::uint64_t seed) {
   options.limits.memory_bytes = std::uint64_t{1} << 28U;
   Job job(seed, options);
   try {
-    Result<Model> model = generate(params, job);
+    Result<Model> model = generate(params, {job});
     EXPECT_TRUE(model);
     finish(*model, job);
     for (const std::string& fault : seedmesh::faults(*model)) {
@@ -75,11 +75,17 @@ int outcome(const Json& json, std::uint64_t seed) {
           fault.starts_with("leaves:") &&
           (fault.find("edges") != std::string::npos || fault.find("duplicate") != std::string::npos);
       const bool is_about_order = fault.find("cache misses") != std::string::npos;
-      EXPECT_TRUE(is_of_leaves || is_about_order) << fault << " of seed " << seed << ": " << json.dump();
+      // Several trunks without any distance start at one point.
+      const bool trunks_meet =
+          json.value("0Branches", 1) > 1 && fault.find("duplicate vertices") != std::string::npos;
+      EXPECT_TRUE(is_of_leaves || is_about_order || trunks_meet)
+          << fault << " of seed " << seed << ": " << json.dump();
     }
     return 1;
   } catch (const Stop& stop) {
-    EXPECT_EQ(stop.code(), Code::limit);
+    // A bark whose limbs overlap too densely to be closed is refused as invalid, everything else by a limit.
+    EXPECT_TRUE(stop.code() == Code::limit || stop.issue().kind == IssueKind::evaluation)
+        << stop.issue().message;
     return 0;
   }
 }

@@ -11,7 +11,7 @@ struct Wanted {
   Frame stem;
   glm::dvec3 position;
   double about, down;
-  LeafFrames::Stance stance() const { return {about, down, 77}; }
+  LeafFrames::Angles angles() const { return {about, down, 77}; }
 };
 
 constexpr glm::vec3 scale{0.5F, 1, 1};
@@ -33,12 +33,12 @@ std::vector<Wanted> some(std::size_t count) {
   return leaves;
 }
 
-std::vector<Organ> reckoned(const std::vector<Wanted>& leaves, const LeafFrames::Habit& habit) {
+std::vector<Organ> written(const std::vector<Wanted>& leaves, const LeafFrames::Options& options) {
   LeafFrames frames;
   std::uint32_t joint = 0;
-  for (const Wanted& leaf : leaves) frames.add(quaternion(leaf.stem), leaf.position, joint++, leaf.stance());
+  for (const Wanted& leaf : leaves) frames.add(quaternion(leaf.stem), leaf.position, joint++, leaf.angles());
   std::vector<Organ> organs(leaves.size());
-  frames.reckon(habit, scale, organs.data());
+  frames.write(options, scale, organs.data());
   EXPECT_EQ(frames.size(), leaves.size());
   frames.clear();
   EXPECT_EQ(frames.size(), 0U);
@@ -50,19 +50,19 @@ double between(const glm::quat& a, const glm::quat& b) {
   return 1 - std::abs(static_cast<double>(a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z));
 }
 
-TEST(LeafFrames, AreThoseOfEachLeafByItself) {
+TEST(LeafFrames, EqualThoseOfSingleLeaves) {
   const Rng chance = Rng(77);  // of all leaves here
   for (const double vary : {0.0, 25.0, -40.0}) {
     for (const double bend : {0.0, 0.3, 1.0}) {
       const std::vector<Wanted> leaves = some(101);
-      const std::vector<Organ> organs = reckoned(leaves, {bend, vary, 0.5 * vary});
+      const std::vector<Organ> organs = written(leaves, {bend, vary, 0.5 * vary});
       for (std::size_t i = 0; i < leaves.size(); ++i) {
         const Wanted& leaf = leaves[i];
         const double about = leaf.about + spread(chance.at("rotate"), vary);
         const double down = leaf.down + spread(chance.at("down"), 0.5 * vary);
         Frame frame =
             pitch(roll(leaf.stem, math::quick_sincos_degrees(about)), math::quick_sincos_degrees(down));
-        if (bend > 0) frame = to_light(frame, leaf.position, bend);
+        if (bend > 0) frame = turned_to_light(frame, leaf.position, bend);
         const glm::quat q = organs[i].frame;
         EXPECT_NEAR(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 1, 2e-6);
         EXPECT_GE(q.w, 0);
@@ -80,18 +80,18 @@ TEST(LeafFrames, AreThoseOfEachLeafByItself) {
   }
 }
 
-TEST(LeafFrames, DoNotDependOnTheirNumberAndPlaceAmongOthers) {
-  const LeafFrames::Habit habit{0.4, 20, 10};
+TEST(LeafFrames, DoNotDependOnTheOtherLeaves) {
+  const LeafFrames::Options options{0.4, 20, 10};
   const std::vector<Wanted> leaves = some(101);
-  const std::vector<Organ> all = reckoned(leaves, habit);
+  const std::vector<Organ> all = written(leaves, options);
   for (const std::size_t i : {0U, 3U, 17U, 64U, 100U}) {
-    const std::vector<Organ> one = reckoned({leaves[i]}, habit);
+    const std::vector<Organ> one = written({leaves[i]}, options);
     EXPECT_EQ(one[0].frame, all[i].frame) << i;
   }
 }
 
 TEST(LeafFrames, TurnTheUpperSideUp) {
-  const std::vector<Organ> organs = reckoned(some(64), {1, 0, 0});
+  const std::vector<Organ> organs = written(some(64), {1, 0, 0});
   for (std::size_t i = 3; i < organs.size(); ++i) {
     const glm::quat q = organs[i].frame;
     const float up = 2 * (q.y * q.z - q.w * q.x);  // of +Z turned by it, along +Y

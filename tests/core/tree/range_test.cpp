@@ -61,7 +61,7 @@ TEST(Range, LosesLeavesSoonerInSpring) {
   EXPECT_NEAR(shares_at(params).leaves, 0.5, 1e-12);
 }
 
-TEST(Range, DrawsSoManyLimbsOfEachLevel) {
+TEST(Range, DrawsTheGivenNumberOfLimbsOfEachLevel) {
   const Degraded near(at_range(0)), half(at_range(75)), far(at_range(600));
   EXPECT_NEAR(static_cast<double>(half.limbs_of(2)) / static_cast<double>(near.limbs_of(2)), 0.5, 0.05);
   EXPECT_EQ(half.limbs_of(1), near.limbs_of(1));
@@ -70,14 +70,14 @@ TEST(Range, DrawsSoManyLimbsOfEachLevel) {
   EXPECT_EQ(far.limbs_of(0), near.limbs_of(0)) << "the trunk stays";
 }
 
-TEST(Range, DrawsFromAfarWhatItDrawsFromNearer) {
+TEST(Range, DrawsAtADistanceASubsetOfTheNearLimbs) {
   const Degraded near(at_range(60)), far(at_range(90));
   const std::set<std::uint64_t> more = near.keys(2), fewer = far.keys(2);
   EXPECT_LT(fewer.size(), more.size());
   EXPECT_TRUE(std::includes(more.begin(), more.end(), fewer.begin(), fewer.end()));
 }
 
-TEST(Range, KeepsLeavesOnWhatIsLeft) {
+TEST(Range, KeepsLeavesOnTheRemainingLimbs) {
   const Degraded far(at_range(600));
   ASSERT_GT(far.skeleton.organs.organ.size(), 1000U);
   for (const Organ& leaf : far.skeleton.organs.organ) ASSERT_LT(leaf.limb_joint, far.skeleton.limbs.size());

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/generators/tree/range.h"
+#include "core/geom/plant/tube_formulas.h"
 #include "tests/core/tree/support.h"
 
 namespace seedmesh::tree {
@@ -23,7 +25,7 @@ TreeParams still() {
 /// Joints of the trunk, from the foot.
 std::vector<glm::vec3> trunk(const TreeParams& params) { return Skeletons(params, 1).trunk(); }
 
-TEST(Sculpt, LetsTheGapsBetweenWhorlsShrinkTowardTheTip) {
+TEST(Sculpt, ShrinksTheGapsBetweenWhorlsTowardTheTip) {
   TreeParams params = still();
   params.sculpt.level[0].bend = 0;
   params.sculpt.level[0].gap = 0.1;
@@ -68,22 +70,22 @@ TEST(Sculpt, FitsLimbsIntoTheBoundingShape) {
   }
 }
 
-TEST(Sculpt, MeasuresTheRoomInABoxByItsSides) {
+TEST(Sculpt, MeasuresTheDistanceToTheSidesOfABox) {
   TreeLevel level;
   level.shape = TreeShape::box;
   level.width = 0.5;
-  EXPECT_NEAR(room_in_shape(level, 10, 5, {1, 0, 0}), 5, 1e-4);
-  EXPECT_NEAR(room_in_shape(level, 10, 5, {std::sqrt(0.5), 0, std::sqrt(0.5)}), 5 * std::sqrt(2.0), 1e-4);
-  EXPECT_NEAR(room_in_shape(level, 10, 5, {0, 1, 0}), 5, 1e-4);
+  EXPECT_NEAR(distance_in_shape(level, 10, 5, {1, 0, 0}), 5, 1e-4);
+  EXPECT_NEAR(distance_in_shape(level, 10, 5, {std::sqrt(0.5), 0, std::sqrt(0.5)}), 5 * std::sqrt(2.0), 1e-4);
+  EXPECT_NEAR(distance_in_shape(level, 10, 5, {0, 1, 0}), 5, 1e-4);
 }
 
-TEST(Sculpt, TurnsALatheShapeFromItsProfile) {
+TEST(Sculpt, RevolvesTheProfileOfALatheShape) {
   TreeLevel level;
   level.shape = TreeShape::lathe;
   level.width = 1;
   level.profile = {0, 1, 0};
-  EXPECT_NEAR(room_in_shape(level, 10, 5, {1, 0, 0}), 10, 1e-3);
-  EXPECT_NEAR(room_in_shape(level, 10, 2.5, {1, 0, 0}), 5, 1e-3);
+  EXPECT_NEAR(distance_in_shape(level, 10, 5, {1, 0, 0}), 10, 1e-3);
+  EXPECT_NEAR(distance_in_shape(level, 10, 2.5, {1, 0, 0}), 5, 1e-3);
 }
 
 TEST(Sculpt, EndsAtTheShortestLimbAndAtTheLastLevel) {
@@ -125,7 +127,7 @@ TEST(Sculpt, BendsToOneSideWithoutSpinAndInASpiralWithIt) {
   EXPECT_LT(aside(trunk(params)), 0.25F * bow);
 }
 
-TEST(Sculpt, IsTheSameForEverySeedWhenNothingIsLeftToChance) {
+TEST(Sculpt, IsTheSameForEverySeedWithoutRandomParameters) {
   const TreeParams params = still();
   const Skeletons one(params, 1), other(params, 2);
   ASSERT_EQ(one.limbs().size(), other.limbs().size());
@@ -133,6 +135,30 @@ TEST(Sculpt, IsTheSameForEverySeedWhenNothingIsLeftToChance) {
     // The trunk's first direction about itself is drawn; heights and lengths are not.
     EXPECT_NEAR(one.limbs().position[i].y, other.limbs().position[i].y, 1e-3F);
   }
+}
+
+TEST(Sculpt, TakesTheRadiusOfTheTrunkFromItsOption) {
+  TreeParams params = still();
+  const float tapered = Skeletons(params, 1).limbs().base_radius[1];
+  EXPECT_NEAR(tapered, 0.004 + 10 * std::tan(0.9 * 3.14159265358979 / 180), 1e-5) << "tip and taper";
+  params.sculpt.trunk_radius = 0.5;
+  const Skeletons tree(params, 1);
+  EXPECT_FLOAT_EQ(tree.limbs().base_radius[1], 0.5F);
+  EXPECT_NEAR(tree.trunk().back().y, 10, 0.2) << "as high as before";
+}
+
+TEST(Sculpt, LosesFacesLinearlyWithDistanceAndKeepsItsLimbs) {
+  TreeParams params = still();
+  params.sculpt.faces = TreeFaces::linear;
+  for (const double range : {0.0, 150.0, 300.0, 500.0, 2000.0}) {
+    params.range = range;
+    const RangeShares shares = shares_at(params);
+    EXPECT_NEAR(shares.sides, std::max(1.0 / 6, 1 - range / 600), 1e-12) << range;
+    EXPECT_EQ(shares.branches, 1);
+    EXPECT_EQ(shares.twigs, 1);
+  }
+  EXPECT_EQ(corners_by_radius(0.25F, 1, 24, 1), 6) << "in proportion to the radius";
+  EXPECT_EQ(corners_by_radius(0.5F, 1, 24, 1), 12);
 }
 
 }  // namespace

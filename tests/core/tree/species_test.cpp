@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "core/generators/tree/weber_penn_shape.h"
-#include "core/geom/graft.h"
+#include "core/geom/plant/graft/graft.h"
 #include "tests/core/tree/support.h"
 
 namespace seedmesh::tree {
@@ -16,7 +16,7 @@ TreeParams species(const std::string& name) {
   std::ifstream file(std::string(SEEDMESH_SOURCE_DIR) + "/api_schema/presets/tree/" + name + ".json");
   std::stringstream text;
   text << file.rdbuf();
-  Faults faults;
+  IssueList faults;
   TreeParams params = read_tree(Json::parse(text.str()).at("parameters"), "/parameters", faults);
   EXPECT_TRUE(faults.empty());
   return params;
@@ -48,7 +48,7 @@ std::vector<Stem> stems(const Limbs& limbs, int order) {
   return out;
 }
 
-TEST(Species, StandAsHighAsThePaperSays) {
+TEST(Species, HaveTheHeightsOfThePaper) {
   for (const char* name : {"quaking_aspen", "black_tupelo", "weeping_willow", "black_oak"}) {
     const TreeParams params = species(name);
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
@@ -95,7 +95,7 @@ TEST(Species, HaveAsManyLimbsAsTheFormulasGiveWhereStemsDoNotSplit) {
   }
 }
 
-TEST(Species, BearLeavesByWhereTheirTwigStands) {
+TEST(Species, BearLeavesByThePositionOfTheirTwig) {
   for (const char* name : {"quaking_aspen", "black_tupelo"}) {
     const TreeParams params = species(name);
     const Skeletons tree(params, 4);

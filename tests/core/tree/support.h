@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/generators/tree/ez_tree.h"
 #include "core/generators/tree/proctree.h"
 #include "core/generators/tree/sculpt.h"
 #include "core/generators/tree/weber_penn.h"
@@ -15,10 +16,11 @@ inline Skeleton skeleton_of(const TreeParams& params, std::uint64_t seed, Job& j
   Skeleton skeleton(job);
   SkeletonWriter writer(skeleton, job);
   writer.leave_out_below(least_radius);
-  const Chances chances(params.seeds, seed);
-  if (params.model == TreeModel::weber_penn) grow_weber_penn(params, chances, writer);
-  if (params.model == TreeModel::proctree) grow_proctree(params, chances, writer);
-  if (params.model == TreeModel::sculpt) grow_sculpt(params, chances, writer);
+  const RandomStreams random(params.seeds, seed);
+  if (params.model == TreeModel::weber_penn) grow_weber_penn(params, random, writer);
+  if (params.model == TreeModel::proctree) grow_proctree(params, random, writer);
+  if (params.model == TreeModel::sculpt) grow_sculpt(params, random, writer);
+  if (params.model == TreeModel::ez_tree) grow_ez_tree(params, random, seed, writer);
   writer.finish();
   return skeleton;
 }

@@ -72,7 +72,7 @@ TEST(Sway, MovesSmoothlyInTime) {
   EXPECT_GT(far, step);
 }
 
-TEST(Sway, IsNothingWithoutWindWhateverTheTime) {
+TEST(Sway, IsZeroWithoutWindAtAnyTime) {
   const Skeletons one(in_wind(0, 0, 0), 7), other(in_wind(0, 0, 500), 7);
   EXPECT_EQ(one.tips(), other.tips());
 }

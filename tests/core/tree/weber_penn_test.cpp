@@ -10,7 +10,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/tree/weber_penn_shape.h"
-#include "core/geom/graft.h"
+#include "core/geom/plant/graft/graft.h"
 #include "tests/core/tree/support.h"
 
 namespace seedmesh::tree {
@@ -70,7 +70,7 @@ Skeleton grown_by(int threads, const TreeParams& params, const Limits& limits, s
   Skeleton skeleton(job);
   SkeletonWriter writer(skeleton, job);
   try {
-    grow_weber_penn(params, Chances(params.seeds, 7), writer);
+    grow_weber_penn(params, RandomStreams(params.seeds, 7), writer);
   } catch (const Stop& stop) {
     refusal = stop.issue().message;
   }
@@ -117,11 +117,11 @@ Skeleton grown_without(double radius, const TreeParams& params) {
   Skeleton skeleton(job);
   SkeletonWriter writer(skeleton, job, 0.5);
   writer.leave_out_below(radius);
-  grow_weber_penn(params, Chances(params.seeds, 7), writer);
+  grow_weber_penn(params, RandomStreams(params.seeds, 7), writer);
   return skeleton;
 }
 
-TEST(WeberPenn, BearsTheSameLeavesWhereNobodyDrawsTheTwigs) {
+TEST(WeberPenn, GrowsTheSameLeavesWhenTheTwigsAreNotDrawn) {
   TreeParams params;
   params.curve_res_2 = 1;
   for (const double prune : {0.0, 1.0}) {
@@ -138,7 +138,7 @@ TEST(WeberPenn, BearsTheSameLeavesWhereNobodyDrawsTheTwigs) {
   }
 }
 
-TEST(WeberPenn, IsRefusedByAnyNumberOfThreadsWhereItPassesALimit) {
+TEST(WeberPenn, IsRefusedOnAnyNumberOfThreadsAboveALimit) {
   const TreeParams params;
   Limits few_joints, few_leaves;
   few_joints.modules = 2000;
@@ -197,7 +197,7 @@ TEST(WeberPenn, EndsInsideTheEnvelopeWhereItIsPruned) {
   EXPECT_LT(pruned.widest(), 0.7F * free.widest());
 }
 
-TEST(WeberPenn, LetsTheTrunkAloneWhenItsBranchesChange) {
+TEST(WeberPenn, KeepsTheTrunkWhenItsBranchesChange) {
   TreeParams params;
   Skeletons before(params, 9);
   params.branches_2 = 3;
@@ -219,7 +219,7 @@ TreeParams twiggy() {
 }
 constexpr float thinnest = 0.004F;
 
-TEST(WeberPenn, HasTheSameBarkAndLeavesWithoutLimbsThatAreLeftOut) {
+TEST(WeberPenn, KeepsBarkAndLeavesWhenUndrawnLimbsAreOmitted) {
   Job job(4, Job::Options{});
   const Skeleton whole = skeleton_of(twiggy(), 4, job), less = skeleton_of(twiggy(), 4, job, thinnest);
   EXPECT_LT(3 * less.limbs.size(), 2 * whole.limbs.size());
@@ -241,7 +241,7 @@ TEST(WeberPenn, HasTheSameBarkAndLeavesWithoutLimbsThatAreLeftOut) {
   EXPECT_TRUE(std::equal(bark.index.wide.begin(), bark.index.wide.end(), drawn.index.wide.begin()));
 }
 
-TEST(WeberPenn, LeavesOutTheSameOnEveryNumberOfThreads) {
+TEST(WeberPenn, OmitsTheSameLimbsOnAnyNumberOfThreads) {
   Job one(4, Job::Options{}), two(4, {.threads = 2});
   const Skeleton a = skeleton_of(twiggy(), 4, one, thinnest), b = skeleton_of(twiggy(), 4, two, thinnest);
   ASSERT_EQ(a.limbs.size(), b.limbs.size());
@@ -252,13 +252,13 @@ TEST(WeberPenn, LeavesOutTheSameOnEveryNumberOfThreads) {
     EXPECT_EQ(a.organs.organ[i].limb_joint, b.organs.organ[i].limb_joint) << i;
 }
 
-TEST(WeberPenn, MakesTheLeavesOfAShareAndNoOthers) {
+TEST(WeberPenn, MakesOnlyTheLeavesOfAShare) {
   Job job(4, Job::Options{});
   const Skeleton all = skeleton_of(twiggy(), 4, job);
   Skeleton some(job);
   SkeletonWriter writer(some, job, 0.3);
   const TreeParams params = twiggy();
-  grow_weber_penn(params, Chances(params.seeds, 4), writer);
+  grow_weber_penn(params, RandomStreams(params.seeds, 4), writer);
   std::vector<std::uint64_t> wanted, found;
   for (const Organ& leaf : all.organs.organ) {
     if (is_drawn(leaf.key, 0.3)) wanted.push_back(leaf.key);
@@ -268,7 +268,7 @@ TEST(WeberPenn, MakesTheLeavesOfAShareAndNoOthers) {
   EXPECT_FALSE(found.empty());
 }
 
-TEST(WeberPenn, HasNoJointsForTwigsThatNobodyDrawsOnAStemThatIsFullOfThem) {
+TEST(WeberPenn, HasNoJointsForTwigsThatAreNotDrawn) {
   TreeParams params;
   params.Levels = 3;
   params.branches_1 = 8;
@@ -289,6 +289,11 @@ TEST(WeberPenn, HasNoJointsForTwigsThatNobodyDrawsOnAStemThatIsFullOfThem) {
   params.twig_radius = 0.01;
   EXPECT_LT(joints_of_limbs(), few);
   EXPECT_GT(drawn, 5 * few);
+}
+
+TEST(WeberPenn, ApproximatesTheInverseCosine) {
+  for (double angle = 0; angle < math::pi; angle += 0.01)
+    EXPECT_NEAR(approximate_acos(std::cos(angle)), angle, 1e-7);
 }
 
 }  // namespace

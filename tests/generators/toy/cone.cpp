@@ -8,7 +8,7 @@
 namespace seedmesh::cone {
 namespace {
 
-/// Drawn by place: another draw elsewhere would not move it.
+/// Drawn by key: a draw with another key does not change it.
 glm::vec3 tip_of(const ConeParams& params, const Job& job) {
   Rng rng = job.rng().at("tip");
   const math::SinCos toward = math::sincos_degrees(rng.uniform(0, 360));
@@ -16,7 +16,7 @@ glm::vec3 tip_of(const ConeParams& params, const Job& job) {
   return {away * toward.cos, params.height, away * toward.sin};
 }
 
-/// The corner of the base circle after `turn` of `sides` steps; the last is the first, to the bit.
+/// The corner of the base circle after `turn` of `sides` steps; the last has exactly the coordinates of the first.
 glm::vec3 corner(const ConeParams& params, int turn) {
   const math::SinCos at = math::sincos_degrees(360.0 * (turn % params.sides) / params.sides);
   return {params.radius * at.cos, 0, -params.radius * at.sin};
@@ -32,7 +32,7 @@ void add_triangle(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c)
   for (std::uint32_t corner : {a, b, c}) mesh.index.wide.push_back(corner);
 }
 
-/// One flat side with vertices of its own: u round the base, v up the side, both in metres.
+/// One flat side with its own vertices: u around the base, v up the side, both in metres.
 void add_side(Mesh& mesh, const ConeParams& params, const glm::vec3& tip, int side) {
   const glm::vec3 left = corner(params, side), right = corner(params, side + 1);
   const glm::vec3 out = math::unit(glm::cross(right - left, tip - left), {0, 1, 0});
@@ -74,10 +74,12 @@ Mesh empty_mesh(const Job& job, std::size_t vertices, std::size_t triangles) {
 
 std::vector<Issue> check(const ConeParams& params) {
   if (params.lean < params.radius) return {};
-  return {{"/lean", "the tip may lean by less than the radius, " + std::to_string(params.radius) + " m"}};
+  return {{IssueKind::out_of_range, "/lean",
+           "the tip may lean by less than the radius, " + std::to_string(params.radius) + " m"}};
 }
 
-Result<Model> generate(const ConeParams& params, Job& job) {
+Result<Model> generate(const ConeParams& params, const GenerateContext& context) {
+  Job& job = context.job;
   if (std::vector<Issue> issues = check(params); !issues.empty())
     return Error{Code::invalid, std::move(issues)};
   const auto sides = static_cast<std::size_t>(params.sides);

@@ -2,10 +2,13 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <string>
 
-#include "core/geom/finish.h"
-#include "core/schema/faults.h"
+#include "core/geom/mesh/finish.h"
+#include "core/schema/issue_list.h"
 #include "core/schema/json.h"
 #include "generated/params/cone.h"
 #include "tests/support/mesh_faults.h"
@@ -17,7 +20,7 @@ using testing::IsEmpty;
 
 Model cone_of(std::uint64_t seed, const ConeParams& params = {}) {
   Job job(seed, Job::Options{});
-  Result<Model> model = cone::generate(params, job);
+  Result<Model> model = cone::generate(params, {job});
   EXPECT_TRUE(model);
   finish(*model, job);  // as the pipeline does
   return *std::move(model);
@@ -25,7 +28,7 @@ Model cone_of(std::uint64_t seed, const ConeParams& params = {}) {
 
 const Mesh& mesh_of(const Model& model) { return model.meshes[0].primitives[0].mesh; }
 
-TEST(Cone, IsOneClosedSoundMesh) {
+TEST(Cone, IsOneClosedMeshWithoutDefects) {
   for (int sides : {3, 4, 24, 1000}) {
     ConeParams params;
     params.sides = sides;
@@ -45,7 +48,7 @@ TEST(Cone, HasTheVolumeOfACone) {
   EXPECT_NEAR(measure({&mesh_of(cone_of(0, params))}).volume, 3.14159, 0.0001);
 }
 
-TEST(Cone, LeansElsewhereWithAnotherSeedAndAlikeWithTheSame) {
+TEST(Cone, MovesItsTipWithTheSeedOnly) {
   const auto tip = [](const Model& model) { return mesh_of(model).position[2]; };
   EXPECT_EQ(tip(cone_of(7)), tip(cone_of(7)));
   EXPECT_NE(tip(cone_of(7)), tip(cone_of(8)));
@@ -56,7 +59,7 @@ TEST(Cone, RefusesATipOutsideItsBase) {
   params.radius = 1;
   params.lean = 1;
   Job job(0, Job::Options{});
-  const Result<Model> model = cone::generate(params, job);
+  const Result<Model> model = cone::generate(params, {job});
   ASSERT_FALSE(model);
   EXPECT_EQ(model.error().issues.front().pointer, "/lean");
 }
@@ -65,17 +68,31 @@ TEST(Cone, SpendsItsTrianglesBeforeItMakesThem) {
   Job::Options options;
   options.limits.triangles = 47;
   Job job(0, options);
-  EXPECT_THROW((void)cone::generate(ConeParams{}, job), Stop);
+  EXPECT_THROW((void)cone::generate(ConeParams{}, {job}), Stop);
 }
 
-TEST(Cone, IsReadByCodeMadeFromItsSchema) {
+TEST(Cone, IsReadByCodeGeneratedFromItsSchema) {
   const Result<Json> json = parse_json(R"({"height": -1, "colour": "red"})");
   ASSERT_TRUE(json);
-  Faults faults;
-  read_cone(*json, "/parameters", faults);
+  IssueList errors;
+  read_cone(*json, "/parameters", errors);
   std::vector<std::string> pointers;
-  for (const Issue& issue : faults.issues()) pointers.push_back(issue.pointer);
+  for (const Issue& issue : errors.issues()) pointers.push_back(issue.pointer);
   EXPECT_THAT(pointers, testing::UnorderedElementsAre("/parameters/height", "/parameters/colour"));
+}
+
+/// The preset that docs/add-a-generator.md shows.
+TEST(Cone, MakesItsPreset) {
+  std::ifstream file(SEEDMESH_SOURCE_DIR "/tests/generators/toy/leaning.json");
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  const Result<Json> preset = parse_json(text);
+  ASSERT_TRUE(preset);
+  IssueList errors;
+  const ConeParams params = read_cone(preset->at("parameters"), "/parameters", errors);
+  ASSERT_TRUE(errors.empty());
+  const Model model = cone_of(1, params);
+  EXPECT_THAT(faults(model), IsEmpty());
+  EXPECT_EQ(mesh_of(model).bounds.max.y, 2);
 }
 
 }  // namespace

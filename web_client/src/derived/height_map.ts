@@ -1,4 +1,7 @@
-/** Heights as a map seen from above, north at the top: shaded relief over tints that every eye tells apart. */
+/**
+ * Draws a height map from above with north at the top, as shaded relief in colours that colour-blind readers can
+ * distinguish.
+ */
 import { el, grouped, rounded } from '../dom';
 
 export interface Heights { width: number; height: number; min: number; max: number; heights: number[] }
@@ -8,7 +11,7 @@ export const is_heights = (answer: object): answer is Heights => {
   return typeof width === 'number' && typeof height === 'number' && Array.isArray(heights) && heights.length === width * height;
 };
 
-/** Dark blue over green to pale yellow: brightness alone tells low from high (after the map "viridis"). */
+/** Dark blue through green to pale yellow, with brightness rising with height (after the colour map "viridis"). */
 const tints: readonly [number, number, number][] = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
 
 function tint(share: number): [number, number, number] {
@@ -20,12 +23,13 @@ function tint(share: number): [number, number, number] {
 export function draw_map(map: Heights): HTMLElement {
   const { width, height, heights } = map;
   const span = map.max - map.min || 1;
-  const canvas = el('canvas', { width, height, role: 'img', class: 'height-map', 'aria-label': `Map of heights, ${width} by ${height} samples, from ${rounded(map.min)} to ${rounded(map.max)} m` });
+  const canvas = el('canvas', { width, height, role: 'img', class: 'height-map', 'aria-label': `Height map, ${width} by ${height} samples, from ${rounded(map.min)} to ${rounded(map.max)} m` });
   const context = canvas.getContext('2d');
   const image = context?.createImageData(width, height);
   if (context && image) {
     const at = (x: number, y: number): number => heights[Math.min(Math.max(y, 0), height - 1) * width + Math.min(Math.max(x, 0), width - 1)] ?? 0;
-    // Light from the north-west, as on printed maps; the slope counts by the span, whatever the size in metres.
+    // Light from the north-west, as on printed maps. The slope is relative to the height span, so the relief does not
+    // depend on the size in metres.
     const relief = width / span * 0.12;
     for (let y = 0; y < height; y += 1) {
       for (let x = 0; x < width; x += 1) {
@@ -37,7 +41,7 @@ export function draw_map(map: Heights): HTMLElement {
     }
     context.putImageData(image, 0, 0);
   }
-  const here = el('output', { class: 'soft' }, 'Point at the map to read a height');
+  const here = el('output', { class: 'soft' }, 'Move the pointer over the map to read a height');
   canvas.addEventListener('pointermove', (event) => {
     const area = canvas.getBoundingClientRect();
     const x = Math.floor((event.clientX - area.left) / area.width * width), y = Math.floor((event.clientY - area.top) / area.height * height);

@@ -1,7 +1,7 @@
-/** The shapes of a derivation: their scopes as boxes over the model, and what the one that was pointed at is. */
+/** Lists the shapes of a derivation, draws their scopes as boxes over the model, and describes the selected one. */
 import { el, grouped, rounded } from '../dom';
 import { is_members } from '../form/schema';
-import type { Overlay } from '../result';
+import type { Overlay } from './overlay';
 import type { ScopeBox } from '../viewer/boxes';
 
 export interface Shape { id: number; parent?: number | null; symbol: string; parameters?: unknown; active?: boolean; rule?: string; line?: number; choice?: number; scope: ScopeBox }
@@ -9,7 +9,7 @@ export interface Shape { id: number; parent?: number | null; symbol: string; par
 export const is_shapes = (value: unknown): value is Shape[] =>
   Array.isArray(value) && value.length > 0 && value.every((each) => is_members(each) && 'symbol' in each && is_members(each['scope']));
 
-/** More boxes than these hide the model and each other. */
+/** More boxes would hide the model and each other. */
 const most = 20_000;
 
 export class ShapeList {
@@ -17,7 +17,7 @@ export class ShapeList {
   private readonly shapes: Shape[];
   private readonly overlay: Overlay | null;
   private readonly lead: ((line: number) => void) | null;
-  private readonly told = el('div', { class: 'picked', role: 'status' });
+  private readonly details = el('div', { class: 'picked', role: 'status' });
   private readonly symbols: string[];
   private readonly on = el('input', { type: 'checkbox', class: 'switch', id: 'show-shapes' });
   private readonly kind = el('select', { id: 'shape-kind' });
@@ -39,10 +39,10 @@ export class ShapeList {
     this.element = el('section', { class: 'shapes' }, el('h3', {}, 'Shapes'),
       el('div', { class: 'row' }, el('label', { for: 'show-shapes' }, 'Boxes over the model'), this.on),
       el('div', { class: 'row' }, el('label', { for: 'shape-kind' }, 'Which'), this.kind),
-      el('p', { class: 'soft' }, 'With the boxes on, click a part of the model to read what it is.'), this.told);
+      el('p', { class: 'soft' }, 'Show the boxes and click a part of the model for its details.'), this.details);
   }
 
-  /** What was chosen in the list of the request before its last change. */
+  /** The selection in the previous list, kept when the request changes. */
   take_over(before: ShapeList): void {
     this.on.checked = before.on.checked;
     if ([...this.kind.options].some((option) => option.value === before.kind.value)) this.kind.value = before.kind.value;
@@ -60,7 +60,7 @@ export class ShapeList {
     const shape = this.seen[index];
     this.picked = shape;
     this.overlay?.mark_box(index);
-    if (!shape) { this.told.replaceChildren(); return; }
+    if (!shape) { this.details.replaceChildren(); return; }
     const parents: string[] = [];
     for (let up = shape.parent; up !== null && up !== undefined && parents.length < 20; ) {
       const parent: Shape | undefined = this.shapes.find((each) => each.id === up);
@@ -76,7 +76,7 @@ export class ShapeList {
       row(words, from.choice === undefined ? from.rule : `${from.rule} (choice ${from.choice})`),
       ...(from.line === undefined ? [] : [row('Line', leading_to(from.line))]),
     ];
-    this.told.replaceChildren(el('h4', {}, shape.symbol), el('dl', { class: 'figures' },
+    this.details.replaceChildren(el('h4', {}, shape.symbol), el('dl', { class: 'figures' },
       row('Number', String(shape.id)),
       ...(parents.length > 0 ? [row('Made of', parents.join(' › '))] : []),
       ...rule_rows('Made by', this.shapes.find((each) => each.id === shape.parent)),

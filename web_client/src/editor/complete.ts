@@ -1,9 +1,9 @@
-/** Completion: what the vocabulary knows, with its text and an example, and the names that the text itself defines. */
+/** Completion sources: the vocabulary with descriptions and examples, and the names defined in the text. */
 import type { Completion, CompletionContext, CompletionResult } from '@codemirror/autocomplete';
 import type { Word } from '../api';
 import type { Words } from './words';
 
-function told(word: Word): Pick<Completion, 'detail' | 'info'> {
+function described(word: Word): Pick<Completion, 'detail' | 'info'> {
   const parameters = word.parameters ?? '';
   const example = word.example ? ` Example: ${word.example}` : '';
   return { detail: parameters, info: `${word.text ?? ''}${example}` };
@@ -12,8 +12,8 @@ function told(word: Word): Pick<Completion, 'detail' | 'info'> {
 const in_parentheses = (before: string): boolean => before.lastIndexOf('(') > before.lastIndexOf(')');
 
 export function completions(words: Words, notation: string): (context: CompletionContext) => CompletionResult | null {
-  const of_symbols: Completion[] = [...words.symbols].map(([label, word]) => ({ label, type: 'keyword', ...told(word) }));
-  const of_functions: Completion[] = [...words.functions].map(([label, word]) => ({ label, type: 'function', apply: `${label}(`, ...told(word) }));
+  const of_symbols: Completion[] = [...words.symbols].map(([label, word]) => ({ label, type: 'keyword', ...described(word) }));
+  const of_functions: Completion[] = [...words.functions].map(([label, word]) => ({ label, type: 'function', apply: `${label}(`, ...described(word) }));
   const is_symbolic = notation !== 'cga';
   const of_operations = of_symbols.map((each): Completion => (each.detail ? { ...each, apply: `${each.label}(` } : each));
   const of_names: Completion[] = words.quoted.map((label) => ({ label, type: 'text' }));
@@ -22,7 +22,7 @@ export function completions(words: Words, notation: string): (context: Completio
     const before = line.text.slice(0, context.pos - line.from);
     const in_expression = is_symbolic ? in_parentheses(before) || /:[^-→~]*$/.test(before) || notation === 'expression' : false;
     if (is_symbolic && !in_expression) {
-      // A symbol is complete as soon as it is typed; only those of several characters have a beginning.
+      // One-character symbols need no completion; only longer ones have a prefix.
       const at = context.matchBefore(/@[^\s()]*/);
       if (!at && !context.explicit) return null;
       return { from: at?.from ?? context.pos, options: of_symbols, filter: at !== null };

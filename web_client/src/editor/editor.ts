@@ -1,4 +1,4 @@
-/** The code editor: CodeMirror 6 with the notations of the service. Loaded by load.ts alone. */
+/** The code editor: CodeMirror 6 with the notations of the service. Only load.ts imports it. */
 import { autocompletion, completionKeymap } from '@codemirror/autocomplete';
 import { defaultKeymap, history, historyKeymap } from '@codemirror/commands';
 import { StreamLanguage, bracketMatching, type StreamParser } from '@codemirror/language';
@@ -7,7 +7,7 @@ import { Annotation, Compartment, EditorState } from '@codemirror/state';
 import { EditorView, keymap, lineNumbers } from '@codemirror/view';
 import type { Vocabulary } from '../api';
 import { completions } from './complete';
-import type { CodeEditor, CodeOptions, MakeEditor } from './load';
+import type { CodeEditor, CodeOptions, MakeEditor } from './types';
 import { colours, look, tags } from './look';
 import { formula, json, production, shape_rules } from './notations';
 import { words_for, type Words } from './words';
@@ -20,7 +20,7 @@ function parser_for(notation: string, words: Words): StreamParser<unknown> {
   return { ...(parser as StreamParser<unknown>), tokenTable: tags };
 }
 
-/** Changes that the page makes and not a hand. */
+/** Marks changes that the page makes, as opposed to the user. */
 const by_page = Annotation.define<boolean>();
 
 export const make_editor: MakeEditor = (options: CodeOptions, vocabulary: Vocabulary): CodeEditor => {
@@ -41,7 +41,7 @@ export const make_editor: MakeEditor = (options: CodeOptions, vocabulary: Vocabu
         lineNumbers(), history(), bracketMatching(), look, colours,
         StreamLanguage.define(parser_for(options.notation, words)),
         options.notation === 'json' ? [] : autocompletion({ override: [completions(words, options.notation)], icons: false }),
-        // Tab is left to the page: whoever came by keyboard gets out again.
+        // Tab is not bound, so that keyboard users can leave the editor.
         keymap.of([...completionKeymap, ...historyKeymap, ...lintKeymap, ...defaultKeymap]),
         validity.of(valid(true)),
         EditorView.updateListener.of((update) => {
@@ -57,7 +57,7 @@ export const make_editor: MakeEditor = (options: CodeOptions, vocabulary: Vocabu
     set_text(text) {
       const old = view.state.doc.toString();
       if (old === text) return;
-      // Only what differs is exchanged, so that the cursor stays where it is.
+      // Only the differing range is replaced, so that the cursor keeps its position.
       let from = 0, end = old.length, last = text.length;
       while (from < Math.min(end, last) && old[from] === text[from]) from += 1;
       while (end > from && last > from && old[end - 1] === text[last - 1]) { end -= 1; last -= 1; }
@@ -75,7 +75,7 @@ export const make_editor: MakeEditor = (options: CodeOptions, vocabulary: Vocabu
     go(from, to = from) {
       const { length } = view.state.doc;
       const start = Math.min(from, length);
-      // What counts is where it begins: the end of a long line would draw that out of sight.
+      // Scrolls to the start of the range, because the end of a long line would move the start out of view.
       view.dispatch({ selection: { anchor: Math.min(to, length), head: start }, effects: EditorView.scrollIntoView(start, { y: 'center' }) });
       view.focus();
     },

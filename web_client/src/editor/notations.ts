@@ -1,4 +1,6 @@
-/** How the notations are taken apart for colours: one small reader a line, no grammar. The server alone judges. */
+/**
+ * Tokenizers for syntax highlighting, one line at a time and without a grammar. Only the server validates the text.
+ */
 import type { StreamParser, StringStream } from '@codemirror/language';
 import type { Words } from './words';
 
@@ -18,7 +20,7 @@ function expression(stream: StringStream, words: Words): string | null {
   return null;
 }
 
-/** Productions of L-systems, one a line, and axioms, which are right sides alone. */
+/** Productions of L-systems, one per line. Axioms consist of a right-hand side alone. */
 export function production(words: Words, has_left: boolean): StreamParser<Line> {
   const longest = Math.max(1, ...[...words.symbols.keys()].map((symbol) => symbol.length));
   return {
@@ -53,7 +55,7 @@ export function production(words: Words, has_left: boolean): StreamParser<Line> 
   };
 }
 
-/** Expressions and functions written as expressions. */
+/** Expressions, and functions defined by expressions. */
 export const formula = (words: Words): StreamParser<Line> => ({
   startState: start,
   token: (stream) => (stream.eatSpace() ? null : expression(stream, words)),
@@ -77,7 +79,7 @@ export const shape_rules = (words: Words): StreamParser<Line> => ({
     const word = stream.match(name) as RegExpMatchArray | null;
     if (word) {
       const after = stream.string.slice(stream.pos);
-      // What a rule defines is its own, even where an operation or a function has the same name.
+      // The name that a rule defines is highlighted as such even if an operation or a function has the same name.
       if (/^\s*(?:\([^)]*\))?\s*(?::[^-=~]*)?(?:-{1,2}>|~>|→|=(?!=))/.test(after)) return 'module';
       if (words.functions.has(word[0]) && /^\s*\(/.test(after)) return 'function';
       return words.symbols.has(word[0]) ? 'turtle' : 'word';

@@ -1,19 +1,19 @@
-/** The words of a notation, out of the vocabulary that the server prints: for colours and for completion. */
+/** The words of a notation, taken from the vocabulary of the server, for highlighting and completion. */
 import type { Vocabulary, Word } from '../api';
 
 export interface Words {
-  /** Symbols and operations, by how they are written. */
+  /** Symbols and operations by their spelling. */
   symbols: Map<string, Word>;
   functions: Map<string, Word>;
-  /** What stands between quotes: lists of names alone. */
+  /** Names that are written in quotes; the vocabulary lists them without descriptions. */
   quoted: string[];
 }
 
 const written = (word: Word): string => word.symbol ?? word.name ?? '';
 
 /**
- * Notations of words have a list of operations with names; those of symbols have one of symbols. Rows without a text
- * are names of other things.
+ * Word notations have a list of named operations, symbol notations a list of symbols. Rows without a description are
+ * names of other things.
  */
 export function words_for(notation: string, vocabulary: Vocabulary): Words {
   const all = Object.values(vocabulary).filter((list) => Array.isArray(list));

@@ -1,57 +1,57 @@
 /**
- * The lists of places of a form share one picture: its clicks go to one of them, and the marks on its ground are of all.
- * The picture speaks by events on the canvas and knows no list.
+ * Connects all position lists of a form with the view. A click in the view goes to one of the lists; the markers show
+ * the positions of all. The view communicates by events on the canvas and has no knowledge of the lists.
  */
 import { part } from '../dom';
 
 /**
- * What the picture tells of a click that was no drag: where on the ground, how wide it may miss, and whether there is any ground. A long
- * press of a finger is a right click.
+ * The event detail of a click that was not a drag: the position on the ground, the tolerance for selecting a marker,
+ * and whether the click met ground. A long press counts as a right click.
  */
 export interface GroundClick { x: number; z: number; button: number; reach: number; on_ground: boolean }
-/** What it is asked to mark; `chosen` counts among all places. */
-export interface GroundMarks { places: Spot[]; chosen: number }
+/** The markers to show; `chosen` is an index into all positions. */
+export interface GroundMarks { positions: Spot[]; chosen: number }
 
-/** East and south of the middle, in metres. */
+/** Metres east and south of the centre. */
 export type Spot = [number, number];
-/** What a plain click does. */
+/** The action of a plain click. */
 export type Way = 'choose' | 'plant' | 'move';
 
-/** A list of places, as the picture knows it. */
-export interface Bed {
+/** A list of positions, as the view needs it. */
+export interface PlacementList {
   readonly box: HTMLElement;
   readonly way: Way;
   readonly chosen: number;
-  places(): Spot[];
+  positions(): Spot[];
   plant(spot: Spot): void;
   move(spot: Spot): void;
-  /** -1 for none. */
+  /** The index of the selected position, or -1. */
   choose(index: number): void;
   remove(): void;
 }
 
-/** More marks hide the model, and each of them has to find its ground. */
+/** More markers would hide the model, and each needs its ground height computed. */
 const most_marks = 400;
 const hundredth = (value: number): number => Math.round(value * 100) / 100;
 
-/** By the pointer of the list, because a list is drawn anew whenever it changes. */
-const beds = new Map<string, Bed>();
+/** Keyed by the pointer of the list, because a list is recreated whenever it changes. */
+const beds = new Map<string, PlacementList>();
 let last_used = '';
 let in_sight = false;
 let is_marking = false;
 let is_wired = false;
 
-/** Takes a list in, or takes it in again after it was drawn anew. */
-export function enter(pointer: string, bed: Bed): void {
+/** Registers a list, or registers it again after it was redrawn. */
+export function enter(pointer: string, bed: PlacementList): void {
   if (beds.size === 0) wire();
   beds.set(pointer, bed);
   mark();
 }
 
-/** The list that a hand has used last takes what is planted next. */
+/** The list that was used last receives the next position. */
 export const use = (pointer: string): void => { last_used = pointer; };
 
-function living(): [string, Bed][] {
+function living(): [string, PlacementList][] {
   for (const [pointer, bed] of beds) if (!bed.box.isConnected) beds.delete(pointer);
   return [...beds];
 }
@@ -69,21 +69,21 @@ function wire(): void {
   }).observe(part('parameters'));
 }
 
-/** Once for all lists that are drawn in this moment. Marks stand only while the form is in sight. */
+/** Runs once for all lists that are drawn in the same task. Markers are shown only while the form is visible. */
 export function mark(): void {
   if (is_marking) return;
   is_marking = true;
   queueMicrotask(() => {
     is_marking = false;
-    const places: Spot[] = [];
+    const positions: Spot[] = [];
     let chosen = -1;
     for (const [, bed] of in_sight ? living() : []) {
-      if (bed.chosen >= 0) chosen = places.length + bed.chosen;
-      places.push(...bed.places());
+      if (bed.chosen >= 0) chosen = positions.length + bed.chosen;
+      positions.push(...bed.positions());
     }
-    // The chosen one is marked however many there are.
-    if (chosen >= most_marks) { places[0] = places[chosen]!; chosen = 0; }
-    const detail: GroundMarks = { places: places.slice(0, most_marks), chosen };
+    // The selected position is always marked.
+    if (chosen >= most_marks) { positions[0] = positions[chosen]!; chosen = 0; }
+    const detail: GroundMarks = { positions: positions.slice(0, most_marks), chosen };
     part('picture').dispatchEvent(new CustomEvent('mark-ground', { detail }));
   });
 }
@@ -96,17 +96,17 @@ function clicked(click: GroundClick): void {
   const moving = all.find(([, bed]) => bed.way === 'move' && bed.chosen >= 0);
   const is_put = click.button === 2 || planting !== undefined || (click.button === 0 && moving !== undefined);
   if (is_put && !click.on_ground) {
-    tell('There is no ground at this place');
+    tell('There is no ground at this position');
   } else if (click.button === 2 || planting) {
-    // Where nothing was used yet, the list that has most is meant: the trees rather than the house.
-    const fullest = [...all].sort((a, b) => b[1].places().length - a[1].places().length)[0];
-    const taker = planting ?? all.find(([pointer]) => pointer === last_used) ?? (all.length === 1 || fullest?.[1].places().length ? fullest : undefined);
-    if (!taker) { tell('Nothing here stands place by place yet. Add the first place in the form'); return; }
+    // If no list was used yet, the one with the most positions is chosen: the trees rather than the house.
+    const fullest = [...all].sort((a, b) => b[1].positions().length - a[1].positions().length)[0];
+    const taker = planting ?? all.find(([pointer]) => pointer === last_used) ?? (all.length === 1 || fullest?.[1].positions().length ? fullest : undefined);
+    if (!taker) { tell('No layer has single positions yet. Add the first position in the form'); return; }
     choose_only(taker[0], all);
     use(taker[0]);
     taker[1].plant(spot);
-    // Who has another page open sees neither the list nor the marks.
-    if (!in_sight) tell(`Planted at ${spot.join(', ')} m, for the list under Parameters. Undo takes it away`);
+    // On another tab neither the list nor its markers are visible, so a message confirms the new position.
+    if (!in_sight) tell(`Planted at ${spot.join(', ')} m in the list under Parameters. Undo removes it`);
   } else if (click.button === 0 && moving) {
     moving[1].move(spot);
   } else if (click.button === 0) {
@@ -116,25 +116,25 @@ function clicked(click: GroundClick): void {
 
 const tell = (detail: string): void => void part('picture').dispatchEvent(new CustomEvent('tell', { bubbles: true, detail }));
 
-function choose_nearest(click: GroundClick, all: [string, Bed][]): void {
-  let nearest: { pointer: string; bed: Bed; index: number } | null = null, least = click.reach;
+function choose_nearest(click: GroundClick, all: [string, PlacementList][]): void {
+  let nearest: { pointer: string; bed: PlacementList; index: number } | null = null, least = click.reach;
   for (const [pointer, bed] of all) {
-    bed.places().forEach(([x, z], index) => {
+    bed.positions().forEach(([x, z], index) => {
       const distance = Math.hypot(x - click.x, z - click.z);
       if (distance <= least) { least = distance; nearest = { pointer, bed, index }; }
     });
   }
-  const found = nearest as { pointer: string; bed: Bed; index: number } | null;
+  const found = nearest as { pointer: string; bed: PlacementList; index: number } | null;
   choose_only(found?.pointer ?? '', all);
   if (!found) return;
   use(found.pointer);
   found.bed.choose(found.index);
 }
 
-/** Lets go of what is chosen in the other lists. */
-function choose_only(pointer: string, all: [string, Bed][]): void {
+/** Clears the selection of all other lists. */
+function choose_only(pointer: string, all: [string, PlacementList][]): void {
   for (const [other, bed] of all) if (other !== pointer && bed.chosen >= 0) bed.choose(-1);
 }
 
-/** Called by a list in which a hand has chosen. */
+/** Called by a list when the user selects one of its entries. */
 export const chosen_in = (pointer: string): void => { use(pointer); choose_only(pointer, living()); };

@@ -1,4 +1,7 @@
-/** The part of JSON Schema that api_schema uses, with its own x- words. The form knows these and no parameter. */
+/**
+ * The subset of JSON Schema that api_schema uses, with its x- keywords. The form depends on these and on no parameter
+ * name.
+ */
 
 export interface Schema {
   title?: string;
@@ -22,20 +25,20 @@ export interface Schema {
   'x-group'?: string;
   'x-unit'?: string;
   'x-step'?: number;
-  /** Each step is a round of rewriting: the model grows many times larger with it. */
+  /** The value counts rewriting steps: each step multiplies the size of the model. */
   'x-steps'?: boolean;
   'x-advanced'?: boolean;
   'x-widget'?: string;
-  /** The member beside this one that stands for it where it is left out: more than that is no more. */
+  /** The sibling member whose value applies if this one is omitted, and which is also its upper bound. */
   'x-full'?: string;
   'x-grammar'?: string;
-  /** Of the output: the formats of every model. Of a generator: those that it has besides. */
+  /** In the output schema: the formats of all models. In a generator's schema: its additional formats. */
   'x-formats'?: string[];
-  /** Which of these need a parameter to have a certain value. */
+  /** The formats that require a certain parameter value. */
   'x-formats-where'?: Record<string, Record<string, unknown>>;
-  /** Of a generator: the members of the output that let its models move. */
+  /** In a generator's schema: the output members that animate its models. */
   'x-motions'?: string[];
-  /** The members of the object form that the one number of the short form stands for. */
+  /** The members of the object form that the single number of the short form sets. */
   'x-short'?: string[];
 }
 
@@ -46,7 +49,7 @@ export const is_members = (value: unknown): value is Members =>
 
 export const same = (a: unknown, b: unknown): boolean => JSON.stringify(a) === JSON.stringify(b);
 
-/** Whether `value` has the type that `schema` asks for; ranges are the server's to judge. */
+/** True if `value` has the type that `schema` requires. The server checks the ranges. */
 export function fits(schema: Schema, value: unknown): boolean {
   if ('const' in schema) return same(schema.const, value);
   if (schema.enum) return schema.enum.includes(value);
@@ -60,7 +63,7 @@ export function fits(schema: Schema, value: unknown): boolean {
   }
 }
 
-/** A first value for something new. */
+/** The initial value of a new entry. */
 export function fresh_value(schema: Schema): unknown {
   if (schema.default !== undefined) return structuredClone(schema.default);
   if (schema.examples?.length) return structuredClone(schema.examples[0]);

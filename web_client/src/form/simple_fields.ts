@@ -1,19 +1,19 @@
-/** Fields with one small value: numbers, choices, switches, colours, words. */
+/** Fields with a single small value: numbers, choices, switches, colours and text. */
 import { el } from '../dom';
 import { parse_json } from '../exact';
-import { frame, type Draw, type Place, type Redraw } from './field';
+import { frame, type Draw, type FieldSpec, type Redraw } from './field';
 import type { Schema } from './schema';
 
-const shown = (place: Place): unknown => place.value ?? place.schema.default;
+const shown = (spec: FieldSpec): unknown => spec.value ?? spec.schema.default;
 
-/** What stands for a number that is left out: another number of the request, or what the schema has as an example. */
-function stand_in(place: Place): number | undefined {
-  const full = place.schema['x-full'];
-  const other = full === undefined ? place.schema.examples?.[0] : place.beside?.(full);
+/** The value that applies to an omitted number: another number of the request, or the example of the schema. */
+function stand_in(spec: FieldSpec): number | undefined {
+  const full = spec.schema['x-full'];
+  const other = full === undefined ? spec.schema.examples?.[0] : spec.beside?.(full);
   return typeof other === 'number' ? other : undefined;
 }
 
-/** A field whose whole drawing can be made anew. */
+/** A field that can redraw itself. */
 export function redrawable(make: (redraw: Redraw) => HTMLElement): HTMLElement {
   let element: HTMLElement;
   const redraw: Redraw = (focus = 'input, select, textarea') => {
@@ -26,7 +26,10 @@ export function redrawable(make: (redraw: Redraw) => HTMLElement): HTMLElement {
   return element;
 }
 
-/** What a slider spans: up to `full`, where more is no more. A range too wide to aim in is cut to the neighbourhood of the value. */
+/**
+ * The range of a slider. It ends at `full`, the upper bound that another member sets. A range too wide for a slider
+ * is reduced to the neighbourhood of the value.
+ */
 export function slider_span(schema: Schema, value: number, full?: number): { low: number; high: number; step: number } {
   const { minimum = -Infinity, maximum = Infinity } = schema;
   const whole = schema.type === 'integer';
@@ -40,34 +43,34 @@ export function slider_span(schema: Schema, value: number, full?: number): { low
   return { low: Math.max(minimum, minimum < 0 ? -reach : 0), high: Math.min(maximum, reach), step };
 }
 
-/** Asks the page to let grow by this number, up to what it is, or to what stands for it. */
-function grow_button(place: Place): HTMLElement {
-  return el('button', { type: 'button', class: 'grow', title: 'Lets it grow up to this number', 'aria-label': `Grow by ${place.label}`, onclick(event) {
-    const value = shown(place);
-    const detail = { pointer: place.pointer, until: typeof value === 'number' && value > 0 ? value : stand_in(place) ?? 1, label: place.label, unit: place.schema['x-unit'] ?? '' };
+/** Asks the page to play the growth over this number, up to its value or default. */
+function grow_button(spec: FieldSpec): HTMLElement {
+  return el('button', { type: 'button', class: 'grow', title: 'Shows the growth up to this number', 'aria-label': `Grow by ${spec.label}`, onclick(event) {
+    const value = shown(spec);
+    const detail = { pointer: spec.pointer, until: typeof value === 'number' && value > 0 ? value : stand_in(spec) ?? 1, label: spec.label, unit: spec.schema['x-unit'] ?? '' };
     event.target?.dispatchEvent(new CustomEvent('grow', { bubbles: true, detail }));
   } }, 'Grow');
 }
 
-export const number_field: Draw = (place) =>
+export const number_field: Draw = (spec) =>
   redrawable((redraw) => {
-    const value = shown(place);
-    const usual = stand_in(place);
+    const value = shown(spec);
+    const usual = stand_in(spec);
     const known = typeof value === 'number' ? value : usual ?? 0;
-    // What the server takes then is not known here: the slider shows no place of it.
+    // The server's default is unknown here, so the slider shows no position.
     const is_open = typeof value !== 'number' && usual === undefined;
-    const { low, high, step } = slider_span(place.schema, known, place.schema['x-full'] === undefined ? undefined : usual);
+    const { low, high, step } = slider_span(spec.schema, known, spec.schema['x-full'] === undefined ? undefined : usual);
     const box = el('input', { type: 'number', step, value: typeof value === 'number' ? value : '', placeholder: usual ?? 'not set', inputmode: 'decimal' });
-    const slider = el('input', { type: 'range', min: low, max: high, step, value: known, 'aria-label': `${place.label}, slider`, class: is_open ? 'unset' : '', 'aria-valuetext': is_open ? 'not set' : undefined });
-    const unit = place.schema['x-unit'];
+    const slider = el('input', { type: 'range', min: low, max: high, step, value: known, 'aria-label': `${spec.label}, slider`, class: is_open ? 'unset' : '', 'aria-valuetext': is_open ? 'not set' : undefined });
+    const unit = spec.schema['x-unit'];
     const body = el('div', { class: 'number' }, slider, el('span', { class: 'box' }, box, unit ? el('span', { class: 'unit' }, unit) : null),
-      place.schema['x-widget'] === 'growth' && grow_button(place));
-    const drawn = frame(place, box, body, redraw);
+      spec.schema['x-widget'] === 'growth' && grow_button(spec));
+    const drawn = frame(spec, box, body, redraw);
     const take = (next: number): void => {
       slider.classList.remove('unset');
       slider.removeAttribute('aria-valuetext');
-      place.value = next;
-      place.change(next);
+      spec.value = next;
+      spec.change(next);
       drawn.now(next);
     };
     slider.addEventListener('input', () => { box.value = slider.value; take(slider.valueAsNumber); });
@@ -76,50 +79,50 @@ export const number_field: Draw = (place) =>
       slider.value = box.value;
       take(box.valueAsNumber);
     });
-    // An emptied box says nothing: it shows the value that counts again.
-    box.addEventListener('change', () => { if (Number.isNaN(box.valueAsNumber)) box.value = String(shown(place) ?? ''); });
+    // An empty input removes no value, so the current one is shown again.
+    box.addEventListener('change', () => { if (Number.isNaN(box.valueAsNumber)) box.value = String(shown(spec) ?? ''); });
     return drawn.element;
   });
 
-export const choice_field: Draw = (place) =>
+export const choice_field: Draw = (spec) =>
   redrawable((redraw) => {
-    const values = place.schema.enum ?? [];
-    const value = shown(place);
+    const values = spec.schema.enum ?? [];
+    const value = shown(spec);
     const readable = (each: unknown): string => String(each).replaceAll('_', ' ');
     const option = (each: unknown, words: string): HTMLElement => el('option', { value: String(each), selected: each === value }, words);
     const select = el('select', {},
-      // What a request may leave out, and what it says wrongly, is not passed off as one of the choices.
-      (place.schema.default === undefined && !place.required) && el('option', { value: '', selected: value === undefined }, 'not set'),
+      // An omitted or invalid value must not appear as one of the choices.
+      (spec.schema.default === undefined && !spec.required) && el('option', { value: '', selected: value === undefined }, 'not set'),
       (value !== undefined && !values.includes(value)) && el('option', { value: '?', selected: true, disabled: true }, `${readable(value)}: not known`),
       ...values.map((each) => option(each, readable(each))));
-    const drawn = frame(place, select, select, redraw);
+    const drawn = frame(spec, select, select, redraw);
     select.addEventListener('change', () => {
       const next = values.find((each) => String(each) === select.value);
-      place.change(next);
+      spec.change(next);
       drawn.now(next);
     });
     return drawn.element;
   });
 
-export const switch_field: Draw = (place) =>
+export const switch_field: Draw = (spec) =>
   redrawable((redraw) => {
-    const box = el('input', { type: 'checkbox', class: 'switch', checked: shown(place) === true });
-    const drawn = frame(place, box, box, redraw);
+    const box = el('input', { type: 'checkbox', class: 'switch', checked: shown(spec) === true });
+    const drawn = frame(spec, box, box, redraw);
     drawn.element.classList.add('field-inline');
-    box.addEventListener('change', () => { place.change(box.checked); drawn.now(box.checked); });
+    box.addEventListener('change', () => { spec.change(box.checked); drawn.now(box.checked); });
     return drawn.element;
   });
 
-export const color_field: Draw = (place) =>
+export const color_field: Draw = (spec) =>
   redrawable((redraw) => {
-    const value = String(shown(place) ?? '');
-    const well = el('input', { type: 'color', value: value || '#808080', class: value ? '' : 'unset', 'aria-label': `${place.label}, picker` });
+    const value = String(shown(spec) ?? '');
+    const well = el('input', { type: 'color', value: value || '#808080', class: value ? '' : 'unset', 'aria-label': `${spec.label}, picker` });
     const text = el('input', { type: 'text', value, size: 8, placeholder: 'not set', spellcheck: 'false', autocomplete: 'off' });
-    const drawn = frame(place, text, el('div', { class: 'color' }, well, text), redraw);
+    const drawn = frame(spec, text, el('div', { class: 'color' }, well, text), redraw);
     const take = (next: string): void => {
       const colour = next === '' ? undefined : next;
       well.classList.toggle('unset', colour === undefined);
-      place.change(colour);
+      spec.change(colour);
       drawn.now(colour);
     };
     well.addEventListener('input', () => { text.value = well.value; take(well.value); });
@@ -130,30 +133,30 @@ export const color_field: Draw = (place) =>
     return drawn.element;
   });
 
-/** Text; where the schema takes a number too, text that reads as a number is one. */
-export const word_field: Draw = (place) =>
+/** Text. If the schema also accepts a number, text that parses as a number is stored as one. */
+export const word_field: Draw = (spec) =>
   redrawable((redraw) => {
-    const takes_number = place.schema.oneOf?.some((one) => one.type === 'number' || one.type === 'integer') ?? false;
-    const example = place.schema.examples?.[0];
-    const input = el('input', { type: 'text', value: String(shown(place) ?? ''), spellcheck: 'false', autocomplete: 'off', autocapitalize: 'off', placeholder: typeof example === 'string' ? example : undefined, maxlength: place.schema.maxLength });
-    const drawn = frame(place, input, input, redraw);
+    const takes_number = spec.schema.oneOf?.some((one) => one.type === 'number' || one.type === 'integer') ?? false;
+    const example = spec.schema.examples?.[0];
+    const input = el('input', { type: 'text', value: String(shown(spec) ?? ''), spellcheck: 'false', autocomplete: 'off', autocapitalize: 'off', placeholder: typeof example === 'string' ? example : undefined, maxlength: spec.schema.maxLength });
+    const drawn = frame(spec, input, input, redraw);
     input.addEventListener('input', () => {
       const number = Number(input.value);
-      // Whole numbers beyond 2^53 would be rounded: their digits stay as they are.
+      // Whole numbers beyond 2^53 would be rounded, so their digits are kept as text.
       const is_exact = Number.isSafeInteger(number) || !/^\s*\d+\s*$/.test(input.value);
       const value = takes_number && input.value.trim() !== '' && Number.isFinite(number) && is_exact ? number : input.value;
-      place.change(value);
+      spec.change(value);
       drawn.now(value);
     });
     return drawn.element;
   });
 
-/** What no other field can show: the JSON itself. */
-export const json_field: Draw = (place) =>
+/** The fallback for all other values: the JSON text. */
+export const json_field: Draw = (spec) =>
   redrawable((redraw) => {
     const area = el('textarea', { rows: 4, class: 'code', spellcheck: 'false' });
-    area.value = shown(place) === undefined ? '' : JSON.stringify(shown(place), null, 2);
-    const drawn = frame(place, area, area, redraw);
+    area.value = shown(spec) === undefined ? '' : JSON.stringify(shown(spec), null, 2);
+    const drawn = frame(spec, area, area, redraw);
     area.addEventListener('input', () => {
       let value: unknown;
       try {
@@ -163,8 +166,39 @@ export const json_field: Draw = (place) =>
         return;
       }
       area.setAttribute('aria-invalid', 'false');
-      place.change(value);
+      spec.change(value);
       drawn.now(value);
+    });
+    return drawn.element;
+  });
+
+/** Longer lists make the page slow; they are changed in the text of the request. */
+const most_rows = 3000;
+
+const rows_text = (value: unknown): string =>
+  Array.isArray(value) && value.length > 0 ? `[\n${value.map((row) => JSON.stringify(row)).join(',\n')}\n]` : value === undefined ? '' : JSON.stringify(value);
+
+/** A long list as JSON with one item on each line. */
+export const rows_field: Draw = (spec) =>
+  redrawable((redraw) => {
+    const value = shown(spec);
+    const count = Array.isArray(value) ? value.length : 0;
+    const area = el('textarea', { rows: Math.min(count + 3, 12), class: 'code', spellcheck: 'false', wrap: 'off' });
+    const is_long = count > most_rows;
+    area.readOnly = is_long;
+    area.value = is_long ? `${count.toLocaleString('en')} items: too many for this field. Code shows them.` : rows_text(value);
+    const drawn = frame(spec, area, area, redraw);
+    area.addEventListener('input', () => {
+      let read: unknown;
+      try {
+        read = area.value.trim() === '' ? undefined : parse_json(area.value);
+      } catch {
+        area.setAttribute('aria-invalid', 'true');
+        return;
+      }
+      area.setAttribute('aria-invalid', 'false');
+      spec.change(read);
+      drawn.now(read);
     });
     return drawn.element;
   });

@@ -1,6 +1,6 @@
-/** The two faces of a text field: a plain text area, and the code editor once it is loaded. */
+/** The two implementations of a text field: a plain text area, and the code editor after it is loaded. */
 import { el } from '../dom';
-import type { CodeEditor, Mark } from '../editor/load';
+import type { CodeEditor, Mark } from '../editor/types';
 
 export interface Face {
   readonly element: HTMLElement;
@@ -12,7 +12,7 @@ export interface Face {
 
 const most_rows = 16;
 
-/** A text area with line numbers. Behind it lies a copy of the text, invisible but for its marks. */
+/** A text area with line numbers. A transparent copy of the text behind it shows the error marks. */
 export function plain_face(text: string, one_line: boolean, change: (text: string) => void): Face & { area: HTMLTextAreaElement } {
   const area = el('textarea', { wrap: 'off', spellcheck: 'false', autocomplete: 'off', autocapitalize: 'off', class: 'code' });
   area.value = text;
@@ -27,10 +27,10 @@ export function plain_face(text: string, one_line: boolean, change: (text: strin
   };
   const draw = (): void => {
     const lines = area.value.split('\n').length;
-    const faulty = new Set(marks.filter((mark) => !mark.mild).map((mark) => area.value.slice(0, mark.from).split('\n').length));
+    const invalid = new Set(marks.filter((mark) => !mark.mild).map((mark) => area.value.slice(0, mark.from).split('\n').length));
     area.rows = Math.min(Math.max(lines, one_line ? 1 : 2), most_rows);
     gutter.replaceChildren(...Array.from({ length: lines }, (_, index) =>
-      el('div', { class: faulty.has(index + 1) ? 'faulty' : undefined }, String(index + 1))));
+      el('div', { class: invalid.has(index + 1) ? 'invalid' : undefined }, String(index + 1))));
     under.replaceChildren(...marked(area.value, marks));
     follow();
   };
@@ -53,7 +53,7 @@ export function plain_face(text: string, one_line: boolean, change: (text: strin
     go(from, to) {
       area.focus();
       area.setSelectionRange(from, to, 'backward');
-      // A browser does not lead there by itself: the line comes into the middle, and from its start.
+      // Browsers do not scroll a selection into view, so the line is centred and scrolled to its start.
       const lines = area.value.split('\n').length, line = area.value.slice(0, from).split('\n').length - 1;
       area.scrollTop = area.scrollHeight * line / lines - area.clientHeight / 2;
       area.scrollLeft = 0;

@@ -1,14 +1,17 @@
-/** Two models under one camera: one to the left of a divider, and to the right of it what is shown otherwise. */
+/**
+ * A comparison of two models under one camera: the other model to the left of a divider, the current one to the
+ * right.
+ */
 import { Vector2, type Object3D, type PerspectiveCamera, type Scene, type WebGLRenderer } from 'three';
 import { Model } from './model';
 
-export class Beside {
+export class Comparison {
   other: Model | null = null;
-  /** Where the divider stands, as a share of the width. */
+  /** The position of the divider, as a fraction of the width. */
   divider = 0.5;
   private turn = 0;
 
-  /** Takes a GLB, or null for nothing; what a later call has overtaken is let go of. */
+  /** Loads a GLB, or removes the other model if null. A result that a later call supersedes is disposed of. */
   async take(bytes: ArrayBuffer | null): Promise<void> {
     const turn = (this.turn += 1);
     const other = bytes ? await Model.from(bytes) : null;
@@ -20,7 +23,7 @@ export class Beside {
     this.other = other;
   }
 
-  /** Draws the scene; where there is another model, twice. `stage` is seen on both sides. */
+  /** Renders the scene, or both halves if there is another model. `stage` is visible on both sides. */
   render(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera, stage: Object3D): void {
     const { other } = this;
     if (!other) { renderer.render(scene, camera); return; }

@@ -1,13 +1,13 @@
-/** Scope boxes over the model: the shapes of a derivation, apart from its triangles, and which of them was pointed at. */
+/** The scope boxes of a derivation over the model, and picking of a box. */
 import {
   BoxGeometry, BufferGeometry, DoubleSide, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, Ray, Vector3, type Material, type Scene,
 } from 'three';
 
-/** A box by its lower corner, its axes (unit, in the world) and its size along them, in metres. */
+/** A box by its minimum corner, its unit axes in world space, and its sizes along them, in metres. */
 export interface ScopeBox { origin: number[]; axes: number[][]; size: number[] }
 
 const edges = [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]] as const;
-/** The palette of Okabe and Ito, which people with any kind of colour vision tell apart. */
+/** The palette of Okabe and Ito, which is safe for all types of colour blindness. */
 export const tellable = [0xe69f00, 0x56b4e9, 0x009e73, 0xd55e00, 0xcc79a7, 0x0072b2] as const;
 
 const vector = (numbers: number[] | undefined): Vector3 => new Vector3(numbers?.[0] ?? 0, numbers?.[1] ?? 0, numbers?.[2] ?? 0);
@@ -17,7 +17,7 @@ function corners(box: ScopeBox): Vector3[] {
     (at, axis) => at.addScaledVector(vector(box.axes[axis]), corner >> axis & 1 ? (box.size[axis] ?? 0) : 0), vector(box.origin)));
 }
 
-/** Lines of all boxes, one colour for each group of `color_of`. */
+/** The edges of all boxes, in one colour per group of `color_of`. */
 export function draw_boxes(boxes: ScopeBox[], color_of: (index: number) => number): Group {
   const by_color = new Map<number, number[]>();
   boxes.forEach((box, index) => {
@@ -37,7 +37,7 @@ export function draw_boxes(boxes: ScopeBox[], color_of: (index: number) => numbe
   return group;
 }
 
-/** One box among the others: filled in the yellow that they lack, its edges seen through everything. */
+/** One highlighted box: filled in yellow, which the palette omits, with its edges drawn without a depth test. */
 function draw_mark(box: ScopeBox): Group {
   const lines: number[] = [];
   const at = corners(box);
@@ -47,7 +47,7 @@ function draw_mark(box: ScopeBox): Group {
   const size = vector(box.size), largest = Math.max(size.x, size.y, size.z);
   const body = new Mesh(new BoxGeometry(), new MeshBasicMaterial({ color: 0xf0e442, toneMapped: false, transparent: true, opacity: 0.3, side: DoubleSide, depthTest: false, depthWrite: false }));
   const [x, y, z] = [vector(box.axes[0]), vector(box.axes[1]), vector(box.axes[2])];
-  // A flat scope has a volume of nothing, which cannot be seen from its edge.
+  // A flat scope would be invisible edge-on, so it gets a minimum thickness.
   body.matrix.makeBasis(x, y, z).scale(size.clone().max(new Vector3().setScalar(largest * 0.002))).setPosition(at[0]!.clone().add(at[7]!).multiplyScalar(0.5));
   body.matrixAutoUpdate = false;
   body.renderOrder = 2;
@@ -57,7 +57,7 @@ function draw_mark(box: ScopeBox): Group {
   return group;
 }
 
-/** Takes what was drawn away and gives its memory back. */
+/** Removes an object from the scene and disposes of its GPU resources. */
 export function drop_boxes(drawn: Group | null): void {
   drawn?.removeFromParent();
   for (const each of drawn?.children ?? []) {
@@ -66,7 +66,7 @@ export function drop_boxes(drawn: Group | null): void {
   }
 }
 
-/** The boxes of shapes that lie over the model, one of which may be marked. */
+/** The boxes shown over the model, at most one of which is highlighted. */
 export class Scopes {
   private readonly scene: Scene;
   private boxes: ScopeBox[] | null = null;
@@ -75,7 +75,7 @@ export class Scopes {
 
   constructor(scene: Scene) { this.scene = scene; }
 
-  /** null takes them away, and the mark with them. */
+  /** null removes the boxes and the highlight. */
   set(boxes: ScopeBox[] | null, color_of: (index: number) => number): void {
     drop_boxes(this.drawn);
     this.boxes = boxes;
@@ -84,7 +84,7 @@ export class Scopes {
     this.mark(-1);
   }
 
-  /** Marks a box by its number in place of the one before; -1 marks none. */
+  /** Highlights the box with this index; -1 highlights none. */
   mark(index: number): void {
     drop_boxes(this.marked);
     const box = this.boxes?.[index];
@@ -92,11 +92,11 @@ export class Scopes {
     if (this.marked) this.scene.add(this.marked);
   }
 
-  /** The box that a ray meets, -1 for none; null where no boxes are shown. */
+  /** The index of the box that a ray hits, -1 for none; null if no boxes are shown. */
   at(ray: Ray): number | null { return this.boxes && box_at(this.boxes, ray); }
 }
 
-/** The smallest box that a ray meets; -1 where it meets none. A flat scope is given a little depth. */
+/** The index of the smallest box that a ray hits, or -1. A flat scope gets a small thickness. */
 export function box_at(boxes: ScopeBox[], ray: Ray): number {
   let found = -1, least = Infinity;
   boxes.forEach((box, index) => {

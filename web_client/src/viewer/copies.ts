@@ -1,17 +1,17 @@
-/** What stands many times in a file is drawn at once: nodes that share a mesh become one mesh with many places. */
+/** Converts nodes that share a mesh to one instanced mesh, so that they need one draw call. */
 import { InstancedMesh, Matrix4, Mesh, type Material, type Object3D } from 'three';
 
-/** Fewer copies are drawn as fast one by one. */
+/** With fewer copies, instancing is not faster. */
 const fewest = 6;
 
-/** Exchanges copies below `root`; those that move, that are mirrored, or that bear others stay as they are. */
+/** Replaces the copies below `root`. Copies that are animated, mirrored, or have children stay as they are. */
 export function gather_copies(root: Object3D): void {
   root.updateMatrixWorld(true);
   const groups = new Map<string, Mesh[]>();
   root.traverse((part) => {
     const mesh = part as Mesh & { isSkinnedMesh?: boolean; isInstancedMesh?: boolean };
     if (!mesh.isMesh || mesh.isSkinnedMesh || mesh.isInstancedMesh || mesh.children.length > 0 || mesh.morphTargetInfluences) return;
-    // A mirrored copy turns its triangles round; an instance cannot.
+    // A mirrored copy reverses the winding of its triangles, which an instance cannot do.
     if (mesh.matrixWorld.determinant() <= 0) return;
     const key = `${mesh.geometry.uuid} ${[mesh.material].flat().map((each) => each.uuid).join(' ')}`;
     const group = groups.get(key);

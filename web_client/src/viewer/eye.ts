@@ -1,24 +1,30 @@
-/** The camera that goes round a model: where it was put, whether by a hand, and when it has to be put anew. */
+/** The orbit camera: its framing of a model, whether the user has moved it, and when it is framed anew. */
 import { Box3, PerspectiveCamera, Vector3 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { free_of, go_round, in_sight, stand_back, usual_direction, type Covered } from './frame';
+import { free_of, go_round, in_sight, place_camera, usual_direction, type Covered } from './frame';
 import type { Model } from './model';
 import { wall_between } from './walls';
 
-/** The camera stays for a model that is at most so many times as large as the one it was put there for; by a hand: the second. */
-const alike = 1.25, alike_by_hand = 2;
+/**
+ * The camera is kept if the new model differs in size by at most this factor; the second applies after the user has
+ * moved it.
+ */
+const size_tolerance = 1.25, moved_size_tolerance = 2;
 
-export class Eye {
+export class OrbitCamera {
   readonly camera = new PerspectiveCamera(32, 1, 0.01, 1000);
   readonly controls: OrbitControls;
-  /** A hand has moved it since it was put. */
+  /** True if the user has moved the camera since it was framed. */
   touched = false;
-  /** What lies over the rims of the picture. */
+  /** The heights of the overlays at the edges of the view. */
   covered: Covered;
-  /** The size of the model that it was put there for, how far from it, and by how many pixels the picture is raised. */
+  /**
+   * The size of the framed model, the camera distance, the vertical offset of the image in pixels, and the minimum
+   * distance.
+   */
   readonly framed = { size: 1, distance: 1, raised: 0, nearest: 0.01 };
   private readonly canvas: HTMLCanvasElement;
-  /** What stands in its way, and from which side the way to it was looked at. */
+  /** The model that blocks the camera, and the direction of the last search for walls. */
   private solid: Model | null = null;
   private way = new Vector3();
 
@@ -31,22 +37,22 @@ export class Eye {
     this.controls.maxPolarAngle = Math.PI * 0.6;
     this.controls.addEventListener('change', draw);
     this.controls.addEventListener('start', () => { this.touched = true; });
-    // Before the controls take it for a way to come nearer.
-    canvas.addEventListener('wheel', () => this.keep_out(), { capture: true, passive: true });
-    canvas.addEventListener('pointerdown', (event) => { if (!event.isPrimary) this.keep_out(); }, { capture: true });
+    // Runs in the capture phase, before the controls handle the event as a zoom.
+    canvas.addEventListener('wheel', () => this.limit_zoom(), { capture: true, passive: true });
+    canvas.addEventListener('pointerdown', (event) => { if (!event.isPrimary) this.limit_zoom(); }, { capture: true });
   }
 
-  /** Puts it where all points are seen, from the usual side of the box or from another. */
+  /** Places the camera so that all points are visible, from the default direction of the box or from another. */
   put(points: Vector3[], box: Box3, direction = usual_direction(box)): void {
     const { camera, controls } = this;
-    // What is left of a hand's motion would carry the camera on.
+    // Remaining damping of the controls would move the camera after the framing.
     const damping = controls.enableDamping;
     controls.enableDamping = false;
     controls.update();
     controls.enableDamping = damping;
     this.framed.raised = (this.covered.bottom - this.covered.top) / 2;
     this.raise();
-    controls.target.copy(stand_back(camera, points, direction, free_of(this.covered, this.canvas.clientHeight || 1)));
+    controls.target.copy(place_camera(camera, points, direction, free_of(this.covered, this.canvas.clientHeight || 1)));
     controls.minDistance = camera.near * 4;
     controls.maxDistance = camera.far / 4;
     Object.assign(this.framed, { size: box.getSize(new Vector3()).length(), distance: camera.position.distanceTo(controls.target), nearest: controls.minDistance });
@@ -55,28 +61,33 @@ export class Eye {
 
   sees(points: Vector3[]): boolean { return in_sight(this.camera, points, this.covered, this.canvas.clientHeight); }
 
-  /** Whether a model can be looked at from here, so that models can be told apart by their size. */
+  /**
+   * True if a model can be viewed from the current position, so that the sizes of successive models can be compared.
+   */
   suits(points: Vector3[], box: Box3): boolean {
     const grown = box.getSize(new Vector3()).length() / this.framed.size;
-    const most = this.touched ? alike_by_hand : alike;
+    const most = this.touched ? moved_size_tolerance : size_tolerance;
     return grown < most && grown > 1 / most && (this.touched || this.sees(points));
   }
 
-  /** Turns round the model, by radians, and scales the distance. */
+  /** Rotates around the model, in radians, and scales the distance. */
   orbit(turn: number, tilt: number, distance: number): void {
     this.touched = true;
     go_round(this.camera, this.controls.target, turn, tilt, distance, this.controls.maxPolarAngle);
     this.controls.update();
   }
 
-  /** The way to another model: it is not gone into through its walls, which cannot be seen from behind. */
+  /** Sets the model whose walls stop the zoom. Walls are single-sided, so that they are invisible from inside. */
   stop_at(solid: Model | null): void {
     this.solid = solid;
     this.way.setScalar(0);
     this.controls.minDistance = this.framed.nearest;
   }
 
-  /** Another size of the picture. What was seen whole is seen whole from the same side; what was cut off by a hand stays so. */
+  /**
+   * Adapts to a new size of the view. A model that was completely visible stays so from the same direction; a view
+   * that the user has cropped stays cropped.
+   */
   resize(width: number, height: number, points: Vector3[], box: Box3): void {
     const whole = { top: 0, bottom: 0 };
     const was_whole = in_sight(this.camera, points, whole, height);
@@ -86,7 +97,7 @@ export class Eye {
     this.controls.update();
   }
 
-  /** Takes the shape of the picture and stays where it is. */
+  /** Adopts the aspect ratio of the view without moving. */
   widen(width: number, height: number): void {
     this.camera.aspect = width / height;
     this.raise();
@@ -97,8 +108,8 @@ export class Eye {
     this.camera.setViewOffset(clientWidth, clientHeight, 0, this.framed.raised, clientWidth, clientHeight);
   }
 
-  /** Asked once for each way that is gone: a large model has much to be looked through. */
-  keep_out(): void {
+  /** Searched once per viewing direction, because ray casting through a large model is slow. */
+  limit_zoom(): void {
     const { camera, controls, framed } = this;
     const way = controls.target.clone().sub(camera.position);
     const distance = way.length();

@@ -1,16 +1,16 @@
-/** Where the camera has to stand to see a model whole. */
+/** Computes the camera position from which a model is completely visible. */
 import { Box3, Matrix4, Spherical, Vector3, type InstancedMesh, type Mesh, type Object3D, type PerspectiveCamera } from 'three';
 
-/** Part of the picture that the model may fill. */
+/** The fraction of the view that a framed model may fill. */
 const fill = 0.8;
-/** And where something lies over the rims of the picture, of what is left between: that is a margin too. */
+/** The fraction of the uncovered height, if overlays cover the edges of the view: the overlays are a margin too. */
 const fill_between = 0.88;
-/** So many points stand for a mesh; the outline of a plant needs no more. */
+/** The number of sample points per mesh, which is enough for the outline of a plant. */
 const most_points = 3000;
 
 /**
- * Flat drawings are looked at from the front, bodies from a corner and a little above. The wider and lower a body is,
- * the higher the camera rises: land lies under the eye, and is not seen along its edge.
+ * The default view direction. Flat drawings are viewed from the front, bodies from a corner and slightly from above.
+ * The elevation rises with the ratio of width to height, so that terrain is not seen edge-on.
  */
 export function usual_direction(box: Box3): Vector3 {
   const size = box.getSize(new Vector3());
@@ -24,7 +24,7 @@ export function corners_of(box: Box3): Vector3[] {
     corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z));
 }
 
-/** Vertices of the model, evenly taken: the corners of its box would leave much of the picture empty. */
+/** Evenly sampled vertices of the model. The corners of its bounding box would leave much of the view empty. */
 export function points_of(model: Object3D): Vector3[] {
   const points: Vector3[] = [];
   model.updateWorldMatrix(true, true);
@@ -34,25 +34,25 @@ export function points_of(model: Object3D): Vector3[] {
     const copies = part as InstancedMesh;
     const count = copies.isInstancedMesh ? copies.count : 1;
     const stride = Math.max(1, Math.floor(positions.count * count / most_points));
-    const place = part.matrixWorld.clone(), of_copy = new Matrix4();
+    const matrix = part.matrixWorld.clone(), of_copy = new Matrix4();
     for (let index = 0; index < positions.count * count; index += stride) {
       if (copies.isInstancedMesh) {
         copies.getMatrixAt(Math.floor(index / positions.count), of_copy);
-        place.multiplyMatrices(part.matrixWorld, of_copy);
+        matrix.multiplyMatrices(part.matrixWorld, of_copy);
       }
-      points.push(new Vector3().fromBufferAttribute(positions, index % positions.count).applyMatrix4(place));
+      points.push(new Vector3().fromBufferAttribute(positions, index % positions.count).applyMatrix4(matrix));
     }
   });
   return points;
 }
 
-/** Pixels at the upper and at the lower rim of the picture that something else covers. */
+/** The heights, in pixels, of the overlays at the top and at the bottom of the view. */
 export interface Covered { top: number; bottom: number }
 
-/** Part of a height that nothing covers. A model is never made smaller than a seventh of the picture. */
+/** The uncovered fraction of the height. It has a lower bound of one seventh, so that the model stays visible. */
 export const free_of = (covered: Covered, height: number): number => Math.max(0.15, 1 - (covered.top + covered.bottom) / height);
 
-/** Whether all points are seen, between what covers the rims of a picture that is so many pixels high. */
+/** True if all points are visible in the uncovered part of a view with this height in pixels. */
 export function in_sight(camera: PerspectiveCamera, points: Vector3[], covered: Covered, height: number): boolean {
   camera.updateMatrixWorld();
   const low = -1 + 2 * covered.bottom / height, high = 1 - 2 * covered.top / height;
@@ -63,10 +63,10 @@ export function in_sight(camera: PerspectiveCamera, points: Vector3[], covered: 
 }
 
 /**
- * Moves the camera along `direction` (from the target to it) until all points are in sight, within the part `free` of
- * the height. Returns the target.
+ * Moves the camera along `direction` (from the target to the camera) until all points are visible within the fraction
+ * `free` of the height. Returns the target.
  */
-export function stand_back(camera: PerspectiveCamera, points: Vector3[], direction: Vector3, free: number): Vector3 {
+export function place_camera(camera: PerspectiveCamera, points: Vector3[], direction: Vector3, free: number): Vector3 {
   const target = new Box3().setFromPoints(points).getCenter(new Vector3());
   const right = new Vector3(0, 1, 0).cross(direction).normalize();
   const up = direction.clone().cross(right);
@@ -74,8 +74,8 @@ export function stand_back(camera: PerspectiveCamera, points: Vector3[], directi
   const tan_up = tan * free;
   const tan_right = tan * camera.aspect;
   let distance = 0.01;
-  // What is near looks larger, so that the middle of the box is not the middle of the picture: each round moves
-  // the target into the middle and asks again for the distance.
+  // Perspective enlarges near points, so the centre of the box is not the centre of the image. Each iteration moves
+  // the target to the centre of the image and computes the distance again.
   for (let round = 0; round < 4; round += 1) {
     distance = 0.01;
     let left = 0, rightmost = 0, low = 0, high = 0;
@@ -102,7 +102,7 @@ export function stand_back(camera: PerspectiveCamera, points: Vector3[], directi
   return target;
 }
 
-/** Turns a camera round a target, by radians, and scales its distance; `lowest` bounds the angle from upright. */
+/** Rotates a camera around a target, in radians, and scales its distance. `lowest` limits the polar angle. */
 export function go_round(camera: PerspectiveCamera, target: Vector3, turn: number, tilt: number, distance: number, lowest: number): void {
   const offset = new Spherical().setFromVector3(camera.position.clone().sub(target));
   offset.theta += turn;

@@ -1,11 +1,11 @@
-/** Clicks on the ground, told to whoever listens on the canvas, and marks that stand there. */
+/** Reports clicks on the ground as events on the canvas, and shows markers on the ground. */
 import { Plane, Raycaster, Vector3, type Group, type Object3D, type PerspectiveCamera } from 'three';
 import type { GroundClick, GroundMarks } from '../form/planting';
 import { is_ground } from './footing';
 import { draw_marks } from './marks';
 import { on_tap, ray_of } from './tap';
 
-/** A finger that rests so long, in milliseconds, asks for what a right click does. */
+/** The duration of a long press, in milliseconds, which acts as a right click. */
 const long_press = 500;
 
 interface Scene { camera: PerspectiveCamera; model(): Object3D | null; floor(): number }
@@ -22,14 +22,14 @@ export function wire_ground(canvas: HTMLCanvasElement, scene: Scene, mark: (mark
     canvas.dispatchEvent(new CustomEvent('ground-click', { detail }));
   });
   canvas.addEventListener('mark-ground', (event) => {
-    const { places, chosen } = (event as CustomEvent<GroundMarks>).detail;
-    mark(places.length > 0 ? draw_marks(places.map(([x, z]) => new Vector3(x, height_at(scene, x, z), z)), chosen) : null);
+    const { positions, chosen } = (event as CustomEvent<GroundMarks>).detail;
+    mark(positions.length > 0 ? draw_marks(positions.map(([x, z]) => new Vector3(x, height_at(scene, x, z), z)), chosen) : null);
   });
 }
 
 function height_at(scene: Scene, x: number, z: number): number {
   const model = scene.model();
   const caster = new Raycaster(new Vector3(x, 1e4, z), new Vector3(0, -1, 0));
-  // The lowest of what lies there: a mark stands at the foot of a tree, not on its crown.
+  // The lowest surface is used: a marker belongs at the foot of a tree, not on its crown.
   return (model && caster.intersectObject(model, true).at(-1)?.point.y) ?? scene.floor();
 }

@@ -1,4 +1,4 @@
-/** A glTF as the viewer keeps it: its parts, its clips, and the sets of materials that it can wear. */
+/** A loaded glTF: its meshes, its animation clips, and its material variants. */
 import {
   BasicDepthPacking, Box3, Line, LineLoop, LineSegments, Material, Mesh, MeshDepthMaterial, Points, Texture, Vector3, type AnimationClip, type BufferGeometry, type Object3D,
 } from 'three';
@@ -11,7 +11,10 @@ const variants_word = 'KHR_materials_variants';
 
 interface Mapping { material: number; variants: number[] }
 
-/** Fetched when a file is compressed. Plain JavaScript: the page's policy allows no WebAssembly. */
+/**
+ * Loaded with the first compressed file. This decoder is plain JavaScript, because the content security policy
+ * forbids WebAssembly.
+ */
 const decoder = {
   supported: true,
   ready: Promise.resolve(),
@@ -19,21 +22,21 @@ const decoder = {
     (await import('../../node_modules/meshoptimizer/meshopt_decoder_reference.js')).MeshoptDecoder.decodeGltfBufferAsync(count, stride, source, mode, filter),
 };
 
-const loader = new GLTFLoader().setMeshoptDecoder(decoder as unknown as Parameters<GLTFLoader['setMeshoptDecoder']>[0]);  // all that the loader calls
+const loader = new GLTFLoader().setMeshoptDecoder(decoder as unknown as Parameters<GLTFLoader['setMeshoptDecoder']>[0]);  // the loader calls nothing else
 
 export class Model {
   readonly root: Object3D;
   readonly clips: AnimationClip[];
-  /** Names of the sets of materials; empty where there is one look only. */
+  /** The names of the material variants; empty without variants. */
   readonly variants: string[];
-  /** Around the model; something to look at where it is empty. */
+  /** The bounding box of the model; a default box if the model is empty. */
   readonly box: Box3;
   readonly is_empty: boolean;
-  /** Points that stand for the outline. */
+  /** Sample points of the outline. */
   readonly points: Vector3[];
-  /** Whether its vertices say how they move in the wind. */
+  /** True if the vertices carry wind weights. */
   sways = false;
-  /** Set where it is one of several levels. */
+  /** Set for a model that is one of several levels of detail. */
   fade: Fade | null = null;
   private readonly gltf: GLTF;
   private readonly own = new Map<Mesh, Material | Material[]>();
@@ -53,19 +56,19 @@ export class Model {
     this.each_mesh((mesh) => {
       if (mesh.geometry.getAttribute('uv2') && mesh.geometry.getAttribute('uv3')) {
         this.sways = true;
-        // Shadows sway too.
+        // The shadow pass needs the same wind displacement.
         mesh.customDepthMaterial = new MeshDepthMaterial({ depthPacking: BasicDepthPacking });
         patch(mesh.customDepthMaterial, true, null);
       }
       mesh.castShadow = true;
       mesh.receiveShadow = true;
       this.own.set(mesh, mesh.material);
-      // A skin grows out of the box that its first frame has.
+      // A skinned mesh leaves the bounding box of its first frame, so it is not culled.
       if (this.clips.length > 0) mesh.frustumCulled = false;
     });
   }
 
-  /** A GLB, or a glTF whose addresses can be fetched. */
+  /** Loads a GLB, or a glTF whose URIs can be fetched. */
   static async from(data: ArrayBuffer | string): Promise<Model> {
     return new Model(await loader.parseAsync(data, ''));
   }
@@ -74,12 +77,12 @@ export class Model {
     this.root.traverse((part) => { if (part instanceof Mesh && !part.userData['helper']) act(part); });
   }
 
-  /** The material that the file gives a mesh, whatever it wears at the moment. */
+  /** The material that the file assigns to a mesh, even if another is shown. */
   own_material(mesh: Mesh): Material | Material[] {
     return this.own.get(mesh) ?? mesh.material;
   }
 
-  /** Dresses the meshes in the materials of a variant; null for those of the file itself. */
+  /** Assigns the materials of a variant; null restores those of the file. */
   async wear(name: string | null): Promise<void> {
     const wanted = name === null ? -1 : this.variants.indexOf(name);
     const changes: Promise<void>[] = [];
@@ -102,7 +105,7 @@ export class Model {
     await Promise.all(changes);
   }
 
-  /** Lets a material of this model do what the model does. */
+  /** Patches a material for the wind and the fade of this model. */
   prepare(material: Material): void {
     patch(material, this.sways, this.fade);
   }
@@ -116,7 +119,7 @@ export class Model {
     return count;
   }
 
-  /** What it is made of, and how many. */
+  /** The kind and the number of the primitives. */
   get pieces(): { name: string; count: number } {
     const { triangles } = this;
     let lines = 0, points = 0;
@@ -136,7 +139,7 @@ export class Model {
       const { geometry, material } = part as Mesh;
       geometry?.dispose();
       part.customDepthMaterial?.dispose();
-      // What a mesh wears for a while (normals, squares) belongs to the viewer.
+      // Temporary materials (normals, checkerboard) belong to the viewer and are not disposed of here.
       for (const each of [this.own.get(part as Mesh) ?? material ?? []].flat() as Material[]) {
         for (const value of Object.values(each)) if (value instanceof Texture) value.dispose();
         each.dispose();
@@ -148,10 +151,10 @@ export class Model {
 const triangles_of = (geometry: BufferGeometry): number =>
   Math.floor((geometry.index?.count ?? geometry.getAttribute('position')?.count ?? 0) / 3);
 
-/** A level gives way to the next in so many milliseconds. */
+/** The duration of the fade between two levels, in milliseconds. */
 const fade_time = 400;
 
-/** The levels of one model, from fine to coarse, one of which is in sight, or two while one gives way to the other. */
+/** The levels of one model, from fine to coarse. One is visible, or two during a fade. */
 export class Levels {
   readonly models: Model[];
   private readonly still: boolean;
@@ -161,7 +164,7 @@ export class Levels {
   private before = -1;
   private began = 0;
 
-  /** `still` exchanges them at once. */
+  /** `still` disables the fade. */
   constructor(models: Model[], still: boolean) {
     this.models = models;
     this.counts = models.map((model) => model.triangles);
@@ -169,19 +172,21 @@ export class Levels {
     for (const model of models) model.fade = whole();
   }
 
-  /** A level by number, or "auto": the first up to the distance `near`, and each doubling takes the next. */
+  /**
+   * Selects a level by number, or "auto": level 0 up to the distance `near`, and one level more for each doubling.
+   */
   choose(level: number | 'auto', parent: Object3D, near: number): void {
     for (const model of this.models) parent.add(model.root);
     this.near = level === 'auto' ? near : 0;
     this.show(level === 'auto' ? 0 : level, false);
   }
 
-  /** Called before each picture; tells whether another level came into sight, and whether there is more to show. */
+  /** Called before each frame. `changed` reports a new level, `fading` whether more frames are needed. */
   at(distance: number): { changed: boolean; fading: boolean } {
     const ended = this.go_on();
     if (this.near === 0) return { changed: ended, fading: this.before >= 0 };
     const wanted = Math.max(0, Math.ceil(Math.log2(distance / this.near)));
-    // On the way in a tenth more is asked for, so that a camera on the border does not flicker.
+    // Hysteresis of a tenth prevents flickering between two levels at their border.
     const closer = Math.max(0, Math.ceil(Math.log2((distance * 1.1) / this.near)));
     const next = Math.min(wanted < this.now ? closer : wanted, this.models.length - 1);
     if (next !== this.now) this.show(next, !this.still);
@@ -208,7 +213,7 @@ export class Levels {
     this.go_on();
   }
 
-  /** The next moment of the fade; true in its last. */
+  /** Updates the fade; returns true when it ends. */
   private go_on(): boolean {
     const from = this.models[this.before], to = this.models[this.now];
     if (!from || !to) return false;

@@ -1,4 +1,4 @@
-/** Ways to look at a mesh other than in its own materials, and the lines over it. */
+/** The shading modes of the view other than the model's own materials, and the lines over it. */
 import {
   DataTexture, DoubleSide, EdgesGeometry, InstancedMesh, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshNormalMaterial, MeshStandardMaterial, NearestFilter, LinearMipmapLinearFilter, RepeatWrapping, SRGBColorSpace,
   type BufferGeometry, type Material, type Object3D,
@@ -8,7 +8,7 @@ import { aside, patch, shift, type Cut } from './patch';
 
 export type Mode = 'shaded' | 'flat' | 'normals' | 'uv';
 
-/** 8 x 8 squares to the unit; hue runs with u and brightness with v, so that a turned or mirrored chart shows. */
+/** 8 x 8 squares per UV unit. Hue depends on u and brightness on v, so that rotated or mirrored UVs are visible. */
 function checker(): DataTexture {
   const side = 256, squares = 8;
   const data = new Uint8Array(side * side * 4);
@@ -19,7 +19,7 @@ function checker(): DataTexture {
       const at = (y * side + x) * 4;
       const [u, v] = [x / side, y / side];
       const shade = rim ? 0.25 : light ? 1 : 0.55;
-      // From blue to orange along u: the pair that every eye tells apart.
+      // From blue to orange along u, which colour-blind readers can distinguish.
       data[at] = 255 * shade * (0.1 + 0.8 * u);
       data[at + 1] = 255 * shade * (0.35 + 0.3 * v + 0.1 * u);
       data[at + 2] = 255 * shade * (0.85 - 0.75 * u);
@@ -36,49 +36,49 @@ function checker(): DataTexture {
   return texture;
 }
 
-/** Whether squares can be laid on any of a model. */
+/** True if any mesh of the model has UVs. */
 export function has_uvs(model: Model): boolean {
   let has = false;
   model.each_mesh((mesh) => { has ||= Boolean(mesh.geometry.getAttribute('uv')); });
   return has;
 }
 
-/** Faces that meet at less, in degrees, are one rounded face. */
+/** Edges between faces with a smaller angle, in degrees, are not drawn. */
 const least_angle = 25;
-/** Edges are looked for among so many faces of a mesh, and drawn for so many copies. */
+/** Limits of the edge display: faces per mesh, and copies per mesh. */
 const most_faces = 200_000, most_copies = 2000;
 
 export class Modes {
   mode: Mode = 'shaded';
   wireframe = false;
-  /** Lines where faces meet at an angle: what a shape is, apart from the triangles it is made of. */
+  /** Draws the edges where faces meet at an angle, without the other edges of the triangles. */
   edges = false;
-  /** Nearly black with white beside it: one of the two is told from whatever lies behind. */
+  /** Nearly black lines with a white halo, one of which contrasts with any background. */
   private readonly line = new LineBasicMaterial({ color: 0x0b1020, toneMapped: false, transparent: true });
   private readonly halo = new LineBasicMaterial({ color: 0xffffff, toneMapped: false, transparent: true, opacity: 0.65 });
   readonly wire = new MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.55 });
   private readonly normals = new MeshNormalMaterial({ side: DoubleSide });
   private squares: MeshBasicMaterial | null = null;
-  /** What has no UVs is plain in the mode of squares: neither bright nor dark, so that wires show. */
+  /** The material of meshes without UVs in the UV mode, with a medium brightness so that wireframes are visible. */
   private readonly plain = new MeshStandardMaterial({ color: 0x9a958f, roughness: 1, side: DoubleSide });
-  /** What stands in for a material that is cut out by its picture: normals, and squares. */
+  /** Replacements of alpha-tested materials, for the normals and UV modes. */
   private readonly cut = new WeakMap<Material, Map<Mode, Material>>();
   private wires: Object3D[] = [];
   private readonly edges_of = new WeakMap<BufferGeometry, EdgesGeometry>();
 
   constructor() { shift(this.halo); }
 
-  /** How large the picture is, in the pixels of the screen. */
+  /** The size of the view, in device pixels. */
   set_size(width: number, height: number): void { aside.value.set(2 / width, -2 / height); }
 
-  /** Puts all on that is switched on. Called again whenever the model, its materials or a switch changes. */
+  /** Applies the current mode. Called whenever the model, its materials or a setting changes. */
   dress(models: Model[]): void {
     for (const wires of this.wires) wires.removeFromParent();
     this.wires = [];
     for (const model of models) model.each_mesh((mesh) => this.dress_mesh(model, mesh));
   }
 
-  /** Meshes that are lines over others; they are no part of the model. */
+  /** Removes the line objects, which are not part of the model. */
   forget(): void {
     for (const wires of this.wires) {
       wires.removeFromParent();
@@ -92,7 +92,7 @@ export class Modes {
     const worn = this.worn(own, mesh.geometry);
     mesh.material = worn;
     for (const material of [own].flat()) model.prepare(material);
-    // What all models share fades with none of them.
+    // Materials that all models share do not take part in a fade.
     if (model.sways) for (const material of [this.normals, this.squares, this.plain, this.wire]) if (material) patch(material, true, null);
     if (worn !== own && ![this.normals, this.squares, this.plain].includes(worn as MeshBasicMaterial)) patch(worn as Material, model.sways, model.fade, this.cut_of_mode());
     for (const material of [own, mesh.material].flat() as MeshStandardMaterial[]) {
@@ -138,7 +138,7 @@ export class Modes {
     }
   }
 
-  /** What a mesh is drawn with whose own material this is. */
+  /** The material that replaces a mesh's own material in the current mode. */
   private worn(own: Material | Material[], geometry: BufferGeometry): Material | Material[] {
     const { mode } = this;
     if (mode !== 'normals' && mode !== 'uv') return own;

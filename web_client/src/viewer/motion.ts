@@ -1,9 +1,9 @@
-/** What moves the model: a clip, which stands at a share of its length or runs; or else the wind, which blows in a loop. */
+/** Animates the model: a clip, which plays or is paused at a fraction of its duration, or else the looping wind. */
 import type { AnimationClip, Interpolant, KeyframeTrack, Mesh, Object3D, Quaternion, Vector3 } from 'three';
 import type { Model } from './model';
 import { breeze } from './patch';
 
-/** Seconds until the wind begins again. */
+/** The duration of the wind loop, in seconds. */
 const loop = 10;
 
 type Keyed = KeyframeTrack & { createInterpolant(): Interpolant };
@@ -11,7 +11,7 @@ type Keyed = KeyframeTrack & { createInterpolant(): Interpolant };
 /** One animated property of one node. */
 interface Channel { curve: Interpolant; set(values: ArrayLike<number>): void }
 
-/** glTF knows four properties; the loader names a track "<node>.<property>". */
+/** glTF animates four properties; the loader names a track "<node>.<property>". */
 function channels_of(root: Object3D, clip: AnimationClip): Channel[] {
   const nodes = new Map<string, Object3D>();
   root.traverse((node) => { nodes.set(node.uuid, node); if (node.name && !nodes.has(node.name)) nodes.set(node.name, node); });
@@ -28,9 +28,9 @@ function channels_of(root: Object3D, clip: AnimationClip): Channel[] {
 }
 
 export class Motion {
-  /** Called with the share that is shown while it runs. */
+  /** Called with the current fraction while the animation plays. */
   on_time: (share: number) => void = () => {};
-  /** The next model that can move does so at once, from the beginning. */
+  /** The next animated model starts to play from the beginning. */
   begins = false;
   private channels: Channel[] = [];
   private blows = false;
@@ -42,14 +42,15 @@ export class Motion {
   get has_clip(): boolean { return this.channels.length > 0 || this.blows; }
   get is_running(): boolean { return this.running; }
   get seconds(): number { return this.duration; }
-  /** The share of the length that is shown. */
+  /** The current fraction of the duration. */
   get at(): number { return this.share; }
 
   take(model: Model | null): void {
     const clip = model?.clips[0];
     const blew = this.blows, had_clip = this.channels.length > 0;
     this.blows = !clip && model !== null && model.sways;
-    // The next seed goes on where the one before was; another kind of motion stands at its end, where growth is done.
+    // The next seed continues at the time of the previous one. A new kind of motion starts at its end, where growth
+    // is complete.
     const goes_on = this.blows ? blew : clip !== undefined && had_clip;
     if (this.begins && clip) this.share = 0;
     else if (!goes_on) this.share = 1;
@@ -63,7 +64,7 @@ export class Motion {
     this.stand(this.share);
   }
 
-  /** 0 is the first moment, 1 the last. */
+  /** 0 is the first frame, 1 the last. */
   stand(share: number): void {
     this.share = share;
     breeze.value.x = share * 2 * Math.PI;
@@ -76,7 +77,7 @@ export class Motion {
     this.last = performance.now();
   }
 
-  /** Goes on by the time since the last call; true while there is more to show. */
+  /** Advances by the time since the last call; returns true while more frames are needed. */
   step(): boolean {
     if (!this.running) return false;
     const now = performance.now();

@@ -1,18 +1,21 @@
 /**
- * What the materials of a model can do besides: sway in the wind by the weights that a file carries, and fade from one
- * level of detail to the next by dots. Both are some lines in three's own programs.
+ * Shader patches for the materials of a model: wind displacement by the weights of the file, and a dithered fade
+ * between levels of detail. Both insert lines into the shader programs of three.js.
  */
 import { Vector2, Vector3, type Material, type Texture, type WebGLProgramParametersWithUniforms } from 'three';
 
-/** x: the moment as an angle of a loop, y: how far the top of the model bends, in metres, z: how far a leaf flutters. Of all models. */
+/**
+ * Shared by all models. x: the phase of the wind loop in radians; y: the displacement of the treetop in metres; z:
+ * the flutter of a leaf in metres.
+ */
 export const breeze = { value: new Vector3() };
 
-/** Which part of the dots of a model is drawn, from and to; all at (0, 2). */
+/** The range of the dither threshold that is drawn; (0, 2) draws every pixel. */
 export type Fade = { value: Vector2 };
 export const whole = (): Fade => ({ value: new Vector2(0, 2) });
 
-// Trunk, branches and leaves as Sousa (GPU Gems 3, chapter 16) tells them apart. Every frequency is a whole number of
-// turns a loop, so that the loop has no seam.
+// Trunk, branches and leaves move separately (Sousa, GPU Gems 3, chapter 16). Every frequency is a whole number of
+// periods per loop, so that the loop is seamless.
 const sway_head = `
 #ifndef USE_UV2
 attribute vec2 uv2;
@@ -33,7 +36,8 @@ vec3 sway(vec3 at) {
 const fade_head = `
 uniform vec2 fade;
 `;
-// Noise without a pattern that the eye finds (Jimenez 2014); what one level leaves out the other draws.
+// Interleaved gradient noise (Jimenez 2014). The two levels use complementary ranges, so that every pixel is drawn
+// once.
 const fade_body = `
   float dot_of_fade = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
   if (dot_of_fade < fade.x || dot_of_fade >= fade.y) discard;
@@ -44,10 +48,10 @@ function inserted(source: string, head: string, before: string, body: string): s
   return head + source.replace(before, `${body}\n${before}`);
 }
 
-/** The step of a line's halo, in the coordinates of the screen: one pixel to the right and one down. */
+/** The offset of a line's halo in clip space: one pixel to the right and one down. */
 export const aside = { value: new Vector2(0.002, -0.002) };
 
-/** Draws lines a pixel aside of where they are. */
+/** Draws lines with an offset of one pixel. */
 export function shift(lines: Material): void {
   lines.onBeforeCompile = (program: WebGLProgramParametersWithUniforms) => {
     program.uniforms['aside'] = aside;
@@ -56,12 +60,12 @@ export function shift(lines: Material): void {
   lines.customProgramCacheKey = () => 'aside';
 }
 
-/** What a material that stands in for another draws of it: only where its picture is, as `map` and `alphaTest` tell. */
+/** How a replacement material cuts out pixels: by the `map` and `alphaTest` of the original. */
 export type Cut = 'normals' | { squares: Texture };
 
 function cut_out(program: WebGLProgramParametersWithUniforms, cut: Cut): void {
   if (cut === 'normals') {
-    // three's own program of normals knows no pictures.
+    // The normal material of three.js supports neither maps nor alpha tests.
     program.fragmentShader = inserted(program.fragmentShader, 'uniform sampler2D map;\nuniform float alphaTest;\n', '#include <clipping_planes_fragment>',
       '  if (texture2D(map, vMapUv).a < alphaTest) discard;');
     return;
@@ -73,7 +77,7 @@ function cut_out(program: WebGLProgramParametersWithUniforms, cut: Cut): void {
 
 const patched = new WeakMap<Material, { key: string; fade: Fade | null }>();
 
-/** Adds what is asked for to a material, once. */
+/** Patches a material once with the requested features. */
 export function patch(material: Material, sways: boolean, fade: Fade | null, cut: Cut | null = null): void {
   const key = `${sways ? 'sways' : ''} ${fade ? 'fades' : ''}${cut ? ` cut ${cut === 'normals' ? cut : 'squares'}` : ''}`;
   const known = patched.get(material);

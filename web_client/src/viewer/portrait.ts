@@ -1,14 +1,14 @@
-/** A small picture of another model, drawn by the renderer of the page between two of its own. */
+/** Renders a thumbnail of another model with the page's own renderer, between two frames. */
 import { PerspectiveCamera, Vector2, type Scene, type WebGLRenderer } from 'three';
-import { stand_back, usual_direction } from './frame';
+import { place_camera, usual_direction } from './frame';
 import type { Model } from './model';
 import type { Stage } from './stage';
 
-/** Takes the model and lets go of it. The stage stands round it afterwards. */
+/** Takes ownership of the model and disposes of it. The caller frames the stage again afterwards. */
 export function draw_portrait(renderer: WebGLRenderer, scene: Scene, stage: Stage, model: Model, width: number, height: number): HTMLCanvasElement {
   const picture = Object.assign(document.createElement('canvas'), { width, height });
   const camera = new PerspectiveCamera(32, width / height);
-  stand_back(camera, model.points, usual_direction(model.box), 1);
+  place_camera(camera, model.points, usual_direction(model.box), 1);
   const hidden = scene.children.filter((child) => child !== stage.group && child.visible);
   for (const child of hidden) child.visible = false;
   scene.add(model.root);

@@ -1,4 +1,4 @@
-/** A clear sky with its sun, as a picture round the scene. */
+/** A clear sky with the sun, as an equirectangular environment texture. */
 import { DataTexture, EquirectangularReflectionMapping, LinearFilter, SRGBColorSpace, Vector3 } from 'three';
 
 const width = 256, height = 128;
@@ -15,7 +15,7 @@ export function sky_texture(to_sun: Vector3, shines: boolean): DataTexture {
     const base = up >= 0 ? mix(horizon, zenith, Math.sqrt(up)) : mix(haze, earth, Math.min(-up * 6, 1));
     const level = Math.sqrt(1 - up * up);
     for (let x = 0; x < width; x += 1) {
-      // three's own unwrapping: u = atan2(z, x) / 2 pi + 1/2.
+      // The equirectangular mapping of three.js: u = atan2(z, x) / 2 pi + 1/2.
       const around = ((x + 0.5) / width - 0.5) * 2 * Math.PI;
       const toward = Math.max(0, to_sun.x * level * Math.cos(around) + to_sun.y * up + to_sun.z * level * Math.sin(around));
       const glow = shines && up > 0 ? 0.45 * toward ** 24 + (toward > 0.999 ? 1 : 0) : 0;

@@ -1,4 +1,4 @@
-/** What stands round the model: light, the ground with its grid in metres, and a person of 1.8 m for scale. */
+/** The surroundings of the model: light, the ground with its metric grid, and a person of 1.8 m for scale. */
 import {
   Box3, CapsuleGeometry, Color, DirectionalLight, Group, HemisphereLight, Mesh, MeshBasicMaterial, PlaneGeometry,
   ShaderMaterial, ShadowMaterial, SphereGeometry, Vector3, type Material, type Texture,
@@ -6,18 +6,18 @@ import {
 import { corners_of } from './frame';
 import { sky_texture } from './sky';
 
-/** The movable light: the way it comes from, in degrees, and whether it shines. */
+/** The movable light: its direction in degrees, and whether it is on. */
 export interface Sun { on: boolean; turn: number; height: number }
 
 const grid_vertex = `
   varying vec2 ground;
   void main() {
-    vec4 place = modelMatrix * vec4(position, 1.0);
-    ground = place.xz;
-    gl_Position = projectionMatrix * viewMatrix * place;
+    vec4 in_world = modelMatrix * vec4(position, 1.0);
+    ground = in_world.xz;
+    gl_Position = projectionMatrix * viewMatrix * in_world;
   }`;
 
-// Lines about one pixel wide at any distance, every tenth one stronger, fading out towards the rim.
+// Lines about one pixel wide at any distance, every tenth one stronger, fading out towards the edge.
 const grid_fragment = `
   uniform vec3 color;
   uniform float cell;
@@ -37,10 +37,10 @@ const grid_fragment = `
     gl_FragColor = vec4(color, strength);
   }`;
 
-/** Level ground of a model at the same height is in front of the ground of the page, wherever it is seen from. */
+/** Depth offset: terrain of a model at the same height is drawn in front of the grid. */
 const behind = { polygonOffset: true, polygonOffsetFactor: 4, polygonOffsetUnits: 16 };
 
-/** 1.8 m from sole to crown: a figure without light and shade, so that it does not draw the eye. */
+/** A person of 1.8 m, without shading, so that it does not distract. */
 function person(material: Material): Group {
   const group = new Group();
   const limb = (radius: number, foot: [number, number], top: [number, number], depth: number): void => {
@@ -66,16 +66,16 @@ function person(material: Material): Group {
 }
 
 /**
- * Whether a person beside it shows how large a model is. Beside one of a hundred metres a person is not seen, and a
- * shrub to the knee would be the smaller thing in its own picture.
+ * True if a person is a useful scale for the model. Beside a model of a hundred metres a person is too small to see;
+ * beside a knee-high shrub the person would dominate the view.
  */
 const tells = (size: Vector3): boolean => size.y < 60 && (size.y > 1.2 || (size.y > 0.6 && Math.max(size.x, size.z) > 2.4));
 
 export class Stage {
   readonly group = new Group();
-  /** Side of a grid cell, in metres: a power of ten. */
+  /** The side of a grid cell in metres, a power of ten. */
   cell = 1;
-  /** Height of the ground. */
+  /** The height of the ground. */
   floor = 0;
   private readonly sky = new HemisphereLight(0xffffff, 0x9a958a, 2.3);
   private readonly sun = new DirectionalLight(0xfff3e0, 3.1);
@@ -84,7 +84,7 @@ export class Stage {
   private readonly shade: Mesh<PlaneGeometry, ShadowMaterial>;
   private readonly figure: Group;
   private readonly skin = new MeshBasicMaterial({ toneMapped: false });
-  /** null as long as nobody has said. */
+  /** null until the user has chosen. */
   private wants_figure: boolean | null = null;
   private wants_grid = true;
   private light: Sun = { on: true, turn: 38, height: 51 };
@@ -110,13 +110,13 @@ export class Stage {
     this.group.add(this.sky, this.sun, this.sun.target, this.rim, this.grid, this.shade, this.figure);
   }
 
-  /** Puts ground, light and person round a model. */
+  /** Places ground, light and person around a model. */
   surround(box: Box3): void {
     this.around.copy(box);
     const size = box.getSize(new Vector3());
     const centre = box.getCenter(new Vector3());
     const largest = Math.max(size.x, size.y, size.z, 1e-3);
-    // Roots go below the ground; a drawing that hangs far below it stands on its lowest point instead.
+    // Roots may extend below the ground. A drawing that extends far below it is placed on its lowest point instead.
     const floor = box.min.y < -0.2 * size.y ? box.min.y : 0;
     this.cell = 10 ** Math.round(Math.log10(largest / 4));
     const reach = largest * 3 + this.cell * 2;
@@ -142,7 +142,7 @@ export class Stage {
     camera.updateProjectionMatrix();
   }
 
-  /** The figure too has to be in the picture where the model is about its size. */
+  /** Includes the person in the framed points if the model has a similar size. */
   sight(box: Box3): Vector3[] {
     const matters = this.figure.visible && (this.wants_figure === true || box.max.y - box.min.y < 12);
     return matters ? corners_of(new Box3().setFromObject(this.figure)) : [];
@@ -165,14 +165,14 @@ export class Stage {
     this.shade.visible = on;
   }
 
-  /** The sky behind everything, or null for the plain background of the page. */
+  /** Shows the sky as the background; null shows the plain background of the page. */
   set_sky(on: boolean): Texture | null {
     this.background?.dispose();
     this.background = on ? sky_texture(this.to_sun, this.light.on) : null;
     return this.background;
   }
 
-  /** Without ground and person, for the portrait of another model. */
+  /** Hides ground and person, for the thumbnail of another model. */
   set bare(bare: boolean) {
     this.grid.visible = bare ? false : this.wants_grid;
     if (bare) this.figure.visible = false;
@@ -194,7 +194,7 @@ export class Stage {
     (this.grid.material.uniforms['color']!.value as Color).set(dark ? 0x8fa398 : 0x6d7f74);
     this.skin.color.set(dark ? 0x4d5d55 : 0x93a198);
     this.shade.material.opacity = dark ? 0.4 : 0.2;
-    // Without the sun there is still enough to tell the shape by.
+    // With the sun off, the ambient light still shows the shape.
     this.sky.intensity = (dark ? 2.0 : 2.3) * (this.light.on ? 1 : 0.8);
   }
 }

@@ -1,18 +1,18 @@
-/** Presses on the picture: a press and a release in one place, so that a drag, which turns the view, is none. */
+/** Detects taps on the view: a press and a release at the same position, as opposed to a drag. */
 import { Raycaster, Vector2, type PerspectiveCamera } from 'three';
 
-/** A hand trembles by so many pixels. */
-const tremor = 5;
+/** The movement, in pixels, that still counts as a tap. */
+const tap_tolerance = 5;
 
-/** `act` gets the release, and for how many milliseconds it was pressed. */
+/** `act` receives the release event and the duration of the press in milliseconds. */
 export function on_tap(canvas: HTMLCanvasElement, act: (event: PointerEvent, held: number) => void): void {
   let down: { id: number; x: number; y: number; at: number } | null = null;
   canvas.addEventListener('pointerdown', (event) => {
-    // A second finger makes a gesture of it.
+    // A second finger starts a gesture, so there is no tap.
     down = event.isPrimary ? { id: event.pointerId, x: event.clientX, y: event.clientY, at: event.timeStamp } : null;
   });
-  const strays = (event: PointerEvent): boolean => down !== null && Math.hypot(event.clientX - down.x, event.clientY - down.y) > tremor;
-  // Who comes back to where the drag began has turned the view all the same.
+  const strays = (event: PointerEvent): boolean => down !== null && Math.hypot(event.clientX - down.x, event.clientY - down.y) > tap_tolerance;
+  // A pointer that returns to its start has rotated the view nevertheless.
   canvas.addEventListener('pointermove', (event) => { if (event.pointerId === down?.id && strays(event)) down = null; });
   canvas.addEventListener('pointercancel', () => { down = null; });
   canvas.addEventListener('pointerup', (event) => {
@@ -23,7 +23,7 @@ export function on_tap(canvas: HTMLCanvasElement, act: (event: PointerEvent, hel
   });
 }
 
-/** The ray from the eye through the place of an event. */
+/** The ray from the camera through the position of an event. */
 export function ray_of(canvas: HTMLCanvasElement, camera: PerspectiveCamera, event: MouseEvent): Raycaster {
   const area = canvas.getBoundingClientRect();
   const caster = new Raycaster();

@@ -1,9 +1,9 @@
-/** The picture. Draws when something changed, never otherwise; keeps one model and lets go of the one before. */
+/** The view. It renders only after changes, and holds one model at a time. */
 import { Box3, NeutralToneMapping, PCFShadowMap, Scene, Vector3, WebGLRenderer, type Group, type PerspectiveCamera } from 'three';
 import { measured } from '../grower';
-import { Beside } from './beside';
+import { Comparison } from './beside';
 import { Scopes, drop_boxes, type ScopeBox } from './boxes';
-import { Eye } from './eye';
+import { OrbitCamera } from './eye';
 import { corners_of, type Covered } from './frame';
 import { wire_ground } from './ground';
 import { Levels, Model } from './model';
@@ -17,45 +17,48 @@ import { Walker, type Gait } from './walker';
 import { levels_of } from './zip';
 
 export interface Look {
-  /** low: no shadows, no smoothing, one pixel a pixel; for machines that draw without a graphics card. */
+  /** low: no shadows, no antialiasing, a pixel ratio of 1; for machines without a graphics card. */
   quality: 'high' | 'low';
   dark: boolean;
   still: boolean;
-  /** What lies over the rims of the picture: a model that is fitted stays between. */
+  /** The overlays at the edges of the view. A fitted model is placed between them. */
   covered: Covered;
 }
 
 export class Viewer {
-  /** Called when the picture is lost and when it is back. */
+  /** Called when the WebGL context is lost and when it is restored. */
   on_context: (lost: boolean) => void = () => {};
-  /** Called with the scope box that was pointed at; -1 for none. */
+  /** Called with the index of the scope box under the pointer; -1 for none. */
   on_pick: (index: number) => void = () => {};
-  /** Called after each picture with the time that its drawing took, and the time since the one before while pictures follow each other, in milliseconds. */
+  /**
+   * Called after each frame with its rendering time and, in continuous rendering, the time since the previous frame,
+   * in milliseconds.
+   */
   on_drawn: (milliseconds: number, frame: number | null) => void = () => {};
   readonly motion = new Motion();
   readonly walker: Walker;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
-  private readonly eye: Eye;
+  private readonly eye: OrbitCamera;
   private readonly stage: Stage;
   private readonly canvas: HTMLCanvasElement;
   private readonly modes = new Modes();
   private model: Model | null = null;
   private levels: Levels | null = null;
-  private readonly beside = new Beside();
+  private readonly beside = new Comparison();
   private variant: string | null = null;
   private readonly scopes = new Scopes(this.scene);
   private marks: Group | null = null;
   private box = new Box3(new Vector3(-1, 0, -1), new Vector3(1, 2, 1));
   private points = corners_of(this.box);
-  /** The camera stays where it is, whatever is shown: a model that grows shall be seen to grow. */
+  /** Keeps the camera in place for every model, so that growth is visible. */
   held = false;
   private frame = 0;
   private last_begin = 0;
-  /** The model was not drawn yet. */
+  /** True until the model has been drawn for the first time. */
   private is_new = false;
   private is_timed = false;
-  /** Nothing shall move by itself. */
+  /** Disables all animation (prefers-reduced-motion). */
   readonly is_still: boolean;
 
   constructor(canvas: HTMLCanvasElement, look: Look) {
@@ -71,7 +74,7 @@ export class Viewer {
     this.renderer.shadowMap.autoUpdate = false;
     this.stage = new Stage(high);
     this.scene.add(this.stage.group);
-    this.eye = new Eye(canvas, look.covered, look.still, () => this.draw());
+    this.eye = new OrbitCamera(canvas, look.covered, look.still, () => this.draw());
     this.walker = new Walker(this.camera, canvas, () => this.draw());
     canvas.addEventListener('webglcontextlost', (event) => { event.preventDefault(); this.on_context(true); });
     canvas.addEventListener('webglcontextrestored', () => { this.renderer.shadowMap.needsUpdate = true; this.on_context(false); this.draw(); });
@@ -84,7 +87,7 @@ export class Viewer {
     this.fit();
   }
 
-  /** Takes a GLB in place of the model that is shown. The camera stays where a hand has put it. */
+  /** Replaces the model by a GLB. The camera stays if the user has moved it. */
   async show(bytes: ArrayBuffer, keep_camera: boolean): Promise<Model> {
     const begin = performance.now();
     const model = await Model.from(bytes);
@@ -107,20 +110,22 @@ export class Viewer {
     return model;
   }
 
-  /** Shows all, in orbit. */
+  /** Fits the model into the view, in orbit mode. */
   fit(): void { if (this.walker.gait === 'orbit') this.frame_model(); }
 
-  /** What shall be seen. */
+  /** The points that have to be visible. */
   private get sight(): Vector3[] { return [...this.points, ...(this.beside.other?.points ?? []), ...this.stage.sight(this.box)]; }
 
   private get camera(): PerspectiveCamera { return this.eye.camera; }
 
-  /** Whether the model can be looked at from where the camera is, so that models can be told apart by their size. */
+  /**
+   * True if the model can be viewed from the current camera position, so that the sizes of models can be compared.
+   */
   private is_framed(): boolean {
     return this.walker.gait !== 'orbit' || this.eye.suits(this.sight, this.box);
   }
 
-  /** On foot and in flight this is where one goes on from. */
+  /** In the walking and flying modes, movement continues from this position. */
   private frame_model(): void {
     this.eye.touched = false;
     this.eye.put(this.sight, this.box);
@@ -129,20 +134,20 @@ export class Viewer {
     this.draw();
   }
 
-  /** Turns round the model, by radians, and scales the distance. */
+  /** Rotates around the model, in radians, and scales the distance. */
   orbit(turn: number, tilt: number, distance: number): void {
-    if (distance < 1) this.eye.keep_out();
+    if (distance < 1) this.eye.limit_zoom();
     this.eye.orbit(turn, tilt, distance);
     this.draw();
   }
 
-  /** Lines over the shaded faces, so that hidden edges stay hidden. */
+  /** Wireframe lines over the shaded faces, so that hidden edges stay hidden. */
   set_wireframe(on: boolean): void {
     this.modes.wireframe = on;
     this.dress();
   }
 
-  /** Lines where faces meet at an angle. */
+  /** Lines at the edges where faces meet at an angle. */
   set_edges(on: boolean): void {
     this.modes.edges = on;
     this.dress();
@@ -153,14 +158,17 @@ export class Viewer {
     this.dress();
   }
 
-  /** The set of materials by name, for this model and those that follow; null for their own. */
+  /** Selects the material variant by name for this model and later ones; null selects the model's own materials. */
   async set_variant(name: string | null): Promise<void> {
     this.variant = name;
     await Promise.all(this.all_models().map((model) => model.wear(name)));
     this.dress();
   }
 
-  /** Takes the levels out of a zip, from fine to coarse, and says how many triangles each has; null where another model came meanwhile. */
+  /**
+   * Loads the levels of a zip and returns the triangle count of each, from fine to coarse; null if another model was
+   * shown meanwhile.
+   */
   async take_levels(bytes: ArrayBuffer): Promise<number[] | null> {
     const { model: of } = this;
     const models = await levels_of(bytes);
@@ -171,7 +179,7 @@ export class Viewer {
     return models.map((model) => model.triangles);
   }
 
-  /** A level of detail, "auto" by distance, or null for the model as it was shown. */
+  /** Selects a level of detail, "auto" by distance, or null for the original model. */
   choose_level(level: number | 'auto' | null): void {
     if (!this.model) return;
     this.model.root.visible = level === null || !this.levels;
@@ -184,13 +192,13 @@ export class Viewer {
     this.dress();
   }
 
-  /** The level that is in sight; null where there are no levels. */
+  /** The visible level; null without levels. */
   get level(): number | null { return this.levels?.in_sight ?? null; }
 
-  /** The triangles of that level. */
+  /** The number of triangles of the visible level. */
   get level_triangles(): number | null { return this.levels?.triangles ?? null; }
 
-  /** Whether the person stands in the picture: unasked where a person tells how large the model is. */
+  /** Shows or hides the person. By default the person is shown if it is a useful scale. */
   get has_figure(): boolean { return this.stage.has_figure; }
 
   set_grid(on: boolean): void { this.stage.grid_visible = on; this.draw(); }
@@ -224,7 +232,7 @@ export class Viewer {
     this.cast();
   }
 
-  /** Orbit, on foot or in flight. Back in orbit the model is fitted. */
+  /** Switches between orbit, walking and flying. Orbit fits the model again. */
   set_gait(gait: Gait): void {
     this.eye.controls.enabled = gait === 'orbit';
     this.walker.begin(gait);
@@ -232,7 +240,7 @@ export class Viewer {
     this.draw();
   }
 
-  /** Stands the clip at a share of its length, or lets it run. */
+  /** Pauses the clip at a fraction of its duration, or plays it. */
   set_time(share: number): void {
     this.motion.stand(share);
     this.cast();
@@ -243,7 +251,7 @@ export class Viewer {
     this.draw();
   }
 
-  /** Another model to the left of the divider, under the same camera; null takes it away. */
+  /** Shows another model to the left of the divider, under the same camera; null removes it. */
   async compare(bytes: ArrayBuffer | null): Promise<void> {
     await this.beside.take(bytes);
     this.dress();
@@ -254,19 +262,19 @@ export class Viewer {
     this.draw();
   }
 
-  /** Boxes of shapes over the model; null takes them away. */
+  /** Shows the boxes of shapes over the model; null removes them. */
   set_boxes(scopes: ScopeBox[] | null, color_of: (index: number) => number = () => 0): void {
     this.scopes.set(scopes, color_of);
     this.draw();
   }
 
-  /** Marks one of these boxes; -1 marks none. */
+  /** Highlights one of these boxes; -1 highlights none. */
   mark_box(index: number): void {
     this.scopes.mark(index);
     this.draw();
   }
 
-  /** Every picture is waited for until it is finished, so that its time can be told; a picture is drawn at once. */
+  /** Waits for the end of every frame to measure its time, and renders a frame at once. */
   set_timed(on: boolean): void {
     this.is_timed = on;
     this.draw();
@@ -280,27 +288,27 @@ export class Viewer {
     this.draw();
   }
 
-  /** Width, height and depth of the model in metres, null where it is empty, and the side of a cell of the grid. */
+  /** Width, height and depth of the model in metres, null if it is empty, and the side of a grid cell. */
   get measures(): { size: Vector3 | null; cell: number } {
     return { size: this.model?.is_empty ? null : this.box.getSize(new Vector3()), cell: this.stage.cell };
   }
 
-  /** What lies over the rims of the picture; `anew` where the model shall take the room that became free. */
+  /** The overlays at the edges of the view. With `anew`, the model is fitted into the free space. */
   set_covered(covered: Covered, anew = false): void {
     this.eye.covered = covered;
-    // What goes away again, such as a comparison, changes no scale.
+    // A change that is temporary, such as a comparison, must not change the scale.
     if (!this.eye.touched && (anew || !this.eye.sees(this.sight))) this.fit();
   }
 
-  /** What is seen now, as a PNG. */
+  /** The current view as a PNG. */
   screenshot(): Promise<Blob | null> {
     this.render();
     return new Promise((resolve) => this.canvas.toBlob(resolve, 'image/png'));
   }
 
   /**
-   * A small picture of another model, drawn by the same renderer between two pictures of the page: a browser allows
-   * only few of them.
+   * Renders a thumbnail of another model with the same renderer, between two frames. Browsers limit the number of
+   * WebGL contexts.
    */
   async portrait(bytes: ArrayBuffer, width: number, height: number): Promise<HTMLCanvasElement> {
     const picture = draw_portrait(this.renderer, this.scene, this.stage, await Model.from(bytes), width, height);
@@ -343,7 +351,7 @@ export class Viewer {
     cancelAnimationFrame(this.frame);
     this.frame = 0;
     const begin = performance.now();
-    // While the motion dies down this asks for the next picture by the event "change".
+    // During damping, the controls request the next frame by their "change" event.
     if (this.walker.gait === 'orbit') this.eye.controls.update();
     const goes_on = [this.walker.step(), this.motion.step()].some(Boolean);
     const detail = this.levels?.at(this.camera.position.distanceTo(this.eye.controls.target));
@@ -363,7 +371,7 @@ export class Viewer {
 
   private drawn(): Promise<void> {
     this.draw();
-    // A page in the background draws nothing; it is not waited for.
+    // Browsers stop animation frames of background pages, so this must not wait for one.
     return new Promise((resolve) => {
       requestAnimationFrame(() => resolve());
       setTimeout(resolve, 1000);

@@ -1,25 +1,28 @@
-/** On foot or in flight: W A S D go, Q and Z or the page keys rise and sink, arrows and a drag turn the head; buttons do as the keys. */
+/**
+ * Walking and flying: W A S D move, Q and Z or the page keys rise and sink, arrow keys and drags turn the view. Touch
+ * buttons press the same keys.
+ */
 import { MathUtils, Vector3, type Box3, type Object3D, type PerspectiveCamera } from 'three';
-import { Land, footings } from './footing';
+import { Land, surface_heights } from './footing';
 
 export type Gait = 'orbit' | 'walk' | 'fly';
 
 const eye = 1.7;
-/** Metres a second on foot; Shift goes four times as fast. */
+/** Walking speed in metres per second; Shift multiplies it by four. */
 const pace = 1.8;
 const turn_speed = 1.4;
 const going = ['w', 'a', 's', 'd', 'q', 'z', 'pageup', 'pagedown', 'arrowleft', 'arrowright', 'arrowup', 'arrowdown', 'shift'];
 
 export class Walker {
   gait: Gait = 'orbit';
-  on_move: (place: Vector3, heading: number) => void = () => {};
+  on_move: (position: Vector3, heading: number) => void = () => {};
   private readonly camera: PerspectiveCamera;
   private readonly wake: () => void;
   private readonly pressed = new Set<string>();
   private yaw = 0;
   private pitch = 0;
   private last = 0;
-  /** Half the model, in metres: flight is as fast as it is large. */
+  /** Half the size of the model, in metres, which sets the flying speed. */
   private reach = 5;
   private floor = 0;
   private ground: Object3D | null = null;
@@ -51,7 +54,7 @@ export class Walker {
     addEventListener('pointerup', (event) => { if (event.pointerId === this.dragged?.id) this.dragged = null; });
   }
 
-  /** Goes on until the key is let go of. */
+  /** Moves until the key is released. */
   press(key: string): void {
     if (this.pressed.size === 0) this.last = performance.now();
     this.pressed.add(key);
@@ -60,7 +63,7 @@ export class Walker {
 
   release(key: string): void { this.pressed.delete(key); }
 
-  /** What is walked on, and how large it is. */
+  /** Sets the model to walk on, and its size. */
   land(model: Object3D, floor: number, box: Box3): void {
     this.ground = model;
     this.floor = floor;
@@ -68,7 +71,10 @@ export class Walker {
     this.land_there = null;
   }
 
-  /** Takes the camera where it stands; on foot it comes down to the ground, and onto land from beside it. */
+  /**
+   * Starts at the current camera position. In walking mode, the camera drops to the ground, or enters the terrain
+   * from outside.
+   */
   begin(gait: Gait): void {
     this.gait = gait;
     this.pressed.clear();
@@ -82,7 +88,7 @@ export class Walker {
     this.aim();
   }
 
-  /** Goes on by the time since the last call; true while a key is held. */
+  /** Advances by the time since the last call; returns true while a key is held. */
   step(): boolean {
     if (this.gait === 'orbit' || this.pressed.size === 0) return false;
     const now = performance.now();
@@ -99,7 +105,7 @@ export class Walker {
       -Math.sin(this.yaw) * Math.cos(level) * along + Math.cos(this.yaw) * across,
       Math.sin(level) * along + (this.gait === 'fly' ? up : 0),
       -Math.cos(this.yaw) * Math.cos(level) * along - Math.sin(this.yaw) * across));
-    // Beside the land there is nothing to walk on; another model may have put one there.
+    // Outside the terrain there is nothing to walk on. The position may be outside after a change of the model.
     if (this.gait === 'walk' && !this.come_down() && this.land_here?.height(before) !== undefined) this.camera.position.copy(before);
     this.aim();
     return true;
@@ -112,7 +118,7 @@ export class Walker {
 
   private aim(): void {
     this.camera.rotation.set(this.pitch, this.yaw, 0, 'YXZ');
-    // 0 is the way to -z, clockwise, as on a map with north at the top.
+    // 0 is towards -z and angles are clockwise, as on a map with north at the top.
     const heading = ((-this.yaw * 180 / Math.PI) % 360 + 360) % 360;
     this.on_move(this.camera.position, heading);
   }
@@ -123,20 +129,23 @@ export class Walker {
     if (!land) { this.come_down(); return; }
     const beneath = land.height(position);
     if (beneath !== undefined) { position.y = beneath + eye; return; }
-    const place = land.way_in(position, eye);
-    if (!place) return;
-    position.copy(place).setY(place.y + eye);
+    const entry = land.entry_position(position, eye);
+    if (!entry) return;
+    position.copy(entry).setY(entry.y + eye);
     const ahead = land.box.getCenter(new Vector3()).sub(position);
     this.yaw = Math.atan2(-ahead.x, -ahead.z);
   }
 
-  /** null where the model is none. Sought when somebody walks. */
+  /** The terrain; null if the model has none. It is searched on first use. */
   private get land_here(): Land | null {
     if (this.ground) this.land_there ??= new Land(this.ground);
     return this.land_there?.is_there ? this.land_there : null;
   }
 
-  /** Onto land, or onto what lies below: a step of half a metre is climbed, a crown overhead is not. False where land has come to its end. */
+  /**
+   * Moves onto the terrain, or onto the surface below: steps of half a metre are climbed, tree crowns overhead are
+   * ignored. Returns false at the end of the terrain.
+   */
   private come_down(): boolean {
     const { position } = this.camera;
     const land = this.land_here;
@@ -147,7 +156,7 @@ export class Walker {
       return true;
     }
     const foot = position.y - eye + Math.max(0.5, this.reach * 0.02);
-    const below = this.ground ? footings([this.ground], position, foot)[0] : undefined;
+    const below = this.ground ? surface_heights([this.ground], position, foot)[0] : undefined;
     position.y = Math.max(below ?? this.floor, this.floor) + eye;
     return true;
   }

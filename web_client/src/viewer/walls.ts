@@ -1,12 +1,12 @@
-/** Walls: bodies whose faces are seen from outside alone. Leaves, which have two sides, are no walls, and twigs are too thin. */
+/** Finds walls: solid bodies with single-sided faces. Double-sided leaves and thin twigs do not count. */
 import { BackSide, FrontSide, MeshBasicMaterial, Raycaster, type Material, type Mesh, type Vector3 } from 'three';
 import type { Model } from './model';
 
-/** Among more triangles nothing is looked for: a turn of the wheel must not wait. */
+/** Larger models are not searched, because a zoom must not wait. */
 const most_triangles = 1_000_000;
 const outside = new MeshBasicMaterial({ side: FrontSide }), inside = new MeshBasicMaterial({ side: BackSide });
 
-/** How far it is to the first wall of a certain thickness between two places; null where there is none. */
+/** The distance to the first wall of at least this thickness between two positions; null if there is none. */
 export function wall_between(model: Model, from: Vector3, to: Vector3, thick: number): number | null {
   if (model.triangles > most_triangles) return null;
   const way = to.clone().sub(from);
@@ -15,7 +15,7 @@ export function wall_between(model: Model, from: Vector3, to: Vector3, thick: nu
   model.each_mesh((mesh) => {
     if (([model.own_material(mesh)].flat() as Material[]).every((material) => material.side === FrontSide && !material.transparent)) walls.push(mesh);
   });
-  // Another way of shading may show both sides.
+  // The current shading mode may draw both sides, so the materials are replaced for the search.
   const met = (side: Material): number[] => walls.flatMap((mesh) => {
     const worn = mesh.material;
     mesh.material = side;

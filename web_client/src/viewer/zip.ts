@@ -1,14 +1,14 @@
-/** The zip files of the server: stored entries, read in place; and the levels of detail that they hold. */
+/** Reads the server's zip files, whose entries are stored without compression, and the levels of detail in them. */
 import { Model } from './model';
 
 interface Uri { uri?: string }
 
-/** Entries by name. Throws where the bytes are no zip or an entry is compressed. */
+/** The entries by name. Throws if the bytes are not a zip or an entry is compressed. */
 export function entries_of(bytes: ArrayBuffer): Map<string, Uint8Array<ArrayBuffer>> {
   const view = new DataView(bytes);
   let end = bytes.byteLength - 22;
   while (end >= 0 && view.getUint32(end, true) !== 0x06054b50) end -= 1;
-  if (end < 0) throw new Error('This is no zip file.');
+  if (end < 0) throw new Error('This is not a zip file.');
   const found = new Map<string, Uint8Array<ArrayBuffer>>();
   let at = view.getUint32(end + 16, true);
   for (let left = view.getUint16(end + 10, true); left > 0; left -= 1) {

@@ -10,7 +10,7 @@ namespace seedmesh::building {
 using glm::dvec2;
 using glm::dvec3;
 
-/// Frame as wide as asked, or in proportion, and never more than a third.
+/// The width of a frame: the requested width or a share of the size, at most a third of it.
 double frame_width(const dvec3& size, const PartOptions& options, double share) {
   const double least = std::min(size.x, size.y);
   return std::min(options.frame > 0 ? options.frame : std::min(share * least, 0.12), least / 3);
@@ -26,7 +26,7 @@ void add_window(PartWriter& out, const dvec3& low, const dvec3& high, const Part
   const int columns = std::clamp(wanted, 1, most);
   const int rows = size.y > 1.4 * size.x / columns ? 2 : 1;
   const double width = (size.x - 2 * frame - (columns - 1) * bar) / columns;
-  // The upper light of two is the smaller one.
+  // Of two rows of panes the upper one is smaller.
   const double height = size.y - 2 * frame, split = rows == 2 ? 0.68 * (height - bar) : height;
   Plan outline{{rectangle(dvec2(low), dvec2(high))}};
   for (int column = 0; column < columns; ++column) {
@@ -63,7 +63,7 @@ std::vector<PartPiece> make_door(const dvec3& size, const PartOptions& options, 
                   {size.x, size.y},
                   {0, size.y}}}},
            {Along::z, 0, depth});
-  // One leaf, or two where the door is wide.
+  // One leaf, or two if the door is wide.
   const int leaves = size.x > 0.75 * size.y ? 2 : 1;
   const double gap = 0.1 * frame, width = (right - frame) / leaves, leaf_back = 0.25 * depth,
                leaf_front = 0.75 * depth;
@@ -73,7 +73,7 @@ std::vector<PartPiece> make_door(const dvec3& size, const PartOptions& options, 
     const dvec3 low{x + inner, 0.004 * size.y, leaf_back},
         high{x + width - outer, top + 0.3 * frame, leaf_front};
     out.box("door", low, high);
-    // Two fields that stand out a little.
+    // Two raised panels.
     const double side = 0.17 * width, field = leaf_front + 0.12 * depth;
     for (const dvec2 span : {dvec2(0.1, 0.42), dvec2(0.52, 0.9)}) {
       out.box("door", {x + side, span.x * top, leaf_front - 0.1 * depth},

@@ -30,7 +30,7 @@ void add_pyramid(PartWriter& out, const dvec3& low, const dvec3& high) {
 
 }  // namespace
 
-/// A shaft, open arcades below a cornice, and a spire.
+/// A shaft, open arcades under a cornice, and a spire.
 std::vector<PartPiece> make_tower(const dvec3& size, const PartOptions& options, Job& job) {
   PartWriter out(job);
   const double angle = options.angle > 0 ? options.angle : math::radians(55);
@@ -89,7 +89,7 @@ std::vector<PartPiece> make_bell(const dvec3& size, const PartOptions& options, 
   return out.take();
 }
 
-/// Teeth with glass on their upright side, to the right.
+/// Saw teeth with glass on their vertical side, to the right.
 std::vector<PartPiece> make_factory_roof(const dvec3& size, const PartOptions& options, Job& job) {
   PartWriter out(job);
   const int teeth = options.count > 0 ? std::min(options.count, 64) : 4;
@@ -109,7 +109,7 @@ std::vector<PartPiece> make_factory_roof(const dvec3& size, const PartOptions& o
   return out.take();
 }
 
-/// A round stack where it is more than five times as high as wide, else brick with a slab and pots.
+/// A round stack if the height is more than five times the width, else bricks with a slab and pots.
 std::vector<PartPiece> make_chimney(const dvec3& size, const PartOptions& options, Job& job) {
   PartWriter out(job);
   if (size.y > 5 * std::max(size.x, size.z)) {
@@ -154,7 +154,7 @@ std::vector<PartPiece> make_chimney(const dvec3& size, const PartOptions& option
   return out.take();
 }
 
-/// A moulding that stands out from the wall at z = 0.
+/// A moulding that projects from the wall at z = 0.
 std::vector<PartPiece> make_ledge(const dvec3& size, const PartOptions&, Job& job) {
   PartWriter out(job);
   const double d = size.z, h = size.y;
@@ -176,7 +176,7 @@ std::vector<PartPiece> make_balcony(const dvec3& size, const PartOptions& option
   const double slab = 0.13 * size.y, rail = std::min({options.frame > 0 ? options.frame : 0.05,
                                                       0.2 * std::min(size.x, size.z), 0.4 * size.y});
   out.box("stone", dvec3(0), {size.x, slab, size.z});
-  // A hand rail round three sides, a little within the slab's edge.
+  // A hand rail on three sides, a little inside the edge of the slab.
   const double edge = 0.2 * rail, low = size.y - rail;
   const Plan top{{{{edge, 0},
                    {edge, -size.z + edge},
@@ -204,7 +204,7 @@ std::vector<PartPiece> make_balcony(const dvec3& size, const PartOptions& option
   return out.take();
 }
 
-/// After the Tuscan order: plinth, base, a shaft that swells, and a capital.
+/// After the Tuscan order: plinth, base, a shaft with entasis, and a capital.
 std::vector<PartPiece> make_column(const dvec3& size, const PartOptions& options, Job& job) {
   PartWriter out(job);
   const double h = size.y, plinth = 0.05 * h, abacus = 0.045 * h;

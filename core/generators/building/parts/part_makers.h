@@ -1,5 +1,5 @@
 #pragma once
-/// One function a part, as the rows of parts.cpp name them.
+/// One function for each part; parts.cpp has the table.
 #include "core/generators/building/parts/part_writer.h"
 
 namespace seedmesh::building {

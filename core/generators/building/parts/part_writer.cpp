@@ -13,7 +13,7 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-// Profiles are smooth where they turn by less than this (its cosine, 40 degrees).
+// Profiles are smooth at angles below 40 degrees (as a cosine).
 constexpr double smooth = 0.766;
 
 dvec3 placed(Along along, const dvec2& p, double depth) {
@@ -31,7 +31,7 @@ dvec3 axis_of(Along along) {
   return along == Along::x ? dvec3{1, 0, 0} : along == Along::y ? dvec3{0, 1, 0} : dvec3{0, 0, 1};
 }
 
-/// Texture coordinates in metres: v is the height wherever a face is not level.
+/// Texture coordinates in metres: v is the height unless the face is horizontal.
 dvec2 texture(const dvec3& p, const dvec3& normal) {
   if (std::abs(normal.y) > 0.99) return {p.x, -p.z};
   const dvec3 right = math::unit(glm::cross(dvec3(0, 1, 0), normal), {1, 0, 0});
@@ -127,7 +127,7 @@ void PartWriter::turn(std::string_view role, const std::vector<ProfilePoint>& pr
         glm::length(dvec2((ends[1].radius - ends[0].radius) * mean, ends[1].height - ends[0].height));
     const auto first = static_cast<std::uint32_t>(mesh.position.size());
     const bool has_low = ends[0].radius > 0, has_high = ends[1].radius > 0;
-    // At an apex each side has a point of its own, with the normal of its middle.
+    // At an apex each side has its own point, with the normal of the middle of the side.
     for (std::uint32_t row = 0; row < 2; ++row) {
       for (std::uint32_t i = 0; i <= columns; ++i) {
         const bool is_apex = !(ends[row].radius > 0);

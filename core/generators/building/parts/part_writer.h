@@ -1,18 +1,19 @@
 #pragma once
-/// Closed solids of which parts are put together. Solids of one part may stand in each other but share no
-/// edge and no plane, so that every edge has two triangles and nothing flickers.
+/// Writes the closed solids that parts consist of. Solids of one part may intersect but share no edge and no
+/// plane, so that every edge has two triangles and no faces coincide.
 #include <functional>
 #include <glm/vec2.hpp>
 
 #include "core/generators/building/parts/parts.h"
-#include "core/geom/plan.h"
+#include "core/geom/polygon/plan.h"
 
 namespace seedmesh::building {
 
-/// What a flat outline is pushed along.
+/// The axis along which an outline is extruded.
 enum class Along { x, y, z };
 
-/// A point of a turned profile: distance from the axis as a share of the half width, and height in metres.
+/// A point of the profile of a solid of revolution: the distance from the axis as a share of the radius, and
+/// the height in metres.
 struct ProfilePoint {
   double radius = 0, height = 0;
 };
@@ -23,9 +24,9 @@ class PartWriter {
 
   void box(std::string_view role, const glm::dvec3& low, const glm::dvec3& high);
 
-  /// An outline pushed from `from` to `to`. It lies in (x, y) for z, in (-z, y) for x and in (x, -z) for y:
-  /// seen against the direction of the push it turns counter-clockwise, holes the other way. `side` names the
-  /// role of each edge (numbered through all rings); null: all `role`.
+  /// An extrusion from `from` to `to`. The outline lies in (x, y) for z, in (-z, y) for x and in (x, -z) for
+  /// y. Seen against the direction of the extrusion it runs counter-clockwise, holes clockwise. `side` gives
+  /// the role of each edge, numbered through all rings; null: `role` for all.
   struct Push {
     Along along = Along::z;
     double from = 0, to = 1;
@@ -33,8 +34,8 @@ class PartWriter {
   };
   void push(std::string_view role, const Plan& outline, const Push& push);
 
-  /// A profile turned about an upright axis; the solid is to the left of the profile (upwards outside).
-  /// `sides` is rounded up to a multiple of 4, so that the box is met exactly.
+  /// A solid of revolution about a vertical axis. The solid is to the left of the profile: outer sides run
+  /// upwards. `sides` is rounded up to a multiple of 4, so that the solid touches all sides of its box.
   struct Turn {
     glm::dvec3 foot{0};      ///< middle of the lower end
     glm::dvec2 radius{0.5};  ///< along x and z
@@ -48,9 +49,6 @@ class PartWriter {
   std::vector<PartPiece> take();
 
  private:
-  struct Frame {
-    glm::dvec3 right, up, normal;
-  };
   Mesh& mesh_of(std::string_view role);
   void flat(std::string_view role, const std::vector<glm::dvec3>& points,
             std::span<const std::uint32_t> triangles, const glm::dvec3& normal);
@@ -59,7 +57,7 @@ class PartWriter {
   std::vector<PartPiece> pieces_;
 };
 
-/// Points of a rectangle as a ring.
+/// The corners of a rectangle, counter-clockwise.
 PlanRing rectangle(const glm::dvec2& low, const glm::dvec2& high);
 
 }  // namespace seedmesh::building

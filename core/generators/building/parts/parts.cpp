@@ -5,39 +5,36 @@
 
 #include "core/generators/building/parts/part_makers.h"
 #include "core/generators/building/parts/part_writer.h"
-#include "core/geom/weld.h"
+#include "core/geom/mesh/weld.h"
 
 namespace seedmesh::building {
 namespace {
 
 constexpr std::array<PartRow, 18> rows{{
     {"balcony",
-     "A slab with a railing on three sides; its back is at the wall.",
+     "A slab with a railing on three sides; its back touches the wall.",
      {2.4, 1.15, 1},
      make_balcony},
     {"bell", "A church bell with clapper and yoke.", {1, 1.1, 1}, make_bell},
     {"box", "A box.", {1, 1, 1}, make_box},
     {"chimney",
-     "Brick with a slab and pots; a round stack where it is more than five times as high as wide.",
+     "A brick chimney with a slab and pots; a round stack if its height is more than five times its width.",
      {0.8, 1.6, 0.6},
      make_chimney},
     {"column", "A round column with base and capital.", {0.6, 4, 0.6}, make_column},
     {"cylinder", "An upright cylinder.", {1, 1, 1}, make_cylinder},
-    {"door", "A door in its frame, with a handle; two leaves where it is wide.", {1, 2.1, 0.2}, make_door},
-    {"dormer",
-     "A window with walls and a roof of its own, to stand out of a slope.",
-     {1.6, 2, 2},
-     make_dormer},
-    {"factory_roof", "Four teeth with glass on their upright side.", {20, 3, 10}, make_factory_roof},
+    {"door", "A door in its frame, with a handle; two leaves if it is wide.", {1, 2.1, 0.2}, make_door},
+    {"dormer", "A window with walls and a roof of its own, for a roof slope.", {1.6, 2, 2}, make_dormer},
+    {"factory_roof", "Four saw teeth with glass on their vertical side.", {20, 3, 10}, make_factory_roof},
     {"floor", "A slab.", {4, 0.3, 4}, make_floor},
-    {"ledge", "A moulding along a wall; its back is at the wall.", {4, 0.3, 0.3}, make_ledge},
-    {"prism", "Four trapezia between a floor and a top half as wide.", {1, 1, 1}, make_prism},
+    {"ledge", "A moulding along a wall; its back touches the wall.", {4, 0.3, 0.3}, make_ledge},
+    {"prism", "A frustum whose top is half as wide as its base.", {1, 1, 1}, make_prism},
     {"pyramid", "A pyramid over a rectangle.", {1, 1, 1}, make_pyramid},
     {"stairs", "Steps that rise from front to back.", {1.6, 1, 1.8}, make_stairs},
     {"tower", "A shaft with arcades, a cornice and a spire.", {4, 16, 4}, make_tower},
-    {"triangular_prism", "A ridge along the longer side.", {1, 1, 1}, make_triangular_prism},
+    {"triangular_prism", "A prism with a ridge along the longer side.", {1, 1, 1}, make_triangular_prism},
     {"wall", "A thin wall.", {4, 3, 0.3}, make_wall},
-    {"window", "A frame, bars by its width, and glass.", {1.2, 1.5, 0.12}, make_window},
+    {"window", "A frame, glazing bars by its width, and glass.", {1.2, 1.5, 0.12}, make_window},
 }};
 
 constexpr std::array<PartMaterial, 14> materials{{
@@ -57,7 +54,7 @@ constexpr std::array<PartMaterial, 14> materials{{
     {"wood", "#7b5b3d", 0, 0.85F},
 }};
 
-/// Whether a part keeps to its scope. In one that is almost flat some details have no room.
+/// Whether a part lies within its scope. Some details do not fit into a scope that is almost flat.
 bool is_within(const std::vector<PartPiece>& pieces, const glm::dvec3& size) {
   constexpr double reach = 1e-4;
   for (const PartPiece& piece : pieces) {

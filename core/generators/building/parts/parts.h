@@ -1,8 +1,9 @@
 #pragma once
-/// Ready parts of buildings, made for the size of a scope.
+/// Built-in parts of buildings (windows, doors, columns, ...), made for the size of a scope.
 ///
-/// Frame: a part fills the box from the origin to `size` exactly; x to the right, y up, z towards who stands
-/// before it (a door's handle is on +z). Closed solids, flat normals (round ones smooth), UV in metres.
+/// Frame: a part fills the box from the origin to `size`. x points to the right, y up and z to the front; the
+/// handle of a door is on +z. Parts are closed solids with flat normals, smooth ones on round faces, and
+/// texture coordinates in metres.
 #include <glm/vec3.hpp>
 #include <span>
 #include <string_view>
@@ -14,17 +15,15 @@ namespace seedmesh::building {
 
 /// The triangles of a part that have one material.
 struct PartPiece {
-  std::string_view role;  ///< of part_materials(), as "glass"
+  std::string_view role;  ///< a row of part_materials(), such as "glass"
   Mesh mesh;
 };
 
-/// What can be turned about a part besides its size. Each part reads what its row names.
+/// Options of a part besides its size. A part ignores options that it does not have.
 struct PartOptions {
-  double angle =
-      0;  ///< radians: pyramid and prism none; roofs of tower, dormer: of their slope (0: 45 degrees)
-  int count =
-      0;  ///< sides of cylinder, column, bell; steps of stairs; panes of a window; saw teeth; 0: by size
-  double frame = 0;  ///< metres: of a window's or door's frame, a balcony's rail; 0: by size
+  double angle = 0;  ///< radians: slope of the roof of a tower or dormer; 0: a default
+  int count = 0;     ///< sides of round parts, steps of stairs, panes of a window, saw teeth; 0: by size
+  double frame = 0;  ///< metres: width of the frame of a window or door, of a balcony rail; 0: by size
 
   friend auto operator<=>(const PartOptions&, const PartOptions&) = default;
 };
@@ -32,23 +31,22 @@ struct PartOptions {
 struct PartRow {
   std::string_view name;
   std::string_view text;  ///< one sentence for the vocabulary
-  glm::dvec3 size;        ///< that it has by itself, for scopes that leave sizes open
+  glm::dvec3 size;        ///< its size in a scope without sizes
   std::vector<PartPiece> (*make)(const glm::dvec3& size, const PartOptions& options, Job& job);
 };
 
-/// box, cylinder, prism, pyramid, triangular_prism, wall, floor, door, window, tower, bell, factory_roof,
-/// chimney, ledge, balcony, column, dormer, stairs; by name.
+/// All parts, sorted by name.
 std::span<const PartRow> part_rows();
 
-/// Null for a name that is none.
+/// Null if no part has this name.
 const PartRow* part_named(std::string_view name);
 
-/// Makes a part; a plain box of its first role where the scope is too flat for it. Each size must be
-/// positive. Spends Resource::triangles before it allocates.
+/// Makes a part, or a box of its first role if the scope is too flat for it. Each size must be above 0.
+/// Spends Resource::triangles before it allocates.
 std::vector<PartPiece> make_part(const PartRow& row, const glm::dvec3& size, const PartOptions& options,
                                  Job& job);
 
-/// What a role looks like unless the request says otherwise.
+/// The material of a role, unless the request has another.
 struct PartMaterial {
   std::string_view role;
   std::string_view color;  ///< "#rrggbb"

@@ -1,4 +1,4 @@
-// The plain solids.
+// Boxes, cylinders, prisms and pyramids.
 #include "core/generators/building/parts/part_makers.h"
 
 namespace seedmesh::building {

@@ -37,7 +37,7 @@ double extent_of(const std::vector<PictureAnchor>& anchors) {
   return extent;
 }
 
-bool tells_a_place(const std::vector<PictureAnchor>& anchors, bool is_flat) {
+bool determines_similarity(const std::vector<PictureAnchor>& anchors, bool is_flat) {
   const double extent = extent_of(anchors);
   if (!(extent > 0)) return false;
   if (is_flat) return true;
@@ -91,16 +91,16 @@ std::vector<PictureAnchor> ends_of(const std::vector<PictureLine>& lines) {
   return out;
 }
 
-std::vector<PictureAnchor> anchors_of_left(const ShapePicture& left, bool is_flat, bool& is_told) {
+std::vector<PictureAnchor> anchors_of_left(const ShapePicture& left, bool is_flat, bool& is_determined) {
   std::vector<PictureAnchor> anchors = anchors_of_wholes(left);
   const std::vector<PictureAnchor> crossings =
       crossings_of(left.lines, 1e-7 * std::max(reach_of(left), 1e-9), nullptr);
   anchors.insert(anchors.end(), crossings.begin(), crossings.end());
-  is_told = tells_a_place(anchors, is_flat);
-  if (!is_told) {
+  is_determined = determines_similarity(anchors, is_flat);
+  if (!is_determined) {
     const std::vector<PictureAnchor> ends = ends_of(left.lines);
     anchors.insert(anchors.end(), ends.begin(), ends.end());
-    is_told = tells_a_place(anchors, is_flat);
+    is_determined = determines_similarity(anchors, is_flat);
   }
   return anchors;
 }

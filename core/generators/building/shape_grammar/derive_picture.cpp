@@ -1,4 +1,4 @@
-/// Where rules fit, and what comes of them.
+/// Matching and application of the rules of a shape grammar.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -11,11 +11,11 @@ namespace seedmesh::building {
 namespace {
 
 constexpr std::uint64_t most_steps = 100'000;
-constexpr std::size_t most_matches = 1'000'000;  ///< places where rules fit at a time
-constexpr double smallest = 1e-5;                ///< of the picture: what is smaller is not found
+constexpr std::size_t most_matches = 1'000'000;  ///< at a time
+constexpr double smallest = 1e-5;                ///< share of the picture; smaller shapes do not match
 constexpr double farthest = 1e6;                 ///< metres
 
-/// A place where a rule fits, with the wholes that it takes there.
+/// A match of a rule, with the markers and solids that it replaces.
 struct PictureMatch {
   std::size_t pair = 0;
   Similarity place;
@@ -35,8 +35,8 @@ class PictureRun {
     out_.picture = grammar.initial;
     meter_.spend(out_.picture.lines.size() + out_.picture.markers.size() + out_.picture.solids.size());
     for (const PicturePair& pair : grammar.pairs) {
-      bool is_told = false;
-      anchors_.push_back(anchors_of_left(pair.left, grammar.is_flat, is_told));
+      bool is_determined = false;
+      anchors_.push_back(anchors_of_left(pair.left, grammar.is_flat, is_determined));
       double extent = 0;
       for (const PictureAnchor& each : anchors_.back())
         extent = std::max(extent, glm::length(each.at - anchors_.back().front().at));
@@ -45,13 +45,15 @@ class PictureRun {
   }
 
   DerivedPicture run(std::optional<int> steps, bool is_parallel) {
-    const Rng chance = job_.rng().at("shape grammar");
+    const Rng random = job_.rng().at("shape grammar");
     for (std::uint64_t step = 0; !steps || step < static_cast<std::uint64_t>(*steps); ++step) {
       if (step >= most_steps)
-        Job::refuse("the rules fit 100,000 times and more; give iterations or a rule that ends it",
-                    "/shape_grammar/rules");
+        job_.refuse(
+            limit_issue({Resource::steps, most_steps, most_steps + 1},
+                        "the rules match more than 100,000 times; set iterations, or add a rule that ends it",
+                        "/shape_grammar/rules"));
       find_matches();
-      const Rng here = chance.at(step);
+      const Rng here = random.at(step);
       out_.fits_nowhere = step == 0 && matches_.empty();
       if (matches_.empty() || !(is_parallel ? apply_all(here) : apply_one(here))) break;
       ++out_.steps;
@@ -71,7 +73,7 @@ class PictureRun {
     has_crossings_ = false;
     for (const PictureAnchor& each : anchors_of_wholes(out_.picture)) enter(each);
     for (const PictureAnchor& each : ends_of(out_.picture.lines)) enter(each);
-    // Crossings are worked out where a rule needs them; until then they count as many.
+    // Crossings are computed when a rule needs them. Until then they count as frequent.
     counts_[anchor_crossing] = out_.picture.lines.size() * 2 + 1;
     counts_[anchor_end] = out_.picture.lines.size() * 4 + 2;
     matches_.clear();
@@ -89,7 +91,7 @@ class PictureRun {
     if (kind == anchor_crossing && !has_crossings_) {
       has_crossings_ = true;
       candidates_[kind] = crossings_of(out_.picture.lines, near_, &job_);
-      // Where several pairs cross in one place it counts once.
+      // Crossings of several pairs at one position count once.
       std::vector<PictureAnchor>& all = candidates_[kind];
       std::ranges::stable_sort(all, [](const PictureAnchor& a, const PictureAnchor& b) {
         return a.at.x != b.at.x ? a.at.x < b.at.x : a.at.z != b.at.z ? a.at.z < b.at.z : a.at.y < b.at.y;
@@ -150,7 +152,7 @@ class PictureRun {
     glm::dmat3 there = frame_of(to[0], to[1], to[2], grammar_.is_flat);
     for (const bool is_mirrored : {false, true}) {
       if (is_mirrored && !grammar_.mirrors) break;
-      // In the plane the axis beside the line is turned over, in space the one out of the triangle.
+      // In the plane the axis across the line is mirrored, in space the normal of the triangle.
       if (is_mirrored) there[grammar_.is_flat ? 1 : 2] = -there[grammar_.is_flat ? 1 : 2];
       PictureMatch found;
       found.pair = index;
@@ -161,7 +163,7 @@ class PictureRun {
     }
   }
 
-  /// Is the whole left shape there?
+  /// Whether the whole left shape is part of the picture.
   bool fits(std::size_t index, double near, PictureMatch& match) {
     const ShapePicture& left = grammar_.pairs[index].left;
     const ShapePicture& picture = out_.picture;
@@ -184,7 +186,7 @@ class PictureRun {
     });
   }
 
-  /// A left shape that is symmetrical fits in several ways at one place; those that give the same count once.
+  /// Keeps a match. A symmetrical left shape matches in several ways; those with the same result count once.
   void keep(PictureMatch match) {
     const auto is_same = [&](const PictureMatch& other) {
       return other.pair == match.pair && other.markers == match.markers && other.solids == match.solids &&
@@ -193,22 +195,24 @@ class PictureRun {
              glm::length(other.place.turn[1] - match.place.turn[1]) <= 1e-6 &&
              glm::length(other.place.turn[2] - match.place.turn[2]) <= 1e-6;
     };
-    // Only the latest can be the same: they come of the same points.
+    // Only the latest matches can be equal: they come from the same points.
     const std::size_t from = matches_.size() > 64 ? matches_.size() - 64 : 0;
     if (std::any_of(matches_.begin() + static_cast<std::ptrdiff_t>(from), matches_.end(), is_same)) return;
     if (matches_.size() == most_matches)
-      Job::refuse("the rules fit at more than 1,000,000 places at a time", "/shape_grammar/rules");
+      job_.refuse(limit_issue({Resource::steps, most_matches, most_matches + 1},
+                              "the rules have more than 1,000,000 matches at a time",
+                              "/shape_grammar/rules"));
     matches_.push_back(std::move(match));
   }
 
   // Applying
 
-  bool apply_one(Rng chance) {
+  bool apply_one(Rng random) {
     std::vector<double> weights(grammar_.pairs.size(), 0.0);
     for (const PictureMatch& match : matches_) weights[match.pair] = grammar_.pairs[match.pair].weight;
     double sum = 0;
     for (const double weight : weights) sum += weight;
-    double at = chance.unit() * sum;
+    double at = random.unit() * sum;
     std::size_t pair = matches_.back().pair;
     for (std::size_t i = 0; i < weights.size(); ++i) {
       if (weights[i] <= 0) continue;
@@ -218,7 +222,7 @@ class PictureRun {
       break;
     }
     const auto count = static_cast<std::uint32_t>(std::ranges::count(matches_, pair, &PictureMatch::pair));
-    std::uint32_t skip = chance.below(count);
+    std::uint32_t skip = random.below(count);
     for (const PictureMatch& match : matches_) {
       if (match.pair != pair || skip-- > 0) continue;
       apply(std::span(&match, 1));
@@ -227,11 +231,11 @@ class PictureRun {
     return false;
   }
 
-  /// Matches in an order by chance and weight, as many as share no marker and no solid.
-  bool apply_all(Rng chance) {
+  /// Applies as many matches as share no marker and no solid, in random order by weight.
+  bool apply_all(Rng random) {
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < matches_.size(); ++i) {
-      Rng own = chance.at(i);
+      Rng own = random.at(i);
       order.emplace_back(-math::log(1 - own.unit()) / grammar_.pairs[matches_[i].pair].weight, i);
     }
     std::ranges::stable_sort(order);
@@ -275,8 +279,8 @@ class PictureRun {
       for (const PictureSolid& solid : pair.right.solids) made.solids.push_back(match.place.of(solid));
       meter_.spend(made.lines.size() + made.markers.size() + made.solids.size());
       if (!(reach_of(made) <= farthest))
-        Job::reject({"/shape_grammar/rules/" + std::to_string(match.pair),
-                     "the picture grows beyond 1,000 km by this rule"});
+        job_.refuse({IssueKind::evaluation, "/shape_grammar/rules/" + std::to_string(match.pair),
+                     "this rule makes the picture larger than 1,000 km"});
       add(picture, made, near_);
       if ((++added_ & 15U) == 0) job_.check();
     }

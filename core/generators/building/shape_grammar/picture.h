@@ -1,13 +1,13 @@
 #pragma once
-/// Pictures of a shape grammar: lines, labelled points and solids, of two or three dimensions.
+/// Pictures of a shape grammar: lines, labelled points and solids in two or three dimensions.
 ///
-/// Lines are kept maximal: none lies in another, and none goes on where another ends in the same direction.
-/// Then a shape is a part of another exactly if each of its lines lies in one line of the other (Stiny,
-/// "Introduction to shape and shape grammars", 1980; Krishnamurti, "The arithmetic of shapes", 1980). Markers
-/// and solids are wholes, as in a set grammar (Stiny, "Spatial relations and grammars", 1982).
+/// Lines are maximal: no line lies in another, and no line continues another in the same direction. So a
+/// shape is part of another exactly if each of its lines lies in one line of the other (Stiny, "Introduction
+/// to shape and shape grammars", 1980; Krishnamurti, "The arithmetic of shapes", 1980). Markers and solids
+/// are wholes, as in a set grammar (Stiny, "Spatial relations and grammars", 1982).
 ///
-/// Metres, +y up. Pictures of two dimensions lie in y = 0, their own y along -z, so that from above they are
-/// seen as they are written.
+/// Metres, +y up. Pictures of two dimensions lie in the plane y = 0. Their y axis is -z, so that they appear
+/// as written when seen from above.
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -19,7 +19,7 @@ struct PictureLine {
   glm::dvec3 from{0}, to{0};
 };
 
-/// A labelled point, or two or three in a row that tell direction and size too.
+/// A labelled point, or two or three points that also determine a direction and a size.
 struct PictureMarker {
   std::uint32_t label = 0;  ///< into PictureGrammar::labels
   std::uint32_t count = 1;
@@ -32,12 +32,12 @@ struct PictureSolid {
   SolidKind kind = SolidKind::box;
   std::uint32_t material = 0;  ///< into PictureGrammar::materials
   glm::dvec3 base{0};          ///< the middle of its base
-  glm::dmat3 axes{1};          ///< at right angles; a mirrored one has a negative determinant
+  glm::dmat3 axes{1};          ///< orthonormal; the determinant of a mirrored solid is negative
   glm::dvec3 size{1};          ///< y is 0 in pictures of two dimensions
 };
 
-/// A point by which solids are told apart and found: equal solids have equal points of equal roles, whichever
-/// way their own axes run.
+/// A point by which solids are compared. Equal solids have equal points of equal roles, whatever the
+/// directions of their axes.
 struct KeyPoint {
   glm::dvec3 at{0};
   std::uint32_t role = 0;
@@ -49,7 +49,7 @@ struct ShapePicture {
   std::vector<PictureSolid> solids;
 };
 
-/// p -> turn * (scale * p) + shift, where `turn` is at right angles and may mirror.
+/// p -> turn * (scale * p) + shift. `turn` is orthonormal and may mirror.
 struct Similarity {
   glm::dmat3 turn{1};
   double scale = 1;
@@ -60,24 +60,24 @@ struct Similarity {
   PictureSolid of(const PictureSolid& solid) const;
 };
 
-/// At most eight; `radius` is 0 where the solid is not round.
+/// At most eight points; `radius` is 0 unless the solid is round.
 std::vector<KeyPoint> key_points(const PictureSolid& solid, double& radius);
 
-/// Do they agree to `near` metres?
+/// Whether two elements are equal to within `near` metres.
 bool are_equal(const PictureMarker& a, const PictureMarker& b, double near);
 bool are_equal(const PictureSolid& a, const PictureSolid& b, double near);
 
-/// Lies the line in one of these? Cost: linear.
+/// Whether the line lies in one of these. Cost: linear.
 bool contains(const std::vector<PictureLine>& lines, const PictureLine& line, double near);
 
-/// The sum and the difference with one line; both stay maximal. Cost: linear.
+/// Adds or removes a line; the lines stay maximal. Cost: linear.
 void add_line(std::vector<PictureLine>& lines, PictureLine line, double near);
 void remove_line(std::vector<PictureLine>& lines, const PictureLine& line, double near);
 
-/// Adds what is not there yet.
+/// Adds the elements that `to` does not have yet.
 void add(ShapePicture& to, const ShapePicture& what, double near);
 
-/// The greatest coordinate, without sign.
+/// The greatest magnitude of a coordinate.
 double reach_of(const ShapePicture& picture);
 
 }  // namespace seedmesh::building

@@ -1,12 +1,12 @@
-/// Parameters -> PictureGrammar: coordinates worked out, families put in, left shapes and restrictions
-/// judged.
+/// Reads the parameters of a shape grammar: evaluates coordinates, inserts members of families, and checks
+/// left shapes and restrictions.
 #include <algorithm>
 #include <cmath>
 
 #include "core/base/math.h"
 #include "core/generators/building/shape_grammar/anchors.h"
+#include "core/generators/building/shape_grammar/rotation.h"
 #include "core/generators/building/shape_grammar/shape_grammar.h"
-#include "core/generators/building/turned.h"
 #include "core/lang/expression.h"
 #include "generated/params/building.h"
 
@@ -31,7 +31,7 @@ class PictureReader {
   PictureReader(const BuildingShapeGrammar& given, PictureGrammar& grammar, std::vector<Issue>& issues)
       : given_(given), grammar_(grammar), issues_(issues), is_flat_(given.dimensions == 2) {}
 
-  /// The elements of `picture`, which stands at `pointer`, moved by `place`.
+  /// Adds the elements of the picture at `pointer`.
   void read(const BuildingPicture& picture, const std::string& pointer, ShapePicture& out) {
     ShapePicture raw;
     read(picture, picture.parameters, pointer, {}, raw);
@@ -42,8 +42,8 @@ class PictureReader {
  private:
   using Values = std::map<std::string, double>;
 
-  void fault(const std::string& pointer, std::string message) {
-    if (issues_.size() < 100) issues_.push_back({pointer, std::move(message)});
+  void add_error(IssueKind kind, const std::string& pointer, std::string message) {
+    if (issues_.size() < 100) issues_.push_back({kind, pointer, std::move(message)});
   }
 
   double number(const Number& given, const Values& values, const std::string& pointer) {
@@ -51,34 +51,38 @@ class PictureReader {
     if (const auto* text = std::get_if<std::string>(&given)) {
       lang::Names names;
       for (const auto& [name, value] : values) names.bind_constant(name, value);
-      std::vector<lang::Fault> faults;
+      std::vector<lang::TextError> faults;
       const std::vector<lang::Token> tokens = lang::tokenize(*text, 0, text->size(), faults);
       lang::Program program;
       std::size_t at = 0;
       const lang::Expression expression = program.parse(tokens, at, names, faults);
       if (faults.empty() && at + 1 < tokens.size())
-        faults.push_back({tokens[at].offset, "found " + in_quotes(tokens[at]) + " behind the expression"});
+        faults.push_back(
+            {tokens[at].offset, "found " + in_quotes(tokens[at]) + ", expected the end of the expression"});
       if (faults.empty() && !expression.is_constant)
-        faults.push_back({0, "a coordinate does not depend on chance"});
-      for (const lang::Fault& each : faults) {
-        if (issues_.size() < 100) issues_.push_back(issue_at(pointer, *text, each.offset, each.message));
+        faults.push_back({0, "found a random function, expected a value that is not random"});
+      for (const lang::TextError& each : faults) {
+        if (issues_.size() < 100)
+          issues_.push_back(issue_at(each.kind, pointer, *text, each.offset, each.message));
       }
       if (faults.empty()) result = expression.value;
     } else {
       result = std::get<double>(given);
     }
     if (std::isfinite(result) && std::abs(result) <= farthest) return result;
-    fault(pointer, std::isfinite(result) ? "the value is beyond 1,000 km" : "the value is no finite number");
+    add_error(IssueKind::out_of_range, pointer,
+              std::isfinite(result) ? "the value is beyond 1,000 km" : "the value is not a finite number");
     return 0;
   }
 
-  /// Two or three coordinates as a place; none are the origin.
+  /// A point of two or three coordinates; without coordinates it is the origin.
   glm::dvec3 point(const Numbers& given, const Values& values, const std::string& pointer) {
     const std::size_t wanted = is_flat_ ? 2 : 3;
     if (given.empty()) return glm::dvec3(0);
     if (given.size() != wanted) {
-      fault(pointer, "found " + std::to_string(given.size()) + " coordinates, expected " +
-                         std::to_string(wanted) + " as \"dimensions\" says");
+      add_error(IssueKind::invalid_value, pointer,
+                "found " + std::to_string(given.size()) + " coordinates, expected " + std::to_string(wanted) +
+                    " as \"dimensions\" says");
       return glm::dvec3(0);
     }
     glm::dvec3 p(0);
@@ -89,31 +93,33 @@ class PictureReader {
 
   glm::dmat3 turn(const Numbers& given, const Values& values, const std::string& pointer) {
     if (given.empty()) return glm::dmat3(1);
-    if (given.size() == 1) return turned(1, number(given[0], values, pointer + "/0"));
+    if (given.size() == 1) return rotation_about(1, number(given[0], values, pointer + "/0"));
     if (given.size() == 2 || is_flat_) {
-      fault(pointer, "found " + std::to_string(given.size()) + " angles, expected " +
-                         (is_flat_ ? "one" : "one or three"));
+      add_error(IssueKind::invalid_value, pointer,
+                "found " + std::to_string(given.size()) + " angles, expected " +
+                    (is_flat_ ? "one" : "one or three"));
       return glm::dmat3(1);
     }
-    glm::dmat3 m(1);
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<std::size_t>(axis);
-      m = turned(axis, number(given[i], values, pointer + "/" + std::to_string(i))) * m;
-    }
-    return m;
+    glm::dvec3 angles(0);
+    for (std::size_t i = 0; i < 3; ++i)
+      angles[static_cast<int>(i)] = number(given[i], values, pointer + "/" + std::to_string(i));
+    return rotation_xyz(angles);
   }
 
   glm::dvec3 size(const BuildingBody& body, const Values& values, const std::string& pointer) {
     const std::size_t wanted = is_flat_ ? 2 : 3;
     glm::dvec3 size(1);
     if (body.size.size() > 1 && body.size.size() != wanted) {
-      fault(pointer, "found " + std::to_string(body.size.size()) + " sizes, expected one or " +
-                         std::to_string(wanted));
+      add_error(
+          IssueKind::invalid_value, pointer,
+          "found " + std::to_string(body.size.size()) + " sizes, expected one or " + std::to_string(wanted));
       return size;
     }
     for (std::size_t i = 0; i < body.size.size(); ++i) {
       const double each = number(body.size[i], values, pointer + "/" + std::to_string(i));
-      if (!(each > 0)) fault(pointer + "/" + std::to_string(i), "a size is above 0");
+      if (!(each > 0))
+        add_error(IssueKind::out_of_range, pointer + "/" + std::to_string(i),
+                  "found a size of 0 or less, expected a size above 0");
       size[is_flat_ && i == 1 ? 2 : static_cast<int>(i)] = each;
     }
     if (body.size.size() == 1) size = glm::dvec3(size.x);
@@ -132,11 +138,14 @@ class PictureReader {
     const bool is_round =
         solid.kind == SolidKind::cylinder || solid.kind == SolidKind::cone || solid.kind == SolidKind::sphere;
     if (is_flat_ && solid.kind != SolidKind::box && solid.kind != SolidKind::cylinder)
-      fault(pointer + "/solid", "a picture of two dimensions has solids of the kinds box and cylinder");
+      add_error(IssueKind::not_available, pointer + "/solid",
+                "found another kind of solid, expected box or cylinder in a picture of two dimensions");
     if (is_round && solid.size.x != solid.size.z)
-      fault(pointer + "/size", "a round solid is as deep as it is wide");
+      add_error(IssueKind::invalid_value, pointer + "/size",
+                "found a round solid with different sizes along x and z, expected equal sizes");
     if (solid.kind == SolidKind::sphere && solid.size.x != solid.size.y)
-      fault(pointer + "/size", "a sphere is as high as it is wide");
+      add_error(IssueKind::invalid_value, pointer + "/size",
+                "found a sphere with different sizes, expected equal sizes");
     out.solids.push_back(place.of(solid));
   }
 
@@ -174,27 +183,32 @@ class PictureReader {
     }
   }
 
-  /// A member of a family: its variables get the values of this use, or else its own.
+  /// Adds a member of a family, with the values of this use or else those of the family.
   void read_member(const BuildingMember& member, const Values& values, const std::string& pointer,
                    const Similarity& place, ShapePicture& out) {
     const auto found = given_.shapes.find(member.shape);
     if (found == given_.shapes.end())
-      return fault(pointer + "/shape", "there is no family \"" + member.shape + "\" in \"shapes\"");
+      return add_error(IssueKind::unknown_name, pointer + "/shape",
+                       "there is no family \"" + member.shape + "\" in \"shapes\"");
     Values own = found->second.parameters;
     for (const auto& [name, value] : member.values) {
       const std::string at = pointer + "/values/" + name;
-      if (!own.contains(name)) fault(at, "the family \"" + member.shape + "\" has no parameter of this name");
+      if (!own.contains(name))
+        add_error(IssueKind::unknown_key, at,
+                  "the family \"" + member.shape + "\" has no parameter of this name");
       own[name] = number(value, values, at);
     }
     const double scale = number(member.scale, values, pointer + "/scale");
-    if (!(scale > 0)) return fault(pointer + "/scale", "a scale is above 0");
+    if (!(scale > 0))
+      return add_error(IssueKind::out_of_range, pointer + "/scale",
+                       "found a scale of 0 or less, expected a scale above 0");
     const glm::dmat3 rotation = turn(member.turn, values, pointer + "/turn");
     const glm::dvec3 at = point(member.at, values, pointer + "/at");
     glm::dmat3 flip(1);
     if (member.mirror) flip[0][0] = -1;
     if (++depth_ > deepest_family) {
-      fault(pointer + "/shape",
-            "families stand in each other more than " + std::to_string(deepest_family) + " deep");
+      add_error(IssueKind::out_of_range, pointer + "/shape",
+                "families are nested more than " + std::to_string(deepest_family) + " deep");
     } else {
       const Similarity inner{place.turn * rotation * flip, place.scale * scale, place.of(at)};
       read(found->second, own, "/shape_grammar/shapes/" + member.shape, inner, out);
@@ -204,7 +218,8 @@ class PictureReader {
 
   bool count(const std::string& pointer) {
     if (++elements_ == most_elements + 1)
-      fault(pointer, "more than " + std::to_string(most_elements) + " elements with this one");
+      add_error(IssueKind::out_of_range, pointer,
+                "more than " + std::to_string(most_elements) + " elements, counted up to this one");
     return elements_ <= most_elements;
   }
 
@@ -227,33 +242,37 @@ std::string text_of(const glm::dvec3& p, bool is_flat) {
                  : "(" + shown(p.x) + ", " + shown(p.y) + ", " + shown(p.z) + ")";
 }
 
-/// Gips 1974, Kogovšek 2014: what terminals of the left shape the right one has not, and too many markers.
-void judge(const PicturePair& pair, const std::string& pointer, bool is_flat, PictureRestriction restriction,
-           std::vector<Issue>& issues) {
+/// Checks a restriction (Gips 1974, Kogovšek 2014): terminals of the left shape that the right shape has not,
+/// and too many markers.
+void check_restriction(const PicturePair& pair, const std::string& pointer, bool is_flat,
+                       PictureRestriction restriction, std::vector<Issue>& issues) {
   const double near = 1e-6 * std::max(reach_of(pair.left), 1e-9);
   for (const PictureLine& line : pair.left.lines) {
     if (!contains(pair.right.lines, line, near))
-      issues.push_back({pointer + "/pair/1", "the line from " + text_of(line.from, is_flat) + " to " +
-                                                 text_of(line.to, is_flat) +
-                                                 " of the left shape is not in the right one, which a "
-                                                 "non-erasing grammar does not allow"});
+      issues.push_back({IssueKind::invalid_value, pointer + "/pair/1",
+                        "the line from " + text_of(line.from, is_flat) + " to " + text_of(line.to, is_flat) +
+                            " of the left shape is not in the right shape, which a "
+                            "non-erasing grammar does not allow"});
   }
   for (const PictureSolid& solid : pair.left.solids) {
     if (std::ranges::none_of(pair.right.solids,
                              [&](const PictureSolid& each) { return are_equal(each, solid, near); }))
-      issues.push_back({pointer + "/pair/1", "the solid at " + text_of(solid.base, is_flat) +
-                                                 " of the left shape is not in the right one, which a "
-                                                 "non-erasing grammar does not allow"});
+      issues.push_back({IssueKind::invalid_value, pointer + "/pair/1",
+                        "the solid at " + text_of(solid.base, is_flat) +
+                            " of the left shape is not in the right shape, which a "
+                            "non-erasing grammar does not allow"});
   }
   if (restriction != PictureRestriction::unimarker) return;
   const auto markers = [](const ShapePicture& picture) { return std::to_string(picture.markers.size()); };
   if (pair.left.markers.size() != 1)
-    issues.push_back({pointer + "/pair/0", "found " + markers(pair.left) +
-                                               " markers, expected one on the left in a unimarker grammar"});
+    issues.push_back(
+        {IssueKind::invalid_value, pointer + "/pair/0",
+         "found " + markers(pair.left) + " markers, expected one in the left shape of a unimarker grammar"});
   if (pair.right.markers.size() > 1)
-    issues.push_back({pointer + "/pair/1", "found " + markers(pair.right) +
-                                               " markers, expected at most one on the right in a unimarker "
-                                               "grammar"});
+    issues.push_back({IssueKind::invalid_value, pointer + "/pair/1",
+                      "found " + markers(pair.right) +
+                          " markers, expected at most one in the right shape of a "
+                          "unimarker grammar"});
 }
 
 }  // namespace
@@ -279,19 +298,21 @@ PictureGrammar read_pictures(const BuildingShapeGrammar& given, PictureRestricti
   if (issues.size() > before) return grammar;
   for (std::size_t i = 0; i < grammar.pairs.size(); ++i) {
     const std::string pointer = "/shape_grammar/rules/" + std::to_string(i);
-    bool is_told = false;
-    anchors_of_left(grammar.pairs[i].left, grammar.is_flat, is_told);
-    if (!is_told)
+    bool is_determined = false;
+    anchors_of_left(grammar.pairs[i].left, grammar.is_flat, is_determined);
+    if (!is_determined)
       issues.push_back(
-          {pointer + "/pair/0", std::string("the place of this shape cannot be told: expected ") +
-                                    (grammar.is_flat ? "two points" : "three points that are not in a line") +
-                                    " of markers, corners of solids, or crossings or ends of lines"});
+          {IssueKind::invalid_value, pointer + "/pair/0",
+           std::string("this shape does not determine a position, direction and size: expected ") +
+               (grammar.is_flat ? "two points" : "three points that are not on a line") +
+               " of markers, corners of solids, or crossings or ends of lines"});
     if (restriction != PictureRestriction::any)
-      judge(grammar.pairs[i], pointer, grammar.is_flat, restriction, issues);
+      check_restriction(grammar.pairs[i], pointer, grammar.is_flat, restriction, issues);
   }
   if (restriction == PictureRestriction::unimarker && grammar.initial.markers.size() != 1)
-    issues.push_back({"/shape_grammar/initial", "found " + std::to_string(grammar.initial.markers.size()) +
-                                                    " markers, expected one in a unimarker grammar"});
+    issues.push_back({IssueKind::invalid_value, "/shape_grammar/initial",
+                      "found " + std::to_string(grammar.initial.markers.size()) +
+                          " markers, expected one in a unimarker grammar"});
   return grammar;
 }
 

@@ -10,8 +10,10 @@
 
 #include "core/generators/building/building.h"
 #include "core/generators/child.h"
-#include "core/geom/finish.h"
+#include "core/geom/mesh/finish.h"
+#include "core/registry/registry.h"
 #include "generated/params/building.h"
+#include "tests/support/context.h"
 #include "tests/support/mesh_faults.h"
 
 namespace seedmesh::building {
@@ -34,13 +36,13 @@ Json request(std::string_view name) {
 }
 
 Result<Model> model_of(const Json& json, std::uint64_t seed) {
-  Faults faults;
+  IssueList faults;
   const Generator* generator = find_generator("building");
-  const Generator::Params params = read_parameters(*generator, json, "", Limits{}, faults);
+  const Generator::Params params = read_parameters(*generator, json, "", {Limits{}, generators()}, faults);
   if (!faults.empty()) return Error{Code::invalid, faults.take()};
   Job job(seed, Job::Options{});
   try {
-    Result<Model> model = generator->generate(params, job);
+    Result<Model> model = generator->generate(params, context_of(job));
     if (model) finish(*model, job);
     return model;
   } catch (const Stop& stop) {
@@ -49,11 +51,11 @@ Result<Model> model_of(const Json& json, std::uint64_t seed) {
 }
 
 Json shapes_of(const Json& json, std::uint64_t seed) {
-  Faults faults;
+  IssueList faults;
   const BuildingParams params = read_building(json, "", faults);
   EXPECT_TRUE(faults.empty());
   Job job(seed, Job::Options{});
-  Result<Json> derived = derive(params, job);
+  Result<Json> derived = derive(params, context_of(job));
   EXPECT_TRUE(derived);
   return (*derived)["shapes"];
 }
@@ -90,7 +92,7 @@ void expect_sound(const Json& json, std::uint64_t seed, const std::string& place
   EXPECT_THAT(model->warnings, IsEmpty()) << place << ": " << model->warnings[0].message;
 }
 
-TEST(Blueprints, AreTheTenOfTheSchema) {
+TEST(Blueprints, AreTheOnesOfTheSchema) {
   std::set<std::string_view> names;
   for (const Blueprint& blueprint : blueprints()) {
     names.insert(blueprint.name);
@@ -101,7 +103,7 @@ TEST(Blueprints, AreTheTenOfTheSchema) {
   EXPECT_EQ(blueprint_named("igloo"), nullptr);
 }
 
-TEST(Blueprints, TakeThePlaceOfRulesAndOnlyThat) {
+TEST(Blueprints, ReplaceOnlyRules) {
   EXPECT_FALSE(model_of({{"blueprint", "house"}, {"rules", "A --> B."}}, 0));
   EXPECT_FALSE(model_of(Json::object(), 0));
   EXPECT_FALSE(model_of({{"blueprint", "house"}, {"attributes", {{"height", 3}}}}, 0))
@@ -129,7 +131,7 @@ TEST(Blueprints, StandOnFootprintsOfAnyForm) {
 }
 
 /// Every attribute at its ends and with each of its choices; one of them must show in the shapes.
-TEST(Blueprints, HeedEveryAttribute) {
+TEST(Blueprints, UseEveryAttribute) {
   const std::regex range(R"(@Range\(([-0-9.]+), ([-0-9.]+)\) attr (\w+))"),
       choice(R"(@Enum\(([^)]*)\) attr (\w+))"), word(R"re("(\w+)")re");
   for (const Blueprint& blueprint : blueprints()) {

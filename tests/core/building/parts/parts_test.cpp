@@ -113,7 +113,7 @@ TEST(Parts, WindowHasAFrameAndGlassAndADoorAHandle) {
   EXPECT_THAT(door, testing::ElementsAre("door", "frame", "metal"));
 }
 
-TEST(Parts, StairsHaveAsManyStepsAsAsked) {
+TEST(Parts, StairsHaveTheRequestedNumberOfSteps) {
   Job job = job_of();
   PartOptions options;
   options.count = 7;

@@ -1,0 +1,62 @@
+#pragma once
+/// Removes T-junctions between rectangles in one plane. If the corner of a rectangle lies on an edge of
+/// another, that edge gets a corner too; without it, gaps of single pixels would show. A side with many such
+/// corners, such as a long sill below windows, gets a narrow strip behind it instead.
+#include <span>
+#include <vector>
+
+#include "core/generators/building/body_surface.h"
+#include "core/generators/building/shapes.h"
+
+namespace seedmesh::building {
+
+class CoplanarRectangles {
+ public:
+  /// Takes the `drawn` shapes that are rectangles. Corners within a millionth of the diagonal are equal.
+  /// Cost: n log n for n rectangles.
+  CoplanarRectangles(const Shapes& shapes, std::span<const std::uint32_t> drawn, double diagonal, Job& job);
+
+  /// The number of triangles of the i-th drawn shape beyond two.
+  std::size_t more_on(std::size_t i) const { return places_[i] == none ? 0 : rects_[places_[i]].more; }
+
+  /// The corners around a rectangle, counter-clockwise, in the world; empty if the shape is no rectangle.
+  void outline(std::size_t i, std::vector<glm::dvec3>& points) const;
+
+  /// Fills the surface of a rectangle with all its corners, in the frame of axes(i). False: the shape is no
+  /// rectangle, or is narrower than the tolerance.
+  bool fill(std::size_t i, BodySurface& surface) const;
+  const glm::dmat3& axes(std::size_t i) const { return frames_[rects_[places_[i]].frame]; }
+
+ private:
+  using Corner = std::pair<std::uint32_t, std::uint32_t>;
+  struct Plane {
+    double at = 0;
+    std::vector<double> u, v;        ///< coordinates of corners, rising
+    std::vector<Corner> by_u, by_v;  ///< corners as positions in u and v, sorted by u or by v
+  };
+  struct Rect {
+    std::uint32_t drawn = 0, frame = 0, plane = 0;
+    int axis = 1;  ///< of the normal
+    double at = 0;
+    glm::dvec2 low{0}, high{0};
+    Corner first, last;      ///< lowest and highest corner
+    std::uint32_t more = 0;  ///< triangles besides the two
+    bool is_backed[4] = {};  ///< sides with a strip behind them: bottom, right, top, left
+  };
+
+  std::uint32_t frame_of(const glm::dmat3& axes);
+  void add_plane(std::span<Rect> rects, double tolerance);
+  void count_more(Rect& rect, const Plane& plane) const;
+  std::span<const Corner> on_side(const Rect& rect, const Plane& plane, int side) const;
+  void ring(const Rect& rect, std::vector<Corner>& corners) const;
+  void add_strip(const Rect& rect, int side, BodySurface& surface) const;
+  glm::dvec3 place(const Rect& rect, const Corner& corner) const;
+
+  double diagonal_ = 1;
+  std::vector<glm::dmat3> frames_;
+  std::vector<Plane> planes_;
+  std::vector<Rect> rects_;
+  std::vector<std::uint32_t> places_;  ///< by drawn shape: its row in rects_
+};
+
+}  // namespace seedmesh::building

@@ -1,0 +1,99 @@
+#pragma once
+/// The state of one derivation, and the tables that all operators share. The derivation itself is run by
+/// derive.h; rules are chosen and successors run by interpret.h; operators.h has the operations.
+#include <array>
+#include <map>
+#include <unordered_map>
+
+#include "core/generators/building/cuts.h"
+#include "core/generators/building/derive.h"
+#include "core/generators/building/occlusion.h"
+
+namespace seedmesh::building {
+
+/// What the steps of one successor have in common.
+struct Frame {
+  std::uint32_t shape = 0;  ///< the shape that is replaced
+  std::uint64_t key = 0;    ///< of the successor, for random numbers
+  ShapeState before;        ///< the state when the rule or the bracket began, for center()
+  bool is_carried = false;  ///< new shapes are made of a face of a closed body, or stand on one
+};
+
+/// Where one step is run: in its successor, with the key of its random numbers.
+struct Site {
+  const Frame& frame;
+  std::uint64_t key;
+};
+
+struct Component;
+
+struct Derivation {
+  Derivation(const Task& task, const Context* first_pass, Job& job);
+
+  const Task& task;
+  const Grammar& grammar;
+  const Context* first_pass;  ///< what the first pass made; null during that pass
+  Job& job;
+  Meter meter;
+  Shapes out;
+  std::vector<SnapPlane> snap_planes;
+  bool is_finishing = false;  ///< runs until no rule applies
+
+  // Evaluation (evaluate.h)
+  std::vector<lang::TaggedValue> slots;
+  const ShapeState* seen = nullptr;  ///< the shape that the slots describe
+  std::uint32_t seen_shape = none, filled_attributes = none;
+  bool is_filled = false;  ///< the slots hold the values of `seen`
+  Rng random{0};
+  const Component* component = nullptr;                            ///< that selectors classify
+  std::map<std::uint32_t, std::vector<lang::TaggedValue>> locals;  ///< of with(...), by shape
+  int depth_of_inline = 0;
+
+  // Equal rows of the tables of `out` are stored once.
+  std::map<Style, std::uint32_t> style_ids;
+  std::map<std::vector<lang::TaggedValue>, std::uint32_t> attribute_set_ids;
+  std::map<PartOptions, std::uint32_t> part_option_ids;
+  std::map<ValueArray, std::uint32_t> array_ids;
+  std::map<UvSets, std::uint32_t> uv_set_ids;
+  std::map<std::vector<std::uint32_t>, std::uint32_t> tag_set_ids;
+  std::map<std::string, std::uint32_t, std::less<>> named_solids;
+  std::array<Solid, 3> squares;                                          ///< by the axis of the normal
+  std::unordered_map<std::uint64_t, std::uint32_t> side_axes;            ///< of boxes, by axes and side
+  std::map<std::pair<std::uint32_t, int>, std::uint32_t> raised_solids;  ///< by what was raised, and how
+
+  std::vector<std::uint32_t> warned;  ///< bytes of the rules that have a warning
+  std::uint64_t solid_corners = 0;
+  std::vector<Cell> cells;                   ///< working memory of splits
+  std::vector<std::vector<Cut>> spare_cuts;  ///< working memory of splits
+};
+
+/// Ends the derivation with an error at a byte of the rules.
+[[noreturn]] void reject(const Derivation& d, std::uint32_t offset, const std::string& message);
+
+/// Adds a warning at a byte of the rules; one for each byte, and at most 100.
+void warn(Derivation& d, std::uint32_t offset, const std::string& message);
+
+/// Adds a row to a table and returns its number. A solid is stored as geometry, and fails with
+/// Resource limits where all solids together have too many corners.
+std::uint32_t add_axes(Derivation& d, const glm::dmat3& axes);
+std::uint32_t add_solid(Derivation& d, Solid solid);
+/// The number of a style, which is added unless an equal one exists.
+std::uint32_t style_with(Derivation& d, Style style);
+
+/// Square metres of all faces, and cubic metres; 0 for geometry that is not closed.
+double area_of(const Derivation& d, const ShapeState& state);
+double volume_of(const Derivation& d, const ShapeState& state);
+
+/// The geometry of a flat state; it lies in the unit square of its scope.
+const Solid& flat_solid(const Derivation& d, const ShapeState& state);
+/// A copy of the geometry of a state, in the unit cube of its scope.
+Solid solid_of(const Derivation& d, const ShapeState& state);
+/// Gives the state a solid in metres of its scope as geometry, and the box around it as scope.
+void take_solid(Derivation& d, ShapeState& state, Solid solid);
+/// Gives the state another scope around the same geometry. The columns of `axes` are its axes in the world.
+void reframe(Derivation& d, ShapeState& state, const glm::dmat3& axes);
+
+/// As few digits as the number needs: 3, 0.25, 1e+09.
+std::string text_of_number(double number);
+
+}  // namespace seedmesh::building

@@ -1,0 +1,32 @@
+#pragma once
+/// Flat geometry as plans of core/geom/polygon, and back.
+#include <vector>
+
+#include "core/generators/building/shapes.h"
+#include "core/geom/polygon/plan.h"
+
+namespace seedmesh::building {
+
+/// The plane of a flat scope. x of a plan lies along axis u, y along axis v, and w is the normal; the three
+/// are right-handed in this order.
+struct FacePlane {
+  int u, v, w;
+  explicit FacePlane(const glm::dvec3& size)
+      : u((flat_axis(size) + 1) % 3), v((flat_axis(size) + 2) % 3), w(flat_axis(size)) {}
+  glm::dvec2 flat(const glm::dvec3& p) const { return {p[u], p[v]}; }
+  glm::dvec3 raised(const glm::dvec2& p, double height) const {
+    glm::dvec3 out(0);
+    out[u] = p.x;
+    out[v] = p.y;
+    out[w] = height;
+    return out;
+  }
+};
+
+/// Each face of a flat solid as a plan, in metres of the scope of this size.
+std::vector<Plan> plans_of(const Solid& solid, const glm::dvec3& size, const FacePlane& plane);
+
+/// Adds a plan as a face. Its points are in metres of the scope until the solid is fitted.
+void add_plan(Solid& solid, const Plan& plan, const FacePlane& plane, std::uint8_t tag);
+
+}  // namespace seedmesh::building

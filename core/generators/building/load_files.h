@@ -1,0 +1,30 @@
+#pragma once
+/// Puts rule files that import each other into one list of tokens. Names of an imported file get its prefix: the rule
+/// `Roof` of a file imported as `r` becomes `r.Roof`, as other files write it.
+///
+/// An attribute of the importing file replaces that of the same name in the imported file, unless the import protects
+/// it; an import can also give attributes values and redefine extension rules (CGA reference, import).
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/generators/building/rule_text.h"
+#include "core/lang/lexer.h"
+
+namespace seedmesh::building {
+
+struct LoadedTokens {
+  std::vector<lang::Token> tokens;  ///< of the main file and of what it imports; the last is the end
+  std::set<std::string> texts;      ///< what tokens with a prefix point to
+  std::string start;                ///< the rule marked with `start` in the main file
+  /// Prefixes of files that the request does not have, each ending with a point.
+  std::vector<std::string> missing;
+  std::vector<lang::TextError> warnings;
+};
+
+/// `plain` is the joined text without comments. `style` selects one of the styles of the main file; empty: Default.
+LoadedTokens load_files(const RuleText& files, std::string_view plain, std::string_view style,
+                        std::vector<lang::TextError>& faults);
+
+}  // namespace seedmesh::building

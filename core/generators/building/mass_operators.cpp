@@ -1,0 +1,297 @@
+/// Masses over an outline: extrusion in a direction, envelopes, ridges, and footprints. Definitions as in the CGA reference.
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "core/generators/building/face_plans.h"
+#include "core/generators/building/operator_arguments.h"
+#include "core/generators/building/operators.h"
+#include "core/generators/building/raised_solids.h"
+#include "core/generators/building/solid_faces.h"
+#include "core/generators/building/solid_tools.h"
+#include "core/generators/building/value_functions.h"
+#include "core/geom/polygon/roof.h"
+
+namespace seedmesh::building {
+namespace {
+
+/// The vector for each corner that moves all faces at it outwards by `height`: the mean of their normals, lengthened so that
+/// each face moves by `height` if possible.
+std::vector<glm::dvec3> along_vertices(const Solid& solid, double height) {
+  std::vector<std::vector<glm::dvec3>> normals(solid.points.size());
+  for (const Face& face : solid.faces) {
+    const glm::dvec3 n = unit_normal(solid, face);
+    for (const Loop& loop : loops_of(solid, face)) {
+      for (const std::uint32_t point : points_of(solid, loop)) {
+        auto& own = normals[point];
+        if (std::ranges::none_of(own, [&](const glm::dvec3& other) { return glm::dot(other, n) > 1 - 1e-9; }))
+          own.push_back(n);
+      }
+    }
+  }
+  std::vector<glm::dvec3> out;
+  for (const auto& own : normals) {
+    glm::dvec3 mean(0);
+    for (const glm::dvec3& n : own) mean += n;
+    mean = math::unit(mean, glm::dvec3(0, 1, 0));
+    double least = 1;
+    for (const glm::dvec3& n : own) least = std::min(least, glm::dot(mean, n));
+    out.push_back(mean * (height / std::max(least, 0.2)));
+  }
+  return out;
+}
+
+/// Every face as an extrusion of its own.
+Solid extruded_alone(const Solid& solid, double height) {
+  Solid out;
+  out.is_closed = true;
+  for (const Face& face : solid.faces) {
+    Solid own;
+    own.faces.push_back({0, face.loop_count});
+    own.faces[0].tags = face.tags;
+    for (const Loop& loop : loops_of(solid, face)) {
+      std::vector<std::uint32_t> corners;
+      for (const std::uint32_t point : points_of(solid, loop)) {
+        corners.push_back(static_cast<std::uint32_t>(own.points.size()));
+        own.points.push_back(solid.points[point]);
+      }
+      add_loop(own, corners);
+    }
+    const std::vector<glm::dvec3> by(own.points.size(), unit_normal(solid, face) * height);
+    const Solid made = extruded_by(own, by);
+    const auto base = static_cast<std::uint32_t>(out.points.size());
+    out.points.insert(out.points.end(), made.points.begin(), made.points.end());
+    for (const Face& each : made.faces) {
+      Face copy = each;
+      copy.first_loop = static_cast<std::uint32_t>(out.loops.size());
+      for (const Loop& loop : loops_of(made, each)) {
+        std::vector<std::uint32_t> corners;
+        for (const std::uint32_t point : points_of(made, loop)) corners.push_back(base + point);
+        add_loop(out, corners);
+      }
+      out.faces.push_back(copy);
+    }
+  }
+  return out;
+}
+
+/// The part of a solid where height - rise.(p - at) <= 0, for a plane that rises from `at`: the coordinate `up` is sheared so
+/// that the plane is level, cut, and sheared back.
+Solid cut_by_slope(Solid solid, int up, const glm::dvec3& at, const glm::dvec3& rise) {
+  const auto slope = [&](const glm::dvec3& p) { return at[up] + glm::dot(rise, p - at); };
+  for (glm::dvec3& p : solid.points) p[up] -= slope(p);
+  solid = clipped(solid, up, 0, 1);
+  for (glm::dvec3& p : solid.points) p[up] += slope(p);  // which does not depend on p[up]
+  return solid;
+}
+
+double cut_angle(Derivation& d, const Step& step, double degrees) {
+  if (!(degrees > 0 && degrees <= 90))
+    reject(d, step.offset,
+           "found a slope of " + text_of_number(degrees) + " degrees, expected one above 0 and up to 90");
+  return degrees;
+}
+
+}  // namespace
+
+void extrude_in(Derivation& d, const Step& step, ShapeState& state, const std::string& direction,
+                double height) {
+  Solid solid = welded(solid_in_metres(d, state), 0);
+  if (solid.faces.empty()) return;
+  const glm::dvec3 up = glm::transpose(d.out.axes[state.axes]) * glm::dvec3(0, 1, 0);
+  std::vector<glm::dvec3> by(solid.points.size(), up * height);
+  if (direction == "world.up.flatTop") {
+    double low = 1e300, high = -1e300;
+    for (const glm::dvec3& p : solid.points) {
+      low = std::min(low, glm::dot(p, up));
+      high = std::max(high, glm::dot(p, up));
+    }
+    const double top = low + std::max(height, high - low);
+    for (std::size_t i = 0; i < by.size(); ++i)
+      by[i] = up * std::max(0.0, top - glm::dot(solid.points[i], up));
+  } else if (direction == "vertex.normal") {
+    by = along_vertices(solid, height);
+  } else if (direction.size() == 1 && direction[0] >= 'x' && direction[0] <= 'z') {
+    glm::dvec3 along(0);
+    along[direction[0] - 'x'] = height;
+    by.assign(by.size(), along);
+  } else if (direction != "world.up" && direction != "face.normal") {
+    reject(d, step.offset,
+           "found the direction " + lang::in_quotes(direction) +
+               ", expected world.up, world.up.flatTop, vertex.normal, face.normal, x, y or z");
+  }
+  // A closed solid, and faces along their own normals, become one body for each face.
+  const bool alone = direction == "face.normal" || is_watertight(solid);
+  if (alone) {
+    take_solid(d, state, extruded_alone(solid, height));
+    return;
+  }
+  Solid made = extruded_by(solid, by);
+  // Faces that face away from the direction are turned over, so that the outside stays outside.
+  Solid measured = made;
+  measured.is_closed = true;
+  if (volume_of(measured, glm::dvec3(1)) < 0) {
+    for (const Loop& loop : made.loops)
+      std::reverse(made.corners.begin() + loop.first, made.corners.begin() + loop.first + loop.count);
+  }
+  take_solid(d, state, std::move(made));
+}
+
+namespace operators {
+
+/// envelope(direction, height, base and angle of the front, back, right and left edges), or arrays of them by edge.
+void envelope(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+  const std::string direction = word_at(d, step, 0);
+  if (direction != "normal" && direction != "world.up")
+    reject(d, step.offset, "found " + lang::in_quotes(direction) + ", expected normal or world.up");
+  if (dimension(state.size) != 2 || state.has_asset())
+    reject(d, step.offset, "found a solid or an edge, expected a face for envelope");
+  const double height = number_or(d, step, 1, 0);
+  if (!(height > 0))
+    reject(d, step.offset, "found a height of " + text_of_number(height) + " m, expected more than 0");
+  const FacePlane plane(state.size);
+  Evaluation at{d, step.offset};
+  const lang::TaggedValue first = evaluate(d, argument_at(d, step, 2).value);
+  ValueArray bases, angles;
+  if (is_array(first)) {
+    bases = array_in(at, first);
+    angles = array_in(at, evaluate(d, argument_at(d, step, 3).value));
+  }
+  Solid all;
+  all.is_closed = true;
+  std::uint32_t edge_number = 0;
+  for (const Plan& plan : plans_of(flat_solid(d, state), state.size, plane)) {
+    Solid flat;
+    add_plan(flat, plan, plane, 0);
+    glm::dvec3 up(0);
+    up[plane.w] = height;
+    Solid mass = extruded_by(welded(flat, 0), std::vector<glm::dvec3>(welded(flat, 0).points.size(), up));
+    bool is_convex = plan.rings.size() == 1;
+    const PlanRing& ring = plan.rings[0];
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const glm::dvec2 a = ring[(i + 1) % ring.size()] - ring[i],
+                       b = ring[(i + 2) % ring.size()] - ring[(i + 1) % ring.size()];
+      is_convex &= a.x * b.y - a.y * b.x > -1e-9 * glm::length(a) * glm::length(b);
+    }
+    if (!is_convex)
+      warn(d, step.offset,
+           "the outline is not convex: slopes from its edges cut all of the volume that lies inside of them");
+    for (std::uint32_t e = 0; e < edge_count(plan); ++e, ++edge_number) {
+      const auto [from, to] = edge_of(plan, e);
+      const glm::dvec2 along = (to - from) / glm::length(to - from), inwards(-along.y, along.x);
+      const glm::dvec3 outward = plane.raised(-inwards, 0);
+      // front, back, right (or side), left
+      std::uint32_t side =
+          std::abs(outward.z) >= std::abs(outward.x) ? (outward.z > 0 ? 0U : 1U) : (outward.x > 0 ? 2U : 3U);
+      if (plane.w == 2)
+        side = std::abs(outward.y) >= std::abs(outward.x) ? (outward.y < 0 ? 0U : 1U)
+                                                          : (outward.x > 0 ? 2U : 3U);
+      double base = height, angle = 90;
+      if (is_array(first)) {
+        if (edge_number < bases.values.size()) base = number_in(at, bases.values[edge_number]);
+        if (edge_number < angles.values.size()) angle = number_in(at, angles.values[edge_number]);
+      } else {
+        std::uint32_t place = 2 + 2 * side;
+        if (place >= step.argument_count && side == 3) place = 6;
+        if (place >= step.argument_count) place = 2;
+        base = number_or(d, step, place, height);
+        angle = number_or(d, step, place + 1, 90);
+      }
+      angle = cut_angle(d, step, angle);
+      if (angle >= 90 || base >= height) continue;
+      const double tangent = math::tan(math::radians(angle));
+      mass = cut_by_slope(std::move(mass), plane.w, plane.raised(from, std::max(0.0, base)),
+                          plane.raised(inwards * tangent, 0));
+      if (mass.faces.empty()) break;
+      d.job.check();
+    }
+    const auto offset = static_cast<std::uint32_t>(all.points.size());
+    all.points.insert(all.points.end(), mass.points.begin(), mass.points.end());
+    for (const Face& face : mass.faces) {
+      Face copy = face;
+      copy.first_loop = static_cast<std::uint32_t>(all.loops.size());
+      for (const Loop& loop : loops_of(mass, face)) {
+        std::vector<std::uint32_t> corners;
+        for (const std::uint32_t point : points_of(mass, loop)) corners.push_back(offset + point);
+        add_loop(all, corners);
+      }
+      all.faces.push_back(copy);
+    }
+  }
+  if (all.faces.empty()) return;
+  take_solid(d, state, std::move(all));
+}
+
+/// roofRidge(angle) or roofRidge(byHeight, 3): two planes that rise from the front and the back of the scope to a ridge along x.
+void roof_ridge(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+  if (dimension(state.size) != 2 || state.has_asset())
+    reject(d, step.offset, "found a solid or an edge, expected a face for roofRidge");
+  for (std::uint32_t i = 1; i < step.argument_count && i < 3; ++i) {
+    if (number_or(d, step, i, 0) != 0) warn(d, step.offset, "roofRidge has no overhang");
+  }
+  const FacePlane plane(state.size);
+  // The axis across the ridge: that of the plane that is not x.
+  const int across = plane.u == 0 ? plane.v : plane.u;
+  const double half = 0.5 * state.size[across];
+  const Argument& argument = argument_at(d, step, 0);
+  const double given = number_of(d, argument.value);
+  const double height = argument.measure == Measure::height ? given : half * math::tan(math::radians(given));
+  if (!(height > 0 && height < 1e6))
+    reject(d, step.offset, "found a roof height of " + text_of_number(height) + " m, expected more than 0");
+  const Solid flat = welded(solid_in_metres(d, state), 0);
+  glm::dvec3 up(0);
+  up[plane.w] = 2 * height;
+  Solid mass = extruded_by(flat, std::vector<glm::dvec3>(flat.points.size(), up));
+  for (const double side : {1.0, -1.0}) {
+    glm::dvec3 rise(0), at(0);
+    rise[across] = side * height / half;
+    if (side < 0) at[across] = state.size[across];
+    mass = cut_by_slope(std::move(mass), plane.w, at, rise);
+  }
+  take_solid(d, state, std::move(mass));
+  state.roof_up = static_cast<std::uint8_t>(plane.w);
+}
+
+/// footprint(): the faces that look down, moved to the lowest level and turned over. Flat shapes, and those that are open
+/// below, use the faces that look up.
+void footprint(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+  if (state.has_asset() || dimension(state.size) < 2) {
+    if (state.has_asset() && dimension(state.size) == 3) {
+      state.geometry = box_geometry;
+      state.size.y = 0;
+      return;
+    }
+    return warn(d, step.offset, "footprint needs faces, and leaves this shape as it is");
+  }
+  if (state.geometry == box_geometry && state.size.x > 0 && state.size.z > 0) {
+    state.size.y = 0;
+    return;
+  }
+  const Solid solid = solid_in_metres(d, state);
+  Solid out;
+  for (const double side : {-1.0, 1.0}) {
+    for (const Face& face : solid.faces) {
+      if (!(unit_normal(solid, face).y * side > 1e-6)) continue;
+      Face copy = face;
+      copy.first_loop = static_cast<std::uint32_t>(out.loops.size());
+      for (const Loop& loop : loops_of(solid, face)) {
+        const auto first = static_cast<std::uint32_t>(out.corners.size());
+        for (std::uint32_t i = 0; i < loop.count; ++i) {
+          const std::uint32_t corner = side < 0 ? loop.count - 1 - i : i;
+          const glm::dvec3& p = solid.points[solid.corners[loop.first + corner]];
+          out.corners.push_back(static_cast<std::uint32_t>(out.points.size()));
+          out.points.emplace_back(p.x, 0, p.z);
+        }
+        out.loops.push_back({first, loop.count});
+      }
+      out.faces.push_back(copy);
+    }
+    if (!out.faces.empty()) break;
+  }
+  if (out.faces.empty()) return;
+  state.roof_up = no_roof;
+  take_solid(d, state, without_straight_corners(with_joined_faces(welded(out, 0), 0), 0));
+}
+
+}  // namespace operators
+}  // namespace seedmesh::building

@@ -1,0 +1,74 @@
+#pragma once
+/// Materials by name: those of the request, built-in ones, and plain colours.
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "core/generators/api.h"
+#include "core/generators/building/shapes.h"
+#include "core/model/model.h"
+#include "core/texture/wall.h"
+
+namespace seedmesh {
+struct BuildingParams;
+}
+
+namespace seedmesh::building {
+
+/// Adds materials to the model when they are first used. The material of a shape is, in this order: its
+/// material by name, its colour, the one with the name of its symbol (Wall, Roof, Window, ...), plain
+/// plaster. If `textures` of the request says so, materials with names such as brick get textures made by
+/// seed (core/texture/wall.h) in the colour in force; built-in parts have none.
+class MaterialTable {
+ public:
+  MaterialTable(Model& model, const BuildingParams& params, const Shapes& shapes,
+                const GenerateContext& context);
+  /// Changes to other shapes of the same request, as those of another level of detail.
+  void use(const Shapes& shapes) {
+    shapes_ = &shapes;
+    made_.clear();
+  }
+  int material_of(const Shape& shape);
+  /// The material of a role of a built-in part. Stone has the colour in force, unless `materials` of the
+  /// request have a stone.
+  int material_of_part(std::string_view role, const Style& style);
+  /// The size of one tile in metres if the material has textures, and so needs texture coordinates; else
+  /// null.
+  const glm::dvec2* tile_of(int material) const;
+
+ private:
+  struct MaterialRequest {
+    const std::string& name;
+    const std::string* color;  ///< in force; may be null
+    bool is_role;              ///< of a part
+  };
+  int make(const MaterialRequest& request);
+  const texture::WallKind* surface_of(const MaterialRequest& request) const;
+  int load(const std::string& uri, const std::string& name, const std::string& pointer, const Job& job);
+
+  Model& model_;
+  const BuildingParams& params_;
+  const Shapes* shapes_;
+  bool has_textures_;  ///< the output has textures
+  struct Textures {
+    int color = -1, normal = -1, surface = -1;
+  };
+  std::map<std::string, Textures, std::less<>> textures_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> made_;  ///< style and symbol
+  std::map<std::string, int> by_name_;
+  std::map<int, glm::dvec2> tiles_;
+  std::vector<std::string> symbols_;
+
+ public:
+  /// Sets the names of the symbols, which shapes have as numbers.
+  void set_symbols(std::vector<std::string> names) { symbols_ = std::move(names); }
+  const std::string& symbol(const Shape& shape) const { return symbols_[shape.symbol]; }
+};
+
+/// Adds an issue for each image of a material that is not a valid data URI.
+void check_materials(const BuildingParams& params, std::vector<Issue>& issues);
+
+/// The names of built-in materials.
+std::vector<std::string_view> built_in_materials();
+
+}  // namespace seedmesh::building

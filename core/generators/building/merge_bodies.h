@@ -1,0 +1,23 @@
+#pragma once
+/// Merges bodies into one mesh for each layer, with one primitive for each material.
+#include <vector>
+
+#include "core/generators/building/body_source.h"
+
+namespace seedmesh::building {
+
+struct Merging {
+  const Shapes& shapes;
+  MaterialTable& materials;
+  BodySource& source;
+  glm::dvec3 low{0};    ///< lowest coordinates of all bodies
+  double diagonal = 1;  ///< of the box around all bodies
+};
+
+/// The meshes of all layers; empty if nothing is drawn. Walls side by side share their corners, including
+/// those in the middle of a neighbour's edge (coplanar_rectangles.h). Spends Resource::triangles. `least` is
+/// the least number of layers, if there are as many bodies.
+std::vector<MeshGroup> merged_bodies(const Model& model, const Merging& merging,
+                                     std::vector<DrawnBody>& bodies, std::size_t least, Job& job);
+
+}  // namespace seedmesh::building

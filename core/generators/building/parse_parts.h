@@ -1,0 +1,29 @@
+#pragma once
+/// What stands in the braces of an operation (cells of a split, selectors of a component split), and its
+/// axis.
+#include "core/generators/building/operations.h"
+#include "core/generators/building/parser.h"
+
+namespace seedmesh::building {
+
+/// Reads cells: `size : successor | { ... }* | ...`, or, if the bodies come later, `3.5, 1r, { 2, 1r }*`.
+void parse_cells(Parser& p, std::vector<Part>& out, bool have_bodies);
+/// Gives bodies that come later to cells, in order; `next` counts them.
+void assign_bodies(Parser& p, std::vector<Part>& cells, const std::vector<std::uint32_t>& bodies,
+                   std::size_t& next);
+
+/// Reads one selector and the sign behind it: front :, world.up =, isTagged("a") && top =:
+Part parse_selector(Parser& p);
+/// The ComponentKind that a word names: f, e, v, fe, fv, g, m or h. Others are an error.
+std::uint8_t read_component(Parser& p, const lang::Token& token);
+
+/// Reads selectors: `front : A | side = B | 3 : C`.
+void parse_selectors(Parser& p, std::vector<Part>& out);
+/// Makes the selector of Comp("sidefaces") or Comp("edge", 3), in the notation of 2006.
+void parse_selectors_2006(Parser& p, Step& step, const std::vector<Argument>& list, std::vector<Part>& out);
+
+/// Reads the words of an operation: the axis x, "X", "YS" (with snap lines) or xz, the component f, and
+/// adjust.
+void read_axis(Parser& p, const OperationRow& row, Step& step, const std::vector<Argument>& list);
+
+}  // namespace seedmesh::building

@@ -1,0 +1,233 @@
+/// Built-in solids with a number of sides, and parts placed along texture coordinates.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "core/generators/building/interpret.h"
+#include "core/generators/building/operator_arguments.h"
+#include "core/generators/building/operators.h"
+#include "core/generators/building/projections.h"
+
+namespace seedmesh::building::operators {
+namespace {
+
+constexpr std::uint32_t most_sphere_faces = 50'000;
+constexpr double most_sides = 1'000, most_copies = 10'000;
+
+/// The corner `i` of a regular polygon in the unit square, from +x towards -z, which is counter-clockwise seen from above.
+glm::dvec2 corner_of(std::uint32_t i, std::uint32_t sides) {
+  const math::SinCos at = math::sincos_degrees(360.0 * i / sides);
+  return {0.5 + 0.5 * at.cos, 0.5 - 0.5 * at.sin};
+}
+
+std::vector<std::uint32_t> ring(std::uint32_t first, std::uint32_t sides, bool is_reversed) {
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t i = 0; i < sides; ++i) out.push_back(first + (is_reversed ? sides - 1 - i : i));
+  return out;
+}
+
+Solid disk(std::uint32_t sides) {
+  Solid solid;
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const glm::dvec2 p = corner_of(i, sides);
+    solid.points.emplace_back(p.x, 0, p.y);
+  }
+  add_face(solid, ring(0, sides, false));
+  return solid;
+}
+
+Solid cylinder_of(std::uint32_t sides) {
+  Solid solid = extruded(disk(sides), 1);
+  for (std::size_t f = 2; f < solid.faces.size(); ++f) solid.faces[f].is_round = sides > 8;
+  return solid;
+}
+
+Solid cone_of(std::uint32_t sides) {
+  Solid solid;
+  solid.is_closed = true;
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const glm::dvec2 p = corner_of(i, sides);
+    solid.points.emplace_back(p.x, 0, p.y);
+  }
+  solid.points.emplace_back(0.5, 1, 0.5);
+  add_face(solid, ring(0, sides, true));
+  for (std::uint32_t i = 0; i < sides; ++i) add_face(solid, std::array{i, (i + 1) % sides, sides}, sides > 8);
+  return solid;
+}
+
+Solid sphere_of(std::uint32_t sides, std::uint32_t rows) {
+  Solid solid;
+  solid.is_closed = true;
+  for (std::uint32_t r = 1; r < rows; ++r) {
+    const math::SinCos up = math::sincos_degrees(-90 + 180.0 * r / rows);
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      const glm::dvec2 p = corner_of(i, sides) - 0.5;
+      solid.points.emplace_back(0.5 + p.x * up.cos, 0.5 + 0.5 * up.sin, 0.5 + p.y * up.cos);
+    }
+  }
+  const auto low = static_cast<std::uint32_t>(solid.points.size()), high = low + 1;
+  solid.points.emplace_back(0.5, 0, 0.5);
+  solid.points.emplace_back(0.5, 1, 0.5);
+  const std::uint32_t last = (rows - 2) * sides;
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const std::uint32_t next = (i + 1) % sides;
+    add_face(solid, std::array{next, i, low}, true);
+    for (std::uint32_t r = 0; r + 2 < rows; ++r)
+      add_face(solid,
+               std::array{r * sides + i, r * sides + next, (r + 1) * sides + next, (r + 1) * sides + i},
+               true);
+    add_face(solid, std::array{last + i, last + next, high}, true);
+  }
+  return solid;
+}
+
+std::uint32_t sides_at(Derivation& d, const Step& step, std::uint32_t i, double other) {
+  const double sides = number_or(d, step, i, other);
+  if (!(sides >= 3 && sides <= most_sides))
+    reject(d, step.offset, "found " + text_of_number(sides) + " sides, expected 3 to 1000");
+  return math::to_uint32(std::floor(sides));
+}
+
+double length_at(Derivation& d, const Step& step, std::uint32_t i) {
+  const double length = number_or(d, step, i, 0);
+  if (!(length > 0))
+    reject(d, step.offset, "found a length of " + text_of_number(length) + " m, expected more than 0");
+  return length;
+}
+
+/// The number of an equal solid, made once.
+std::uint32_t stored(Derivation& d, const std::string& name, Solid (*make)(std::uint32_t, std::uint32_t),
+                     std::uint32_t a, std::uint32_t b) {
+  const std::string key = name + " " + std::to_string(a) + " " + std::to_string(b);
+  const auto found = d.named_solids.find(key);
+  if (found != d.named_solids.end()) return found->second;
+  const std::uint32_t made = add_solid(d, make(a, b));
+  d.named_solids.emplace(key, made);
+  return made;
+}
+
+/// Sizes of 0 become those of the unit solid in proportion to the others, as for i().
+void fill_scope(ShapeState& state, bool is_flat) {
+  double sum = 0;
+  int given = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (is_flat && axis == 1) continue;
+    sum += state.size[axis];
+    given += state.size[axis] != 0;
+  }
+  const double other = given > 0 ? sum / given : 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (state.size[axis] == 0) state.size[axis] = other;
+  }
+  if (is_flat) state.size.y = 0;
+}
+
+}  // namespace
+
+void primitive(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+  const std::uint32_t count = step.argument_count;
+  state.roof_up = no_roof;
+  const auto radius_and_height = [&](std::uint32_t at) {
+    const double r = length_at(d, step, at), h = length_at(d, step, at + 1);
+    state.size = {2 * r, h, 2 * r};
+  };
+  const bool is_flat = step.op == Op::primitive_quad || step.op == Op::primitive_disk;
+  bool has_size = false;
+  switch (step.op) {
+    case Op::primitive_quad:
+      has_size = count == 2;
+      if (count == 1) reject(d, step.offset, "primitiveQuad takes a width and a length");
+      if (has_size) state.size = {length_at(d, step, 0), 0, length_at(d, step, 1)};
+      state.geometry = box_geometry;
+      break;
+    case Op::primitive_cube:
+      has_size = count == 3;
+      if (count == 1 || count == 2)
+        reject(d, step.offset, "primitiveCube takes a width, a height and a depth");
+      if (has_size) state.size = {length_at(d, step, 0), length_at(d, step, 1), length_at(d, step, 2)};
+      state.geometry = box_geometry;
+      break;
+    case Op::primitive_disk:
+      state.geometry = stored(
+          d, "disk", [](std::uint32_t a, std::uint32_t) { return disk(a); }, sides_at(d, step, 0, 32), 0);
+      has_size = count == 2;
+      if (has_size) state.size = glm::dvec3(2 * length_at(d, step, 1), 0, 2 * length_at(d, step, 1));
+      break;
+    case Op::primitive_sphere: {
+      const std::uint32_t rows = count > 1 ? sides_at(d, step, 1, 16) : 16;
+      if (sides_at(d, step, 0, 32) * rows > most_sphere_faces)
+        reject(d, step.offset, "found a sphere of more than 50,000 faces");
+      state.geometry = stored(d, "sphere", sphere_of, sides_at(d, step, 0, 32), rows);
+      has_size = count == 3;
+      if (has_size) state.size = glm::dvec3(2 * length_at(d, step, 2));
+      break;
+    }
+    default: {
+      const bool is_cone = step.op == Op::primitive_cone;
+      const std::uint32_t sides = sides_at(d, step, 0, 32);
+      state.geometry =
+          is_cone
+              ? stored(
+                    d, "cone", [](std::uint32_t a, std::uint32_t) { return cone_of(a); }, sides, 0)
+              : stored(
+                    d, "cylinder", [](std::uint32_t a, std::uint32_t) { return cylinder_of(a); }, sides, 0);
+      has_size = count == 3;
+      if (count == 2) reject(d, step.offset, "found a radius without a height");
+      if (has_size) radius_and_height(1);
+    }
+  }
+  if (!has_size) fill_scope(state, is_flat);
+}
+
+/// insertAlongUV(set, name, height): a copy in every tile of the texture coordinates that lies inside the shape. x of the copy
+/// runs along u, z against v, y along the normal.
+void insert_along_uv(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
+  const int set = uv_set_at(d, step, 0);
+  const double height = number_or(d, step, 2, 0);
+  if (dimension(state.size) != 2 || state.has_asset()) {
+    warn(d, step.offset, "insertAlongUV needs a face, and leaves this shape out");
+    return;
+  }
+  const Projection projection = projection_of(d, state, set);
+  const UvRange range = uv_range(d, state, set);
+  const glm::dmat3& axes = d.out.axes[state.axes];
+  const glm::dvec3 normal = axes[flat_axis(state.size)];
+  const auto in_plane = [&](const glm::dvec3& v) { return v - normal * glm::dot(normal, v); };
+  const glm::dvec3 u = in_plane(projection.u), v = in_plane(projection.v);
+  const double determinant = glm::dot(glm::cross(u, v), normal);
+  if (!(std::abs(determinant) > 1e-12)) reject(d, step.offset, "u and v have one direction on this shape");
+  // The steps in the world for which u, and v, rise by 1.
+  const glm::dvec3 along_u = glm::cross(v, normal) / determinant,
+                   along_v = glm::cross(normal, u) / determinant;
+  const glm::dvec3 origin = state.origin -
+                            along_u * (glm::dot(projection.u, state.origin) + projection.u_at) -
+                            along_v * (glm::dot(projection.v, state.origin) + projection.v_at);
+  const double first_u = std::floor(range.low[0] + 1e-6), last_u = std::ceil(range.high[0] - 1e-6);
+  const double first_v = std::floor(range.low[1] + 1e-6), last_v = std::ceil(range.high[1] - 1e-6);
+  if (!((last_u - first_u) * (last_v - first_v) <= most_copies))
+    reject(d, step.offset, "insertAlongUV would make more than 10,000 copies");
+  ShapeState tile = state;
+  const glm::dvec3 x = math::unit(along_u, axes[0]);
+  const glm::dvec3 z = math::unit(-along_v - x * glm::dot(x, -along_v), axes[2]);
+  const glm::dvec3 y = glm::cross(z, x);
+  tile.axes = add_axes(d, {x, y, z});
+  tile.size = {glm::length(along_u), std::abs(height), std::abs(glm::dot(along_v, z))};
+  tile.geometry = box_geometry;
+  std::uint64_t place = 0;
+  for (double row = first_v; row < last_v; ++row) {
+    for (double column = first_u; column < last_u; ++column) {
+      // A tile that lies outside by more than a half is left out.
+      if (std::min(column + 1, range.high[0]) - std::max(column, range.low[0]) < 0.5 ||
+          std::min(row + 1, range.high[1]) - std::max(row, range.low[1]) < 0.5)
+        continue;
+      ShapeState copy = tile;
+      copy.origin = origin + along_u * column + along_v * (row + 1);
+      if (glm::dot(y, normal) * height < 0) copy.origin += y * -std::abs(height);
+      insert_named_geometry(d, step, copy, text_of(d, argument_at(d, step, 1)));
+      add_leaf(d, copy, site.frame, key_at(site.key, place++), d.out.shapes[site.frame.shape].symbol);
+    }
+  }
+}
+
+}  // namespace seedmesh::building::operators

@@ -1,0 +1,29 @@
+#pragma once
+/// Texture coordinates of flat shapes as projections, by sets 0 to 9. Set 0 is drawn.
+#include <array>
+
+#include "core/generators/building/derivation.h"
+
+namespace seedmesh::building {
+
+/// The projection in force of a set, or that was set up. Without either, and for shapes that are flat, it is the scope in
+/// metres: u along x, v along y (of a lot along -z), from the origin of the scope.
+Projection projection_of(const Derivation& d, const ShapeState& state, int set);
+/// Whether a set has a projection, so that it means the same for all faces of a solid.
+bool has_projection(const Derivation& d, const ShapeState& state, int set);
+/// Puts a projection in force.
+void use_projection(Derivation& d, ShapeState& state, int set, const Projection& projection);
+
+/// The number of the projection that a set has set up or in force; 0: none.
+std::uint32_t projection_id(const Derivation& d, const ShapeState& state, int set, bool in_force);
+void set_projection_id(Derivation& d, ShapeState& state, int set, bool in_force, std::uint32_t id);
+/// Stores a projection and returns its number.
+std::uint32_t add_projection(Derivation& d, const Projection& projection);
+
+/// The range of u and v over a shape, and how many metres along the surface are 1 of them.
+struct UvRange {
+  std::array<double, 2> low{}, high{}, metres{1, 1};
+};
+UvRange uv_range(const Derivation& d, const ShapeState& state, int set);
+
+}  // namespace seedmesh::building

@@ -1,0 +1,12 @@
+#pragma once
+/// Restricted kinds of shape grammars: non-erasing and unimarker (Stiny and Gips; Kogovšek 2014, 4.1).
+#include "core/generators/building/syntax.h"
+
+namespace seedmesh::building {
+
+/// An error for each step that the restriction forbids: steps that erase, and with `is_unimarker` a second
+/// symbol with a rule in one successor. A symbol in a repeated cell, or one that several components may take,
+/// counts once.
+std::vector<lang::TextError> errors_of_restriction(const Grammar& grammar, bool is_unimarker);
+
+}  // namespace seedmesh::building

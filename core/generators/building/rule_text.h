@@ -1,0 +1,51 @@
+#pragma once
+/// The rules of one request as one text: one rule file, or several that import each other. Errors are bytes of the joined
+/// text; they are reported in the file that they belong to.
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace seedmesh::building {
+
+struct RuleText {
+  /// One file; it ends with a line break of its own in the joined text.
+  struct Part {
+    std::string name;  ///< the key in `rules`; empty if `rules` is a text
+    std::size_t first = 0, count = 0;
+  };
+  std::string text;
+  std::vector<Part> parts;  ///< the main file first
+
+  std::string_view text_of(const Part& part) const {
+    return std::string_view(text).substr(part.first, part.count);
+  }
+  /// The file that holds a byte of the joined text.
+  const Part& part_at(std::size_t offset) const;
+  /// The file that an import names: by its key, with or without directories and the ending ".cga". Null: there is none.
+  const Part* find(std::string_view path) const;
+};
+
+/// The text of a single file.
+RuleText rule_text(std::string_view text);
+
+/// The files of a request, of which at least one is given. The main file is the one that no other file imports. If there
+/// are several, it is the one with the rule `start`, else the only one with a mark of its start rule. Adds an issue
+/// if none or several are left.
+RuleText rule_text(const std::map<std::string, std::string>& files, std::string_view start,
+                   std::vector<Issue>& issues);
+
+/// The pointer, line and column of a byte of the rules: /rules, or /rules/<file>.
+Issue issue_at(IssueKind kind, const RuleText& text, std::size_t offset, std::string message);
+
+/// A text with blanks instead of comments (// # and /* */), and typographical signs such as ≥ as those of the language.
+/// No byte moves.
+std::string without_comments(std::string_view text);
+
+/// A name as a token of a JSON Pointer.
+std::string pointer_token(std::string_view name);
+
+}  // namespace seedmesh::building

@@ -1,0 +1,18 @@
+#pragma once
+/// The result of a derivation as JSON, for the answer of derive.
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "core/base/job.h"
+#include "core/generators/building/shapes.h"
+
+namespace seedmesh::building {
+
+/// The first `most` shapes, parents before children. A shape that was replaced has the first line of the rule
+/// that replaced it, the line where that rule begins, and, if the rule has several choices, the number of the
+/// choice from 1.
+nlohmann::json json_of(const Shapes& shapes, const Grammar& grammar, const RuleText& rules, std::size_t most,
+                       const Job& job);
+nlohmann::json json_of(const std::map<std::string, Report>& reports);
+
+}  // namespace seedmesh::building

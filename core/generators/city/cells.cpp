@@ -1,0 +1,291 @@
+// Minor streets within a cell of major streets.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+
+#include "core/base/math.h"
+#include "core/generators/city/growth.h"
+#include "generated/params/city.h"
+
+namespace seedmesh::city {
+namespace {
+
+using glm::dvec2;
+
+constexpr double piece_length = 3000;  // of a bent street, cm
+constexpr double least_density = 0.1;
+constexpr std::uint64_t most_steps_of_a_cell = 100'000;
+
+double length_of(const dvec2& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
+dvec2 rotated(const dvec2& v, double degrees) {
+  const math::SinCos turn = math::sincos_degrees(degrees);
+  return {v.x * turn.cos - v.y * turn.sin, v.x * turn.sin + v.y * turn.cos};
+}
+std::uint64_t point_key(const CmPoint& p) {
+  return key_at(key_at(0xCE11, static_cast<std::uint32_t>(p.x)), static_cast<std::uint32_t>(p.y));
+}
+
+ConstraintLimits limits_of(const CityStreets& streets) {
+  ConstraintLimits limits;
+  limits.snap = streets.snap * 100;
+  limits.clearance = streets.clearance * 100;
+  limits.cos_minimal_angle = math::cos(math::radians(streets.minimal_angle + 0.2));
+  limits.cos_border_angle = math::cos(math::radians(45));
+  const double widest = std::max(streets.classes.major.width + 2 * streets.classes.major.sidewalk,
+                                 streets.classes.minor.width + 2 * streets.classes.minor.sidewalk) *
+                        100;
+  limits.least_length = std::max(900.0, widest * 0.75);
+  limits.beside = std::max(700.0, widest * 0.6);
+  return limits;
+}
+
+class Cell final : public RoadRules {
+ public:
+  Cell(const GrowthInput& input, Rng rng)
+      : input_(input), streets_(input.streets), rng_(rng), network_(limits_of(input.streets)) {
+    if (streets_.minor_pattern) {
+      is_raster_ = *streets_.minor_pattern == CityMinorPattern::raster;
+      is_radial_ = *streets_.minor_pattern == CityMinorPattern::radial;
+    } else {
+      is_raster_ = streets_.pattern == CityPattern::raster;
+      is_radial_ = streets_.pattern == CityPattern::radial;
+    }
+  }
+
+  void add_loop(const StreetGraph& majors, const std::vector<std::uint32_t>& loop) {
+    for (const std::uint32_t half : loop) {
+      const std::uint32_t from = node_of(majors.nodes[start_of(majors.edges, half)]);
+      const std::uint32_t to = node_of(majors.nodes[end_of(majors.edges, half)]);
+      const PlanarEdge& edge = majors.edges[half / 2];
+      if (!seen_.emplace(half / 2, 0).second) continue;
+      const auto kind = static_cast<EdgeClass>(edge.tag);
+      network_.add_edge(from, to, kind, kind != EdgeClass::border);
+    }
+    std::vector<std::uint32_t> ring;
+    for (const std::uint32_t half : loop) ring.push_back(node_of(majors.nodes[start_of(majors.edges, half)]));
+    rings_.push_back(std::move(ring));
+    std::vector<std::uint8_t> borders;
+    for (const std::uint32_t half : loop)
+      borders.push_back(majors.edges[half / 2].tag == static_cast<std::uint32_t>(EdgeClass::border));
+    borders_.push_back(std::move(borders));
+  }
+
+  /// Growth starts at the nodes of the outline whose draws are the least within three quarters of a street.
+  std::vector<StreetGrammar::Start> starts() {
+    std::vector<StreetGrammar::Start> all;
+    for (std::size_t r = 0; r < rings_.size(); ++r) {
+      const std::vector<std::uint32_t>& ring = rings_[r];
+      const std::size_t count = ring.size();
+      std::vector<double> draw;
+      for (const std::uint32_t node : ring) draw.push_back(draw_of(node));
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t before = (i + count - 1) % count;
+        if (borders_[r][i] != 0 || borders_[r][before] != 0 || !is_least(ring, draw, i)) continue;
+        const dvec2 in = inward(ring[before], ring[i], ring[(i + 1) % count]);
+        const std::uint64_t key =
+            rng_.at("start").at(point_key(network_.nodes()[ring[i]])).at(side_of(in)).key();
+        all.push_back({0, 1, propose(ring[i], in, Rng(key)), key});
+      }
+    }
+    return all;
+  }
+
+  GlobalGoals global_goals(double rule, double road, Rng key) override {
+    GlobalGoals goals;
+    if (!is_road(road)) return goals;
+    const Road done = roads_[static_cast<std::size_t>(road)];
+    goals.rule = {rule, rule, rule};
+    const std::array<double, 3> turns = {0, 90, -90};
+    for (std::size_t slot = 0; slot < 3; ++slot) {
+      Rng draw = key.at(slot);
+      if (slot > 0 && draw.unit() >= streets_.branch_probability) continue;
+      const double spread = slot == 0 ? streets_.noise / 3 : streets_.noise;
+      const dvec2 direction = rotated(done.end_direction, turns[slot] + draw.uniform(-spread, spread));
+      goals.delay[slot] = slot == 0 ? 0 : 1;
+      goals.road[slot] = propose(done.end, direction, key.at("road").at(slot));
+    }
+    return goals;
+  }
+
+  RoadState local_constraints(double number) override {
+    if (!is_road(number)) return RoadState::failed;
+    Road& road = roads_[static_cast<std::size_t>(number)];
+    Rng draw = road.key.at("shape");
+    const double density = input_.density.at(in_metres(network_.nodes()[road.start]));
+    const double length = streets_.length * 100 * (1.3 - 0.5 * density) *
+                          (1 + draw.uniform(-streets_.length_spread, streets_.length_spread));
+    const double bend = is_raster_ || is_radial_ ? 0 : draw.uniform(-streets_.bend, streets_.bend);
+    const std::int32_t pieces = std::max(1, math::to_int32(length / piece_length + 0.5));
+    dvec2 direction = aligned(road.direction, road.start);
+    std::uint32_t node = road.start;
+    for (std::int32_t n = 0; n < pieces; ++n) {
+      if (n > 0) direction = rotated(direction, bend / pieces);
+      const dvec2 end = in_cm(network_.nodes()[node]) + direction * (length / pieces);
+      if (input_.density.at(end / 100.0) < least_density) return RoadState::failed;
+      const PieceResult built = network_.build_piece(node, end, EdgeClass::minor);
+      if (built.state != PieceState::free) return RoadState::failed;
+      node = built.node;
+    }
+    road.end = node;
+    road.end_direction = direction;
+    return RoadState::succeed;
+  }
+
+  std::array<double, 2> measure(double road) const override {
+    if (!is_road(road)) return {0, 0};
+    const Road& each = roads_[static_cast<std::size_t>(road)];
+    const dvec2 along = in_cm(network_.nodes()[each.end]) - in_cm(network_.nodes()[each.start]);
+    return {math::degrees(math::atan2(along.y, along.x)), length_of(along) / 100};
+  }
+
+  /// Ends without a connection stay, are joined to the first road in reach, or are removed, by their keys.
+  void settle_dead_ends() {
+    for (std::uint32_t n = 0; n < network_.nodes().size(); ++n) {
+      if (network_.arms(n).size() != 1 || network_.edges()[network_.arms(n)[0]].kind != EdgeClass::minor)
+        continue;
+      Rng draw = rng_.at("dead end").at(point_key(network_.nodes()[n]));
+      if (draw.unit() < streets_.dead_ends) continue;
+      if (!join(n)) remove_from(n);
+    }
+  }
+
+  std::vector<StreetPiece> pieces() const {
+    std::vector<StreetPiece> all;
+    for (const NetworkEdge& edge : network_.edges()) {
+      if (!edge.is_removed && edge.kind == EdgeClass::minor && !edge.is_fixed)
+        all.push_back({network_.nodes()[edge.from], network_.nodes()[edge.to], edge.kind});
+    }
+    return all;
+  }
+
+ private:
+  struct Road {
+    std::uint32_t start = 0, end = 0;
+    dvec2 direction{0}, end_direction{0};
+    Rng key;
+  };
+
+  std::uint32_t node_of(const CmPoint& p) {
+    const auto known = by_point_.find(p);
+    if (known != by_point_.end()) return known->second;
+    const std::uint32_t node = network_.add_node(p);
+    by_point_.emplace(p, node);
+    return node;
+  }
+
+  bool is_road(double road) const { return road >= 0 && road < static_cast<double>(roads_.size()); }
+  double propose(std::uint32_t start, const dvec2& direction, Rng key) {
+    roads_.push_back({start, start, direction, direction, key});
+    return static_cast<double>(roads_.size() - 1);
+  }
+
+  /// Two cells at a node draw alike for a share of the nodes.
+  double draw_of(std::uint32_t node) const {
+    const Rng at = rng_.at("attach").at(point_key(network_.nodes()[node]));
+    if (at.at("alike").unit() < streets_.crossings) return at.at("both").unit();
+    return at.at(cell_key_).unit();
+  }
+
+  bool is_least(const std::vector<std::uint32_t>& ring, const std::vector<double>& draw,
+                std::size_t i) const {
+    const double reach = streets_.length * 75;
+    const std::size_t count = ring.size();
+    for (const std::size_t step : {std::size_t{1}, count - 1}) {
+      double gone = 0;
+      for (std::size_t at = i, n = 1; n < count; ++n) {
+        const std::size_t next = (at + step) % count;
+        gone += distance(network_.nodes()[ring[at]], network_.nodes()[ring[next]]);
+        if (gone > reach) break;
+        if (draw[next] < draw[i]) return false;
+        at = next;
+      }
+    }
+    return true;
+  }
+
+  /// The direction into the cell that halves the corner.
+  dvec2 inward(std::uint32_t before, std::uint32_t node, std::uint32_t after) const {
+    const dvec2 p = in_cm(network_.nodes()[node]);
+    const dvec2 in = p - in_cm(network_.nodes()[before]), out = in_cm(network_.nodes()[after]) - p;
+    const dvec2 along = in / length_of(in) + out / length_of(out);
+    const double length = length_of(along);
+    if (length < 1e-6) return in / length_of(in);
+    return dvec2(-along.y, along.x) / length;
+  }
+  static std::uint64_t side_of(const dvec2& in) { return (in.x >= 0 ? 1U : 0U) + (in.y >= 0 ? 2U : 0U); }
+
+  /// The direction, or that of the pattern which is nearest to it.
+  dvec2 aligned(const dvec2& direction, std::uint32_t node) const {
+    if (!is_raster_ && !is_radial_) return direction;
+    dvec2 best = frame_at(streets_, is_radial_, in_cm(network_.nodes()[node]));
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      const dvec2 turned =
+          rotated(frame_at(streets_, is_radial_, in_cm(network_.nodes()[node])), 90.0 * quarter);
+      if (glm::dot(turned, direction) > glm::dot(best, direction)) best = turned;
+    }
+    return best;
+  }
+
+  bool join(std::uint32_t node) {
+    const NetworkEdge edge = network_.edges()[network_.arms(node)[0]];
+    const CmPoint before = network_.nodes()[edge.from == node ? edge.to : edge.from];
+    const dvec2 back = in_cm(network_.nodes()[node]) - in_cm(before);
+    const dvec2 ahead = back / length_of(back);
+    for (const double turn : {0.0, 20.0, -20.0, 40.0, -40.0, 65.0, -65.0, 90.0, -90.0}) {
+      const dvec2 direction = rotated(ahead, turn);
+      if (network_.build_to_road(node, direction, streets_.length * 150, EdgeClass::minor).state ==
+          PieceState::joined)
+        return true;
+    }
+    return false;
+  }
+
+  /// Removes the street back to its last junction.
+  void remove_from(std::uint32_t node) {
+    while (network_.arms(node).size() == 1) {
+      const std::uint32_t arm = network_.arms(node)[0];
+      const NetworkEdge edge = network_.edges()[arm];
+      if (edge.kind != EdgeClass::minor) return;
+      network_.remove_edge(arm);
+      node = edge.from == node ? edge.to : edge.from;
+    }
+  }
+
+ public:
+  void set_key(std::uint64_t key) { cell_key_ = key; }
+
+ private:
+  const GrowthInput& input_;
+  const CityStreets& streets_;
+  Rng rng_;
+  std::uint64_t cell_key_ = 0;
+  bool is_raster_ = false, is_radial_ = false;
+  Network network_;
+  std::map<CmPoint, std::uint32_t> by_point_;
+  std::map<std::uint32_t, int> seen_;
+  std::vector<std::vector<std::uint32_t>> rings_;
+  std::vector<std::vector<std::uint8_t>> borders_;
+  std::vector<Road> roads_;
+};
+
+}  // namespace
+
+std::vector<StreetPiece> grow_cell(const GrowthInput& input, const StreetGraph& majors,
+                                   const std::vector<std::vector<std::uint32_t>>& loops, Job& job) {
+  Cell cell(input, job.rng().at("cells"));
+  // The key of a cell is its lowest point, which edits elsewhere leave alone.
+  CmPoint lowest = majors.nodes[start_of(majors.edges, loops[0][0])];
+  for (const std::uint32_t half : loops[0])
+    lowest = std::min(lowest, majors.nodes[start_of(majors.edges, half)]);
+  cell.set_key(point_key(lowest));
+  for (const std::vector<std::uint32_t>& loop : loops) cell.add_loop(majors, loop);
+  if (!input.grammar.grow(cell.starts(), cell, most_steps_of_a_cell, job))
+    job.refuse(limit_issue({Resource::steps, most_steps_of_a_cell, most_steps_of_a_cell + 1},
+                           "the streets of a cell do not stop growing", "/streets/productions"));
+  cell.settle_dead_ends();
+  return cell.pieces();
+}
+
+}  // namespace seedmesh::city

@@ -1,0 +1,91 @@
+// What the schema cannot say about a city.
+#include <algorithm>
+#include <cmath>
+
+#include "core/generators/city/city.h"
+#include "core/generators/city/density.h"
+#include "core/generators/city/productions.h"
+#include "core/generators/city/zoning.h"
+#include "core/geom/polygon/plan.h"
+#include "core/schema/json.h"
+#include "generated/params/city.h"
+
+namespace seedmesh::city {
+namespace {
+
+constexpr std::size_t most_points = 5000;
+
+void check_range(const std::array<double, 2>& range, const std::string& pointer, std::vector<Issue>& issues) {
+  if (range[0] <= range[1]) return;
+  issues.push_back({IssueKind::conflict, pointer,
+                    "found " + number_text(range[0]) + " to " + number_text(range[1]) +
+                        ", expected the least value first"});
+}
+
+void check_area(const CityParams& params, std::vector<Issue>& issues) {
+  if (params.area.polygon.empty()) return;
+  std::vector<PlanRing> rings;
+  std::size_t points = 0;
+  for (const auto& ring : params.area.polygon) {
+    PlanRing plan;
+    for (const auto& p : ring) plan.emplace_back(p[0], p[1]);
+    points += plan.size();
+    rings.push_back(std::move(plan));
+  }
+  if (points > most_points) {
+    issues.push_back(
+        {IssueKind::out_of_range, "/area/polygon",
+         "found " + std::to_string(points) + " points, expected at most " + std::to_string(most_points)});
+    return;
+  }
+  for (const PlanFault& each : faults_of(read_plan(std::move(rings)))) {
+    issues.push_back({IssueKind::invalid_value,
+                      "/area/polygon/" + std::to_string(each.ring) + "/" + std::to_string(each.vertex),
+                      each.message});
+  }
+}
+
+void check_lots(const CityLots& lots, std::vector<Issue>& issues) {
+  check_range(lots.area, "/lots/area", issues);
+  // A lot is at most six times as long as it is wide, so that it has at least this area.
+  if (lots.width * lots.width > lots.area[1])
+    issues.push_back({IssueKind::conflict, "/lots/width",
+                      "found a least width of " + number_text(lots.width) +
+                          " m; a square of this width has more than the greatest area of " +
+                          number_text(lots.area[1]) + " m²"});
+}
+
+void check_rules(const CityParams& params, std::vector<Issue>& issues) {
+  for (std::size_t i = 0; i < rules_of(params).size(); ++i) {
+    const CityBuildingRule& rule = rules_of(params)[i];
+    const std::string pointer = "/buildings/rules/" + std::to_string(i);
+    check_range(rule.density, pointer + "/density", issues);
+    check_range(rule.distance, pointer + "/distance", issues);
+    check_range(rule.lot, pointer + "/lot", issues);
+    check_range(rule.depth, pointer + "/depth", issues);
+    const std::array<int, 2> floors = {rule.floors[0], rule.floors[1]};
+    check_range({static_cast<double>(floors[0]), static_cast<double>(floors[1])}, pointer + "/floors",
+                issues);
+    const std::array<int, 2> taken = floors_of(text_of(rule.blueprint));
+    if (taken[1] > 0 && (floors[0] < taken[0] || floors[1] > taken[1]))
+      issues.push_back({IssueKind::conflict, pointer + "/floors",
+                        "found " + std::to_string(floors[0]) + " to " + std::to_string(floors[1]) +
+                            " floors; the blueprint " + std::string(text_of(rule.blueprint)) + " has " +
+                            std::to_string(taken[0]) + " to " + std::to_string(taken[1])});
+  }
+}
+
+}  // namespace
+
+std::vector<Issue> check(const CityParams& params, const CheckContext&) {
+  std::vector<Issue> issues;
+  check_area(params, issues);
+  check_lots(params.lots, issues);
+  check_rules(params, issues);
+  const StreetGrammar grammar(params.streets.productions, "/streets/productions", issues);
+  Job job(0, Job::Options{});
+  FieldMap::read(params.maps.density, "/maps/density", {-1, -1}, {1, 1}, job, issues);
+  return issues;
+}
+
+}  // namespace seedmesh::city

@@ -1,0 +1,155 @@
+#include "core/generators/city/city.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/generators/child.h"
+#include "core/generators/city/city_model.h"
+#include "core/generators/city/growth.h"
+#include "core/generators/city/lots.h"
+#include "core/generators/city/plan_json.h"
+#include "core/generators/city/statistics.h"
+#include "core/generators/city/zoning.h"
+#include "core/generators/unused.h"
+#include "core/schema/warning_list.h"
+#include "generated/params/city.h"
+#include "generated/params/city_unused.h"
+
+namespace seedmesh::city {
+namespace {
+
+// Estimates, with the lists that only the making needs.
+constexpr std::uint64_t bytes_a_street = 2500;
+constexpr std::uint64_t bytes_a_lot = 900;
+
+CmPoint centimetres(double east, double north) { return rounded_cm({east * 100, north * 100}); }
+
+std::vector<CmRing> area_rings(const CityParams& params) {
+  if (params.area.polygon.empty()) {
+    const double east = params.area.size[0] / 2, north = params.area.size[1] / 2;
+    return {{centimetres(-east, -north), centimetres(east, -north), centimetres(east, north),
+             centimetres(-east, north)}};
+  }
+  std::vector<CmRing> rings;
+  for (const auto& given : params.area.polygon) {
+    CmRing ring;
+    for (const auto& p : given) {
+      const CmPoint point = centimetres(p[0], p[1]);
+      if (ring.empty() || ring.back() != point) ring.push_back(point);
+    }
+    while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
+    const bool is_outer = rings.empty();
+    if ((doubled_area(ring) > 0) != is_outer) std::reverse(ring.begin(), ring.end());
+    rings.push_back(std::move(ring));
+  }
+  return rings;
+}
+
+template <class T>
+CrossSection section_of(const char* name, const T& given) {
+  return {name, given.width, given.sidewalk, given.lanes};
+}
+
+std::optional<Error> refusal(const CityParams& params, const GenerateContext& context) {
+  std::vector<Issue> issues = check(params, {context.job.limits(), context.generators});
+  if (issues.empty()) return std::nullopt;
+  return Error{Code::invalid, std::move(issues)};
+}
+
+}  // namespace
+
+Result<CityPlan> plan_of(const CityParams& params, Job& job) {
+  CityPlan plan;
+  plan.area = area_rings(params);
+  plan.classes = {{"border", 0, 0, 0},
+                  section_of("major", params.streets.classes.major),
+                  section_of("minor", params.streets.classes.minor)};
+  glm::dvec2 low = in_metres(plan.area[0][0]), high = low;
+  for (const CmPoint& p : plan.area[0]) {
+    low = glm::min(low, in_metres(p));
+    high = glm::max(high, in_metres(p));
+  }
+  std::vector<Issue> issues;
+  const StreetGrammar grammar(params.streets.productions, "/streets/productions", issues);
+  const std::optional<FieldMap> density =
+      FieldMap::read(params.maps.density, "/maps/density", low, high, job, issues);
+  if (!issues.empty() || !density) return Error{Code::invalid, std::move(issues)};
+  job.progress("streets", 0);
+  plan.graph = grow_streets({params.streets, *density, grammar, plan.area}, job);
+  plan.charges.emplace_back(job, plan.graph.edges.size() * bytes_a_street);
+  job.progress("blocks", 0);
+  const std::vector<BlockOutline> blocks = lay_out_streets(plan, job);
+  job.progress("lots", 0);
+  divide_blocks(plan, blocks, params.lots, *density, job);
+  plan.charges.emplace_back(job, plan.lots.size() * bytes_a_lot);
+  place_houses(plan, params, job);
+  return plan;
+}
+
+Result<Model> generate(const CityParams& params, const GenerateContext& context) {
+  Job& job = context.job;
+  if (auto refused = refusal(params, context)) return std::move(*refused);
+  const Result<CityPlan> plan = plan_of(params, job);
+  if (!plan) return plan.error();
+  job.progress("mesh", 0);
+  Result<Model> model = city_model(*plan, params, context);
+  if (!model) return model;
+  model->extras.push_back({"statistics", canonical_text(statistics_of(*plan, job))});
+  for (Warning& each : warnings_of(unused_parameters(params))) model->warnings.push_back(std::move(each));
+  return model;
+}
+
+Result<Json> derive(const CityParams& params, const GenerateContext& context) {
+  Job& job = context.job;
+  if (auto refused = refusal(params, context)) return std::move(*refused);
+  const Result<CityPlan> plan = plan_of(params, job);
+  if (!plan) return plan.error();
+  Json answer;
+  answer["statistics"] = statistics_of(*plan, job);
+  answer["plan"] = plan_json(*plan, params);
+  answer["warnings"] = warning_list(warnings_of(unused_parameters(params)));
+  return answer;
+}
+
+Result<Appraisal> appraise(const CityParams& params, const GenerateContext& context) {
+  Job& job = context.job;
+  if (auto refused = refusal(params, context)) return std::move(*refused);
+  const Result<CityPlan> plan = plan_of(params, job);
+  if (!plan) return plan.error();
+  Appraisal appraisal;
+  appraisal.warnings = warnings_of(unused_parameters(params));
+  // Houses of one rule and number of floors have about as many triangles; one of each is made.
+  Estimate estimate;
+  estimate.triangles = ground_triangles(*plan);
+  estimate.bytes = estimate.triangles * 48;
+  std::map<std::pair<std::uint32_t, int>, ModelCounts> samples;
+  for (const SharedHouse& shared : shared_houses(*plan, params)) {
+    const House& house = *plan->lots[shared.lots[0]].house;
+    const auto [sample, is_new] = samples.try_emplace({house.rule, house.floors});
+    if (is_new) {
+      const Result<Model> made = generate_child(shared.request, "/buildings", Rng(0), context);
+      if (!made) return made.error();
+      sample->second = count(*made);
+    }
+    estimate.triangles += sample->second.triangles * shared.lots.size();
+    estimate.bytes += sample->second.bytes + 150 * shared.lots.size();
+  }
+  appraisal.estimate = estimate;
+  return appraisal;
+}
+
+Result<Payload> encode(const CityParams& params, const WantedFormat&, const GenerateContext& context) {
+  if (auto refused = refusal(params, context)) return std::move(*refused);
+  const Result<CityPlan> plan = plan_of(params, context.job);
+  if (!plan) return plan.error();
+  context.job.progress("encode", 0);
+  Payload payload;
+  payload.add(canonical_text(plan_json(*plan, params)));
+  return payload;
+}
+
+Json vocabulary() { return Json::object(); }
+
+}  // namespace seedmesh::city

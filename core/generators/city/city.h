@@ -1,0 +1,43 @@
+#pragma once
+/// Cities: an exact partition of an area into streets, blocks, lots, parks and squares.
+///
+///   params -> grow_streets(): majors, then the cells between them -> StreetGraph
+///          -> lay_out_streets(): carriageways, junctions, sidewalks, outlines of blocks
+///          -> divide_blocks(): lots with street access -> place_houses() -> CityPlan
+///          -> plan_json() and statistics_of(), or city_model()
+///
+/// x is east and y north in the plan; the model has x east, y up and z south. The origin is that of the request.
+/// docs/cities.md describes the plan.
+#include "core/generators/api.h"
+#include "core/generators/city/plan.h"
+#include "core/gltf/payload.h"
+#include "core/model/model.h"
+#include "core/schema/json.h"
+
+namespace seedmesh {
+struct CityParams;
+}
+
+namespace seedmesh::city {
+
+/// All errors that the schema cannot express, with pointers relative to the parameters.
+std::vector<Issue> check(const CityParams& params, const CheckContext& context);
+
+/// The plan without its output forms. Errors: those of check().
+Result<CityPlan> plan_of(const CityParams& params, Job& job);
+
+Result<Model> generate(const CityParams& params, const GenerateContext& context);
+
+/// {statistics, plan, warnings}.
+Result<Json> derive(const CityParams& params, const GenerateContext& context);
+
+/// The estimate makes the plan, and one building of each rule and number of floors.
+Result<Appraisal> appraise(const CityParams& params, const GenerateContext& context);
+
+/// The format "geojson": the plan alone.
+Result<Payload> encode(const CityParams& params, const WantedFormat& format, const GenerateContext& context);
+
+/// The modules of street productions.
+Json vocabulary();
+
+}  // namespace seedmesh::city

@@ -1,0 +1,289 @@
+#include "core/generators/city/city_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+
+#include "core/base/math.h"
+#include "core/base/parallel.h"
+#include "core/generators/child.h"
+#include "core/generators/city/zoning.h"
+#include "core/generators/scene/model_levels.h"
+#include "core/geom/mesh/weld.h"
+#include "core/geom/polygon/triangulate.h"
+#include "generated/params/city.h"
+
+namespace seedmesh::city {
+namespace {
+
+using glm::dvec2;
+
+struct Look {
+  const char* name;
+  std::array<std::uint8_t, 3> color;
+  float roughness;
+};
+constexpr Look looks[] = {
+    {"asphalt", {0x45, 0x46, 0x48}, 0.95F}, {"junction", {0x48, 0x49, 0x4b}, 0.95F},
+    {"sidewalk", {0x9b, 0x98, 0x92}, 0.9F}, {"verge", {0x7f, 0x8a, 0x62}, 1.0F},
+    {"park", {0x5f, 0x7d, 0x45}, 1.0F},     {"square", {0xa8, 0x9d, 0x88}, 0.9F},
+    {"lot", {0x86, 0x8f, 0x6a}, 1.0F},
+};
+
+Material material_of(const Look& look) {
+  Material material;
+  material.name = look.name;
+  material.base_color = {linear_of_srgb(look.color[0]), linear_of_srgb(look.color[1]),
+                         linear_of_srgb(look.color[2]), 1};
+  material.roughness = look.roughness;
+  return material;
+}
+
+bool is_low(PartKind kind) { return kind == PartKind::carriageway || kind == PartKind::junction; }
+
+struct DirectedEdge {
+  CmPoint a, b;
+  friend auto operator<=>(const DirectedEdge&, const DirectedEdge&) = default;
+};
+
+/// All edges of carriageways and junctions, sorted.
+std::vector<DirectedEdge> low_edges(const CityPlan& plan) {
+  std::vector<DirectedEdge> edges;
+  for (const Part& part : plan.parts) {
+    if (!is_low(part.kind)) continue;
+    for (const CmRing& ring : part.rings) {
+      for (std::size_t i = 0; i < ring.size(); ++i) edges.push_back({ring[i], ring[(i + 1) % ring.size()]});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+/// The edges of a part that a carriageway or a junction has the other way round.
+template <class Visit>
+void visit_kerbs(const Part& part, const std::vector<DirectedEdge>& low, const Visit& visit) {
+  for (const CmRing& ring : part.rings) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const CmPoint &a = ring[i], &b = ring[(i + 1) % ring.size()];
+      if (std::binary_search(low.begin(), low.end(), DirectedEdge{b, a})) visit(a, b);
+    }
+  }
+}
+
+std::uint64_t count_kerbs(const Part& part, const std::vector<DirectedEdge>& low) {
+  std::uint64_t count = 0;
+  visit_kerbs(part, low, [&count](const CmPoint&, const CmPoint&) { ++count; });
+  return count;
+}
+
+class GroundMesh {
+ public:
+  explicit GroundMesh(const Job& job) {
+    mesh_.position = Array<glm::vec3>(job);
+    mesh_.normal = Array<glm::vec3>(job);
+    mesh_.uv[0] = Array<glm::vec2>(job);
+    mesh_.index.wide = Array<std::uint32_t>(job);
+  }
+
+  void add_part(const Part& part, double height) {
+    points_.clear();
+    sizes_.clear();
+    for (const CmRing& ring : part.rings) {
+      for (const CmPoint& p : ring) points_.push_back(in_metres(p));
+      sizes_.push_back(static_cast<std::uint32_t>(ring.size()));
+    }
+    const auto first = static_cast<std::uint32_t>(mesh_.position.size());
+    for (const dvec2& p : points_) add_vertex(p, height, {0, 1, 0}, glm::vec2(p));
+    const auto& corners = triangulator_.run(points_, sizes_, 0);
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+      const std::uint32_t a = first + corners[i], b = first + corners[i + 1], c = first + corners[i + 2];
+      if (!has_area(a, b, c)) continue;
+      for (const std::uint32_t corner : {a, b, c}) mesh_.index.wide.push_back(corner);
+    }
+  }
+
+  /// The upright face of a kerb along an edge whose left side is higher.
+  void add_kerb(const CmPoint& from, const CmPoint& to) {
+    const dvec2 a = in_metres(from), b = in_metres(to), along = (b - a) / std::sqrt(glm::dot(b - a, b - a));
+    // The right side of the edge, seen from above; north is -Z.
+    const glm::vec3 normal(static_cast<float>(along.y), 0, static_cast<float>(along.x));
+    const auto first = static_cast<std::uint32_t>(mesh_.position.size());
+    const auto length = static_cast<float>(std::sqrt(glm::dot(b - a, b - a)));
+    add_vertex(a, 0, normal, {0, 0});
+    add_vertex(b, 0, normal, {length, 0});
+    add_vertex(b, kerb_height, normal, {length, static_cast<float>(kerb_height)});
+    add_vertex(a, kerb_height, normal, {0, static_cast<float>(kerb_height)});
+    for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) mesh_.index.wide.push_back(first + corner);
+  }
+
+  Mesh take(Job& job) {
+    weld(mesh_, job);
+    return std::move(mesh_);
+  }
+
+ private:
+  /// Whether a level triangle is wide enough to keep its side in single precision. Corners on a straight border
+  /// make triangles without area, which cover nothing.
+  bool has_area(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    constexpr float least = 1e-3F;  // twice the area in square metres
+    const glm::vec3 &p = mesh_.position[a], &q = mesh_.position[b], &r = mesh_.position[c];
+    return (q.z - p.z) * (r.x - p.x) - (q.x - p.x) * (r.z - p.z) > least;
+  }
+
+  void add_vertex(const dvec2& p, double height, const glm::vec3& normal, const glm::vec2& uv) {
+    mesh_.position.push_back(
+        {static_cast<float>(p.x), static_cast<float>(height), static_cast<float>(0 - p.y)});
+    mesh_.normal.push_back(normal);
+    mesh_.uv[0].push_back(uv);
+  }
+
+  Mesh mesh_;
+  Triangulator triangulator_;
+  std::vector<dvec2> points_;
+  std::vector<std::uint32_t> sizes_;
+};
+
+int add_node(Model& model, std::string name, int parent) {
+  Node node;
+  node.name = std::move(name);
+  node.parent = parent;
+  model.nodes.push_back(std::move(node));
+  return static_cast<int>(model.nodes.size()) - 1;
+}
+
+/// One mesh for each kind of part.
+void add_ground(Model& model, const CityPlan& plan, Job& job) {
+  job.spend(Resource::triangles, ground_triangles(plan));
+  const std::vector<DirectedEdge> low = low_edges(plan);
+  const int ground = add_node(model, "ground", 0);
+  for (std::size_t kind = 0; kind < std::size(looks); ++kind) {
+    GroundMesh mesh(job);
+    std::size_t done = 0;
+    for (const Part& part : plan.parts) {
+      if (static_cast<std::size_t>(part.kind) != kind) continue;
+      if (done++ % 256 == 0) job.check();
+      mesh.add_part(part, is_low(part.kind) ? 0 : kerb_height);
+      if (is_low(part.kind)) continue;
+      visit_kerbs(part, low, [&mesh](const CmPoint& from, const CmPoint& to) { mesh.add_kerb(from, to); });
+    }
+    if (done == 0) continue;
+    MeshGroup group;
+    group.name = looks[kind].name;
+    Primitive primitive;
+    primitive.mesh = mesh.take(job);
+    primitive.material = static_cast<int>(model.materials.size());
+    model.materials.push_back(material_of(looks[kind]));
+    group.primitives.push_back(std::move(primitive));
+    const int node = add_node(model, looks[kind].name, ground);
+    model.nodes[static_cast<std::size_t>(node)].mesh = static_cast<int>(model.meshes.size());
+    model.meshes.push_back(std::move(group));
+  }
+}
+
+int add_material(Model& model, Material material) {
+  for (std::size_t i = 0; i < model.materials.size(); ++i) {
+    if (scene::is_same(model.materials[i], material, scene::Seeds::may_differ)) return static_cast<int>(i);
+  }
+  model.materials.push_back(std::move(material));
+  return static_cast<int>(model.materials.size()) - 1;
+}
+
+Transform transform_of(const House& house) {
+  Transform at;
+  at.translation = {static_cast<float>(house.position.x), static_cast<float>(kerb_height),
+                    static_cast<float>(0 - house.position.y)};
+  const math::SinCos half = math::sincos_degrees(house.turn / 2);
+  at.rotation = glm::quat(static_cast<float>(half.cos), 0, static_cast<float>(half.sin), 0);
+  return at;
+}
+
+/// Adds one building with all its copies.
+void add_building(Model& model, Model made, const SharedHouse& house, const CityPlan& plan, int parent,
+                  Job& job) {
+  std::vector<int> materials;
+  for (Material& material : made.materials) {
+    for (TextureUse* use :
+         {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
+          &material.occlusion_texture, &material.emissive_texture}) {
+      if (use->texture < 0) continue;
+      model.textures.push_back(made.textures[static_cast<std::size_t>(use->texture)]);
+      use->texture = static_cast<int>(model.textures.size()) - 1;
+    }
+    materials.push_back(add_material(model, std::move(material)));
+  }
+  scene::separate_bodies(made);
+  std::vector<std::vector<Primitive>> levels = scene::extract_levels(made, job);
+  if (levels.empty() || levels[0].empty()) return;
+  MeshGroup group;
+  group.name = "building_" + std::to_string(model.meshes.size());
+  std::uint64_t triangles = 0;
+  for (Primitive& each : levels[0]) {
+    if (each.mesh.elements() == 0) continue;
+    if (each.material >= 0) each.material = materials[static_cast<std::size_t>(each.material)];
+    triangles += each.mesh.elements();
+    group.primitives.push_back(std::move(each));
+  }
+  if (group.primitives.empty()) return;
+  job.spend(Resource::triangles, triangles * (house.lots.size() - 1));
+  const int node = add_node(model, group.name, parent);
+  Node& added = model.nodes[static_cast<std::size_t>(node)];
+  added.mesh = static_cast<int>(model.meshes.size());
+  model.meshes.push_back(std::move(group));
+  if (house.lots.size() == 1) {
+    added.transform = transform_of(*plan.lots[house.lots[0]].house);
+    return;
+  }
+  for (const std::uint32_t lot : house.lots)
+    added.instances.transforms.push_back(transform_of(*plan.lots[lot].house));
+}
+
+}  // namespace
+
+std::vector<SharedHouse> shared_houses(const CityPlan& plan, const CityParams& params) {
+  std::vector<SharedHouse> houses;
+  std::map<std::pair<std::uint64_t, std::string>, std::size_t> known;
+  for (std::uint32_t i = 0; i < plan.lots.size(); ++i) {
+    if (!plan.lots[i].house) continue;
+    Child request = request_of(*plan.lots[i].house, params);
+    const auto [at, is_new] = known.try_emplace({*request.seed, request.parameters}, houses.size());
+    if (is_new) houses.push_back({std::move(request), {}});
+    houses[at->second].lots.push_back(i);
+  }
+  return houses;
+}
+
+std::uint64_t ground_triangles(const CityPlan& plan) {
+  const std::vector<DirectedEdge> low = low_edges(plan);
+  std::uint64_t count = 0;
+  for (const Part& part : plan.parts) {
+    for (const CmRing& ring : part.rings) count += ring.size();
+    count += 2 * part.rings.size() - 4;
+    if (!is_low(part.kind)) count += 2 * count_kerbs(part, low);
+  }
+  return count;
+}
+
+Result<Model> city_model(const CityPlan& plan, const CityParams& params, const GenerateContext& context) {
+  Job& job = context.job;
+  Model model;
+  model.name = "city";
+  add_node(model, "city", -1);
+  add_ground(model, plan, job);
+  const std::vector<SharedHouse> houses = shared_houses(plan, params);
+  if (houses.empty()) return model;
+  const int buildings = add_node(model, "buildings", 0);
+  std::vector<std::optional<Result<Model>>> made(houses.size());
+  parallel_for(job, houses.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
+    made[i].emplace(generate_child(houses[i].request, "/buildings", Rng(0), context));
+  });
+  for (std::size_t i = 0; i < houses.size(); ++i) {
+    if (!*made[i]) return std::move(*made[i]).error();
+    add_building(model, std::move(**made[i]), houses[i], plan, buildings, job);
+    made[i].reset();
+  }
+  return model;
+}
+
+}  // namespace seedmesh::city

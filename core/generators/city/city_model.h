@@ -1,0 +1,31 @@
+#pragma once
+/// The model of a plan: ground by kind of part, kerbs, and houses as copies of shared meshes.
+#include "core/generators/api.h"
+#include "core/generators/city/plan.h"
+#include "core/schema/child.h"
+
+namespace seedmesh {
+struct CityParams;
+}
+
+namespace seedmesh::city {
+
+constexpr double kerb_height = 0.13;  // m
+
+/// A building that stands in the city, once or often.
+struct SharedHouse {
+  Child request;
+  std::vector<std::uint32_t> lots;
+};
+
+/// The different requests of all houses, in the order of their first lots.
+std::vector<SharedHouse> shared_houses(const CityPlan& plan, const CityParams& params);
+
+/// Triangles of the ground of a plan.
+std::uint64_t ground_triangles(const CityPlan& plan);
+
+/// Nodes: "city" > "streets" and "lots", one mesh for each kind of part; "city" > "buildings" > one node for each
+/// shared building. Spends triangles.
+Result<Model> city_model(const CityPlan& plan, const CityParams& params, const GenerateContext& context);
+
+}  // namespace seedmesh::city

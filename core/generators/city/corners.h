@@ -1,0 +1,22 @@
+#pragma once
+/// Corners of outlines that are moved inwards by a distance for each edge.
+#include <vector>
+
+#include "core/geom/polygon/cm_point.h"
+
+namespace seedmesh::city {
+
+/// A node of an outline: the unit directions of the edges before and after it, and the distances by which these
+/// move to their left, in centimetres.
+struct CornerInput {
+  glm::dvec2 at{0}, before{0}, after{0};
+  double distance_before = 0, distance_after = 0;
+  bool is_dead_end = false;
+  double fillet = 0;  ///< greatest radius of the arc in a convex corner
+  double cap = 0;     ///< how far the outline passes the tip of a dead end
+};
+
+/// The points of the corner, in the order of the outline; at least one. Convex corners have an odd number.
+std::vector<CmPoint> corner_points(const CornerInput& corner);
+
+}  // namespace seedmesh::city

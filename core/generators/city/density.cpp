@@ -1,0 +1,100 @@
+#include "core/generators/city/density.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/generators/terrain/image.h"
+#include "core/lang/text_positions.h"
+#include "core/texture/png.h"
+
+namespace seedmesh::city {
+namespace {
+
+bool read_pixels(const std::string& text, const Job& job, std::string& error, texture::Picture& picture) {
+  Result<Array<std::uint8_t>> bytes = terrain::bytes_of_base64(text, job);
+  if (!bytes) {
+    error = bytes.error().issues.front().message;
+    return false;
+  }
+  Result<texture::Picture> read = texture::decode_png(std::as_bytes(bytes->span()), {}, job);
+  if (!read) {
+    error = read.error().issues.front().message;
+    return false;
+  }
+  picture = *std::move(read);
+  return true;
+}
+
+/// The mean of the colour channels, from 0 to 1.
+float brightness(const texture::Picture& picture, std::size_t pixel) {
+  const auto channels = static_cast<std::size_t>(picture.channels);
+  const std::size_t colors = channels < 3 ? 1 : 3;
+  double sum = 0;
+  for (std::size_t k = 0; k < colors; ++k) sum += picture.channel(pixel * channels + k);
+  return static_cast<float>(sum / static_cast<double>(colors) / (picture.bits == 8 ? 255.0 : 65535.0));
+}
+
+}  // namespace
+
+std::optional<FieldMap> FieldMap::read(const std::string& text, const std::string& pointer,
+                                       const glm::dvec2& low, const glm::dvec2& high, const Job& job,
+                                       std::vector<Issue>& issues) {
+  FieldMap map;
+  if (text.starts_with("data:")) {
+    std::string error;
+    texture::Picture picture;
+    if (!read_pixels(text, job, error, picture)) {
+      issues.push_back({IssueKind::invalid_value, pointer, error});
+      return std::nullopt;
+    }
+    map.low_ = low;
+    map.size_ = high - low;
+    map.width_ = picture.width;
+    map.height_ = picture.height;
+    const std::size_t count = std::size_t{picture.width} * picture.height;
+    map.pixels_ = Array<float>(job);
+    map.pixels_.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) map.pixels_.push_back(brightness(picture, i));
+    return map;
+  }
+  std::vector<lang::TextError> errors;
+  const auto tokens = lang::tokenize(text, 0, text.size(), errors);
+  lang::Names names;
+  names.bind_slot("x", 0);
+  names.bind_slot("y", 1);
+  std::size_t at = 0;
+  map.expression_ = map.program_.parse(tokens, at, names, errors);
+  if (tokens[at].kind != lang::TokenKind::end)
+    errors.push_back({tokens[at].offset,
+                      "found " + lang::in_quotes(tokens[at]) + ", expected an operator or the end",
+                      IssueKind::syntax});
+  if (errors.empty() && map.program_.draws(map.expression_))
+    errors.push_back(
+        {0, "a map has one value for each position; it draws no random numbers", IssueKind::invalid_value});
+  if (errors.empty()) return map;
+  lang::add_issues(pointer, text, errors, issues);
+  return std::nullopt;
+}
+
+double FieldMap::at(const glm::dvec2& metres) const {
+  if (width_ == 0) {
+    Rng unused(0);
+    const std::array<double, 2> slots = {metres.x, metres.y};
+    const double value = program_.evaluate(expression_, slots.data(), unused);
+    return std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 0.0;
+  }
+  // Bilinear between the centres of pixels.
+  const double u = std::clamp((metres.x - low_.x) / size_.x, 0.0, 1.0) * width_ - 0.5;
+  const double v = std::clamp(1 - (metres.y - low_.y) / size_.y, 0.0, 1.0) * height_ - 0.5;
+  const auto pixel = [this](double column, double row) {
+    const auto x = static_cast<std::size_t>(std::clamp(column, 0.0, width_ - 1.0));
+    const auto y = static_cast<std::size_t>(std::clamp(row, 0.0, height_ - 1.0));
+    return static_cast<double>(pixels_[y * width_ + x]);
+  };
+  const double x = std::floor(u), y = std::floor(v), s = u - x, t = v - y;
+  return (pixel(x, y) * (1 - s) + pixel(x + 1, y) * s) * (1 - t) +
+         (pixel(x, y + 1) * (1 - s) + pixel(x + 1, y + 1) * s) * t;
+}
+
+}  // namespace seedmesh::city

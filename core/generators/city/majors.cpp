@@ -1,0 +1,284 @@
+// Major streets on a net whose crossings and links are drawn by position, so that each link is built or not
+// whatever the order in which growth reaches it.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/base/math.h"
+#include "core/generators/city/growth.h"
+#include "generated/params/city.h"
+
+namespace seedmesh::city {
+namespace {
+
+using glm::dvec2;
+
+constexpr double piece_length = 3000;       // of a bent street, cm
+constexpr double least_stub = 1500;         // of a piece that ends at the border, cm
+constexpr double least_border_sine = 0.72;  // of the angle between a street and the border
+constexpr double least_density = 0.1;
+
+/// A crossing of the net: column and row, or ring and ray.
+using Site = std::array<std::int32_t, 2>;
+
+dvec2 rotated(const dvec2& v, const math::SinCos& turn) {
+  return {v.x * turn.cos - v.y * turn.sin, v.x * turn.sin + v.y * turn.cos};
+}
+
+std::uint64_t site_key(const Site& site) {
+  return key_at(key_at(0x517E, static_cast<std::uint32_t>(site[0])), static_cast<std::uint32_t>(site[1]));
+}
+
+class Net {
+ public:
+  Net(const CityStreets& streets, Rng rng) : streets_(streets), rng_(rng) {
+    centre_ = {streets.centre[0] * 100, streets.centre[1] * 100};
+    turn_ = math::sincos_degrees(streets.angle);
+    const bool is_whole = whole_raster();
+    step_ =
+        is_whole ? dvec2(streets.block[0] * 100, streets.block[1] * 100) : dvec2(streets.major_spacing * 100);
+    every_ = {std::max(1, math::to_int32(streets.major_spacing * 100 / step_.x + 0.5)),
+              std::max(1, math::to_int32(streets.major_spacing * 100 / step_.y + 0.5))};
+  }
+
+  /// A raster of minor streets is part of the net.
+  bool whole_raster() const {
+    return streets_.pattern == CityPattern::raster &&
+           (!streets_.minor_pattern || *streets_.minor_pattern == CityMinorPattern::raster);
+  }
+  bool is_radial() const { return streets_.pattern == CityPattern::radial; }
+
+  /// Position in centimetres.
+  dvec2 position(const Site& site) const {
+    if (is_radial()) {
+      const math::SinCos turn = math::sincos(2 * math::pi * site[1] / rays_of(site[0]));
+      return centre_ + rotated({step_.x * site[0] * turn.cos, step_.x * site[0] * turn.sin}, turn_);
+    }
+    dvec2 share(site[0], site[1]);
+    if (streets_.pattern == CityPattern::organic) {
+      Rng draw = rng_.at("site").at(site_key(site));
+      share.x += draw.uniform(-streets_.jitter, streets_.jitter);
+      share.y += draw.uniform(-streets_.jitter, streets_.jitter);
+    }
+    return centre_ + rotated(share * step_, turn_);
+  }
+
+  /// Counter-clockwise, beginning in the east or outwards.
+  std::vector<Site> neighbours(const Site& site) const {
+    const auto [i, k] = site;
+    if (!is_radial()) return {{i + 1, k}, {i, k + 1}, {i - 1, k}, {i, k - 1}};
+    if (i == 0) {
+      std::vector<Site> all;
+      for (std::int32_t ray = 0; ray < rays_of(1); ++ray) all.push_back({1, ray});
+      return all;
+    }
+    const std::int32_t rays = rays_of(i), outer = rays_of(i + 1) / rays;
+    std::vector<Site> around = {{i + 1, k * outer}, {i, (k + 1) % rays}};
+    const std::int32_t inner = i == 1 ? 1 : rays / rays_of(i - 1);
+    if (k % inner == 0) around.push_back({i - 1, i == 1 ? 0 : k / inner});
+    around.push_back({i, (k + rays - 1) % rays});
+    return around;
+  }
+
+  EdgeClass class_of(const Site& a, const Site& b) const {
+    if (!whole_raster()) return EdgeClass::major;
+    const auto is_line = [](std::int32_t line, std::int32_t every) { return line % every == 0; };
+    const bool is_major = a[0] == b[0] ? is_line(a[0], every_[0]) : is_line(a[1], every_[1]);
+    return is_major ? EdgeClass::major : EdgeClass::minor;
+  }
+
+  /// Whether the link between two sites is built, by its key alone.
+  bool is_filled(const Site& a, const Site& b) const {
+    if (whole_raster() && class_of(a, b) == EdgeClass::major) return true;
+    return link_draw(a, b, "fill").unit() < streets_.fill;
+  }
+
+  Rng link_draw(const Site& a, const Site& b, std::string_view name) const {
+    return rng_.at(name).at(site_key(std::min(a, b))).at(site_key(std::max(a, b)));
+  }
+
+  /// The points of a link, ends included.
+  std::vector<CmPoint> points(const Site& a, const Site& b) const {
+    if (b < a) {
+      std::vector<CmPoint> back = points(b, a);
+      std::reverse(back.begin(), back.end());
+      return back;
+    }
+    const dvec2 from = position(a), to = position(b), along = to - from;
+    const double length = std::sqrt(along.x * along.x + along.y * along.y);
+    const std::int32_t count = whole_raster() ? 1 : std::max(1, math::to_int32(length / piece_length + 0.5));
+    // A bow and an S, whose slopes at the ends stay below the bend.
+    Rng draw = link_draw(a, b, "bend");
+    const double most = whole_raster() ? 0 : math::radians(streets_.bend) / 6;
+    const double bow = draw.uniform(-most, most), swing = draw.uniform(-most, most) / 2;
+    const dvec2 side(-along.y, along.x);
+    std::vector<CmPoint> line;
+    for (std::int32_t n = 0; n <= count; ++n) {
+      const double t = static_cast<double>(n) / count;
+      double off = bow * math::sin(math::pi * t) + swing * math::sin(2 * math::pi * t);
+      if (n == 0 || n == count) off = 0;
+      dvec2 p = from + along * t + side * off;
+      if (is_radial() && a[0] == b[0] && n > 0 && n < count) p = on_ring(from, to, p, a[0]);
+      line.push_back(rounded_cm(p));
+    }
+    return line;
+  }
+
+  Site start() const { return {0, 0}; }
+
+ private:
+  std::int32_t rays_of(std::int32_t ring) const {
+    std::int32_t rays = 6;
+    while (rays < 4.19 * ring) rays *= 2;
+    return rays;
+  }
+  dvec2 on_ring(const dvec2& from, const dvec2& to, const dvec2& p, std::int32_t ring) const {
+    const dvec2 off = p - centre_, chord = (from + to) / 2.0 - centre_;
+    const double length = std::sqrt(off.x * off.x + off.y * off.y);
+    return chord.x * off.x + chord.y * off.y > 0 ? centre_ + off * (step_.x * ring / length) : p;
+  }
+
+  const CityStreets& streets_;
+  Rng rng_;
+  dvec2 centre_{0}, step_{0};
+  math::SinCos turn_{};
+  std::array<std::int32_t, 2> every_{};
+};
+
+/// Where a link crosses the border; 2 where it does not.
+double crossing_share(const std::vector<CmRing>& area, const CmPoint& a, const CmPoint& b, double& sine) {
+  double best = 2;
+  const dvec2 start = in_cm(a), along = in_cm(b) - start;
+  for (const CmRing& ring : area) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const dvec2 c = in_cm(ring[i]), across = in_cm(ring[(i + 1) % ring.size()]) - c;
+      const double scale = along.x * across.y - along.y * across.x;
+      if (scale == 0) continue;
+      const dvec2 off = c - start;
+      const double share = (off.x * across.y - off.y * across.x) / scale;
+      const double at = (off.x * along.y - off.y * along.x) / scale;
+      if (share <= 0 || share > 1 || at < 0 || at > 1 || share >= best) continue;
+      best = share;
+      sine = std::abs(scale) /
+             std::sqrt((along.x * along.x + along.y * along.y) * (across.x * across.x + across.y * across.y));
+    }
+  }
+  return best;
+}
+
+/// The part of a line from its start, which is inside, to the border. Empty where it would meet the border at an
+/// acute angle or be a stub.
+std::vector<CmPoint> clipped(const std::vector<CmRing>& area, const std::vector<CmPoint>& line) {
+  std::vector<CmPoint> kept = {line[0]};
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    double sine = 1;
+    const double share = crossing_share(area, line[i - 1], line[i], sine);
+    if (share > 1) {
+      kept.push_back(line[i]);
+      continue;
+    }
+    const CmPoint at = rounded_cm(in_cm(line[i - 1]) + (in_cm(line[i]) - in_cm(line[i - 1])) * share);
+    if (sine < least_border_sine) return {};
+    if (kept.size() > 1 && distance(kept.back(), at) < least_stub) kept.pop_back();
+    if (distance(kept.back(), at) < least_stub) return {};
+    kept.push_back(at);
+    return kept;
+  }
+  return kept;
+}
+
+/// The links of the net as roads of the L-system.
+class NetRules final : public RoadRules {
+ public:
+  NetRules(const GrowthInput& input, const Net& net) : input_(input), net_(net) {}
+
+  GlobalGoals global_goals(double, double road, Rng) override {
+    GlobalGoals goals;
+    if (!is_road(road)) return goals;
+    const Road done = roads_[static_cast<std::size_t>(road)];
+    std::size_t slot = 0;
+    for (const Site& next : net_.neighbours(done.to)) {
+      if (next == done.from || slot == 3) continue;
+      goals.delay[slot] = 0;
+      goals.road[slot++] = propose(done.to, next);
+    }
+    return goals;
+  }
+
+  RoadState local_constraints(double road) override {
+    if (!is_road(road)) return RoadState::failed;
+    const Road& each = roads_[static_cast<std::size_t>(road)];
+    const auto link = std::minmax(each.from, each.to);
+    if (!built_.insert({link.first, link.second}).second) return RoadState::failed;
+    const std::vector<CmPoint> line = net_.points(each.from, each.to);
+    const std::size_t middle = line.size() / 2;
+    const bool is_dense = input_.density.at(in_metres(line.front())) >= least_density &&
+                          input_.density.at(in_metres(line[middle])) >= least_density;
+    if (!is_in_area(input_.area, in_cm(line.front())) || !is_dense || !net_.is_filled(each.from, each.to))
+      return RoadState::failed;
+    const std::vector<CmPoint> inside = clipped(input_.area, line);
+    for (std::size_t i = 1; i < inside.size(); ++i)
+      pieces.push_back({inside[i - 1], inside[i], net_.class_of(each.from, each.to)});
+    if (inside.size() != line.size() || inside.back() != line.back()) return RoadState::failed;
+    return reached_.insert(each.to).second ? RoadState::succeed : RoadState::failed;
+  }
+
+  std::array<double, 2> measure(double road) const override {
+    if (!is_road(road)) return {0, 0};
+    const Road& each = roads_[static_cast<std::size_t>(road)];
+    const dvec2 along = net_.position(each.to) - net_.position(each.from);
+    return {math::degrees(math::atan2(along.y, along.x)),
+            std::sqrt(along.x * along.x + along.y * along.y) / 100};
+  }
+
+  std::vector<StreetGrammar::Start> starts() {
+    std::vector<StreetGrammar::Start> all;
+    const Site start = net_.start();
+    reached_.insert(start);
+    for (const Site& next : net_.neighbours(start))
+      all.push_back({0, 0, propose(start, next), key_at(site_key(start), site_key(next))});
+    return all;
+  }
+
+  std::vector<StreetPiece> pieces;
+
+ private:
+  struct Road {
+    Site from, to;
+  };
+  bool is_road(double road) const { return road >= 0 && road < static_cast<double>(roads_.size()); }
+  double propose(const Site& from, const Site& to) {
+    roads_.push_back({from, to});
+    return static_cast<double>(roads_.size() - 1);
+  }
+
+  const GrowthInput& input_;
+  const Net& net_;
+  std::vector<Road> roads_;
+  std::set<std::pair<Site, Site>> built_;
+  std::set<Site> reached_;
+};
+
+}  // namespace
+
+dvec2 frame_at(const CityStreets& streets, bool is_radial, const dvec2& cm) {
+  const math::SinCos turn = math::sincos_degrees(streets.angle);
+  if (!is_radial) return {turn.cos, turn.sin};
+  const dvec2 off = cm - dvec2(streets.centre[0], streets.centre[1]) * 100.0;
+  const double length = std::sqrt(off.x * off.x + off.y * off.y);
+  return length > 0 ? off / length : dvec2(turn.cos, turn.sin);
+}
+
+std::vector<StreetPiece> grow_majors(const GrowthInput& input, Job& job) {
+  const Net net(input.streets, job.rng().at("majors"));
+  NetRules rules(input, net);
+  const std::uint64_t most_steps = job.limits().shapes;
+  if (!input.grammar.grow(rules.starts(), rules, most_steps, job))
+    job.refuse(limit_issue({Resource::steps, most_steps, most_steps + 1}, "the streets do not stop growing",
+                           "/streets/productions"));
+  return std::move(rules.pieces);
+}
+
+}  // namespace seedmesh::city

@@ -1,0 +1,80 @@
+#pragma once
+/// The street network while it grows within one cell of major streets, and the local constraints of a new piece
+/// of road. Coordinates are centimetres. Everything in a cell depends on the cell alone.
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/geom/polygon/cm_point.h"
+
+namespace seedmesh::city {
+
+/// Classes of edges, also the tags of the planar graph.
+enum class EdgeClass : std::uint32_t { border, major, minor };
+
+struct NetworkEdge {
+  std::uint32_t from = 0, to = 0;
+  EdgeClass kind = EdgeClass::minor;
+  bool is_fixed = false;  ///< belongs to two cells and is not split
+  bool is_removed = false;
+};
+
+/// All distances in centimetres.
+struct ConstraintLimits {
+  double snap = 2500;
+  double clearance = 3000;
+  double cos_minimal_angle = 0.82;  ///< cosine of the least angle between arms
+  double cos_border_angle = 0.71;   ///< the same at the border of the area
+  double least_length = 900;        ///< of an edge
+  double beside = 700;              ///< least distance of an edge from nodes that it does not join
+};
+
+enum class PieceState { free, joined, failed };
+
+struct PieceResult {
+  PieceState state = PieceState::failed;
+  std::uint32_t node = 0;  ///< where the piece ends
+};
+
+class Network {
+ public:
+  explicit Network(const ConstraintLimits& limits) : limits_(limits) {}
+
+  std::uint32_t add_node(const CmPoint& p);
+  std::uint32_t add_edge(std::uint32_t from, std::uint32_t to, EdgeClass kind, bool is_fixed);
+  /// Removes an edge that is not fixed.
+  void remove_edge(std::uint32_t edge);
+
+  const std::vector<CmPoint>& nodes() const { return nodes_; }
+  const std::vector<NetworkEdge>& edges() const { return edges_; }
+  const std::vector<std::uint32_t>& arms(std::uint32_t node) const { return arms_[node]; }
+
+  /// The local constraints of a piece of road from a node to `end`: it ends at the first road that it meets or
+  /// reaches within the snapping distance, keeps its clearance otherwise, and is refused where it would make an
+  /// acute angle or a short edge. Adds the piece where it is not refused. Cost: linear in the edges.
+  PieceResult build_piece(std::uint32_t from, const glm::dvec2& end, EdgeClass kind);
+
+  /// Builds a straight piece along `direction` (a unit vector) to the first road within `reach`.
+  PieceResult build_to_road(std::uint32_t from, const glm::dvec2& direction, double reach, EdgeClass kind);
+
+ private:
+  struct Hit {
+    std::uint32_t edge = 0;
+    double share = 0;  ///< of the piece
+    glm::dvec2 at{0};
+  };
+  std::optional<Hit> first_hit(std::uint32_t from, const glm::dvec2& end) const;
+  std::optional<std::uint32_t> nearest_node(std::uint32_t from, const glm::dvec2& end) const;
+  PieceResult join_edge(std::uint32_t from, const Hit& hit, EdgeClass kind);
+  bool may_link(std::uint32_t from, const CmPoint& to, std::uint32_t target, std::uint32_t split) const;
+  bool keeps_angles(std::uint32_t node, const CmPoint& towards) const;
+  bool is_free(std::uint32_t from, const glm::dvec2& end) const;
+  void split(std::uint32_t edge, std::uint32_t node);
+
+  ConstraintLimits limits_;
+  std::vector<CmPoint> nodes_;
+  std::vector<NetworkEdge> edges_;
+  std::vector<std::vector<std::uint32_t>> arms_;
+};
+
+}  // namespace seedmesh::city

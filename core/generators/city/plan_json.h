@@ -1,0 +1,15 @@
+#pragma once
+/// The plan as GeoJSON in local metres: [east, north], rings closed and wound as RFC 7946 says.
+#include "core/generators/city/plan.h"
+#include "core/schema/json.h"
+
+namespace seedmesh {
+struct CityParams;
+}
+
+namespace seedmesh::city {
+
+/// A FeatureCollection; docs/cities.md lists kinds and properties.
+Json plan_json(const CityPlan& plan, const CityParams& params);
+
+}  // namespace seedmesh::city

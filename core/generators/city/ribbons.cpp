@@ -1,0 +1,399 @@
+#include "core/generators/city/ribbons.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/base/parallel.h"
+#include "core/generators/city/corners.h"
+
+namespace seedmesh::city {
+namespace {
+
+using glm::dvec2;
+
+constexpr double greatest_fillet = 500;  // cm
+constexpr double least_progress = 30;    // of a kerb between two corners, cm
+constexpr double least_straight = 300;   // of a carriageway between perpendicular ends, cm
+constexpr std::size_t faces_a_chunk = 64;
+
+/// What is left of a half-edge, by its number.
+struct KerbSide {
+  std::vector<CmPoint> corner;        ///< at its start, after the half-edge before it; the kerb
+  std::vector<CmPoint> outer_corner;  ///< the same for the border of the block
+  CmPoint to{};                       ///< where the kerb ends
+  CmPoint cut_from{}, cut_to{};       ///< where the carriageway begins and ends
+  std::uint32_t before = no_index, after = no_index;  ///< half-edges of the same outline
+  bool is_laid_out = false;                           ///< its face is part of the area
+  const CmPoint& from() const { return corner.back(); }
+};
+
+/// One outline of a face.
+struct Outline {
+  std::vector<std::uint32_t> half_edges;
+  bool is_outer = true;
+};
+
+/// How the street space of a face was laid out.
+struct FaceLayout {
+  bool is_used = false, has_walks = false;
+  std::vector<Outline> outlines;
+};
+
+dvec2 unit_of(const StreetGraph& graph, std::uint32_t half) {
+  const dvec2 along =
+      in_cm(graph.nodes[end_of(graph.edges, half)]) - in_cm(graph.nodes[start_of(graph.edges, half)]);
+  return along / std::sqrt(along.x * along.x + along.y * along.y);
+}
+
+void append_new(CmRing& ring, const CmPoint& p) {
+  if (ring.empty() || ring.back() != p) ring.push_back(p);
+}
+void close(CmRing& ring) {
+  while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
+}
+
+class StreetSpace {
+ public:
+  StreetSpace(CityPlan& plan, Job& job) : plan_(plan), graph_(plan.graph), job_(job) {
+    sides_.resize(graph_.edges.size() * 2);
+  }
+
+  std::vector<BlockOutline> lay_out() {
+    const PlanarFaces faces = faces_of(graph_.nodes, graph_.edges, job_);
+    std::vector<FaceLayout> layouts(faces.faces.size());
+    parallel_for(job_, layouts.size(), faces_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+      for (std::size_t i = begin; i < end; ++i) lay_out_face(faces, faces.faces[i], layouts[i]);
+    });
+    cut_carriageways();
+    add_junctions();
+    add_carriageways();
+    std::vector<BlockOutline> blocks;
+    for (const FaceLayout& layout : layouts) add_face(layout, blocks);
+    return blocks;
+  }
+
+ private:
+  double half_width(std::uint32_t half) const {
+    return graph_.is_street(half / 2) ? plan_.class_of(half / 2).width * 50 : 0;
+  }
+  double walk_width(std::uint32_t half) const {
+    return graph_.is_street(half / 2) ? plan_.class_of(half / 2).sidewalk * 100 : 0;
+  }
+
+  struct Widths {
+    double carriageway = 1, walk = 1, fillet = 1;
+  };
+
+  std::vector<CmPoint> corner_at(std::uint32_t before, std::uint32_t half, const Widths& widths,
+                                 bool is_kerb) const {
+    CornerInput corner;
+    corner.at = in_cm(graph_.nodes[start_of(graph_.edges, half)]);
+    corner.before = unit_of(graph_, before);
+    corner.after = unit_of(graph_, half);
+    corner.is_dead_end = before == (half ^ 1U);
+    const double walk_before = walk_width(before) * widths.walk, walk_after = walk_width(half) * widths.walk;
+    corner.distance_before = half_width(before) * widths.carriageway + (is_kerb ? 0 : walk_before);
+    corner.distance_after = half_width(half) * widths.carriageway + (is_kerb ? 0 : walk_after);
+    corner.cap = is_kerb ? 0 : walk_after;
+    const bool has_arc =
+        is_kerb && widths.fillet > 0 && graph_.is_street(before / 2) && graph_.is_street(half / 2);
+    if (has_arc) corner.fillet = fillet_of(corner, std::min(walk_before, walk_after));
+    return corner_points(corner);
+  }
+
+  /// The arc must stay on the street's side of the block's corner.
+  static double fillet_of(const CornerInput& corner, double walk) {
+    const double c = corner.before.x * corner.after.x + corner.before.y * corner.after.y;
+    const double sine = std::sqrt(std::max(0.0, (1 + c) / 2));  // of half the inner angle
+    return std::min(greatest_fillet, sine < 0.999 ? 0.7 * walk / (1 - sine) : greatest_fillet);
+  }
+
+  /// Moves the outlines of a face; narrower where they would not stay simple.
+  void lay_out_face(const PlanarFaces& faces, const PlanarFaces::Face& face, FaceLayout& layout) {
+    const auto add = [&](std::uint32_t loop, bool is_outer) {
+      const auto span = faces.of(faces.loops[loop]);
+      layout.outlines.push_back({{span.begin(), span.end()}, is_outer});
+    };
+    add(face.outer, true);
+    for (const std::uint32_t hole : face.holes) add(hole, false);
+    const std::uint32_t first = layout.outlines[0].half_edges[0];
+    const dvec2 d = unit_of(graph_, first);
+    const dvec2 middle = (in_cm(graph_.nodes[start_of(graph_.edges, first)]) +
+                          in_cm(graph_.nodes[end_of(graph_.edges, first)])) /
+                         2.0;
+    layout.is_used = is_in_area_(middle + dvec2(-d.y, d.x) * 5.0);
+    if (!layout.is_used) return;
+    static constexpr std::array<Widths, 10> attempts = {{{1, 1, 1},
+                                                         {1, 1, 0},
+                                                         {1, 0.6, 0},
+                                                         {1, 0.3, 0},
+                                                         {0.8, 0.3, 0},
+                                                         {1, 0, 0},
+                                                         {0.6, 0, 0},
+                                                         {0.3, 0, 0},
+                                                         {0.1, 0, 0},
+                                                         {0.03, 0, 0}}};
+    for (const Widths& widths : attempts) {
+      if (try_widths(layout, widths)) return;
+    }
+    job_.check();
+  }
+
+  bool is_in_area_(const dvec2& cm) const {
+    bool inside = false;
+    for (const CmRing& ring : plan_.area) inside ^= is_inside(ring, cm);
+    return inside;
+  }
+
+  bool try_widths(FaceLayout& layout, const Widths& widths) {
+    layout.has_walks = widths.walk > 0;
+    std::vector<CmRing> kerbs, borders;
+    for (const Outline& outline : layout.outlines) {
+      place_corners(outline, widths, layout.has_walks);
+      CmRing kerb, border;
+      for (std::size_t k = 0; k < outline.half_edges.size(); ++k) {
+        const std::uint32_t half = outline.half_edges[k];
+        const KerbSide& side = sides_[half];
+        if (!advances(half, side.from(), side.to)) return false;
+        for (const CmPoint& p : side.corner) append_new(kerb, p);
+        if (!layout.has_walks) continue;
+        const CmPoint& next = sides_[side.after].outer_corner.front();
+        if (!advances(half, side.outer_corner.back(), next)) return false;
+        for (const CmPoint& p : side.outer_corner) append_new(border, p);
+      }
+      close(kerb);
+      close(border);
+      if (!is_sound(kerb, outline.is_outer)) return false;
+      if (layout.has_walks && !is_sound(border, outline.is_outer)) return false;
+      kerbs.push_back(std::move(kerb));
+      borders.push_back(std::move(border));
+    }
+    if (!are_apart(kerbs)) return false;
+    if (!layout.has_walks) return true;
+    if (!are_apart(borders)) return false;
+    for (const Outline& outline : layout.outlines) {
+      for (const std::uint32_t half : outline.half_edges) {
+        if (!graph_.is_street(half / 2)) continue;
+        const CmRing ring = sidewalk_ring(half);
+        if (!is_simple(ring) || doubled_area(ring) <= 0) return false;
+      }
+    }
+    return true;
+  }
+
+  void place_corners(const Outline& outline, const Widths& widths, bool has_walks) {
+    const std::size_t count = outline.half_edges.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::uint32_t half = outline.half_edges[k], before = outline.half_edges[(k + count - 1) % count];
+      KerbSide& side = sides_[half];
+      side.before = before;
+      side.after = outline.half_edges[(k + 1) % count];
+      side.corner = corner_at(before, half, widths, true);
+      side.outer_corner = has_walks ? corner_at(before, half, widths, false) : side.corner;
+      side.is_laid_out = true;
+    }
+    for (const std::uint32_t half : outline.half_edges) {
+      KerbSide& side = sides_[half];
+      side.to = sides_[side.after].corner.front();
+      side.cut_from = side.from();
+      side.cut_to = side.to;
+    }
+  }
+
+  bool advances(std::uint32_t half, const CmPoint& from, const CmPoint& to) const {
+    const dvec2 d = unit_of(graph_, half), along = in_cm(to) - in_cm(from);
+    return d.x * along.x + d.y * along.y >= least_progress;
+  }
+
+  static bool is_sound(const CmRing& ring, bool is_outer) {
+    if (!is_simple(ring)) return false;
+    return is_outer == (doubled_area(ring) > 0);
+  }
+
+  /// Whether no two of the rings meet.
+  static bool are_apart(const std::vector<CmRing>& rings) {
+    for (std::size_t r = 0; r < rings.size(); ++r) {
+      for (std::size_t s = r + 1; s < rings.size(); ++s) {
+        for (std::size_t i = 0; i < rings[r].size(); ++i) {
+          for (std::size_t k = 0; k < rings[s].size(); ++k) {
+            if (segments_meet(rings[r][i], rings[r][(i + 1) % rings[r].size()], rings[s][k],
+                              rings[s][(k + 1) % rings[s].size()]))
+              return false;
+          }
+        }
+      }
+    }
+    return true;
+  }
+
+  /// The sidewalk to the left of a half-edge: along the kerb, and back along the block. Corners are divided at
+  /// their middle.
+  CmRing sidewalk_ring(std::uint32_t half) const {
+    const KerbSide& side = sides_[half];
+    const KerbSide& next = sides_[side.after];
+    const auto middle = [](const std::vector<CmPoint>& corner) { return (corner.size() - 1) / 2; };
+    CmRing ring;
+    for (std::size_t i = middle(side.corner); i < side.corner.size(); ++i) append_new(ring, side.corner[i]);
+    append_new(ring, side.cut_from);
+    append_new(ring, side.cut_to);
+    for (std::size_t i = 0; i <= middle(next.corner); ++i) append_new(ring, next.corner[i]);
+    for (std::size_t i = middle(next.outer_corner) + 1; i-- > 0;) append_new(ring, next.outer_corner[i]);
+    for (std::size_t i = side.outer_corner.size(); i-- > middle(side.outer_corner);)
+      append_new(ring, side.outer_corner[i]);
+    close(ring);
+    return ring;
+  }
+
+  /// Ends of carriageways at junctions become perpendicular where there is space.
+  void cut_carriageways() {
+    for (std::uint32_t edge = 0; edge < graph_.edges.size(); ++edge) {
+      if (!graph_.is_street(edge)) continue;
+      KerbSide &left = sides_[2 * edge], &right = sides_[2 * edge + 1];
+      if (!left.is_laid_out || !right.is_laid_out) continue;
+      const dvec2 start = in_cm(graph_.nodes[graph_.edges[edge].from]), d = unit_of(graph_, 2 * edge);
+      const auto along = [&](const CmPoint& p) { return glm::dot(in_cm(p) - start, d); };
+      const bool cuts_start = is_cut(graph_.edges[edge].from), cuts_end = is_cut(graph_.edges[edge].to);
+      const double left_start = along(left.from()), right_start = along(right.to);
+      const double left_end = along(left.to), right_end = along(right.from());
+      const double begin = std::max(left_start, right_start), end = std::min(left_end, right_end);
+      if (end - begin < least_straight) continue;
+      const auto on_kerb = [&](const CmPoint& a, const CmPoint& b, double at) {
+        const double share = (at - along(a)) / (along(b) - along(a));
+        return rounded_cm(in_cm(a) + (in_cm(b) - in_cm(a)) * share);
+      };
+      constexpr double same = 20;  // cm
+      if (cuts_start && begin - left_start > same) left.cut_from = on_kerb(left.from(), left.to, begin);
+      if (cuts_start && begin - right_start > same) right.cut_to = on_kerb(right.from(), right.to, begin);
+      if (cuts_end && left_end - end > same) left.cut_to = on_kerb(left.from(), left.to, end);
+      if (cuts_end && right_end - end > same) right.cut_from = on_kerb(right.from(), right.to, end);
+    }
+  }
+  bool is_cut(std::uint32_t node) const { return graph_.is_border[node] == 0 && graph_.degree(node) >= 3; }
+
+  void add_part(PartKind kind, CmRing ring, std::uint32_t street, std::uint32_t node) {
+    Part part;
+    part.kind = kind;
+    part.street = street;
+    part.node = node;
+    part.rings.push_back(std::move(ring));
+    plan_.parts.push_back(std::move(part));
+  }
+
+  void add_junctions() {
+    for (std::uint32_t node = 0; node < graph_.nodes.size(); ++node) {
+      const auto around = graph_.arms.of(node);
+      const std::uint32_t degree = graph_.degree(node);
+      if (degree == 0 || (graph_.is_border[node] != 0 && degree == 1)) continue;
+      CmRing ring;
+      std::size_t first = 0;
+      if (graph_.is_border[node] != 0) {  // begin behind the outside
+        while (first < around.size() && sides_[around[first] ^ 1U].is_laid_out) ++first;
+      }
+      for (std::size_t n = 0; n < around.size(); ++n) {
+        const std::uint32_t arm = around[(first + n) % around.size()];
+        const KerbSide &left = sides_[arm], &right = sides_[arm ^ 1U];
+        if (right.is_laid_out) {
+          append_new(ring, right.to);
+          append_new(ring, right.cut_to);
+        }
+        if (!left.is_laid_out) continue;
+        append_new(ring, left.cut_from);
+        for (std::size_t i = left.corner.size(); i-- > 0;) append_new(ring, left.corner[i]);
+      }
+      if (graph_.is_border[node] != 0) append_new(ring, graph_.nodes[node]);
+      close(ring);
+      if (ring.size() < 3 || doubled_area(ring) == 0) continue;
+      add_part(PartKind::junction, std::move(ring), no_index, node);
+    }
+  }
+
+  void add_carriageways() {
+    for (std::uint32_t edge = 0; edge < graph_.edges.size(); ++edge) {
+      if (!graph_.is_street(edge)) continue;
+      const KerbSide &left = sides_[2 * edge], &right = sides_[2 * edge + 1];
+      const std::uint32_t from = graph_.edges[edge].from, to = graph_.edges[edge].to;
+      const auto ends_at_border = [&](std::uint32_t node) {
+        return graph_.is_border[node] != 0 && graph_.degree(node) == 1;
+      };
+      CmRing ring;
+      append_new(ring, right.cut_to);
+      append_new(ring, right.cut_from);
+      if (ends_at_border(to)) append_new(ring, graph_.nodes[to]);
+      append_new(ring, left.cut_to);
+      append_new(ring, left.cut_from);
+      if (ends_at_border(from)) append_new(ring, graph_.nodes[from]);
+      close(ring);
+      add_part(PartKind::carriageway, std::move(ring), edge, no_index);
+    }
+  }
+
+  void add_face(const FaceLayout& layout, std::vector<BlockOutline>& blocks) {
+    if (!layout.is_used) return;
+    bool has_street = false;
+    for (const Outline& outline : layout.outlines) {
+      for (const std::uint32_t half : outline.half_edges) has_street |= graph_.is_street(half / 2);
+    }
+    if (!layout.has_walks || !has_street) {
+      Part part;
+      part.kind = has_street ? PartKind::verge : PartKind::park;
+      for (const Outline& outline : layout.outlines) part.rings.push_back(kerb_ring(outline));
+      plan_.parts.push_back(std::move(part));
+      return;
+    }
+    BlockOutline block;
+    for (const Outline& outline : layout.outlines) {
+      CmRing ring;
+      for (const std::uint32_t half : outline.half_edges) {
+        const std::uint32_t part =
+            graph_.is_street(half / 2) ? static_cast<std::uint32_t>(plan_.parts.size()) : no_index;
+        if (part != no_index) add_part(PartKind::sidewalk, sidewalk_ring(half), half / 2, no_index);
+        if (!outline.is_outer) continue;
+        add_block_edges(block, half, part);
+      }
+      if (outline.is_outer) continue;
+      for (const std::uint32_t half : outline.half_edges) {
+        for (const CmPoint& p : sides_[half].outer_corner) append_new(ring, p);
+      }
+      close(ring);
+      block.holes.push_back(std::move(ring));
+    }
+    blocks.push_back(std::move(block));
+  }
+
+  /// The edges of a block along one half-edge. The edges of a corner belong to the sidewalk that has them.
+  void add_block_edges(BlockOutline& block, std::uint32_t half, std::uint32_t part) const {
+    const KerbSide& side = sides_[half];
+    const std::uint32_t street = graph_.is_street(half / 2) ? half / 2 : no_index;
+    for (std::size_t i = 0; i < side.outer_corner.size(); ++i) {
+      block.ring.push_back(side.outer_corner[i]);
+      block.edges.push_back({street, part});
+    }
+  }
+
+  CmRing kerb_ring(const Outline& outline) const {
+    CmRing ring;
+    for (const std::uint32_t half : outline.half_edges) {
+      const KerbSide& side = sides_[half];
+      for (const CmPoint& p : side.corner) append_new(ring, p);
+      append_new(ring, side.cut_from);
+      append_new(ring, side.cut_to);
+    }
+    close(ring);
+    return ring;
+  }
+
+  CityPlan& plan_;
+  const StreetGraph& graph_;
+  Job& job_;
+  std::vector<KerbSide> sides_;
+};
+
+}  // namespace
+
+std::vector<BlockOutline> lay_out_streets(CityPlan& plan, Job& job) {
+  return StreetSpace(plan, job).lay_out();
+}
+
+}  // namespace seedmesh::city

@@ -1,0 +1,64 @@
+#include "core/generators/city/shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace seedmesh::city {
+
+using glm::dvec2;
+
+CmRing hull_of(std::span<const CmPoint> ring) {
+  CmRing sorted(ring.begin(), ring.end()), hull;
+  std::sort(sorted.begin(), sorted.end());
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  if (sorted.size() < 3) return sorted;
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::size_t first = hull.size();
+    for (const CmPoint& p : sorted) {
+      while (hull.size() > first + 1 && cross(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::reverse(sorted.begin(), sorted.end());
+  }
+  return hull;
+}
+
+LeastBox least_box(std::span<const CmPoint> ring) {
+  const CmRing hull = hull_of(ring);
+  LeastBox best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const dvec2 a = in_cm(hull[i]), edge = in_cm(hull[(i + 1) % hull.size()]) - a;
+    const dvec2 d = edge / std::sqrt(edge.x * edge.x + edge.y * edge.y), n(-d.y, d.x);
+    double low = 0, high = 0, height = 0;
+    for (const CmPoint& p : hull) {
+      const dvec2 off = in_cm(p) - a;
+      low = std::min(low, glm::dot(off, d));
+      high = std::max(high, glm::dot(off, d));
+      height = std::max(height, glm::dot(off, n));
+    }
+    if ((high - low) * height >= least) continue;
+    least = (high - low) * height;
+    const bool is_long = high - low >= height;
+    best = {std::min(high - low, height), std::max(high - low, height),
+            a + d * ((low + high) / 2) + n * (height / 2), is_long ? d : n};
+  }
+  return best;
+}
+
+double sharpest_cosine(std::span<const CmPoint> ring) {
+  double sharpest = -1;
+  const std::size_t count = ring.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const CmPoint &p = ring[i], &a = ring[(i + count - 1) % count], &b = ring[(i + 1) % count];
+    if (cross(a, p, b) <= 0) continue;  // a reflex corner
+    const dvec2 u = in_cm(a) - in_cm(p), v = in_cm(b) - in_cm(p);
+    sharpest = std::max(sharpest, glm::dot(u, v) / std::sqrt(glm::dot(u, u) * glm::dot(v, v)));
+  }
+  return sharpest;
+}
+
+}  // namespace seedmesh::city

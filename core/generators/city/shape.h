@@ -1,0 +1,22 @@
+#pragma once
+/// Measures of small polygons.
+#include <span>
+
+#include "core/geom/polygon/cm_point.h"
+
+namespace seedmesh::city {
+
+/// The sides of the box of least area around a ring, in centimetres; the direction is that of the long side.
+struct LeastBox {
+  double short_side = 0, long_side = 0;
+  glm::dvec2 centre{0}, long_direction{1, 0};
+};
+LeastBox least_box(std::span<const CmPoint> ring);
+
+/// The convex hull, counter-clockwise (Andrew 1979).
+CmRing hull_of(std::span<const CmPoint> ring);
+
+/// The cosine of the sharpest inner corner of a counter-clockwise ring; -1 without any.
+double sharpest_cosine(std::span<const CmPoint> ring);
+
+}  // namespace seedmesh::city

@@ -1,0 +1,223 @@
+#include "core/generators/city/zoning.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "core/base/math.h"
+#include "core/base/parallel.h"
+#include "core/schema/json.h"
+#include "generated/params/city.h"
+
+namespace seedmesh::city {
+namespace {
+
+using glm::dvec2;
+
+constexpr double least_width = 4.5;   // of a house, m
+constexpr double inset = 0.03;        // keeps rounded walls on the lot, m
+constexpr double side_inset = 0.005;  // the same where houses touch, m
+// Widths are whole metres and depths have steps of two, so that few models serve many lots.
+constexpr double depth_step = 2;
+constexpr std::size_t lots_a_chunk = 256;
+
+/// A lot in the frame of its front: x along it, y into the lot, metres.
+struct FrontFrame {
+  dvec2 origin{0}, along{1, 0}, inward{0, 1};
+  double length = 0, depth = 0;
+  std::vector<dvec2> corners;
+};
+
+FrontFrame frame_of(const Lot& lot) {
+  FrontFrame frame;
+  frame.origin = in_metres(lot.front_start);
+  const dvec2 front = in_metres(lot.front_end) - frame.origin;
+  frame.length = std::sqrt(glm::dot(front, front));
+  frame.along = front / frame.length;
+  frame.inward = {-frame.along.y, frame.along.x};
+  for (const CmPoint& p : lot.corners) {
+    const dvec2 off = in_metres(p) - frame.origin;
+    frame.corners.emplace_back(glm::dot(off, frame.along), glm::dot(off, frame.inward));
+    frame.depth = std::max(frame.depth, frame.corners.back().y);
+  }
+  return frame;
+}
+
+/// The widest free range of x about `middle` between two depths; empty if the middle is not free.
+std::optional<std::array<double, 2>> free_range(const FrontFrame& frame, double middle, double near,
+                                                double far) {
+  double low = -1e9, high = 1e9;
+  const std::size_t count = frame.corners.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    dvec2 a = frame.corners[i], b = frame.corners[(i + 1) % count];
+    if (a.y > b.y) std::swap(a, b);
+    if (b.y <= near || a.y >= far) continue;
+    const auto x_at = [&](double y) { return b.y > a.y ? a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y) : a.x; };
+    const double first = a.y < near ? x_at(near) : a.x, last = b.y > far ? x_at(far) : b.x;
+    if (std::max(first, last) <= middle) {
+      low = std::max(low, std::max(first, last));
+    } else if (std::min(first, last) >= middle) {
+      high = std::min(high, std::min(first, last));
+    } else {
+      return std::nullopt;
+    }
+  }
+  if (low < -1e8 || high > 1e8) return std::nullopt;
+  return std::array<double, 2>{low, high};
+}
+
+double rounded(double value, double parts) { return std::floor(value * parts + 0.5) / parts; }
+
+/// The largest rectangle that a rule may build on a lot.
+std::optional<House> fit(const Lot& lot, const FrontFrame& frame, const CityBuildingRule& rule) {
+  std::optional<House> best;
+  const double front = std::max(rule.front, inset);
+  for (double depth = rule.depth[1]; depth >= rule.depth[0]; depth -= depth_step) {
+    for (const double share : {0.5, 0.35, 0.65}) {
+      const double middle = frame.length * share;
+      const auto range = free_range(frame, middle, inset, front + depth + rule.rear);
+      if (!range) continue;
+      const double side = std::max(rule.side, side_inset);
+      double low = (*range)[0] + side, high = (*range)[1] - side;
+      const double most = rule.share * lot.area / depth;
+      if (high - low > most) {
+        const double centre = (low + high) / 2;
+        low = centre - most / 2;
+        high = centre + most / 2;
+      }
+      const double width = std::floor(high - low);
+      if (width < least_width || width * 6 < depth) continue;
+      if (best && width * depth <= best->width * best->depth) continue;
+      const dvec2 centre =
+          frame.origin + frame.along * ((low + high) / 2) + frame.inward * (front + depth / 2);
+      House house;
+      house.width = width;
+      house.depth = depth;
+      house.position = {rounded(centre.x, 1000), rounded(centre.y, 1000)};
+      best = house;
+    }
+  }
+  if (best) best->turn = rounded(math::degrees(math::atan2(-frame.inward.x, frame.inward.y)), 10'000);
+  return best;
+}
+
+/// Houses at the edge, terraces between, and blocks and towers where the density is great.
+std::vector<CityBuildingRule> built_in_rules() {
+  CityBuildingRule house;
+  house.density = {0, 0.5};
+  house.floors = {1, 2};
+  house.front = 4;
+  house.side = 2;
+  house.rear = 5;
+  house.depth = {8, 12};
+  house.share = 0.5;
+  CityBuildingRule terrace;
+  terrace.blueprint = CityBlueprint::terraced_house;
+  terrace.density = {0.3, 0.8};
+  terrace.floors = {2, 4};
+  terrace.front = 1;
+  terrace.depth = {9, 13};
+  CityBuildingRule office;
+  office.blueprint = CityBlueprint::office_tower;
+  office.density = {0.75, 1};
+  office.lot = {600, 1'000'000};
+  office.floors = {5, 16};
+  office.front = 3;
+  office.side = 3;
+  office.rear = 3;
+  office.depth = {12, 40};
+  CityBuildingRule block;
+  block.blueprint = CityBlueprint::parisian_block;
+  block.density = {0.7, 1};
+  block.floors = {3, 6};
+  block.front = 0.5;
+  block.depth = {10, 14};
+  return {house, terrace, office, block};
+}
+
+bool applies(const CityBuildingRule& rule, const Lot& lot, double distance) {
+  const auto holds = [](const std::array<double, 2>& range, double value) {
+    return range[0] <= value && value <= range[1];
+  };
+  return holds(rule.density, lot.density) && holds(rule.distance, distance) && holds(rule.lot, lot.area);
+}
+
+/// The rules that apply, in an order drawn by their weights (Efraimidis and Spirakis 2006).
+std::vector<std::uint32_t> order_of(const std::vector<CityBuildingRule>& rules, const Lot& lot,
+                                    double distance, Rng rng) {
+  std::vector<std::pair<double, std::uint32_t>> drawn;
+  for (std::uint32_t i = 0; i < rules.size(); ++i) {
+    if (!applies(rules[i], lot, distance)) continue;
+    Rng draw = rng.at(i);
+    drawn.emplace_back(math::log(1 - draw.unit()) / rules[i].weight, i);
+  }
+  std::sort(drawn.begin(), drawn.end(), [](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first > b.first : a.second < b.second;
+  });
+  std::vector<std::uint32_t> order;
+  for (const auto& [draw, rule] : drawn) order.push_back(rule);
+  return order;
+}
+
+}  // namespace
+
+const std::vector<CityBuildingRule>& rules_of(const CityParams& params) {
+  static const std::vector<CityBuildingRule> built_in = built_in_rules();
+  return params.buildings.rules ? *params.buildings.rules : built_in;
+}
+
+std::array<int, 2> floors_of(std::string_view blueprint) {
+  if (blueprint == "house") return {1, 4};
+  if (blueprint == "terraced_house") return {2, 4};
+  if (blueprint == "villa") return {1, 3};
+  if (blueprint == "parisian_block") return {2, 8};
+  if (blueprint == "office_tower") return {3, 60};
+  if (blueprint == "skyscraper") return {6, 150};
+  return {0, 0};
+}
+
+void place_houses(CityPlan& plan, const CityParams& params, Job& job) {
+  const Rng rng = job.rng().at("houses");
+  const std::vector<CityBuildingRule>& rules = rules_of(params);
+  const dvec2 centre(params.streets.centre[0], params.streets.centre[1]);
+  parallel_for(job, plan.lots.size(), lots_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    job.check();
+    for (std::size_t i = begin; i < end; ++i) {
+      Lot& lot = plan.lots[i];
+      if (lot.street == no_index) continue;
+      const FrontFrame frame = frame_of(lot);
+      const dvec2 off = frame.origin - centre;
+      const Rng key = rng.at(lot.key);
+      for (const std::uint32_t number : order_of(rules, lot, std::sqrt(glm::dot(off, off)), key.at("rule"))) {
+        lot.house = fit(lot, frame, rules[number]);
+        if (!lot.house) continue;
+        lot.house->rule = number;
+        Rng draw = key.at("house");
+        const auto& floors = rules[number].floors;
+        lot.house->floors =
+            floors[0] + static_cast<int>(draw.below(static_cast<std::uint32_t>(floors[1] - floors[0] + 1)));
+        lot.house->seed = draw.below(static_cast<std::uint32_t>(params.buildings.variants));
+        break;
+      }
+    }
+  });
+}
+
+Child request_of(const House& house, const CityParams& params) {
+  const CityBuildingRule& rule = rules_of(params)[house.rule];
+  const std::string_view blueprint = text_of(rule.blueprint);
+  Json attributes = {{"lod", params.buildings.detail}};
+  if (blueprint == "skyscraper") {
+    attributes["height"] = house.floors * 3.8;
+  } else if (floors_of(blueprint)[1] > 0) {
+    attributes["floors"] = house.floors;
+  }
+  const Json body = {{"blueprint", blueprint},
+                     {"size", {house.width, 0, house.depth}},
+                     {"attributes", std::move(attributes)}};
+  return {"building", house.seed, canonical_text(body)};
+}
+
+}  // namespace seedmesh::city

@@ -1,0 +1,29 @@
+#pragma once
+/// Houses: which rule builds on a lot, and the largest rectangle along its front that keeps the setbacks.
+#include <array>
+#include <string>
+
+#include "core/base/job.h"
+#include "core/generators/city/plan.h"
+#include "core/schema/child.h"
+
+namespace seedmesh {
+struct CityBuildingRule;
+struct CityParams;
+}  // namespace seedmesh
+
+namespace seedmesh::city {
+
+/// The rules of the request, or the built-in ones.
+const std::vector<CityBuildingRule>& rules_of(const CityParams& params);
+
+/// Gives each lot a house where one of the rules applies and fits.
+void place_houses(CityPlan& plan, const CityParams& params, Job& job);
+
+/// The request of a house. Made alone it gives the same building as in the city.
+Child request_of(const House& house, const CityParams& params);
+
+/// The least and the greatest number of floors that a blueprint takes; 0, 0 for those without floors.
+std::array<int, 2> floors_of(std::string_view blueprint);
+
+}  // namespace seedmesh::city

@@ -1,0 +1,279 @@
+/// Checks of the whole grammar: modules without effect on the turtle, productions that are never used,
+/// probabilities that do not sum to 1.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "core/generators/lsystem/compiler.h"
+
+namespace seedmesh::lsystem {
+namespace {
+
+constexpr std::size_t most_warnings = 100;
+constexpr std::size_t most_doubts = 1'000;
+constexpr double most_strips = 1'000;  // the bound of Turtle::set_control
+
+const CommandRow* row_of(std::string_view symbol) {
+  const auto rows = commands();
+  const auto row =
+      std::find_if(rows.begin(), rows.end(), [&](const CommandRow& each) { return each.symbol == symbol; });
+  return row == rows.end() ? nullptr : &*row;
+}
+
+bool is_sure(const Production& each) {
+  const bool holds = !each.conditional || (each.condition.is_constant && each.condition.value != 0);
+  return holds && !each.has_context();
+}
+
+std::string_view folder_of(const Production& each) {
+  const std::string_view pointer = each.pointer;
+  return pointer.substr(0, pointer.rfind('/'));
+}
+
+std::string text_of_number(double number) {
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 6);
+  return {digits, end.ptr};
+}
+
+bool is_name_part(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+}  // namespace
+
+void Compiler::warn(Warning warning) {
+  if (grammar_.warnings.size() < most_warnings) {
+    grammar_.warnings.push_back(std::move(warning));
+  } else {
+    ++unreported_;
+  }
+}
+
+void Compiler::warn(Source& source, std::size_t offset, std::string message) {
+  if (grammar_.warnings.size() >= most_warnings) {
+    ++unreported_;
+    return;
+  }
+  const TextPosition position = source.positions.of(offset);
+  warn({source.pointer, std::move(message), position.line, position.column});
+}
+
+/// Records a doubt about a module of a word: a turtle symbol with too few parameters, or with a value that
+/// the turtle cannot use.
+void Compiler::doubt_module(Source& source, const WrittenModule& module, const Template& made) {
+  const Kind& kind = grammar_.kinds[made.kind];
+  const auto number = [&](std::uint32_t i) -> const double* {
+    const lang::Expression& argument = grammar_.arguments[made.first_argument + i];
+    return argument.is_constant ? &argument.value : nullptr;
+  };
+  const auto doubt = [&](Doubt::Is is, std::string message) {
+    if (doubts_.size() == most_doubts) return;
+    const TextPosition position = source.positions.of(module.offset);
+    doubts_.push_back({made.kind, is, {source.pointer, std::move(message), position.line, position.column}});
+  };
+  const auto name = [&] { return "`" + kind.symbol + "`"; };
+  const auto check_tropism = [&](const double* index) {
+    const double count = static_cast<double>(params_.tropism.size());
+    if (count == 0)
+      return doubt(Doubt::Is::warning, "found " + name() + " without `tropism`; the symbol has no effect");
+    if (index && !(*index >= 0 && *index < count)) {
+      doubt(Doubt::Is::warning, "found tropism " + text_of_number(*index) + " in " + name() +
+                                    "; expected 0 to " + text_of_number(count - 1) +
+                                    ". The symbol has no effect");
+    }
+  };
+  switch (kind.command) {
+    case Command::none: {
+      if (doubted_.size() < grammar_.kinds.size()) doubted_.resize(grammar_.kinds.size(), 0);
+      if (doubted_[made.kind] != 0) return;
+      doubted_[made.kind] = 1;
+      const CommandRow* row = row_of(kind.symbol);
+      if (!row || kind.arity >= row->least) return;
+      return doubt(Doubt::Is::warning, name() + " expects " + std::string(row->parameters) + ", found " +
+                                           std::to_string(kind.arity) +
+                                           (kind.arity == 1 ? " parameter" : " parameters") +
+                                           "; the turtle ignores the symbol");
+    }
+    case Command::contour: {
+      const double* wanted = number(0);
+      const auto count = static_cast<double>(params_.contours.size());
+      if (!wanted || (std::trunc(*wanted) >= 0 && std::trunc(*wanted) <= count)) return;
+      return doubt(Doubt::Is::error, "found @#(" + text_of_number(*wanted) + "); expected 0 (circle) to " +
+                                         text_of_number(count) + " (last of `contours`)");
+    }
+    case Command::divide_scale:
+      if (number(0) && *number(0) == 0) doubt(Doubt::Is::error, "found a divisor of 0 in " + name());
+      return;
+    case Command::sweep_control:
+      if (kind.arity > 0 && number(0) && !(*number(0) >= 1 && *number(0) <= most_strips)) {
+        doubt(Doubt::Is::warning, "found " + text_of_number(*number(0)) + " strips in " + name() +
+                                      "; expected 1 to " + text_of_number(most_strips) +
+                                      "; the value is clamped");
+      }
+      return;
+    case Command::set_heading:
+      if (number(0) && number(1) && number(2) && *number(0) == 0 && *number(1) == 0 && *number(2) == 0) {
+        doubt(Doubt::Is::warning, "found no direction in " + name() + "(0,0,0); the heading is unchanged");
+      }
+      return;
+    case Command::elasticity_set:
+      return check_tropism(kind.arity > 1 ? number(0) : nullptr);
+    case Command::elasticity_up:
+    case Command::elasticity_down:
+      return check_tropism(kind.arity > 0 ? number(0) : nullptr);
+    default:
+      return;
+  }
+}
+
+/// Finds text in a word that is not meant as modules: a second production, or `n = 4;` for a parameter.
+void Compiler::check_word(Source& source, Slice slice) const {
+  const std::string_view text = source.text;
+  const std::size_t arrow = find_second_arrow(text, slice);
+  if (arrow < slice.to) {
+    source.errors.push_back({arrow, "found an arrow among modules; a text is one production"});
+    return;
+  }
+  const std::size_t behind = text.substr(slice.from, slice.to - slice.from).rfind(';');
+  if (behind == std::string_view::npos) return;
+  const std::size_t last = slice.from + behind;
+  int depth = 0;
+  for (std::size_t i = slice.from; i < last; ++i) {
+    if (text[i] == '(') ++depth;
+    if (text[i] == ')') --depth;
+    if (depth > 0 || text[i] != '=' || i == slice.from || text[i + 1] == '=') continue;
+    std::size_t end = i;
+    while (end > slice.from && text[end - 1] == ' ') --end;
+    std::size_t from = end;
+    while (from > slice.from && end - from <= 64 && is_name_part(text[from - 1])) --from;
+    const lang::Names::Binding* bound = from < end ? names_.find(text.substr(from, end - from)) : nullptr;
+    if (!bound || bound->is_constant) continue;
+    source.errors.push_back({from, "found " + lang::in_quotes(text.substr(from, i + 1 - from)) +
+                                       ", which are modules here; `let m = 4;` declares a local value"});
+    return;
+  }
+}
+
+/// Probabilities are weights. A sum other than 1 is usually a mistake and is reported.
+void Compiler::warn_of_weights(const Rules& rules) {
+  for (const Range& range : rules.of_kind) {
+    double sum = 0;
+    const Production* first = nullptr;
+    bool known = true;
+    for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+      const Production& each = rules.productions[i];
+      if (!each.weighted) continue;
+      if (!first) first = &each;
+      known = known && each.weight.is_constant && !each.conditional && !each.has_context();
+      sum += each.weight.value;
+    }
+    if (!first || !known || std::abs(sum - 1) <= 1e-6) continue;
+    if (!warned_.insert(first->pointer + ":").second) continue;
+    warn({first->pointer,
+          "the probabilities of the productions of `" + grammar_.kinds[first->predecessor].symbol +
+              "` do not sum to 1; they are used as weights",
+          0, 0});
+  }
+}
+
+/// A production after one that always applies is never used. The same holds for a production without
+/// probability after one with a probability. Tables can hide productions that apply in every step.
+void Compiler::warn_of_dead(const Rules& rules) {
+  for (const Range& range : rules.of_kind) {
+    const Production* plain = nullptr;
+    const Production* weighted = nullptr;
+    for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+      const Production& each = rules.productions[i];
+      const Production* before = plain ? plain : each.weighted ? nullptr : weighted;
+      if (before && folder_of(*before) == folder_of(each) && warned_.insert(each.pointer).second) {
+        const std::string& symbol = grammar_.kinds[each.predecessor].symbol;
+        warn({each.pointer,
+              "this production of `" + symbol + "` is never used: the production at " + before->pointer +
+                  (plain ? " before it always applies"
+                         : " before it has a probability and this one has none; add one, as in `: 0.5`"),
+              0, 0});
+      }
+      if (plain || !is_sure(each)) continue;
+      if (!each.weighted && !weighted) plain = &each;
+      if (each.weighted && each.weight.is_constant && each.weight.value > 0 && !weighted) weighted = &each;
+    }
+  }
+}
+
+/// By kind: whether the axiom and the productions can lead to it. Conditions and contexts count as met.
+std::vector<bool> Compiler::reachable_kinds() {
+  std::vector<bool> reached(grammar_.kinds.size(), false);
+  std::vector<KindId> open;
+  const auto reach = [&](Range templates) {
+    for (const Template& each : grammar_.successor(templates)) {
+      if (reached[each.kind]) continue;
+      reached[each.kind] = true;
+      open.push_back(each.kind);
+    }
+  };
+  reach(grammar_.axiom);
+  while (!open.empty()) {
+    const KindId kind = open.back();
+    open.pop_back();
+    for_all_rules([&](const Rules& rules) {
+      const Range range = rules.of_kind[kind];
+      for (std::uint32_t i = range.first; i < range.first + range.count; ++i)
+        reach(rules.productions[i].successor);
+    });
+  }
+  return reached;
+}
+
+/// A production whose predecessor never occurs with its number of parameters, but with another number.
+void Compiler::warn_of_arity() {
+  const std::vector<bool> reached = reachable_kinds();
+  const auto other_arity = [&](const Kind& kind) -> const Kind* {
+    for (auto each = ids_.lower_bound({kind.symbol, 0});
+         each != ids_.end() && each->first.first == kind.symbol; ++each) {
+      if (reached[each->second]) return &grammar_.kinds[each->second];
+    }
+    return nullptr;
+  };
+  const auto parameters = [](const Kind& kind) {
+    return std::to_string(kind.written()) + (kind.written() == 1 ? " parameter" : " parameters");
+  };
+  for_all_rules([&](const Rules& rules) {
+    for (const Production& each : rules.productions) {
+      if (reached[each.predecessor]) continue;
+      const Kind& kind = grammar_.kinds[each.predecessor];
+      const Kind* other = other_arity(kind);
+      if (!other || !warned_.insert(each.pointer).second) continue;
+      warn({each.pointer,
+            "this production is never used: `" + kind.symbol + "` occurs with " + parameters(*other) +
+                ", and the production expects " + parameters(kind),
+            0, 0});
+    }
+  });
+}
+
+void Compiler::check_rules() {
+  const auto is_rewritten = [&](KindId kind) {
+    bool is = false;
+    for_all_rules([&](const Rules& rules) { is = is || rules.rewrites(kind); });
+    return is;
+  };
+  for (const Doubt& each : doubts_) {
+    if (is_rewritten(each.kind)) continue;
+    if (each.is == Doubt::Is::warning) {
+      warn(each.warning);
+    } else {
+      issues_.push_back({IssueKind::unknown_name, each.warning.pointer, each.warning.message,
+                         each.warning.line, each.warning.column});
+    }
+  }
+  for_all_rules([&](const Rules& rules) {
+    warn_of_weights(rules);
+    warn_of_dead(rules);
+  });
+  warn_of_arity();
+  if (unreported_ > 0)
+    grammar_.warnings.push_back({"", "and " + std::to_string(unreported_) + " more warnings", 0, 0});
+}
+
+}  // namespace seedmesh::lsystem

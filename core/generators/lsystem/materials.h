@@ -1,0 +1,54 @@
+#pragma once
+/// Maps colour indices to materials: those of the request, or a built-in palette.
+#include <vector>
+
+#include "core/base/job.h"
+#include "core/model/model.h"
+#include "generated/params/lsystem.h"
+
+namespace seedmesh::lsystem {
+
+enum class Sides { one, both };
+
+/// Checks what the schema cannot express: a material needs a colour, a texture or a colour image.
+void check_materials(const LsystemParams& params, std::vector<Issue>& issues);
+
+/// Returns true where a material has an image, which has to repeat a whole number of times around a limb.
+bool wraps_images(const LsystemParams& params);
+
+/// Creates materials on first use: one for each colour index and number of visible sides.
+class MaterialSet {
+ public:
+  /// Reads the images of the request into `model`. Throws Stop (Code::invalid) for a damaged image.
+  MaterialSet(Model& model, const LsystemParams& params, const Job& job);
+
+  /// Returns the material index of a colour. Colours past the end of the list use the last material.
+  std::int16_t index_of(std::int16_t color) const { return std::min(color, last_); }
+
+  /// Returns the index of a material in the model. `recipe` may be empty; otherwise it is the texture for
+  /// materials without a texture of their own.
+  int material(std::int16_t color, Sides sides, const TextureRecipe& recipe = {});
+
+ private:
+  struct Made {
+    std::size_t index;
+    Sides sides;
+    std::string kind;
+    int material;
+  };
+  struct Textures {
+    int color = -1, normal = -1, surface = -1;
+  };
+
+  Material make(std::size_t index) const;
+  void set_textures(Material& material, std::size_t index) const;
+  int load(const std::string& uri, const std::string& name, const std::string& pointer, const Job& job);
+
+  Model& model_;
+  const LsystemParams& params_;
+  std::int16_t last_;
+  std::vector<Textures> textures_;  ///< for each material of the request
+  std::vector<Made> made_;
+};
+
+}  // namespace seedmesh::lsystem

@@ -1,0 +1,216 @@
+#include "core/generators/scene/path_bands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "core/base/math.h"
+#include "core/generators/scene/ground.h"
+#include "core/schema/json.h"
+#include "generated/params/scene.h"
+
+namespace seedmesh::scene {
+namespace {
+
+// Height above the ground, so that the ground does not show through. Each following segment is slightly
+// higher, so that overlapping segments do not flicker.
+constexpr double lift = 0.04, step_up = 0.004, lift_a_cell = 0.04;
+constexpr int different_lifts = 7;
+constexpr int corners_of_a_joint = 16;
+constexpr std::size_t most_path_nodes = 256;  ///< more paths are joined to one mesh for each colour
+constexpr double most_squares = 4096;         ///< along one segment
+
+class Band {
+ public:
+  Band(const Ground& ground, double cell, Job& job) : ground_(ground), cell_(cell), job_(job) {
+    mesh_.position = Array<glm::vec3>(job);
+    mesh_.normal = Array<glm::vec3>(job);
+    mesh_.index.wide = Array<std::uint32_t>(job);
+  }
+
+  void lay(const std::vector<glm::dvec2>& points, double half_width) {
+    bool is_first = true;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      if (glm::distance(points[i - 1], points[i]) < 1e-3) continue;
+      job_.check();
+      if (!is_first) disc(points[i - 1], half_width);
+      strip(points[i - 1], points[i], half_width);
+      is_first = false;
+    }
+  }
+
+  Mesh take() {
+    smooth();
+    return std::move(mesh_);
+  }
+
+ private:
+  std::uint32_t vertex(const glm::dvec2& p) {
+    const double above = lift + lift_a_cell * cell_ + step_up * (piece_ % different_lifts);
+    mesh_.position.push_back(glm::vec3(glm::dvec3(p.x, ground_.height(p) + above, p.y)));
+    return static_cast<std::uint32_t>(mesh_.position.size()) - 1;
+  }
+  void face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    for (const std::uint32_t corner : {a, b, c}) mesh_.index.wide.push_back(corner);
+  }
+
+  void spend(std::uint64_t triangles) { job_.spend(Resource::triangles, triangles); }
+
+  int squares(double length) const {
+    return cell_ > 0 ? static_cast<int>(std::clamp(std::ceil(2 * length / cell_), 1.0, most_squares)) : 1;
+  }
+
+  void strip(const glm::dvec2& a, const glm::dvec2& b, double half_width) {
+    ++piece_;
+    const double length = glm::distance(a, b);
+    const glm::dvec2 onward = (b - a) / length, left(onward.y, -onward.x);
+    const int far = squares(length), wide = squares(2 * half_width);
+    spend(2 * static_cast<std::uint64_t>(far) * static_cast<std::uint64_t>(wide));
+    std::uint32_t before = 0;
+    for (int i = 0; i <= far; ++i) {
+      const glm::dvec2 middle = a + onward * (length * i / far);
+      const auto row = static_cast<std::uint32_t>(mesh_.position.size());
+      for (int k = 0; k <= wide; ++k) vertex(middle + left * (half_width * (1 - 2.0 * k / wide)));
+      for (std::uint32_t k = 0; i > 0 && k < static_cast<std::uint32_t>(wide); ++k) {
+        face(before + k, before + k + 1, row + k + 1);
+        face(before + k, row + k + 1, row + k);
+      }
+      before = row;
+    }
+  }
+
+  void disc(const glm::dvec2& middle, double radius) {
+    ++piece_;
+    const int rings = squares(radius);
+    spend(corners_of_a_joint * (2 * static_cast<std::uint64_t>(rings) - 1));
+    const std::uint32_t centre = vertex(middle);
+    for (int ring = 1; ring <= rings; ++ring) {
+      const auto first = static_cast<std::uint32_t>(mesh_.position.size());
+      for (int i = 0; i < corners_of_a_joint; ++i) {
+        const math::SinCos turn = math::sincos(2 * math::pi * i / corners_of_a_joint);
+        vertex(middle + glm::dvec2(turn.cos, -turn.sin) * (radius * ring / rings));
+      }
+      for (std::uint32_t i = 0; i < corners_of_a_joint; ++i) {
+        const std::uint32_t j = (i + 1) % corners_of_a_joint;
+        if (ring == 1) {
+          face(centre, first + i, first + j);
+          continue;
+        }
+        const std::uint32_t inner = first - corners_of_a_joint;
+        face(inner + i, first + i, first + j);
+        face(inner + i, first + j, inner + j);
+      }
+    }
+  }
+
+  /// Computes normals from the adjacent triangles.
+  void smooth() {
+    Array<glm::dvec3> sum(job_, mesh_.position.size(), glm::dvec3(0));
+    const Array<std::uint32_t>& index = mesh_.index.wide;
+    for (std::size_t i = 0; i < index.size(); i += 3) {
+      const glm::dvec3 a(mesh_.position[index[i]]), b(mesh_.position[index[i + 1]]),
+          c(mesh_.position[index[i + 2]]);
+      for (std::size_t k = 0; k < 3; ++k) sum[index[i + k]] += glm::cross(b - a, c - a);
+    }
+    for (const glm::dvec3& each : sum) mesh_.normal.push_back(glm::vec3(math::unit(each, {0, 1, 0})));
+  }
+
+  const Ground& ground_;
+  double cell_;
+  Job& job_;
+  Mesh mesh_;
+  int piece_ = 0;
+};
+
+/// Returns the largest error of each coarser level of the ground, as reported by the terrain.
+std::vector<double> errors_of_levels(const Model& model) {
+  std::vector<double> errors;
+  for (const Extra& extra : model.nodes.front().extras) {
+    if (extra.name != "levels") continue;
+    for (const Json& level : Json::parse(extra.json)) errors.push_back(level.at("max_error").get<double>());
+  }
+  return errors;
+}
+
+Mesh copy_of(const Mesh& mesh, double lifted, const Job& job) {
+  Mesh copy;
+  copy.position = Array<glm::vec3>(job);
+  copy.normal = Array<glm::vec3>(job);
+  copy.index.wide = Array<std::uint32_t>(job);
+  copy.position.append(mesh.position.span());
+  copy.normal.append(mesh.normal.span());
+  copy.index.wide.append(mesh.index.wide.span());
+  for (glm::vec3& each : copy.position) each.y += static_cast<float>(lifted);
+  return copy;
+}
+
+void add_mesh(Model& model, const std::string& name, Mesh mesh) {
+  model.meshes.push_back({name, {}});
+  model.meshes.back().primitives.push_back(
+      {std::move(mesh), static_cast<int>(model.materials.size()) - 1, {}});
+}
+
+/// Paths of one mesh.
+struct PathGroup {
+  PathGroup(const Ground& ground, double cell, const Job& shared, const Color& paint)
+      : job(shared), band(ground, cell, job), color(paint) {}
+  PathGroup(const PathGroup&) = delete;
+  PathGroup& operator=(const PathGroup&) = delete;
+  ~PathGroup() = default;
+
+  Job job;  // other threads can be using the request's
+  Band band;
+  Color color;
+};
+
+/// The mesh of a group, with the coarser levels of the ground.
+void add_group(Model& model, PathGroup& group, const std::vector<double>& errors, Job& job) {
+  Material material;
+  material.name = "path";
+  material.base_color = {linear_of_srgb(group.color.red), linear_of_srgb(group.color.green),
+                         linear_of_srgb(group.color.blue), 1};
+  material.roughness = 1;
+  Node node;
+  node.name = "path";
+  node.parent = 0;
+  node.mesh = static_cast<int>(model.meshes.size());
+  model.materials.push_back(std::move(material));
+  Mesh mesh = group.band.take();
+  std::vector<Mesh> coarser;
+  job.spend(Resource::triangles, errors.size() * mesh.elements());
+  for (const double error : errors) coarser.push_back(copy_of(mesh, error, job));
+  add_mesh(model, "path", std::move(mesh));
+  for (std::size_t i = 0; i < coarser.size(); ++i) {
+    node.lods.push_back(static_cast<int>(model.meshes.size()));
+    add_mesh(model, "path_LOD" + std::to_string(i + 1), std::move(coarser[i]));
+  }
+  model.nodes.push_back(std::move(node));
+}
+
+}  // namespace
+
+void add_path_bands(Model& model, const std::vector<ScenePath>& paths, const Ground& ground, double cell,
+                    Job& job) {
+  const std::vector<double> errors = errors_of_levels(model);
+  const bool joins = paths.size() > most_path_nodes;
+  std::vector<std::unique_ptr<PathGroup>> groups;
+  std::map<std::uint32_t, std::size_t> group_of;
+  for (std::size_t number = 0; number < paths.size(); ++number) {
+    const ScenePath& path = paths[number];
+    if (!path.shown) continue;
+    std::vector<glm::dvec2> points;
+    for (const auto& p : path.points) points.emplace_back(p[0], p[1]);
+    const std::uint32_t rgb = std::uint32_t{path.color.red} << 16U | std::uint32_t{path.color.green} << 8U |
+                              std::uint32_t{path.color.blue};
+    const auto [known, is_new] = group_of.emplace(rgb, groups.size());
+    if (is_new || !joins) groups.push_back(std::make_unique<PathGroup>(ground, cell, job, path.color));
+    PathGroup& group = joins ? *groups[known->second] : *groups.back();
+    const Job::PointerScope scope(group.job, "/paths/" + std::to_string(number));
+    group.band.lay(points, path.width / 2);
+  }
+  for (const std::unique_ptr<PathGroup>& group : groups) add_group(model, *group, errors, job);
+}
+
+}  // namespace seedmesh::scene

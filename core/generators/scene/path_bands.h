@@ -1,0 +1,22 @@
+#pragma once
+/// Paths as bands on the ground.
+#include <vector>
+
+#include "core/base/job.h"
+#include "core/model/model.h"
+
+namespace seedmesh {
+struct ScenePath;
+}
+
+namespace seedmesh::scene {
+
+class Ground;
+
+/// Adds a mesh below the first node for each visible path, slightly above the ground; of more than 256 paths, for each
+/// colour. `cell` is the cell size
+/// of the ground grid, 0 for level ground. Spends triangles; an exceeded limit points to the path.
+void add_path_bands(Model& model, const std::vector<ScenePath>& paths, const Ground& ground, double cell,
+                    Job& job);
+
+}  // namespace seedmesh::scene

@@ -1,0 +1,197 @@
+#include "core/generators/tree/materials.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/base/math.h"
+#include "core/texture/data_uri.h"
+#include "core/texture/leaf.h"
+
+namespace seedmesh::tree {
+namespace {
+
+constexpr float bark_roughness = 0.95F, leaf_roughness = 0.65F;
+constexpr Color plain_bark{107, 84, 64};
+// The colour of young leaves is mixed with this share of a light yellow green.
+constexpr double spring_share = 0.4;
+constexpr Color spring_green{176, 206, 96};
+constexpr Color autumn_yellow{200, 145, 46};
+
+constexpr std::array<const char*, 3> leafy_seasons{"spring", "summer", "autumn"};
+
+// The schema lists the shapes in the order of LeafShape.
+static_assert(static_cast<int>(TreeLeafShape::petal) + 1 == leaf_shape_count);
+
+glm::vec3 linear(const Color& color) {
+  return {linear_of_srgb(color.red), linear_of_srgb(color.green), linear_of_srgb(color.blue)};
+}
+
+Color mixed(const Color& a, const Color& b, double share) {
+  const auto part = [&](std::uint8_t x, std::uint8_t y) {
+    return static_cast<std::uint8_t>(math::to_int32(x + (y - x) * share + 0.5));
+  };
+  return {part(a.red, b.red), part(a.green, b.green), part(a.blue, b.blue)};
+}
+
+/// `season` indexes leafy_seasons. Petals keep their colour unless the request gives an autumn colour.
+Color leaf_color(const TreeLeaf& leaf, std::size_t season) {
+  const bool is_blossom = leaf.leaf_shape == TreeLeafShape::petal;
+  if (season == 0 && !is_blossom) return mixed(leaf.color, spring_green, spring_share);
+  if (season != 2 || leaf.evergreen) return leaf.color;
+  return leaf.autumn.value_or(is_blossom ? leaf.color : autumn_yellow);
+}
+
+/// The largest value of each component over all seasons. The colours of seasons are darker multiples of it.
+Color brightest(const TreeLeaf& leaf) {
+  Color most{1, 1, 1};
+  for (std::size_t season = 0; season < leafy_seasons.size(); ++season) {
+    const Color each = leaf_color(leaf, season);
+    most = {std::max(most.red, each.red), std::max(most.green, each.green), std::max(most.blue, each.blue)};
+  }
+  return most;
+}
+
+template <class Images>
+void check(const Images& images, const std::string& pointer, std::vector<Issue>& issues) {
+  const auto check_one = [&](const std::string& uri, const char* member) {
+    if (uri.empty()) return;
+    std::string error = texture::fault_of_image_uri(uri);
+    if (!error.empty())
+      issues.push_back({IssueKind::invalid_value, pointer + "/" + member, std::move(error)});
+  };
+  check_one(images.color, "color");
+  check_one(images.normal, "normal");
+  check_one(images.surface, "surface");
+}
+
+/// Uses the images of the request, which replace a generated texture.
+template <class Images>
+void use_images(Material& material, const Images& images, const std::string& pointer, Model& model,
+                const Job& job) {
+  const bool repeats = !images.cut_out;
+  const auto load = [&](const std::string& uri, const char* member) {
+    TextureUse use;
+    if (uri.empty()) return use;
+    Result<std::shared_ptr<const Image>> image =
+        texture::image_of_data_uri(uri, material.name + "_" + member, job);
+    if (!image)
+      job.refuse({IssueKind::invalid_value, pointer + "/" + member, image.error().issues.front().message});
+    use = {static_cast<int>(model.textures.size()), 0, repeats};
+    model.textures.push_back(*std::move(image));
+    return use;
+  };
+  material.base_color_texture = load(images.color, "color");
+  material.normal_texture = load(images.normal, "normal");
+  material.metallic_roughness_texture = material.occlusion_texture = load(images.surface, "surface");
+  if (!images.color.empty()) {
+    material.recipe = {};
+    material.base_color = {1, 1, 1, 1};
+  }
+  if (images.cut_out) material.alpha_mode = AlphaMode::mask;
+}
+
+/// Cuts out leaves whose image has an alpha channel, even without `cut_out`.
+void cut_out_by_alpha(Material& material, Model& model) {
+  const int color = material.base_color_texture.texture;
+  if (color < 0 || !texture::has_alpha(*model.textures[static_cast<std::size_t>(color)])) return;
+  material.alpha_mode = AlphaMode::mask;
+  for (TextureUse* use : {&material.base_color_texture, &material.normal_texture,
+                          &material.metallic_roughness_texture, &material.occlusion_texture})
+    use->repeat = false;
+}
+
+}  // namespace
+
+void check_images(const TreeParams& params, std::vector<Issue>& issues) {
+  check(params.bark_images, "/bark_images", issues);
+  check(params.leaf.images, "/leaf/images", issues);
+}
+
+bool has_bark_texture(const TreeParams& params) {
+  return params.bark != TreeBark::none || !params.bark_images.color.empty() ||
+         !params.bark_images.normal.empty() || !params.bark_images.surface.empty();
+}
+
+TreeBuild build_of(const TreeParams& params) {
+  if (params.leaf.build != TreeBuild::usual) return params.leaf.build;
+  return params.model == TreeModel::proctree ? TreeBuild::bunch : TreeBuild::card;
+}
+
+bool shows_twig(const TreeParams& params) {
+  const TreeBuild build = build_of(params);
+  if (params.leaf.leaf_shape == TreeLeafShape::needles) return build != TreeBuild::mesh;
+  return build == TreeBuild::twig || build == TreeBuild::bunch;
+}
+
+bool has_leaves(const TreeParams& params) {
+  if (params.leaf.build == TreeBuild::none) return false;
+  return params.season != TreeSeason::winter || params.leaf.evergreen;
+}
+
+bool has_leaf_texture(const TreeParams& params) {
+  if (params.leaf.picture == TreePicture::auto_) return build_of(params) != TreeBuild::mesh;
+  return params.leaf.picture == TreePicture::own;
+}
+
+bool has_leaf_relief(const TreeParams& params) {
+  if (!params.leaf.images.normal.empty()) return true;
+  return has_leaf_texture(params) && params.leaf.images.color.empty();
+}
+
+bool has_bark_relief(const TreeParams& params) {
+  if (!params.bark_images.normal.empty()) return true;
+  return params.bark != TreeBark::none && params.bark_images.color.empty();
+}
+
+int add_bark_material(Model& model, const TreeParams& params, const Job& job) {
+  Material material;
+  material.name = "bark";
+  material.base_color = {linear(params.bark_color.value_or(plain_bark)), 1};
+  material.roughness = bark_roughness;
+  if (params.bark != TreeBark::none) {
+    material.recipe.kind = text_of(params.bark);
+    material.recipe.seed = static_cast<std::uint64_t>(params.bark_seed);
+    if (params.bark_color) {
+      material.recipe.color = {{params.bark_color->red, params.bark_color->green, params.bark_color->blue}};
+    }
+  }
+  use_images(material, params.bark_images, "/bark_images", model, job);
+  model.materials.push_back(std::move(material));
+  return static_cast<int>(model.materials.size()) - 1;
+}
+
+LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const Job& job) {
+  Material material;
+  material.roughness = leaf_roughness;
+  material.double_sided = true;
+  const Color most = brightest(params.leaf);
+  if (has_leaf_texture(params)) {
+    material.recipe.kind =
+        texture::leaf_kind(static_cast<LeafShape>(params.leaf.leaf_shape), shows_twig(params));
+    material.recipe.color = {{most.red, most.green, most.blue}};
+  }
+  LeafMaterials result;
+  material.name = "leaf";
+  use_images(material, params.leaf.images, "/leaf/images", model, job);
+  if (!params.leaf.images.color.empty()) {
+    cut_out_by_alpha(material, model);
+    result.material = static_cast<int>(model.materials.size());
+    model.materials.push_back(std::move(material));
+    return result;
+  }
+  for (std::size_t season = 0; season < leafy_seasons.size(); ++season) {
+    const glm::vec3 color = linear(leaf_color(params.leaf, season));
+    material.name = std::string("leaf_") + leafy_seasons[season];
+    material.base_color = {color, 1};
+    material.recipe.factor = glm::min(color / linear(most), glm::vec3(1));
+    result.variants.push_back(static_cast<int>(model.materials.size()));
+    model.materials.push_back(material);
+    model.variants.emplace_back(leafy_seasons[season]);
+  }
+  const std::size_t chosen =
+      params.season == TreeSeason::winter ? 1 : static_cast<std::size_t>(params.season);
+  result.material = result.variants[chosen];
+  return result;
+}
+
+}  // namespace seedmesh::tree

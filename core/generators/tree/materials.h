@@ -1,0 +1,43 @@
+#pragma once
+/// Materials of bark and leaves: generated textures, images of the request, or a plain colour.
+#include <vector>
+
+#include "core/base/job.h"
+#include "core/model/model.h"
+#include "generated/params/tree.h"
+
+namespace seedmesh::tree {
+
+/// Adds an error for each image that cannot be read.
+void check_images(const TreeParams& params, std::vector<Issue>& issues);
+
+/// Does the bark have a texture? It then repeats a whole number of times around each limb.
+bool has_bark_texture(const TreeParams& params);
+
+/// The build of the leaves; `usual` is resolved (see the parameter leaf.build).
+TreeBuild build_of(const TreeParams& params);
+
+/// Do leaves have the texture of a twig?
+bool shows_twig(const TreeParams& params);
+
+/// Are there leaves in this season?
+bool has_leaves(const TreeParams& params);
+
+/// Do leaves have a generated texture?
+bool has_leaf_texture(const TreeParams& params);
+
+/// Do leaves, or bark, have a normal map if textures are wanted?
+bool has_leaf_relief(const TreeParams& params);
+bool has_bark_relief(const TreeParams& params);
+
+/// Adds a material and returns its index. Throws Stop (Code::invalid) for a damaged image.
+int add_bark_material(Model& model, const TreeParams& params, const Job& job);
+
+/// Materials of all seasons with leaves as Model::variants. They share one texture and differ in colour.
+struct LeafMaterials {
+  int material = -1;          ///< of the season of the request
+  std::vector<int> variants;  ///< indices by Model::variants; may be empty
+};
+LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const Job& job);
+
+}  // namespace seedmesh::tree

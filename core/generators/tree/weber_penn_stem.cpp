@@ -1,0 +1,198 @@
+#include "core/generators/tree/weber_penn_stem.h"
+
+#include <cmath>
+
+#include "core/generators/tree/sway.h"
+
+namespace seedmesh::tree {
+namespace {
+
+// Pruning tries a stem at this share of its length again and again, and removes it below the least share.
+constexpr double prune_step = 0.9, prune_least = 0.15;
+
+/// Degrees between one segment and the next, without random variation.
+double curve_before(const WeberPennLevel& level, int segment) {
+  if (level.curve_back == 0 || level.curve_res <= 1) return level.curve / level.curve_res;
+  return (2 * segment <= level.curve_res ? level.curve : level.curve_back) / (0.5 * level.curve_res);
+}
+
+/// Degrees by which the attraction to the sky bends each of `segments` segments.
+double attraction_angle(const Frame& frame, double attraction, int segments) {
+  const double declination = approximate_acos(std::clamp(frame.heading.y, -1.0, 1.0));
+  return math::degrees(attraction * declination * std::clamp(frame.up.y, -1.0, 1.0)) / segments;
+}
+
+/// Does the stem stay within the envelope at this length? Its bends are the same at any length: `frames` has
+/// those of the segments after the first, as far as they are known.
+bool fits_envelope(const WeberPennTree& tree, const WeberPennStem& stem, double length,
+                   std::vector<Frame>& frames) {
+  const int segments = tree.level(stem.level).curve_res;
+  const double step = length / segments;
+  glm::dvec3 at = stem.position;
+  for (int segment = 0; segment < segments; ++segment) {
+    if (static_cast<std::size_t>(segment) > frames.size())
+      frames.push_back(next_frame(tree, stem, frames.empty() ? stem.frame : frames.back(), segment));
+    at += (segment == 0 ? stem.frame : frames[static_cast<std::size_t>(segment - 1)]).heading * step;
+    if (!is_in_envelope(tree.params, tree.scale, std::sqrt(at.x * at.x + at.z * at.z), at.y)) return false;
+  }
+  return true;
+}
+
+/// Returns how many clones split off, and carries the rounding error along the stem.
+int count_clones(const WeberPennLevel& level, WeberPennStem& stem) {
+  const double wanted = level.seg_splits * stem.readiness + stem.carried_splits;
+  const int clones = std::max(0, static_cast<int>(math::to_int32(std::floor(wanted + 0.5))));
+  stem.carried_splits = wanted - clones;
+  return clones;
+}
+
+}  // namespace
+
+WeberPennStem make_trunk(WeberPennTree& tree, int number) {
+  const TreeParams& p = tree.params;
+  const WeberPennLevel& level = tree.levels[0];
+  WeberPennStem stem;
+  stem.trunk = number;
+  stem.rng = tree.random.trunk;
+  if (number == 0) {
+    tree.scale = std::max(0.1 * p.Scale, p.Scale + spread(stem.rng.at("scale"), p.ScaleV));
+  } else {
+    stem.rng = stem.rng.at("trunks").at(static_cast<std::uint64_t>(number));
+  }
+  stem.length = std::max(0.0, (level.length + spread(stem.rng.at("length"), level.length_v))) * tree.scale;
+  const double factor = std::max(0.05, p.trunk_scale + spread(stem.rng.at("radius"), p.trunk_scale_v));
+  stem.radius = stem.length * p.Ratio * factor;
+  stem.parent_length = stem.length;
+  stem.parent_length_max = 1;
+  stem.frame = roll(Frame{}, math::quick_sincos_degrees(stem.rng.at("roll").uniform(0, 360)));
+  if (p.branches_0 > 1 && p.branch_dist_0 > 0) {
+    const double away = p.branch_dist_0 * Rng(stem.rng.at("distance")).unit();
+    const math::SinCos to = math::quick_sincos_degrees(Rng(stem.rng.at("direction")).uniform(0, 360));
+    stem.position = {away * to.cos, 0, away * to.sin};
+  }
+  return stem;
+}
+
+double radius_at(const WeberPennTree& tree, const WeberPennStem& stem, double z) {
+  const double radius = tapered(tree.level(stem.level).taper, stem.radius, stem.length, z);
+  return stem.level > 0 ? radius : radius * flared_trunk(tree.params, z);
+}
+
+Frame next_frame(const WeberPennTree& tree, const WeberPennStem& stem, const Frame& frame, int segment) {
+  const WeberPennLevel& level = tree.level(stem.level);
+  const double attraction = tree.params.AttractionUp;
+  double curve = curve_before(level, segment);
+  if (level.curve_v > 0) {
+    const Rng random = stem.rng.at(name_key("curve")).at(static_cast<std::uint64_t>(segment));
+    curve += spread(random, level.curve_v) / level.curve_res;
+  }
+  curve -= stem.uncurve;
+  if (stem.level >= 2 && attraction != 0) curve -= attraction_angle(frame, attraction, level.curve_res);
+  return pitch(frame, math::quick_sincos_degrees(std::clamp(curve, -170.0, 170.0)));
+}
+
+Frame swayed_frame(const WeberPennTree& tree, const WeberPennStem& stem, const Frame& frame, int segment) {
+  const WeberPennLevel& level = tree.level(stem.level);
+  Rng random = stem.rng.at(name_key("sway"));
+  SwayingStem swaying;
+  swaying.length = stem.length;
+  swaying.base_radius = stem.radius;
+  swaying.segments = level.curve_res;
+  swaying.offset_x = random.uniform(0, 2 * math::pi);
+  swaying.offset_y = random.uniform(0, 2 * math::pi);
+  const double z = static_cast<double>(segment) / level.curve_res;
+  const double radius = tapered(level.taper, stem.radius, stem.length, z);
+  return swayed(frame, sway_angles(tree.params.sway, swaying, z, radius));
+}
+
+double child_count(const WeberPennTree& tree, const WeberPennStem& stem) {
+  if (is_last(tree, stem)) {
+    const double most = std::abs(tree.params.Leaves);
+    if (tree.params.Leaves < 0) return most;
+    return most * shape_ratio(tree.params, 4, stem.parent_length > 0 ? stem.offset / stem.parent_length : 0);
+  }
+  const double most = tree.level(stem.level + 1).branches;
+  if (stem.level == 0) return most;
+  if (stem.parent_length <= 0) return 0;
+  if (stem.level == 1) {
+    const double longest = std::max(stem.parent_length_max, 1e-6);
+    return most * (0.2 + 0.8 * std::min(1.0, stem.length / stem.parent_length / longest));
+  }
+  return most * (1 - 0.5 * stem.offset / stem.parent_length);
+}
+
+double down_angle_at(const WeberPennTree& tree, const WeberPennStem& stem, double offset) {
+  const WeberPennLevel& level = tree.level(stem.level + 1);
+  if (level.down_angle_v >= 0) return level.down_angle;
+  const double bare = stem.level == 0 ? tree.bare_length() : tree.level(stem.level).bare * stem.length;
+  const double crown = std::max(1e-9, stem.length - bare);
+  const double ratio = shape_ratio(tree.params, 0, (stem.length - offset) / crown);
+  return level.down_angle + level.down_angle_v * (1 - 2 * ratio);
+}
+
+double child_length(const WeberPennTree& tree, const WeberPennStem& stem, double offset, double longest) {
+  if (stem.level > 0) return longest * (stem.length - 0.6 * offset);
+  const double crown = std::max(1e-9, stem.length - tree.bare_length());
+  const double ratio = shape_ratio(tree.params, tree.params.crown_shape, (stem.length - offset) / crown);
+  return stem.length * longest * ratio;
+}
+
+double child_radius(const WeberPennTree& tree, const WeberPennStem& stem, double offset, double length) {
+  const double ratio = std::max(0.0, length / stem.length);
+  return std::min(radius_at(tree, stem, offset / stem.length),
+                  stem.radius * power(ratio, tree.params.RatioPower));
+}
+
+bool prune(const WeberPennTree& tree, WeberPennStem& stem, std::vector<Frame>& frames) {
+  const double whole = stem.length, least = prune_least * whole;
+  double fitted = whole;
+  frames.clear();
+  while (fitted > least && !fits_envelope(tree, stem, fitted, frames)) fitted *= prune_step;
+  if (!(fitted > least)) fitted = 0;
+  stem.length = whole - (whole - fitted) * tree.params.PruneRatio;
+  return stem.length > 1e-6 * whole;
+}
+
+void split(const WeberPennTree& tree, WeberPennStem& stem, Frame& frame, const glm::dvec3& position,
+           int segment, std::uint32_t joint, std::vector<WeberPennStem>& clones) {
+  const WeberPennLevel& level = tree.level(stem.level);
+  const bool at_base = stem.level == 0 && segment == 0 && tree.params.base_splits > 0;
+  const int count = at_base ? tree.params.base_splits : count_clones(level, stem);
+  if (count == 0) return;
+  const Rng rng = stem.rng.at("split").at(static_cast<std::uint64_t>(segment));
+  const int segments_left = std::max(1, level.curve_res - segment - 1);
+  const double declination = declination_of(frame);
+  stem.share /= count + 1;
+  stem.readiness = at_base ? stem.readiness : 0.5;
+  // The frame of one of the stems of a split, and its turn back in each later segment. Number 0 is the stem.
+  const auto turned = [&](int number) {
+    const Rng own = rng.at(static_cast<std::uint64_t>(number));
+    const double angle =
+        std::max(0.0, level.split_angle + spread(own.at("angle"), level.split_angle_v) - declination);
+    Rng random = own.at("about");
+    const double drawn = random.unit();
+    double about = 20 + 0.75 * (30 + std::abs(declination - 90)) * drawn * drawn;
+    if (random.unit() < 0.5) about = -about;
+    if (at_base) about = 360.0 * number / (count + 1);
+    Frame result = pitch(frame, math::quick_sincos_degrees(angle));
+    if (number > 0 || at_base) result = rotated(result, {0, 1, 0}, math::quick_sincos_degrees(about));
+    return std::pair{result, angle / segments_left};
+  };
+  for (int number = count; number >= 1; --number) {
+    WeberPennStem& clone = clones.emplace_back(stem);
+    const auto [own_frame, uncurve] = turned(number);
+    clone.frame = own_frame;
+    clone.position = position;
+    clone.joint = joint;
+    clone.segment = segment + 1;
+    clone.uncurve = stem.uncurve + uncurve;
+    clone.rng = rng.at("clone").at(static_cast<std::uint64_t>(number));
+    clone.carried_children = clone.rng.at("phase").unit();
+    clone.carried_splits = 0;
+  }
+  const auto [own_frame, uncurve] = turned(0);
+  frame = own_frame;
+  stem.uncurve += uncurve;
+}
+
+}  // namespace seedmesh::tree

@@ -1,0 +1,94 @@
+#pragma once
+/// One stem of a tree by Weber and Penn: its size, how it bends, and how many children of which size it
+/// bears. The formulas are those of section 4 of the paper (weber_penn.h). Lengths in metres, angles in
+/// degrees.
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "core/generators/tree/weber_penn_shape.h"
+
+namespace seedmesh::tree {
+
+/// What all stems of one tree share. `params` and `random` are borrowed.
+struct WeberPennTree {
+  WeberPennTree(const TreeParams& given, const RandomStreams& streams)
+      : params(given), random(streams), levels(weber_penn_levels(given)) {}
+
+  const TreeParams& params;
+  const RandomStreams& random;
+  std::array<WeberPennLevel, 4> levels;
+  double scale = 0;  ///< the height of the tree before 0Length
+
+  const WeberPennLevel& level(int n) const { return levels[static_cast<std::size_t>(std::min(n, 3))]; }
+  double bare_length() const { return params.BaseSize * scale; }
+  bool sways() const { return params.sway.wind != 0 || params.sway.gust != 0; }
+};
+
+struct WeberPennStem {
+  Frame frame;                        ///< of its first segment
+  glm::dvec3 position{0};             ///< where it begins
+  std::uint32_t joint = Limbs::none;  ///< the joint from which it grows
+  int level = 0;                      ///< 0 for trunks and their clones
+  int trunk = 0;                      ///< the number of a trunk; also of its clones
+  double length = 0, radius = 0;
+  double offset = 0, parent_length = 0;  ///< the offset is its position along the parent
+  double parent_length_max = 0;          ///< the paper's length_child,max of which its length is a share
+  Rng rng{0};
+  // A clone, which splits off from another stem, begins at a later segment of that stem, has its length,
+  // turns back by `uncurve` in each segment, and bears `share` of its children.
+  int segment = 0;
+  double uncurve = 0;
+  double share = 1;
+  double readiness = 1;           ///< to split; halved by a split
+  double carried_splits = 0;      ///< rounding error of the number of splits so far
+  double carried_children = 0.5;  ///< part of the way to the next child that is behind
+  int children_before = 0;        ///< on earlier segments
+};
+
+/// Gives trunk `number`, which has no joint yet. The first one draws the height of the tree.
+WeberPennStem make_trunk(WeberPennTree& tree, int number);
+
+inline bool is_last(const WeberPennTree& tree, const WeberPennStem& stem) {
+  return stem.level + 1 >= tree.params.Levels;
+}
+inline double segment_length(const WeberPennTree& tree, const WeberPennStem& stem) {
+  return stem.length / tree.level(stem.level).curve_res;
+}
+
+/// The radius at the share `z` of the length.
+double radius_at(const WeberPennTree& tree, const WeberPennStem& stem, double z);
+
+/// The frame of segment `segment` of a stem, from that of the segment before it.
+Frame next_frame(const WeberPennTree& tree, const WeberPennStem& stem, const Frame& frame, int segment);
+
+/// The frame turned by the wind.
+Frame swayed_frame(const WeberPennTree& tree, const WeberPennStem& stem, const Frame& frame, int segment);
+
+/// How many children or leaves a whole stem bears; not rounded.
+double child_count(const WeberPennTree& tree, const WeberPennStem& stem);
+
+/// Degrees between the stem and a child or leaf at `offset`, without random variation.
+double down_angle_at(const WeberPennTree& tree, const WeberPennStem& stem, double offset);
+
+/// Degrees about the stem of its child or leaf `number`, without random variation.
+inline double rotation_of(const WeberPennLevel& level, int number) {
+  return level.rotate >= 0 ? number * level.rotate : (number & 1) * 180.0 + level.rotate;
+}
+
+/// Length of a child at `offset` before pruning; `longest` is the paper's length_child,max.
+double child_length(const WeberPennTree& tree, const WeberPennStem& stem, double offset, double longest);
+
+/// Radius of a child of this length at `offset`.
+double child_radius(const WeberPennTree& tree, const WeberPennStem& stem, double offset, double length);
+
+/// Shortens a stem to what stays within the envelope, as far as PruneRatio says. Returns false where nothing
+/// is left. `frames` is memory that calls reuse.
+bool prune(const WeberPennTree& tree, WeberPennStem& stem, std::vector<Frame>& frames);
+
+/// Divides a stem at the end of `segment`, which is at `position`: appends its clones, which grow from
+/// `joint`, to `clones`, and turns the frame of the stem itself. Does nothing where it does not split.
+void split(const WeberPennTree& tree, WeberPennStem& stem, Frame& frame, const glm::dvec3& position,
+           int segment, std::uint32_t joint, std::vector<WeberPennStem>& clones);
+
+}  // namespace seedmesh::tree

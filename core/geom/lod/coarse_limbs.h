@@ -1,0 +1,44 @@
+#pragma once
+/// Simplification of limbs for the coarser levels of detail of a plant. It removes the joints and twigs that
+/// change the outline least for the triangles that they cost.
+///
+/// Joints of a limb are selected after Douglas and Peucker, "Algorithms for the reduction of the number of
+/// points required to represent a digitized line or its caricature", 1973; the error is the area by which the
+/// outline changes. Twigs are removed as wholes: thin, short and hidden ones first. Both decisions compare
+/// the error with one price of a triangle (a Lagrange multiplier), which bisection finds. For skin() the
+/// price also decides how many corners each limb has; thick limbs keep more.
+#include <span>
+#include <vector>
+
+#include "core/base/job.h"
+#include "core/geom/plant/limbs.h"
+#include "core/geom/plant/skin.h"
+
+namespace seedmesh {
+
+struct CoarseOptions {
+  std::uint64_t triangles = 0;  ///< approximate number wanted, counted as closed tubes
+  /// The options of the finest level where skin() makes the bark; null where graft() makes it. skin() allows
+  /// different barks and cross-sections along a limb; joints where those change are kept.
+  const SkinOptions* skin = nullptr;
+  bool was_grafted = false;  ///< graft() makes the finest level, skin() the coarser ones
+  int sides = 8;             ///< for graft(): corners of the thickest limb at this level
+  int finest_sides = 8;      ///< the same at the finest level; limbs with fewer corners get as much thicker
+  bool pointed = false;      ///< thin ends have no ring (GraftOptions::pointed)
+  std::span<const float> shown = {};          ///< for each joint the visible share 0..1; empty: all visible
+  std::span<const glm::vec3> drawn = {};      ///< positions of joints in the finest level; empty: unchanged
+  std::span<const std::uint16_t> bones = {};  ///< for each joint; joints where the bone changes are kept
+};
+
+struct CoarseLimbs {
+  Limbs limbs;
+  Array<std::uint32_t> was;  ///< for each joint its index in the original limbs
+  /// For skin(): for each joint the corners of its limb (SkinOptions::corners). The limbs then have keys,
+  /// which give them the same rotation as at the finest level.
+  std::vector<LimbCorners> corners;
+};
+
+/// Returns the simplified limbs, parents before children, limb by limb. Time: n log of the longest limb.
+CoarseLimbs coarsen(const Limbs& limbs, const CoarseOptions& options, Job& job);
+
+}  // namespace seedmesh

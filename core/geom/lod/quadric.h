@@ -1,0 +1,59 @@
+#pragma once
+/// What simplification (simplify.cpp) keeps of a surface and of possible changes to it.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <tuple>
+
+namespace seedmesh {
+
+/// A sum of squared distances to planes, as the ten elements of a symmetric matrix.
+struct Quadric {
+  std::array<double, 10> q{};
+  void add(const glm::dvec3& n, double d, double weight) {
+    const double terms[10] = {n.x * n.x, n.x * n.y, n.x * n.z, n.x * d, n.y * n.y,
+                              n.y * n.z, n.y * d,   n.z * n.z, n.z * d, d * d};
+    for (std::size_t i = 0; i < 10; ++i) q[i] += weight * terms[i];
+  }
+  void add(const Quadric& other) {
+    for (std::size_t i = 0; i < 10; ++i) q[i] += other.q[i];
+  }
+  double at(const glm::dvec3& p) const {
+    return q[0] * p.x * p.x + 2 * q[1] * p.x * p.y + 2 * q[2] * p.x * p.z + 2 * q[3] * p.x +
+           q[4] * p.y * p.y + 2 * q[5] * p.y * p.z + 2 * q[6] * p.y + q[7] * p.z * p.z + 2 * q[8] * p.z +
+           q[9];
+  }
+};
+
+/// The cost of moving a point onto another: the error of both quadrics there, and a little for the way, which
+/// prefers short edges where everything is flat.
+inline double collapse_cost(const Quadric& from, const Quadric& to, const glm::dvec3& at,
+                            const glm::dvec3& target) {
+  constexpr double length_weight = 1e-6;
+  const glm::dvec3 way = target - at;
+  Quadric sum = from;
+  sum.add(to);
+  return std::max(0.0, sum.at(target)) + length_weight * glm::dot(way, way) * glm::dot(way, way);
+}
+
+/// The corners beside one of the same triangle, in an index array.
+inline std::size_t after(std::size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+inline std::size_t before(std::size_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
+
+/// The cheapest allowed collapse of a point onto a neighbour, or a lower bound of its cost, which does not say
+/// whether any collapse is allowed.
+struct Wish {
+  static constexpr std::uint32_t no_point = 0xFFFFFFFFU;
+  double cost;
+  std::uint32_t from, to, stamp;  ///< to: no_point for a bound
+  /// A total order for a heap with the least cost on top; bounds before collapses of the same cost.
+  bool operator<(const Wish& o) const {
+    const bool is_exact = to != no_point, is_other = o.to != no_point;
+    return std::tie(cost, is_exact, from, to) > std::tie(o.cost, is_other, o.from, o.to);
+  }
+};
+
+}  // namespace seedmesh

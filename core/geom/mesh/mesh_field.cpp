@@ -1,0 +1,197 @@
+#include "core/geom/mesh/mesh_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seedmesh {
+namespace {
+
+constexpr std::uint32_t triangles_a_leaf = 8;
+constexpr std::size_t look_every = 4096;
+
+/// Ericson, "Real-Time Collision Detection", 2005, section 5.1.5.
+glm::dvec3 nearest_on_triangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
+                               const glm::dvec3& c) {
+  const glm::dvec3 ab = b - a, ac = c - a, ap = p - a;
+  const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
+  if (d1 <= 0 && d2 <= 0) return a;
+  const glm::dvec3 bp = p - b;
+  const double d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
+  if (d3 >= 0 && d4 <= d3) return b;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * (d1 / (d1 - d3));
+  const glm::dvec3 cp = p - c;
+  const double d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
+  if (d6 >= 0 && d5 <= d6) return c;
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * (d2 / (d2 - d6));
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+  const double sum = va + vb + vc;
+  return sum > 0 ? a + ab * (vb / sum) + ac * (vc / sum) : a;
+}
+
+double squared_distance(const glm::dvec3& p, const glm::vec3& low, const glm::vec3& high) {
+  const glm::dvec3 apart = p - glm::clamp(p, glm::dvec3(low), glm::dvec3(high));
+  return glm::dot(apart, apart);
+}
+
+/// No edge of a model that is drawn by rule runs this way.
+constexpr glm::dvec3 ray{0.2871537, 0.9133127, 0.2887301};
+
+bool ray_meets_box(const glm::dvec3& from, const glm::vec3& low, const glm::vec3& high) {
+  double enter = 0, leave = 1e300;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a = (double{low[axis]} - from[axis]) / ray[axis];
+    const double b = (double{high[axis]} - from[axis]) / ray[axis];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter <= leave;
+}
+
+/// Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997.
+bool ray_meets_triangle(const glm::dvec3& from, const glm::dvec3& a, const glm::dvec3& b,
+                        const glm::dvec3& c) {
+  const glm::dvec3 ab = b - a, ac = c - a, across = glm::cross(ray, ac);
+  const double determinant = glm::dot(ab, across);
+  if (determinant == 0) return false;
+  const glm::dvec3 to = from - a;
+  const double u = glm::dot(to, across) / determinant;
+  if (u < 0 || u > 1) return false;
+  const glm::dvec3 q = glm::cross(to, ab);
+  const double v = glm::dot(ray, q) / determinant;
+  return v >= 0 && u + v <= 1 && glm::dot(ac, q) / determinant > 0;
+}
+
+glm::dmat4 matrix_of(const Transform& t) {
+  glm::dmat4 matrix = glm::mat4_cast(glm::dquat(t.rotation));
+  for (int axis = 0; axis < 3; ++axis) matrix[axis] *= double{t.scale[axis]};
+  matrix[3] = glm::dvec4(glm::dvec3(t.translation), 1);
+  return matrix;
+}
+
+}  // namespace
+
+MeshField::MeshField(const Model& model, const glm::dvec3& stretch, const glm::dvec3& shift, const Job& job)
+    : corner_(job) {
+  const auto add = [&](const MeshGroup& group, const glm::dmat4& matrix) {
+    for (const Primitive& primitive : group.primitives) {
+      const Mesh& mesh = primitive.mesh;
+      if (mesh.topology != Topology::triangles) continue;
+      for (std::size_t i = 0; i < mesh.index.size(); ++i) {
+        if (i % look_every == 0) job.check();
+        const glm::dvec3 at = matrix * glm::dvec4(glm::dvec3(mesh.position[mesh.index.at(i)]), 1);
+        corner_.push_back(glm::vec3(at * stretch + shift));
+      }
+    }
+  };
+  std::vector<glm::dmat4> world(model.nodes.size());
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const Node& node = model.nodes[i];
+    world[i] = matrix_of(node.transform);
+    if (node.parent >= 0) world[i] = world[static_cast<std::size_t>(node.parent)] * world[i];
+    if (node.mesh < 0) continue;
+    const MeshGroup& group = model.meshes[static_cast<std::size_t>(node.mesh)];
+    if (node.instances.transforms.empty()) add(group, world[i]);
+    for (const Transform& t : node.instances.transforms) add(group, world[i] * matrix_of(t));
+  }
+  std::vector<std::uint32_t> order(triangles());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
+  if (order.empty()) return;
+  knot_.reserve(order.size() / 2 + 1);
+  build(0, static_cast<std::uint32_t>(order.size()), order);
+  Array<glm::vec3> sorted(job, corner_.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) sorted[3 * i + k] = corner_[3 * std::size_t{order[i]} + k];
+  }
+  corner_ = std::move(sorted);
+}
+
+std::uint32_t MeshField::build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& order) {
+  const auto own = static_cast<std::uint32_t>(knot_.size());
+  Knot knot;
+  knot.low = knot.high = corner_[3 * std::size_t{order[first]}];
+  glm::vec3 low(1e30F), high(-1e30F);  // of the triangles' centres, times three
+  const auto centre = [&](std::uint32_t t) {
+    const std::size_t at = 3 * std::size_t{t};
+    return corner_[at] + corner_[at + 1] + corner_[at + 2];
+  };
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      knot.low = glm::min(knot.low, corner_[3 * std::size_t{order[i]} + k]);
+      knot.high = glm::max(knot.high, corner_[3 * std::size_t{order[i]} + k]);
+    }
+    low = glm::min(low, centre(order[i]));
+    high = glm::max(high, centre(order[i]));
+  }
+  knot.first = first;
+  knot.count = count;
+  knot_.push_back(knot);
+  if (count <= triangles_a_leaf) return own;
+  const glm::vec3 extent = high - low;
+  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  const auto begin = order.begin() + static_cast<std::ptrdiff_t>(first);
+  const std::uint32_t half = count / 2;
+  std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t a, std::uint32_t b) {
+    const float at_a = centre(a)[axis], at_b = centre(b)[axis];
+    return at_a != at_b ? at_a < at_b : a < b;
+  });
+  build(first, half, order);
+  const std::uint32_t second = build(first + half, count - half, order);
+  knot_[own].first = second;
+  knot_[own].count = 0;
+  return own;
+}
+
+MeshField::Nearest MeshField::nearest(const glm::dvec3& point) const {
+  glm::dvec3 best = corner(0, 0);
+  double least = glm::dot(best - point, best - point);
+  std::uint32_t waiting[64];
+  int count = 0;
+  waiting[count++] = 0;
+  while (count > 0) {
+    const std::uint32_t number = waiting[--count];
+    const Knot& knot = knot_[number];
+    if (squared_distance(point, knot.low, knot.high) >= least) continue;
+    if (knot.count == 0) {
+      const std::uint32_t near = number + 1, far = knot.first;
+      const bool swapped = squared_distance(point, knot_[far].low, knot_[far].high) <
+                           squared_distance(point, knot_[near].low, knot_[near].high);
+      waiting[count++] = swapped ? near : far;
+      waiting[count++] = swapped ? far : near;
+      continue;
+    }
+    for (std::uint32_t t = knot.first; t < knot.first + knot.count; ++t) {
+      const glm::dvec3 on = nearest_on_triangle(point, corner(t, 0), corner(t, 1), corner(t, 2));
+      const double distance = glm::dot(on - point, on - point);
+      if (distance >= least) continue;
+      least = distance;
+      best = on;
+    }
+  }
+  return {best, std::sqrt(least)};
+}
+
+bool MeshField::holds(const glm::dvec3& point) const {
+  bool inside = false;
+  std::uint32_t waiting[64];
+  int count = 0;
+  waiting[count++] = 0;
+  while (count > 0) {
+    const std::uint32_t number = waiting[--count];
+    const Knot& knot = knot_[number];
+    if (!ray_meets_box(point, knot.low, knot.high)) continue;
+    if (knot.count == 0) {
+      waiting[count++] = knot.first;
+      waiting[count++] = number + 1;
+      continue;
+    }
+    for (std::uint32_t t = knot.first; t < knot.first + knot.count; ++t) {
+      if (ray_meets_triangle(point, corner(t, 0), corner(t, 1), corner(t, 2))) inside = !inside;
+    }
+  }
+  return inside;
+}
+
+}  // namespace seedmesh

@@ -1,0 +1,48 @@
+#pragma once
+/// Cross-sections of generalised cylinders: closed outlines for a radius of 1 that are swept along a limb and
+/// blended from joint to joint (Prusinkiewicz, Mündermann, Karwowski and Lane, "The use of positional
+/// information in the modeling of plants", 2001).
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace seedmesh {
+
+/// A closed outline around the origin. Its points lie within the unit circle, and each is visible from the
+/// origin.
+struct Contour {
+  std::vector<glm::vec2> points;  ///< anticlockwise seen along the heading; x to the turtle's left
+};
+
+/// The reason why an outline cannot be a cross-section, which names its points; nullopt where it can. Input
+/// as in requests: seen along the heading, x to the right of the turtle, y up.
+std::optional<std::string> contour_error(std::span<const glm::dvec2> outline);
+
+/// Converts a valid outline of a request, of either orientation.
+Contour make_contour(std::span<const glm::dvec2> outline);
+
+/// A vertex of a cross-section.
+struct ContourCorner {
+  glm::vec2 at;      ///< for a radius of 1
+  glm::vec2 normal;  ///< outward unit vector, the mean of both edges
+  float round;       ///< length of the outline from its first point, for a radius of 1
+};
+
+/// `sides` corners and the first one again, from the corner that is farthest to the turtle's left: the points
+/// of the outline, and more where its edges are longest. Needs at least as many sides as points.
+std::vector<ContourCorner> corners_of(const Contour& contour, std::uint32_t sides);
+
+/// The same for the circle.
+std::vector<ContourCorner> corners_of_circle(std::uint32_t sides);
+
+/// The least number of sides with which all points of all contours are kept.
+std::uint32_t least_sides(std::span<const Contour> contours);
+
+/// The number of sides of a regular polygon whose edges are as short as the shortest edge, or the smallest
+/// distance of an edge from the origin, of any contour. Scale is computed by it.
+int fineness(std::span<const Contour> contours, std::uint32_t sides);
+
+}  // namespace seedmesh

@@ -1,0 +1,58 @@
+#pragma once
+/// Rounds of writing: the first writes all limbs, later ones only limbs for which something has changed.
+#include <functional>
+#include <vector>
+
+#include "core/geom/plant/graft/bark_buffers.h"
+#include "core/geom/plant/graft/graft_input.h"
+
+namespace seedmesh {
+
+/// What of a limb has to be checked again: nothing, the faces at the loop that it begins with, or all.
+enum class Recheck : std::uint8_t { nothing, loop, all };
+
+struct BarkRounds {
+  std::vector<JoinMode> written;      ///< GraftInput::join at the last round; empty before the first one
+  std::vector<std::uint32_t> parent;  ///< of each limb; empty in the first round
+  std::vector<std::uint8_t> dirty;    ///< of each limb, 1: written in this round
+  std::vector<std::uint8_t> touched;  ///< of each pair of groups, 1: its parent or child limb is dirty
+  std::vector<Recheck> recheck;       ///< of each limb
+  bool is_large = true;               ///< enough to check for more than one thread
+
+  bool is_first() const { return parent.empty(); }
+};
+
+/// Writes all limbs, or, from the second round on, those whose join mode or loop has changed and the limbs
+/// that they grow from. New ranges lie behind the old ones. Sets what has to be checked. The first round uses
+/// all threads of the job where that pays; the result does not depend on it. Charges Resource::triangles.
+void write_round(const GraftInput& in, BarkBuffers& bark, BarkRounds& rounds, Job& job);
+
+/// The first round on all threads of the job: limbs in contiguous parts, each with buffers of its own, which
+/// are appended to `bark`. Returns false, with nothing written, for trees that are too small or too large, or
+/// whose limbs are in an order that cannot be cut.
+bool write_in_parts(const GraftInput& in, BarkBuffers& bark, Job& job);
+
+/// parallel_for(), but on the calling thread in a round with little to check.
+void for_chunks(const BarkRounds& rounds, const Job& job, std::size_t count, std::size_t chunk,
+                const std::function<void(std::size_t begin, std::size_t end, std::size_t index)>& body);
+
+/// The end of the triangles of a limb that have to be checked; they begin at its range.
+std::uint32_t recheck_end(const BarkBuffers& bark, const BarkRounds& rounds, std::size_t limb);
+
+/// Is a corner of the triangle on a loop that has changed?
+bool is_touched(const BarkBuffers& bark, const BarkRounds& rounds, std::uint32_t triangle);
+
+/// Calls each(triangle) for the triangles of a limb at changed loops, as far as they have to be checked.
+template <class Each>
+void for_loop_triangles(const BarkBuffers& bark, const BarkRounds& rounds, std::size_t limb,
+                        const Each& each) {
+  const LimbRange& range = bark.range[limb];
+  const std::uint32_t end = recheck_end(bark, rounds, limb);
+  for (std::size_t i = range.begin.loop_triangle; i < range.end.loop_triangle; ++i) {
+    const std::uint32_t triangle = bark.loop_triangles[i];
+    if (triangle >= end) break;
+    if (rounds.is_first() || is_touched(bark, rounds, triangle)) each(triangle);
+  }
+}
+
+}  // namespace seedmesh

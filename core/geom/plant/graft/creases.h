@@ -1,0 +1,27 @@
+#pragma once
+/// Creases: faces with vertices of their own, where no normal of a corner is in front of all its faces.
+#include <vector>
+
+#include "core/geom/plant/graft/bark_buffers.h"
+#include "core/geom/plant/graft/graft_input.h"
+
+namespace seedmesh {
+
+/// A triangle that gets vertices of its own. `triangle`, `first` and `last` count in the joined bark; the
+/// limb has the triangles `first` to `last - 1`.
+struct Crease {
+  std::uint32_t triangle = 0, first = 0, last = 0;
+};
+
+/// A bad face can be creased where limbs meet at a narrow angle. A face that is folded over, on the other
+/// side of its limb or of the junction, can be creased only where it is too small to be seen.
+bool can_be_creased(const GraftInput& in, const BarkBuffers& bark, std::uint32_t triangle, std::size_t limb);
+
+/// The creased triangles, by their numbers in the buffers, that still belong to a limb.
+std::vector<Crease> remaining_creases(const BarkBuffers& bark, std::vector<std::uint32_t> creased);
+
+/// Gives each creased triangle a vertex of its own, with the normal of the face, at each corner whose normal
+/// it faces away from. Adjacent triangles with about the same normal share it.
+void write_creases(const std::vector<Crease>& creases, JoinedBark& bark);
+
+}  // namespace seedmesh

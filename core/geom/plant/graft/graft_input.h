@@ -1,0 +1,38 @@
+#pragma once
+/// What all parts of graft() read.
+#include <vector>
+
+#include "core/geom/plant/chains.h"
+#include "core/geom/plant/graft/ring_shape.h"
+
+namespace seedmesh {
+
+/// How a limb is made, from the best way to the last resort.
+enum class JoinMode : std::uint8_t {
+  full,      ///< welded to its parent, with side limbs welded to it
+  detached,  ///< a closed end at its parent, with side limbs welded to it
+  closed,    ///< a closed tube; its side limbs are closed where they begin
+  none       ///< left to skin()
+};
+
+/// Borrowed, except for the tables. Limbs are numbered as in Chains::head.
+struct GraftInput {
+  GraftInput(const Limbs& the_limbs, const Chains& the_chains, const Scale& the_scale,
+             const GraftOptions& the_options, const std::vector<JoinMode>& modes);
+
+  const Limbs& limbs;
+  const Chains& chains;
+  const Scale& scale;
+  const GraftOptions& options;
+  const std::vector<JoinMode>& join;  ///< of each limb; changes from round to round
+  RingTables rings;
+  std::vector<std::uint32_t> first_child;   ///< of each joint, the first limb that begins there
+  std::vector<std::uint32_t> next_sibling;  ///< of each limb, the next one that begins at the same joint
+
+  std::uint64_t key_of(std::uint32_t joint) const { return limbs.key.empty() ? joint : limbs.key[joint]; }
+};
+
+/// The limb that each limb grows from, or Limbs::none.
+std::vector<std::uint32_t> parent_limbs(const GraftInput& in);
+
+}  // namespace seedmesh

@@ -1,0 +1,47 @@
+#pragma once
+/// The normal solver for loops: normals that both surfaces of a junction share.
+///
+/// Rings know their normals by formula; vertices on loops do not. A loop's normal is the mean of two normals,
+/// one of each surface, where each is the mean of the faces weighted by their angle at the vertex (Thürmer
+/// and Wüthrich, "Computing vertex normals from polygonal facets", 1998). It is then turned until it is in
+/// front of all its faces, where that is possible.
+#include <span>
+#include <vector>
+
+#include "core/geom/plant/graft/bark_rounds.h"
+
+namespace seedmesh {
+
+/// A face at a loop: its unit normal, and the groups of its corners on changed loops or Limbs::none.
+struct LoopFace {
+  glm::vec3 normal{0};
+  std::uint32_t group[3] = {Limbs::none, Limbs::none, Limbs::none};
+};
+
+/// Faces and their corner angles, sixteen at a time.
+struct FaceBlock {
+  static constexpr std::size_t most = 16;
+  std::uint32_t corner[3 * most];       ///< in; all of them, so repeat a face where there are fewer
+  FourFloats normal[most], unit[most];  ///< out: with the length of twice the area; unit
+  float size[most];                     ///< out: twice the area
+  float weight[3][most];                ///< out: the angle at each corner divided by `size`
+};
+
+/// Fills a block. Angles are exact within 2e-5 radians. Reads a float behind each position.
+void measure_faces(FaceBlock& block, const glm::vec3* position);
+
+/// Turns normals, each of which belongs to several faces, until each is in front of all its faces by a
+/// little: a normal that is not is moved toward the face, face after face, at most 24 times. `normals` are by
+/// group and those of odd groups are not used. Linear time where no normal has to turn.
+void relax_normals(std::span<const LoopFace> faces, std::span<GroupNormal> normals);
+
+/// Computes the normals of all changed loops (BarkRounds::touched), as group normals.
+void solve_junction_normals(BarkBuffers& bark, const BarkRounds& rounds, const Job& job);
+
+/// Writes the group normals to the vertices of a limb, and their tangents.
+void store_junction_normals(BarkBuffers& bark, const BarkRounds& rounds, std::size_t limb);
+
+/// The number of limbs that one thread processes at once.
+std::size_t limbs_a_chunk(std::size_t limbs);
+
+}  // namespace seedmesh

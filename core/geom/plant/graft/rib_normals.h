@@ -1,0 +1,16 @@
+#pragma once
+/// Normals of limbs with ribs, from their faces.
+#include "core/geom/plant/graft/bark_buffers.h"
+
+namespace seedmesh {
+
+/// True where the limb has rings with ribs.
+bool has_rib_seams(const BarkBuffers& bark, std::size_t limb);
+
+/// Replaces the normals of a limb with ribs, except on loops, by the means of its faces, weighted by angle,
+/// and turns them in front of their faces as relax_normals() does. For limbs whose normals by formula face
+/// away from faces: rings of few corners cut deep ribs, or a flare, into faces that lean more than the ribs
+/// do.
+void smooth_rib_normals(BarkBuffers& bark, std::size_t limb);
+
+}  // namespace seedmesh

@@ -1,0 +1,48 @@
+#pragma once
+/// The cross-sections of welded limbs: how many corners a ring has, where they lie, and how ribs change it.
+#include <algorithm>
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "core/geom/plant/graft/graft.h"
+#include "core/geom/plant/tube_formulas.h"
+
+namespace seedmesh {
+
+/// Ribs deeper than this share of the radius get corners on every crest and in every trough.
+constexpr float deep_ribs = 0.1F;
+
+/// The largest radius with which a limb begins.
+float thickest_base(const Limbs& limbs);
+
+inline bool has_deep_ribs(const GraftOptions& options) {
+  return options.lobes > 0 && options.lobe_depth > deep_ribs;
+}
+
+/// The corners of a ring with ribs that has `sides` corners without ribs: at least three for each rib. Deep
+/// ribs have the same number all along the limb, at least four each.
+inline int ribbed_corners(const GraftOptions& options, int sides) {
+  if (options.lobes == 0) return sides;
+  if (!has_deep_ribs(options)) return std::max({sides, 3 * options.lobes, 8});
+  const int corners = std::max({sides, options.sides, 4 * options.lobes});
+  return (corners + options.lobes - 1) / options.lobes * options.lobes;
+}
+
+/// The corners of a regular polygon in the unit circle. The first corner is repeated at the end, followed by
+/// further ones, so that blocks of four can be read from any corner on.
+struct UnitCircle {
+  std::vector<float> x, y;
+};
+
+/// Tables that all rings of one graft() share.
+struct RingTables {
+  const UnitCircle* circles = nullptr;  ///< by number of corners
+  std::vector<UnitCircle> own_circles;  ///< where the request needs more corners than the common table has
+  std::vector<float> corner_radius;     ///< the least radii of limbs with 4, 5, ... corners
+};
+RingTables ring_tables(const Limbs& limbs, const GraftOptions& options);
+
+/// corners_by_radius() without a power: the tables hold the radius at which each number begins.
+int corners_by_table(const RingTables& tables, const GraftOptions& options, float radius);
+
+}  // namespace seedmesh

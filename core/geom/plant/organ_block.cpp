@@ -1,0 +1,334 @@
+#include "core/geom/plant/organ_block.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/base/quick_math.h"
+#include "core/base/wide.h"
+#include "core/geom/mesh/four.h"
+#include "core/geom/mesh/tangents.h"
+
+namespace seedmesh {
+namespace {
+
+using Lanes3 = OrganLanes3;
+using Lanes4 = OrganLanes4;
+constexpr std::size_t lanes = organ_lanes;
+static_assert(sizeof(Lanes3) == 3 * lanes * sizeof(float) && sizeof(Lanes4) == 4 * lanes * sizeof(float));
+
+// A normal that follows a crown has at least the first cosine to its faces; one with less is turned to the
+// second.
+constexpr float least_over = 0.1F, wanted_over = 0.15F;
+
+/// Of each lane: the columns of the rotation, the columns multiplied by the scale, and the inverse of the
+/// scale, which normals are multiplied by before they are rotated.
+struct Turns {
+  Lanes3 turn[3], stretch[3], inverse;
+};
+
+glm::vec3 product(const Lanes3 (&m)[3], std::size_t l, const glm::vec3& v) {
+  return {m[0].x[l] * v.x + m[1].x[l] * v.y + m[2].x[l] * v.z,
+          m[0].y[l] * v.x + m[1].y[l] * v.y + m[2].y[l] * v.z,
+          m[0].z[l] * v.x + m[1].z[l] * v.y + m[2].z[l] * v.z};
+}
+
+glm::vec3 cross_of(const glm::vec3& a, const glm::vec3& b) {
+  return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
+}
+
+float dot_of(const glm::vec3& a, const glm::vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+glm::vec3 at(const Lanes3& from, std::size_t l) { return {from.x[l], from.y[l], from.z[l]}; }
+
+void put(Lanes3& __restrict out, std::size_t l, const glm::vec3& v) {
+  out.x[l] = v.x;
+  out.y[l] = v.y;
+  out.z[l] = v.z;
+}
+
+SEEDMESH_WIDE void turns_of(const float (&q)[4][lanes], const Lanes3& scale, Turns& __restrict out) {
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const float x = q[0][l], y = q[1][l], z = q[2][l], w = q[3][l];
+    const glm::vec3 columns[3] = {
+        {1.0F - 2.0F * (y * y + z * z), 2.0F * (x * y + w * z), 2.0F * (x * z - w * y)},
+        {2.0F * (x * y - w * z), 1.0F - 2.0F * (x * x + z * z), 2.0F * (y * z + w * x)},
+        {2.0F * (x * z + w * y), 2.0F * (y * z - w * x), 1.0F - 2.0F * (x * x + y * y)}};
+    const float by[3] = {scale.x[l], scale.y[l], scale.z[l]};
+    for (int k = 0; k < 3; ++k) {
+      put(out.turn[k], l, columns[k]);
+      put(out.stretch[k], l, {columns[k].x * by[k], columns[k].y * by[k], columns[k].z * by[k]});
+    }
+    put(out.inverse, l, {1.0F / by[0], 1.0F / by[1], 1.0F / by[2]});
+  }
+}
+
+SEEDMESH_WIDE std::uint32_t all_units(const Lanes3& v, Lanes3& out) {
+  std::uint32_t failures = 0;
+  for (std::size_t l = 0; l < lanes; ++l) {
+    std::uint32_t failure = 0;
+    put(out, l, organ_unit(at(v, l), failure));
+    failures |= failure;
+  }
+  return failures;
+}
+
+/// The unit vectors of `v`. otherwise(lane) is returned for a vector without a direction.
+template <class Otherwise>
+void to_units(const Lanes3& v, const Otherwise& otherwise, Lanes3& out) {
+  Lanes3 units;
+  if (all_units(v, units) != 0) {
+    for (std::size_t l = 0; l < lanes; ++l) {
+      std::uint32_t failure = 0;
+      organ_unit(at(v, l), failure);
+      if (failure != 0) put(units, l, math::unit(at(v, l), otherwise(l)));
+    }
+  }
+  out = units;
+}
+
+SEEDMESH_WIDE void place_point(const Turns& turns, const Lanes3& place, const glm::vec3& from,
+                               Lanes3& __restrict out) {
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const glm::vec3 p = product(turns.stretch, l, from);
+    put(out, l, {place.x[l] + p.x, place.y[l] + p.y, place.z[l] + p.z});
+  }
+}
+
+SEEDMESH_WIDE void place_normal(const Turns& turns, const glm::vec3& from, Lanes3& __restrict out) {
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const glm::vec3 shrunk{from.x * turns.inverse.x[l], from.y * turns.inverse.y[l],
+                           from.z * turns.inverse.z[l]};
+    put(out, l, product(turns.turn, l, shrunk));
+  }
+}
+
+/// Where u grows, and across the surface.
+SEEDMESH_WIDE void place_axes(const Turns& turns, const TextureAxes& from, Lanes3& __restrict u,
+                              Lanes3& __restrict across) {
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const glm::vec3 along_u = product(turns.stretch, l, from.u), along_v = product(turns.stretch, l, from.v);
+    put(u, l, along_u);
+    put(across, l, cross_of(along_u, along_v));
+  }
+}
+
+SEEDMESH_WIDE std::uint32_t all_tangents(const Lanes3& normal, const Lanes3& u, const Lanes3& across,
+                                         Lanes4& __restrict out) {
+  std::uint32_t failures = 0;
+  for (std::size_t l = 0; l < lanes; ++l) {
+    std::uint32_t failure = 0;
+    const glm::vec4 tangent = organ_tangent(at(normal, l), at(u, l), at(across, l), failure);
+    put(out.xyz, l, glm::vec3(tangent));
+    out.w[l] = tangent.w;
+    failures |= failure;
+  }
+  return failures;
+}
+
+void place_tangent(const Lanes3& normal, const Lanes3& u, const Lanes3& across, Lanes4& out) {
+  if (all_tangents(normal, u, across, out) == 0) return;
+  for (std::size_t l = 0; l < lanes; ++l) {
+    std::uint32_t failure = 0;
+    organ_tangent(at(normal, l), at(u, l), at(across, l), failure);
+    if (failure != 0) put(out.xyz, l, any_across(at(normal, l)));
+  }
+}
+
+/// A tangent that the surface brings along.
+void turn_tangent(const Turns& turns, const glm::vec4& from, const Lanes3& normals, Lanes4& out) {
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const glm::vec3 normal = at(normals, l), along = product(turns.stretch, l, glm::vec3(from));
+    put(out.xyz, l, math::quick_unit(along - normal * glm::dot(along, normal), at(turns.turn[0], l)));
+    out.w[l] = from.w;
+  }
+}
+
+SEEDMESH_WIDE void away_from(const glm::vec3& middle, const Lanes3& position, Lanes3& __restrict out) {
+  for (std::size_t l = 0; l < lanes; ++l)
+    put(out, l, {position.x[l] - middle.x, position.y[l] - middle.y, position.z[l] - middle.z});
+}
+
+/// Between a normal and the direction outward, on the side of the normal.
+SEEDMESH_WIDE void mix_outward(float share, const Lanes3& outward, const Lanes3& normal,
+                               Lanes3& __restrict out) {
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const glm::vec3 own = at(normal, l), away = at(outward, l);
+    const float side = dot_of(away, own) < 0.0F ? -1.0F : 1.0F;
+    put(out, l,
+        {own.x + (away.x * side - own.x) * share, own.y + (away.y * side - own.y) * share,
+         own.z + (away.z * side - own.z) * share});
+  }
+}
+
+/// The cross product of a face's sides. Returns false where at each lane the normals of its corners are on
+/// its side, with a margin.
+SEEDMESH_WIDE bool face_of(const Lanes3* position, const Lanes3* normal, const std::uint32_t* corner,
+                           Lanes3& __restrict out) {
+  const Lanes3 &a = position[corner[0]], &b = position[corner[1]], &c = position[corner[2]];
+  const Lanes3 &n0 = normal[corner[0]], &n1 = normal[corner[1]], &n2 = normal[corner[2]];
+  std::uint32_t any = 0;
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const glm::vec3 across = cross_of({b.x[l] - a.x[l], b.y[l] - a.y[l], b.z[l] - a.z[l]},
+                                      {c.x[l] - a.x[l], c.y[l] - a.y[l], c.z[l] - a.z[l]});
+    put(out, l, across);
+    const float square = dot_of(across, across), least = (least_over + 1e-3F) * std::sqrt(square);
+    // Bits instead of && keep the loop free of branches.
+    const auto bit = [](bool holds) { return holds ? 1U : 0U; };
+    any |= 1U ^ (bit(square > 1e-30F) & bit(dot_of(at(n0, l), across) > least) &
+                 bit(dot_of(at(n1, l), across) > least) & bit(dot_of(at(n2, l), across) > least));
+  }
+  return any != 0;
+}
+
+/// Turns a normal where it is too flat to a face. `turned` gets the vector before it is normalised.
+SEEDMESH_WIDE void lean_toward(const Lanes3& face, const Lanes3& normal, Lanes3& __restrict turned) {
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const glm::vec3 here = at(normal, l), f = at(face, l);
+    const float by = wanted_over - dot_of(here, f);
+    put(turned, l, {here.x + f.x * by, here.y + f.y * by, here.z + f.z * by});
+  }
+}
+
+SEEDMESH_WIDE void select_flat(const Lanes3& face, const Lanes3& turned, Lanes3& __restrict normal) {
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const glm::vec3 here = at(normal, l), other = at(turned, l);
+    const bool is_flat = dot_of(here, at(face, l)) < least_over;
+    put(normal, l, {is_flat ? other.x : here.x, is_flat ? other.y : here.y, is_flat ? other.z : here.z});
+  }
+}
+
+using SixteenFloats = float __attribute__((vector_size(64)));
+static_assert(sizeof(SixteenFloats) == lanes * sizeof(float));
+
+/// Transposes `count` >= 4 rows, in squares of four by four: writes all rows of each lane, lane after lane.
+SEEDMESH_WIDE void write_columns(const float* rows, std::size_t count, float* out) {
+  for (std::size_t done = 0; done < count; done += Four::size) {
+    const std::size_t first = std::min(done, count - Four::size);
+    SixteenFloats a, b, c, d;
+    std::memcpy(&a, rows + first * lanes, sizeof(a));
+    std::memcpy(&b, rows + (first + 1) * lanes, sizeof(b));
+    std::memcpy(&c, rows + (first + 2) * lanes, sizeof(c));
+    std::memcpy(&d, rows + (first + 3) * lanes, sizeof(d));
+    const SixteenFloats low = __builtin_shufflevector(a, b, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28,
+                                                      13, 29),
+                        low2 = __builtin_shufflevector(c, d, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28,
+                                                       13, 29),
+                        high = __builtin_shufflevector(a, b, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14,
+                                                       30, 15, 31),
+                        high2 = __builtin_shufflevector(c, d, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14,
+                                                        30, 15, 31);
+    // Lane k of every four.
+    const SixteenFloats lane[4] = {
+        __builtin_shufflevector(low, low2, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29),
+        __builtin_shufflevector(low, low2, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31),
+        __builtin_shufflevector(high, high2, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29),
+        __builtin_shufflevector(high, high2, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31)};
+    float* to = out + first;
+    for (std::size_t k = 0; k < Four::size; ++k) {
+      const FourFloats quarters[4] = {__builtin_shufflevector(lane[k], lane[k], 0, 1, 2, 3),
+                                      __builtin_shufflevector(lane[k], lane[k], 4, 5, 6, 7),
+                                      __builtin_shufflevector(lane[k], lane[k], 8, 9, 10, 11),
+                                      __builtin_shufflevector(lane[k], lane[k], 12, 13, 14, 15)};
+      for (std::size_t q = 0; q < Four::size; ++q)
+        std::memcpy(to + (k + Four::size * q) * count, &quarters[q], sizeof(FourFloats));
+    }
+  }
+}
+
+/// Transposes `count` rows and writes the first `organs` lanes.
+void write_rows(const float* rows, std::size_t count, std::size_t organs, float* out) {
+  if (organs == lanes && count >= Four::size) return write_columns(rows, count, out);
+  for (std::size_t l = 0; l < organs; ++l) {
+    for (std::size_t row = 0; row < count; ++row) *out++ = rows[row * lanes + l];
+  }
+}
+
+}  // namespace
+
+OrganBlock::OrganBlock(const Mesh& surface, const FoliageOptions& options, std::span<const TextureAxes> axes,
+                       const Job& job)
+    : surface_(surface),
+      options_(options),
+      axes_(axes),
+      position_(job, surface.position.size()),
+      normal_(job, surface.position.size()),
+      tangent_(job, surface.tangent.empty() ? axes.size() : surface.tangent.size()) {}
+
+void OrganBlock::place(const Array<Organ>& organs, std::span<const std::uint32_t> numbers) {
+  Lanes3 base, scale;
+  float quaternion[4][lanes];
+  for (std::size_t l = 0; l < lanes; ++l) {  // the last organ fills the other lanes
+    const Organ& organ = organs[numbers[std::min(l, numbers.size() - 1)]];
+    put(base, l, organ.position);
+    put(scale, l, organ.scale);
+    quaternion[0][l] = organ.frame.x;
+    quaternion[1][l] = organ.frame.y;
+    quaternion[2][l] = organ.frame.z;
+    quaternion[3][l] = organ.frame.w;
+  }
+  Turns turns;
+  turns_of(quaternion, scale, turns);
+  Lanes3 own, vector;
+  for (std::size_t i = 0; i < surface_.position.size(); ++i) {
+    place_point(turns, base, surface_.position[i], position_[i]);
+    if (i == 0 || surface_.normal[i] != surface_.normal[i - 1]) {  // most leaves are flat
+      place_normal(turns, surface_.normal[i], vector);
+      to_units(
+          vector,
+          [](std::size_t) {
+            return glm::vec3{0, 1, 0};
+          },
+          own);
+    }
+    normal_[i] = own;
+    if (!surface_.tangent.empty()) turn_tangent(turns, surface_.tangent[i], own, tangent_[i]);
+    if (!options_.crown) continue;
+    const auto its_own = [&](std::size_t l) { return at(own, l); };
+    away_from(*options_.crown, position_[i], vector);
+    to_units(vector, its_own, vector);
+    mix_outward(options_.crown_share, vector, own, normal_[i]);
+    to_units(normal_[i], its_own, normal_[i]);
+  }
+  if (options_.crown) turn_toward_faces();
+  Lanes3 u, across;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    if (i == 0 || axes_[i] != axes_[i - 1]) place_axes(turns, axes_[i], u, across);
+    place_tangent(normal_[i], u, across, tangent_[i]);
+  }
+}
+
+/// Keeps normals that follow a crown on the side of all their faces.
+void OrganBlock::turn_toward_faces() {
+  const std::uint32_t* corner = surface_.index.wide.data();
+  for (const std::uint32_t* end = corner + surface_.index.wide.size(); corner != end; corner += 3) {
+    Lanes3 face, turned;
+    if (!face_of(position_.data(), normal_.data(), corner, face)) continue;
+    to_units(
+        face,
+        [](std::size_t) {
+          return glm::vec3{0, 1, 0};
+        },
+        face);
+    for (int k = 0; k < 3; ++k) {
+      Lanes3& normal = normal_[corner[k]];
+      lean_toward(face, normal, turned);
+      to_units(
+          turned, [&](std::size_t l) { return at(face, l); }, turned);
+      select_flat(face, turned, normal);
+    }
+  }
+}
+
+void OrganBlock::write(std::size_t count, glm::vec3* position, glm::vec3* normal, glm::vec4* tangent) const {
+  const std::size_t vertices = surface_.position.size();
+  const auto write_all = [&](const auto& lanes_of, std::size_t rows, auto* to) {
+    write_rows(reinterpret_cast<const float*>(lanes_of.data()), rows * vertices, count,
+               reinterpret_cast<float*>(to));
+  };
+  write_all(position_, 3, position);
+  write_all(normal_, 3, normal);
+  if (tangent) write_all(tangent_, 4, tangent);
+}
+
+}  // namespace seedmesh

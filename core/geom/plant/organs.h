@@ -1,0 +1,58 @@
+#pragma once
+/// Organs to meshes: copies of small meshes for leaves, petals and fruits.
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/geom/plant/limbs.h"
+#include "core/geom/plant/wind.h"
+#include "core/model/model.h"
+
+namespace seedmesh {
+
+/// All organs of one surface and one colour index, as one mesh.
+struct Foliage {
+  std::uint32_t surface = 0;
+  std::int16_t color = 0;
+  Mesh mesh;
+};
+
+/// The same as transforms of one mesh.
+struct FoliagePlaces {
+  std::uint32_t surface = 0;
+  std::int16_t color = 0;
+  std::vector<Transform> places;
+};
+
+struct FoliageOptions {
+  /// By Organ::surface; borrowed. Each has positions, normals and wide indices, and may have uv[0], tangents
+  /// and colours.
+  std::span<const Mesh> surfaces;
+  /// The diagonal of the whole model. Organs smaller than 1/5000 of it are left out: readers that weld
+  /// vertices at 1e-6 of the diagonal would make points of their triangles.
+  float model_size = 0;
+  /// If set, normals are mixed with the direction away from this point, so that a crown is lit as one body.
+  /// They stay on the side of their faces, since renderers turn the normals of back faces around.
+  std::optional<glm::vec3> crown;
+  float crown_share = 0.75F;
+  /// Organs differ in brightness by up to this share, by a hash of their key, as vertex colours; 0: no
+  /// colours.
+  float tint = 0;
+  /// For each joint of the limbs, what moves it: Mesh::bone gets that of Organ::limb_joint.
+  std::span<const std::uint16_t> bones = {};
+  /// If not null, wind weights are added (wind.h).
+  const WindField* wind = nullptr;
+  /// Add tangents along uv[0], which surfaces then have, as add_tangents() would.
+  bool tangents = false;
+};
+
+/// One Foliage for each surface and colour in use, both rising. Organs that coincide with an earlier one of
+/// their surface, and organs without extent, are left out. A surface's tangents are transformed with it.
+/// Charges Resource::triangles before it allocates. Runs on job.threads(); the result does not depend on
+/// their number. 3 ns a vertex and thread, twice that with a crown.
+std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& options, Job& job);
+
+/// The same organs as transforms, for formats where nodes share a mesh.
+std::vector<FoliagePlaces> organ_places(const Organs& organs, const FoliageOptions& options, Job& job);
+
+}  // namespace seedmesh

@@ -1,0 +1,173 @@
+#include "core/geom/plant/surroundings.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace seedmesh {
+namespace {
+
+constexpr std::size_t look_every = 1024;
+// The number of points of an internode that are tested.
+constexpr int probes = 8;
+
+class Pruning {
+ public:
+  Pruning(Skeleton& skeleton, const Surroundings& surroundings, Membership membership, Job& job)
+      : skeleton_(skeleton),
+        limbs_(skeleton.limbs),
+        surroundings_(surroundings),
+        membership_(membership),
+        job_(job),
+        place_(job, skeleton.limbs.size()) {}
+
+  void run() {
+    for (std::size_t i = 0; i < limbs_.size(); ++i) {
+      if (i % look_every == 0) job_.check();
+      test(static_cast<std::uint32_t>(i));
+    }
+    compact();
+    drop_outlines();
+    drop_organs();
+  }
+
+ private:
+  static constexpr std::uint32_t gone = Limbs::none;
+
+  bool is_in(const glm::dvec3& point) const { return surroundings_.room_at(point) >= 0; }
+
+  void test(std::uint32_t joint) {
+    const std::uint32_t parent = limbs_.parent[joint];
+    if (parent == Limbs::none) {
+      const std::uint32_t anchor = limbs_.anchor.empty() ? Limbs::none : limbs_.anchor[joint];
+      keep(joint, (anchor == Limbs::none || place_[anchor] != gone) && is_in(limbs_.position[joint]));
+      return;
+    }
+    if (place_[parent] == gone || was_cut_[parent]) return keep(joint, false);
+    const glm::dvec3 from = limbs_.position[parent], step = glm::dvec3(limbs_.position[joint]) - from;
+    double share = 1;
+    switch (membership_) {
+      case Membership::centre:
+        return keep(joint, is_in(from + 0.5 * step));
+      case Membership::whole:
+        return keep(joint, inside_share(from, step) == 1);
+      case Membership::clipped:
+        share = inside_share(from, step);
+        break;
+    }
+    keep(joint, share > 0.01);
+    if (share == 1 || share <= 0.01) return;
+    const auto taper = static_cast<float>(share);
+    limbs_.position[joint] = glm::vec3(from + share * step) + 0.0F;
+    limbs_.radius[joint] =
+        limbs_.base_radius[joint] + (limbs_.radius[joint] - limbs_.base_radius[joint]) * taper;
+    was_cut_[joint] = true;
+  }
+
+  /// The share of the step, from its beginning, that is inside.
+  double inside_share(const glm::dvec3& from, const glm::dvec3& step) const {
+    double low = 0;
+    for (int i = 0; i <= probes; ++i) {
+      const double share = static_cast<double>(i) / probes;
+      if (is_in(from + share * step)) {
+        low = share;
+        continue;
+      }
+      if (i == 0) return 0;
+      double high = share;
+      for (int k = 0; k < 20; ++k) {
+        const double middle = 0.5 * (low + high);
+        (is_in(from + middle * step) ? low : high) = middle;
+      }
+      return low;
+    }
+    return 1;
+  }
+
+  void keep(std::uint32_t joint, bool yes) {
+    was_cut_.resize(std::max<std::size_t>(was_cut_.size(), joint + std::size_t{1}), false);
+    place_[joint] = yes ? kept_++ : gone;
+  }
+
+  template <class T>
+  void compact(Array<T>& values) {
+    if (values.empty()) return;
+    for (std::size_t i = 0; i < place_.size(); ++i) {
+      if (place_[i] != gone) values[place_[i]] = values[i];
+    }
+    values.resize(kept_);
+  }
+
+  std::uint32_t renamed(std::uint32_t joint) const {
+    return joint == Limbs::none ? Limbs::none : place_[joint];
+  }
+
+  void compact() {
+    for (std::uint32_t& parent : limbs_.parent) parent = renamed(parent);
+    for (std::uint32_t& anchor : limbs_.anchor) anchor = renamed(anchor);
+    compact(limbs_.position);
+    compact(limbs_.radius);
+    compact(limbs_.base_radius);
+    compact(limbs_.parent);
+    compact(limbs_.starts_limb);
+    compact(limbs_.color);
+    compact(limbs_.order);
+    compact(limbs_.frame);
+    compact(limbs_.contour);
+    compact(limbs_.birth);
+    compact(limbs_.key);
+    compact(limbs_.anchor);
+    compact(limbs_.share);
+  }
+
+  void drop_outlines() {
+    Outlines& outlines = skeleton_.outlines;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < outlines.outline.size(); ++i) {
+      if (i % look_every == 0) job_.check();
+      Outline outline = outlines.outline[i];
+      if (outline.limb_joint != Limbs::none) {
+        if (place_[outline.limb_joint] == gone || was_cut_[outline.limb_joint]) continue;
+        outline.limb_joint = place_[outline.limb_joint];
+      }
+      glm::dvec3 centre{0};
+      bool whole = true;
+      for (std::uint32_t k = outline.first; k < outline.first + outline.count; ++k) {
+        centre += glm::dvec3(outlines.vertex[k]) / double(outline.count);
+        whole = whole && (membership_ != Membership::whole || is_in(outlines.vertex[k]));
+      }
+      if (whole && is_in(centre)) outlines.outline[kept++] = outline;
+    }
+    outlines.outline.resize(kept);
+  }
+
+  void drop_organs() {
+    Array<Organ>& organs = skeleton_.organs.organ;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < organs.size(); ++i) {
+      Organ organ = organs[i];
+      if (organ.limb_joint != Limbs::none) {
+        if (place_[organ.limb_joint] == gone || was_cut_[organ.limb_joint]) continue;
+        organ.limb_joint = place_[organ.limb_joint];
+      }
+      if (is_in(organ.position)) organs[kept++] = organ;
+    }
+    organs.resize(kept);
+  }
+
+  Skeleton& skeleton_;
+  Limbs& limbs_;
+  const Surroundings& surroundings_;
+  Membership membership_;
+  Job& job_;
+  Array<std::uint32_t> place_;  ///< new number of each joint, or gone
+  std::vector<bool> was_cut_;
+  std::uint32_t kept_ = 0;
+};
+
+}  // namespace
+
+void prune(Skeleton& skeleton, const Surroundings& surroundings, Membership membership, Job& job) {
+  if (surroundings.bounds_growth()) Pruning(skeleton, surroundings, membership, job).run();
+}
+
+}  // namespace seedmesh

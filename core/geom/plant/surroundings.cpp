@@ -1,0 +1,226 @@
+#include "core/geom/plant/surroundings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+
+namespace seedmesh {
+namespace {
+
+constexpr std::size_t look_every = 1024;
+constexpr double everywhere = 1e9;
+// The number of points of a step that are tested.
+constexpr int probes = 8;
+// Ancestors of a tip that it cannot collide with: its own last internodes.
+constexpr int kin = 8;
+// The largest number of cells of one internode; a coarser grid is used for longer ones.
+constexpr int most_cells = 32;
+// A step of more pieces, of four cells each, is not a step of a plant.
+constexpr double most_pieces = 1024;
+
+double length_of(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
+
+std::uint64_t cell_key(std::int64_t x, std::int64_t y, std::int64_t z) {
+  constexpr std::uint64_t mask = (std::uint64_t{1} << 21U) - 1;
+  return (static_cast<std::uint64_t>(x) & mask) << 42U | (static_cast<std::uint64_t>(y) & mask) << 21U |
+         (static_cast<std::uint64_t>(z) & mask);
+}
+
+std::int64_t cell_of(double x, double size) { return math::to_int64(std::floor(x / size)); }
+
+/// The distance of two segments (Ericson, "Real-Time Collision Detection", 2005, section 5.1.9).
+double segments_apart(const glm::dvec3& p1, const glm::dvec3& q1, const glm::dvec3& p2,
+                      const glm::dvec3& q2) {
+  const glm::dvec3 d1 = q1 - p1, d2 = q2 - p2, r = p1 - p2;
+  const double a = glm::dot(d1, d1), e = glm::dot(d2, d2), f = glm::dot(d2, r);
+  double s = 0, t = 0;
+  if (a > 0 && e > 0) {
+    const double c = glm::dot(d1, r), b = glm::dot(d1, d2), denominator = a * e - b * b;
+    if (denominator > 0) s = std::clamp((b * f - c * e) / denominator, 0.0, 1.0);
+    t = (b * s + f) / e;
+    if (t < 0 || t > 1) {
+      t = std::clamp(t, 0.0, 1.0);
+      s = std::clamp((b * t - c) / a, 0.0, 1.0);
+    }
+  } else if (a > 0) {
+    s = std::clamp(-glm::dot(d1, r) / a, 0.0, 1.0);
+  } else if (e > 0) {
+    t = std::clamp(f / e, 0.0, 1.0);
+  }
+  return length_of(p1 + d1 * s - (p2 + d2 * t));
+}
+
+template <class Visit>
+void visit_cells(const glm::dvec3& low, const glm::dvec3& high, double size, Visit&& visit) {
+  for (std::int64_t x = cell_of(low.x, size); x <= cell_of(high.x, size); ++x) {
+    for (std::int64_t y = cell_of(low.y, size); y <= cell_of(high.y, size); ++y) {
+      for (std::int64_t z = cell_of(low.z, size); z <= cell_of(high.z, size); ++z) visit(cell_key(x, y, z));
+    }
+  }
+}
+
+}  // namespace
+
+Surroundings::Surroundings(Options options, Job& job)
+    : options_(std::move(options)), job_(job), cells_(job), shades_(job) {}
+
+double Surroundings::room_at(const glm::dvec3& point) const {
+  double room = everywhere;
+  if (!options_.guides.empty()) {
+    room = -everywhere;
+    for (const Solid& guide : options_.guides) room = std::max(room, -surface_near(guide, point).distance);
+  }
+  for (const Solid& obstacle : options_.obstacles)
+    room = std::min(room, surface_near(obstacle, point).distance);
+  return room;
+}
+
+glm::dvec3 Surroundings::toward_surface(const glm::dvec3& point) const {
+  double least = everywhere;
+  glm::dvec3 to{0};
+  for (const Solid& solid : options_.obstacles.empty() ? options_.guides : options_.obstacles) {
+    const SurfacePoint found = surface_near(solid, point);
+    if (std::abs(found.distance) >= least) continue;
+    least = std::abs(found.distance);
+    to = found.nearest - point;
+  }
+  return math::unit(to, glm::dvec3{0});
+}
+
+void Surroundings::settle(std::span<const Stretch> grown) {
+  grown_.assign(grown.begin(), grown.end());
+  cells_.clear();
+  double longest = 0, thickest = 0;
+  for (const Stretch& each : grown_) {
+    longest = std::max(longest, length_of(each.to - each.from));
+    thickest = std::max(thickest, each.radius);
+  }
+  // Cells of about the mean length hold few internodes; none lies in more than most_cells along an axis.
+  double sum = 0;
+  for (const Stretch& each : grown_) sum += length_of(each.to - each.from);
+  const double mean = grown_.empty() ? 1 : sum / static_cast<double>(grown_.size());
+  cell_ = std::max({mean, 2 * thickest + options_.clearance, longest / most_cells, 1e-4});
+  for (std::size_t i = 0; i < grown_.size(); ++i) {
+    if (i % look_every == 0) job_.check();
+    const Stretch& each = grown_[i];
+    const double reach = each.radius + options_.clearance;
+    visit_cells(glm::min(each.from, each.to) - reach, glm::max(each.from, each.to) + reach, cell_,
+                [&](std::uint64_t key) {
+                  cells_.push_back({key, static_cast<std::uint32_t>(i)});
+                });
+  }
+  std::sort(cells_.begin(), cells_.end(), [](const Cell& a, const Cell& b) {
+    return a.key != b.key ? a.key < b.key : a.stretch < b.stretch;
+  });
+  cast_shadows();
+}
+
+void Surroundings::cast_shadows() {
+  shades_.clear();
+  const ShadowOptions& shadow = options_.shadow;
+  // Each cell once: many short internodes are no darker than one long twig.
+  Array<std::uint64_t> filled = shades_.like<std::uint64_t>();
+  for (const Stretch& each : grown_) {
+    const glm::dvec3 end = each.to;
+    filled.push_back(
+        cell_key(cell_of(end.x, shadow.cell), cell_of(end.y, shadow.cell), cell_of(end.z, shadow.cell)));
+  }
+  std::sort(filled.begin(), filled.end());
+  const auto* const last = std::unique(filled.begin(), filled.end());
+  const auto coordinate = [](std::uint64_t key, unsigned shift) {
+    constexpr std::uint64_t mask = (std::uint64_t{1} << 21U) - 1;
+    const auto value = static_cast<std::int64_t>(key >> shift & mask);
+    return value >= (std::int64_t{1} << 20U) ? value - (std::int64_t{1} << 21U) : value;
+  };
+  std::size_t steps = 0;
+  for (const std::uint64_t* key = filled.begin(); key != last; ++key) {
+    if (++steps % look_every == 0) job_.check();
+    double amount = shadow.shade;
+    const std::int64_t x = coordinate(*key, 42), y = coordinate(*key, 21), z = coordinate(*key, 0);
+    for (int layer = 0; layer <= shadow.layers; ++layer, amount /= shadow.falloff) {
+      for (std::int64_t dx = -layer; dx <= layer; ++dx) {
+        for (std::int64_t dz = -layer; dz <= layer; ++dz)
+          shades_.push_back({cell_key(x + dx, y - layer, z + dz), amount});
+      }
+    }
+  }
+  std::sort(shades_.begin(), shades_.end(), [](const Shade& a, const Shade& b) {
+    return a.key != b.key ? a.key < b.key : a.amount > b.amount;
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < shades_.size(); ++i) {
+    if (kept > 0 && shades_[kept - 1].key == shades_[i].key) {
+      shades_[kept - 1].amount += shades_[i].amount;
+    } else {
+      shades_[kept++] = shades_[i];
+    }
+  }
+  shades_.resize(kept);
+}
+
+double Surroundings::light_at(const glm::dvec3& point) const {
+  const double size = options_.shadow.cell;
+  const std::uint64_t key = cell_key(cell_of(point.x, size), cell_of(point.y, size), cell_of(point.z, size));
+  const auto* const found = std::lower_bound(
+      shades_.begin(), shades_.end(), key, [](const Shade& shade, std::uint64_t k) { return shade.key < k; });
+  if (found == shades_.end() || found->key != key) return 1;
+  return std::clamp(1 - (found->amount - options_.shadow.shade), 0.0, 1.0);
+}
+
+bool Surroundings::collides(const Prober& prober, const glm::dvec3& from, const glm::dvec3& to) const {
+  std::uint32_t relatives[kin];
+  int count = 0;
+  for (std::uint32_t joint = prober.joint; joint != Limbs::none && count < kin;) {
+    relatives[count++] = joint;
+    const auto own = std::lower_bound(
+        grown_.begin(), grown_.end(), std::pair(prober.system, joint),
+        [](const Stretch& each, const auto& wanted) { return std::pair(each.system, each.joint) < wanted; });
+    joint = own != grown_.end() && own->system == prober.system && own->joint == joint ? own->parent
+                                                                                       : Limbs::none;
+  }
+  const glm::dvec3 place = glm::vec3(prober.position) + 0.0F;  // rounded as internodes are stored
+  const auto is_kin = [&](const Stretch& each) {
+    if (each.system != prober.system) return false;
+    if (each.limb == prober.limb || each.limb == prober.limb_ahead) return true;
+    if (each.limb_below == prober.limb_ahead && (prober.joint == Limbs::none || each.parent > prober.joint))
+      return true;  // grows from what has grown on
+    if (each.parent == prober.joint || each.from == place) return true;
+    return std::find(relatives, relatives + count, each.joint) != relatives + count;
+  };
+  const double reach = prober.radius;
+  bool hit = false;
+  visit_cells(glm::min(from, to) - reach, glm::max(from, to) + reach, cell_, [&](std::uint64_t key) {
+    if (hit) return;
+    const auto* found = std::lower_bound(cells_.begin(), cells_.end(), key,
+                                         [](const Cell& cell, std::uint64_t k) { return cell.key < k; });
+    for (; found != cells_.end() && found->key == key && !hit; ++found) {
+      const Stretch& each = grown_[found->stretch];
+      if (is_kin(each)) continue;
+      hit = segments_apart(from, to, each.from, each.to) < prober.radius + each.radius + options_.clearance;
+    }
+  });
+  return hit;
+}
+
+bool Surroundings::is_free(const Prober& prober, double length) const {
+  if (bounds_growth()) {
+    for (int i = 0; i <= probes; ++i) {
+      if (room_at(prober.position + prober.heading * (length * i / probes)) < 0) return false;
+    }
+  }
+  if (grown_.empty()) return true;
+  // Piece by piece, so that a long step visits the cells along it and not all cells of its box.
+  const double pieces = std::ceil(std::abs(length) / (4 * cell_));
+  if (!(pieces <= most_pieces)) return false;
+  const int count = std::max(1, static_cast<int>(math::to_int32(pieces)));
+  glm::dvec3 from = prober.position;
+  for (int i = 1; i <= count; ++i) {
+    const glm::dvec3 end = prober.position + prober.heading * (length * i / count);
+    if (collides(prober, from, end)) return false;
+    from = end;
+  }
+  return true;
+}
+
+}  // namespace seedmesh

@@ -1,0 +1,99 @@
+#pragma once
+/// The surroundings of a growing plant: solids that bound it or are obstacles, what has grown already, and
+/// the light at a point. Open L-systems query it (Mech and Prusinkiewicz, "Visual Models of Plants
+/// Interacting with Their Environment", 1996), and prune() removes what has grown into it.
+#include <span>
+#include <vector>
+
+#include "core/geom/mesh/solid.h"
+#include "core/geom/plant/limbs.h"
+
+namespace seedmesh {
+
+/// Light by shadow voxels (Palubicki et al., "Self-organizing tree models for image synthesis", 2009, section
+/// 4.1.2): limbs in a cell shade the cells below it in a pyramid, by shade * falloff^-q in the q-th
+/// layer below.
+struct ShadowOptions {
+  double cell = 0.5;     ///< m
+  double shade = 0.2;    ///< of the cell itself
+  double falloff = 1.6;  ///< from layer to layer
+  int layers = 6;        ///< below the cell
+};
+
+/// An internode with which others can collide.
+struct Stretch {
+  glm::dvec3 from{0}, to{0};
+  double radius = 0;
+  std::uint32_t system = 0;
+  std::uint32_t joint = 0, parent = 0;  ///< in the system's Limbs
+  std::uint32_t limb = 0,
+                limb_below = 0;  ///< any number for each limb: its own, and that of its parent joint
+};
+
+/// A tip that queries. Its own limb is ignored, behind and ahead, and so are the first internodes of side
+/// limbs ahead, what grows from the same joint or position, and the last internodes that it grows from.
+struct Prober {
+  glm::dvec3 position{0}, heading{0, 1, 0};
+  double radius = 0;
+  std::uint32_t system = 0;
+  std::uint32_t joint = Limbs::none;  ///< the last joint on its branch
+  std::uint32_t limb = Limbs::none,
+                limb_ahead = Limbs::none;  ///< the limb that it is on, and the limb that continues from it
+};
+
+class Surroundings {
+ public:
+  struct Options {
+    std::vector<Solid> guides;     ///< growth stays inside the union of these; empty: everywhere
+    std::vector<Solid> obstacles;  ///< growth stays outside all of these
+    ShadowOptions shadow;
+    double clearance = 0;  ///< the distance that limbs keep from each other beyond their radii, m
+  };
+  Surroundings(Options options, Job& job);
+
+  /// The signed distance from a point to the surface of guides and obstacles, in metres: positive where
+  /// growth is allowed. 1e9 where there are neither guides nor obstacles.
+  double room_at(const glm::dvec3& point) const;
+  /// The unit vector to the nearest point of an obstacle, or of a guide where there are no obstacles; 0 on
+  /// the surface or where there are neither.
+  glm::dvec3 toward_surface(const glm::dvec3& point) const;
+
+  /// Replaces all limbs.
+  void settle(std::span<const Stretch> grown);
+  /// True where the tip may grow by `length` along its heading: inside guides, outside obstacles, and clear of
+  /// other limbs.
+  bool is_free(const Prober& prober, double length) const;
+  /// From 0, dark, to 1, open sky. A tip's own shade is not counted.
+  double light_at(const glm::dvec3& point) const;
+
+  bool bounds_growth() const { return !options_.guides.empty() || !options_.obstacles.empty(); }
+
+ private:
+  struct Cell {
+    std::uint64_t key;
+    std::uint32_t stretch;
+  };
+  struct Shade {
+    std::uint64_t key;
+    double amount;
+  };
+  void cast_shadows();
+  bool collides(const Prober& prober, const glm::dvec3& from, const glm::dvec3& to) const;
+
+  Options options_;
+  Job& job_;
+  double cell_ = 1;  ///< of the grid of internodes
+  std::vector<Stretch> grown_;
+  Array<Cell> cells_;    ///< sorted
+  Array<Shade> shades_;  ///< sorted, one a cell
+};
+
+enum class Membership { centre, whole, clipped };
+
+/// Removes every internode that is not inside guides and outside obstacles, and all that grows from it.
+/// Membership is decided by its centre, by nine points along it, or the internode is cut at the surface.
+/// Outlines and organs are removed with their joint, and where their own centre is not inside (with whole
+/// membership: any vertex).
+void prune(Skeleton& skeleton, const Surroundings& surroundings, Membership membership, Job& job);
+
+}  // namespace seedmesh

@@ -1,0 +1,27 @@
+#pragma once
+/// Weather on a finished skeleton: wind, rain and snow bend its limbs by force against thickness.
+///
+/// After Kogovšek 2014, section 3.2.4: first the model is made without weather. Then, from the root to the
+/// last leaf, the force of the weather turns each element depending on its thickness. All elements beyond
+/// it turn with it.
+/// - Forces: the drag of a cylinder in cross flow and of a plate, the weight of snow on horizontal area and
+///   of water on wet area.
+/// - Turn: that of a cantilever (Euler and Bernoulli), bending moment times length divided by E I with I = pi
+///   r^4 / 4. Moment and force are those of all parts beyond. A turn ends at the direction of the force.
+#include "core/geom/plant/limbs.h"
+
+namespace seedmesh {
+
+struct Weather {
+  glm::dvec3 wind{0};      ///< velocity of the air, m/s
+  double snow = 0;         ///< kg for each square metre seen from above
+  double rain = 0;         ///< kg of water for each square metre of surface (mm)
+  double stiffness = 8e9;  ///< Young's modulus E of the wood, Pa; green wood has 5e9 to 1.5e10
+};
+
+/// Moves joints, their frames, organs and outlines. Radii, lengths of internodes and positions of roots stay.
+/// A part that begins after a move follows the joint before the move (Limbs::anchor). An internode without
+/// radius is rigid. Linear time, one thread; about 170 bytes a joint while it runs.
+void bend(Skeleton& skeleton, const Weather& weather, Job& job);
+
+}  // namespace seedmesh

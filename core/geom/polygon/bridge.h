@@ -1,0 +1,19 @@
+#pragma once
+/// One closed outline of a polygon with holes.
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <span>
+#include <vector>
+
+namespace seedmesh {
+
+/// Joins the holes of a polygon to its outer ring. `points` holds all rings one behind the other, with
+/// `ring_sizes` points each: the outer ring counter-clockwise, then the holes clockwise. The answer is an
+/// outline of numbers of points, in which each bridge between two rings occurs once in each direction. If no
+/// two edges of the polygon meet except at common ends, no bridge crosses or touches an edge or another
+/// bridge: all tests of sides are exact. Rings of fewer than three points are left out. Cost: points times
+/// rings. Source: Eberly, "Triangulation by ear clipping", 2008.
+std::vector<std::uint32_t> join_holes(std::span<const glm::dvec2> points,
+                                      std::span<const std::uint32_t> ring_sizes);
+
+}  // namespace seedmesh

@@ -1,0 +1,176 @@
+#pragma once
+/// The moving outline of a straight skeleton; for straight_skeleton.cpp only.
+#include <map>
+#include <queue>
+#include <set>
+
+#include "core/geom/polygon/cell_grid.h"
+#include "core/geom/polygon/straight_skeleton.h"
+
+namespace seedmesh {
+
+/// Edges and the corners between them change only at events: an edge shrinks to length 0, or a corner hits an
+/// edge. All events of one time are resolved together, position by position. Trajectories of corners end
+/// there; edges without a length are removed; opposite edges on each other become a ridge; the remaining ends
+/// are joined so that the inside stays to the left. At each position as many edges end as begin, so that the
+/// outline stays closed despite rounding errors.
+///
+/// A corner is compared with the edges of its neighbourhood alone. A grid holds the regions that edges and
+/// corners pass over until a horizon, which is chosen so that these regions stay small; then the grid is made
+/// anew with the corners that are left. Regions end where an edge is known to shrink to nothing. So an event
+/// costs log n for the queue and the number of neighbours, and the grid costs a few steps for each corner and
+/// horizon.
+class Wavefront {
+ public:
+  /// A line that moves along its normal.
+  struct Source {
+    glm::dvec2 direction{0}, normal{0};  ///< the normal is to the left
+    double offset = 0, speed = 1;        ///< normal . p = offset + speed * time
+    std::uint32_t edge = 0;              ///< of the plan
+    bool is_step = false;
+  };
+  /// A piece of the border of a face, which lies to its left.
+  struct Border {
+    std::uint32_t source, from, to;
+  };
+
+  Wavefront(const Plan& plan, const SkeletonOptions& options, const Job& job);
+
+  /// Runs to the end time. False: the outline does not close in the expected number of steps.
+  bool run();
+
+  std::vector<Source> sources;  ///< one for each edge of the plan, then steps
+  std::vector<glm::dvec3> nodes;
+  std::vector<Border> borders;
+  std::vector<SkeletonFront> fronts;
+  double scale = 1;
+
+ private:
+  static constexpr std::uint32_t none = 0xFFFFFFFFU;
+  struct Corner {
+    glm::dvec2 place{0}, velocity{0};
+    double time = 0;
+    std::uint32_t node = 0, in = 0, out = 0;  ///< where it began, and the edges before and after it
+    bool is_alive = true, can_hit = false;
+  };
+  /// An edge between two corners. While events are resolved, an open end is a node.
+  struct Edge {
+    std::uint32_t source = 0;
+    std::uint32_t start = none, end = none;
+    std::uint32_t start_node = none, end_node = none;
+    std::uint32_t version = 0;
+    bool is_alive = true, is_open = false;
+    bool is_touched = false;                               ///< since the last round of `settle`
+    std::uint32_t listed_start = none, listed_end = none;  ///< the nodes in ends_ that list its open ends
+    double since = 0;                                      ///< the time of its last change
+    double until = 0;                                      ///< the time when it shrinks to length 0
+  };
+  struct Event {
+    double time = 0;
+    std::uint32_t edge = 0, version = 0;
+    std::uint32_t corner = none;  ///< none: the edge shrinks to length 0
+    bool operator<(const Event& other) const;
+  };
+  /// A corner at the position of an event, or a position on an edge.
+  struct Touch {
+    glm::dvec2 place{0};
+    std::uint32_t corner = none, edge = none;
+    std::uint32_t first = 0;  ///< the first touch at the same position; later the node
+  };
+  /// Two edges that are joined at a node.
+  struct Joint {
+    std::uint32_t in, out, node;
+  };
+
+  const Source& source(std::uint32_t edge) const { return sources[edges_[edge].source]; }
+  glm::dvec2 place_of(std::uint32_t corner) const;
+  glm::dvec2 place_at(std::uint32_t corner, double time) const;
+  glm::dvec2 far_place(std::uint32_t edge, bool at_start) const;
+  std::uint32_t add_node(const glm::dvec2& place);
+
+  void add_ring(const PlanRing& ring, std::uint32_t first);
+  bool is_current(const Event& event) const;
+  void expect_collapse(std::uint32_t edge);
+  void expect_hit(std::uint32_t corner, std::uint32_t edge);
+  void expect();
+  void expect_nearby();
+  void expect_all();
+  bool is_at_horizon() const;
+  void look_from(std::uint32_t corner, double from);
+  void look_at(std::uint32_t edge);
+  void move_horizon();
+  void drop_ended();
+  void place_grid(double time);
+  bool fill_grid(double from, double ahead);
+  double pairs_in_grid();
+  template <class Visit>
+  void each_cell_of_edge(std::uint32_t edge, double from, double until, const Visit& visit) const;
+  template <class Visit>
+  void each_cell_of_corner(std::uint32_t corner, double from, double until, const Visit& visit) const;
+  void count_looks(std::size_t count);
+
+  void resolve(const std::vector<Event>& batch);
+  std::vector<Touch> touches_of(const std::vector<Event>& batch) const;
+  void name_nodes(std::vector<Touch>& touches);
+  void end_corner(std::uint32_t corner, std::uint32_t node);
+  void open_end(std::uint32_t edge, bool at_start, std::uint32_t node);
+  void split(std::uint32_t edge, const std::vector<std::uint32_t>& at);
+  bool settle();
+  void touch(std::uint32_t edge);
+  void take_touched();
+  void unlist(std::uint32_t edge);
+  void cancel_opposites(const std::pair<std::uint32_t, std::uint32_t>& span);
+  void find_joints();
+  void pair_round(std::uint32_t node, const std::set<std::uint32_t>& rays, std::vector<Joint>& joints) const;
+  bool is_closing(std::uint32_t in, std::uint32_t out) const;
+  void zip(std::uint32_t in, std::uint32_t out, std::uint32_t node);
+  void join(std::uint32_t in, std::uint32_t out, std::uint32_t node);
+  void add_corner(std::uint32_t in, std::uint32_t out, std::uint32_t node);
+  void close_fronts();
+
+  double end_time_, now_ = 0;
+  double near_ = 0;     ///< positions nearer than this are equal
+  double soon_ = 0;     ///< times nearer than this are equal
+  double fastest_ = 0;  ///< the greatest speed of an edge
+  const Job& job_;
+  std::uint64_t looks_ = 0;
+  std::vector<Corner> corners_;
+  std::vector<Edge> edges_;
+  std::priority_queue<Event> events_;
+  std::vector<std::uint32_t> open_;     ///< edges with an open end
+  std::vector<std::uint32_t> hitters_;  ///< corners that can hit edges; some have ended
+  std::vector<std::uint32_t> fresh_;    ///< corners made since `expect`
+  std::vector<std::uint32_t> front_;    ///< edges; some are not alive
+
+  // The search for hits.
+  /// What a quick comparison needs of an edge.
+  struct Line {
+    glm::dvec2 normal{0};
+    double offset = 0, speed = 0, until = 0;
+  };
+  std::vector<Line> lines_;
+  bool uses_grid_ = false;
+  double horizon_ = -1;          ///< hits up to this time are in the queue
+  double horizon_before_ = -1;   ///< of the grid before, whose hits are not put into the queue again
+  double ahead_ = 0;             ///< from the time when the grid was made to the horizon
+  double least_ahead_ = 0;       ///< a grid to this horizon may be as large as it needs to be
+  glm::dvec2 low_{0}, high_{0};  ///< of the grid
+  std::size_t cells_ = 0;
+  std::size_t changes_ = 0;  ///< edges that changed since the grid was made
+  double effort_ = 1;        ///< a factor of the pairs that a grid may have
+  CellGrid edge_grid_, corner_grid_;
+  std::size_t most_entries_ = 0;  ///< with more the grid is made anew
+  std::vector<std::uint32_t> seen_;
+  std::vector<std::uint32_t> edge_mark_, corner_mark_;  ///< equal to mark_: is in seen_
+  std::uint32_t mark_ = 0;
+
+  // Used by settle().
+  std::vector<std::uint32_t> touched_;                     ///< edges changed since the last round
+  std::map<std::uint32_t, std::set<std::uint32_t>> ends_;  ///< by node: twice the edge, odd where it begins
+  std::map<std::uint32_t, std::vector<Joint>> joints_;     ///< by node
+  std::set<std::uint32_t> changed_nodes_, closing_nodes_;
+  /// Edges with two open ends, by their two nodes, the lower first.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::set<std::uint32_t>> spans_;
+};
+
+}  // namespace seedmesh

@@ -1,0 +1,25 @@
+#pragma once
+/// EXT_meshopt_compression (Kapoulkine, Khronos registry 2021) for an arranged buffer: views of vertices and
+/// indices become streams of meshoptimizer's codecs, the other views stay.
+#include <cstdint>
+#include <string>
+
+#include "core/gltf/bin.h"
+
+namespace seedmesh::gltf {
+
+/// Encodes an array that will have a view of its own, before compress(), which then uses the stream.
+Slice encoded_ahead(const Slice& plain, Pool pool, Job& job);
+
+struct Compressed {
+  Bin bin;                     ///< arranged; its views are those of the plain buffer, in their order
+  std::string views;           ///< bufferViews for readers of the extension, as a list without brackets
+  std::uint64_t fallback = 0;  ///< bytes of the second buffer, which is not stored; 0: nothing is compressed
+};
+
+/// `plain` has been arranged tight, so that indices of several meshes form one stream. Its arrays are
+/// released one by one as they are encoded. Charges the streams to `job`. About 45 ms for a million
+/// triangles.
+Compressed compress(Bin& plain, Job& job);
+
+}  // namespace seedmesh::gltf

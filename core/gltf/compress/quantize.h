@@ -1,0 +1,36 @@
+#pragma once
+/// KHR_mesh_quantization (Kapoulkine, Khronos registry 2020): attributes of 16 bits, as compress() needs
+/// them.
+#include <vector>
+
+#include "core/gltf/columns.h"
+
+namespace seedmesh::gltf {
+
+/// The possible positions of a mesh: origin + step * (0..65535) along each axis. `step` is a power of two and
+/// `origin` a multiple of it, so that meshes with equal steps share their grid points.
+struct Grid {
+  glm::vec3 origin{0};
+  float step = 1;
+};
+
+/// One grid for each mesh; meshes that one node or one skin shows get equal grids.
+std::vector<Grid> grids_of(const Model& model);
+
+/// Computes grids_of() and writes the inverse of the quantization into the model: into the transforms of
+/// nodes and copies, into the matrices of skins, or, where a node has children or is animated, into a new
+/// child node ("trunk_mesh").
+std::vector<Grid> apply_grids(Model& model);
+
+/// Quantizes the columns of a part to 16 bits, with the filters of EXT_meshopt_compression: normals and
+/// tangents octahedral with 10 bits for each axis, texture coordinates outside 0..1 exponential with steps of
+/// 2^-14. Joins vertices that have become equal, and drops triangles that have become flat; none may be left.
+/// Where the grid is too coarse to keep the surface closed, positions stay floats in units of the grid's
+/// step. Linear time.
+void quantize(Part& part, const Grid& grid, Job& job);
+
+/// Quantizes all parts that are not packed yet, and drops parts without triangles. `grids`: one for each
+/// mesh.
+void quantize(Columns& columns, const std::vector<Grid>& grids, Job& job);
+
+}  // namespace seedmesh::gltf

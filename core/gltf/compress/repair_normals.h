@@ -1,0 +1,18 @@
+#pragma once
+/// Normals of faces that are hardly larger than a step of the quantization grid: such faces turn when their
+/// corners move to grid points.
+#include <vector>
+
+#include "core/gltf/columns.h"
+
+namespace seedmesh::gltf {
+
+/// Corners (three for each triangle, ascending) whose normal faces away from their triangle, of a part before
+/// quantization. Meshes of this program have none; an imported GLB may.
+std::vector<std::size_t> inward_corners(const Part& part, Job& job);
+
+/// Finds the corners whose quantized normal faces away from their quantized triangle. Each gets a vertex of
+/// its own with the normal of the triangle. Leaves the corners in `inward` as they are.
+void repair_normals(Part& part, const std::vector<std::size_t>& inward, Job& job);
+
+}  // namespace seedmesh::gltf

@@ -1,0 +1,34 @@
+#pragma once
+/// One glTF document: its JSON as text, and the buffer that the JSON describes.
+#include <string>
+#include <vector>
+
+#include "core/gltf/bin.h"
+#include "core/gltf/columns.h"
+#include "core/gltf/write/write.h"
+#include "core/model/model.h"
+
+namespace seedmesh::gltf {
+
+/// The JSON in two pieces. Between them goes the address of the first buffer, `,"uri":"..."`, or nothing.
+struct Document {
+  std::string head, tail;
+  std::vector<std::size_t> images;  ///< the used elements of Model::textures
+  Bin bin;                          ///< arranged; where it is empty, nothing goes between head and tail
+};
+
+struct DocumentOptions {
+  std::string generator = {};
+  std::size_t lod = 0;  ///< nodes with fewer levels show their coarsest
+  std::vector<std::string> image_uris =
+      {};                ///< parallel to Model::textures; empty: the images go into the buffer
+  Dialect dialect = {};  ///< `compressed`: `columns` are quantized
+  bool last = false;     ///< no other document follows: arrays are released once they are stored
+};
+
+/// Describes the scene of one level. Meshes, materials, textures and skins that it does not use are left out.
+/// Spends the bytes of the JSON from `job`, not those of the buffer. `columns` are those of `model`; the last
+/// document takes the bytes of both.
+Document describe(Model& model, Columns& columns, const DocumentOptions& options, Job& job);
+
+}  // namespace seedmesh::gltf

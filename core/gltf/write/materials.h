@@ -1,0 +1,16 @@
+#pragma once
+/// Materials as JSON.
+#include <functional>
+#include <string>
+
+#include "core/model/model.h"
+
+namespace seedmesh::gltf {
+
+/// The number of the texture object for a use, -1 for none.
+using TextureNumber = std::function<int(const TextureUse&)>;
+
+/// Appends a material object, with its members sorted by name and without the defaults of glTF.
+void append_material(std::string& out, const Material& material, const TextureNumber& texture_number);
+
+}  // namespace seedmesh::gltf

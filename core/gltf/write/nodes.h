@@ -1,0 +1,32 @@
+#pragma once
+/// The node list of a document as text: a scene may have 100,000 nodes.
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/base/job.h"
+#include "core/model/model.h"
+
+namespace seedmesh::gltf {
+
+/// The accessors of a node's copies in EXT_mesh_gpu_instancing. -1: all copies have the default.
+struct CopyAccessors {
+  int translation = -1, rotation = -1, scale = -1;
+};
+
+/// The meshes and skins that the nodes of one document show. -1: none.
+struct Shown {
+  std::vector<int> meshes;  ///< for each node of the model, the number of its mesh in the document
+  std::vector<std::vector<int>>
+      lods;                ///< the same for its coarser levels; empty without Dialect::lods_inside
+  std::vector<int> skins;  ///< for each skin of the model, its number in the document
+  std::map<std::size_t, CopyAccessors> copies;  ///< for nodes whose copies are arrays
+};
+
+/// Appends the JSON array of all nodes: the nodes of the model in their order; then the copies of nodes as
+/// their children ("window_0"), which share the mesh; last the coarser levels of both ("bark_LOD1"), which
+/// MSFT_lod refers to and no scene shows. Identity transforms are left out. Spends the bytes of the text from
+/// `job`.
+void append_nodes(std::string& out, const Model& model, const Shown& shown, Job& job);
+
+}  // namespace seedmesh::gltf

@@ -1,0 +1,15 @@
+#pragma once
+/// The lines of a cpfg file that begin with `#`, as the preprocessor of C reads them: #define, #undef, and the choices
+/// #if, #ifdef, #ifndef, #elif, #else, #endif.
+#include <string>
+
+#include "core/import/cpfg_macros.h"
+#include "core/import/foreign_text.h"
+
+namespace seedmesh {
+
+/// Defines the macros of `text` and replaces the lines that a choice leaves out by blanks. An error for #include, and for
+/// a choice that is not closed.
+void preprocess_cpfg(ForeignText& source, std::string& text, CpfgMacros& macros);
+
+}  // namespace seedmesh

@@ -1,0 +1,184 @@
+#include "core/import/cpfg_statements.h"
+
+#include <algorithm>
+
+#include "core/import/cpfg_macros.h"
+#include "core/lang/lexer.h"
+
+namespace seedmesh {
+namespace {
+
+using lsystem::Slice;
+
+constexpr int deepest = 60;  // the limit of statements inside each other
+constexpr std::string_view silent[] = {"printf", "fprintf", "fflush", "fclose", "fopen", "getchar", "play"};
+constexpr std::string_view reading[] = {"fscanf", "scanf", "fgets"};
+
+template <class List>
+bool contains(const List& list, std::string_view name) {
+  return std::find(std::begin(list), std::end(list), name) != std::end(list);
+}
+
+std::size_t name_end(const TracedText& text, std::size_t at, std::size_t to) {
+  if (at < to && is_digit(text[at])) return at;
+  while (at < to && is_name_part(text[at])) ++at;
+  return at;
+}
+
+std::size_t skip(const TracedText& text, std::size_t at, std::size_t to) {
+  return lsystem::skip_spaces(text.text(), at, to);
+}
+
+/// The end of a statement: its `;`, outside of parentheses and of texts in quotes.
+std::size_t find_end(const TracedText& text, std::size_t at, std::size_t to) {
+  int depth = 0;
+  bool is_quoted = false;
+  for (; at < to; ++at) {
+    const char c = text[at];
+    if (c == '"' && text[at - 1] != '\\') is_quoted = !is_quoted;
+    if (is_quoted) continue;
+    if (c == '(') ++depth;
+    if (c == ')') --depth;
+    if (c == ';' && depth <= 0) break;
+  }
+  return at;
+}
+
+}  // namespace
+
+TracedText CpfgStatements::converted(const TracedText& text, Slice slice) {
+  TracedText out;
+  for (std::size_t at = skip(text, slice.from, slice.to); at < slice.to;)
+    at = skip(text, statement(text, at, slice.to, out), slice.to);
+  return out;
+}
+
+void CpfgStatements::append(const TracedText& text, Slice slice, TracedText& out) const {
+  const TracedText expression = words_.expression(text, slice);
+  out.copy(expression, 0, expression.size());
+}
+
+std::size_t CpfgStatements::statement(const TracedText& text, std::size_t at, std::size_t to,
+                                      TracedText& out) {
+  if (text[at] == ';') return at + 1;
+  if (text[at] == '{') {
+    const std::size_t close = lsystem::closing(text.text(), at, to);
+    if (close == to) source_.report(text.origin(at), "found `{` without its `}`");
+    const TracedText inner = converted(text, {at + 1, close});
+    out.copy(inner, 0, inner.size());
+    return std::min(close + 1, to);
+  }
+  const std::size_t end = name_end(text, at, to);
+  const std::string name = text.text().substr(at, end - at);
+  const std::size_t open = skip(text, end, to);
+  const bool is_call = open < to && text[open] == '(';
+  if (is_call && (name == "if" || name == "while" || name == "for")) {
+    out.write(name + " (", text.origin(at));
+    return branch(text, open, to, out);
+  }
+  if (is_call && !name.empty()) return call(text, {at, open}, to);
+  const std::size_t stop = find_end(text, at, to);
+  if (stop == to) source_.report(text.origin(at), "found a statement without its `;`");
+  change(text, {at, stop}, out);
+  return std::min(stop + 1, to);
+}
+
+/// The rest of `if`, `while` or `for`, from its parenthesis on.
+std::size_t CpfgStatements::branch(const TracedText& text, std::size_t open, std::size_t to,
+                                   TracedText& out) {
+  const std::size_t close = lsystem::closing(text.text(), open, to);
+  if (close == to || depth_ >= deepest) {
+    source_.report(text.origin(open),
+                   close == to ? "found `(` without its `)`" : "statements nest deeper than 60");
+    return to;
+  }
+  const bool is_loop = find_end(text, open + 1, close) < close;
+  if (is_loop) {
+    for (std::size_t from = open + 1; from < close;) {
+      const std::size_t end = std::min(find_end(text, from, close), close);
+      append(text, {from, end}, out);
+      if (end < close) out.write(";", text.origin(end));
+      from = end + 1;
+    }
+    const std::size_t begin = skip(text, open + 1, close), end = name_end(text, begin, close);
+    if (end > begin) assigned_.insert(text.text().substr(begin, end - begin));
+  } else {
+    out.write("(", text.origin(open));
+    append(text, {open + 1, close}, out);
+    out.write(") != 0", text.origin(close));
+  }
+  out.write(") {", text.origin(close));
+  std::size_t at = body(text, close + 1, to, out);
+  const std::size_t next = skip(text, at, to);
+  if (name_end(text, next, to) == next + 4 && text.text().compare(next, 4, "else") == 0) {
+    out.write("else {", text.origin(next));
+    at = body(text, next + 4, to, out);
+  }
+  return at;
+}
+
+/// The statement that a condition or loop holds, and the brace behind it.
+std::size_t CpfgStatements::body(const TracedText& text, std::size_t at, std::size_t to, TracedText& out) {
+  at = skip(text, at, to);
+  ++depth_;
+  if (at < to) at = statement(text, at, to, out);
+  --depth_;
+  out.write("} ", at > 0 ? text.origin(at - 1) : 0);
+  return at;
+}
+
+/// A call that stands alone. Nothing is written for it.
+std::size_t CpfgStatements::call(const TracedText& text, Slice slice, std::size_t to) {
+  const std::size_t end = name_end(text, slice.from, slice.to);
+  const std::string name = text.text().substr(slice.from, end - slice.from);
+  const std::size_t at = text.origin(slice.from), stop = find_end(text, slice.to, to);
+  if (name == "srand") {
+    const std::size_t close = lsystem::closing(text.text(), slice.to, to);
+    seed_ = words_.expression(text, {slice.to, std::min(close + 1, to)});
+    words_.warn_once(at, name, "starts a sequence of random numbers in cpfg; here all rules use one seed");
+  } else if (contains(reading, name)) {
+    source_.report(at, "found `" + name + "`, which reads a file of its own; give its numbers by `Define`");
+  } else if (contains(silent, name)) {
+    words_.warn_once(at, name, "is left out: nothing is printed, and no file is opened");
+  } else {
+    source_.report(at,
+                   "found the call of " + lang::in_quotes(name) + "; expected a statement such as `x = 2;`");
+  }
+  return std::min(stop + 1, to);
+}
+
+/// An assignment, without its `;`.
+std::size_t CpfgStatements::change(const TracedText& text, Slice slice, TracedText& out) {
+  const std::size_t end = name_end(text, slice.from, slice.to);
+  const std::string name = text.text().substr(slice.from, end - slice.from);
+  std::size_t sign = skip(text, end, slice.to);
+  const bool has_index = sign < slice.to && text[sign] == '[';
+  if (has_index) sign = skip(text, lsystem::closing(text.text(), sign, slice.to) + 1, slice.to);
+  const std::string two =
+      text.text().substr(sign, std::min<std::size_t>(2, slice.to - std::min(sign, slice.to)));
+  const bool is_step = two == "++" || two == "--";
+  const bool is_compound =
+      two.size() == 2 && two[1] == '=' && std::string_view("+-*/").find(two[0]) != std::string_view::npos;
+  const bool is_plain = !two.empty() && two[0] == '=' && two != "==";
+  if (name.empty() || !(is_step || is_compound || is_plain)) {
+    words_.warn_once(text.origin(slice.from),
+                     text.text().substr(slice.from, std::min<std::size_t>(20, slice.to - slice.from)),
+                     "changes nothing and is left out");
+    return slice.to;
+  }
+  const std::size_t value = sign + (is_plain ? 1U : 2U);
+  const std::size_t first = skip(text, value, slice.to);
+  const std::string called = text.text().substr(first, name_end(text, first, slice.to) - first);
+  if (contains(silent, called)) {
+    words_.warn_once(text.origin(slice.from), called,
+                     "is left out: nothing is printed, and no file is opened");
+    return slice.to;
+  }
+  assigned_.insert(name);
+  out.copy(text, slice.from, value);
+  append(text, {value, slice.to}, out);
+  out.write("; ", text.origin(slice.to - 1));
+  return slice.to;
+}
+
+}  // namespace seedmesh

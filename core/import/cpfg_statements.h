@@ -1,0 +1,40 @@
+#pragma once
+/// Statements of cpfg, which look like those of C: assignments, `if`, `while` and `for`. They become statements of
+/// L-systems (core/generators/lsystem/compile_code.cpp).
+#include <set>
+#include <string>
+
+#include "core/import/cpfg_words.h"
+
+namespace seedmesh {
+
+class CpfgStatements {
+ public:
+  CpfgStatements(ForeignText& source, CpfgWords& words) : source_(source), words_(words) {}
+
+  /// The statements of text[slice], without the braces around them. Calls that print and expressions without effect are
+  /// left out with a warning. Calls that read a file are errors.
+  TracedText converted(const TracedText& text, lsystem::Slice slice);
+
+  /// The names that statements so far assign.
+  const std::set<std::string>& assigned() const { return assigned_; }
+
+  /// The argument of the last srand(); empty if there was none.
+  const TracedText& seed() const { return seed_; }
+
+ private:
+  std::size_t statement(const TracedText& text, std::size_t at, std::size_t to, TracedText& out);
+  std::size_t branch(const TracedText& text, std::size_t open, std::size_t to, TracedText& out);
+  std::size_t body(const TracedText& text, std::size_t at, std::size_t to, TracedText& out);
+  std::size_t call(const TracedText& text, lsystem::Slice name, std::size_t to);
+  std::size_t change(const TracedText& text, lsystem::Slice slice, TracedText& out);
+  void append(const TracedText& text, lsystem::Slice slice, TracedText& out) const;
+
+  ForeignText& source_;
+  CpfgWords& words_;
+  std::set<std::string> assigned_;
+  TracedText seed_;
+  int depth_ = 0;
+};
+
+}  // namespace seedmesh

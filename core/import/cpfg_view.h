@@ -1,0 +1,15 @@
+#pragma once
+/// The files beside an L-system of cpfg: the view file (`.v`), with angle, width and tropisms, and files of functions
+/// (`.func`, `.fset`), which `func(n, x)` reads.
+#include <map>
+#include <string>
+
+#include "core/import/foreign_text.h"
+
+namespace seedmesh {
+
+/// Puts what the files say into the parameters of the request. Without a view file, a warning names what it would give.
+/// `files`: their texts by name. Errors and warnings name the file.
+void put_cpfg_files(const std::map<std::string, std::string>& files, Json& parameters, ForeignText& source);
+
+}  // namespace seedmesh

@@ -1,0 +1,46 @@
+#pragma once
+/// Names in the expressions of a Houdini L-System: variables of the node, and what rules for symbols with several
+/// parameters need.
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/import/foreign_text.h"
+
+namespace seedmesh {
+
+class HoudiniNames {
+ public:
+  /// The predecessor and contexts of the rule that is read; their parameters hide variables.
+  void begin_rule(std::string_view head) { formal_ = head; }
+  void end_rule() { formal_ = {}; }
+
+  /// Notes the names of an expression at byte `at` of the file.
+  void note(std::string_view text, std::size_t at);
+  /// `i`, the number of a module in its successor, as a number.
+  std::string with_index(const std::string& arguments, std::size_t index) const;
+
+  /// Puts variables of the node into the parameters: t counts generations, T is `gravity`. Others are 0, with a warning.
+  void put(double gravity, Json& parameters, ForeignText& source) const;
+
+ private:
+  bool is_formal(std::string_view name) const;
+
+  std::string_view formal_;
+  std::map<std::string, std::size_t> names_;  ///< with the first offset of each
+};
+
+/// The numbers of parameters with which F, H, f, h and g occur.
+class HoudiniArities {
+ public:
+  void note(char symbol, const std::string& arguments);
+  /// Rules for H, which is half of F, and for F(l,w,s,d), which has its own width.
+  Json interpretation() const;
+
+ private:
+  std::set<std::pair<char, std::size_t>> arities_;
+};
+
+}  // namespace seedmesh

@@ -1,0 +1,31 @@
+#pragma once
+/// Geographic positions as local metres.
+#include <glm/vec2.hpp>
+#include <string>
+
+namespace seedmesh {
+
+/// The transverse Mercator projection of the ellipsoid of WGS 84 about an origin, with scale 1 along its meridian: east
+/// and north in metres. True to angle; lengths 50 km from the meridian are 0.003 % too long. Source: Krüger, "Konforme
+/// Abbildung des Erdellipsoids in der Ebene", 1912, to the fourth order (0.001 mm within 1,000 km).
+class TransverseMercator {
+ public:
+  /// Degrees.
+  TransverseMercator(double longitude, double latitude);
+
+  /// East and north of the origin, of a longitude and latitude in degrees.
+  glm::dvec2 forward(const glm::dvec2& position) const;
+
+  /// The projection as PROJ writes it.
+  std::string text() const;
+
+ private:
+  glm::dvec2 from_equator(const glm::dvec2& position) const;
+  double longitude_, latitude_;
+  double north_ = 0;  ///< of the origin from the equator
+};
+
+/// Longitude and latitude in degrees of a position of Web Mercator (EPSG:3857) in metres.
+glm::dvec2 of_web_mercator(const glm::dvec2& position);
+
+}  // namespace seedmesh

@@ -1,0 +1,158 @@
+#include "core/import/map_rings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+
+namespace seedmesh {
+namespace {
+
+using glm::dvec2;
+
+// Metres.
+constexpr double straight = 0.002, near_point = 0.002, gap = 0.01;
+// Square metres: less is no outline.
+constexpr double least_area = 0.01;
+// Attempts to make holes fit.
+constexpr int most_rounds = 8;
+
+double cross(const dvec2& a, const dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+double rounded(double metres) { return std::floor(metres * 1000 + 0.5) / 1000; }
+
+/// Whether the ring needs the point `p` between two others: it is neither one of them, nor on their edge, nor the end
+/// of a spike.
+bool is_corner(const dvec2& before, const dvec2& p, const dvec2& after) {
+  const dvec2 a = p - before, b = after - p, whole = after - before;
+  if (glm::length(a) < near_point) return false;
+  const double twice = std::abs(cross(a, b));
+  const double longest = std::max({glm::length(a), glm::length(b), glm::length(whole)});
+  return twice > straight * longest;
+}
+
+PlanRing clean(const PlanRing& ring) {
+  PlanRing points;
+  for (const dvec2& p : ring) points.emplace_back(rounded(p.x), rounded(p.y));
+  // Each pass can make new straight corners; a pass that removes nothing ends the work.
+  for (std::size_t before = 0; before != points.size() && points.size() >= 3;) {
+    before = points.size();
+    PlanRing kept;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const dvec2 last = kept.empty() ? points.back() : kept.back();
+      const dvec2& next =
+          i + 1 < points.size() || kept.empty() ? points[(i + 1) % points.size()] : kept.front();
+      if (is_corner(last, points[i], next)) kept.push_back(points[i]);
+    }
+    points = std::move(kept);
+  }
+  return points;
+}
+
+/// The simple loops of a ring that visits points twice.
+std::vector<PlanRing> loops_of(const PlanRing& ring) {
+  const auto key = [](const dvec2& p) { return std::pair{p.x, p.y}; };
+  std::vector<PlanRing> loops;
+  PlanRing path;
+  std::map<std::pair<double, double>, std::size_t> at;
+  for (const dvec2& p : ring) {
+    const auto known = at.find(key(p));
+    if (known == at.end()) {
+      at.emplace(key(p), path.size());
+      path.push_back(p);
+      continue;
+    }
+    const std::size_t first = known->second;
+    PlanRing loop(path.begin() + static_cast<std::ptrdiff_t>(first), path.end());
+    for (std::size_t i = first + 1; i < path.size(); ++i) at.erase(key(path[i]));
+    path.resize(first + 1);
+    loops.push_back(std::move(loop));
+  }
+  loops.push_back(std::move(path));
+  std::vector<PlanRing> kept;
+  for (const PlanRing& loop : loops) {
+    PlanRing whole = clean(loop);
+    if (whole.size() >= 3 && std::abs(signed_area(whole)) >= least_area) kept.push_back(std::move(whole));
+  }
+  return kept;
+}
+
+/// The ring with all points nearer to its middle by about `gap`.
+PlanRing shrunk(const PlanRing& ring) {
+  const dvec2 middle = centroid_of(ring);
+  PlanRing made;
+  for (const dvec2& p : ring) {
+    const double length = glm::length(p - middle);
+    const dvec2 q = length > 2 * gap ? p - (p - middle) * (gap / length) : p;
+    made.emplace_back(rounded(q.x), rounded(q.y));
+  }
+  return clean(made);
+}
+
+bool has_errors(const Plan& plan) { return !faults_of(plan).empty(); }
+
+/// Adds the holes that lie in the outer ring. Those with errors become smaller, and are left out if that does not help.
+Plan with_holes(PlanRing outer, const std::vector<PlanRing>& holes, SoundPlans& made) {
+  Plan plan = read_plan({std::move(outer)});
+  const Plan alone = plan;
+  for (const PlanRing& hole : holes) {
+    if (contains(alone, centroid_of(hole)) || contains(alone, hole[0])) plan.rings.push_back(hole);
+  }
+  std::vector<bool> is_shrunk(plan.rings.size(), false);
+  for (int round = 0; round < most_rounds && plan.rings.size() > 1; ++round) {
+    plan = read_plan(std::move(plan.rings));
+    std::vector<bool> has_error(plan.rings.size(), false);
+    for (const PlanFault& fault : faults_of(plan)) {
+      // The second of two rings that meet is named; the first can be the outer ring.
+      if (fault.ring > 0) has_error[fault.ring] = true;
+    }
+    if (std::find(has_error.begin(), has_error.end(), true) == has_error.end()) break;
+    std::vector<PlanRing> kept{plan.rings[0]};
+    std::vector<bool> kept_shrunk{false};
+    for (std::size_t r = 1; r < plan.rings.size(); ++r) {
+      PlanRing ring = has_error[r] && !is_shrunk[r] ? shrunk(plan.rings[r]) : plan.rings[r];
+      if ((has_error[r] && is_shrunk[r]) || ring.size() < 3) {
+        ++made.lost_holes;
+        continue;
+      }
+      kept.push_back(std::move(ring));
+      kept_shrunk.push_back(is_shrunk[r] || has_error[r]);
+    }
+    plan.rings = std::move(kept);
+    is_shrunk = std::move(kept_shrunk);
+  }
+  plan = read_plan(std::move(plan.rings));
+  if (!has_errors(plan)) return plan;
+  made.lost_holes += plan.rings.size() - 1;
+  return alone;
+}
+
+}  // namespace
+
+SoundPlans sound_plans(const std::vector<PlanRing>& rings) {
+  SoundPlans made;
+  if (rings.empty()) return made;
+  std::vector<PlanRing> outer = loops_of(clean(rings[0])), holes;
+  if (outer.empty()) return made;
+  const auto larger = [](const PlanRing& a, const PlanRing& b) {
+    return std::abs(signed_area(a)) < std::abs(signed_area(b));
+  };
+  const bool turns_left = signed_area(*std::max_element(outer.begin(), outer.end(), larger)) > 0;
+  for (PlanRing& loop : outer) {
+    if ((signed_area(loop) > 0) != turns_left) holes.push_back(std::move(loop));
+  }
+  std::erase_if(outer, [](const PlanRing& loop) { return loop.empty(); });
+  for (std::size_t i = 1; i < rings.size(); ++i) {
+    for (PlanRing& loop : loops_of(clean(rings[i]))) holes.push_back(std::move(loop));
+  }
+  for (PlanRing& loop : outer) {
+    if (has_errors(read_plan({loop}))) {
+      made.has_crossing = true;
+      continue;
+    }
+    made.plans.push_back(with_holes(std::move(loop), holes, made));
+  }
+  return made;
+}
+
+}  // namespace seedmesh

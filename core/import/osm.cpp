@@ -1,0 +1,323 @@
+// Reads OpenStreetMap: XML as the editing interface, JOSM and Overpass write it, and the JSON of Overpass, with elements
+// or with geometry in place (`out geom`).
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <pugixml.hpp>
+
+#include "core/import/foreign_text.h"
+#include "core/import/formats.h"
+#include "core/import/map_scene.h"
+#include "core/import/osm_data.h"
+
+namespace seedmesh {
+namespace {
+
+constexpr std::size_t most_errors = 100;
+
+bool is_position(double longitude, double latitude) {
+  return std::abs(longitude) <= 180 && std::abs(latitude) <= 90;  // false for NaN
+}
+
+template <class Number>
+bool read_number(std::string_view text, Number& number) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() && !text.empty();
+}
+
+// --- XML
+
+class OsmXmlReader {
+ public:
+  explicit OsmXmlReader(std::string_view text) : text_(text) {}
+
+  Result<Imported> read() {
+    pugi::xml_document document;
+    const pugi::xml_parse_result parsed =
+        document.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
+    if (!parsed) {
+      const auto offset = static_cast<std::size_t>(std::max<std::ptrdiff_t>(parsed.offset, 0));
+      return Error{Code::malformed,
+                   {issue_at(IssueKind::syntax, "", text_, std::min(offset, text_.size()),
+                             std::string("this is no XML: ") + parsed.description())}};
+    }
+    const pugi::xml_node root = document.child("osm");
+    if (!root) {
+      return Error{
+          Code::invalid,
+          {issue_at(IssueKind::invalid_value, "", text_, 0, "expected the element <osm> of OpenStreetMap")}};
+    }
+    for (const pugi::xml_node element : root.children()) {
+      const std::string_view name = element.name();
+      if (std::string_view(element.attribute("action").value()) == "delete" ||
+          std::string_view(element.attribute("visible").value()) == "false")
+        continue;
+      if (name == "node") read_node(element);
+      if (name == "way") read_way(element);
+      if (name == "relation") read_relation(element);
+      if (name == "bounds") read_bounds(element);
+    }
+    if (!issues_.empty()) return Error{Code::invalid, std::move(issues_)};
+    return scene_of_map(map_of(std::move(file_)), text_);
+  }
+
+ private:
+  static MapPosition place_of(const pugi::xml_node& element) {
+    return {static_cast<std::size_t>(std::max<std::ptrdiff_t>(element.offset_debug(), 0)), ""};
+  }
+
+  void report(const pugi::xml_node& element, std::string message) {
+    if (issues_.size() < most_errors)
+      issues_.push_back(
+          issue_at(IssueKind::invalid_value, "", text_, place_of(element).offset, std::move(message)));
+  }
+
+  template <class Number>
+  bool attribute(const pugi::xml_node& element, const char* name, Number& number) {
+    const std::string_view value = element.attribute(name).value();
+    if (read_number(value, number)) return true;
+    report(element, std::string("found ") + (value.empty() ? "no" : "no number in the") + " attribute \"" +
+                        name + "\" of <" + element.name() + ">");
+    return false;
+  }
+
+  bool position(const pugi::xml_node& element, glm::dvec2& p) {
+    if (!attribute(element, "lon", p.x) || !attribute(element, "lat", p.y)) return false;
+    if (is_position(p.x, p.y)) return true;
+    report(element,
+           "found a position that is not on Earth: expected lon from -180 to 180 and lat from -90 to 90");
+    return false;
+  }
+
+  static MapTags tags_of(const pugi::xml_node& element) {
+    MapTags tags;
+    for (const pugi::xml_node tag : element.children("tag"))
+      tags.add(tag.attribute("k").value(), tag.attribute("v").value());
+    return tags;
+  }
+
+  void read_bounds(const pugi::xml_node& element) {
+    MapBounds bounds;
+    if (!attribute(element, "minlon", bounds.min.x) || !attribute(element, "minlat", bounds.min.y) ||
+        !attribute(element, "maxlon", bounds.max.x) || !attribute(element, "maxlat", bounds.max.y))
+      return;
+    if (is_position(bounds.min.x, bounds.min.y) && is_position(bounds.max.x, bounds.max.y))
+      file_.bounds = bounds;
+  }
+
+  void read_node(const pugi::xml_node& element) {
+    OsmNode node;
+    if (!attribute(element, "id", node.id) || !position(element, node.position)) return;
+    node.tags = tags_of(element);
+    node.place = place_of(element);
+    file_.nodes.push_back(std::move(node));
+  }
+
+  /// The points of `out geom`: all of them, or none.
+  std::vector<glm::dvec2> inline_points(const pugi::xml_node& element) {
+    std::vector<glm::dvec2> points;
+    for (const pugi::xml_node nd : element.children("nd")) {
+      if (!nd.attribute("lat")) return {};
+      glm::dvec2 p{0};
+      if (position(nd, p)) points.push_back(p);
+    }
+    return points;
+  }
+
+  void read_way(const pugi::xml_node& element) {
+    OsmWay way;
+    if (!attribute(element, "id", way.id)) return;
+    for (const pugi::xml_node nd : element.children("nd")) {
+      std::int64_t node = 0;
+      if (nd.attribute("ref") && attribute(nd, "ref", node)) way.nodes.push_back(node);
+    }
+    way.inline_points = inline_points(element);
+    way.tags = tags_of(element);
+    way.place = place_of(element);
+    file_.ways.push_back(std::move(way));
+  }
+
+  void read_relation(const pugi::xml_node& element) {
+    OsmRelation relation;
+    if (!attribute(element, "id", relation.id)) return;
+    for (const pugi::xml_node each : element.children("member")) {
+      if (std::strcmp(each.attribute("type").value(), "way") != 0) continue;
+      OsmMember member;
+      if (!attribute(each, "ref", member.way)) continue;
+      member.is_inner = std::strcmp(each.attribute("role").value(), "inner") == 0;
+      member.inline_points = inline_points(each);
+      relation.members.push_back(std::move(member));
+    }
+    relation.tags = tags_of(element);
+    relation.place = place_of(element);
+    file_.relations.push_back(std::move(relation));
+  }
+
+  std::string_view text_;
+  OsmFile file_;
+  std::vector<Issue> issues_;
+};
+
+// --- JSON of Overpass
+
+class OsmJsonReader {
+ public:
+  Result<Imported> read(const Json& file) {
+    const auto elements = file.find("elements");
+    if (elements == file.end() || !elements->is_array())
+      return Error{Code::invalid,
+                   {{IssueKind::missing, "", "expected an array \"elements\", as Overpass writes it"}}};
+    for (std::size_t i = 0; i < elements->size() && issues_.size() < most_errors; ++i) {
+      const std::string pointer = "/elements/" + std::to_string(i);
+      const Json& element = (*elements)[i];
+      if (!element.is_object()) {
+        report(pointer, "expected an object");
+        continue;
+      }
+      const std::string type = element.value("type", Json("")).is_string() ? element.value("type", "") : "";
+      if (type == "node") read_node(element, pointer);
+      if (type == "way") read_way(element, pointer);
+      if (type == "relation") read_relation(element, pointer);
+    }
+    if (!issues_.empty()) return Error{Code::invalid, std::move(issues_)};
+    return scene_of_map(map_of(std::move(file_)), "");
+  }
+
+ private:
+  void report(std::string pointer, std::string message) {
+    if (issues_.size() < most_errors)
+      issues_.push_back({IssueKind::invalid_value, std::move(pointer), std::move(message)});
+  }
+
+  bool identity(const Json& json, const char* name, const std::string& pointer, std::int64_t& id) {
+    const auto found = json.find(name);
+    if (found != json.end() && found->is_number_integer()) {
+      id = found->get<std::int64_t>();
+      return true;
+    }
+    report(pointer, std::string("expected a whole number \"") + name + "\"");
+    return false;
+  }
+
+  bool position(const Json& json, const std::string& pointer, glm::dvec2& p) {
+    const auto longitude = json.find("lon"), latitude = json.find("lat");
+    if (longitude == json.end() || latitude == json.end() || !longitude->is_number() ||
+        !latitude->is_number()) {
+      report(pointer, "expected numbers \"lat\" and \"lon\"");
+      return false;
+    }
+    p = {longitude->get<double>(), latitude->get<double>()};
+    if (is_position(p.x, p.y)) return true;
+    report(pointer,
+           "found a position that is not on Earth: expected lon from -180 to 180 and lat from -90 to 90");
+    return false;
+  }
+
+  static MapTags tags_of(const Json& json) {
+    MapTags tags;
+    const auto found = json.find("tags");
+    if (found == json.end() || !found->is_object()) return tags;
+    for (const auto& [name, value] : found->items()) {
+      if (value.is_string()) tags.add(name, value.get<std::string>());
+    }
+    return tags;
+  }
+
+  /// `geometry` of `out geom`; null entries lie outside of the queried box.
+  std::vector<glm::dvec2> geometry_of(const Json& json, const std::string& pointer) {
+    std::vector<glm::dvec2> points;
+    const auto found = json.find("geometry");
+    if (found == json.end() || !found->is_array()) return points;
+    for (std::size_t i = 0; i < found->size() && issues_.size() < most_errors; ++i) {
+      const Json& each = (*found)[i];
+      if (each.is_null()) continue;
+      glm::dvec2 p{0};
+      const std::string at = pointer + "/geometry/" + std::to_string(i);
+      if (!each.is_object()) {
+        report(at, "expected an object with \"lat\" and \"lon\"");
+      } else if (position(each, at, p)) {
+        points.push_back(p);
+      }
+    }
+    return points;
+  }
+
+  void read_node(const Json& json, const std::string& pointer) {
+    OsmNode node;
+    if (!identity(json, "id", pointer, node.id) || !position(json, pointer, node.position)) return;
+    node.tags = tags_of(json);
+    node.place.pointer = pointer;
+    file_.nodes.push_back(std::move(node));
+  }
+
+  void read_way(const Json& json, const std::string& pointer) {
+    OsmWay way;
+    if (!identity(json, "id", pointer, way.id)) return;
+    const auto nodes = json.find("nodes");
+    if (nodes != json.end() && nodes->is_array()) {
+      for (const Json& node : *nodes) {
+        if (node.is_number_integer()) way.nodes.push_back(node.get<std::int64_t>());
+      }
+    }
+    way.inline_points = geometry_of(json, pointer);
+    way.tags = tags_of(json);
+    way.place.pointer = pointer;
+    file_.ways.push_back(std::move(way));
+  }
+
+  void read_relation(const Json& json, const std::string& pointer) {
+    OsmRelation relation;
+    if (!identity(json, "id", pointer, relation.id)) return;
+    const auto members = json.find("members");
+    if (members != json.end() && members->is_array()) {
+      for (std::size_t i = 0; i < members->size(); ++i) {
+        const Json& each = (*members)[i];
+        const std::string at = pointer + "/members/" + std::to_string(i);
+        if (!each.is_object() || each.value("type", Json()) != Json("way")) continue;
+        OsmMember member;
+        if (!identity(each, "ref", at, member.way)) continue;
+        member.is_inner = each.value("role", Json()) == Json("inner");
+        member.inline_points = geometry_of(each, at);
+        relation.members.push_back(std::move(member));
+      }
+    }
+    relation.tags = tags_of(json);
+    relation.place.pointer = pointer;
+    file_.relations.push_back(std::move(relation));
+  }
+
+  OsmFile file_;
+  std::vector<Issue> issues_;
+};
+
+bool begins_json(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && text[first] == '{';
+}
+
+}  // namespace
+
+int marks_of_osm(std::string_view text) {
+  if (begins_json(text)) {
+    const bool has_type = text.find("\"way\"") != std::string_view::npos ||
+                          text.find("\"node\"") != std::string_view::npos ||
+                          text.find("\"relation\"") != std::string_view::npos;
+    return has_type && text.find("\"elements\"") != std::string_view::npos ? 100 : 0;
+  }
+  const std::string_view head = text.substr(0, 4096);
+  return head.find("<osm") != std::string_view::npos && head.find("<osmChange") == std::string_view::npos
+             ? 100
+             : 0;
+}
+
+Result<Imported> import_osm(std::string_view text, const ImportOptions& options) {
+  if (std::optional<Error> error = entry_error(options, "a file of OpenStreetMap is one map"))
+    return *std::move(error);
+  if (!begins_json(text)) return OsmXmlReader(text).read();
+  Result<Json> file = parse_json(text);
+  if (!file) return std::move(file).error();
+  return OsmJsonReader().read(*file);
+}
+
+}  // namespace seedmesh

@@ -1,0 +1,243 @@
+// Assembly of OpenStreetMap elements; see osm_data.h. Source for areas: the pages "Area" and "Relation:multipolygon" of the
+// OpenStreetMap wiki.
+#include "core/import/osm_data.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/geom/polygon/plan.h"
+
+namespace seedmesh {
+namespace {
+
+using glm::dvec2;
+
+// Pairs of an outer ring and a hole that are compared.
+constexpr std::size_t most_tried = 2'000'000;
+
+template <class Element>
+void sort_by_id(std::vector<Element>& elements) {
+  const auto before = [](const Element& a, const Element& b) { return a.id < b.id; };
+  std::stable_sort(elements.begin(), elements.end(), before);
+  const auto same = [](const Element& a, const Element& b) { return a.id == b.id; };
+  elements.erase(std::unique(elements.begin(), elements.end(), same), elements.end());
+}
+
+template <class Element>
+const Element* find(const std::vector<Element>& elements, std::int64_t id) {
+  const auto before = [](const Element& element, std::int64_t wanted) { return element.id < wanted; };
+  const auto at = std::lower_bound(elements.begin(), elements.end(), id, before);
+  return at != elements.end() && at->id == id ? &*at : nullptr;
+}
+
+/// Whether a closed way with these tags is an area.
+bool is_area(const MapTags& tags) {
+  if (tags.is("area", "yes") || tags.has("building") || tags.has("building:part")) return true;
+  if (tags.is("area", "no")) return false;
+  if (tags.has("highway") || tags.has("barrier") || tags.has("railway"))
+    return tags.is("railway", "platform");
+  if (tags.is("natural", "tree_row") || tags.is("natural", "coastline")) return false;
+  constexpr std::array<std::string_view, 10> keys{
+      "natural",      "landuse", "leisure",  "amenity",          "place",
+      "area:highway", "golf",    "man_made", "public_transport", "boundary"};
+  return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return tags.has(key); }) ||
+         tags.is("waterway", "riverbank") || tags.is("waterway", "dock");
+}
+
+/// The points of a way, with the number of those that the file lacks.
+struct WayPoints {
+  MapRing points;
+  std::size_t missing = 0;
+};
+
+WayPoints points_of(const OsmWay& way, const std::vector<OsmNode>& nodes) {
+  WayPoints made;
+  if (!way.inline_points.empty()) {
+    made.points = way.inline_points;
+    return made;
+  }
+  made.points.reserve(way.nodes.size());
+  for (const std::int64_t id : way.nodes) {
+    if (const OsmNode* node = find(nodes, id)) {
+      made.points.push_back(node->position);
+    } else {
+      ++made.missing;
+    }
+  }
+  return made;
+}
+
+/// Joins lines end to end to rings. `open` counts the lines that are left.
+std::vector<MapRing> rings_of(std::vector<MapRing> lines, std::size_t& open) {
+  const auto key = [](const dvec2& p) { return std::pair{p.x, p.y}; };
+  std::multimap<std::pair<double, double>, std::size_t> ends;
+  std::vector<bool> is_used(lines.size(), false);
+  std::vector<MapRing> rings;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].size() > 2 && lines[i].front() == lines[i].back()) continue;
+    if (lines[i].size() < 2) continue;
+    ends.emplace(key(lines[i].front()), i);
+    ends.emplace(key(lines[i].back()), i);
+  }
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (is_used[i] || lines[i].size() < 2) continue;
+    is_used[i] = true;
+    MapRing ring = lines[i];
+    while (ring.front() != ring.back() || ring.size() < 3) {
+      auto [next, last] = ends.equal_range(key(ring.back()));
+      while (next != last && is_used[next->second]) next = ends.erase(next);
+      if (next == last) break;
+      const std::size_t number = next->second;
+      ends.erase(next);
+      is_used[number] = true;
+      MapRing more = lines[number];
+      if (more.front() != ring.back()) std::reverse(more.begin(), more.end());
+      ring.insert(ring.end(), more.begin() + 1, more.end());
+    }
+    if (ring.front() != ring.back()) {
+      ++open;
+      continue;
+    }
+    ring.pop_back();
+    if (ring.size() >= 3) rings.push_back(std::move(ring));
+  }
+  return rings;
+}
+
+class Assembler {
+ public:
+  explicit Assembler(OsmFile file) : file_(std::move(file)) {}
+
+  MapData assemble() {
+    sort_by_id(file_.nodes);
+    sort_by_id(file_.ways);
+    sort_by_id(file_.relations);
+    is_consumed_.assign(file_.ways.size(), false);
+    for (const OsmRelation& relation : file_.relations) add_relation(relation);
+    for (std::size_t i = 0; i < file_.ways.size(); ++i) {
+      if (!is_consumed_[i]) add_way(file_.ways[i]);
+    }
+    for (const OsmNode& node : file_.nodes) add_node(node);
+    data_.bounds = file_.bounds;
+    for (MapFeature& feature : features_) data_.features.push_back(std::move(feature));
+    data_.warnings = std::move(file_.warnings);
+    return std::move(data_);
+  }
+
+ private:
+  void warn(const char* message, const MapPosition& place) { file_.warnings.add(message, place); }
+
+  void add_node(const OsmNode& node) {
+    if (node.tags.all().empty()) return;
+    MapFeature feature;
+    feature.name = "node/" + std::to_string(node.id);
+    feature.position = node.place;
+    feature.tags = node.tags;
+    feature.points.push_back(node.position);
+    features_.push_back(std::move(feature));
+  }
+
+  void add_way(const OsmWay& way) {
+    if (way.tags.all().empty()) return;
+    WayPoints read = points_of(way, file_.nodes);
+    const bool is_closed = read.points.size() > 3 && read.points.front() == read.points.back();
+    const bool wants_area = is_area(way.tags);
+    MapFeature feature;
+    feature.name = "way/" + std::to_string(way.id);
+    feature.position = way.place;
+    feature.tags = way.tags;
+    if (read.missing > 0)
+      warn(wants_area ? "an area refers to nodes that the file lacks; it is left out"
+                      : "a line refers to nodes that the file lacks; it is shorter",
+           way.place);
+    if (wants_area && is_closed && read.missing == 0) {
+      read.points.pop_back();
+      feature.polygons.push_back({std::move(read.points)});
+    } else if (!wants_area && read.points.size() > 1) {
+      feature.lines.push_back(std::move(read.points));
+    } else if (wants_area && read.missing == 0) {
+      warn("an area is not closed; it is left out", way.place);
+      return;
+    } else {
+      return;
+    }
+    features_.push_back(std::move(feature));
+  }
+
+  /// The tags of a multipolygon: its own, or by an old convention those of its outer way.
+  const MapTags& tags_of(const OsmRelation& relation) const {
+    if (is_area(relation.tags)) return relation.tags;
+    for (const OsmMember& member : relation.members) {
+      const OsmWay* way = member.is_inner ? nullptr : find(file_.ways, member.way);
+      if (way && is_area(way->tags)) return way->tags;
+    }
+    return relation.tags;
+  }
+
+  void add_relation(const OsmRelation& relation) {
+    const std::string_view type = relation.tags.get("type");
+    if (type != "multipolygon" && type != "boundary") return;
+    if (type == "boundary" && !is_area(relation.tags)) return;
+    const MapTags& tags = tags_of(relation);
+    if (tags.is("boundary", "administrative")) return;
+    std::vector<MapRing> outer, inner;
+    std::size_t missing = 0, open = 0;
+    for (const OsmMember& member : relation.members) {
+      const OsmWay* way = find(file_.ways, member.way);
+      WayPoints read;
+      if (!member.inline_points.empty()) {
+        read.points = member.inline_points;
+      } else if (way) {
+        read = points_of(*way, file_.nodes);
+      } else {
+        ++missing;
+      }
+      missing += read.missing;
+      (member.is_inner ? inner : outer).push_back(std::move(read.points));
+      if (way && !member.is_inner) consume(*way, tags);
+    }
+    if (missing > 0) warn("a multipolygon refers to ways or nodes that the file lacks", relation.place);
+    MapFeature feature;
+    feature.name = "relation/" + std::to_string(relation.id);
+    feature.position = relation.place;
+    feature.tags = tags;
+    for (MapRing& ring : rings_of(std::move(outer), open)) feature.polygons.push_back({std::move(ring)});
+    for (MapRing& ring : rings_of(std::move(inner), open)) add_hole(feature, std::move(ring));
+    if (open > 0) warn("a ring of a multipolygon is not closed; it is left out", relation.place);
+    if (!feature.polygons.empty()) features_.push_back(std::move(feature));
+  }
+
+  /// An outer way that is the same thing as its multipolygon counts once.
+  void consume(const OsmWay& way, const MapTags& tags) {
+    constexpr std::array<std::string_view, 6> keys{"building", "building:part", "natural",
+                                                   "landuse",  "leisure",       "waterway"};
+    for (const std::string_view key : keys) {
+      if (tags.has(key) && tags.get(key) == way.tags.get(key))
+        is_consumed_[static_cast<std::size_t>(&way - file_.ways.data())] = true;
+    }
+  }
+
+  void add_hole(MapFeature& feature, MapRing ring) {
+    for (std::vector<MapRing>& polygon : feature.polygons) {
+      if (++tried_ > most_tried) break;
+      if (feature.polygons.size() > 1 && !contains(Plan{{polygon[0]}}, ring[0]) &&
+          !contains(Plan{{polygon[0]}}, ring[1]))
+        continue;
+      polygon.push_back(std::move(ring));
+      return;
+    }
+    warn("a hole of a multipolygon lies in none of its outer rings; it is left out", feature.position);
+  }
+
+  OsmFile file_;
+  std::vector<bool> is_consumed_;
+  std::size_t tried_ = 0;  ///< pairs of an outer ring and a hole
+  std::vector<MapFeature> features_;
+  MapData data_;
+};
+
+}  // namespace
+
+MapData map_of(OsmFile file) { return Assembler(std::move(file)).assemble(); }
+
+}  // namespace seedmesh

@@ -1,0 +1,53 @@
+#pragma once
+/// The elements of OpenStreetMap files, and their assembly to features.
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/import/map_data.h"
+
+namespace seedmesh {
+
+struct OsmNode {
+  std::int64_t id = 0;
+  glm::dvec2 position{0};  ///< longitude and latitude in degrees
+  MapTags tags;
+  MapPosition place;
+};
+
+struct OsmWay {
+  std::int64_t id = 0;
+  std::vector<std::int64_t> nodes;
+  std::vector<glm::dvec2>
+      inline_points;  ///< of `out geom`: by node; empty: the nodes are elements of the file
+  MapTags tags;
+  MapPosition place;
+};
+
+struct OsmMember {
+  std::int64_t way = 0;
+  bool is_inner = false;
+  std::vector<glm::dvec2> inline_points;  ///< of `out geom`
+};
+
+struct OsmRelation {
+  std::int64_t id = 0;
+  std::vector<OsmMember> members;  ///< its ways
+  MapTags tags;
+  MapPosition place;
+};
+
+struct OsmFile {
+  std::vector<OsmNode> nodes;
+  std::vector<OsmWay> ways;
+  std::vector<OsmRelation> relations;
+  std::optional<MapBounds> bounds;
+  MapWarnings warnings;
+};
+
+/// Joins ways and multipolygons to features. Elements that occur twice count once. What refers to nodes or ways that
+/// the file lacks is left out or shortened, with a warning. Cost: about n log n.
+MapData map_of(OsmFile file);
+
+}  // namespace seedmesh

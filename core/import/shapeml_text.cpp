@@ -1,0 +1,105 @@
+#include "core/import/shapeml_text.h"
+
+#include <algorithm>
+
+#include "core/import/shapeml_names.h"
+
+namespace seedmesh {
+namespace {
+
+using lang::Token;
+using lang::TokenKind;
+
+/// The text with blanks instead of comments.
+std::string without_comments_of(std::string_view text) {
+  std::string out(text);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (out[i] == '"') {
+      for (++i; i < out.size() && out[i] != '"' && out[i] != '\n'; ++i) i += out[i] == '\\' ? 1 : 0;
+    } else if (out.compare(i, 2, "//") == 0) {
+      for (; i < out.size() && out[i] != '\n'; ++i) out[i] = ' ';
+    } else if (out.compare(i, 2, "/*") == 0) {
+      const std::size_t end = std::min(out.find("*/", i + 2), out.size());
+      for (const std::size_t last = std::min(end + 2, out.size()); i < last; ++i)
+        out[i] = out[i] == '\n' ? '\n' : ' ';
+      --i;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+ShapemlText::ShapemlText(ForeignText& source) : source_(source), text_(without_comments_of(source.text())) {
+  std::vector<lang::TextError> errors;
+  tokens_ = lang::tokenize(text_, 0, text_.size(), errors);
+  for (const lang::TextError& error : errors) source_.report(error.offset, error.message);
+  partner_.assign(tokens_.size(), tokens_.size() - 1);
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < tokens_.size(); ++i) {
+    if (is(i, "(") || is(i, "{") || is(i, "[")) open.push_back(i);
+    if ((is(i, ")") || is(i, "}") || is(i, "]")) && !open.empty()) {
+      partner_[open.back()] = i;
+      open.pop_back();
+    }
+  }
+}
+
+std::size_t ShapemlText::find(std::size_t i, std::string_view symbol) const {
+  while (i + 1 < tokens_.size() && !is(i, symbol))
+    i = is(i, "(") || is(i, "{") || is(i, "[") ? partner_[i] + 1 : i + 1;
+  return std::min(i, tokens_.size() - 1);
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> ShapemlText::arguments(std::size_t i) const {
+  std::vector<std::pair<std::size_t, std::size_t>> out;
+  if (!is(i + 1, "(")) return out;
+  const std::size_t close = partner_[i + 1];
+  for (std::size_t k = i + 2; k < close;) {
+    std::size_t end = k;
+    while (end < close && !is(end, ","))
+      end = is(end, "(") || is(end, "{") ? std::min(partner_[end] + 1, close) : end + 1;
+    out.emplace_back(k, end);
+    k = end + 1;
+  }
+  return out;
+}
+
+void ShapemlText::expression(std::size_t from, std::size_t to, TracedText& out) {
+  for (std::size_t i = from; i < to; ++i) {
+    const Token& token = at(i);
+    const std::size_t offset = token.offset;
+    const bool is_call = is(i + 1, "(");
+    if (i > from) out.write(" ", offset);
+    if (token.kind == TokenKind::string) {
+      std::string text(token.text);
+      if (text == "partial") text = "part";  // an answer of occlusion
+      if (text.size() == 4 && text[0] == '#')
+        text = {'#', text[1], text[1], text[2], text[2], text[3], text[3]};
+      out.write("\"" + text + "\"", offset);
+    } else if (token.kind != TokenKind::name) {
+      out.write(token.text, offset);
+    } else if (token.text == "occlusion") {
+      out.write(is_call ? "Shape.occ" : "Shape.occ(\"all\")", offset);
+    } else if (token.text == "get" && is_call && at(i + 2).kind == TokenKind::string) {
+      const std::string name = "own_" + lang::string_value(at(i + 2));
+      attributes_.insert(name);
+      out.write(name, offset);
+      i = std::min(partner_[i + 1], to);
+    } else if (token.text == "clamp" && is_call) {
+      // It has its bounds first in ShapeML.
+      if (!has_clamp_) declarations_.write("clamp_between(low, high, x) = max(low, min(high, x))\n", offset);
+      has_clamp_ = true;
+      out.write("clamp_between", offset);
+    } else {
+      const auto names = shapeml_names();
+      const auto found = std::ranges::find(names, token.text, &ShapemlName::name);
+      for (const ShapemlFunction& each : shapeml_functions()) {
+        if (is_call && each.name == token.text) needed_.insert(std::string(each.name));
+      }
+      out.write(found == names.end() ? token.text : found->rules, offset);
+    }
+  }
+}
+
+}  // namespace seedmesh

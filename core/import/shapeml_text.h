@@ -1,0 +1,38 @@
+#pragma once
+/// A grammar of ShapeML as tokens, and its expressions in the notation of rules.
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/import/foreign_text.h"
+#include "core/import/traced_text.h"
+#include "core/lang/lexer.h"
+
+namespace seedmesh {
+
+class ShapemlText {
+ public:
+  explicit ShapemlText(ForeignText& source);
+
+  const lang::Token& at(std::size_t i) const { return tokens_[std::min(i, tokens_.size() - 1)]; }
+  bool is(std::size_t i, std::string_view symbol) const { return lang::is_symbol(at(i), symbol); }
+  bool is_name(std::size_t i) const { return at(i).kind == lang::TokenKind::name; }
+  void error(std::size_t i, const std::string& message) { source_.report(at(i).offset, message); }
+
+  /// The next `symbol` outside of brackets, or the end.
+  std::size_t find(std::size_t i, std::string_view symbol) const;
+  /// The arguments of a call as ranges of tokens.
+  std::vector<std::pair<std::size_t, std::size_t>> arguments(std::size_t i) const;
+  /// Writes the expression of the tokens from `from` to before `to`, with names as rules write them.
+  void expression(std::size_t from, std::size_t to, TracedText& out);
+
+  ForeignText& source_;
+  std::string text_;  ///< without comments
+  std::vector<lang::Token> tokens_;
+  std::vector<std::size_t> partner_;  ///< of brackets: the closing one
+  TracedText declarations_;
+  std::set<std::string, std::less<>> needed_, attributes_;  ///< functions and attributes that expressions use
+  bool has_clamp_ = false;
+};
+
+}  // namespace seedmesh

@@ -1,0 +1,46 @@
+#pragma once
+/// Species of the model of Weber and Penn as other programs save them: the parameters of the paper under their names,
+/// with the position of each.
+#include <array>
+#include <map>
+#include <string>
+
+#include "core/import/foreign_text.h"
+
+namespace seedmesh {
+
+class WeberPennSpecies {
+ public:
+  explicit WeberPennSpecies(ForeignText& source) : source_(source) {}
+
+  /// Sets a parameter by the name of the schema, such as "Shape" or "2Curve". `at`: the offset of its value.
+  void set(const std::string& name, double value, std::size_t at);
+  /// Sets it where the file does not.
+  void set_default(const std::string& name, double value) { values_.emplace(name, Value{value, none}); }
+
+  /// The value of a parameter; `otherwise` where the file has none.
+  double value(const std::string& name, double otherwise) const {
+    const auto found = values_.find(name);
+    return found == values_.end() ? otherwise : found->second.value;
+  }
+
+  /// The request. Parameters of levels that do not exist are left out; there, files have 0 where no value counts.
+  Imported made(std::uint64_t seed) const;
+
+  /// The parameters with a digit of a level before their names.
+  static bool is_of_levels(const std::string& name);
+
+ private:
+  static constexpr std::size_t none = ~std::size_t{0};
+  struct Value {
+    double value = 0;
+    std::size_t at = none;
+  };
+  ForeignText& source_;
+  std::map<std::string, Value> values_;
+};
+
+/// The shapes of leaves by the numbers of a program; "simple" for others.
+std::string leaf_shape_of(double number, std::array<const char*, 11> names);
+
+}  // namespace seedmesh

@@ -1,0 +1,36 @@
+#pragma once
+/// The one place where a stopped request becomes an error.
+#include <new>
+#include <string>
+#include <utility>
+
+#include "core/base/job.h"
+#include "core/base/result.h"
+
+namespace seedmesh {
+
+/// Pointers of generators are relative to their parameters; only those that begin with "/output/" are not.
+inline std::string in_request(std::string pointer) {
+  return pointer.empty() || pointer.starts_with("/output/") ? pointer : "/parameters" + pointer;
+}
+
+/// The same for all issues of an error.
+inline Error in_request(Error error) {
+  for (Issue& issue : error.issues) issue.pointer = in_request(std::move(issue.pointer));
+  return error;
+}
+
+/// The only catch of Stop: returns the result of `work`, or the reason why it stopped.
+template <class T, class Work>
+Result<T> guarded(Work&& work) {
+  try {
+    return work();
+  } catch (const Stop& stop) {
+    return in_request(Error{stop.code(), {stop.issue()}});
+  } catch (const std::bad_alloc&) {
+    return Error{Code::limit,
+                 {{IssueKind::not_available, "", "the machine has no memory left for this request"}}};
+  }
+}
+
+}  // namespace seedmesh

@@ -1,0 +1,43 @@
+#include "core/texture/decode.h"
+
+#include <string>
+#include <string_view>
+
+namespace seedmesh::texture {
+namespace detail {
+
+Error refused_picture(std::string message) {
+  return Error{Code::invalid, {{IssueKind::invalid_value, "", std::move(message)}}};
+}
+
+std::optional<Error> size_error(const char* format, std::uint64_t width, std::uint64_t height,
+                                const PngLimits& limits) {
+  if (width > 0 && height > 0 && width <= limits.longest_side && height <= limits.longest_side)
+    return std::nullopt;
+  return refused_picture(std::string("the ") + format + " has " + std::to_string(width) + " x " +
+                         std::to_string(height) + " pixels; a side may have " +
+                         std::to_string(limits.longest_side));
+}
+
+}  // namespace detail
+
+Result<Decoded> decode_picture(std::span<const std::byte> file, const PngLimits& limits, const Job& job) {
+  const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+  if (text.starts_with(std::string_view("II*\0", 4)) || text.starts_with(std::string_view("MM\0*", 4)) ||
+      text.starts_with(std::string_view("II+\0", 4)) || text.starts_with(std::string_view("MM\0+", 4)))
+    return decode_tiff(file, limits, job);
+  const auto as_decoded = [](Result<Picture> picture) -> Result<Decoded> {
+    if (!picture) return std::move(picture).error();
+    Decoded decoded;
+    decoded.picture.emplace(std::move(*picture));
+    return decoded;
+  };
+  if (text.starts_with("\xFF\xD8\xFF")) return as_decoded(decode_jpeg(file, limits, job));
+  if (text.size() >= 12 && text.starts_with("RIFF") && text.substr(8, 4) == "WEBP")
+    return as_decoded(decode_webp(file, limits, job));
+  if (text.starts_with("\x89PNG")) return as_decoded(decode_png(file, limits, job));
+  return detail::refused_picture("found " + std::to_string(file.size()) +
+                                 " bytes without the signature of a PNG, JPEG, WebP or TIFF");
+}
+
+}  // namespace seedmesh::texture

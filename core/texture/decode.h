@@ -1,0 +1,51 @@
+#pragma once
+/// Files of pictures as pixels: PNG, JPEG, WebP and TIFF, recognised by their first bytes. Files may be hostile: sizes are
+/// checked before pixels are allocated, and all memory is charged to the request. decode.cpp lists the formats; each has
+/// one file, the only one that includes its library (libpng, libjpeg-turbo, libwebp, libtiff).
+#include <optional>
+
+#include "core/texture/png.h"
+
+namespace seedmesh::texture {
+
+/// Numbers of a TIFF that are no shades: signed integers, integers of 32 bits, or floating-point numbers.
+struct Samples {
+  std::uint32_t width = 0, height = 0;
+  Array<float> values;  ///< of the first channel, in rows from the north or the top
+};
+
+/// Either a picture or samples.
+struct Decoded {
+  std::optional<Picture> picture;
+  std::optional<Samples> samples;
+  std::optional<double> no_data;  ///< the value that stands for a missing one (GDAL_NODATA of a TIFF)
+};
+
+/// Reads a file of any of the formats. A file that is truncated, damaged, too large or of another format is an Issue
+/// with an empty pointer. Gamma, colour profiles and the orientation of cameras (EXIF) are ignored.
+Result<Decoded> decode_picture(std::span<const std::byte> file, const PngLimits& limits, const Job& job);
+
+/// JPEG of one channel or three (T.81, baseline and progressive), decoded with the accurate integer transform, so that
+/// equal files give equal pixels.
+Result<Picture> decode_jpeg(std::span<const std::byte> file, const PngLimits& limits, const Job& job);
+
+/// WebP without animation: RGB, or RGBA if it has alpha.
+Result<Picture> decode_webp(std::span<const std::byte> file, const PngLimits& limits, const Job& job);
+
+/// The first image of a TIFF (TIFF 6.0, BigTIFF) in strips or tiles, uncompressed or with LZW, Deflate, PackBits or
+/// Zstandard: grey, RGB and palettes of 8 or 16 bits as a picture, other numbers as samples. Rows of a GeoTIFF that run
+/// northwards are put in order.
+Result<Decoded> decode_tiff(std::span<const std::byte> file, const PngLimits& limits, const Job& job);
+
+namespace detail {
+
+/// An error without a pointer.
+Error refused_picture(std::string message);
+
+/// An error if a side of a picture is 0 or longer than the limit, or if a file of `bytes` cannot hold the pixels.
+std::optional<Error> size_error(const char* format, std::uint64_t width, std::uint64_t height,
+                                const PngLimits& limits);
+
+}  // namespace detail
+
+}  // namespace seedmesh::texture

@@ -1,0 +1,20 @@
+#pragma once
+/// A cache of generated textures between requests. The caller of the pipeline owns it and decides what it keeps;
+/// core knows only this interface. Any number of threads may use it at once.
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace seedmesh {
+
+class TextureStore {
+ public:
+  virtual ~TextureStore() = default;
+  /// The entry of this key, or null.
+  virtual std::shared_ptr<const void> find(const std::string& key) = 0;
+  /// Keeps `value`, which is never changed again and takes `bytes` of memory; may forget it at any time. The
+  /// type behind the pointer follows from the key.
+  virtual void keep(const std::string& key, std::shared_ptr<const void> value, std::uint64_t bytes) = 0;
+};
+
+}  // namespace seedmesh

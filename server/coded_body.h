@@ -1,0 +1,25 @@
+#pragma once
+/// The body of a model's response in a content coding.
+#include <string_view>
+
+#include "server/service.h"
+
+namespace seedmesh {
+
+/// A body with the coding that was used. The memory of the model counts as in flight while the body exists.
+struct CodedBody {
+  Coding used = Coding::identity;
+  std::variant<http::Slice, http::Stream> body;
+};
+
+/// The model in the best coding that the client accepts; nothing where the memory in flight does not suffice.
+/// It stays as it is where it is small, where compression would save less than 15 %, where the client asks for a
+/// range, and where the settings say so. Small models are encoded here, large ones while they are sent. The cache
+/// keeps the encoded form of models up to 64 MiB.
+std::optional<CodedBody> coded_body(const Call& call, const TaggedRequest& wanted, const Cache::Entry& model,
+                                    Coding best);
+
+/// Whether a text address is of this machine or of a private network (RFC 1918, RFC 4193, link-local).
+bool is_private_address(std::string_view address);
+
+}  // namespace seedmesh

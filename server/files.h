@@ -1,0 +1,20 @@
+#pragma once
+/// Files for the commands. Every function sets `errno` on failure.
+#include <optional>
+#include <string>
+
+#include "core/gltf/payload.h"
+
+namespace seedmesh {
+
+/// The contents of a file; of standard input for "-". Nothing where it cannot be read.
+std::optional<std::string> read_file(const std::string& name);
+
+/// Writes a file; standard output for "-". False where it cannot be written.
+bool write_file(const std::string& name, const Payload& payload);
+
+/// Writes a file under a temporary name, then renames it, so that a file with this name is always complete.
+/// Makes missing folders. False where it cannot be written.
+bool write_file_atomically(const std::string& name, const Payload& payload);
+
+}  // namespace seedmesh

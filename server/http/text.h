@@ -1,0 +1,39 @@
+#pragma once
+/// Small operations on text that several readers of header fields, URLs and settings share.
+#include <charconv>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace seedmesh::http {
+
+/// Compares as field names and media types compare: ASCII letters without regard to case.
+bool equals_ignoring_case(std::string_view a, std::string_view b);
+
+/// The text without spaces and tabs at both ends.
+std::string_view trimmed(std::string_view text);
+
+/// Removes everything up to and including the first `separator` from `rest`. Returns the trimmed part before
+/// it, or all of `rest` where there is no separator.
+std::string_view take_part(std::string_view& rest, char separator);
+
+/// Decodes %xx. Returns nothing where an escape is malformed.
+enum class Plus { literal, space };  ///< `space`: "+" stands for a space, as in form data
+std::optional<std::string> percent_decode(std::string_view text, Plus plus = Plus::literal);
+
+/// Two lower-case hexadecimal digits for each byte.
+std::string hex(std::string_view bytes);
+
+/// 16 hexadecimal digits that are unique in this process and hard to guess from outside; never all zero.
+std::string random_id();
+
+/// The number that the whole text spells; nothing where it spells none or one out of range.
+template <class Number>
+std::optional<Number> parse_number(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace seedmesh::http

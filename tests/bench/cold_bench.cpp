@@ -1,0 +1,33 @@
+/// The processor time of each preset with a seed that was never asked for, without any cache, on one thread and
+/// without compression: what the first request for a model costs, with its textures.
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "core/pipeline.h"
+#include "tests/bench/report.h"
+
+namespace {
+
+using namespace seedmesh;
+
+constexpr int rounds = 3;
+
+/// Generates the preset with this seed, from the text of a request to the bytes of the answer.
+void make(const std::string& preset, int seed) {
+  const std::string text = "{\"preset\":\"" + preset + "\",\"seed\":" + std::to_string(seed) + "}";
+  const Result<Request> request = read_request(text, Limits{});
+  if (!request || !produce(*request, {.threads = 1})) std::abort();
+}
+
+}  // namespace
+
+int main() {
+  for (const PresetInfo& preset : presets()) {
+    int seed = 7'000'000;
+    const double seconds = bench::median_seconds<bench::CpuClock>(rounds, [&] { make(preset.name, ++seed); });
+    std::printf("{\"name\":\"%s\",\"seconds\":%.9f}\n", preset.name.c_str(), seconds);
+    std::fflush(stdout);
+  }
+}

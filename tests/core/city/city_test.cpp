@@ -1,0 +1,250 @@
+#include "core/generators/city/city.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/base/math.h"
+#include "core/generators/city/shape.h"
+#include "core/generators/city/statistics.h"
+#include "generated/params/city.h"
+
+namespace seedmesh::city {
+namespace {
+
+CityParams small_town(double east, double north) {
+  CityParams params;
+  params.area.size = {east, north};
+  return params;
+}
+
+CityPlan made(const CityParams& params, std::uint64_t seed, int threads = 1) {
+  Job::Options options;
+  options.threads = threads;
+  Job job(seed, options);
+  Result<CityPlan> plan = plan_of(params, job);
+  EXPECT_TRUE(plan);
+  return *std::move(plan);
+}
+
+/// Parameters drawn by seed: sizes, patterns and densities of streets.
+CityParams random_town(std::uint64_t seed) {
+  Rng rng = Rng::of_seed(seed);
+  CityParams params = small_town(rng.uniform(300, 900), rng.uniform(300, 900));
+  params.streets.pattern = static_cast<CityPattern>(rng.below(3));
+  params.streets.angle = rng.uniform(-90, 90);
+  params.streets.length = rng.uniform(45, 120);
+  params.streets.bend = rng.uniform(0, 60);
+  params.streets.branch_probability = rng.uniform(0.2, 0.8);
+  params.streets.dead_ends = rng.unit();
+  return params;
+}
+
+/// Directed edges of all parts that no neighbour has the other way round. A partition leaves the border.
+std::map<std::pair<CmPoint, CmPoint>, int> open_edges(const CityPlan& plan) {
+  std::map<std::pair<CmPoint, CmPoint>, int> edges;
+  for (const Part& part : plan.parts) {
+    for (const CmRing& ring : part.rings) {
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const CmPoint &a = ring[i], &b = ring[(i + 1) % ring.size()];
+        if (--edges[{b, a}] == 0) edges.erase({b, a});
+        if (++edges[{a, b}] == 0) edges.erase({a, b});
+      }
+    }
+  }
+  return edges;
+}
+
+TEST(City, PartitionsItsAreaIntoPolygonsThatShareTheirCorners) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    const CityPlan plan = made(random_town(seed), seed);
+    double sum = 0;
+    for (const Part& part : plan.parts) {
+      sum += area_of(part.rings);
+      for (const CmRing& ring : part.rings)
+        ASSERT_TRUE(is_simple(ring)) << name_of(part.kind) << ", seed " << seed;
+      ASSERT_GT(area_of(part.rings), 0) << name_of(part.kind) << ", seed " << seed;
+    }
+    ASSERT_NEAR(sum / area_of(plan.area), 1, 1e-9) << "seed " << seed;
+    for (const auto& [edge, count] : open_edges(plan)) {
+      bool is_on_border = false;
+      for (const CmRing& ring : plan.area) {
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+          const CmPoint &c = ring[i], &d = ring[(i + 1) % ring.size()];
+          is_on_border |= cross(c, d, edge.first) == 0 && cross(c, d, edge.second) == 0;
+        }
+      }
+      ASSERT_TRUE(is_on_border) << edge.first.x << " " << edge.first.y << ", seed " << seed;
+    }
+  }
+}
+
+TEST(City, GivesEveryLotItsFrontageWidthAndCorners) {
+  std::size_t lots = 0;
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    const CityParams params = random_town(seed);
+    const CityPlan plan = made(params, seed);
+    lots += plan.lots.size();
+    for (const Lot& lot : plan.lots) {
+      ASSERT_GE(lot.frontage, params.lots.width);
+      ASSERT_GE(least_box(lot.corners).short_side / 100, params.lots.width);
+      ASSERT_LE(sharpest_cosine(lot.corners), math::cos(math::radians(12)));
+      ASSERT_GE(lot.area, params.lots.area[0] * 0.999);
+    }
+  }
+  EXPECT_GT(lots, 3000U);
+}
+
+TEST(City, FillsEachBlockWithItsLots) {
+  const CityPlan plan = made(small_town(900, 700), 5);
+  std::vector<double> filled(plan.blocks.size(), 0);
+  for (const Part& part : plan.parts) {
+    if (part.block != no_index) filled[part.block] += area_of(part.rings);
+  }
+  for (std::size_t i = 0; i < filled.size(); ++i) EXPECT_NEAR(filled[i], area_of(plan.blocks[i].rings), 1e-6);
+}
+
+TEST(City, KeepsTheLeastAngleAndTheLeastLengthOfStreets) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    const StreetGraph graph = made(random_town(seed), seed).graph;
+    for (std::uint32_t node = 0; node < graph.nodes.size(); ++node) {
+      std::vector<double> angles;
+      for (const std::uint32_t half : graph.arms.of(node)) {
+        if (!graph.is_street(half / 2)) continue;
+        const CmPoint& end = graph.nodes[end_of(graph.edges, half)];
+        ASSERT_GE(distance(graph.nodes[node], end), 300);
+        angles.push_back(std::atan2(end.y - graph.nodes[node].y, end.x - graph.nodes[node].x) * 180 /
+                         math::pi);
+      }
+      std::sort(angles.begin(), angles.end());
+      for (std::size_t i = 0; angles.size() > 1 && i < angles.size(); ++i) {
+        const double next = i + 1 < angles.size() ? angles[i + 1] : angles[0] + 360;
+        ASSERT_GE(next - angles[i], 22.5) << "seed " << seed;
+      }
+    }
+  }
+}
+
+TEST(City, IsTheSameWithAnyNumberOfThreads) {
+  const CityParams params = small_town(1200, 1200);
+  for (const int threads : {2, 8}) {
+    const CityPlan one = made(params, 3), many = made(params, 3, threads);
+    ASSERT_EQ(one.graph.nodes, many.graph.nodes);
+    ASSERT_EQ(one.parts.size(), many.parts.size());
+    for (std::size_t i = 0; i < one.parts.size(); ++i) ASSERT_EQ(one.parts[i].rings, many.parts[i].rings);
+  }
+}
+
+TEST(City, LeavesStreetsAloneWhenLotsChange) {
+  CityParams params = small_town(700, 700);
+  const CityPlan before = made(params, 9);
+  params.lots.irregularity = 0.8;
+  const CityPlan after = made(params, 9);
+  EXPECT_EQ(before.graph.nodes, after.graph.nodes);
+  EXPECT_NE(before.lots[0].corners, after.lots[0].corners);
+}
+
+TEST(City, KeepsStreetsFarFromAQuarterThatBecomesDenser) {
+  CityParams params = small_town(2000, 2000);
+  params.maps.density = "0.55";
+  const CityPlan before = made(params, 11);
+  params.maps.density = "0.55 + 0.3 * (x > 200 && y > 200)";
+  const CityPlan after = made(params, 11);
+  const std::set<std::uint64_t> there(after.graph.edge_key.begin(), after.graph.edge_key.end());
+  int far = 0, kept = 0;
+  for (std::uint32_t e = 0; e < before.graph.edges.size(); ++e) {
+    if (!before.graph.is_street(e)) continue;
+    bool is_far = true;
+    for (const std::uint32_t node : {before.graph.edges[e].from, before.graph.edges[e].to}) {
+      const glm::dvec2 p = in_metres(before.graph.nodes[node]);
+      is_far &= std::hypot(std::max(0.0, 200 - p.x), std::max(0.0, 200 - p.y)) > 300;
+    }
+    if (!is_far) continue;
+    ++far;
+    kept += there.contains(before.graph.edge_key[e]) ? 1 : 0;
+  }
+  ASSERT_GT(far, 100);
+  EXPECT_GE(kept, 0.95 * far);
+}
+
+TEST(CityStatistics, MeasureTheInnerAreaOfARectangleAndOfASquareWithAHole) {
+  const Job job(0, Job::Options{});
+  const CmRing square = {{0, 0}, {100'000, 0}, {100'000, 80'000}, {0, 80'000}};
+  EXPECT_NEAR(inner_area({square}, 60, job), 880.0 * 680.0, 5);
+  const CmRing hole = {{40'000, 40'000}, {40'000, 50'000}, {50'000, 50'000}, {50'000, 40'000}};
+  // The hole takes its own area, four bands, and the four quarters of a disc.
+  const double taken = 100.0 * 100.0 + 4 * 100.0 * 60.0 + math::pi * 3600;
+  EXPECT_NEAR(inner_area({square, hole}, 60, job), 880.0 * 680.0 - taken, 20);
+}
+
+std::vector<std::string> pointers(const CityParams& params) {
+  std::vector<std::string> found;
+  const Limits limits;
+  for (const Issue& issue : check(params, {limits, {}})) found.push_back(issue.pointer);
+  return found;
+}
+
+TEST(City, RefusesWhatContradictsItself) {
+  CityParams params;
+  params.lots.area = {800, 200};
+  EXPECT_EQ(pointers(params), std::vector<std::string>{"/lots/area"});
+  params = {};
+  params.lots.area = {40, 90};
+  params.lots.width = 60;
+  EXPECT_EQ(pointers(params), std::vector<std::string>{"/lots/width"});
+  params = {};
+  params.area.polygon = {{{0, 0}, {500, 500}, {500, 0}, {0, 500}}};
+  ASSERT_FALSE(pointers(params).empty());
+  EXPECT_TRUE(pointers(params)[0].starts_with("/area/polygon"));
+  params = {};
+  params.maps.density = "x +* 2";
+  EXPECT_EQ(pointers(params), std::vector<std::string>{"/maps/density"});
+  params = {};
+  params.streets.productions = {"R(del,rule) e"};
+  ASSERT_FALSE(pointers(params).empty());
+  EXPECT_EQ(pointers(params)[0], "/streets/productions/0");
+}
+
+TEST(City, MakesNoStreetsFromProductionsThatEraseTheFirstRoad) {
+  CityParams params = small_town(600, 600);
+  params.streets.productions = {"R(del, rule) -> *", "I(road, state) -> *"};
+  const CityPlan plan = made(params, 1);
+  EXPECT_TRUE(plan.lots.empty());
+  ASSERT_EQ(plan.parts.size(), 1U);
+  EXPECT_EQ(plan.parts[0].kind, PartKind::park);
+}
+
+TEST(City, RefusesNoRoadNumberThatProductionsInvent) {
+  CityParams params = small_town(500, 500);
+  for (const char* road : {"road + 1000000", "0 - 5", "1 / 0", "0 / 0"}) {
+    params.streets.productions[7] = "I(road, state) : state == UNASSIGNED { localConstraints(" +
+                                    std::string(road) + ") } -> I(road, state)";
+    EXPECT_EQ(made(params, 1).parts.size(), 1U) << road;
+  }
+}
+
+TEST(City, StopsProductionsThatMultiplyWithoutEnd) {
+  CityParams params = small_town(500, 500);
+  params.streets.productions = {"R(del, rule) -> B(1, 0, 0) B(1, 0, 0)",
+                                "B(del, rule, road) -> B(1, 0, 0) B(1, 0, 0)"};
+  Job job(1, Job::Options{});
+  EXPECT_THROW(plan_of(params, job), Stop);
+}
+
+TEST(City, GrowsMoreWhereBranchesAreNotErased) {
+  CityParams params = small_town(900, 900);
+  params.streets.branch_probability = 1;
+  const std::size_t many = made(params, 1).graph.edges.size();
+  // p6 erases every branch instead of those with a negative delay.
+  params.streets.productions[5] = "B(del, rule, road) : del >= 0 -> *";
+  std::rotate(params.streets.productions.begin() + 3, params.streets.productions.begin() + 5,
+              params.streets.productions.begin() + 6);
+  EXPECT_LT(made(params, 1).graph.edges.size(), many);
+}
+
+}  // namespace
+}  // namespace seedmesh::city

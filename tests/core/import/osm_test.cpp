@@ -1,0 +1,198 @@
+#include <gmock/gmock.h>
+
+#include "core/base/rng.h"
+#include "core/import/map_projection.h"
+#include "core/import/map_values.h"
+#include "tests/core/import/maps.h"
+
+namespace seedmesh {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Value = nlohmann::json;
+
+const std::string house = tag("building", "house") + tag("height", "7") + tag("roof:shape", "hipped");
+
+TEST(Osm, ReadsBuildingsOfXml) {
+  OsmText osm;
+  osm.way(osm.box(0, 0, 12, 8), house);
+  const auto result = imported("osm", osm.text());
+  ASSERT_TRUE(result) << reports(result)[0];
+  const Value made = parameters_of(result)["buildings"][0];
+  EXPECT_EQ(made["name"], "way/5");
+  EXPECT_EQ(made["height"], 7);
+  EXPECT_EQ(made["roof"]["shape"], "hipped");
+  EXPECT_EQ(made["footprint"][0].size(), 4U);
+}
+
+TEST(Osm, JoinsTheWaysOfMultipolygons) {
+  OsmText osm;
+  const std::vector<int> outer = osm.box(0, 0, 30, 30), inner = osm.box(10, 10, 10, 10);
+  // The outer ring in two ways of opposite directions.
+  const int first = osm.way({outer[0], outer[1], outer[2]}, ""),
+            second = osm.way({outer[0], outer[3], outer[2]}, "");
+  const int hole = osm.way(inner, "");
+  osm.multipolygon({first, second}, {hole}, house);
+  const auto result = imported("osm", osm.text());
+  ASSERT_TRUE(result) << reports(result)[0];
+  const Value parameters = parameters_of(result);
+  ASSERT_EQ(parameters["buildings"].size(), 1U);
+  EXPECT_EQ(parameters["buildings"][0]["footprint"].size(), 2U);
+}
+
+TEST(Osm, TakesTheTagsOfTheOuterWayWhereTheRelationHasNone) {
+  OsmText osm;
+  const int outer = osm.way(osm.box(0, 0, 30, 30), house), inner = osm.way(osm.box(10, 10, 10, 10), "");
+  osm.multipolygon({outer}, {inner}, "");
+  const Value parameters = parameters_of(imported("osm", osm.text()));
+  ASSERT_EQ(parameters["buildings"].size(), 1U);
+  EXPECT_EQ(parameters["buildings"][0]["footprint"].size(), 2U);
+}
+
+TEST(Osm, ReadsTheJsonOfOverpassInBothForms) {
+  const Value a = degrees_at(0, 0), b = degrees_at(12, 0), c = degrees_at(12, 8), d = degrees_at(0, 8);
+  Value elements = Value::array(), geometry = Value::array(), ids = Value::array();
+  int id = 1;
+  for (const Value& p : {a, b, c, d}) {
+    elements.push_back({{"type", "node"}, {"id", id}, {"lon", p[0]}, {"lat", p[1]}});
+    geometry.push_back({{"lon", p[0]}, {"lat", p[1]}});
+    ids.push_back(id++);
+  }
+  ids.push_back(1);
+  geometry.push_back(geometry[0]);
+  const Value tags = {{"building", "yes"}, {"height", "7"}};
+  elements.push_back({{"type", "way"}, {"id", 9}, {"nodes", ids}, {"tags", tags}});
+  const Value in_place = {
+      {{"type", "way"}, {"id", 9}, {"nodes", ids}, {"geometry", geometry}, {"tags", tags}}};
+  const auto with_nodes = imported("osm", Value{{"version", 0.6}, {"elements", elements}}.dump());
+  const auto with_geometry = imported("", Value{{"version", 0.6}, {"elements", in_place}}.dump());
+  ASSERT_TRUE(with_nodes) << reports(with_nodes)[0];
+  ASSERT_TRUE(with_geometry) << reports(with_geometry)[0];
+  EXPECT_EQ(parameters_of(with_nodes)["buildings"], parameters_of(with_geometry)["buildings"]);
+  EXPECT_EQ(parameters_of(with_nodes)["buildings"][0]["name"], "way/9");
+}
+
+TEST(Osm, WarnsAtTheLineOfWhatItLeavesOut) {
+  OsmText osm;
+  std::vector<int> box = osm.box(0, 0, 12, 8);
+  osm.way(box, house);
+  box[2] = 4711;
+  osm.way(box, house);
+  const auto result = imported("osm", osm.text());
+  ASSERT_TRUE(result);
+  EXPECT_EQ(parameters_of(result)["buildings"].size(), 1U);
+  EXPECT_THAT(reports(result),
+              Contains(testing::MatchesRegex("8:[0-9]+ an area refers to nodes that the file lacks.*")));
+}
+
+TEST(Osm, LeavesOutTunnelsAndDeletedElements) {
+  OsmText osm;
+  osm.way(osm.box(0, 0, 12, 8), house);
+  osm.way({osm.node(0, 20), osm.node(50, 20)}, tag("highway", "primary") + tag("tunnel", "yes"));
+  std::string text = osm.text();
+  const auto result = imported("osm", text);
+  EXPECT_FALSE(parameters_of(result).contains("paths"));
+  EXPECT_THAT(reports(result), Contains(HasSubstr("below the ground")));
+  text.replace(text.find("<way id='5'"), 11, "<way id='5' action='delete'");
+  EXPECT_THAT(reports(imported("osm", text)), Contains(HasSubstr("found no building")));
+}
+
+TEST(Osm, MakesTreesOfRows) {
+  OsmText osm;
+  osm.way({osm.node(0, 0), osm.node(80, 0)}, tag("natural", "tree_row"));
+  const Value layers = parameters_of(imported("osm", osm.text()))["layers"];
+  EXPECT_EQ(layers[0]["place"]["positions"].size(), 11U);
+}
+
+TEST(Osm, RefusesBrokenXmlAtItsLine) {
+  EXPECT_THAT(reports(imported("osm", "<osm>\n<node id='1'\n</osm>")),
+              ElementsAre(HasSubstr("this is no XML")));
+  EXPECT_THAT(reports(imported("osm", "<kml/>")), ElementsAre(HasSubstr("expected the element <osm>")));
+  EXPECT_THAT(reports(imported(
+                  "osm", "<osm>\n<node id='x' lon='1' lat='1'/>\n<node id='2' lon='1' lat='91'/></osm>")),
+              ElementsAre(HasSubstr("2:2 found no number in the attribute \"id\""),
+                          HasSubstr("3:2 found a position that is not on Earth")));
+}
+
+/// Files that are cut, joined and changed at random are refused in words, or become a request that is read again.
+TEST(Osm, SurvivesChangedFiles) {
+  OsmText osm;
+  const std::vector<int> outer = osm.box(0, 0, 30, 30), inner = osm.box(10, 10, 10, 10);
+  osm.multipolygon({osm.way(outer, ""), osm.way({outer[0], outer[1]}, tag("highway", "primary"))},
+                   {osm.way(inner, "")}, house);
+  osm.node(3, 3, tag("natural", "tree"));
+  const std::string json = collection_of({feature_of({{"building", "yes"}, {"roof:shape", "dome"}},
+                                                     {box_of(0, 0, 9, 9), box_of(3, 3, 2, 2)}),
+                                          feature_of({{"natural", "water"}}, {box_of(30, 0, 9, 9)})})
+                               .dump();
+  const std::string files[] = {osm.text(), json};
+  std::size_t accepted = 0;
+  for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+    Rng rng = Rng::of_seed(seed).at("changed files");
+    std::string text = files[seed % 2];
+    const std::uint32_t changes = 1 + rng.below(4);
+    for (std::uint32_t i = 0; i < changes; ++i) {
+      const std::size_t at = rng.below(static_cast<std::uint32_t>(text.size()));
+      const std::size_t from = rng.below(static_cast<std::uint32_t>(text.size())), count = rng.below(40);
+      switch (rng.below(4)) {
+        case 0:
+          text[at] = static_cast<char>('0' + rng.below(10));
+          break;
+        case 1:
+          text.erase(at, count);
+          break;
+        case 2:
+          text.insert(at, text.substr(from, count));
+          break;
+        default:
+          text[at] = "-.e<>\"'{}[],: "[rng.below(15)];
+      }
+      if (text.empty()) text = " ";
+    }
+    const auto result = imported(seed % 2 == 0 ? "osm" : "geojson", text);
+    if (!result) {
+      ASSERT_FALSE(result.error().issues.empty());
+      for (const Issue& issue : result.error().issues)
+        ASSERT_FALSE(issue.message.empty() || issue.pointer.starts_with("/parameters"))
+            << issue.pointer << issue.message << text;
+      continue;
+    }
+    ++accepted;
+    ASSERT_TRUE(read_request(result->request.canonical(), Limits{})) << text;
+  }
+  EXPECT_GT(accepted, 300U);
+}
+
+TEST(TransverseMercator, AgreesWithPublishedFigures) {
+  // The quarter of a meridian of WGS 84 to 45 degrees, and UTM's easting of zone 31's border on the equator.
+  EXPECT_NEAR(TransverseMercator(0, 0).forward({0, 45}).y, 4984944.378, 0.001);
+  EXPECT_NEAR(TransverseMercator(3, 0).forward({6, 0}).x * 0.9996 + 500000, 833978.557, 0.001);
+  EXPECT_NEAR(TransverseMercator(179.9, 10).forward({-179.9, 10}).x,
+              -TransverseMercator(-179.9, 10).forward({179.9, 10}).x, 1e-6);
+}
+
+TEST(MapValues, ReadsLengthsDirectionsAndColours) {
+  EXPECT_DOUBLE_EQ(*map_length("12.5"), 12.5);
+  EXPECT_DOUBLE_EQ(*map_length("7 m"), 7);
+  EXPECT_DOUBLE_EQ(*map_length("40'6\""), 40.5 * 0.3048);
+  EXPECT_DOUBLE_EQ(*map_length("10 ft"), 3.048);
+  EXPECT_FALSE(map_length("high"));
+  EXPECT_FALSE(map_length("12;14"));
+  EXPECT_DOUBLE_EQ(*map_number("2;3"), 2);
+  EXPECT_DOUBLE_EQ(*map_direction("north-east"), 45);
+  EXPECT_DOUBLE_EQ(*map_direction("WNW"), 292.5);
+  EXPECT_DOUBLE_EQ(*map_direction("135"), 135);
+  EXPECT_FALSE(map_direction("up"));
+  EXPECT_EQ(*map_color("RoyalBlue"), "#4169e1");
+  EXPECT_EQ(*map_color("#AbC"), "#aabbcc");
+  EXPECT_EQ(*map_color("c0ffee"), "#c0ffee");
+  EXPECT_EQ(*map_color("rgb(240, 10, 0)"), "#f00a00");
+  EXPECT_FALSE(map_color("rgb(240, 10)"));
+  EXPECT_FALSE(map_color("rgb(256,1,1)"));
+  EXPECT_FALSE(map_color("#12345"));
+}
+
+}  // namespace
+}  // namespace seedmesh

@@ -1,0 +1,71 @@
+#include <gmock/gmock.h>
+
+#include "tests/core/import/support.h"
+
+namespace seedmesh {
+namespace {
+
+using nlohmann::json;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr std::string_view shed = R"(// a shed of two storeys
+param height = 6;
+const gap = 0.5;
+func half(x) = x / 2;
+rule Axiom = { size(8, 0, 4) quad Shed };
+rule Shed = { extrude(height) splitFace("top", { Lid_ }, "vertical", { Wall }) };
+rule Wall :: size_x > 5 = { splitX("f(s)f", gap, { Edge_ }, half(4), { Bay_ }, gap, { Edge_ }) };
+rule Wall :: !(size_x > 5) = { splitRepeatY(3, { Storey_ }) };
+)";
+
+/// Symbols of the active shapes of the request, sorted.
+std::map<std::string, int> leaves_of(const Result<ImportedRequest>& result) {
+  std::map<std::string, int> counts;
+  if (!result) return counts;
+  const Result<std::string> answer = derive(result->request, {});
+  if (!answer) return counts;
+  const json derived = json::parse(*answer);
+  for (const json& shape : derived.at("shapes")) {
+    if (shape.at("active")) ++counts[shape.at("symbol").get<std::string>()];
+  }
+  return counts;
+}
+
+TEST(Shapeml, BecomesABuildingWithTheSameRules) {
+  const auto result = imported("shapeml", shed);
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_THAT(reports(result), IsEmpty());
+  // Two walls of 8 m: 7 m between the edges take four bays of 2 m; two walls of 4 m have two storeys.
+  const std::map<std::string, int> expected = {{"Bay_", 8}, {"Edge_", 4}, {"Lid_", 1}, {"Storey_", 4}};
+  EXPECT_EQ(leaves_of(result), expected);
+}
+
+TEST(Shapeml, IsRecognisedByItsRules) {
+  const auto result = imported("", shed);
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_EQ(json::parse(result->answer).at("format"), "shapeml");
+}
+
+TEST(Shapeml, MakesPercentagesOfWeights) {
+  const auto result = imported("shapeml", "rule Axiom : 3 = { cube A_ }; rule Axiom : 1 = { cube B_ };");
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_THAT(parameters_of(result)["rules"].get<std::string>(), HasSubstr("75.000000% :"));
+}
+
+TEST(Shapeml, ReportsWhatHasNoCounterpart) {
+  EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { torus(1, 2, 3, 4) A_ };")),
+              Contains(HasSubstr("no rule, and no operation")));
+  EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { ^other };")),
+              Contains(HasSubstr("operations as values")));
+  EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { cube\n metallic(1) A_ };")),
+              Contains(HasSubstr("2:2 `metallic` has no counterpart")));
+  EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { splitX(\"fs\", 1, { A_ }) };")),
+              Contains(HasSubstr("does not fit")));
+  EXPECT_THAT(reports(imported("shapeml", "what = 3;")),
+              Contains(HasSubstr("expected param, const, func or rule")));
+}
+
+}  // namespace
+}  // namespace seedmesh

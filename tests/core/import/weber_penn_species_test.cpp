@@ -1,0 +1,147 @@
+/// Species of Arbaro, tree-gen and Sapling. The values of each file are its own numbers, under the names of the schema.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "core/pipeline.h"
+#include "tests/core/import/support.h"
+
+namespace seedmesh {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr const char* alder = R"(<?xml version='1.0' ?>
+<!-- by hand -->
+<arbaro>
+  <species name='alder'>
+    <param name='Shape' value='3'/>
+    <param name='Levels' value='2'/>
+    <param name='Scale' value='9.5'/>
+    <param name='Lobes' value='0'/>
+    <param name="0Branches" value="3"/>
+    <param name='0BranchDist' value='0.75'/>
+    <param name='0Length' value='0.9'/>
+    <param name='1Branches' value='17'/>
+    <param name='1BranchDist' value='0.25'/>
+    <param name='1DownAngleV' value='-30'/>
+    <param name='2DownAngle' value='40'/>
+    <param name='2Branches' value='0'/>
+    <param name='3CurveRes' value='0'/>
+    <param name='LeafShape' value='disc4'/>
+    <param name='LeafQuality' value='1'/>
+  </species>
+</arbaro>
+)";
+
+TEST(Arbaro, BecomesATreeWithItsParameters) {
+  const auto result = imported("", alder);
+  ASSERT_TRUE(result) << reports(result)[0];
+  const nlohmann::json parameters = parameters_of(result);
+  const nlohmann::json expected = {
+      {"Shape", 3},     {"Levels", 2},     {"Scale", 9.5},        {"0Branches", 3},     {"0BranchDist", 0.75},
+      {"0Length", 0.9}, {"1Branches", 17}, {"1BranchDist", 0.25}, {"1DownAngleV", -30}, {"2DownAngle", 40}};
+  for (const auto& [name, value] : expected.items()) {
+    ASSERT_TRUE(parameters.contains(name)) << name << " in " << parameters.dump();
+    EXPECT_EQ(parameters[name].get<double>(), value.get<double>()) << name;
+  }
+  EXPECT_EQ(parameters.at("leaf").at("shape"), "kite");
+  EXPECT_FALSE(parameters.contains("2Branches")) << "there is no level 2";
+  EXPECT_FALSE(parameters.contains("3CurveRes")) << "0 of a level without limbs says nothing";
+}
+
+TEST(Arbaro, HasTheDefaultsOfArbaroWhereTheFileHasNone) {
+  const nlohmann::json parameters = parameters_of(
+      imported("arbaro", "<arbaro><species name='x'><param name='Leaves' value='4'/></species></arbaro>"));
+  ASSERT_TRUE(parameters.is_object());
+  const nlohmann::json expected = {{"Shape", 0},      {"Scale", 10},    {"BaseSize", 0.25}, {"Ratio", 0.05},
+                                   {"1Branches", 10}, {"1Length", 0.5}, {"1DownAngle", 30}, {"1CurveRes", 3}};
+  for (const auto& [name, value] : expected.items())
+    EXPECT_EQ(parameters.value(name, -1.0), value.get<double>()) << name;
+}
+
+TEST(Arbaro, ReportsWhatItDoesNotKnowAtItsLine) {
+  EXPECT_THAT(reports(imported("arbaro",
+                               "<arbaro><species name='x'>\n<param name='Shapes' value='3'/>\n"
+                               "<param name='Scale' value='tall'/>\n"
+                               "<param name='Ratio'/>\n</species></arbaro>")),
+              ElementsAre(AllOf(HasSubstr("2:14"), HasSubstr("`Shapes` is no parameter of Arbaro")),
+                          AllOf(HasSubstr("3:"), HasSubstr("`tall`, expected a number")),
+                          AllOf(HasSubstr("4:1"), HasSubstr("expected `<param"))));
+  EXPECT_THAT(reports(imported("arbaro", "<arbaro></arbaro>")), Contains(HasSubstr("found no species")));
+  EXPECT_THAT(reports(imported("arbaro",
+                               "<arbaro><species name='x'><param name='Scale' value='1'/>\n"
+                               "<param name='Scale' value='2'/></species></arbaro>")),
+              Contains(AllOf(HasSubstr("2:"), HasSubstr("second value of `Scale`"))));
+}
+
+constexpr const char* fir = R"(# a fir
+params = {
+    'shape': 0, 'g_scale': 6, 'g_scale_v': 1, 'levels': 3, 'ratio': 0.02, 'flare': 0.3,
+    'base_size': [0.1, 0.05, 0], 'branches': [1, 30, 6, 0], 'branch_dist': [0, 2, 1, 0],
+    'length': [1, 0.4, 0.5, 0], 'down_angle': [0, 90, -50, 45], 'rotate': [0, 60, -180, 140],
+    'curve_res': (8, 4, 1, 0), 'leaf_blos_num': -3, 'tropism': [0, 0, 0.5], 'leaf_shape': 2,
+}
+)";
+
+TEST(TreeGen, BecomesATreeWithItsParameters) {
+  const auto result = imported("", fir);
+  ASSERT_TRUE(result) << reports(result)[0];
+  const nlohmann::json parameters = parameters_of(result);
+  const nlohmann::json expected = {
+      {"Shape", 0},      {"Scale", 6},        {"ScaleV", 1},     {"Ratio", 0.02},     {"Flare", 0.3},
+      {"BaseSize", 0.1}, {"1BaseSize", 0.05}, {"1Branches", 30}, {"2Branches", 6},    {"1Whorl", 3},
+      {"2Whorl", 2},     {"1Length", 0.4},    {"2Length", 0.5},  {"2DownAngle", -50}, {"2Rotate", -180},
+      {"0CurveRes", 8},  {"Leaves", -3}};
+  for (const auto& [name, value] : expected.items()) {
+    ASSERT_TRUE(parameters.contains(name)) << name << " in " << parameters.dump();
+    EXPECT_EQ(parameters[name].get<double>(), value.get<double>()) << name;
+  }
+  EXPECT_EQ(parameters.at("leaf").at("shape"), "willow");
+}
+
+TEST(TreeGen, ReadsPresetsOfSapling) {
+  const auto result = imported("",
+                               "{'shape': '4', 'scale': 7.5, 'levels': 2, 'ratioPower': 1.5, 'ratio': 0.03,\n"
+                               " 'curveRes': (9, 6, 3, 1), 'branches': (0, 21, 30, 10), 'baseSize': 0.3,\n"
+                               " 'attractUp': 0.25, 'showLeaves': False, 'prune': False, 'pruneRatio': 1.0,\n"
+                               " 'bevel': True, 'handleType': '0', 'seed': 12, 'leaves': 11}");
+  ASSERT_TRUE(result) << reports(result)[0];
+  const nlohmann::json request = nlohmann::json::parse(result->request.canonical());
+  const nlohmann::json parameters = request.at("parameters");
+  EXPECT_EQ(request.at("seed"), 12);
+  EXPECT_EQ(parameters.at("Shape"), 4);
+  EXPECT_EQ(parameters.at("Scale"), 7.5);
+  EXPECT_EQ(parameters.at("BaseSize"), 0.3);
+  EXPECT_EQ(parameters.at("0CurveRes"), 9);
+  EXPECT_EQ(parameters.at("1Branches"), 21);
+  EXPECT_FALSE(parameters.contains("PruneRatio")) << "pruning is off";
+  EXPECT_EQ(parameters.at("leaf").at("build"), "none");
+}
+
+TEST(TreeGen, GivesSeveralTrunksTheSpaceOfTheOriginal) {
+  const auto result =
+      imported("tree_gen", "{'shape': 1, 'g_scale': 5, 'ratio': 0.02, 'branches': [5, 3, 0, 0]}");
+  ASSERT_TRUE(result);
+  EXPECT_EQ(parameters_of(result).at("0Branches"), 5);
+  EXPECT_NEAR(parameters_of(result).at("0BranchDist").get<double>(), std::sqrt(5 / 2.5 * 5 * 0.02), 1e-9);
+}
+
+TEST(TreeGen, WarnsOfWhatHasNoCounterpartAndReportsErrors) {
+  EXPECT_THAT(reports(imported("tree_gen", "{'shape': 7,\n 'blossom_rate': 0.5,\n 'tropism': [1, 0, 0.5]}")),
+              AllOf(Contains(AllOf(HasSubstr("2:2"), HasSubstr("`blossom_rate` has no counterpart"))),
+                    Contains(AllOf(HasSubstr("3:2"), HasSubstr("not sideways")))));
+  EXPECT_THAT(reports(imported("tree_gen", "{'shape': 7, 'branches': [0, many]}")),
+              Contains(HasSubstr("`many`, expected a number")));
+  EXPECT_THAT(reports(imported("tree_gen", "{'shape': 7,\n 'branches' [0]}")), Contains(HasSubstr("2:2")));
+  EXPECT_THAT(reports(imported("tree_gen", "{'shape': 7")), Contains(HasSubstr("without its `}`")));
+  EXPECT_THAT(reports(imported("tree_gen", "shape = 7")), Contains(HasSubstr("found no dictionary")));
+  EXPECT_THAT(reports(imported("tree_gen", "{'shape': 7, 'g_scale': 1e9}")), Contains(HasSubstr("1:25")))
+      << "errors of the generator are at the value";
+}
+
+}  // namespace
+}  // namespace seedmesh

@@ -1,0 +1,54 @@
+// Models that name their generated textures by URL, and the route that answers with these textures.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { is_problem } from './contract.mjs';
+import { program, serve } from './support.mjs';
+
+let server;
+before(async () => { server = await serve(program); });
+after(async () => { await server.stop(); });
+
+const oak = (textures) => ({ preset: 'oak', output: { format: 'gltf', textures } });
+
+test('a model with links holds no image, and each link has the bytes that the model would hold', async () => {
+  const linked = JSON.parse((await server.generate(oak('links'))).bytes);
+  const embedded = JSON.parse((await server.generate(oak(512))).bytes);
+  assert.equal(linked.images.length, embedded.images.length);
+  assert.ok(linked.images.length >= 6);
+  for (const [i, image] of linked.images.entries()) {
+    assert.equal(image.bufferView, undefined);
+    const answer = await server.get(image.uri);
+    assert.equal(answer.status, 200);
+    assert.equal(answer.type, 'image/png');
+    assert.match(answer.headers['cache-control'], /immutable/);
+    const view = embedded.bufferViews[embedded.images[i].bufferView];
+    const buffer = Buffer.from(embedded.buffers[view.buffer].uri.split(',')[1], 'base64');
+    assert.deepEqual(answer.bytes, buffer.subarray(view.byteOffset ?? 0, (view.byteOffset ?? 0) + view.byteLength));
+    const again = await server.get(image.uri, { 'If-None-Match': answer.headers.etag });
+    assert.equal(again.status, 304);
+  }
+});
+
+test('a texture of another engine is redirected to that of this one', async () => {
+  const { engine } = (await server.get('/version')).json;
+  const answer = await server.get('/v1/textures/1-abc.oak_bark.17.64.color.png');
+  assert.equal(answer.status, 307);
+  assert.equal(answer.headers.location, `/v1/textures/${engine}.oak_bark.17.64.color.png`);
+  assert.equal((await server.get(answer.headers.location)).status, 200);
+});
+
+test('names of no texture are not found', async () => {
+  const { engine } = (await server.get('/version')).json;
+  for (const name of ['x', `${engine}.png`, `${engine}.oak.17.64.color.png`, `${engine}.oak_bark.17.99999.color.png`, `${engine}.oak_bark.17.64.color.jpg`]) {
+    is_problem(await server.get(`/v1/textures/${name}`), 404);
+  }
+});
+
+test('links are refused in files that stand alone, and beside impostors', async () => {
+  const zip = await server.generate({ preset: 'oak', output: { format: 'zip', textures: 'links' } });
+  is_problem(zip, 422);
+  assert.equal(zip.json.errors[0].pointer, '/output/textures');
+  const impostor = await server.generate({ preset: 'oak', output: { profile: 'web', impostor: true, textures: 'links' } });
+  is_problem(impostor, 422);
+  assert.equal(impostor.json.errors[0].pointer, '/output/textures');
+});
