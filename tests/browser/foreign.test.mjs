@@ -61,7 +61,8 @@ test('annotations of a rule file become fields', { timeout: 300_000 }, async () 
   assert.deepEqual(await slider.evaluate((each) => [each.min, each.max, each.step]), ['3', '30', '0.5']);
   assert.deepEqual(await attribute('roof').locator('option').allTextContents(), ['flat', 'hip']);
   assert.equal(await attribute('wall').locator('input[type=color]').inputValue(), '#ddccaa');
-  await until_shown(page, async () => { await number.fill('12'); await number.press('Enter'); });
+  await number.fill('12');
+  for (let turn = 0; turn < 200 && now(page).parameters.attributes === undefined; turn += 1) await page.waitForTimeout(50);
   assert.deepEqual(now(page).parameters.attributes, { height: 12 });
   assert.deepEqual(page.errors, []);
 });

@@ -286,7 +286,8 @@ void parse_operation(Parser& p, const OperationRow& row, std::vector<Step>& out)
   parse_arguments(p, row, list, parts);
   read_axis(p, row, step, list);
   // The attribute of a rule file that the request does not have; a warning has said so.
-  if (row.op == Op::set && !list.empty() && p.tokens.is_missing(p.grammar.words[list[0].word]))
+  if (row.op == Op::set && !list.empty() && list[0].word < p.grammar.words.size() &&
+      p.tokens.is_missing(p.grammar.words[list[0].word]))
     step.op = Op::ignored;
   append_rows(p.grammar.arguments, list, step.first_argument, step.argument_count);
   if (row.braces == Braces::next) {
@@ -342,7 +343,7 @@ const OperationRow* operation_here(const Parser& p) {
   if (row == nullptr) return nullptr;
   if (p.tokens.is(p.at + 1, "(")) {
     // Rules can have the names of operations of 2006, such as Roof(kind), which end with braces.
-    const bool has_braces = p.tokens.is(p.tokens.partner(p.at + 1) + 1, "{");
+    const bool has_braces = p.tokens.is(std::min(p.tokens.partner(p.at + 1) + 1, p.tokens.end()), "{");
     const bool needs_them = row->braces == Braces::one || row->braces == Braces::names;
     return needs_them && !has_braces && p.symbols_with_rules.contains(token.text) ? nullptr : row;
   }

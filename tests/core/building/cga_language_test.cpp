@@ -167,14 +167,15 @@ TEST(CgaLanguage, WarnsOfAFileThatTheRequestDoesNotHave) {
 }
 
 TEST(CgaLanguage, LeavesOutWhatBelongsToAFileThatTheRequestDoesNotHave) {
-  const Json answer = derived(
-      with("version \"2020.1\"\nimport x : \"none.cga\"(h = 2)\nattr h = 3\n"
-           "Lot --> set(x.width, 4) case x.kind(h) == \"tower\": x.Tower(2) else: extrude(h + x.height) B."));
+  const Json answer =
+      derived(with("version \"2020.1\"\nimport x : \"none.cga\"(h = 2)\nattr h = 3\n"
+                   "Lot --> set(x.width, 4) Mass\n"
+                   "Mass --> case x.kind(h) == \"tower\": x.Tower(2) else: extrude(h + x.height) B."));
   EXPECT_EQ(active(answer), "B");
 }
 
 TEST(CgaLanguage, ComparesEachValueOfAnArray) {
-  EXPECT_EQ(reported("sum([1, 2; 3, 4][[1, 2, 3] .== 2, 1])"), -1e300) << "the second of two rows";
+  EXPECT_EQ(reported("sum([1, 2; 3, 4][[7, 8] .== 8, 1])"), 4);
   EXPECT_EQ(reported("sum([1, 2; 3, 4; 5, 6][[\"a\", \"b\", \"a\"] .== \"a\", 1])"), 2 + 6);
   EXPECT_EQ(reported("sum([1, 2; 3, 4; 5, 6][0:1, 0])"), 1 + 3);
   EXPECT_EQ(reported("sum([5, 6, 7][[5, 6, 7] .> 5])"), 6 + 7);

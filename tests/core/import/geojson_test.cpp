@@ -216,9 +216,10 @@ TEST(GeoJson, IsRecognised) {
 }
 
 /// A plan of the generator `city`, whose positions look like degrees.
-std::string plan_of(const std::string& features) {
-  return R"({"type":"FeatureCollection","georeference":{"projection":"local","unit":"metre"},"features":[)" +
-         features + "]}";
+Value plan_of(const std::string& features) {
+  return Value::parse(
+      R"({"type":"FeatureCollection","georeference":{"projection":"local","unit":"metre"},"features":[)" +
+      features + "]}");
 }
 
 TEST(GeoJson, ReadsPlansOfCitiesInMetres) {
@@ -236,7 +237,7 @@ TEST(GeoJson, ReadsPlansOfCitiesInMetres) {
     {"type":"Feature","properties":{"kind":"lot","id":"built","position":[10,20,0],"turn":90,
       "building":{"generator":"building","parameters":{"size":[12,0,8],"attributes":{"floors":4}}}},
      "geometry":{"type":"Polygon","coordinates":[[[0,5],[20,5],[20,30],[0,30],[0,5]]]}})"));
-  ASSERT_TRUE(result);
+  ASSERT_TRUE(result) << reports(result)[0];
   const Value parameters = parameters_of(result);
   ASSERT_EQ(parameters["buildings"].size(), 1U);
   EXPECT_EQ(parameters["paths"].size(), 1U);
