@@ -174,7 +174,9 @@ std::optional<Result<Request>> read_preset(std::string_view name, const Override
       faults.add({IssueKind::unknown_key, pointer_token(key), unknown_key(key, generator)});
     }
   }
-  Result<Request> result = read_request_body(request, limits);
+  Job::Options options;
+  options.limits = limits;
+  Result<Request> result = read_request_body(request, options);
   std::vector<Issue> issues = faults.take();
   if (result && issues.empty()) return result;
   if (!result) {
