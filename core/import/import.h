@@ -46,7 +46,7 @@ struct Imported {
 struct ImportOptions {
   std::string entry;  ///< the system in a file of several; empty: the only one
   std::map<std::string, std::string>
-      files;  ///< further files beside the text, by name, such as a view file of cpfg
+      files;                 ///< further files beside the text, by name, such as a view file of cpfg
   const Job* job = nullptr;  ///< of the request, for its limits, stop and deadline; null: there are none
 
   void check() const {

@@ -167,7 +167,8 @@ static Result<ImportedRequest> import_within(const ImportQuestion& asked, const 
                  {issue_at(IssueKind::syntax, "", question.text, bad, "found a byte that is not UTF-8")}};
   }
   if (!format) return unknown_format(question.format);
-  Result<Imported> imported = format->read(question.text, {std::string(question.entry), question.files, &job});
+  Result<Imported> imported =
+      format->read(question.text, {std::string(question.entry), question.files, &job});
   if (!imported) return in_format(std::move(imported).error(), question, *format);
   Result<Request> request = read_request_body(imported->request, options);
   if (!request && is_stopped(request.error())) return std::move(request).error();

@@ -105,11 +105,10 @@ std::size_t corner_for(const Outline& outline, const dvec2& p, const Job* job) {
     return d.x * d.x + d.y * d.y;
   };
   std::ranges::stable_sort(order, {}, distance);
-  const auto visible =
-      std::ranges::find_if(order, [&](std::size_t corner) {
-        if (job) job->check();
-        return is_visible(outline, p, corner);
-      });
+  const auto visible = std::ranges::find_if(order, [&](std::size_t corner) {
+    if (job) job->check();
+    return is_visible(outline, p, corner);
+  });
   return visible == order.end() ? first : *visible;
 }
 
