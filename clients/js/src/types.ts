@@ -221,6 +221,8 @@ export interface BuildingParameters {
   derivation?: BuildingParametersDerivation;
   /** The number of copies of a repeat whose cells can stretch. nearest: the number that stretches them least (CityEngine). ceil: the least number for which no copy is larger than its size (2006). Default: ceil for Repeat(…), nearest for split { … }*. */
   repeat?: "nearest" | "ceil";
+  /** normalize: probabilities that do not sum to 1 count as shares of their sum, with a warning. strict: they are an error. */
+  weights?: "normalize" | "strict";
   /** A restricted kind of shape grammar. non_erasing: no rule removes a shape (NIL). unimarker: in addition, each successor has at most one symbol with a rule, the marker. */
   restrict?: "none" | "non_erasing" | "unimarker";
   /** The materials that rules name. They replace built-in materials of the same name. */
@@ -647,6 +649,8 @@ export interface LsystemParameters {
   end_each?: string;
   /** contexts_first: productions with a context are tried before those without. listed: all are tried in the order of the list, as in cpfg. */
   rule_order?: "contexts_first" | "listed";
+  /** normalize: probabilities that do not sum to 1 count as shares of their sum, with a warning. strict: they are an error. */
+  weights?: "normalize" | "strict";
   /** A predecessor can have several modules. They must follow each other in the word, and are replaced together. */
   strict_predecessors?: boolean;
   /** Symbols that the search for left and right contexts skips, usually the turtle's turns. */

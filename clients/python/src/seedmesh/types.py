@@ -142,6 +142,7 @@ class BuildingParameters(TypedDict, total=False):
     iterations: int
     derivation: "BuildingParametersDerivation"
     repeat: Literal['nearest', 'ceil']
+    weights: Literal['normalize', 'strict']
     restrict: Literal['none', 'non_erasing', 'unimarker']
     materials: Dict[str, "BuildingParametersMaterialsValue"]
     textures: Literal['auto', 'made', 'none']
@@ -407,6 +408,7 @@ class LsystemParameters(_LsystemParametersRequired, total=False):
     start_each: str
     end_each: str
     rule_order: Literal['contexts_first', 'listed']
+    weights: Literal['normalize', 'strict']
     strict_predecessors: bool
     ignore: str
     consider: str
