@@ -8,7 +8,7 @@ export interface Output {
   profile?: "core" | "web" | "unity" | "unreal" | "godot" | "blender";
   /** none adds no animation. growth adds a skin and an animation in which the plant grows from a seed to its full size. */
   animation?: "none" | "growth";
-  /** The width and height of generated textures in texels, a power of two. none leaves out all textures, including those of the request. links names generated textures of 512 texels by URLs of this service, which are immutable and shared by all models; the formats are glb and gltf, without an impostor. */
+  /** The width and height of generated textures in texels, a power of two. Images of leaves have half of it, and those of occlusion and roughness half of that of their material. none leaves out all textures, including those of the request. links names generated textures of 512 texels by URLs of this service, which are immutable and shared by all models; the formats are glb and gltf, without an impostor. */
   textures?: number | "none" | "links";
   /** The number of levels of detail, each coarser than the one before. More than one level requires the format zip, which has a file for each, or the profile web or unity, which have them in one file (MSFT_lod). */
   lods?: number;

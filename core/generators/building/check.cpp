@@ -253,7 +253,7 @@ std::optional<Warning> nothing_drawn(const Shapes& shapes) {
                  0, 0};
 }
 
-std::vector<Issue> check_all(const BuildingParams& params, const Limits& limits, Grammar& grammar,
+std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds, Grammar& grammar,
                              PictureGrammar& pictures) {
   std::vector<Issue> issues;
   if (params.shape_grammar) {
@@ -266,7 +266,7 @@ std::vector<Issue> check_all(const BuildingParams& params, const Limits& limits,
     grammar = read(params, issues);
   }
   if (!params.footprint.empty()) {
-    const std::vector<Issue> more = check_footprint(params.footprint);
+    const std::vector<Issue> more = check_footprint(params.footprint, bounds.job);
     issues.insert(issues.end(), more.begin(), more.end());
   } else if (dimension({params.size[0], params.size[1], params.size[2]}) < 2) {
     issues.push_back(
@@ -275,8 +275,8 @@ std::vector<Issue> check_all(const BuildingParams& params, const Limits& limits,
     issues.push_back({IssueKind::out_of_range, "/size",
                       "a blueprint stands on the ground: expected sizes above 0 in x and z"});
   }
-  if (params.iterations && static_cast<std::uint32_t>(*params.iterations) > limits.iterations) {
-    issues.push_back(iterations_issue(static_cast<std::uint64_t>(*params.iterations), limits));
+  if (params.iterations && static_cast<std::uint32_t>(*params.iterations) > bounds.limits.iterations) {
+    issues.push_back(iterations_issue(static_cast<std::uint64_t>(*params.iterations), bounds.limits));
   }
   for (const auto& [name, asset] : params.assets) {
     if (asset.model.has_value() == asset.glb.has_value())
