@@ -160,7 +160,7 @@ TEST(Fractal, WritesNestedRequestsInCanonicalForm) {
     IssueList faults;
     const Generator* generator = find_generator("fractal");
     return canonical_text(generator->write(
-        read_parameters(*generator, Json::parse(json), "/parameters", {Limits{}, generators()}, faults)));
+        read_parameters(*generator, Json::parse(json), "/parameters", {Job(0, Job::Options{}), generators()}, faults)));
   };
   EXPECT_EQ(
       canonical(

@@ -25,11 +25,11 @@ inline FractalParams fractal_params(std::string_view json) {
 /// As the pipeline does it, with everything read and checked.
 inline Result<Model> fractal_of(std::string_view json, std::uint64_t seed = 0, Job::Options options = {}) {
   IssueList faults;
+  Job job(seed, options);
   const Generator* generator = find_generator("fractal");
   const Generator::Params params =
-      read_parameters(*generator, Json::parse(json), "", {options.limits, generators()}, faults);
+      read_parameters(*generator, Json::parse(json), "", {job, generators()}, faults);
   if (!faults.empty()) return Error{Code::invalid, faults.take()};
-  Job job(seed, options);
   try {
     Result<Model> model = generator->generate(params, context_of(job));
     if (model) finish(*model, job);

@@ -25,7 +25,7 @@ inline Job job_of(std::uint64_t seed, int threads = 1) {
 inline Generator::Params read_scene_params(const Json& json) {
   IssueList faults;
   Generator::Params params =
-      read_parameters(*find_generator("scene"), json, "", {Limits{}, generators()}, faults);
+      read_parameters(*find_generator("scene"), json, "", {Job(0, Job::Options{}), generators()}, faults);
   EXPECT_TRUE(faults.empty()) << faults.issues().front().pointer << " " << faults.issues().front().message;
   return params;
 }
@@ -37,7 +37,7 @@ inline const SceneParams& own(const Generator::Params& params) {
 /// Returns the errors of a request, as "pointer: message".
 inline std::vector<std::string> scene_errors(const Json& json) {
   IssueList faults;
-  read_parameters(*find_generator("scene"), json, "", {Limits{}, generators()}, faults);
+  read_parameters(*find_generator("scene"), json, "", {Job(0, Job::Options{}), generators()}, faults);
   std::vector<std::string> message;
   for (const Issue& issue : faults.issues()) message.push_back(issue.pointer + ": " + issue.message);
   return message;
