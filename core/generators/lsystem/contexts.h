@@ -15,8 +15,9 @@ void pair_brackets(const Grammar& grammar, const Word& word, Array<std::uint32_t
 /// module are neighbours.
 class ContextMatcher {
  public:
-  /// `written` is the word of the next step, which new contexts read. Where Grammar::backward is set, it is
-  /// written from its end, one piece for each module; `pieces` holds the first index of each piece.
+  /// `written` is the word of the next step, which new contexts read. If Grammar::backward is set, it is
+  /// written from right to left, in one piece for each module; `pieces` then holds the first index of each
+  /// piece.
   ContextMatcher(const Grammar& grammar, const Word& word, std::span<const std::uint32_t> partner,
                  const Word& written, const std::vector<std::size_t>& pieces, const Job& job)
       : grammar_(grammar),
@@ -32,9 +33,9 @@ class ContextMatcher {
   /// The variables of the grammar: the first slots of every match.
   double* variables() { return slots_.data(); }
 
-  /// Returns the slots of `production` at `position`: the variables, the parameters of the predecessor, then of the
-  /// contexts from left to right. Returns null where the contexts do not match. The array holds all slots of the
-  /// production and is valid until the next call.
+  /// Returns the slots of `production` at `position`: the variables, the parameters of the predecessor, then
+  /// of the left, right, new left and new right context, each from left to right. Returns null where the
+  /// contexts do not match. The array holds all slots of the production and is valid until the next call.
   double* match(const Production& production, std::size_t position);
 
  private:

@@ -12,9 +12,9 @@ glm::vec3 any_across(const glm::vec3& normal);
 /// which u grows over the triangles of a vertex, weighted by area. Its w is the sign of the bitangent, as in
 /// glTF.
 ///
-/// A vertex between triangles that disagree (a mirrored seam that is not doubled) follows the larger ones.
-/// Where u grows nowhere, any direction in the surface is taken. About 15 ns a triangle; charges 16 bytes a
-/// vertex.
+/// A vertex between triangles that disagree (a mirror seam whose vertices are not duplicated) follows the
+/// larger ones. Where u grows nowhere, any direction in the surface is taken. About 15 ns a triangle; charges
+/// 16 bytes a vertex.
 void add_tangents(Model& model, const Job& job);
 
 }  // namespace seedmesh
