@@ -50,15 +50,15 @@ class ContextMatcher {
   double* take_parameters(const Word& word, std::size_t position, double* to) const;
   /// Moves from the end of a ring to its start, once for each match.
   void close_ring(std::size_t& at) {
-    if (!grammar_.ring || round_ || at != word_.size()) return;
+    if (!grammar_.ring || has_wrapped_ || at != word_.size()) return;
     at = 0;
-    round_ = true;
+    has_wrapped_ = true;
   }
   /// Checks the deadline regularly, because a context may skip any number of modules.
   void walk() {
     if ((++walked_ & 0xFFFFU) == 0) job_.check();
   }
-  bool passed_over(std::size_t position) const { return grammar_.kinds[word_.kind[position]].ignored; }
+  bool is_ignored(std::size_t position) const { return grammar_.kinds[word_.kind[position]].ignored; }
 
   const Grammar& grammar_;
   const Word& word_;
@@ -69,7 +69,7 @@ class ContextMatcher {
   std::vector<std::size_t> left_, right_, new_left_, new_right_;  ///< positions of the matched modules
   std::vector<double> slots_;
   std::size_t position_ = 0;  ///< position of the predecessor
-  bool round_ = false;        ///< true after the right context passed the end of a ring
+  bool has_wrapped_ = false;  ///< the right context has passed the end of the ring
   std::uint64_t walked_ = 0;
 };
 

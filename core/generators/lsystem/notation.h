@@ -100,7 +100,7 @@ class Marks {
   /// Same result as the function closing().
   std::size_t closing(std::size_t open, std::size_t to) const;
   bool has_semicolon(Slice slice) const { return has(semicolons_, slice); }
-  bool has_comparison(Slice slice) const { return has(comparisons_, slice); }  ///< one of < > = ! & |
+  bool has_condition_operator(Slice slice) const { return has(comparisons_, slice); }  ///< one of < > = ! & |
 
  private:
   static bool has(const std::vector<std::uint32_t>& positions, Slice slice);

@@ -47,19 +47,19 @@ class FoliageLevels {
   template <class Put>
   void cover(const Organ& organ, const Put& put);
   static std::size_t slot(int view, std::size_t texel) {
-    return static_cast<std::size_t>(view) * Sights::texels + texel;
+    return static_cast<std::size_t>(view) * ViewSamples::texels + texel;
   }
   void draw_limbs(const Limbs& limbs, Job& job);
   void rank(const Organs& organs, Job& job);
   float best_growth(const Organ& organ, const Array<std::int8_t>& gain);
 
-  Sights sights_;
+  ViewSamples view_samples_;
   std::vector<Corners> footprints_;      ///< by surface
   Corners placed_;                       ///< of the current organ
   Array<std::uint16_t> leaves_, limbs_;  ///< number of them at each texel of each view
   Array<std::uint32_t> owner_;           ///< exclusive or of the numbers of the organs at each texel
-  Array<std::uint32_t> stamp_;           ///< number of the last call of cover() that touched each texel
-  std::uint32_t stamps_ = 0;
+  Array<std::uint32_t> last_visit_;      ///< number of the last call of cover() that touched each texel
+  std::uint32_t visits_ = 0;
   Array<std::uint32_t> rank_;  ///< for each organ the number of organs removed before it
   std::vector<float> lost_;    ///< by removed organs: share of the covered texels that is uncovered
 };

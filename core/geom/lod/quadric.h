@@ -45,14 +45,14 @@ inline std::size_t before(std::size_t corner) { return corner % 3 == 0 ? corner 
 
 /// The cheapest allowed collapse of a point onto a neighbour with its exact cost; or only a lower bound of
 /// the cost (`to` is no_point), when it is not yet known whether a collapse is allowed.
-struct Wish {
+struct CollapseCandidate {
   static constexpr std::uint32_t no_point = 0xFFFFFFFFU;
   double cost;
   std::uint32_t from, to, stamp;  ///< to: no_point for a bound
   /// A total order for a heap with the least cost on top; bounds before collapses of the same cost.
-  bool operator<(const Wish& o) const {
-    const bool is_exact = to != no_point, is_other = o.to != no_point;
-    return std::tie(cost, is_exact, from, to) > std::tie(o.cost, is_other, o.from, o.to);
+  bool operator<(const CollapseCandidate& o) const {
+    const bool is_exact = to != no_point, is_other_exact = o.to != no_point;
+    return std::tie(cost, is_exact, from, to) > std::tie(o.cost, is_other_exact, o.from, o.to);
   }
 };
 

@@ -9,6 +9,6 @@ namespace seedmesh {
 /// own at the same position with the normal of the face. Such corners arise at sharp bends of tubes with few
 /// sides. Triangles are counter-clockwise seen from outside; indices have 32 bits (Mesh::index.wide). Cost: a
 /// few nanoseconds for each triangle.
-void turn_outward(Mesh& mesh, const Job& job);
+void repair_inward_normals(Mesh& mesh, const Job& job);
 
 }  // namespace seedmesh

@@ -5,7 +5,7 @@
 namespace seedmesh {
 
 /// A unit vector at right angles to a unit vector.
-glm::vec3 any_across(const glm::vec3& normal);
+glm::vec3 any_perpendicular(const glm::vec3& normal);
 
 /// Adds tangents to every triangle mesh that has normals, a material with a normal map, and the texture
 /// coordinates of that map. A tangent is a unit vector at right angles to the normal: the mean direction in

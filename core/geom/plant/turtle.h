@@ -48,9 +48,9 @@ class Turtle {
   }  ///< left, about heading
   void turn_around() { state_.frame = seedmesh::turn_around(state_.frame); }
   void upright() { state_.frame = seedmesh::upright(state_.frame); }
-  void head(const glm::dvec3& direction);  ///< sets the heading and rolls upright
-  void face_as(const Frame& frame);        ///< any axes; heading counts first, then left
-  void stand_up();                         ///< the frame of the start: heading +Y, left -X, up +Z
+  void set_heading(const glm::dvec3& direction);  ///< sets the heading and rolls upright
+  void set_frame(const Frame& frame);             ///< any axes; heading counts first, then left
+  void reset_frame();                             ///< the frame of the start: heading +Y, left -X, up +Z
 
   /// Limits the number of segments; without a call there is no limit.
   void set_most_segments(std::uint64_t most) { most_segments_ = most; }
@@ -93,7 +93,7 @@ class Turtle {
   double width() const { return state_.width; }
   /// Sets a width that is subtracted from that of every later internode, in all branches. Not part of the
   /// state.
-  void set_thinner(double by) { thinner_ = by; }
+  void set_width_reduction(double by) { width_reduction_ = by; }
   /// State kept for callers, because ] restores it: the scale of lengths, the scale of default angles, and
   /// whether left and right are exchanged.
   double scale() const { return state_.scale; }
@@ -123,27 +123,27 @@ class Turtle {
   /// Continues from the last joint if the turtle has moved away from it and back.
   void rejoin();
   /// Sets the share of the turn by tropisms that later segments get. Not part of the state.
-  void set_pull(double share) { pull_ = share; }
+  void set_tropism_share(double share) { tropism_share_ = share; }
   /// Limbs::share of what is drawn from now on. Not part of the state.
   void set_share(double share) { share_ = static_cast<float>(share); }
 
   /// A recorded drawing, which is copied as a whole at other positions and in other directions.
-  class Stamp;
+  class Recording;
   /// True where drawings of this turtle can be recorded: without tropisms, which bend each copy differently,
   /// and without contours and anchors, which recordings do not keep.
-  bool can_stamp() const {
+  bool can_record() const {
     return skeleton_ && !tropisms_ && !draws_contours_ && !tracks_anchors_ && polygons_.empty();
   }
-  /// Begins a recording. Call it on a new turtle that writes to stamp.skeleton. It takes the state of `like`,
-  /// but starts at the origin with the initial frame. It may turn, move, draw, branch, and change width,
-  /// colour and scale, but must not depend on its position or on the vertical.
-  void begin_stamp(const Turtle& like, Stamp& stamp);
-  void end_stamp(Stamp& stamp);
+  /// Begins a recording. Call it on a new turtle that writes to recording.skeleton. It takes the state of
+  /// `like`, but starts at the origin with the initial frame. It may turn, move, draw, branch, and change
+  /// width, colour and scale, but must not depend on its position or on the vertical.
+  void begin_recording(const Turtle& like, Recording& recording);
+  void end_recording(Recording& recording);
   /// True if this turtle would draw exactly this recording from here, apart from position and direction.
-  bool matches(const Stamp& stamp) const;
+  bool matches(const Recording& recording) const;
   /// Appends a copy of the recording from here. Order and positions are those that drawing would give, except
   /// for the last bits. TurtleReport::min and max do not include it.
-  void press(const Stamp& stamp);
+  void append_copy(const Recording& recording);
 
   std::uint32_t last_joint() const { return state_.last; }  ///< of this branch; none before its first segment
   bool is_joined() const { return state_.joint != Limbs::none; }  ///< the next internode continues a joint
@@ -162,7 +162,7 @@ class Turtle {
  private:
   static constexpr std::uint16_t rotations_until_drift = 256;
   // Beyond this, squares of positions would overflow in later stages.
-  static constexpr double world = 1e15;
+  static constexpr double largest_coordinate = 1e15;
 
   struct State {
     glm::dvec3 position{0};
@@ -199,11 +199,11 @@ class Turtle {
   [[noreturn]] void refuse_joints() const;
   void check_depth(std::size_t depth, const char* what) const;
   [[noreturn]] void refuse_segments() const;
-  void press_places(const Stamp& stamp);
-  void press_links(const Stamp& stamp);
-  void press_bark(const Stamp& stamp);
-  void press_colors(const Stamp& stamp, std::size_t before);
-  void go_to_end(const Stamp& stamp, std::uint32_t first);
+  void copy_positions(const Recording& recording);
+  void copy_links(const Recording& recording);
+  void copy_bark(const Recording& recording);
+  void copy_colors(const Recording& recording, std::size_t before);
+  void go_to_end(const Recording& recording, std::uint32_t first);
 
   Skeleton* skeleton_;
   Job& job_;
@@ -218,30 +218,30 @@ class Turtle {
   };
   std::vector<Polygon> polygons_;  ///< open ones, innermost last
   TurtleReport report_;
-  double thinner_ = 0;
-  double pull_ = 1;
+  double width_reduction_ = 0;
+  double tropism_share_ = 1;
   float share_ = 1;
   std::uint64_t most_segments_ = ~std::uint64_t{0};
   std::optional<Tropisms> tropisms_;
   bool tracks_anchors_ = false;
   bool draws_wires_ = false;
   bool draws_contours_ = false;
-  Array<glm::dvec3>* places_ = nullptr;  ///< of joints before rounding, while a stamp is drawn
+  Array<glm::dvec3>* places_ = nullptr;  ///< of joints before rounding, while a recording is drawn
 };
 
 /// A recorded drawing. A copy takes 4 ns a joint, or 2 ns for wires.
-class Turtle::Stamp {
+class Turtle::Recording {
  public:
-  explicit Stamp(const Job& job) : skeleton(job), places_(job) {}
+  explicit Recording(const Job& job) : skeleton(job), places_(job) {}
   Skeleton skeleton;
 
  private:
   friend class Turtle;
   Array<glm::dvec3> places_;
   State start_, end_;
-  float radius_ = 0;         ///< of the joint that it grows from
-  std::uint32_t seeds_ = 0;  ///< 1: joint 0 stands for the joint that the drawing grows from
-  double reach_ = 0;         ///< the largest sum of the absolute coordinates of a joint
+  float radius_ = 0;                 ///< of the joint that it grows from
+  std::uint32_t shared_joints_ = 0;  ///< 1: joint 0 stands for the joint that the drawing grows from
+  double reach_ = 0;                 ///< the largest sum of the absolute coordinates of a joint
   TurtleReport report_;
 };
 

@@ -93,12 +93,14 @@ class Wavefront {
   bool is_current(const Event& event) const;
   void expect_collapse(std::uint32_t edge);
   void expect_hit(std::uint32_t corner, std::uint32_t edge);
+  /// Predicts the events of changed edges and new corners, and puts them into the queue.
   void expect();
   void expect_nearby();
   void expect_all();
   bool is_at_horizon() const;
-  void look_from(std::uint32_t corner, double from);
-  void look_at(std::uint32_t edge);
+  /// Predicts the hits of a corner on edges nearby, and of corners nearby on an edge.
+  void find_hits_of_corner(std::uint32_t corner, double from);
+  void find_hits_on_edge(std::uint32_t edge);
   void move_horizon();
   void drop_ended();
   void place_grid(double time);
@@ -108,7 +110,7 @@ class Wavefront {
   void each_cell_of_edge(std::uint32_t edge, double from, double until, const Visit& visit) const;
   template <class Visit>
   void each_cell_of_corner(std::uint32_t corner, double from, double until, const Visit& visit) const;
-  void count_looks(std::size_t count);
+  void count_comparisons(std::size_t count);  ///< checks the deadline now and then
 
   void resolve(const std::vector<Event>& batch);
   std::vector<Touch> touches_of(const std::vector<Event>& batch) const;
@@ -116,14 +118,17 @@ class Wavefront {
   void end_corner(std::uint32_t corner, std::uint32_t node);
   void open_end(std::uint32_t edge, bool at_start, std::uint32_t node);
   void split(std::uint32_t edge, const std::vector<std::uint32_t>& at);
+  /// Joins all open ends, until none is left. Returns false if that takes too many rounds.
   bool settle();
   void touch(std::uint32_t edge);
   void take_touched();
   void unlist(std::uint32_t edge);
   void cancel_opposites(const std::pair<std::uint32_t, std::uint32_t>& span);
   void find_joints();
-  void pair_round(std::uint32_t node, const std::set<std::uint32_t>& rays, std::vector<Joint>& joints) const;
+  void match_rays_around(std::uint32_t node, const std::set<std::uint32_t>& rays,
+                         std::vector<Joint>& joints) const;
   bool is_closing(std::uint32_t in, std::uint32_t out) const;
+  /// Opens the nearer of the far ends of two edges that lie on each other, and cuts the other edge there.
   void zip(std::uint32_t in, std::uint32_t out, std::uint32_t node);
   void join(std::uint32_t in, std::uint32_t out, std::uint32_t node);
   void add_corner(std::uint32_t in, std::uint32_t out, std::uint32_t node);
@@ -134,14 +139,14 @@ class Wavefront {
   double soon_ = 0;     ///< times nearer than this are equal
   double fastest_ = 0;  ///< the greatest speed of an edge
   const Job& job_;
-  std::uint64_t looks_ = 0;
+  std::uint64_t comparisons_ = 0;
   std::vector<Corner> corners_;
   std::vector<Edge> edges_;
   std::priority_queue<Event> events_;
-  std::vector<std::uint32_t> open_;     ///< edges with an open end
-  std::vector<std::uint32_t> hitters_;  ///< corners that can hit edges (reflex); some have ended
-  std::vector<std::uint32_t> fresh_;    ///< corners made since `expect`
-  std::vector<std::uint32_t> front_;    ///< edges; some are not alive
+  std::vector<std::uint32_t> open_;             ///< edges with an open end
+  std::vector<std::uint32_t> hitting_corners_;  ///< corners that can hit edges (reflex); some have ended
+  std::vector<std::uint32_t> fresh_;            ///< corners made since `expect`
+  std::vector<std::uint32_t> front_;            ///< edges; some are not alive
 
   // The search for hits.
   /// What a quick comparison needs of an edge.
