@@ -25,6 +25,7 @@ struct Side {
   int world_normal() const { return axes[static_cast<std::size_t>(slice_axis)]; }
   int world_rows() const { return axes[static_cast<std::size_t>(3 - slice_axis)]; }
   int world_bits() const { return axes[0]; }
+  /// The index of the side in SideColors.
   std::size_t number() const { return static_cast<std::size_t>(2 * world_normal() + (step > 0 ? 1 : 0)); }
   /// Returns whether bits, rows and normal are a right-handed frame.
   bool turns_right() const {

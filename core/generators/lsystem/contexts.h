@@ -54,7 +54,7 @@ class ContextMatcher {
     at = 0;
     has_wrapped_ = true;
   }
-  /// Checks the deadline regularly, because a context may skip any number of modules.
+  /// Checks the deadline every 65,536 calls, because a context may skip any number of modules.
   void walk() {
     if ((++walked_ & 0xFFFFU) == 0) job_.check();
   }

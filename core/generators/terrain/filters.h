@@ -60,7 +60,7 @@ struct ThermalPlan {
   double rate = 0.5;
 };
 
-/// Applies thermal weathering after Musgrave, Kolb and Mace, "The synthesis and rendering of eroded fractal
+/// Applies thermal erosion (weathering) after Musgrave, Kolb and Mace, "The synthesis and rendering of eroded fractal
 /// terrains", 1989, over eight neighbours, with all samples of a round at once. Conserves material. A sample
 /// depends on samples at most `iterations` away, so tiles with a margin of that width agree. Cost: about 3 ns
 /// for each sample and round.
