@@ -40,9 +40,10 @@ Result<Request> read_request(std::string_view json, const Job::Options& options)
 /// The same without a time limit.
 Result<Request> read_request(std::string_view json, const Limits& limits);
 
-/// Reads the request of a preset with the overrides of a query. Keys are `seed`, `output.x`, `constants.x` or
-/// the name of a parameter. Values are JSON where they parse as the type of the schema, otherwise text.
-/// Returns nullopt for an unknown preset. Errors of an override have the pointer "/<key>".
+/// Reads the request of a preset with the overrides of a query. Keys are `seed`, `output.<option>`, the name
+/// of a parameter, or `<parameter>.<name>` for parameters that map names to values (such as `constants`).
+/// Values are JSON where they parse as the type of the schema, otherwise text. Returns nullopt for an unknown
+/// preset. Errors of an override have the pointer "/<key>".
 using Overrides = std::vector<std::pair<std::string, std::string>>;
 std::optional<Result<Request>> read_preset(std::string_view name, const Overrides& overrides,
                                            const Limits& limits);
@@ -50,13 +51,14 @@ std::optional<Result<Request>> read_preset(std::string_view name, const Override
 /// The same request with another output.format. An error where the request does not allow the format.
 Result<Request> with_format(const Request& request, std::string_view format);
 
-/// The functions below run a request within `options`. The seed comes from the request alone.
+// The functions below run a request within `options`. The seed comes from the request alone.
 
-/// Makes the model of a request. `texture_store` is the caller's; may be null.
+/// Sums over the model.
 struct Statistics {
   std::uint64_t triangles = 0, vertices = 0;
   std::uint32_t warnings = 0;
 };
+/// A finished file.
 struct Product {
   Payload payload;
   std::string media_type;  ///< "model/gltf-binary", ...
@@ -69,22 +71,24 @@ struct Product {
   };
   std::vector<Span> timing;  ///< derive, mesh, encode
 };
+/// Makes the model of a request. `texture_store` is the caller's; may be null.
 Result<Product> produce(const Request& request, const Job::Options& options,
                         TextureStore* texture_store = nullptr);
 
-/// The image of a generated texture by its name, which `output.textures: "links"` puts into models after the engine
-/// version (core/texture/link.h). An unknown name is Code::invalid.
+/// The image of a generated texture. `name` is the part after the engine version in the links that
+/// `output.textures: "links"` writes (core/texture/link.h). An unknown name is Code::invalid.
 Result<std::shared_ptr<const Image>> make_texture(std::string_view name, const Job::Options& options,
                                                   TextureStore* texture_store = nullptr);
 
-/// The generator's result before geometry, as JSON text.
+/// The abstract result from which the generator makes geometry (word, skeleton, shapes, heights), as JSON
+/// text.
 Result<std::string> derive(const Request& request, const Job::Options& options);
 
 /// `{valid, warnings, estimate}` as JSON text. Makes no model.
 Result<std::string> validate(const Request& request, const Job::Options& options);
 
-/// A file of another program. An empty `format` means that the text decides. `entry` names one system of a
-/// file with several; empty means the only one.
+/// A file of another program. If `format` is empty, it is detected from the text. `entry` names one system of
+/// a file with several; empty means the only one.
 struct ImportQuestion {
   std::string_view format, entry, text;
   std::map<std::string, std::string> files = {};  ///< further files beside the text, by name
@@ -105,7 +109,8 @@ struct ImportFormatInfo {
 };
 std::vector<ImportFormatInfo> import_format_list();
 
-/// The request as a file of another program, and what such a file cannot hold. `format`: "proctree".
+/// A request as a file of another program, with warnings about what such a file cannot hold. `format`:
+/// "proctree".
 struct ExportedFile {
   std::string text;
   std::vector<Warning> warnings;  ///< with pointers into the request
@@ -117,7 +122,9 @@ Result<ExportedFile> export_request(const Request& request, std::string_view for
 /// detects none.
 std::string_view likely_import_format(std::string_view text);
 
-/// The embedded texts: presets, schemas, vocabulary, OpenAPI.
+// The embedded texts: presets, schemas, vocabulary, OpenAPI.
+
+/// What the gallery shows of a preset.
 struct PresetInfo {
   std::string name, generator, title, description;
   std::vector<std::string> tags;

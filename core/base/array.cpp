@@ -50,7 +50,7 @@ Block::Block(Block&& other) noexcept
     : budget_(other.budget_),
       data_(std::exchange(other.data_, nullptr)),
       size_(std::exchange(other.size_, 0)),
-      home_(std::exchange(other.home_, Home::heap)) {}
+      backing_(std::exchange(other.backing_, Backing::heap)) {}
 
 Block& Block::operator=(Block&& other) noexcept {
   if (this != &other) {
@@ -66,66 +66,67 @@ Block::~Block() {
   if (budget_) budget_->give_back(size_);
 }
 
-std::size_t Block::room_of(std::size_t bytes, Home home) {
-  return rounded(bytes, home == Home::huge_pages ? huge_page : largest_page);
+std::size_t Block::mapped_size(std::size_t bytes, Backing backing) {
+  return rounded(bytes, backing == Backing::huge_pages ? huge_page : largest_page);
 }
 
-Block::Home Block::home_for(std::size_t bytes) const {
-  if (!can_map) return Home::heap;
-  if (budget_ && budget_->saves_memory()) return bytes < mapped_to_save ? Home::heap : Home::pages;
+Block::Backing Block::backing_for(std::size_t bytes) const {
+  if (!can_map) return Backing::heap;
+  if (budget_ && budget_->saves_memory()) return bytes < mapped_to_save ? Backing::heap : Backing::pages;
   const bool has_reserve = budget_ && budget_->reserve() && !budget_->prefers_low_memory();
-  if (bytes < (has_reserve ? least_shared : mapped_at_best)) return Home::heap;
-  if (budget_ && budget_->prefers_low_memory()) return Home::pages;
-  if (bytes < always_mapped && has_reserve) return Home::shared;
-  const std::size_t slack = room_of(bytes, Home::huge_pages) - bytes;
-  return bytes >= always_mapped || (budget_ && budget_->slack() + slack <= most_slack) ? Home::huge_pages
-                                                                                       : Home::heap;
+  if (bytes < (has_reserve ? least_shared : mapped_at_best)) return Backing::heap;
+  if (budget_ && budget_->prefers_low_memory()) return Backing::pages;
+  if (bytes < always_mapped && has_reserve) return Backing::shared;
+  const std::size_t slack = mapped_size(bytes, Backing::huge_pages) - bytes;
+  return bytes >= always_mapped || (budget_ && budget_->slack() + slack <= most_slack) ? Backing::huge_pages
+                                                                                       : Backing::heap;
 }
 
 /// Pages of the reserve were used before, so the kernel need not clear them.
-std::byte* Block::mapped(std::size_t room, Home home) const {
-  if (home == Home::shared) return budget_->reserve()->share(room);
+std::byte* Block::mapped(std::size_t room, Backing backing) const {
+  if (backing == Backing::shared) return budget_->reserve()->share(room);
   std::byte* kept = nullptr;
-  if (home == Home::huge_pages && budget_ && budget_->reserve()) kept = budget_->reserve()->take(room);
+  if (backing == Backing::huge_pages && budget_ && budget_->reserve()) kept = budget_->reserve()->take(room);
   return kept ? kept : map(room);
 }
 
-void Block::leave(std::byte* memory, std::size_t room) const {
-  const bool is_whole = home_ == Home::huge_pages && room % huge_page == 0;
-  const bool is_kept = (is_whole || home_ == Home::shared) && budget_ && budget_->reserve() &&
+void Block::unmap_or_recycle(std::byte* memory, std::size_t room) const {
+  const bool is_whole = backing_ == Backing::huge_pages && room % huge_page == 0;
+  const bool is_kept = (is_whole || backing_ == Backing::shared) && budget_ && budget_->reserve() &&
                        budget_->reserve()->keep(memory, room, budget_->used(), budget_->peak());
   if (!is_kept) unmap(memory, room);
 }
 
 void Block::release() {
-  if (home_ == Home::heap) {
+  if (backing_ == Backing::heap) {
     std::free(data_);
   } else {
-    leave(data_, room_of(size_, home_));
-    if (budget_) budget_->give_back_slack(room_of(size_, home_) - size_);
+    unmap_or_recycle(data_, mapped_size(size_, backing_));
+    if (budget_) budget_->give_back_slack(mapped_size(size_, backing_) - size_);
   }
-  home_ = Home::heap;
+  backing_ = Backing::heap;
 }
 
 void Block::change(std::size_t bytes) {
-  Home home = home_for(bytes);
-  if (home == Home::shared && home_ == Home::huge_pages) home = home_;
-  const std::size_t before = room_of(size_, home_), after = room_of(bytes, home);
-  const bool is_shared = home_ == Home::shared || home == Home::shared;
-  if (is_shared ? home_ == home && after <= before : home_ != Home::heap && home != Home::heap) {
+  Backing backing = backing_for(bytes);
+  if (backing == Backing::shared && backing_ == Backing::huge_pages) backing = backing_;
+  const std::size_t before = mapped_size(size_, backing_), after = mapped_size(bytes, backing);
+  const bool is_shared = backing_ == Backing::shared || backing == Backing::shared;
+  if (is_shared ? backing_ == backing && after <= before
+                : backing_ != Backing::heap && backing != Backing::heap) {
     if (after > before) data_ = grown(data_, before, after);
-    if (after < before) leave(data_ + after, before - after);
-    if (budget_) budget_->give_back_slack(room_of(size_, home_) - size_);
-  } else if (home_ == home && home == Home::heap) {
+    if (after < before) unmap_or_recycle(data_ + after, before - after);
+    if (budget_) budget_->give_back_slack(mapped_size(size_, backing_) - size_);
+  } else if (backing_ == backing && backing == Backing::heap) {
     data_ = heap(data_, bytes);
   } else {
-    std::byte* fresh = home == Home::heap ? heap(nullptr, bytes) : mapped(after, home);
+    std::byte* fresh = backing == Backing::heap ? heap(nullptr, bytes) : mapped(after, backing);
     if (size_) std::memcpy(fresh, data_, size_ < bytes ? size_ : bytes);
     release();
     data_ = fresh;
   }
-  home_ = home;
-  if (home_ != Home::heap && budget_) budget_->take_slack(room_of(bytes, home_) - bytes);
+  backing_ = backing;
+  if (backing_ != Backing::heap && budget_) budget_->take_slack(mapped_size(bytes, backing_) - bytes);
 }
 
 void Block::resize(std::size_t bytes) {

@@ -1,7 +1,8 @@
 #pragma once
-/// Growing arrays for big models. New elements are uninitialised. Every byte is charged to the memory budget
-/// of the request before it is allocated. Big blocks come from the kernel as huge pages, because page faults
-/// cost more than arithmetic in big models. Move-only; not safe for use from two threads at once.
+/// Growing arrays for big models. New elements are uninitialised. Every byte of capacity is charged to the
+/// memory budget of the request before it is allocated; the unused ends of pages are counted apart
+/// (MemoryBudget::slack). Big blocks come from the kernel as huge pages, because page faults cost more than
+/// arithmetic in big models. Move-only; not safe for use from two threads at once.
 #include <cstddef>
 #include <cstring>
 #include <memory>
@@ -35,18 +36,18 @@ class Block {
  private:
   /// Where the bytes are: on the heap, in whole huge pages, in huge pages shared with other blocks, or in
   /// exactly as many pages as they need.
-  enum class Home : unsigned char { heap, huge_pages, shared, pages };
-  static std::size_t room_of(std::size_t bytes, Home home);
-  Home home_for(std::size_t bytes) const;
+  enum class Backing : unsigned char { heap, huge_pages, shared, pages };
+  static std::size_t mapped_size(std::size_t bytes, Backing backing);
+  Backing backing_for(std::size_t bytes) const;
   void change(std::size_t bytes);
   void release();
-  std::byte* mapped(std::size_t room, Home home) const;
-  void leave(std::byte* memory, std::size_t room) const;
+  std::byte* mapped(std::size_t room, Backing backing) const;
+  void unmap_or_recycle(std::byte* memory, std::size_t room) const;
 
   std::shared_ptr<MemoryBudget> budget_;
   std::byte* data_ = nullptr;
   std::size_t size_ = 0;
-  Home home_ = Home::heap;
+  Backing backing_ = Backing::heap;
 };
 
 template <class T>
@@ -73,7 +74,7 @@ class Array {
 
   /// An empty array of other elements, charged to the same budget.
   template <class Other>
-  Array<Other> like() const {
+  Array<Other> empty_array_of() const {
     return Array<Other>(block_.budget());
   }
 
@@ -127,8 +128,8 @@ class Array {
 
  private:
   void grow(std::size_t least) {
-    const std::size_t doubled = capacity() + capacity() / 2 + 16;
-    block_.resize((least > doubled ? least : doubled) * sizeof(T));
+    const std::size_t next_capacity = capacity() + capacity() / 2 + 16;
+    block_.resize((least > next_capacity ? least : next_capacity) * sizeof(T));
   }
 
   Block block_;

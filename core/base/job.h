@@ -32,8 +32,9 @@ struct Limits {
 Issue iterations_issue(std::uint64_t found, const Limits& limits);
 
 /// The exception that ends a request: a limit is exceeded, the deadline has passed, the request is cancelled,
-/// or a value turns out to be unusable while the work runs. Only Job and MemoryBudget throw it, and only
-/// core/pipeline catches it. Its pointer is relative to the parameters of the outermost request.
+/// or a value turns out to be unusable while the work runs. Only Job and MemoryBudget throw it. core/pipeline
+/// catches it for all requests, and the import of cpfg for the statements that it runs. Its pointer is
+/// relative to the parameters of the outermost request.
 class Stop : public std::exception {
  public:
   Stop(Code code, Issue issue) : code_(code), issue_(std::move(issue)) {}

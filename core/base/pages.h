@@ -8,7 +8,7 @@ namespace seedmesh::pages {
 constexpr bool can_map = true;
 constexpr std::size_t huge_page = std::size_t{2} << 20U;
 constexpr std::size_t largest_page = std::size_t{64}
-                                     << 10U;  ///< the largest small page of any supported machine
+                                     << 10U;  ///< the largest base page of any supported machine
 #else
 constexpr bool can_map = false;
 constexpr std::size_t huge_page = 1, largest_page = 1;
@@ -16,10 +16,11 @@ constexpr std::size_t huge_page = 1, largest_page = 1;
 
 constexpr std::size_t rounded(std::size_t bytes, std::size_t to) { return (bytes + to - 1) / to * to; }
 
-/// Maps `room` bytes, a multiple of the page size. Advises huge pages from the size of one on. Throws
-/// std::bad_alloc.
+/// Maps `room` bytes, a multiple of the page size. Mappings of at least huge_page bytes are advised to use
+/// huge pages (MADV_HUGEPAGE). Throws std::bad_alloc. Only where can_map; otherwise returns null.
 std::byte* map(std::size_t room);
-/// Enlarges a mapping from `before` to `after` bytes. The address may change; the content is kept.
+/// Enlarges a mapping from `before` to `after` bytes. The address may change; the content is kept. Only where
+/// can_map; otherwise returns null.
 std::byte* grown(std::byte* old, std::size_t before, std::size_t after);
 /// Unmaps whole pages: a mapping or any part of one.
 void unmap(std::byte* memory, std::size_t room);

@@ -1,6 +1,6 @@
 #pragma once
-/// Outcomes of work that a request can make fail. What a request can cause is a Result; a broken promise
-/// inside the code is an assert; "stop now" is the one exception, Stop, thrown by Job (job.h).
+/// Results of operations that can fail because of the request. Failures that a request can cause are returned
+/// as a Result; violated preconditions are asserts; Stop, thrown by Job (job.h), is the only exception.
 #include <cassert>
 #include <cstdint>
 #include <optional>
@@ -22,8 +22,8 @@ enum class Code {
   internal,   ///< a defect of this program
 };
 
-/// What is wrong with one value of a request. Code decides by the kind, never by the words of the message.
-/// Append only: word_of(kind) is the member `code` of a problem body, which is part of the public contract.
+/// What is wrong with one value of a request. Programs branch on the kind, never on the message. Append only:
+/// word_of(kind) is the member `code` of a problem body, which is part of the public contract.
 enum class IssueKind : std::uint8_t {
   syntax,          ///< a text that cannot be read: JSON, grammar, expression, percent escape, foreign file
   duplicate_key,   ///< a key or a name that is given twice
@@ -37,7 +37,7 @@ enum class IssueKind : std::uint8_t {
   not_available,   ///< the generator, format or profile does not offer the requested feature
   evaluation,      ///< an expression or rule has no usable result: division by zero, an infinite size
   limit,           ///< Issue::limit says which
-  truncated_list,  ///< not an error: Issue::unlisted more errors were found than the list holds
+  truncated_list,  ///< not an error; Issue::unlisted is the number of errors beyond the list
   deadline,        ///< the time limit has passed
   cancelled,       ///< the work was cancelled
   internal,        ///< a defect of this program
@@ -53,7 +53,7 @@ enum class Resource : std::uint8_t {
   triangles,
   output_bytes,
   memory_bytes,
-  file_bytes,  ///< of one file inside the output, whose format ends there
+  file_bytes,  ///< of one file inside the output; the bound is that of its format
   vertices,    ///< of one mesh, whose indices have 32 bits
   points,
   segments,  ///< of a turtle

@@ -58,8 +58,8 @@ void take_uv(Part& part, Mesh& mesh) {
 template <class Number>
 void name_bones(Part& part, Array<std::uint16_t>& bone, Component component) {
   using Four = glm::vec<4, Number>;
-  Array<Four> joints = bone.like<Four>();
-  Array<glm::u8vec4> weights = bone.like<glm::u8vec4>();
+  Array<Four> joints = bone.empty_array_of<Four>();
+  Array<glm::u8vec4> weights = bone.empty_array_of<glm::u8vec4>();
   joints.resize(bone.size());
   weights.resize(bone.size());
   for (std::size_t i = 0; i < bone.size(); ++i) {

@@ -1,7 +1,7 @@
 #pragma once
 /// Converts foreign files to requests. Every format has one row, which the pipeline, the route, the program and the
-/// documentation read. A reader understands the whole text or refuses it at the line of each error. What it
-/// understands but a request cannot express becomes a warning; what it does not understand is an error.
+/// documentation read. A reader reports everything that it cannot parse as an error, and everything that a
+/// request cannot express as a warning.
 #include <cstddef>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -38,13 +38,13 @@ struct Imported {
   std::vector<Warning> warnings;
   std::vector<Origin> origins;
 
-  /// What was not understood. If there are any, the request contains the rest: it is checked for further errors and
-  /// not returned to the client.
+  /// If there are any errors, `request` contains only the parts that were understood. It is then checked for
+  /// further errors and not returned to the client.
   std::vector<Issue> errors;
 };
 
 struct ImportOptions {
-  std::string entry;  ///< the system in a file of several; empty: the only one
+  std::string entry;  ///< name of the system to import, if the file has several; empty: the only one
   std::map<std::string, std::string>
       files;                 ///< further files beside the text, by name, such as a view file of cpfg
   const Job* job = nullptr;  ///< of the request, for its limits, stop and deadline; null: there are none

@@ -14,7 +14,8 @@
 
 namespace seedmesh {
 
-/// Names and values of OpenStreetMap, such as "roof:shape" and "gabled". Few, in the order of the file.
+/// Names and values of OpenStreetMap, such as "roof:shape" and "gabled". Features have few of them, so they
+/// are a list in the order of the file, which is searched linearly.
 class MapTags {
  public:
   void add(std::string name, std::string value) { tags_.emplace_back(std::move(name), std::move(value)); }
@@ -31,7 +32,7 @@ class MapTags {
   std::vector<std::pair<std::string, std::string>> tags_;
 };
 
-using MapRing = std::vector<glm::dvec2>;  ///< x is the longitude in degrees or the east in metres
+using MapRing = std::vector<glm::dvec2>;  ///< x is the longitude in degrees, or the easting in metres
 
 /// Where a feature stands in the file: a byte of XML, or a pointer into JSON.
 struct MapPosition {
@@ -55,7 +56,8 @@ enum class MapUnit { degrees, web_mercator, metres };
 class MapWarnings {
  public:
   void add(std::string message, const MapPosition& position);
-  /// In the order in which they came first. `text`: the file, for lines and columns; empty for JSON.
+  /// A copy as a list, in the order in which they came first. `text`: the file, for lines and columns; empty
+  /// for JSON.
   std::vector<Warning> take(std::string_view text) const;
 
  private:

@@ -20,7 +20,8 @@ struct ShapemlName {
 };
 std::span<const ShapemlName> shapeml_names();
 
-/// A function that rules lack, as its declaration in rules. It is written before rules that call it.
+/// A ShapeML function without a counterpart, and its definition in the language of rules. It is written
+/// before rules that call it.
 struct ShapemlFunction {
   std::string_view name, declaration;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// A grammar of ShapeML as tokens, and its expressions in the notation of rules.
+/// Tokens of a ShapeML file, and the translation of its expressions to CGA.
 #include <set>
 #include <string>
 #include <vector>
@@ -19,11 +19,11 @@ class ShapemlText {
   bool is_name(std::size_t i) const { return at(i).kind == lang::TokenKind::name; }
   void error(std::size_t i, const std::string& message) { source_.report(at(i).offset, message); }
 
-  /// The next `symbol` outside of brackets, or the end.
+  /// The index of the next token `symbol` at the level of brackets of token i, or of the end token.
   std::size_t find(std::size_t i, std::string_view symbol) const;
   /// The arguments of a call as ranges of tokens.
   std::vector<std::pair<std::size_t, std::size_t>> arguments(std::size_t i) const;
-  /// Writes the expression of the tokens from `from` to before `to`, with names as rules write them.
+  /// Writes the expression of the tokens from `from` to before `to`, with names translated to those of CGA.
   void expression(std::size_t from, std::size_t to, TracedText& out);
 
   ForeignText& source_;

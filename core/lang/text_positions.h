@@ -10,8 +10,8 @@
 
 namespace seedmesh::lang {
 
-/// Lines and columns by byte offset, as text_position() computes them. Rising offsets together read the text once; an
-/// offset before the last one starts again at the beginning.
+/// Lines and columns by byte offset, as text_position() computes them. If offsets do not decrease, the text
+/// is scanned once in all; an offset before the last one starts again at the beginning.
 class TextPositions {
  public:
   explicit TextPositions(std::string_view text) : text_(text) {}
@@ -23,7 +23,8 @@ class TextPositions {
   TextPosition position_;
 };
 
-/// Whether a reader goes on after these errors. It stops after one more than max_errors.
+/// True while a reader should go on: up to max_errors + 1 errors, the last of which only shows that there are
+/// more.
 inline bool has_room(const std::vector<TextError>& errors) { return errors.size() <= max_errors; }
 
 /// Adds the errors of `text`, the value at `pointer`, in the order of the text. It adds the first max_errors, and a

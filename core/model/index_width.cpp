@@ -27,7 +27,7 @@ namespace {
 
 template <class T>
 void copy(const Array<T>& from, Array<T>& to) {
-  to = from.template like<T>();
+  to = from.template empty_array_of<T>();
   to.append(from.span());
 }
 

@@ -5,8 +5,9 @@
 ///
 /// Out:    metres, +Y up. The first scope stands on the ground: a box is centred on the origin, a footprint lies
 ///         at its coordinates. One node "building" has the bodies below it.
-/// Errors: /rules with line and column: all errors of the text, and while the rules run numbers that are not
-///         finite and rules without an end. /start, /attributes/..., /footprint, /assets/..., /materials/...
+/// Errors: /rules with line and column: all errors of the text; and, found during derivation, numbers that
+/// are
+///         not finite and endless recursion. /start, /attributes/..., /footprint, /assets/..., /materials/...
 /// Cost:   about 0.3 us a shape and 0.5 us a body. See docs/buildings.md.
 #include <nlohmann/json_fwd.hpp>
 #include <vector>

@@ -1,12 +1,12 @@
 #pragma once
-/// Expressions of rules, compiled for core/lang. Functions of the rules are written out where they are
-/// called, texts become numbers of Grammar::texts, queries to other shapes become slots, and `case` and
-/// percentages become select().
+/// Expressions of rules, compiled for core/lang. Texts become ids in Grammar::texts, and queries to other
+/// shapes become slots. If lang::Program can hold the value, functions of the rules are expanded where they
+/// are called, and `case` and percentages become select(). Otherwise a tree of ValueNode is made.
 #include "core/generators/building/parser.h"
 
 namespace seedmesh::building {
 
-/// The number of a query to other shapes in the grammar, which gets it if it is new.
+/// Returns the index of a query to other shapes in Grammar::queries; adds the query if it is new.
 std::uint32_t query_index(Parser& p, Query::Kind kind, std::string target);
 
 /// Where the value that begins at token i ends: an expression, or the cases of a function or attribute. i if
@@ -16,7 +16,7 @@ std::size_t end_of_value(const Parser& p, std::size_t i);
 /// Compiles the tokens from `from` to before `to`.
 Value compile_value(Parser& p, std::size_t from, std::size_t to);
 
-/// Compiles the value that begins at the next token, and moves behind it.
+/// Compiles the value that begins at the next token, and advances the parser past it.
 Value parse_value(Parser& p);
 
 }  // namespace seedmesh::building

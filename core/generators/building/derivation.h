@@ -1,6 +1,6 @@
 #pragma once
-/// The state of one derivation, and the tables that all operators share. The derivation itself is run by
-/// derive.h; rules are chosen and successors run by interpret.h; operators.h has the operations.
+/// The state of one derivation, and the tables that all operators share. derive.h runs the derivation,
+/// interpret.h chooses rules and executes successors, and operators.h has the operations.
 #include <array>
 #include <map>
 #include <unordered_map>
@@ -16,7 +16,7 @@ struct Frame {
   std::uint32_t shape = 0;  ///< the shape that is replaced
   std::uint64_t key = 0;    ///< of the successor, for random numbers
   ShapeState before;        ///< the state when the rule or the bracket began, for center()
-  bool is_carried = false;  ///< new shapes are made of a face of a closed body, or stand on one
+  bool is_carried = false;  ///< new shapes are, or stand on, a face of a mass, so they are no masses
 };
 
 /// Where one step is run: in its successor, with the key of its random numbers.
@@ -47,7 +47,7 @@ struct Derivation {
 
   // Evaluation (evaluate.h)
   std::vector<lang::TaggedValue> slots;
-  const ShapeState* seen = nullptr;  ///< the shape that the slots describe
+  const ShapeState* seen = nullptr;  ///< the shape for which expressions are evaluated
   std::uint32_t seen_shape = none, filled_attributes = none;
   bool is_filled = false;  ///< the slots hold the values of `seen`
   Rng random{0};
@@ -68,7 +68,7 @@ struct Derivation {
   std::unordered_map<std::uint64_t, std::uint32_t> side_axes;            ///< of boxes, by axes and side
   std::map<std::pair<std::uint32_t, int>, std::uint32_t> raised_solids;  ///< by what was raised, and how
 
-  std::vector<std::uint32_t> warned;  ///< bytes of the rules that have a warning
+  std::vector<std::uint32_t> warned;  ///< byte offsets in the rules that already have a warning
   std::uint64_t solid_corners = 0;
   std::vector<Cell> cells;                   ///< working memory of splits
   std::vector<std::vector<Cut>> spare_cuts;  ///< working memory of splits
@@ -80,22 +80,24 @@ struct Derivation {
 /// Adds a warning at a byte of the rules; one for each byte, and at most 100.
 void warn(Derivation& d, std::uint32_t offset, const std::string& message);
 
-/// Adds a row to a table and returns its number. A solid is stored as geometry, and fails with
-/// Resource limits where all solids together have too many corners.
+/// Adds a row to a table and returns its number. add_solid() throws Stop (a limit) if all solids together
+/// have too many corners.
 std::uint32_t add_axes(Derivation& d, const glm::dmat3& axes);
 std::uint32_t add_solid(Derivation& d, Solid solid);
 /// The number of a style, which is added unless an equal one exists.
 std::uint32_t style_with(Derivation& d, Style style);
 
-/// Square metres of all faces, and cubic metres; 0 for geometry that is not closed.
+/// Total area of the faces, in square metres.
 double area_of(const Derivation& d, const ShapeState& state);
+/// Volume in cubic metres; 0 if the geometry is not closed.
 double volume_of(const Derivation& d, const ShapeState& state);
 
 /// The geometry of a flat state; it lies in the unit square of its scope.
 const Solid& flat_solid(const Derivation& d, const ShapeState& state);
 /// A copy of the geometry of a state, in the unit cube of its scope.
 Solid solid_of(const Derivation& d, const ShapeState& state);
-/// Gives the state a solid in metres of its scope as geometry, and the box around it as scope.
+/// Sets the geometry to `solid` (coordinates in metres, along the axes of the scope), and the scope to its
+/// bounding box.
 void take_solid(Derivation& d, ShapeState& state, Solid solid);
 /// Gives the state another scope around the same geometry. The columns of `axes` are its axes in the world.
 void reframe(Derivation& d, ShapeState& state, const glm::dmat3& axes);

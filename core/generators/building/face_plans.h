@@ -1,5 +1,5 @@
 #pragma once
-/// Flat geometry as plans of core/geom/polygon, and back.
+/// Converts flat faces of a Solid to Plan (a polygon with holes in the plane) and back.
 #include <vector>
 
 #include "core/generators/building/shapes.h"
@@ -26,7 +26,8 @@ struct FacePlane {
 /// Each face of a flat solid as a plan, in metres of the scope of this size.
 std::vector<Plan> plans_of(const Solid& solid, const glm::dvec3& size, const FacePlane& plane);
 
-/// Adds a plan as a face. Its points are in metres of the scope until the solid is fitted.
+/// Adds a plan as a face. Its points are in metres, not in shares of the scope; fit() (solid.h) converts them
+/// later.
 void add_plan(Solid& solid, const Plan& plan, const FacePlane& plane, std::uint8_t tag);
 
 }  // namespace seedmesh::building

@@ -6,13 +6,15 @@
 
 namespace seedmesh::building {
 
-/// Reads cells: `size : successor | { ... }* | ...`, or, if the bodies come later, `3.5, 1r, { 2, 1r }*`.
+/// Reads cells: `size : successor | { ... }* | ...`, or, if the successors follow in a second pair of braces
+/// (notation of 2006), `3.5, 1r, { 2, 1r }*`.
 void parse_cells(Parser& p, std::vector<Part>& out, bool have_bodies);
-/// Gives bodies that come later to cells, in order; `next` counts them.
+/// Assigns the successors of a second pair of braces to the cells in order; `next` is the index of the next
+/// one.
 void assign_bodies(Parser& p, std::vector<Part>& cells, const std::vector<std::uint32_t>& bodies,
                    std::size_t& next);
 
-/// Reads one selector and the sign behind it: front :, world.up =, isTagged("a") && top =:
+/// Reads one selector and the separator after it: front :, world.up =, isTagged("a") && top =:
 Part parse_selector(Parser& p);
 /// The ComponentKind that a word names: f, e, v, fe, fv, g, m or h. Others are an error.
 std::uint8_t read_component(Parser& p, const lang::Token& token);
@@ -22,8 +24,8 @@ void parse_selectors(Parser& p, std::vector<Part>& out);
 /// Makes the selector of Comp("sidefaces") or Comp("edge", 3), in the notation of 2006.
 void parse_selectors_2006(Parser& p, Step& step, const std::vector<Argument>& list, std::vector<Part>& out);
 
-/// Reads the words of an operation: the axis x, "X", "YS" (with snap lines) or xz, the component f, and
-/// adjust.
+/// Reads the leading words of an operation: an axis of a split (x, "X", "YS" with snap lines, u, v), axes of
+/// center (xz), a kind of component (f), adjust or noAdjust.
 void read_axis(Parser& p, const OperationRow& row, Step& step, const std::vector<Argument>& list);
 
 }  // namespace seedmesh::building

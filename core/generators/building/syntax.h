@@ -1,5 +1,6 @@
 #pragma once
-/// The rules of a building as data, for both notations: flat arrays that refer to each other by index.
+/// The rules of a building as data, for the notation of CityEngine and that of Müller et al. (2006): flat
+/// arrays that refer to each other by index.
 ///
 ///   grammar = rules
 ///   rule    = symbol, parameters, body
@@ -21,7 +22,7 @@
 namespace seedmesh::building {
 
 constexpr std::uint32_t none = 0xFFFFFFFFU;
-/// Set in the text of a lang::TaggedValue that is an array; the other bits are its number in ValueArrays.
+/// Flag in TaggedValue::text: the value is an array, and the other bits are its index in ValueArrays.
 constexpr std::uint32_t array_bit = 0x80000000U;
 
 inline bool is_array(const lang::TaggedValue& value) { return (value.text & array_bit) != 0; }
@@ -29,10 +30,10 @@ inline bool is_array(const lang::TaggedValue& value) { return (value.text & arra
 /// The texts of one derivation, numbered from 1 as in lang::TaggedValue.
 class Texts {
  public:
-  /// Adds the text unless it is known.
+  /// Returns the number of the text, which it adds if it is new.
   std::uint32_t id_of(std::string_view text);
   std::size_t size() const { return texts_.size(); }
-  /// Null for 0, which stands for no text.
+  /// The text with this number; null for 0 (no text) and for arrays.
   const std::string* find(std::uint32_t id) const {
     return id == 0 || (id & array_bit) != 0 ? nullptr : &texts_[id - 1];
   }
@@ -79,10 +80,10 @@ struct ValueNode {
     invert,
     binary,      ///< `operation`
     mask,        ///< the same for each value of an array
-    both,        ///< &&, which stops at the first that does not hold
-    either,      ///< ||
-    choose,      ///< condition, value, condition, value, ..., value otherwise
-    weigh,       ///< percentage, value, percentage, value, ..., value otherwise
+    both,        ///< logical and (&&), which stops at the first that does not hold
+    either,      ///< logical or (||)
+    choose,      ///< by conditions: condition, value, condition, value, ..., value otherwise
+    weigh,       ///< at random: percentage, value, percentage, value, ..., value otherwise
     call,        ///< `id`: into lang::functions()
     function,    ///< `id`: into Grammar::functions
     special,     ///< `id`: into value_functions()
@@ -100,7 +101,7 @@ struct ValueNode {
   lang::TaggedValue constant;
 };
 
-/// A function of the rules that is not written out where it is called.
+/// A function of the rules that is not expanded where it is called.
 struct FunctionTree {
   std::uint32_t root = none, parameter_count = 0;
 };
@@ -108,7 +109,8 @@ struct FunctionTree {
 struct Value {
   lang::Expression expression;
   std::uint32_t tree = none;  ///< a ValueNode; none: `expression` holds it
-  /// The tree is used only if `expression` gives no number, because a parameter turns out to be a text or an array.
+  /// True: `expression` is tried first; the tree is used only if a parameter is a text or an array at run
+  /// time.
   bool is_fallback = false;
   std::uint32_t offset = 0;  ///< byte of the rules where it begins
   std::uint32_t first_query = 0, query_count = 0;
@@ -225,11 +227,11 @@ struct Step {
   std::uint32_t first_part = 0, part_count = 0;
   std::uint32_t symbol = none;
   std::uint32_t offset = 0;
-  bool is_leaf = false;         ///< of a symbol: written with a point
-  bool stays_whole = false;     ///< of a symbol: it cuts itself out without an end, and becomes a leaf
-  bool keeps_slab = false;      ///< of a split: noAdjust
+  bool is_leaf = false;         ///< of a symbol: written as `Name.`, which makes a leaf
+  bool stays_whole = false;     ///< of a symbol: its rule always splits it off again, so it becomes a leaf
+  bool keeps_slab = false;      ///< of a split: noAdjust, cells do not get a scope fitted to their geometry
   bool keeps_to_snaps = false;  ///< of a split: its borders keep to snap lines
-  bool is_2006 = false;         ///< of a repeat: written as Repeat(...)
+  bool is_2006 = false;         ///< of a repeat: written as Repeat(...), in the notation of 2006
   bool is_repeated = false;     ///< of a split of the perimeter: { ... }*
   bool in_metres = false;       ///< of a split along u or v: unitSpace
   std::uint8_t axis = 0;        ///< x, y, z, or of a split axis_u, axis_v; of comp a ComponentKind
@@ -253,7 +255,7 @@ enum SelectorFrame : std::uint8_t { frame_scope, frame_world };
 /// The axes of texture space, as axes of a split.
 constexpr std::uint8_t axis_u = 3, axis_v = 4;
 
-/// The classes of faces that a selector of a component split can take; bits of Part::classes.
+/// The classes of faces and edges that a selector of a component split can test; bits of Part::classes.
 enum FaceClass : std::uint32_t {
   face_front = 1,
   face_back = 2,
@@ -273,7 +275,7 @@ enum FaceClass : std::uint32_t {
   edge_hip = 1U << 15U,
   edge_valley = 1U << 16U,
   edge_ridge = 1U << 17U,
-  never = 1U << 18U  ///< a property that no shape has, such as that of a street
+  never = 1U << 18U  ///< matches no component: a property that no shape has, such as that of a street
 };
 
 /// A cell of a split, or a selector of a component split.
@@ -295,7 +297,7 @@ struct Part {
 };
 
 struct Choice {
-  Value weight;                ///< not given: what the others leave of 1
+  Value weight;                ///< not given: 1 minus the sum of the other weights
   bool is_percentage = false;  ///< the weight is an expression in percent
   std::uint32_t first_step = 0, step_count = 0;
 };
@@ -378,9 +380,10 @@ struct Grammar {
 /// The least number of parameters of the rules of a symbol; 0 if it has no rule.
 std::uint32_t least_parameters(const Grammar& grammar, std::uint32_t symbol);
 
-/// Reads rules in both notations. Adds every error at its byte of the joined text. `start` is the name of a symbol,
-/// perhaps with a style before it (Modern$Lot). If it is empty, the start symbol is that of the rule after @StartRule
-/// or `start`, or of the first rule. Cost: linear. Brackets may be nested 100 deep.
+/// Reads rules in the notations of CityEngine and of 2006. Adds every error at its byte of the joined text.
+/// `start` is the name of a symbol, perhaps with a style before it (Modern$Lot). If it is empty, the start
+/// symbol is that of the rule after @StartRule or `start`, or of the first rule. Cost: linear. Brackets may
+/// be nested 100 deep.
 Grammar read_rules(const RuleText& text, std::string_view start, std::vector<lang::TextError>& faults);
 
 }  // namespace seedmesh::building

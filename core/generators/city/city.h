@@ -1,7 +1,7 @@
 #pragma once
 /// Cities: an exact partition of an area into streets, blocks, lots, parks and squares.
 ///
-///   params -> grow_streets(): majors, then the cells between them -> StreetGraph
+///   params -> grow_streets(): major streets, then minor streets in the faces between them -> StreetGraph
 ///          -> lay_out_streets(): carriageways, junctions, sidewalks, outlines of blocks
 ///          -> divide_blocks(): lots with street access -> place_houses() -> CityPlan
 ///          -> plan_json() and statistics_of(), or city_model()
@@ -23,7 +23,7 @@ namespace seedmesh::city {
 /// All errors that the schema cannot express, with pointers relative to the parameters.
 std::vector<Issue> check(const CityParams& params, const CheckContext& context);
 
-/// The plan without its output forms. Errors: those of check().
+/// The plan as data; for its output forms see plan_json() and city_model(). Errors: those of check().
 Result<CityPlan> plan_of(const CityParams& params, Job& job);
 
 Result<Model> generate(const CityParams& params, const GenerateContext& context);
@@ -31,7 +31,7 @@ Result<Model> generate(const CityParams& params, const GenerateContext& context)
 /// {statistics, plan, warnings}.
 Result<Json> derive(const CityParams& params, const GenerateContext& context);
 
-/// The estimate makes the plan, and one building of each rule and number of floors.
+/// Computes the plan, and generates one sample building for each rule and number of floors.
 Result<Appraisal> appraise(const CityParams& params, const GenerateContext& context);
 
 /// The format "geojson": the plan alone.

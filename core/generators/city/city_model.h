@@ -1,5 +1,6 @@
 #pragma once
-/// The model of a plan: ground by kind of part, kerbs, and houses as copies of shared meshes.
+/// Builds the model of a city plan: one ground mesh for each kind of area, kerbs, and houses as copies of
+/// shared meshes.
 #include "core/generators/api.h"
 #include "core/generators/city/plan.h"
 #include "core/schema/child.h"
@@ -24,8 +25,8 @@ std::vector<SharedHouse> shared_houses(const CityPlan& plan, const CityParams& p
 /// Triangles of the ground of a plan.
 std::uint64_t ground_triangles(const CityPlan& plan);
 
-/// Nodes: "city" > "streets" and "lots", one mesh for each kind of part; "city" > "buildings" > one node for each
-/// shared building. Spends triangles.
+/// Nodes: "city" > "ground" > one node and mesh for each kind of part ("asphalt", "junction", ..., "lot");
+/// "city" > "buildings" > one node for each shared building. Charges Resource::triangles.
 Result<Model> city_model(const CityPlan& plan, const CityParams& params, const GenerateContext& context);
 
 }  // namespace seedmesh::city

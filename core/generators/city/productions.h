@@ -1,7 +1,8 @@
 #pragma once
 /// The extended L-system of Parish and Mueller ("Procedural modeling of cities", 2001): productions over the
-/// modules R (the tip of a road), B (a delayed branch) and I (the query that checks a road). Contexts reach only
-/// from R to the I behind it and back, so a word is a tree of sites that are rewritten one by one.
+/// modules R (the tip of a road), B (a delayed branch) and I (the query that checks a road). Contexts only
+/// link an R and the I that follows it. A word can therefore be split into short independent words (sites),
+/// one for each tip.
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -21,11 +22,11 @@ enum class RoadState : std::uint8_t { unassigned = 0, succeed = 1, failed = 2 };
 struct GlobalGoals {
   std::array<double, 3> delay = {-1, -1, -1};  ///< steps; negative: no successor
   std::array<double, 3> rule = {0, 0, 0};
-  std::array<double, 3> road = {0, 0, 0};  ///< numbers that only the maker of the goals interprets
+  std::array<double, 3> road = {0, 0, 0};  ///< road numbers; the grammar does not interpret them
 };
 
-/// What the productions ask of the roads. A road is a number that a growth gave out; productions may ask for any
-/// number, and one that was not given out fails.
+/// What the productions ask of the roads. The implementation numbers the roads. A production can compute any
+/// number; an unknown one yields FAILED.
 class RoadRules {
  public:
   virtual ~RoadRules() = default;
@@ -49,9 +50,8 @@ class StreetGrammar {
     double delay = 0, rule = 0, road = 0;
     std::uint64_t key = 0;
   };
-  /// Rewrites all sites in the order of (step, key), until none is left, `most_steps` rewritings are done, or too
-  /// many sites wait.
-  /// Returns whether all sites came to an end.
+  /// Rewrites all sites in the order of (step, key), until none is left, `most_steps` rewritings are done, or
+  /// more than 100,000 sites wait. Returns whether all sites came to an end.
   bool grow(const std::vector<Start>& starts, RoadRules& rules, std::uint64_t most_steps,
             const Job& job) const;
 
@@ -73,7 +73,7 @@ class StreetGrammar {
   };
   struct Production {
     char predecessor = 0, left = 0, right = 0;               ///< 0: no context
-    std::uint32_t own = 0, left_count = 0, right_count = 0;  ///< numbers of parameters
+    std::uint32_t own = 0, left_count = 0, right_count = 0;  ///< parameter counts
     bool has_condition = false, asks_goals = false, asks_constraints = false;
     lang::Expression condition;
     lang::Expression goal_rule, goal_road, constraint_road;

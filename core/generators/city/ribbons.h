@@ -1,7 +1,7 @@
 #pragma once
-/// From the street graph to street space and blocks. In each face the kerbs and then the borders of the blocks
-/// are the outline moved inwards; the corners of both are computed once and shared by all polygons at them, so
-/// that the partition has neither gap nor overlap.
+/// Computes the street space and the blocks from the street graph. In each face the kerbs and then the
+/// borders of the blocks are the outline moved inwards. Each corner is computed once and shared by all
+/// polygons that meet there, so that the partition has neither gap nor overlap.
 #include "core/base/job.h"
 #include "core/generators/city/plan.h"
 
@@ -10,15 +10,17 @@ namespace seedmesh::city {
 /// An edge of a block's outline.
 struct BlockEdge {
   std::uint32_t street = no_index;  ///< edge of the graph; no_index on the border of the area
-  std::uint32_t sidewalk =
-      no_index;  ///< part between it and the street; its ring contains this edge reversed
+  /// Index of the part (sidewalk) between this edge and the street. The ring of that part contains the edge
+  /// in the opposite direction.
+  std::uint32_t sidewalk = no_index;
 };
 
 /// A block before it is divided.
 struct BlockOutline {
   CmRing ring;
   std::vector<BlockEdge> edges;  ///< edge i runs from point i to the next
-  std::vector<CmRing> holes;     ///< outlines of components inside, clockwise, without streets at hand
+  /// Outlines of separate street networks inside the block, clockwise; their edges are not in `edges`.
+  std::vector<CmRing> holes;
 };
 
 /// Adds carriageways, junctions, sidewalks and verges to the plan, and returns the outlines of the blocks in the

@@ -10,17 +10,19 @@ struct FractalParams;
 
 namespace seedmesh::fractal {
 
-/// Relative escape times: 0 for at once, 1 for never. Row by row from the upper left corner of the window.
+/// Logarithm of the escape time, divided by that of the limit: 0 for one step, below 1 for points that
+/// escape, 1 for the others. Row by row from the upper left corner of the window.
 struct EscapeField {
   std::uint32_t side = 0;
   Array<float> value;
 };
 
-/// Steps have a fraction that follows from the distance reached. Rows are computed in parallel.
+/// Uses the smooth iteration count, which has a fraction that follows from the distance reached. Rows are
+/// computed in parallel.
 EscapeField escape_field(const FractalParams& params, Job& job);
 
-/// The colour of a value of the field: the palette from early to late, nearly black for points that never
-/// leave.
+/// The colour of a value of the field: the palette from its first to its last colour as the escape time
+/// grows, nearly black for points that never escape.
 Color escape_color(const FractalParams& params, float value);
 
 /// A closed plate with edges of `size` in the XZ plane, with the imaginary axis along -Z and the relief along

@@ -10,8 +10,9 @@
 
 namespace seedmesh::fractal {
 
-/// A grid in two orientations, because rows of bits give only four of the six sides: bits along X with the
-/// axes (x, y, z), and bits along Z with the axes (z, y, x).
+/// Two copies of a grid: bits along X with the axes (x, y, z), and bits along Z with the axes (z, y, x). Rows
+/// are compared word by word with neighbouring rows, which gives four of the six sides. The sides -X and +X
+/// are read from the second copy.
 struct Solid {
   BitGrid by_x, by_z;
   glm::dvec3 origin;  ///< the lower corner of the first cell of both grids
@@ -27,8 +28,8 @@ using SideColors = std::array<glm::u8vec4, 6>;
 std::uint64_t count_exposed(const Solid& solid, const Job& job);
 
 /// Every exposed square as two triangles. Squares of one plane that face the same way share vertices. The
-/// mesh is closed; where cells touch only along an edge, four squares meet. Triangles are in an order for the
-/// vertex cache: bands of eight squares. Spends the triangles first. Slices are made in parallel.
+/// mesh is closed; where cells touch only along an edge, four squares meet. Triangles are ordered for the
+/// vertex cache, in bands eight squares wide. Charges Resource::triangles first. Slices are made in parallel.
 Mesh exposed_faces(const Solid& solid, const SideColors* colors, Job& job);
 
 }  // namespace seedmesh::fractal

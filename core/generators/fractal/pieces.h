@@ -24,7 +24,7 @@ double pieces_after(const Instructions& instructions, int rounds);
 Plan plan_of(const Instructions& instructions, const Element& element, int rounds, const Job& job);
 
 /// Adds the meshes and nodes of the fractal below node `parent`, scaled by `size`. The first materials of the
-/// model must be those of the element. Spends the triangles.
+/// model must be those of the element. Charges Resource::triangles.
 void add_pieces(Model& model, int parent, const Instructions& instructions, const Element& element,
                 int rounds, double size, Job& job);
 

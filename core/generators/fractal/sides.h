@@ -1,6 +1,6 @@
 #pragma once
-/// The six sides of a solid of cells. Each side is a list of slices with rows of bits for its exposed
-/// squares.
+/// The six sides of a solid of cells. A side is a view of a BitGrid, slice by slice; exposed() computes the
+/// exposed squares of one row.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -25,8 +25,9 @@ struct Side {
   int world_normal() const { return axes[static_cast<std::size_t>(slice_axis)]; }
   int world_rows() const { return axes[static_cast<std::size_t>(3 - slice_axis)]; }
   int world_bits() const { return axes[0]; }
+  /// The index of the side in SideColors.
   std::size_t number() const { return static_cast<std::size_t>(2 * world_normal() + (step > 0 ? 1 : 0)); }
-  /// Are bits, rows and normal a right-handed frame?
+  /// Returns whether bits, rows and normal are a right-handed frame.
   bool turns_right() const {
     const int bits = world_bits(), rows_axis = world_rows();
     return ((bits + 1) % 3 == rows_axis) == (step > 0);

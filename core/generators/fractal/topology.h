@@ -13,13 +13,15 @@ struct SolidTopology {
   std::uint64_t edges = 0, corners = 0;  ///< of the surface, each position counted once
   std::uint64_t four_face_edges = 0;  ///< edges at which two cells touch; the surface is not a manifold there
   std::uint64_t pinched_corners = 0;  ///< corners at which the surface touches itself
-  std::uint64_t surfaces = 0;         ///< closed surfaces: the outsides of bodies and the walls of cavities
+  /// Closed surfaces: the outsides of bodies and the walls of cavities; 0 if the surface is not a manifold.
+  std::uint64_t surfaces = 0;
 
   /// The sum over all surfaces, by Euler's formula; nullopt if the surface is not a manifold.
   std::optional<std::uint64_t> genus() const;
 };
 
-/// Counts squares, edges and corners only. Reads every word of the grid once.
+/// Counts squares, edges, four_face_edges and corners; the other members stay 0. Reads every word of the grid
+/// once.
 SolidTopology count_elements(const BitGrid& grid, const Job& job);
 
 /// Reads every word of the grid and every corner of the surface once.

@@ -72,7 +72,7 @@ constexpr CommandRow rows[] = {
      "Adds the `step` of a tropism to its elasticity. The default is the first tropism.", "@TF+F@TF"},
     {"@Td", Command::elasticity_down, "[(tropism)]", 0, 1,
      "Subtracts the `step` of a tropism from its elasticity. The default is the first tropism.", "@TF+F@TdF"},
-    {"@V", Command::stand_up, "", 0, 0, "Restores the heading, left and up directions of the start.",
+    {"@V", Command::reset_frame, "", 0, 0, "Restores the heading, left and up directions of the start.",
      "F&(70)/(40)F@VF"},
     {"@D", Command::set_scale, "(scale)", 1, 1, "Sets the scale of all following lengths.", "F@D(0.5)F"},
     {"@Di", Command::multiply_scale, "(factor)", 1, 1, "Multiplies the scale of lengths.", "F@Di(0.5)F"},

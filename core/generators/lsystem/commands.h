@@ -39,7 +39,7 @@ enum class Command : std::uint8_t {
   elasticity_set,
   elasticity_up,
   elasticity_down,
-  stand_up,
+  reset_frame,
   set_scale,
   multiply_scale,
   divide_scale,

@@ -22,7 +22,7 @@ void pair_brackets(const Grammar& grammar, const Word& word, Array<std::uint32_t
 
 double* ContextMatcher::match(const Production& production, std::size_t position) {
   position_ = position;
-  round_ = false;
+  has_wrapped_ = false;
   right_.clear();
   const std::size_t behind = position + 1 + production.rest.size();
   if (!match_rest(production, position) || !match_left(production, position) ||
@@ -69,7 +69,7 @@ bool ContextMatcher::match_left(const Production& production, std::size_t positi
       const KindId kind = word_.kind[at];
       if (kind == grammar_.close) {
         at = partner_[at];  // skip a sibling branch
-      } else if (kind != grammar_.open && !passed_over(at)) {
+      } else if (kind != grammar_.open && !is_ignored(at)) {
         break;  // an open bracket leads to the parent branch
       }
     }
@@ -93,12 +93,12 @@ bool ContextMatcher::match_right(std::span<const KindId> pattern, std::size_t at
       continue;
     }
     close_ring(at);
-    while (at < word_.size() && (word_.kind[at] == grammar_.open || passed_over(at))) {
+    while (at < word_.size() && (word_.kind[at] == grammar_.open || is_ignored(at))) {
       walk();
       at = word_.kind[at] == grammar_.open ? partner_[at] + 1 : at + 1;
       close_ring(at);
     }
-    if (round_ && at >= position_) return false;
+    if (has_wrapped_ && at >= position_) return false;
     if (at >= word_.size() || word_.kind[at] != pattern[0]) return false;  // a ] is no kind of a pattern here
     right_.push_back(at++);
     pattern = pattern.subspan(1);
@@ -108,7 +108,7 @@ bool ContextMatcher::match_right(std::span<const KindId> pattern, std::size_t at
 
 /// Matches the first branch at `at` whose start fits the pattern, and moves `at` after it.
 bool ContextMatcher::match_branch(std::span<const KindId> pattern, std::size_t& at) {
-  while (at < word_.size() && (word_.kind[at] == grammar_.open || passed_over(at))) {
+  while (at < word_.size() && (word_.kind[at] == grammar_.open || is_ignored(at))) {
     walk();
     if (word_.kind[at] != grammar_.open) {
       ++at;

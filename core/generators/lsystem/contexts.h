@@ -15,8 +15,9 @@ void pair_brackets(const Grammar& grammar, const Word& word, Array<std::uint32_t
 /// module are neighbours.
 class ContextMatcher {
  public:
-  /// `written` is the word of the next step, which new contexts read. Where Grammar::backward is set, it is
-  /// written from its end, one piece for each module; `pieces` holds the first index of each piece.
+  /// `written` is the word of the next step, which new contexts read. If Grammar::backward is set, it is
+  /// written from right to left, in one piece for each module; `pieces` then holds the first index of each
+  /// piece.
   ContextMatcher(const Grammar& grammar, const Word& word, std::span<const std::uint32_t> partner,
                  const Word& written, const std::vector<std::size_t>& pieces, const Job& job)
       : grammar_(grammar),
@@ -32,9 +33,9 @@ class ContextMatcher {
   /// The variables of the grammar: the first slots of every match.
   double* variables() { return slots_.data(); }
 
-  /// Returns the slots of `production` at `position`: the variables, the parameters of the predecessor, then of the
-  /// contexts from left to right. Returns null where the contexts do not match. The array holds all slots of the
-  /// production and is valid until the next call.
+  /// Returns the slots of `production` at `position`: the variables, the parameters of the predecessor, then
+  /// of the left, right, new left and new right context, each from left to right. Returns null where the
+  /// contexts do not match. The array holds all slots of the production and is valid until the next call.
   double* match(const Production& production, std::size_t position);
 
  private:
@@ -49,15 +50,15 @@ class ContextMatcher {
   double* take_parameters(const Word& word, std::size_t position, double* to) const;
   /// Moves from the end of a ring to its start, once for each match.
   void close_ring(std::size_t& at) {
-    if (!grammar_.ring || round_ || at != word_.size()) return;
+    if (!grammar_.ring || has_wrapped_ || at != word_.size()) return;
     at = 0;
-    round_ = true;
+    has_wrapped_ = true;
   }
-  /// Checks the deadline regularly, because a context may skip any number of modules.
+  /// Checks the deadline every 65,536 calls, because a context may skip any number of modules.
   void walk() {
     if ((++walked_ & 0xFFFFU) == 0) job_.check();
   }
-  bool passed_over(std::size_t position) const { return grammar_.kinds[word_.kind[position]].ignored; }
+  bool is_ignored(std::size_t position) const { return grammar_.kinds[word_.kind[position]].ignored; }
 
   const Grammar& grammar_;
   const Word& word_;
@@ -68,7 +69,7 @@ class ContextMatcher {
   std::vector<std::size_t> left_, right_, new_left_, new_right_;  ///< positions of the matched modules
   std::vector<double> slots_;
   std::size_t position_ = 0;  ///< position of the predecessor
-  bool round_ = false;        ///< true after the right context passed the end of a ring
+  bool has_wrapped_ = false;  ///< the right context has passed the end of the ring
   std::uint64_t walked_ = 0;
 };
 

@@ -8,8 +8,8 @@
 
 namespace seedmesh::lsystem {
 
-/// Checks what the schema cannot express: each contour is closed around the origin and its points keep a
-/// minimum distance.
+/// Checks what the schema cannot express: each contour is star-shaped about the origin, and neighbouring
+/// points keep a minimum distance.
 void check_contours(const LsystemParams& params, std::vector<Issue>& issues);
 
 /// Returns the contours of `params`, in order. Requires that check_contours() reported no issue.

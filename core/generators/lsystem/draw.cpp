@@ -48,13 +48,13 @@ bool Drawing::needs_keys(const Grammar& grammar, const LsystemParams& params) {
 }
 
 void Drawing::module(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t step) {
-  turtle_.set_thinner(
+  turtle_.set_width_reduction(
       params_.width_rule == LsystemParams::WidthRule::decrement ? step * params_.width_decrement : 0);
   interpret(kind, parameters, {key, 0}, 0);
 }
 
 void Drawing::grow(const Module& module, double step, Grown grown) {
-  turtle_.set_thinner(
+  turtle_.set_width_reduction(
       params_.width_rule == LsystemParams::WidthRule::decrement ? step * params_.width_decrement : 0);
   grown_ = grown;
   turtle_.set_share(grown.share);
@@ -62,7 +62,7 @@ void Drawing::grow(const Module& module, double step, Grown grown) {
   grown_ = {};
   shapes_.clear();
   turtle_.set_share(1);
-  turtle_.set_pull(1);
+  turtle_.set_tropism_share(1);
 }
 
 void Drawing::fade(const Module& module, double step, double share) {

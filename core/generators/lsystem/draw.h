@@ -53,14 +53,15 @@ class Drawing {
   /// Number of unmatched braces in the drawing: { that are still open, and } without an open polygon.
   std::uint64_t open_polygons() const { return open_polygons_; }
   std::uint64_t stray_closings() const { return stray_closings_; }
-  /// Stamps (core/geom/plant/turtle.h) of this drawing. `begin_stamp` is called on the separate drawing that
-  /// records the stamp.
-  bool can_stamp() const { return turtle_.can_stamp(); }
-  bool matches(const Turtle::Stamp& stamp) const { return turtle_.matches(stamp); }
-  void press(const Turtle::Stamp& stamp) { turtle_.press(stamp); }
+  /// Recordings (core/geom/plant/turtle.h) of this drawing. Call begin_recording() on a separate drawing.
+  bool can_record() const { return turtle_.can_record(); }
+  bool matches(const Turtle::Recording& recording) const { return turtle_.matches(recording); }
+  void append_copy(const Turtle::Recording& recording) { turtle_.append_copy(recording); }
   const Job& job() const { return job_; }
-  void begin_stamp(const Drawing& like, Turtle::Stamp& stamp) { turtle_.begin_stamp(like.turtle_, stamp); }
-  void end_stamp(Turtle::Stamp& stamp) { turtle_.end_stamp(stamp); }
+  void begin_recording(const Drawing& like, Turtle::Recording& recording) {
+    turtle_.begin_recording(like.turtle_, recording);
+  }
+  void end_recording(Turtle::Recording& recording) { turtle_.end_recording(recording); }
   void set_most_segments(std::uint64_t most) { turtle_.set_most_segments(most); }
 
  private:

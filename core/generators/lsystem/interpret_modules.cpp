@@ -21,7 +21,7 @@ bool sets_pose(Command command) {
     case Command::elasticity_set:
     case Command::elasticity_up:
     case Command::elasticity_down:
-    case Command::stand_up:
+    case Command::reset_frame:
     case Command::set_scale:
     case Command::multiply_scale:
     case Command::divide_scale:
@@ -54,7 +54,7 @@ void Drawing::enter_frame(const double* parameters) {
   };
   const Frame start;
   turtle_.move_to(axis(3));
-  turtle_.face_as(
+  turtle_.set_frame(
       {math::unit(axis(1), start.heading), math::unit(-axis(0), start.left), math::unit(axis(2), start.up)});
 }
 
@@ -167,7 +167,7 @@ void Drawing::refuse(const Kind& kind, const double* parameters, const std::stri
 /// Interpolates what a symbol sets, and the bend of a segment, by the share of the module.
 void Drawing::follow(const Kind& kind, const double* parameters, Keys keys) {
   if (grown_.share == 1) return execute_whole(kind, parameters, keys);
-  turtle_.set_pull(turned_share());
+  turtle_.set_tropism_share(turned_share());
   if (!sets_pose(kind.command)) return execute_whole(kind, parameters, keys);
   const Turtle::Pose before = turtle_.pose();
   execute_whole(kind, parameters, keys);
@@ -254,7 +254,7 @@ void Drawing::execute_state(const Kind& kind, const double* parameters, std::uin
     case Command::move_to:
       return turtle_.move_to({parameters[0], parameters[1], parameters[2]});
     case Command::set_heading:
-      return turtle_.head({parameters[0], parameters[1], parameters[2]});
+      return turtle_.set_heading({parameters[0], parameters[1], parameters[2]});
     case Command::elasticity_set:
       return turtle_.set_elasticity(kind.arity > 1 ? math::to_int64(parameters[0]) : 0,
                                     parameters[kind.arity > 1 ? 1 : 0]);
@@ -262,8 +262,8 @@ void Drawing::execute_state(const Kind& kind, const double* parameters, std::uin
       return turtle_.change_elasticity(kind.arity > 0 ? math::to_int64(parameters[0]) : 0, 1);
     case Command::elasticity_down:
       return turtle_.change_elasticity(kind.arity > 0 ? math::to_int64(parameters[0]) : 0, -1);
-    case Command::stand_up:
-      return turtle_.stand_up();
+    case Command::reset_frame:
+      return turtle_.reset_frame();
     case Command::set_scale:
       return turtle_.set_scale(parameters[0]);
     case Command::multiply_scale:

@@ -9,6 +9,7 @@
 
 #include "core/generators/lsystem/contours.h"
 #include "core/generators/lsystem/draw.h"
+#include "core/generators/lsystem/drawing_cache.h"
 #include "core/generators/lsystem/dress.h"
 #include "core/generators/lsystem/fractional_iterations.h"
 #include "core/generators/lsystem/free.h"
@@ -16,7 +17,6 @@
 #include "core/generators/lsystem/materials.h"
 #include "core/generators/lsystem/open_systems.h"
 #include "core/generators/lsystem/shape.h"
-#include "core/generators/lsystem/stamping.h"
 #include "core/generators/lsystem/surfaces.h"
 #include "core/generators/lsystem/text.h"
 #include "core/generators/lsystem/welded.h"
@@ -94,9 +94,9 @@ void draw(const Grammar& grammar, const LsystemParams& params, Drawing& drawing,
           const GenerateContext& context) {
   Job& job = context.job;
   const double share = share_of(params);
-  if (share == 1 && drawing.can_stamp() && Stamping::fits(grammar, params, steps_of(params))) {
-    Stamping stamping(grammar, params, steps_of(params), drawing, context);
-    return run(grammar, params, stamping, job);
+  if (share == 1 && drawing.can_record() && DrawingCache::fits(grammar, params, steps_of(params))) {
+    DrawingCache cache(grammar, params, steps_of(params), drawing, context);
+    return run(grammar, params, cache, job);
   }
   if (share == 1) return run(grammar, params, drawing, job);
   const std::uint32_t whole = steps_of(params) - 1;

@@ -16,17 +16,18 @@ void check_materials(const LsystemParams& params, std::vector<Issue>& issues);
 /// Returns true where a material has an image, which has to repeat a whole number of times around a limb.
 bool wraps_images(const LsystemParams& params);
 
-/// Creates materials on first use: one for each colour index and number of visible sides.
+/// Creates materials on first use: one for each colour index, number of visible sides and kind of texture.
 class MaterialSet {
  public:
   /// Reads the images of the request into `model`. Throws Stop (Code::invalid) for a damaged image.
   MaterialSet(Model& model, const LsystemParams& params, const Job& job);
 
-  /// Returns the material index of a colour. Colours past the end of the list use the last material.
+  /// Returns the index into the materials of the request for a colour. Colours past the end of the list use
+  /// the last material.
   std::int16_t index_of(std::int16_t color) const { return std::min(color, last_); }
 
-  /// Returns the index of a material in the model. `recipe` may be empty; otherwise it is the texture for
-  /// materials without a texture of their own.
+  /// Returns the index of a material in Model::materials. `recipe` may be empty; otherwise it is the texture
+  /// for materials without a texture of their own.
   int material(std::int16_t color, Sides sides, const TextureRecipe& recipe = {});
 
  private:

@@ -1,16 +1,16 @@
 #pragma once
 /// Splits the text of modules and productions into slices, without interpreting them:
 ///
-///   production = [ new left "<<" ] [ left "<" ] predecessor [ ">" right ] [ ">>" new right ]
+///   production = [ label ] [ new left "<<" ] [ left "<" ] predecessor [ ">" right ] [ ">>" new right ]
 ///                [ ":" [ before ] condition [ after ] ] arrow successor [ ":" weight ] ;
 ///   before     = "{" statements "}" ;               after = "{" statements "}" ;
 ///   arrow      = "->" | "-->" | "~>" | "→" ;      word = { module } ;
 ///   module     = symbol [ "(" expression { "," expression } ")" ] ;
 ///   symbol     = one character | "@" character | a longer name that is declared or belongs to the turtle ;
-///   label      = "p" digit { digit } ":" before a production, as in the book ;
+///   label      = "p" digit { digit } ":" as in "The Algorithmic Beauty of Plants" ;
 ///
-/// White space only separates. An empty successor, or "*" or "ε" alone, erases the module; an empty right
-/// side does the same.
+/// White space only separates. A successor that is empty, "*" or "ε" erases the module. New contexts are
+/// matched against the word that is being written in this step.
 #include <array>
 #include <cstdint>
 #include <string>
@@ -79,8 +79,8 @@ std::size_t closing(std::string_view text, std::size_t open, std::size_t to);
 
 std::size_t skip_spaces(std::string_view text, std::size_t at, std::size_t to);
 
-/// Returns the number of bytes of the label and its colon before a production. Returns 0 without a label, or
-/// where `symbols` has a module of that name.
+/// Returns the number of bytes of the label and its colon before a production. Returns 0 if there is no
+/// label, or if `symbols` has a module of that name, which is then the predecessor.
 std::size_t label_length(std::string_view text, const Symbols& symbols);
 
 /// Splits the production in text[from, ...) at its arrow, context marks and colons. Errors: no arrow, no
@@ -91,15 +91,16 @@ WrittenProduction read_production(std::string_view text, std::vector<lang::TextE
 /// Returns the position of an arrow outside parentheses in text[slice], or slice.to.
 std::size_t find_second_arrow(std::string_view text, Slice slice);
 
-/// Index of brackets, semicolons and comparisons of a text. Built in one pass; a query costs O(log n).
+/// Index of brackets, semicolons and signs of conditions of a text. Built in one pass. closing() takes
+/// constant time, and the other queries O(log n).
 class Marks {
  public:
   Marks() = default;
   explicit Marks(std::string_view text);
-  /// Same result as closing(), in constant time.
+  /// Same result as the function closing().
   std::size_t closing(std::size_t open, std::size_t to) const;
   bool has_semicolon(Slice slice) const { return has(semicolons_, slice); }
-  bool has_comparison(Slice slice) const { return has(comparisons_, slice); }  ///< one of < > = ! & |
+  bool has_condition_operator(Slice slice) const { return has(comparisons_, slice); }  ///< one of < > = ! & |
 
  private:
   static bool has(const std::vector<std::uint32_t>& positions, Slice slice);

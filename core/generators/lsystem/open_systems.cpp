@@ -74,7 +74,7 @@ TurtleReport report_of(const Limbs& limbs) {
 
 /// Returns for each joint the number of its limb, which is the first joint of the limb.
 Array<std::uint32_t> limbs_by_joint(const Limbs& limbs) {
-  Array<std::uint32_t> limb = limbs.parent.like<std::uint32_t>();
+  Array<std::uint32_t> limb = limbs.parent.empty_array_of<std::uint32_t>();
   for (std::uint32_t i = 0; i < limbs.size(); ++i) {
     const bool is_first = limbs.parent[i] == Limbs::none || limbs.starts_limb[i];
     limb.push_back(is_first ? i : limb[limbs.parent[i]]);

@@ -41,7 +41,7 @@ std::size_t Statements::condition_at(std::size_t at, std::size_t to) const {
   const std::size_t close = marks_.closing(open, to);
   const std::size_t next = skip_spaces(text_, std::min(close + 1, to), to);
   const bool braces = next < to && text_[next] == '{';
-  return braces || marks_.has_comparison({open, close}) ? open : to;
+  return braces || marks_.has_condition_operator({open, close}) ? open : to;
 }
 
 bool Statements::is_let(std::size_t at, std::size_t to) const {

@@ -1,5 +1,6 @@
 #pragma once
-/// Bark with continuous joints (the parameter `weld`): graft() joins the limbs of brackets into one surface.
+/// Bark with continuous joints (the parameter `weld`): graft() joins limbs that are drawn in brackets with
+/// their parents.
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,7 +13,8 @@ namespace seedmesh::lsystem {
 
 struct WeldedBark {
   std::vector<Bark> barks;
-  /// The limbs of the bark: coincident internodes are removed, and limbs are extended as far as possible.
+  /// The limbs of the bark: coincident internodes are removed, and limbs that end in a fork are continued by
+  /// one of their branches.
   Limbs limbs;
   Array<std::uint16_t> bones;  ///< bone of each joint; empty without growth animation
 };
@@ -22,11 +24,11 @@ struct WeldedBark {
 std::optional<WeldedBark> welded_bark(const Limbs& limbs, std::span<const std::uint16_t> bones,
                                       const LsystemParams& params, Job& job);
 
-/// Estimates the number of triangles, within 25 % for plants with at least six sides and without overlapping
-/// clusters.
+/// Estimates the number of triangles, within 25 % if cross-sections have at least six corners and limbs
+/// hardly overlap.
 std::uint64_t welded_triangles(const Limbs& limbs, const LsystemParams& params, Job& job);
 
-/// Adds a warning for each parameter that welded bark ignores.
+/// Adds a warning for each parameter that has no effect together with `weld`.
 void warn_of_welded(const LsystemParams& params, std::vector<Warning>& warnings);
 
 }  // namespace seedmesh::lsystem

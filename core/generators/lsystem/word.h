@@ -19,8 +19,8 @@ struct Word {
 };
 
 /// A derivation whose word can be read and changed between steps. Each step runs Grammar::start_each, rewrites the
-/// word from left to right, and runs Grammar::end_each. Variables are shared by all productions: what a production
-/// sets, the modules to its right read in the same step.
+/// word from left to right, and runs Grammar::end_each. Variables are shared by all productions: a value that
+/// a production sets is visible to the modules to its right in the same step.
 class Derivation {
  public:
   Derivation(const Grammar& grammar, bool keyed, Job& job);
@@ -41,10 +41,11 @@ class Derivation {
 
 /// Returns the word after `steps` steps from the axiom. Refuses a word longer than limits.modules before it
 /// is stored. After the axiom and each step, decomposition rules are applied to what was written, at most
-/// Grammar::decomposition_depth times; their output belongs to the same step. Contexts follow the book. A
-/// left context leads up through [ past sibling branches. A right context skips branches that it does not
-/// name and never leaves through ]; a [ ] group in it matches the start of a branch. Cost: linear in the sum
-/// of the lengths of all words. Plain symbols with contexts of one symbol use table.h.
+/// Grammar::decomposition_depth times; their output belongs to the same step. Contexts follow Prusinkiewicz
+/// and Lindenmayer 1990, section 1.8. A left context is searched toward the root, across [ and without
+/// sibling branches. A right context skips branches that it does not name, and never extends beyond ]; a [ ]
+/// group in it matches the start of a branch. Cost: linear in the sum of the lengths of all words. Plain
+/// symbols with contexts of one symbol use table.h.
 Word derive_word(const Grammar& grammar, std::uint32_t steps, bool keyed, Job& job);
 
 }  // namespace seedmesh::lsystem

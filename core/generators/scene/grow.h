@@ -1,6 +1,6 @@
 #pragma once
-/// Growing plants of a scene. Each placement has its own bones, which move a shared mesh by the key times of
-/// a shared animation.
+/// Growing plants of a scene. Placements share the mesh and the key times of the animation; each has its own
+/// skeleton.
 #include <array>
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace seedmesh::scene {
 
-/// Largest number of bones of all plants.
+/// Largest number of bones in a scene, of all plants together.
 constexpr std::size_t most_joints = 24'000;
 
 /// Number of distinct start times of a layer, so that plants share key times.
@@ -55,7 +55,8 @@ struct PlantInstance {
 /// Adds a growing plant to the scene.
 void add_growing_plant(Model& scene, GrowingPlant& growing_plant, const PlantInstance& plot);
 
-/// Returns the number of bones of each plant. Issue: there are more plants than bones.
+/// Returns the number of bones of each plant. Issue: the plants need more than most_joints bones, at two
+/// each.
 Result<std::uint32_t> bones_for(const Plan& plan, GeneratorList generators);
 
 }  // namespace seedmesh::scene

@@ -18,23 +18,24 @@ struct LodInfo {
   std::uint64_t triangles_at(std::size_t level) const;
 };
 
-/// Returns true where each placement gets its own level.
+/// Returns true if each placement gets its own level.
 bool chooses_levels(const SceneParams& params, const Demand& demand);
 
-/// Returns true where plants get impostors.
+/// Returns true if plants get impostors.
 bool wants_impostors(const SceneParams& params, const Demand& demand);
 
-/// Returns the number of levels of the models.
+/// Returns how many levels of detail have to be made of each model.
 int level_count_of(const SceneParams& params, const Demand& demand);
 
 /// Levels by layer and placement.
 using Levels = std::vector<Array<std::uint8_t>>;
 
 /// Chooses levels by the share of the screen height that a placement fills: level 0 from 0.5, 1 from 0.25, 2
-/// from 0.12, 3 from 0.06. Below that it is the impostor, or the coarsest mesh. Without a camera the largest
-/// plant fills the screen. A budget (Demand::most_triangles) scales all sizes by one factor, the largest that
-/// fits `others` and all placements, or 0 where none fits. `lod_infos` is indexed by VariantTable::variants.
-/// Cost: about 50 ns for each placement, and 5 ns for each of 30 steps with a budget.
+/// from 0.12, 3 from 0.06. Below that it is the impostor, or the coarsest mesh. Without a camera, sizes are
+/// relative to the largest plant, which counts as filling the screen; each is reduced at random by up to 30
+/// %. With a budget (Demand::most_triangles), all sizes are multiplied by the largest factor from 0 to 1 for
+/// which the placements and the `others` triangles of the scene stay within it. `lod_infos` is indexed by
+/// VariantTable::variants. Cost: about 50 ns for each placement, and 5 ns for each of 30 steps with a budget.
 Levels levels_of(const SceneParams& params, const Plan& plan, const std::vector<LodInfo>& lod_infos,
                  std::uint64_t others, const GenerateContext& context);
 

@@ -37,8 +37,8 @@ struct Field {
   const float* row(std::int32_t z) const { return heights.data() + index_of(0, z); }
 };
 
-/// Samples [x, x + width) by [z, z + depth) of a world, counted at the finest level. A field that is no tile
-/// is its own world.
+/// Samples [x, x + width) by [z, z + depth) of a world, in samples of the finest level of detail. Without
+/// tiles, the world is the field itself.
 struct Window {
   std::int64_t x = 0, z = 0;
   std::int32_t width = 0, depth = 0;

@@ -12,8 +12,8 @@ namespace seedmesh::terrain {
 /// corner. Cost: about 3 ns for each sample.
 void smooth(Field& field, double percent, const Job& job);
 
-/// Returns the reach of smooth_by_position() in samples: where k^reach falls below 2^-24, the last bit of a
-/// float.
+/// Returns the reach of smooth_by_position() in samples: the smallest r with k^r < 2^-24, the relative
+/// precision of a float.
 std::int32_t smooth_reach(double percent);
 
 /// Applies the same low-pass to a window of an infinite field. The recursion starts smooth_reach() samples
@@ -36,19 +36,20 @@ void normalise(Field& field, double low, double high, const Job& job);
 struct TerracePlan {
   int count = 8;         ///< steps between the lowest and the highest height
   double sharpness = 0;  ///< 0 keeps the heights, 1 makes sharp steps
-  /// Range of the steps, with steps of equal height outside. Without it the range of the field is used, which
-  /// needs margin 0.
+  /// The `count` steps divide this range; beyond it the steps continue with the same height. Without it the
+  /// range of the field is used, which needs margin 0.
   std::optional<Heights> from = {};
 };
 void terrace(Field& field, const TerracePlan& plan, const Job& job);
 
 struct IslandPlan {
-  double reach = 0.8;  ///< distance of the coast, as a share of half the smaller side
+  double reach = 0.8;  ///< distance of the coast from the centre, as a share of half the smaller side
   /// depth of the rim below the lowest height; absent: a quarter of the range
   std::optional<double> depth = {};
   double roughness = 0;              ///< deviation of the coast from a circle, 0 to 1
   std::optional<double> floor = {};  ///< height of the rim instead of a depth; required with a margin
-  /// Samples along a side of the ground of the island, and the position of sample (0, 0) in it. 0: the field.
+  /// Side of the square that contains the whole island, in samples, and the position of sample (0, 0) of this
+  /// field in that square. `side` 0: the island fills this field.
   std::int64_t side = 0, x = 0, z = 0;
 };
 void sink_rim(Field& field, const IslandPlan& plan, Rng rng, const Job& job);
@@ -59,7 +60,7 @@ struct ThermalPlan {
   double rate = 0.5;
 };
 
-/// Applies thermal weathering after Musgrave, Kolb and Mace, "The synthesis and rendering of eroded fractal
+/// Applies thermal erosion (weathering) after Musgrave, Kolb and Mace, "The synthesis and rendering of eroded fractal
 /// terrains", 1989, over eight neighbours, with all samples of a round at once. Conserves material. A sample
 /// depends on samples at most `iterations` away, so tiles with a margin of that width agree. Cost: about 3 ns
 /// for each sample and round.

@@ -195,7 +195,7 @@ void displace_group(MeshGroup& group, const Field& field, int rounds, Job& job) 
     shade(mesh, weld_of, welds.size(), job);
     mesh.tangent = Array<glm::vec4>();
     // Where a displacement folds the surface, faces of one corner can face opposite sides.
-    turn_outward(mesh, job);
+    repair_inward_normals(mesh, job);
   }
 }
 

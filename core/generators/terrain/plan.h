@@ -21,7 +21,7 @@ namespace seedmesh::terrain {
 // Largest number of samples along a side of a field.
 constexpr int longest_side = 16'385;
 
-/// Number of planned rounds, faults or octaves, without and with extra ones.
+/// Number of rounds, faults or octaves of the request, without and with `extra_iterations` respectively.
 int planned_iterations(const TerrainParams& params);
 int all_iterations(const TerrainParams& params);
 
@@ -34,12 +34,12 @@ NoisePlan noise_plan(const TerrainParams& params);
 /// Returns the window of the requested samples; for a tile, in its world.
 Window window_of(const TerrainParams& params);
 
-/// Returns the samples along a side that the algorithm generates; for a sphere, along an edge of its cube; 0
-/// for an image.
+/// Returns the number of samples along a side that the algorithm generates; for a sphere, along an edge of
+/// its cube; 0 for an image.
 int made_side(const TerrainParams& params);
 /// Returns the same for the finished field, after `resample`.
 int finished_side(const TerrainParams& params);
-/// Returns the samples along one side of the world that the tile is a part of. Requires a tile.
+/// Returns the number of samples along one side of the world that the tile is a part of. Requires a tile.
 std::int64_t samples_across(const TerrainParams& params);
 
 /// Returns the range of heights for the colours of a tile, the same for all tiles of a world.
@@ -53,7 +53,8 @@ std::vector<Issue> errors_between(const TerrainParams& params, const Limits& lim
 /// Generates the field with all filters; margin 1 for a tile, else 0. Issues: an unreadable image.
 Result<Field> field_of(const TerrainParams& params, Job& job);
 
-/// Returns the points along an edge of the cube of a planetoid at a level; level 0 has those of the request.
+/// Returns the number of points along an edge of the cube of a planetoid at a level; level 0 has that of the
+/// request.
 std::int32_t planet_side(const TerrainParams& params, int level);
 
 /// Generates the planetoid at a level of detail: the same heights at fewer points.

@@ -15,8 +15,9 @@ struct Triangulation {
   Array<std::uint32_t> index;
 };
 
-/// Treatment of the border. `whole` keeps every sample of it, so that neighbours with any error fit together;
-/// `by_error` treats it like the interior.
+/// Treatment of the border. `whole`: the samples kept depend on the border alone, so that neighbours fit
+/// together. rtin() keeps all of them, greedy() those that a polyline within the bound needs. `by_error`
+/// treats the border like the interior.
 enum class Border { by_error, whole };
 
 /// The largest error of a mesh, in metres, with a separate bound for a border that has to fit meshes of other
@@ -29,16 +30,16 @@ struct Tolerance {
 bool fits_rtin(std::int32_t width, std::int32_t depth);
 
 /// Returns a right-triangulated irregular network (Evans, Kirkpatrick and Townsend, "Right-triangulated
-/// irregular networks", 2001): right triangles are split where their error exceeds the bound. Where the usual
-/// midpoint test leaves larger errors, these samples are added until the bound holds. Spends triangles. Cost:
-/// 10 to 20 ns for each sample.
+/// irregular networks", 2001): right triangles are split where their error exceeds the bound. Samples that
+/// the usual midpoint test leaves outside the bound are added until it holds. Charges Resource::triangles.
+/// Cost: 10 to 20 ns for each sample.
 Triangulation rtin(const Field& field, double max_error, Border border, Job& job);
 
 /// Returns a Delaunay triangulation by greedy insertion (Garland and Heckbert, "Fast polygonal approximation
 /// of terrains and height fields", 1995): the sample with the largest error comes next. It has about half the
 /// triangles of rtin() at the same error. A `whole` border keeps those samples that a greedy polyline along
-/// it needs for the border's bound; they depend on the border alone. Spends triangles. Cost: about 1
-/// microsecond for each triangle.
+/// it needs for the border's bound; they depend on the border alone. Charges Resource::triangles. Cost: about
+/// 1 microsecond for each triangle.
 Triangulation greedy(const Field& field, const Tolerance& tolerance, Border border, Job& job);
 Triangulation greedy(const Field& field, double max_error, Border border, Job& job);
 

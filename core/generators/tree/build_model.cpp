@@ -105,7 +105,7 @@ Mesh coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, GraftOptions 
     if (made <= wanted.triangles + wanted.triangles / 100) break;
     coarse.triangles = coarse.triangles * wanted.triangles / made;
   }
-  turn_outward(mesh, job);
+  repair_inward_normals(mesh, job);
   return mesh;
 }
 

@@ -34,14 +34,16 @@ TreeLevels::TreeLevels(const Skeleton& skeleton, const TreeParams& params, const
   seen = all > 0 ? free / all : 1;
 }
 
-double TreeLevels::leaves_at(const Detail& detail, std::uint64_t leaves, std::uint64_t each,
-                             std::uint64_t before) const {
+double TreeLevels::leaves_at(const Detail& detail, std::uint64_t leaf_count, std::uint64_t triangles_per_leaf,
+                             std::uint64_t triangles_before) const {
   const double least = detail.organs(), wanted = std::max(least, foliage->share_for(detail.loss()));
   const auto level = static_cast<std::size_t>(detail.level());
-  const std::uint64_t other = level < bark.size() ? bark[level] : 0, most = Detail::fewer_than(before);
-  const double allowed = most > other ? static_cast<double>(most - other) /
-                                            static_cast<double>(std::max<std::uint64_t>(each * leaves, 1))
-                                      : 0;
+  const std::uint64_t other = level < bark.size() ? bark[level] : 0,
+                      most = Detail::fewer_than(triangles_before);
+  const double allowed =
+      most > other ? static_cast<double>(most - other) /
+                         static_cast<double>(std::max<std::uint64_t>(triangles_per_leaf * leaf_count, 1))
+                   : 0;
   return std::min(wanted, std::max(least, allowed));
 }
 

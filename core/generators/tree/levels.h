@@ -14,16 +14,15 @@ struct TreeLevels {
   /// Needs a skeleton after fit_leaves(). Does nothing if there is only one level of detail.
   TreeLevels(const Skeleton& skeleton, const TreeParams& params, const GenerateContext& context);
 
-  /// The share of `leaves` leaves, of `each` triangles each, that remains at a level: enough to keep the
-  /// outline of the crown, but so few that the level has fewer triangles than the previous one, which has
-  /// `before`.
-  double leaves_at(const Detail& detail, std::uint64_t leaves, std::uint64_t each,
-                   std::uint64_t before) const;
+  /// The share of the leaves that remains at a level: enough to keep the outline of the crown, but so few
+  /// that the level has fewer triangles than the previous one.
+  double leaves_at(const Detail& detail, std::uint64_t leaf_count, std::uint64_t triangles_per_leaf,
+                   std::uint64_t triangles_before) const;
 
   std::optional<FoliageLevels> foliage;  ///< if there are leaves
   Array<float> shown;                    ///< visible share of the bark of each joint; empty: all of it
-  double seen = 1;                       ///< visible share of the area of the bark
-  std::vector<std::uint64_t> bark;       ///< triangles of the levels that are made
+  double seen = 1;                       ///< visible share of the area of the whole bark
+  std::vector<std::uint64_t> bark;       ///< triangles of the bark of each level so far
 };
 
 }  // namespace seedmesh::tree

@@ -76,11 +76,11 @@ std::uint64_t hash_of(const Organ& organ, std::uint32_t index) { return key_at(o
 }  // namespace
 
 FoliageLevels::FoliageLevels(const Plant& plant, Job& job)
-    : sights_(box_of(plant), views_for(plant)),
-      leaves_(job, slot(sights_.views(), 0), std::uint16_t{0}),
-      limbs_(job, slot(sights_.views(), 0), std::uint16_t{0}),
-      owner_(job, slot(sights_.views(), 0), 0U),
-      stamp_(job, slot(sights_.views(), 0), 0U),
+    : view_samples_(box_of(plant), views_for(plant)),
+      leaves_(job, slot(view_samples_.views(), 0), std::uint16_t{0}),
+      limbs_(job, slot(view_samples_.views(), 0), std::uint16_t{0}),
+      owner_(job, slot(view_samples_.views(), 0), 0U),
+      last_visit_(job, slot(view_samples_.views(), 0), 0U),
       rank_(job, plant.organs.organ.size(), none) {
   for (const Mesh& surface : plant.surfaces) footprints_.push_back(footprint_of(surface, plant.filled));
   draw_limbs(plant.limbs, job);
@@ -94,7 +94,7 @@ FoliageLevels::FoliageLevels(const Plant& plant, Job& job)
   }
   rank(plant.organs, job);
   owner_ = Array<std::uint32_t>(job);
-  stamp_ = Array<std::uint32_t>(job);
+  last_visit_ = Array<std::uint32_t>(job);
 }
 
 /// Calls put(slot) for each texel that the organ covers in every `step`-th view, for some more than once.
@@ -105,11 +105,12 @@ void FoliageLevels::draw(const Organ& organ, float growth, const Put& put, int s
   const glm::vec3 scale = growth * organ.scale;
   placed_.clear();
   for (const glm::vec3& corner : corners) placed_.push_back(organ.position + axes * (scale * corner));
-  for (int view = 0; view < sights_.views(); view += step) {
+  for (int view = 0; view < view_samples_.views(); view += step) {
     const std::size_t first = slot(view, 0);
     for (std::size_t i = 0; i + 2 < placed_.size(); i += 3) {
-      Sights::fill(sights_.at(view, placed_[i]), sights_.at(view, placed_[i + 1]),
-                   sights_.at(view, placed_[i + 2]), [&](std::size_t texel) { put(first + texel); });
+      ViewSamples::fill(view_samples_.at(view, placed_[i]), view_samples_.at(view, placed_[i + 1]),
+                        view_samples_.at(view, placed_[i + 2]),
+                        [&](std::size_t texel) { put(first + texel); });
     }
   }
 }
@@ -117,17 +118,17 @@ void FoliageLevels::draw(const Organ& organ, float growth, const Put& put, int s
 /// Calls put(slot) once for each texel that the organ covers.
 template <class Put>
 void FoliageLevels::cover(const Organ& organ, const Put& put) {
-  const std::uint32_t stamp = ++stamps_;
+  const std::uint32_t visit = ++visits_;
   draw(organ, 1, [&](std::size_t at) {
-    if (stamp_[at] == stamp) return;
-    stamp_[at] = stamp;
+    if (last_visit_[at] == visit) return;
+    last_visit_[at] = visit;
     put(at);
   });
 }
 
 /// Counts the thick limbs at each texel, internode by internode.
 void FoliageLevels::draw_limbs(const Limbs& limbs, Job& job) {
-  const double scale = sights_.texels_a_metre();
+  const double scale = view_samples_.texels_a_metre();
   for (std::size_t i = 0; i < limbs.size(); ++i) {
     if (i % look_every == 0) job.check();
     const std::uint32_t parent = limbs.parent[i];
@@ -135,9 +136,9 @@ void FoliageLevels::draw_limbs(const Limbs& limbs, Job& job) {
     const double base = scale * static_cast<double>(limbs.base_radius[i]),
                  end = scale * static_cast<double>(limbs.radius[i]);
     if (2 * std::max(base, end) < least_width) continue;
-    for (int view = 0; view < sights_.views(); ++view) {
-      const glm::dvec2 from = sights_.at(view, limbs.position[parent]),
-                       to = sights_.at(view, limbs.position[i]);
+    for (int view = 0; view < view_samples_.views(); ++view) {
+      const glm::dvec2 from = view_samples_.at(view, limbs.position[parent]),
+                       to = view_samples_.at(view, limbs.position[i]);
       const glm::dvec2 along = to - from;
       const double length = std::sqrt(glm::dot(along, along));
       if (!(length > 0)) continue;
@@ -146,8 +147,8 @@ void FoliageLevels::draw_limbs(const Limbs& limbs, Job& job) {
         std::uint16_t& count = limbs_[slot(view, texel)];
         if (count < 0xFFFF) ++count;
       };
-      Sights::fill(from + base * aside, from - base * aside, to - end * aside, put);
-      Sights::fill(from + base * aside, to - end * aside, to + end * aside, put);
+      ViewSamples::fill(from + base * aside, from - base * aside, to - end * aside, put);
+      ViewSamples::fill(from + base * aside, to - end * aside, to + end * aside, put);
     }
   }
 }
@@ -159,14 +160,14 @@ Array<float> FoliageLevels::shown(const Limbs& limbs, Job& job) const {
     const std::uint32_t parent = limbs.parent[i];
     if (parent == Limbs::none) continue;
     std::uint32_t looked = 0, free = 0;
-    for (int view = 0; view < sights_.views(); ++view) {
-      const glm::dvec2 from = sights_.at(view, limbs.position[parent]),
-                       to = sights_.at(view, limbs.position[i]);
+    for (int view = 0; view < view_samples_.views(); ++view) {
+      const glm::dvec2 from = view_samples_.at(view, limbs.position[parent]),
+                       to = view_samples_.at(view, limbs.position[i]);
       const glm::dvec2 along = to - from;
-      const int steps = 1 + std::min(Sights::across, math::to_int32(std::sqrt(glm::dot(along, along))));
+      const int steps = 1 + std::min(ViewSamples::across, math::to_int32(std::sqrt(glm::dot(along, along))));
       for (int step = 0; step < steps; ++step) {
-        const std::size_t texel = Sights::texel(from + along * ((step + 0.5) / steps));
-        if (texel == Sights::texels) continue;
+        const std::size_t texel = ViewSamples::texel(from + along * ((step + 0.5) / steps));
+        if (texel == ViewSamples::texels) continue;
         ++looked;
         free += leaves_[slot(view, texel)] == 0 && limbs_[slot(view, texel)] <= 1 ? 1 : 0;
       }

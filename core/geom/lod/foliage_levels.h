@@ -10,9 +10,9 @@
 namespace seedmesh {
 
 /// Ranks organs by removing them one by one, always the one that alone covers the fewest texels in views from
-/// all sides. Leaves inside a dense crown are removed first, leaves at its outline last. The organs of one
-/// level are a subset of those of the finer levels. A kept leaf is enlarged where it then covers more texels
-/// that lost their leaf than texels that never had one.
+/// a half circle of directions. Leaves inside a dense crown are removed first, leaves at its outline last.
+/// The organs of one level are a subset of those of the finer levels. A kept leaf is enlarged if the added
+/// texels are mostly gaps left by removed leaves, and not background.
 ///
 /// Construct it once for all levels. Time: about a microsecond for each organ and view; plants with more
 /// organs get fewer views. Memory: 12 bytes for each texel and view, 16 for each organ.
@@ -28,7 +28,8 @@ class FoliageLevels {
   };
   FoliageLevels(const Plant& plant, Job& job);
 
-  /// Keeps the share 0.4 to 1 of the organs, in the same order. `organs` must be those of the plant.
+  /// Keeps the share `share`, and at least 0.4, of the organs, in the same order. `organs` must be those of
+  /// the plant.
   Organs keep(const Organs& organs, double share, Job& job);
 
   /// The least share to keep so that at most the share `loss` of the covered texels becomes uncovered.
@@ -46,19 +47,19 @@ class FoliageLevels {
   template <class Put>
   void cover(const Organ& organ, const Put& put);
   static std::size_t slot(int view, std::size_t texel) {
-    return static_cast<std::size_t>(view) * Sights::texels + texel;
+    return static_cast<std::size_t>(view) * ViewSamples::texels + texel;
   }
   void draw_limbs(const Limbs& limbs, Job& job);
   void rank(const Organs& organs, Job& job);
   float best_growth(const Organ& organ, const Array<std::int8_t>& gain);
 
-  Sights sights_;
+  ViewSamples view_samples_;
   std::vector<Corners> footprints_;      ///< by surface
   Corners placed_;                       ///< of the current organ
   Array<std::uint16_t> leaves_, limbs_;  ///< number of them at each texel of each view
   Array<std::uint32_t> owner_;           ///< exclusive or of the numbers of the organs at each texel
-  Array<std::uint32_t> stamp_;           ///< for each texel the last call of cover(), to count it once
-  std::uint32_t stamps_ = 0;
+  Array<std::uint32_t> last_visit_;      ///< number of the last call of cover() that touched each texel
+  std::uint32_t visits_ = 0;
   Array<std::uint32_t> rank_;  ///< for each organ the number of organs removed before it
   std::vector<float> lost_;    ///< by removed organs: share of the covered texels that is uncovered
 };

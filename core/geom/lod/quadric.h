@@ -28,8 +28,8 @@ struct Quadric {
   }
 };
 
-/// The cost of moving a point onto another: the error of both quadrics there, and a little for the way, which
-/// prefers short edges where everything is flat.
+/// The cost of moving a point onto another: the error of both quadrics there, plus a small term that grows
+/// with the fourth power of the distance, so that short edges are collapsed first on flat surfaces.
 inline double collapse_cost(const Quadric& from, const Quadric& to, const glm::dvec3& at,
                             const glm::dvec3& target) {
   constexpr double length_weight = 1e-6;
@@ -39,20 +39,20 @@ inline double collapse_cost(const Quadric& from, const Quadric& to, const glm::d
   return std::max(0.0, sum.at(target)) + length_weight * glm::dot(way, way) * glm::dot(way, way);
 }
 
-/// The corners beside one of the same triangle, in an index array.
+/// The next and the previous corner of the same triangle, in an index array.
 inline std::size_t after(std::size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 inline std::size_t before(std::size_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
-/// The cheapest allowed collapse of a point onto a neighbour, or a lower bound of its cost, which does not say
-/// whether any collapse is allowed.
-struct Wish {
+/// The cheapest allowed collapse of a point onto a neighbour with its exact cost; or only a lower bound of
+/// the cost (`to` is no_point), when it is not yet known whether a collapse is allowed.
+struct CollapseCandidate {
   static constexpr std::uint32_t no_point = 0xFFFFFFFFU;
   double cost;
   std::uint32_t from, to, stamp;  ///< to: no_point for a bound
   /// A total order for a heap with the least cost on top; bounds before collapses of the same cost.
-  bool operator<(const Wish& o) const {
-    const bool is_exact = to != no_point, is_other = o.to != no_point;
-    return std::tie(cost, is_exact, from, to) > std::tie(o.cost, is_other, o.from, o.to);
+  bool operator<(const CollapseCandidate& o) const {
+    const bool is_exact = to != no_point, is_other_exact = o.to != no_point;
+    return std::tie(cost, is_exact, from, to) > std::tie(o.cost, is_other_exact, o.from, o.to);
   }
 };
 

@@ -48,12 +48,12 @@ class Net {
     for (std::uint64_t step = 1; left_ > target && heap_.size() > 0; ++step) {
       if (step % 1024 == 0) job_.check();
       std::pop_heap(heap_.begin(), heap_.end());
-      Wish best = heap_.back();
+      CollapseCandidate best = heap_.back();
       heap_.pop_back();
       if (head_[best.from] == none || best.stamp != stamp_[best.from]) continue;
       if (best.to == none) {
         is_waiting_[best.from] = false;
-        best = wish(best.from);
+        best = candidate(best.from);
         if (best.to == none) continue;
         if (heap_.size() > 0 && best < heap_[0]) {
           push(best);
@@ -225,7 +225,7 @@ class Net {
   }
 
   /// The cheapest allowed collapse of a point, or one onto `none`.
-  Wish wish(std::uint32_t from) {
+  CollapseCandidate candidate(std::uint32_t from) {
     Ring ring;
     const std::uint32_t count = neighbours(from, ring, seen_);
     const std::uint32_t mark = mark_;
@@ -240,8 +240,8 @@ class Net {
     return {infinite, from, none, 0};
   }
 
-  void push(const Wish& wish) {
-    heap_.push_back(wish);
+  void push(const CollapseCandidate& candidate) {
+    heap_.push_back(candidate);
     std::push_heap(heap_.begin(), heap_.end());
   }
 
@@ -373,7 +373,7 @@ class Net {
   Array<std::uint32_t> stamp_{job_};     ///< of each point: the number of changes around it
   Array<std::uint8_t> locked_{job_};
   Array<Quadric> quadric_{job_};
-  Array<Wish> heap_{job_};
+  Array<CollapseCandidate> heap_{job_};
   std::vector<glm::dvec3> at_;
   std::vector<bool> border_;
   std::vector<double> bound_;                 ///< by point: no collapse costs less

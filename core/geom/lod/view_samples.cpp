@@ -13,7 +13,7 @@ constexpr double first_view = 0.37;
 
 }  // namespace
 
-Sights::Sights(const Box& box, int views) {
+ViewSamples::ViewSamples(const Box& box, int views) {
   const glm::dvec3 extent = glm::dvec3(box.max) - glm::dvec3(box.min);
   middle_ = 0.5 * (glm::dvec3(box.max) + glm::dvec3(box.min));
   const double size = std::sqrt(glm::dot(extent, extent));

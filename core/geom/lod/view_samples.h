@@ -12,12 +12,12 @@ namespace seedmesh {
 /// Orthographic views of a box from a half circle of directions, most of them slightly from above; the other
 /// half would show the same outlines. Views are `across` texels wide and high, which fits the diagonal of the
 /// box.
-class Sights {
+class ViewSamples {
  public:
   static constexpr int across = 384;
   static constexpr std::size_t texels = std::size_t{across} * across;
 
-  Sights(const Box& box, int views);
+  ViewSamples(const Box& box, int views);
 
   int views() const { return static_cast<int>(views_.size()); }
   double texels_a_metre() const { return scale_; }

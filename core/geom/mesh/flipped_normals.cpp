@@ -52,7 +52,7 @@ std::vector<Turned> corners_looking_in(const Mesh& mesh, const Job& job) {
 
 }  // namespace
 
-void turn_outward(Mesh& mesh, const Job& job) {
+void repair_inward_normals(Mesh& mesh, const Job& job) {
   const std::vector<Turned> turned = corners_looking_in(mesh, job);
   if (turned.empty()) return;
   Array<std::uint32_t> uses(job, mesh.position.size());

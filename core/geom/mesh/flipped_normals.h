@@ -7,8 +7,8 @@ namespace seedmesh {
 
 /// Where the normal of a corner points to the inner side of its triangle, gives the corner a vertex of its
 /// own at the same position with the normal of the face. Such corners arise at sharp bends of tubes with few
-/// sides. Triangles are counter-clockwise seen from outside; indices are wide. Cost: a few nanoseconds for
-/// each triangle.
-void turn_outward(Mesh& mesh, const Job& job);
+/// sides. Triangles are counter-clockwise seen from outside; indices have 32 bits (Mesh::index.wide). Cost: a
+/// few nanoseconds for each triangle.
+void repair_inward_normals(Mesh& mesh, const Job& job);
 
 }  // namespace seedmesh

@@ -10,7 +10,7 @@ enum class SolidShape { box, sphere, cylinder, cone, mesh };
 
 /// A shape that fills a box of `size`. `position` is the centre of the box's lower face. Cylinders are
 /// upright; cones have their apex up. Sphere, cylinder and cone are scaled where the sides of the box differ.
-/// Distances to such shapes can then be slightly too large, never too small.
+/// Absolute distances are then upper bounds; they are far too large in long, thin shapes.
 struct Solid {
   SolidShape shape = SolidShape::box;
   glm::dvec3 position{0};

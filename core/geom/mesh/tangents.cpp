@@ -30,7 +30,7 @@ glm::vec4 tangent_of(const glm::vec3& normal, const Sums& sums) {
   const glm::vec3 u = first_three(sums.u);
   const glm::vec3 flat = u - normal * glm::dot(normal, u);
   const bool is_none = glm::dot(flat, flat) <= 1e-8F * glm::dot(u, u);
-  const auto across = [&] { return any_across(normal); };
+  const auto across = [&] { return any_perpendicular(normal); };
   const glm::vec3 tangent = is_none ? across() : math::unit_or(flat, across);
   // v grows down the texture, and the bitangent points up.
   const float w = glm::dot(glm::cross(normal, tangent), first_three(sums.v)) > 0 ? -1.0F : 1.0F;
@@ -209,7 +209,7 @@ class MeshTangents {
 
 }  // namespace
 
-glm::vec3 any_across(const glm::vec3& normal) {
+glm::vec3 any_perpendicular(const glm::vec3& normal) {
   const glm::vec3 axis = std::abs(normal.x) < 0.5F ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
   return math::unit(glm::cross(normal, axis), {0, 0, 1});
 }

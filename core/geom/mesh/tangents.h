@@ -5,16 +5,16 @@
 namespace seedmesh {
 
 /// A unit vector at right angles to a unit vector.
-glm::vec3 any_across(const glm::vec3& normal);
+glm::vec3 any_perpendicular(const glm::vec3& normal);
 
 /// Adds tangents to every triangle mesh that has normals, a material with a normal map, and the texture
 /// coordinates of that map. A tangent is a unit vector at right angles to the normal: the mean direction in
 /// which u grows over the triangles of a vertex, weighted by area. Its w is the sign of the bitangent, as in
 /// glTF.
 ///
-/// A vertex between triangles that disagree (a mirrored seam that is not doubled) follows the larger ones.
-/// Where u grows nowhere, any direction in the surface is taken. About 15 ns a triangle; charges 16 bytes a
-/// vertex.
+/// A vertex between triangles that disagree (a mirror seam whose vertices are not duplicated) follows the
+/// larger ones. Where u grows nowhere, any direction in the surface is taken. About 15 ns a triangle; charges
+/// 16 bytes a vertex.
 void add_tangents(Model& model, const Job& job);
 
 }  // namespace seedmesh

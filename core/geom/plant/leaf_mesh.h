@@ -15,7 +15,7 @@ enum class LeafBuild {
   cross,   ///< two crossed squares: 4 triangles
   curved,  ///< a square bent like the leaf: 16 triangles
   mesh,    ///< the outline: 10 to 100 triangles
-  twig,    ///< a bent square with a twig of leaves: 16 triangles
+  twig,    ///< a bent square with the texture of a twig: 16 triangles
   bunch,   ///< three of these around the axis: 48 triangles
 };
 
@@ -24,17 +24,19 @@ struct LeafForm {
   LeafBuild build = LeafBuild::mesh;
   double fold = 0.25;  ///< angle by which both halves of a blade are raised about the midrib, radians
   double droop = 0.5;  ///< angle by which the tip bends down, radians
-  int coarseness = 0;  ///< 0 finest; each step has fewer points on a margin and fewer rows in a bent square
-  /// Level of detail: each has fewer points than the one before and follows the finest surface.
+  /// Of the request. 0 is the finest; each step has fewer points on a margin and fewer rows in a bent square.
+  int coarseness = 0;
+  /// Level of detail: each has fewer points than the one before, and follows the surface of level 0.
   int level = 0;
   int twig_leaves = 9;      ///< as in the texture
-  bool shows_twig = false;  ///< squares of every build have the texture of a twig
+  bool shows_twig = false;  ///< all builds made of squares use the texture of a twig, not of a leaf
 };
 
 /// Texture coordinates match the texture of the same shape.
 Mesh leaf_mesh(const LeafForm& form, const Job& job);
 
-/// A round fruit: closed, 1 high, `width` wide, from the origin to +y. `pointed`, 0..1, draws its end out.
+/// A round fruit: closed, 1 high, `width` wide, from the origin to +y. `pointed`, 0..1, stretches the far end
+/// to a point.
 struct FruitForm {
   double width = 1;
   double pointed = 0;

@@ -48,12 +48,12 @@ struct LeafBlade {
 struct LeafDrawing {
   std::vector<LeafBlade> blades;  ///< in drawing order: later blades lie above
   std::vector<LeafLine> stalks;   ///< petiole, rachis, needles
-  std::size_t woody = 1;  ///< the number of stalks, from the first on, that are wood where the leaf has any
-  glm::dvec2 low{0}, high{0};  ///< box of everything with a small margin: the square of the texture
+  std::size_t woody = 1;          ///< the first `woody` stalks are drawn as wood
+  glm::dvec2 low{0}, high{0};     ///< bounding square with a small margin; the texture covers it
 };
 
-/// The detail of a drawing: the number of points between two points of the margin's table, and whether it has
-/// teeth and veins.
+/// The detail of a drawing: the number of interpolated points between two control points of the outline, and
+/// whether it has teeth and veins.
 struct LeafDetail {
   int steps = 6;
   bool teeth = true, veins = true;

@@ -131,7 +131,7 @@ void place_tangent(const Lanes3& normal, const Lanes3& u, const Lanes3& across, 
   for (std::size_t l = 0; l < lanes; ++l) {
     std::uint32_t failure = 0;
     organ_tangent(at(normal, l), at(u, l), at(across, l), failure);
-    if (failure != 0) put(out.xyz, l, any_across(at(normal, l)));
+    if (failure != 0) put(out.xyz, l, any_perpendicular(at(normal, l)));
   }
 }
 

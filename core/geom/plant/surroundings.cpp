@@ -120,7 +120,7 @@ void Surroundings::cast_shadows() {
   shades_.clear();
   const ShadowOptions& shadow = options_.shadow;
   // Each cell once: many short internodes are no darker than one long twig.
-  Array<std::uint64_t> filled = shades_.like<std::uint64_t>();
+  Array<std::uint64_t> filled = shades_.empty_array_of<std::uint64_t>();
   for (const Stretch& each : grown_) {
     const glm::dvec3 end = each.to;
     filled.push_back(

@@ -18,7 +18,8 @@ Turtle::Turtle(Skeleton* skeleton, double width, Job& job) : skeleton_(skeleton)
 
 void Turtle::advance(double length) {
   const glm::dvec3 p = state_.position + length * state_.frame.heading;
-  if (std::abs(p.x) < world && std::abs(p.y) < world && std::abs(p.z) < world)
+  if (std::abs(p.x) < largest_coordinate && std::abs(p.y) < largest_coordinate &&
+      std::abs(p.z) < largest_coordinate)
     state_.position = p;
   else
     is_lost_ = true;
@@ -59,7 +60,7 @@ void Turtle::draw_plain(double length, std::uint64_t key) {
   advance(length);
   if (state_.is_sweeping) return set_control(default_strips, key);
   add_segment(from, length, key);
-  if (tropisms_) state_.frame = tropisms_->turned(state_.frame, pull_);
+  if (tropisms_) state_.frame = tropisms_->turned(state_.frame, tropism_share_);
 }
 
 void Turtle::walk_plain(double length) {
@@ -72,18 +73,18 @@ void Turtle::move_to(const glm::dvec3& position) {
   walk_plain(0);  // checks the position
 }
 
-void Turtle::head(const glm::dvec3& direction) {
+void Turtle::set_heading(const glm::dvec3& direction) {
   Frame frame = state_.frame;
   frame.heading = math::unit(direction, frame.heading);
   state_.frame = seedmesh::upright(reorthonormalise(frame));
 }
 
-void Turtle::face_as(const Frame& frame) {
+void Turtle::set_frame(const Frame& frame) {
   state_.frame = reorthonormalise(frame);
   state_.rotations = 0;
 }
 
-void Turtle::stand_up() {
+void Turtle::reset_frame() {
   state_.frame = Frame{};
   state_.rotations = 0;
 }
@@ -121,7 +122,7 @@ std::uint32_t Turtle::add_joint(const glm::dvec3& at, std::uint32_t parent, std:
     return own;
   }
   limbs.color.push_back(state_.color);
-  const double width = state_.width - thinner_;
+  const double width = state_.width - width_reduction_;
   auto radius = static_cast<float>(width > 0 ? width / 2 : 0);
   const bool goes_on = parent != Limbs::none && !state_.begins_branch;
   // An internode with a small share tapers less, and leaves the rest of the taper to the next one.

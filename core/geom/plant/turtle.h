@@ -28,8 +28,8 @@ class Turtle {
   Turtle(Skeleton* skeleton, double width, Job& job);
 
   /// Moves by `length`, which may be negative, along the heading. draw() adds an internode of the current
-  /// width with birth `birth`; between braces it adds a vertex instead. walk() draws nothing, but adds a
-  /// vertex between braces.
+  /// width; between braces it adds a vertex instead. walk() draws nothing, but adds a vertex between braces.
+  /// `key` is that of the module that draws, for Limbs::key; 0: none.
   void draw(double length, std::uint64_t key);
   void walk(double length);
   /// The same without vertices between braces.
@@ -48,9 +48,9 @@ class Turtle {
   }  ///< left, about heading
   void turn_around() { state_.frame = seedmesh::turn_around(state_.frame); }
   void upright() { state_.frame = seedmesh::upright(state_.frame); }
-  void head(const glm::dvec3& direction);  ///< sets the heading and rolls upright
-  void face_as(const Frame& frame);        ///< any axes; heading counts first, then left
-  void stand_up();                         ///< the frame of the start: heading +Y, left -X, up +Z
+  void set_heading(const glm::dvec3& direction);  ///< sets the heading and rolls upright
+  void set_frame(const Frame& frame);             ///< any axes; heading counts first, then left
+  void reset_frame();                             ///< the frame of the start: heading +Y, left -X, up +Z
 
   /// Limits the number of segments; without a call there is no limit.
   void set_most_segments(std::uint64_t most) { most_segments_ = most; }
@@ -75,10 +75,10 @@ class Turtle {
   void pop();   ///< nothing without a matching push
 
   /// A generalised cylinder: a limb along a Hermite curve through control points, with the headings as slopes
-  /// and a smooth width. The first control point is here. Until it ends, draw() adds a control point instead
-  /// of an internode. Branches begun meanwhile are drawn as usual. A ] ends open cylinders.
+  /// and a smooth width. The first control point is here. Until it ends, draw() adds a control point and the
+  /// curve up to it. Branches begun meanwhile are drawn as usual. A ] ends cylinders begun in its branch.
   void begin_sweep();
-  /// Draws the piece up to here in `strips` internodes; nothing outside a cylinder.
+  /// Adds a control point and draws the curve up to it in `strips` internodes. No effect outside a cylinder.
   void set_control(std::int64_t strips, std::uint64_t key);
   void end_sweep(std::uint64_t key);
 
@@ -91,15 +91,16 @@ class Turtle {
 
   void set_width(double width) { state_.width = width > 0 ? width : 0; }
   double width() const { return state_.width; }
-  /// A width that is subtracted from every internode from now on, in all branches. Not part of the state.
-  void set_thinner(double by) { thinner_ = by; }
-  /// Factors of the lengths and of the default turns that callers read from symbols, and the side of turns.
-  /// They are kept here because ] restores them.
+  /// Sets a width that is subtracted from that of every later internode, in all branches. Not part of the
+  /// state.
+  void set_width_reduction(double by) { width_reduction_ = by; }
+  /// State kept for callers, because ] restores it: the scale of lengths, the scale of default angles, and
+  /// whether left and right are exchanged.
   double scale() const { return state_.scale; }
   void set_scale(double scale) { state_.scale = scale; }
   double turn_scale() const { return state_.turn_scale; }
   void set_turn_scale(double scale) { state_.turn_scale = scale; }
-  /// 1, or -1 where left and right are exchanged; between the two in a plant between two steps.
+  /// 1, or -1 where left and right are exchanged. Values in between interpolate two derivation steps.
   double side() const { return state_.side; }
   void mirror() { state_.side = -state_.side; }
 
@@ -117,36 +118,35 @@ class Turtle {
     std::vector<double> elasticity;
   };
   Pose pose() const;
-  /// Undoes a part of the changes since `earlier`: only a share of them remains, and the share `turned` of
-  /// the rotation.
+  /// Interpolates from `earlier` to the present pose: by `share`, and the rotation by `turned`.
   void take_share(const Pose& earlier, double share, double turned);
   /// Continues from the last joint if the turtle has moved away from it and back.
   void rejoin();
-  /// The share of the turn by tropisms that segments get from now on. Not part of the state.
-  void set_pull(double share) { pull_ = share; }
+  /// Sets the share of the turn by tropisms that later segments get. Not part of the state.
+  void set_tropism_share(double share) { tropism_share_ = share; }
   /// Limbs::share of what is drawn from now on. Not part of the state.
   void set_share(double share) { share_ = static_cast<float>(share); }
 
-  /// A drawing that is copied as a whole, turned and moved.
-  class Stamp;
-  /// True where this turtle can draw into stamps: without tropisms, which bend each copy differently, and
-  /// without contours and anchors, which stamps do not keep.
-  bool can_stamp() const {
+  /// A recorded drawing, which is copied as a whole at other positions and in other directions.
+  class Recording;
+  /// True where drawings of this turtle can be recorded: without tropisms, which bend each copy differently,
+  /// and without contours and anchors, which recordings do not keep.
+  bool can_record() const {
     return skeleton_ && !tropisms_ && !draws_contours_ && !tracks_anchors_ && polygons_.empty();
   }
-  /// Begins to draw into the stamp, from the origin, what `like` would draw from where it is. This turtle is
-  /// new and writes to stamp.skeleton. It may turn, move, draw, branch, and change width, colour and scale,
-  /// but must not depend on its position or on the vertical.
-  void begin_stamp(const Turtle& like, Stamp& stamp);
-  void end_stamp(Stamp& stamp);
-  /// True where this turtle would draw exactly this from here, apart from position and direction.
-  bool matches(const Stamp& stamp) const;
-  /// Draws the stamp from here. Order and positions are those that drawing would give, except for the last
-  /// bits. The bounds of the report leave it out.
-  void press(const Stamp& stamp);
+  /// Begins a recording. Call it on a new turtle that writes to recording.skeleton. It takes the state of
+  /// `like`, but starts at the origin with the initial frame. It may turn, move, draw, branch, and change
+  /// width, colour and scale, but must not depend on its position or on the vertical.
+  void begin_recording(const Turtle& like, Recording& recording);
+  void end_recording(Recording& recording);
+  /// True if this turtle would draw exactly this recording from here, apart from position and direction.
+  bool matches(const Recording& recording) const;
+  /// Appends a copy of the recording from here. Order and positions are those that drawing would give, except
+  /// for the last bits. TurtleReport::min and max do not include it.
+  void append_copy(const Recording& recording);
 
   std::uint32_t last_joint() const { return state_.last; }  ///< of this branch; none before its first segment
-  bool is_joined() const { return state_.joint != Limbs::none; }  ///< the next one grows from a joint
+  bool is_joined() const { return state_.joint != Limbs::none; }  ///< the next internode continues a joint
   /// True where the next internode starts a new limb.
   bool begins_limb() const { return state_.begins_branch; }
   std::size_t depth() const { return stack_.size(); }  ///< brackets open
@@ -154,15 +154,15 @@ class Turtle {
   const Frame& frame() const { return state_.frame; }
   const TurtleReport& report() const { return report_; }
 
-  /// The last command would have moved more than 1e15 metres along an axis, so it moved nothing. The caller
-  /// refuses the request, since it knows the module and the text that wrote it.
+  /// A command would have taken a coordinate of the position beyond 1e15 metres. The caller refuses the
+  /// request, since it knows the module and the text that wrote it.
   bool is_lost() const { return is_lost_; }
   static constexpr const char* too_far = "the turtle went further than 1e15 metres from its start";
 
  private:
   static constexpr std::uint16_t rotations_until_drift = 256;
   // Beyond this, squares of positions would overflow in later stages.
-  static constexpr double world = 1e15;
+  static constexpr double largest_coordinate = 1e15;
 
   struct State {
     glm::dvec3 position{0};
@@ -173,7 +173,7 @@ class Turtle {
     std::uint32_t last = Limbs::none;   ///< the last joint of this branch, also after a move
     std::uint16_t order = 0;
     std::int16_t color = 0;
-    std::uint16_t rotations = 0;  ///< of `frame` since it was last made orthonormal; and more
+    std::uint16_t rotations = 0;  ///< number of rotations; `frame` is made orthonormal every 256
     std::uint8_t contour = 0;
     bool is_sweeping = false;
     bool begins_branch = false;  ///< the next internode starts a limb of its own
@@ -199,11 +199,11 @@ class Turtle {
   [[noreturn]] void refuse_joints() const;
   void check_depth(std::size_t depth, const char* what) const;
   [[noreturn]] void refuse_segments() const;
-  void press_places(const Stamp& stamp);
-  void press_links(const Stamp& stamp);
-  void press_bark(const Stamp& stamp);
-  void press_colors(const Stamp& stamp, std::size_t before);
-  void go_to_end(const Stamp& stamp, std::uint32_t first);
+  void copy_positions(const Recording& recording);
+  void copy_links(const Recording& recording);
+  void copy_bark(const Recording& recording);
+  void copy_colors(const Recording& recording, std::size_t before);
+  void go_to_end(const Recording& recording, std::uint32_t first);
 
   Skeleton* skeleton_;
   Job& job_;
@@ -218,30 +218,30 @@ class Turtle {
   };
   std::vector<Polygon> polygons_;  ///< open ones, innermost last
   TurtleReport report_;
-  double thinner_ = 0;
-  double pull_ = 1;
+  double width_reduction_ = 0;
+  double tropism_share_ = 1;
   float share_ = 1;
   std::uint64_t most_segments_ = ~std::uint64_t{0};
   std::optional<Tropisms> tropisms_;
   bool tracks_anchors_ = false;
   bool draws_wires_ = false;
   bool draws_contours_ = false;
-  Array<glm::dvec3>* places_ = nullptr;  ///< of joints before rounding, while a stamp is drawn
+  Array<glm::dvec3>* places_ = nullptr;  ///< of joints before rounding, while a recording is drawn
 };
 
-/// Copies stamps. 4 ns a joint, half of that for wires.
-class Turtle::Stamp {
+/// A recorded drawing. A copy takes 4 ns a joint, or 2 ns for wires.
+class Turtle::Recording {
  public:
-  explicit Stamp(const Job& job) : skeleton(job), places_(job) {}
+  explicit Recording(const Job& job) : skeleton(job), places_(job) {}
   Skeleton skeleton;
 
  private:
   friend class Turtle;
   Array<glm::dvec3> places_;
   State start_, end_;
-  float radius_ = 0;         ///< of the joint that it grows from
-  std::uint32_t seeds_ = 0;  ///< 1: joint 0 represents that joint
-  double reach_ = 0;         ///< the largest sum of the absolute coordinates of a joint
+  float radius_ = 0;                 ///< of the joint that it grows from
+  std::uint32_t shared_joints_ = 0;  ///< 1: joint 0 stands for the joint that the drawing grows from
+  double reach_ = 0;                 ///< the largest sum of the absolute coordinates of a joint
   TurtleReport report_;
 };
 

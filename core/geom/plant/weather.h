@@ -7,7 +7,8 @@
 /// - Forces: the drag of a cylinder in cross flow and of a plate, the weight of snow on horizontal area and
 ///   of water on wet area.
 /// - Turn: that of a cantilever (Euler and Bernoulli), bending moment times length divided by E I with I = pi
-///   r^4 / 4. Moment and force are those of all parts beyond. A turn ends at the direction of the force.
+///   r^4 / 4. Moment and force are those of all parts beyond. No element turns beyond the direction of the
+///   force.
 #include "core/geom/plant/limbs.h"
 
 namespace seedmesh {
@@ -20,8 +21,8 @@ struct Weather {
 };
 
 /// Moves joints, their frames, organs and outlines. Radii, lengths of internodes and positions of roots stay.
-/// A part that begins after a move follows the joint before the move (Limbs::anchor). An internode without
-/// radius is rigid. Linear time, one thread; about 170 bytes a joint while it runs.
+/// A part that begins after the turtle moved without drawing follows the joint where it left (Limbs::anchor).
+/// An internode without radius is rigid. Linear time, one thread; about 170 bytes a joint while it runs.
 void bend(Skeleton& skeleton, const Weather& weather, Job& job);
 
 }  // namespace seedmesh

@@ -18,7 +18,7 @@ struct Envelope {
     double at(const glm::dvec2& p) const { return height + rise.x * p.x + rise.y * p.y; }
   };
   std::vector<Plane> planes;
-  std::vector<PlanLine> cuts;  ///< between them, one plane is the lowest
+  std::vector<PlanLine> cuts;  ///< lines along which the lowest plane changes
 
   std::size_t lowest(const glm::dvec2& p) const;  ///< the number of the lowest plane
   double height(const glm::dvec2& p) const { return planes[lowest(p)].at(p); }

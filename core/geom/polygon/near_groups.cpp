@@ -11,7 +11,7 @@ using glm::dvec3;
 
 // Smaller groups are compared pair by pair.
 constexpr std::size_t few = 12;
-constexpr std::size_t looks_a_check = 50'000;
+constexpr std::size_t comparisons_a_check = 50'000;
 
 /// Cuts the points into groups along gaps of each axis in turn, and compares those of a group that has none.
 class NearGroups {
@@ -40,16 +40,16 @@ class NearGroups {
     parent_[std::max(a, b)] = std::min(a, b);
   }
 
-  void count_looks(std::size_t count) {
-    looks_ += count;
-    if (looks_ < looks_a_check) return;
-    looks_ = 0;
+  void count_comparisons(std::size_t count) {
+    comparisons_ += count;
+    if (comparisons_ < comparisons_a_check) return;
+    comparisons_ = 0;
     job_.check();
   }
 
   /// `uncut` counts the axes in a row along which the group has no gap.
   void cut(std::span<std::uint32_t> group, int axis, int uncut) {
-    count_looks(8 * group.size());
+    count_comparisons(8 * group.size());
     if (group.size() < 2) return;
     if (group.size() <= few || uncut == 3) return compare(group);
     std::sort(group.begin(), group.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -81,7 +81,7 @@ class NearGroups {
       for (auto b = group.begin(); b != a; ++b) {
         if (are_near(*a, *b, reach_)) unite(*a, *b);
       }
-      count_looks(static_cast<std::size_t>(a - group.begin()));
+      count_comparisons(static_cast<std::size_t>(a - group.begin()));
     }
   }
 
@@ -89,7 +89,7 @@ class NearGroups {
   double reach_;
   const Job& job_;
   std::vector<std::uint32_t> parent_, order_;
-  std::size_t looks_ = 0;
+  std::size_t comparisons_ = 0;
 };
 
 }  // namespace

@@ -9,8 +9,9 @@
 
 namespace seedmesh {
 
-/// For each point the least number of the points that it is joined to, directly or through others, by steps of
-/// at most `reach`. Cost: n log n unless very many points form a chain of such steps. Checks the deadline.
+/// Returns for each point the lowest index in its group. Two points are in one group if a chain of steps of
+/// at most `reach` joins them. Cost: n log n unless very many points form a chain of such steps. Checks the
+/// deadline.
 std::vector<std::uint32_t> near_groups(std::span<const glm::dvec3> points, double reach, const Job& job);
 
 }  // namespace seedmesh

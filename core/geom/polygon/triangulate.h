@@ -24,7 +24,7 @@ class Triangulator {
   /// triangle has an area of `least_area` or less; points that only such triangles use are left out.
   std::span<const std::uint32_t> run(std::span<const glm::dvec2> outline, double least_area);
 
-  /// Triangles that fill a polygon with holes, as numbers of `points`. These hold all rings one behind the
+  /// Triangles that fill a polygon with holes, as numbers of `points`. `points` holds the rings one after the
   /// other, with `ring_sizes` points each: the outer ring counter-clockwise, then the holes clockwise. If no
   /// two edges meet except at common ends, the triangles use every point, so that neighbours along an edge
   /// meet without gaps. Triangles of `least_area` or less occur only where no others are possible.
@@ -55,7 +55,8 @@ class Triangulator {
   std::span<const glm::dvec2> points_;
   double least_ = 0;              ///< twice the least area
   bool uses_all_points_ = false;  ///< thin triangles are kept where no others are possible
-  double slack_ = -1;  ///< straight corners this near to a new edge (as twice an area) lie on it; -1: none
+  /// Tolerance, as twice an area, within which a straight corner counts as on a new edge; -1: exact.
+  double slack_ = -1;
   std::size_t left_ = 0;
   std::vector<std::uint32_t> next_, before_;
   std::vector<std::uint8_t> is_cut_;

@@ -92,7 +92,7 @@ bool Wavefront::run() {
   expect();
   std::vector<Event> batch;
   for (std::uint64_t step = 0;; ++step) {
-    count_looks(64);
+    count_comparisons(64);
     while (is_at_horizon()) move_horizon();
     if (events_.empty()) break;
     const Event next = events_.top();

@@ -27,7 +27,7 @@ class Wavefront {
     glm::dvec2 direction{0}, normal{0};  ///< the normal is to the left
     double offset = 0, speed = 1;        ///< normal . p = offset + speed * time
     std::uint32_t edge = 0;              ///< of the plan
-    bool is_step = false;
+    bool is_step = false;                ///< a vertical side added where an edge stops, not of the plan
   };
   /// A piece of the border of a face, which lies to its left.
   struct Border {
@@ -50,7 +50,8 @@ class Wavefront {
   struct Corner {
     glm::dvec2 place{0}, velocity{0};
     double time = 0;
-    std::uint32_t node = 0, in = 0, out = 0;  ///< where it began, and the edges before and after it
+    std::uint32_t node = 0;         ///< where it began
+    std::uint32_t in = 0, out = 0;  ///< the edges before and after it
     bool is_alive = true, can_hit = false;
   };
   /// An edge between two corners. While events are resolved, an open end is a node.
@@ -92,12 +93,14 @@ class Wavefront {
   bool is_current(const Event& event) const;
   void expect_collapse(std::uint32_t edge);
   void expect_hit(std::uint32_t corner, std::uint32_t edge);
+  /// Predicts the events of changed edges and new corners, and puts them into the queue.
   void expect();
   void expect_nearby();
   void expect_all();
   bool is_at_horizon() const;
-  void look_from(std::uint32_t corner, double from);
-  void look_at(std::uint32_t edge);
+  /// Predicts the hits of a corner on edges nearby, and of corners nearby on an edge.
+  void find_hits_of_corner(std::uint32_t corner, double from);
+  void find_hits_on_edge(std::uint32_t edge);
   void move_horizon();
   void drop_ended();
   void place_grid(double time);
@@ -107,7 +110,7 @@ class Wavefront {
   void each_cell_of_edge(std::uint32_t edge, double from, double until, const Visit& visit) const;
   template <class Visit>
   void each_cell_of_corner(std::uint32_t corner, double from, double until, const Visit& visit) const;
-  void count_looks(std::size_t count);
+  void count_comparisons(std::size_t count);  ///< checks the deadline now and then
 
   void resolve(const std::vector<Event>& batch);
   std::vector<Touch> touches_of(const std::vector<Event>& batch) const;
@@ -115,14 +118,17 @@ class Wavefront {
   void end_corner(std::uint32_t corner, std::uint32_t node);
   void open_end(std::uint32_t edge, bool at_start, std::uint32_t node);
   void split(std::uint32_t edge, const std::vector<std::uint32_t>& at);
+  /// Joins all open ends, until none is left. Returns false if that takes too many rounds.
   bool settle();
   void touch(std::uint32_t edge);
   void take_touched();
   void unlist(std::uint32_t edge);
   void cancel_opposites(const std::pair<std::uint32_t, std::uint32_t>& span);
   void find_joints();
-  void pair_round(std::uint32_t node, const std::set<std::uint32_t>& rays, std::vector<Joint>& joints) const;
+  void match_rays_around(std::uint32_t node, const std::set<std::uint32_t>& rays,
+                         std::vector<Joint>& joints) const;
   bool is_closing(std::uint32_t in, std::uint32_t out) const;
+  /// Opens the nearer of the far ends of two edges that lie on each other, and cuts the other edge there.
   void zip(std::uint32_t in, std::uint32_t out, std::uint32_t node);
   void join(std::uint32_t in, std::uint32_t out, std::uint32_t node);
   void add_corner(std::uint32_t in, std::uint32_t out, std::uint32_t node);
@@ -133,14 +139,14 @@ class Wavefront {
   double soon_ = 0;     ///< times nearer than this are equal
   double fastest_ = 0;  ///< the greatest speed of an edge
   const Job& job_;
-  std::uint64_t looks_ = 0;
+  std::uint64_t comparisons_ = 0;
   std::vector<Corner> corners_;
   std::vector<Edge> edges_;
   std::priority_queue<Event> events_;
-  std::vector<std::uint32_t> open_;     ///< edges with an open end
-  std::vector<std::uint32_t> hitters_;  ///< corners that can hit edges; some have ended
-  std::vector<std::uint32_t> fresh_;    ///< corners made since `expect`
-  std::vector<std::uint32_t> front_;    ///< edges; some are not alive
+  std::vector<std::uint32_t> open_;             ///< edges with an open end
+  std::vector<std::uint32_t> hitting_corners_;  ///< corners that can hit edges (reflex); some have ended
+  std::vector<std::uint32_t> fresh_;            ///< corners made since `expect`
+  std::vector<std::uint32_t> front_;            ///< edges; some are not alive
 
   // The search for hits.
   /// What a quick comparison needs of an edge.
@@ -151,13 +157,13 @@ class Wavefront {
   std::vector<Line> lines_;
   bool uses_grid_ = false;
   double horizon_ = -1;          ///< hits up to this time are in the queue
-  double horizon_before_ = -1;   ///< of the grid before, whose hits are not put into the queue again
+  double horizon_before_ = -1;   ///< of the previous grid; hits up to it are already in the queue
   double ahead_ = 0;             ///< from the time when the grid was made to the horizon
-  double least_ahead_ = 0;       ///< a grid to this horizon may be as large as it needs to be
+  double least_ahead_ = 0;       ///< up to this time ahead, the size of the grid is not limited
   glm::dvec2 low_{0}, high_{0};  ///< of the grid
   std::size_t cells_ = 0;
   std::size_t changes_ = 0;  ///< edges that changed since the grid was made
-  double effort_ = 1;        ///< a factor of the pairs that a grid may have
+  double effort_ = 1;        ///< multiplies the limit of candidate pairs in a grid
   CellGrid edge_grid_, corner_grid_;
   std::size_t most_entries_ = 0;  ///< with more the grid is made anew
   std::vector<std::uint32_t> seen_;
@@ -165,9 +171,10 @@ class Wavefront {
   std::uint32_t mark_ = 0;
 
   // Used by settle().
-  std::vector<std::uint32_t> touched_;                     ///< edges changed since the last round
-  std::map<std::uint32_t, std::set<std::uint32_t>> ends_;  ///< by node: twice the edge, odd where it begins
-  std::map<std::uint32_t, std::vector<Joint>> joints_;     ///< by node
+  std::vector<std::uint32_t> touched_;  ///< edges changed since the last round
+  /// Open ends by node, each as 2 * edge, plus 1 if the edge starts there.
+  std::map<std::uint32_t, std::set<std::uint32_t>> ends_;
+  std::map<std::uint32_t, std::vector<Joint>> joints_;  ///< by node
   std::set<std::uint32_t> changed_nodes_, closing_nodes_;
   /// Edges with two open ends, by their two nodes, the lower first.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::set<std::uint32_t>> spans_;

@@ -21,15 +21,15 @@ constexpr double pairs_each = 32;
 constexpr double cells_each = 4;
 // The farthest horizon, in diagonals of the plan that the fastest edge could cross.
 constexpr double farthest = 1e6;
-constexpr std::size_t looks_a_check = 20'000;
+constexpr std::size_t comparisons_a_check = 20'000;
 
 }  // namespace
 
 /// Checks the deadline from time to time.
-void Wavefront::count_looks(std::size_t count) {
-  looks_ += count;
-  if (looks_ < looks_a_check) return;
-  looks_ = 0;
+void Wavefront::count_comparisons(std::size_t count) {
+  comparisons_ += count;
+  if (comparisons_ < comparisons_a_check) return;
+  comparisons_ = 0;
   job_.check();
 }
 
@@ -105,8 +105,8 @@ void Wavefront::move_horizon() {
     from = events_.empty() ? horizon_ : std::min(horizon_, events_.top().time);
   horizon_before_ = horizon_;
   drop_ended();
-  uses_grid_ =
-      !hitters_.empty() && (front_.size() > few_edges || front_.size() * hitters_.size() > few_pairs);
+  uses_grid_ = !hitting_corners_.empty() &&
+               (front_.size() > few_edges || front_.size() * hitting_corners_.size() > few_pairs);
   if (uses_grid_) {
     place_grid(from);
     // Less would not be a step where times are large.
@@ -116,7 +116,7 @@ void Wavefront::move_horizon() {
     // Where little has changed up to the last horizon, a farther one is cheaper.
     effort_ = 4 * changes_ < front_.size() ? 3 * effort_ : 1;
     changes_ = 0;
-    const double cheap = effort_ * pairs_each * static_cast<double>(front_.size() + hitters_.size());
+    const double cheap = effort_ * pairs_each * static_cast<double>(front_.size() + hitting_corners_.size());
     const auto pairs_until = [&](double ahead) {
       return fill_grid(from, ahead) ? pairs_in_grid() : std::numeric_limits<double>::infinity();
     };
@@ -134,12 +134,12 @@ void Wavefront::move_horizon() {
     most_entries_ = 2 * (edge_grid_.entries() + corner_grid_.entries()) + 16 * front_.size();
     edge_grid_.pack();
     corner_grid_.pack();
-    for (const std::uint32_t corner : hitters_) look_from(corner, from);
+    for (const std::uint32_t corner : hitting_corners_) find_hits_of_corner(corner, from);
   } else {
     horizon_ = std::numeric_limits<double>::infinity();
     for (const std::uint32_t edge : front_) {
-      for (const std::uint32_t corner : hitters_) expect_hit(corner, edge);
-      count_looks(hitters_.size() + 1);
+      for (const std::uint32_t corner : hitting_corners_) expect_hit(corner, edge);
+      count_comparisons(hitting_corners_.size() + 1);
     }
   }
   horizon_before_ = -1;
@@ -147,8 +147,8 @@ void Wavefront::move_horizon() {
 
 void Wavefront::drop_ended() {
   std::erase_if(front_, [&](std::uint32_t edge) { return !edges_[edge].is_alive; });
-  std::erase_if(hitters_, [&](std::uint32_t corner) { return !corners_[corner].is_alive; });
-  count_looks(front_.size() + hitters_.size());
+  std::erase_if(hitting_corners_, [&](std::uint32_t corner) { return !corners_[corner].is_alive; });
+  count_comparisons(front_.size() + hitting_corners_.size());
 }
 
 /// Lays the grid over the outline at a time, with cells about as large as an edge is long.
@@ -175,16 +175,16 @@ void Wavefront::place_grid(double time) {
 bool Wavefront::fill_grid(double from, double ahead) {
   edge_grid_.reset(low_, high_, cells_, 16 * near_);
   corner_grid_.reset(low_, high_, cells_, 16 * near_);
-  const std::size_t most = entries_each * (front_.size() + hitters_.size());
+  const std::size_t most = entries_each * (front_.size() + hitting_corners_.size());
   for (const std::uint32_t edge : front_) {
     each_cell_of_edge(edge, from, from + ahead, [&](std::size_t cell) { edge_grid_.add(cell, edge); });
-    count_looks(16);
+    count_comparisons(16);
     if (ahead > least_ahead_ && edge_grid_.entries() > most) return false;
   }
-  for (const std::uint32_t corner : hitters_) {
+  for (const std::uint32_t corner : hitting_corners_) {
     each_cell_of_corner(corner, from, from + ahead,
                         [&](std::size_t cell) { corner_grid_.add(cell, corner); });
-    count_looks(16);
+    count_comparisons(16);
     if (ahead > least_ahead_ && corner_grid_.entries() > most) return false;
   }
   return true;
@@ -195,22 +195,22 @@ double Wavefront::pairs_in_grid() {
   double pairs = 0;
   for (std::size_t cell = 0; cell < edge_grid_.cells(); ++cell)
     pairs += static_cast<double>(edge_grid_.count(cell)) * static_cast<double>(corner_grid_.count(cell));
-  count_looks(edge_grid_.cells());
+  count_comparisons(edge_grid_.cells());
   return pairs;
 }
 
 /// Compares a corner with the edges near its way from a time on.
-void Wavefront::look_from(std::uint32_t corner, double from) {
+void Wavefront::find_hits_of_corner(std::uint32_t corner, double from) {
   ++mark_;
   seen_.clear();
-  std::size_t looks = 8;
+  std::size_t comparisons = 8;
   const Corner& c = corners_[corner];
   const double last = std::min(edges_[c.in].until, edges_[c.out].until);
   const double most = std::min({horizon_, end_time_, last}) + 2 * soon_;
   const dvec2 velocity = c.velocity, origin = c.place - velocity * c.time;
   each_cell_of_corner(corner, from, horizon_, [&](std::size_t cell) {
     edge_grid_.each(cell, [&](std::uint32_t edge) {
-      ++looks;
+      ++comparisons;
       if (edge_mark_[edge] == mark_) return;
       edge_mark_[edge] = mark_;
       // Most edges are out of reach, which needs no exact time; the rest as in expect_hit.
@@ -222,42 +222,42 @@ void Wavefront::look_from(std::uint32_t corner, double from) {
     });
   });
   for (const std::uint32_t edge : seen_) expect_hit(corner, edge);
-  count_looks(looks + 4 * seen_.size());
+  count_comparisons(comparisons + 4 * seen_.size());
 }
 
 /// The same for an edge and the corners near it.
-void Wavefront::look_at(std::uint32_t edge) {
+void Wavefront::find_hits_on_edge(std::uint32_t edge) {
   ++mark_;
   seen_.clear();
-  std::size_t looks = 8;
+  std::size_t comparisons = 8;
   each_cell_of_edge(edge, now_, horizon_, [&](std::size_t cell) {
     edge_grid_.add(cell, edge);
     corner_grid_.each(cell, [&](std::uint32_t corner) {
-      ++looks;
+      ++comparisons;
       if (corner_mark_[corner] == mark_ || !corners_[corner].is_alive) return;
       corner_mark_[corner] = mark_;
       seen_.push_back(corner);
     });
   });
   for (const std::uint32_t corner : seen_) expect_hit(corner, edge);
-  count_looks(looks + seen_.size());
+  count_comparisons(comparisons + seen_.size());
 }
 
 /// Compares all changed edges and corners with all others.
 void Wavefront::expect_all() {
-  if (hitters_.empty()) return;
+  if (hitting_corners_.empty()) return;
   drop_ended();
   for (const std::uint32_t edge : open_) {
     if (!edges_[edge].is_alive) continue;
-    for (const std::uint32_t corner : hitters_) expect_hit(corner, edge);
-    count_looks(hitters_.size() + 1);
+    for (const std::uint32_t corner : hitting_corners_) expect_hit(corner, edge);
+    count_comparisons(hitting_corners_.size() + 1);
   }
   for (const std::uint32_t corner : fresh_) {
     if (!corners_[corner].can_hit) continue;
     for (const std::uint32_t edge : front_) {
       if (!edges_[edge].is_open) expect_hit(corner, edge);
     }
-    count_looks(front_.size());
+    count_comparisons(front_.size());
   }
 }
 
@@ -266,7 +266,7 @@ void Wavefront::expect_nearby() {
   edge_mark_.resize(edges_.size(), mark_);
   corner_mark_.resize(corners_.size(), mark_);
   for (const std::uint32_t edge : open_) {
-    if (edges_[edge].is_alive) look_at(edge);
+    if (edges_[edge].is_alive) find_hits_on_edge(edge);
   }
   // The fresh corners, and the other ends of changed edges, which may last longer than before.
   std::vector<std::uint32_t> changed;
@@ -280,7 +280,7 @@ void Wavefront::expect_nearby() {
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   for (const std::uint32_t corner : changed) {
     each_cell_of_corner(corner, now_, horizon_, [&](std::size_t cell) { corner_grid_.add(cell, corner); });
-    look_from(corner, now_);
+    find_hits_of_corner(corner, now_);
   }
   if (edge_grid_.entries() + corner_grid_.entries() > most_entries_) move_horizon();
 }
@@ -289,7 +289,7 @@ void Wavefront::expect_nearby() {
 void Wavefront::expect() {
   changes_ += open_.size();
   for (const std::uint32_t corner : fresh_) {
-    if (corners_[corner].can_hit) hitters_.push_back(corner);
+    if (corners_[corner].can_hit) hitting_corners_.push_back(corner);
   }
   for (const std::uint32_t edge : open_) {
     if (edges_[edge].is_alive) expect_collapse(edge);
@@ -298,8 +298,8 @@ void Wavefront::expect() {
     move_horizon();
   } else if (uses_grid_) {
     expect_nearby();
-  } else if (!hitters_.empty() &&
-             (front_.size() > 2 * few_edges || front_.size() * hitters_.size() > 2 * few_pairs)) {
+  } else if (!hitting_corners_.empty() &&
+             (front_.size() > 2 * few_edges || front_.size() * hitting_corners_.size() > 2 * few_pairs)) {
     // Pairs with a changed element are compared again, which the queue does not mind.
     horizon_ = -1;
     move_horizon();

@@ -82,7 +82,7 @@ void Wavefront::take_touched() {
     const std::pair<std::uint32_t, std::uint32_t> span = std::minmax(e.start_node, e.end_node);
     spans_[span].insert(edge);
     changed_spans.insert(span);
-    count_looks(32);
+    count_comparisons(32);
   }
   touched_.clear();
   for (const auto& span : changed_spans) cancel_opposites(span);
@@ -133,8 +133,8 @@ void Wavefront::find_joints() {
     const std::set<std::uint32_t>& rays = ends_[node];
     if (rays.empty()) continue;
     std::vector<Joint>& joints = joints_[node];
-    pair_round(node, rays, joints);
-    count_looks(32 * rays.size());
+    match_rays_around(node, rays, joints);
+    count_comparisons(32 * rays.size());
     if (std::any_of(joints.begin(), joints.end(),
                     [&](const Joint& joint) { return is_closing(joint.in, joint.out); }))
       closing_nodes_.insert(node);
@@ -144,8 +144,8 @@ void Wavefront::find_joints() {
 
 /// Joins the ends at a node. Around it, the inside lies counter-clockwise from an edge that begins to one
 /// that ends.
-void Wavefront::pair_round(std::uint32_t node, const std::set<std::uint32_t>& rays,
-                           std::vector<Joint>& joints) const {
+void Wavefront::match_rays_around(std::uint32_t node, const std::set<std::uint32_t>& rays,
+                                  std::vector<Joint>& joints) const {
   struct Ray {
     double angle;
     std::uint32_t edge;

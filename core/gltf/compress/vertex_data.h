@@ -25,18 +25,18 @@ inline std::uint32_t corner_at(const Column& index, std::size_t i) {
                                            : load<std::uint32_t>(index.slice, i);
 }
 
-/// The elements of a column with these numbers.
+/// The elements of a column at these vertex indices.
 Slice selected(const Column& column, const Array<std::uint32_t>& vertices, Job& job);
 
 /// Replaces the index of a part; 16 bits where `vertices` allows it.
 void set_index(Part& part, Array<std::uint32_t> corners, std::size_t vertices, Job& job);
 
-/// A unit vector as quantize() writes it: two octahedral coordinates, the value that stands for 1, and the
-/// sign of a tangent.
+/// A unit vector in the encoding of the octahedral filter of EXT_meshopt_compression: u, v, the integer that
+/// represents 1, and the sign of a tangent.
 using OctahedralNormal = std::array<std::int16_t, 4>;
 OctahedralNormal octahedral(const glm::dvec3& direction);
 
-/// A signed integer of `bits` bits that stands for -1..1.
+/// Quantizes a value from -1 to 1 to a signed integer of `bits` bits.
 std::int16_t signed_of(double value, int bits);
 
 /// Do the three points lie on a line?

@@ -52,7 +52,7 @@ class Accessors {
   Bin bin_;
 };
 
-/// The materials that primitives use. `any_variants`: one of the primitives depends on the variant.
+/// The materials that primitives use. `any_variants`: at least one primitive has materials by variant.
 struct MaterialUse {
   Numbering numbering;
   bool any_variants = false;

@@ -132,7 +132,7 @@ TEST(Notation, MarksAgreeWithTheSearchForPartners) {
   }
   EXPECT_TRUE(Marks("a;b").has_semicolon({0, 2}));
   EXPECT_FALSE(Marks("a;b").has_semicolon({2, 3}));
-  EXPECT_TRUE(Marks("a<b").has_comparison({1, 2}));
+  EXPECT_TRUE(Marks("a<b").has_condition_operator({1, 2}));
 }
 
 }  // namespace

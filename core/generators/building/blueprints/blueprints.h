@@ -1,6 +1,6 @@
 #pragma once
-/// Rule files that come with the program: the blueprints. Each *.cga of this folder is one, by its file's
-/// name.
+/// Rule files that come with the program: the blueprints. Each *.cga file of this directory is one; its name
+/// is that of the file.
 #include <span>
 #include <string_view>
 
@@ -11,10 +11,10 @@ struct Blueprint {
   std::string_view rules;  ///< in CityEngine's notation; attributes have ranges
 };
 
-/// By name.
+/// All blueprints, sorted by name.
 std::span<const Blueprint> blueprints();
 
-/// Null for a name that is none.
+/// Null if there is no blueprint with this name.
 const Blueprint* blueprint_named(std::string_view name);
 
 }  // namespace seedmesh::building

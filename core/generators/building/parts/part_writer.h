@@ -24,9 +24,9 @@ class PartWriter {
 
   void box(std::string_view role, const glm::dvec3& low, const glm::dvec3& high);
 
-  /// An extrusion from `from` to `to`. The outline lies in (x, y) for z, in (-z, y) for x and in (x, -z) for
-  /// y. Seen against the direction of the extrusion it runs counter-clockwise, holes clockwise. `side` gives
-  /// the role of each edge, numbered through all rings; null: `role` for all.
+  /// An extrusion from `from` to `to`. The two coordinates of the outline are (x, y) for Along::z, (-z, y)
+  /// for Along::x and (x, -z) for Along::y. Seen from the `to` end it is counter-clockwise, and holes are
+  /// clockwise. `side` gives the role of each edge, numbered through all rings; null: `role` for all.
   struct Push {
     Along along = Along::z;
     double from = 0, to = 1;
@@ -43,7 +43,7 @@ class PartWriter {
   };
   void turn(std::string_view role, const std::vector<ProfilePoint>& profile, const Turn& turn);
 
-  /// A convex or flat face, counter-clockwise seen from outside.
+  /// A flat convex polygon, counter-clockwise seen from outside.
   void face(std::string_view role, const std::vector<glm::dvec3>& corners);
 
   std::vector<PartPiece> take();

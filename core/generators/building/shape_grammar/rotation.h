@@ -1,5 +1,5 @@
 #pragma once
-/// Rotations about the axes of a scope or of a picture.
+/// Rotations about coordinate axes.
 #include <glm/glm.hpp>
 
 #include "core/base/math.h"

@@ -1,5 +1,6 @@
 #pragma once
-/// Creases: faces with vertices of their own, where no normal of a corner is in front of all its faces.
+/// Creases: faces with vertices of their own, at corners where no single normal makes an acute angle with all
+/// adjacent faces.
 #include <vector>
 
 #include "core/geom/plant/graft/bark_buffers.h"
@@ -7,14 +8,15 @@
 
 namespace seedmesh {
 
-/// A triangle that gets vertices of its own. `triangle`, `first` and `last` count in the joined bark; the
-/// limb has the triangles `first` to `last - 1`.
+/// A triangle that gets vertices of its own. `triangle`, `first` and `last` are triangle indices in the
+/// joined bark; the limb has the triangles `first` to `last - 1`.
 struct Crease {
   std::uint32_t triangle = 0, first = 0, last = 0;
 };
 
-/// A bad face can be creased where limbs meet at a narrow angle. A face that is folded over, on the other
-/// side of its limb or of the junction, can be creased only where it is too small to be seen.
+/// Returns whether a face that points away from its normals may get a crease. It may where limbs meet at a
+/// narrow angle. A face that is folded over, on the other side of its limb or of the junction, may only if it
+/// is too small to be seen.
 bool can_be_creased(const GraftInput& in, const BarkBuffers& bark, std::uint32_t triangle, std::size_t limb);
 
 /// The creased triangles, by their numbers in the buffers, that still belong to a limb.

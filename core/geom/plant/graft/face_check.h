@@ -1,17 +1,17 @@
 #pragma once
-/// The checker: finds faces that are too small or face away from a normal, and decides what is made anew.
+/// Finds triangles that are too small or face away from a normal, and decides which limbs are written again.
 #include <vector>
 
 #include "core/geom/plant/graft/bark_rounds.h"
 
 namespace seedmesh {
 
-/// The least cosine between a face and its normals. Readers of the file with other rounding find the same
-/// side.
+/// The least cosine between a face and its normals. The margin is large enough that programs with other
+/// rounding still find the normal on the same side of the face.
 constexpr float least_face_cosine = 1e-4F;
 
-/// What makes a face sound: twice its area squared is above `least_square`, and its normals have at least
-/// least_face_cosine to it.
+/// A face is sound if (2 * area)^2 is above `least_square`, and the cosine between it and each of its vertex
+/// normals is at least least_face_cosine.
 struct FaceCheck {
   const glm::vec3 *position, *normal;
   float least_square;
@@ -21,14 +21,16 @@ struct FaceCheck {
 float least_face_square(float model_size);
 
 /// Adds to `bad` the numbers of those triangles from `first` to `last - 1` that are not sound. `index` holds
-/// the corners of all triangles. Reads a float behind each position. 2 ns a triangle.
+/// the corners of all triangles. Requires a readable float after each element of `position`, because four
+/// floats are loaded. 2 ns a triangle.
 void find_bad_faces(const FaceCheck& check, const std::uint32_t* index, std::uint32_t first,
                     std::uint32_t last, std::vector<std::uint32_t>& bad);
 
-/// Checks all faces for which something has changed, after their loops' normals have been computed and
-/// stored. Bad faces without a fold, or too small to be seen, are added to `creased`. Other bad faces lower
-/// the join mode of their limbs: to the next mode, or where `is_late` at once to JoinMode::none. Returns the
-/// number of the latter faces; 0: the bark is sound except for creases.
+/// Computes and stores the normals of changed loops, then checks the faces for which something has changed.
+/// Bad faces that are not folded over, or are too small to be seen, are added to `creased` and get vertices
+/// of their own. Any other bad face changes join modes. If it touches loops, their child limbs become at
+/// least `detached` (`closed` if `is_late`); otherwise its own limb becomes `closed`, or `none` if it is
+/// closed or `is_late`. Returns the number of these faces; 0: the bark is sound except for creases.
 std::size_t check_round(const GraftInput& in, BarkBuffers& bark, const BarkRounds& rounds,
                         std::vector<JoinMode>& join, std::vector<std::uint32_t>& creased, bool is_late,
                         const Job& job);

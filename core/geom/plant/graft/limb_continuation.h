@@ -12,8 +12,8 @@ namespace seedmesh {
 
 struct ContinuedLimbs {
   Limbs limbs;
-  Array<std::uint32_t> moved;  ///< first joints of the limbs that were moved down their parent, rising
-  /// Of each joint, its number before; of a new joint, that of the next joint.
+  Array<std::uint32_t> moved;  ///< first joints of limbs that were moved down their parent, ascending
+  /// Index of each joint in the input; a new joint has that of the joint that follows it.
   Array<std::uint32_t> original;
 };
 

@@ -4,12 +4,13 @@
 
 namespace seedmesh {
 
-/// The least length of a closed limb in least distances (Scale::apart): 4 mm in a tree of 17 m.
+/// The least length of a closed limb, as a multiple of the least vertex distance (Scale::apart): 4 mm in a
+/// tree of 17 m.
 constexpr float least_closed_length = 60;
 
-/// Writes a limb behind what is in the buffers, in the way that GraftInput::join allows, and records its
-/// range, its start and the loops of its side limbs. Parents must be written before their children. Limbs
-/// that are too thin, too short or hidden inside their parent are left out; their range is empty.
+/// Appends a limb to the buffers, joined as GraftInput::join says, and records its range, its start and the
+/// loops of its side limbs. Parents must be written before their children. Limbs that are too thin, too short
+/// or hidden inside their parent are left out; their range is empty.
 void write_limb(LimbWriter& w, std::uint32_t limb);
 
 }  // namespace seedmesh

@@ -26,7 +26,7 @@ Mesh square(const Job& job, float low) {
 TEST(Outward, SeparatesVerticesOfCornersThatFaceInward) {
   const Job job(0, Job::Options{});
   Mesh mesh = square(job, -1);
-  turn_outward(mesh, job);
+  repair_inward_normals(mesh, job);
   ASSERT_EQ(mesh.position.size(), 5U) << "the last corner keeps the vertex, so that none is unused";
   EXPECT_EQ(mesh.normal.size(), 5U);
   EXPECT_EQ(mesh.uv[0].size(), 5U);
@@ -41,7 +41,7 @@ TEST(Outward, SeparatesVerticesOfCornersThatFaceInward) {
 TEST(Outward, LeavesAllOthers) {
   const Job job(0, Job::Options{});
   Mesh mesh = square(job, 1);
-  turn_outward(mesh, job);
+  repair_inward_normals(mesh, job);
   EXPECT_EQ(mesh.position.size(), 4U);
 }
 

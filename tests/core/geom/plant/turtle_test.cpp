@@ -56,33 +56,33 @@ TEST_F(TurtleTest, SetsDownWhatItDrewOnceWhereverItIs) {
     each.pitch(right_angle);
   };
   turtle.draw(1, 0);
-  Turtle::Stamp stamp(job);
-  Turtle drawer(&stamp.skeleton, 0.2, job);
-  drawer.begin_stamp(turtle, stamp);
+  Turtle::Recording recording(job);
+  Turtle drawer(&recording.skeleton, 0.2, job);
+  drawer.begin_recording(turtle, recording);
   hook(drawer);
-  drawer.end_stamp(stamp);
+  drawer.end_recording(recording);
 
   Skeleton by_hand(job);
   Turtle other(&by_hand, 0.2, job);
   other.draw(1, 0);
   for (int i = 0; i < 3; ++i) {
-    ASSERT_TRUE(turtle.matches(stamp));
-    turtle.press(stamp);
+    ASSERT_TRUE(turtle.matches(recording));
+    turtle.append_copy(recording);
     hook(other);
   }
-  const Limbs &pressed = skeleton.limbs, &drawn = by_hand.limbs;
-  ASSERT_EQ(pressed.size(), drawn.size());
+  const Limbs &copied = skeleton.limbs, &drawn = by_hand.limbs;
+  ASSERT_EQ(copied.size(), drawn.size());
   for (std::size_t joint = 0; joint < drawn.size(); ++joint) {
-    expect_at(pressed.position[joint], drawn.position[joint]);
-    EXPECT_EQ(pressed.parent[joint], drawn.parent[joint]);
-    EXPECT_EQ(pressed.order[joint], drawn.order[joint]);
-    EXPECT_EQ(pressed.starts_limb[joint], drawn.starts_limb[joint]);
+    expect_at(copied.position[joint], drawn.position[joint]);
+    EXPECT_EQ(copied.parent[joint], drawn.parent[joint]);
+    EXPECT_EQ(copied.order[joint], drawn.order[joint]);
+    EXPECT_EQ(copied.starts_limb[joint], drawn.starts_limb[joint]);
   }
   expect_at(turtle.position(), other.position());
   expect_at(turtle.frame().heading, other.frame().heading);
   EXPECT_EQ(turtle.report().segments, 7U);
   turtle.set_width(0.3);
-  EXPECT_FALSE(turtle.matches(stamp));
+  EXPECT_FALSE(turtle.matches(recording));
 }
 
 TEST_F(TurtleTest, ContinuesALimbAfterABranch) {

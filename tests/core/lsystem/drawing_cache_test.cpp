@@ -1,4 +1,4 @@
-#include "core/generators/lsystem/stamping.h"
+#include "core/generators/lsystem/drawing_cache.h"
 
 #include <gtest/gtest.h>
 
@@ -33,8 +33,8 @@ Drawn drawn(const LsystemParams& params) {
   if constexpr (std::is_same_v<Sink, Drawing>) {
     FreeDerivation<Drawing>(grammar, steps, false, job, drawing).run();
   } else {
-    Stamping stamping(grammar, params, steps, drawing, {job});
-    FreeDerivation<Stamping>(grammar, steps, false, job, stamping).run();
+    DrawingCache cache(grammar, params, steps, drawing, {job});
+    FreeDerivation<DrawingCache>(grammar, steps, false, job, cache).run();
   }
   result.report = drawing.turtle().report();
   result.end = drawing.turtle().position();
@@ -43,11 +43,11 @@ Drawn drawn(const LsystemParams& params) {
 
 /// Expects the same joints in the same order, at the same positions except for rounding.
 void expect_same(const LsystemParams& params) {
-  const Drawn plain = drawn<Drawing>(params), stamped = drawn<Stamping>(params);
-  const Limbs &a = plain.skeleton.limbs, &b = stamped.skeleton.limbs;
+  const Drawn plain = drawn<Drawing>(params), copied = drawn<DrawingCache>(params);
+  const Limbs &a = plain.skeleton.limbs, &b = copied.skeleton.limbs;
   ASSERT_EQ(a.size(), b.size());
-  EXPECT_EQ(plain.report.segments, stamped.report.segments);
-  EXPECT_NEAR(plain.report.total_length, stamped.report.total_length, 1e-9 * plain.report.total_length);
+  EXPECT_EQ(plain.report.segments, copied.report.segments);
+  EXPECT_NEAR(plain.report.total_length, copied.report.total_length, 1e-9 * plain.report.total_length);
   EXPECT_TRUE(std::ranges::equal(a.parent, b.parent));
   EXPECT_TRUE(std::ranges::equal(a.color, b.color));
   EXPECT_TRUE(std::ranges::equal(a.radius, b.radius));
@@ -62,10 +62,10 @@ void expect_same(const LsystemParams& params) {
     }
   }
   EXPECT_LE(most, 2e-7 * size);
-  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(plain.end[axis], stamped.end[axis], 1e-9 * size);
+  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(plain.end[axis], copied.end[axis], 1e-9 * size);
 }
 
-TEST(Stamping, DrawsATreeAsTheTurtleDoes) {
+TEST(DrawingCache, DrawsATreeAsTheTurtleDoes) {
   LsystemParams params = grammar_of("FFA", {"A -> F[&&A][^^A]///A"}, 8);
   params.interpretation = {"A -> F"};
   expect_same(params);
@@ -73,7 +73,7 @@ TEST(Stamping, DrawsATreeAsTheTurtleDoes) {
   expect_same(params);
 }
 
-TEST(Stamping, KeepsColoursWidthsAndMoves) {
+TEST(DrawingCache, KeepsColoursWidthsAndMoves) {
   LsystemParams params = grammar_of("!F'X", {"X -> F(2)[!+'X]f[|-;X]gX"}, 7);
   params.width_decrement = 0.01;
   expect_same(params);
@@ -84,7 +84,7 @@ TEST(Stamping, KeepsColoursWidthsAndMoves) {
   expect_same(params);
 }
 
-TEST(Stamping, FollowsCurvesWithoutBranches) {
+TEST(DrawingCache, FollowsCurvesWithoutBranches) {
   LsystemParams params = grammar_of("FX", {"X -> X+YF+", "Y -> -FX-Y"}, 14);
   params.angle.yaw = 90;
   params.style = LsystemParams::Style::lines;
@@ -94,16 +94,16 @@ TEST(Stamping, FollowsCurvesWithoutBranches) {
   expect_same(params);
 }
 
-TEST(Stamping, TakesTheDecrementOfEachStep) {
+TEST(DrawingCache, TakesTheDecrementOfEachStep) {
   LsystemParams params = grammar_of("A", {"A -> F[+A][-A]FA"}, 9);
   params.width_rule = LsystemParams::WidthRule::decrement;
   params.width_decrement = 0.002;
   expect_same(params);
 }
 
-TEST(Stamping, IsUsedForBigPlainSystemsOnly) {
+TEST(DrawingCache, IsUsedForBigPlainSystemsOnly) {
   const auto fits = [](const LsystemParams& params) {
-    return Stamping::fits(compiled(params), params, static_cast<std::uint32_t>(params.iterations));
+    return DrawingCache::fits(compiled(params), params, static_cast<std::uint32_t>(params.iterations));
   };
   EXPECT_TRUE(fits(grammar_of("A", {"A -> F[+A][-A]FA"}, 12)));
   EXPECT_FALSE(fits(grammar_of("A", {"A -> F[+A][-A]FA"}, 6)));
@@ -116,19 +116,19 @@ TEST(Stamping, IsUsedForBigPlainSystemsOnly) {
   EXPECT_FALSE(fits(spread)) << "has random angles";
 }
 
-TEST(Stamping, RefusesTheSameAsTheTurtle) {
+TEST(DrawingCache, RefusesTheSameAsTheTurtle) {
   const LsystemParams params = grammar_of("A", {"A -> F[+A][-A]FA"}, 9);
   Job job = job_of(1);
   const Grammar grammar = compiled(params);
   Skeleton skeleton(job);
   Drawing drawing(grammar, params, &skeleton, {job});
   drawing.set_most_segments(5000);
-  Stamping stamping(grammar, params, 9, drawing, {job});
-  EXPECT_THROW((FreeDerivation<Stamping>(grammar, 9, false, job, stamping).run()), Stop);
+  DrawingCache cache(grammar, params, 9, drawing, {job});
+  EXPECT_THROW((FreeDerivation<DrawingCache>(grammar, 9, false, job, cache).run()), Stop);
   EXPECT_LE(drawing.turtle().report().segments, 5000U);
 }
 
-TEST(Stamping, SpendsTheModulesOfTheWord) {
+TEST(DrawingCache, SpendsTheModulesOfTheWord) {
   const LsystemParams params = grammar_of("A", {"A -> F[+A][-A]FA"}, 9);
   const Grammar grammar = compiled(params);
   const std::uint64_t modules = least_modules(grammar, 9);
@@ -138,8 +138,8 @@ TEST(Stamping, SpendsTheModulesOfTheWord) {
     Job job = job_of(1, limits);
     Skeleton skeleton(job);
     Drawing drawing(grammar, params, &skeleton, {job});
-    Stamping stamping(grammar, params, 9, drawing, {job});
-    FreeDerivation<Stamping> derivation(grammar, 9, false, job, stamping);
+    DrawingCache cache(grammar, params, 9, drawing, {job});
+    FreeDerivation<DrawingCache> derivation(grammar, 9, false, job, cache);
     if (allowed) {
       EXPECT_NO_THROW(derivation.run());
     } else {

@@ -1,4 +1,4 @@
-#include "core/generators/lsystem/stamping.h"
+#include "core/generators/lsystem/drawing_cache.h"
 
 #include <algorithm>
 
@@ -8,9 +8,9 @@ namespace seedmesh::lsystem {
 namespace {
 
 constexpr std::uint64_t worth_it = std::uint64_t{1} << 20U;  // smallest number of modules
-// A stamp has to fit into the processor cache, and drawing all of them has to be cheap.
-constexpr std::uint64_t least_of_stamp = 64, most_of_stamp = 8192;
-constexpr std::size_t most_stamps = 64;
+// A recording has to fit into the processor cache, and drawing all of them has to be cheap.
+constexpr std::uint64_t least_of_recording = 64, most_of_recording = 8192;
+constexpr std::size_t most_recordings = 64;
 constexpr std::size_t most_pieces = std::size_t{1} << 16U;  // number of kinds times number of steps
 
 /// Returns true where the symbol has the same effect after a rigid motion of the turtle, and affects only the
@@ -33,7 +33,7 @@ std::uint64_t sum(std::uint64_t a, std::uint64_t b) { return std::min(saturated,
 
 }  // namespace
 
-bool Stamping::fits(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps) {
+bool DrawingCache::fits(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps) {
   if (!grammar.is_free() || Drawing::needs_keys(grammar, params)) return false;
   if ((std::size_t{steps} + 1) * grammar.kinds.size() > most_pieces) return false;
   const std::vector<std::uint64_t> counts = exact_counts(grammar, steps);
@@ -50,8 +50,8 @@ bool Stamping::fits(const Grammar& grammar, const LsystemParams& params, std::ui
                      [&](const Kind& kind) { return moves_along(grammar, kind.command); });
 }
 
-Stamping::Stamping(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps, Drawing& drawing,
-                   const GenerateContext& context)
+DrawingCache::DrawingCache(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps,
+                           Drawing& drawing, const GenerateContext& context)
     : grammar_(grammar),
       params_(params),
       steps_(steps),
@@ -64,7 +64,7 @@ Stamping::Stamping(const Grammar& grammar, const LsystemParams& params, std::uin
 }
 
 /// Counts the modules of each symbol after each number of steps.
-void Stamping::count() {
+void DrawingCache::count() {
   const Rules& rules = grammar_.productions;
   for (std::uint32_t steps = 1; steps <= steps_; ++steps) {
     for (std::size_t i = 0; i < grammar_.kinds.size(); ++i) {
@@ -78,31 +78,31 @@ void Stamping::count() {
   }
 }
 
-bool Stamping::takes(KindId kind, std::uint32_t step) {
+bool DrawingCache::takes(KindId kind, std::uint32_t step) {
   Piece& here = piece(kind, steps_ - step);
-  if (here.modules < least_of_stamp || here.modules > most_of_stamp) return false;
+  if (here.modules < least_of_recording || here.modules > most_of_recording) return false;
   meter_.spend(here.modules);
-  for (const std::unique_ptr<Turtle::Stamp>& stamp : here.stamps) {
-    if (!drawing_.matches(*stamp)) continue;
-    drawing_.press(*stamp);
+  for (const std::unique_ptr<Turtle::Recording>& recording : here.recordings) {
+    if (!drawing_.matches(*recording)) continue;
+    drawing_.append_copy(*recording);
     return true;
   }
-  if (stamps_ == most_stamps) {
+  if (recordings_ == most_recordings) {
     FreeDerivation<Drawing>(grammar_, steps_, false, job_, drawing_).run(kind, step);
   } else {
-    drawing_.press(draw(kind, step, here));
+    drawing_.append_copy(draw(kind, step, here));
   }
   return true;
 }
 
-const Turtle::Stamp& Stamping::draw(KindId kind, std::uint32_t step, Piece& piece) {
-  ++stamps_;
-  Turtle::Stamp& stamp = *piece.stamps.emplace_back(std::make_unique<Turtle::Stamp>(job_));
-  Drawing own(grammar_, params_, &stamp.skeleton, context_);
-  own.begin_stamp(drawing_, stamp);
+const Turtle::Recording& DrawingCache::draw(KindId kind, std::uint32_t step, Piece& piece) {
+  ++recordings_;
+  Turtle::Recording& recording = *piece.recordings.emplace_back(std::make_unique<Turtle::Recording>(job_));
+  Drawing own(grammar_, params_, &recording.skeleton, context_);
+  own.begin_recording(drawing_, recording);
   FreeDerivation<Drawing>(grammar_, steps_, false, job_, own).run(kind, step);
-  own.end_stamp(stamp);
-  return stamp;
+  own.end_recording(recording);
+  return recording;
 }
 
 }  // namespace seedmesh::lsystem
