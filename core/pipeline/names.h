@@ -13,7 +13,7 @@ namespace seedmesh {
 /// - `output.name`, unless it is the name of a preset of the same generator;
 /// - the name of a preset, with the seed where only that differs, or with a hash where more differs;
 /// - the generator and a hash, where there is no `output.name`.
-std::string model_name(const Request::Body& body, const Limits& limits);
+std::string model_name(const Request::Body& body);
 
 /// The first part of the names of meshes, materials and images: the same for all seeds.
 std::string name_stem(const Request::Body& body);

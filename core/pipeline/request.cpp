@@ -6,6 +6,7 @@
 
 #include "core/generators/child.h"
 #include "core/pipeline/body.h"
+#include "core/pipeline/guarded.h"
 #include "core/pipeline/names.h"
 #include "core/pipeline/profiles.h"
 #include "core/schema/nearest.h"
@@ -35,13 +36,13 @@ const Generator* named_generator(const Json& json, const RequestParams& frame, I
   return generator;
 }
 
-Generator::Params parameters_of(const Json& body, const Generator& generator, const Limits& limits,
+Generator::Params parameters_of(const Json& body, const Generator& generator, const Job& job,
                                 IssueList& errors) {
   if (body.contains("parameters"))
-    return read_parameters(generator, body["parameters"], "/parameters", {limits, generators()}, errors);
+    return read_parameters(generator, body["parameters"], "/parameters", {job, generators()}, errors);
   IssueList missing;
   Generator::Params params =
-      read_parameters(generator, Json::object(), "/parameters", {limits, generators()}, missing);
+      read_parameters(generator, Json::object(), "/parameters", {job, generators()}, missing);
   for (const Issue& issue : missing.issues()) {
     // The object itself is missing, not one of its members.
     errors.add_missing("", "parameters", "\"parameters\" is missing: in it, " + issue.message);
@@ -62,9 +63,9 @@ std::string preset_of_another(const Json& json) {
 /// The parameters of a body that was merged over a preset of another generator. One error covers all
 /// parameters of the other generator.
 Generator::Params mixed_parameters(const Json& merged, const std::string& other, const Generator& generator,
-                                   const Limits& limits, IssueList& errors) {
+                                   const Job& job, IssueList& errors) {
   IssueList foreign;
-  Generator::Params params = parameters_of(merged, generator, limits, foreign);
+  Generator::Params params = parameters_of(merged, generator, job, foreign);
   if (!foreign.empty()) {
     const std::string name(generator.name);
     errors.add({IssueKind::conflict, "/generator",
@@ -268,7 +269,7 @@ std::string canonical_request(const Request::Body& body) {
   return canonical_text(json);
 }
 
-Result<Request::Body> read_parts(const Json& json, const Limits& limits) {
+Result<Request::Body> read_parts(const Json& json, const Job& job) {
   if (const std::string_view type = schema::geojson_type(json);
       !type.empty() && !json.contains("generator")) {
     return Error{
@@ -290,8 +291,8 @@ Result<Request::Body> read_parts(const Json& json, const Limits& limits) {
   body.generator = named_generator(merged, frame, errors);
   if (body.generator && (!merged.contains("parameters") || merged["parameters"].is_object())) {
     const std::string other = preset_of_another(json);
-    body.params = other.empty() ? parameters_of(merged, *body.generator, limits, errors)
-                                : mixed_parameters(merged, other, *body.generator, limits, errors);
+    body.params = other.empty() ? parameters_of(merged, *body.generator, job, errors)
+                                : mixed_parameters(merged, other, *body.generator, job, errors);
   }
   if (body.generator) {
     check_format(*body.generator, frame.output, errors);
@@ -303,22 +304,35 @@ Result<Request::Body> read_parts(const Json& json, const Limits& limits) {
   return body;
 }
 
-Result<Request> read_request_body(const Json& json, const Limits& limits) {
-  Result<Request::Body> body = read_parts(json, limits);
+static Result<Request> read_checked(const Json& json, const Job& job) {
+  Result<Request::Body> body = read_parts(json, job);
   if (!body) return std::move(body).error();
   body->canonical = canonical_request(*body);
-  body->name = model_name(*body, limits);
+  body->name = model_name(*body);
   return Request(std::make_shared<const Request::Body>(*std::move(body)));
 }
 
+Result<Request> read_request_body(const Json& json, const Job::Options& options) {
+  return guarded<Request>([&] { return read_checked(json, Job(0, options)); });
+}
+
+Result<Request> read_request(std::string_view json, const Job::Options& options) {
+  return guarded<Request>([&]() -> Result<Request> {
+    const Job job(0, options);
+    std::vector<Issue> issues;
+    Result<Json> body = parse_body(json, issues, {.job = &job});
+    if (!body) return std::move(body).error();
+    Result<Request> request = read_checked(*body, job);
+    if (issues.empty()) return request;
+    if (!request) add_others(request.error().issues, issues);
+    return Error{Code::invalid, std::move(issues)};
+  });
+}
+
 Result<Request> read_request(std::string_view json, const Limits& limits) {
-  std::vector<Issue> issues;
-  Result<Json> body = parse_body(json, issues);
-  if (!body) return std::move(body).error();
-  Result<Request> request = read_request_body(*body, limits);
-  if (issues.empty()) return request;
-  if (!request) add_others(request.error().issues, issues);
-  return Error{Code::invalid, std::move(issues)};
+  Job::Options options;
+  options.limits = limits;
+  return read_request(json, options);
 }
 
 Result<Request> with_format(const Request& request, std::string_view format) {
