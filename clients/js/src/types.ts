@@ -1998,7 +1998,7 @@ export interface BuildingDerivationShapesItem {
   id: number;
   parent: number | null;
   symbol: string;
-  parameters: unknown[];
+  parameters: (number | string | boolean | unknown[])[];
   /** Part of the result. */
   active: boolean;
   /** The first line of the rule that replaced the shape; shapes that no rule replaced have none. */

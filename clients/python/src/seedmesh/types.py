@@ -1214,7 +1214,7 @@ class _BuildingDerivationShapesItemRequired(TypedDict):
     id: int
     parent: Union[int, None]
     symbol: str
-    parameters: List[Any]
+    parameters: List[Union[float, str, bool, List[Any]]]
     active: bool
     scope: "BuildingDerivationShapesItemScope"
 
