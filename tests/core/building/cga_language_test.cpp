@@ -182,6 +182,15 @@ TEST(CgaLanguage, ComparesEachValueOfAnArray) {
   EXPECT_EQ(reported("nRows([1, 2; 3, 4; 5, 6][[0, 2], [1, 0]])"), 2);
 }
 
+TEST(CgaLanguage, SplitsALotWithoutTextureCoordinatesAlongItsAxes) {
+  const std::string rules =
+      "Lot --> split(v, unitSpace, 0){ 2 : A. | ~1 : split(u, unitSpace, 0){ 3 : B. | ~1 : C. } }";
+  const Json answer = derived(with(rules, {10, 0, 8}));
+  EXPECT_EQ(active(answer), "A B C");
+  EXPECT_THAT(sizes(answer, 0), ElementsAre(10, 3, 7));
+  EXPECT_THAT(sizes(answer, 2), ElementsAre(2, 6, 6));
+}
+
 TEST(CgaLanguage, WarnsWhereAStepOfARuleFileCannotBeDone) {
   const std::string rules = "Lot --> primitiveCube(4, 5, 6) offset(0.5, border) A.";
   EXPECT_THROW(derived(with(rules)), Stop);
