@@ -105,6 +105,14 @@ Clock::time_point deadline_of(const Call& call) {
                                     std::chrono::duration<double>(call.service.config.time_limit));
 }
 
+Job::Options options_without_worker(const Call& call) {
+  Job::Options options;
+  options.limits = call.service.config.limits;
+  options.stop = call.request.gone();
+  options.deadline = deadline_of(call);
+  return options;
+}
+
 std::optional<Problem> with_worker(const Call& call, const std::stop_token& stop,
                                    const std::function<void(Job::Options)>& work) {
   Service& service = call.service;

@@ -24,7 +24,7 @@ inline WantedFormat wanted_format(const OutputParams& output) {
 /// none.
 std::string_view part_with(std::string_view member, std::string_view generator);
 
-/// Reads a request from parsed JSON. Code::invalid holds all errors.
-Result<Request> read_request_body(const Json& json, const Limits& limits);
+/// Reads a request from parsed JSON within the limits, stop and deadline of `options`. Code::invalid holds all errors.
+Result<Request> read_request_body(const Json& json, const Job::Options& options);
 
 }  // namespace seedmesh

@@ -6,6 +6,7 @@
 
 #include "core/generators/child.h"
 #include "core/pipeline/body.h"
+#include "core/pipeline/guarded.h"
 #include "core/pipeline/profiles.h"
 #include "core/schema/nearest.h"
 #include "core/schema/parse_body.h"
@@ -45,13 +46,13 @@ const Generator* named_generator(const Json& json, const RequestParams& frame, I
   return generator;
 }
 
-Generator::Params parameters_of(const Json& body, const Generator& generator, const Limits& limits,
+Generator::Params parameters_of(const Json& body, const Generator& generator, const Job& job,
                                 IssueList& errors) {
   if (body.contains("parameters"))
-    return read_parameters(generator, body["parameters"], "/parameters", {limits, generators()}, errors);
+    return read_parameters(generator, body["parameters"], "/parameters", {job, generators()}, errors);
   IssueList missing;
   Generator::Params params =
-      read_parameters(generator, Json::object(), "/parameters", {limits, generators()}, missing);
+      read_parameters(generator, Json::object(), "/parameters", {job, generators()}, missing);
   for (const Issue& issue : missing.issues()) {
     // The object itself is missing, not one of its members.
     errors.add_missing("", "parameters", "\"parameters\" is missing: in it, " + issue.message);
@@ -72,9 +73,9 @@ std::string preset_of_another(const Json& json) {
 /// The parameters of a body that was merged over a preset of another generator. One error covers all
 /// parameters of the other generator.
 Generator::Params mixed_parameters(const Json& merged, const std::string& other, const Generator& generator,
-                                   const Limits& limits, IssueList& errors) {
+                                   const Job& job, IssueList& errors) {
   IssueList foreign;
-  Generator::Params params = parameters_of(merged, generator, limits, foreign);
+  Generator::Params params = parameters_of(merged, generator, job, foreign);
   if (!foreign.empty()) {
     const std::string name(generator.name);
     errors.add({IssueKind::conflict, "/generator",
@@ -266,7 +267,7 @@ std::string_view Request::format() const { return text_of(body_->output.format);
 const std::string& Request::canonical() const { return body_->canonical; }
 std::uint64_t Request::seed() const { return body_->seed; }
 
-Result<Request> read_request_body(const Json& json, const Limits& limits) {
+static Result<Request> read_checked(const Json& json, const Job& job) {
   if (const std::string_view type = schema::geojson_type(json);
       !type.empty() && !json.contains("generator")) {
     return Error{
@@ -288,8 +289,8 @@ Result<Request> read_request_body(const Json& json, const Limits& limits) {
   body.generator = named_generator(merged, frame, errors);
   if (body.generator && (!merged.contains("parameters") || merged["parameters"].is_object())) {
     const std::string other = preset_of_another(json);
-    body.params = other.empty() ? parameters_of(merged, *body.generator, limits, errors)
-                                : mixed_parameters(merged, other, *body.generator, limits, errors);
+    body.params = other.empty() ? parameters_of(merged, *body.generator, job, errors)
+                                : mixed_parameters(merged, other, *body.generator, job, errors);
   }
   if (body.generator) {
     check_format(*body.generator, frame.output, errors);
@@ -302,14 +303,27 @@ Result<Request> read_request_body(const Json& json, const Limits& limits) {
   return Request(std::make_shared<const Request::Body>(std::move(body)));
 }
 
+Result<Request> read_request_body(const Json& json, const Job::Options& options) {
+  return guarded<Request>([&] { return read_checked(json, Job(0, options)); });
+}
+
+Result<Request> read_request(std::string_view json, const Job::Options& options) {
+  return guarded<Request>([&]() -> Result<Request> {
+    const Job job(0, options);
+    std::vector<Issue> issues;
+    Result<Json> body = parse_body(json, issues, {.job = &job});
+    if (!body) return std::move(body).error();
+    Result<Request> request = read_checked(*body, job);
+    if (issues.empty()) return request;
+    if (!request) add_others(request.error().issues, issues);
+    return Error{Code::invalid, std::move(issues)};
+  });
+}
+
 Result<Request> read_request(std::string_view json, const Limits& limits) {
-  std::vector<Issue> issues;
-  Result<Json> body = parse_body(json, issues);
-  if (!body) return std::move(body).error();
-  Result<Request> request = read_request_body(*body, limits);
-  if (issues.empty()) return request;
-  if (!request) add_others(request.error().issues, issues);
-  return Error{Code::invalid, std::move(issues)};
+  Job::Options options;
+  options.limits = limits;
+  return read_request(json, options);
 }
 
 Result<Request> with_format(const Request& request, std::string_view format) {

@@ -75,6 +75,9 @@ test('levels, impostors, collision bodies and GPU instances are requested for fi
   });
   assert.equal(await page.textContent('#alert'), '');
   assert.deepEqual(bodies.at(-1).output, { variants: 2, format: 'glb' });
-  await open_parameters(page);
-  await page.waitForFunction(() => document.querySelector('[data-pointer="/output/collision"] .issue')?.hidden === false);
+  const fractal = { generator: 'fractal', parameters: {}, output: { collision: 'plain' } };
+  const other = await open(browser, `${server.url}/${fragment_of(fractal)}`);
+  await open_parameters(other);
+  await other.waitForFunction(() => document.querySelector('[data-pointer="/output/collision"] .issue')?.hidden === false);
+  assert.match(await field(other, '/output/collision').locator('.issue').textContent(), /fractal makes no collision/);
 });

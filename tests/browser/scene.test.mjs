@@ -142,7 +142,7 @@ test('a position added from the gallery tab is confirmed, and outside the ground
   assert.equal((await sends(() => canvas.click({ button: 'right', position: { x: 200, y: 215 } }))).flat().length, 4);
   await page.waitForFunction(() => /^Planted at -?[\d.]+, -?[\d.]+ m/.test(document.getElementById('status').textContent));
   await canvas.click({ button: 'right', position: { x: 30, y: 280 } });
-  await page.waitForFunction(() => document.getElementById('status').textContent.includes('no ground at this place'));
+  await page.waitForFunction(() => document.getElementById('status').textContent.includes('no ground at this position'));
 });
 
 test('a tap adds a position, and a long press does so without the switch', { timeout: 300_000 }, async () => {

@@ -206,7 +206,7 @@ test('a file of another program is imported, and an unknown format is explained'
   assert.ok(await page.isHidden('#import-dialog'));
   assert.equal(await page.textContent('#title'), 'Koch2');
   await drop(page, 'photo.png', '\u0089PNG\0\0', 'image/png');
-  await page.waitForFunction(() => document.getElementById('alert').textContent.includes('photo.png is a picture'));
+  await page.waitForFunction(() => document.getElementById('alert').textContent.includes('photo.png is an image'));
   await drop(page, 'letter.txt', 'Dear all,\nthis is a letter.\n');
   await page.waitForSelector('#import-dialog[open]');
   assert.match(await page.textContent('#import-dialog'), /Line \d+, column 1/);
@@ -215,7 +215,7 @@ test('a file of another program is imported, and an unknown format is explained'
 
 test('the first visit shows a one-line hint, later visits do not', { timeout: 200_000 }, async () => {
   const page = await open(browser, server.url);
-  assert.match(await page.textContent('#hint'), /Choose a model/);
+  assert.match(await page.textContent('#hint'), /Select a model/);
   assert.ok(await page.isVisible('#hint'));
   await page.click('#hint-away');
   assert.ok(await page.isHidden('#hint'));

@@ -10,6 +10,7 @@ import { program, run, serve } from '../http/support.mjs';
 const root = path.resolve(import.meta.dirname, '../..');
 const read = (file) => fs.readFileSync(path.join(root, file), 'utf8');
 const pages = ['README.md', 'CONTRIBUTING.md', 'deploy/README.md',
+  ...fs.readdirSync(path.join(root, 'clients')).map((name) => `clients/${name}/README.md`).filter((file) => fs.existsSync(path.join(root, file))),
   ...fs.readdirSync(path.join(root, 'docs'), { recursive: true }).filter((file) => file.endsWith('.md')).map((file) => `docs/${file}`)].sort();
 
 // Pages whose blocks another test compares with the code.
@@ -17,6 +18,7 @@ const covered_elsewhere = { 'docs/add-a-generator.md': 'tests/lint/generator_pag
 
 // Commands that are not run here. Each pattern stands for whole lines of a block.
 const not_run = [
+  { line: /^python3 -m pip install /, reason: 'tests/clients/python.test.mjs installs the built wheel into an environment of its own' },
   { line: /^\.\/dev \w+/, reason: 'tasks of ./dev take minutes; below, each is only looked up in the list of tasks' },
   { line: /^docker (build|run) /, reason: 'deploy/smoke.sh runs the image with the same options; this machine may have no container engine' },
 ];
@@ -29,6 +31,7 @@ const replaced = [
   [/SEEDMESH_SIGNING_KEYS=…/g, () => `SEEDMESH_SIGNING_KEYS=2026a:${'5a'.repeat(32)}`],
 ];
 const given_files = {
+  'assets/oak.seedmesh': '{"preset": "oak", "seed": 7}\n',
   'request.json': '{"preset": "abop_1_24f", "seed": 7}\n',
   '.curlrc': 'fail-with-body\nsilent\nshow-error\n',  // an answer that is an error ends curl with a status
   'town.osm': '<osm version="0.6"><node id="1" lat="46" lon="14.5"/><node id="2" lat="46" lon="14.5002"/><node id="3" lat="46.0001" lon="14.5002"/><node id="4" lat="46.0001" lon="14.5"/><way id="5"><nd ref="1"/><nd ref="2"/><nd ref="3"/><nd ref="4"/><nd ref="1"/><tag k="building" v="yes"/></way></osm>\n',
@@ -53,6 +56,7 @@ before(async () => {
   server = await serve(program);
   fs.mkdirSync(path.join(folder, 'bin'));
   fs.symlinkSync(program, path.join(folder, 'bin', 'seedmesh'));
+  fs.mkdirSync(path.join(folder, 'assets'));
   for (const [name, text] of Object.entries(given_files)) fs.writeFileSync(path.join(folder, name), text);
 });
 after(async () => {
@@ -83,7 +87,7 @@ function environment() {
   return {
     PATH: `${path.join(folder, 'bin')}:${process.env.PATH}`,
     SEEDMESH_URL: server.url,
-    PYTHONPATH: path.join(root, 'docs/examples'),
+    PYTHONPATH: path.join(root, 'clients/python/src'),
     PYTHONDONTWRITEBYTECODE: '1',
     CURL_HOME: folder,
     hex: '5a'.repeat(32),

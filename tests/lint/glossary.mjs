@@ -7,7 +7,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 
 const root = process.argv[2] ?? '.';
-const checked = /^(core|server|api_schema|tests|docs|deploy|web_client\/(src|tests)|\.ci)\/.*\.(h|cpp|md|mjs|ts|js|json|sh|txt|css|html)$|^(README|CONTRIBUTING|CHANGELOG)\.md$|^dev$|CMakeLists\.txt$/;
+const checked = /^(core|server|api_schema|tests|docs|deploy|clients|web_client\/(src|tests)|\.ci)\/.*\.(h|cpp|md|mjs|ts|js|json|sh|txt|css|html|py|gd|cs|cmake|toml|yml)$|^(README|CONTRIBUTING|CHANGELOG)\.md$|^dev$|CMakeLists\.txt$/;
 // The table itself, texts that are not ours, and stored bytes.
 const unchecked = /^(docs\/style\.md|tests\/lint\/glossary|tests\/corpus\/|tests\/fuzz\/seeds\/|tests\/golden\/engine-|LICENSE)|package-lock\.json$/;
 

@@ -6,7 +6,7 @@ import { join, relative } from 'node:path';
 import { argv, exit } from 'node:process';
 
 const root = argv[2] ?? '.';
-const folders = ['core', 'server', 'api_schema', 'web_client/src'];
+const folders = ['core', 'server', 'api_schema', 'web_client/src', 'clients'];
 const searches = 'find|rfind|find_first_of|contains|starts_with|ends_with|compare|substr|includes|startsWith|endsWith|indexOf|match|search|slice|split';
 const message = String.raw`(?:[\w\])>]\??(?:\.|->)message|\bmessage|\bwhat\(\))`;
 const patterns = [
@@ -19,8 +19,8 @@ const patterns = [
 function* files(folder) {
   for (const entry of readdirSync(folder, { withFileTypes: true })) {
     const path = join(folder, entry.name);
-    if (entry.isDirectory()) yield* files(path);
-    else if (/\.(cpp|h|ts)$/.test(entry.name)) yield path;
+    if (entry.isDirectory() && entry.name !== 'node_modules') yield* files(path);
+    else if (/\.(cpp|h|ts|py)$/.test(entry.name)) yield path;
   }
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// Refuses sentences of more than 25 words in README.md, CONTRIBUTING.md and docs/. Code blocks, tables and inline code are not counted:
+// Refuses sentences of more than 25 words in README.md, CONTRIBUTING.md, docs/ and the pages of clients/. Code blocks, tables and inline code are not counted:
 // they contain lists and names. A sentence ends at . ! ? : or ; and white space.
 //   sentences.mjs [root]
 import fs from 'node:fs';
@@ -32,6 +32,7 @@ const sentences_of = (text) => text
 const words_in = (sentence) => sentence.split(/\s+/).filter((word) => /[\p{L}\p{N}]/u.test(word)).length;
 
 const pages = ['README.md', 'CONTRIBUTING.md',
+  ...fs.readdirSync(path.join(root, 'clients')).map((name) => `clients/${name}/README.md`).filter((file) => fs.existsSync(path.join(root, file))),
   ...fs.readdirSync(path.join(root, 'docs'), { recursive: true }).filter((file) => file.endsWith('.md')).map((file) => `docs/${file}`)];
 let failed = 0, sentences = 0;
 for (const page of pages) {

@@ -81,7 +81,7 @@ std::string_view Request::format() const { return body_->format; }
 const std::string& Request::canonical() const { return body_->canonical; }
 std::uint64_t Request::seed() const { return body_->seed; }
 
-Result<Request> read_request(std::string_view json, const Limits&) {
+Result<Request> read_request(std::string_view json, const Job::Options&) {
   const Json object = Json::parse(json, nullptr, false);
   if (object.is_discarded())
     return Error{Code::malformed, {{IssueKind::syntax, "", "The body is not JSON."}}};
@@ -105,7 +105,9 @@ std::optional<Result<Request>> read_preset(std::string_view name, const Override
       return Result<Request>(invalid("/" + key, "There is no such parameter."));
     }
   }
-  return read_request(object.dump(), limits);
+  Job::Options options;
+  options.limits = limits;
+  return read_request(object.dump(), options);
 }
 
 Result<Request> with_format(const Request& request, std::string_view format) {

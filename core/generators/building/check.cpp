@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/generators/building/blueprints/blueprints.h"
+#include "core/generators/building/check_grammar.h"
 #include "core/generators/building/footprint.h"
 #include "core/generators/building/materials.h"
 #include "core/generators/building/restricted_grammar.h"
@@ -112,6 +113,22 @@ void warn_of_materials(Grammar& grammar, const BuildingParams& params, const Rul
   }
 }
 
+/// Adds what a parameter at `pointer` refuses in the rules. The rules of a blueprint are not in the request, so their first
+/// error is reported at the parameter.
+void add_refused(const BuildingParams& params, const RuleText& rules, const char* pointer,
+                 const std::vector<lang::TextError>& errors, std::vector<Issue>& issues) {
+  for (const lang::TextError& error : errors) {
+    if (params.rules) {
+      issues.push_back(issue_at(error.kind, rules, error.offset, error.message));
+      continue;
+    }
+    issues.push_back({IssueKind::invalid_value, pointer,
+                      "the rules of the blueprint are not of this kind: " + error.message + " (line " +
+                          std::to_string(text_position(rules.text, error.offset).line) + " of them)"});
+    return;
+  }
+}
+
 /// Reads the rules and adds the issues of rules, start and attributes.
 Grammar read(const BuildingParams& params, std::vector<Issue>& issues) {
   std::vector<lang::TextError> faults;
@@ -129,19 +146,11 @@ Grammar read(const BuildingParams& params, std::vector<Issue>& issues) {
     std::vector<lang::TextError> all = faults;
     lang::add_issues("/rules", rules.text, all, issues);
   }
-  if (faults.empty() && params.restrict != BuildingRestrict::none) {
-    for (const lang::TextError& fault :
-         errors_of_restriction(grammar, params.restrict == BuildingRestrict::unimarker)) {
-      if (params.rules) {
-        issues.push_back(issue_at(fault.kind, rules, fault.offset, fault.message));
-        continue;
-      }
-      issues.push_back({IssueKind::invalid_value, "/restrict",
-                        "the rules of the blueprint are not of this kind: " + fault.message + " (line " +
-                            std::to_string(text_position(rules.text, fault.offset).line) + " of them)"});
-      break;
-    }
-  }
+  if (faults.empty() && params.restrict != BuildingRestrict::none)
+    add_refused(params, rules, "/restrict",
+                errors_of_restriction(grammar, params.restrict == BuildingRestrict::unimarker), issues);
+  if (faults.empty() && params.weights == BuildingWeights::strict)
+    add_refused(params, rules, "/weights", errors_of_weights(grammar), issues);
   if (faults.empty() && params.rules) warn_of_materials(grammar, params, rules);
   if (faults.empty() && grammar.start == none) {
     issues.push_back({IssueKind::unknown_name, "/start",
@@ -244,7 +253,7 @@ std::optional<Warning> nothing_drawn(const Shapes& shapes) {
                  0, 0};
 }
 
-std::vector<Issue> check_all(const BuildingParams& params, const Limits& limits, Grammar& grammar,
+std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds, Grammar& grammar,
                              PictureGrammar& pictures) {
   std::vector<Issue> issues;
   if (params.shape_grammar) {
@@ -257,7 +266,7 @@ std::vector<Issue> check_all(const BuildingParams& params, const Limits& limits,
     grammar = read(params, issues);
   }
   if (!params.footprint.empty()) {
-    const std::vector<Issue> more = check_footprint(params.footprint);
+    const std::vector<Issue> more = check_footprint(params.footprint, bounds.job);
     issues.insert(issues.end(), more.begin(), more.end());
   } else if (dimension({params.size[0], params.size[1], params.size[2]}) < 2) {
     issues.push_back(
@@ -266,8 +275,8 @@ std::vector<Issue> check_all(const BuildingParams& params, const Limits& limits,
     issues.push_back({IssueKind::out_of_range, "/size",
                       "a blueprint stands on the ground: expected sizes above 0 in x and z"});
   }
-  if (params.iterations && static_cast<std::uint32_t>(*params.iterations) > limits.iterations) {
-    issues.push_back(iterations_issue(static_cast<std::uint64_t>(*params.iterations), limits));
+  if (params.iterations && static_cast<std::uint32_t>(*params.iterations) > bounds.limits.iterations) {
+    issues.push_back(iterations_issue(static_cast<std::uint64_t>(*params.iterations), bounds.limits));
   }
   for (const auto& [name, asset] : params.assets) {
     if (asset.model.has_value() == asset.glb.has_value())

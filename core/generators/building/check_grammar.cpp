@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/schema/json.h"
+
 namespace seedmesh::building {
 namespace {
 
@@ -43,30 +45,42 @@ void warn_of_unreachable(Parser& p, const Symbol& symbol) {
   }
 }
 
-void check_weights(Parser& p) {
-  for (const Symbol& symbol : p.grammar.symbols) {
-    double sum = 0;
-    bool is_known = true, has_weight = false, has_rest = false;
-    for (const std::uint32_t index : symbol.rules) {
-      const Rule& rule = p.grammar.rules[index];
-      const Body& body = p.grammar.bodies[rule.body];
-      for (std::uint32_t b = 0; b < body.branch_count; ++b) {
-        const Branch& branch = p.grammar.branches[body.first_branch + b];
-        is_known &= !branch.condition.is_given &&
-                    rule.parameter_count == p.grammar.rules[symbol.rules[0]].parameter_count;
-        for (std::uint32_t c = 0; c < branch.choice_count; ++c) {
-          const Value& weight = p.grammar.choices[branch.first_choice + c].weight;
-          has_rest |= !weight.is_given;
-          has_weight |= weight.is_given;
-          is_known &= !weight.is_given || weight.expression.is_constant;
-          if (weight.is_given) sum += weight.expression.value;
-        }
+struct WeightSum {
+  double sum = 0;
+  bool is_known = true;  ///< all weights are constants, and no condition selects among them
+  bool has_weight = false;
+  bool has_rest = false;  ///< one choice has no weight, as else
+};
+
+WeightSum sum_of_weights(const Grammar& grammar, const Symbol& symbol) {
+  WeightSum made;
+  for (const std::uint32_t index : symbol.rules) {
+    const Rule& rule = grammar.rules[index];
+    const Body& body = grammar.bodies[rule.body];
+    for (std::uint32_t b = 0; b < body.branch_count; ++b) {
+      const Branch& branch = grammar.branches[body.first_branch + b];
+      made.is_known &= !branch.condition.is_given &&
+                       rule.parameter_count == grammar.rules[symbol.rules[0]].parameter_count;
+      for (std::uint32_t c = 0; c < branch.choice_count; ++c) {
+        const Value& weight = grammar.choices[branch.first_choice + c].weight;
+        made.has_rest |= !weight.is_given;
+        made.has_weight |= weight.is_given;
+        made.is_known &= !weight.is_given || weight.expression.is_constant;
+        if (weight.is_given) made.sum += weight.expression.value;
       }
     }
-    if (has_weight && is_known && !has_rest && std::abs(sum - 1) > 1e-9)
+  }
+  return made;
+}
+
+void check_weights(Parser& p) {
+  for (const Symbol& symbol : p.grammar.symbols) {
+    const WeightSum made = sum_of_weights(p.grammar, symbol);
+    if (!made.has_weight || !made.is_known) continue;
+    if (!made.has_rest && std::abs(made.sum - 1) > 1e-9)
       add_warning(p, p.grammar.rules[symbol.rules[0]].offset,
                   "the weights of `" + symbol.name + "` do not sum to 1; they count as shares of their sum");
-    if (has_weight && is_known && has_rest && sum > 1 + 1e-9)
+    if (made.has_rest && made.sum > 1 + 1e-9)
       add_warning(p, p.grammar.rules[symbol.rules[0]].offset,
                   "the weights of `" + symbol.name + "` sum to more than 1, so that else is never chosen");
   }
@@ -157,6 +171,23 @@ void check_grammar(Parser& p, std::string_view start) {
       symbol.first_use = none;
     }
   }
+}
+
+std::vector<lang::TextError> errors_of_weights(const Grammar& grammar) {
+  std::vector<lang::TextError> errors;
+  for (const Symbol& symbol : grammar.symbols) {
+    const WeightSum made = sum_of_weights(grammar, symbol);
+    if (!made.has_weight || !made.is_known) continue;
+    if (made.has_rest ? made.sum <= 1 + 1e-9 : std::abs(made.sum - 1) <= 1e-9) continue;
+    lang::TextError error;
+    error.kind = IssueKind::invalid_value;
+    error.offset = grammar.rules[symbol.rules[0]].offset;
+    error.message = "the weights of `" + symbol.name + "` sum to " +
+                    number_text(std::round(made.sum * 1e9) / 1e9) + ", expected " +
+                    (made.has_rest ? "at most 1" : "1") + " because `weights` is strict";
+    errors.push_back(std::move(error));
+  }
+  return errors;
 }
 
 }  // namespace seedmesh::building

@@ -105,7 +105,7 @@ Route given_route_of(const Region& region, const std::vector<GivenLine>& lines) 
 }
 
 std::optional<Error> refusal(const CityParams& params, const GenerateContext& context) {
-  std::vector<Issue> issues = check(params, {context.job.limits(), context.generators});
+  std::vector<Issue> issues = check(params, {context.job, context.generators});
   if (issues.empty()) return std::nullopt;
   return Error{Code::invalid, std::move(issues)};
 }

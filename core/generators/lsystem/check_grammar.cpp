@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/generators/lsystem/compiler.h"
+#include "core/schema/json.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -155,7 +156,7 @@ void Compiler::check_word(Source& source, Slice slice) const {
   }
 }
 
-/// Probabilities are weights. A sum other than 1 is usually a mistake and is reported.
+/// Probabilities are weights. A sum other than 1 is usually a mistake: a warning, or an error where the weights are strict.
 void Compiler::warn_of_weights(const Rules& rules) {
   for (const Range& range : rules.of_kind) {
     double sum = 0;
@@ -170,10 +171,18 @@ void Compiler::warn_of_weights(const Rules& rules) {
     }
     if (!first || !known || std::abs(sum - 1) <= 1e-6) continue;
     if (!warned_.insert(first->pointer + ":").second) continue;
-    warn({first->pointer,
-          "the probabilities of the productions of `" + grammar_.kinds[first->predecessor].symbol +
-              "` do not sum to 1; they are used as weights",
-          0, 0});
+    const std::string& symbol = grammar_.kinds[first->predecessor].symbol;
+    if (params_.weights == LsystemParams::Weights::strict) {
+      issues_.push_back({IssueKind::invalid_value, first->pointer,
+                         "the probabilities of the productions of `" + symbol + "` sum to " +
+                             number_text(std::round(sum * 1e9) / 1e9) +
+                             ", expected 1 because `weights` is strict"});
+      continue;
+    }
+    warn(
+        {first->pointer,
+         "the probabilities of the productions of `" + symbol + "` do not sum to 1; they are used as weights",
+         0, 0});
   }
 }
 

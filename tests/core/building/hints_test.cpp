@@ -47,6 +47,16 @@ BuildingParams house() {
   return params;
 }
 
+TEST(StrictWeights, RefuseSumsOtherThanOneAtTheirRule) {
+  BuildingParams params = with("A --> 30%: B. else: C.  D ~> B. : 0.5  D ~> C. : 0.25");
+  params.weights = BuildingWeights::strict;
+  EXPECT_THAT(error_of(params), HasSubstr("/rules 1:25 the weights of `D` sum to 0.75, expected 1"));
+  params.rules = "A --> 70%: B. 50%: C. else: NIL";
+  EXPECT_THAT(error_of(params), HasSubstr("/rules 1:1 the weights of `A` sum to 1.2, expected at most 1"));
+  params.rules = "A --> 30%: B. 70%: C.";
+  EXPECT_EQ(error_of(params), "none");
+}
+
 TEST(Hints, ReportThatNothingIsDrawn) {
   const auto nothing = ElementsAre(HasSubstr("nothing is drawn"));
   EXPECT_THAT(warnings("A ~> Comp(\"edge\", 3){ B. }"), nothing);

@@ -43,6 +43,17 @@ TEST(Weights, ThatDoNotSumToOneAreReportedWithAPlainProduction) {
   EXPECT_THAT(warnings_of(grammar_of("F", {"F->G:0.3", "F->FF:0.7"})), IsEmpty());
 }
 
+TEST(Weights, ThatDoNotSumToOneAreErrorsWhereTheyAreStrict) {
+  LsystemParams params = grammar_of("F", {"F->G:0.3", "F->FF:0.6"});
+  params.weights = LsystemParams::Weights::strict;
+  EXPECT_THAT(
+      warnings_of(params),
+      ElementsAre("refused: the probabilities of the productions of `F` sum to 0.9, expected 1 because "
+                  "`weights` is strict"));
+  params.productions[1] = "F->FF:0.7";
+  EXPECT_THAT(warnings_of(params), IsEmpty());
+}
+
 TEST(Productions, AfterOneThatAlwaysAppliesAreReported) {
   EXPECT_THAT(
       warnings_of(grammar_of("F", {"F->FF", "F->G"})),
