@@ -208,7 +208,8 @@ double inner_area(const std::vector<CmRing>& area, double margin, const Job& job
   std::vector<double> cuts;
   std::vector<std::array<double, 2>> taken;
   std::size_t done = 0;
-  for (const auto& [y, step] : lines_of(area, margin)) {
+  for (const Line& line : lines_of(area, margin)) {
+    const double y = line.y, step = line.step;
     if (done++ % 256 == 0) job.check();
     cuts.clear();
     taken.clear();
