@@ -366,6 +366,8 @@ TEST(City, StopsProductionsThatMultiplyWithoutEnd) {
                                 "B(del, rule, road) -> B(1, 0, 0) B(1, 0, 0)"};
   Job job(1, Job::Options{});
   EXPECT_THROW(plan_of(params, job), Stop);
+  params.streets.productions = {"R(a, b) -> R(a, b) R(a, b)"};
+  EXPECT_THROW(plan_of(params, job), Stop);
 }
 
 TEST(City, GrowsMoreWhereBranchesAreNotErased) {
