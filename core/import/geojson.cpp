@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/import/city_plan.h"
 #include "core/import/foreign_text.h"
 #include "core/import/formats.h"
 #include "core/import/map_scene.h"
@@ -78,6 +79,11 @@ class GeoJsonReader {
   Result<Imported> read(const Json& file) {
     data_.plain_polygons_are_buildings = true;
     read_crs(file);
+    is_plan_ = is_city_plan(file);
+    if (is_plan_) {
+      data_.unit = MapUnit::metres;
+      is_stated_ = true;
+    }
     const std::string type = type_of(file);
     if (type == "FeatureCollection") {
       const Json* features = member(file, "features", "");
@@ -155,7 +161,11 @@ class GeoJsonReader {
     const Json* geometry = member(json, "geometry", pointer);
     if (!geometry || geometry->is_null()) return;
     read_geometry(*geometry, pointer + "/geometry", feature, 0);
-    close_lines(feature);
+    if (is_plan_) {
+      if (properties == json.end() || !describe_plan_feature(*properties, feature)) return;
+    } else {
+      close_lines(feature);
+    }
     data_.features.push_back(std::move(feature));
   }
 
@@ -302,7 +312,7 @@ class GeoJsonReader {
   std::size_t positions_ = 0, features_ = 0;
   MapData data_;
   std::vector<Issue> issues_;
-  bool is_stated_ = false, is_beyond_degrees_ = false;
+  bool is_stated_ = false, is_beyond_degrees_ = false, is_plan_ = false;
 };
 
 }  // namespace

@@ -91,6 +91,12 @@ Result<Request> read_request(std::string_view json, const Job::Options&) {
   return request_of(object);
 }
 
+Result<Request> read_request(std::string_view json, const Limits& limits) {
+  Job::Options options;
+  options.limits = limits;
+  return read_request(json, options);
+}
+
 std::optional<Result<Request>> read_preset(std::string_view name, const Overrides& overrides,
                                            const Limits& limits) {
   if (name != "small") return std::nullopt;
@@ -105,9 +111,7 @@ std::optional<Result<Request>> read_preset(std::string_view name, const Override
       return Result<Request>(invalid("/" + key, "There is no such parameter."));
     }
   }
-  Job::Options options;
-  options.limits = limits;
-  return read_request(object.dump(), options);
+  return read_request(object.dump(), limits);
 }
 
 Result<Request> with_format(const Request& request, std::string_view format) {

@@ -167,6 +167,12 @@ Grammar read(const BuildingParams& params, std::vector<Issue>& issues) {
            lang::in_quotes(start.name) +
                " has a parameter, for which the first shape has no value; its height is used",
            place.line, place.column});
+    } else if (least > 1 && grammar.is_cityengine) {
+      const Issue place = issue_at(IssueKind::syntax, rules, grammar.rules[start.rules.front()].offset, "");
+      grammar.warnings.push_back({place.pointer,
+                                  lang::in_quotes(start.name) +
+                                      " has parameters, for which the first shape has no values; they are 0",
+                                  place.line, place.column});
     } else if (least > 1) {
       issues.push_back({IssueKind::invalid_value, params.start ? "/start" : "/rules",
                         "the rules of \"" + start.name +
