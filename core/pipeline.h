@@ -28,6 +28,7 @@ class Request {
   std::string_view format() const;       ///< "glb", "gltf", "zip", ...
   const std::string& canonical() const;  ///< canonical JSON: without defaults, keys sorted
   std::uint64_t seed() const;
+  const std::string& name() const;  ///< of the model and its files, in characters of URLs
 
  private:
   std::shared_ptr<const Body> body_;

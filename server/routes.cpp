@@ -31,6 +31,7 @@ constexpr Route table[] = {
     {"POST", "/v1/validate", post_validate, Guard::closed},
     {"POST", "/v1/derive", post_derive, Guard::closed},
     {"POST", "/v1/import", post_import, Guard::closed, Query::read},
+    {"POST", "/mcp", post_mcp, Guard::closed},
     {"GET", "/v1/schemas/{name}", get_schema},
     {"GET", "/v1/vocabulary", get_vocabulary},
     {"GET", "/openapi.json", get_openapi},

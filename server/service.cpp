@@ -7,7 +7,6 @@ namespace seedmesh {
 namespace {
 
 constexpr std::size_t smallest_compressed = 1'024;
-constexpr std::size_t longest_token = 8'000;
 
 Problem not_admitted(Service& service, Admission::Refused why) {
   switch (why) {

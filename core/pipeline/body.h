@@ -14,7 +14,14 @@ struct Request::Body {
   OutputParams output;
   std::uint64_t seed = 0;
   std::string canonical;
+  std::string name;  ///< of the model (names.h)
 };
+
+/// Canonical JSON of generator, parameters, seed and output.
+std::string canonical_request(const Request::Body& body);
+
+/// Reads a request without its canonical text and name. Code::invalid holds all errors. Throws Stop.
+Result<Request::Body> read_parts(const Json& json, const Job& job);
 
 inline WantedFormat wanted_format(const OutputParams& output) {
   return {text_of(output.format), text_of(output.profile)};

@@ -7,6 +7,7 @@
 #include "core/generators/child.h"
 #include "core/pipeline/body.h"
 #include "core/pipeline/guarded.h"
+#include "core/pipeline/names.h"
 #include "core/pipeline/profiles.h"
 #include "core/schema/nearest.h"
 #include "core/schema/parse_body.h"
@@ -18,17 +19,6 @@ namespace seedmesh {
 namespace {
 
 constexpr std::int32_t least_impostor = 64;  ///< texels of a side
-
-std::string canonical_request(const Request::Body& body) {
-  Json json = {{"generator", body.generator->name}};
-  RequestParams frame;
-  frame.seed = body.seed;
-  frame.output = body.output;
-  json.update(write_request(frame));  // seed and output, unless they are defaults
-  Json params = body.generator->write(body.params);
-  if (!params.empty()) json["parameters"] = std::move(params);
-  return canonical_text(json);
-}
 
 const Generator* named_generator(const Json& json, const RequestParams& frame, IssueList& errors) {
   if (!frame.generator) {
@@ -211,7 +201,7 @@ void check_own_format(const OwnFormat& own, const Generator& generator, const Ge
     }
   }
   Json options = write_output(output);
-  options.erase("format");
+  for (const char* name : {"format", "name", "provenance"}) options.erase(name);
   if (own.has_profiles) options.erase("profile");
   if (own.has_models) {
     options.erase("textures");
@@ -266,8 +256,20 @@ std::string_view Request::generator() const { return body_->generator->name; }
 std::string_view Request::format() const { return text_of(body_->output.format); }
 const std::string& Request::canonical() const { return body_->canonical; }
 std::uint64_t Request::seed() const { return body_->seed; }
+const std::string& Request::name() const { return body_->name; }
 
-static Result<Request> read_checked(const Json& json, const Job& job) {
+std::string canonical_request(const Request::Body& body) {
+  Json json = {{"generator", body.generator->name}};
+  RequestParams frame;
+  frame.seed = body.seed;
+  frame.output = body.output;
+  json.update(write_request(frame));  // seed and output, unless they are defaults
+  Json params = body.generator->write(body.params);
+  if (!params.empty()) json["parameters"] = std::move(params);
+  return canonical_text(json);
+}
+
+Result<Request::Body> read_parts(const Json& json, const Job& job) {
   if (const std::string_view type = schema::geojson_type(json);
       !type.empty() && !json.contains("generator")) {
     return Error{
@@ -299,8 +301,15 @@ static Result<Request> read_checked(const Json& json, const Job& job) {
   if (!errors.empty()) return Error{Code::invalid, with_parts(errors.take(), merged, body.generator)};
   body.output = frame.output;
   body.seed = frame.seed;
-  body.canonical = canonical_request(body);
-  return Request(std::make_shared<const Request::Body>(std::move(body)));
+  return body;
+}
+
+static Result<Request> read_checked(const Json& json, const Job& job) {
+  Result<Request::Body> body = read_parts(json, job);
+  if (!body) return std::move(body).error();
+  body->canonical = canonical_request(*body);
+  body->name = model_name(*body);
+  return Request(std::make_shared<const Request::Body>(*std::move(body)));
 }
 
 Result<Request> read_request_body(const Json& json, const Job::Options& options) {

@@ -80,6 +80,10 @@ std::string_view Request::generator() const { return "rehearsal"; }
 std::string_view Request::format() const { return body_->format; }
 const std::string& Request::canonical() const { return body_->canonical; }
 std::uint64_t Request::seed() const { return body_->seed; }
+const std::string& Request::name() const {
+  static const std::string name = "rehearsal";
+  return name;
+}
 
 Result<Request> read_request(std::string_view json, const Job::Options&) {
   const Json object = Json::parse(json, nullptr, false);
