@@ -21,6 +21,7 @@ struct BlockOutline {
   std::vector<BlockEdge> edges;  ///< edge i runs from point i to the next
   /// Outlines of separate street networks inside the block, clockwise; their edges are not in `edges`.
   std::vector<CmRing> holes;
+  std::vector<std::uint32_t> hole_streets;  ///< streets around the holes
 };
 
 /// Adds carriageways, junctions, sidewalks and verges to the plan, and returns the outlines of the blocks in the
