@@ -159,8 +159,8 @@ TEST(Fractal, WritesNestedRequestsInCanonicalForm) {
   const auto canonical = [](const char* json) {
     IssueList faults;
     const Generator* generator = find_generator("fractal");
-    return canonical_text(generator->write(
-        read_parameters(*generator, Json::parse(json), "/parameters", {Job(0, Job::Options{}), generators()}, faults)));
+    return canonical_text(generator->write(read_parameters(*generator, Json::parse(json), "/parameters",
+                                                           {Job(0, Job::Options{}), generators()}, faults)));
   };
   EXPECT_EQ(
       canonical(

@@ -23,8 +23,8 @@ using ::testing::StartsWith;
 Result<Model> made(const std::string& parameters, int threads = 1) {
   IssueList faults;
   const Generator* generator = find_generator("terrain");
-  const Generator::Params params =
-      read_parameters(*generator, Json::parse(parameters), "", {Job(0, Job::Options{}), generators()}, faults);
+  const Generator::Params params = read_parameters(*generator, Json::parse(parameters), "",
+                                                   {Job(0, Job::Options{}), generators()}, faults);
   if (!faults.empty()) return Error{Code::invalid, faults.take()};
   Job job = any_job(threads);
   Result<Model> model = generator->generate(params, context_of(job));

@@ -38,7 +38,8 @@ Json request(std::string_view name) {
 Result<Model> model_of(const Json& json, std::uint64_t seed) {
   IssueList faults;
   const Generator* generator = find_generator("building");
-  const Generator::Params params = read_parameters(*generator, json, "", {Job(0, Job::Options{}), generators()}, faults);
+  const Generator::Params params =
+      read_parameters(*generator, json, "", {Job(0, Job::Options{}), generators()}, faults);
   if (!faults.empty()) return Error{Code::invalid, faults.take()};
   Job job(seed, Job::Options{});
   try {
