@@ -36,7 +36,8 @@ function primitives_of(bytes) {
     const gpu = node.extensions?.EXT_mesh_gpu_instancing?.attributes;
     const copies = gpu ? file.accessors[Object.values(gpu)[0]].count : 1;
     return file.meshes[node.mesh].primitives.map((primitive) => ({
-      mode: primitive.mode ?? 4, count: copies * file.accessors[primitive.indices ?? primitive.attributes.POSITION].count, material: file.materials?.[primitive.material],
+      mode: primitive.mode ?? 4, count: copies * file.accessors[primitive.indices ?? primitive.attributes.POSITION].count, positions: file.accessors[primitive.attributes.POSITION].count,
+      material: file.materials?.[primitive.material],
     }));
   });
 }
@@ -46,6 +47,7 @@ const glb = {
   triangles: (all) => sum(all.filter(({ mode }) => mode === 4).map(({ count }) => count / 3)),
   lines: (all) => sum(all.filter(({ mode }) => mode === 1).map(({ count }) => count / 2)),
   points: (all) => all.filter(({ mode }) => mode === 0).map(({ count }) => count),
+  positions: (all) => sum(all.map(({ positions }) => positions)),
   single_sided: (all) => all.every(({ material }) => !material?.doubleSided),
 };
 const of_lists = {
