@@ -23,6 +23,7 @@ RUN cd web_client && PATH="/seedmesh/build/tools/node_modules/.bin:$PATH" npm ru
 COPY CMakeLists.txt CMakePresets.json LICENSE README.md ./
 COPY api_schema api_schema
 COPY core core
+COPY docs docs
 COPY server server
 RUN --mount=type=cache,target=/root/.cache/ccache \
   cmake --preset release -DSEEDMESH_TESTS=OFF && cmake --build build/release --target seedmesh -- -k 0

@@ -183,7 +183,7 @@ def read_all():
     reader.define("Child", Union([request_type(reader, each, is_child=True) for each in kinds]))
     reader.define("Request", Union([request_type(reader, each, is_child=False) for each in kinds]))
     for name, schema in reader.openapi["components"]["schemas"].items():
-        if name != "parameters":
+        if name != "parameters" and not name.endswith("_request"):
             answer = reader.read(schema, "openapi.json", pascal(name))
             if answer != Name(pascal(name)):
                 reader.define(pascal(name), answer)

@@ -28,13 +28,17 @@ class Request {
   std::string_view format() const;       ///< "glb", "gltf", "zip", ...
   const std::string& canonical() const;  ///< canonical JSON: without defaults, keys sorted
   std::uint64_t seed() const;
+  const std::string& name() const;  ///< of the model and its files, in characters of URLs
 
  private:
   std::shared_ptr<const Body> body_;
 };
 
 /// Reads a request body. Malformed JSON gives Code::malformed. Otherwise Code::invalid holds every error of
-/// the schema and of the generator's own checks. `limits` bound iterations and expression depth.
+/// the schema and of the generator's own checks. The limits bound iterations and expression depth; stop and
+/// deadline end the checks too.
+Result<Request> read_request(std::string_view json, const Job::Options& options);
+/// The same without a time limit.
 Result<Request> read_request(std::string_view json, const Limits& limits);
 
 /// Reads the request of a preset with the overrides of a query. Keys are `seed`, `output.x`, `constants.x` or

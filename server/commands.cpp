@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/base/base64url.h"
 #include "core/pipeline.h"
-#include "server/base64url.h"
 #include "server/files.h"
 #include "server/http/text.h"
 #include "server/problem.h"

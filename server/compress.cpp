@@ -12,7 +12,6 @@
 namespace seedmesh {
 namespace {
 
-constexpr int raw_window = -15;
 constexpr int gzip_window = 15 + 16;
 /// Quality 0 costs 1.4 ms per MB of vertex data. Quality 1 takes 2.5 ms and is no smaller, quality 3 takes 4.3 ms, and
 /// quality 5 takes 20 ms. A window of this size is as small as larger ones.
@@ -234,35 +233,6 @@ double likely_saving(const std::vector<std::span<const std::byte>>& pieces) {
   const double left = static_cast<double>(encode(Coding::zstd, samples, Effort::fast).size());
   const double saved = std::max(0.0, 1 - left / static_cast<double>(samples.size()));
   return saved * static_cast<double>(compressible) / static_cast<double>(all);
-}
-
-std::string deflate_raw(std::string_view text) {
-  SmallDeflate encoder(9, raw_window);
-  std::string out;
-  encoder.add(std::as_bytes(std::span(text)), out);
-  encoder.end(out);
-  return out;
-}
-
-std::optional<std::string> inflate_raw(std::string_view data, std::size_t limit) {
-  z_stream stream{};
-  if (inflateInit2(&stream, raw_window) != Z_OK) throw std::bad_alloc();
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data.data()));
-  stream.avail_in = static_cast<uInt>(data.size());
-  std::string out;
-  int status = Z_OK;
-  while (status == Z_OK && out.size() <= limit) {
-    char part[16 * 1'024];
-    stream.next_out = reinterpret_cast<Bytef*>(part);
-    stream.avail_out = sizeof(part);
-    status = inflate(&stream, Z_NO_FLUSH);
-    out.append(part, sizeof(part) - stream.avail_out);
-    if (status == Z_OK && stream.avail_in == 0 && stream.avail_out > 0) break;  // the stream is cut off
-  }
-  const bool whole = status == Z_STREAM_END && stream.avail_in == 0 && out.size() <= limit;
-  inflateEnd(&stream);
-  if (!whole) return std::nullopt;
-  return out;
 }
 
 }  // namespace seedmesh

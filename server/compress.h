@@ -1,5 +1,5 @@
 #pragma once
-/// Compression: content codings for responses, and raw deflate for permalinks.
+/// Compression: content codings for responses.
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -42,11 +42,5 @@ std::string encode(Coding coding, std::string_view text, Effort effort);
 /// The share of bytes that compression is likely to save, 0 to 1, from samples of the pieces. Images (PNG, WebP,
 /// JPEG, KTX 2) count as not compressible. Costs about 1/20 of Effort::fast.
 double likely_saving(const std::vector<std::span<const std::byte>>& pieces);
-
-/// Raw deflate (RFC 1951) without header and checksum.
-std::string deflate_raw(std::string_view text);
-
-/// The inverse. Returns nothing where `data` is not exactly one whole stream, or yields more than `limit` bytes.
-std::optional<std::string> inflate_raw(std::string_view data, std::size_t limit);
 
 }  // namespace seedmesh

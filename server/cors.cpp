@@ -8,11 +8,11 @@ namespace seedmesh {
 namespace {
 
 constexpr const char* allowed_fields =
-    "Accept, Authorization, Content-Type, If-None-Match, If-Range, Range, Traceparent, X-Api-Key, "
-    "X-Request-Id";
+    "Accept, Authorization, Content-Type, If-None-Match, If-Range, MCP-Protocol-Version, Mcp-Method, "
+    "Mcp-Name, Range, Traceparent, X-Api-Key, X-Request-Id";
 constexpr const char* exposed_fields =
-    "Content-Location, Content-Range, ETag, Retry-After, Seedmesh-Triangles, Seedmesh-Vertices, "
-    "Seedmesh-Warnings, Server-Timing, Traceparent, X-Request-Id";
+    "Content-Disposition, Content-Location, Content-Range, ETag, Retry-After, Seedmesh-Triangles, "
+    "Seedmesh-Vertices, Seedmesh-Warnings, Server-Timing, Traceparent, X-Request-Id";
 constexpr const char* max_age_seconds = "86400";
 
 void vary_by_origin(http::Response& response) {

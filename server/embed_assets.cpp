@@ -1,5 +1,6 @@
-/// Build tool: embed_assets <folder> <out.cpp>
+/// Build tool: embed_assets <folder> <out.cpp> [docs]
 /// Writes every file of the folder as C++ string literals, with its media type and its gzip and Brotli forms.
+/// With `docs`, writes only the pages (.md) of the folder itself, without coded forms.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -67,29 +68,32 @@ void write_literal(std::ofstream& out, std::string_view bytes) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (count != 3) {
-    std::fputs("usage: embed_assets <folder> <out.cpp>\n", stderr);
+  if (count != 3 && count != 4) {
+    std::fputs("usage: embed_assets <folder> <out.cpp> [docs]\n", stderr);
     return 2;
   }
   const std::filesystem::path folder = arguments[1];
+  const bool only_docs = count == 4;
   std::map<std::string, std::filesystem::path> files;  // sorted, so that the output is reproducible
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file())
+    const bool is_page = entry.path().extension() == ".md" && entry.path().parent_path() == folder;
+    if (entry.is_regular_file() && (!only_docs || is_page))
       files["/" + entry.path().lexically_relative(folder).generic_string()] = entry.path();
   }
   std::ofstream out(arguments[2]);
   out << "// CachedModel by embed_assets. Do not edit.\n#include \"server/pages.h\"\n\nnamespace seedmesh "
          "{\n\n"
-      << "std::span<const Asset> embedded_assets() {\n  static constexpr Asset assets[] = {\n";
+      << "std::span<const Asset> " << (only_docs ? "embedded_docs" : "embedded_assets")
+      << "() {\n  static constexpr Asset assets[] = {\n";
   for (const auto& [name, path] : files) {
     std::ifstream in(path, std::ios::binary);
     const std::string bytes((std::istreambuf_iterator<char>(in)), {});
     out << "    {\"" << name << "\", \"" << type_of(path.extension().string()) << "\", ";
     write_literal(out, bytes);
     out << ", ";
-    write_literal(out, compressed(seedmesh::Coding::gzip, bytes));
+    write_literal(out, only_docs ? std::string() : compressed(seedmesh::Coding::gzip, bytes));
     out << ", ";
-    write_literal(out, compressed(seedmesh::Coding::br, bytes));
+    write_literal(out, only_docs ? std::string() : compressed(seedmesh::Coding::br, bytes));
     out << "},\n";
   }
   out << "  };\n  return assets;\n}\n\n}  // namespace seedmesh\n";

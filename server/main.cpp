@@ -1,5 +1,5 @@
-/// The command line: seedmesh serve | generate | validate | derive | import | presets | manifest | sign | key |
-/// healthcheck.
+/// The command line: seedmesh serve | generate | validate | derive | import | presets | manifest | mcp | sign |
+/// key | healthcheck.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +12,7 @@
 #include "server/commands.h"
 #include "server/config.h"
 #include "server/manifest.h"
+#include "server/mcp.h"
 #include "server/serve.h"
 
 namespace {
@@ -82,6 +83,7 @@ struct Arguments {
   ManifestOptions manifest;
   ImportFiles files{"", "-", "", ""};
   bool print_config = false;
+  std::string models = ".";
 };
 
 /// Declares the commands with their arguments and settings.
@@ -122,6 +124,8 @@ void add_commands(CLI::App& app, Arguments& arguments, Texts& texts) {
                    "index/count: only every count-th line, starting at index (0 to count - 1).");
   many->add_flag("--times", arguments.manifest.times, "Add the time of each model to its result.");
   many->add_flag("--quiet", arguments.manifest.quiet, "Do not print progress.");
+  CLI::App* agents = command("mcp", "Answer an agent program on standard input and output (MCP).");
+  agents->add_option("-o,--out", arguments.models, "Folder for the models.");
   CLI::App* signing = command("sign", "Sign a URL with the first of the signing keys.");
   signing->add_option("target", arguments.target, "Path and query: /v1/presets/koch_island.glb?seed=3")
       ->required();
@@ -133,7 +137,7 @@ void add_commands(CLI::App& app, Arguments& arguments, Texts& texts) {
   CLI::App* checking = command("healthcheck", "Check that a service on this machine answers.");
   add_settings(*serving, texts, all_settings);
   for (CLI::App* each : {generating, validating, deriving, importing}) add_settings(*each, texts, limits);
-  add_settings(*many, texts, limits_and_textures);
+  for (CLI::App* each : {many, agents}) add_settings(*each, texts, limits_and_textures);
   add_settings(*signing, texts, key_settings);
   add_settings(*checking, texts, address_settings);
 }
@@ -155,6 +159,7 @@ int run(const std::string& command, Arguments& arguments, const ConfigResult& lo
   }
   if (command == "import") return import_command(config, arguments.files);
   if (command == "manifest") return manifest_command(config, arguments.manifest);
+  if (command == "mcp") return mcp::serve_stdio(config, arguments.models);
   if (command == "sign") return sign_command(config, arguments.target, arguments.valid_for);
   if (command == "key") return key_command(arguments.key_name);
   if (command == "healthcheck") return healthcheck(config);

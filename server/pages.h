@@ -16,6 +16,9 @@ struct Asset {
 };
 std::span<const Asset> embedded_assets();
 
+/// The pages of docs/ as Markdown, without coded forms: "/lsystem.md".
+std::span<const Asset> embedded_docs();
+
 /// Whether the name contains a hash of the contents, as Vite names files. Such a file never changes.
 bool has_hashed_name(std::string_view path);
 

@@ -1,10 +1,9 @@
 #include "server/permalink.h"
 
-#include <cassert>
 #include <nlohmann/json.hpp>
 
-#include "server/base64url.h"
-#include "server/compress.h"
+#include "core/base/base64url.h"
+#include "core/base/deflate.h"
 
 namespace seedmesh {
 namespace {
@@ -36,14 +35,6 @@ Result<Token> separate(const std::string& text) {
 
 }  // namespace
 
-std::string write_token(std::string_view canonical, std::string_view engine) {
-  assert(canonical.size() >= 2 && canonical.front() == '{');
-  std::string text = R"({"engine":)" + nlohmann::json(engine).dump();
-  if (canonical[1] != '}') text += ',';
-  text += canonical.substr(1);
-  return base64url(deflate_raw(text));
-}
-
 Result<Token> read_token(std::string_view token, std::size_t limit) {
   const std::optional<std::string> packed = from_base64url(token);
   if (!packed || packed->empty()) return malformed("The token is not base64url.");
@@ -58,14 +49,6 @@ Result<Token> read_token(std::string_view token, std::size_t limit) {
     }
   }
   return separate(*text);
-}
-
-std::string permalink(std::string_view token, std::string_view extension) {
-  std::string url = "/v1/models/";
-  url += token;
-  url += '.';
-  url += extension;
-  return url;
 }
 
 }  // namespace seedmesh

@@ -31,6 +31,7 @@ constexpr Route table[] = {
     {"POST", "/v1/validate", post_validate, Guard::closed},
     {"POST", "/v1/derive", post_derive, Guard::closed},
     {"POST", "/v1/import", post_import, Guard::closed, Query::read},
+    {"POST", "/mcp", post_mcp, Guard::closed},
     {"GET", "/v1/schemas/{name}", get_schema},
     {"GET", "/v1/vocabulary", get_vocabulary},
     {"GET", "/openapi.json", get_openapi},
@@ -165,11 +166,10 @@ std::variant<Overrides, http::Response> parse_query(const Call& call) {
 
 std::variant<Request, http::Response> read_text(Call& call, const std::string& text) {
   std::optional<Result<Request>> request;
-  const auto read = [&] { request = read_request(text, call.service.config.limits); };
+  const auto read = [&](const Job::Options& options) { request = read_request(text, options); };
   if (text.size() <= largest_without_worker) {
-    read();
-  } else if (const auto refused =
-                 with_worker(call, call.request.gone(), [&](const Job::Options&) { read(); })) {
+    read(options_without_worker(call));
+  } else if (const auto refused = with_worker(call, call.request.gone(), read)) {
     return refuse(call, *refused);
   }
   if (!*request) return refuse(call, problem_of(request->error()));

@@ -22,6 +22,8 @@ http::Response get_schema(Call& call);
 http::Response get_vocabulary(Call& call);
 http::Response get_openapi(Call& call);
 
+http::Response post_mcp(Call& call);  // mcp_http.cpp
+
 http::Response get_healthz(Call& call);  // routes_status.cpp
 http::Response get_readyz(Call& call);
 http::Response get_metrics(Call& call);

@@ -89,7 +89,8 @@ http::Response post_import(Call& call) {
   if (const auto refused = with_worker(call, call.request.gone(), read)) return refuse(call, *refused);
   if (!*imported) {
     Problem problem = problem_of(imported->error());
-    if (question.format.empty()) problem.format = likely_import_format(question.text);
+    if (question.format.empty() && imported->error().code == Code::invalid)
+      problem.format = likely_import_format(question.text);
     return refuse(call, problem);
   }
   return json_answer(call, std::move((*imported)->answer));

@@ -86,6 +86,12 @@ void add_location(const Call& call, http::Response& response, const std::string&
   if (!location.empty() && location.size() <= longest_location) response.set("Content-Location", location);
 }
 
+/// The name under which `curl -OJ` and browsers save the response.
+void name_file(http::Response& response, const Request& request, std::string_view extension) {
+  response.set("Content-Disposition",
+               "inline; filename=\"" + request.name() + '.' + std::string(extension) + '"');
+}
+
 /// How caches may use a response: as immutable, or after revalidation.
 enum class Caching { immutable, revalidate };
 
@@ -156,6 +162,7 @@ http::Response model_answer(Call& call, const TaggedRequest& wanted, Caching cac
   if (coded->used != Coding::identity) response.set("Content-Encoding", std::string(name_of(coded->used)));
   response.set("Server-Timing", server_timing(call, response.cache_use, *entry, asked, found));
   describe(response, *entry);
+  name_file(response, wanted.request, entry->product.extension);
   add_location(call, response, entry->token, entry->product.extension);
   if (auto* stream = std::get_if<http::Stream>(&coded->body)) {
     response.body = std::move(*stream);
@@ -244,8 +251,12 @@ http::Response get_model(Call& call) {
     if (!file) return refuse(call, problem_of(file.error()));
     return json_answer(call, std::move(file->text), "application/json", cache_control(call, caching));
   }
-  if (extension == "json")
-    return json_answer(call, request->canonical(), "application/json", cache_control(call, caching));
+  if (extension == "json") {
+    http::Response response =
+        json_answer(call, request->canonical(), "application/json", cache_control(call, caching));
+    name_file(response, *request, extension);
+    return response;
+  }
   Result<Request> formatted = in_format(*request, extension);
   if (!formatted) return refuse(call, problem_of(formatted.error()));
   TaggedRequest wanted = tagged(std::move(*formatted));

@@ -7,7 +7,6 @@ namespace seedmesh {
 namespace {
 
 constexpr std::size_t smallest_compressed = 1'024;
-constexpr std::size_t longest_token = 8'000;
 
 Problem not_admitted(Service& service, Admission::Refused why) {
   switch (why) {
@@ -103,6 +102,14 @@ void TargetCache::insert(const std::string& target, const TaggedRequest& wanted)
 Clock::time_point deadline_of(const Call& call) {
   return call.request.arrived + std::chrono::duration_cast<Clock::duration>(
                                     std::chrono::duration<double>(call.service.config.time_limit));
+}
+
+Job::Options options_without_worker(const Call& call) {
+  Job::Options options;
+  options.limits = call.service.config.limits;
+  options.stop = call.request.gone();
+  options.deadline = deadline_of(call);
+  return options;
 }
 
 std::optional<Problem> with_worker(const Call& call, const std::stop_token& stop,

@@ -118,6 +118,9 @@ struct Call {
 using Clock = std::chrono::steady_clock;
 Clock::time_point deadline_of(const Call& call);
 
+/// The options of work without a worker: limits, stop and deadline of the request.
+Job::Options options_without_worker(const Call& call);
+
 /// Waits for a worker, then calls `work` with all options but the progress callback. Returns a Problem where no
 /// worker became free; errors of the work itself are handled by `work`.
 std::optional<Problem> with_worker(const Call& call, const std::stop_token& stop,

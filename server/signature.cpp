@@ -9,7 +9,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "server/base64url.h"
+#include "core/base/base64url.h"
 #include "server/http/text.h"
 
 namespace seedmesh {

@@ -100,9 +100,9 @@ struct Generator {
   std::vector<Issue> (*check_format)(const Params& params, const WantedFormat& format) = nullptr;
 };
 
-/// What check() needs besides the parameters.
+/// What check() needs besides the parameters. Loops over the parameters check the job's stop and deadline.
 struct CheckContext {
-  const Limits& limits;
+  const Job& job;
   GeneratorList generators = {};
 };
 

@@ -55,6 +55,7 @@ Generator::Params read_at(const Generator& generator, const Json& json, const st
     read_child(*place.child, pointer + place.pointer, {reading.context, reading.errors, reading.depth + 1});
   };
   Generator::Params params = generator.read(json, pointer, reading.errors, visit);
+  reading.context.job.check();
   if (json.is_object()) add_checked(generator.check(params, reading.context), pointer, reading.errors);
   return params;
 }

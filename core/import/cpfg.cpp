@@ -234,13 +234,19 @@ bool CpfgReader::goes_on(Line next) const {
 void CpfgReader::production(Line line) {
   const TracedText rule = expanded(line);
   if (rule.size() == 0) return;
+  if (rules_[0].empty() && rules_[1].empty() && rules_[2].empty()) {
+    for (const TracedText* const block : {&start_, &start_each_, &end_each_})
+      statements_.share(cpfg_names_in(block->text()));
+  }
   const auto contexts = part_ == Part::homomorphism ? CpfgContexts::ignored : CpfgContexts::used;
   std::optional<CpfgRule> read = read_cpfg_rule(rule, contexts, source_, words_, statements_);
   if (!read) return;
   if (read->is_strict && part_ != Part::derivation) {
-    source_.report(read->at,
-                   "found a predecessor of several modules; rules of a decomposition or homomorphism "
-                   "rewrite one");
+    source_.warn(
+        read->at,
+        "a rule of a decomposition or homomorphism rewrites one module here; this one with several is "
+        "left out");
+    return;
   }
   rules_[static_cast<std::size_t>(part_)].push_back(std::move(*read));
 }

@@ -7,6 +7,11 @@
 #include "core/import/cpfg_view.h"
 
 namespace seedmesh {
+namespace {
+
+constexpr double most_steps = 1'000;  // of a request
+
+}  // namespace
 
 void CpfgReader::put(const std::string& name, Json value, std::vector<TextRun> runs) {
   out_.origins.push_back({"/parameters/" + name, std::move(runs)});
@@ -91,10 +96,14 @@ Imported CpfgReader::made() {
   if (length_.from == length_.to) {
     source_.report(0, "found no derivation length");
   } else if (const std::optional<double> value = number(expression(length_), length_.from)) {
-    if (!(*value >= 0) || *value != std::floor(*value) || *value > 1000) {
-      source_.report(length_.from, "expected a derivation length that is a whole number up to 1000");
+    if (!(*value >= 0) || *value != std::floor(*value)) {
+      source_.report(length_.from, "expected a derivation length that is a whole number");
     } else {
-      put("iterations", static_cast<int>(*value), {{0, length_.from, false}});
+      if (*value > most_steps) {
+        source_.warn(length_.from,
+                     "the derivation length " + number_text(*value) + " is 1000 here, the most");
+      }
+      put("iterations", static_cast<int>(std::min(*value, most_steps)), {{0, length_.from, false}});
     }
   }
   for (const auto& [name, value] : constants_) parameters_["constants"][name] = value;

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "core/import/cpfg_macros.h"
 #include "core/lang/lexer.h"
 
 namespace seedmesh {
@@ -50,6 +51,21 @@ std::size_t find_arrow(const std::string& text) {
   return text.size();
 }
 
+}  // namespace
+
+std::set<std::string> cpfg_names_in(std::string_view text) {
+  std::set<std::string> out;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    std::size_t end = at;
+    while (end < text.size() && is_name_part(text[end])) ++end;
+    if (end > at) out.emplace(text.substr(at, end - at));
+    at = std::max(at, end);
+  }
+  return out;
+}
+
+namespace {
+
 /// The condition with the statements around it; `*` is always true.
 TracedText condition_of(const TracedText& text, Slice slice, const CpfgWords& words,
                         CpfgStatements& statements) {
@@ -57,7 +73,7 @@ TracedText condition_of(const TracedText& text, Slice slice, const CpfgWords& wo
   TracedText out;
   const auto block = [&](std::size_t open) {
     const std::size_t close = lsystem::closing(text.text(), open, slice.to);
-    const TracedText inner = statements.converted(text, {open + 1, close});
+    const TracedText inner = statements.converted_in_rule(text, {open + 1, close});
     out.write("{", text.origin(open));
     out.copy(inner, 0, inner.size());
     out.write("}", text.origin(std::min(close, slice.to - 1)));
@@ -92,6 +108,7 @@ class RuleReader {
     const std::size_t errors = source_.error_count();
     const Slice head{0, arrow};
     const std::size_t colon = find_outside(text_, head, ':', Occurrence::first);
+    statements_.begin_rule(cpfg_names_in(text_.text().substr(0, colon)));
     if (colon < arrow) rule_.condition = condition_of(text_, {colon + 1, arrow}, words_, statements_);
     predecessor({0, colon}, contexts);
     Slice successor{arrow + 3, text_.size()};
@@ -137,6 +154,10 @@ class RuleReader {
     for (std::size_t i = 0; i + 1 < changed.size(); ++i) {
       if (changed[i] == '=' && changed[i + 1] == ']') changed.replace(i, ' ');
     }
+    // A branch that does not end is the beginning of one, too.
+    const auto open = std::count(changed.text().begin(), changed.text().end(), '['),
+               closed = std::count(changed.text().begin(), changed.text().end(), ']');
+    for (auto i = closed; i < open; ++i) changed.write("]", changed.origin(changed.size() - 1));
     return words_.modules(changed, {0, changed.size()}, CpfgWords::Role::pattern);
   }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Converts productions of cpfg.
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct CpfgRule {
   /// left < predecessor > right : condition --> successor : weight
   TracedText written() const;
 };
+
+/// The names in a text, numbers too.
+std::set<std::string> cpfg_names_in(std::string_view text);
 
 /// Contexts have a meaning in productions and decompositions; cpfg ignores those of a homomorphism.
 enum class CpfgContexts { used, ignored };

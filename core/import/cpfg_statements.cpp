@@ -11,7 +11,8 @@ namespace {
 using lsystem::Slice;
 
 constexpr int deepest = 60;  // the limit of statements inside each other
-constexpr std::string_view silent[] = {"printf", "fprintf", "fflush", "fclose", "fopen", "getchar", "play"};
+constexpr std::string_view silent[] = {"printf", "fprintf", "fflush", "fclose",
+                                       "fopen",  "getchar", "play",   "stop"};
 constexpr std::string_view reading[] = {"fscanf", "scanf", "fgets"};
 
 template <class List>
@@ -50,6 +51,17 @@ TracedText CpfgStatements::converted(const TracedText& text, Slice slice) {
   TracedText out;
   for (std::size_t at = skip(text, slice.from, slice.to); at < slice.to;)
     at = skip(text, statement(text, at, slice.to, out), slice.to);
+  return out;
+}
+
+TracedText CpfgStatements::converted_in_rule(const TracedText& text, Slice slice) {
+  const TracedText inner = converted(text, slice);
+  TracedText out;
+  for (const std::string& name : inner_) {
+    if (known_.insert(name).second) out.write(name + " = 0; ", text.origin(std::min(slice.from, slice.to)));
+  }
+  inner_.clear();
+  out.copy(inner, 0, inner.size());
   return out;
 }
 
@@ -137,9 +149,15 @@ std::size_t CpfgStatements::call(const TracedText& text, Slice slice, std::size_
     seed_ = words_.expression(text, {slice.to, std::min(close + 1, to)});
     words_.warn_once(at, name, "starts a sequence of random numbers in cpfg; here all rules use one seed");
   } else if (contains(reading, name)) {
-    source_.report(at, "found `" + name + "`, which reads a file of its own; give its numbers by `Define`");
+    words_.warn_once(
+        at, name, "reads a file of its own and is left out, so that its names stay 0; give them by `Define`");
+    for (std::size_t i = slice.to; i < stop; ++i) {  // &name
+      const std::size_t last = text[i] == '&' ? name_end(text, i + 1, stop) : i;
+      if (last > i + 1 && (last == stop || text[last] != '['))
+        assigned_.insert(text.text().substr(i + 1, last - i - 1));
+    }
   } else if (contains(silent, name)) {
-    words_.warn_once(at, name, "is left out: nothing is printed, and no file is opened");
+    words_.warn_once(at, name, "is left out: nothing is printed, stopped or opened");
   } else {
     source_.report(at,
                    "found the call of " + lang::in_quotes(name) + "; expected a statement such as `x = 2;`");
@@ -175,6 +193,12 @@ std::size_t CpfgStatements::change(const TracedText& text, Slice slice, TracedTe
     return slice.to;
   }
   assigned_.insert(name);
+  if (has_index)
+    known_.insert(name);
+  else if (depth_ > 0)
+    inner_.insert(name);
+  else if (!inner_.contains(name))
+    known_.insert(name);
   out.copy(text, slice.from, value);
   append(text, {value, slice.to}, out);
   out.write("; ", text.origin(slice.to - 1));

@@ -3,6 +3,7 @@
 /// L-systems (core/generators/lsystem/compile_code.cpp).
 #include <set>
 #include <string>
+#include <utility>
 
 #include "core/import/cpfg_words.h"
 
@@ -13,8 +14,18 @@ class CpfgStatements {
   CpfgStatements(ForeignText& source, CpfgWords& words) : source_(source), words_(words) {}
 
   /// The statements of text[slice], without the braces around them. Calls that print and expressions without effect are
-  /// left out with a warning. Calls that read a file are errors.
+  /// left out with a warning, and so are calls that read a file.
   TracedText converted(const TracedText& text, lsystem::Slice slice);
+
+  /// The statements of a rule, which begin with 0 for each name that only inner braces assign: cpfg's names belong to
+  /// the whole rule. begin_rule() names those that exist before: parameters and what `Start` sets.
+  TracedText converted_in_rule(const TracedText& text, lsystem::Slice slice);
+  void begin_rule(std::set<std::string> known) {
+    known_ = std::move(known);
+    known_.insert(shared_.begin(), shared_.end());
+    inner_.clear();
+  }
+  void share(const std::set<std::string>& names) { shared_.insert(names.begin(), names.end()); }
 
   /// The names that statements so far assign.
   const std::set<std::string>& assigned() const { return assigned_; }
@@ -32,7 +43,7 @@ class CpfgStatements {
 
   ForeignText& source_;
   CpfgWords& words_;
-  std::set<std::string> assigned_;
+  std::set<std::string> assigned_, known_, shared_, inner_;
   TracedText seed_;
   int depth_ = 0;
 };

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/import/cpfg_macros.h"
 #include "core/import/formats.h"
 
 namespace seedmesh {
@@ -163,6 +164,16 @@ std::vector<Curve> curves_of(const std::string& text) {
   return curves;
 }
 
+/// Whether `func(` is called somewhere.
+bool calls_func(std::string_view text) {
+  for (std::size_t at = text.find("func"); at != std::string_view::npos; at = text.find("func", at + 1)) {
+    const std::size_t open = text.find_first_not_of(" \t", at + 4);
+    if (open != std::string_view::npos && text[open] == '(' && (at == 0 || !is_name_part(text[at - 1])))
+      return true;
+  }
+  return false;
+}
+
 class Files {
  public:
   Files(const std::map<std::string, std::string>& files, Json& parameters, ForeignText& source)
@@ -197,6 +208,14 @@ class Files {
         continue;
       }
       for (Curve& each : curves_of(found->second)) curves.push_back(std::move(each));
+    }
+    if (curves.empty() && calls_func(source_.text())) {
+      source_.warn(0,
+                   "the file of functions is not given, so that `func(n, x)` is 1 everywhere; give it as one "
+                   "of `files`");
+      Json& list = parameters_["functions"];
+      if (list.is_null()) list = Json::array();
+      list.push_back("func(n, x) = 1");
     }
     if (!curves.empty()) functions(curves);
     if (!has_view)

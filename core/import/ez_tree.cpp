@@ -262,6 +262,7 @@ class Writer {
 }  // namespace
 
 int marks_of_ez_tree(std::string_view text) {
+  if (text.size() > largest_tree_file) return 0;
   const Result<Json> file = parse_json(text);
   if (!file || !file->is_object()) return 0;
   int marks = 0;

@@ -37,6 +37,10 @@ struct Line {
 };
 std::vector<Line> lines_of(std::string_view text);
 
+/// Texts of more bytes are not taken for a JSON file of one tree, unless the request names the format: the formats are
+/// distinguished without reading a whole map.
+constexpr std::size_t largest_tree_file = 256 * 1024;
+
 /// An error for an entry that is chosen from a format without entries; nullopt without one. `what`: "a file of cpfg
 /// holds one system".
 std::optional<Error> entry_error(const ImportOptions& options, const std::string& what);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/import/city_plan.h"
 #include "core/import/foreign_text.h"
 #include "core/import/formats.h"
 #include "core/import/map_scene.h"
@@ -73,9 +74,16 @@ std::string text_of(const Json& value) {
 
 class GeoJsonReader {
  public:
+  explicit GeoJsonReader(const ImportOptions& options) : options_(options) {}
+
   Result<Imported> read(const Json& file) {
     data_.plain_polygons_are_buildings = true;
     read_crs(file);
+    is_plan_ = is_city_plan(file);
+    if (is_plan_) {
+      data_.unit = MapUnit::metres;
+      is_stated_ = true;
+    }
     const std::string type = type_of(file);
     if (type == "FeatureCollection") {
       const Json* features = member(file, "features", "");
@@ -97,7 +105,7 @@ class GeoJsonReader {
       data_.unit = MapUnit::metres;
       data_.warnings.add("positions beyond 180 degrees are read as metres east and north", {});
     }
-    return scene_of_map(std::move(data_), "");
+    return scene_of_map(std::move(data_), "", options_);
   }
 
  private:
@@ -141,6 +149,7 @@ class GeoJsonReader {
       report(IssueKind::invalid_value, pointer, "expected an object with \"type\": \"Feature\"");
       return;
     }
+    if (++features_ % 256 == 0) options_.check();
     MapFeature feature;
     feature.position.pointer = pointer;
     const auto properties = json.find("properties");
@@ -152,7 +161,11 @@ class GeoJsonReader {
     const Json* geometry = member(json, "geometry", pointer);
     if (!geometry || geometry->is_null()) return;
     read_geometry(*geometry, pointer + "/geometry", feature, 0);
-    close_lines(feature);
+    if (is_plan_) {
+      if (properties == json.end() || !describe_plan_feature(*properties, feature)) return;
+    } else {
+      close_lines(feature);
+    }
     data_.features.push_back(std::move(feature));
   }
 
@@ -196,6 +209,7 @@ class GeoJsonReader {
       report(IssueKind::wrong_type, pointer, "expected a position: an array of two or three numbers");
       return false;
     }
+    if (++positions_ % 1024 == 0) options_.check();
     p = {json[0].get<double>(), json[1].get<double>()};
     constexpr double most = 1e8;
     if (!(std::abs(p.x) <= most && std::abs(p.y) <= most)) {
@@ -294,9 +308,11 @@ class GeoJsonReader {
     if (type == "MultiPolygon") each(coordinates, at, add_polygon);
   }
 
+  const ImportOptions& options_;
+  std::size_t positions_ = 0, features_ = 0;
   MapData data_;
   std::vector<Issue> issues_;
-  bool is_stated_ = false, is_beyond_degrees_ = false;
+  bool is_stated_ = false, is_beyond_degrees_ = false, is_plan_ = false;
 };
 
 }  // namespace
@@ -312,11 +328,11 @@ int marks_of_geojson(std::string_view text) {
 Result<Imported> import_geojson(std::string_view text, const ImportOptions& options) {
   if (std::optional<Error> error = entry_error(options, "a file of GeoJSON is one map"))
     return *std::move(error);
-  Result<Json> file = parse_json(text);
+  Result<Json> file = parse_json(text, {.job = options.job});
   if (!file) return std::move(file).error();
   if (!file->is_object())
     return Error{Code::invalid, {{IssueKind::wrong_type, "", "expected an object of GeoJSON"}}};
-  return GeoJsonReader().read(*file);
+  return GeoJsonReader(options).read(*file);
 }
 
 }  // namespace seedmesh

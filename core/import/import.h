@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/job.h"
 #include "core/base/result.h"
 #include "core/model/model.h"
 #include "core/schema/json.h"
@@ -45,7 +46,12 @@ struct Imported {
 struct ImportOptions {
   std::string entry;  ///< the system in a file of several; empty: the only one
   std::map<std::string, std::string>
-      files;  ///< further files beside the text, by name, such as a view file of cpfg
+      files;                 ///< further files beside the text, by name, such as a view file of cpfg
+  const Job* job = nullptr;  ///< of the request, for its limits, stop and deadline; null: there are none
+
+  void check() const {
+    if (job) job->check();
+  }
 };
 
 struct ImportFormat {

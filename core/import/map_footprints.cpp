@@ -35,6 +35,7 @@ Role role_of(const MapFeature& feature, const MapData& data) {
 std::vector<MapBody> bodies_of(MapConversion& map, const MapData& data, std::vector<bool>& is_building) {
   std::vector<MapBody> bodies;
   for (std::size_t i = 0; i < data.features.size(); ++i) {
+    if (i % 256 == 0) map.job.check();
     const MapFeature& feature = data.features[i];
     const Role role = role_of(feature, data);
     if (role == Role::none) continue;
@@ -46,7 +47,7 @@ std::vector<MapBody> bodies_of(MapConversion& map, const MapData& data, std::vec
     for (const std::vector<MapRing>& polygon : feature.polygons) {
       const std::vector<PlanRing> rings = map.outline(polygon, "a footprint", feature.position);
       if (rings.empty()) continue;
-      SoundPlans sound = sound_plans(rings);
+      SoundPlans sound = sound_plans(rings, &map.job);
       if (sound.lost_holes > 0)
         map.warnings.add("a courtyard crosses other edges of its footprint; it is left out",
                          feature.position);
@@ -61,10 +62,10 @@ std::vector<MapBody> bodies_of(MapConversion& map, const MapData& data, std::vec
 }
 
 /// A point inside a plan: the middle of its largest triangle.
-dvec2 inner_point(const Plan& plan) {
+dvec2 inner_point(const Plan& plan, const Job& job) {
   std::vector<dvec2> points;
   for (const PlanRing& ring : plan.rings) points.insert(points.end(), ring.begin(), ring.end());
-  const std::vector<std::uint32_t> corners = triangulate(plan);
+  const std::vector<std::uint32_t> corners = triangulate(plan, ThinTriangles::keep, &job);
   double largest = -1;
   dvec2 best = plan.rings[0][0];
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
@@ -140,7 +141,7 @@ void hide_outlines(MapConversion& map, std::vector<MapBody>& bodies) {
   std::vector<double> covered(bodies.size(), 0);
   for (MapBody& body : bodies) {
     if (body.role != Role::part) continue;
-    const MapBody* around = index.around(inner_point(body.plan));
+    const MapBody* around = index.around(inner_point(body.plan, map.job));
     if (!around) continue;
     const auto number = static_cast<std::size_t>(around - bodies.data());
     body.outline = around->feature;

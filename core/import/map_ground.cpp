@@ -247,7 +247,7 @@ class GroundWriter {
     for (const std::vector<MapRing>& polygon : feature.polygons) {
       const std::vector<PlanRing> rings = map_.outline(polygon, "an area", feature.position);
       if (rings.empty()) continue;
-      const SoundPlans sound = sound_plans(rings);
+      const SoundPlans sound = sound_plans(rings, &map_.job);
       if (sound.has_crossing) map_.warnings.add("an area crosses itself; it is left out", feature.position);
       if (sound.lost_holes > 0)
         map_.warnings.add("a hole of an area crosses its edges; it is left out", feature.position);
@@ -305,6 +305,7 @@ bool is_area_tagged(const MapTags& tags) {
 void add_ground(MapConversion& map, const MapData& data, const std::vector<bool>& is_building) {
   GroundWriter writer(map);
   for (std::size_t i = 0; i < data.features.size(); ++i) {
+    if (i % 64 == 0) map.job.check();
     if (!is_building[i]) writer.add(data.features[i]);
   }
   writer.finish();

@@ -89,10 +89,10 @@ PlanRing shrunk(const PlanRing& ring) {
   return clean(made);
 }
 
-bool has_errors(const Plan& plan) { return !faults_of(plan).empty(); }
+bool has_errors(const Plan& plan, const Job* job) { return !faults_of(plan, job).empty(); }
 
 /// Adds the holes that lie in the outer ring. Those with errors become smaller, and are left out if that does not help.
-Plan with_holes(PlanRing outer, const std::vector<PlanRing>& holes, SoundPlans& made) {
+Plan with_holes(PlanRing outer, const std::vector<PlanRing>& holes, const Job* job, SoundPlans& made) {
   Plan plan = read_plan({std::move(outer)});
   const Plan alone = plan;
   for (const PlanRing& hole : holes) {
@@ -102,7 +102,7 @@ Plan with_holes(PlanRing outer, const std::vector<PlanRing>& holes, SoundPlans& 
   for (int round = 0; round < most_rounds && plan.rings.size() > 1; ++round) {
     plan = read_plan(std::move(plan.rings));
     std::vector<bool> has_error(plan.rings.size(), false);
-    for (const PlanFault& fault : faults_of(plan)) {
+    for (const PlanFault& fault : faults_of(plan, job)) {
       // The second of two rings that meet is named; the first can be the outer ring.
       if (fault.ring > 0) has_error[fault.ring] = true;
     }
@@ -122,14 +122,14 @@ Plan with_holes(PlanRing outer, const std::vector<PlanRing>& holes, SoundPlans& 
     is_shrunk = std::move(kept_shrunk);
   }
   plan = read_plan(std::move(plan.rings));
-  if (!has_errors(plan)) return plan;
+  if (!has_errors(plan, job)) return plan;
   made.lost_holes += plan.rings.size() - 1;
   return alone;
 }
 
 }  // namespace
 
-SoundPlans sound_plans(const std::vector<PlanRing>& rings) {
+SoundPlans sound_plans(const std::vector<PlanRing>& rings, const Job* job) {
   SoundPlans made;
   if (rings.empty()) return made;
   std::vector<PlanRing> outer = loops_of(clean(rings[0])), holes;
@@ -146,11 +146,11 @@ SoundPlans sound_plans(const std::vector<PlanRing>& rings) {
     for (PlanRing& loop : loops_of(clean(rings[i]))) holes.push_back(std::move(loop));
   }
   for (PlanRing& loop : outer) {
-    if (has_errors(read_plan({loop}))) {
+    if (has_errors(read_plan({loop}), job)) {
       made.has_crossing = true;
       continue;
     }
-    made.plans.push_back(with_holes(std::move(loop), holes, made));
+    made.plans.push_back(with_holes(std::move(loop), holes, job, made));
   }
   return made;
 }

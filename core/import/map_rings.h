@@ -16,6 +16,7 @@ struct SoundPlans {
 /// Plans of an outer ring and holes in metres, in any direction. Points are rounded to millimetres; those that repeat
 /// another, lie on a straight edge (to 2 mm) or end a spike are left out; a ring that touches itself in a point is
 /// divided there; holes that touch another ring become smaller by a centimetre. Cost: that of `faults_of`.
-SoundPlans sound_plans(const std::vector<PlanRing>& rings);
+/// Checks stop and deadline where there is a job.
+SoundPlans sound_plans(const std::vector<PlanRing>& rings, const Job* job = nullptr);
 
 }  // namespace seedmesh

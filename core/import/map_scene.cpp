@@ -174,10 +174,10 @@ Json MapConversion::rings(const Plan& plan) {
   return made;
 }
 
-Result<Imported> scene_of_map(MapData data, std::string_view text) {
+Result<Imported> scene_of_map(MapData data, std::string_view text, const ImportOptions& options) {
   const std::optional<MapBounds> bounds = data.bounds ? data.bounds : bounds_of(data);
   if (!bounds) return Error{Code::invalid, {issue_of(IssueKind::missing, "the map has no positions")}};
-  const Job job(0, Job::Options{});
+  const Job job = options.job ? options.job->for_estimate() : Job(0, Job::Options{});
   MapConversion map(data.warnings, job, data.unit);
   const Json georeference = set_origin(map, (bounds->min + bounds->max) / 2.0);
   const std::vector<bool> is_building = add_buildings(map, data);

@@ -13,7 +13,8 @@ namespace seedmesh {
 
 /// Turns the features into a scene. `text`: the file, for the lines of warnings; empty for JSON. An error if nothing
 /// has a counterpart or the map is too large.
-Result<Imported> scene_of_map(MapData data, std::string_view text);
+/// Works within the limits, stop and deadline of `options.job`.
+Result<Imported> scene_of_map(MapData data, std::string_view text, const ImportOptions& options = {});
 
 /// What the parts of the conversion share.
 struct MapConversion {

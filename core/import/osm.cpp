@@ -30,7 +30,7 @@ bool read_number(std::string_view text, Number& number) {
 
 class OsmXmlReader {
  public:
-  explicit OsmXmlReader(std::string_view text) : text_(text) {}
+  OsmXmlReader(std::string_view text, const ImportOptions& options) : text_(text), options_(options) {}
 
   Result<Imported> read() {
     pugi::xml_document document;
@@ -48,7 +48,9 @@ class OsmXmlReader {
           Code::invalid,
           {issue_at(IssueKind::invalid_value, "", text_, 0, "expected the element <osm> of OpenStreetMap")}};
     }
+    std::size_t elements = 0;
     for (const pugi::xml_node element : root.children()) {
+      if (++elements % 256 == 0) options_.check();
       const std::string_view name = element.name();
       if (std::string_view(element.attribute("action").value()) == "delete" ||
           std::string_view(element.attribute("visible").value()) == "false")
@@ -59,7 +61,7 @@ class OsmXmlReader {
       if (name == "bounds") read_bounds(element);
     }
     if (!issues_.empty()) return Error{Code::invalid, std::move(issues_)};
-    return scene_of_map(map_of(std::move(file_)), text_);
+    return scene_of_map(map_of(std::move(file_), options_), text_, options_);
   }
 
  private:
@@ -155,6 +157,7 @@ class OsmXmlReader {
   }
 
   std::string_view text_;
+  const ImportOptions& options_;
   OsmFile file_;
   std::vector<Issue> issues_;
 };
@@ -163,12 +166,15 @@ class OsmXmlReader {
 
 class OsmJsonReader {
  public:
+  explicit OsmJsonReader(const ImportOptions& options) : options_(options) {}
+
   Result<Imported> read(const Json& file) {
     const auto elements = file.find("elements");
     if (elements == file.end() || !elements->is_array())
       return Error{Code::invalid,
                    {{IssueKind::missing, "", "expected an array \"elements\", as Overpass writes it"}}};
     for (std::size_t i = 0; i < elements->size() && issues_.size() < most_errors; ++i) {
+      if (i % 256 == 0) options_.check();
       const std::string pointer = "/elements/" + std::to_string(i);
       const Json& element = (*elements)[i];
       if (!element.is_object()) {
@@ -181,7 +187,7 @@ class OsmJsonReader {
       if (type == "relation") read_relation(element, pointer);
     }
     if (!issues_.empty()) return Error{Code::invalid, std::move(issues_)};
-    return scene_of_map(map_of(std::move(file_)), "");
+    return scene_of_map(map_of(std::move(file_), options_), "", options_);
   }
 
  private:
@@ -287,6 +293,7 @@ class OsmJsonReader {
     file_.relations.push_back(std::move(relation));
   }
 
+  const ImportOptions& options_;
   OsmFile file_;
   std::vector<Issue> issues_;
 };
@@ -314,10 +321,10 @@ int marks_of_osm(std::string_view text) {
 Result<Imported> import_osm(std::string_view text, const ImportOptions& options) {
   if (std::optional<Error> error = entry_error(options, "a file of OpenStreetMap is one map"))
     return *std::move(error);
-  if (!begins_json(text)) return OsmXmlReader(text).read();
-  Result<Json> file = parse_json(text);
+  if (!begins_json(text)) return OsmXmlReader(text, options).read();
+  Result<Json> file = parse_json(text, {.job = options.job});
   if (!file) return std::move(file).error();
-  return OsmJsonReader().read(*file);
+  return OsmJsonReader(options).read(*file);
 }
 
 }  // namespace seedmesh

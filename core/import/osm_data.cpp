@@ -106,7 +106,7 @@ std::vector<MapRing> rings_of(std::vector<MapRing> lines, std::size_t& open) {
 
 class Assembler {
  public:
-  explicit Assembler(OsmFile file) : file_(std::move(file)) {}
+  Assembler(OsmFile file, const ImportOptions& options) : file_(std::move(file)), options_(options) {}
 
   MapData assemble() {
     sort_by_id(file_.nodes);
@@ -127,7 +127,12 @@ class Assembler {
  private:
   void warn(const char* message, const MapPosition& place) { file_.warnings.add(message, place); }
 
+  void count() {
+    if (++elements_ % 256 == 0) options_.check();
+  }
+
   void add_node(const OsmNode& node) {
+    count();
     if (node.tags.all().empty()) return;
     MapFeature feature;
     feature.name = "node/" + std::to_string(node.id);
@@ -138,6 +143,7 @@ class Assembler {
   }
 
   void add_way(const OsmWay& way) {
+    count();
     if (way.tags.all().empty()) return;
     WayPoints read = points_of(way, file_.nodes);
     const bool is_closed = read.points.size() > 3 && read.points.front() == read.points.back();
@@ -175,6 +181,7 @@ class Assembler {
   }
 
   void add_relation(const OsmRelation& relation) {
+    count();
     const std::string_view type = relation.tags.get("type");
     if (type != "multipolygon" && type != "boundary") return;
     if (type == "boundary" && !is_area(relation.tags)) return;
@@ -220,6 +227,7 @@ class Assembler {
   void add_hole(MapFeature& feature, MapRing ring) {
     for (std::vector<MapRing>& polygon : feature.polygons) {
       if (++tried_ > most_tried) break;
+      options_.check();
       if (feature.polygons.size() > 1 && !contains(Plan{{polygon[0]}}, ring[0]) &&
           !contains(Plan{{polygon[0]}}, ring[1]))
         continue;
@@ -230,6 +238,8 @@ class Assembler {
   }
 
   OsmFile file_;
+  const ImportOptions& options_;
+  std::size_t elements_ = 0;
   std::vector<bool> is_consumed_;
   std::size_t tried_ = 0;  ///< pairs of an outer ring and a hole
   std::vector<MapFeature> features_;
@@ -238,6 +248,8 @@ class Assembler {
 
 }  // namespace
 
-MapData map_of(OsmFile file) { return Assembler(std::move(file)).assemble(); }
+MapData map_of(OsmFile file, const ImportOptions& options) {
+  return Assembler(std::move(file), options).assemble();
+}
 
 }  // namespace seedmesh

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/import/import.h"
 #include "core/import/map_data.h"
 
 namespace seedmesh {
@@ -47,7 +48,8 @@ struct OsmFile {
 };
 
 /// Joins ways and multipolygons to features. Elements that occur twice count once. What refers to nodes or ways that
-/// the file lacks is left out or shortened, with a warning. Cost: about n log n.
-MapData map_of(OsmFile file);
+/// the file lacks is left out or shortened, with a warning. Checks stop and deadline of the job of `options`. Cost: about
+/// n log n.
+MapData map_of(OsmFile file, const ImportOptions& options = {});
 
 }  // namespace seedmesh

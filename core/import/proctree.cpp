@@ -72,6 +72,7 @@ std::string unknown_name(const std::string& name) {
 }  // namespace
 
 int marks_of_proctree(std::string_view text) {
+  if (text.size() > largest_tree_file) return 0;
   const Result<Json> file = parse_json(text);
   if (!file || !file->is_object()) return 0;
   const auto names = known_names();

@@ -14,7 +14,14 @@ struct Request::Body {
   OutputParams output;
   std::uint64_t seed = 0;
   std::string canonical;
+  std::string name;  ///< of the model (names.h)
 };
+
+/// Canonical JSON of generator, parameters, seed and output.
+std::string canonical_request(const Request::Body& body);
+
+/// Reads a request without its canonical text and name. Code::invalid holds all errors. Throws Stop.
+Result<Request::Body> read_parts(const Json& json, const Job& job);
 
 inline WantedFormat wanted_format(const OutputParams& output) {
   return {text_of(output.format), text_of(output.profile)};
@@ -24,7 +31,7 @@ inline WantedFormat wanted_format(const OutputParams& output) {
 /// none.
 std::string_view part_with(std::string_view member, std::string_view generator);
 
-/// Reads a request from parsed JSON. Code::invalid holds all errors.
-Result<Request> read_request_body(const Json& json, const Limits& limits);
+/// Reads a request from parsed JSON within the limits, stop and deadline of `options`. Code::invalid holds all errors.
+Result<Request> read_request_body(const Json& json, const Job::Options& options);
 
 }  // namespace seedmesh

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/pipeline/body.h"
+#include "core/pipeline/guarded.h"
 #include "core/schema/nearest.h"
 #include "core/schema/warning_list.h"
 
@@ -83,6 +84,9 @@ Error in_format(Error error, const ImportQuestion& question, const ImportFormat&
   return error;
 }
 
+/// Whether the time has passed or the caller has gone.
+bool is_stopped(const Error& error) { return error.code == Code::deadline || error.code == Code::cancelled; }
+
 /// What the generator says of the request before it makes anything. A request that is more than the limits
 /// allow is a request still: it can be made smaller.
 /// Returns the error where the time has passed or the caller has gone.
@@ -94,8 +98,7 @@ std::optional<Error> append_appraisal(const Request& request, Imported& imported
   };
   const Result<std::string> appraisal = validate(request, options);
   if (!appraisal) {
-    const Code code = appraisal.error().code;
-    if (code == Code::deadline || code == Code::cancelled) return appraisal.error();
+    if (is_stopped(appraisal.error())) return appraisal.error();
     for (const Issue& issue : appraisal.error().issues) {
       append(
           {issue.pointer, "the model is refused as it stands: " + issue.message, issue.line, issue.column});
@@ -112,12 +115,12 @@ std::optional<Error> append_appraisal(const Request& request, Imported& imported
 
 /// A body `{"files": {name: text, ...}}` holds several files. The one that looks most like a format is the text, the
 /// others are beside it. `main` owns its text.
-void unpack(ImportQuestion& question, std::string& main) {
+void unpack(ImportQuestion& question, std::string& main, const Job& job) {
   const std::size_t first = question.text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos || question.text[first] != '{' ||
       question.text.find("\"files\"") == std::string_view::npos)
     return;
-  const Result<Json> body = parse_json(question.text);
+  const Result<Json> body = parse_json(question.text, {.job = &job});
   if (!body || !body->is_object() || body->size() != 1 || !body->contains("files")) return;
   const Json& files = body->at("files");
   if (!files.is_object() || files.empty()) return;
@@ -145,10 +148,11 @@ void unpack(ImportQuestion& question, std::string& main) {
 
 }  // namespace
 
-Result<ImportedRequest> import_request(const ImportQuestion& asked, const Job::Options& options) {
+static Result<ImportedRequest> import_within(const ImportQuestion& asked, const Job::Options& options,
+                                             const Job& job) {
   ImportQuestion question = asked;
   std::string main;
-  unpack(question, main);
+  unpack(question, main, job);
   const ImportFormat* format =
       question.format.empty() ? likeliest_format(question.text) : find_import_format(question.format);
   std::string clean;
@@ -163,9 +167,11 @@ Result<ImportedRequest> import_request(const ImportQuestion& asked, const Job::O
                  {issue_at(IssueKind::syntax, "", question.text, bad, "found a byte that is not UTF-8")}};
   }
   if (!format) return unknown_format(question.format);
-  Result<Imported> imported = format->read(question.text, {std::string(question.entry), question.files});
+  Result<Imported> imported =
+      format->read(question.text, {std::string(question.entry), question.files, &job});
   if (!imported) return in_format(std::move(imported).error(), question, *format);
-  Result<Request> request = read_request_body(imported->request, options.limits);
+  Result<Request> request = read_request_body(imported->request, options);
+  if (!request && is_stopped(request.error())) return std::move(request).error();
   if (!request || !imported->errors.empty()) {
     std::vector<Issue> found;
     if (!request) found = std::move(request).error().issues;
@@ -178,6 +184,10 @@ Result<ImportedRequest> import_request(const ImportQuestion& asked, const Job::O
                  {"request", Json::parse(request->canonical())},
                  {"warnings", warning_list(imported->warnings)}};
   return ImportedRequest{std::move(*request), canonical_text(answer), std::move(imported->warnings)};
+}
+
+Result<ImportedRequest> import_request(const ImportQuestion& question, const Job::Options& options) {
+  return guarded<ImportedRequest>([&] { return import_within(question, options, Job(0, options)); });
 }
 
 Result<ImportedRequest> import_request(const ImportQuestion& question, const Limits& limits) {

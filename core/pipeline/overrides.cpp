@@ -61,8 +61,10 @@ std::optional<Target> target_of(std::string_view key, std::string_view generator
 
 /// The property that `name` most likely misspells, as the end of a sentence; empty where there is no similar
 /// property.
-std::string did_you_mean(std::string_view name, const Json& schema, const std::string& group) {
-  std::vector<std::string_view> words;
+/// `others` are compared too, before the properties.
+std::string did_you_mean(std::string_view name, const Json& schema, const std::string& group,
+                         std::vector<std::string_view> others = {}) {
+  std::vector<std::string_view> words = std::move(others);
   for (const auto& [word, unused] : schema.at("properties").get_ref<const Json::object_t&>())
     words.push_back(word);
   const std::string_view nearest = schema::nearest_word(name, words);
@@ -86,9 +88,7 @@ std::string unknown_key(std::string_view key, std::string_view generator) {
   } else if (own != key && part_with(own, generator) == "parameters") {
     meant = "; did you mean \"" + std::string(own) + "\"?";
   } else {
-    meant = did_you_mean(key, parsed_schemas().at(generator), "");
-    constexpr std::string_view seed[] = {"seed"};
-    if (meant.empty() && !schema::nearest_word(key, seed).empty()) meant = "; did you mean \"seed\"?";
+    meant = did_you_mean(key, parsed_schemas().at(generator), "", {"seed"});
   }
   return found + " is neither seed, nor output.…, nor a parameter of " + std::string(generator) + meant;
 }
@@ -174,7 +174,9 @@ std::optional<Result<Request>> read_preset(std::string_view name, const Override
       faults.add({IssueKind::unknown_key, pointer_token(key), unknown_key(key, generator)});
     }
   }
-  Result<Request> result = read_request_body(request, limits);
+  Job::Options options;
+  options.limits = limits;
+  Result<Request> result = read_request_body(request, options);
   std::vector<Issue> issues = faults.take();
   if (result && issues.empty()) return result;
   if (!result) {

@@ -4,12 +4,14 @@
 #include "core/geom/mesh/copies.h"
 #include "core/geom/mesh/finish.h"
 #include "core/geom/mesh/tangents.h"
+#include "core/gltf/content_names.h"
 #include "core/gltf/write/write.h"
 #include "core/lang/expression.h"
 #include "core/model/row.h"
 #include "core/pipeline/body.h"
 #include "core/pipeline/fit.h"
 #include "core/pipeline/guarded.h"
+#include "core/pipeline/names.h"
 #include "core/pipeline/profiles.h"
 #include "core/schema/warning_list.h"
 #include "core/texture/impostor.h"
@@ -58,10 +60,25 @@ Json seed_json(std::uint64_t seed) {
   return seed <= exact_in_javascript ? Json(seed) : Json(std::to_string(seed));
 }
 
-void sign(Model& model, const Request& request) {
-  model.extras.push_back({"engine", Json(engine_version()).dump()});
-  model.extras.push_back({"generator", Json(request.generator()).dump()});
-  model.extras.push_back({"seed", seed_json(request.seed()).dump()});
+/// Names the model and its parts for the profile.
+void name_model(Model& model, const Request& request, const Job& job) {
+  const OutputProfile profile = request.body().output.profile;
+  // Compressed meshes share grids, so their stored form depends on the whole request.
+  const bool is_compressed = profile_of(profile).compressed;
+  gltf::name_by_content(model,
+                        {.stem = name_stem(request.body()),
+                         .root = request.name(),
+                         .form = is_compressed ? std::string_view(request.canonical()) : std::string_view()},
+                        job);
+  name_for(model, profile);
+}
+
+void sign(Model& model, const Request& request, const std::vector<Extra>& origin) {
+  model.extras.insert(model.extras.end(), origin.begin(), origin.end());
+  for (Extra& extra : model.extras) {
+    if (extra.name == "seed") extra.json = seed_json(request.seed()).dump();
+  }
+  add_to_root(model, origin);
   shorten(model.warnings);
   point_into_request(model.warnings);
 }
@@ -257,7 +274,8 @@ WriteOptions write_options(const Request& request) {
           .generator = "Seedmesh " + std::string(program_version()),
           .dialect = {.compressed = profile.compressed,
                       .gpu_instances = profile_default || output.instancing == OutputInstancing::gpu,
-                      .lods_inside = profile.lods_inside}};
+                      .lods_inside = profile.lods_inside},
+          .image_stem = name_stem(request.body())};
 }
 
 }  // namespace
@@ -279,8 +297,10 @@ Result<Product> produce(const Request& request, const Job::Options& options, Tex
       return Error{Code::invalid, {*std::move(issue)}};
     if (output.tangents == OutputTangents::auto_) add_tangents(*model, job);
     finish(*model, job);
-    name_for(*model, output.profile);
-    sign(*model, request);
+    name_model(*model, request, job);
+    std::vector<Extra> origin;
+    if (output.provenance == OutputProvenance::full) origin = provenance(request);
+    sign(*model, request, origin);
     ModelCounts counts = count(*model);
     Product product;
     product.statistics.warnings = static_cast<std::uint32_t>(model->warnings.size());
@@ -289,6 +309,7 @@ Result<Product> produce(const Request& request, const Job::Options& options, Tex
     job.progress("encode", 0);
     WriteOptions written = write_options(request);
     written.counts = &counts;
+    written.scene_extras = std::move(origin);
     product.payload = write(std::move(*model), written, job);
     product.statistics.triangles = counts.triangles;
     product.statistics.vertices = counts.vertices;

@@ -6,6 +6,8 @@
 
 #include "core/generators/child.h"
 #include "core/pipeline/body.h"
+#include "core/pipeline/guarded.h"
+#include "core/pipeline/names.h"
 #include "core/pipeline/profiles.h"
 #include "core/schema/nearest.h"
 #include "core/schema/parse_body.h"
@@ -17,17 +19,6 @@ namespace seedmesh {
 namespace {
 
 constexpr std::int32_t least_impostor = 64;  ///< texels of a side
-
-std::string canonical_request(const Request::Body& body) {
-  Json json = {{"generator", body.generator->name}};
-  RequestParams frame;
-  frame.seed = body.seed;
-  frame.output = body.output;
-  json.update(write_request(frame));  // seed and output, unless they are defaults
-  Json params = body.generator->write(body.params);
-  if (!params.empty()) json["parameters"] = std::move(params);
-  return canonical_text(json);
-}
 
 const Generator* named_generator(const Json& json, const RequestParams& frame, IssueList& errors) {
   if (!frame.generator) {
@@ -45,13 +36,13 @@ const Generator* named_generator(const Json& json, const RequestParams& frame, I
   return generator;
 }
 
-Generator::Params parameters_of(const Json& body, const Generator& generator, const Limits& limits,
+Generator::Params parameters_of(const Json& body, const Generator& generator, const Job& job,
                                 IssueList& errors) {
   if (body.contains("parameters"))
-    return read_parameters(generator, body["parameters"], "/parameters", {limits, generators()}, errors);
+    return read_parameters(generator, body["parameters"], "/parameters", {job, generators()}, errors);
   IssueList missing;
   Generator::Params params =
-      read_parameters(generator, Json::object(), "/parameters", {limits, generators()}, missing);
+      read_parameters(generator, Json::object(), "/parameters", {job, generators()}, missing);
   for (const Issue& issue : missing.issues()) {
     // The object itself is missing, not one of its members.
     errors.add_missing("", "parameters", "\"parameters\" is missing: in it, " + issue.message);
@@ -72,9 +63,9 @@ std::string preset_of_another(const Json& json) {
 /// The parameters of a body that was merged over a preset of another generator. One error covers all
 /// parameters of the other generator.
 Generator::Params mixed_parameters(const Json& merged, const std::string& other, const Generator& generator,
-                                   const Limits& limits, IssueList& errors) {
+                                   const Job& job, IssueList& errors) {
   IssueList foreign;
-  Generator::Params params = parameters_of(merged, generator, limits, foreign);
+  Generator::Params params = parameters_of(merged, generator, job, foreign);
   if (!foreign.empty()) {
     const std::string name(generator.name);
     errors.add({IssueKind::conflict, "/generator",
@@ -210,7 +201,7 @@ void check_own_format(const OwnFormat& own, const Generator& generator, const Ge
     }
   }
   Json options = write_output(output);
-  options.erase("format");
+  for (const char* name : {"format", "name", "provenance"}) options.erase(name);
   if (own.has_profiles) options.erase("profile");
   if (own.has_models) {
     options.erase("textures");
@@ -265,8 +256,20 @@ std::string_view Request::generator() const { return body_->generator->name; }
 std::string_view Request::format() const { return text_of(body_->output.format); }
 const std::string& Request::canonical() const { return body_->canonical; }
 std::uint64_t Request::seed() const { return body_->seed; }
+const std::string& Request::name() const { return body_->name; }
 
-Result<Request> read_request_body(const Json& json, const Limits& limits) {
+std::string canonical_request(const Request::Body& body) {
+  Json json = {{"generator", body.generator->name}};
+  RequestParams frame;
+  frame.seed = body.seed;
+  frame.output = body.output;
+  json.update(write_request(frame));  // seed and output, unless they are defaults
+  Json params = body.generator->write(body.params);
+  if (!params.empty()) json["parameters"] = std::move(params);
+  return canonical_text(json);
+}
+
+Result<Request::Body> read_parts(const Json& json, const Job& job) {
   if (const std::string_view type = schema::geojson_type(json);
       !type.empty() && !json.contains("generator")) {
     return Error{
@@ -288,8 +291,8 @@ Result<Request> read_request_body(const Json& json, const Limits& limits) {
   body.generator = named_generator(merged, frame, errors);
   if (body.generator && (!merged.contains("parameters") || merged["parameters"].is_object())) {
     const std::string other = preset_of_another(json);
-    body.params = other.empty() ? parameters_of(merged, *body.generator, limits, errors)
-                                : mixed_parameters(merged, other, *body.generator, limits, errors);
+    body.params = other.empty() ? parameters_of(merged, *body.generator, job, errors)
+                                : mixed_parameters(merged, other, *body.generator, job, errors);
   }
   if (body.generator) {
     check_format(*body.generator, frame.output, errors);
@@ -298,18 +301,38 @@ Result<Request> read_request_body(const Json& json, const Limits& limits) {
   if (!errors.empty()) return Error{Code::invalid, with_parts(errors.take(), merged, body.generator)};
   body.output = frame.output;
   body.seed = frame.seed;
-  body.canonical = canonical_request(body);
-  return Request(std::make_shared<const Request::Body>(std::move(body)));
+  return body;
+}
+
+static Result<Request> read_checked(const Json& json, const Job& job) {
+  Result<Request::Body> body = read_parts(json, job);
+  if (!body) return std::move(body).error();
+  body->canonical = canonical_request(*body);
+  body->name = model_name(*body);
+  return Request(std::make_shared<const Request::Body>(*std::move(body)));
+}
+
+Result<Request> read_request_body(const Json& json, const Job::Options& options) {
+  return guarded<Request>([&] { return read_checked(json, Job(0, options)); });
+}
+
+Result<Request> read_request(std::string_view json, const Job::Options& options) {
+  return guarded<Request>([&]() -> Result<Request> {
+    const Job job(0, options);
+    std::vector<Issue> issues;
+    Result<Json> body = parse_body(json, issues, {.job = &job});
+    if (!body) return std::move(body).error();
+    Result<Request> request = read_checked(*body, job);
+    if (issues.empty()) return request;
+    if (!request) add_others(request.error().issues, issues);
+    return Error{Code::invalid, std::move(issues)};
+  });
 }
 
 Result<Request> read_request(std::string_view json, const Limits& limits) {
-  std::vector<Issue> issues;
-  Result<Json> body = parse_body(json, issues);
-  if (!body) return std::move(body).error();
-  Result<Request> request = read_request_body(*body, limits);
-  if (issues.empty()) return request;
-  if (!request) add_others(request.error().issues, issues);
-  return Error{Code::invalid, std::move(issues)};
+  Job::Options options;
+  options.limits = limits;
+  return read_request(json, options);
 }
 
 Result<Request> with_format(const Request& request, std::string_view format) {

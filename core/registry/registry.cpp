@@ -52,8 +52,10 @@ struct Row {
   static std::vector<Issue> check(const Params& params, const CheckContext& context) {
     if constexpr (requires { check_own(own(params), context); }) {
       return check_own(own(params), context);
+    } else if constexpr (requires { check_own(own(params), context.job.limits(), &context.job); }) {
+      return check_own(own(params), context.job.limits(), &context.job);
     } else {
-      return check_own(own(params), context.limits);
+      return check_own(own(params), context.job.limits());
     }
   }
   static Result<Model> generate(const Params& params, const GenerateContext& context) {

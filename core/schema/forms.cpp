@@ -24,6 +24,12 @@ bool is_preset_name(std::string_view text) {
          std::ranges::all_of(text, [](char c) { return is_small(c) || is_digit(c) || c == '_' || c == '-'; });
 }
 
+bool is_model_name(std::string_view text) {
+  return !text.empty() && text.size() <= 64 && std::ranges::all_of(text, [](char c) {
+    return is_letter(c) || is_digit(c) || c == '_' || c == '-';
+  });
+}
+
 bool is_digits(std::string_view text) {
   return !text.empty() && text.size() <= 20 && std::ranges::all_of(text, is_digit);
 }
@@ -36,11 +42,14 @@ const Form name = {"^[A-Za-z_][A-Za-z0-9_]*$", "name",
                    "a name of letters, digits and _ that does not begin with a digit", is_name};
 const Form preset_name = {"^[a-z0-9_-]+$", "preset_name", "a name of lower-case letters, digits, - and _",
                           is_preset_name};
+const Form model_name = {"^[A-Za-z0-9_-]{1,64}$", "model_name", "1 to 64 letters, digits, - and _",
+                         is_model_name};
 const Form digits = {"^[0-9]{1,20}$", "digits", "1 to 20 decimal digits", is_digits};
 }  // namespace forms
 
 const Form* find_form(std::string_view pattern) {
-  for (const Form* form : {&forms::color, &forms::name, &forms::preset_name, &forms::digits}) {
+  for (const Form* form :
+       {&forms::color, &forms::name, &forms::preset_name, &forms::model_name, &forms::digits}) {
     if (form->pattern == pattern) return form;
   }
   return nullptr;

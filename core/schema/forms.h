@@ -16,6 +16,7 @@ namespace forms {
 extern const Form color;        ///< #rrggbb
 extern const Form name;         ///< a letter or _, then letters, digits, _
 extern const Form preset_name;  ///< lower-case letters, digits, - and _
+extern const Form model_name;   ///< 1 to 64 letters, digits, - and _
 extern const Form digits;       ///< 1 to 20 decimal digits
 }  // namespace forms
 

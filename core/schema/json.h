@@ -12,16 +12,20 @@ namespace seedmesh {
 /// Members of objects are sorted by the bytes of their keys, so that iteration is deterministic.
 using Json = nlohmann::json;
 
+class Job;
+
 /// The limits of parse_json.
 struct JsonLimits {
   std::size_t depth = 64;          ///< of nested lists and objects
   std::size_t values = 2'000'000;  ///< of any type; a value takes up to 80 bytes, its text as few as 2
+  const Job* job = nullptr;        ///< checked for stop and deadline, so that Stop is thrown; may be null
 };
 
 /// Parses a JSON text strictly after RFC 8259. Duplicate members, invalid UTF-8, text after the value, NaN and
 /// comments are Code::malformed, with line and column in the whole text where they are known. Integers of up to
 /// 64 bits are exact, larger ones become the nearest double, and -0 becomes 0. A number beyond the range of a
-/// double (1e999) is Code::invalid at its own pointer. Throws only std::bad_alloc; does not recurse. Cost: linear.
+/// double (1e999) is Code::invalid at its own pointer. Throws only std::bad_alloc and the Stop of the
+/// job; does not recurse. Cost: linear.
 Result<Json> parse_json(std::string_view text, const JsonLimits& limits = {});
 
 /// The canonical text: no spaces, sorted members, numbers as ECMAScript prints them (7.0 is 7), and escapes only

@@ -9,6 +9,8 @@
 #include <span>
 #include <utility>
 
+#include "core/base/job.h"
+
 namespace seedmesh {
 namespace {
 
@@ -112,6 +114,8 @@ class Builder {
 
   /// Inserts a value. Its address is valid until the list around it gets the next entry.
   Json* put(Json value) {
+    constexpr std::size_t values_a_check = 4096;
+    if (limits_.job && values_ % values_a_check == 0) limits_.job->check();
     if (++values_ > limits_.values) {
       refuse(Code::limit, limit_issue({Resource::json_values, limits_.values, values_},
                                       "more than " + std::to_string(limits_.values) + " JSON values"));
@@ -215,13 +219,13 @@ Result<Json> parse_json(std::string_view text, const JsonLimits& limits) {
   return parse_with(builder, text);
 }
 
-Result<Json> parse_body(std::string_view text, std::vector<Issue>& too_large) {
-  Builder strict(text, {});
+Result<Json> parse_body(std::string_view text, std::vector<Issue>& too_large, const JsonLimits& limits) {
+  Builder strict(text, limits);
   Result<Json> read = parse_with(strict, text);
   if (!strict.is_too_large) return read;
   std::string blanked(text);
   const std::vector<TooLarge> numbers = blank_too_large(blanked);
-  Builder builder(blanked, {});
+  Builder builder(blanked, limits);
   builder.expect(numbers, too_large);
   return parse_with(builder, blanked);
 }

@@ -12,6 +12,6 @@ namespace seedmesh {
 
 /// As parse_json, but a number beyond the range of a double (1e999) becomes null and adds an error to `too_large`,
 /// for at most 100 numbers. Cost: that of parse_json, and twice that if there is such a number.
-Result<Json> parse_body(std::string_view text, std::vector<Issue>& too_large);
+Result<Json> parse_body(std::string_view text, std::vector<Issue>& too_large, const JsonLimits& limits = {});
 
 }  // namespace seedmesh

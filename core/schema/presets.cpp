@@ -11,6 +11,7 @@ constexpr std::string_view gallery_members[] = {"title", "description", "tags"};
 Preset preset_of(const EmbeddedText& row) {
   auto file = nlohmann::ordered_json::parse(row.text);
   for (const std::string_view member : gallery_members) file.erase(std::string(member));
+  file["output"]["name"] = row.name;
   return {.request = Json::parse(file.dump()), .request_text = file.dump(2) + "\n"};
 }
 

@@ -1,6 +1,7 @@
 #include "core/texture/field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -95,34 +96,64 @@ std::vector<CellPoint> cell_points(Lattice lattice, Rng rng) {
   return points;
 }
 
-/// The distance from `at` (in squares) to the border between its nearest and second nearest point.
-void find_cell(const std::vector<CellPoint>& points, Lattice lattice, glm::vec2 at, float& border,
-               float& shade) {
-  const int column = static_cast<int>(std::floor(at.x)), row = static_cast<int>(std::floor(at.y));
-  float nearest = 1e9F, second = 1e9F;
-  glm::vec2 to_nearest{0}, to_second{0};
-  for (int dy = -1; dy <= 1; ++dy) {
-    const int r = wrapped(row + dy, lattice.rows) * lattice.columns;
-    for (int dx = -1; dx <= 1; ++dx) {
-      const CellPoint& point = points[static_cast<std::size_t>(r + wrapped(column + dx, lattice.columns))];
-      const glm::vec2 to = glm::vec2(column + dx, row + dy) + point.place - at;
-      const float distance = to.x * to.x + to.y * to.y;
-      if (distance < nearest) {
-        second = nearest;
-        to_second = to_nearest;
-        nearest = distance;
-        to_nearest = to;
-        shade = point.shade;
-      } else if (distance < second) {
-        second = distance;
-        to_second = to;
+/// The nine points in and around a square; those of the last square are kept for the texels that follow.
+class NearPoints {
+ public:
+  NearPoints(const std::vector<CellPoint>& points, Lattice lattice) : points_(points), lattice_(lattice) {}
+
+  /// The distance from `at` (in squares) to the border between its nearest and second nearest point.
+  void find_cell(glm::vec2 at, float& border, float& shade) {
+    const int column = static_cast<int>(std::floor(at.x)), row = static_cast<int>(std::floor(at.y));
+    if (column != column_ || row != row_ || is_empty_) fill(column, row);
+    std::array<float, count> distance;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float x = x_[i] - at.x, y = y_[i] - at.y;
+      distance[i] = x * x + y * y;
+    }
+    // Without branches, which the processor could not predict.
+    float nearest = 1e9F, second = 1e9F;
+    std::uint32_t near_point = 0, second_point = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const float own = distance[i];
+      const bool is_nearest = own < nearest, is_second = own < second;
+      second_point = is_nearest ? near_point : is_second ? i : second_point;
+      second = is_nearest ? nearest : is_second ? own : second;
+      near_point = is_nearest ? i : near_point;
+      nearest = is_nearest ? own : nearest;
+    }
+    shade = shade_[near_point];
+    const glm::vec2 across = (glm::vec2(x_[second_point], y_[second_point]) - at) -
+                             (glm::vec2(x_[near_point], y_[near_point]) - at);
+    const float length = std::sqrt(across.x * across.x + across.y * across.y);
+    border = length > 0 ? (second - nearest) / (2 * length) : 0;
+  }
+
+ private:
+  static constexpr std::size_t count = 9;
+
+  void fill(int column, int row) {
+    column_ = column;
+    row_ = row;
+    is_empty_ = false;
+    std::size_t i = 0;
+    for (int dy = -1; dy <= 1; ++dy) {
+      const int r = wrapped(row + dy, lattice_.rows) * lattice_.columns;
+      for (int dx = -1; dx <= 1; ++dx, ++i) {
+        const CellPoint& point =
+            points_[static_cast<std::size_t>(r + wrapped(column + dx, lattice_.columns))];
+        x_[i] = static_cast<float>(column + dx) + point.place.x;
+        y_[i] = static_cast<float>(row + dy) + point.place.y;
+        shade_[i] = point.shade;
       }
     }
   }
-  const glm::vec2 across = to_second - to_nearest;
-  const float length = std::sqrt(across.x * across.x + across.y * across.y);
-  border = length > 0 ? (second - nearest) / (2 * length) : 0;
-}
+
+  const std::vector<CellPoint>& points_;
+  Lattice lattice_;
+  int column_ = 0, row_ = 0;
+  bool is_empty_ = true;
+  std::array<float, count> x_{}, y_{}, shade_{};
+};
 
 }  // namespace
 
@@ -167,6 +198,7 @@ Cells cells(int size, Lattice lattice, Rng rng, const Field* wobble, float stren
   parallel_for(job, static_cast<std::size_t>(size), rows_a_chunk,
                [&](std::size_t begin, std::size_t end, std::size_t) {
                  job.check();
+                 NearPoints near_points(points, lattice);
                  for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
                    float* border = made.border.row(y);
                    float* shade = made.shade.row(y);
@@ -174,7 +206,7 @@ Cells cells(int size, Lattice lattice, Rng rng, const Field* wobble, float stren
                      glm::vec2 at{static_cast<float>(x) * by_x, static_cast<float>(y) * by_y};
                      if (wobble)
                        at += glm::vec2(wobble->at(x, y), wobble->at(x + size / 2, y + size / 3)) * strength;
-                     find_cell(points, lattice, at, border[x], shade[x]);
+                     near_points.find_cell(at, border[x], shade[x]);
                    }
                  }
                });

@@ -13,6 +13,8 @@ using glm::dvec2;
 using glm::vec2;
 
 constexpr int leaves_of_a_twig = 9;
+// Rows between two checks of the deadline.
+constexpr int rows_a_look = 32;
 // The share of the accent colour in the heart of a blossom, and where on the petals it ends.
 constexpr float heart = 0.85F, heart_end = 0.3F;
 
@@ -180,6 +182,7 @@ class Painter {
         vec2(along.y, -along.x) * std::sqrt(by_length) / static_cast<float>(std::max(blade.half_width, 1e-6));
     std::vector<float> covers(static_cast<std::size_t>(window.width()));
     for (int y = window.y0; y < window.y1; ++y) {
+      if (y % rows_a_look == 0) job_.check();
       coverage.read(y, covers);
       for (int x = window.x0; x < window.x1; ++x) {
         const float cover = covers[static_cast<std::size_t>(x - window.x0)];
@@ -207,6 +210,7 @@ class Painter {
     if (squared <= 0) return;
     const float by_texel = 1 / view_.texel_size();
     for (int y = window.y0; y < window.y1; ++y) {
+      if (y % rows_a_look == 0) job_.check();
       for (int x = window.x0; x < window.x1; ++x) {
         const vec2 p = view_.leaf(x, y) - from;
         const float t = clamp(glm::dot(p, along) / squared);

@@ -25,7 +25,8 @@ std::string key_of(const TextureRecipe& recipe, int size) {
 }
 
 std::shared_ptr<const Maps> make(const TextureRecipe& recipe, int size, const Job& job) {
-  const Painting painting = paint_kind(recipe.kind, size, recipe.seed, recipe.color, job);
+  const Painting painting =
+      paint_kind(recipe.kind, painted_size(recipe.kind, size), recipe.seed, recipe.color, job);
   return std::make_shared<const Maps>(make_maps(painting.relief, painting.finish, recipe.kind, job));
 }
 
@@ -87,6 +88,11 @@ std::span<const std::string_view> texture_kinds() {
     return list;
   }();
   return all;
+}
+
+int painted_size(std::string_view kind, int size) {
+  constexpr int least = 64;
+  return is_repeating_kind(kind) || size <= least ? size : size / 2;
 }
 
 bool is_repeating_kind(std::string_view name) { return is_bark_kind(name) || wall_kind(name) != nullptr; }

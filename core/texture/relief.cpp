@@ -75,8 +75,8 @@ void interleave(const Row& row, int channels, std::uint8_t* out, int size) {
 
 /// A PNG file. `fill(row, y)` writes the values of a row, and `settle(row)` changes its bytes.
 template <class Fill, class Settle>
-std::shared_ptr<const Image> picture(int size, int channels, std::string name, PngEffort effort,
-                                     const Job& job, Fill&& fill, Settle&& settle) {
+std::shared_ptr<const Image> picture(int size, int channels, std::string name, const Job& job, Fill&& fill,
+                                     Settle&& settle) {
   const auto side = static_cast<std::size_t>(size), pixel = static_cast<std::size_t>(channels);
   Array<std::uint8_t> pixels(job, side * side * pixel);
   Row row(size);
@@ -88,8 +88,8 @@ std::shared_ptr<const Image> picture(int size, int channels, std::string name, P
     interleave(row, channels, pixels.data() + static_cast<std::size_t>(y) * side * pixel, size);
   }
   const auto extent = static_cast<std::uint32_t>(size);
-  const Array<std::uint8_t> file =
-      encode_png({extent, extent, channels, 8, std::as_bytes(std::as_const(pixels).span())}, effort, job);
+  const Array<std::uint8_t> file = encode_png(
+      {extent, extent, channels, 8, std::as_bytes(std::as_const(pixels).span())}, PngEffort::quick, job);
   auto image = std::make_shared<Image>();
   image->name = std::move(name);
   image->bytes.assign(file.begin(), file.end());
@@ -128,16 +128,31 @@ void fill_normal(const Field& height, float steep, Row& row, int y) {
   write(last, last - 1, 0);
 }
 
-void fill_surface(const Relief& relief, const Finish& finish, Row& row, int y) {
-  const int size = relief.height.size();
-  const float *height = relief.height.row(y), *accent = relief.accent.row(y);
+/// The means of `step` texels in both directions, from row `y` on.
+void fill_means(const Field& field, int step, int y, std::vector<float>& out) {
+  const auto size = static_cast<std::size_t>(field.size() / step);
+  const float by_count = 1 / static_cast<float>(step * step);
+  std::fill_n(out.begin(), size, 0.0F);
+  for (int k = 0; k < step; ++k) {
+    const float* values = field.row(y + k);
+    for (std::size_t x = 0; x < size; ++x) {
+      for (int i = 0; i < step; ++i) out[x] += *values++;
+    }
+  }
+  for (std::size_t x = 0; x < size; ++x) out[x] *= by_count;
+}
+
+void fill_surface(const Relief& relief, const Finish& finish, int step, Row& row, int y) {
+  const int size = relief.height.size() / step;
+  fill_means(relief.height, step, y * step, row.values[0]);
+  fill_means(relief.accent, step, y * step, row.values[1]);
   float *occlusion = row.values[0].data(), *roughness = row.values[1].data();
   const float low = finish.rough_low, span = finish.rough_high - finish.rough_low,
               other = finish.rough_accent;
   for (int x = 0; x < size; ++x) {
-    const float rough = low + span * height[x];
-    occlusion[x] = 1 - finish.shade * (1 - height[x]) * (1 - height[x]);
-    roughness[x] = rough + (other - rough) * accent[x];
+    const float height = occlusion[x], accent = roughness[x], rough = low + span * height;
+    occlusion[x] = 1 - finish.shade * (1 - height) * (1 - height);
+    roughness[x] = rough + (other - rough) * accent;
   }
 }
 
@@ -149,12 +164,11 @@ Maps make_maps(const Relief& relief, const Finish& finish, const std::string& na
   // Colours of 6 bits and other channels of 5: smooth enough for a wall, with a third of the bytes.
   const Steps tones = steps_of(finish.is_small ? 4 : 1), lights = steps_of(finish.is_small ? 8 : 1);
   const int channels = finish.is_grey ? 1 : has_cover ? 4 : 3;
-  const PngEffort effort = finish.is_small ? PngEffort::small : PngEffort::quick;
   const float steep = 0.5F * finish.depth * static_cast<float>(size);
   Maps maps;
   const auto make_color = [&] {
     maps.color = picture(
-        size, channels, name + "_color", effort, job,
+        size, channels, name + "_color", job,
         [&](Row& row, int y) { fill_color(relief, finish.ramp, channels, row, y); },
         [&](Row& row) {
           for (int c = 0; c < std::min(channels, 3); ++c)
@@ -163,8 +177,7 @@ Maps make_maps(const Relief& relief, const Finish& finish, const std::string& na
   };
   const auto make_normal = [&] {
     maps.normal = picture(
-        size, 3, name + "_normal", effort, job,
-        [&](Row& row, int y) { fill_normal(relief.height, steep, row, y); },
+        size, 3, name + "_normal", job, [&](Row& row, int y) { fill_normal(relief.height, steep, row, y); },
         [&](Row& row) {
           if (!finish.is_small) return;
           apply_steps(row.bytes[0], tones);
@@ -173,9 +186,10 @@ Maps make_maps(const Relief& relief, const Finish& finish, const std::string& na
         });
   };
   const auto make_surface = [&] {
+    const int step = size / surface_size(size);
     maps.surface = picture(
-        size, 3, name + "_surface", effort, job,
-        [&](Row& row, int y) { fill_surface(relief, finish, row, y); },
+        size / step, 3, name + "_surface", job,
+        [&](Row& row, int y) { fill_surface(relief, finish, step, row, y); },
         [&](Row& row) {
           apply_steps(row.bytes[0], lights);
           apply_steps(row.bytes[1], lights);

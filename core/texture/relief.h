@@ -31,7 +31,7 @@ struct Finish {
   float rough_accent = 0.9F;
   float shade = 0.6F;     ///< the occlusion at height 0, as a share
   bool is_grey = false;   ///< the colour image has one channel, red
-  bool is_small = false;  ///< smaller files: coarser values and a higher PNG level
+  bool is_small = false;  ///< smaller files: coarser values
 };
 
 /// Three PNG files: colour (RGB, RGBA with the cover as alpha, or grey), normals (RGB, in the tangent space
@@ -40,6 +40,10 @@ struct Maps {
   std::shared_ptr<const Image> color, normal, surface;
   std::size_t bytes() const { return color->bytes.size() + normal->bytes.size() + surface->bytes.size(); }
 };
+
+/// The width and height of the third image beside others of `size`: half of it, as light shows no more of it, and at
+/// least 16.
+constexpr int surface_size(int size) { return size < 32 ? size : size / 2; }
 
 /// Makes the images of a relief. Their names begin with `name`.
 Maps make_maps(const Relief& relief, const Finish& finish, const std::string& name, const Job& job);

@@ -148,4 +148,6 @@ const http = ['tests/bench/http_bench.mjs', 'tests/bench/http_bench.sh'].find((f
 if (http && (words === '' || 'http'.includes(words))) {
   console.log(`\n--- ${http}`);
   process.stdout.write(http.endsWith('.mjs') ? output_of(process.execPath, http) : output_of('/bin/bash', http));
+  console.log('\n--- compression: all presets, CPU time of the server');
+  process.stdout.write(output_of(process.execPath, 'tests/bench/compression_bench.mjs'));
 }

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "server/base64url.h"
-#include "server/compress.h"
+#include "core/base/base64url.h"
+#include "core/base/deflate.h"
 #include "server/permalink.h"
 
 namespace {

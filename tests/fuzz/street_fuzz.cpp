@@ -38,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Job::Options options;
   options.limits.shapes = 50'000;
   Job job(size, options);
-  if (!city::check(params, {job.limits(), {}}).empty()) return 0;
+  if (!city::check(params, {job, {}}).empty()) return 0;
   try {
     const Result<city::CityPlan> plan = city::plan_of(params, job);
     if (!plan) std::abort();

@@ -36,7 +36,7 @@ test('every path of the OpenAPI document is served, and no response has an undoc
     const name = pattern.includes('schemas') ? 'lsystem' : pattern.includes('textures') ? texture : preset;
     const target = pattern.replace(/\{(\w+)\}/g, (_, key) => values[key] ?? name);
     const method = item.post ? 'POST' : 'GET';
-    const answer = pattern === '/v1/import' ? await server.post('/v1/import?format=fractint', koch, { 'content-type': 'text/plain' }) : method === 'POST' ? await server.post(target, plant) : await server.get(target);
+    const answer = pattern === '/v1/import' ? await server.post('/v1/import?format=fractint', koch, { 'content-type': 'text/plain' }) : method === 'POST' ? await server.post(target, pattern === '/mcp' ? { jsonrpc: '2.0', id: 1, method: 'tools/list' } : plant) : await server.get(target);
     assert.equal(answer.status, 200, `${method} ${target}: ${answer.text.slice(0, 200)}`);
     const described = item[method.toLowerCase()].responses;
     assert.ok(described['200'], pattern);

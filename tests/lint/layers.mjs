@@ -23,6 +23,7 @@ const seams = [
   [/^pugixml\.hpp$/, /^core\/import\//],
   [/^random$/, /^server\//],
   [/^openssl\//, /^server\/(signature|http\/tls)\.cpp$/],
+  [/^xxhash\.h$/, /^(core\/gltf\/content_names\.cpp$|server\/)/],
   [/^hiredis\//, /^server\/shared_cache\.cpp$/],
   [/^(brotli\/|isa-l\/|zstd\.h$)/, /^server\/(compress|embed_assets)\.cpp$/],
 ];

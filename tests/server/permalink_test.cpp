@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "server/compress.h"
+#include "core/base/deflate.h"
 
 namespace seedmesh {
 namespace {

@@ -80,8 +80,12 @@ std::string_view Request::generator() const { return "rehearsal"; }
 std::string_view Request::format() const { return body_->format; }
 const std::string& Request::canonical() const { return body_->canonical; }
 std::uint64_t Request::seed() const { return body_->seed; }
+const std::string& Request::name() const {
+  static const std::string name = "rehearsal";
+  return name;
+}
 
-Result<Request> read_request(std::string_view json, const Limits&) {
+Result<Request> read_request(std::string_view json, const Job::Options&) {
   const Json object = Json::parse(json, nullptr, false);
   if (object.is_discarded())
     return Error{Code::malformed, {{IssueKind::syntax, "", "The body is not JSON."}}};
@@ -89,6 +93,12 @@ Result<Request> read_request(std::string_view json, const Limits&) {
   if (object["generator"] != "rehearsal") return invalid("/generator", "There is no such generator.");
   if (object.contains("engine")) return invalid("/engine", "There is no such field.");
   return request_of(object);
+}
+
+Result<Request> read_request(std::string_view json, const Limits& limits) {
+  Job::Options options;
+  options.limits = limits;
+  return read_request(json, options);
 }
 
 std::optional<Result<Request>> read_preset(std::string_view name, const Overrides& overrides,

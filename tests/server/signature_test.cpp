@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "server/base64url.h"
+#include "core/base/base64url.h"
 
 namespace seedmesh {
 namespace {

@@ -57,6 +57,7 @@ async function take(file: File, context: Context, of = 1): Promise<void> {
   try {
     const given = await as_request(text);
     if (given) await opened(context, given.request, title_of(file), `${file.name} is opened${others}`);
+    else if (/\.cga$/i.test(file.name)) await opened(context, with_rules(text), title_of(file), `${file.name} is opened${others}`);
     else await import_any(file, text, context, others);
   } catch (error) {
     context.fail(`${file.name}: ${sentence((error as Error).message)}`);
@@ -75,6 +76,9 @@ async function as_request(text: string): Promise<Written | null> {
   }
   return is_members(json) && ('generator' in json || 'preset' in json) ? whole(json) : null;
 }
+
+/** A building by a rule file of CityEngine, on a lot. */
+const with_rules = (rules: string): Request => ({ generator: 'building', seed: 0, parameters: { size: [24, 0, 16], rules } });
 
 interface Attempt { format: string; refusal: Refusal }
 

@@ -6,9 +6,13 @@ export interface Output {
   format?: "glb" | "gltf" | "zip" | "png16" | "png8" | "rgb24" | "rgba32" | "r16" | "ply" | "placements" | "geojson";
   /** The program that reads the model. core: any reader of glTF 2.0, without required extensions. web: three.js, Babylon and other viewers, with quantized and compressed data and instances on the GPU. unity, unreal, godot, blender: what the importer of that program supports, with names that it accepts. For height maps as r16 or png16, unity and unreal select the conventions of these engines for sizes, rows and scales. */
   profile?: "core" | "web" | "unity" | "unreal" | "godot" | "blender";
+  /** The name of the model: of its root node, its scene and its files, and the first part of the names of its meshes, materials and images. Without it, the name is that of the preset, with the seed if it is not the preset's, or with a hash if anything else differs. A request without a preset has the generator's name and a hash. */
+  name?: string;
+  /** What the model says of its origin. full writes the engine, generator, seed, preset, canonical request and permalink into the extras of the asset, the scene and the root node. none leaves all of it out. */
+  provenance?: "full" | "none";
   /** none adds no animation. growth adds a skin and an animation in which the plant grows from a seed to its full size. */
   animation?: "none" | "growth";
-  /** The width and height of generated textures in texels, a power of two. none leaves out all textures, including those of the request. links names generated textures of 512 texels by URLs of this service, which are immutable and shared by all models; the formats are glb and gltf, without an impostor. */
+  /** The width and height of generated textures in texels, a power of two. Images of leaves have half of it, and those of occlusion and roughness half of that of their material. none leaves out all textures, including those of the request. links names generated textures of 512 texels by URLs of this service, which are immutable and shared by all models; the formats are glb and gltf, without an impostor. */
   textures?: number | "none" | "links";
   /** The number of levels of detail, each coarser than the one before. More than one level requires the format zip, which has a file for each, or the profile web or unity, which have them in one file (MSFT_lod). */
   lods?: number;
@@ -1994,7 +1998,7 @@ export interface BuildingDerivationShapesItem {
   id: number;
   parent: number | null;
   symbol: string;
-  parameters: unknown[];
+  parameters: (number | string | boolean | unknown[])[];
   /** Part of the result. */
   active: boolean;
   /** The first line of the rule that replaced the shape; shapes that no rule replaced have none. */

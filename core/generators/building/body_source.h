@@ -43,7 +43,7 @@ class BodySource {
   MaterialTable& materials_;
   std::span<Asset> assets_;
   Job& job_;
-  SurfaceBuilder surfaces_;
+  SurfaceBuilder surfaces_{&job_};
   /// By row, options, size and colour in force.
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::array<std::int64_t, 3>, std::uint32_t>, Asset>
       parts_;

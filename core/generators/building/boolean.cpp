@@ -155,9 +155,9 @@ class Tree {
   const Job& job_;
 };
 
-std::vector<Piece> pieces_of(const Solid& solid, double eps) {
+std::vector<Piece> pieces_of(const Solid& solid, double eps, const Job& job) {
   std::vector<Piece> out;
-  const Solid convex = convex_faces(solid);
+  const Solid convex = convex_faces(solid, job);
   for (const Face& face : convex.faces) {
     Piece piece;
     for (const std::uint32_t point : points_of(convex, convex.loops[face.first_loop]))
@@ -186,7 +186,7 @@ double size_of(const Solid& solid) {
 
 Solid boolean(const Solid& first, const Solid& second, BooleanKind kind, const Job& job) {
   const double scale = std::max({size_of(first), size_of(second), 1e-6}), eps = 1e-9 * scale;
-  Tree a(pieces_of(first, eps), eps, job), b(pieces_of(second, eps), eps, job);
+  Tree a(pieces_of(first, eps, job), eps, job), b(pieces_of(second, eps, job), eps, job);
   if (kind != BooleanKind::unite) a.invert();
   if (kind == BooleanKind::intersect) {
     b.clip_to(a);

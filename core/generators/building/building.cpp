@@ -293,16 +293,16 @@ void point_at_blueprint(const BuildingParams& params, std::vector<Warning>& warn
 
 }  // namespace
 
-std::vector<Issue> check(const BuildingParams& params, const Limits& limits) {
+std::vector<Issue> check(const BuildingParams& params, const Limits& limits, const Job* job) {
   Grammar grammar;
   PictureGrammar pictures;
-  return check_all(params, limits, grammar, pictures);
+  return check_all(params, {limits, job}, grammar, pictures);
 }
 
 Result<Model> generate(const BuildingParams& params, const GenerateContext& context) {
   Job& job = context.job;
   Work work;
-  std::vector<Issue> issues = check_all(params, job.limits(), work.grammar, work.pictures);
+  std::vector<Issue> issues = check_all(params, {job.limits(), &job}, work.grammar, work.pictures);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   job.progress("derive", 0);
   if (auto refused = add_assets(work, params, context)) return std::move(*refused);
@@ -330,7 +330,7 @@ Result<Model> generate(const BuildingParams& params, const GenerateContext& cont
 Result<Json> derive(const BuildingParams& params, const GenerateContext& context) {
   Job& job = context.job;
   Work work;
-  std::vector<Issue> issues = check_all(params, job.limits(), work.grammar, work.pictures);
+  std::vector<Issue> issues = check_all(params, {job.limits(), &job}, work.grammar, work.pictures);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   if (auto refused = add_assets(work, params, context)) return std::move(*refused);
   const Shapes shapes = shapes_of(work, params, context, {.lod = std::nullopt, .is_listed = true});
@@ -349,7 +349,7 @@ Result<Appraisal> appraise(const BuildingParams& params, const GenerateContext& 
   Job& job = context.job;
   Appraisal appraisal;
   Work work;
-  std::vector<Issue> issues = check_all(params, job.limits(), work.grammar, work.pictures);
+  std::vector<Issue> issues = check_all(params, {job.limits(), &job}, work.grammar, work.pictures);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   appraisal.warnings = work.grammar.warnings;
   // Requests with assets or with very many shapes have no estimate.

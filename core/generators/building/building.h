@@ -21,7 +21,7 @@ struct BuildingParams;
 
 namespace seedmesh::building {
 
-std::vector<Issue> check(const BuildingParams& params, const Limits& limits);
+std::vector<Issue> check(const BuildingParams& params, const Limits& limits, const Job* job = nullptr);
 Result<Model> generate(const BuildingParams& params, const GenerateContext& context);
 
 /// {shapes: [{id, parent, symbol, parameters, active, scope: {origin, axes, size}}], count, truncated,

@@ -167,6 +167,12 @@ Grammar read(const BuildingParams& params, std::vector<Issue>& issues) {
            lang::in_quotes(start.name) +
                " has a parameter, for which the first shape has no value; its height is used",
            place.line, place.column});
+    } else if (least > 1 && grammar.is_cityengine) {
+      const Issue place = issue_at(IssueKind::syntax, rules, grammar.rules[start.rules.front()].offset, "");
+      grammar.warnings.push_back({place.pointer,
+                                  lang::in_quotes(start.name) +
+                                      " has parameters, for which the first shape has no values; they are 0",
+                                  place.line, place.column});
     } else if (least > 1) {
       issues.push_back({IssueKind::invalid_value, params.start ? "/start" : "/rules",
                         "the rules of \"" + start.name +
@@ -253,7 +259,7 @@ std::optional<Warning> nothing_drawn(const Shapes& shapes) {
                  0, 0};
 }
 
-std::vector<Issue> check_all(const BuildingParams& params, const Limits& limits, Grammar& grammar,
+std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds, Grammar& grammar,
                              PictureGrammar& pictures) {
   std::vector<Issue> issues;
   if (params.shape_grammar) {
@@ -266,7 +272,7 @@ std::vector<Issue> check_all(const BuildingParams& params, const Limits& limits,
     grammar = read(params, issues);
   }
   if (!params.footprint.empty()) {
-    const std::vector<Issue> more = check_footprint(params.footprint);
+    const std::vector<Issue> more = check_footprint(params.footprint, bounds.job);
     issues.insert(issues.end(), more.begin(), more.end());
   } else if (dimension({params.size[0], params.size[1], params.size[2]}) < 2) {
     issues.push_back(
@@ -275,8 +281,8 @@ std::vector<Issue> check_all(const BuildingParams& params, const Limits& limits,
     issues.push_back({IssueKind::out_of_range, "/size",
                       "a blueprint stands on the ground: expected sizes above 0 in x and z"});
   }
-  if (params.iterations && static_cast<std::uint32_t>(*params.iterations) > limits.iterations) {
-    issues.push_back(iterations_issue(static_cast<std::uint64_t>(*params.iterations), limits));
+  if (params.iterations && static_cast<std::uint32_t>(*params.iterations) > bounds.limits.iterations) {
+    issues.push_back(iterations_issue(static_cast<std::uint64_t>(*params.iterations), bounds.limits));
   }
   for (const auto& [name, asset] : params.assets) {
     if (asset.model.has_value() == asset.glb.has_value())

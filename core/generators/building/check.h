@@ -26,8 +26,14 @@ lang::TaggedValue value_of(Texts& texts, const std::variant<double, std::string,
 /// A warning if nothing is drawn and no NIL removed shapes.
 std::optional<Warning> nothing_drawn(const Shapes& shapes);
 
+/// Within what check_all works.
+struct Bounds {
+  const Limits& limits;
+  const Job* job = nullptr;  ///< checked for stop and deadline; may be null
+};
+
 /// All errors. Fills the grammar, or the pictures if the request has a shape grammar.
-std::vector<Issue> check_all(const BuildingParams& params, const Limits& limits, Grammar& grammar,
+std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds, Grammar& grammar,
                              PictureGrammar& pictures);
 
 }  // namespace seedmesh::building

@@ -25,6 +25,12 @@ struct Site {
   std::uint64_t key;
 };
 
+/// What makes a step impossible, where this is no error of the whole derivation.
+struct StepFault {
+  std::uint32_t offset = 0;
+  std::string message;
+};
+
 struct Component;
 
 struct Derivation {
@@ -48,6 +54,7 @@ struct Derivation {
   const Component* component = nullptr;                            ///< that selectors classify
   std::map<std::uint32_t, std::vector<lang::TaggedValue>> locals;  ///< of with(...), by shape
   int depth_of_inline = 0;
+  int guarded_steps = 0;  ///< around this place, whose faults are warnings
 
   // Equal rows of the tables of `out` are stored once.
   std::map<Style, std::uint32_t> style_ids;
@@ -67,7 +74,7 @@ struct Derivation {
   std::vector<std::vector<Cut>> spare_cuts;  ///< working memory of splits
 };
 
-/// Ends the derivation with an error at a byte of the rules.
+/// Ends the derivation with an error at a byte of the rules; in a rule file of CityEngine, ends the step.
 [[noreturn]] void reject(const Derivation& d, std::uint32_t offset, const std::string& message);
 
 /// Adds a warning at a byte of the rules; one for each byte, and at most 100.

@@ -19,7 +19,11 @@ void begin(Derivation& d) {
   Shape shape(state);
   shape.symbol = d.grammar.start;
   shape.key = d.job.rng().at("building").key();
-  if (least_parameters(d.grammar, d.grammar.start) == 1) {
+  const std::uint32_t least = least_parameters(d.grammar, d.grammar.start);
+  if (least > 1) {  // a rule file of CityEngine; the check of the request has warned
+    shape.parameter_count = static_cast<std::uint8_t>(least);
+    d.out.parameters.resize(d.out.parameters.size() + least);
+  } else if (least == 1) {
     // facade(h) of 2006 as the first rule: h is the height. The check of the request has warned.
     shape.parameter_count = 1;
     d.out.parameters.push_back({state.size.y, 0});

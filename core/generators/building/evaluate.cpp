@@ -142,6 +142,24 @@ lang::TaggedValue number_or_text(Derivation& d, const Value& value) {
   return {number_of(d, value), 0};
 }
 
+namespace {
+
+/// The value of an attribute. In a rule file of CityEngine one that cannot be computed is 0, with a warning.
+lang::TaggedValue value_or_fault(Derivation& d, const Attribute& attribute) {
+  if (!d.grammar.is_cityengine) return evaluate(d, attribute.value);
+  lang::TaggedValue value;
+  ++d.guarded_steps;
+  try {
+    value = evaluate(d, attribute.value);
+  } catch (const StepFault& fault) {
+    warn(d, fault.offset, fault.message + "; " + lang::in_quotes(attribute.name) + " is 0");
+  }
+  --d.guarded_steps;
+  return value;
+}
+
+}  // namespace
+
 void evaluate_attributes(Derivation& d, const ShapeState& first) {
   look_at(d, first, 0);
   fill_slots(d);
@@ -154,7 +172,7 @@ void evaluate_attributes(Derivation& d, const ShapeState& first) {
     } else {
       d.random = d.job.rng().at("attribute").at(attribute.name);
       d.is_filled = true;
-      value = evaluate(d, attribute.value);
+      value = value_or_fault(d, attribute);
     }
     d.slots[attribute.slot] = value;
     values[attribute.slot - d.grammar.first_attribute_slot] = value;

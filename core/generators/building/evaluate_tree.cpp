@@ -58,7 +58,8 @@ class TreeRunner {
         return binary(node, lang::Operation::subtract, {0, 0}, run_operand(node, 0, locals));
       case Kind::invert:
         return truth_value(!holds(run_operand(node, 0, locals)));
-      case Kind::binary: {
+      case Kind::binary:
+      case Kind::mask: {
         const TaggedValue left = run_operand(node, 0, locals);
         return binary(node, node.operation, left, run_operand(node, 1, locals));
       }
@@ -101,7 +102,7 @@ class TreeRunner {
       case Kind::special:
         return value_function(node.id).call(here, given);
       case Kind::index:
-        return element(here, given);
+        return elements(here, node, given);
       case Kind::range:
         return range(here, given);
       default: {
@@ -131,7 +132,7 @@ class TreeRunner {
                      const TaggedValue& right) {
     Evaluation here = at(node);
     const bool is_comparison = operation == lang::Operation::equal || operation == lang::Operation::not_equal;
-    if (!is_comparison && (is_array(left) || is_array(right))) {
+    if ((!is_comparison || node.kind == Kind::mask) && (is_array(left) || is_array(right))) {
       const ValueArray a = array_in(here, left), b = array_in(here, right);
       const std::size_t count = is_array(left) && is_array(right)
                                     ? std::min(a.values.size(), b.values.size())
@@ -159,11 +160,46 @@ class TreeRunner {
     return lang::apply(operation, left, right);
   }
 
+  /// The rows or columns that an index names: a list of numbers, or those where a comparison holds.
+  std::vector<double> places(Evaluation& here, const ValueNode& node, std::uint32_t which,
+                             const TaggedValue& given) {
+    const bool is_mask =
+        is_array(given) && d_.grammar.value_nodes[operand(node, which)].kind == ValueNode::Kind::mask;
+    std::vector<double> out;
+    const ValueArray list = array_in(here, given);
+    for (std::size_t i = 0; i < list.values.size(); ++i) {
+      if (!is_mask)
+        out.push_back(number_in(here, list.values[i]));
+      else if (holds(list.values[i]))
+        out.push_back(static_cast<double>(i));
+    }
+    return out;
+  }
+
+  /// a[2], a[2, 0], a[0:3, 1], a[b .== "lamp", 0]: one value, one row, or an array of those chosen.
+  TaggedValue elements(Evaluation& here, const ValueNode& node, const std::vector<TaggedValue>& given) {
+    if (!is_array(given[1]) && (given.size() < 3 || !is_array(given[2]))) return element(here, given);
+    const std::vector<double> rows = places(here, node, 1, given[1]);
+    const std::vector<double> columns =
+        given.size() > 2 ? places(here, node, 2, given[2]) : std::vector<double>{};
+    ValueArray out;
+    for (const double row : rows) {
+      if (columns.empty()) {
+        const ValueArray one = array_in(here, element(here, {given[0], number_value(row)}));
+        out.values.insert(out.values.end(), one.values.begin(), one.values.end());
+        out.columns = one.columns;
+      }
+      for (const double column : columns)
+        out.values.push_back(element(here, {given[0], number_value(row), number_value(column)}));
+    }
+    if (columns.size() > 1) out.columns = static_cast<std::uint32_t>(columns.size());
+    return array_value(here, std::move(out));
+  }
+
   TaggedValue element(Evaluation& here, const std::vector<TaggedValue>& given) {
     const ValueArray array = array_in(here, given[0]);
     const double row = number_in(here, given[1]), column = given.size() > 2 ? number_in(here, given[2]) : 0;
     const double columns = array.columns == 0 ? 1 : array.columns;
-    if (is_array(given[1])) reject(here, "found an array as an index, expected a number");
     const double count = static_cast<double>(array.values.size());
     const bool is_row = given.size() == 2 && array.columns > 1;
     if (is_row && row >= 0 && (row + 1) * columns <= count) {

@@ -76,9 +76,9 @@ std::vector<Segment> edges_of(const std::vector<Ring>& rings) {
 }
 
 /// The first pair of edges that cross, by their first corners; none if no edges cross.
-std::optional<std::pair<std::size_t, std::size_t>> crossing_of(const Ring& ring) {
+std::optional<std::pair<std::size_t, std::size_t>> crossing_of(const Ring& ring, const Job* job) {
   std::optional<std::pair<std::size_t, std::size_t>> found;
-  each_near_pair(edges_of({ring}), 0, nullptr, [&](std::size_t i, std::size_t k) {
+  each_near_pair(edges_of({ring}), 0, job, [&](std::size_t i, std::size_t k) {
     if (k == i + 1) return true;
     const Point &a = ring[i], &b = ring[i + 1], &c = ring[k], &d = ring[(k + 1) % ring.size()];
     if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) found = {i, k};
@@ -88,20 +88,20 @@ std::optional<std::pair<std::size_t, std::size_t>> crossing_of(const Ring& ring)
 }
 
 /// The issue of a ring whose area is 0: a line, or a figure of eight.
-Issue issue_of_flat(const Ring& ring, const std::string& pointer) {
-  const auto crossing = crossing_of(ring);
+Issue issue_of_flat(const Ring& ring, const std::string& pointer, const Job* job) {
+  const auto crossing = crossing_of(ring, job);
   if (!crossing) return {IssueKind::invalid_value, pointer, "the ring has no area"};
   return {IssueKind::invalid_value, pointer + "/" + std::to_string(crossing->second),
           crosses_itself(crossing->first)};
 }
 
 /// Adds an issue for the first pair of edges that meet without being neighbours.
-void check_crossings(const std::vector<Ring>& rings, std::vector<Issue>& issues) {
+void check_crossings(const std::vector<Ring>& rings, const Job* job, std::vector<Issue>& issues) {
   std::vector<std::pair<std::size_t, std::size_t>> number;  // of an edge: its ring and its first corner
   for (std::size_t r = 0; r < rings.size(); ++r) {
     for (std::size_t i = 0; i < rings[r].size(); ++i) number.emplace_back(r, i);
   }
-  each_near_pair(edges_of(rings), 0, nullptr, [&](std::size_t first, std::size_t second) {
+  each_near_pair(edges_of(rings), 0, job, [&](std::size_t first, std::size_t second) {
     const std::size_t r = number[first].first, i = number[first].second;
     const std::size_t s = number[second].first, k = number[second].second, count = rings[s].size();
     const Point &a = rings[r][i], &b = rings[r][(i + 1) % rings[r].size()];
@@ -119,7 +119,7 @@ void check_crossings(const std::vector<Ring>& rings, std::vector<Issue>& issues)
 
 }  // namespace
 
-std::vector<Issue> check_footprint(const Rings& given) {
+std::vector<Issue> check_footprint(const Rings& given, const Job* job) {
   std::size_t points = 0;
   for (const Ring& ring : given) points += ring.size();
   if (points > most_points) {
@@ -142,10 +142,10 @@ std::vector<Issue> check_footprint(const Rings& given) {
           {IssueKind::out_of_range, pointer_to(r),
            "found " + std::to_string(rings[r].size()) + " different points, expected at least 3"});
     else if (std::abs(doubled_area(rings[r])) < 1e-6)
-      issues.push_back(issue_of_flat(rings[r], pointer_to(r)));
+      issues.push_back(issue_of_flat(rings[r], pointer_to(r), job));
   }
   if (!issues.empty()) return issues;
-  check_crossings(rings, issues);
+  check_crossings(rings, job, issues);
   for (std::size_t r = 1; r < rings.size() && issues.empty(); ++r) {
     if (!contains(rings[0], rings[r][0]))
       issues.push_back({IssueKind::invalid_value, pointer_to(r), "the hole lies outside the outer ring"});

@@ -16,6 +16,7 @@ std::uint32_t add_shape(Derivation& d, const ShapeState& state, const Frame& fra
   const Shape& parent = d.out.shapes[frame.shape];
   if (d.is_finishing && parent.depth >= deepest_shape) {
     const Symbol& name = d.grammar.symbols[parent.symbol];
+    d.guarded_steps = 0;  // not a fault of one step
     reject(d, name.rules.empty() ? 0 : d.grammar.rules[name.rules.front()].offset,
            "`" + name.name + "` is nested 1,000 shapes deep: its rules call each other without an end");
   }
@@ -96,6 +97,7 @@ constexpr OperatorRow operator_rows[] = {
     {Op::shape_u, operators::setback, Rest::used},
     {Op::shape_o, operators::setback, Rest::used},
     {Op::inner_rectangle, operators::inner_rectangle, Rest::used},
+    {Op::inner_rect, operators::inner_rect, Rest::open},
     {Op::roof_hip, operators::roof, Rest::open},
     {Op::roof_gable, operators::roof, Rest::open},
     {Op::roof_pyramid, operators::roof, Rest::open},
@@ -240,6 +242,24 @@ const Choice* choose(Derivation& d, std::uint32_t index) {
   return choose_in(d, symbol.rules, shape.parameter_count, shape.key);
 }
 
+/// Runs one step. In a rule file of CityEngine a step that cannot be done is left out with a warning, as there.
+void run_step(Derivation& d, const OperatorRow& row, const Step& step, ShapeState& state, const Site& site) {
+  if (!d.grammar.is_cityengine) return row.run(d, step, state, site);
+  const ShapeState before = state;
+  const int depth = d.depth_of_inline;
+  const Component* const component = d.component;
+  ++d.guarded_steps;
+  try {
+    row.run(d, step, state, site);
+  } catch (const StepFault& fault) {
+    state = before;
+    d.depth_of_inline = depth;
+    d.component = component;
+    warn(d, fault.offset, fault.message + "; the operation is left out");
+  }
+  --d.guarded_steps;
+}
+
 void run_choice(Derivation& d, const Choice& choice, const ShapeState& given, const Frame& frame) {
   struct Bracket {
     ShapeState state, before;
@@ -269,7 +289,7 @@ void run_choice(Derivation& d, const Choice& choice, const ShapeState& given, co
       look_at(d, state, frame.shape);
       d.random = Rng(key);
       if (row.rest != Rest::same) is_pending = row.rest == Rest::open;
-      row.run(d, step, state, {own, key});
+      run_step(d, row, step, state, {own, key});
     }
   }
   if (is_pending) add_leaf(d, state, own, key_at(frame.key, choice.step_count), symbol);
@@ -282,7 +302,14 @@ bool has_rule(const Derivation& d, const Shape& shape) {
 }
 
 bool expand(Derivation& d, std::uint32_t index) {
-  const Choice* const choice = choose(d, index);
+  const Choice* choice = nullptr;
+  if (d.grammar.is_cityengine) ++d.guarded_steps;
+  try {
+    choice = choose(d, index);
+  } catch (const StepFault& fault) {  // the shape stays as it is
+    warn(d, fault.offset, fault.message + "; the rule is left out");
+  }
+  if (d.grammar.is_cityengine) --d.guarded_steps;
   if (choice == nullptr) {
     d.out.shapes[index].is_leaf = true;
     return false;

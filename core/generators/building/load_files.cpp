@@ -250,6 +250,7 @@ class Loader {
   /// import id ( styles ) : "file.cga" ( attributes, values and rules )
   void load_import(const File& file, const Statement& each, const Names& names,
                    const std::vector<Statement>& statements, int depth) {
+    out.has_imports = true;
     const Token& alias = file.at(each.name);
     std::size_t i = each.name + 1;
     if (file.is(i, "(")) i = file.partner[i] + 1;

@@ -21,6 +21,7 @@ struct LoadedTokens {
   /// Prefixes of files that the request does not have, each ending with a point.
   std::vector<std::string> missing;
   std::vector<lang::TextError> warnings;
+  bool has_imports = false;
 };
 
 /// `plain` is the joined text without comments. `style` selects one of the styles of the main file; empty: Default.

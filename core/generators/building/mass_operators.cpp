@@ -96,6 +96,9 @@ double cut_angle(Derivation& d, const Step& step, double degrees) {
 
 void extrude_in(Derivation& d, const Step& step, ShapeState& state, const std::string& direction,
                 double height) {
+  constexpr std::string_view world_axes[] = {"world.x",  "world.y",  "world.z",
+                                             "object.x", "object.y", "object.z"};
+  const auto axis = std::ranges::find(world_axes, direction);
   Solid solid = welded(solid_in_metres(d, state), 0);
   if (solid.faces.empty()) return;
   const glm::dvec3 up = glm::transpose(d.out.axes[state.axes]) * glm::dvec3(0, 1, 0);
@@ -115,10 +118,14 @@ void extrude_in(Derivation& d, const Step& step, ShapeState& state, const std::s
     glm::dvec3 along(0);
     along[direction[0] - 'x'] = height;
     by.assign(by.size(), along);
+  } else if (axis != std::end(world_axes)) {
+    glm::dvec3 along(0);
+    along[direction.back() - 'x'] = height;
+    by.assign(by.size(), glm::transpose(d.out.axes[state.axes]) * along);
   } else if (direction != "world.up" && direction != "face.normal") {
     reject(d, step.offset,
            "found the direction " + lang::in_quotes(direction) +
-               ", expected world.up, world.up.flatTop, vertex.normal, face.normal, x, y or z");
+               ", expected world.up, world.up.flatTop, world.x, vertex.normal, face.normal, x, y or z");
   }
   // A closed solid, and faces along their own normals, become one body for each face.
   const bool alone = direction == "face.normal" || is_watertight(solid);

@@ -111,7 +111,7 @@ void cleanup(Derivation& d, const Step& step, ShapeState& state, const Site&) {
 
 void convexify(Derivation& d, const Step&, ShapeState& state, const Site&) {
   if (!state.has_solid() || dimension(state.size) < 2) return;
-  replace(d, state, convex_faces(d.out.solid_of(state.geometry)));
+  replace(d, state, convex_faces(d.out.solid_of(state.geometry), d.job));
 }
 
 void delete_holes(Derivation& d, const Step&, ShapeState& state, const Site&) {

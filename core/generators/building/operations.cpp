@@ -88,6 +88,10 @@ constexpr OperationRow rows[] = {
      "Makes the largest rectangle inside a face, along the axes of its scope or along one of its long edges, "
      "and shapes of the remainder.",
      "A --> s('1, 0, '1) innerRectangle(scope){ shape: B. | remainder: C. }"},
+    {"innerRect", Op::inner_rect, "", Braces::absent, "",
+     "Replaces a face by the largest rectangle inside it along one of its long edges, as older rules have "
+     "it.",
+     "A --> s('1, 0, '1) innerRect B."},
     {"roofHip", Op::roof_hip, "h|nx", Braces::absent, "angle, overhang, even",
      "Makes a hip roof: a slope from every edge of a face, including courtyards. byHeight(h) instead of the "
      "angle of any roof sets its height.",
@@ -273,7 +277,6 @@ constexpr OperationRow rows[] = {
      "A --> comp(f){ front: tileUV(0, 1, 1) deleteUV(0) B. }"},
     {"print", Op::print, "x", Braces::absent, "value", "Adds a warning with the value to the answer.",
      "A --> print(scope.sx) B."},
-    {"innerRect", Op::ignored, "", Braces::absent, "", "An old form of innerRectangle.", "", Status::error},
 };
 
 struct OpKind {
@@ -297,6 +300,7 @@ constexpr OpKind kinds[] = {
     {Op::shape_u, "mass"},
     {Op::shape_o, "mass"},
     {Op::inner_rectangle, "mass"},
+    {Op::inner_rect, "mass"},
     {Op::setback_per_edge, "mass"},
     {Op::setback_to_area, "mass"},
     {Op::envelope, "mass"},

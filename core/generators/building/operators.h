@@ -29,7 +29,7 @@ Operator primitive, insert_along_uv, footprint, envelope, roof_ridge;
 // Points (scatter_operator.cpp), shapes made one (inline_operators.cpp), sections of a border (perimeter_operator.cpp)
 Operator scatter, inline_shapes, modify, combine, split_perimeter;
 // Other shapes (split.cpp, comp.cpp, offset_operators.cpp, inner_rectangle_operator.cpp)
-Operator split, repeat, split_area, comp, setback, inner_rectangle;
+Operator split, repeat, split_area, comp, setback, inner_rectangle, inner_rect;
 
 }  // namespace operators
 }  // namespace seedmesh::building

@@ -63,6 +63,12 @@ bool is_keyword(std::string_view word) {
                                            "normal",
                                            "world.up",
                                            "world.up.flatTop",
+                                           "world.x",
+                                           "world.y",
+                                           "world.z",
+                                           "object.x",
+                                           "object.y",
+                                           "object.z",
                                            "vertex.normal",
                                            "face.normal",
                                            "u",
@@ -279,6 +285,10 @@ void parse_operation(Parser& p, const OperationRow& row, std::vector<Step>& out)
   std::vector<Part> parts;
   parse_arguments(p, row, list, parts);
   read_axis(p, row, step, list);
+  // The attribute of a rule file that the request does not have; a warning has said so.
+  if (row.op == Op::set && !list.empty() && list[0].word < p.grammar.words.size() &&
+      p.tokens.is_missing(p.grammar.words[list[0].word]))
+    step.op = Op::ignored;
   append_rows(p.grammar.arguments, list, step.first_argument, step.argument_count);
   if (row.braces == Braces::next) {
     parse_next(p, parts);
@@ -330,7 +340,13 @@ void parse_operation(Parser& p, const OperationRow& row, std::vector<Step>& out)
 const OperationRow* operation_here(const Parser& p) {
   const Token& token = here(p);
   const OperationRow* const row = find_operation(token.text);
-  if (row == nullptr || p.tokens.is(p.at + 1, "(")) return row;
+  if (row == nullptr) return nullptr;
+  if (p.tokens.is(p.at + 1, "(")) {
+    // Rules can have the names of operations of 2006, such as Roof(kind), which end with braces.
+    const bool has_braces = p.tokens.is(std::min(p.tokens.partner(p.at + 1) + 1, p.tokens.end()), "{");
+    const bool needs_them = row->braces == Braces::one || row->braces == Braces::names;
+    return needs_them && !has_braces && p.symbols_with_rules.contains(token.text) ? nullptr : row;
+  }
   if (p.symbols_with_rules.contains(token.text)) return nullptr;
   const bool takes_none = row->arguments.empty() || row->arguments.front() == '|';
   if (p.tokens.is(p.at + 1, "{")) return row->braces == Braces::operands ? row : nullptr;

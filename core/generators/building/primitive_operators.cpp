@@ -90,7 +90,11 @@ std::uint32_t sides_at(Derivation& d, const Step& step, std::uint32_t i, double 
 }
 
 double length_at(Derivation& d, const Step& step, std::uint32_t i) {
-  const double length = number_or(d, step, i, 0);
+  double length = number_or(d, step, i, 0);
+  if (length < 0 && d.grammar.is_cityengine) {
+    warn(d, step.offset, "found a negative length, whose amount is taken");
+    length = -length;
+  }
   if (!(length > 0))
     reject(d, step.offset, "found a length of " + text_of_number(length) + " m, expected more than 0");
   return length;

@@ -22,9 +22,9 @@ struct Surface {
   std::vector<std::uint32_t> triangles;
   std::vector<double> sums;
 
-  explicit Surface(Solid given) : solid(std::move(given)) {
+  Surface(Solid given, const Job& job) : solid(std::move(given)) {
     for (const Face& face : solid.faces) {
-      for (const std::uint32_t corner : triangles_of(solid, face)) triangles.push_back(corner);
+      for (const std::uint32_t corner : triangles_of(solid, face, job)) triangles.push_back(corner);
     }
     double sum = 0;
     for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
@@ -88,7 +88,7 @@ void scatter(Derivation& d, const Step& step, ShapeState& state, const Site& sit
   if (dimension(state.size) >= 2) solid = solid_in_metres(d, state);
   const bool is_closed = dimension(state.size) == 3 && (state.geometry == box_geometry || solid.is_closed);
   if (domain == Domain::volume && !is_closed) domain = Domain::surface;
-  const Surface surface(std::move(solid));
+  const Surface surface(std::move(solid), d.job);
   if (domain != Domain::scope && (surface.sums.empty() || !(surface.sums.back() > 0))) domain = Domain::scope;
   const bool is_gaussian = spread == "gaussian";
   const glm::dvec3 centre =

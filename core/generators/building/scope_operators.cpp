@@ -50,7 +50,7 @@ std::size_t component_of(const Derivation& d, const Step& step, const std::strin
   for (const char c : text) {
     if (c < '0' || c > '9' || value > 1'000'000)
       reject(d, step.offset,
-             "found " + lang::in_quotes(text) + ", expected a number, any, largest or longest");
+             "found " + lang::in_quotes(text) + ", expected a number, any, largest, longest or world.lowest");
     value = value * 10 + static_cast<std::size_t>(c - '0');
   }
   return std::min(value, count - 1);
@@ -203,6 +203,11 @@ void align_to_geometry(Derivation& d, const Step& step, ShapeState& state, const
   std::size_t best = 0;
   if (is_box) {
     best = edge_of_smallest_box(corners, normal);
+  } else if (word(2) == "world.lowest" || word(2) == "object.lowest") {
+    const auto height = [&](std::size_t i) { return corners[i].y + corners[(i + 1) % corners.size()].y; };
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+      if (height(i) < height(best) - 1e-9) best = i;
+    }
   } else if (word(2) == "longest") {
     for (std::size_t i = 1; i < corners.size(); ++i) {
       if (glm::length(edge(i)) > glm::length(edge(best)) * (1 + 1e-9)) best = i;

@@ -207,7 +207,8 @@ void extrude(Derivation& d, const Step& step, ShapeState& state, const Site&) {
     const glm::dvec3 normal = d.out.axes[state.axes][flat_axis(state.size)];
     const bool is_normal =
         direction == "face.normal" || direction == "vertex.normal" ||
-        ((direction == "world.up" || direction == "world.up.flatTop") && normal.y > 1 - 1e-12);
+        ((direction == "world.up" || direction == "world.up.flatTop" || direction == "world.y") &&
+         normal.y > 1 - 1e-12);
     if (!is_normal) return extrude_in(d, step, state, direction, height);
   }
   if (height == 0) return;

@@ -14,9 +14,10 @@ Solid without_straight_corners(const Solid& solid, double distance);
 /// Puts corners that lie on an edge of another face into that edge, so that faces meet edge to edge.
 Solid with_shared_corners(const Solid& solid, double distance, const Job& job);
 /// Every face as convex faces: triangles joined while they stay convex (Hertel and Mehlhorn, 1983).
-Solid convex_faces(const Solid& solid);
-/// Triangles of one face, as numbers of points.
-std::vector<std::uint32_t> triangles_of(const Solid& solid, const Face& face);
+/// Checks stop and deadline.
+Solid convex_faces(const Solid& solid, const Job& job);
+/// Triangles of one face, as numbers of points. Checks stop and deadline.
+std::vector<std::uint32_t> triangles_of(const Solid& solid, const Face& face, const Job& job);
 
 /// Moves copies of all faces by a vector for each point. `base` turns over, and walls join both at edges with one face. Closed
 /// if each edge had at most two faces.

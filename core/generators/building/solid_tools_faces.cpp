@@ -10,7 +10,7 @@
 
 namespace seedmesh::building {
 
-std::vector<std::uint32_t> triangles_of(const Solid& solid, const Face& face) {
+std::vector<std::uint32_t> triangles_of(const Solid& solid, const Face& face, const Job& job) {
   const PlaneAxes plane(unit_normal(solid, face));
   std::vector<glm::dvec2> points;
   std::vector<std::uint32_t> numbers, sizes;
@@ -21,19 +21,19 @@ std::vector<std::uint32_t> triangles_of(const Solid& solid, const Face& face) {
       numbers.push_back(point);
     }
   }
-  Triangulator triangulator;
+  Triangulator triangulator(&job);
   std::vector<std::uint32_t> out;
   for (const std::uint32_t corner : triangulator.run(points, sizes, 0)) out.push_back(numbers[corner]);
   return out;
 }
 
-Solid convex_faces(const Solid& solid) {
+Solid convex_faces(const Solid& solid, const Job& job) {
   Solid out;
   out.points = solid.points;
   out.is_closed = solid.is_closed;
   for (const Face& face : solid.faces) {
     const glm::dvec3 n = unit_normal(solid, face);
-    const std::vector<std::uint32_t> triangles = triangles_of(solid, face);
+    const std::vector<std::uint32_t> triangles = triangles_of(solid, face, job);
     std::vector<std::vector<std::uint32_t>> pieces;
     for (std::size_t t = 0; t + 2 < triangles.size(); t += 3)
       pieces.push_back({triangles[t], triangles[t + 1], triangles[t + 2]});
@@ -48,6 +48,7 @@ Solid convex_faces(const Solid& solid) {
     };
     for (std::size_t k = 0; k < pieces.size(); ++k) enter(k);
     for (std::size_t k = 0; k < pieces.size(); ++k) {
+      if (k % 64 == 0) job.check();
       for (std::size_t i = 0; i < pieces[k].size();) {
         std::vector<std::uint32_t>& own = pieces[k];
         const std::uint32_t a = own[i], b = own[(i + 1) % own.size()];

@@ -95,12 +95,13 @@ ShapeState along_texture(Derivation& d, const Step& step, const ShapeState& stat
   std::uint32_t place = projection_id(d, state, set, true);
   if (place == 0) place = projection_id(d, state, set, false);
   const glm::dmat3 axes = d.out.axes[state.axes];
-  const glm::dvec3 gradient = place != 0
-                                  ? (is_u ? d.out.projections[place - 1].u : d.out.projections[place - 1].v)
-                                  : axes[is_u ? 0 : 1];
+  // Without a projection, u and v are the axes of the face: a lot on the ground has v along z.
+  const int level = dimension(state.size) == 2 ? flat_axis(state.size) : -1;
+  const int own_axis = is_u ? (level == 0 ? 2 : 0) : (level == 1 ? 2 : 1);
+  const glm::dvec3 gradient =
+      place != 0 ? (is_u ? d.out.projections[place - 1].u : d.out.projections[place - 1].v) : axes[own_axis];
   glm::dvec3 along = gradient;
-  const int flat = dimension(state.size) == 2 ? flat_axis(state.size) : -1;
-  if (flat >= 0) along -= axes[flat] * glm::dot(axes[flat], along);
+  if (level >= 0) along -= axes[level] * glm::dot(axes[level], along);
   const double steep = glm::length(along);
   if (!(steep > 1e-9))
     reject(d, step.offset, "u or v is the same all over the shape, so that it cannot be split along it");
@@ -110,7 +111,7 @@ ShapeState along_texture(Derivation& d, const Step& step, const ShapeState& stat
     if (glm::dot(axes[axis], along) > 1 - 1e-12) return state;
   }
   ShapeState turned = state;
-  glm::dvec3 z = flat >= 0 ? axes[flat] : glm::cross(along, glm::dvec3(0, 1, 0));
+  glm::dvec3 z = level >= 0 ? axes[level] : glm::cross(along, glm::dvec3(0, 1, 0));
   if (glm::dot(z, z) < 1e-6) z = glm::cross(along, glm::dvec3(1, 0, 0));
   z = math::unit(z - along * glm::dot(z, along), glm::dvec3(0, 0, 1));
   reframe(d, turned, {along, glm::cross(z, along), z});

@@ -78,6 +78,7 @@ struct ValueNode {
     negate,
     invert,
     binary,      ///< `operation`
+    mask,        ///< the same for each value of an array
     both,        ///< &&, which stops at the first that does not hold
     either,      ///< ||
     choose,      ///< condition, value, condition, value, ..., value otherwise
@@ -152,6 +153,7 @@ enum class Op : std::uint8_t {
   shape_u,
   shape_o,
   inner_rectangle,
+  inner_rect,  ///< innerRect
   roof_hip,
   roof_gable,
   roof_pyramid,
@@ -366,6 +368,8 @@ struct Grammar {
   std::vector<FunctionTree> functions;
   std::vector<ComponentValue> component_values;
   bool uses_selectors = false;  ///< comp.sel is read somewhere
+  bool is_cityengine =
+      false;  ///< has `version`, `import` or `@StartRule`: faults of single steps are warnings
   std::vector<Warning> warnings;
 
   std::uint32_t symbol_named(std::string_view name) const;  ///< none if there is no such symbol

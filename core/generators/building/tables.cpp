@@ -40,7 +40,11 @@ const std::string& table_text(Evaluation& at, std::string_view path) {
       if (stem_of(name) == stem_of(path)) return text;
     }
   }
-  reject(at, "the request has no table " + lang::in_quotes(path) + "; give it in \"tables\"");
+  const std::string message = "the request has no table " + lang::in_quotes(path) + "; give it in \"tables\"";
+  if (!at.d.grammar.is_cityengine) reject(at, message);
+  warn(at.d, at.offset, message + "; it is empty here");
+  static const std::string empty;
+  return empty;
 }
 
 std::vector<std::vector<std::string>> cells_of_table(std::string_view text) {

@@ -92,6 +92,12 @@ bool Tokens::is_missing(std::string_view name) const {
                              [&](const std::string& prefix) { return name.starts_with(prefix); });
 }
 
+bool Tokens::is_each_comparison(std::size_t i) const {
+  constexpr std::string_view signs[] = {"==", "!=", "<", "<=", ">", ">="};
+  return is(i, ".") && at(i + 1).kind == TokenKind::symbol && at(i + 1).offset == at(i).offset + 1 &&
+         std::ranges::find(signs, at(i + 1).text) != std::end(signs);
+}
+
 std::size_t Tokens::behind_operand(std::size_t i) const {
   const lang::Token& token = at(i);
   if (token.kind == TokenKind::number || token.kind == TokenKind::string) return i + 1;
@@ -117,6 +123,7 @@ std::size_t Tokens::behind_expression(std::size_t i) const {
     while (is(behind, "[") && at(behind - 1).kind != TokenKind::number)
       behind = std::min(partner(behind) + 1, end());
     i = behind;
+    if (is_each_comparison(i)) ++i;
     if (!is_infix(at(i))) return i;
     std::size_t next = i + 1;
     if (is(i, "*") && is(next, "*")) ++next;

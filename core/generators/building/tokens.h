@@ -32,6 +32,9 @@ class Tokens {
   const std::vector<lang::TextError>& warnings() const { return loaded_.warnings; }
   /// Whether a name belongs to an imported file that the request does not have.
   bool is_missing(std::string_view name) const;
+  bool has_imports() const { return loaded_.has_imports; }
+  /// Whether a comparison of each value of an array begins at token i: `.==` and the like.
+  bool is_each_comparison(std::size_t i) const;
   /// The closing partner of an opening bracket; the end if it has none.
   std::size_t partner(std::size_t i) const { return partner_[i]; }
   /// The token behind the expression that begins at i; i if none begins there.

@@ -141,9 +141,11 @@ class TreeParser {
     return left;
   }
 
+  /// Whether a comparison of each value of an array begins here, as in `table .== "lamp"`.
+  bool is_each() const { return at_ < to_ && p_.tokens.is_each_comparison(at_); }
   const Infix* infix(int level) const {
     if (at_ >= to_) return nullptr;
-    const Token& token = here();
+    const Token& token = is_each() ? p_.tokens.at(at_ + 1) : here();
     for (const Infix& each : infixes) {
       if (each.level == level && token.text == each.sign &&
           (token.kind == TokenKind::symbol || each.sign == "mod")) {
@@ -158,7 +160,9 @@ class TreeParser {
     if (level == 3) return unary();
     std::uint32_t left = binary(level + 1);
     while (const Infix* const found = infix(level)) {
-      ValueNode out = node(Kind::binary, at_++);
+      const bool is_mask = is_each();
+      if (is_mask) ++at_;
+      ValueNode out = node(is_mask ? Kind::mask : Kind::binary, at_++);
       out.operation = found->operation;
       left = add(out, {left, binary(level + 1)});
     }
@@ -187,12 +191,20 @@ class TreeParser {
     std::uint32_t out = primary();
     while (is("[")) {
       const std::size_t open = at_++;
-      std::vector<std::uint32_t> operands{out, value()};
-      if (take(",")) operands.push_back(value());
+      std::vector<std::uint32_t> operands{out, places()};
+      if (take(",")) operands.push_back(places());
       expect("]");
       out = add(node(Kind::index, open), operands);
     }
     return out;
+  }
+
+  /// An index: a number, a list of numbers, a range such as 0:3, or a comparison of each value (table .== 3).
+  std::uint32_t places() {
+    const std::size_t begin = at_;
+    std::vector<std::uint32_t> values{value()};
+    while (values.size() < 3 && take(":")) values.push_back(value());
+    return values.size() == 1 ? values[0] : add(node(Kind::range, begin), values);
   }
 
   std::uint32_t primary() {

@@ -22,7 +22,7 @@ void check_range(const std::array<double, 2>& range, const std::string& pointer,
                         ", expected the least value first"});
 }
 
-void check_area(const CityParams& params, std::vector<Issue>& issues) {
+void check_area(const CityParams& params, const Job& job, std::vector<Issue>& issues) {
   if (params.area.polygon.empty()) return;
   std::vector<PlanRing> rings;
   std::size_t points = 0;
@@ -38,7 +38,7 @@ void check_area(const CityParams& params, std::vector<Issue>& issues) {
          "found " + std::to_string(points) + " points, expected at most " + std::to_string(most_points)});
     return;
   }
-  for (const PlanFault& each : faults_of(read_plan(std::move(rings)))) {
+  for (const PlanFault& each : faults_of(read_plan(std::move(rings)), &job)) {
     issues.push_back({IssueKind::invalid_value,
                       "/area/polygon/" + std::to_string(each.ring) + "/" + std::to_string(each.vertex),
                       each.message});
@@ -77,14 +77,13 @@ void check_rules(const CityParams& params, std::vector<Issue>& issues) {
 
 }  // namespace
 
-std::vector<Issue> check(const CityParams& params, const CheckContext&) {
+std::vector<Issue> check(const CityParams& params, const CheckContext& context) {
   std::vector<Issue> issues;
-  check_area(params, issues);
+  check_area(params, context.job, issues);
   check_lots(params.lots, issues);
   check_rules(params, issues);
   const StreetGrammar grammar(params.streets.productions, "/streets/productions", issues);
-  Job job(0, Job::Options{});
-  FieldMap::read(params.maps.density, "/maps/density", {-1, -1}, {1, 1}, job, issues);
+  FieldMap::read(params.maps.density, "/maps/density", {-1, -1}, {1, 1}, context.job, issues);
   return issues;
 }
 

@@ -53,7 +53,7 @@ CrossSection section_of(const char* name, const T& given) {
 }
 
 std::optional<Error> refusal(const CityParams& params, const GenerateContext& context) {
-  std::vector<Issue> issues = check(params, {context.job.limits(), context.generators});
+  std::vector<Issue> issues = check(params, {context.job, context.generators});
   if (issues.empty()) return std::nullopt;
   return Error{Code::invalid, std::move(issues)};
 }

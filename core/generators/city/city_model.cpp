@@ -80,7 +80,7 @@ std::uint64_t count_kerbs(const Part& part, const std::vector<DirectedEdge>& low
 
 class GroundMesh {
  public:
-  explicit GroundMesh(const Job& job) {
+  explicit GroundMesh(const Job& job) : triangulator_(&job) {
     mesh_.position = Array<glm::vec3>(job);
     mesh_.normal = Array<glm::vec3>(job);
     mesh_.uv[0] = Array<glm::vec2>(job);

@@ -46,7 +46,10 @@ class Writer {
     std::vector<std::uint32_t> lot_of(plan_.parts.size(), no_index);
     for (std::uint32_t i = 0; i < plan_.lots.size(); ++i) lot_of[plan_.lots[i].part] = i;
     for (std::uint32_t i = 0; i < plan_.parts.size(); ++i) add_part(plan_.parts[i], lot_of[i]);
-    return {{"type", "FeatureCollection"}, {"features", std::move(features_)}};
+    // GeoJSON has longitudes and latitudes; other programs skip this member.
+    return {{"type", "FeatureCollection"},
+            {"georeference", {{"projection", "local"}, {"unit", "metre"}}},
+            {"features", std::move(features_)}};
   }
 
  private:

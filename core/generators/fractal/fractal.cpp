@@ -96,12 +96,12 @@ Result<Model> generate_copies(const FractalParams& params, const GenerateContext
   model.warnings = std::move(element->warnings);
   std::uint64_t edges = 0;
   if (is_named(params, FractalElement::plate)) {
-    each_stage(model, params, params.iterations, [&](int node, std::int64_t rounds) {
+    each_stage(model, params, params.iterations, job, [&](int node, std::int64_t rounds) {
       add_mesh(model, node, "plate", koch_plate(static_cast<int>(rounds), params.size, job));
     });
     return model;
   }
-  each_stage(model, params, params.iterations, [&](int node, std::int64_t rounds) {
+  each_stage(model, params, params.iterations, job, [&](int node, std::int64_t rounds) {
     edges = add_stage(model, node, params, instructions, *element, static_cast<int>(rounds), job);
   });
   if (edges > 0) model.extras.push_back({"non_manifold_edges", std::to_string(edges)});
@@ -124,7 +124,7 @@ Result<Model> generate_cloud(const FractalParams& params, const GenerateContext&
     model.materials.push_back(plain_material(params));
     model.materials.back().unlit = params.cloud == FractalCloud::points;
   }
-  each_stage(model, params, params.points, [&](int node, std::int64_t count) {
+  each_stage(model, params, params.points, job, [&](int node, std::int64_t count) {
     Cloud cloud =
         play(instructions, static_cast<std::uint64_t>(count), static_cast<std::uint32_t>(params.drop), job);
     job.progress("mesh", 0);

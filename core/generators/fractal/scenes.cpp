@@ -14,14 +14,14 @@ namespace {
 
 constexpr double gap = 0.25;  ///< between stages, as a share of the width of one
 
-double space_of(const FractalParams& params) {
+double space_of(const FractalParams& params, const Job& job) {
   if (params.method != FractalMethod::mrcm) return params.size;
   FractalParams cubes = params;
   cubes.element = FractalElement::sphere;  // fills its frame, and no cells have to be counted
   int most = 0;
   for (const std::int32_t rounds : params.stages) most = std::max(most, rounds);
-  Job job(0, Job::Options{});
-  const Measure measured = measure(cubes, instructions_of(params), most, job);
+  Job own = job.for_estimate();
+  const Measure measured = measure(cubes, instructions_of(params), most, own);
   if (!measured.bounds) return params.size * 1.25;
   const glm::vec3 size = measured.bounds->max - measured.bounds->min;
   return params.size * std::max(1.0, static_cast<double>(std::max(size.x, size.y)));
@@ -96,7 +96,7 @@ void add_mesh(Model& model, int parent, const std::string& name, Mesh mesh) {
   node.mesh = static_cast<int>(model.meshes.size()) - 1;
 }
 
-void each_stage(Model& model, const FractalParams& params, std::int64_t amount,
+void each_stage(Model& model, const FractalParams& params, std::int64_t amount, const Job& job,
                 const std::function<void(int node, std::int64_t amount)>& make) {
   Node& root = model.nodes.emplace_back();
   root.name = "fractal";
@@ -104,7 +104,7 @@ void each_stage(Model& model, const FractalParams& params, std::int64_t amount,
     make(0, amount);
     return;
   }
-  const double pitch = (1 + gap) * space_of(params);
+  const double pitch = (1 + gap) * space_of(params, job);
   for (std::size_t i = 0; i < params.stages.size(); ++i) {
     const auto columns = static_cast<std::size_t>(params.columns);
     Node& node = model.nodes.emplace_back();
@@ -152,7 +152,7 @@ Mesh koch_plate(int rounds, double size, Job& job) {
   for (int round = 0; round < rounds; ++round) corners *= 4;
   job.spend(Resource::triangles, 4 * corners - 4);
   const std::vector<glm::dvec2> outline = snowflake(rounds);
-  Triangulator triangulator;
+  Triangulator triangulator(&job);
   // Many corners are collinear. Triangles far smaller than the smallest bump of the curve are left out.
   const double least_area = 0.05 / static_cast<double>(corners) / static_cast<double>(corners);
   const std::span<const std::uint32_t> inside = triangulator.run(outline, least_area);

@@ -13,7 +13,7 @@ void add_mesh(Model& model, int parent, const std::string& name, Mesh mesh);
 
 /// Calls make(node, amount) once, or for each stage of the request with a node of its own. Stages are in rows
 /// from left to right and from top to bottom.
-void each_stage(Model& model, const FractalParams& params, std::int64_t amount,
+void each_stage(Model& model, const FractalParams& params, std::int64_t amount, const Job& job,
                 const std::function<void(int node, std::int64_t amount)>& make);
 
 /// Adds a cloud as points, as copies of `element`, or as the surface of the cells that contain points.

@@ -35,7 +35,7 @@ Mesh empty_mesh(const Job& job) {
 
 void append(Mesh& mesh, const SceneArea& area, double height, Job& job) {
   const Plan plan = plan_of_rings(area.outline);
-  const std::vector<std::uint32_t> corners = triangulate(plan, ThinTriangles::drop);
+  const std::vector<std::uint32_t> corners = triangulate(plan, ThinTriangles::drop, &job);
   job.spend(Resource::triangles, corners.size() / 3);
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   std::vector<bool> is_used(edge_count(plan), false);

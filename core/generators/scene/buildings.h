@@ -23,7 +23,7 @@ constexpr std::size_t merged_vertices = 60'000;
 
 /// Errors that the schema cannot express, with pointers into the parameters: outlines that cross themselves, a floor
 /// above the roof, options without effect.
-void check_outlines(const SceneParams& params, std::vector<Issue>& issues);
+void check_outlines(const SceneParams& params, const Job& job, std::vector<Issue>& issues);
 
 /// The plan of rings of positions (east, south), with its y northwards.
 Plan plan_of_rings(const std::vector<std::vector<std::array<double, 2>>>& rings);

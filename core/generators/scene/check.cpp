@@ -23,10 +23,12 @@ class Checker {
 
   std::vector<Issue> check() {
     check_ground();
-    for (std::size_t i = 0; i < params_.paths.size(); ++i)
+    for (std::size_t i = 0; i < params_.paths.size(); ++i) {
+      if (i % 1024 == 0) context_.job.check();
       check_line(params_.paths[i].points, "/paths/" + std::to_string(i) + "/points");
+    }
     for (std::size_t i = 0; i < params_.layers.size(); ++i) check_layer(i);
-    check_outlines(params_, issues_);
+    check_outlines(params_, context_.job, issues_);
     const std::size_t variants = count_variants(params_);
     if (variants > most_variants) {
       add(IssueKind::out_of_range, "/layers",
@@ -187,7 +189,7 @@ class Checker {
     const bool needs_count = place.method == Method::scatter || place.method == Method::clusters;
     if (needs_count && !place.count)
       add(IssueKind::missing, pointer, "the method " + method + " needs `count`");
-    const std::uint64_t most = context_.limits.shapes;
+    const std::uint64_t most = context_.job.limits().shapes;
     if (needs_count && place.count && static_cast<std::uint64_t>(*place.count) > most)
       issues_.push_back(limit_issue(
           {Resource::shapes, most, static_cast<std::uint64_t>(*place.count)},

@@ -17,7 +17,7 @@ std::size_t points_of(const Rings& rings) {
   return points;
 }
 
-void check_rings(const Rings& rings, const std::string& pointer, std::vector<Issue>& issues) {
+void check_rings(const Rings& rings, const std::string& pointer, const Job& job, std::vector<Issue>& issues) {
   const std::size_t points = points_of(rings);
   if (points > most_points) {
     issues.push_back(
@@ -25,12 +25,13 @@ void check_rings(const Rings& rings, const std::string& pointer, std::vector<Iss
          "found " + std::to_string(points) + " points; expected at most " + std::to_string(most_points)});
     return;
   }
-  for (const PlanFault& fault : faults_of(plan_of_rings(rings)))
+  for (const PlanFault& fault : faults_of(plan_of_rings(rings), &job))
     issues.push_back({IssueKind::invalid_value, pointer + "/" + std::to_string(fault.ring), fault.message});
 }
 
-void check_building(const SceneBuilding& building, const std::string& pointer, std::vector<Issue>& issues) {
-  check_rings(building.footprint, pointer + "/footprint", issues);
+void check_building(const SceneBuilding& building, const std::string& pointer, const Job& job,
+                    std::vector<Issue>& issues) {
+  check_rings(building.footprint, pointer + "/footprint", job, issues);
   const auto number = [](double value) {
     std::string text = std::to_string(value);
     text.erase(text.find_last_not_of('0') + 1);
@@ -64,7 +65,7 @@ void check_building(const SceneBuilding& building, const std::string& pointer, s
 
 }  // namespace
 
-void check_outlines(const SceneParams& params, std::vector<Issue>& issues) {
+void check_outlines(const SceneParams& params, const Job& job, std::vector<Issue>& issues) {
   double work = 0;
   const auto is_too_much = [&](const Rings& rings, const std::string& pointer) {
     const double points = static_cast<double>(points_of(rings));
@@ -77,12 +78,12 @@ void check_outlines(const SceneParams& params, std::vector<Issue>& issues) {
   for (std::size_t i = 0; i < params.buildings.size(); ++i) {
     const std::string pointer = "/buildings/" + std::to_string(i);
     if (is_too_much(params.buildings[i].footprint, pointer)) return;
-    check_building(params.buildings[i], pointer, issues);
+    check_building(params.buildings[i], pointer, job, issues);
   }
   for (std::size_t i = 0; i < params.areas.size(); ++i) {
     const std::string pointer = "/areas/" + std::to_string(i) + "/outline";
     if (is_too_much(params.areas[i].outline, pointer)) return;
-    check_rings(params.areas[i].outline, pointer, issues);
+    check_rings(params.areas[i].outline, pointer, job, issues);
   }
   if (!params.areas.empty() && params.terrain)
     issues.push_back({IssueKind::conflict, "/areas", "found a terrain; areas lie on level ground"});

@@ -23,7 +23,7 @@ namespace seedmesh::scene {
 namespace {
 
 std::optional<Error> refusal(const SceneParams& params, const GenerateContext& context) {
-  std::vector<Issue> issues = check(params, {context.job.limits(), context.generators});
+  std::vector<Issue> issues = check(params, {context.job, context.generators});
   if (issues.empty()) return std::nullopt;
   return Error{Code::invalid, std::move(issues)};
 }

@@ -258,14 +258,21 @@ double value_in_space(std::uint64_t key, const glm::dvec3& position) {
   const glm::dvec3 in = position - whole;
   const auto ease = [](double t) { return t * t * t * (t * (t * 6 - 15) + 10); };
   const glm::dvec3 u(ease(in.x), ease(in.y), ease(in.z));
+  std::uint64_t number[3][2];
+  for (int axis = 0; axis < 3; ++axis) {
+    number[axis][0] = static_cast<std::uint64_t>(math::to_int64(whole[axis]));
+    number[axis][1] = static_cast<std::uint64_t>(math::to_int64(whole[axis] + 1));
+  }
   double corners[8];
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    const glm::dvec3 step(corner & 1U, corner >> 1U & 1U, corner >> 2U);
-    std::uint64_t at = key;
-    for (int axis = 0; axis < 3; ++axis)
-      at = key_at(at, static_cast<std::uint64_t>(math::to_int64(whole[axis] + step[axis])));
-    const glm::dvec3 g = direction(at), d = in - step;
-    corners[corner] = g.x * d.x + g.y * d.y + g.z * d.z;
+  for (unsigned x = 0; x < 2; ++x) {
+    const std::uint64_t at_x = key_at(key, number[0][x]);
+    for (unsigned y = 0; y < 2; ++y) {
+      const std::uint64_t at_y = key_at(at_x, number[1][y]);
+      for (unsigned z = 0; z < 2; ++z) {
+        const glm::dvec3 g = direction(key_at(at_y, number[2][z])), d = in - glm::dvec3(x, y, z);
+        corners[x + 2 * y + 4 * z] = g.x * d.x + g.y * d.y + g.z * d.z;
+      }
+    }
   }
   for (unsigned axis = 0, left = 4; axis < 3; ++axis, left /= 2) {
     for (unsigned i = 0; i < left; ++i)

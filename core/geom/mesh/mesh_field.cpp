@@ -38,16 +38,17 @@ double squared_distance(const glm::dvec3& p, const glm::vec3& low, const glm::ve
 
 /// No edge of a model that is drawn by rule runs this way.
 constexpr glm::dvec3 ray{0.2871537, 0.9133127, 0.2887301};
+constexpr glm::dvec3 by_ray{1 / 0.2871537, 1 / 0.9133127, 1 / 0.2887301};
 
 bool ray_meets_box(const glm::dvec3& from, const glm::vec3& low, const glm::vec3& high) {
   double enter = 0, leave = 1e300;
   for (int axis = 0; axis < 3; ++axis) {
-    const double a = (double{low[axis]} - from[axis]) / ray[axis];
-    const double b = (double{high[axis]} - from[axis]) / ray[axis];
-    enter = std::max(enter, std::min(a, b));
-    leave = std::min(leave, std::max(a, b));
+    // The ray runs upwards along every axis, so that it meets `low` first.
+    enter = std::max(enter, (double{low[axis]} - from[axis]) * by_ray[axis]);
+    leave = std::min(leave, (double{high[axis]} - from[axis]) * by_ray[axis]);
   }
-  return enter <= leave;
+  constexpr double slack = 1e-12;  // of rounding: a box too many costs time, one too few an intersection
+  return enter <= leave * (1 + slack);
 }
 
 /// Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997.
@@ -56,12 +57,14 @@ bool ray_meets_triangle(const glm::dvec3& from, const glm::dvec3& a, const glm::
   const glm::dvec3 ab = b - a, ac = c - a, across = glm::cross(ray, ac);
   const double determinant = glm::dot(ab, across);
   if (determinant == 0) return false;
+  // All quantities are multiplied by the determinant, made positive, instead of divided by it.
+  const double sign = determinant > 0 ? 1 : -1, whole = determinant * sign;
   const glm::dvec3 to = from - a;
-  const double u = glm::dot(to, across) / determinant;
-  if (u < 0 || u > 1) return false;
+  const double u = glm::dot(to, across) * sign;
+  if (u < 0 || u > whole) return false;
   const glm::dvec3 q = glm::cross(to, ab);
-  const double v = glm::dot(ray, q) / determinant;
-  return v >= 0 && u + v <= 1 && glm::dot(ac, q) / determinant > 0;
+  const double v = glm::dot(ray, q) * sign;
+  return v >= 0 && u + v <= whole && glm::dot(ac, q) * sign > 0;
 }
 
 glm::dmat4 matrix_of(const Transform& t) {

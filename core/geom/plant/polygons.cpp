@@ -196,7 +196,7 @@ class PolygonCutter {
   Job& job_;
   Meter budget_;
   FlatOutline polygon_;
-  Triangulator triangulator_;
+  Triangulator triangulator_{&job_};
   std::vector<std::uint32_t> sorted_;
   std::vector<EdgeAdjacency::Edge> edges_;
 };
@@ -378,7 +378,7 @@ class PieceWriter {
   Job& job_;
   Meter budget_;
   FlatOutline polygon_;
-  Triangulator triangulator_;
+  Triangulator triangulator_{&job_};
   std::vector<std::uint32_t> corners_;
   NumberTable vertices_;  ///< vertices at shared positions, by all their attributes
   std::map<Where, Mesh> meshes_;

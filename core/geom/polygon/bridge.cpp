@@ -94,7 +94,8 @@ std::size_t corner_by_ray(const Outline& outline, const dvec2& p) {
 
 /// A corner of the outline that p can be joined to. There is one to the right of p, because p is the
 /// rightmost point of its hole and no other hole that is still apart reaches farther.
-std::size_t corner_for(const Outline& outline, const dvec2& p) {
+std::size_t corner_for(const Outline& outline, const dvec2& p, const Job* job) {
+  if (job) job->check();
   const std::size_t first = corner_by_ray(outline, p);
   if (is_visible(outline, p, first)) return first;
   std::vector<std::size_t> order(outline.size());
@@ -104,15 +105,17 @@ std::size_t corner_for(const Outline& outline, const dvec2& p) {
     return d.x * d.x + d.y * d.y;
   };
   std::ranges::stable_sort(order, {}, distance);
-  const auto visible =
-      std::ranges::find_if(order, [&](std::size_t corner) { return is_visible(outline, p, corner); });
+  const auto visible = std::ranges::find_if(order, [&](std::size_t corner) {
+    if (job) job->check();
+    return is_visible(outline, p, corner);
+  });
   return visible == order.end() ? first : *visible;
 }
 
 }  // namespace
 
 std::vector<std::uint32_t> join_holes(std::span<const dvec2> points,
-                                      std::span<const std::uint32_t> ring_sizes) {
+                                      std::span<const std::uint32_t> ring_sizes, const Job* job) {
   Outline outline{points, {}};
   if (ring_sizes.empty()) return outline.corners;
   outline.corners.resize(ring_sizes[0]);
@@ -133,7 +136,7 @@ std::vector<std::uint32_t> join_holes(std::span<const dvec2> points,
   std::ranges::stable_sort(holes,
                            [&](const auto& a, const auto& b) { return points[a[0]].x > points[b[0]].x; });
   for (std::vector<std::uint32_t>& hole : holes) {
-    const std::size_t at = corner_for(outline, points[hole[0]]);
+    const std::size_t at = corner_for(outline, points[hole[0]], job);
     hole.push_back(hole[0]);
     hole.push_back(outline.corners[at]);
     outline.corners.insert(outline.corners.begin() + static_cast<std::ptrdiff_t>(at) + 1, hole.begin(),

@@ -130,7 +130,7 @@ class MassMaker {
       for (const dvec2& p : ring) point(p, options_.base);
     }
     face(MassPart::floor, {0, 0, -1});
-    const std::vector<std::uint32_t> corners = triangulate(plan_);
+    const std::vector<std::uint32_t> corners = triangulate(plan_, ThinTriangles::keep, &job_);
     for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
       triangle(first + corners[i], first + corners[i + 2], first + corners[i + 1]);
     return first;
@@ -139,7 +139,7 @@ class MassMaker {
   // --- Roofs of planes over the whole plan ---
 
   void add_envelope(const Envelope& envelope) {
-    CutPlan cut(plan_);
+    CutPlan cut(plan_, job_);
     for (const PlanLine& line : envelope.cuts) cut.cut(line, job_);
     const std::vector<dvec2>& points = cut.points();
     for (const dvec2& p : points) point(p, options_.eaves + std::max(envelope.height(p), 0.0));
@@ -231,7 +231,7 @@ class MassMaker {
       if (each.role == RoofRole::base) continue;
       face(each.role == RoofRole::gable ? MassPart::wall : MassPart::roof,
            {each.normal.x, -each.normal.z, each.normal.y});
-      add(triangulate(made, each), 0);
+      add(triangulate(made, each, &job_), 0);
     }
     for (const RoofFace& each : made.faces) {
       if (each.role == RoofRole::base) add_below(made, each);
@@ -249,7 +249,7 @@ class MassMaker {
     const auto shift = static_cast<std::uint32_t>(mass_.point.size());
     for (const dvec3& p : made.point) mass_.point.emplace_back(p.x, -p.z, options_.base);
     face(MassPart::floor, {0, 0, -1});
-    add(triangulate(made, base), shift);
+    add(triangulate(made, base, &job_), shift);
     const auto walls = [&](const std::vector<std::uint32_t>& loop) {
       // The base faces down, so that its loops run against those of the plan.
       for (std::size_t i = 0; i < loop.size(); ++i) {

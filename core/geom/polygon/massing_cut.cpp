@@ -18,9 +18,9 @@ constexpr double on_line = 1e-6;
 
 }  // namespace
 
-CutPlan::CutPlan(const Plan& plan) : slack_(on_line * diagonal_of(plan)) {
+CutPlan::CutPlan(const Plan& plan, const Job& job) : slack_(on_line * diagonal_of(plan)) {
   for (const PlanRing& ring : plan.rings) point_.insert(point_.end(), ring.begin(), ring.end());
-  const std::vector<std::uint32_t> corners = triangulate(plan);
+  const std::vector<std::uint32_t> corners = triangulate(plan, ThinTriangles::keep, &job);
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
     triangle_.push_back({corners[i], corners[i + 1], corners[i + 2]});
 }

@@ -18,7 +18,7 @@ struct PlanLine {
 class CutPlan {
  public:
   /// The points of the plan come first, in the order of its rings.
-  explicit CutPlan(const Plan& plan);
+  CutPlan(const Plan& plan, const Job& job);
 
   /// Cuts every triangle that the line crosses. Neighbours share the new points. Points nearer than a millionth
   /// of the diagonal count as points of the line.

@@ -233,7 +233,7 @@ double diagonal_of(const Plan& plan) {
   return glm::length(high - low);
 }
 
-std::vector<std::uint32_t> triangulate(const Plan& plan, ThinTriangles thin) {
+std::vector<std::uint32_t> triangulate(const Plan& plan, ThinTriangles thin, const Job* job) {
   if (plan.rings.empty()) return {};
   std::vector<dvec2> points;
   std::vector<std::uint32_t> ring_sizes;
@@ -242,7 +242,7 @@ std::vector<std::uint32_t> triangulate(const Plan& plan, ThinTriangles thin) {
     ring_sizes.push_back(static_cast<std::uint32_t>(ring.size()));
   }
   const double diagonal = diagonal_of(plan);
-  Triangulator triangulator;
+  Triangulator triangulator(job);
   const double least_area = no_area * diagonal * diagonal;
   const std::span<const std::uint32_t> triangles = thin == ThinTriangles::drop && ring_sizes.size() == 1
                                                        ? triangulator.run(points, least_area)

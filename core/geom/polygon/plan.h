@@ -58,7 +58,9 @@ double diagonal_of(const Plan& plan);
 enum class ThinTriangles { keep, drop };
 
 /// Counter-clockwise triangles that fill a plan, as numbers of points through all rings; see Triangulator.
-std::vector<std::uint32_t> triangulate(const Plan& plan, ThinTriangles thin = ThinTriangles::keep);
+/// Checks stop and deadline where there is a job.
+std::vector<std::uint32_t> triangulate(const Plan& plan, ThinTriangles thin = ThinTriangles::keep,
+                                       const Job* job = nullptr);
 
 /// A plan made from another. Each edge is parallel to an edge of the original.
 struct DerivedPlan {

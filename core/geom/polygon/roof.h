@@ -89,6 +89,7 @@ struct RoofMesh {
 std::vector<RoofMesh> meshes_of(const Roof& roof, Job& job);
 
 /// The triangles of one face, as positions in Roof::point.
-std::vector<std::uint32_t> triangulate(const Roof& roof, const RoofFace& face);
+/// Checks stop and deadline where there is a job.
+std::vector<std::uint32_t> triangulate(const Roof& roof, const RoofFace& face, const Job* job = nullptr);
 
 }  // namespace seedmesh

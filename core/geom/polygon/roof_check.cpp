@@ -25,7 +25,7 @@ std::vector<std::uint32_t> numbers_of(const Roof& roof) {
 }
 
 /// The triangles of a face with those that have no area.
-std::vector<std::uint32_t> all_triangles(const Roof& roof, const RoofFace& face) {
+std::vector<std::uint32_t> all_triangles(const Roof& roof, const RoofFace& face, const Job& job) {
   const glm::dvec3 across = glm::cross(face.normal, face.along);
   Plan flat;
   std::vector<std::uint32_t> point;
@@ -38,7 +38,7 @@ std::vector<std::uint32_t> all_triangles(const Roof& roof, const RoofFace& face)
   };
   add(face.outline);
   for (const auto& hole : face.holes) add(hole);
-  std::vector<std::uint32_t> triangles = triangulate(flat);
+  std::vector<std::uint32_t> triangles = triangulate(flat, ThinTriangles::keep, &job);
   for (std::uint32_t& i : triangles) i = point[i];
   return triangles;
 }
@@ -51,7 +51,7 @@ bool is_closed(const Roof& roof, bool is_cover, const Job& job) {
   for (const RoofFace& face : roof.faces) {
     if (face.is_cover != is_cover) continue;
     job.check();
-    const std::vector<std::uint32_t> corners = all_triangles(roof, face);
+    const std::vector<std::uint32_t> corners = all_triangles(roof, face, job);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const std::uint32_t a = number[corners[i]], b = number[corners[i % 3 == 2 ? i - 2 : i + 1]];
       if (a != b) edges.push_back({std::min(a, b), std::max(a, b), a > b ? 1U : 0U});

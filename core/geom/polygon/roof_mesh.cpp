@@ -14,8 +14,8 @@ dvec2 in_face(const RoofFace& face, const dvec3& p) {
   return {glm::dot(p, face.along), glm::dot(p, glm::cross(face.normal, face.along))};
 }
 
-void add_face(Mesh& mesh, const Roof& roof, const RoofFace& face) {
-  const std::vector<std::uint32_t> triangles = triangulate(roof, face);
+void add_face(Mesh& mesh, const Roof& roof, const RoofFace& face, const Job& job) {
+  const std::vector<std::uint32_t> triangles = triangulate(roof, face, &job);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> number;
   const auto place = [&](std::uint32_t point) {
     for (const auto& [known, at] : number) {
@@ -33,7 +33,7 @@ void add_face(Mesh& mesh, const Roof& roof, const RoofFace& face) {
 
 }  // namespace
 
-std::vector<std::uint32_t> triangulate(const Roof& roof, const RoofFace& face) {
+std::vector<std::uint32_t> triangulate(const Roof& roof, const RoofFace& face, const Job* job) {
   Plan flat;
   std::vector<std::uint32_t> point;
   const auto add = [&](const std::vector<std::uint32_t>& loop) {
@@ -45,7 +45,7 @@ std::vector<std::uint32_t> triangulate(const Roof& roof, const RoofFace& face) {
   };
   add(face.outline);
   for (const auto& hole : face.holes) add(hole);
-  std::vector<std::uint32_t> triangles = triangulate(flat, ThinTriangles::drop);
+  std::vector<std::uint32_t> triangles = triangulate(flat, ThinTriangles::drop, job);
   for (std::uint32_t& i : triangles) i = point[i];
   return triangles;
 }
@@ -66,7 +66,7 @@ std::vector<RoofMesh> meshes_of(const Roof& roof, Job& job) {
     mesh.uv[0] = Array<glm::vec2>(job);
     mesh.index.wide = Array<std::uint32_t>(job);
     for (const RoofFace& face : roof.faces) {
-      if (face.role == role) add_face(mesh, roof, face);
+      if (face.role == role) add_face(mesh, roof, face, job);
     }
     if (mesh.position.empty()) continue;
     weld(mesh, job);

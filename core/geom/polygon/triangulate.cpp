@@ -15,6 +15,8 @@ namespace {
 // With fewer reflex corners, testing all of them is faster than a grid.
 constexpr std::size_t least_in_grid = 24;
 constexpr std::size_t most_cells_along = 1024;
+// A look takes about 10 ns.
+constexpr std::uint32_t looks_a_check = 16'384;
 
 }  // namespace
 
@@ -34,7 +36,7 @@ std::span<const std::uint32_t> Triangulator::run(std::span<const glm::dvec2> out
 std::span<const std::uint32_t> Triangulator::run(std::span<const glm::dvec2> points,
                                                  std::span<const std::uint32_t> ring_sizes,
                                                  double least_area) {
-  const std::vector<std::uint32_t> joined = join_holes(points, ring_sizes);
+  const std::vector<std::uint32_t> joined = join_holes(points, ring_sizes, job_);
   outline_.clear();
   for (const std::uint32_t point : joined) outline_.push_back(points[point]);
   points_ = outline_;
@@ -111,10 +113,17 @@ std::size_t Triangulator::along(double value, int axis) const {
   return static_cast<std::size_t>(std::clamp<std::int64_t>(cell, 0, static_cast<std::int64_t>(side_) - 1));
 }
 
+void Triangulator::count_look() const {
+  if (++looks_ < looks_a_check) return;
+  looks_ = 0;
+  if (job_) job_->check();
+}
+
 void Triangulator::cut_ears() {
   std::uint32_t at = 0;
   std::size_t since_ear = 0;
   while (left_ > 3) {
+    count_look();
     if (corner(at) > least_ && is_ear(at)) {
       keep(at);
       drop(at);
@@ -142,6 +151,7 @@ bool Triangulator::is_convex(std::uint32_t i) const {
 /// triangle the one nearest to b is reflex.
 bool Triangulator::blocks(std::uint32_t other, const glm::dvec2& a, const glm::dvec2& b,
                           const glm::dvec2& c) const {
+  count_look();
   if (is_cut_[other]) return false;
   const glm::dvec2 p = points_[other];
   if (orientation(a, b, p) < 0 || orientation(b, c, p) < 0) return false;
@@ -186,6 +196,7 @@ bool Triangulator::cut_thin_ear(std::uint32_t start) {
   std::uint32_t i = start;
   bool is_found = false;
   for (std::size_t seen = 0; seen < left_ && !is_found; ++seen, i = next_[i]) {
+    count_look();
     const glm::dvec2 &a = points_[before_[i]], &b = points_[i], &c = points_[next_[i]];
     const bool is_spike = a == b || b == c || a == c;
     is_found = is_spike || (is_convex(i) && is_ear(i));
@@ -207,6 +218,7 @@ std::uint32_t Triangulator::unblock(std::uint32_t start) {
   std::uint32_t best = start, i = start;
   const std::size_t before = left_;
   for (std::size_t seen = 0; seen < before && left_ > 2; ++seen, i = next_[i]) {
+    count_look();
     if (std::abs(corner(i)) <= least_) {
       drop(i);
     } else if (is_cut_[best] || corner(i) > corner(best)) {

@@ -6,13 +6,19 @@
 #include <span>
 #include <vector>
 
+#include "core/base/job.h"
+
 namespace seedmesh {
 
 /// Cuts ears off one by one (Meisters, "Polygons have ears", 1975). Convex outlines become a fan. The object
 /// keeps its working memory from one polygon to the next; an answer is valid until the next call. All tests
-/// of sides are exact. Cost: about n log n for outlines met in practice, by a grid over the reflex corners.
+/// of sides are exact. Cost: about n log n for outlines met in practice, by a grid over the reflex corners; n² for
+/// hostile ones.
 class Triangulator {
  public:
+  /// Checks stop and deadline of `job`, which outlives the object; null: it runs to the end.
+  explicit Triangulator(const Job* job = nullptr) : job_(job) {}
+
   /// Triangles (three numbers of points each, counter-clockwise) that fill a counter-clockwise outline. The
   /// outline may be concave and may touch itself; one that crosses itself is filled as far as possible. No
   /// triangle has an area of `least_area` or less; points that only such triangles use are left out.
@@ -42,6 +48,10 @@ class Triangulator {
   std::size_t along(double value, int axis) const;
   std::size_t cell_of(const glm::dvec2& p) const { return along(p.y, 1) * side_ + along(p.x, 0); }
 
+  void count_look() const;
+
+  const Job* job_;
+  mutable std::uint32_t looks_ = 0;  ///< at corners since the last check of the job
   std::span<const glm::dvec2> points_;
   double least_ = 0;              ///< twice the least area
   bool uses_all_points_ = false;  ///< thin triangles are kept where no others are possible

@@ -112,7 +112,8 @@ class Describer {
       JsonWriter json(image_list_);
       json.object([&] {
         json.member("mimeType", image->mime);
-        if (!image->name.empty()) json.member("name", image->name);
+        const std::string& name = options_.image_names.empty() ? image->name : options_.image_names[used];
+        if (!name.empty()) json.member("name", name);
         if (!image->uri.empty()) {
           json.member("uri", image->uri);
         } else if (options_.image_uris.empty()) {
@@ -153,6 +154,7 @@ class Describer {
     json.member("scene", 0);
     json.array("scenes", [&] {
       json.object([&] {
+        append_scene_extras(json);
         json.member("name", model_.name.empty() ? "scene" : model_.name);
         if (!roots_.empty()) json.values("nodes", roots_);
       });
@@ -180,6 +182,16 @@ class Describer {
       append_extras(json);
       if (!options_.generator.empty()) json.member("generator", options_.generator);
       json.member("version", "2.0");
+    });
+  }
+
+  void append_scene_extras(JsonWriter& json) const {
+    if (options_.scene_extras.empty()) return;
+    json.object("extras", [&] {
+      for (const Extra& extra : options_.scene_extras) {
+        json.key(extra.name);
+        json.json(extra.json);
+      }
     });
   }
 

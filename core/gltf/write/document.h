@@ -21,7 +21,9 @@ struct DocumentOptions {
   std::string generator = {};
   std::size_t lod = 0;  ///< nodes with fewer levels show their coarsest
   std::vector<std::string> image_uris =
-      {};                ///< parallel to Model::textures; empty: the images go into the buffer
+      {};  ///< parallel to Model::textures; empty: the images go into the buffer
+  std::vector<std::string> image_names = {};  ///< parallel to Model::textures; empty: their own
+  std::vector<Extra> scene_extras = {};
   Dialect dialect = {};  ///< `compressed`: `columns` are quantized
   bool last = false;     ///< no other document follows: arrays are released once they are stored
 };

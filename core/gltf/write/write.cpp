@@ -8,6 +8,7 @@
 #include "core/gltf/bin.h"
 #include "core/gltf/columns.h"
 #include "core/gltf/compress/quantize.h"
+#include "core/gltf/content_names.h"
 #include "core/gltf/write/document.h"
 #include "core/gltf/write/zip.h"
 
@@ -90,11 +91,13 @@ void add_files(std::vector<gltf::ZipEntry>& files, const std::string& stem, Docu
 }
 
 /// A file name for each image of the model, unique, in the folder `textures`.
-std::vector<std::string> image_files(const Model& model) {
+std::vector<std::string> image_files(const Model& model, const std::vector<std::string>& image_names) {
   std::vector<std::string> names;
   std::set<std::string> taken;
-  for (const auto& image : model.textures) {
-    const std::string stem = "textures/" + (image->name.empty() ? "texture" : file_stem(image->name));
+  for (std::size_t number = 0; number < model.textures.size(); ++number) {
+    const auto& image = model.textures[number];
+    const std::string& own = image_names.empty() ? image->name : image_names[number];
+    const std::string stem = "textures/" + (own.empty() ? "texture" : file_stem(own));
     const std::string extension = image->mime == "image/jpeg" ? ".jpg" : ".png";
     std::string name = stem + extension;
     for (int i = 2; !taken.insert(name).second; ++i) {
@@ -123,7 +126,7 @@ void name_next_level(Model& model, std::size_t level) {
 
 Payload write_zip(Model& model, Columns& columns, gltf::DocumentOptions options, Job& job) {
   const std::string stem = file_stem(model.name);
-  options.image_uris = image_files(model);
+  options.image_uris = image_files(model, options.image_names);
   options.dialect.lods_inside = false;
   std::vector<gltf::ZipEntry> files;
   std::set<std::size_t> images;
@@ -171,7 +174,9 @@ Payload write(Model model, const WriteOptions& options, Job& job) {
   Columns columns = gltf::take_columns(model);
   if (dialect.compressed) gltf::quantize(columns, grids, job);
   if (dialect.compressed && options.counts) recount(model, columns, *options.counts);
-  gltf::DocumentOptions described{.generator = options.generator, .dialect = dialect};
+  gltf::DocumentOptions described{
+      .generator = options.generator, .scene_extras = options.scene_extras, .dialect = dialect};
+  if (!options.image_stem.empty()) described.image_names = gltf::image_names(model, options.image_stem);
   if (options.container == Container::zip) return write_zip(model, columns, described, job);
   described.last = true;
   Document document = gltf::describe(model, columns, described, job);

@@ -1,6 +1,7 @@
 #pragma once
 /// Model -> glTF 2.0.
 #include <string>
+#include <vector>
 
 #include "core/gltf/payload.h"
 #include "core/model/model.h"
@@ -29,6 +30,9 @@ struct WriteOptions {
   Container container = Container::glb;
   std::string generator = {};  ///< goes to asset.generator
   Dialect dialect = {};
+  /// Names of images: `<stem>_<name>_<hash>` (core/gltf/content_names.h). Empty: their own names.
+  std::string image_stem = {};
+  std::vector<Extra> scene_extras = {};  ///< of the scene of each file
   /// Null, or count() of the model; updated where the dialect drops vertices or triangles.
   ModelCounts* counts = nullptr;
 };

@@ -166,6 +166,41 @@ TEST(CgaLanguage, WarnsOfAFileThatTheRequestDoesNotHave) {
   EXPECT_THAT(answer["warnings"].dump(), HasSubstr("has no rule file"));
 }
 
+TEST(CgaLanguage, LeavesOutWhatBelongsToAFileThatTheRequestDoesNotHave) {
+  const Json answer =
+      derived(with("version \"2020.1\"\nimport x : \"none.cga\"(h = 2)\nattr h = 3\n"
+                   "Lot --> set(x.width, 4) Mass\n"
+                   "Mass --> case x.kind(h) == \"tower\": x.Tower(2) else: extrude(h + x.height) B."));
+  EXPECT_EQ(active(answer), "B");
+}
+
+TEST(CgaLanguage, ComparesEachValueOfAnArray) {
+  EXPECT_EQ(reported("sum([1, 2; 3, 4][[7, 8] .== 8, 1])"), 4);
+  EXPECT_EQ(reported("sum([1, 2; 3, 4; 5, 6][[\"a\", \"b\", \"a\"] .== \"a\", 1])"), 2 + 6);
+  EXPECT_EQ(reported("sum([1, 2; 3, 4; 5, 6][0:1, 0])"), 1 + 3);
+  EXPECT_EQ(reported("sum([5, 6, 7][[5, 6, 7] .> 5])"), 6 + 7);
+  EXPECT_EQ(reported("nRows([1, 2; 3, 4; 5, 6][[0, 2], [1, 0]])"), 2);
+}
+
+TEST(CgaLanguage, SplitsALotWithoutTextureCoordinatesAlongItsAxes) {
+  const std::string rules =
+      "Lot --> split(v, unitSpace, 0){ 2 : A. | ~1 : split(u, unitSpace, 0){ 3 : B. | ~1 : C. } }";
+  const Json answer = derived(with(rules, {10, 0, 8}));
+  EXPECT_EQ(active(answer), "A B C");
+  EXPECT_THAT(sizes(answer, 0), ElementsAre(10, 3, 7));
+  EXPECT_THAT(sizes(answer, 2), ElementsAre(2, 6, 6));
+}
+
+TEST(CgaLanguage, WarnsWhereAStepOfARuleFileCannotBeDone) {
+  const std::string rules = "Lot --> primitiveCube(4, 5, 6) offset(0.5, border) A.";
+  EXPECT_THROW(derived(with(rules)), Stop);
+  const Json answer = derived(with("version \"2019.1\"\n" + rules));
+  EXPECT_EQ(active(answer), "A");
+  EXPECT_THAT(answer["warnings"].dump(), HasSubstr("expected a face for offset; the operation is left out"));
+  // A rule without an end stays an error.
+  EXPECT_THROW(derived(with("version \"2019.1\"\nLot --> t(0, 1, 0) Lot")), Stop);
+}
+
 TEST(CgaLanguage, AsksForTheMainFileIfSeveralCouldBe) {
   const std::vector<Issue> issues = check(with_files({{"a", "A --> B."}, {"b", "A --> C."}}), Limits{});
   ASSERT_FALSE(issues.empty());

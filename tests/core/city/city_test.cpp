@@ -183,8 +183,8 @@ TEST(CityStatistics, MeasureTheInnerAreaOfARectangleAndOfASquareWithAHole) {
 
 std::vector<std::string> pointers(const CityParams& params) {
   std::vector<std::string> found;
-  const Limits limits;
-  for (const Issue& issue : check(params, {limits, {}})) found.push_back(issue.pointer);
+  const Job job(0, Job::Options{});
+  for (const Issue& issue : check(params, {job, {}})) found.push_back(issue.pointer);
   return found;
 }
 

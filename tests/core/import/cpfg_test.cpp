@@ -113,9 +113,8 @@ TEST(Cpfg, RefusesUnknownTextAtItsLineAndColumn) {
   };
   EXPECT_EQ(fault("A --> B\n"), "");
   EXPECT_THAT(fault("A B C\n"), StartsWith("4:1 found no keyword and no production"));
-  EXPECT_THAT(fault("A --> B(func(1,2))\n"), HasSubstr("4:9 unknown function `func`"));
+  EXPECT_THAT(fault("A --> B(fund(1,2))\n"), HasSubstr("4:9 unknown function `fund`"));
   EXPECT_THAT(fault("#include \"x.h\"\n"), StartsWith("4:1 found `#include`"));
-  EXPECT_THAT(fault("Start: {fscanf(fp, \"%f\", &x);}\n"), StartsWith("4:9 found `fscanf`"));
   EXPECT_THAT(fault("#if 1\nA --> B\n"), StartsWith("4:1 found a choice without its `#endif`"));
   EXPECT_THAT(fault("A --> ?(1,2)B$\n"), StartsWith("4:7 found a sub-L-system"));
   EXPECT_THAT(fault("#define X [X]\nA --> X\n"), StartsWith("5:7 found macros that contain themselves"));
@@ -247,6 +246,53 @@ TEST(Cpfg, ReadsAViewFileAndFunctionsBesideIt) {
   EXPECT_EQ(derived(result), "B(3.5,7,8)");
   EXPECT_THAT(reports(result),
               ElementsAre(HasSubstr("`odd thing` has no counterpart"), HasSubstr("nothing will be drawn")));
+}
+
+constexpr std::string_view head = "Lsystem: 1\nderivation length: 1\nAxiom: A(7)\n";
+
+TEST(Cpfg, WarnsOfFilesThatAreNotGivenAndGoesOn) {
+  const auto without_functions = imported("cpfg", std::string(head) + "A(x) --> B(2 * func(3, x / 10))\n");
+  ASSERT_TRUE(without_functions) << reports(without_functions)[0];
+  EXPECT_EQ(derived(without_functions), "B(2)");
+  EXPECT_THAT(reports(without_functions), Contains(HasSubstr("`func(n, x)` is 1 everywhere")));
+
+  const auto without_numbers =
+      imported("cpfg",
+               "Lsystem: 1\nStart: {fp = fopen(\"n.txt\", \"r\"); fscanf(fp, \"%lf\", &count); fclose(fp);}\n"
+               "EndEach: {stop(1);}\nderivation length: 1\nAxiom: A(7)\nA(x) --> B(x + count)\n");
+  ASSERT_TRUE(without_numbers) << reports(without_numbers)[0];
+  EXPECT_EQ(derived(without_numbers), "B(7)");
+  EXPECT_THAT(reports(without_numbers), Contains(HasSubstr("`fscanf` reads a file of its own")));
+}
+
+TEST(Cpfg, GivesNamesOfInnerBracesToTheWholeRule) {
+  const std::string_view rule = "A(x) : x > 0 {if (x > 5) {y = x * 2;} else {y = 1;}} --> B(y)\n";
+  EXPECT_EQ(derived(imported("cpfg", std::string(head) + std::string(rule))), "B(14)");
+  EXPECT_EQ(derived(imported("cpfg", "Lsystem: 1\nderivation length: 1\nAxiom: A(3)\n" + std::string(rule))),
+            "B(1)");
+  // A parameter and a name that Start sets keep their values where the braces are not entered.
+  EXPECT_EQ(derived(imported("cpfg",
+                             "Lsystem: 1\nStart: {n = 4;}\nderivation length: 1\nAxiom: A(3)\n"
+                             "A(x) : x > 0 {if (x > 5) {x = 0; n = 0;}} --> B(x,n)\n")),
+            "B(3,4)");
+}
+
+TEST(Cpfg, LeavesOutDrawingRulesForSeveralModules) {
+  const auto result = imported("cpfg", std::string(head) + "A(x) --> ST\nhomomorphism\nST --> F\nS --> f\n");
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_EQ(parameters_of(result)["interpretation"], json({"S --> f"}));
+  EXPECT_THAT(reports(result), Contains(StartsWith("6:1 a rule of a decomposition or homomorphism")));
+}
+
+TEST(Cpfg, TakesAtMostAThousandSteps) {
+  const auto result = imported("cpfg", "Lsystem: 1\nderivation length: 1100\nAxiom: A\nA --> A\n");
+  EXPECT_EQ(parameters_of(result)["iterations"], 1000);
+  EXPECT_THAT(reports(result), Contains(StartsWith("2:20 the derivation length 1100 is 1000 here")));
+}
+
+TEST(Cpfg, ClosesABranchOfAContext) {
+  EXPECT_EQ(derived(imported("cpfg", "Lsystem: 1\nderivation length: 1\nAxiom: A[B]C\nA > [B --> D\n")),
+            "D[B]C");
 }
 
 }  // namespace

@@ -215,5 +215,45 @@ TEST(GeoJson, IsRecognised) {
   EXPECT_THAT(result->answer, HasSubstr("\"format\":\"geojson\""));
 }
 
+/// A plan of the generator `city`, whose positions look like degrees.
+Value plan_of(const std::string& features) {
+  return Value::parse(
+      R"({"type":"FeatureCollection","georeference":{"projection":"local","unit":"metre"},"features":[)" +
+      features + "]}");
+}
+
+TEST(GeoJson, ReadsPlansOfCitiesInMetres) {
+  const auto result = imported_map(plan_of(R"(
+    {"type":"Feature","properties":{"kind":"area"},
+     "geometry":{"type":"Polygon","coordinates":[[[-50,-50],[50,-50],[50,50],[-50,50],[-50,-50]]]}},
+    {"type":"Feature","properties":{"kind":"street","id":"s","width":6},
+     "geometry":{"type":"LineString","coordinates":[[-50,0],[50,0]]}},
+    {"type":"Feature","properties":{"kind":"carriageway","street":"s"},
+     "geometry":{"type":"Polygon","coordinates":[[[-50,-3],[50,-3],[50,3],[-50,3],[-50,-3]]]}},
+    {"type":"Feature","properties":{"kind":"park"},
+     "geometry":{"type":"Polygon","coordinates":[[[-50,-50],[50,-50],[50,-30],[-50,-30],[-50,-50]]]}},
+    {"type":"Feature","properties":{"kind":"lot","id":"bare","building":null},
+     "geometry":{"type":"Polygon","coordinates":[[[-40,5],[-20,5],[-20,30],[-40,30],[-40,5]]]}},
+    {"type":"Feature","properties":{"kind":"lot","id":"built","position":[10,20,0],"turn":90,
+      "building":{"generator":"building","parameters":{"size":[12,0,8],"attributes":{"floors":4}}}},
+     "geometry":{"type":"Polygon","coordinates":[[[0,5],[20,5],[20,30],[0,30],[0,5]]]}})"));
+  ASSERT_TRUE(result) << reports(result)[0];
+  const Value parameters = parameters_of(result);
+  ASSERT_EQ(parameters["buildings"].size(), 1U);
+  EXPECT_EQ(parameters["paths"].size(), 1U);
+  EXPECT_EQ(parameters["areas"].size(), 1U);
+  // 12 m along the street before the quarter turn: 8 m from west to east, 12 m from south to north.
+  double west = 1e9, east = -1e9, south = -1e9, north = 1e9;
+  for (const Value& p : parameters["buildings"][0]["footprint"][0]) {
+    west = std::min(west, p[0].get<double>());
+    east = std::max(east, p[0].get<double>());
+    north = std::min(north, p[1].get<double>());
+    south = std::max(south, p[1].get<double>());
+  }
+  EXPECT_NEAR(east - west, 8, 1e-6);
+  EXPECT_NEAR(south - north, 12, 1e-6);
+  EXPECT_EQ(parameters["buildings"][0]["height"], 4 * 3);
+}
+
 }  // namespace
 }  // namespace seedmesh

@@ -118,6 +118,12 @@ TEST(Overrides, PointAtTheKeyTheyCameBy) {
   EXPECT_THAT(pointers({{"angle", R"({"yaw":"x"})"}}), ElementsAre("/angle"));
 }
 
+TEST(Overrides, SuggestTheSeedBeforeParametersOfASimilarName) {
+  const auto oak = read_preset("oak", {{"Seed", "1"}}, Limits{});  // a tree also has the parameter mSeed
+  ASSERT_TRUE(oak && !*oak);
+  EXPECT_THAT((*oak).error().issues.front().message, HasSubstr("did you mean \"seed\"?"));
+}
+
 TEST(Overrides, AreRefusedWhereNothingHasTheirName) {
   EXPECT_THAT(pointers({{"angel", "2"}}), ElementsAre("/angel"));
   EXPECT_THAT(pointers({{"generator", "lsystem"}}), ElementsAre("/generator"));

@@ -1,4 +1,5 @@
 /** Selects the kind of field for a value by its schema. */
+import { attributes_field } from './attributes_field';
 import type { Draw } from './field';
 import { list_field, map_field, object_field, variant_field } from './group_fields';
 import { placement_field } from './placement_field';
@@ -36,6 +37,7 @@ function field_for(schema: Schema): Draw {
       return schema['x-widget'] === 'json' ? rows_field : list_for(schema);
     case 'object':
       if (schema['x-widget'] === 'request') return request_field;
+      if (schema['x-widget'] === 'attributes') return attributes_field;
       if (schema.properties) return object_field;
       return is_members(schema.additionalProperties) ? map_field : json_field;
     default: return json_field;

@@ -71,6 +71,10 @@ class Client:
         """The whole request of a preset."""
         return cast(Request, self._transport.call(links.preset_path(name, "json")).json())
 
+    def schema(self, generator: str) -> Dict[str, Any]:
+        """The JSON Schema of a generator's parameters, or of request, output or problem."""
+        return cast(Dict[str, Any], self._transport.call(f"/v1/schemas/{generator}").json())
+
     def validate(self, request: Request) -> Validation:
         """Warnings and an estimate of the size, without geometry."""
         return cast(Validation, self._post("/v1/validate", request).json())
@@ -190,6 +194,9 @@ class AsyncClient:
 
     async def preset(self, name: str) -> Request:
         return await asyncio.to_thread(self.client.preset, name)
+
+    async def schema(self, generator: str) -> Dict[str, Any]:
+        return await asyncio.to_thread(self.client.schema, generator)
 
     async def validate(self, request: Request) -> Validation:
         return await asyncio.to_thread(self.client.validate, request)

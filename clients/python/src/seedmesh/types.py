@@ -5,6 +5,8 @@ from typing import Any, Dict, List, Literal, TypedDict, Union
 class Output(TypedDict, total=False):
     format: Literal['glb', 'gltf', 'zip', 'png16', 'png8', 'rgb24', 'rgba32', 'r16', 'ply', 'placements', 'geojson']
     profile: Literal['core', 'web', 'unity', 'unreal', 'godot', 'blender']
+    name: str
+    provenance: Literal['full', 'none']
     animation: Literal['none', 'growth']
     textures: Union[int, Literal['none', 'links']]
     lods: int
@@ -1212,7 +1214,7 @@ class _BuildingDerivationShapesItemRequired(TypedDict):
     id: int
     parent: Union[int, None]
     symbol: str
-    parameters: List[Any]
+    parameters: List[Union[float, str, bool, List[Any]]]
     active: bool
     scope: "BuildingDerivationShapesItemScope"
 

@@ -91,7 +91,7 @@ void PartWriter::push(std::string_view role, const Plan& outline, const Push& pu
       far_end.push_back(placed(push.along, p, push.to));
     }
   }
-  std::vector<std::uint32_t> triangles = triangulate(outline);
+  std::vector<std::uint32_t> triangles = triangulate(outline, ThinTriangles::keep, &job_);
   flat(role, far_end, triangles, axis);
   for (std::size_t i = 0; i < triangles.size(); i += 3) std::swap(triangles[i], triangles[i + 1]);
   flat(role, near_end, triangles, -axis);

@@ -1,4 +1,4 @@
-#include "server/base64url.h"
+#include "core/base/base64url.h"
 
 #include <array>
 #include <cstdint>

@@ -1,0 +1,85 @@
+"""Imports models of a Seedmesh server into Unreal, by the Python client beside this file.
+
+    import seedmesh_unreal
+    seedmesh_unreal.import_model({"preset": "oak", "seed": 7, "output": {"lods": 3}}, "oak_7")
+    seedmesh_unreal.import_all()
+"""
+import json
+import os
+import re
+import tempfile
+import zipfile
+from io import BytesIO
+from typing import Any, Dict, List
+
+import seedmesh
+import unreal
+
+folder = "/Game/Seedmesh"
+allowed_name = re.compile(r"[A-Za-z0-9_-]+")
+
+
+def import_model(request: Dict[str, Any], name: str, nanite: bool = False) -> List[str]:
+    """Makes a model and imports it as /Game/Seedmesh/<name>. The result are the paths of its static meshes."""
+    if not allowed_name.fullmatch(name):
+        raise ValueError(f"found the name {name!r}, expected letters, digits, _ and -")
+    output = {"collision": "unreal", **request.get("output", {}), "profile": "unreal", "format": "zip"}
+    model = seedmesh.Client().generate({**request, "output": output})  # type: ignore[arg-type]
+    with tempfile.TemporaryDirectory() as place:
+        zipfile.ZipFile(BytesIO(model.data)).extractall(place)
+        files = {level_of(file): os.path.join(place, file) for file in os.listdir(place) if file.endswith(".gltf")}
+        meshes = import_file(files[0], f"{folder}/{name}")
+        for level in sorted(set(files) - {0}):
+            add_level(meshes, import_file(files[level], f"{folder}/{name}/level_{level}"), level)
+            unreal.EditorAssetLibrary.delete_directory(f"{folder}/{name}/level_{level}")
+    for mesh in meshes:
+        if nanite:
+            settings = mesh.get_editor_property("nanite_settings")
+            settings.set_editor_property("enabled", True)
+            mesh.set_editor_property("nanite_settings", settings)
+        unreal.EditorAssetLibrary.save_loaded_asset(mesh)
+    return [mesh.get_path_name() for mesh in meshes]
+
+
+def level_of(file: str) -> int:
+    match = re.search(r"_LOD(\d+)\.gltf$", file)
+    return int(match.group(1)) if match else 0
+
+
+def import_file(path: str, target: str) -> List[Any]:
+    """Imports a glTF file by Interchange. The result are the static meshes below the target."""
+    manager = unreal.InterchangeManager.get_interchange_manager_scripted()
+    parameters = unreal.ImportAssetParameters()
+    parameters.is_automated = True
+    parameters.replace_existing = True
+    if not manager.import_asset(target, manager.create_source_data(path), parameters):
+        raise RuntimeError(f"Interchange could not import {path}")
+    assets = [unreal.EditorAssetLibrary.load_asset(each) for each in unreal.EditorAssetLibrary.list_assets(target, True)]
+    return [each for each in assets if isinstance(each, unreal.StaticMesh)]
+
+
+def add_level(meshes: List[Any], coarser: List[Any], level: int) -> None:
+    """Gives each mesh the coarser mesh with the same name as a level of detail."""
+    editor = unreal.get_editor_subsystem(unreal.StaticMeshEditorSubsystem)
+    by_name = {re.sub(r"_LOD\d+$", "", each.get_name()): each for each in coarser}
+    for mesh in meshes:
+        source = by_name.get(mesh.get_name())
+        if source is not None and editor.set_lod_from_static_mesh(mesh, level, source, 0, True) < 0:
+            raise RuntimeError(f"level {level} of {mesh.get_name()} could not be set")
+
+
+def import_all() -> int:
+    """Imports each request file below the directory Seedmesh of the project. The result is the number of refused files."""
+    place = os.path.join(unreal.Paths.project_dir(), "Seedmesh")
+    refused = 0
+    for directory, _, names in os.walk(place):
+        for file in sorted(each for each in names if each.endswith(".seedmesh")):
+            path = os.path.join(directory, file)
+            try:
+                with open(path, encoding="utf-8") as opened:
+                    request = {key: each for key, each in json.load(opened).items() if key not in ("$schema", "name", "outputs")}
+                import_model(request, file[:-len(".seedmesh")])
+            except (seedmesh.SeedmeshError, OSError, ValueError) as error:
+                unreal.log_error(f"{path}: {error}")
+                refused += 1
+    return refused

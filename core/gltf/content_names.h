@@ -1,0 +1,36 @@
+#pragma once
+/// Names that follow from content: in all files, equal names of meshes, materials and images mean equal
+/// content, so that an engine that keeps one file for each name shows every model as it is.
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/job.h"
+#include "core/model/model.h"
+
+namespace seedmesh::gltf {
+
+/// Eight characters that follow from the bytes: a letter from a to f, then hexadecimal digits. No decimal
+/// number has this form.
+std::string short_hash(std::string_view bytes);
+
+/// All 64 bits of the same hash, as 16 hexadecimal digits.
+std::string long_hash(std::string_view bytes);
+
+struct ContentNames {
+  std::string stem = {};  ///< the first part of all names but that of the root
+  std::string root = {};  ///< the new Model::name, and the name of the root node
+  /// What else the stored form of a mesh depends on, such as a grid that meshes share.
+  std::string_view form = {};
+};
+
+/// Stores equal images once. Names meshes and materials `<stem>_<name>_<hash of the content>`, and root nodes
+/// after `root`. The stem is not repeated where a name begins with it. Collision shapes keep their names.
+/// To be called after finish(). Reads each array once (about 10 GB/s).
+void name_by_content(Model& model, const ContentNames& names, const Job& job);
+
+/// The names of Model::textures in a file: as above.
+std::vector<std::string> image_names(const Model& model, std::string_view stem);
+
+}  // namespace seedmesh::gltf

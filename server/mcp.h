@@ -1,0 +1,103 @@
+#pragma once
+/// Model Context Protocol: the service as tools, resources and prompts of agent programs. Revision 2026-07-28,
+/// which has no handshake and no session, and the revisions before it, which begin with `initialize`.
+///
+/// Messages are JSON-RPC 2.0. `POST /mcp` (mcp_http.cpp) and `seedmesh mcp` (mcp_stdio.cpp) pass them to
+/// answer_message(). What the methods do is in mcp_tools.cpp, mcp_resources.cpp and mcp_prompts.cpp.
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "server/config.h"
+#include "server/service.h"
+
+namespace seedmesh::mcp {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view newest_version = "2026-07-28";
+/// Revisions with a handshake, newest first.
+constexpr std::array<std::string_view, 3> handshake_versions = {"2025-11-25", "2025-06-18", "2025-03-26"};
+bool has_handshake(std::string_view version);
+
+constexpr std::string_view version_key = "io.modelcontextprotocol/protocolVersion";
+constexpr std::string_view capabilities_key = "io.modelcontextprotocol/clientCapabilities";
+
+enum class Era { handshake, stateless };
+
+/// Codes of JSON-RPC and of the protocol.
+enum class Code : int {
+  syntax = -32700,
+  no_request = -32600,
+  unknown_method = -32601,
+  wrong_parameters = -32602,
+  header_mismatch = -32020,
+  unsupported_version = -32022,
+  unknown_resource_of_handshake = -32002
+};
+
+struct Failure {
+  Code code = Code::wrong_parameters;
+  std::string message;
+  std::string data = {};  ///< JSON text; "" for none
+};
+using Answer = std::variant<Json, Failure>;
+
+/// What a method may use.
+struct Context {
+  Call& call;
+  Era era = Era::stateless;
+  std::string origin = {};  ///< "http://127.0.0.1:8080" for links; "" where models are written into `folder`
+  std::string folder = {};
+};
+
+/// A message as JSON. A failure for text that is not JSON, nests deeper than 64, or is no request.
+Answer read_message(const std::string& text);
+
+/// Whether the message asks for no answer.
+bool is_notification(const Json& message);
+
+/// The era that the parameters of a message name; nothing where they name none.
+std::optional<Era> era_of(const Json& message);
+
+/// Checks `_meta` of a stateless message.
+std::optional<Failure> check_meta(const Json& message);
+
+/// Calls the method of a message.
+Answer answer_message(Context& context, const Json& message);
+
+/// The whole response to a message: with its id, and with what the era adds to every result.
+std::string response_text(const Context& context, const Json& message, Answer answer);
+std::string failure_text(const Json& id, const Failure& failure);
+
+// Methods. `parameters` is an object.
+Answer list_tools(Context& context, const Json& parameters);  // mcp_tools.cpp
+Answer call_tool(Context& context, const Json& parameters);
+Answer list_resources(Context& context, const Json& parameters);  // mcp_resources.cpp
+Answer list_templates(Context& context, const Json& parameters);
+Answer read_resource(Context& context, const Json& parameters);
+Answer list_prompts(Context& context, const Json& parameters);  // mcp_prompts.cpp
+Answer get_prompt(Context& context, const Json& parameters);
+
+/// Part of the schema of a generator in at most about 8,000 characters, or the reason why there is none
+/// (mcp_describe.cpp). `topic` is a path of names with slashes; "" for the list of parameters.
+std::variant<std::string, Failure> describe_schema(const std::string& generator, const std::string& topic);
+
+/// Presets that match a query, the best first, at most `limit` (mcp_describe.cpp).
+struct PresetQuestion {
+  std::string query, generator, tag;
+  std::size_t limit = 20;
+};
+Json find_presets(const Access& access, const PresetQuestion& question);
+
+/// A member of an object that is text; "" where it is missing or something else.
+std::string text_in(const Json& object, std::string_view name);
+
+/// Reads messages, one on a line, from standard input until its end, and answers on standard output. Models are
+/// written into `folder`. Returns the exit status.
+int serve_stdio(const Config& config, const std::string& folder);
+
+}  // namespace seedmesh::mcp
