@@ -120,8 +120,10 @@ std::string emit_embedded(const fs::path& folder) {
       "#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n\n"
       "namespace seedmesh {\nnamespace {\n\n";
   text += table("schemas", schemas) + table("presets", preset_rows(folder / "presets"));
-  text += "constexpr std::string_view openapi_text =\n    " + quoted(openapi_with_components(folder).dump()) +
+  // With the length, because compilers count the characters of long constant texts only up to a limit.
+  text += "constexpr char openapi_characters[] =\n    " + quoted(openapi_with_components(folder).dump()) +
           ";\n\n";
+  text += "constexpr std::string_view openapi_text{openapi_characters, sizeof(openapi_characters) - 1};\n\n";
   text += "}  // namespace\n\n" + accessor("schemas") + accessor("presets");
   text += "std::string_view embedded_openapi() { return openapi_text; }\n\n";
   return text + "}  // namespace seedmesh\n";

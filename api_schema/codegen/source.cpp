@@ -107,7 +107,8 @@ std::string read_entries(const Type& type, const std::string& location, const st
   const Type& entry = type.parts[0];
   const std::string name = type.kind == Kind::list ? "read_list" : "read_map";
   const bool nested = location.starts_with("entry");  // its names must not hide those of the outer entry
-  const std::string at = nested ? location + "_in" : "entry", value = nested ? target + "_in" : "value";
+  const std::string at = nested ? location + "_in" : "entry";
+  const std::string value = "value" + at.substr(std::string("entry").size());
   const bool has_inner = entry.kind == Kind::list && entry.parts[0].kind == Kind::list;
   const std::string unless_flat = type.kind == Kind::list && has_inner && !nested
                                       ? "if (check_nesting(" + location + ", " +
@@ -222,6 +223,14 @@ std::string reader_of(const Type& type) {
          "};\n  if (!check_members(location, known, {" + required + "})) return;\n" + body + "}\n\n";
 }
 
+/// The name of an entry inside of `value`, which may contain the name of the entry around it.
+std::string inner_entry(const std::string& value) {
+  const std::size_t from = value.rfind("entry");
+  if (from == std::string::npos) return "entry";
+  const std::size_t to = value.find_first_not_of("entry_i", from);
+  return value.substr(from, to == std::string::npos ? to : to - from) + "_in";
+}
+
 /// The expression of the Json of `value`.
 std::string write_expression(const Type& type, const std::string& value) {
   switch (type.kind) {
@@ -240,7 +249,7 @@ std::string write_expression(const Type& type, const std::string& value) {
       return "write_" + type.json_name + "(" + value + ")";
     case Kind::list:
     case Kind::map: {
-      const std::string entry = value.starts_with("entry") ? value + "_in" : "entry";
+      const std::string entry = inner_entry(value);
       return std::string(type.kind == Kind::list ? "write_list(" : "write_map(") + value + ", [](const " +
              type.parts[0].cpp + "& " + entry + ") { return " + write_expression(type.parts[0], entry) +
              "; })";

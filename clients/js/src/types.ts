@@ -245,10 +245,84 @@ export interface CityParametersArea {
   polygon?: (([number, number])[])[];
 }
 
+/** A GeoJSON geometry of polygons in metres, east and north. */
+export interface Polygons {
+  /** Polygon or MultiPolygon. */
+  type: "Polygon" | "MultiPolygon";
+  /** Rings of positions [east, north] of a Polygon, or a list of such lists. */
+  coordinates: (((number | number[])[])[])[];
+}
+
 /** Quantities that vary over the area. */
 export interface CityParametersMaps {
-  /** The density of people, from 0 to 1: an expression over x (east) and y (north) in metres, or a PNG image as data URI, whose brightness covers the box around the area. Streets avoid positions below 0.1; blocks there become parks. */
-  density?: string;
+  /** The density of people, from 0 to 1: an expression over x (east) and y (north) in metres, a PNG image as data URI, whose brightness covers the box around the area, or polygons with density 1. Streets avoid positions below 0.1; blocks there become parks. */
+  density?: string | Polygons;
+  /** Where there is water, as an expression, an image or polygons: from 0.5 upwards. Water is part of the partition. Streets end before it or cross it on bridges. */
+  water?: string | Polygons;
+  /** Where no street may grow, as an expression, an image or polygons: from 0.5 upwards. Nothing is built on lots there. */
+  obstacles?: string | Polygons;
+}
+
+/** A LineString or MultiLineString in metres, east and north. */
+export interface CityParametersGivenStreetsFeaturesItemGeometry {
+  /** LineString or MultiLineString. */
+  type: "LineString" | "MultiLineString";
+  /** Positions [east, north], or a list of lists of positions. */
+  coordinates: ((number | number[])[])[];
+}
+
+/** A feature of GeoJSON. */
+export interface CityParametersGivenStreetsFeaturesItem {
+  /** Feature. */
+  type: "Feature";
+  /** `class` (highway, major, minor or lane), `width`, `lanes`, `sidewalk` (one number, or left and right) and `level` count. Others have no effect. */
+  properties?: { [key: string]: number | string | boolean | number[] };
+  /** A LineString or MultiLineString in metres, east and north. */
+  geometry: CityParametersGivenStreetsFeaturesItemGeometry;
+}
+
+/** Existing streets. Where two of them meet or cross on one level, an end or corner of one lies within 3 m of the other. */
+export interface CityParametersGivenStreets {
+  /** FeatureCollection. */
+  type: "FeatureCollection";
+  /** The features. */
+  features: CityParametersGivenStreetsFeaturesItem[];
+}
+
+/** A feature of GeoJSON. */
+export interface CityParametersGivenWaterFeaturesItem {
+  /** Feature. */
+  type: "Feature";
+  /** They have no effect. */
+  properties?: { [key: string]: number | string | boolean | number[] };
+  /** The polygons of the feature. */
+  geometry: Polygons;
+}
+
+/** Existing water. */
+export interface CityParametersGivenWater {
+  /** FeatureCollection. */
+  type: "FeatureCollection";
+  /** The features. */
+  features: CityParametersGivenWaterFeaturesItem[];
+}
+
+/** Existing parts of the city as GeoJSON in local metres. They stay as they are, and the rest grows from them. */
+export interface CityParametersGiven {
+  /** Existing streets. Where two of them meet or cross on one level, an end or corner of one lies within 3 m of the other. */
+  streets?: CityParametersGivenStreets;
+  /** Existing water. */
+  water?: CityParametersGivenWater;
+}
+
+/** The cross section of given streets of this class. */
+export interface CityParametersStreetsClassesHighway {
+  /** The width of the carriageway. */
+  width?: number;
+  /** The number of lanes. */
+  lanes?: number;
+  /** The width of the sidewalk of each side. */
+  sidewalk?: number;
 }
 
 /** The cross section of this class of streets. */
@@ -271,18 +345,32 @@ export interface CityParametersStreetsClassesMinor {
   sidewalk?: number;
 }
 
+/** The cross section of given streets of this class. */
+export interface CityParametersStreetsClassesLane {
+  /** The width of the carriageway. */
+  width?: number;
+  /** The number of lanes. */
+  lanes?: number;
+  /** The width of the sidewalk of each side. */
+  sidewalk?: number;
+}
+
 /** The cross sections of the streets. */
 export interface CityParametersStreetsClasses {
+  /** The cross section of given streets of this class. */
+  highway?: CityParametersStreetsClassesHighway;
   /** The cross section of this class of streets. */
   major?: CityParametersStreetsClassesMajor;
   /** The cross section of this class of streets. */
   minor?: CityParametersStreetsClassesMinor;
+  /** The cross section of given streets of this class. */
+  lane?: CityParametersStreetsClassesLane;
 }
 
 /** The growth of the streets. */
 export interface CityParametersStreets {
-  /** growth: an extended L-system. */
-  method?: "growth";
+  /** growth: an extended L-system. given: the given streets alone. */
+  method?: "growth" | "given";
   /** The productions of the street L-system, in the notation of the generator lsystem. The modules are R(delay, rule), the tip of a road; B(delay, rule, road), a delayed branch; and I(road, state), the query that checks a proposed road. States are UNASSIGNED, SUCCEED and FAILED. { globalGoals(rule, road) } sets pDel0 to pDel2, pRule0 to pRule2 and pRoad0 to pRoad2: straight on, to the left, to the right. { localConstraints(road) } sets state. Default: those of Parish and Müller. */
   productions?: string[];
   /** The pattern of the major streets. organic: an irregular net. raster: right angles, also for minor streets unless minor_pattern says otherwise. radial: rings and rays about the centre. */
@@ -323,16 +411,20 @@ export interface CityParametersStreets {
   crossings?: number;
   /** The cross sections of the streets. */
   classes?: CityParametersStreetsClasses;
+  /** The greatest length of a bridge. 0: no bridges. */
+  bridge_length?: number;
 }
 
 /** The division of the blocks. */
 export interface CityParametersLots {
-  /** recursive: blocks are halved until the pieces are small enough, and no cut takes the street access of a piece. none: each block is one lot. */
-  method?: "recursive" | "none";
+  /** recursive: blocks are halved until the pieces are small enough, and no cut takes the street access of a piece. offset: the same along the streets, around inner lots without access. skeleton: strips along the streets by the straight skeleton, cut at right angles to them. burgage: the same with narrow, deep lots, between two and three times the least width. none: each block is one lot. */
+  method?: "recursive" | "offset" | "skeleton" | "burgage" | "none";
   /** The least and the greatest area of a lot. A piece that cannot be cut without breaking another rule stays larger. */
   area?: [number, number];
   /** The least frontage along streets and the least side of a lot. */
   width?: number;
+  /** The depth of the lots around inner lots. */
+  offset_width?: number;
   /** The spread of the cuts about the middle. */
   irregularity?: number;
   /** The share of the blocks that become parks. */
@@ -381,6 +473,8 @@ export interface CityParameters {
   area?: CityParametersArea;
   /** Quantities that vary over the area. */
   maps?: CityParametersMaps;
+  /** Existing parts of the city as GeoJSON in local metres. They stay as they are, and the rest grows from them. */
+  given?: CityParametersGiven;
   /** The growth of the streets. */
   streets?: CityParametersStreets;
   /** The division of the blocks. */

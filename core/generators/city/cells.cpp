@@ -60,15 +60,16 @@ class Cell final : public RoadRules {
       const std::uint32_t to = node_of(majors.nodes[end_of(majors.edges, half)]);
       const PlanarEdge& edge = majors.edges[half / 2];
       if (!seen_.emplace(half / 2, 0).second) continue;
-      const auto kind = static_cast<EdgeClass>(edge.tag);
-      network_.add_edge(from, to, kind, kind != EdgeClass::border);
+      // Given streets of all classes count as major ones here.
+      const auto kind = edge.tag >= first_given ? EdgeClass::major : static_cast<EdgeClass>(edge.tag);
+      network_.add_edge(from, to, kind, is_street_class(kind));
     }
     std::vector<std::uint32_t> ring;
     for (const std::uint32_t half : loop) ring.push_back(node_of(majors.nodes[start_of(majors.edges, half)]));
     rings_.push_back(std::move(ring));
     std::vector<std::uint8_t> borders;
     for (const std::uint32_t half : loop)
-      borders.push_back(majors.edges[half / 2].tag == static_cast<std::uint32_t>(EdgeClass::border));
+      borders.push_back(is_street_tag(majors.edges[half / 2].tag) ? 0 : 1);
     borders_.push_back(std::move(borders));
   }
 
@@ -123,7 +124,9 @@ class Cell final : public RoadRules {
     for (std::int32_t n = 0; n < pieces; ++n) {
       if (n > 0) direction = rotated(direction, bend / pieces);
       const dvec2 end = in_cm(network_.nodes()[node]) + direction * (length / pieces);
-      if (input_.density.at(end / 100.0) < least_density) return RoadState::failed;
+      if (input_.density.at(end / 100.0) < least_density ||
+          input_.is_blocked(in_cm(network_.nodes()[node]), end))
+        return RoadState::failed;
       const PieceResult built = network_.build_piece(node, end, EdgeClass::minor);
       if (built.state != PieceState::free) return RoadState::failed;
       node = built.node;
@@ -155,7 +158,8 @@ class Cell final : public RoadRules {
     std::vector<StreetPiece> all;
     for (const NetworkEdge& edge : network_.edges()) {
       if (!edge.is_removed && edge.kind == EdgeClass::minor && !edge.is_fixed)
-        all.push_back({network_.nodes()[edge.from], network_.nodes()[edge.to], edge.kind});
+        all.push_back(
+            {network_.nodes()[edge.from], network_.nodes()[edge.to], static_cast<std::uint32_t>(edge.kind)});
     }
     return all;
   }

@@ -4,6 +4,7 @@
 
 #include "core/generators/city/city.h"
 #include "core/generators/city/density.h"
+#include "core/generators/city/given.h"
 #include "core/generators/city/productions.h"
 #include "core/generators/city/zoning.h"
 #include "core/geom/polygon/plan.h"
@@ -83,7 +84,19 @@ std::vector<Issue> check(const CityParams& params, const CheckContext& context) 
   check_lots(params.lots, issues);
   check_rules(params, issues);
   const StreetGrammar grammar(params.streets.productions, "/streets/productions", issues);
-  FieldMap::read(params.maps.density, "/maps/density", {-1, -1}, {1, 1}, context.job, issues);
+  const auto check_map = [&](const MapValue& value, const char* pointer) {
+    FieldMap::read(value, pointer, {-1, -1}, {1, 1}, context.job, issues);
+  };
+  check_map(params.maps.density, "/maps/density");
+  if (params.maps.water) check_map(*params.maps.water, "/maps/water");
+  if (params.maps.obstacles) check_map(*params.maps.obstacles, "/maps/obstacles");
+  given_water(params, issues);
+  std::vector<CrossSection> sections = classes_of(params);
+  std::vector<Issue> of_streets;
+  given_lines(params, sections, of_streets);
+  issues.insert(issues.end(), of_streets.begin(), of_streets.end());
+  if (params.streets.method == CityMethod::given && !params.given.given_streets)
+    issues.push_back({IssueKind::missing, "/given/streets", "the method given needs streets"});
   return issues;
 }
 

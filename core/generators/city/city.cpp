@@ -7,6 +7,7 @@
 
 #include "core/generators/child.h"
 #include "core/generators/city/city_model.h"
+#include "core/generators/city/given.h"
 #include "core/generators/city/growth.h"
 #include "core/generators/city/lots.h"
 #include "core/generators/city/plan_json.h"
@@ -47,9 +48,60 @@ std::vector<CmRing> area_rings(const CityParams& params) {
   return rings;
 }
 
-template <class T>
-CrossSection section_of(const char* name, const T& given) {
-  return {name, given.width, given.sidewalk, given.lanes};
+/// The box around the area, in metres.
+struct Box {
+  glm::dvec2 low, high;
+};
+Box box_of(const std::vector<CmRing>& area) {
+  Box box{in_metres(area[0][0]), in_metres(area[0][0])};
+  for (const CmPoint& p : area[0]) {
+    box.low = glm::min(box.low, in_metres(p));
+    box.high = glm::max(box.high, in_metres(p));
+  }
+  return box;
+}
+
+/// The maps of a request; those that it does not have are empty.
+struct Maps {
+  std::optional<FieldMap> density, water, obstacles;
+};
+Maps read_maps(const CityParams& params, const Box& box, const Job& job, std::vector<Issue>& issues) {
+  const auto read = [&](const MapValue& value, const char* pointer) {
+    return FieldMap::read(value, pointer, box.low, box.high, job, issues);
+  };
+  Maps maps;
+  maps.density = read(params.maps.density, "/maps/density");
+  if (params.maps.water) maps.water = read(*params.maps.water, "/maps/water");
+  if (params.maps.obstacles) maps.obstacles = read(*params.maps.obstacles, "/maps/obstacles");
+  return maps;
+}
+
+/// The area cut into land and water.
+Region region_of_request(const CityParams& params, const Maps& maps, const std::vector<CmRing>& area,
+                         Job& job, std::vector<Issue>& issues) {
+  std::vector<Rings> water = given_water(params, issues);
+  if (maps.water) {
+    const Box box = box_of(area);
+    const std::vector<Rings>& polygons = maps.water->polygons();
+    water.insert(water.end(), polygons.begin(), polygons.end());
+    if (polygons.empty()) water.push_back(contour_of(*maps.water, box.low, box.high, job));
+  }
+  return region_of(area, water, job);
+}
+
+/// The given streets as pieces, cut at the border and at water.
+Route given_route_of(const Region& region, const std::vector<GivenLine>& lines) {
+  Route all;
+  for (const GivenLine& line : lines) {
+    if (line.level != 0) {
+      all.bridges.push_back({line.points, line.section, line.level});
+      continue;
+    }
+    const Route route = given_route(region, line.points, line.section);
+    all.pieces.insert(all.pieces.end(), route.pieces.begin(), route.pieces.end());
+    all.bridges.insert(all.bridges.end(), route.bridges.begin(), route.bridges.end());
+  }
+  return all;
 }
 
 std::optional<Error> refusal(const CityParams& params, const GenerateContext& context) {
@@ -63,28 +115,25 @@ std::optional<Error> refusal(const CityParams& params, const GenerateContext& co
 Result<CityPlan> plan_of(const CityParams& params, Job& job) {
   CityPlan plan;
   plan.area = area_rings(params);
-  plan.classes = {{"border", 0, 0, 0},
-                  section_of("major", params.streets.classes.major),
-                  section_of("minor", params.streets.classes.minor)};
-  glm::dvec2 low = in_metres(plan.area[0][0]), high = low;
-  for (const CmPoint& p : plan.area[0]) {
-    low = glm::min(low, in_metres(p));
-    high = glm::max(high, in_metres(p));
-  }
+  plan.classes = classes_of(params);
   std::vector<Issue> issues;
   const StreetGrammar grammar(params.streets.productions, "/streets/productions", issues);
-  const std::optional<FieldMap> density =
-      FieldMap::read(params.maps.density, "/maps/density", low, high, job, issues);
-  if (!issues.empty() || !density) return Error{Code::invalid, std::move(issues)};
+  const Maps maps = read_maps(params, box_of(plan.area), job, issues);
+  const std::vector<GivenLine> lines = given_lines(params, plan.classes, issues);
+  if (!issues.empty() || !maps.density) return Error{Code::invalid, std::move(issues)};
+  plan.region = region_of_request(params, maps, plan.area, job, issues);
+  const Route given = given_route_of(plan.region, lines);
   job.progress("streets", 0);
-  plan.graph = grow_streets({params.streets, *density, grammar, plan.area}, job);
+  plan.graph = grow_streets({params.streets, *maps.density, grammar, plan.region,
+                             maps.obstacles ? &*maps.obstacles : nullptr, lines.empty() ? nullptr : &given},
+                            job);
   plan.charges.emplace_back(job, plan.graph.edges.size() * bytes_a_street);
   job.progress("blocks", 0);
   const std::vector<BlockOutline> blocks = lay_out_streets(plan, job);
   job.progress("lots", 0);
-  divide_blocks(plan, blocks, params.lots, *density, job);
+  divide_blocks(plan, blocks, params.lots, *maps.density, job);
   plan.charges.emplace_back(job, plan.lots.size() * bytes_a_lot);
-  place_houses(plan, params, job);
+  place_houses(plan, params, maps.obstacles ? &*maps.obstacles : nullptr, job);
   return plan;
 }
 

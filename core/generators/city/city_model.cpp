@@ -9,6 +9,7 @@
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 #include "core/generators/child.h"
+#include "core/generators/city/bridge_mesh.h"
 #include "core/generators/city/zoning.h"
 #include "core/generators/scene/model_levels.h"
 #include "core/geom/mesh/weld.h"
@@ -29,8 +30,9 @@ constexpr Look looks[] = {
     {"asphalt", {0x45, 0x46, 0x48}, 0.95F}, {"junction", {0x48, 0x49, 0x4b}, 0.95F},
     {"sidewalk", {0x9b, 0x98, 0x92}, 0.9F}, {"verge", {0x7f, 0x8a, 0x62}, 1.0F},
     {"park", {0x5f, 0x7d, 0x45}, 1.0F},     {"square", {0xa8, 0x9d, 0x88}, 0.9F},
-    {"lot", {0x86, 0x8f, 0x6a}, 1.0F},
+    {"lot", {0x86, 0x8f, 0x6a}, 1.0F},      {"water", {0x35, 0x55, 0x66}, 0.2F},
 };
+constexpr double water_depth = 1.2;  // below the streets, m
 
 Material material_of(const Look& look) {
   Material material;
@@ -42,6 +44,10 @@ Material material_of(const Look& look) {
 }
 
 bool is_low(PartKind kind) { return kind == PartKind::carriageway || kind == PartKind::junction; }
+
+double height_of(PartKind kind) {
+  return kind == PartKind::water ? 0 - water_depth : is_low(kind) ? 0 : kerb_height;
+}
 
 struct DirectedEdge {
   CmPoint a, b;
@@ -61,7 +67,20 @@ std::vector<DirectedEdge> low_edges(const CityPlan& plan) {
   return edges;
 }
 
-/// The edges of a part that a carriageway or a junction has the other way round.
+/// All edges of water, sorted.
+std::vector<DirectedEdge> water_edges(const CityPlan& plan) {
+  std::vector<DirectedEdge> edges;
+  for (const Part& part : plan.parts) {
+    if (part.kind != PartKind::water) continue;
+    for (const CmRing& ring : part.rings) {
+      for (std::size_t i = 0; i < ring.size(); ++i) edges.push_back({ring[i], ring[(i + 1) % ring.size()]});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+/// The edges of a part that one of the given edges has the other way round.
 template <class Visit>
 void visit_kerbs(const Part& part, const std::vector<DirectedEdge>& low, const Visit& visit) {
   for (const CmRing& ring : part.rings) {
@@ -104,17 +123,18 @@ class GroundMesh {
     }
   }
 
-  /// The upright face of a kerb along an edge whose left side is higher.
-  void add_kerb(const CmPoint& from, const CmPoint& to) {
+  /// The upright face of a kerb or quay along an edge whose left side is higher.
+  void add_wall(const CmPoint& from, const CmPoint& to, double low, double high) {
     const dvec2 a = in_metres(from), b = in_metres(to), along = (b - a) / std::sqrt(glm::dot(b - a, b - a));
     // The right side of the edge, seen from above; north is -Z.
     const glm::vec3 normal(static_cast<float>(along.y), 0, static_cast<float>(along.x));
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     const auto length = static_cast<float>(std::sqrt(glm::dot(b - a, b - a)));
-    add_vertex(a, 0, normal, {0, 0});
-    add_vertex(b, 0, normal, {length, 0});
-    add_vertex(b, kerb_height, normal, {length, static_cast<float>(kerb_height)});
-    add_vertex(a, kerb_height, normal, {0, static_cast<float>(kerb_height)});
+    const auto height = static_cast<float>(high - low);
+    add_vertex(a, low, normal, {0, 0});
+    add_vertex(b, low, normal, {length, 0});
+    add_vertex(b, high, normal, {length, height});
+    add_vertex(a, high, normal, {0, height});
     for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) mesh_.index.wide.push_back(first + corner);
   }
 
@@ -156,7 +176,7 @@ int add_node(Model& model, std::string name, int parent) {
 /// One mesh for each kind of part.
 void add_ground(Model& model, const CityPlan& plan, Job& job) {
   job.spend(Resource::triangles, ground_triangles(plan));
-  const std::vector<DirectedEdge> low = low_edges(plan);
+  const std::vector<DirectedEdge> low = low_edges(plan), water = water_edges(plan);
   const int ground = add_node(model, "ground", 0);
   for (std::size_t kind = 0; kind < std::size(looks); ++kind) {
     GroundMesh mesh(job);
@@ -164,9 +184,16 @@ void add_ground(Model& model, const CityPlan& plan, Job& job) {
     for (const Part& part : plan.parts) {
       if (static_cast<std::size_t>(part.kind) != kind) continue;
       if (done++ % 256 == 0) job.check();
-      mesh.add_part(part, is_low(part.kind) ? 0 : kerb_height);
+      mesh.add_part(part, height_of(part.kind));
+      if (part.kind == PartKind::water) continue;
+      const double height = height_of(part.kind);
+      const auto add_quay = [&](const CmPoint& a, const CmPoint& b) {
+        mesh.add_wall(a, b, 0 - water_depth, height);
+      };
+      visit_kerbs(part, water, add_quay);
       if (is_low(part.kind)) continue;
-      visit_kerbs(part, low, [&mesh](const CmPoint& from, const CmPoint& to) { mesh.add_kerb(from, to); });
+      visit_kerbs(part, low,
+                  [&](const CmPoint& a, const CmPoint& b) { mesh.add_wall(a, b, 0, kerb_height); });
     }
     if (done == 0) continue;
     MeshGroup group;
@@ -180,6 +207,22 @@ void add_ground(Model& model, const CityPlan& plan, Job& job) {
     model.nodes[static_cast<std::size_t>(node)].mesh = static_cast<int>(model.meshes.size());
     model.meshes.push_back(std::move(group));
   }
+}
+
+void add_bridges(Model& model, const CityPlan& plan, Job& job) {
+  Mesh mesh = bridge_mesh(plan, job);
+  if (mesh.elements() == 0) return;
+  job.spend(Resource::triangles, mesh.elements());
+  MeshGroup group;
+  group.name = "bridges";
+  Primitive primitive;
+  primitive.mesh = std::move(mesh);
+  primitive.material = static_cast<int>(model.materials.size());
+  model.materials.push_back(material_of({"bridge", {0x8a, 0x88, 0x84}, 0.9F}));
+  group.primitives.push_back(std::move(primitive));
+  const int node = add_node(model, "bridges", 0);
+  model.nodes[static_cast<std::size_t>(node)].mesh = static_cast<int>(model.meshes.size());
+  model.meshes.push_back(std::move(group));
 }
 
 int add_material(Model& model, Material material) {
@@ -255,11 +298,13 @@ std::vector<SharedHouse> shared_houses(const CityPlan& plan, const CityParams& p
 }
 
 std::uint64_t ground_triangles(const CityPlan& plan) {
-  const std::vector<DirectedEdge> low = low_edges(plan);
+  const std::vector<DirectedEdge> low = low_edges(plan), water = water_edges(plan);
   std::uint64_t count = 0;
   for (const Part& part : plan.parts) {
     for (const CmRing& ring : part.rings) count += ring.size();
     count += 2 * part.rings.size() - 4;
+    if (part.kind == PartKind::water) continue;
+    count += 2 * count_kerbs(part, water);
     if (!is_low(part.kind)) count += 2 * count_kerbs(part, low);
   }
   return count;
@@ -271,6 +316,7 @@ Result<Model> city_model(const CityPlan& plan, const CityParams& params, const G
   model.name = "city";
   add_node(model, "city", -1);
   add_ground(model, plan, job);
+  add_bridges(model, plan, job);
   const std::vector<SharedHouse> houses = shared_houses(plan, params);
   if (houses.empty()) return model;
   const int buildings = add_node(model, "buildings", 0);

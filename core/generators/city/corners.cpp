@@ -13,7 +13,8 @@ using glm::dvec2;
 constexpr double straight = 0.05;        // sine of a turn that counts as none
 constexpr double sharpest_mitre = -1.6;  // radians; outer corners that turn further are cut off
 constexpr int arc_pieces = 4;
-constexpr double least_fillet = 50;  // cm
+constexpr double least_fillet = 50;      // cm
+constexpr double greatest_fillet = 500;  // cm
 
 dvec2 left_of(const dvec2& d) { return {-d.y, d.x}; }
 
@@ -34,6 +35,12 @@ std::vector<CmPoint> arc(const CornerInput& corner, const dvec2& tip, double tur
 }
 
 }  // namespace
+
+double fillet_of(const CornerInput& corner, double walk) {
+  const double c = corner.before.x * corner.after.x + corner.before.y * corner.after.y;
+  const double sine = std::sqrt(std::max(0.0, (1 + c) / 2));  // of half the inner angle
+  return std::min(greatest_fillet, sine < 0.999 ? 0.7 * walk / (1 - sine) : greatest_fillet);
+}
 
 std::vector<CmPoint> corner_points(const CornerInput& corner) {
   const dvec2 &d1 = corner.before, &d2 = corner.after;

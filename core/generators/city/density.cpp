@@ -7,6 +7,7 @@
 #include "core/generators/terrain/image.h"
 #include "core/lang/text_positions.h"
 #include "core/texture/png.h"
+#include "generated/params/city.h"
 
 namespace seedmesh::city {
 namespace {
@@ -37,10 +38,16 @@ float brightness(const texture::Picture& picture, std::size_t pixel) {
 
 }  // namespace
 
-std::optional<FieldMap> FieldMap::read(const std::string& text, const std::string& pointer,
+std::optional<FieldMap> FieldMap::read(const MapValue& value, const std::string& pointer,
                                        const glm::dvec2& low, const glm::dvec2& high, const Job& job,
                                        std::vector<Issue>& issues) {
   FieldMap map;
+  if (std::holds_alternative<CityPolygons>(value)) {
+    map.has_polygons_ = true;
+    map.polygons_ = polygons_of(std::get<CityPolygons>(value), pointer, issues);
+    return map;
+  }
+  const std::string& text = std::get<std::string>(value);
   if (text.starts_with("data:")) {
     std::string error;
     texture::Picture picture;
@@ -58,6 +65,12 @@ std::optional<FieldMap> FieldMap::read(const std::string& text, const std::strin
     for (std::size_t i = 0; i < count; ++i) map.pixels_.push_back(brightness(picture, i));
     return map;
   }
+  return read_text(text, pointer, issues);
+}
+
+std::optional<FieldMap> FieldMap::read_text(const std::string& text, const std::string& pointer,
+                                            std::vector<Issue>& issues) {
+  FieldMap map;
   std::vector<lang::TextError> errors;
   const auto tokens = lang::tokenize(text, 0, text.size(), errors);
   lang::Names names;
@@ -78,6 +91,7 @@ std::optional<FieldMap> FieldMap::read(const std::string& text, const std::strin
 }
 
 double FieldMap::at(const glm::dvec2& metres) const {
+  if (has_polygons_) return is_in_any(polygons_, metres * 100.0) ? 1.0 : 0.0;
   if (width_ == 0) {
     Rng unused(0);
     const std::array<double, 2> slots = {metres.x, metres.y};

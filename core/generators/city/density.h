@@ -1,35 +1,48 @@
 #pragma once
-/// A quantity that varies over the area: an expression over x and y, or the brightness of an image.
+/// A quantity that varies over the area: an expression over x and y, the brightness of an image, or polygons.
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/base/array.h"
 #include "core/base/job.h"
 #include "core/base/result.h"
+#include "core/generators/city/geometry.h"
 #include "core/lang/expression.h"
 
 namespace seedmesh::city {
 
+/// The value of a map in a request.
+using MapValue = std::variant<std::string, CityPolygons>;
+
 /// Immutable; threads may share it.
 class FieldMap {
  public:
-  /// Reads an expression, or a PNG file as data URI that covers the box [low, high] (metres), its first row in
-  /// the north. Issues: the text or the image cannot be read, at `pointer`.
-  static std::optional<FieldMap> read(const std::string& text, const std::string& pointer,
+  /// Reads an expression, a PNG file as data URI that covers the box [low, high] (metres), its first row in the
+  /// north, or polygons with the value 1 inside. Issues: the text or the image cannot be read, at `pointer`.
+  static std::optional<FieldMap> read(const MapValue& value, const std::string& pointer,
                                       const glm::dvec2& low, const glm::dvec2& high, const Job& job,
                                       std::vector<Issue>& issues);
 
   /// The value at a position in metres, between 0 and 1; 0 where the expression has no finite value.
   double at(const glm::dvec2& metres) const;
 
+  /// The polygons, if the map consists of polygons.
+  const std::vector<Rings>& polygons() const { return polygons_; }
+
  private:
+  static std::optional<FieldMap> read_text(const std::string& text, const std::string& pointer,
+                                           std::vector<Issue>& issues);
+
   lang::Program program_;
   lang::Expression expression_;
   glm::dvec2 low_{0}, size_{1};
   std::uint32_t width_ = 0, height_ = 0;  ///< 0: an expression
   Array<float> pixels_;
+  std::vector<Rings> polygons_;
+  bool has_polygons_ = false;
 };
 
 }  // namespace seedmesh::city

@@ -8,6 +8,7 @@
 #include "core/generators/city/density.h"
 #include "core/generators/city/plan.h"
 #include "core/generators/city/productions.h"
+#include "core/generators/city/route.h"
 
 namespace seedmesh {
 struct CityStreets;
@@ -20,20 +21,25 @@ struct GrowthInput {
   const CityStreets& streets;
   const FieldMap& density;
   const StreetGrammar& grammar;
-  const std::vector<CmRing>& area;  ///< the outer ring counter-clockwise, then holes clockwise
-};
+  const Region& region;
+  const FieldMap* obstacles = nullptr;  ///< null: none
+  const Route* given = nullptr;         ///< null: none
 
-/// A piece of street between two points.
-struct StreetPiece {
-  CmPoint a, b;
-  EdgeClass kind;
+  /// Whether an obstacle is at a position in metres.
+  bool is_blocked(const glm::dvec2& metres) const { return obstacles && obstacles->at(metres) >= 0.5; }
+  /// Whether an obstacle is on the segment between two positions in centimetres, sampled every 4 m.
+  bool is_blocked(const glm::dvec2& a, const glm::dvec2& b) const;
 };
-
-/// Whether a position in centimetres is inside the area.
-bool is_in_area(const std::vector<CmRing>& area, const glm::dvec2& cm);
 
 /// The major streets, or all streets of a raster, clipped to the area.
-std::vector<StreetPiece> grow_majors(const GrowthInput& input, Job& job);
+Route grow_majors(const GrowthInput& input, Job& job);
+
+/// Points in centimetres of a lattice over the box around the land that are on land.
+std::vector<glm::dvec2> lattice_of(const Region& region);
+
+/// One straight street through a dense position, for areas in which the pattern has no street. Empty where the
+/// density is too low everywhere, or if the productions build no road.
+std::vector<StreetPiece> through_street(const GrowthInput& input, const Job& job);
 
 /// The minor streets within one cell, which is a face of the graph of major streets and the border. `loops`
 /// holds the half-edges of its outline and of the components inside.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "core/base/math.h"
@@ -16,7 +18,6 @@ namespace {
 using glm::dvec2;
 
 constexpr double piece_length = 3000;       // of a bent street, cm
-constexpr double least_stub = 1500;         // of a piece that ends at the border, cm
 constexpr double least_border_sine = 0.72;  // of the angle between a street and the border
 constexpr double least_density = 0.1;
 
@@ -128,6 +129,17 @@ class Net {
 
   Site start() const { return {0, 0}; }
 
+  /// A site near a position in centimetres.
+  Site site_near(const dvec2& cm) const {
+    const dvec2 off = rotated(cm - centre_, {0 - turn_.sin, turn_.cos});
+    const auto nearest = [](double value) { return math::to_int32(std::floor(value + 0.5)); };
+    if (!is_radial()) return {nearest(off.x / step_.x), nearest(off.y / step_.y)};
+    const std::int32_t ring = nearest(std::sqrt(off.x * off.x + off.y * off.y) / step_.x);
+    if (ring == 0) return {0, 0};
+    const std::int32_t rays = rays_of(ring);
+    return {ring, (nearest(math::atan2(off.y, off.x) / (2 * math::pi) * rays) + rays) % rays};
+  }
+
  private:
   std::int32_t rays_of(std::int32_t ring) const {
     std::int32_t rays = 6;
@@ -147,48 +159,6 @@ class Net {
   std::array<std::int32_t, 2> every_{};
 };
 
-/// Where a link crosses the border; 2 where it does not.
-double crossing_share(const std::vector<CmRing>& area, const CmPoint& a, const CmPoint& b, double& sine) {
-  double best = 2;
-  const dvec2 start = in_cm(a), along = in_cm(b) - start;
-  for (const CmRing& ring : area) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const dvec2 c = in_cm(ring[i]), across = in_cm(ring[(i + 1) % ring.size()]) - c;
-      const double scale = along.x * across.y - along.y * across.x;
-      if (scale == 0) continue;
-      const dvec2 off = c - start;
-      const double share = (off.x * across.y - off.y * across.x) / scale;
-      const double at = (off.x * along.y - off.y * along.x) / scale;
-      if (share <= 0 || share > 1 || at < 0 || at > 1 || share >= best) continue;
-      best = share;
-      sine = std::abs(scale) /
-             std::sqrt((along.x * along.x + along.y * along.y) * (across.x * across.x + across.y * across.y));
-    }
-  }
-  return best;
-}
-
-/// The part of a line from its start, which is inside, to the border. Empty where it would meet the border at an
-/// acute angle or be a stub.
-std::vector<CmPoint> clipped(const std::vector<CmRing>& area, const std::vector<CmPoint>& line) {
-  std::vector<CmPoint> kept = {line[0]};
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    double sine = 1;
-    const double share = crossing_share(area, line[i - 1], line[i], sine);
-    if (share > 1) {
-      kept.push_back(line[i]);
-      continue;
-    }
-    const CmPoint at = rounded_cm(in_cm(line[i - 1]) + (in_cm(line[i]) - in_cm(line[i - 1])) * share);
-    if (sine < least_border_sine) return {};
-    if (kept.size() > 1 && distance(kept.back(), at) < least_stub) kept.pop_back();
-    if (distance(kept.back(), at) < least_stub) return {};
-    kept.push_back(at);
-    return kept;
-  }
-  return kept;
-}
-
 /// The links of the net as roads of the L-system.
 class NetRules final : public RoadRules {
  public:
@@ -202,7 +172,7 @@ class NetRules final : public RoadRules {
     for (const Site& next : net_.neighbours(done.to)) {
       if (next == done.from || slot == 3) continue;
       goals.delay[slot] = 0;
-      goals.road[slot++] = propose(done.to, next);
+      goals.road[slot++] = propose(done.to, beyond_water(done.to, next));
     }
     return goals;
   }
@@ -216,12 +186,14 @@ class NetRules final : public RoadRules {
     const std::size_t middle = line.size() / 2;
     const bool is_dense = input_.density.at(in_metres(line.front())) >= least_density &&
                           input_.density.at(in_metres(line[middle])) >= least_density;
-    if (!is_in_area(input_.area, in_cm(line.front())) || !is_dense || !net_.is_filled(each.from, each.to))
+    if (!is_on_land(input_.region, in_cm(line.front())) || !is_dense || !net_.is_filled(each.from, each.to))
       return RoadState::failed;
-    const std::vector<CmPoint> inside = clipped(input_.area, line);
-    for (std::size_t i = 1; i < inside.size(); ++i)
-      pieces.push_back({inside[i - 1], inside[i], net_.class_of(each.from, each.to)});
-    if (inside.size() != line.size() || inside.back() != line.back()) return RoadState::failed;
+    const auto kind = static_cast<std::uint32_t>(net_.class_of(each.from, each.to));
+    const Route built = route_of(input_.region, line, kind, input_.streets.bridge_length * 100);
+    if (!may_build(built)) return RoadState::failed;
+    route.pieces.insert(route.pieces.end(), built.pieces.begin(), built.pieces.end());
+    route.bridges.insert(route.bridges.end(), built.bridges.begin(), built.bridges.end());
+    if (!built.reaches_end) return RoadState::failed;
     return reached_.insert(each.to).second ? RoadState::succeed : RoadState::failed;
   }
 
@@ -235,20 +207,82 @@ class NetRules final : public RoadRules {
 
   std::vector<StreetGrammar::Start> starts() {
     std::vector<StreetGrammar::Start> all;
-    const Site start = net_.start();
+    const Site start = first_site();
     reached_.insert(start);
     for (const Site& next : net_.neighbours(start))
       all.push_back({0, 0, propose(start, next), key_at(site_key(start), site_key(next))});
     return all;
   }
 
-  std::vector<StreetPiece> pieces;
+  Route route;
 
  private:
   struct Road {
     Site from, to;
   };
   bool is_road(double road) const { return road >= 0 && road < static_cast<double>(roads_.size()); }
+
+  /// The site itself, or one farther in the same direction if it lies in water.
+  Site beyond_water(const Site& from, const Site& next) const {
+    if (net_.is_radial() || is_on_land(input_.region, net_.position(next))) return next;
+    for (std::int32_t steps = 2; steps <= 3; ++steps) {
+      const Site far = {from[0] + (next[0] - from[0]) * steps, from[1] + (next[1] - from[1]) * steps};
+      if (is_on_land(input_.region, net_.position(far))) return far;
+    }
+    return next;
+  }
+
+  /// Whether no obstacle and no given street is in the way.
+  bool may_build(const Route& built) const {
+    for (const StreetPiece& piece : built.pieces) {
+      if (input_.is_blocked(in_cm(piece.a), in_cm(piece.b))) return false;
+      if (input_.given && !keeps_off(piece)) return false;
+    }
+    for (const BridgeLine& bridge : built.bridges) {
+      for (const BridgeLine& other : route.bridges) {
+        if (segments_meet(bridge.line[0], bridge.line[1], other.line[0], other.line[1])) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Whether a piece meets given streets only where it crosses one of them at a wide angle.
+  bool keeps_off(const StreetPiece& piece) const {
+    constexpr double near = 1400, least_cross_sine = 0.77;
+    const dvec2 p = in_cm(piece.a), q = in_cm(piece.b), along = q - p;
+    for (const StreetPiece& other : input_.given->pieces) {
+      const dvec2 a = in_cm(other.a), b = in_cm(other.b), across = b - a;
+      const double apart = std::min({distance_to_segment(p, a, b), distance_to_segment(q, a, b),
+                                     distance_to_segment(a, p, q), distance_to_segment(b, p, q)});
+      if (!segments_meet(piece.a, piece.b, other.a, other.b)) {
+        if (apart < near) return false;
+        continue;
+      }
+      const double sine = std::abs(along.x * across.y - along.y * across.x) /
+                          (distance(piece.a, piece.b) * distance(other.a, other.b));
+      if (sine < least_cross_sine || apart < near) return false;
+    }
+    return true;
+  }
+
+  bool may_start(const dvec2& cm) const {
+    return is_on_land(input_.region, cm) && input_.density.at(cm / 100.0) >= least_density;
+  }
+  /// The site at the centre, or the one nearest to it among those near the points of a lattice over the area.
+  Site first_site() const {
+    Site best = net_.start();
+    if (may_start(net_.position(best))) return best;
+    double least = 1e300;
+    for (const dvec2& p : lattice_of(input_.region)) {
+      const Site site = net_.site_near(p);
+      const dvec2 at = net_.position(site), off = at - net_.position(net_.start());
+      const double d = off.x * off.x + off.y * off.y;
+      if (d >= least || !may_start(at)) continue;
+      least = d;
+      best = site;
+    }
+    return best;
+  }
   double propose(const Site& from, const Site& to) {
     roads_.push_back({from, to});
     return static_cast<double>(roads_.size() - 1);
@@ -271,14 +305,14 @@ dvec2 frame_at(const CityStreets& streets, bool is_radial, const dvec2& cm) {
   return length > 0 ? off / length : dvec2(turn.cos, turn.sin);
 }
 
-std::vector<StreetPiece> grow_majors(const GrowthInput& input, Job& job) {
+Route grow_majors(const GrowthInput& input, Job& job) {
   const Net net(input.streets, job.rng().at("majors"));
   NetRules rules(input, net);
   const std::uint64_t most_steps = job.limits().shapes;
   if (!input.grammar.grow(rules.starts(), rules, most_steps, job))
     job.refuse(limit_issue({Resource::steps, most_steps, most_steps + 1}, "the streets do not stop growing",
                            "/streets/productions"));
-  return std::move(rules.pieces);
+  return std::move(rules.route);
 }
 
 }  // namespace seedmesh::city

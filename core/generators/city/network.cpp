@@ -84,9 +84,12 @@ std::optional<std::uint32_t> Network::nearest_node(std::uint32_t from, const glm
 bool Network::keeps_angles(std::uint32_t node, const CmPoint& towards) const {
   for (const std::uint32_t arm : arms_[node]) {
     const NetworkEdge& edge = edges_[arm];
-    const double most = edge.kind == EdgeClass::border ? limits_.cos_border_angle : limits_.cos_minimal_angle;
+    const double most = !is_street_class(edge.kind) ? limits_.cos_border_angle : limits_.cos_minimal_angle;
     const CmPoint& other = nodes_[edge.from == node ? edge.to : edge.from];
-    if (other == towards || cosine(nodes_[node], other, towards) > most) return false;
+    const double between = cosine(nodes_[node], other, towards);
+    if (other == towards || between > most) return false;
+    // A kerb has to reach the border beside the street.
+    if (!is_street_class(edge.kind) && between < -0.87) return false;
   }
   return true;
 }
@@ -101,7 +104,7 @@ bool Network::may_link(std::uint32_t from, const CmPoint& to, std::uint32_t targ
   if (split != none) {
     const NetworkEdge& edge = edges_[split];
     const CmPoint &a = nodes_[edge.from], &b = nodes_[edge.to];
-    const double most = edge.kind == EdgeClass::border ? limits_.cos_border_angle : limits_.cos_minimal_angle;
+    const double most = !is_street_class(edge.kind) ? limits_.cos_border_angle : limits_.cos_minimal_angle;
     if (distance(to, a) < limits_.least_length || distance(to, b) < limits_.least_length) return false;
     if (cosine(to, a, start) > most || cosine(to, b, start) > most) return false;
   }
@@ -133,6 +136,7 @@ void Network::split(std::uint32_t edge, std::uint32_t node) {
 
 PieceResult Network::join_edge(std::uint32_t from, const Hit& hit, EdgeClass kind) {
   const NetworkEdge edge = edges_[hit.edge];
+  if (edge.kind == EdgeClass::shore) return {};
   std::array<std::uint32_t, 2> ends = {edge.from, edge.to};
   const auto off = [&](std::uint32_t n) { return length_of(in_cm(nodes_[n]) - hit.at); };
   if (off(ends[1]) < off(ends[0])) std::swap(ends[0], ends[1]);

@@ -9,8 +9,12 @@
 
 namespace seedmesh::city {
 
-/// Classes of edges, also the tags of the planar graph.
-enum class EdgeClass : std::uint32_t { border, major, minor };
+/// Classes of edges, also the tags of the planar graph. Given streets with a cross section of their own have tags
+/// from `first_given` on.
+enum class EdgeClass : std::uint32_t { border, shore, highway, major, minor, lane };
+constexpr std::uint32_t first_given = 6;
+constexpr bool is_street_tag(std::uint32_t tag) { return tag > static_cast<std::uint32_t>(EdgeClass::shore); }
+constexpr bool is_street_class(EdgeClass kind) { return is_street_tag(static_cast<std::uint32_t>(kind)); }
 
 struct NetworkEdge {
   std::uint32_t from = 0, to = 0;

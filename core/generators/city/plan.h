@@ -1,6 +1,7 @@
 #pragma once
 /// The plan of a city: the street graph and the partition of the area that is cut along it. Points are whole
 /// centimetres, x east and y north; lengths and areas are metres unless a name says otherwise.
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 
 #include "core/base/job.h"
 #include "core/generators/city/network.h"
+#include "core/generators/city/region.h"
 #include "core/geom/polygon/cm_point.h"
 #include "core/geom/polygon/planar_graph.h"
 
@@ -18,9 +20,33 @@ namespace seedmesh::city {
 /// The cross section of a class of streets.
 struct CrossSection {
   std::string name;
-  double width = 0;     ///< of the carriageway
-  double sidewalk = 0;  ///< of each side
+  double width = 0;                         ///< of the carriageway
+  std::array<double, 2> sidewalk = {0, 0};  ///< left and right
   int lanes = 0;
+  double grade_limit = 0.12;  ///< rise over run
+  friend bool operator==(const CrossSection&, const CrossSection&) = default;
+};
+
+/// A piece of street between two points; the kind is an EdgeClass, or the tag of a given street.
+struct StreetPiece {
+  CmPoint a, b;
+  std::uint32_t kind = 0;
+};
+
+/// A street above or below the others, before its ends are nodes.
+struct BridgeLine {
+  CmRing line;
+  std::uint32_t kind = 0;
+  int level = 1;
+};
+
+/// A street on another level. It is no part of the planar graph.
+struct Bridge {
+  std::uint32_t from = 0, to = 0;  ///< nodes
+  std::uint32_t tag = 0;
+  int level = 1;
+  CmRing line;
+  std::uint64_t key = 0;
 };
 
 /// The planar graph of streets and of the border of the area. Edges are never removed ones.
@@ -29,11 +55,23 @@ struct StreetGraph {
   std::vector<PlanarEdge> edges;  ///< the tag is an EdgeClass
   PlanarArms arms;
   std::vector<std::uint64_t> node_key, edge_key;  ///< identities by position
-  std::vector<std::uint8_t> is_border;            ///< by node: on the border of the area
+  std::vector<std::uint8_t> is_border;            ///< by node: on the border of the area or on a shore
+  std::vector<Bridge> bridges;
+  std::vector<std::uint32_t> bridge_ends;  ///< by node: ends of bridges there; empty without bridges
 
-  bool is_street(std::uint32_t edge) const {
-    return edges[edge].tag != static_cast<std::uint32_t>(EdgeClass::border);
+  bool is_street(std::uint32_t edge) const { return is_street_tag(edges[edge].tag); }
+  /// Whether a node is on the border of the area itself.
+  bool is_at_area_border(std::uint32_t node) const {
+    for (const std::uint32_t half : arms.of(node)) {
+      if (edges[half / 2].tag == static_cast<std::uint32_t>(EdgeClass::border)) return true;
+    }
+    return false;
   }
+  /// Ends of streets of all levels.
+  std::uint32_t street_ends(std::uint32_t node) const {
+    return degree(node) + (bridge_ends.empty() ? 0 : bridge_ends[node]);
+  }
+  /// Ends of streets of level 0.
   std::uint32_t degree(std::uint32_t node) const {
     std::uint32_t count = 0;
     for (const std::uint32_t half : arms.of(node)) count += is_street(half / 2) ? 1U : 0U;
@@ -41,7 +79,7 @@ struct StreetGraph {
   }
 };
 
-enum class PartKind : std::uint8_t { carriageway, junction, sidewalk, verge, park, square, lot };
+enum class PartKind : std::uint8_t { carriageway, junction, sidewalk, verge, park, square, lot, water };
 const char* name_of(PartKind kind);
 
 constexpr std::uint32_t no_index = 0xFFFFFFFFU;
@@ -69,7 +107,7 @@ struct Lot {
   std::uint32_t part = 0;  ///< into CityPlan::parts
   double area = 0, frontage = 0;
   std::uint32_t street = no_index;  ///< of its front: an edge of the graph
-  bool is_corner = false;
+  bool is_corner = false, is_inner = false;
   double density = 0;
   CmRing corners;  ///< without the corners of neighbours in between
   CmPoint front_start, front_end;
@@ -108,7 +146,8 @@ class MemoryCharge {
 
 struct CityPlan {
   std::vector<CmRing> area;
-  std::vector<CrossSection> classes;  ///< by EdgeClass
+  Region region;                      ///< the same, divided into land and water
+  std::vector<CrossSection> classes;  ///< by EdgeClass, then those of given streets
   StreetGraph graph;
   std::vector<Part> parts;
   std::vector<Block> blocks;

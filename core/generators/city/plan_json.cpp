@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/generators/city/bridge_mesh.h"
 #include "core/generators/city/zoning.h"
 #include "generated/params/city.h"
 
@@ -57,13 +58,13 @@ class Writer {
   std::string node_id(std::uint32_t node) const { return id_of(plan_.graph.node_key[node]); }
 
   const char* type_of(std::uint32_t node, std::uint32_t degree) const {
-    if (plan_.graph.is_border[node] != 0) return "border";
+    if (plan_.graph.is_at_area_border(node)) return "border";
     return degree == 1 ? "dead_end" : degree == 2 ? "bend" : "junction";
   }
 
   void add_nodes() {
     for (std::uint32_t node = 0; node < plan_.graph.nodes.size(); ++node) {
-      const std::uint32_t degree = plan_.graph.degree(node);
+      const std::uint32_t degree = plan_.graph.street_ends(node);
       if (degree == 0) continue;
       features_.push_back(feature(
           {{"type", "Point"}, {"coordinates", position(plan_.graph.nodes[node])}},
@@ -75,26 +76,41 @@ class Writer {
     for (std::uint32_t edge = 0; edge < plan_.graph.edges.size(); ++edge) {
       if (!plan_.graph.is_street(edge)) continue;
       const PlanarEdge& each = plan_.graph.edges[edge];
-      const CrossSection& section = plan_.class_of(edge);
-      const double limit = section.name == "major" ? 0.08 : 0.12;
-      features_.push_back(feature(
-          {{"type", "LineString"},
-           {"coordinates", {position(plan_.graph.nodes[each.from]), position(plan_.graph.nodes[each.to])}}},
-          {{"kind", "street"},
-           {"id", street_id(edge)},
-           {"from", node_id(each.from)},
-           {"to", node_id(each.to)},
-           {"class", section.name},
-           {"width", section.width},
-           {"lanes", section.lanes},
-           {"sidewalk", {section.sidewalk, section.sidewalk}},
-           {"level", 0},
-           {"bridge", false},
-           {"tunnel", false},
-           {"grade", 0},
-           {"grade_limit", limit},
-           {"given", false}}));
+      add_street({each.from,
+                  each.to,
+                  each.tag,
+                  0,
+                  {plan_.graph.nodes[each.from], plan_.graph.nodes[each.to]},
+                  plan_.graph.edge_key[edge]});
     }
+    for (const Bridge& bridge : plan_.graph.bridges) add_street(bridge);
+  }
+
+  /// The ramps of bridges that lead over streets are as steep as bridge_height() makes them.
+  double grade_of(const Bridge& street) const {
+    return street.level != 0 && bridge_height(plan_, street, 1, 2) != 0 ? 0.06 : 0;
+  }
+
+  /// A street of any level.
+  void add_street(const Bridge& street) {
+    const CrossSection& section = plan_.classes[street.tag];
+    Json coordinates = Json::array();
+    for (const CmPoint& p : street.line) coordinates.push_back(position(p));
+    features_.push_back(feature({{"type", "LineString"}, {"coordinates", std::move(coordinates)}},
+                                {{"kind", "street"},
+                                 {"id", id_of(street.key)},
+                                 {"from", node_id(street.from)},
+                                 {"to", node_id(street.to)},
+                                 {"class", section.name},
+                                 {"width", section.width},
+                                 {"lanes", section.lanes},
+                                 {"sidewalk", {section.sidewalk[0], section.sidewalk[1]}},
+                                 {"level", street.level},
+                                 {"bridge", street.level > 0},
+                                 {"tunnel", street.level < 0},
+                                 {"grade", grade_of(street)},
+                                 {"grade_limit", section.grade_limit},
+                                 {"given", street.tag >= first_given}}));
   }
 
   void add_block(const Block& block) {
@@ -120,7 +136,7 @@ class Writer {
     properties["area"] = lot.area;
     properties["frontage"] = lot.frontage;
     properties["corner"] = lot.is_corner;
-    properties["inner"] = false;
+    properties["inner"] = lot.is_inner;
     properties["zone"] = nullptr;
     properties["building"] = nullptr;
     if (!lot.house) return;

@@ -287,7 +287,10 @@ bool StreetGrammar::grow(const std::vector<Start>& starts, RoadRules& rules, std
     sites.push({0, each.key, {{'R', {each.delay, each.rule, 0}}, {'I', {each.road, 0, 0}}}});
   for (std::uint64_t done = 0; !sites.empty(); ++done) {
     if (done >= most_steps || sites.size() > most_sites) return false;
-    if (done % 1024 == 0) job.check();
+    if (done % 64 == 0) job.check();
+    // A word of this length comes from productions that multiply without branches.
+    constexpr std::size_t most_modules = 256;
+    if (sites.top().word.size() > most_modules) return false;
     const Site site = sites.top();
     sites.pop();
     rewrite(site, rules, sites);

@@ -7,15 +7,15 @@
 
 #include "core/base/parallel.h"
 #include "core/generators/city/corners.h"
+#include "core/generators/city/shape.h"
 
 namespace seedmesh::city {
 namespace {
 
 using glm::dvec2;
 
-constexpr double greatest_fillet = 500;  // cm
-constexpr double least_progress = 30;    // of a kerb between two corners, cm
-constexpr double least_straight = 300;   // of a carriageway between perpendicular ends, cm
+constexpr double least_progress = 30;   // of a kerb between two corners, cm
+constexpr double least_straight = 300;  // of a carriageway between perpendicular ends, cm
 constexpr std::size_t faces_a_chunk = 64;
 
 /// What is left of a half-edge, by its number.
@@ -71,6 +71,9 @@ class StreetSpace {
     add_carriageways();
     std::vector<BlockOutline> blocks;
     for (const FaceLayout& layout : layouts) add_face(layout, blocks);
+    for (const FaceLayout& layout : layouts) {
+      if (!layout.is_used) add_water(layout);
+    }
     return blocks;
   }
 
@@ -79,7 +82,7 @@ class StreetSpace {
     return graph_.is_street(half / 2) ? plan_.class_of(half / 2).width * 50 : 0;
   }
   double walk_width(std::uint32_t half) const {
-    return graph_.is_street(half / 2) ? plan_.class_of(half / 2).sidewalk * 100 : 0;
+    return graph_.is_street(half / 2) ? plan_.class_of(half / 2).sidewalk[half % 2] * 100 : 0;
   }
 
   struct Widths {
@@ -103,13 +106,6 @@ class StreetSpace {
     return corner_points(corner);
   }
 
-  /// The arc must stay on the street's side of the block's corner.
-  static double fillet_of(const CornerInput& corner, double walk) {
-    const double c = corner.before.x * corner.after.x + corner.before.y * corner.after.y;
-    const double sine = std::sqrt(std::max(0.0, (1 + c) / 2));  // of half the inner angle
-    return std::min(greatest_fillet, sine < 0.999 ? 0.7 * walk / (1 - sine) : greatest_fillet);
-  }
-
   /// Moves the outlines of a face; narrower where they would not stay simple.
   void lay_out_face(const PlanarFaces& faces, const PlanarFaces::Face& face, FaceLayout& layout) {
     const auto add = [&](std::uint32_t loop, bool is_outer) {
@@ -123,28 +119,15 @@ class StreetSpace {
     const dvec2 middle = (in_cm(graph_.nodes[start_of(graph_.edges, first)]) +
                           in_cm(graph_.nodes[end_of(graph_.edges, first)])) /
                          2.0;
-    layout.is_used = is_in_area_(middle + dvec2(-d.y, d.x) * 5.0);
+    layout.is_used = is_on_land(plan_.region, middle + dvec2(-d.y, d.x) * 2.0);
     if (!layout.is_used) return;
-    static constexpr std::array<Widths, 10> attempts = {{{1, 1, 1},
-                                                         {1, 1, 0},
-                                                         {1, 0.6, 0},
-                                                         {1, 0.3, 0},
-                                                         {0.8, 0.3, 0},
-                                                         {1, 0, 0},
-                                                         {0.6, 0, 0},
-                                                         {0.3, 0, 0},
-                                                         {0.1, 0, 0},
-                                                         {0.03, 0, 0}}};
+    static constexpr Widths attempts[] = {{1, 1, 1},     {1, 1, 0},    {1, 0.6, 0}, {1, 0.3, 0},
+                                          {0.8, 0.3, 0}, {1, 0, 0},    {0.6, 0, 0}, {0.3, 0, 0},
+                                          {0.1, 0, 0},   {0.03, 0, 0}, {0, 0, 0}};
     for (const Widths& widths : attempts) {
       if (try_widths(layout, widths)) return;
     }
     job_.check();
-  }
-
-  bool is_in_area_(const dvec2& cm) const {
-    bool inside = false;
-    for (const CmRing& ring : plan_.area) inside ^= is_inside(ring, cm);
-    return inside;
   }
 
   bool try_widths(FaceLayout& layout, const Widths& widths) {
@@ -210,22 +193,6 @@ class StreetSpace {
   static bool is_sound(const CmRing& ring, bool is_outer) {
     if (!is_simple(ring)) return false;
     return is_outer == (doubled_area(ring) > 0);
-  }
-
-  /// Whether no two of the rings meet.
-  static bool are_apart(const std::vector<CmRing>& rings) {
-    for (std::size_t r = 0; r < rings.size(); ++r) {
-      for (std::size_t s = r + 1; s < rings.size(); ++s) {
-        for (std::size_t i = 0; i < rings[r].size(); ++i) {
-          for (std::size_t k = 0; k < rings[s].size(); ++k) {
-            if (segments_meet(rings[r][i], rings[r][(i + 1) % rings[r].size()], rings[s][k],
-                              rings[s][(k + 1) % rings[s].size()]))
-              return false;
-          }
-        }
-      }
-    }
-    return true;
   }
 
   /// The sidewalk to the left of a half-edge: along the kerb, and back along the block. Corners are divided at
@@ -325,6 +292,7 @@ class StreetSpace {
       append_new(ring, left.cut_from);
       if (ends_at_border(from)) append_new(ring, graph_.nodes[from]);
       close(ring);
+      if (ring.size() < 3 || doubled_area(ring) == 0) continue;
       add_part(PartKind::carriageway, std::move(ring), edge, no_index);
     }
   }
@@ -355,11 +323,41 @@ class StreetSpace {
       if (outline.is_outer) continue;
       for (const std::uint32_t half : outline.half_edges) {
         for (const CmPoint& p : sides_[half].outer_corner) append_new(ring, p);
+        if (graph_.is_street(half / 2)) block.hole_streets.push_back(half / 2);
       }
       close(ring);
       block.holes.push_back(std::move(ring));
     }
     blocks.push_back(std::move(block));
+  }
+
+  /// A face outside of the land: water, unless it lies outside of the area. Its outline has the corners of what is on
+  /// the other side.
+  void add_water(const FaceLayout& layout) {
+    const std::uint32_t first = layout.outlines[0].half_edges[0];
+    const dvec2 d = unit_of(graph_, first), start = in_cm(graph_.nodes[start_of(graph_.edges, first)]);
+    const dvec2 p = start + d * 5.0 + dvec2(-d.y, d.x) * 2.0;
+    bool is_in_area = false;
+    for (const CmRing& ring : plan_.area) is_in_area ^= is_inside(ring, p);
+    if (!is_in_area) return;
+    Part part;
+    part.kind = PartKind::water;
+    for (const Outline& outline : layout.outlines) {
+      CmRing ring;
+      for (const std::uint32_t half : outline.half_edges) {
+        append_new(ring, graph_.nodes[start_of(graph_.edges, half)]);
+        const KerbSide& other = sides_[half ^ 1U];
+        if (!other.is_laid_out) continue;
+        append_new(ring, other.to);
+        append_new(ring, sides_[other.after].outer_corner.front());
+        append_new(ring, other.outer_corner.back());
+        append_new(ring, other.from());
+      }
+      close(ring);
+      if (outline.is_outer && doubled_area(ring) <= 0) return;
+      part.rings.push_back(std::move(ring));
+    }
+    plan_.parts.push_back(std::move(part));
   }
 
   /// The edges of a block along one half-edge. The edges of a corner belong to the sidewalk that has them.

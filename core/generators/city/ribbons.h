@@ -17,8 +17,9 @@ struct BlockEdge {
 /// A block before it is divided.
 struct BlockOutline {
   CmRing ring;
-  std::vector<BlockEdge> edges;  ///< edge i runs from point i to the next
-  std::vector<CmRing> holes;     ///< outlines of components inside, clockwise, without streets at hand
+  std::vector<BlockEdge> edges;             ///< edge i runs from point i to the next
+  std::vector<CmRing> holes;                ///< outlines of components inside, clockwise
+  std::vector<std::uint32_t> hole_streets;  ///< streets around the holes
 };
 
 /// Adds carriageways, junctions, sidewalks and verges to the plan, and returns the outlines of the blocks in the

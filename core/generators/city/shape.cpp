@@ -30,6 +30,7 @@ LeastBox least_box(std::span<const CmPoint> ring) {
   const CmRing hull = hull_of(ring);
   LeastBox best;
   double least = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<double, double>> boxes;  // area and short side
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const dvec2 a = in_cm(hull[i]), edge = in_cm(hull[(i + 1) % hull.size()]) - a;
     const dvec2 d = edge / std::sqrt(edge.x * edge.x + edge.y * edge.y), n(-d.y, d.x);
@@ -40,11 +41,16 @@ LeastBox least_box(std::span<const CmPoint> ring) {
       high = std::max(high, glm::dot(off, d));
       height = std::max(height, glm::dot(off, n));
     }
+    boxes.emplace_back((high - low) * height, std::min(high - low, height));
     if ((high - low) * height >= least) continue;
     least = (high - low) * height;
     const bool is_long = high - low >= height;
-    best = {std::min(high - low, height), std::max(high - low, height),
+    best = {std::min(high - low, height), std::max(high - low, height), 0,
             a + d * ((low + high) / 2) + n * (height / 2), is_long ? d : n};
+  }
+  best.narrowest = best.short_side;
+  for (const auto& [area, side] : boxes) {
+    if (area < least * 1.02) best.narrowest = std::min(best.narrowest, side);
   }
   return best;
 }
@@ -59,6 +65,21 @@ double sharpest_cosine(std::span<const CmPoint> ring) {
     sharpest = std::max(sharpest, glm::dot(u, v) / std::sqrt(glm::dot(u, u) * glm::dot(v, v)));
   }
   return sharpest;
+}
+
+bool are_apart(std::span<const CmRing> rings) {
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    for (std::size_t s = r + 1; s < rings.size(); ++s) {
+      for (std::size_t i = 0; i < rings[r].size(); ++i) {
+        for (std::size_t k = 0; k < rings[s].size(); ++k) {
+          if (segments_meet(rings[r][i], rings[r][(i + 1) % rings[r].size()], rings[s][k],
+                            rings[s][(k + 1) % rings[s].size()]))
+            return false;
+        }
+      }
+    }
+  }
+  return true;
 }
 
 }  // namespace seedmesh::city

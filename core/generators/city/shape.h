@@ -9,6 +9,7 @@ namespace seedmesh::city {
 /// The sides of the box of least area around a ring, in centimetres; the direction is that of the long side.
 struct LeastBox {
   double short_side = 0, long_side = 0;
+  double narrowest = 0;  ///< the least short side of the boxes that are less than 2 % larger
   glm::dvec2 centre{0}, long_direction{1, 0};
 };
 LeastBox least_box(std::span<const CmPoint> ring);
@@ -18,5 +19,8 @@ CmRing hull_of(std::span<const CmPoint> ring);
 
 /// The cosine of the sharpest inner corner of a counter-clockwise ring; -1 without any.
 double sharpest_cosine(std::span<const CmPoint> ring);
+
+/// Whether no two of the rings meet. Cost: quadratic.
+bool are_apart(std::span<const CmRing> rings);
 
 }  // namespace seedmesh::city

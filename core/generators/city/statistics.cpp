@@ -44,27 +44,54 @@ class Distances {
   const std::vector<CmRing>& area_;
 };
 
-std::vector<Segment> segments_of(const StreetGraph& graph, const Distances& distances) {
+/// Streets of all levels and their ends.
+struct StreetNetwork {
+  struct Street {
+    std::uint32_t from, to;
+    double length;  ///< metres
+    bool is_inner;
+  };
+  std::vector<Street> streets;
+  std::vector<std::vector<std::uint32_t>> ends;  ///< by node: streets, loops twice
+
+  StreetNetwork(const StreetGraph& graph, const Distances& distances) : ends(graph.nodes.size()) {
+    for (std::uint32_t edge = 0; edge < graph.edges.size(); ++edge) {
+      if (!graph.is_street(edge)) continue;
+      const PlanarEdge& each = graph.edges[edge];
+      const CmPoint &a = graph.nodes[each.from], &b = graph.nodes[each.to];
+      add({each.from, each.to, distance(a, b) / 100, distances.is_far(a, b, border_margin * 100)});
+    }
+    for (const Bridge& bridge : graph.bridges) {
+      double length = 0;
+      for (std::size_t k = 1; k < bridge.line.size(); ++k)
+        length += distance(bridge.line[k - 1], bridge.line[k]) / 100;
+      add({bridge.from, bridge.to, length, false});
+    }
+  }
+  void add(const Street& street) {
+    ends[street.from].push_back(static_cast<std::uint32_t>(streets.size()));
+    ends[street.to].push_back(static_cast<std::uint32_t>(streets.size()));
+    streets.push_back(street);
+  }
+};
+
+std::vector<Segment> segments_of(const StreetNetwork& network) {
   std::vector<Segment> segments;
-  std::vector<std::uint8_t> is_used(graph.edges.size(), 0);
-  for (std::uint32_t node = 0; node < graph.nodes.size(); ++node) {
-    if (graph.degree(node) == 2) continue;
-    for (const std::uint32_t arm : graph.arms.of(node)) {
-      if (!graph.is_street(arm / 2) || is_used[arm / 2] != 0) continue;
+  std::vector<std::uint8_t> is_used(network.streets.size(), 0);
+  for (std::uint32_t node = 0; node < network.ends.size(); ++node) {
+    if (network.ends[node].size() == 2) continue;
+    for (const std::uint32_t first : network.ends[node]) {
+      if (is_used[first] != 0) continue;
       Segment segment{node, node, 0, true};
-      for (std::uint32_t half = arm; is_used[half / 2] == 0;) {
-        is_used[half / 2] = 1;
-        const CmPoint &a = graph.nodes[start_of(graph.edges, half)],
-                      &b = graph.nodes[end_of(graph.edges, half)];
-        segment.length += distance(a, b) / 100;
-        segment.is_inner = segment.is_inner && distances.is_far(a, b, border_margin * 100);
-        segment.to = end_of(graph.edges, half);
-        if (graph.degree(segment.to) != 2) break;
-        std::uint32_t next = half;
-        for (const std::uint32_t other : graph.arms.of(segment.to)) {
-          if (graph.is_street(other / 2) && other != (half ^ 1U)) next = other;
-        }
-        half = next;
+      for (std::uint32_t street = first; is_used[street] == 0;) {
+        is_used[street] = 1;
+        const StreetNetwork::Street& each = network.streets[street];
+        segment.length += each.length;
+        segment.is_inner = segment.is_inner && each.is_inner;
+        segment.to = each.from == segment.to ? each.to : each.from;
+        const std::vector<std::uint32_t>& here = network.ends[segment.to];
+        if (here.size() != 2) break;
+        street = here[0] == street ? here[1] : here[0];
       }
       segments.push_back(segment);
     }
@@ -117,11 +144,12 @@ Json order_of(const Json& entropy) {
 }
 
 void add_areas(const CityPlan& plan, Json& result) {
-  double street = 0, lot = 0, park = 0;
+  double street = 0, lot = 0, park = 0, water = 0;
   for (const Part& part : plan.parts) {
     const double area = area_of(part.rings);
     const bool is_park = part.kind == PartKind::park || part.kind == PartKind::square;
-    (part.kind == PartKind::lot ? lot : is_park ? park : street) += area;
+    const bool is_water = part.kind == PartKind::water;
+    (part.kind == PartKind::lot ? lot : is_park ? park : is_water ? water : street) += area;
   }
   result["area"] = area_of(plan.area);
   result["blocks"] = plan.blocks.size();
@@ -131,7 +159,44 @@ void add_areas(const CityPlan& plan, Json& result) {
   result["street_area"] = street;
   result["lot_area"] = lot;
   result["park_area"] = park;
-  result["water_area"] = 0;
+  result["water_area"] = water;
+}
+
+struct Line {
+  double y, step;
+};
+
+/// Horizontal lines and the heights for which they stand, evenly between the heights at which the borders of bands
+/// begin and end.
+std::vector<Line> lines_of(const std::vector<CmRing>& area, double margin) {
+  constexpr std::size_t most_turns = 4000;
+  constexpr int lines = 4000;
+  double low = 1e18, high = -1e18;
+  for (const CmPoint& p : area[0]) {
+    low = std::min(low, p.y / 100.0);
+    high = std::max(high, p.y / 100.0);
+  }
+  std::vector<double> turns = {low, high};
+  for (const CmRing& ring : area) {
+    for (std::size_t i = 0; i < ring.size() && turns.size() < most_turns; ++i) {
+      const dvec2 a = in_metres(ring[i]), b = in_metres(ring[(i + 1) % ring.size()]);
+      const double side = (b.x - a.x) * margin / std::sqrt(glm::dot(b - a, b - a));
+      for (const double y :
+           {a.y, a.y - margin, a.y + margin, a.y - side, a.y + side, b.y - side, b.y + side}) {
+        if (y > low && y < high) turns.push_back(y);
+      }
+    }
+  }
+  std::sort(turns.begin(), turns.end());
+  std::vector<Line> all;
+  for (std::size_t k = 1; k < turns.size(); ++k) {
+    const double height = turns[k] - turns[k - 1];
+    if (height <= 0) continue;
+    const int count = math::to_int32(std::ceil(height / (high - low) * lines));
+    for (int i = 0; i < count; ++i)
+      all.push_back({turns[k - 1] + (i + 0.5) * height / count, height / count});
+  }
+  return all;
 }
 
 }  // namespace
@@ -139,19 +204,13 @@ void add_areas(const CityPlan& plan, Json& result) {
 double inner_area(const std::vector<CmRing>& area, double margin, const Job& job) {
   // Along horizontal lines: what is inside, without the bands around the edges, each of which a line meets in
   // one piece.
-  constexpr int lines = 4000;
-  double low = 1e18, high = -1e18;
-  for (const CmPoint& p : area[0]) {
-    low = std::min(low, p.y / 100.0);
-    high = std::max(high, p.y / 100.0);
-  }
-  const double step = (high - low) / lines;
   double sum = 0;
   std::vector<double> cuts;
   std::vector<std::array<double, 2>> taken;
-  for (int n = 0; n < lines; ++n) {
-    if (n % 256 == 0) job.check();
-    const double y = low + (n + 0.5) * step;
+  std::size_t done = 0;
+  for (const Line& line : lines_of(area, margin)) {
+    const double y = line.y, step = line.step;
+    if (done++ % 256 == 0) job.check();
     cuts.clear();
     taken.clear();
     for (const CmRing& ring : area) {
@@ -197,7 +256,7 @@ Json statistics_of(const CityPlan& plan, const Job& job) {
   std::array<double, 5> by_degree{};
   double nodes = 0, junctions = 0, ends = 0;
   for (std::uint32_t node = 0; node < graph.nodes.size(); ++node) {
-    const std::uint32_t degree = graph.degree(node);
+    const std::uint32_t degree = graph.street_ends(node);
     if (degree == 0 || degree == 2 ||
         !distances.is_far(graph.nodes[node], graph.nodes[node], border_margin * 100))
       continue;
@@ -209,7 +268,7 @@ Json statistics_of(const CityPlan& plan, const Job& job) {
   double total = 0, bent = 0, straight = 0;
   std::vector<double> lengths;
   Bearings bearings;
-  for (const Segment& segment : segments_of(graph, distances)) {
+  for (const Segment& segment : segments_of(StreetNetwork(graph, distances))) {
     if (!segment.is_inner) continue;
     lengths.push_back(segment.length);
     total += segment.length;

@@ -1,6 +1,7 @@
 // The street graph from pieces: planar by construction, then cut to the area and to one component.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
@@ -11,45 +12,64 @@ namespace seedmesh::city {
 namespace {
 
 constexpr auto border_tag = static_cast<std::uint32_t>(EdgeClass::border);
+constexpr auto shore_tag = static_cast<std::uint32_t>(EdgeClass::shore);
 constexpr double least_street = 320;  // cm
 
 std::uint64_t key_of_point(const CmPoint& p) {
   return key_at(key_at(0xC17, static_cast<std::uint32_t>(p.x)), static_cast<std::uint32_t>(p.y));
 }
 
-/// The graph of the border and of pieces of streets, without what lies outside of the area.
-PlanarGraph graph_of(const std::vector<CmRing>& area, const std::vector<StreetPiece>& pieces, Job& job) {
+/// The graph of the outlines of land and water and of streets. Given streets come first, so that others bend to them.
+PlanarGraph graph_of(const Region& region, const Route& route, Job& job) {
   PlanarGraph graph;
-  for (const CmRing& ring : area) {
-    for (std::size_t i = 0; i < ring.size(); ++i) graph.add(ring[i], ring[(i + 1) % ring.size()], border_tag);
-  }
+  for (const OutlineEdge& edge : region.outline)
+    graph.add(edge.a, edge.b, edge.is_shore ? shore_tag : border_tag);
   Meter meter(job, Resource::shapes);
-  for (const StreetPiece& piece : pieces) {
-    meter.spend();
-    graph.add(piece.a, piece.b, static_cast<std::uint32_t>(piece.kind));
+  for (const bool is_given : {true, false}) {
+    for (const StreetPiece& piece : route.pieces) {
+      if ((piece.kind >= first_given) != is_given) continue;
+      meter.spend();
+      graph.add(piece.a, piece.b, piece.kind);
+    }
   }
   return graph;
 }
 
+bool is_boundary(const PlanarEdge& edge) { return !is_street_tag(edge.tag); }
+bool is_given(const PlanarEdge& edge) { return edge.tag >= first_given; }
+/// The order in which streets stay where two of them are too near.
+std::uint32_t rank_of(const PlanarEdge& edge) { return is_given(edge) ? 0 : edge.tag + 1; }
+
+bool is_street(const PlanarEdge& edge) { return is_street_tag(edge.tag); }
+
 /// Working copy of a graph with the degrees of its nodes.
 class Pruned {
  public:
-  explicit Pruned(const PlanarGraph& graph) : nodes_(graph.nodes()), degree_(nodes_.size(), 0) {
+  Pruned(const PlanarGraph& graph, const std::vector<BridgeLine>& bridges)
+      : nodes_(graph.nodes()), degree_(nodes_.size(), 0) {
     for (const PlanarEdge& edge : graph.edges()) {
       if (!edge.is_removed()) edges_.push_back(edge);
     }
     is_border_.assign(nodes_.size(), 0);
     for (const PlanarEdge& edge : edges_) {
-      if (edge.tag == border_tag) is_border_[edge.from] = is_border_[edge.to] = 1;
+      if (is_boundary(edge)) is_border_[edge.from] = is_border_[edge.to] = 1;
     }
     count_degrees();
+    if (bridges.empty()) return;
+    std::map<CmPoint, std::uint32_t> at;
+    for (std::uint32_t n = 0; n < nodes_.size(); ++n) at.emplace(nodes_[n], n);
+    for (const BridgeLine& each : bridges) {
+      const auto from = at.find(each.line.front()), to = at.find(each.line.back());
+      if (from == at.end() || to == at.end()) continue;
+      bridges_.push_back({from->second, to->second, each.kind, each.level, each.line, 0});
+    }
   }
 
-  void drop_outside(const std::vector<CmRing>& area) {
+  void drop_outside(const Region& region) {
     for (PlanarEdge& edge : edges_) {
-      if (edge.tag == border_tag) continue;
+      if (is_boundary(edge)) continue;
       const glm::dvec2 middle = (in_cm(nodes_[edge.from]) + in_cm(nodes_[edge.to])) / 2.0;
-      if (!is_in_area(area, middle)) remove(edge);
+      if (!is_on_land(region, middle)) remove(edge);
     }
     compact();
   }
@@ -72,7 +92,8 @@ class Pruned {
   /// Removes streets that are shorter than the least length, where rounding and clipping left any.
   void drop_short(double least) {
     for (PlanarEdge& edge : edges_) {
-      if (edge.tag != border_tag && distance(nodes_[edge.from], nodes_[edge.to]) < least) remove(edge);
+      if (is_street(edge) && !is_given(edge) && distance(nodes_[edge.from], nodes_[edge.to]) < least)
+        remove(edge);
     }
     compact();
   }
@@ -89,29 +110,43 @@ class Pruned {
     }
   }
 
-  /// Keeps the component of streets with the greatest length.
+  /// Keeps the component of streets with the greatest length, and given streets.
   void keep_largest() {
+    drop_loose_bridges();
     std::vector<std::uint32_t> root(nodes_.size());
     for (std::uint32_t i = 0; i < root.size(); ++i) root[i] = i;
     const auto find = [&root](std::uint32_t i) {
       while (root[i] != i) i = root[i] = root[root[i]];
       return i;
     };
-    for (const PlanarEdge& edge : edges_) {
-      if (edge.tag == border_tag) continue;
-      const std::uint32_t a = find(edge.from), b = find(edge.to);
+    const auto join = [&](std::uint32_t from, std::uint32_t to) {
+      const std::uint32_t a = find(from), b = find(to);
       root[std::max(a, b)] = std::min(a, b);
-    }
-    std::vector<double> length(nodes_.size(), 0);
+    };
     for (const PlanarEdge& edge : edges_) {
-      if (edge.tag != border_tag) length[find(edge.from)] += distance(nodes_[edge.from], nodes_[edge.to]);
+      if (is_street(edge)) join(edge.from, edge.to);
+    }
+    for (const Bridge& bridge : bridges_) join(bridge.from, bridge.to);
+    std::vector<double> length(nodes_.size(), 0);
+    std::vector<std::uint8_t> has_given(nodes_.size(), 0);
+    for (const PlanarEdge& edge : edges_) {
+      if (!is_street(edge)) continue;
+      length[find(edge.from)] += distance(nodes_[edge.from], nodes_[edge.to]);
+      if (is_given(edge)) has_given[find(edge.from)] = 1;
     }
     const auto longest =
         static_cast<std::uint32_t>(std::max_element(length.begin(), length.end()) - length.begin());
     for (PlanarEdge& edge : edges_) {
-      if (edge.tag != border_tag && find(edge.from) != longest) remove(edge);
+      if (is_street(edge) && find(edge.from) != longest && has_given[find(edge.from)] == 0) remove(edge);
     }
     compact();
+    drop_loose_bridges();
+  }
+
+  std::vector<BridgeLine> bridges() const {
+    std::vector<BridgeLine> all;
+    for (const Bridge& each : bridges_) all.push_back({each.line, each.tag, each.level});
+    return all;
   }
 
   StreetGraph finished() const {
@@ -133,10 +168,28 @@ class Pruned {
       graph.edge_key.push_back(key_at(std::min(a, b), std::max(a, b)));
     }
     graph.arms = arms_of(graph.nodes, graph.edges);
+    if (bridges_.empty()) return graph;
+    graph.bridge_ends.assign(graph.nodes.size(), 0);
+    for (Bridge bridge : bridges_) {
+      bridge.from = number[bridge.from];
+      bridge.to = number[bridge.to];
+      const std::uint64_t a = graph.node_key[bridge.from], b = graph.node_key[bridge.to];
+      bridge.key = key_at(key_at(std::min(a, b), std::max(a, b)), 0xB41D6E);
+      ++graph.bridge_ends[bridge.from];
+      ++graph.bridge_ends[bridge.to];
+      graph.bridges.push_back(std::move(bridge));
+    }
     return graph;
   }
 
  private:
+  /// Removes bridges without a street at one of their ends.
+  void drop_loose_bridges() {
+    std::erase_if(bridges_, [&](const Bridge& each) {
+      return degree_[each.from] == 0 || degree_[each.to] == 0 || each.from == each.to;
+    });
+  }
+
   bool is_loose(std::uint32_t node) const { return degree_[node] == 1 && is_border_[node] == 0; }
 
   void remove(PlanarEdge& edge) {
@@ -151,7 +204,7 @@ class Pruned {
   void count_degrees() {
     std::fill(degree_.begin(), degree_.end(), 0);
     for (const PlanarEdge& edge : edges_) {
-      if (edge.tag == border_tag) continue;
+      if (is_boundary(edge)) continue;
       ++degree_[edge.from];
       ++degree_[edge.to];
     }
@@ -163,14 +216,26 @@ class Pruned {
     for (std::size_t i = 0; i < around.size() && around.size() > 1; ++i) {
       PlanarEdge& first = edges_[around[i] / 2];
       PlanarEdge& second = edges_[around[(i + 1) % around.size()] / 2];
-      if (first.is_removed() || second.is_removed() || (first.tag == border_tag && second.tag == border_tag))
+      if (first.is_removed() || second.is_removed() || (is_boundary(first) && is_boundary(second)) ||
+          (is_given(first) && is_given(second)))
         continue;
       const glm::dvec2 u = direction(first, node), v = direction(second, node);
+      // On the side of an angle above 150 degrees the kerb of a street would pass the border.
+      const bool is_wide = u.x * v.y - u.y * v.x < 0 || u.x * v.x + u.y * v.y < -0.87;
+      if (is_boundary(first) != is_boundary(second) && is_wide) {
+        PlanarEdge& street = is_boundary(first) ? second : first;
+        if (is_given(street)) continue;
+        remove(street);
+        has_dropped = true;
+        continue;
+      }
       if (u.x * v.x + u.y * v.y <= cos_least) continue;
-      // The border stays, then the lower class, then the earlier edge.
+      // The border and given streets stay, then the lower class, then the earlier edge.
       const bool drops_second =
-          first.tag == border_tag || (second.tag != border_tag && first.tag <= second.tag);
-      remove(drops_second ? second : first);
+          is_boundary(first) || (is_street(second) && rank_of(first) <= rank_of(second));
+      PlanarEdge& dropped = drops_second ? second : first;
+      if (is_given(dropped)) continue;
+      remove(dropped);
       has_dropped = true;
     }
     return has_dropped;
@@ -184,24 +249,30 @@ class Pruned {
   std::vector<PlanarEdge> edges_;
   std::vector<std::uint32_t> degree_;
   std::vector<std::uint8_t> is_border_;
+  std::vector<Bridge> bridges_;
 };
 
-StreetGraph majors_of(const GrowthInput& input, const std::vector<StreetPiece>& pieces, Job& job) {
-  Pruned pruned(graph_of(input.area, pieces, job));
-  pruned.drop_outside(input.area);
+/// A graph and the bridges whose ends are its nodes.
+struct Majors {
+  StreetGraph graph;
+  std::vector<BridgeLine> bridges;
+};
+
+Majors majors_of(const GrowthInput& input, const Route& route, Job& job) {
+  Pruned pruned(graph_of(input.region, route, job), route.bridges);
+  pruned.drop_outside(input.region);
   pruned.drop_short(least_street);
   pruned.drop_sharp(math::cos(math::radians(input.streets.minimal_angle)));
   pruned.drop_loose_majors();
   pruned.keep_largest();
   pruned.drop_loose_majors();
-  return pruned.finished();
+  return {pruned.finished(), pruned.bridges()};
 }
 
 std::vector<StreetPiece> pieces_of(const StreetGraph& graph) {
   std::vector<StreetPiece> pieces;
   for (const PlanarEdge& edge : graph.edges) {
-    if (edge.tag != border_tag)
-      pieces.push_back({graph.nodes[edge.from], graph.nodes[edge.to], static_cast<EdgeClass>(edge.tag)});
+    if (is_street(edge)) pieces.push_back({graph.nodes[edge.from], graph.nodes[edge.to], edge.tag});
   }
   return pieces;
 }
@@ -221,10 +292,10 @@ std::vector<StreetPiece> grow_cells(const GrowthInput& input, const StreetGraph&
     for (const std::uint32_t hole : face.holes) add(hole);
     const CmPoint& corner = majors.nodes[start_of(majors.edges, loops[0][0])];
     const CmPoint& next = majors.nodes[end_of(majors.edges, loops[0][0])];
-    // A hole of the area is a face, too.
+    // A hole of the area is a face, too, and so is water.
     glm::dvec2 side(in_cm(next) - in_cm(corner));
     side = glm::dvec2(-side.y, side.x) / std::sqrt(side.x * side.x + side.y * side.y);
-    if (!is_in_area(input.area, (in_cm(corner) + in_cm(next)) / 2.0 + side * 5.0)) return;
+    if (!is_on_land(input.region, (in_cm(corner) + in_cm(next)) / 2.0 + side * 2.0)) return;
     grown[begin] = grow_cell(input, majors, loops, job);
   });
   std::vector<StreetPiece> all;
@@ -232,24 +303,57 @@ std::vector<StreetPiece> grow_cells(const GrowthInput& input, const StreetGraph&
   return all;
 }
 
-}  // namespace
-
-bool is_in_area(const std::vector<CmRing>& area, const glm::dvec2& cm) {
-  bool inside = false;
-  for (const CmRing& ring : area) inside ^= is_inside(ring, cm);
-  return inside;
+/// Given streets in pieces of at most 30 m, so that others can join them.
+Route given_pieces(const GrowthInput& input) {
+  constexpr double longest = 3000;
+  Route route;
+  if (!input.given) return route;
+  route.bridges = input.given->bridges;
+  for (const StreetPiece& piece : input.given->pieces) {
+    const glm::dvec2 from = in_cm(piece.a), along = in_cm(piece.b) - from;
+    const int count = std::max(1, math::to_int32(std::ceil(distance(piece.a, piece.b) / longest)));
+    CmPoint last = piece.a;
+    for (int n = 1; n <= count; ++n) {
+      const CmPoint next = n == count ? piece.b : rounded_cm(from + along * (static_cast<double>(n) / count));
+      route.pieces.push_back({last, next, piece.kind});
+      last = next;
+    }
+  }
+  return route;
 }
 
+void append(Route& route, const Route& more) {
+  route.pieces.insert(route.pieces.end(), more.pieces.begin(), more.pieces.end());
+  route.bridges.insert(route.bridges.end(), more.bridges.begin(), more.bridges.end());
+}
+
+}  // namespace
+
 StreetGraph grow_streets(const GrowthInput& input, Job& job) {
-  StreetGraph majors = majors_of(input, grow_majors(input, job), job);
   const CityStreets& streets = input.streets;
-  if (streets.pattern == CityPattern::raster &&
+  Route route = given_pieces(input);
+  if (streets.method == CityMethod::given) {
+    Pruned pruned(graph_of(input.region, route, job), route.bridges);
+    pruned.drop_outside(input.region);
+    pruned.keep_largest();
+    return pruned.finished();
+  }
+  append(route, grow_majors(input, job));
+  Majors majors = majors_of(input, route, job);
+  const bool has_streets = std::any_of(majors.graph.edges.begin(), majors.graph.edges.end(), is_street);
+  if (!has_streets) {
+    Pruned pruned(graph_of(input.region, {through_street(input, job), {}, true}, job), {});
+    pruned.drop_outside(input.region);
+    pruned.drop_sharp(math::cos(math::radians(22.6)));
+    majors = {pruned.finished(), {}};
+  }
+  if (streets.pattern == CityPattern::raster && !input.given &&
       (!streets.minor_pattern || *streets.minor_pattern == CityMinorPattern::raster))
-    return majors;
-  std::vector<StreetPiece> pieces = pieces_of(majors);
-  const std::vector<StreetPiece> minors = grow_cells(input, majors, job);
-  pieces.insert(pieces.end(), minors.begin(), minors.end());
-  Pruned pruned(graph_of(input.area, pieces, job));
+    return std::move(majors.graph);
+  Route whole = {pieces_of(majors.graph), std::move(majors.bridges), true};
+  const std::vector<StreetPiece> minors = grow_cells(input, majors.graph, job);
+  whole.pieces.insert(whole.pieces.end(), minors.begin(), minors.end());
+  Pruned pruned(graph_of(input.region, whole, job), whole.bridges);
   pruned.drop_short(least_street);
   pruned.drop_sharp(math::cos(math::radians(22.6)));
   pruned.keep_largest();

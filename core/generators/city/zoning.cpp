@@ -161,6 +161,20 @@ std::vector<std::uint32_t> order_of(const std::vector<CityBuildingRule>& rules, 
   return order;
 }
 
+/// Whether an obstacle is at the middle, a corner or the middle of a side of a house.
+bool is_on_obstacle(const House& house, const FieldMap& obstacles) {
+  const math::SinCos turn = math::sincos_degrees(house.turn);
+  for (const double u : {-0.5, 0.0, 0.5}) {
+    for (const double v : {-0.5, 0.0, 0.5}) {
+      const dvec2 p(u * house.width, v * house.depth);
+      const dvec2 at =
+          house.position + dvec2(p.x * turn.cos - p.y * turn.sin, p.x * turn.sin + p.y * turn.cos);
+      if (obstacles.at(at) >= 0.5) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 const std::vector<CityBuildingRule>& rules_of(const CityParams& params) {
@@ -178,7 +192,7 @@ std::array<int, 2> floors_of(std::string_view blueprint) {
   return {0, 0};
 }
 
-void place_houses(CityPlan& plan, const CityParams& params, Job& job) {
+void place_houses(CityPlan& plan, const CityParams& params, const FieldMap* obstacles, Job& job) {
   const Rng rng = job.rng().at("houses");
   const std::vector<CityBuildingRule>& rules = rules_of(params);
   const dvec2 centre(params.streets.centre[0], params.streets.centre[1]);
@@ -192,6 +206,7 @@ void place_houses(CityPlan& plan, const CityParams& params, Job& job) {
       const Rng key = rng.at(lot.key);
       for (const std::uint32_t number : order_of(rules, lot, std::sqrt(glm::dot(off, off)), key.at("rule"))) {
         lot.house = fit(lot, frame, rules[number]);
+        if (lot.house && obstacles && is_on_obstacle(*lot.house, *obstacles)) lot.house.reset();
         if (!lot.house) continue;
         lot.house->rule = number;
         Rng draw = key.at("house");

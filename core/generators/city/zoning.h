@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/base/job.h"
+#include "core/generators/city/density.h"
 #include "core/generators/city/plan.h"
 #include "core/schema/child.h"
 
@@ -17,8 +18,8 @@ namespace seedmesh::city {
 /// The rules of the request, or the built-in ones.
 const std::vector<CityBuildingRule>& rules_of(const CityParams& params);
 
-/// Gives each lot a house where one of the rules applies and fits.
-void place_houses(CityPlan& plan, const CityParams& params, Job& job);
+/// Gives each lot a house where one of the rules applies and fits. `obstacles` may be null.
+void place_houses(CityPlan& plan, const CityParams& params, const FieldMap* obstacles, Job& job);
 
 /// The request of a house. Made alone it gives the same building as in the city.
 Child request_of(const House& house, const CityParams& params);

@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <variant>
 
 #include "core/base/math.h"
 #include "core/generators/city/shape.h"
@@ -41,6 +42,32 @@ CityParams random_town(std::uint64_t seed) {
   params.streets.bend = rng.uniform(0, 60);
   params.streets.branch_probability = rng.uniform(0.2, 0.8);
   params.streets.dead_ends = rng.unit();
+  params.lots.division = static_cast<CityDivision>(rng.below(5));
+  if (params.lots.division == CityDivision::burgage) params.lots.area = {60, 500};
+  return params;
+}
+
+/// The same with a river, a lake of two polygons that overlap, or a triangle of water.
+CityParams random_town_at_water(std::uint64_t seed) {
+  CityParams params = random_town(seed);
+  Rng rng = Rng::of_seed(seed).at("water");
+  const double x = rng.uniform(-100, 100), y = rng.uniform(-100, 100), size = rng.uniform(30, 200);
+  if (rng.below(3) == 0) {
+    params.maps.water = "abs(y + " + std::to_string(y) + " - 40 * sin(x)) < " + std::to_string(size / 8);
+    return params;
+  }
+  const auto ring = [&](double east, double north) {
+    return std::vector<std::vector<double>>{
+        {east, north}, {east + size, north + 20}, {east + 15, north + size}};
+  };
+  CityPolygons water;
+  water.geometry_type = CityGeometryType::MultiPolygon;
+  for (const double shift : {0.0, rng.uniform(0, 60)}) {
+    std::vector<std::variant<double, std::vector<double>>> positions;
+    for (const auto& p : ring(x + shift, y - shift)) positions.emplace_back(p);
+    water.coordinates.push_back({positions});
+  }
+  params.maps.water = water;
   return params;
 }
 
@@ -60,22 +87,27 @@ std::map<std::pair<CmPoint, CmPoint>, int> open_edges(const CityPlan& plan) {
 }
 
 TEST(City, PartitionsItsAreaIntoPolygonsThatShareTheirCorners) {
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
-    const CityPlan plan = made(random_town(seed), seed);
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const CityPlan plan = made(seed < 30 ? random_town(seed) : random_town_at_water(seed), seed);
     double sum = 0;
     for (const Part& part : plan.parts) {
       sum += area_of(part.rings);
+      // A verge without space for kerbs passes dead ends on both sides.
+      const bool may_touch_itself = part.kind == PartKind::verge && seed >= 30;
       for (const CmRing& ring : part.rings)
-        ASSERT_TRUE(is_simple(ring)) << name_of(part.kind) << ", seed " << seed;
+        ASSERT_TRUE(may_touch_itself || is_simple(ring)) << name_of(part.kind) << ", seed " << seed;
       ASSERT_GT(area_of(part.rings), 0) << name_of(part.kind) << ", seed " << seed;
     }
-    ASSERT_NEAR(sum / area_of(plan.area), 1, 1e-9) << "seed " << seed;
+    // Rounded corners on shores leave seams of up to a centimetre.
+    ASSERT_NEAR(sum / area_of(plan.area), 1, seed < 30 ? 1e-9 : 1e-5) << "seed " << seed;
+    if (seed >= 30) continue;  // shores are checked by their area alone
     for (const auto& [edge, count] : open_edges(plan)) {
       bool is_on_border = false;
       for (const CmRing& ring : plan.area) {
         for (std::size_t i = 0; i < ring.size(); ++i) {
           const CmPoint &c = ring[i], &d = ring[(i + 1) % ring.size()];
-          is_on_border |= cross(c, d, edge.first) == 0 && cross(c, d, edge.second) == 0;
+          is_on_border |= distance_to_segment(in_cm(edge.first), in_cm(c), in_cm(d)) < 1 &&
+                          distance_to_segment(in_cm(edge.second), in_cm(c), in_cm(d)) < 1;
         }
       }
       ASSERT_TRUE(is_on_border) << edge.first.x << " " << edge.first.y << ", seed " << seed;
@@ -90,13 +122,18 @@ TEST(City, GivesEveryLotItsFrontageWidthAndCorners) {
     const CityPlan plan = made(params, seed);
     lots += plan.lots.size();
     for (const Lot& lot : plan.lots) {
-      ASSERT_GE(lot.frontage, params.lots.width);
+      if (lot.is_inner) {
+        ASSERT_EQ(params.lots.division, CityDivision::offset);
+        ASSERT_EQ(lot.frontage, 0);
+      } else {
+        ASSERT_GE(lot.frontage, params.lots.width);
+      }
       ASSERT_GE(least_box(lot.corners).short_side / 100, params.lots.width);
       ASSERT_LE(sharpest_cosine(lot.corners), math::cos(math::radians(12)));
       ASSERT_GE(lot.area, params.lots.area[0] * 0.999);
     }
   }
-  EXPECT_GT(lots, 3000U);
+  EXPECT_GT(lots, 2000U);
 }
 
 TEST(City, FillsEachBlockWithItsLots) {
@@ -181,6 +218,96 @@ TEST(CityStatistics, MeasureTheInnerAreaOfARectangleAndOfASquareWithAHole) {
   EXPECT_NEAR(inner_area({square, hole}, 60, job), 880.0 * 680.0 - taken, 20);
 }
 
+TEST(City, LeavesCourtsWithoutAccessBehindLotsOfTheOffset) {
+  CityParams params = small_town(900, 900);
+  params.streets.length = 120;
+  params.lots.division = CityDivision::offset;
+  const CityPlan plan = made(params, 4);
+  const auto inner =
+      std::count_if(plan.lots.begin(), plan.lots.end(), [](const Lot& lot) { return lot.is_inner; });
+  EXPECT_GT(inner, 3);
+  EXPECT_LT(inner, static_cast<std::ptrdiff_t>(plan.lots.size() / 3));
+}
+
+TEST(City, CutsNarrowDeepLotsOfBurgages) {
+  CityParams params = small_town(800, 800);
+  params.lots.division = CityDivision::burgage;
+  params.lots.area = {60, 600};
+  params.lots.width = 5;
+  const CityPlan plan = made(params, 2);
+  std::vector<double> fronts;
+  for (const Lot& lot : plan.lots) fronts.push_back(lot.frontage);
+  ASSERT_GT(fronts.size(), 200U);
+  std::nth_element(fronts.begin(), fronts.begin() + static_cast<std::ptrdiff_t>(fronts.size() / 2),
+                   fronts.end());
+  const double median = fronts[fronts.size() / 2];
+  EXPECT_GT(median, 5);
+  EXPECT_LT(median, 13);
+}
+
+TEST(City, CrossesARiverOnBridges) {
+  CityParams params = small_town(1200, 900);
+  params.maps.water = "abs(y) < 25";
+  const CityPlan plan = made(params, 6);
+  EXPECT_FALSE(plan.graph.bridges.empty());
+  for (const Bridge& bridge : plan.graph.bridges) {
+    EXPECT_NEAR(std::abs(bridge.line.front().y - bridge.line.back().y), 5000, 60);
+    EXPECT_GT(plan.graph.degree(bridge.from), 0U);
+    EXPECT_GT(plan.graph.degree(bridge.to), 0U);
+  }
+  double water = 0;
+  for (const Part& part : plan.parts) water += part.kind == PartKind::water ? area_of(part.rings) : 0;
+  EXPECT_NEAR(water / (1200.0 * 50), 1, 0.01);
+  params.streets.bridge_length = 40;
+  EXPECT_TRUE(made(params, 6).graph.bridges.empty());
+}
+
+/// A feature collection of lines without properties.
+CityGivenStreets lines(const std::vector<std::vector<std::array<double, 2>>>& list) {
+  CityGivenStreets streets;
+  for (const auto& line : list) {
+    CityGivenStreet street;
+    for (const auto& p : line) street.lines.coordinates.push_back({p[0], p[1]});
+    streets.features.push_back(std::move(street));
+  }
+  return streets;
+}
+
+TEST(City, KeepsGivenStreetsAndGrowsFromThem) {
+  CityParams params = small_town(700, 700);
+  params.given.given_streets = lines({{{-300, 20}, {-40, 60}, {310, -30}}, {{-42, 61}, {-60, 250}}});
+  for (const bool grows : {false, true}) {
+    params.streets.method = grows ? CityMethod::growth : CityMethod::given;
+    const CityPlan plan = made(params, 8);
+    double given = 0, all = 0;
+    for (std::uint32_t e = 0; e < plan.graph.edges.size(); ++e) {
+      if (!plan.graph.is_street(e)) continue;
+      const double length =
+          distance(plan.graph.nodes[plan.graph.edges[e].from], plan.graph.nodes[plan.graph.edges[e].to]) /
+          100;
+      all += length;
+      given += plan.graph.edges[e].tag >= first_given ? length : 0;
+    }
+    const double wanted = std::hypot(260, 40) + std::hypot(350, 90) + std::hypot(20, 190);
+    EXPECT_NEAR(given, wanted, 5);
+    EXPECT_EQ(all > given * 1.5, grows);
+  }
+}
+
+TEST(City, AvoidsObstacles) {
+  CityParams params = small_town(900, 900);
+  params.maps.obstacles = "sqrt(x * x + (y - 100) ^ 2) < 120";
+  const CityPlan plan = made(params, 3);
+  ASSERT_GT(plan.graph.edges.size(), 50U);
+  for (std::uint32_t e = 0; e < plan.graph.edges.size(); ++e) {
+    if (!plan.graph.is_street(e)) continue;
+    const glm::dvec2 middle = (in_metres(plan.graph.nodes[plan.graph.edges[e].from]) +
+                               in_metres(plan.graph.nodes[plan.graph.edges[e].to])) /
+                              2.0;
+    EXPECT_GT(std::hypot(middle.x, middle.y - 100), 118);
+  }
+}
+
 std::vector<std::string> pointers(const CityParams& params) {
   std::vector<std::string> found;
   const Job job(0, Job::Options{});
@@ -203,6 +330,15 @@ TEST(City, RefusesWhatContradictsItself) {
   params = {};
   params.maps.density = "x +* 2";
   EXPECT_EQ(pointers(params), std::vector<std::string>{"/maps/density"});
+  params = {};
+  params.streets.method = CityMethod::given;
+  EXPECT_EQ(pointers(params), std::vector<std::string>{"/given/streets"});
+  params.given.given_streets = lines({{{-200, 0}, {200, 0}}, {{0, -200}, {0, 200}}});
+  EXPECT_EQ(pointers(params), std::vector<std::string>{"/given/streets/features/1/geometry"});
+  params.given.given_streets = lines({{{-200, 0}, {0, 2}, {200, 0}}, {{0, -200}, {1, 200}}});
+  EXPECT_TRUE(pointers(params).empty());
+  params.given.given_streets->features[0].properties["class"] = std::string("alley");
+  EXPECT_EQ(pointers(params), std::vector<std::string>{"/given/streets/features/0/properties/class"});
   params = {};
   params.streets.productions = {"R(del,rule) e"};
   ASSERT_FALSE(pointers(params).empty());
@@ -232,6 +368,8 @@ TEST(City, StopsProductionsThatMultiplyWithoutEnd) {
   params.streets.productions = {"R(del, rule) -> B(1, 0, 0) B(1, 0, 0)",
                                 "B(del, rule, road) -> B(1, 0, 0) B(1, 0, 0)"};
   Job job(1, Job::Options{});
+  EXPECT_THROW(plan_of(params, job), Stop);
+  params.streets.productions = {"R(a, b) -> R(a, b) R(a, b)"};
   EXPECT_THROW(plan_of(params, job), Stop);
 }
 

@@ -156,8 +156,59 @@ class CityParametersArea(TypedDict, total=False):
     polygon: List[List[List[float]]]
 
 
+class Polygons(TypedDict):
+    type: Literal['Polygon', 'MultiPolygon']
+    coordinates: List[List[List[Union[float, List[float]]]]]
+
+
 class CityParametersMaps(TypedDict, total=False):
-    density: str
+    density: Union[str, "Polygons"]
+    water: Union[str, "Polygons"]
+    obstacles: Union[str, "Polygons"]
+
+
+class CityParametersGivenStreetsFeaturesItemGeometry(TypedDict):
+    type: Literal['LineString', 'MultiLineString']
+    coordinates: List[List[Union[float, List[float]]]]
+
+
+class _CityParametersGivenStreetsFeaturesItemRequired(TypedDict):
+    type: Literal['Feature']
+    geometry: "CityParametersGivenStreetsFeaturesItemGeometry"
+
+
+class CityParametersGivenStreetsFeaturesItem(_CityParametersGivenStreetsFeaturesItemRequired, total=False):
+    properties: Dict[str, Union[float, str, bool, List[float]]]
+
+
+class CityParametersGivenStreets(TypedDict):
+    type: Literal['FeatureCollection']
+    features: List["CityParametersGivenStreetsFeaturesItem"]
+
+
+class _CityParametersGivenWaterFeaturesItemRequired(TypedDict):
+    type: Literal['Feature']
+    geometry: "Polygons"
+
+
+class CityParametersGivenWaterFeaturesItem(_CityParametersGivenWaterFeaturesItemRequired, total=False):
+    properties: Dict[str, Union[float, str, bool, List[float]]]
+
+
+class CityParametersGivenWater(TypedDict):
+    type: Literal['FeatureCollection']
+    features: List["CityParametersGivenWaterFeaturesItem"]
+
+
+class CityParametersGiven(TypedDict, total=False):
+    streets: "CityParametersGivenStreets"
+    water: "CityParametersGivenWater"
+
+
+class CityParametersStreetsClassesHighway(TypedDict, total=False):
+    width: float
+    lanes: int
+    sidewalk: float
 
 
 class CityParametersStreetsClassesMajor(TypedDict, total=False):
@@ -172,13 +223,21 @@ class CityParametersStreetsClassesMinor(TypedDict, total=False):
     sidewalk: float
 
 
+class CityParametersStreetsClassesLane(TypedDict, total=False):
+    width: float
+    lanes: int
+    sidewalk: float
+
+
 class CityParametersStreetsClasses(TypedDict, total=False):
+    highway: "CityParametersStreetsClassesHighway"
     major: "CityParametersStreetsClassesMajor"
     minor: "CityParametersStreetsClassesMinor"
+    lane: "CityParametersStreetsClassesLane"
 
 
 class CityParametersStreets(TypedDict, total=False):
-    method: Literal['growth']
+    method: Literal['growth', 'given']
     productions: List[str]
     pattern: Literal['organic', 'raster', 'radial']
     minor_pattern: Literal['organic', 'raster', 'radial']
@@ -199,12 +258,14 @@ class CityParametersStreets(TypedDict, total=False):
     dead_ends: float
     crossings: float
     classes: "CityParametersStreetsClasses"
+    bridge_length: float
 
 
 class CityParametersLots(TypedDict, total=False):
-    method: Literal['recursive', 'none']
+    method: Literal['recursive', 'offset', 'skeleton', 'burgage', 'none']
     area: List[float]
     width: float
+    offset_width: float
     irregularity: float
     park_share: float
 
@@ -232,6 +293,7 @@ class CityParametersBuildings(TypedDict, total=False):
 class CityParameters(TypedDict, total=False):
     area: "CityParametersArea"
     maps: "CityParametersMaps"
+    given: "CityParametersGiven"
     streets: "CityParametersStreets"
     lots: "CityParametersLots"
     buildings: "CityParametersBuildings"

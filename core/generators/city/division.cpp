@@ -1,0 +1,287 @@
+#include "core/generators/city/division.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "core/base/math.h"
+#include "core/generators/city/shape.h"
+#include "generated/params/city.h"
+
+namespace seedmesh::city {
+namespace {
+
+using glm::dvec2;
+
+constexpr double greatest_aspect = 5;
+constexpr double burgage_aspect = 11;
+constexpr double near_corner = 60;  // cuts that end this near to a corner end there, cm
+constexpr double near_line = 3;     // corners this near to a cut's line lie on it, cm
+constexpr double least_angle = 16;  // of corners that cuts make, degrees
+constexpr int deepest = 40;
+
+}  // namespace
+
+std::vector<CmPoint> SharedEdge::between(const CmPoint& from, const CmPoint& to) const {
+  const dvec2 origin = in_cm(from), along = in_cm(to) - origin;
+  const double length2 = glm::dot(along, along);
+  std::vector<std::pair<double, CmPoint>> found;
+  for (const CmPoint& p : added) {
+    const double share = glm::dot(in_cm(p) - origin, along) / length2;
+    if (share > 0 && share < 1 && p != from && p != to) found.emplace_back(share, p);
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<CmPoint> points;
+  for (const auto& [share, p] : found) {
+    if (points.empty() || points.back() != p) points.push_back(p);
+  }
+  return points;
+}
+Division::Division(const BlockOutline& outline, const CityLots& lots, std::uint64_t key, Rng rng)
+    : lots_(lots), rng_(rng) {
+  whole_.ring = outline.ring;
+  whole_.key = key;
+  const std::size_t count = outline.ring.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const BlockEdge& edge = outline.edges[i];
+    whole_.edges.push_back(static_cast<std::uint32_t>(edges_.size()));
+    edges_.push_back({outline.ring[i], outline.ring[(i + 1) % count], edge.street, edge.sidewalk, {}});
+  }
+}
+
+void Division::cut(const Job& job) {
+  const CityDivision method = lots_.division;
+  std::vector<Piece> first;
+  if (method == CityDivision::offset) first = strips_of(*this, lots_.offset_width * 100, job);
+  if (method == CityDivision::skeleton || method == CityDivision::burgage)
+    first = strips_of(*this, std::numeric_limits<double>::infinity(), job);
+  if (method == CityDivision::none) {
+    pieces_.push_back(whole_);
+    return;
+  }
+  for (const Piece& piece : first) {
+    if (piece.is_inner) {
+      pieces_.push_back(piece);
+    } else {
+      cut(piece, 0);
+    }
+  }
+  const auto is_sound = [this](const Piece& piece) { return is_simple(outline(piece)); };
+  if (!first.empty() && std::all_of(pieces_.begin(), pieces_.end(), is_sound)) return;
+  // Without strips, or where rounding has folded one of them.
+  reset();
+  cut(whole_, 0);
+  if (std::all_of(pieces_.begin(), pieces_.end(), is_sound)) return;
+  reset();
+  pieces_.push_back(whole_);
+}
+
+/// Undoes all cuts.
+void Division::reset() {
+  pieces_.clear();
+  edges_.resize(whole_.ring.size());
+  for (SharedEdge& edge : edges_) edge.added.clear();
+  inner_ = no_index;
+}
+
+CmRing Division::outline(const Piece& piece) const {
+  CmRing ring;
+  for (std::size_t i = 0; i < piece.ring.size(); ++i) {
+    const CmPoint &from = piece.ring[i], &to = piece.ring[(i + 1) % piece.ring.size()];
+    ring.push_back(from);
+    const std::vector<CmPoint> added = edges_[piece.edges[i]].between(from, to);
+    ring.insert(ring.end(), added.begin(), added.end());
+  }
+  return ring;
+}
+
+double Division::frontage(const Piece& piece) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < piece.ring.size(); ++i) {
+    if (edges_[piece.edges[i]].street != no_index)
+      sum += distance(piece.ring[i], piece.ring[(i + 1) % piece.ring.size()]);
+  }
+  return sum;
+}
+
+bool Division::is_fit(const Piece& piece, double angle, double aspect) const {
+  const double width = lots_.width * 100 + 3;
+  if (static_cast<double>(doubled_area(piece.ring)) < 2e4 * lots_.area[0]) return false;
+  if (frontage(piece) < width) return false;
+  if (sharpest_cosine(piece.ring) > math::cos(math::radians(angle))) return false;
+  const LeastBox box = least_box(piece.ring);
+  return box.narrowest >= width && box.long_side <= aspect * box.short_side;
+}
+
+/// Whether a piece is to be cut.
+bool Division::is_large(const Piece& piece, Rng& draw) const {
+  const double area = static_cast<double>(doubled_area(piece.ring)) / 2e4;
+  const double most = lots_.area[1] * draw.uniform(0.75, 1);
+  if (lots_.division == CityDivision::burgage && frontage(piece) > lots_.width * 100 * draw.uniform(2.1, 2.6))
+    return true;
+  if (area > most) return true;
+  // Strips are cut until they are no longer than lots.
+  const LeastBox box = least_box(piece.ring);
+  const double aspect = lots_.division == CityDivision::burgage ? burgage_aspect : greatest_aspect;
+  return box.long_side > aspect * box.short_side;
+}
+
+void Division::cut(const Piece& piece, int depth) {
+  Rng draw = rng_.at(piece.key);
+  Piece left, right;
+  const bool is_across = lots_.division == CityDivision::skeleton || lots_.division == CityDivision::burgage;
+  if (depth < deepest && is_large(piece, draw) &&
+      ((is_across && find_cut_across_front(piece, draw, left, right)) || find_cut(piece, draw, left, right) ||
+       (!is_across && find_cut_across_front(piece, draw, left, right)))) {
+    left.key = key_at(piece.key, 0);
+    right.key = key_at(piece.key, 1);
+    cut(left, depth + 1);
+    cut(right, depth + 1);
+    return;
+  }
+  pieces_.push_back(piece);
+}
+
+/// Cuts at right angles to the street, near the middle of the frontage.
+bool Division::find_cut_across_front(const Piece& piece, Rng& draw, Piece& left, Piece& right) {
+  const double whole = frontage(piece);
+  const double shift = lots_.irregularity * 0.5 * (draw.unit() - 0.5);
+  for (const double share : {0.5 + shift, 0.5, 0.45, 0.55, 0.4, 0.6, 1 / 3.0, 2 / 3.0, 0.25, 0.75}) {
+    double left_over = whole * share;
+    for (std::size_t i = 0; i < piece.ring.size(); ++i) {
+      if (edges_[piece.edges[i]].street == no_index) continue;
+      const dvec2 a = in_cm(piece.ring[i]), b = in_cm(piece.ring[(i + 1) % piece.ring.size()]);
+      const double length = glm::length(b - a);
+      if (length < left_over) {
+        left_over -= length;
+        continue;
+      }
+      const dvec2 along = (b - a) / length;
+      if (try_cut(piece, a + along * left_over, {0 - along.y, along.x}, left, right)) return true;
+      break;
+    }
+  }
+  return false;
+}
+
+bool Division::find_cut(const Piece& piece, Rng& draw, Piece& left, Piece& right) {
+  const LeastBox box = least_box(piece.ring);
+  const dvec2 along = box.long_direction, across(-along.y, along.x);
+  const std::array<double, 8> shares = {
+      0.5 + lots_.irregularity * 0.5 * (draw.unit() - 0.5), 0.5, 0.4, 0.6, 1 / 3.0, 2 / 3.0, 0.25, 0.75};
+  for (const bool is_across : {true, false}) {
+    const dvec2 direction = is_across ? across : along;
+    const dvec2 step = is_across ? along * box.long_side : across * box.short_side;
+    for (const double share : shares) {
+      if (try_cut(piece, box.centre + step * (share - 0.5), direction, left, right)) return true;
+    }
+  }
+  return false;
+}
+
+/// Where a line meets a piece: at a corner, or within the edge behind it.
+struct Division::Meeting {
+  std::size_t corner = 0;
+  bool is_corner = false;
+  CmPoint at{};
+};
+
+/// Keeps the two meetings on both sides of a position 20 cm behind the origin of the line, if there are such.
+bool Division::keep_chord(std::vector<Meeting>& meetings, const dvec2& origin, const dvec2& direction) {
+  if (meetings.size() < 2 || meetings.size() % 2 != 0) return false;
+  constexpr double behind = 20;
+  std::vector<std::pair<double, std::size_t>> along;
+  for (std::size_t i = 0; i < meetings.size(); ++i)
+    along.emplace_back(glm::dot(in_cm(meetings[i].at) - origin, direction), i);
+  std::sort(along.begin(), along.end());
+  for (std::size_t k = 0; k < along.size(); k += 2) {
+    if (along[k].first > behind || along[k + 1].first < behind) continue;
+    const std::size_t first = std::min(along[k].second, along[k + 1].second);
+    const std::size_t last = std::max(along[k].second, along[k + 1].second);
+    meetings = {meetings[first], meetings[last]};
+    return true;
+  }
+  return false;
+}
+
+/// Cuts along a line that meets the outline twice, or along its chord at the origin.
+bool Division::try_cut(const Piece& piece, const dvec2& origin, const dvec2& direction, Piece& left,
+                       Piece& right) {
+  const std::size_t count = piece.ring.size();
+  const dvec2 normal(-direction.y, direction.x);
+  std::vector<double> off;
+  for (const CmPoint& p : piece.ring) off.push_back(glm::dot(in_cm(p) - origin, normal));
+  std::vector<Meeting> meetings;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double here = off[i], next = off[(i + 1) % count];
+    if (std::abs(here) <= near_line) {
+      const double before = off[(i + count - 1) % count];
+      if (std::abs(before) <= near_line || std::abs(next) <= near_line) return false;  // along the line
+      if ((before > 0) != (next > 0)) meetings.push_back({i, true, piece.ring[i]});
+      continue;
+    }
+    if (std::abs(next) <= near_line || (here > 0) == (next > 0)) continue;
+    const CmPoint &a = piece.ring[i], &b = piece.ring[(i + 1) % count];
+    const dvec2 at = in_cm(a) + (in_cm(b) - in_cm(a)) * (here / (here - next));
+    const CmPoint p = rounded_cm(at);
+    if (distance(p, a) < near_corner) {
+      meetings.push_back({i, true, a});
+    } else if (distance(p, b) < near_corner) {
+      meetings.push_back({(i + 1) % count, true, b});
+    } else {
+      meetings.push_back({i, false, p});
+    }
+  }
+  if (meetings.size() != 2 && !keep_chord(meetings, origin, direction)) return false;
+  left = side_of(piece, meetings[0], meetings[1]);
+  right = side_of(piece, meetings[1], meetings[0]);
+  if (left.ring.size() < 3 || right.ring.size() < 3) return false;
+  // A piece of a strip may be long while it is shorter than the strip.
+  const LeastBox box = least_box(piece.ring);
+  const double usual = lots_.division == CityDivision::burgage ? burgage_aspect : greatest_aspect;
+  const double aspect = std::max(usual, 0.8 * box.long_side / box.short_side);
+  if (!is_simple(left.ring) || !is_simple(right.ring) || !is_fit(left, least_angle, aspect) ||
+      !is_fit(right, least_angle, aspect))
+    return false;
+  const auto edge = static_cast<std::uint32_t>(edges_.size());
+  edges_.push_back({meetings[0].at, meetings[1].at, no_index, no_index, {}});
+  left.edges.back() = right.edges.back() = edge;
+  for (const Meeting& meeting : meetings) {
+    if (!meeting.is_corner) edges_[piece.edges[meeting.corner]].added.push_back(meeting.at);
+  }
+  return true;
+}
+
+/// The part of the outline from one meeting to the other, closed by an edge that is not numbered yet. Until
+/// then the closing edge counts as one without a street.
+Piece Division::side_of(const Piece& piece, const Meeting& from, const Meeting& to) {
+  const std::size_t count = piece.ring.size();
+  Piece part;
+  part.ring.push_back(from.at);
+  part.edges.push_back(piece.edges[from.corner]);
+  std::size_t i = (from.corner + 1) % count;
+  const std::size_t last = to.is_corner ? (to.corner + count - 1) % count : to.corner;
+  if (from.corner != last) {
+    for (;; i = (i + 1) % count) {
+      part.ring.push_back(piece.ring[i]);
+      part.edges.push_back(piece.edges[i]);
+      if (i == last || part.ring.size() > count + 1) break;
+    }
+  }
+  part.ring.push_back(to.at);
+  part.edges.push_back(inner_edge());
+  return part;
+}
+
+/// An edge without a street, for pieces whose cut is not decided yet.
+std::uint32_t Division::inner_edge() {
+  if (inner_ == no_index) {
+    inner_ = static_cast<std::uint32_t>(edges_.size());
+    edges_.push_back({});
+  }
+  return inner_;
+}
+
+}  // namespace seedmesh::city

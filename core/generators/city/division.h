@@ -1,0 +1,86 @@
+#pragma once
+/// The division of one block into lots. Every cut is refused that would leave a piece too small, too narrow, too
+/// pointed, or without its frontage, so that access is guaranteed by construction.
+#include <vector>
+
+#include "core/base/job.h"
+#include "core/generators/city/plan.h"
+#include "core/generators/city/ribbons.h"
+
+namespace seedmesh {
+struct CityLots;
+}
+
+namespace seedmesh::city {
+
+/// An edge of a division, shared by the pieces on both sides, with the corners that cuts add to it.
+struct SharedEdge {
+  CmPoint a, b;
+  std::uint32_t street = no_index, sidewalk = no_index;
+  std::vector<CmPoint> added;
+
+  /// The added corners strictly between two points of the edge, in the order from `from` to `to`.
+  std::vector<CmPoint> between(const CmPoint& from, const CmPoint& to) const;
+};
+
+/// A piece of a block: corner i, and the edge from it to the next.
+struct Piece {
+  CmRing ring;
+  std::vector<std::uint32_t> edges;
+  std::uint64_t key = 0;
+  bool is_inner = false;  ///< without frontage, by intention
+};
+
+constexpr double least_block_angle = 12.5;  // degrees
+
+class Division {
+ public:
+  Division(const BlockOutline& outline, const CityLots& lots, std::uint64_t key, Rng rng);
+
+  /// Whether the block can hold lots at all.
+  bool holds_lots() const { return is_fit(whole_, least_block_angle, 6.0); }
+
+  /// Cuts the block by the method of the request.
+  void cut(const Job& job);
+
+  const std::vector<Piece>& pieces() const { return pieces_; }
+  const std::vector<SharedEdge>& edges() const { return edges_; }
+  const Piece& whole() const { return whole_; }
+
+  /// The outline of a piece with the corners of all neighbours.
+  CmRing outline(const Piece& piece) const;
+
+  /// Metres along streets times 100.
+  double frontage(const Piece& piece) const;
+  /// Whether a piece has its least area, frontage, side and angle in degrees, and at most this aspect.
+  bool is_fit(const Piece& piece, double angle, double aspect) const;
+
+ private:
+  friend class Strips;
+  struct Meeting;
+  void cut(const Piece& piece, int depth);
+  void reset();
+  bool is_large(const Piece& piece, Rng& draw) const;
+  bool find_cut(const Piece& piece, Rng& draw, Piece& left, Piece& right);
+  bool find_cut_across_front(const Piece& piece, Rng& draw, Piece& left, Piece& right);
+  bool try_cut(const Piece& piece, const glm::dvec2& origin, const glm::dvec2& direction, Piece& left,
+               Piece& right);
+  static bool keep_chord(std::vector<Meeting>& meetings, const glm::dvec2& origin,
+                         const glm::dvec2& direction);
+  Piece side_of(const Piece& piece, const Meeting& from, const Meeting& to);
+  std::uint32_t inner_edge();
+
+  const CityLots& lots_;
+  Rng rng_;
+  Piece whole_;
+  std::vector<SharedEdge> edges_;
+  std::vector<Piece> pieces_;
+  std::uint32_t inner_ = no_index;
+};
+
+/// The pieces along the streets of a block by its straight skeleton (Vanegas et al. 2012), and, where `depth` (cm) is
+/// finite, the courts that are farther from all streets. Pieces that hold no lot are joined with a neighbour. Adds
+/// the edges between pieces to the division. Empty where the skeleton does not give sound pieces.
+std::vector<Piece> strips_of(Division& division, double depth, const Job& job);
+
+}  // namespace seedmesh::city

@@ -1,0 +1,36 @@
+#pragma once
+/// Streets and water that the request gives.
+#include <string>
+#include <vector>
+
+#include "core/base/job.h"
+#include "core/base/result.h"
+#include "core/generators/city/plan.h"
+
+namespace seedmesh {
+struct CityParams;
+}
+
+namespace seedmesh::city {
+
+/// The cross sections of the classes, by EdgeClass.
+std::vector<CrossSection> classes_of(const CityParams& params);
+
+/// A given line whose corners are the nodes where others meet it.
+struct GivenLine {
+  std::string pointer;  ///< of its feature
+  CmRing points;
+  std::uint32_t section = 0;  ///< into the list of cross sections, from first_given on
+  int level = 0;
+};
+
+/// The lines of the given streets, joined where an end or corner of one lies within 3 m of another. Adds their cross
+/// sections to `sections`. Issues: properties out of range, geometries that cannot be read, lines below 3 m, and
+/// crossings without an end or corner.
+std::vector<GivenLine> given_lines(const CityParams& params, std::vector<CrossSection>& sections,
+                                   std::vector<Issue>& issues);
+
+/// The given water.
+std::vector<Rings> given_water(const CityParams& params, std::vector<Issue>& issues);
+
+}  // namespace seedmesh::city

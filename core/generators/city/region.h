@@ -1,0 +1,38 @@
+#pragma once
+/// The area of a city, divided into land and water.
+#include <cstdint>
+#include <vector>
+
+#include "core/base/job.h"
+#include "core/generators/city/density.h"
+#include "core/generators/city/geometry.h"
+
+namespace seedmesh::city {
+
+/// An edge between land and water, or at the border of the area.
+struct OutlineEdge {
+  CmPoint a, b;
+  bool is_shore = false;
+};
+
+struct Region {
+  std::vector<CmRing> rings;                        ///< of the land, which is to the left of each edge
+  std::vector<std::vector<std::uint8_t>> is_shore;  ///< by ring and edge
+  std::vector<OutlineEdge> outline;                 ///< of land and water
+};
+
+/// The region of an area without water.
+Region region_of(const std::vector<CmRing>& area);
+
+/// Cuts polygons of water out of an area: the outer ring counter-clockwise, then holes clockwise. Water and islands
+/// below 100 square metres are left out.
+Region region_of(const std::vector<CmRing>& area, const std::vector<Rings>& water, Job& job);
+
+/// Whether a position in centimetres is on land.
+bool is_on_land(const Region& region, const glm::dvec2& cm);
+
+/// The polygon where a map is at least 0.5, within the box [low, high] in metres: marching squares on a lattice of
+/// at most 300 squares a side, corners moved along the lattice to the border, and simplified to a metre.
+Rings contour_of(const FieldMap& map, const glm::dvec2& low, const glm::dvec2& high, Job& job);
+
+}  // namespace seedmesh::city

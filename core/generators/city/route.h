@@ -1,0 +1,37 @@
+#pragma once
+/// Lines of streets, cut at the border of the area and carried over water.
+#include <optional>
+
+#include "core/generators/city/plan.h"
+#include "core/generators/city/region.h"
+
+namespace seedmesh::city {
+
+/// Where a segment leaves or enters the land.
+struct OutlineHit {
+  double share = 0;  ///< of the segment
+  double sine = 0;   ///< of the angle between both; 0 near a corner of the outline
+  bool is_shore = false;
+};
+
+/// All positions where the segment from a to b crosses the outline of the land, in its order, without its start.
+std::vector<OutlineHit> hits_of(const Region& region, const glm::dvec2& a, const glm::dvec2& b);
+
+/// The part of a line that can be built.
+struct Route {
+  std::vector<StreetPiece> pieces;
+  std::vector<BridgeLine> bridges;
+  bool reaches_end = false;
+};
+
+/// Follows a line from its start, which is on land. It ends at the border of the area, and crosses water on bridges of
+/// at most `bridge_length` centimetres. Empty where it would meet the border or a shore at an acute angle, have a
+/// piece below 15 m there, or end at a shore.
+Route route_of(const Region& region, const std::vector<CmPoint>& line, std::uint32_t kind,
+               double bridge_length);
+
+/// The same for a given line, which may begin anywhere and have any angles and bridges: the parts outside of the area
+/// are left out, and the parts over water become bridges where both ends are on land.
+Route given_route(const Region& region, const std::vector<CmPoint>& line, std::uint32_t kind);
+
+}  // namespace seedmesh::city

@@ -1,0 +1,130 @@
+// The street of an area in which no pattern finds one, and the places where growth can start.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <optional>
+
+#include "core/base/math.h"
+#include "core/generators/city/growth.h"
+#include "generated/params/city.h"
+
+namespace seedmesh::city {
+namespace {
+
+using glm::dvec2;
+
+constexpr double piece_length = 3000;       // of a bent street, cm
+constexpr double least_border_sine = 0.72;  // of the angle between a street and the border
+constexpr double least_density = 0.1;
+
+/// The ends on the border of the line through a point; nothing if it is shorter than the least length or meets the
+/// border at an angle with a lower sine.
+std::optional<std::array<CmPoint, 2>> line_through(const Region& region, const dvec2& p,
+                                                   const dvec2& direction, double least_sine) {
+  constexpr double far = 1e7;
+  constexpr double shortest = 3000;
+  std::array<CmPoint, 2> ends;
+  for (const int side : {0, 1}) {
+    const dvec2 along = direction * (side == 0 ? far : 0 - far);
+    const std::vector<OutlineHit> hits = hits_of(region, p, p + along);
+    if (hits.empty() || hits[0].sine < least_sine) return std::nullopt;
+    ends[static_cast<std::size_t>(side)] = rounded_cm(p + along * hits[0].share);
+  }
+  if (distance(ends[0], ends[1]) < shortest) return std::nullopt;
+  return ends;
+}
+
+}  // namespace
+
+std::vector<dvec2> lattice_of(const Region& region) {
+  if (region.rings.empty()) return {};
+  dvec2 low = in_cm(region.rings[0][0]), high = low;
+  for (const CmRing& ring : region.rings) {
+    for (const CmPoint& p : ring) {
+      low = glm::min(low, in_cm(p));
+      high = glm::max(high, in_cm(p));
+    }
+  }
+  constexpr int points = 15;
+  std::vector<dvec2> inside;
+  for (int i = 0; i < points; ++i) {
+    for (int k = 0; k < points; ++k) {
+      const dvec2 p = low + (high - low) * dvec2((i + 0.5) / points, (k + 0.5) / points);
+      if (is_on_land(region, p)) inside.push_back(p);
+    }
+  }
+  return inside;
+}
+
+namespace {
+
+std::vector<StreetPiece> longest_line(const GrowthInput& input) {
+  std::vector<std::pair<double, dvec2>> from;
+  for (const dvec2& p : lattice_of(input.region)) {
+    const double density = input.density.at(p / 100.0);
+    if (density >= least_density) from.emplace_back(0 - density, p);
+  }
+  std::stable_sort(from.begin(), from.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const double least_sine : {least_border_sine, 0.4}) {
+    for (const auto& [density, p] : from) {
+      std::optional<std::array<CmPoint, 2>> best;
+      constexpr int directions = 12;
+      for (int k = 0; k < directions; ++k) {
+        const math::SinCos turn = math::sincos_degrees(input.streets.angle + 180.0 * k / directions);
+        const auto ends = line_through(input.region, p, {turn.cos, turn.sin}, least_sine);
+        if (ends && (!best || distance((*ends)[0], (*ends)[1]) > distance((*best)[0], (*best)[1])))
+          best = ends;
+      }
+      if (!best) continue;
+      const dvec2 start = in_cm((*best)[0]), along = in_cm((*best)[1]) - start;
+      const int count = std::max(1, math::to_int32(distance((*best)[0], (*best)[1]) / piece_length));
+      std::vector<StreetPiece> pieces;
+      CmPoint last = (*best)[0];
+      for (int n = 1; n <= count; ++n) {
+        const CmPoint next = rounded_cm(start + along * (static_cast<double>(n) / count));
+        pieces.push_back({last, next, static_cast<std::uint32_t>(EdgeClass::major)});
+        last = next;
+      }
+      return pieces;
+    }
+  }
+  return {};
+}
+
+/// One road, which the productions may build.
+class OneRoad final : public RoadRules {
+ public:
+  explicit OneRoad(const GrowthInput& input) : input_(input) {}
+  GlobalGoals global_goals(double, double, Rng) override { return {}; }
+  RoadState local_constraints(double road) override {
+    if (road == 0 && pieces.empty()) pieces = longest_line(input_);
+    return RoadState::failed;  // it ends at the border
+  }
+  std::array<double, 2> measure(double) const override { return {0, 0}; }
+
+  std::vector<StreetPiece> pieces;
+
+ private:
+  const GrowthInput& input_;
+};
+
+}  // namespace
+
+std::vector<StreetPiece> through_street(const GrowthInput& input, const Job& job) {
+  OneRoad road(input);
+  input.grammar.grow({{0, 0, 0, 1}}, road, 1000, job);
+  return std::move(road.pieces);
+}
+
+bool GrowthInput::is_blocked(const dvec2& a, const dvec2& b) const {
+  if (!obstacles) return false;
+  const dvec2 along = b - a;
+  const std::int32_t count = math::to_int32(std::sqrt(along.x * along.x + along.y * along.y) / 400) + 1;
+  for (std::int32_t n = 0; n <= count; ++n) {
+    if (is_blocked((a + along * (static_cast<double>(n) / count)) / 100.0)) return true;
+  }
+  return false;
+}
+
+}  // namespace seedmesh::city
