@@ -7,7 +7,7 @@
 //   printed or implied    the number or word that the thesis prints, or that follows from what it prints
 //   within                the largest deviation of a number, 1e-9 if absent
 //   note                  why both differ, a slip of the thesis, or the reading chosen
-//   missing, no_model     instead of a request: what is missing, or why there is nothing to make
+//   missing, no_model     instead of take: what is missing, or why there is nothing to make; a request beside missing is one that is still refused
 import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
@@ -77,6 +77,12 @@ const sources = {
   derive: async (request, steps) => at(JSON.parse(await answer('derive', request)), steps),
   glb: async (request, steps) => glb[steps](primitives_of(await answer('generate', request))),
   preset: async (request, steps, row) => at(JSON.parse(read(presets.get(row.preset))), steps),
+  saved: async (request, steps) => {
+    const { status, out, err } = await run(program, ['import', '-', '--to', 'proctree'], { input: JSON.stringify(request) });
+    if (status !== 0) throw new Error(err);
+    const file = JSON.parse(out);
+    return steps === 'length' ? Object.keys(file).length : at(file, steps);
+  },
   schema: async (request, steps) => at(JSON.parse(read(`api_schema/${steps.split('.')[0]}.schema.json`)), steps.slice(steps.indexOf('.') + 1)),
   accepted: async (requests) => {
     const all = await Promise.all(requests.map((request) => run(program, ['validate', '-'], { input: JSON.stringify(request) })));
@@ -93,6 +99,15 @@ const rounded = (value) => {
 export async function measure(row) {
   const [source, ...rest] = row.take.split(':');
   return rounded(await sources[source](row.request ?? { preset: row.preset }, rest.join(':'), row));
+}
+
+/** Whether the program refuses the request of a row that is missing. */
+export async function is_refused({ request }) {
+  for (const command of ['validate', 'derive']) {
+    const { status, out } = await run(program, [command, '-'], { input: JSON.stringify(request) });
+    if (status !== 0 || (command === 'validate' && !JSON.parse(out).valid)) return true;
+  }
+  return false;
 }
 
 export const expected_of = (row) => row.printed ?? row.implied;
