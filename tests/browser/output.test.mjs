@@ -12,6 +12,7 @@ after(async () => { await browser?.close(); await server?.stop(); });
 const open_output = async (page) => {
   await open_parameters(page);
   await page.locator('#parameters details[data-pointer="/output"] > summary').click();
+  await page.locator('[data-pointer="/output"] .field').first().waitFor();
 };
 const output_of = (page) => page.waitForTimeout(400).then(() => request_of(new URL(page.url()).hash).output);
 
