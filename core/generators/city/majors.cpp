@@ -17,8 +17,7 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double piece_length = 3000;       // of a bent street, cm
-constexpr double least_border_sine = 0.72;  // of the angle between a street and the border
+constexpr double piece_length = 3000;  // of a bent street, cm
 constexpr double least_density = 0.1;
 
 /// A crossing of the net: column and row, or ring and ray.
