@@ -273,14 +273,16 @@ test('the client source contains no parameter name', () => {
   // parameters.
   const common = new Set(['width', 'style', 'step', 'value', 'name', 'color', 'text', 'span', 'role', 'map', 'form', 'start', 'center', 'position', 'direction',
     'grid', 'cell', 'reach', 'low', 'high', 'glb',
-    // A DOM event, coordinates, a widget of the schema, a list of the vocabulary.
-    'drop', 'x', 'z', 'image', 'functions',
+    // A DOM event, coordinates, widgets of the schema, a list of the vocabulary.
+    'drop', 'x', 'z', 'image', 'attributes', 'functions',
     // An input type, a three.js term, a member of the derive response, a class name.
     'range', 'material', 'shapes', 'pair',
     // Class names and elements of the page.
     'soft', 'shown', 'at', 'near', 'place', 'picture', 'fold',
     // A value that a shader reads, an element and an event of the page.
-    'centre', 'detail', 'y']);
+    'centre', 'detail', 'y',
+    // Annotations of CityEngine.
+    'order', 'angle', 'length', 'distance']);
   assert.ok(names.has('productions'));
   for (const name of names) {
     assert.doesNotMatch(source, new RegExp(`parameters(\\.|\\[['"])${name}\\b`), name);

@@ -71,6 +71,7 @@ class Net {
     if (!is_radial()) return {{i + 1, k}, {i, k + 1}, {i - 1, k}, {i, k - 1}};
     if (i == 0) {
       std::vector<Site> all;
+      all.reserve(static_cast<std::size_t>(rays_of(1)));
       for (std::int32_t ray = 0; ray < rays_of(1); ++ray) all.push_back({1, ray});
       return all;
     }
@@ -308,9 +309,10 @@ Route grow_majors(const GrowthInput& input, Job& job) {
   const Net net(input.streets, job.rng().at("majors"));
   NetRules rules(input, net);
   const std::uint64_t most_steps = job.limits().shapes;
-  if (!input.grammar.grow(rules.starts(), rules, most_steps, job))
+  if (!input.grammar.grow(rules.starts(), rules, most_steps, job)) {
     job.refuse(limit_issue({Resource::steps, most_steps, most_steps + 1}, "the streets do not stop growing",
                            "/streets/productions"));
+  }
   return std::move(rules.route);
 }
 

@@ -98,7 +98,7 @@ function rules_text(rules: unknown): string {
 
 /** The attributes as fields; undefined where the rules declare none. */
 function declared_fields(spec: FieldSpec): HTMLElement | undefined {
-  const declared = rule_attributes(rules_text(spec.beside?.('rules')));
+  const declared = rule_attributes(rules_text(spec.grammar?.()));
   if (declared.length === 0) return undefined;
   return redrawable((redraw) => {
     const box = el('div', { class: 'nest' });
@@ -124,10 +124,10 @@ function declared_fields(spec: FieldSpec): HTMLElement | undefined {
 /** The fields follow the rules: they are drawn again when the pointer or the focus comes to them after a change. */
 export const attributes_field: Draw = (spec) => {
   const draw = (): HTMLElement => declared_fields(spec) ?? map_field(spec);
-  let rules = rules_text(spec.beside?.('rules'));
+  let rules = rules_text(spec.grammar?.());
   const whole = el('div', {}, draw());
   const follow = (): void => {
-    const now = rules_text(spec.beside?.('rules'));
+    const now = rules_text(spec.grammar?.());
     if (now === rules) return;
     rules = now;
     whole.replaceChildren(draw());

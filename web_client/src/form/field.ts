@@ -17,6 +17,8 @@ export interface FieldSpec {
   required?: boolean;
   /** The value of a sibling member, or its default from the schema. */
   beside?(name: string): unknown;
+  /** The value of the sibling member that is a grammar. */
+  grammar?(): unknown;
   /** Called with the new value; undefined removes the member from the request. */
   change(value: unknown): void;
   /** Called if a reset has to redraw more than the field itself. */

@@ -24,6 +24,7 @@ export function member_fields(spec: FieldSpec): { name: string; schema: Schema; 
       board: spec.board,
       required: spec.schema.required?.includes(name) ?? false,
       beside: (other) => members[other] ?? spec.schema.properties?.[other]?.default,
+      grammar: () => members[Object.keys(spec.schema.properties ?? {}).find((other) => spec.schema.properties?.[other]?.['x-grammar']) ?? ''],
       change(value) {
         if (value === undefined) delete members[name];
         else members[name] = value;

@@ -2,8 +2,11 @@
 import { Box3, Matrix4, Raycaster, Vector3, type InstancedMesh, type Intersection, type Mesh, type Object3D } from 'three';
 
 const down = new Vector3(0, -1, 0);
-/** Mesh names that the service gives to terrain and to level surfaces on it. */
-const land_name = /^(ground|water)(_|$)/;
+/** Names that the service gives to nodes, meshes and materials of terrain and of level surfaces on it. */
+const land_name = /^(ground|water)(_|$)|_(ground|water)(_\d+)*_[0-9a-f]{8}(_\d+)?$/;
+
+const is_land = (mesh: Mesh): boolean =>
+  [mesh.name, mesh.parent?.name ?? '', ...[mesh.material].flat().map((material) => material.name)].some((name) => land_name.test(name));
 
 /**
  * True if the model extends below points near all four sides of its bounding box, as ground does. A single tree does
@@ -26,7 +29,7 @@ export class Land {
     this.model = model;
     // A mesh with several materials is loaded as a group with that name.
     model.traverse((part) => {
-      if ((part as Mesh).isMesh && (land_name.test(part.name) || land_name.test(part.parent?.name ?? ''))) this.meshes.push(part);
+      if ((part as Mesh).isMesh && is_land(part as Mesh)) this.meshes.push(part);
     });
     for (const mesh of this.meshes) this.box.expandByObject(mesh);
   }
