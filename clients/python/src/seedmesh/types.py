@@ -4,7 +4,7 @@ from typing import Any, Dict, List, Literal, TypedDict, Union
 
 class Output(TypedDict, total=False):
     format: Literal['glb', 'gltf', 'zip', 'png16', 'png8', 'rgb24', 'rgba32', 'r16', 'ply', 'placements', 'geojson']
-    profile: Literal['core', 'web', 'unity', 'unreal', 'godot', 'blender']
+    profile: Literal['core', 'web', 'tiles', 'unity', 'unreal', 'godot', 'blender']
     name: str
     provenance: Literal['full', 'none']
     animation: Literal['none', 'growth']
