@@ -164,6 +164,13 @@ export interface BuildingParametersDerivation {
   mode?: "parallel" | "sequential";
 }
 
+/** Light that the surface sends out. It is added to the light that it reflects, and does not light other surfaces. */
+export interface Emission {
+  color: string;
+  /** The factor of the colour. Light beyond 1 is written as KHR_materials_emissive_strength, which some readers ignore. */
+  strength?: number;
+}
+
 /** Your own textures, each a PNG or JPEG file as a data URI. They replace a generated texture. */
 export interface Images {
   /** The colour, and with an alpha channel the shape that is cut out. */
@@ -185,6 +192,7 @@ export interface BuildingParametersMaterialsValue {
   metallic?: number;
   /** Values below 1 are transparent. */
   opacity?: number;
+  emission?: Emission;
   /** The width and height of one tile of the images on the wall. */
   tile?: [number, number];
   images?: Images;
@@ -227,8 +235,8 @@ export interface BuildingParameters {
   repeat?: "nearest" | "ceil";
   /** normalize: probabilities that do not sum to 1 count as shares of their sum, with a warning. strict: they are an error. */
   weights?: "normalize" | "strict";
-  /** A restricted kind of shape grammar. non_erasing: no rule removes a shape (NIL). unimarker: in addition, each successor has at most one symbol with a rule, the marker. */
-  restrict?: "none" | "non_erasing" | "unimarker";
+  /** A restricted kind of shape grammar. non_erasing: no rule removes a shape (NIL). unimarker: in addition, each successor has at most one symbol with a rule, the marker. split: every shape of a successor stays within the scope of its predecessor. */
+  restrict?: "none" | "non_erasing" | "unimarker" | "split";
   /** The materials that rules name. They replace built-in materials of the same name. */
   materials?: { [key: string]: BuildingParametersMaterialsValue };
   /** Whether materials get textures made by seed, by their names (brick, plaster, wall, facade, building, stone, concrete, wood, roof, roof_tile, slate, cladding, chimney). auto: in blueprints; made: in your own rules too; none: only materials with images have textures. Built-in parts, such as windows, have none. */
@@ -717,6 +725,7 @@ export interface LsystemParametersMaterialsItem {
   metallic?: number;
   /** Values below 1 are transparent, as for the leaves of Kogovšek's trees. */
   opacity?: number;
+  emission?: Emission;
   texture?: Texture;
   /** Another seed gives another texture of the same kind. Models with the same texture, seed and colour share it. */
   texture_seed?: number;
@@ -807,6 +816,10 @@ export interface LsystemParameters {
   sides?: number;
   /** The number of rings of faces of a segment along its axis if its width changes; a segment with constant width has one. */
   stacks?: number;
+  /** How the diameter changes between segments. linear: along each segment, from the diameter of the one before it to its own. none: each segment is a cylinder of its own diameter, as gluCylinder draws it with two equal radii. A new tube begins where the diameter changes. */
+  taper?: "linear" | "none";
+  /** What the tubes of coarser levels of detail have less of (`output.lods`). outline: fewer limbs and joints, those that change the outline least. slices: all limbs, with the sides and stacks of level 0 divided by the root of the level plus 1: 32 sides become 22, 18, 16 and 14. */
+  levels?: "outline" | "slices";
   /** Whether thinner limbs have fewer sides and shorter segments fewer stacks. Coarser levels of detail always do. */
   adapt?: boolean;
   /** Joins the limbs of brackets to one surface, as for trees: limbs of similar thickness in a fork, thin limbs in a collar. Limbs without space, and limbs with a contour, stay closed tubes that begin inside their parent. Thin welded limbs have fewer sides, and rings where they bend, whatever stacks and adapt say. */
@@ -1239,7 +1252,7 @@ export interface TerrainParameters {
   resolution?: number;
   /** Length of the terrain from west to east, or the diameter of a sphere. */
   size?: number;
-  /** A plane, or a planetoid (poisson_faulting and fbm). */
+  /** A plane, or a planetoid (fault_formation, poisson_faulting and fbm). */
   shape?: "plane" | "sphere";
   /** Greatest random deviation of the first round of a subdivision, or the weight of the first octave of noise. Default: a tenth of the size, on a sphere a twentieth of the diameter. */
   amplitude?: number;
@@ -2343,6 +2356,12 @@ export interface FractalDerivation {
   volume: number | null;
   genus: number | null;
   non_manifold_edges: number | null;
+  /** Of all copies of a segment, or of the outline of a plate. */
+  length: number | null;
+  /** Of one side of a plate. */
+  area: number | null;
+  /** The same values for each of the stages, with its iterations or points. */
+  stages: { [key: string]: unknown }[];
   bounds: Box | null;
   warnings: WarningsItem[];
 }

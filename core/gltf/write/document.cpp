@@ -86,7 +86,7 @@ class Describer {
   }
 
   void add_materials() {
-    bool any_unlit = false;
+    bool any_unlit = false, any_strength = false;
     const TextureNumber texture_number = [this](const TextureUse& use) {
       return textures_.number(use, images_);
     };
@@ -94,7 +94,9 @@ class Describer {
       const Material& material = model_.materials[used];
       append_material(material_list_, material, texture_number);
       any_unlit = any_unlit || material.unlit;
+      any_strength = any_strength || emissive_strength(material) != 1;
     }
+    if (any_strength) extensions_used_.emplace_back("KHR_materials_emissive_strength");
     if (any_unlit) extensions_used_.emplace_back("KHR_materials_unlit");
     if (materials_.any_variants) extensions_used_.emplace_back("KHR_materials_variants");
   }

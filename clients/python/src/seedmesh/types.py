@@ -109,6 +109,14 @@ class BuildingParametersDerivation(TypedDict, total=False):
     mode: Literal['parallel', 'sequential']
 
 
+class _EmissionRequired(TypedDict):
+    color: str
+
+
+class Emission(_EmissionRequired, total=False):
+    strength: float
+
+
 class Images(TypedDict, total=False):
     color: str
     normal: str
@@ -121,6 +129,7 @@ class BuildingParametersMaterialsValue(TypedDict, total=False):
     roughness: float
     metallic: float
     opacity: float
+    emission: "Emission"
     tile: List[float]
     images: "Images"
     texture: Literal['auto', 'none', 'brick', 'plaster', 'roof_tile', 'slate', 'planks', 'ashlar', 'concrete', 'sheet']
@@ -145,7 +154,7 @@ class BuildingParameters(TypedDict, total=False):
     derivation: "BuildingParametersDerivation"
     repeat: Literal['nearest', 'ceil']
     weights: Literal['normalize', 'strict']
-    restrict: Literal['none', 'non_erasing', 'unimarker']
+    restrict: Literal['none', 'non_erasing', 'unimarker', 'split']
     materials: Dict[str, "BuildingParametersMaterialsValue"]
     textures: Literal['auto', 'made', 'none']
     assets: Dict[str, "BuildingParametersAssetsValue"]
@@ -452,6 +461,7 @@ class LsystemParametersMaterialsItem(TypedDict, total=False):
     roughness: float
     metallic: float
     opacity: float
+    emission: "Emission"
     texture: "Texture"
     texture_seed: int
     images: "Images"
@@ -502,6 +512,8 @@ class LsystemParameters(_LsystemParametersRequired, total=False):
     style: Literal['tubes', 'lines']
     sides: int
     stacks: int
+    taper: Literal['linear', 'none']
+    levels: Literal['outline', 'slices']
     adapt: bool
     weld: bool
     materials: List["LsystemParametersMaterialsItem"]
@@ -1462,6 +1474,9 @@ class FractalDerivation(TypedDict):
     volume: Union[float, None]
     genus: Union[float, None]
     non_manifold_edges: Union[float, None]
+    length: Union[float, None]
+    area: Union[float, None]
+    stages: List[Dict[str, Any]]
     bounds: Union["Box", None]
     warnings: List["WarningsItem"]
 
