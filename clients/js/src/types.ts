@@ -2290,6 +2290,15 @@ export interface TreeDerivation {
 
 export type CityDerivation = { [key: string]: unknown };
 
+/** Levels, extent and origin of the world, and the height of its sea. */
+export interface WorldDerivation {
+  levels: number;
+  extent: number;
+  origin: number[];
+  sea_level: number | null;
+  warnings: WarningsItem[];
+}
+
 /** Rows from the south, columns from the west, both borders included. */
 export interface WorldMapHeights {
   columns?: number;

@@ -1411,6 +1411,14 @@ class TreeDerivation(TypedDict):
 
 CityDerivation = Dict[str, Any]
 
+class WorldDerivation(TypedDict):
+    levels: int
+    extent: float
+    origin: List[int]
+    sea_level: Union[float, None]
+    warnings: List["WarningsItem"]
+
+
 class WorldMapHeights(TypedDict, total=False):
     columns: int
     rows: int
