@@ -32,6 +32,8 @@ struct Reach {
 
 class Ground {
  public:
+  /// Without rivers and lakes.
+  explicit Ground(const World& world) : world_(&world) {}
   Ground(const World& world, const Rectangle& rectangle, Job& job, double reach = valley_reach);
   GroundSample at(double east, double north) const;
   double height(double east, double north) const { return at(east, north).height; }

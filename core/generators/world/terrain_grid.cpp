@@ -34,8 +34,4 @@ TerrainGrid sample_grid(const World& world, const TileFrame& frame, int cells, i
   return grid;
 }
 
-double skirt_depth(const World& world, const TileFrame& frame) {
-  return 6 * frame.side * (greatest_error(world) / world.extent) / 2 + 0.5;
-}
-
 }  // namespace seedmesh::world

@@ -20,7 +20,4 @@ struct TerrainGrid {
 };
 TerrainGrid sample_grid(const World& world, const TileFrame& frame, int cells, int halo, Job& job);
 
-/// The height of the skirt of a tile: deep enough for neighbours three levels apart.
-double skirt_depth(const World& world, const TileFrame& frame);
-
 }  // namespace seedmesh::world
