@@ -5,6 +5,7 @@
 
 #include "core/generators/world/ground.h"
 #include "core/generators/world/plants.h"
+#include "core/generators/world/roads.h"
 #include "core/generators/world/world.h"
 
 namespace seedmesh::world {
@@ -13,7 +14,7 @@ namespace {
 constexpr int height_cells = 64;
 
 Json heights_of(const World& world, const Rectangle& box, Job& job) {
-  const Ground ground(world, box, job);
+  const Ground ground = Ground::with_works(world, box, job);
   Json values = Json::array();
   for (int row = 0; row <= height_cells; ++row) {
     job.check();
@@ -55,7 +56,7 @@ class MapWriter {
         for (double west = box_.west; west < box_.east; west += block) {
           const Rectangle part{west, south, std::min(west + block, box_.east),
                                std::min(south + block, box_.north)};
-          const Ground ground(world_, part, job_);
+          const Ground ground = Ground::with_works(world_, part, job_);
           for (const Plant& p : plants_in(world_, static_cast<int>(k), part, ground, job_)) {
             places.push_back(position(p.east, p.north, p.height));
           }
@@ -66,6 +67,22 @@ class MapWriter {
                                {"spacing", plant.spacing},
                                {"count", count},
                                {"places", std::move(places)}});
+    }
+  }
+
+  void add_settlements(Json& map) const {
+    for (const auto& site : sites_near(world_, box_, 0, job_)) {
+      map["settlements"].push_back({{"id", name_of(*site)},
+                                    {"position", position(site->east, site->north, site->height)},
+                                    {"radius", site->radius}});
+    }
+  }
+
+  void add_roads(Json& map) const {
+    for (const auto& road : roads_near(world_, box_, world_.params.roads.width / 2, job_)) {
+      Json points = Json::array();
+      for (const RoadPoint& p : road->points) points.push_back(position(p.east, p.north, p.height));
+      map["roads"].push_back({{"id", road->id}, {"width", road->width}, {"points", std::move(points)}});
     }
   }
 
@@ -126,6 +143,8 @@ Json map_json(const World& world, const MapBox& box, MapHeights heights, Job& jo
   for (const char* list : {"settlements", "rivers", "lakes", "roads", "plants"}) map[list] = Json::array();
   const MapWriter writer(world, absolute, job);
   writer.add_water(map);
+  writer.add_settlements(map);
+  writer.add_roads(map);
   if (world.has(Layer::plants)) writer.add_plants(map);
   return map;
 }

@@ -9,7 +9,7 @@ namespace seedmesh::world {
 namespace {
 
 constexpr int candidates_a_cell = 2;
-constexpr double dry_margin = 2;  ///< metres between a plant and water
+constexpr double dry_margin = 2;  ///< metres between a plant and water, a road or a house
 
 struct Candidate {
   double east = 0, north = 0;
@@ -120,7 +120,7 @@ double slope_of(const Slope& s) { return std::sqrt(s.east * s.east + s.north * s
 
 bool suits(const World& world, const WorldClass& plant, const GroundSample& sample, const Climate& climate,
            double steepest) {
-  if (sample.shore < dry_margin) return false;
+  if (sample.shore < dry_margin || sample.road < dry_margin || sample.house < dry_margin) return false;
   if (world.params.relief.sea && sample.height < world.params.relief.sea_level + 0.8) return false;
   return climate.moisture >= plant.moisture[0] && climate.moisture <= plant.moisture[1] &&
          climate.temperature >= plant.temperature[0] && climate.temperature <= plant.temperature[1] &&

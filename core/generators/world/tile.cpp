@@ -1,7 +1,10 @@
 #include <algorithm>
 
 #include "core/generators/world/error_model.h"
+#include "core/generators/world/flat_mesh.h"
 #include "core/generators/world/glb.h"
+#include "core/generators/world/houses.h"
+#include "core/generators/world/palette.h"
 #include "core/generators/world/plant_mesh.h"
 #include "core/generators/world/plants.h"
 #include "core/generators/world/terrain_grid.h"
@@ -18,6 +21,8 @@ constexpr int array_buffer = 34962, element_buffer = 34963;
 
 /// Ribbons narrower than a pixel of a coarse tile are not drawn, so such tiles need no rivers.
 constexpr double widest_river_spacing = 512;  ///< metres between samples
+
+constexpr double widest_road_spacing = 16, widest_house_spacing = 16;
 
 /// The share of plants that a tile shows: all in leaves, fewer in the two levels above.
 double shown_share(const World& world, int level) {
@@ -96,7 +101,7 @@ void add_plants(Glb& glb, const World& world, const TileKey& key, const TileFram
   const double share = shown_share(world, key.level);
   if (share <= 0) return;
   const Rectangle box{frame.west, frame.south, frame.west + frame.side, frame.south + frame.side};
-  const Ground ground(world, box, job);
+  const Ground ground = Ground::with_works(world, box, job);
   for (std::size_t k = 0; k < world.params.plants.size(); ++k) {
     const Copies copies = copies_of(plants_in(world, static_cast<int>(k), box, ground, job), frame, share);
     const std::size_t count = copies.translations.size() / 3;
@@ -121,15 +126,41 @@ void add_plants(Glb& glb, const World& world, const TileKey& key, const TileFram
   }
 }
 
+void add_mesh(Glb& glb, std::string_view name, const TileMesh& mesh, double roughness, const TileFrame& frame,
+              double base, Job& job) {
+  if (mesh.indices.empty()) return;
+  job.spend(Resource::triangles, mesh.indices.size() / 3);
+  glb.add_mesh(name, mesh, glb.add_material(name, roughness), frame.step, base);
+}
+
 void add_water(Glb& glb, const World& world, const TileFrame& frame, const TerrainGrid& grid, double base,
                Job& job) {
   const Rectangle box{frame.west, frame.south, frame.west + frame.side, frame.south + frame.side};
   const bool is_coarse = grid.spacing > widest_river_spacing;
   const Ground ground = is_coarse ? Ground(world) : Ground(world, box, job, 100);
   const WaterMesh water = water_mesh(world, frame, grid, ground, base);
-  if (water.mesh.indices.empty()) return;
-  job.spend(Resource::triangles, water.mesh.indices.size() / 3);
-  glb.add_mesh("water", water.mesh, glb.add_material("water", 0.15), frame.step, water.height);
+  add_mesh(glb, "water", water.mesh, 0.15, frame, base, job);
+}
+
+/// Roads and houses of small tiles.
+void add_works(Glb& glb, const World& world, const TileFrame& frame, double base, Job& job) {
+  const Rectangle box{frame.west, frame.south, frame.west + frame.side, frame.south + frame.side};
+  if (frame.spacing <= widest_road_spacing && world.has(Layer::roads)) {
+    FlatMesh roads(frame, base, linear_color(world.params.roads.color));
+    const double lift = 0.1 + 0.03 * frame.spacing;
+    for (const auto& road : roads_near(world, box, world.params.roads.width, job)) {
+      for (std::size_t k = 1; k < road->points.size(); ++k) {
+        const RoadPoint &a = road->points[k - 1], &b = road->points[k];
+        roads.add_ribbon({a.east, a.north, a.height + lift}, road->width, {b.east, b.north, b.height + lift},
+                         road->width);
+      }
+    }
+    add_mesh(glb, "roads", roads.take(), 0.95, frame, base, job);
+  }
+  if (frame.spacing <= widest_house_spacing && world.has(Layer::buildings)) {
+    add_mesh(glb, "buildings", house_mesh(world, frame, houses_near(world, box, 0, job), base), 0.9, frame,
+             base, job);
+  }
 }
 
 }  // namespace
@@ -151,6 +182,7 @@ std::string tile_glb(const World& world, const TileKey& key, Job& job, std::stri
     glb.add_mesh("terrain", terrain.mesh, glb.add_material("ground", 1), frame.step, terrain.height);
   }
   if (world.has(Layer::water)) add_water(glb, world, frame, grid, terrain.height, job);
+  add_works(glb, world, frame, terrain.height, job);
   if (world.has(Layer::plants)) add_plants(glb, world, key, frame, job, folder);
   return std::move(glb).text();
 }

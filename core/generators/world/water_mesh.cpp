@@ -2,84 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/glm.hpp>
 
-#include "core/base/math.h"
+#include "core/generators/world/flat_mesh.h"
 #include "core/generators/world/palette.h"
-#include "core/generators/world/terrain_mesh.h"
 
 namespace seedmesh::world {
 namespace {
 
-using Point = glm::dvec3;  ///< east, north, height; absolute
-
-class Builder {
- public:
-  Builder(const World& world, const TileFrame& frame, double base)
-      : frame_(frame), base_(base), color_(linear_color(world.params.colors.water)) {}
-
-  /// A convex polygon, counter-clockwise from above.
-  void add(const std::vector<Point>& polygon) {
-    const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
-    for (const Point& p : polygon) mesh_.vertices.push_back(vertex_of(p));
-    for (std::uint32_t k = 2; k < polygon.size(); ++k) {
-      for (const std::uint32_t corner : {first, first + k - 1, first + k}) mesh_.indices.push_back(corner);
-    }
-  }
-
-  void add_rectangle(double west, double south, double east, double north, double height) {
-    add({{west, south, height}, {east, south, height}, {east, north, height}, {west, north, height}});
-  }
-
-  /// The part of a convex polygon that lies in the tile.
-  void add_clipped(std::vector<Point> polygon) {
-    for (int axis = 0; axis < 2; ++axis) {
-      const double low = axis == 0 ? frame_.west : frame_.south;
-      polygon = clipped(polygon, axis, low, 1);
-      polygon = clipped(polygon, axis, low + frame_.side, -1);
-    }
-    if (polygon.size() > 2) add(polygon);
-  }
-
-  TileMesh take() { return std::move(mesh_); }
-
- private:
-  TileVertex vertex_of(const Point& p) const {
-    TileVertex vertex;
-    const auto steps = [&](double metres) {
-      return static_cast<std::int16_t>(math::to_int32(std::floor(metres / frame_.step + 0.5)));
-    };
-    vertex.x = steps(p.x - frame_.middle_east);
-    vertex.y = steps_of(p.z, base_, frame_.step);
-    vertex.z = steps(frame_.middle_north - p.y);
-    std::copy(color_.begin(), color_.end(), vertex.color);
-    return vertex;
-  }
-
-  /// Sutherland and Hodgman 1974, for one side.
-  static std::vector<Point> clipped(const std::vector<Point>& polygon, int axis, double bound, double sign) {
-    std::vector<Point> kept;
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-      const Point &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-      const double da = sign * (a[axis] - bound), db = sign * (b[axis] - bound);
-      if (da >= 0) kept.push_back(a);
-      if ((da < 0) == (db < 0)) continue;
-      Point cut = a + (b - a) * (da / (da - db));
-      cut[axis] = bound;
-      kept.push_back(cut);
-    }
-    return kept;
-  }
-
-  const TileFrame& frame_;
-  double base_;
-  std::array<std::uint8_t, 4> color_;
-  TileMesh mesh_;
-};
-
 /// Rows of cells that `is_wet` accepts, as rectangles; equal neighbouring rows become one rectangle.
 template <class IsWet>
-void add_level(Builder& builder, const TerrainGrid& grid, double height, const IsWet& is_wet) {
+void add_level(FlatMesh& builder, const TerrainGrid& grid, double height, const IsWet& is_wet) {
   const int cells = grid.count - 1;
   struct Open {
     int first, last, row;
@@ -116,7 +48,7 @@ bool is_below(const TerrainGrid& grid, int column, int row, double level) {
                   std::min(grid.at(column, row + 1).height, grid.at(column + 1, row + 1).height)) < level;
 }
 
-void add_lake(Builder& builder, const TerrainGrid& grid, const Lake& lake) {
+void add_lake(FlatMesh& builder, const TerrainGrid& grid, const Lake& lake) {
   add_level(builder, grid, lake.level, [&](int column, int row) {
     const double east = grid.west + (column + 0.5) * grid.spacing,
                  north = grid.south + (row + 0.5) * grid.spacing;
@@ -126,28 +58,16 @@ void add_lake(Builder& builder, const TerrainGrid& grid, const Lake& lake) {
   });
 }
 
-glm::dvec2 side_of(const RiverPoint& a, const RiverPoint& b) {
-  const glm::dvec2 along(b.east - a.east, b.north - a.north);
-  const double length = std::sqrt(along.x * along.x + along.y * along.y);
-  return length > 0 ? glm::dvec2(-along.y, along.x) / length : glm::dvec2(0, 1);
-}
-
-void add_reach(Builder& builder, const Reach& reach, double lift) {
+void add_reach(FlatMesh& builder, const Reach& reach, double lift) {
   const RiverPoint &a = reach.from, &b = reach.to;
-  const glm::dvec2 side = side_of(a, b);
-  // ends overlap, so that bends have no gap
-  const glm::dvec2 over = glm::dvec2(side.y, -side.x) * (0.2 * b.width);
-  const glm::dvec2 p(a.east, a.north), q = glm::dvec2(b.east, b.north) + over;
-  const glm::dvec2 s = side * (a.width / 2), t = side * (b.width / 2);
-  builder.add_clipped({Point(p - s, a.water + lift), Point(q - t, b.water + lift),
-                       Point(q + t, b.water + lift), Point(p + s, a.water + lift)});
+  builder.add_ribbon({a.east, a.north, a.water + lift}, a.width, {b.east, b.north, b.water + lift}, b.width);
 }
 
 }  // namespace
 
 WaterMesh water_mesh(const World& world, const TileFrame& frame, const TerrainGrid& grid,
                      const Ground& ground, double base) {
-  Builder builder(world, frame, base);
+  FlatMesh builder(frame, base, linear_color(world.params.colors.water));
   if (world.params.relief.sea) {
     const double level = world.params.relief.sea_level;
     add_level(builder, grid, level, [&](int column, int row) { return is_below(grid, column, row, level); });
