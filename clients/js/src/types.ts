@@ -4,8 +4,8 @@
 export interface Output {
   /** The file format of the answer. glb is one binary glTF 2.0 file. gltf is glTF 2.0 as JSON with embedded buffers. zip contains a .gltf, its .bin and its images as separate files, stored uncompressed. Terrain also has height maps: png16 and png8 are grey, rgb24 and rgba32 pack a height into the channels of a PNG, and r16 has raw samples of 16 bits. Fractals also have ply (the points of frcm), png16 and png8 (escape times, grey or in colours). Scenes also have placements, a zip of placements.json and every model as a file of its own. Cities also have geojson, the plan. */
   format?: "glb" | "gltf" | "zip" | "png16" | "png8" | "rgb24" | "rgba32" | "r16" | "ply" | "placements" | "geojson";
-  /** The program that reads the model. core: any reader of glTF 2.0, without required extensions. web: three.js, Babylon and other viewers, with quantized and compressed data and instances on the GPU. unity, unreal, godot, blender: what the importer of that program supports, with names that it accepts. For height maps as r16 or png16, unity and unreal select the conventions of these engines for sizes, rows and scales. */
-  profile?: "core" | "web" | "unity" | "unreal" | "godot" | "blender";
+  /** The program that reads the model. core: any reader of glTF 2.0, without required extensions. web: three.js, Babylon and other viewers, with quantized and compressed data and instances on the GPU. tiles: clients of 3D Tiles, with quantized data and instances on the GPU, without a compression that needs a decoder. unity, unreal, godot, blender: what the importer of that program supports, with names that it accepts. For height maps as r16 or png16, unity and unreal select the conventions of these engines for sizes, rows and scales. */
+  profile?: "core" | "web" | "tiles" | "unity" | "unreal" | "godot" | "blender";
   /** The name of the model: of its root node, its scene and its files, and the first part of the names of its meshes, materials and images. Without it, the name is that of the preset, with the seed if it is not the preset's, or with a hash if anything else differs. A request without a preset has the generator's name and a hash. */
   name?: string;
   /** What the model says of its origin. full writes the engine, generator, seed, preset, canonical request and permalink into the extras of the asset, the scene and the root node. none leaves all of it out. */
@@ -22,7 +22,7 @@ export interface Output {
   wind?: "none" | "weights";
   /** Adds convex bodies around the trunk and the thick limbs of a tree or an L-system, or around the masses of a building. The value selects the names that an engine recognises as collision: plain (collision_01), unreal (UCX_bark_01, after the visible mesh), godot (collision_01-convcolonly). */
   collision?: "none" | "plain" | "unreal" | "godot";
-  /** How repeated parts are written. merge makes one mesh of all organs of a kind, and of all copies with one material. nodes gives each copy a node, and all share one mesh. gpu writes the transforms of copies as arrays (EXT_mesh_gpu_instancing), for the profiles web, unity and blender. auto merges the organs of a plant, merges parts of a building except large parts that occur often, and gives other copies nodes, or arrays in the profile web. */
+  /** How repeated parts are written. merge makes one mesh of all organs of a kind, and of all copies with one material. nodes gives each copy a node, and all share one mesh. gpu writes the transforms of copies as arrays (EXT_mesh_gpu_instancing), for the profiles web, tiles, unity and blender. auto merges the organs of a plant, merges parts of a building except large parts that occur often, and gives other copies nodes, or arrays in the profiles web and tiles. */
   instancing?: "auto" | "nodes" | "gpu" | "merge";
   /** The number of models side by side in one file, generated from this seed and the seeds that follow it. They share materials and textures. */
   variants?: number;
@@ -164,6 +164,13 @@ export interface BuildingParametersDerivation {
   mode?: "parallel" | "sequential";
 }
 
+/** Light that the surface sends out. It is added to the light that it reflects, and does not light other surfaces. */
+export interface Emission {
+  color: string;
+  /** The factor of the colour. Light beyond 1 is written as KHR_materials_emissive_strength, which some readers ignore. */
+  strength?: number;
+}
+
 /** Your own textures, each a PNG or JPEG file as a data URI. They replace a generated texture. */
 export interface Images {
   /** The colour, and with an alpha channel the shape that is cut out. */
@@ -185,6 +192,7 @@ export interface BuildingParametersMaterialsValue {
   metallic?: number;
   /** Values below 1 are transparent. */
   opacity?: number;
+  emission?: Emission;
   /** The width and height of one tile of the images on the wall. */
   tile?: [number, number];
   images?: Images;
@@ -227,8 +235,8 @@ export interface BuildingParameters {
   repeat?: "nearest" | "ceil";
   /** normalize: probabilities that do not sum to 1 count as shares of their sum, with a warning. strict: they are an error. */
   weights?: "normalize" | "strict";
-  /** A restricted kind of shape grammar. non_erasing: no rule removes a shape (NIL). unimarker: in addition, each successor has at most one symbol with a rule, the marker. */
-  restrict?: "none" | "non_erasing" | "unimarker";
+  /** A restricted kind of shape grammar. non_erasing: no rule removes a shape (NIL). unimarker: in addition, each successor has at most one symbol with a rule, the marker. split: every shape of a successor stays within the scope of its predecessor. */
+  restrict?: "none" | "non_erasing" | "unimarker" | "split";
   /** The materials that rules name. They replace built-in materials of the same name. */
   materials?: { [key: string]: BuildingParametersMaterialsValue };
   /** Whether materials get textures made by seed, by their names (brick, plaster, wall, facade, building, stone, concrete, wood, roof, roof_tile, slate, cladding, chimney). auto: in blueprints; made: in your own rules too; none: only materials with images have textures. Built-in parts, such as windows, have none. */
@@ -717,6 +725,7 @@ export interface LsystemParametersMaterialsItem {
   metallic?: number;
   /** Values below 1 are transparent, as for the leaves of Kogovšek's trees. */
   opacity?: number;
+  emission?: Emission;
   texture?: Texture;
   /** Another seed gives another texture of the same kind. Models with the same texture, seed and colour share it. */
   texture_seed?: number;
@@ -807,6 +816,10 @@ export interface LsystemParameters {
   sides?: number;
   /** The number of rings of faces of a segment along its axis if its width changes; a segment with constant width has one. */
   stacks?: number;
+  /** How the diameter changes between segments. linear: along each segment, from the diameter of the one before it to its own. none: each segment is a cylinder of its own diameter, as gluCylinder draws it with two equal radii. A new tube begins where the diameter changes. */
+  taper?: "linear" | "none";
+  /** What the tubes of coarser levels of detail have less of (`output.lods`). outline: fewer limbs and joints, those that change the outline least. slices: all limbs, with the sides and stacks of level 0 divided by the root of the level plus 1: 32 sides become 22, 18, 16 and 14. */
+  levels?: "outline" | "slices";
   /** Whether thinner limbs have fewer sides and shorter segments fewer stacks. Coarser levels of detail always do. */
   adapt?: boolean;
   /** Joins the limbs of brackets to one surface, as for trees: limbs of similar thickness in a fork, thin limbs in a collar. Limbs without space, and limbs with a contour, stay closed tubes that begin inside their parent. Thin welded limbs have fewer sides, and rings where they bend, whatever stacks and adapt say. */
@@ -1239,7 +1252,7 @@ export interface TerrainParameters {
   resolution?: number;
   /** Length of the terrain from west to east, or the diameter of a sphere. */
   size?: number;
-  /** A plane, or a planetoid (poisson_faulting and fbm). */
+  /** A plane, or a planetoid (fault_formation, poisson_faulting and fbm). */
   shape?: "plane" | "sphere";
   /** Greatest random deviation of the first round of a subdivision, or the weight of the first octave of noise. Default: a tenth of the size, on a sphere a twentieth of the diameter. */
   amplitude?: number;
@@ -2303,6 +2316,72 @@ export interface TreeDerivation {
 
 export type CityDerivation = { [key: string]: unknown };
 
+/** Levels, extent and origin of the world, and the height of its sea. */
+export interface WorldDerivation {
+  levels: number;
+  extent: number;
+  origin: number[];
+  sea_level: number | null;
+  warnings: WarningsItem[];
+}
+
+/** Rows from the south, columns from the west, both borders included. */
+export interface WorldMapHeights {
+  columns?: number;
+  rows?: number;
+  values?: number[];
+}
+
+export interface WorldMapSettlementsItem {
+  id?: string;
+  position?: [number, number, number];
+  radius?: number;
+}
+
+export interface WorldMapRiversItem {
+  id?: string;
+  into?: string;
+  points?: ([number, number, number])[];
+  widths?: number[];
+}
+
+export interface WorldMapLakesItem {
+  id?: string;
+  level?: number;
+  outline?: number[][];
+}
+
+export interface WorldMapRoadsItem {
+  id?: string;
+  width?: number;
+  points?: ([number, number, number])[];
+}
+
+export interface WorldMapPlantsItem {
+  class?: string;
+  spacing?: number;
+  count?: number;
+  places?: ([number, number, number])[];
+}
+
+/** What touches a box of a world. Positions are [east, north, height] in metres from the middle of the world; sea_level is null where there is no sea. */
+export interface WorldMap {
+  /** west, south, east, north */
+  box: [number, number, number, number];
+  sea_level: number | null;
+  /** Rows from the south, columns from the west, both borders included. */
+  heights?: WorldMapHeights;
+  settlements: WorldMapSettlementsItem[];
+  /** From source to mouth, whole; `into` is `sea` or the id of a lake or river. A width for each point. */
+  rivers: WorldMapRiversItem[];
+  lakes: WorldMapLakesItem[];
+  roads: WorldMapRoadsItem[];
+  /** By class; `places` for boxes of at most 2,048 m a side. `spacing` is the least distance within the class. */
+  plants: WorldMapPlantsItem[];
+}
+
+export type WorldPosition = [number, number, number];
+
 /** In the frame of the unit element. Values that do not apply, are unknown, or are too large for a number are null. */
 export interface FractalDerivation {
   pieces: number | null;
@@ -2312,6 +2391,12 @@ export interface FractalDerivation {
   volume: number | null;
   genus: number | null;
   non_manifold_edges: number | null;
+  /** Of all copies of a segment, or of the outline of a plate. */
+  length: number | null;
+  /** Of one side of a plate. */
+  area: number | null;
+  /** The same values for each of the stages, with its iterations or points. */
+  stages: { [key: string]: unknown }[];
   bounds: Box | null;
   warnings: WarningsItem[];
 }

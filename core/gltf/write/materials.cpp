@@ -59,7 +59,26 @@ std::string surface_members(const Material& material, int base, int surface) {
   return text;
 }
 
+void append_extensions(JsonWriter& json, const Material& material) {
+  const float strength = emissive_strength(material);
+  if (!material.unlit && strength == 1) return;
+  std::string text;
+  if (strength != 1) {
+    text += "\"KHR_materials_emissive_strength\":{\"emissiveStrength\":";
+    append_decimal(text, strength);
+    text += '}';
+  }
+  if (material.unlit) text += (text.empty() ? "" : ",") + std::string("\"KHR_materials_unlit\":{}");
+  json.key("extensions");
+  json.json('{' + text + '}');
+}
+
 }  // namespace
+
+float emissive_strength(const Material& material) {
+  const glm::vec3& glow = material.emissive;
+  return std::max({glow.x, glow.y, glow.z, 1.0F});
+}
 
 void append_material(std::string& out, const Material& material, const TextureNumber& texture_number) {
   // The textures get their numbers in this order.
@@ -75,13 +94,10 @@ void append_material(std::string& out, const Material& material, const TextureNu
     if (material.alpha_mode != AlphaMode::opaque)
       json.member("alphaMode", material.alpha_mode == AlphaMode::mask ? "MASK" : "BLEND");
     if (material.double_sided) json.member("doubleSided", true);
-    const glm::vec3& glow = material.emissive;
+    const glm::vec3 glow = material.emissive / emissive_strength(material);
     members.factors("emissiveFactor", std::array{glow.x, glow.y, glow.z}, 0);
     members.texture("emissiveTexture", emissive, material.emissive_texture.uv_set);
-    if (material.unlit) {
-      json.key("extensions");
-      json.json("{\"KHR_materials_unlit\":{}}");
-    }
+    append_extensions(json, material);
     if (!material.name.empty()) json.member("name", material.name);
     members.texture("normalTexture", normal, material.normal_texture.uv_set);
     members.texture("occlusionTexture", occlusion, material.occlusion_texture.uv_set);

@@ -4,7 +4,7 @@ from typing import Any, Dict, List, Literal, TypedDict, Union
 
 class Output(TypedDict, total=False):
     format: Literal['glb', 'gltf', 'zip', 'png16', 'png8', 'rgb24', 'rgba32', 'r16', 'ply', 'placements', 'geojson']
-    profile: Literal['core', 'web', 'unity', 'unreal', 'godot', 'blender']
+    profile: Literal['core', 'web', 'tiles', 'unity', 'unreal', 'godot', 'blender']
     name: str
     provenance: Literal['full', 'none']
     animation: Literal['none', 'growth']
@@ -109,6 +109,14 @@ class BuildingParametersDerivation(TypedDict, total=False):
     mode: Literal['parallel', 'sequential']
 
 
+class _EmissionRequired(TypedDict):
+    color: str
+
+
+class Emission(_EmissionRequired, total=False):
+    strength: float
+
+
 class Images(TypedDict, total=False):
     color: str
     normal: str
@@ -121,6 +129,7 @@ class BuildingParametersMaterialsValue(TypedDict, total=False):
     roughness: float
     metallic: float
     opacity: float
+    emission: "Emission"
     tile: List[float]
     images: "Images"
     texture: Literal['auto', 'none', 'brick', 'plaster', 'roof_tile', 'slate', 'planks', 'ashlar', 'concrete', 'sheet']
@@ -145,7 +154,7 @@ class BuildingParameters(TypedDict, total=False):
     derivation: "BuildingParametersDerivation"
     repeat: Literal['nearest', 'ceil']
     weights: Literal['normalize', 'strict']
-    restrict: Literal['none', 'non_erasing', 'unimarker']
+    restrict: Literal['none', 'non_erasing', 'unimarker', 'split']
     materials: Dict[str, "BuildingParametersMaterialsValue"]
     textures: Literal['auto', 'made', 'none']
     assets: Dict[str, "BuildingParametersAssetsValue"]
@@ -452,6 +461,7 @@ class LsystemParametersMaterialsItem(TypedDict, total=False):
     roughness: float
     metallic: float
     opacity: float
+    emission: "Emission"
     texture: "Texture"
     texture_seed: int
     images: "Images"
@@ -502,6 +512,8 @@ class LsystemParameters(_LsystemParametersRequired, total=False):
     style: Literal['tubes', 'lines']
     sides: int
     stacks: int
+    taper: Literal['linear', 'none']
+    levels: Literal['outline', 'slices']
     adapt: bool
     weld: bool
     materials: List["LsystemParametersMaterialsItem"]
@@ -1414,6 +1426,69 @@ class TreeDerivation(TypedDict):
 
 CityDerivation = Dict[str, Any]
 
+class WorldDerivation(TypedDict):
+    levels: int
+    extent: float
+    origin: List[int]
+    sea_level: Union[float, None]
+    warnings: List["WarningsItem"]
+
+
+class WorldMapHeights(TypedDict, total=False):
+    columns: int
+    rows: int
+    values: List[float]
+
+
+class WorldMapSettlementsItem(TypedDict, total=False):
+    id: str
+    position: List[float]
+    radius: float
+
+
+class WorldMapRiversItem(TypedDict, total=False):
+    id: str
+    into: str
+    points: List[List[float]]
+    widths: List[float]
+
+
+class WorldMapLakesItem(TypedDict, total=False):
+    id: str
+    level: float
+    outline: List[List[float]]
+
+
+class WorldMapRoadsItem(TypedDict, total=False):
+    id: str
+    width: float
+    points: List[List[float]]
+
+
+WorldMapPlantsItem = TypedDict("WorldMapPlantsItem", {
+    'class': str,
+    'spacing': float,
+    'count': int,
+    'places': List[List[float]],
+}, total=False)
+
+
+class _WorldMapRequired(TypedDict):
+    box: List[float]
+    sea_level: Union[float, None]
+    settlements: List["WorldMapSettlementsItem"]
+    rivers: List["WorldMapRiversItem"]
+    lakes: List["WorldMapLakesItem"]
+    roads: List["WorldMapRoadsItem"]
+    plants: List["WorldMapPlantsItem"]
+
+
+class WorldMap(_WorldMapRequired, total=False):
+    heights: "WorldMapHeights"
+
+
+WorldPosition = List[float]
+
 class FractalDerivation(TypedDict):
     pieces: Union[float, None]
     dimension: Union[float, None]
@@ -1422,6 +1497,9 @@ class FractalDerivation(TypedDict):
     volume: Union[float, None]
     genus: Union[float, None]
     non_manifold_edges: Union[float, None]
+    length: Union[float, None]
+    area: Union[float, None]
+    stages: List[Dict[str, Any]]
     bounds: Union["Box", None]
     warnings: List["WarningsItem"]
 
