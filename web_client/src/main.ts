@@ -13,6 +13,7 @@ import { draw_gallery, type Gallery } from './gallery';
 import { Grower, Retrier } from './grower';
 import { forget_hint, wire_hint } from './hint';
 import { reopen } from './key';
+import { fragment_of } from './link';
 import { for_view, is_output, motions_in, own_formats, with_formats, type Motion } from './for_view';
 import { wire_seed } from './seed';
 import { is_high, make_viewer } from './setup';
@@ -268,6 +269,12 @@ function lead_to_warning(): void {
   go_to(mild ? mild.closest('.field')?.querySelector<HTMLElement>(':is(.spot.mild, input, textarea, select)') ?? null : part('request').querySelector('.spot.mild'));
 }
 
+/** Opens the page that streams the tiles of the current world. */
+async function enter_world(event: Event): Promise<void> {
+  event.preventDefault();
+  if (store.current) location.href = `./world.html#${await fragment_of(store.current.request, null)}`;
+}
+
 /** Draws the form of the request's generator, once per opened request and after changes outside the form. */
 async function draw_parameters(state: State, is_new: boolean, signal: AbortSignal): Promise<void> {
   const { generator } = state.request;
@@ -290,7 +297,7 @@ async function draw_parameters(state: State, is_new: boolean, signal: AbortSigna
   form = mine;
   output_form ??= make_output((asked) => store.edit({ output: asked }));
   output_form.follow(with_formats(output, formats_of(schema, request), request), request.output ?? {}, base.output ?? {});
-  part('parameters').replaceChildren(el('h2', { class: 'unseen' }, 'Parameters'), about(generator, schema, state.description), form.element, output_form.element);
+  part('parameters').replaceChildren(el('h2', { class: 'unseen' }, 'Parameters'), about(generator, schema, state.description), ...(generator === 'world' ? [el('p', {}, el('a', { href: './world.html', onclick: (event) => void enter_world(event) }, 'Move in this world'))] : []), form.element, output_form.element);
   restore();
   if (is_new) part('parameters').scrollTop = 0;
   explain();

@@ -1,0 +1,120 @@
+/**
+ * The page of a world: streams its tiles from the service and moves a camera through them. The address holds the world,
+ * a preset with a seed or the token of a request, and the camera: #temperate_land.7@east,north,height,heading,pitch in
+ * metres and degrees.
+ */
+import './style/world.css';
+import { Color, DirectionalLight, HemisphereLight, MathUtils, NeutralToneMapping, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+import { TilesRenderer } from '3d-tiles-renderer';
+
+interface Pose { east: number; north: number; height: number; heading: number; pitch: number }
+
+const canvas = document.querySelector('canvas')!, form = document.querySelector('form')!, status = document.querySelector('p')!;
+const presets = form.elements.namedItem('preset') as HTMLSelectElement, seed = form.elements.namedItem('seed') as HTMLInputElement;
+const renderer = new WebGLRenderer({ canvas, antialias: true });
+const scene = new Scene(), camera = new PerspectiveCamera(60, 1, 2, 400_000), sky = new Color('#a9c8e2');
+const held = new Set<string>();
+/** The first view of a world: above its middle, towards the north. */
+const start: Pose = { east: 0, north: 0, height: 2500, heading: 0, pitch: -25 };
+let pose: Pose = { ...start }, tiles: TilesRenderer | null = null, name = '';
+
+scene.background = sky;
+const sun = new DirectionalLight('#fff3dd', 2.6);
+sun.position.set(0.6, 1, 0.35);
+scene.add(sun, new HemisphereLight('#dcebfa', '#7a7060', 1.6));
+renderer.toneMapping = NeutralToneMapping;
+
+const state = (text: string, word: string): void => { status.textContent = text; document.body.dataset['state'] = word; };
+
+function write_address(): void {
+  const round = (value: number): string => String(Math.round(value * 10) / 10);
+  history.replaceState(null, '', `#${name}@${[pose.east, pose.north, pose.height, pose.heading, pose.pitch].map(round).join(',')}`);
+}
+
+/** The world and the pose of an address; null where it holds no world. */
+function read_address(): { name: string; pose: Pose } | null {
+  const [world = '', place = ''] = decodeURIComponent(location.hash.slice(1)).split('@');
+  const [east, north, height, heading, pitch] = place.split(',').map(Number);
+  if (!/^[\w-]+(\.\d+)?$/.test(world)) return null;
+  const has_pose = place !== '' && [east, north, height, heading, pitch].every((value) => Number.isFinite(value));
+  return { name: world, pose: has_pose ? { east: east!, north: north!, height: height!, heading: heading!, pitch: pitch! } : { ...start } };
+}
+
+/** Streams the world of this name, `preset.seed` or a token. */
+function show(world: string): void {
+  name = world;
+  if (tiles) { scene.remove(tiles.group); tiles.dispose(); }
+  tiles = new TilesRenderer(`v1/worlds/${world}/tileset.json`);
+  tiles.setCamera(camera);
+  tiles.group.rotation.x = -Math.PI / 2; // z up becomes y up
+  tiles.addEventListener('load-error', ({ error }: { error: Error }) => state(`A file of the world cannot be loaded: ${error.message}`, 'failed'));
+  scene.add(tiles.group);
+  const [preset = '', number = ''] = world.split('.');
+  presets.value = number ? preset : '';
+  seed.value = number;
+  state('Loading …', 'loading');
+  resize();
+  write_address();
+}
+
+function resize(): void {
+  renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+  renderer.setSize(innerWidth, innerHeight, false);
+  camera.aspect = innerWidth / innerHeight;
+  camera.updateProjectionMatrix();
+  tiles?.setResolutionFromRenderer(camera, renderer);
+}
+
+/** Moves the camera by the keys that are held. The speed grows with the height. */
+function move(seconds: number): void {
+  const axis = (plus: string, minus: string): number => Number(held.has(plus)) - Number(held.has(minus));
+  const forward = axis('KeyW', 'KeyS') + axis('ArrowUp', 'ArrowDown'), right = axis('KeyD', 'KeyA') + axis('ArrowRight', 'ArrowLeft'), up = axis('KeyE', 'KeyQ');
+  if (!forward && !right && !up) return;
+  const step = seconds * Math.max(20, Math.abs(pose.height)) * (held.has('ShiftLeft') ? 4 : 1), turn = MathUtils.degToRad(pose.heading);
+  pose.east += step * (Math.sin(turn) * forward + Math.cos(turn) * right);
+  pose.north += step * (Math.cos(turn) * forward - Math.sin(turn) * right);
+  pose.height += step * (up + (forward ? Math.tan(MathUtils.degToRad(pose.pitch)) * forward * 0.5 : 0));
+  write_address();
+}
+
+let last = performance.now(), calm = 0;
+function draw(now: number): void {
+  move(Math.min(0.1, (now - last) / 1000));
+  last = now;
+  camera.position.set(pose.east, pose.height, -pose.north);
+  camera.rotation.set(MathUtils.degToRad(pose.pitch), MathUtils.degToRad(-pose.heading), 0, 'YXZ');
+  camera.updateMatrixWorld();
+  tiles?.update();
+  renderer.render(scene, camera);
+  const share = tiles?.root ? tiles.loadProgress : 0;
+  calm = share === 1 ? calm + 1 : 0;
+  if (document.body.dataset['state'] === 'failed' || !tiles) return;
+  if (calm > 20) state(`${Math.round(pose.height)} m · ${tiles.visibleTiles.size} tiles · W A S D, Q E and dragging move the camera`, 'ready');
+  else if (share < 1) state(`Loading … ${Math.round(100 * share)} %`, 'loading');
+}
+
+canvas.addEventListener('pointerdown', (event) => canvas.setPointerCapture(event.pointerId));
+canvas.addEventListener('pointermove', (event) => {
+  if (!canvas.hasPointerCapture(event.pointerId)) return;
+  pose.heading = (pose.heading - event.movementX * 0.15 + 360) % 360;
+  pose.pitch = MathUtils.clamp(pose.pitch + event.movementY * 0.15, -89, 89);
+  write_address();
+});
+canvas.addEventListener('wheel', (event) => { pose.height *= Math.exp(event.deltaY * 0.001); write_address(); }, { passive: true });
+addEventListener('keydown', (event) => { if (!(event.target instanceof HTMLInputElement)) held.add(event.code); });
+addEventListener('keyup', (event) => held.delete(event.code));
+addEventListener('blur', () => held.clear());
+addEventListener('resize', resize);
+addEventListener('hashchange', () => { const at = read_address(); if (at) { pose = at.pose; show(at.name); } });
+form.addEventListener('submit', (event) => { event.preventDefault(); show(`${presets.value}.${seed.value}`); });
+
+async function open(): Promise<void> {
+  const answer = await fetch('v1/presets');
+  const { presets: all } = await answer.json() as { presets: { name: string; generator: string; title: string }[] };
+  for (const { name: value, generator, title } of all) if (generator === 'world') presets.add(new Option(title, value));
+  const at = read_address() ?? { name: `${presets.options[0]?.value ?? ''}.7`, pose: { ...start } };
+  pose = at.pose;
+  show(at.name);
+  renderer.setAnimationLoop(draw);
+}
+void open().catch((error: unknown) => state(String(error), 'failed'));
