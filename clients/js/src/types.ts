@@ -367,10 +367,48 @@ export interface CityParametersStreetsClasses {
   lane?: CityParametersStreetsClassesLane;
 }
 
+/** A base field. */
+export interface CityParametersStreetsTensorFieldsItem {
+  /** grid: one direction. radial: along and across the rays from the position. boundary: along the nearest shore, or the nearest border of an area without water. polyline: along the nearest piece of a line. */
+  type?: "grid" | "radial" | "boundary" | "polyline";
+  /** The centre of the field, east and north. */
+  position?: [number, number];
+  /** The direction of a grid, counter-clockwise from east. */
+  angle?: number;
+  /** The distance from the position, the boundary or the line at which the weight is exp(-1) of its greatest value. 0: the same weight everywhere. */
+  size?: number;
+  /** The greatest weight of the field in the sum of all fields. */
+  weight?: number;
+  /** The corners of a polyline, east and north. */
+  points?: ([number, number])[];
+}
+
+/** The tensor field of the method tensor. */
+export interface CityParametersStreetsTensor {
+  /** Base fields, which are added by weight. A weak grid at the angle of the streets lies below them. */
+  fields?: CityParametersStreetsTensorFieldsItem[];
+  /** About the share of the crossings of major streets that lose one arm. */
+  t_junctions?: number;
+}
+
+/** The wards of a medieval town about the centre. */
+export interface CityParametersStreetsWards {
+  /** The number of wards, square and citadel included. Wards without space between the border and the water are left out. */
+  count?: number;
+  /** The square root of the mean area of a ward. */
+  size?: number;
+  /** The greatest number of gates in the wall. Gates are at least 70 m apart. */
+  gates?: number;
+  /** Whether one ward at the wall is a citadel: one lot without minor streets. */
+  citadel?: boolean;
+  /** The height of the town wall. 0: no wall. */
+  wall_height?: number;
+}
+
 /** The growth of the streets. */
 export interface CityParametersStreets {
-  /** growth: an extended L-system. given: the given streets alone. */
-  method?: "growth" | "given";
+  /** growth: an extended L-system. tensor: major streets follow the lines of a tensor field, and minor streets grow along it. wards: a medieval town of wards with a wall, gates, a square and a citadel; minor streets grow within the wards. given: the given streets alone. */
+  method?: "growth" | "tensor" | "wards" | "given";
   /** The productions of the street L-system, in the notation of the generator lsystem. The modules are R(delay, rule), the tip of a road; B(delay, rule, road), a delayed branch; and I(road, state), the query that checks a proposed road. States are UNASSIGNED, SUCCEED and FAILED. { globalGoals(rule, road) } sets pDel0 to pDel2, pRule0 to pRule2 and pRoad0 to pRoad2: straight on, to the left, to the right. { localConstraints(road) } sets state. Default: those of Parish and Müller. */
   productions?: string[];
   /** The pattern of the major streets. organic: an irregular net. raster: right angles, also for minor streets unless minor_pattern says otherwise. radial: rings and rays about the centre. */
@@ -413,6 +451,10 @@ export interface CityParametersStreets {
   classes?: CityParametersStreetsClasses;
   /** The greatest length of a bridge. 0: no bridges. */
   bridge_length?: number;
+  /** The tensor field of the method tensor. */
+  tensor?: CityParametersStreetsTensor;
+  /** The wards of a medieval town about the centre. */
+  wards?: CityParametersStreetsWards;
 }
 
 /** The division of the blocks. */
@@ -455,6 +497,8 @@ export interface BuildingRule {
   depth?: [number, number];
   /** The greatest share of the lot that is built over. */
   share?: number;
+  /** The zones of the lots. Empty: all zones. Zones of wards are citadel, merchants, patricians, craftsmen and poor. */
+  zones?: string[];
 }
 
 /** The buildings of the lots. */

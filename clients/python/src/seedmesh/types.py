@@ -236,8 +236,30 @@ class CityParametersStreetsClasses(TypedDict, total=False):
     lane: "CityParametersStreetsClassesLane"
 
 
+class CityParametersStreetsTensorFieldsItem(TypedDict, total=False):
+    type: Literal['grid', 'radial', 'boundary', 'polyline']
+    position: List[float]
+    angle: float
+    size: float
+    weight: float
+    points: List[List[float]]
+
+
+class CityParametersStreetsTensor(TypedDict, total=False):
+    fields: List["CityParametersStreetsTensorFieldsItem"]
+    t_junctions: float
+
+
+class CityParametersStreetsWards(TypedDict, total=False):
+    count: int
+    size: float
+    gates: int
+    citadel: bool
+    wall_height: float
+
+
 class CityParametersStreets(TypedDict, total=False):
-    method: Literal['growth', 'given']
+    method: Literal['growth', 'tensor', 'wards', 'given']
     productions: List[str]
     pattern: Literal['organic', 'raster', 'radial']
     minor_pattern: Literal['organic', 'raster', 'radial']
@@ -259,6 +281,8 @@ class CityParametersStreets(TypedDict, total=False):
     crossings: float
     classes: "CityParametersStreetsClasses"
     bridge_length: float
+    tensor: "CityParametersStreetsTensor"
+    wards: "CityParametersStreetsWards"
 
 
 class CityParametersLots(TypedDict, total=False):
@@ -282,6 +306,7 @@ class BuildingRule(TypedDict, total=False):
     rear: float
     depth: List[float]
     share: float
+    zones: List[str]
 
 
 class CityParametersBuildings(TypedDict, total=False):
