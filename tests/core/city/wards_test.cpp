@@ -90,8 +90,8 @@ TEST(Wards, AreSurroundedByOneClosedWall) {
     ASSERT_TRUE(plan);
     std::map<std::uint32_t, std::uint32_t> next;
     for (std::uint32_t e = 0; e < plan->graph.edges.size(); ++e) {
-      if (has_wall(*plan, e))
-        ASSERT_TRUE(next.emplace(plan->graph.edges[e].from, plan->graph.edges[e].to).second);
+      if (!has_wall(*plan, e)) continue;
+      ASSERT_TRUE(next.emplace(plan->graph.edges[e].from, plan->graph.edges[e].to).second);
     }
     CmRing ring;
     std::uint32_t at = next.begin()->first;
