@@ -137,7 +137,7 @@ class GeoJsonReader {
     };
     for (const auto& [name, value] : properties.items()) {
       if (name == "tags" && value.is_object()) {
-        for (const auto& [key, tag] : value.items()) read(key, tag);
+        for (const auto& [key, tag] : value.items()) take(key, tag);
       } else {
         take(name, value);
       }
