@@ -239,6 +239,10 @@ export interface BuildingParameters {
   restrict?: "none" | "non_erasing" | "unimarker" | "split";
   /** The materials that rules name. They replace built-in materials of the same name. */
   materials?: { [key: string]: BuildingParametersMaterialsValue };
+  /** A picture for the walls, whatever their style: a PNG or JPEG file as a data URI. It repeats over all upright faces whose material is a wall (brick, plaster, wall, facade, building, stone, concrete, wood, cladding). */
+  facade_image?: string;
+  /** The width and height of one copy of the facade picture. */
+  facade_tile?: [number, number];
   /** Whether materials get textures made by seed, by their names (brick, plaster, wall, facade, building, stone, concrete, wood, roof, roof_tile, slate, cladding, chimney). auto: in blueprints; made: in your own rules too; none: only materials with images have textures. Built-in parts, such as windows, have none. */
   textures?: "auto" | "made" | "none";
   /** Models that rules insert by name, as in i("statue"): a nested request, or a GLB file as data URI. */
@@ -1121,6 +1125,34 @@ export interface SceneParameters {
   chunks?: number;
 }
 
+/** One layer. */
+export interface TerrainParametersLayersItem {
+  /** A name by which expressions of later layers use the heights of this one. */
+  name?: string;
+  /** Where the heights of the layer come from. */
+  algorithm?: "expression" | "fault_formation" | "poisson_faulting" | "fbm";
+  /** As that of the terrain. It can also use height and slope, the height in metres and the slope in degrees so far, and the names of earlier layers. A sphere has no slope. */
+  expression?: string;
+  /** The operation on the height so far and that of the layer. replace takes the layer. none only gives it a name. */
+  combine?: "add" | "subtract" | "multiply" | "max" | "min" | "replace" | "none";
+  /** Where the layer has an effect: an expression from 0 (nowhere) to 1, with the same names, such as slope < 30, or height / 100. */
+  mask?: string;
+  /** The number of faults, or the octaves of noise. Default: 64 faults, 8 octaves. */
+  iterations?: number;
+  /** As that of the terrain, for fbm. */
+  amplitude?: number;
+  /** As that of the terrain, for fbm. */
+  hurst?: number;
+  /** As that of the terrain, for fbm. */
+  noise?: "rolling" | "ridged" | "billow";
+  /** As that of the terrain, for fbm. */
+  wavelength?: number;
+  /** As that of the terrain, for faults. */
+  fault_max?: number;
+  /** As that of the terrain, for faults. */
+  fault_min?: number;
+}
+
 /** Heights as an image, for the algorithm image. */
 export interface TerrainParametersImage {
   /** A PNG, JPEG, WebP or TIFF file, raw 16-bit samples or an .hgt file, in base64. A data: URL is accepted, too. The first row is the northern one. */
@@ -1242,17 +1274,21 @@ export interface TerrainParametersHeightmap {
 
 /** A height field by one of the classic algorithms, filtered, meshed and coloured, or as a height map for an engine; or a planetoid. */
 export interface TerrainParameters {
-  /** The algorithm. fault_formation and poisson_faulting lift one side of random lines. triangular_edge, diamond_square and square_square refine a few heights repeatedly. fbm sums octaves of noise. image takes heights from an image.. */
-  algorithm?: "fault_formation" | "poisson_faulting" | "triangular_edge" | "diamond_square" | "square_square" | "fbm" | "image";
-  /** Rounds of a subdivision (n rounds give 2^n + 1 samples a side, square_square 2^n + 2), the number of faults, or the octaves of noise. Default: 8 rounds, 64 faults, 8 octaves. Not for image. */
+  /** The algorithm. fault_formation and poisson_faulting lift one side of random lines. triangular_edge, diamond_square and square_square refine a few heights repeatedly. fbm sums octaves of noise. image takes heights from an image. expression computes each height. */
+  algorithm?: "fault_formation" | "poisson_faulting" | "triangular_edge" | "diamond_square" | "square_square" | "fbm" | "image" | "expression";
+  /** The height of a sample, for the algorithm expression: x and y are metres to the east and north of the centre, on a sphere x, y and z its position, and latitude and longitude in degrees. size is the size. noise(x, y) is gradient noise; fbm, ridged and billow(x, y, octaves) are sums of it; all take a z as well. ran draws anew at each sample. */
+  expression?: string;
+  /** Further heights that are combined with those of the algorithm, one after the other, before the filters. */
+  layers?: TerrainParametersLayersItem[];
+  /** Rounds of a subdivision (n rounds give 2^n + 1 samples a side, square_square 2^n + 2), the number of faults, or the octaves of noise. Default: 8 rounds, 64 faults, 8 octaves. Not for image and expression. */
   iterations?: number;
   /** Additional iterations after the planned ones. A subdivision or noise becomes finer by that many rounds and keeps its old heights. Faults are added without the falling bound. */
   extra_iterations?: number;
-  /** Samples a side for algorithms that do not determine it: faults and fbm. On a sphere, samples along an edge of its cube. Default: 257, on a sphere 65. */
+  /** Samples a side for algorithms that do not determine it: faults, fbm and expression. On a sphere, samples along an edge of its cube. Default: 257, on a sphere 65. */
   resolution?: number;
   /** Length of the terrain from west to east, or the diameter of a sphere. */
   size?: number;
-  /** A plane, or a planetoid (fault_formation, poisson_faulting and fbm). */
+  /** A plane, or a planetoid (fault_formation, poisson_faulting, fbm and expression). */
   shape?: "plane" | "sphere";
   /** Greatest random deviation of the first round of a subdivision, or the weight of the first octave of noise. Default: a tenth of the size, on a sphere a twentieth of the diameter. */
   amplitude?: number;

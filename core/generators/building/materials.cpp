@@ -51,6 +51,12 @@ const texture::WallKind* surface_named(std::string_view material) {
   return found == std::end(surfaces) ? nullptr : texture::wall_kind(found->kind);
 }
 
+/// Whether a surface is one of walls, not of roofs.
+bool is_wall(std::string_view material) {
+  const texture::WallKind* const kind = surface_named(material);
+  return kind != nullptr && kind->name != "roof_tile" && kind->name != "slate";
+}
+
 const MaterialPreset* find_preset(std::string_view name) {
   const auto* const found = std::ranges::find(presets, name, &MaterialPreset::name);
   return found == std::end(presets) ? nullptr : found;
@@ -92,6 +98,9 @@ void check_materials(const BuildingParams& params, std::vector<Issue>& issues) {
     check(given.images->normal, "normal");
     check(given.images->surface, "surface");
   }
+  if (params.facade_image.empty()) return;
+  if (std::string error = texture::fault_of_image_uri(params.facade_image); !error.empty())
+    issues.push_back({IssueKind::invalid_value, "/facade_image", std::move(error)});
 }
 
 MaterialTable::MaterialTable(Model& model, const BuildingParams& params, const Shapes& shapes,
@@ -108,6 +117,7 @@ MaterialTable::MaterialTable(Model& model, const BuildingParams& params, const S
                        load(given.images->normal, name + "_normal", at + "normal", job),
                        load(given.images->surface, name + "_surface", at + "surface", job)};
   }
+  facade_image_ = load(params.facade_image, "facade", "/facade_image", job);
 }
 
 int MaterialTable::load(const std::string& uri, const std::string& name, const std::string& pointer,
@@ -120,7 +130,8 @@ int MaterialTable::load(const std::string& uri, const std::string& name, const s
 }
 
 int MaterialTable::material_of(const Shape& shape) {
-  const auto [found, is_new] = made_.try_emplace({shape.style, shape.symbol}, -1);
+  const bool may_have_image = facade_image_ >= 0 && is_upright(shape);
+  const auto [found, is_new] = made_.try_emplace({shape.style, shape.symbol, may_have_image}, -1);
   if (!is_new) return found->second;
   const Style& style = shapes_->styles[shape.style];
   const std::string* const color = shapes_->texts.find(style.color);
@@ -138,8 +149,32 @@ int MaterialTable::material_of(const Shape& shape) {
                  ? lower(symbol)
                  : "building";
   }
-  found->second = make({name, color, false});
+  const bool has_image = may_have_image && is_wall(name);
+  found->second = has_image ? facade_material() : make({name, color, false});
   return found->second;
+}
+
+bool MaterialTable::is_upright(const Shape& shape) const {
+  if (dimension(shape.size) != 2) return false;
+  const glm::dvec3& normal = shapes_->axes[shape.axes][flat_axis(shape.size)];
+  return std::abs(normal.y) < 1e-3;
+}
+
+int MaterialTable::facade_material() {
+  if (facade_material_ >= 0) return facade_material_;
+  Material material;
+  material.name = "facade";
+  material.roughness = 0.9F;
+  material.base_color_texture = {facade_image_, 0, true};
+  facade_material_ = static_cast<int>(model_.materials.size());
+  tiles_[facade_material_] = {params_.facade_tile[0], params_.facade_tile[1]};
+  model_.materials.push_back(std::move(material));
+  return facade_material_;
+}
+
+std::optional<Warning> MaterialTable::unused_facade_image() const {
+  if (facade_image_ < 0 || facade_material_ >= 0) return std::nullopt;
+  return Warning{"/facade_image", "has no effect: no upright face has the material of a wall", 0, 0};
 }
 
 int MaterialTable::material_of_part(std::string_view role, const Style& style) {

@@ -156,6 +156,8 @@ class BuildingParameters(TypedDict, total=False):
     weights: Literal['normalize', 'strict']
     restrict: Literal['none', 'non_erasing', 'unimarker', 'split']
     materials: Dict[str, "BuildingParametersMaterialsValue"]
+    facade_image: str
+    facade_tile: List[float]
     textures: Literal['auto', 'made', 'none']
     assets: Dict[str, "BuildingParametersAssetsValue"]
 
@@ -729,6 +731,21 @@ class SceneParameters(TypedDict, total=False):
     chunks: int
 
 
+class TerrainParametersLayersItem(TypedDict, total=False):
+    name: str
+    algorithm: Literal['expression', 'fault_formation', 'poisson_faulting', 'fbm']
+    expression: str
+    combine: Literal['add', 'subtract', 'multiply', 'max', 'min', 'replace', 'none']
+    mask: str
+    iterations: int
+    amplitude: float
+    hurst: float
+    noise: Literal['rolling', 'ridged', 'billow']
+    wavelength: float
+    fault_max: float
+    fault_min: float
+
+
 class _TerrainParametersImageRequired(TypedDict):
     data: str
 
@@ -807,7 +824,9 @@ class TerrainParametersHeightmap(TypedDict, total=False):
 
 
 class TerrainParameters(TypedDict, total=False):
-    algorithm: Literal['fault_formation', 'poisson_faulting', 'triangular_edge', 'diamond_square', 'square_square', 'fbm', 'image']
+    algorithm: Literal['fault_formation', 'poisson_faulting', 'triangular_edge', 'diamond_square', 'square_square', 'fbm', 'image', 'expression']
+    expression: str
+    layers: List["TerrainParametersLayersItem"]
     iterations: int
     extra_iterations: int
     resolution: int
