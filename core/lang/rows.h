@@ -21,7 +21,7 @@ class RowEvaluator {
   /// Writes the values of `count` cells, at most `width`, to `out`, which has the capacity of a row. `slots` has a row
   /// for each slot that the expression reads. `rngs` has a generator for each cell if the expression draws random
   /// numbers, which it does in the order of Program::evaluate(); else it may be empty. The results have the same bits
-  /// as those of Program::evaluate(), except that both sides of && and || are always evaluated. Cost: about 0.3 ns for
+  /// as those of Program::evaluate(), except that both sides of && and || are always evaluated. Cost: about 0.5 ns for
   /// an arithmetic operation and cell; functions other than abs, sqrt, min, max, clamp, lerp and select cost as much as
   /// in Program::evaluate().
   void run(std::span<const double* const> slots, std::size_t count, std::span<Rng> rngs, double* out);

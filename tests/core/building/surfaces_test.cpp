@@ -68,7 +68,8 @@ TEST(FacadeImage, CoversTheWallsOfEveryStyle) {
     for (const MeshGroup& group : model.meshes) {
       for (const Primitive& primitive : group.primitives) {
         const Material& material = model.materials[static_cast<std::size_t>(primitive.material)];
-        EXPECT_FALSE(material.name.starts_with(style)) << material.name;
+        // Walls are tinted; the part that makes a chimney is plain brick.
+        EXPECT_FALSE(material.name.starts_with(style + std::string("_"))) << material.name;
         if (material.name != "facade") continue;
         EXPECT_GE(material.base_color_texture.texture, 0);
         const Mesh& mesh = primitive.mesh;
