@@ -12,7 +12,8 @@ namespace {
 using glm::dvec2;
 using glm::vec2;
 
-constexpr int leaves_of_a_twig = 9;
+// Blossoms and shoots of needles have fewer, narrow leaves more, so that all twigs have similar gaps.
+constexpr int leaves_of_a_twig = 21, blossoms_of_a_spray = 9, narrow_leaves_of_a_twig = 39;
 // Rows between two checks of the deadline.
 constexpr int rows_a_look = 32;
 // The share of the accent colour in the heart of a blossom, and where on the petals it ends.
@@ -272,6 +273,11 @@ constexpr bool makes_twigs(LeafShape shape) {
          shape != LeafShape::palmate;
 }
 
+int count_of(LeafShape shape) {
+  if (shape == LeafShape::petal || shape == LeafShape::needles) return blossoms_of_a_spray;
+  return shape == LeafShape::willow ? narrow_leaves_of_a_twig : leaves_of_a_twig;
+}
+
 struct Kind {
   std::string name;
   LeafPicture picture;
@@ -290,7 +296,7 @@ const std::vector<Kind>& kinds() {
     for (int i = 0; i < leaf_shape_count; ++i) {
       const auto shape = static_cast<LeafShape>(i);
       const std::string name(leaf_shape_names()[static_cast<std::size_t>(i)]);
-      if (makes_twigs(shape)) list.push_back({name + "_twig", {shape, leaves_of_a_twig}});
+      if (makes_twigs(shape)) list.push_back({name + "_twig", {shape, count_of(shape)}});
     }
     return list;
   }();
@@ -338,6 +344,15 @@ std::string_view leaf_kind(LeafShape shape, bool is_twig) {
     leaf = kind.name;
   }
   return leaf;
+}
+
+void let_light_through(Material& material, LeafShape shape) {
+  constexpr float through_blade = 0.4F, through_needle = 0.2F, leaf_specular = 0.4F;
+  // Chlorophyll takes blue light twice: the proportions of 1.25, 1.2 and 0.55, at most 1 as glTF demands.
+  constexpr glm::vec3 through_green{1, 0.96F, 0.44F};
+  material.transmission = shape == LeafShape::needles ? through_needle : through_blade;
+  material.transmission_color = shape == LeafShape::petal ? glm::vec3(1) : through_green;
+  material.specular = leaf_specular;
 }
 
 // At most 0.4: opaque to half a texel beyond the middle of the edge, so that distant leaves do not become

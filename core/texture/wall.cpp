@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/model/model.h"
+#include "core/texture/ground.h"
 
 namespace seedmesh::texture {
 namespace {
@@ -239,9 +240,18 @@ struct Painter {
 };
 
 constexpr WallKind kinds[] = {
-    {"brick", brick_tile, false},      {"plaster", plaster_tile, true}, {"roof_tile", roof_tile_tile, true},
-    {"slate", slate_tile, true},       {"planks", planks_tile, true},   {"ashlar", ashlar_tile, true},
-    {"concrete", concrete_tile, true}, {"sheet", sheet_tile, true},
+    {"brick", brick_tile, false},
+    {"plaster", plaster_tile, true},
+    {"roof_tile", roof_tile_tile, true},
+    {"slate", slate_tile, true},
+    {"planks", planks_tile, true},
+    {"ashlar", ashlar_tile, true},
+    {"concrete", concrete_tile, true},
+    {"sheet", sheet_tile, true},
+    {"soil_ground", {ground_tile, ground_tile}, true},
+    {"rock_ground", {ground_tile, ground_tile}, true},
+    {"sand_ground", {ground_tile, ground_tile}, true},
+    {"snow_ground", {ground_tile, ground_tile}, true},
 };
 
 constexpr Painter painters[] = {
@@ -253,6 +263,10 @@ constexpr Painter painters[] = {
     {ashlar, {}, 0.7F, 1.14F, {158, 156, 150}, 0.014F, 0.95F, 0.86F, 0.95F, 0.35F},
     {concrete, {}, 0.74F, 1.12F, {}, 0.008F, 0.95F, 0.85F, 0.95F, 0.3F},
     {sheet, {}, 0.8F, 1.1F, {}, 0.035F, 0.5F, 0.45F, 0.5F, 0.3F},
+    {soil_ground, {}, 0.45F, 1.18F, {}, 0.02F, 0.98F, 0.8F, 0.9F, 0.55F},
+    {rock_ground, {}, 0.4F, 1.18F, {}, 0.03F, 0.96F, 0.72F, 0.9F, 0.6F},
+    {sand_ground, {}, 0.7F, 1.18F, {}, 0.006F, 0.95F, 0.78F, 0.9F, 0.3F},
+    {snow_ground, {}, 0.86F, 1.18F, {}, 0.012F, 0.7F, 0.5F, 0.7F, 0.2F},
 };
 static_assert(std::size(kinds) == std::size(painters));
 

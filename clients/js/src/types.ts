@@ -1301,6 +1301,8 @@ export interface TerrainParameters {
   water_level?: number;
   /** Pixels a side of a colour texture and a normal map of the whole field, instead of vertex colours. 0: none. Not on a sphere. */
   texture?: number;
+  /** Adds a colour texture, a normal map and a roughness map that repeat each three metres, in the second set of texture coordinates. They show soil, sand, snow or rock by the palette, and multiply the vertex colours. Not with texture, and not on a sphere. */
+  detail?: boolean;
   /** Applies the heights to the surface of another model instead of a plane. They keep their metres and continue mirrored beyond their edges, so that there is no seam. The model keeps its materials. */
   onto?: TerrainParametersOnto;
   /** The contents of the formats png16, png8, rgb24, rgba32 and r16. */
@@ -1349,10 +1351,16 @@ export interface TreeParametersLeaf {
   density?: number;
   /** Factor for the length and width that the model gives. */
   size?: number;
+  /** outward: both sides of a leaf are faces with one normal, which points out of the crown, so that its upper side is as bright as the lower ones are dark. Such leaves have no generated normal map. two_sided: one face that is visible from both sides; renderers turn its normal around at the back, and crowns seen from below the leaves are dark. auto: outward, or two_sided in the profiles unity and unreal, whose foliage materials have a light of their own. Leaves that share a mesh (output.instancing) are two_sided. */
+  faces?: "auto" | "two_sided" | "outward";
   /** 0 gives every leaf its own normals. 1 gives it the normals of the surface of the crown, so that distant crowns look smoother. */
   crown_normals?: number;
   /** Largest random difference in brightness between leaves. */
   tint?: number;
+  /** Standard deviation of the hue between leaves, as vertex colours. Leaves of a limb, and leaves of a twig, resemble each other. If it is above 0, one leaf in fifty is withered. */
+  hue?: number;
+  /** Largest share of the light of the sky that leaves take from the leaves below them, as vertex colours. */
+  occlusion?: number;
   /** Colour in summer. Petals have it in spring as well. */
   color?: string;
   /** Colour in autumn. If left out, leaves are yellow, and petals keep their colour. */

@@ -14,7 +14,7 @@ Asset& BodySource::asset_of(const Shape& shape) {
   if (asset.row == nullptr) return asset;
   const Style& style = shapes_.styles[shape.style];
   const auto [found, is_new] =
-      parts_.try_emplace({shape.geometry, style.options, rounded(shape.size), style.color});
+      parts_.try_emplace({shape.geometry, style.options, rounded(shape.size), style.color, style.material});
   if (!is_new) return found->second;
   Asset& made = found->second;
   made.size = shape.size;

@@ -84,7 +84,7 @@ class Describer {
   }
 
   void add_materials() {
-    bool any_unlit = false;
+    bool any_unlit = false, any_transmission = false, any_specular = false;
     const TextureNumber texture_number = [this](const TextureUse& use) {
       return textures_.number(use, images_);
     };
@@ -92,7 +92,11 @@ class Describer {
       const Material& material = model_.materials[used];
       append_material(material_list_, material, texture_number);
       any_unlit = any_unlit || material.unlit;
+      any_transmission = any_transmission || material.transmission > 0;
+      any_specular = any_specular || material.specular < 1;
     }
+    if (any_transmission) extensions_used_.emplace_back("KHR_materials_diffuse_transmission");
+    if (any_specular) extensions_used_.emplace_back("KHR_materials_specular");
     if (any_unlit) extensions_used_.emplace_back("KHR_materials_unlit");
     if (materials_.any_variants) extensions_used_.emplace_back("KHR_materials_variants");
   }

@@ -59,6 +59,26 @@ std::string surface_members(const Material& material, int base, int surface) {
   return text;
 }
 
+/// The members of `extensions`; empty where the material has none. `base`: its colour texture, or -1.
+std::string extension_members(const Material& material, int base) {
+  std::string text;
+  Members members(text);
+  if (material.transmission > 0) {
+    members.json.object("KHR_materials_diffuse_transmission", [&] {
+      const glm::vec3 color = glm::vec3(material.base_color) * material.transmission_color;
+      members.factors("diffuseTransmissionColorFactor", std::array{color.x, color.y, color.z}, 1);
+      members.texture("diffuseTransmissionColorTexture", base, material.base_color_texture.uv_set);
+      members.factor("diffuseTransmissionFactor", material.transmission, 0);
+    });
+  }
+  if (material.specular < 1) {
+    members.json.object("KHR_materials_specular",
+                        [&] { members.factor("specularFactor", material.specular, 1); });
+  }
+  if (material.unlit) members.json.object("KHR_materials_unlit", [] {});
+  return text;
+}
+
 }  // namespace
 
 void append_material(std::string& out, const Material& material, const TextureNumber& texture_number) {
@@ -78,9 +98,9 @@ void append_material(std::string& out, const Material& material, const TextureNu
     const glm::vec3& glow = material.emissive;
     members.factors("emissiveFactor", std::array{glow.x, glow.y, glow.z}, 0);
     members.texture("emissiveTexture", emissive, material.emissive_texture.uv_set);
-    if (material.unlit) {
+    if (const std::string inner = extension_members(material, base); !inner.empty()) {
       json.key("extensions");
-      json.json("{\"KHR_materials_unlit\":{}}");
+      json.json('{' + inner + '}');
     }
     if (!material.name.empty()) json.member("name", material.name);
     members.texture("normalTexture", normal, material.normal_texture.uv_set);

@@ -96,6 +96,23 @@ TEST(Materials, HaveTheirMembersByName) {
             R"("metallicRoughnessTexture":{"index":1}}})");
 }
 
+TEST(Materials, DescribeTheLightThatPassesThroughLeaves) {
+  Material material;
+  material.metallic = 1;
+  material.roughness = 1;
+  material.base_color = {0.5F, 0.5F, 0.5F, 1};
+  material.base_color_texture = {4, 0, true};
+  material.transmission = 0.25F;
+  material.transmission_color = {1, 1, 0.5F};
+  material.specular = 0.5F;
+  EXPECT_EQ(
+      described(material),
+      R"({"extensions":{"KHR_materials_diffuse_transmission":{)"
+      R"("diffuseTransmissionColorFactor":[0.5,0.5,0.25],"diffuseTransmissionColorTexture":{"index":4},)"
+      R"("diffuseTransmissionFactor":0.25},"KHR_materials_specular":{"specularFactor":0.5}},)"
+      R"("pbrMetallicRoughness":{"baseColorFactor":[0.5,0.5,0.5,1.0],"baseColorTexture":{"index":4}}})");
+}
+
 TEST(JsonWriter, SetsCommasBetweenMembersAndValues) {
   std::string text;
   JsonWriter json(text);

@@ -831,6 +831,7 @@ class TerrainParameters(TypedDict, total=False):
     palette: Literal['alpine', 'desert', 'tropical', 'arctic', 'volcanic', 'moon', 'grey', 'none']
     water_level: float
     texture: int
+    detail: bool
     onto: "TerrainParametersOnto"
     heightmap: "TerrainParametersHeightmap"
 
@@ -859,8 +860,11 @@ class TreeParametersLeaf(TypedDict, total=False):
     coarseness: int
     density: float
     size: float
+    faces: Literal['auto', 'two_sided', 'outward']
     crown_normals: float
     tint: float
+    hue: float
+    occlusion: float
     color: str
     autumn: str
     evergreen: bool
