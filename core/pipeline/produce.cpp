@@ -13,6 +13,7 @@
 #include "core/pipeline/guarded.h"
 #include "core/pipeline/names.h"
 #include "core/pipeline/profiles.h"
+#include "core/registry/tile_extent.h"
 #include "core/schema/warning_list.h"
 #include "core/texture/impostor.h"
 #include "core/texture/paint.h"
@@ -63,12 +64,12 @@ Json seed_json(std::uint64_t seed) {
 /// Names the model and its parts for the profile.
 void name_model(Model& model, const Request& request, const Job& job) {
   const OutputProfile profile = request.body().output.profile;
-  // Compressed meshes share grids, so their stored form depends on the whole request.
-  const bool is_compressed = profile_of(profile).compressed;
+  // Quantized meshes share grids, so their stored form depends on the whole request.
+  const bool is_quantized = profile_of(profile).quantized;
   gltf::name_by_content(model,
                         {.stem = name_stem(request.body()),
                          .root = request.name(),
-                         .form = is_compressed ? std::string_view(request.canonical()) : std::string_view()},
+                         .form = is_quantized ? std::string_view(request.canonical()) : std::string_view()},
                         job);
   name_for(model, profile);
 }
@@ -275,8 +276,10 @@ WriteOptions write_options(const Request& request) {
           .generator = "Seedmesh " + std::string(program_version()),
           .dialect = {.compressed = profile.compressed,
                       .gpu_instances = profile_default || output.instancing == OutputInstancing::gpu,
-                      .lods_inside = profile.lods_inside},
-          .image_stem = name_stem(request.body())};
+                      .lods_inside = profile.lods_inside,
+                      .quantized = profile.quantized},
+          .image_stem = name_stem(request.body()),
+          .least_extent = tile_extent(*request.body().generator, request.body().params)};
 }
 
 }  // namespace
@@ -333,7 +336,7 @@ Result<std::string> derive(const Request& request, const Job::Options& options) 
 
 /// Does the output hold exactly the triangles of the generator?
 static bool leaves_meshes(const OutputParams& output) {
-  return !profile_of(output.profile).compressed && output.lods == 1 && !output.impostor;
+  return !profile_of(output.profile).quantized && output.lods == 1 && !output.impostor;
 }
 
 /// A warning where simplification to the budget takes seconds.

@@ -38,7 +38,11 @@ void read_child(const Location& location, Child& out) {
   const std::string pointer = location.pointer();
   const Location inner(merged, pointer, location.issue_list());
   if (const auto at = inner.member("generator")) {
+    const std::size_t issues_before = location.issue_list().issues().size();
     read_text(*at, {}, out.generator);
+    // An empty name means elsewhere that an error has been reported.
+    if (out.generator.empty() && location.issue_list().issues().size() == issues_before)
+      at->report(IssueKind::unknown_name, "found an empty text, expected the name of a generator");
   } else if (!location.value().contains("preset")) {
     location.issue_list().add_missing(location.pointer(), "generator",
                                       "\"generator\" is missing, and there is no \"preset\" that names one");

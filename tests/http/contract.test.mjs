@@ -99,6 +99,24 @@ test('invalid JSON is answered 400, an invalid request 422 with every error', as
   assert.equal((await server.generate({})).json.errors[0].pointer, '');
 });
 
+test('an empty generator name is refused wherever a request stands inside another', async () => {
+  const inner = { generator: '' };
+  const requests = {
+    '/parameters/terrain/generator': { generator: 'scene', parameters: { terrain: inner, layers: [] } },
+    '/parameters/layers/0/model/generator': { generator: 'scene', parameters: { layers: [{ model: inner, place: { method: 'positions', positions: [{ at: [0, 0] }] } }] } },
+    '/parameters/layers/0/place/positions/0/model/generator': { generator: 'scene', parameters: { layers: [{ model: { preset: 'koch_snowflake' }, place: { method: 'positions', positions: [{ at: [0, 0], model: inner }] } }] } },
+    '/parameters/surfaces/A/model/generator': { generator: 'lsystem', parameters: { axiom: '~A', surfaces: { A: { model: inner } } } },
+    '/generator': inner,
+  };
+  for (const [pointer, request] of Object.entries(requests)) {
+    for (const path of ['/v1/generate', '/v1/derive', '/v1/validate']) {
+      const answer = await server.post(path, request);
+      is_problem(answer, 422);
+      assert.ok(answer.json.errors.some((each) => each.pointer === pointer), `${path} ${pointer}: ${answer.text}`);
+    }
+  }
+});
+
 test('a request above a limit is 422 and names the limit', async () => {
   const answer = await server.generate({ ...plant, parameters: { axiom: 'F', productions: ['F -> FFFFFFFFFF'], iterations: 30 } });
   is_problem(answer, 422, 'limit-exceeded');

@@ -4,8 +4,8 @@
 export interface Output {
   /** The file format of the answer. glb is one binary glTF 2.0 file. gltf is glTF 2.0 as JSON with embedded buffers. zip contains a .gltf, its .bin and its images as separate files, stored uncompressed. Terrain also has height maps: png16 and png8 are grey, rgb24 and rgba32 pack a height into the channels of a PNG, and r16 has raw samples of 16 bits. Fractals also have ply (the points of frcm), png16 and png8 (escape times, grey or in colours). Scenes also have placements, a zip of placements.json and every model as a file of its own. Cities also have geojson, the plan. */
   format?: "glb" | "gltf" | "zip" | "png16" | "png8" | "rgb24" | "rgba32" | "r16" | "ply" | "placements" | "geojson";
-  /** The program that reads the model. core: any reader of glTF 2.0, without required extensions. web: three.js, Babylon and other viewers, with quantized and compressed data and instances on the GPU. unity, unreal, godot, blender: what the importer of that program supports, with names that it accepts. For height maps as r16 or png16, unity and unreal select the conventions of these engines for sizes, rows and scales. */
-  profile?: "core" | "web" | "unity" | "unreal" | "godot" | "blender";
+  /** The program that reads the model. core: any reader of glTF 2.0, without required extensions. web: three.js, Babylon and other viewers, with quantized and compressed data and instances on the GPU. tiles: clients of 3D Tiles, with quantized data and instances on the GPU, without a compression that needs a decoder. unity, unreal, godot, blender: what the importer of that program supports, with names that it accepts. For height maps as r16 or png16, unity and unreal select the conventions of these engines for sizes, rows and scales. */
+  profile?: "core" | "web" | "tiles" | "unity" | "unreal" | "godot" | "blender";
   /** The name of the model: of its root node, its scene and its files, and the first part of the names of its meshes, materials and images. Without it, the name is that of the preset, with the seed if it is not the preset's, or with a hash if anything else differs. A request without a preset has the generator's name and a hash. */
   name?: string;
   /** What the model says of its origin. full writes the engine, generator, seed, preset, canonical request and permalink into the extras of the asset, the scene and the root node. none leaves all of it out. */
@@ -22,7 +22,7 @@ export interface Output {
   wind?: "none" | "weights";
   /** Adds convex bodies around the trunk and the thick limbs of a tree or an L-system, or around the masses of a building. The value selects the names that an engine recognises as collision: plain (collision_01), unreal (UCX_bark_01, after the visible mesh), godot (collision_01-convcolonly). */
   collision?: "none" | "plain" | "unreal" | "godot";
-  /** How repeated parts are written. merge makes one mesh of all organs of a kind, and of all copies with one material. nodes gives each copy a node, and all share one mesh. gpu writes the transforms of copies as arrays (EXT_mesh_gpu_instancing), for the profiles web, unity and blender. auto merges the organs of a plant, merges parts of a building except large parts that occur often, and gives other copies nodes, or arrays in the profile web. */
+  /** How repeated parts are written. merge makes one mesh of all organs of a kind, and of all copies with one material. nodes gives each copy a node, and all share one mesh. gpu writes the transforms of copies as arrays (EXT_mesh_gpu_instancing), for the profiles web, tiles, unity and blender. auto merges the organs of a plant, merges parts of a building except large parts that occur often, and gives other copies nodes, or arrays in the profiles web and tiles. */
   instancing?: "auto" | "nodes" | "gpu" | "merge";
   /** The number of models side by side in one file, generated from this seed and the seeds that follow it. They share materials and textures. */
   variants?: number;
@@ -164,6 +164,13 @@ export interface BuildingParametersDerivation {
   mode?: "parallel" | "sequential";
 }
 
+/** Light that the surface sends out. It is added to the light that it reflects, and does not light other surfaces. */
+export interface Emission {
+  color: string;
+  /** The factor of the colour. Light beyond 1 is written as KHR_materials_emissive_strength, which some readers ignore. */
+  strength?: number;
+}
+
 /** Your own textures, each a PNG or JPEG file as a data URI. They replace a generated texture. */
 export interface Images {
   /** The colour, and with an alpha channel the shape that is cut out. */
@@ -185,6 +192,7 @@ export interface BuildingParametersMaterialsValue {
   metallic?: number;
   /** Values below 1 are transparent. */
   opacity?: number;
+  emission?: Emission;
   /** The width and height of one tile of the images on the wall. */
   tile?: [number, number];
   images?: Images;
@@ -227,8 +235,8 @@ export interface BuildingParameters {
   repeat?: "nearest" | "ceil";
   /** normalize: probabilities that do not sum to 1 count as shares of their sum, with a warning. strict: they are an error. */
   weights?: "normalize" | "strict";
-  /** A restricted kind of shape grammar. non_erasing: no rule removes a shape (NIL). unimarker: in addition, each successor has at most one symbol with a rule, the marker. */
-  restrict?: "none" | "non_erasing" | "unimarker";
+  /** A restricted kind of shape grammar. non_erasing: no rule removes a shape (NIL). unimarker: in addition, each successor has at most one symbol with a rule, the marker. split: every shape of a successor stays within the scope of its predecessor. */
+  restrict?: "none" | "non_erasing" | "unimarker" | "split";
   /** The materials that rules name. They replace built-in materials of the same name. */
   materials?: { [key: string]: BuildingParametersMaterialsValue };
   /** Whether materials get textures made by seed, by their names (brick, plaster, wall, facade, building, stone, concrete, wood, roof, roof_tile, slate, cladding, chimney). auto: in blueprints; made: in your own rules too; none: only materials with images have textures. Built-in parts, such as windows, have none. */
@@ -717,6 +725,7 @@ export interface LsystemParametersMaterialsItem {
   metallic?: number;
   /** Values below 1 are transparent, as for the leaves of Kogovšek's trees. */
   opacity?: number;
+  emission?: Emission;
   texture?: Texture;
   /** Another seed gives another texture of the same kind. Models with the same texture, seed and colour share it. */
   texture_seed?: number;
@@ -807,6 +816,10 @@ export interface LsystemParameters {
   sides?: number;
   /** The number of rings of faces of a segment along its axis if its width changes; a segment with constant width has one. */
   stacks?: number;
+  /** How the diameter changes between segments. linear: along each segment, from the diameter of the one before it to its own. none: each segment is a cylinder of its own diameter, as gluCylinder draws it with two equal radii. A new tube begins where the diameter changes. */
+  taper?: "linear" | "none";
+  /** What the tubes of coarser levels of detail have less of (`output.lods`). outline: fewer limbs and joints, those that change the outline least. slices: all limbs, with the sides and stacks of level 0 divided by the root of the level plus 1: 32 sides become 22, 18, 16 and 14. */
+  levels?: "outline" | "slices";
   /** Whether thinner limbs have fewer sides and shorter segments fewer stacks. Coarser levels of detail always do. */
   adapt?: boolean;
   /** Joins the limbs of brackets to one surface, as for trees: limbs of similar thickness in a fork, thin limbs in a collar. Limbs without space, and limbs with a contour, stay closed tubes that begin inside their parent. Thin welded limbs have fewer sides, and rings where they bend, whatever stacks and adapt say. */
@@ -1239,7 +1252,7 @@ export interface TerrainParameters {
   resolution?: number;
   /** Length of the terrain from west to east, or the diameter of a sphere. */
   size?: number;
-  /** A plane, or a planetoid (poisson_faulting and fbm). */
+  /** A plane, or a planetoid (fault_formation, poisson_faulting and fbm). */
   shape?: "plane" | "sphere";
   /** Greatest random deviation of the first round of a subdivision, or the weight of the first octave of noise. Default: a tenth of the size, on a sphere a twentieth of the diameter. */
   amplitude?: number;
@@ -1799,6 +1812,108 @@ export interface TreeParameters {
   sculpt?: TreeParametersSculpt;
 }
 
+/** The shape of the ground. */
+export interface WorldParametersRelief {
+  /** Whether ground below the sea level is covered by the sea. Without it, rivers end in lakes. */
+  sea?: boolean;
+  /** The height of the sea. A region without a coast has its lake at its lowest point. */
+  sea_level?: number;
+  /** The share of land: 0 is nearly all sea, 1 nearly all land. */
+  land?: number;
+  /** The wavelength of land and sea. */
+  continents?: number;
+  /** The height of the greatest mountain ranges. */
+  mountains?: number;
+  /** The height of hills. */
+  hills?: number;
+  /** How sharp the crests of mountains are: 0 is round, 1 sharp. */
+  ridges?: number;
+  /** The strength of gullies along slopes. */
+  gullies?: number;
+  /** How much of the slopes forms steps, as in layered rock. */
+  terraces?: number;
+}
+
+/** Rivers and lakes. The water of each region of about 32 km drains to the sea or to a lake inside it. */
+export interface WorldParametersWater {
+  /** The amount of rivers: 0 is none, 1 many. */
+  rivers?: number;
+  /** The width of a river that drains 100 km². */
+  width?: number;
+}
+
+/** Temperature and moisture, which determine colours and plants. */
+export interface WorldParametersClimate {
+  /** The mean temperature at the sea level. */
+  temperature?: number;
+  /** The mean moisture: 0 is desert, 1 rain forest. */
+  moisture?: number;
+  /** How much moisture and temperature vary from location to location. */
+  variation?: number;
+}
+
+/** The colours of the ground and of water. */
+export interface WorldParametersColors {
+  /** The colour of grass. */
+  grass?: string;
+  /** The colour of the ground of woods. */
+  forest?: string;
+  /** The colour of dry ground. */
+  dry?: string;
+  /** The colour of rock. */
+  rock?: string;
+  /** The colour of sand. */
+  sand?: string;
+  /** The colour of snow. */
+  snow?: string;
+  /** The colour of water. */
+  water?: string;
+}
+
+/** Class */
+export interface WorldParametersPlantsItem {
+  /** The name of the class in the map. */
+  class: string;
+  /** The form of the plant. */
+  form?: "conifer" | "broadleaf" | "palm" | "shrub" | "cactus" | "fungus";
+  /** The mean height. Copies have 0.7 to 1.3 times this height. */
+  height?: number;
+  /** The least distance between two plants of the class. */
+  spacing?: number;
+  /** The share of suitable ground that the class covers. */
+  density?: number;
+  /** The least and the greatest moisture at which the class grows. */
+  moisture?: [number, number];
+  /** The least and the greatest temperature at which the class grows. */
+  temperature?: [number, number];
+  /** The steepest ground that the class grows on. */
+  slope?: number;
+  /** The colour of leaves. */
+  color?: string;
+  /** The colour of stems. */
+  stem?: string;
+}
+
+/** An endless plane of land and sea by a seed, streamed as OGC 3D Tiles 1.1. A tile depends on the request and its address alone. */
+export interface WorldParameters {
+  /** The side of the square that is streamed: a power of two from 2^15. Leaves have a side of 64 m. */
+  extent?: number;
+  /** The position of the plane at the middle of the world, east and north, in regions of 32,768 m. */
+  origin?: [number, number];
+  /** The layers that tiles contain. */
+  layers?: ("terrain" | "water" | "roads" | "buildings" | "plants")[];
+  /** The shape of the ground. */
+  relief?: WorldParametersRelief;
+  /** Rivers and lakes. The water of each region of about 32 km drains to the sea or to a lake inside it. */
+  water?: WorldParametersWater;
+  /** Temperature and moisture, which determine colours and plants. */
+  climate?: WorldParametersClimate;
+  /** The colours of the ground and of water. */
+  colors?: WorldParametersColors;
+  /** Classes of plants. Copies of one class keep their spacing, also across the borders of tiles. */
+  plants?: WorldParametersPlantsItem[];
+}
+
 /** A request with this generator. */
 export interface BuildingChild {
   /** The kind of model. Required unless a preset is given, which then determines it. */
@@ -1883,6 +1998,18 @@ export interface TreeChild {
   parameters?: TreeParameters;
 }
 
+/** A request with this generator. */
+export interface WorldChild {
+  /** The kind of model. Required unless a preset is given, which then determines it. */
+  generator: "world";
+  /** The name of a shipped request. The rest of this request is merged over it as a JSON Merge Patch (RFC 7396): objects member by member, null removes a member, anything else replaces. */
+  preset?: string;
+  /** The seed: the same request with the same seed gives the same bytes. */
+  seed?: Seed;
+  /** The parameters of the generator, by the generator's own schema. */
+  parameters?: WorldParameters;
+}
+
 /** A preset, and the changes to it as a JSON Merge Patch (RFC 7396). */
 export interface PresetChild {
   generator?: undefined;
@@ -1894,7 +2021,7 @@ export interface PresetChild {
   parameters?: { [key: string]: unknown };
 }
 
-export type Child = BuildingChild | CityChild | FractalChild | LsystemChild | SceneChild | TerrainChild | TreeChild | PresetChild;
+export type Child = BuildingChild | CityChild | FractalChild | LsystemChild | SceneChild | TerrainChild | TreeChild | WorldChild | PresetChild;
 
 /** A request with this generator. */
 export interface BuildingRequest {
@@ -1994,6 +2121,20 @@ export interface TreeRequest {
   output?: Output;
 }
 
+/** A request with this generator. */
+export interface WorldRequest {
+  /** The kind of model. Required unless a preset is given, which then determines it. */
+  generator: "world";
+  /** The name of a shipped request. The rest of this request is merged over it as a JSON Merge Patch (RFC 7396): objects member by member, null removes a member, anything else replaces. */
+  preset?: string;
+  /** The seed: the same request with the same seed gives the same bytes. */
+  seed?: Seed;
+  /** The parameters of the generator, by the generator's own schema. */
+  parameters?: WorldParameters;
+  /** The form of the answer. */
+  output?: Output;
+}
+
 /** A preset, and the changes to it as a JSON Merge Patch (RFC 7396). */
 export interface PresetRequest {
   generator?: undefined;
@@ -2007,7 +2148,7 @@ export interface PresetRequest {
   output?: Output;
 }
 
-export type Request = BuildingRequest | CityRequest | FractalRequest | LsystemRequest | SceneRequest | TerrainRequest | TreeRequest | PresetRequest;
+export type Request = BuildingRequest | CityRequest | FractalRequest | LsystemRequest | SceneRequest | TerrainRequest | TreeRequest | WorldRequest | PresetRequest;
 
 export interface PresetListGeneratorsItem {
   name: string;
@@ -2166,6 +2307,12 @@ export interface FractalDerivation {
   volume: number | null;
   genus: number | null;
   non_manifold_edges: number | null;
+  /** Of all copies of a segment, or of the outline of a plate. */
+  length: number | null;
+  /** Of one side of a plate. */
+  area: number | null;
+  /** The same values for each of the stages, with its iterations or points. */
+  stages: { [key: string]: unknown }[];
   bounds: Box | null;
   warnings: WarningsItem[];
 }

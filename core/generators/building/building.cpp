@@ -142,6 +142,7 @@ Shapes shapes_of(Work& work, const BuildingParams& params, const GenerateContext
   plan.keeps_choices = options.is_listed;
   plan.keeps_masses = context.demand.collision != CollisionNames::none;
   if (params.iterations) plan.iterations = *params.iterations;
+  plan.stays_inside = params.restrict == BuildingRestrict::split;
   plan.is_sequential = params.derivation.mode == BuildingMode::sequential;
   plan.is_depth_first = params.derivation.order == BuildingOrder::depth;
   if (params.repeat)

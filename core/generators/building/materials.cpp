@@ -225,6 +225,12 @@ int MaterialTable::make(const MaterialRequest& request) {
       material.base_color.w = static_cast<float>(own.opacity);
       material.alpha_mode = AlphaMode::blend;
     }
+    if (own.emission) {
+      const Color& glow = own.emission->color;
+      material.emissive =
+          glm::vec3(linear_of_srgb(glow.red), linear_of_srgb(glow.green), linear_of_srgb(glow.blue)) *
+          static_cast<float>(own.emission->strength);
+    }
     if (const auto textures = textures_.find(name); textures != textures_.end()) {
       const Textures& p = textures->second;
       if (p.color >= 0) material.base_color_texture = {p.color, 0, true};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <map>
 
 #include "core/base/math.h"
 #include "core/generators/city/shape.h"
@@ -21,6 +22,7 @@ constexpr double near_corner = 60;  // cuts that end this near to a corner end t
 constexpr double near_line = 3;     // corners this near to a cut's line lie on it, cm
 constexpr double least_angle = 16;  // of corners that cuts make, degrees
 constexpr int deepest = 40;
+constexpr double least_space = 100;  // between two sides of a block, cm
 
 }  // namespace
 
@@ -39,6 +41,7 @@ std::vector<CmPoint> SharedEdge::between(const CmPoint& from, const CmPoint& to)
   }
   return points;
 }
+
 Division::Division(const BlockOutline& outline, const CityLots& lots, std::uint64_t key, Rng rng)
     : lots_(lots), rng_(rng) {
   whole_.ring = outline.ring;
@@ -49,6 +52,10 @@ Division::Division(const BlockOutline& outline, const CityLots& lots, std::uint6
     whole_.edges.push_back(static_cast<std::uint32_t>(edges_.size()));
     edges_.push_back({outline.ring[i], outline.ring[(i + 1) % count], edge.street, edge.sidewalk, {}});
   }
+}
+
+bool Division::holds_lots() const {
+  return is_fit(whole_, least_block_angle, 6.0) && !has_narrow_part(whole_.ring, least_space);
 }
 
 void Division::cut(const Job& job) {
@@ -68,14 +75,32 @@ void Division::cut(const Job& job) {
       cut(piece, 0);
     }
   }
-  const auto is_sound = [this](const Piece& piece) { return is_simple(outline(piece)); };
-  if (!first.empty() && std::all_of(pieces_.begin(), pieces_.end(), is_sound)) return;
+  if (!first.empty() && is_partition()) return;
   // Without strips, or where rounding has folded one of them.
   reset();
   cut(whole_, 0);
-  if (std::all_of(pieces_.begin(), pieces_.end(), is_sound)) return;
+  if (is_partition()) return;
   reset();
   pieces_.push_back(whole_);
+}
+
+/// Simple outlines whose edges cancel, except those of the block, cover each point of it once.
+bool Division::is_partition() const {
+  std::map<std::pair<CmPoint, CmPoint>, int> open;
+  const auto add = [&open](const CmRing& ring, int count) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const CmPoint &a = ring[i], &b = ring[(i + 1) % ring.size()];
+      const bool is_forward = a < b;
+      open[is_forward ? std::pair{a, b} : std::pair{b, a}] += is_forward ? count : 0 - count;
+    }
+  };
+  add(outline(whole_), -1);
+  for (const Piece& piece : pieces_) {
+    const CmRing ring = outline(piece);
+    if (!is_simple(ring) || doubled_area(ring) <= 0) return false;
+    add(ring, 1);
+  }
+  return std::all_of(open.begin(), open.end(), [](const auto& edge) { return edge.second == 0; });
 }
 
 /// Undoes all cuts.
@@ -177,6 +202,11 @@ bool Division::find_cut(const Piece& piece, Rng& draw, Piece& left, Piece& right
     for (const double share : shares) {
       if (try_cut(piece, box.centre + step * (share - 0.5), direction, left, right)) return true;
     }
+  }
+  if (box.long_side <= greatest_aspect * box.short_side) return false;
+  for (const double share : {0.2, 0.8, 0.3, 0.7, 0.15, 0.85, 0.45, 0.55, 0.35, 0.65}) {
+    if (try_cut(piece, box.centre + along * (box.long_side * (share - 0.5)), across, left, right))
+      return true;
   }
   return false;
 }

@@ -38,7 +38,7 @@ class Division {
   Division(const BlockOutline& outline, const CityLots& lots, std::uint64_t key, Rng rng);
 
   /// Whether the block can hold lots at all.
-  bool holds_lots() const { return is_fit(whole_, least_block_angle, 6.0); }
+  bool holds_lots() const;
 
   /// Cuts the block by the method of the request.
   void cut(const Job& job);
@@ -60,6 +60,7 @@ class Division {
   struct Meeting;
   void cut(const Piece& piece, int depth);
   void reset();
+  bool is_partition() const;
   bool is_large(const Piece& piece, Rng& draw) const;
   bool find_cut(const Piece& piece, Rng& draw, Piece& left, Piece& right);
   bool find_cut_across_front(const Piece& piece, Rng& draw, Piece& left, Piece& right);

@@ -46,6 +46,12 @@ std::vector<StreetPiece> through_street(const GrowthInput& input, const Job& job
 std::vector<StreetPiece> grow_cell(const GrowthInput& input, const StreetGraph& majors,
                                    const std::vector<std::vector<std::uint32_t>>& loops, Job& job);
 
+/// Straight minor streets between networks that have no common node: for the shortest network first, the shortest link
+/// that meets streets at wide angles and crosses no street, shore, border or obstacle. Networks without such a link
+/// stay apart. Cost for each network: 64 times the edges.
+std::vector<StreetPiece> links_between_networks(const GrowthInput& input, const StreetGraph& graph,
+                                                const Job& job);
+
 /// The whole street graph: majors, cells, and what is left after pieces outside of the area and loose components
 /// are removed.
 StreetGraph grow_streets(const GrowthInput& input, Job& job);

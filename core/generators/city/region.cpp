@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/geom/polygon/planar_graph.h"
-
 namespace seedmesh::city {
 namespace {
 
@@ -14,22 +12,6 @@ using glm::dvec2;
 constexpr std::uint32_t border = 0, shore = 1;
 constexpr double least_area = 100;  // square metres
 enum class Ground : std::uint8_t { outside, land, water };
-
-/// A position just inside of a face: left of the middle of its longest edge.
-dvec2 position_in(const std::vector<CmPoint>& nodes, const std::vector<PlanarEdge>& edges,
-                  std::span<const std::uint32_t> loop) {
-  dvec2 from{0}, to{1, 0};
-  double longest = -1;
-  for (const std::uint32_t half : loop) {
-    const CmPoint &a = nodes[start_of(edges, half)], &b = nodes[end_of(edges, half)];
-    if (distance(a, b) <= longest) continue;
-    longest = distance(a, b);
-    from = in_cm(a);
-    to = in_cm(b);
-  }
-  const dvec2 along = to - from;
-  return (from + to) / 2.0 + dvec2(-along.y, along.x) * (1.5 / longest);
-}
 
 bool is_in(const std::vector<CmRing>& rings, const dvec2& cm) {
   bool inside = false;
@@ -63,6 +45,21 @@ std::vector<Ground> ground_of(const std::vector<CmPoint>& nodes, const std::vect
 }
 
 }  // namespace
+
+dvec2 position_in(const std::vector<CmPoint>& nodes, const std::vector<PlanarEdge>& edges,
+                  std::span<const std::uint32_t> loop) {
+  dvec2 from{0}, to{1, 0};
+  double longest = -1;
+  for (const std::uint32_t half : loop) {
+    const CmPoint &a = nodes[start_of(edges, half)], &b = nodes[end_of(edges, half)];
+    if (distance(a, b) <= longest) continue;
+    longest = distance(a, b);
+    from = in_cm(a);
+    to = in_cm(b);
+  }
+  const dvec2 along = to - from;
+  return (from + to) / 2.0 + dvec2(-along.y, along.x) * (1.5 / longest);
+}
 
 Region region_of(const std::vector<CmRing>& area) {
   Region region;

@@ -1,11 +1,13 @@
 #pragma once
 /// The area of a city, divided into land and water.
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/base/job.h"
 #include "core/generators/city/density.h"
 #include "core/generators/city/geometry.h"
+#include "core/geom/polygon/planar_graph.h"
 
 namespace seedmesh::city {
 
@@ -27,6 +29,10 @@ Region region_of(const std::vector<CmRing>& area);
 /// Cuts polygons of water out of an area: the outer ring counter-clockwise, then holes clockwise. Water and islands
 /// below 100 square metres are left out.
 Region region_of(const std::vector<CmRing>& area, const std::vector<Rings>& water, Job& job);
+
+/// A position in centimetres just inside of a face: 1.5 cm to the left of the middle of the longest edge of its loop.
+glm::dvec2 position_in(const std::vector<CmPoint>& nodes, const std::vector<PlanarEdge>& edges,
+                       std::span<const std::uint32_t> loop);
 
 /// Whether a position in centimetres is on land.
 bool is_on_land(const Region& region, const glm::dvec2& cm);

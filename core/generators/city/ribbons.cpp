@@ -114,12 +114,8 @@ class StreetSpace {
     };
     add(face.outer, true);
     for (const std::uint32_t hole : face.holes) add(hole, false);
-    const std::uint32_t first = layout.outlines[0].half_edges[0];
-    const dvec2 d = unit_of(graph_, first);
-    const dvec2 middle = (in_cm(graph_.nodes[start_of(graph_.edges, first)]) +
-                          in_cm(graph_.nodes[end_of(graph_.edges, first)])) /
-                         2.0;
-    layout.is_used = is_on_land(plan_.region, middle + dvec2(-d.y, d.x) * 2.0);
+    layout.is_used =
+        is_on_land(plan_.region, position_in(graph_.nodes, graph_.edges, layout.outlines[0].half_edges));
     if (!layout.is_used) return;
     static constexpr Widths attempts[] = {{1, 1, 1},     {1, 1, 0},    {1, 0.6, 0}, {1, 0.3, 0},
                                           {0.8, 0.3, 0}, {1, 0, 0},    {0.6, 0, 0}, {0.3, 0, 0},
@@ -334,9 +330,7 @@ class StreetSpace {
   /// A face outside of the land: water, unless it lies outside of the area. Its outline has the corners of what is on
   /// the other side.
   void add_water(const FaceLayout& layout) {
-    const std::uint32_t first = layout.outlines[0].half_edges[0];
-    const dvec2 d = unit_of(graph_, first), start = in_cm(graph_.nodes[start_of(graph_.edges, first)]);
-    const dvec2 p = start + d * 5.0 + dvec2(-d.y, d.x) * 2.0;
+    const dvec2 p = position_in(graph_.nodes, graph_.edges, layout.outlines[0].half_edges);
     bool is_in_area = false;
     for (const CmRing& ring : plan_.area) is_in_area ^= is_inside(ring, p);
     if (!is_in_area) return;

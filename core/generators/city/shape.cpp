@@ -67,6 +67,29 @@ double sharpest_cosine(std::span<const CmPoint> ring) {
   return sharpest;
 }
 
+bool has_narrow_part(std::span<const CmPoint> ring, double least) {
+  constexpr double opposite = -0.8;  // cosine
+  const std::size_t count = ring.size();
+  const auto along = [&](std::size_t i) {
+    const dvec2 d = in_cm(ring[(i + 1) % count]) - in_cm(ring[i]);
+    return d / std::sqrt(glm::dot(d, d));
+  };
+  for (std::size_t k = 0; k < count; ++k) {
+    const CmPoint &a = ring[k], &b = ring[(k + 1) % count];
+    const dvec2 edge = along(k);
+    const double length = glm::dot(in_cm(b) - in_cm(a), edge);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i == k || i == (k + 1) % count) continue;
+      const dvec2 off = in_cm(ring[i]) - in_cm(a);
+      const double at = glm::dot(off, edge), side = edge.x * off.y - edge.y * off.x;
+      if (side <= 0 || side >= least || at < 0 || at > length) continue;
+      if (glm::dot(along(i), edge) < opposite || glm::dot(along((i + count - 1) % count), edge) < opposite)
+        return true;
+    }
+  }
+  return false;
+}
+
 bool are_apart(std::span<const CmRing> rings) {
   for (std::size_t r = 0; r < rings.size(); ++r) {
     for (std::size_t s = r + 1; s < rings.size(); ++s) {

@@ -20,6 +20,10 @@ CmRing hull_of(std::span<const CmPoint> ring);
 /// The cosine of the sharpest inner corner of a counter-clockwise ring; -1 without any.
 double sharpest_cosine(std::span<const CmPoint> ring);
 
+/// Whether a counter-clockwise ring is somewhere narrower than `least`, in centimetres, between a corner and an edge
+/// that runs back beside it. Cost: quadratic.
+bool has_narrow_part(std::span<const CmPoint> ring, double least);
+
 /// Whether no two of the rings meet. Cost: quadratic.
 bool are_apart(std::span<const CmRing> rings);
 

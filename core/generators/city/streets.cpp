@@ -98,6 +98,27 @@ class Pruned {
     compact();
   }
 
+  /// Joins the pieces of a straight given street at nodes without another street, where one is too short.
+  void join_short_given(double least) {
+    const PlanarArms arms = arms_of(nodes_, edges_);
+    for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
+      const auto around = arms.of(node);
+      if (around.size() != 2 || is_bridge_end(node)) continue;
+      PlanarEdge &first = edges_[around[0] / 2], &second = edges_[around[1] / 2];
+      if (first.is_removed() || second.is_removed() || !is_given(first) || first.tag != second.tag) continue;
+      const std::uint32_t a = first.from == node ? first.to : first.from,
+                          b = second.from == node ? second.to : second.from;
+      const double shorter = std::min(distance(nodes_[a], nodes_[node]), distance(nodes_[b], nodes_[node]));
+      if (a == b || shorter >= least ||
+          distance_to_segment(in_cm(nodes_[node]), in_cm(nodes_[a]), in_cm(nodes_[b])) > 1.5)
+        continue;
+      first.from = a;
+      first.to = b;
+      second.from = second.to = PlanarEdge::removed;
+    }
+    compact();
+  }
+
   /// Removes edges that leave a node at an angle below the least one to a wider or earlier edge.
   void drop_sharp(double cos_least) {
     for (int round = 0; round < 8; ++round) {
@@ -190,6 +211,10 @@ class Pruned {
     });
   }
 
+  bool is_bridge_end(std::uint32_t node) const {
+    return std::any_of(bridges_.begin(), bridges_.end(),
+                       [node](const Bridge& each) { return each.from == node || each.to == node; });
+  }
   bool is_loose(std::uint32_t node) const { return degree_[node] == 1 && is_border_[node] == 0; }
 
   void remove(PlanarEdge& edge) {
@@ -290,12 +315,8 @@ std::vector<StreetPiece> grow_cells(const GrowthInput& input, const StreetGraph&
     };
     add(face.outer);
     for (const std::uint32_t hole : face.holes) add(hole);
-    const CmPoint& corner = majors.nodes[start_of(majors.edges, loops[0][0])];
-    const CmPoint& next = majors.nodes[end_of(majors.edges, loops[0][0])];
     // A hole of the area is a face, too, and so is water.
-    glm::dvec2 side(in_cm(next) - in_cm(corner));
-    side = glm::dvec2(-side.y, side.x) / std::sqrt(side.x * side.x + side.y * side.y);
-    if (!is_on_land(input.region, (in_cm(corner) + in_cm(next)) / 2.0 + side * 2.0)) return;
+    if (!is_on_land(input.region, position_in(majors.nodes, majors.edges, loops[0]))) return;
     grown[begin] = grow_cell(input, majors, loops, job);
   });
   std::vector<StreetPiece> all;
@@ -327,6 +348,15 @@ void append(Route& route, const Route& more) {
   route.bridges.insert(route.bridges.end(), more.bridges.begin(), more.bridges.end());
 }
 
+StreetGraph finished_graph(const GrowthInput& input, const Route& route, Job& job) {
+  Pruned pruned(graph_of(input.region, route, job), route.bridges);
+  pruned.drop_short(least_street);
+  pruned.drop_sharp(math::cos(math::radians(22.6)));
+  pruned.join_short_given(least_street);
+  pruned.keep_largest();
+  return pruned.finished();
+}
+
 }  // namespace
 
 StreetGraph grow_streets(const GrowthInput& input, Job& job) {
@@ -353,11 +383,13 @@ StreetGraph grow_streets(const GrowthInput& input, Job& job) {
   Route whole = {pieces_of(majors.graph), std::move(majors.bridges), true};
   const std::vector<StreetPiece> minors = grow_cells(input, majors.graph, job);
   whole.pieces.insert(whole.pieces.end(), minors.begin(), minors.end());
-  Pruned pruned(graph_of(input.region, whole, job), whole.bridges);
-  pruned.drop_short(least_street);
-  pruned.drop_sharp(math::cos(math::radians(22.6)));
-  pruned.keep_largest();
-  return pruned.finished();
+  StreetGraph graph = finished_graph(input, whole, job);
+  if (!input.given) return graph;
+  const std::vector<StreetPiece> links = links_between_networks(input, graph, job);
+  if (links.empty()) return graph;
+  whole.pieces = pieces_of(graph);
+  whole.pieces.insert(whole.pieces.end(), links.begin(), links.end());
+  return finished_graph(input, whole, job);
 }
 
 }  // namespace seedmesh::city

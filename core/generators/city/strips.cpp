@@ -15,6 +15,10 @@ namespace seedmesh::city {
 
 using glm::dvec2;
 
+namespace {
+constexpr double near_outline = 1.6;  // points this near to the outline lie on it, cm
+}
+
 /// Builds the pieces from the faces of a straight skeleton.
 class Strips {
  public:
@@ -105,10 +109,30 @@ class Strips {
     return groups;
   }
 
+  /// The corner of the outline, or the earlier point on it, that is near to a point; else the point itself. Points on
+  /// one edge then have a clear order.
+  CmPoint snapped(const CmPoint& p) {
+    constexpr double same = 4;  // cm
+    const Piece& whole = division_.whole_;
+    for (const CmPoint& corner : whole.ring) {
+      if (distance(p, corner) < same) return corner;
+    }
+    for (const CmPoint& known : on_outline_) {
+      if (distance(p, known) < same) return known;
+    }
+    for (std::size_t i = 0; i < whole.ring.size(); ++i) {
+      const CmPoint &a = whole.ring[i], &b = whole.ring[(i + 1) % whole.ring.size()];
+      if (distance_to_segment(in_cm(p), in_cm(a), in_cm(b)) > near_outline) continue;
+      on_outline_.push_back(p);
+      break;
+    }
+    return p;
+  }
+
   void add_ring(Cell& cell, const StraightSkeleton& skeleton, const std::vector<std::uint32_t>& nodes) {
     CmRing ring;
     for (const std::uint32_t node : nodes) {
-      const CmPoint p = rounded_cm({skeleton.node[node].x, skeleton.node[node].y});
+      const CmPoint p = snapped(rounded_cm({skeleton.node[node].x, skeleton.node[node].y}));
       if (ring.empty() || ring.back() != p) ring.push_back(p);
     }
     while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
@@ -132,11 +156,12 @@ class Strips {
 
   /// The edge of the outline on which a segment lies, or a new one between two pieces.
   std::uint32_t edge_of(const CmPoint& a, const CmPoint& b) {
-    constexpr double near = 1.6;  // cm
     const Piece& whole = division_.whole_;
     for (std::size_t i = 0; i < whole.ring.size(); ++i) {
       const dvec2 c = in_cm(whole.ring[i]), d = in_cm(whole.ring[(i + 1) % whole.ring.size()]);
-      if (distance_to_segment(in_cm(a), c, d) > near || distance_to_segment(in_cm(b), c, d) > near) continue;
+      if (distance_to_segment(in_cm(a), c, d) > near_outline ||
+          distance_to_segment(in_cm(b), c, d) > near_outline)
+        continue;
       if (glm::dot(in_cm(b) - in_cm(a), d - c) <= 0) continue;
       for (const CmPoint& p : {a, b}) {
         if (in_cm(p) != c && in_cm(p) != d) corners_.emplace_back(whole.edges[i], p);
@@ -233,6 +258,7 @@ class Strips {
   std::vector<Cell> cells_;
   std::map<std::pair<CmPoint, CmPoint>, std::uint32_t> inner_;
   std::vector<std::pair<std::uint32_t, CmPoint>> corners_;
+  CmRing on_outline_;  ///< points between its corners
 };
 
 std::vector<Piece> strips_of(Division& division, double depth, const Job& job) {

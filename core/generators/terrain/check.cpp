@@ -162,10 +162,10 @@ class Check {
 
   void sphere() {
     using enum TerrainAlgorithm;
-    if (!is({poisson_faulting, fbm}))
+    if (!is({fault_formation, poisson_faulting, fbm}))
       return fault(IssueKind::not_available, "/shape",
                    std::string(text_of(params_.algorithm)) +
-                       " cannot make a sphere; expected poisson_faulting or fbm");
+                       " cannot make a sphere; expected fault_formation, poisson_faulting or fbm");
     if (params_.resolution && *params_.resolution > longest_sphere)
       fault(IssueKind::out_of_range, "/resolution",
             "found " + std::to_string(*params_.resolution) + "; expected at most " +

@@ -71,6 +71,10 @@ std::string extension_members(const Material& material, int base) {
       members.factor("diffuseTransmissionFactor", material.transmission, 0);
     });
   }
+  if (const float strength = emissive_strength(material); strength != 1) {
+    members.json.object("KHR_materials_emissive_strength",
+                        [&] { members.factor("emissiveStrength", strength, 1); });
+  }
   if (material.specular < 1) {
     members.json.object("KHR_materials_specular",
                         [&] { members.factor("specularFactor", material.specular, 1); });
@@ -80,6 +84,11 @@ std::string extension_members(const Material& material, int base) {
 }
 
 }  // namespace
+
+float emissive_strength(const Material& material) {
+  const glm::vec3& glow = material.emissive;
+  return std::max({glow.x, glow.y, glow.z, 1.0F});
+}
 
 void append_material(std::string& out, const Material& material, const TextureNumber& texture_number) {
   // The textures get their numbers in this order.
@@ -95,7 +104,7 @@ void append_material(std::string& out, const Material& material, const TextureNu
     if (material.alpha_mode != AlphaMode::opaque)
       json.member("alphaMode", material.alpha_mode == AlphaMode::mask ? "MASK" : "BLEND");
     if (material.double_sided) json.member("doubleSided", true);
-    const glm::vec3& glow = material.emissive;
+    const glm::vec3 glow = material.emissive / emissive_strength(material);
     members.factors("emissiveFactor", std::array{glow.x, glow.y, glow.z}, 0);
     members.texture("emissiveTexture", emissive, material.emissive_texture.uv_set);
     if (const std::string inner = extension_members(material, base); !inner.empty()) {

@@ -137,12 +137,40 @@ TEST(City, GivesEveryLotItsFrontageWidthAndCorners) {
 }
 
 TEST(City, FillsEachBlockWithItsLots) {
-  const CityPlan plan = made(small_town(900, 700), 5);
-  std::vector<double> filled(plan.blocks.size(), 0);
-  for (const Part& part : plan.parts) {
-    if (part.block != no_index) filled[part.block] += area_of(part.rings);
+  for (std::uint64_t seed = 0; seed < 120; ++seed) {
+    CityParams params = random_town_at_water(seed);
+    if (seed >= 60) params.lots.division = seed % 2 == 0 ? CityDivision::skeleton : CityDivision::offset;
+    const CityPlan plan = made(params, seed);
+    std::vector<double> filled(plan.blocks.size(), 0);
+    for (const Part& part : plan.parts) {
+      if (part.block != no_index) filled[part.block] += area_of(part.rings);
+    }
+    for (std::size_t i = 0; i < filled.size(); ++i)
+      ASSERT_NEAR(filled[i], area_of(plan.blocks[i].rings), 1e-6) << "seed " << seed;
   }
-  for (std::size_t i = 0; i < filled.size(); ++i) EXPECT_NEAR(filled[i], area_of(plan.blocks[i].rings), 1e-6);
+}
+
+TEST(City, CountsANarrowSliverOfWaterAsWater) {
+  CityParams params;
+  params.area.polygon = {{{180.5, 42.5},
+                          {88.5, 264.5},
+                          {-7.5, 432},
+                          {-95, 256},
+                          {-113.5, 76},
+                          {-104.5, -115},
+                          {-80, -389.5},
+                          {90, -367.5},
+                          {102.5, -149}}};
+  params.maps.water = "sqrt((x + 180.93) ^ 2 + (y + 352.43) ^ 2) < 105.955";
+  const CityPlan plan = made(params, 124);
+  double sum = 0, water = 0;
+  for (const Part& part : plan.parts) {
+    sum += area_of(part.rings);
+    water += part.kind == PartKind::water ? area_of(part.rings) : 0;
+  }
+  EXPECT_GT(water, 300);
+  // Corners on a slanted border are whole centimetres.
+  EXPECT_NEAR(sum / area_of(plan.area), 1, 1e-4);
 }
 
 TEST(City, KeepsTheLeastAngleAndTheLeastLengthOfStreets) {
@@ -291,6 +319,74 @@ TEST(City, KeepsGivenStreetsAndGrowsFromThem) {
     const double wanted = std::hypot(260, 40) + std::hypot(350, 90) + std::hypot(20, 190);
     EXPECT_NEAR(given, wanted, 5);
     EXPECT_EQ(all > given * 1.5, grows);
+  }
+}
+
+TEST(City, MakesNoLotWithANarrowTailAlongTheBorder) {
+  CityParams params = small_town(731.37, 883.52);
+  params.streets.pattern = CityPattern::raster;
+  params.streets.centre = {169.25, 435.24};
+  params.streets.block = {49.47, 141.84};
+  // The sidewalk of the northernmost street ends 2 cm before the border.
+  const CityPlan plan = made(params, 277);
+  EXPECT_GT(plan.lots.size(), 200U);
+  for (const Lot& lot : plan.lots) {
+    for (std::size_t i = 0; i < lot.corners.size(); ++i) {
+      const glm::dvec2 p = in_cm(lot.corners[i]);
+      for (std::size_t k = 0; k < lot.corners.size(); ++k) {
+        const std::size_t next = (k + 1) % lot.corners.size();
+        if (k == i || next == i) continue;
+        ASSERT_GT(distance_to_segment(p, in_cm(lot.corners[k]), in_cm(lot.corners[next])), 10);
+      }
+    }
+  }
+}
+
+/// The number of street networks without a common node.
+std::size_t networks(const StreetGraph& graph) {
+  std::vector<std::uint32_t> network(graph.nodes.size());
+  for (std::uint32_t n = 0; n < network.size(); ++n) network[n] = n;
+  const auto join = [&](std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t old = network[a], now = network[b];
+    for (std::uint32_t& each : network) each = each == old ? now : each;
+  };
+  for (std::uint32_t e = 0; e < graph.edges.size(); ++e) {
+    if (graph.is_street(e)) join(graph.edges[e].from, graph.edges[e].to);
+  }
+  for (const Bridge& bridge : graph.bridges) join(bridge.from, bridge.to);
+  std::set<std::uint32_t> all;
+  for (std::uint32_t n = 0; n < network.size(); ++n) {
+    if (graph.street_ends(n) > 0) all.insert(network[n]);
+  }
+  return all.size();
+}
+
+TEST(City, ConnectsGivenStreetsThatGrowthDoesNotReach) {
+  CityParams params = small_town(1025.56, 399.99);
+  params.streets.pattern = CityPattern::radial;
+  params.streets.clearance = 51;
+  params.lots.division = CityDivision::none;
+  params.maps.density = "0.5 + 0.5 * sin(x)";
+  params.given.given_streets = lines({{{-208.29, 1.75}, {-87.74, 238.36}, {-57.9, 515.08}}});
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    const CityPlan plan = made(params, seed);
+    ASSERT_GT(plan.graph.edges.size(), 20U);
+    EXPECT_EQ(networks(plan.graph), 1U) << "seed " << seed;
+  }
+}
+
+TEST(City, LeavesNoShortPieceOfAGivenStreetBesideACrossing) {
+  CityParams params = small_town(514.73, 840.86);
+  params.streets.pattern = CityPattern::raster;
+  params.given.given_streets = lines({{{91.48, -98.64}, {-69.18, -69.35}, {-251.97, -108.49}}});
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    params.streets.angle = 0.25 * static_cast<double>(seed);
+    const StreetGraph graph = made(params, seed).graph;
+    for (std::uint32_t e = 0; e < graph.edges.size(); ++e) {
+      if (!graph.is_street(e)) continue;
+      ASSERT_GE(distance(graph.nodes[graph.edges[e].from], graph.nodes[graph.edges[e].to]), 300)
+          << "seed " << seed;
+    }
   }
 }
 

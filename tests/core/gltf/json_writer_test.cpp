@@ -147,6 +147,15 @@ TEST(JsonWriter, PrintsFloatsAsShortAsTheyReadBack) {
   EXPECT_EQ(number(1e-7F), "1e-07");
 }
 
+TEST(JsonWriter, PrintsADoubleInFull) {
+  std::string text;
+  append_number(text, static_cast<double>(22.521484375F));
+  EXPECT_EQ(text, "22.521484375");
+  text.clear();
+  append_number(text, 22.521484375F);
+  EXPECT_EQ(text, "22.521484");  // the shortest that reads back as the same float
+}
+
 TEST(JsonWriter, HasNoNegativeZero) { EXPECT_EQ(number(-0.0F), "0"); }
 
 TEST(JsonWriter, GivesEveryFloatBackBothAsTextAndAsDouble) {

@@ -51,6 +51,16 @@ TEST(Child, RefusesMembersAndPresetsThatDoNotExist) {
                           "/parameters/parts/x/0 missing", "/parameters/parts/x/1/generator wrong_type"));
 }
 
+TEST(Child, RefusesAGeneratorWithoutAName) {
+  IssueList faults;
+  read(R"("part": {"generator": ""}, "parts": {"x": [{"generator": "", "parameters": {}}]})", faults);
+  std::vector<std::string> found;
+  for (const Issue& issue : faults.issues())
+    found.push_back(issue.pointer + " " + std::string(word_of(issue.kind)));
+  EXPECT_THAT(found, ElementsAre("/parameters/part/generator unknown_name",
+                                 "/parameters/parts/x/0/generator unknown_name"));
+}
+
 TEST(Child, IsFoundWithItsPointer) {
   IssueList faults;
   TinyParams params = read(

@@ -4,7 +4,7 @@ from typing import Any, Dict, List, Literal, TypedDict, Union
 
 class Output(TypedDict, total=False):
     format: Literal['glb', 'gltf', 'zip', 'png16', 'png8', 'rgb24', 'rgba32', 'r16', 'ply', 'placements', 'geojson']
-    profile: Literal['core', 'web', 'unity', 'unreal', 'godot', 'blender']
+    profile: Literal['core', 'web', 'tiles', 'unity', 'unreal', 'godot', 'blender']
     name: str
     provenance: Literal['full', 'none']
     animation: Literal['none', 'growth']
@@ -109,6 +109,14 @@ class BuildingParametersDerivation(TypedDict, total=False):
     mode: Literal['parallel', 'sequential']
 
 
+class _EmissionRequired(TypedDict):
+    color: str
+
+
+class Emission(_EmissionRequired, total=False):
+    strength: float
+
+
 class Images(TypedDict, total=False):
     color: str
     normal: str
@@ -121,6 +129,7 @@ class BuildingParametersMaterialsValue(TypedDict, total=False):
     roughness: float
     metallic: float
     opacity: float
+    emission: "Emission"
     tile: List[float]
     images: "Images"
     texture: Literal['auto', 'none', 'brick', 'plaster', 'roof_tile', 'slate', 'planks', 'ashlar', 'concrete', 'sheet']
@@ -145,7 +154,7 @@ class BuildingParameters(TypedDict, total=False):
     derivation: "BuildingParametersDerivation"
     repeat: Literal['nearest', 'ceil']
     weights: Literal['normalize', 'strict']
-    restrict: Literal['none', 'non_erasing', 'unimarker']
+    restrict: Literal['none', 'non_erasing', 'unimarker', 'split']
     materials: Dict[str, "BuildingParametersMaterialsValue"]
     textures: Literal['auto', 'made', 'none']
     assets: Dict[str, "BuildingParametersAssetsValue"]
@@ -452,6 +461,7 @@ class LsystemParametersMaterialsItem(TypedDict, total=False):
     roughness: float
     metallic: float
     opacity: float
+    emission: "Emission"
     texture: "Texture"
     texture_seed: int
     images: "Images"
@@ -502,6 +512,8 @@ class LsystemParameters(_LsystemParametersRequired, total=False):
     style: Literal['tubes', 'lines']
     sides: int
     stacks: int
+    taper: Literal['linear', 'none']
+    levels: Literal['outline', 'slices']
     adapt: bool
     weld: bool
     materials: List["LsystemParametersMaterialsItem"]
@@ -1093,6 +1105,67 @@ TreeParameters = TypedDict("TreeParameters", {
 }, total=False)
 
 
+class WorldParametersRelief(TypedDict, total=False):
+    sea: bool
+    sea_level: float
+    land: float
+    continents: float
+    mountains: float
+    hills: float
+    ridges: float
+    gullies: float
+    terraces: float
+
+
+class WorldParametersWater(TypedDict, total=False):
+    rivers: float
+    width: float
+
+
+class WorldParametersClimate(TypedDict, total=False):
+    temperature: float
+    moisture: float
+    variation: float
+
+
+class WorldParametersColors(TypedDict, total=False):
+    grass: str
+    forest: str
+    dry: str
+    rock: str
+    sand: str
+    snow: str
+    water: str
+
+
+_WorldParametersPlantsItemRequired = TypedDict("_WorldParametersPlantsItemRequired", {
+    'class': str,
+})
+
+
+class WorldParametersPlantsItem(_WorldParametersPlantsItemRequired, total=False):
+    form: Literal['conifer', 'broadleaf', 'palm', 'shrub', 'cactus', 'fungus']
+    height: float
+    spacing: float
+    density: float
+    moisture: List[float]
+    temperature: List[float]
+    slope: float
+    color: str
+    stem: str
+
+
+class WorldParameters(TypedDict, total=False):
+    extent: int
+    origin: List[int]
+    layers: List[Literal['terrain', 'water', 'roads', 'buildings', 'plants']]
+    relief: "WorldParametersRelief"
+    water: "WorldParametersWater"
+    climate: "WorldParametersClimate"
+    colors: "WorldParametersColors"
+    plants: List["WorldParametersPlantsItem"]
+
+
 class Child(TypedDict, total=False):
     generator: str
     preset: str
@@ -1177,6 +1250,17 @@ class TreeRequest(_TreeRequestRequired, total=False):
     output: "Output"
 
 
+class _WorldRequestRequired(TypedDict):
+    generator: Literal['world']
+
+
+class WorldRequest(_WorldRequestRequired, total=False):
+    preset: str
+    seed: "Seed"
+    parameters: "WorldParameters"
+    output: "Output"
+
+
 class _PresetRequestRequired(TypedDict):
     preset: str
 
@@ -1187,7 +1271,7 @@ class PresetRequest(_PresetRequestRequired, total=False):
     output: "Output"
 
 
-Request = Union["BuildingRequest", "CityRequest", "FractalRequest", "LsystemRequest", "SceneRequest", "TerrainRequest", "TreeRequest", "PresetRequest"]
+Request = Union["BuildingRequest", "CityRequest", "FractalRequest", "LsystemRequest", "SceneRequest", "TerrainRequest", "TreeRequest", "WorldRequest", "PresetRequest"]
 
 class PresetListGeneratorsItem(TypedDict):
     name: str
@@ -1339,6 +1423,9 @@ class FractalDerivation(TypedDict):
     volume: Union[float, None]
     genus: Union[float, None]
     non_manifold_edges: Union[float, None]
+    length: Union[float, None]
+    area: Union[float, None]
+    stages: List[Dict[str, Any]]
     bounds: Union["Box", None]
     warnings: List["WarningsItem"]
 
