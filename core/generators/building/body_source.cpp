@@ -18,8 +18,13 @@ Asset& BodySource::asset_of(const Shape& shape) {
   if (!is_new) return found->second;
   Asset& made = found->second;
   made.size = shape.size;
-  for (PartPiece& piece : make_part(*asset.row, shape.size, shapes_.part_options[style.options], job_))
-    made.primitives.push_back({std::move(piece.mesh), materials_.material_of_part(piece.role, style), {}});
+  for (PartPiece& piece : make_part(*asset.row, shape.size, shapes_.part_options[style.options], job_)) {
+    const int material = materials_.material_of_part(piece.role, style);
+    if (materials_.tile_of(material) != nullptr) {
+      for (glm::vec2& uv : piece.mesh.uv[0]) uv.y = 0.0F - uv.y;  // down, as that of walls
+    }
+    made.primitives.push_back({std::move(piece.mesh), material, {}});
+  }
   return made;
 }
 

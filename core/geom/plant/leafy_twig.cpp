@@ -1,5 +1,6 @@
 #include "core/geom/plant/leafy_twig.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/math.h"
@@ -9,6 +10,8 @@ namespace seedmesh {
 namespace {
 
 using glm::dvec2;
+
+constexpr double usual_width = 0.25, most_stretch = 2.5;
 
 /// A shoot of a twig: where it begins, its direction in degrees to the right of +y, its length and its leaves.
 struct Shoot {
@@ -40,7 +43,10 @@ void add_shoot(LeafDrawing& drawing, const LeafDrawing& leaf, const Shoot& shoot
 
 LeafDrawing leafy_twig(const LeafDrawing& leaf, int count) {
   LeafDrawing drawing;
-  const double size = 1.2 / std::sqrt(static_cast<double>(count)), end = 1 - 0.85 * size;
+  // Narrow leaves are longer, so that they cover as much.
+  const double width = leaf.blades.empty() ? usual_width : leaf.blades.front().half_width;
+  const double stretch = std::sqrt(std::clamp(usual_width / std::max(width, 1e-3), 1.0, most_stretch));
+  const double size = 1.2 * stretch / std::sqrt(static_cast<double>(count)), end = 1 - 0.85 * size;
   const int aside = count / 4;
   const Shoot shoots[] = {{{0, 0}, 0, end, count - 2 * aside},
                           {{0, 0.16 * end}, 46, 0.62 * end, aside},
