@@ -31,10 +31,11 @@ function lights(scene, box, sun_of) {
   scene.add(sun, sun.target, new THREE.HemisphereLight(0xffffff, 0x8a8a80, sky));
 }
 
-/** The height of the highest surface at a point. */
+/** The height of the ground or the water at a point, below the plants. */
 function ground_at(scene, x, z) {
   const hits = new THREE.Raycaster(new THREE.Vector3(x, 1e5, z), new THREE.Vector3(0, -1, 0)).intersectObject(scene, true);
-  return hits.length > 0 ? hits.at(-1).point.y : 0;
+  const ground = hits.find(({ object }) => /ground|terrain|water/.test(`${object.name} ${object.parent?.name}`));
+  return ground?.point.y ?? 0;
 }
 
 const linear = (byte) => (byte <= 10 ? byte / 3294.6 : ((byte / 255 + 0.055) / 1.055) ** 2.4);
