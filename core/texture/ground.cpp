@@ -44,8 +44,8 @@ Relief soil_ground(int size, Rng rng, const Job& job) {
 Relief rock_ground(int size, Rng rng, const Job& job) {
   const Field warp = noise(size, {9, 9}, {3, 0.6F}, 1, rng.at("warp"), job);
   const Field fine = noise(size, {40, 40}, {1, 0.6F}, 0.8F, rng.at("grain"), job);
-  const Cells plates = cells(size, {9, 14}, rng.at("plates"), &warp, 14, job);
-  const Cells chips = cells(size, {22, 26}, rng.at("chips"), &warp, 10, job);
+  const Cells plates = cells(size, {9, 14}, rng.at("plates"), &warp, 3, job);
+  const Cells chips = cells(size, {22, 26}, rng.at("chips"), &warp, 2, job);
   Relief relief = bare(size, job);
   const auto crack = [&](int x, int y) { return step_between(0, 0.09F, plates.border.row(y)[x]); };
   relief.height.each(job, [&](float, int x, int y) {

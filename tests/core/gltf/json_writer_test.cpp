@@ -88,8 +88,9 @@ TEST(Materials, HaveTheirMembersByName) {
   material.normal_texture = {2, 0, true};
   material.emissive_texture = {3, 0, true};
   EXPECT_EQ(described(material),
-            R"({"alphaCutoff":0.4,"alphaMode":"MASK","doubleSided":true,"emissiveFactor":[0.0,0.0,2.0],)"
-            R"("emissiveTexture":{"index":3},"extensions":{"KHR_materials_unlit":{}},"name":"all",)"
+            R"({"alphaCutoff":0.4,"alphaMode":"MASK","doubleSided":true,"emissiveFactor":[0.0,0.0,1.0],)"
+            R"("emissiveTexture":{"index":3},"extensions":{"KHR_materials_emissive_strength":)"
+            R"({"emissiveStrength":2.0},"KHR_materials_unlit":{}},"name":"all",)"
             R"("normalTexture":{"index":2},"occlusionTexture":{"index":1},)"
             R"("pbrMetallicRoughness":{"baseColorFactor":[0.25,1.0,0.0,1.0],)"
             R"("baseColorTexture":{"index":0,"texCoord":1},"metallicFactor":0.0,)"
